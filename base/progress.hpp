@@ -1,0 +1,13 @@
+// Progress of a long call, told to whoever wants to show it.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace fastsplat {
+
+/// Called with (done, total) in units of the callee's choice; may be called from any thread, concurrently.
+/// An empty function means nobody is watching.
+using Progress = std::function<void(std::size_t done, std::size_t total)>;
+
+}  // namespace fastsplat

@@ -1,0 +1,40 @@
+#include "base/suggest.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace fastsplat {
+
+int edit_distance(std::string_view a, std::string_view b) {
+  std::vector<int> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    int diagonal = row[0];
+    row[0] = static_cast<int>(i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const int above = row[j];
+      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row[b.size()];
+}
+
+std::string suggestion(std::string_view got, std::span<const std::string> known) {
+  const std::string* best = nullptr;
+  int best_distance = 4;
+  for (const auto& name : known) {
+    const int distance = edit_distance(got, name);
+    if (distance < best_distance && distance < static_cast<int>(name.size())) {
+      best_distance = distance;
+      best = &name;
+    }
+  }
+  if (best != nullptr) return "did you mean '" + *best + "'?";
+  std::string list;
+  for (const auto& name : known) list += (list.empty() ? "" : ", ") + name;
+  return "known: " + list;
+}
+
+}  // namespace fastsplat

@@ -1,0 +1,42 @@
+# Build settings shared by every target; nothing here is global except the language level.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+
+option(FASTSPLAT_WERROR "Warnings are errors (set by the ci preset only: a newer compiler must not break a user's build)" OFF)
+option(FASTSPLAT_ASAN "AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
+
+find_program(FASTSPLAT_CCACHE ccache)
+if(FASTSPLAT_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${FASTSPLAT_CCACHE})
+endif()
+
+# Warnings, sanitizers and the include root; every first-party target links it.
+add_library(fastsplat_settings INTERFACE)
+target_include_directories(fastsplat_settings INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
+target_compile_options(fastsplat_settings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
+if(FASTSPLAT_WERROR)
+  target_compile_options(fastsplat_settings INTERFACE -Werror)
+endif()
+if(FASTSPLAT_ASAN)
+  target_compile_options(fastsplat_settings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(fastsplat_settings INTERFACE -fsanitize=address,undefined)
+endif()
+
+# Floating-point reference code: no contraction, so the same source gives the same bits on every x86-64.
+add_library(fastsplat_strict_float INTERFACE)
+target_compile_options(fastsplat_strict_float INTERFACE -ffp-contract=off)
+
+# fastsplat_library(<folder> DEPENDS <targets...>): every .cpp of the folder becomes libfastsplat_<folder>.
+function(fastsplat_library name)
+  cmake_parse_arguments(arg "" "" "DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  add_library(fastsplat_${name} STATIC ${sources})
+  target_link_libraries(fastsplat_${name} PUBLIC fastsplat_settings ${arg_DEPENDS} PRIVATE ${arg_PRIVATE_DEPENDS})
+endfunction()

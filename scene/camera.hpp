@@ -1,0 +1,61 @@
+// Cameras: orthographic and perspective, orbiting the volume's centre.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "scene/volume.hpp"
+
+namespace fastsplat::scene {
+
+enum class Projection { Orthographic, Perspective };
+
+/// How the user places the camera.
+struct CameraParams {
+  Projection projection = Projection::Orthographic;
+  double azimuth = 30.0;    ///< degrees about the vertical (volume z) axis; 0 looks along +y of the volume (from the front of a head)
+  double elevation = 15.0;  ///< degrees, positive looks down from above
+  double roll = 0.0;        ///< degrees about the view axis
+  double zoom = 1.0;        ///< 1: the bounding sphere (plus the kernel's radius) fits the smaller image side
+  double fov = 30.0;        ///< degrees across the smaller image side, perspective only
+};
+
+/// Where a world point lands. Pixel centres are at integer coordinates: pixel (0,0) covers [-0.5,0.5)^2.
+struct ScreenPoint {
+  double x = 0.0;      ///< pixels, right
+  double y = 0.0;      ///< pixels, down
+  double depth = 0.0;  ///< mm along the view axis, relative to the volume's centre; larger is farther
+  double scale = 0.0;  ///< pixels per mm at this depth
+};
+
+/// A ray through a pixel: world position at depth 0 of `ScreenPoint`'s axis and unit direction.
+struct Ray {
+  glm::dvec3 origin;     ///< on the plane depth = 0 through the volume's centre
+  glm::dvec3 direction;  ///< unit, away from the eye
+  double depth_per_mm;   ///< view-axis depth gained per mm along the ray (1 for orthographic)
+};
+
+class Camera {
+ public:
+  /// Throws UserError (Usage) for zoom <= 0, fov outside (1,150), an eye inside the bounding sphere, sizes < 1.
+  Camera(const CameraParams& params, const Volume& volume, double kernel_radius_mm, int width, int height);
+
+  ScreenPoint project(const glm::dvec3& world) const;
+  Ray ray(double x, double y) const;  ///< through pixel coordinates (x,y)
+
+  glm::dvec3 direction() const { return forward_; }  ///< unit view axis in world space, away from the eye
+  glm::dvec3 right() const { return right_; }        ///< unit, image +x
+  glm::dvec3 down() const { return down_; }          ///< unit, image +y
+  Projection projection() const { return projection_; }
+  double eye_distance() const { return eye_distance_; }  ///< mm from eye to centre; infinity for orthographic
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+ private:
+  Projection projection_;
+  glm::dvec3 forward_, right_, down_;
+  double scale_ = 1.0;         ///< pixels per mm at the centre
+  double eye_distance_ = 0.0;
+  int width_ = 0, height_ = 0;
+};
+
+}  // namespace fastsplat::scene

@@ -1,0 +1,18 @@
+// Built-in volumes: exact, reproducible, any size.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/volume.hpp"
+
+namespace fastsplat::scene {
+
+/// `marschner-lobb`, `shells`, `binary-cube`, `checkerboard-floor`, `checkerboard-tunnel`, `constant`, `point`.
+/// Values in [0,1], spacing 1 mm, cubic, edge `size` voxels (2..1024).
+Volume make_synthetic(const std::string& name, int size);
+
+std::vector<std::string> synthetic_names();
+int default_synthetic_size(const std::string& name);
+
+}  // namespace fastsplat::scene

@@ -1,0 +1,16 @@
+// Named hardware configurations: configs/*.toml, built into the program, or a file of the user's.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cmodel/config.hpp"
+
+namespace fastsplat::driver {
+
+/// A built-in name (`base`) or a path to a .toml file. Every key must be present, unknown keys are refused, limits are
+/// checked; each failure is a UserError (Input) with file, line, key and the numbers.
+cmodel::Config load_config(const std::string& name_or_path);
+std::vector<std::string> config_names();
+
+}  // namespace fastsplat::driver

@@ -1,0 +1,23 @@
+// Recorded streams (.fss, docs/stream.md): what the device would be fed, in a file.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "driver/render.hpp"
+
+namespace fastsplat::driver {
+
+/// Compiles the scene and writes the stream; atomic. Memory stays bounded whatever the stream's length.
+DriverReport record_stream(const scene::Scene& scene, const cmodel::Config& config, const std::filesystem::path& path,
+                           const RenderOptions& options = {});
+
+/// Feeds a recorded stream to the cmodel. A corrupt, truncated or foreign stream is a UserError (Input) with the byte
+/// offset and the reason; a configuration that differs from the stream's is refused by hash and name.
+DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Config& config, const RenderOptions& options = {});
+
+/// One line of text per record, to `line`; stops when it returns false.
+void dump_stream(const std::filesystem::path& path, const std::function<bool(const std::string&)>& line);
+
+}  // namespace fastsplat::driver

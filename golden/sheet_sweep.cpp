@@ -1,0 +1,146 @@
+#include "golden/sheet_sweep.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "golden/bands.hpp"
+#include "golden/composite.hpp"
+#include "golden/footprint.hpp"
+
+namespace fastsplat::golden {
+
+int KernelSlices::reach() const {
+  // One more than 2R/W slabs when the ends fall inside slabs, one more for the rounding of the ends' positions.
+  return std::min(grid_.count, static_cast<int>(std::ceil(2.0 * kernel_.radius() / grid_.width)) + 2);
+}
+
+int KernelSlices::first(const ProjectedSplat& splat) const {
+  const double slab = std::floor((splat.z - kernel_.radius() - grid_.first) / grid_.width);
+  return static_cast<int>(std::clamp(slab, 0.0, grid_.count - 1.0));
+}
+
+void KernelSlices::shares(const ProjectedSplat& splat, std::vector<double>& out) const {
+  out.clear();
+  double in_front = 0.0;  // share of the splat in front of the current slab
+  for (int slab = first(splat); slab < grid_.count && in_front < 1.0; ++slab) {
+    const bool last = slab == grid_.count - 1;
+    const double z1 = grid_.first + (slab + 1) * grid_.width;
+    const double behind_slab = last ? 1.0 : kernel_.cumulative(z1 - splat.z);
+    out.push_back(behind_slab - in_front);
+    in_front = behind_slab;
+  }
+}
+
+namespace {
+
+/// One sheet within a band, with the touched part of each row.
+class SheetBand {
+ public:
+  SheetBand(Rows rows, int width)
+      : rows_(rows),
+        width_(width),
+        sums_(static_cast<std::size_t>(rows.end - rows.first) * width),
+        touched_(rows.end - rows.first, Touched{width, 0}) {}
+
+  void add(const Footprint& footprint, const Sums& value) {
+    for (const Footprint::Span& span : footprint.spans()) {
+      const double* weights = footprint.weights(span);
+      Sums* sums = &sums_[static_cast<std::size_t>(span.y - rows_.first) * width_ + span.x];
+      for (int i = 0; i < span.width; ++i) {
+        for (int c = 0; c < 4; ++c) sums[i][c] += weights[i] * value[c];
+      }
+      Touched& touched = touched_[span.y - rows_.first];
+      touched.begin = std::min(touched.begin, span.x);
+      touched.end = std::max(touched.end, span.x + span.width);
+    }
+  }
+
+  /// Hands the touched runs over and leaves the sheet empty.
+  void drain(std::vector<Sums>& pixels, const TakeSheet& take) {
+    for (std::size_t row = 0; row < touched_.size(); ++row) {
+      Touched& touched = touched_[row];
+      if (touched.begin >= touched.end) continue;
+      const std::size_t begin = row * width_ + touched.begin;
+      const auto count = static_cast<std::size_t>(touched.end - touched.begin);
+      take(std::span(pixels).subspan(begin, count), std::span<const Sums>(sums_).subspan(begin, count));
+      std::fill_n(sums_.begin() + static_cast<std::ptrdiff_t>(begin), count, Sums{});
+      touched = {width_, 0};
+    }
+  }
+
+ private:
+  struct Touched {
+    int begin = 0;
+    int end = 0;
+  };
+  Rows rows_;
+  int width_;
+  std::vector<Sums> sums_;
+  std::vector<Touched> touched_;
+};
+
+Sums scaled(const Sums& value, double share) {
+  return {value[0] * share, value[1] * share, value[2] * share, value[3] * share};
+}
+
+}  // namespace
+
+Image sweep_sheets(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options,
+                   const SheetAssignment& assignment, const Sums& initial, const TakeSheet& take,
+                   const StorePixel& store) {
+  const int width = scene.camera.width();
+  const int height = scene.camera.height();
+  Image image(width, height);
+  const BandIndex index(scene, splats, assignment.sheets(),
+                        [&](const ProjectedSplat& splat) { return assignment.first(splat); });
+
+  for_each_band(height, options.threads, options.progress, [&](int band) {
+    const Rows rows = band_rows(band, height);
+    const int reach = assignment.reach();
+    std::vector<SheetBand> ring(reach, SheetBand(rows, width));
+    std::vector<Sums> pixels(static_cast<std::size_t>(rows.end - rows.first) * width, initial);
+    std::vector<double> shares;
+    Footprint footprint;
+
+    for (int sheet = 0; sheet < assignment.sheets(); ++sheet) {
+      for (const std::uint32_t i : index.bucket(band, sheet)) {
+        const ProjectedSplat splat = project(scene, splats[i]);
+        footprint.rasterise(scene.kernel, splat, rows, width);
+        assignment.shares(splat, shares);
+        assert(static_cast<int>(shares.size()) <= reach);
+        for (std::size_t s = 0; s < shares.size(); ++s) {
+          ring[(sheet + s) % reach].add(footprint, scaled(splat.value, shares[s]));
+        }
+      }
+      ring[sheet % reach].drain(pixels, take);
+    }
+
+    float* out = image.pixel(0, rows.first);
+    for (const Sums& pixel : pixels) {
+      store(pixel, out);
+      out += image.channels;
+    }
+  });
+  return image;
+}
+
+Image composite_sheets(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options,
+                       const SheetAssignment& assignment) {
+  const scene::SlabOpacity opacity = scene.description.slab_opacity;
+  const auto take = [opacity](std::span<Sums> pixels, std::span<const Sums> sheet) {
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      if (!(sheet[i][3] > 0.0)) continue;
+      FrontToBack pixel{pixels[i][0], pixels[i][1], pixels[i][2], pixels[i][3]};
+      pixel.add(make_layer(sheet[i], opacity));
+      pixels[i] = {pixel.red, pixel.green, pixel.blue, pixel.transmittance};
+    }
+  };
+  const auto store = [](const Sums& pixel, float* rgba) {
+    FrontToBack{pixel[0], pixel[1], pixel[2], pixel[3]}.store(rgba);
+  };
+  const Sums nothing_yet = {0.0, 0.0, 0.0, 1.0};
+  return sweep_sheets(scene, splats, options, assignment, nothing_yet, take, store);
+}
+
+}  // namespace fastsplat::golden

@@ -1,0 +1,71 @@
+// Sheets, front to back: what xray, axis_aligned and image_aligned share. A sheet method is two choices:
+// which sheets get which share of a splat, and what becomes of a finished sheet.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "golden/projected_splat.hpp"
+#include "golden/render.hpp"
+
+namespace fastsplat::golden {
+
+/// Which sheets a splat goes to.
+class SheetAssignment {
+ public:
+  virtual ~SheetAssignment() = default;
+  /// Number of sheets; sheet 0 is nearest to the eye.
+  virtual int sheets() const = 0;
+  /// The most sheets that one splat can reach.
+  virtual int reach() const = 0;
+  /// The nearest sheet the splat reaches.
+  virtual int first(const ProjectedSplat& splat) const = 0;
+  /// The share of the splat that sheet first(splat)+i gets; the shares add up to 1.
+  virtual void shares(const ProjectedSplat& splat, std::vector<double>& out) const = 0;
+};
+
+/// Every splat whole into one sheet.
+class WholeSplats final : public SheetAssignment {
+ public:
+  explicit WholeSplats(int sheets) : sheets_(sheets) {}
+  int sheets() const override { return sheets_; }
+  int reach() const override { return 1; }
+  int first(const ProjectedSplat& splat) const override { return splat.sheet; }
+  void shares(const ProjectedSplat&, std::vector<double>& out) const override { out.assign(1, 1.0); }
+
+ private:
+  int sheets_;
+};
+
+/// Kernel slices: the slab [z0,z1) of depth gets Phi(z1-z) - Phi(z0-z) of a splat centred at z, Phi =
+/// Kernel::cumulative. The first slab reaches to the eye and the last to infinity, so nothing is lost.
+class KernelSlices final : public SheetAssignment {
+ public:
+  KernelSlices(const scene::Kernel& kernel, const scene::SlabGrid& grid) : kernel_(kernel), grid_(grid) {}
+  int sheets() const override { return grid_.count; }
+  int reach() const override;
+  int first(const ProjectedSplat& splat) const override;
+  void shares(const ProjectedSplat& splat, std::vector<double>& out) const override;
+
+ private:
+  const scene::Kernel& kernel_;
+  scene::SlabGrid grid_;
+};
+
+/// Takes a run of pixels of a finished sheet into the picture. `pixels` start as given to sweep_sheets.
+using TakeSheet = std::function<void(std::span<Sums> pixels, std::span<const Sums> sheet)>;
+/// One finished pixel to RGBA.
+using StorePixel = std::function<void(const Sums& pixel, float* rgba)>;
+
+/// Adds every splat into its sheets, in the order given, and hands each sheet over when no later splat can reach it.
+/// Pixels that no splat of a sheet touches are not handed over.
+Image sweep_sheets(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options,
+                   const SheetAssignment& assignment, const Sums& initial, const TakeSheet& take,
+                   const StorePixel& store);
+
+/// sweep_sheets with the sheets composited front to back by the scene's slab opacity.
+Image composite_sheets(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options,
+                       const SheetAssignment& assignment);
+
+}  // namespace fastsplat::golden

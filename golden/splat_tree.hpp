@@ -1,0 +1,48 @@
+// Which kernels does a ray pass through? A tree of bounding balls over the splats' centres.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "scene/splats.hpp"
+
+namespace fastsplat::golden {
+
+class SplatTree {
+ public:
+  explicit SplatTree(const std::vector<scene::Splat>& splats);
+
+  /// Calls visit(index) for every splat whose centre is within `distance` of the line, and for some beyond; always in
+  /// the same order.
+  template <class Visit>
+  void near_line(const glm::dvec3& origin, const glm::dvec3& unit_direction, double distance, Visit&& visit) const {
+    for (std::size_t n = 0; n < nodes_.size();) {
+      const Node& node = nodes_[n];
+      const glm::dvec3 to_centre = node.centre - origin;
+      const double along = glm::dot(to_centre, unit_direction);
+      const double reach = node.radius + distance;
+      if (glm::dot(to_centre, to_centre) - along * along > reach * reach) {
+        n = node.skip;
+        continue;
+      }
+      for (std::uint32_t i = node.begin; i < node.end; ++i) visit(order_[i]);
+      ++n;
+    }
+  }
+
+ private:
+  /// Nodes lie in depth-first order; `skip` is the next node outside this one's subtree. Only leaves hold splats.
+  struct Node {
+    glm::dvec3 centre{0.0};
+    double radius = 0.0;
+    std::uint32_t skip = 0;
+    std::uint32_t begin = 0, end = 0;
+  };
+  void build(const std::vector<scene::Splat>& splats, std::uint32_t begin, std::uint32_t end);
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> order_;
+};
+
+}  // namespace fastsplat::golden

@@ -1,0 +1,43 @@
+// Composite every sample (Westover 1989): each splat is composited on its own, in traversal order. Overlapping kernels
+// of one layer, which ought to be added, dim one another instead: the picture depends on the order inside a layer.
+#include "golden/bands.hpp"
+#include "golden/composite.hpp"
+#include "golden/footprint.hpp"
+#include "golden/render.hpp"
+
+namespace fastsplat::golden {
+
+Image westover(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options) {
+  const int width = scene.camera.width();
+  const int height = scene.camera.height();
+  const scene::SlabOpacity opacity = scene.description.slab_opacity;
+  Image image(width, height);
+  const BandIndex index(scene, splats, 1, [](const ProjectedSplat&) { return 0; });
+
+  for_each_band(height, options.threads, options.progress, [&](int band) {
+    const Rows rows = band_rows(band, height);
+    std::vector<FrontToBack> pixels(static_cast<std::size_t>(rows.end - rows.first) * width);
+    Footprint footprint;
+    for (const std::uint32_t i : index.bucket(band, 0)) {
+      const ProjectedSplat splat = project(scene, splats[i]);
+      footprint.rasterise(scene.kernel, splat, rows, width);
+      for (const Footprint::Span& span : footprint.spans()) {
+        const double* weights = footprint.weights(span);
+        FrontToBack* row = &pixels[static_cast<std::size_t>(span.y - rows.first) * width + span.x];
+        for (int x = 0; x < span.width; ++x) {
+          Sums sums = splat.value;
+          for (double& sum : sums) sum *= weights[x];
+          row[x].add(make_layer(sums, opacity));
+        }
+      }
+    }
+    float* out = image.pixel(0, rows.first);
+    for (const FrontToBack& pixel : pixels) {
+      pixel.store(out);
+      out += image.channels;
+    }
+  });
+  return image;
+}
+
+}  // namespace fastsplat::golden

@@ -2,14 +2,14 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 
 namespace fastsplat {
 
 /// Writes beside `path` under a temporary name with the same extension, then renames over it.
-/// On any failure (exception from `write`, disk full, no permission) the temporary file is removed and a
-/// UserError (ExitCode::Input) names `path` and the reason.
+/// On any failure (exception while writing, disk full, no permission) the temporary file is removed and a
+/// UserError (ExitCode::Input) names `path` and the reason. A link's target is replaced, not the link; an existing path
+/// that is not a regular file, or is write-protected, is refused.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);
@@ -17,7 +17,7 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Where to write; same folder and extension as the final path.
+  /// Where to write; same folder and ending (.nii.gz too) as the final path.
   const std::filesystem::path& temporary() const { return temporary_; }
 
   /// Flushes the temporary file to disk and renames it to the final path.
@@ -29,7 +29,10 @@ class AtomicFile {
   bool committed_ = false;
 };
 
-/// `text` to `path`, atomically.
+/// Removes the temporary files of every AtomicFile alive. Async-signal-safe: for the handler that ends the process.
+void remove_unfinished_files() noexcept;
+
+/// `text` to `path`, atomically; straight into it when it is a device or a pipe (/dev/null, /dev/stdout).
 void write_text_file(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace fastsplat

@@ -1,0 +1,52 @@
+// Reading our own source as text: which files there are, what they include, which words they use outside comments.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace fastsplat::architecture {
+
+struct SourceFile {
+  std::string path;  ///< relative to the root, "cmodel/device.cpp"
+  std::string text;
+  std::string folder() const { return path.substr(0, path.find('/')); }
+  bool is_header() const { return path.ends_with(".hpp") || path.ends_with(".h"); }
+};
+
+/// C++ files below root/<folder>.
+std::vector<SourceFile> read_sources(const std::filesystem::path& root, const std::vector<std::string>& folders);
+
+/// Comments become blanks and the contents of strings vanish; line numbers stay.
+std::string without_comments(const std::string& text);
+
+struct Include {
+  std::string target;  ///< as written, without quotes or brackets
+  int line;
+};
+std::vector<Include> includes_of(const std::string& text);
+
+struct Word {
+  std::string text;
+  int line;
+};
+/// Identifiers, keywords and numeric literals outside comments and strings; include lines contribute their target's
+/// parts.
+std::vector<Word> words_of(const std::string& text);
+
+/// folder -> folders it may include (itself always).
+using Arrows = std::map<std::string, std::set<std::string>>;
+
+/// "cmodel/x.cpp:3: includes scene/image.hpp; cmodel may include base", one per offence. `checked` counts project
+/// includes seen.
+std::vector<std::string> arrow_offences(const std::vector<SourceFile>& files, const Arrows& arrows, int& checked);
+
+/// Files that include each other in a ring, as "a.hpp -> b.hpp -> a.hpp"; empty when there is none.
+std::string include_ring(const std::vector<SourceFile>& files);
+
+/// Words that make a model something else than an integer device.
+std::vector<std::string> device_word_offences(const std::vector<SourceFile>& files, int& checked);
+
+}  // namespace fastsplat::architecture

@@ -1,0 +1,87 @@
+#include "base/read_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/suggest.hpp"
+
+namespace fastsplat {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& path, std::string what, std::string fix) {
+  throw_input({.where = path.string(), .what = std::move(what), .expected = {}, .got = {}, .fix = std::move(fix)});
+}
+
+/// The nearest name in the folder, if any is near.
+std::string similar_in_folder(const std::filesystem::path& path) {
+  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error)) return "the folder " + folder.string() + " does not exist";
+  const std::string wanted = path.filename().string();
+  std::string best;
+  int best_distance = 4;
+  std::vector<std::string> names;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    names.push_back(entry->path().filename().string());
+    if (names.size() == 10000) break;
+  }
+  std::sort(names.begin(), names.end());
+  for (const auto& name : names) {
+    const int distance = edit_distance(wanted, name);
+    if (distance < best_distance && distance < static_cast<int>(name.size())) {
+      best_distance = distance;
+      best = name;
+    }
+  }
+  return best.empty() ? "check the path" : "did you mean '" + (path.parent_path() / best).string() + "'?";
+}
+
+}  // namespace
+
+void require_readable_file(const std::filesystem::path& path, const std::string& fix_if_missing) {
+  // O_NONBLOCK: opening a pipe nobody writes to must not hang before it can be refused.
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) {
+    const int reason = errno;
+    if (reason == ENOENT)
+      refuse(path, "no such file", fix_if_missing.empty() ? similar_in_folder(path) : fix_if_missing);
+    if (reason == EACCES) refuse(path, "permission denied", "make it readable (chmod +r)");
+    refuse(path, std::string("cannot open: ") + std::strerror(reason), "check the path");
+  }
+  struct stat status {};
+  const int outcome = ::fstat(descriptor, &status);
+  ::close(descriptor);
+  if (outcome != 0) refuse(path, std::string("cannot read: ") + std::strerror(errno), "check the path");
+  if (S_ISDIR(status.st_mode)) refuse(path, "it is a directory, not a file", "name a file inside it");
+  if (!S_ISREG(status.st_mode)) refuse(path, "it is not a regular file", "save it to a file first");
+  if (status.st_size == 0) refuse(path, "the file is empty", "write or download it again");
+}
+
+std::string read_text_file(const std::filesystem::path& path, std::size_t max_bytes) {
+  require_readable_file(path);
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  if (error) refuse(path, "cannot read: " + error.message(), "check the path");
+  if (size > max_bytes) {
+    throw_input({.where = path.string(),
+                 .what = "the file is too large for what it should be",
+                 .expected = "at most " + std::to_string(max_bytes) + " bytes",
+                 .got = std::to_string(size) + " bytes",
+                 .fix = "check that this is the file you meant"});
+  }
+  std::ifstream in(path, std::ios::binary);
+  std::string text(size, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(size));
+  if (!in) refuse(path, "cannot read the whole file", "check the disk, then try again");
+  return text;
+}
+
+}  // namespace fastsplat

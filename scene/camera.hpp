@@ -12,7 +12,8 @@ enum class Projection { Orthographic, Perspective };
 /// How the user places the camera.
 struct CameraParams {
   Projection projection = Projection::Orthographic;
-  double azimuth = 30.0;    ///< degrees about the vertical (volume z) axis; 0 looks along +y of the volume (from the front of a head)
+  double azimuth = 30.0;    ///< degrees about the vertical (volume z) axis; 0 looks along -y (at the face of a head in
+                            ///< NIfTI axes), 90 along -x
   double elevation = 15.0;  ///< degrees, positive looks down from above
   double roll = 0.0;        ///< degrees about the view axis
   double zoom = 1.0;        ///< 1: the bounding sphere (plus the kernel's radius) fits the smaller image side
@@ -36,9 +37,11 @@ struct Ray {
 
 class Camera {
  public:
-  /// Throws UserError (Usage) for zoom <= 0, fov outside (1,150), an eye inside the bounding sphere, sizes < 1.
+  /// Perspective zoom brings the eye nearer; the field of view stays. Throws UserError (Usage) for zoom <= 0, fov
+  /// outside (1,150), an eye inside the bounding sphere, sizes < 1.
   Camera(const CameraParams& params, const Volume& volume, double kernel_radius_mm, int width, int height);
 
+  /// Perspective: meant for points in front of the eye, as all of the bounding sphere is.
   ScreenPoint project(const glm::dvec3& world) const;
   Ray ray(double x, double y) const;  ///< through pixel coordinates (x,y)
 
@@ -53,7 +56,7 @@ class Camera {
  private:
   Projection projection_;
   glm::dvec3 forward_, right_, down_;
-  double scale_ = 1.0;         ///< pixels per mm at the centre
+  double scale_ = 1.0;  ///< pixels per mm at the centre
   double eye_distance_ = 0.0;
   int width_ = 0, height_ = 0;
 };

@@ -19,7 +19,8 @@ enum class SlabOpacity { Additive, Exponential };
 /// What scene.toml says; flags override single fields before `build_scene`.
 struct SceneDescription {
   std::string volume = "shells:64";
-  std::string transfer_function;  ///< empty: chosen by volume (mri-head for the head scans, else `default`)
+  std::string
+      transfer_function;  ///< empty: chosen by volume (mri-head for the known scans, binary, checker, else default)
   std::string kernel = "gauss2";  ///< a name, or empty with kernel_a / kernel_radius
   double kernel_a = 2.0, kernel_radius = 2.0;
   CameraParams camera;
@@ -27,9 +28,9 @@ struct SceneDescription {
   Method method = Method::ImageAligned;
   double slab_width = 1.0;  ///< kernel units
   SlabOpacity slab_opacity = SlabOpacity::Exponential;
-  int xray_sheets = 1;      ///< sheets an X-ray is summed in (the image must not depend on it)
-  double xray_exposure = 0.0;  ///< 0: automatic (documented in docs/guide.md); else pixel = exposure * integral
-  int shading = -1;         ///< -1 as the transfer function suggests, 0 off, 1 on
+  int xray_sheets = 1;         ///< sheets an X-ray is summed in (the image must not depend on it)
+  double xray_exposure = 0.0;  ///< pixel = exposure * integral; 0: automatic, see Scene::xray_scale
+  int shading = -1;            ///< -1 as the transfer function suggests, 0 off, 1 on
   double opacity_scale = 1.0;  ///< multiplies extinction
 };
 
@@ -44,10 +45,14 @@ struct Scene {
   /// Footprint amplitude per unit extinction: kernel.peak() * spacing.x*spacing.y*spacing.z / kernel_unit^3
   /// (optical depth that one voxel of extinction 1 adds at its centre).
   double amplitude = 0.0;
-  double xray_scale = 1.0;  ///< pixel = xray_scale * summed emission
+  /// Method::XRay: pixel = xray_scale * summed emission. Automatic: 1 / (1.05 * densest voxel's extinction * (diameter
+  /// of the box of voxel centres + 1 kernel unit)), which no ray of any view can exceed 1 with (1.05: ripple of the
+  /// kernel).
+  double xray_scale = 1.0;
 };
 
-/// Unknown keys and bad values are UserErrors with file:line and a hint. Relative volume paths are relative to the file.
+/// Unknown keys and bad values are UserErrors with file:line and a hint. Relative volume paths are relative to the
+/// file.
 SceneDescription load_scene_file(const std::filesystem::path& path);
 /// As TOML that load_scene_file reads back to the same description.
 std::string to_toml(const SceneDescription& description);
@@ -56,7 +61,8 @@ Scene build_scene(const SceneDescription& description);
 /// The same with a volume already in memory.
 Scene build_scene(const SceneDescription& description, std::shared_ptr<const Volume> volume);
 
-Method method_from(const std::string& name);  ///< raycast xray westover axis_aligned image_aligned; else UserError(Usage)
+Method method_from(
+    const std::string& name);  ///< raycast xray westover axis_aligned image_aligned; else UserError(Usage)
 const char* to_string(Method method);
 SlabOpacity slab_opacity_from(const std::string& name);
 const char* to_string(SlabOpacity opacity);

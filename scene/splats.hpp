@@ -12,15 +12,15 @@ namespace fastsplat::scene {
 
 /// One voxel's kernel, pre-classified and pre-shaded.
 struct Splat {
-  glm::vec3 position;    ///< mm, world
-  glm::vec3 emission;    ///< colour * extinction, per kernel unit, each <= extinction
-  float extinction;      ///< per kernel unit, > 0
-  std::uint16_t sheet;   ///< axis-aligned sheet number, 0 nearest to the eye
+  glm::vec3 position;   ///< mm, world
+  glm::vec3 emission;   ///< colour * extinction, per kernel unit, each <= extinction
+  float extinction;     ///< per kernel unit, > 0
+  std::uint16_t sheet;  ///< axis-aligned sheet number, 0 nearest to the eye
 };
 
 /// Visits every voxel with extinction > 0, slice by slice along the volume axis most parallel to the view direction,
-/// nearest slice first; inside a slice by the remaining axes, also nearest first. The order is a function of the scene only.
-/// For Method::XRay the order is the same (it does not matter there).
+/// nearest slice first; inside a slice by the remaining axes, also nearest first. The order is a function of the scene
+/// only. For Method::XRay the order is the same (it does not matter there).
 void for_each_splat(const Scene& scene, const std::function<void(const Splat&)>& visit);
 
 std::vector<Splat> collect_splats(const Scene& scene);

@@ -16,21 +16,23 @@ enum class Domain { Value, Range, Percentile };
 struct ControlPoint {
   double at = 0.0;       ///< in the domain
   glm::dvec3 colour{0};  ///< linear RGB, 0..1
-  double opacity = 0.0;  ///< of one reference length of this material, 0..1 (exclusive of 1 unless it is clamped: 1 -> 0.9999)
+  double opacity =
+      0.0;  ///< of one reference length of this material, 0..1 (exclusive of 1 unless it is clamped: 1 -> 0.9999)
 };
 
 struct Shading {
   bool on = false;
   double ambient = 0.3, diffuse = 0.7, specular = 0.2, shininess = 20.0;
-  double gradient_floor = 0.0;  ///< gradient magnitudes below this fraction of the volume's range per kernel unit are not shaded
+  double gradient_floor =
+      0.0;  ///< gradient magnitudes below this fraction of the volume's range per kernel unit are not shaded
 };
 
 struct TransferFunction {
   std::string name;
   Domain domain = Domain::Range;
-  double reference_length = 1.0;      ///< in kernel units (Volume::kernel_unit)
-  std::vector<ControlPoint> points;   ///< ascending in `at`, linear between, clamped outside
-  Shading shading;                    ///< preset's suggestion; scene.toml and flags override
+  double reference_length = 1.0;     ///< in kernel units (Volume::kernel_unit)
+  std::vector<ControlPoint> points;  ///< ascending in `at`, linear between, clamped outside
+  Shading shading;                   ///< preset's suggestion; scene.toml and flags override
 };
 
 /// Colour and extinction per kernel unit, at a raw value.

@@ -1,0 +1,35 @@
+#include "scene/shading.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastsplat::scene {
+namespace {
+
+constexpr double kLightLeft = 0.35;  // in units of the distance towards the eye
+constexpr double kLightUp = 0.50;
+
+}  // namespace
+
+Shader::Shader(const Shading& shading, const Camera& camera, const Volume& volume)
+    : shading_(shading),
+      volume_(volume),
+      light_(glm::normalize(-camera.direction() - kLightLeft * camera.right() - kLightUp * camera.down())),
+      half_(glm::normalize(glm::dvec3(light_) - camera.direction())),
+      floor_(static_cast<float>(shading.gradient_floor * (static_cast<double>(volume.max) - volume.min) /
+                                volume.kernel_unit())) {}
+
+glm::vec3 Shader::operator()(const glm::vec3& colour, int i, int j, int k) const {
+  const glm::vec3 slope = gradient(volume_, i, j, k);
+  const float length = glm::length(slope);
+  if (!(length > floor_)) return colour;
+  const float share = floor_ > 0.0f ? std::min(1.0f, (length - floor_) / floor_) : 1.0f;
+  const glm::vec3 normal = slope / length;
+  const float facing = std::abs(glm::dot(normal, light_));
+  const float glint = std::pow(std::abs(glm::dot(normal, half_)), static_cast<float>(shading_.shininess));
+  const float matt = static_cast<float>(shading_.ambient) + static_cast<float>(shading_.diffuse) * facing;
+  const glm::vec3 lit = colour * matt + static_cast<float>(shading_.specular) * glint;
+  return glm::clamp(glm::mix(colour, lit, share), 0.0f, 1.0f);
+}
+
+}  // namespace fastsplat::scene

@@ -1,0 +1,30 @@
+// Pre-classified shading: Phong with a light that travels with the camera.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "scene/camera.hpp"
+#include "scene/transfer_function.hpp"
+#include "scene/volume.hpp"
+
+namespace fastsplat::scene {
+
+/// Shades a voxel's colour by its central-difference gradient. The light is directional, slightly above and to the left
+/// of the view axis; surfaces are lit from both sides. Where the gradient is weaker than Shading::gradient_floor the
+/// colour stays as classified; up to twice the floor it is blended in.
+class Shader {
+ public:
+  Shader(const Shading& shading, const Camera& camera, const Volume& volume);
+
+  /// Every channel of the result is in [0,1].
+  glm::vec3 operator()(const glm::vec3& colour, int i, int j, int k) const;
+
+ private:
+  Shading shading_;
+  const Volume& volume_;
+  glm::vec3 light_;  // unit, towards the light
+  glm::vec3 half_;   // unit, between light and eye
+  float floor_;      // value per mm
+};
+
+}  // namespace fastsplat::scene

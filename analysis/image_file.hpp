@@ -1,9 +1,13 @@
 // Image files through OpenImageIO: EXR (float, half, raw integer words), PNG (8/16), TIFF (8/16/float).
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "cmodel/frame.hpp"
 #include "scene/image.hpp"
@@ -18,25 +22,35 @@ enum class PixelKind { Float, Half, Uint8, Uint16, RawWords };
 const char* to_string(PixelKind kind);
 
 struct LoadedImage {
-  Image image;           ///< decoded to value (integer files divided by their maximum; raw words by 2^frac_bits)
+  Image image;  ///< decoded to value (integer files divided by their maximum; raw words by 2^frac_bits)
   PixelKind kind = PixelKind::Float;
-  int frac_bits = 0;     ///< raw words only
+  int frac_bits = 0;                 ///< raw words only
   std::vector<std::uint32_t> words;  ///< raw words only, as in the file
   Metadata metadata;
 };
 
-/// UserError (Input) when missing, not an image, truncated, too large (> 2^31 values) or of unsupported channels.
+/// EXR, PNG or TIFF, told by content and not by name; 1, 3 (RGB) or 4 (RGBA) channels.
+/// Samples are taken as stored: no alpha (un)premultiplication, no colour conversion, whatever the tags say.
+/// UserError (Input) when missing, not an image, truncated, corrupt, of unsupported channels or sample type, lossy
+/// (JPEG in TIFF), cropped, with several images in the file, or too large (a side > 2^20 or more than 2^31 values).
+/// Memory grows with the data that really decodes, so that a header that lies costs nothing.
 LoadedImage read_image(const std::filesystem::path& path);
 
-/// By extension: .exr float; .png/.tif 16 bit (clamped to [0,1], round half up; clamped values are counted and returned).
-/// Atomic; every failure (unknown extension, read-only, disk full) is a UserError (Input).
+/// Absent `kind`: .exr Float, .png/.tif/.tiff Uint16; Uint8 where `display` is set.
 struct WriteOptions {
-  PixelKind kind = PixelKind::Float;   ///< Float/Half for .exr, Uint8/Uint16 for .png/.tif
-  bool display = false;                ///< apply the sRGB curve and composite over black (for looking, not measuring)
+  std::optional<PixelKind> kind;  ///< .exr Float, Half; .png Uint8, Uint16; .tif Uint8, Uint16, Float
+  bool display = false;  ///< .png/.tif only: composite over black, apply the sRGB curve, drop alpha (to look at)
 };
-std::size_t write_image(const std::filesystem::path& path, const Image& image, const Metadata& metadata, WriteOptions options);
 
-/// EXR with one uint32 channel per colour: the device's raw words, bit for bit; frac_bits and config hash in the metadata.
+/// Premultiplied linear values exactly as they are (integer kinds: clamped to [0,1], round half up; Half: clamped to
+/// +-65504, round half even). Returns how many values had to be clamped (NaN is written as 0 and counted; Float clamps
+/// nothing). Metadata keys are [a-z0-9_]+, values any text without NUL. The same input gives the same bytes.
+/// Atomic; every failure (unknown extension, kind that the format lacks, read-only, disk full) is a UserError (Input).
+std::size_t write_image(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
+                        const WriteOptions& options = {});
+
+/// EXR with one uint32 channel per colour: the device's raw words, bit for bit. Adds frac_bits, int_bits, config_hash
+/// (16 hex digits) and format ("U1.16") to the metadata.
 void write_frame(const std::filesystem::path& path, const cmodel::Frame& frame, Metadata metadata);
 
 }  // namespace fastsplat::analysis

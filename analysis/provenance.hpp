@@ -1,0 +1,28 @@
+// Which program, engine, scene and configuration made a picture: the metadata of every render.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "analysis/image_file.hpp"
+#include "scene/scene.hpp"
+
+namespace fastsplat::analysis {
+
+/// The project's version, "0.1.0".
+std::string program_version();
+
+/// 16 hex digits, as everywhere a configuration hash is printed.
+std::string hash_text(std::uint64_t hash);
+
+struct HardwareConfig {
+  std::string name;  ///< `base`, or the file it came from
+  std::uint64_t hash = 0;
+};
+
+/// Keys engine, method, scene (TOML that load_scene_file reads), version, and with a configuration config, config_hash.
+Metadata render_metadata(const std::string& engine, const scene::SceneDescription& scene,
+                         const std::optional<HardwareConfig>& config = {});
+
+}  // namespace fastsplat::analysis

@@ -19,14 +19,15 @@ struct RenderOptions {
   Progress progress;
 };
 
-/// What the driver had to bend to fit the formats; every count 0 in a healthy frame.
+/// What the driver had to bend to fit the formats; the last three are 0 in a healthy frame.
 struct DriverReport {
   std::uint64_t voxels = 0;             ///< non-empty voxels
-  std::uint64_t splat_records = 0;      ///< splat records over all tiles
-  std::uint64_t saturated_inputs = 0;   ///< voxels whose colour or opacity did not fit the input format
-  std::uint64_t vanished_inputs = 0;    ///< voxels whose opacity rounded to 0
+  std::uint64_t splat_records = 0;      ///< splat records over all tiles and sheets
   std::uint64_t tiles = 0;
-  std::uint64_t sheets = 0;
+  std::uint64_t sheets = 0;             ///< non-empty sheets over all tiles
+  std::uint64_t saturated_voxels = 0;   ///< voxels whose whole splat left U 4.cf
+  std::uint64_t saturated_records = 0;  ///< records whose share left the input format U 0.cf
+  std::uint64_t vanished_voxels = 0;    ///< voxels whose colour and opacity rounded to 0
 };
 
 struct DeviceRender {

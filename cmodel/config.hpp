@@ -1,0 +1,85 @@
+// A hardware configuration: every number of docs/numerics.md, section 2, and the formats that follow from them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "base/error.hpp"
+#include "cmodel/format.hpp"
+
+namespace fastsplat::cmodel {
+
+struct Config {
+  std::string name;         ///< not hashed
+  std::string description;  ///< not hashed
+  std::string verified;     ///< not hashed: what has been checked of it ("model", "rtl")
+
+  int lanes = 0;                 ///< P
+  int tile_width = 0;            ///< W
+  int tile_height = 0;           ///< H
+  int position_int_bits = 0;     ///< pi
+  int position_frac_bits = 0;    ///< pf
+  int phases = 0;                ///< k
+  int rlut_sets = 0;
+  int rlut_columns = 0;
+  int rlut_guard_bits = 0;       ///< g
+  int radial_entries = 0;        ///< N
+  int radial_int_bits = 0;       ///< wi
+  int radial_frac_bits = 0;      ///< wf
+  int colour_frac_bits = 0;      ///< cf
+  int slice_phase_bits = 0;      ///< zf
+  int slice_frac_bits = 0;       ///< hf
+  int sheet_int_bits = 0;        ///< si
+  int sheet_frac_bits = 0;       ///< sf
+  int opacity_segments = 0;      ///< G
+  int opacity_frac_bits = 0;     ///< of
+  int composite_frac_bits = 0;   ///< tf
+  int freeze_below = 0;          ///< eps
+  int pixel_int_bits = 0;        ///< xi
+  int pixel_frac_bits = 0;       ///< xf
+
+  bool operator==(const Config&) const = default;
+
+  // Derived; exact for a configuration that passed first_violation().
+  int phase_bits() const { return log2_exact(phases); }           ///< kl
+  int radial_index_bits() const { return log2_exact(radial_entries); }  ///< nl
+  /// The rim: RLUT words saturate here, and sums at or above it lie outside the footprint.
+  std::int64_t rlut_rim() const { return std::int64_t{1} << (radial_index_bits() + rlut_guard_bits); }
+  /// Low bits of a sheet word that interpolate within one segment of the slab factor table (b in numerics.md).
+  int opacity_remainder_bits() const { return sheet_int_bits + sheet_frac_bits - log2_exact(opacity_segments); }
+  /// Largest extent in pixels that the RLUT can hold.
+  int max_extent() const { return rlut_columns; }
+
+  Format position_format() const { return signed_format(position_int_bits, position_frac_bits); }
+  Format snapped_format() const { return signed_format(position_int_bits, phase_bits()); }
+  Format weight_format() const { return unsigned_format(radial_int_bits, radial_frac_bits); }
+  Format colour_format() const { return unsigned_format(0, colour_frac_bits); }
+  Format sheet_format() const { return unsigned_format(sheet_int_bits, sheet_frac_bits); }
+  Format factor_format() const { return unit_format(opacity_frac_bits); }
+  Format transmittance_format() const { return unit_format(composite_frac_bits); }
+  Format composited_format() const { return unsigned_format(1, composite_frac_bits); }
+  Format pixel_format() const { return unsigned_format(pixel_int_bits, pixel_frac_bits); }
+
+  static int log2_exact(int power_of_two);
+};
+
+/// One key of the configuration file. The table order is the order of the hash.
+struct ConfigKey {
+  const char* name;  ///< "table.key"
+  int Config::*member;
+  int min, max;
+  bool power_of_two;
+  const char* meaning;
+};
+std::span<const ConfigKey> config_keys();
+
+/// The first limit that does not hold, with both numbers; empty for a sound configuration.
+std::optional<ErrorParts> first_violation(const Config& config);
+
+/// 64-bit FNV-1a over "key=value\n" in table order.
+std::uint64_t config_hash(const Config& config);
+std::string hash_text(std::uint64_t hash);  ///< 16 hex digits
+
+}  // namespace fastsplat::cmodel

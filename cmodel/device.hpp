@@ -1,0 +1,36 @@
+// What driver and checker know of a device, whether it is this model or the RTL: beats in, pixels out, taps, counters.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cmodel/beat.hpp"
+#include "cmodel/counters.hpp"
+#include "cmodel/taps.hpp"
+
+namespace fastsplat::cmodel {
+
+/// A finished tile: RGBA words, row by row.
+struct TilePixels {
+  std::uint32_t tile = 0;
+  std::int32_t x = 0, y = 0;  ///< first pixel in the image
+  int width = 0, height = 0;
+  std::vector<std::uint32_t> words;  ///< width*height*4
+};
+
+class PixelSink {
+ public:
+  virtual ~PixelSink() = default;
+  virtual void on_tile(TilePixels&& tile) = 0;
+};
+
+class Device {
+ public:
+  virtual ~Device() = default;
+  /// Takes whole or partial streams; a beat that breaks docs/stream.md is a UserError (Input) naming beat and offset.
+  virtual void consume(std::span<const Beat> beats) = 0;
+  virtual const Counters& counters() const = 0;
+};
+
+}  // namespace fastsplat::cmodel

@@ -1,0 +1,142 @@
+#include "cmodel/model.hpp"
+
+#include <algorithm>
+
+#include "cmodel/pixel_out.hpp"
+#include "cmodel/snap.hpp"
+
+namespace fastsplat::cmodel {
+
+Model::Model(const Config& config, StreamScope scope, PixelSink& pixels, TapSink* taps)
+    : config_(config),
+      decode_(config, scope),
+      rlut_(config),
+      radial_(config),
+      sheet_(config),
+      compositor_(config),
+      pixels_(pixels),
+      taps_(taps),
+      weights_(static_cast<std::size_t>(config.lanes) * config.lanes) {}
+
+void Model::consume(std::span<const Beat> beats) {
+  for (const Beat& beat : beats) {
+    if (const Record* record = decode_.feed(beat)) take(*record);
+  }
+}
+
+void Model::take(const Record& record) {
+  if (const auto* found = std::get_if<SplatRecord>(&record)) {
+    splat(*found);
+  } else if (const auto* table = std::get_if<LoadTable>(&record)) {
+    load(*table);
+  } else if (const auto* tile = std::get_if<BeginTile>(&record)) {
+    begin_tile(*tile);
+  } else if (const auto* sheet = std::get_if<BeginSheet>(&record)) {
+    sheet_number_ = sheet->sheet;
+  } else if (std::holds_alternative<EndSheet>(record)) {
+    end_sheet();
+  } else if (std::holds_alternative<EndTile>(record)) {
+    end_tile();
+  } else if (std::holds_alternative<CullBlock>(record)) {
+    ++counters_.cull_blocks;
+  }
+}
+
+void Model::load(const LoadTable& table) {
+  switch (table.table) {
+    case Table::Rlut: rlut_.load(table); break;
+    case Table::Radial: radial_.load(table.words); break;
+    case Table::Factor: compositor_.opacity().load(table.words); break;
+  }
+}
+
+void Model::begin_tile(const BeginTile& tile) {
+  tile_ = tile;
+  sheet_.begin_tile(tile.width, tile.height);
+  compositor_.begin_tile(tile.mode, tile.width, tile.height);
+}
+
+void Model::splat(const SplatRecord& record) {
+  const std::uint32_t rho = rlut_.rho(record.set);
+  const SnappedAxis x = snap(config_, record.x, rho);
+  const SnappedAxis y = snap(config_, record.y, rho);
+  ++counters_.splats;
+  counters_.snap_saturated += (x.saturated ? 1 : 0) + (y.saturated ? 1 : 0);
+  if (taps_ != nullptr) {
+    const std::array<std::uint32_t, 4> payload{static_cast<std::uint32_t>(x.origin), static_cast<std::uint32_t>(y.origin), x.phase, y.phase};
+    tap(Tap::Snap, record.tag, x.origin, y.origin, payload);
+  }
+  const std::uint32_t extent = rlut_.extent(record.set);
+  const auto lanes = static_cast<std::uint32_t>(config_.lanes);
+  for (std::uint32_t row = 0; row < extent; row += lanes) {
+    const auto rows = rlut_.read(record.set, y.phase, row);
+    for (std::uint32_t column = 0; column < extent; column += lanes) {
+      footprint(radial_, rlut_.read(record.set, x.phase, column), rows, weights_);
+      window(record, x.origin + static_cast<std::int32_t>(column), y.origin + static_cast<std::int32_t>(row));
+    }
+  }
+}
+
+void Model::window(const SplatRecord& record, std::int32_t x, std::int32_t y) {
+  ++counters_.windows;
+  sheet_.accumulate(x, y, weights_, record.colour, counters_);
+  if (taps_ != nullptr) {
+    tap(Tap::Footprint, record.tag, x, y, weights_);
+    tap_sheet(record, x, y);
+  }
+}
+
+void Model::end_sheet() {
+  ++counters_.sheets;
+  sheet_.drain([this](int bx, int by) {
+    ++counters_.dirty_blocks;
+    const int x0 = bx * config_.lanes, x1 = std::min(tile_.width, x0 + config_.lanes);
+    const int y0 = by * config_.lanes, y1 = std::min(tile_.height, y0 + config_.lanes);
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; ++x) compositor_.step(sheet_.at(x, y), x, y, counters_);
+    }
+    if (taps_ != nullptr) tap_composite(x0, y0);
+  });
+}
+
+void Model::end_tile() {
+  ++counters_.tiles;
+  TilePixels out{.tile = tile_.tile, .x = tile_.x, .y = tile_.y, .width = tile_.width, .height = tile_.height, .words = {}};
+  out.words.reserve(static_cast<std::size_t>(tile_.width) * tile_.height * 4);
+  for (int y = 0; y < tile_.height; ++y) {
+    for (int x = 0; x < tile_.width; ++x) {
+      const auto words = pixel_out(config_, tile_.mode, compositor_.at(x, y), counters_);
+      if (taps_ != nullptr) tap(Tap::Pixel, 0, x, y, words);
+      out.words.insert(out.words.end(), words.begin(), words.end());
+    }
+  }
+  pixels_.on_tile(std::move(out));
+}
+
+void Model::tap(Tap kind, std::uint32_t tag, std::int32_t x, std::int32_t y, std::span<const std::uint32_t> payload) const {
+  taps_->on_tap({.tap = kind, .tile = tile_.tile, .sheet = sheet_number_, .tag = tag, .x = x, .y = y, .payload = payload});
+}
+
+void Model::tap_sheet(const SplatRecord& record, std::int32_t x, std::int32_t y) {
+  scratch_.clear();
+  for (std::int32_t j = 0; j < config_.lanes; ++j) {
+    for (std::int32_t i = 0; i < config_.lanes; ++i) {
+      const SheetWord word = sheet_.inside(x + i, y + j) ? sheet_.at(x + i, y + j) : SheetWord{};
+      scratch_.insert(scratch_.end(), word.begin(), word.end());
+    }
+  }
+  tap(Tap::Sheet, record.tag, x, y, scratch_);
+}
+
+void Model::tap_composite(int x0, int y0) {
+  scratch_.clear();
+  for (int y = y0; y < y0 + config_.lanes; ++y) {
+    for (int x = x0; x < x0 + config_.lanes; ++x) {
+      const PixelState word = sheet_.inside(x, y) ? compositor_.at(x, y) : PixelState{};
+      scratch_.insert(scratch_.end(), word.begin(), word.end());
+    }
+  }
+  tap(Tap::Composite, 0, x0, y0, scratch_);
+}
+
+}  // namespace fastsplat::cmodel

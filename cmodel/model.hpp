@@ -1,0 +1,54 @@
+// The device model: decode -> snap -> RLUT and radial table -> sheet buffer -> compositor -> pixel out.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cmodel/compositor.hpp"
+#include "cmodel/config.hpp"
+#include "cmodel/device.hpp"
+#include "cmodel/footprint.hpp"
+#include "cmodel/rlut.hpp"
+#include "cmodel/sheet_buffer.hpp"
+#include "cmodel/stream_decode.hpp"
+
+namespace fastsplat::cmodel {
+
+class Model final : public Device {
+ public:
+  /// `pixels` takes every finished tile; `taps` may be null (no cost). Both outlive the model.
+  Model(const Config& config, StreamScope scope, PixelSink& pixels, TapSink* taps = nullptr);
+
+  void consume(std::span<const Beat> beats) override;
+  /// Throws unless the stream ended where it may.
+  void finish() const { decode_.finish(); }
+  const Counters& counters() const override { return counters_; }
+
+ private:
+  void take(const Record& record);
+  void load(const LoadTable& table);
+  void begin_tile(const BeginTile& tile);
+  void splat(const SplatRecord& record);
+  void window(const SplatRecord& record, std::int32_t x, std::int32_t y);
+  void end_sheet();
+  void end_tile();
+  void tap(Tap kind, std::uint32_t tag, std::int32_t x, std::int32_t y, std::span<const std::uint32_t> payload) const;
+  void tap_sheet(const SplatRecord& record, std::int32_t x, std::int32_t y);
+  void tap_composite(int x, int y);
+
+  Config config_;
+  StreamDecode decode_;
+  Rlut rlut_;
+  RadialTable radial_;
+  SheetBuffer sheet_;
+  Compositor compositor_;
+  Counters counters_;
+  PixelSink& pixels_;
+  TapSink* taps_;
+  BeginTile tile_;
+  std::uint32_t sheet_number_ = 0;
+  std::vector<std::uint32_t> weights_;  ///< of the window in flight, P*P
+  std::vector<std::uint32_t> scratch_;  ///< tap payloads
+};
+
+}  // namespace fastsplat::cmodel

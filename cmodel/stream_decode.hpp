@@ -1,0 +1,63 @@
+// Unit "decode": beats in, checked records out. Every rule of docs/stream.md is refused here or nowhere.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cmodel/config.hpp"
+#include "cmodel/records.hpp"
+
+namespace fastsplat::cmodel {
+
+/// Whether the beats are a whole recorded stream (tiles counted) or any subset of one's tiles.
+enum class StreamScope { Whole, Subset };
+
+class StreamDecode {
+ public:
+  StreamDecode(const Config& config, StreamScope scope);
+
+  /// The record this beat completes, or nullptr inside a table. The pointer lives until the next call.
+  /// Throws UserError (Input): where = "beat N (byte offset M)".
+  const Record* feed(const Beat& beat);
+
+  /// Throws unless the stream ended properly: end_frame seen (Whole), no tile or table left open (both).
+  void finish() const;
+
+  std::uint64_t beats() const { return beats_; }
+
+  /// Pixels per side of a loaded radius set, a multiple of P.
+  static std::uint32_t padded_extent(const Config& config, std::uint32_t rho);
+
+ private:
+  enum class State { Start, Tables, Payload, Tile, Sheet, Ended };
+
+  [[noreturn]] void refuse(const char* what, const std::string& expected, const std::string& got) const;
+  void expect(bool holds, const char* what, std::int64_t expected, std::int64_t got) const;
+  void check_reserved(const Beat& beat, const RecordLayout& record) const;
+  void check_order(Opcode opcode, const char* name) const;
+  void check(const BeginFrame& record, const Beat& beat);
+  void check(const LoadTable& header, std::uint32_t words);
+  void check(const BeginTile& record);
+  void check(const BeginSheet& record);
+  void check(const SplatRecord& record);
+  void check(const CullBlock& record);
+  void check(const EndSheet& record);
+  void check(const EndTile& record);
+  void check(const EndFrame& record);
+  const Record* payload(const Beat& beat);
+
+  Config config_;
+  StreamScope scope_;
+  std::uint64_t config_hash_;
+  State state_ = State::Start;
+  Record record_;
+  std::uint64_t beats_ = 0;  ///< complete beats taken
+  BeginFrame frame_;
+  std::uint32_t words_left_ = 0;
+  std::vector<bool> sets_loaded_;
+  bool radial_loaded_ = false, factor_loaded_ = false;
+  std::uint32_t tiles_seen_ = 0, tile_ = 0, sheets_seen_ = 0, sheet_ = 0, splats_seen_ = 0;
+  std::uint32_t next_tag_ = 0;
+};
+
+}  // namespace fastsplat::cmodel

@@ -1,0 +1,36 @@
+// Taps: what passes each boundary of the device drawing, one record layout for the model and for the RTL.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace fastsplat::cmodel {
+
+enum class Tap : std::uint8_t {
+  Snap,       ///< per splat: x0, y0 (as two's complement), mx, my
+  Footprint,  ///< per window: P*P weights, row by row
+  Sheet,      ///< per window: P*P*4 sheet words after accumulation (R,G,B,tau per pixel; 0 outside the tile)
+  Composite,  ///< per dirty block: P*P*4 words after compositing (C_R,C_G,C_B,T, or the four X-ray sums)
+  Pixel,      ///< per pixel: R,G,B,A
+};
+constexpr int kTapCount = 5;
+const char* to_string(Tap tap);
+
+/// Who and where an event belongs to. Positions are tile-relative pixels.
+struct TapRecord {
+  Tap tap = Tap::Snap;
+  std::uint32_t tile = 0;
+  std::uint32_t sheet = 0;
+  std::uint32_t tag = 0;  ///< splat tag; 0 for Composite and Pixel, which belong to no splat
+  std::int32_t x = 0;     ///< first pixel of the window or block, or the pixel itself
+  std::int32_t y = 0;
+  std::span<const std::uint32_t> payload;
+};
+
+class TapSink {
+ public:
+  virtual ~TapSink() = default;
+  virtual void on_tap(const TapRecord& record) = 0;
+};
+
+}  // namespace fastsplat::cmodel

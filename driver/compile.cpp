@@ -1,0 +1,192 @@
+#include "driver/compile.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "cmodel/records.hpp"
+#include "cmodel/snap.hpp"
+#include "driver/projection.hpp"
+#include "driver/tables.hpp"
+#include "scene/splats.hpp"
+
+namespace fastsplat::driver {
+namespace {
+
+/// How a method uses the device.
+struct Plan {
+  cmodel::Mode mode = cmodel::Mode::Exponential;
+  DepthUse use = DepthUse::Sliced;
+  double first = 0.0;  ///< nearest slab boundary, kernel units
+  double width = 1.0;  ///< of a slab
+  int sheets = 1;
+};
+
+Plan make_plan(const scene::Scene& scene) {
+  const auto& description = scene.description;
+  const scene::SlabGrid slabs = scene::slab_grid(scene);
+  const auto slab_mode =
+      description.slab_opacity == scene::SlabOpacity::Exponential ? cmodel::Mode::Exponential : cmodel::Mode::Additive;
+  switch (description.method) {
+    case scene::Method::ImageAligned: return {slab_mode, DepthUse::Sliced, slabs.first, slabs.width, slabs.count};
+    case scene::Method::AxisAligned: return {slab_mode, DepthUse::GridSheet, 0.0, 1.0, scene::axis_sheet_count(scene)};
+    case scene::Method::XRay: {
+      const int sheets = description.xray_sheets;
+      const DepthUse use = sheets == 1 ? DepthUse::OneSheet : DepthUse::Sliced;
+      return {cmodel::Mode::Sum, use, slabs.first, slabs.count * slabs.width / sheets, sheets};
+    }
+    case scene::Method::RayCast:
+    case scene::Method::Westover: break;
+  }
+  throw_usage({.where = "--method", .what = fmt::format("the device has no method '{}'", scene::to_string(description.method)),
+               .expected = "image_aligned, axis_aligned or xray", .got = scene::to_string(description.method),
+               .fix = "choose one of these, or --engine golden"});
+}
+
+Slices make_slices(const cmodel::Config& config, const scene::Scene& scene, const Plan& plan) {
+  const bool sliced = plan.use == DepthUse::Sliced;
+  return Slices(config, scene.kernel, sliced ? plan.width : 1.0, sliced ? plan.sheets : 1);
+}
+
+/// The snapped window of a splat in image pixels. The image may be larger than a tile, so positions get room;
+/// the tile's origin is a whole number of pixels, so the window is the one the device finds.
+class Windows {
+ public:
+  Windows(const cmodel::Config& config, const RadiusSets& sets) : wide_(config) {
+    wide_.position_int_bits = 30 - config.position_frac_bits;
+    for (std::size_t set = 0; set < sets.size(); ++set) {
+      const auto table = rlut_table(config, static_cast<std::uint32_t>(set), sets.radius(static_cast<std::uint32_t>(set)), 0);
+      rho_.push_back(table.radius.rho);
+    }
+  }
+  Extent operator()(const ProjectedSplat& splat) const {
+    const std::uint32_t rho = rho_[splat.set];
+    const auto extent = static_cast<std::int32_t>((2 * rho + static_cast<std::uint32_t>(wide_.phases) - 1) / static_cast<std::uint32_t>(wide_.phases));
+    const std::int32_t x0 = cmodel::snap(wide_, splat.x, rho).origin, y0 = cmodel::snap(wide_, splat.y, rho).origin;
+    return {x0, x0 + extent, y0, y0 + extent};
+  }
+
+ private:
+  cmodel::Config wide_;
+  std::vector<std::uint32_t> rho_;
+};
+
+/// Collects beats and hands them on in blocks.
+class BlockSink {
+ public:
+  explicit BlockSink(const BeatSink& sink) : sink_(sink) { beats_.reserve(kBlock + 64); }
+  void put(const cmodel::Record& record) { append(beats_, record); }
+  void put(const cmodel::SplatRecord& splat) {
+    beats_.push_back(to_beat(splat));
+    if (beats_.size() >= kBlock) flush();
+  }
+  void flush() {
+    sink_(beats_);
+    beats_.clear();
+  }
+
+ private:
+  static constexpr std::size_t kBlock = 4096;
+  const BeatSink& sink_;
+  std::vector<cmodel::Beat> beats_;
+};
+
+}  // namespace
+
+struct CompiledFrame::State {
+  cmodel::Config config;
+  Plan plan;
+  Slices slices;
+  Projected projected;
+  TileGrid grid;
+  TileBins bins;
+  int reach = 0;  ///< a splat reaches at most this many sheets beyond its first
+  std::vector<cmodel::Beat> preamble;
+
+  State(const scene::Scene& scene, const cmodel::Config& device)
+      : config(device),
+        plan(make_plan(scene)),
+        slices(make_slices(device, scene, plan)),
+        projected(project(scene, device, slices, plan.use, plan.first)),
+        grid(device, scene.description.width, scene.description.height),
+        bins(make_bins()) {
+    if (plan.use == DepthUse::Sliced) {
+      for (const auto& splat : projected.splats) reach = std::max(reach, slices.last(splat.depth) - slices.first(splat.depth));
+    }
+    make_preamble(scene);
+  }
+
+  int first_sheet(const ProjectedSplat& splat) const { return plan.use == DepthUse::Sliced ? slices.first(splat.depth) : splat.depth; }
+
+  TileBins make_bins() const {
+    const Windows windows(config, projected.sets);
+    const auto& splats = projected.splats;
+    return TileBins(
+        grid, plan.sheets, splats.size(), [&](std::size_t i) { return windows(splats[i]); },
+        [&](std::size_t i) { return first_sheet(splats[i]); });
+  }
+
+  void make_preamble(const scene::Scene& scene) {
+    cmodel::append(preamble, cmodel::BeginFrame{cmodel::config_hash(config), grid.image_width, grid.image_height,
+                                                static_cast<std::uint32_t>(grid.count())});
+    cmodel::append(preamble, radial_table(config, scene.kernel));
+    cmodel::append(preamble, factor_table(config));
+    for (std::uint32_t set = 0; set < projected.sets.size(); ++set) {
+      cmodel::append(preamble, rlut_table(config, set, projected.sets.radius(set), projected.sets.base(set)));
+    }
+  }
+
+  /// Records of one sheet of one tile; begin_sheet only when there is something to say.
+  std::uint32_t emit_sheet(int tile, int sheet, std::uint32_t& tag, BlockSink& out, TileReport& report) const {
+    const std::int32_t x0 = grid.x(tile) * (1 << config.position_frac_bits), y0 = grid.y(tile) * (1 << config.position_frac_bits);
+    std::uint32_t records = 0;
+    for (int from = std::max(0, sheet - reach); from <= sheet; ++from) {
+      for (const std::uint32_t number : bins.bin(tile, from)) {
+        const ProjectedSplat& splat = projected.splats[number];
+        const Share share = plan.use == DepthUse::Sliced ? slices.share(splat.words, splat.depth, sheet) : slices.whole(splat.words);
+        if (share.empty()) continue;
+        if (records == 0) out.put(cmodel::BeginSheet{static_cast<std::uint32_t>(sheet)});
+        report.saturated_records += share.saturated ? 1 : 0;
+        out.put(cmodel::SplatRecord{.set = splat.set, .tag = tag++, .x = splat.x - x0, .y = splat.y - y0, .colour = share.words});
+        ++records;
+      }
+    }
+    return records;
+  }
+};
+
+CompiledFrame::CompiledFrame(const scene::Scene& scene, const cmodel::Config& config)
+    : state_(std::make_unique<const State>(scene, config)) {}
+CompiledFrame::~CompiledFrame() = default;
+
+const cmodel::Config& CompiledFrame::config() const { return state_->config; }
+const TileGrid& CompiledFrame::grid() const { return state_->grid; }
+std::span<const cmodel::Beat> CompiledFrame::preamble() const { return state_->preamble; }
+
+TileReport CompiledFrame::emit_tile(int tile, const BeatSink& sink) const {
+  const State& s = *state_;
+  BlockSink out(sink);
+  out.put(cmodel::BeginTile{s.plan.mode, static_cast<std::uint32_t>(tile), s.grid.x(tile), s.grid.y(tile), s.grid.width(tile),
+                            s.grid.height(tile)});
+  TileReport report;
+  std::uint32_t tag = 0;
+  for (int sheet = 0; sheet < s.plan.sheets; ++sheet) {
+    const std::uint32_t records = s.emit_sheet(tile, sheet, tag, out, report);
+    if (records == 0) continue;
+    out.put(cmodel::EndSheet{static_cast<std::uint32_t>(sheet), records});
+    ++report.sheets;
+    report.splat_records += records;
+  }
+  out.put(cmodel::EndTile{static_cast<std::uint32_t>(tile), static_cast<std::uint32_t>(report.sheets)});
+  out.flush();
+  return report;
+}
+
+DriverReport CompiledFrame::report() const {
+  return {.voxels = state_->projected.voxels,
+          .saturated_voxels = state_->projected.saturated,
+          .vanished_voxels = state_->projected.vanished};
+}
+
+}  // namespace fastsplat::driver

@@ -1,0 +1,47 @@
+// A scene compiled for a device: everything but the records themselves, which are made tile by tile on demand, so that a
+// long stream is never in memory.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cmodel/beat.hpp"
+#include "cmodel/config.hpp"
+#include "driver/render.hpp"
+#include "driver/tile_bins.hpp"
+#include "scene/scene.hpp"
+
+namespace fastsplat::driver {
+
+/// Takes beats in stream order, some thousands at a time.
+using BeatSink = std::function<void(std::span<const cmodel::Beat>)>;
+
+/// What one tile's records add to the report.
+struct TileReport {
+  std::uint64_t splat_records = 0, saturated_records = 0, sheets = 0;
+};
+
+class CompiledFrame {
+ public:
+  /// Throws UserError (Usage) where the scene does not fit the configuration.
+  CompiledFrame(const scene::Scene& scene, const cmodel::Config& config);
+  ~CompiledFrame();
+
+  const cmodel::Config& config() const;
+  const TileGrid& grid() const;
+  /// begin_frame and the tables.
+  std::span<const cmodel::Beat> preamble() const;
+  /// begin_tile .. end_tile. Const and without shared state: tiles may be emitted in parallel.
+  TileReport emit_tile(int tile, const BeatSink& sink) const;
+  /// Voxel counts; record counts come from the tiles.
+  DriverReport report() const;
+
+ private:
+  struct State;
+  std::unique_ptr<const State> state_;
+};
+
+}  // namespace fastsplat::driver

@@ -1,0 +1,84 @@
+#include "driver/projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "scene/splats.hpp"
+
+namespace fastsplat::driver {
+namespace {
+
+struct RadiusRange {
+  double smallest = std::numeric_limits<double>::infinity();
+  double largest = 0.0;
+};
+
+/// Footprint radii over the corners of the volume's box: scale is monotone in depth, so the corners bound it.
+RadiusRange radius_range(const scene::Scene& scene) {
+  const scene::Volume& volume = *scene.volume;
+  const double support = scene.kernel.radius() * volume.kernel_unit();
+  RadiusRange range;
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto at = volume.position((corner & 1) != 0 ? volume.dims.x - 1 : 0, (corner & 2) != 0 ? volume.dims.y - 1 : 0,
+                                    (corner & 4) != 0 ? volume.dims.z - 1 : 0);
+    const double radius = support * scene.camera.project(at).scale;
+    range.smallest = std::min(range.smallest, radius);
+    range.largest = std::max(range.largest, radius);
+  }
+  return range;
+}
+
+struct Quantised {
+  SplatWords words{};
+  bool saturated = false;
+};
+
+Quantised quantise(const scene::Splat& splat, double amplitude, int frac_bits) {
+  const double largest = std::ldexp(1.0, frac_bits + 4) - 1.0;
+  const double values[4] = {splat.emission.x, splat.emission.y, splat.emission.z, splat.extinction};
+  Quantised out;
+  for (std::size_t c = 0; c < 4; ++c) {
+    const double word = std::floor(std::ldexp(values[c] * amplitude, frac_bits) + 0.5);
+    out.saturated = out.saturated || word > largest;
+    out.words[c] = static_cast<std::uint32_t>(std::clamp(word, 0.0, largest));
+  }
+  return out;
+}
+
+}  // namespace
+
+Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices, DepthUse use, double first_depth) {
+  const double unit = scene.volume->kernel_unit();
+  const double support = scene.kernel.radius() * unit;
+  const double exposure = scene.description.method == scene::Method::XRay ? scene.xray_scale : 1.0;
+  const RadiusRange range = radius_range(scene);
+  Projected out{.splats = {}, .sets = RadiusSets(config, range.smallest, range.largest)};
+
+  scene::for_each_splat(scene, [&](const scene::Splat& splat) {
+    ++out.voxels;
+    const scene::ScreenPoint at = scene.camera.project(splat.position);
+    const double radius = support * at.scale;
+    const std::uint32_t set = out.sets.nearest(radius);
+    const double width_ratio = radius / out.sets.radius(set);
+    const Quantised quantised =
+        quantise(splat, scene.amplitude * exposure * width_ratio * width_ratio, config.colour_frac_bits);
+    if (quantised.words == SplatWords{}) {
+      ++out.vanished;
+      return;
+    }
+    out.saturated += quantised.saturated ? 1 : 0;
+    std::int32_t depth = 0;
+    if (use == DepthUse::Sliced) depth = slices.quantise_depth(at.depth / unit - first_depth);
+    if (use == DepthUse::GridSheet) depth = splat.sheet;
+    out.splats.push_back({.x = static_cast<std::int32_t>(std::floor(std::ldexp(at.x, config.position_frac_bits) + 0.5)),
+                          .y = static_cast<std::int32_t>(std::floor(std::ldexp(at.y, config.position_frac_bits) + 0.5)),
+                          .depth = depth,
+                          .set = set,
+                          .words = quantised.words});
+  });
+  return out;
+}
+
+}  // namespace fastsplat::driver

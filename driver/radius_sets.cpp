@@ -1,0 +1,40 @@
+#include "driver/radius_sets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "cmodel/stream_decode.hpp"
+
+namespace fastsplat::driver {
+
+RadiusSets::RadiusSets(const cmodel::Config& config, double smallest, double largest) : smallest_(smallest) {
+  const double widest = config.rlut_columns / 2.0;
+  if (!(largest <= widest)) {
+    throw_usage({.where = "configuration " + config.name,
+                 .what = "the kernel's footprint is wider than the RLUT",
+                 .expected = fmt::format("a radius of at most {} pixels (rlut.columns = {})", widest, config.rlut_columns),
+                 .got = fmt::format("{:.2f} pixels", largest),
+                 .fix = "use a smaller --size or --zoom, or a configuration with more rlut.columns"});
+  }
+  columns_ = cmodel::StreamDecode::padded_extent(config, static_cast<std::uint32_t>(std::ceil(largest * config.phases)));
+  const auto room = static_cast<std::uint32_t>(config.rlut_columns) / columns_;
+  const bool one_radius = largest <= smallest * (1.0 + 1e-9);
+  const std::uint32_t count = one_radius ? 1 : std::min<std::uint32_t>(room, static_cast<std::uint32_t>(config.rlut_sets));
+  if (one_radius) {
+    radii_ = {largest};
+    return;
+  }
+  bins_per_log_ = count / std::log(largest / smallest);
+  for (std::uint32_t set = 0; set < count; ++set) radii_.push_back(smallest * std::exp((set + 0.5) / bins_per_log_));
+}
+
+std::uint32_t RadiusSets::nearest(double radius) const {
+  if (radii_.size() == 1) return 0;
+  const double bin = std::floor(std::log(radius / smallest_) * bins_per_log_);
+  return static_cast<std::uint32_t>(std::clamp(bin, 0.0, static_cast<double>(radii_.size() - 1)));
+}
+
+}  // namespace fastsplat::driver

@@ -1,0 +1,28 @@
+// Which footprint radii the RLUT is loaded with, and which one a splat uses.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cmodel/config.hpp"
+
+namespace fastsplat::driver {
+
+/// Radii in pixels, geometric between the smallest and the largest a frame needs; one for orthographic views.
+class RadiusSets {
+ public:
+  /// Throws UserError (Usage) when the largest footprint does not fit the RLUT.
+  RadiusSets(const cmodel::Config& config, double smallest, double largest);
+
+  std::uint32_t nearest(double radius) const;
+  double radius(std::uint32_t set) const { return radii_[set]; }
+  std::uint32_t base(std::uint32_t set) const { return set * columns_; }
+  std::size_t size() const { return radii_.size(); }
+
+ private:
+  std::vector<double> radii_;
+  std::uint32_t columns_ = 0;  ///< RLUT columns of the largest set; every set gets as many
+  double smallest_ = 0.0, bins_per_log_ = 0.0;
+};
+
+}  // namespace fastsplat::driver

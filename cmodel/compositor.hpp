@@ -1,4 +1,5 @@
-// Unit "compositor": slabs over pixels, front to back, with freezing; or plain sums for X-rays (docs/numerics.md, section 6).
+// Unit "compositor": slabs over pixels, front to back, with freezing; or plain sums for X-rays (docs/numerics.md,
+// section 6).
 #pragma once
 
 #include <array>

@@ -10,30 +10,41 @@ constexpr std::array kKeys{
     ConfigKey{"array.lanes", &Config::lanes, 1, 32, true, "P: lanes per side; a window is P x P pixels"},
     ConfigKey{"tile.width", &Config::tile_width, 1, 4096, false, "W: screen tile, pixels, multiple of P"},
     ConfigKey{"tile.height", &Config::tile_height, 1, 4096, false, "H: screen tile, pixels, multiple of P"},
-    ConfigKey{"position.int_bits", &Config::position_int_bits, 4, 16, false, "pi: splat centre S pi.pf, tile-relative pixels"},
+    ConfigKey{"position.int_bits", &Config::position_int_bits, 4, 16, false,
+              "pi: splat centre S pi.pf, tile-relative pixels"},
     ConfigKey{"position.frac_bits", &Config::position_frac_bits, 0, 12, false, "pf"},
     ConfigKey{"snap.phases", &Config::phases, 1, 4096, true, "k: sub-pixel positions per axis, at most 2^pf"},
     ConfigKey{"rlut.sets", &Config::rlut_sets, 1, 64, false, "radius sets loadable at once"},
     ConfigKey{"rlut.columns", &Config::rlut_columns, 1, 1024, false, "RLUT columns shared by all sets, multiple of P"},
-    ConfigKey{"rlut.guard_bits", &Config::rlut_guard_bits, 0, 12, false, "g: fraction bits below one radial table step"},
+    ConfigKey{"rlut.guard_bits", &Config::rlut_guard_bits, 0, 12, false,
+              "g: fraction bits below one radial table step"},
     ConfigKey{"radial.entries", &Config::radial_entries, 2, 65536, true, "N: radial table entries"},
     ConfigKey{"radial.int_bits", &Config::radial_int_bits, 0, 1, false, "wi: weights U wi.wf"},
     ConfigKey{"radial.frac_bits", &Config::radial_frac_bits, 2, 16, false, "wf"},
-    ConfigKey{"colour.frac_bits", &Config::colour_frac_bits, 2, 16, false, "cf: colour and optical depth of a splat, U 0.cf"},
-    ConfigKey{"slices.phase_bits", &Config::slice_phase_bits, 0, 12, false, "zf: depth steps per kernel unit = 2^zf (driver)"},
-    ConfigKey{"slices.frac_bits", &Config::slice_frac_bits, 2, 24, false, "hf: cumulative slice weight One.hf (driver)"},
+    ConfigKey{"colour.frac_bits", &Config::colour_frac_bits, 2, 16, false,
+              "cf: colour and optical depth of a splat, U 0.cf"},
+    ConfigKey{"slices.phase_bits", &Config::slice_phase_bits, 0, 12, false,
+              "zf: depth steps per kernel unit = 2^zf (driver)"},
+    ConfigKey{"slices.frac_bits", &Config::slice_frac_bits, 2, 24, false,
+              "hf: cumulative slice weight One.hf (driver)"},
     ConfigKey{"sheet.int_bits", &Config::sheet_int_bits, 1, 8, false, "si: sheet accumulators U si.sf"},
     ConfigKey{"sheet.frac_bits", &Config::sheet_frac_bits, 4, 31, false, "sf"},
     ConfigKey{"opacity.segments", &Config::opacity_segments, 1, 65536, true, "G: segments of the slab factor table"},
     ConfigKey{"opacity.frac_bits", &Config::opacity_frac_bits, 2, 16, false, "of: slab factor One.of"},
-    ConfigKey{"composite.frac_bits", &Config::composite_frac_bits, 4, 20, false, "tf: transmittance One.tf, colour U 1.tf"},
-    ConfigKey{"composite.freeze_below", &Config::freeze_below, 0, 1 << 20, false, "eps: transmittance words below this are frozen"},
+    ConfigKey{"composite.frac_bits", &Config::composite_frac_bits, 4, 20, false,
+              "tf: transmittance One.tf, colour U 1.tf"},
+    ConfigKey{"composite.freeze_below", &Config::freeze_below, 0, 1 << 20, false,
+              "eps: transmittance words below this are frozen"},
     ConfigKey{"pixel.int_bits", &Config::pixel_int_bits, 0, 8, false, "xi: output words U xi.xf"},
     ConfigKey{"pixel.frac_bits", &Config::pixel_frac_bits, 4, 31, false, "xf"},
 };
 
 ErrorParts violation(const char* key, std::string what, std::string expected, int got, std::string fix) {
-  return {.where = key, .what = std::move(what), .expected = std::move(expected), .got = std::to_string(got), .fix = std::move(fix)};
+  return {.where = key,
+          .what = std::move(what),
+          .expected = std::move(expected),
+          .got = std::to_string(got),
+          .fix = std::move(fix)};
 }
 
 ErrorParts multiple_of_lanes(const char* key, int got, int lanes) {
@@ -62,7 +73,8 @@ std::optional<ErrorParts> first_violation(const Config& config) {
   }
   if (config.tile_width % config.lanes != 0) return multiple_of_lanes("tile.width", config.tile_width, config.lanes);
   if (config.tile_height % config.lanes != 0) return multiple_of_lanes("tile.height", config.tile_height, config.lanes);
-  if (config.rlut_columns % config.lanes != 0) return multiple_of_lanes("rlut.columns", config.rlut_columns, config.lanes);
+  if (config.rlut_columns % config.lanes != 0)
+    return multiple_of_lanes("rlut.columns", config.rlut_columns, config.lanes);
   if (config.phase_bits() > config.position_frac_bits) {
     return violation("snap.phases", "is finer than the position it snaps",
                      "at most 2^position.frac_bits = " + std::to_string(1 << config.position_frac_bits), config.phases,
@@ -84,12 +96,14 @@ std::optional<ErrorParts> first_violation(const Config& config) {
   }
   if (config.opacity_remainder_bits() < 0) {
     return violation("opacity.segments", "has more segments than a sheet has words",
-                     "at most 2^(sheet.int_bits + sheet.frac_bits) = 2^" + std::to_string(config.sheet_int_bits + config.sheet_frac_bits),
+                     "at most 2^(sheet.int_bits + sheet.frac_bits) = 2^" +
+                         std::to_string(config.sheet_int_bits + config.sheet_frac_bits),
                      config.opacity_segments, "lower opacity.segments");
   }
   if (config.freeze_below > (1 << config.composite_frac_bits)) {
     return violation("composite.freeze_below", "would freeze a pixel that nothing has reached",
-                     "at most 2^composite.frac_bits = " + std::to_string(1 << config.composite_frac_bits), config.freeze_below,
+                     "at most 2^composite.frac_bits = " + std::to_string(1 << config.composite_frac_bits),
+                     config.freeze_below,
                      "use a small number such as " + std::to_string((1 << config.composite_frac_bits) / 1024));
   }
   return std::nullopt;
@@ -107,7 +121,8 @@ std::uint64_t config_hash(const Config& config) {
 
 std::string hash_text(std::uint64_t hash) {
   std::string text(16, '0');
-  for (int digit = 15; digit >= 0; --digit, hash >>= 4) text[static_cast<std::size_t>(digit)] = "0123456789abcdef"[hash & 15];
+  for (int digit = 15; digit >= 0; --digit, hash >>= 4)
+    text[static_cast<std::size_t>(digit)] = "0123456789abcdef"[hash & 15];
   return text;
 }
 

@@ -16,34 +16,34 @@ struct Config {
   std::string description;  ///< not hashed
   std::string verified;     ///< not hashed: what has been checked of it ("model", "rtl")
 
-  int lanes = 0;                 ///< P
-  int tile_width = 0;            ///< W
-  int tile_height = 0;           ///< H
-  int position_int_bits = 0;     ///< pi
-  int position_frac_bits = 0;    ///< pf
-  int phases = 0;                ///< k
+  int lanes = 0;               ///< P
+  int tile_width = 0;          ///< W
+  int tile_height = 0;         ///< H
+  int position_int_bits = 0;   ///< pi
+  int position_frac_bits = 0;  ///< pf
+  int phases = 0;              ///< k
   int rlut_sets = 0;
   int rlut_columns = 0;
-  int rlut_guard_bits = 0;       ///< g
-  int radial_entries = 0;        ///< N
-  int radial_int_bits = 0;       ///< wi
-  int radial_frac_bits = 0;      ///< wf
-  int colour_frac_bits = 0;      ///< cf
-  int slice_phase_bits = 0;      ///< zf
-  int slice_frac_bits = 0;       ///< hf
-  int sheet_int_bits = 0;        ///< si
-  int sheet_frac_bits = 0;       ///< sf
-  int opacity_segments = 0;      ///< G
-  int opacity_frac_bits = 0;     ///< of
-  int composite_frac_bits = 0;   ///< tf
-  int freeze_below = 0;          ///< eps
-  int pixel_int_bits = 0;        ///< xi
-  int pixel_frac_bits = 0;       ///< xf
+  int rlut_guard_bits = 0;      ///< g
+  int radial_entries = 0;       ///< N
+  int radial_int_bits = 0;      ///< wi
+  int radial_frac_bits = 0;     ///< wf
+  int colour_frac_bits = 0;     ///< cf
+  int slice_phase_bits = 0;     ///< zf
+  int slice_frac_bits = 0;      ///< hf
+  int sheet_int_bits = 0;       ///< si
+  int sheet_frac_bits = 0;      ///< sf
+  int opacity_segments = 0;     ///< G
+  int opacity_frac_bits = 0;    ///< of
+  int composite_frac_bits = 0;  ///< tf
+  int freeze_below = 0;         ///< eps
+  int pixel_int_bits = 0;       ///< xi
+  int pixel_frac_bits = 0;      ///< xf
 
   bool operator==(const Config&) const = default;
 
   // Derived; exact for a configuration that passed first_violation().
-  int phase_bits() const { return log2_exact(phases); }           ///< kl
+  int phase_bits() const { return log2_exact(phases); }                 ///< kl
   int radial_index_bits() const { return log2_exact(radial_entries); }  ///< nl
   /// The rim: RLUT words saturate here, and sums at or above it lie outside the footprint.
   std::int64_t rlut_rim() const { return std::int64_t{1} << (radial_index_bits() + rlut_guard_bits); }

@@ -1,4 +1,5 @@
-// Unit "footprint": the P x P weights of one window (docs/numerics.md, section 4). One adder and one table read per lane.
+// Unit "footprint": the P x P weights of one window (docs/numerics.md, section 4). One adder and one table read per
+// lane.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +30,8 @@ class RadialTable {
 };
 
 /// weights[j*P+i] for the columns' and rows' RLUT words of one window.
-inline void footprint(const RadialTable& radial, std::span<const std::uint32_t> columns, std::span<const std::uint32_t> rows,
-                      std::span<std::uint32_t> weights) {
+inline void footprint(const RadialTable& radial, std::span<const std::uint32_t> columns,
+                      std::span<const std::uint32_t> rows, std::span<std::uint32_t> weights) {
   std::size_t lane = 0;
   for (const std::uint32_t row : rows) {
     for (const std::uint32_t column : columns) weights[lane++] = radial.weight(row + column);

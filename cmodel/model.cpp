@@ -44,9 +44,15 @@ void Model::take(const Record& record) {
 
 void Model::load(const LoadTable& table) {
   switch (table.table) {
-    case Table::Rlut: rlut_.load(table); break;
-    case Table::Radial: radial_.load(table.words); break;
-    case Table::Factor: compositor_.opacity().load(table.words); break;
+    case Table::Rlut:
+      rlut_.load(table);
+      break;
+    case Table::Radial:
+      radial_.load(table.words);
+      break;
+    case Table::Factor:
+      compositor_.opacity().load(table.words);
+      break;
   }
 }
 
@@ -63,7 +69,8 @@ void Model::splat(const SplatRecord& record) {
   ++counters_.splats;
   counters_.snap_saturated += (x.saturated ? 1 : 0) + (y.saturated ? 1 : 0);
   if (taps_ != nullptr) {
-    const std::array<std::uint32_t, 4> payload{static_cast<std::uint32_t>(x.origin), static_cast<std::uint32_t>(y.origin), x.phase, y.phase};
+    const std::array<std::uint32_t, 4> payload{static_cast<std::uint32_t>(x.origin),
+                                               static_cast<std::uint32_t>(y.origin), x.phase, y.phase};
     tap(Tap::Snap, record.tag, x.origin, y.origin, payload);
   }
   const std::uint32_t extent = rlut_.extent(record.set);
@@ -101,7 +108,8 @@ void Model::end_sheet() {
 
 void Model::end_tile() {
   ++counters_.tiles;
-  TilePixels out{.tile = tile_.tile, .x = tile_.x, .y = tile_.y, .width = tile_.width, .height = tile_.height, .words = {}};
+  TilePixels out{
+      .tile = tile_.tile, .x = tile_.x, .y = tile_.y, .width = tile_.width, .height = tile_.height, .words = {}};
   out.words.reserve(static_cast<std::size_t>(tile_.width) * tile_.height * 4);
   for (int y = 0; y < tile_.height; ++y) {
     for (int x = 0; x < tile_.width; ++x) {
@@ -113,8 +121,10 @@ void Model::end_tile() {
   pixels_.on_tile(std::move(out));
 }
 
-void Model::tap(Tap kind, std::uint32_t tag, std::int32_t x, std::int32_t y, std::span<const std::uint32_t> payload) const {
-  taps_->on_tap({.tap = kind, .tile = tile_.tile, .sheet = sheet_number_, .tag = tag, .x = x, .y = y, .payload = payload});
+void Model::tap(Tap kind, std::uint32_t tag, std::int32_t x, std::int32_t y,
+                std::span<const std::uint32_t> payload) const {
+  taps_->on_tap(
+      {.tap = kind, .tile = tile_.tile, .sheet = sheet_number_, .tag = tag, .x = x, .y = y, .payload = payload});
 }
 
 void Model::tap_sheet(const SplatRecord& record, std::int32_t x, std::int32_t y) {

@@ -132,16 +132,25 @@ Record from_beat(const Beat& beat) {
                        {word(beat, kTableSet), word(beat, kTableRho), word(beat, kTableBase)},
                        {}};
     case Opcode::BeginTile:
-      return BeginTile{static_cast<Mode>(get(beat, kTileMode)), word(beat, kTileNumber), offset(beat, kTileX),
-                       offset(beat, kTileY), count(beat, kTileWidth), count(beat, kTileHeight)};
-    case Opcode::BeginSheet: return BeginSheet{word(beat, kSheetNumber)};
-    case Opcode::Splat: return to_splat(beat);
+      return BeginTile{static_cast<Mode>(get(beat, kTileMode)),
+                       word(beat, kTileNumber),
+                       offset(beat, kTileX),
+                       offset(beat, kTileY),
+                       count(beat, kTileWidth),
+                       count(beat, kTileHeight)};
+    case Opcode::BeginSheet:
+      return BeginSheet{word(beat, kSheetNumber)};
+    case Opcode::Splat:
+      return to_splat(beat);
     case Opcode::CullBlock:
-      return CullBlock{word(beat, kCullTag),  offset(beat, kCullX),     offset(beat, kCullY),
+      return CullBlock{word(beat, kCullTag),    offset(beat, kCullX),     offset(beat, kCullY),
                        count(beat, kCullWidth), count(beat, kCullHeight), word(beat, kCullSplats)};
-    case Opcode::EndSheet: return EndSheet{word(beat, kEndSheetNumber), word(beat, kEndSheetSplats)};
-    case Opcode::EndTile: return EndTile{word(beat, kEndTileNumber), word(beat, kEndTileSheets)};
-    case Opcode::EndFrame: return EndFrame{wide(beat, kEndFrameBeatsLow, kEndFrameBeatsHigh), word(beat, kEndFrameCrc)};
+    case Opcode::EndSheet:
+      return EndSheet{word(beat, kEndSheetNumber), word(beat, kEndSheetSplats)};
+    case Opcode::EndTile:
+      return EndTile{word(beat, kEndTileNumber), word(beat, kEndTileSheets)};
+    case Opcode::EndFrame:
+      return EndFrame{wide(beat, kEndFrameBeatsLow, kEndFrameBeatsHigh), word(beat, kEndFrameCrc)};
   }
   assert(false && "opcode not checked");
   return EndFrame{};

@@ -38,7 +38,7 @@ struct BeginSheet {
 struct SplatRecord {
   std::uint32_t set = 0;
   std::uint32_t tag = 0;
-  std::int32_t x = 0, y = 0;                ///< S pi.pf, relative to the tile
+  std::int32_t x = 0, y = 0;              ///< S pi.pf, relative to the tile
   std::array<std::uint32_t, 4> colour{};  ///< R, G, B, tau; U 0.cf
 };
 struct CullBlock {
@@ -57,7 +57,8 @@ struct EndFrame {
   std::uint64_t beats = 0;
   std::uint32_t crc = 0;
 };
-using Record = std::variant<BeginFrame, LoadTable, BeginTile, BeginSheet, SplatRecord, CullBlock, EndSheet, EndTile, EndFrame>;
+using Record =
+    std::variant<BeginFrame, LoadTable, BeginTile, BeginSheet, SplatRecord, CullBlock, EndSheet, EndTile, EndFrame>;
 
 /// Appends the record's beats.
 void append(std::vector<Beat>& beats, const Record& record);

@@ -57,7 +57,8 @@ void SheetBuffer::accumulate(std::int32_t x, std::int32_t y, std::span<const std
 void SheetBuffer::clear_block(int bx, int by) {
   const int x0 = bx * lanes_, x1 = std::min(width_, x0 + lanes_);
   const int y1 = std::min(height_, (by + 1) * lanes_);
-  for (int y = by * lanes_; y < y1; ++y) std::fill(&words_[index(x0, y)], &words_[index(x0, y)] + (x1 - x0), SheetWord{});
+  for (int y = by * lanes_; y < y1; ++y)
+    std::fill(&words_[index(x0, y)], &words_[index(x0, y)] + (x1 - x0), SheetWord{});
 }
 
 }  // namespace fastsplat::cmodel

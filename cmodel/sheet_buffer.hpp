@@ -21,7 +21,8 @@ class SheetBuffer {
   /// A new tile of width x height pixels, all zero.
   void begin_tile(int width, int height);
 
-  /// Adds one window's products: first pixel (x,y), tile-relative, weights row by row. Pixels outside the tile are dropped.
+  /// Adds one window's products: first pixel (x,y), tile-relative, weights row by row. Pixels outside the tile are
+  /// dropped.
   void accumulate(std::int32_t x, std::int32_t y, std::span<const std::uint32_t> weights,
                   const std::array<std::uint32_t, 4>& colour, Counters& counters);
 

@@ -15,8 +15,8 @@ std::int64_t SlabOpacity::factor(std::uint32_t tau) const {
   const std::size_t segment = static_cast<std::size_t>(std::uint64_t{tau} >> remainder_bits_);
   const std::int64_t remainder = tau & ((std::int64_t{1} << remainder_bits_) - 1);
   const std::int64_t fall = std::int64_t{factor_[segment]} - factor_[segment + 1];
-  return factor_[segment] - narrow<Rounding::RND, Overflow::SAT>(fall * remainder, factor_format_.frac_bits + remainder_bits_,
-                                                                 factor_format_)
+  return factor_[segment] - narrow<Rounding::RND, Overflow::SAT>(
+                                fall * remainder, factor_format_.frac_bits + remainder_bits_, factor_format_)
                                 .word;
 }
 

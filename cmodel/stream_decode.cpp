@@ -5,7 +5,10 @@
 namespace fastsplat::cmodel {
 
 StreamDecode::StreamDecode(const Config& config, StreamScope scope)
-    : config_(config), scope_(scope), config_hash_(config_hash(config)), sets_loaded_(static_cast<std::size_t>(config.rlut_sets), false) {}
+    : config_(config),
+      scope_(scope),
+      config_hash_(config_hash(config)),
+      sets_loaded_(static_cast<std::size_t>(config.rlut_sets), false) {}
 
 std::uint32_t StreamDecode::padded_extent(const Config& config, std::uint32_t rho) {
   const auto k = static_cast<std::uint64_t>(config.phases);
@@ -46,7 +49,8 @@ void StreamDecode::check_order(Opcode opcode, const char* name) const {
       break;
     case State::Tables:
       wanted = "load_table, begin_tile or end_frame";
-      ok = opcode == Opcode::BeginTile || opcode == Opcode::EndFrame || (opcode == Opcode::LoadTable && tiles_seen_ == 0);
+      ok = opcode == Opcode::BeginTile || opcode == Opcode::EndFrame ||
+           (opcode == Opcode::LoadTable && tiles_seen_ == 0);
       break;
     case State::Tile:
       wanted = "begin_sheet or end_tile";
@@ -56,17 +60,23 @@ void StreamDecode::check_order(Opcode opcode, const char* name) const {
       wanted = "splat, cull_block or end_sheet";
       ok = opcode == Opcode::Splat || opcode == Opcode::CullBlock || opcode == Opcode::EndSheet;
       break;
-    case State::Ended: wanted = "nothing after end_frame"; break;
-    case State::Payload: break;
+    case State::Ended:
+      wanted = "nothing after end_frame";
+      break;
+    case State::Payload:
+      break;
   }
   if (!ok) refuse("record out of order", wanted, name);
 }
 
 void StreamDecode::check(const BeginFrame& record, const Beat& beat) {
-  expect(get(beat, layout::kFrameMagic) == kStreamMagic, "not a FastSplat stream: wrong magic", kStreamMagic, get(beat, layout::kFrameMagic));
-  expect(get(beat, layout::kFrameVersion) == kStreamVersion, "unknown stream version", kStreamVersion, get(beat, layout::kFrameVersion));
+  expect(get(beat, layout::kFrameMagic) == kStreamMagic, "not a FastSplat stream: wrong magic", kStreamMagic,
+         get(beat, layout::kFrameMagic));
+  expect(get(beat, layout::kFrameVersion) == kStreamVersion, "unknown stream version", kStreamVersion,
+         get(beat, layout::kFrameVersion));
   if (record.config_hash != config_hash_) {
-    refuse("stream was made for another configuration", hash_text(config_hash_) + " (" + config_.name + ")", hash_text(record.config_hash));
+    refuse("stream was made for another configuration", hash_text(config_hash_) + " (" + config_.name + ")",
+           hash_text(record.config_hash));
   }
   expect(record.width >= 1, "empty image width", 1, record.width);
   expect(record.height >= 1, "empty image height", 1, record.height);
@@ -83,22 +93,29 @@ void StreamDecode::check(const LoadTable& header, std::uint32_t words) {
   }
   switch (header.table) {
     case Table::Rlut: {
-      expect(header.radius.set < static_cast<std::uint32_t>(config_.rlut_sets), "radius set above the last", config_.rlut_sets - 1,
-             header.radius.set);
+      expect(header.radius.set < static_cast<std::uint32_t>(config_.rlut_sets), "radius set above the last",
+             config_.rlut_sets - 1, header.radius.set);
       expect(header.radius.rho >= 1, "radius of nothing", 1, header.radius.rho);
       const auto limit = static_cast<std::uint32_t>(config_.rlut_columns) * static_cast<std::uint32_t>(config_.phases);
       expect(header.radius.rho <= limit, "radius above what the RLUT holds", limit, header.radius.rho);
-      expect(header.radius.base % static_cast<std::uint32_t>(config_.lanes) == 0, "first RLUT column is no multiple of the lanes",
-             header.radius.base / static_cast<std::uint32_t>(config_.lanes) * static_cast<std::uint32_t>(config_.lanes), header.radius.base);
+      expect(header.radius.base % static_cast<std::uint32_t>(config_.lanes) == 0,
+             "first RLUT column is no multiple of the lanes",
+             header.radius.base / static_cast<std::uint32_t>(config_.lanes) * static_cast<std::uint32_t>(config_.lanes),
+             header.radius.base);
       const std::uint32_t columns = padded_extent(config_, header.radius.rho);
       const std::int64_t end = std::int64_t{header.radius.base} + columns;
       expect(end <= config_.rlut_columns, "RLUT columns past the end", config_.rlut_columns, end);
       expected_words = std::int64_t{columns} * config_.phases;
       break;
     }
-    case Table::Radial: expected_words = config_.radial_entries; break;
-    case Table::Factor: expected_words = std::int64_t{config_.opacity_segments} + 1; break;
-    default: refuse("unknown table", "0, 1 or 2", std::to_string(static_cast<int>(header.table)));
+    case Table::Radial:
+      expected_words = config_.radial_entries;
+      break;
+    case Table::Factor:
+      expected_words = std::int64_t{config_.opacity_segments} + 1;
+      break;
+    default:
+      refuse("unknown table", "0, 1 or 2", std::to_string(static_cast<int>(header.table)));
   }
   expect(words == expected_words, "wrong number of table words", expected_words, words);
   words_left_ = words;
@@ -109,9 +126,15 @@ const Record* StreamDecode::payload(const Beat& beat) {
   auto& table = std::get<LoadTable>(record_);
   std::int64_t limit = 0;
   switch (table.table) {
-    case Table::Rlut: limit = config_.rlut_rim(); break;
-    case Table::Radial: limit = config_.weight_format().max; break;
-    case Table::Factor: limit = config_.factor_format().max; break;
+    case Table::Rlut:
+      limit = config_.rlut_rim();
+      break;
+    case Table::Radial:
+      limit = config_.weight_format().max;
+      break;
+    case Table::Factor:
+      limit = config_.factor_format().max;
+      break;
   }
   for (const std::uint32_t word : beat) {
     if (words_left_ == 0) {
@@ -139,12 +162,14 @@ void StreamDecode::check(const BeginTile& record) {
   expect(record.mode <= Mode::Sum, "unknown mode", 2, static_cast<int>(record.mode));
   if (scope_ == StreamScope::Whole) expect(record.tile == tiles_seen_, "tiles out of order", tiles_seen_, record.tile);
   expect(record.tile < frame_.tiles, "more tiles than announced", frame_.tiles, std::int64_t{record.tile} + 1);
-  expect(record.width >= 1 && record.width <= config_.tile_width, "tile wider than the device's", config_.tile_width, record.width);
-  expect(record.height >= 1 && record.height <= config_.tile_height, "tile higher than the device's", config_.tile_height, record.height);
-  expect(record.x >= 0 && std::int64_t{record.x} + record.width <= frame_.width, "tile outside the image in x", frame_.width,
-         std::int64_t{record.x} + record.width);
-  expect(record.y >= 0 && std::int64_t{record.y} + record.height <= frame_.height, "tile outside the image in y", frame_.height,
-         std::int64_t{record.y} + record.height);
+  expect(record.width >= 1 && record.width <= config_.tile_width, "tile wider than the device's", config_.tile_width,
+         record.width);
+  expect(record.height >= 1 && record.height <= config_.tile_height, "tile higher than the device's",
+         config_.tile_height, record.height);
+  expect(record.x >= 0 && std::int64_t{record.x} + record.width <= frame_.width, "tile outside the image in x",
+         frame_.width, std::int64_t{record.x} + record.width);
+  expect(record.y >= 0 && std::int64_t{record.y} + record.height <= frame_.height, "tile outside the image in y",
+         frame_.height, std::int64_t{record.y} + record.height);
   tile_ = record.tile;
   ++tiles_seen_;
   sheets_seen_ = 0;
@@ -153,7 +178,8 @@ void StreamDecode::check(const BeginTile& record) {
 }
 
 void StreamDecode::check(const BeginSheet& record) {
-  if (sheets_seen_ > 0) expect(record.sheet > sheet_, "sheet numbers must rise", std::int64_t{sheet_} + 1, record.sheet);
+  if (sheets_seen_ > 0)
+    expect(record.sheet > sheet_, "sheet numbers must rise", std::int64_t{sheet_} + 1, record.sheet);
   sheet_ = record.sheet;
   ++sheets_seen_;
   splats_seen_ = 0;
@@ -163,10 +189,13 @@ void StreamDecode::check(const BeginSheet& record) {
 void StreamDecode::check(const SplatRecord& record) {
   const Format position = config_.position_format();
   expect(record.set < sets_loaded_.size() && sets_loaded_[record.set], "radius set not loaded", 0, record.set);
-  expect(record.x >= position.min && record.x <= position.max, "x does not fit the position format", position.max, record.x);
-  expect(record.y >= position.min && record.y <= position.max, "y does not fit the position format", position.max, record.y);
+  expect(record.x >= position.min && record.x <= position.max, "x does not fit the position format", position.max,
+         record.x);
+  expect(record.y >= position.min && record.y <= position.max, "y does not fit the position format", position.max,
+         record.y);
   for (const std::uint32_t colour : record.colour) {
-    expect(colour <= config_.colour_format().max, "colour does not fit its format", config_.colour_format().max, colour);
+    expect(colour <= config_.colour_format().max, "colour does not fit its format", config_.colour_format().max,
+           colour);
   }
   expect(record.tag == next_tag_, "tags out of order", next_tag_, record.tag);
   ++next_tag_;
@@ -193,7 +222,8 @@ void StreamDecode::check(const EndTile& record) {
 void StreamDecode::check(const EndFrame& record) {
   if (scope_ == StreamScope::Whole) {
     expect(tiles_seen_ == frame_.tiles, "tiles missing", frame_.tiles, tiles_seen_);
-    expect(record.beats == beats_, "beats lost", static_cast<std::int64_t>(record.beats), static_cast<std::int64_t>(beats_));
+    expect(record.beats == beats_, "beats lost", static_cast<std::int64_t>(record.beats),
+           static_cast<std::int64_t>(beats_));
   }
   state_ = State::Ended;
 }
@@ -211,7 +241,9 @@ const Record* StreamDecode::feed(const Beat& beat) {
   } else {
     const auto opcode = static_cast<std::uint32_t>(get(beat, layout::kOpcode));
     const RecordLayout* found = find_layout(opcode);
-    if (found == nullptr) refuse("unknown opcode", state_ == State::Start ? "a FastSplat stream (begin_frame, 70)" : "a known opcode", std::to_string(opcode));
+    if (found == nullptr)
+      refuse("unknown opcode", state_ == State::Start ? "a FastSplat stream (begin_frame, 70)" : "a known opcode",
+             std::to_string(opcode));
     check_order(found->opcode, found->name);
     check_reserved(beat, *found);
     record_ = from_beat(beat);
@@ -235,7 +267,8 @@ const Record* StreamDecode::feed(const Beat& beat) {
 }
 
 void StreamDecode::finish() const {
-  if (scope_ == StreamScope::Whole && state_ != State::Ended) refuse("stream ends too early", "end_frame", "end of data");
+  if (scope_ == StreamScope::Whole && state_ != State::Ended)
+    refuse("stream ends too early", "end_frame", "end of data");
   if (scope_ == StreamScope::Subset && state_ != State::Tables && state_ != State::Start && state_ != State::Ended) {
     refuse("stream ends inside a tile or table", "end_tile", "end of data");
   }

@@ -29,16 +29,17 @@ constexpr int kStreamVersion = 1;
 namespace layout {
 inline constexpr Field kOpcode{0, 0, 8};
 
-inline constexpr Field kFrameVersion{0, 16, 16}, kFrameMagic{1, 0, 32}, kFrameHashLow{2, 0, 32}, kFrameHashHigh{3, 0, 32},
-    kFrameWidth{4, 0, 16}, kFrameHeight{4, 16, 16}, kFrameTiles{5, 0, 32};
-inline constexpr Field kTableId{0, 8, 8}, kTableSet{1, 0, 32}, kTableRho{2, 0, 32}, kTableWords{3, 0, 32}, kTableBase{4, 0, 32};
-inline constexpr Field kTileMode{0, 8, 2}, kTileNumber{1, 0, 32}, kTileX{2, 0, 32, true}, kTileY{3, 0, 32, true}, kTileWidth{4, 0, 16},
-    kTileHeight{4, 16, 16};
+inline constexpr Field kFrameVersion{0, 16, 16}, kFrameMagic{1, 0, 32}, kFrameHashLow{2, 0, 32},
+    kFrameHashHigh{3, 0, 32}, kFrameWidth{4, 0, 16}, kFrameHeight{4, 16, 16}, kFrameTiles{5, 0, 32};
+inline constexpr Field kTableId{0, 8, 8}, kTableSet{1, 0, 32}, kTableRho{2, 0, 32}, kTableWords{3, 0, 32},
+    kTableBase{4, 0, 32};
+inline constexpr Field kTileMode{0, 8, 2}, kTileNumber{1, 0, 32}, kTileX{2, 0, 32, true}, kTileY{3, 0, 32, true},
+    kTileWidth{4, 0, 16}, kTileHeight{4, 16, 16};
 inline constexpr Field kSheetNumber{1, 0, 32};
-inline constexpr Field kSplatSet{0, 8, 8}, kSplatTag{1, 0, 32}, kSplatX{2, 0, 32, true}, kSplatY{3, 0, 32, true}, kSplatR{4, 0, 16},
-    kSplatG{4, 16, 16}, kSplatB{5, 0, 16}, kSplatTau{5, 16, 16};
-inline constexpr Field kCullTag{1, 0, 32}, kCullX{2, 0, 32, true}, kCullY{3, 0, 32, true}, kCullWidth{4, 0, 16}, kCullHeight{4, 16, 16},
-    kCullSplats{5, 0, 32};
+inline constexpr Field kSplatSet{0, 8, 8}, kSplatTag{1, 0, 32}, kSplatX{2, 0, 32, true}, kSplatY{3, 0, 32, true},
+    kSplatR{4, 0, 16}, kSplatG{4, 16, 16}, kSplatB{5, 0, 16}, kSplatTau{5, 16, 16};
+inline constexpr Field kCullTag{1, 0, 32}, kCullX{2, 0, 32, true}, kCullY{3, 0, 32, true}, kCullWidth{4, 0, 16},
+    kCullHeight{4, 16, 16}, kCullSplats{5, 0, 32};
 inline constexpr Field kEndSheetNumber{1, 0, 32}, kEndSheetSplats{2, 0, 32};
 inline constexpr Field kEndTileNumber{1, 0, 32}, kEndTileSheets{2, 0, 32};
 inline constexpr Field kEndFrameBeatsLow{1, 0, 32}, kEndFrameBeatsHigh{2, 0, 32}, kEndFrameCrc{3, 0, 32};

@@ -29,18 +29,23 @@ Plan make_plan(const scene::Scene& scene) {
   const auto slab_mode =
       description.slab_opacity == scene::SlabOpacity::Exponential ? cmodel::Mode::Exponential : cmodel::Mode::Additive;
   switch (description.method) {
-    case scene::Method::ImageAligned: return {slab_mode, DepthUse::Sliced, slabs.first, slabs.width, slabs.count};
-    case scene::Method::AxisAligned: return {slab_mode, DepthUse::GridSheet, 0.0, 1.0, scene::axis_sheet_count(scene)};
+    case scene::Method::ImageAligned:
+      return {slab_mode, DepthUse::Sliced, slabs.first, slabs.width, slabs.count};
+    case scene::Method::AxisAligned:
+      return {slab_mode, DepthUse::GridSheet, 0.0, 1.0, scene::axis_sheet_count(scene)};
     case scene::Method::XRay: {
       const int sheets = description.xray_sheets;
       const DepthUse use = sheets == 1 ? DepthUse::OneSheet : DepthUse::Sliced;
       return {cmodel::Mode::Sum, use, slabs.first, slabs.count * slabs.width / sheets, sheets};
     }
     case scene::Method::RayCast:
-    case scene::Method::Westover: break;
+    case scene::Method::Westover:
+      break;
   }
-  throw_usage({.where = "--method", .what = fmt::format("the device has no method '{}'", scene::to_string(description.method)),
-               .expected = "image_aligned, axis_aligned or xray", .got = scene::to_string(description.method),
+  throw_usage({.where = "--method",
+               .what = fmt::format("the device has no method '{}'", scene::to_string(description.method)),
+               .expected = "image_aligned, axis_aligned or xray",
+               .got = scene::to_string(description.method),
                .fix = "choose one of these, or --engine golden"});
 }
 
@@ -56,13 +61,15 @@ class Windows {
   Windows(const cmodel::Config& config, const RadiusSets& sets) : wide_(config) {
     wide_.position_int_bits = 30 - config.position_frac_bits;
     for (std::size_t set = 0; set < sets.size(); ++set) {
-      const auto table = rlut_table(config, static_cast<std::uint32_t>(set), sets.radius(static_cast<std::uint32_t>(set)), 0);
+      const auto table =
+          rlut_table(config, static_cast<std::uint32_t>(set), sets.radius(static_cast<std::uint32_t>(set)), 0);
       rho_.push_back(table.radius.rho);
     }
   }
   Extent operator()(const ProjectedSplat& splat) const {
     const std::uint32_t rho = rho_[splat.set];
-    const auto extent = static_cast<std::int32_t>((2 * rho + static_cast<std::uint32_t>(wide_.phases) - 1) / static_cast<std::uint32_t>(wide_.phases));
+    const auto extent = static_cast<std::int32_t>((2 * rho + static_cast<std::uint32_t>(wide_.phases) - 1) /
+                                                  static_cast<std::uint32_t>(wide_.phases));
     const std::int32_t x0 = cmodel::snap(wide_, splat.x, rho).origin, y0 = cmodel::snap(wide_, splat.y, rho).origin;
     return {x0, x0 + extent, y0, y0 + extent};
   }
@@ -112,12 +119,15 @@ struct CompiledFrame::State {
         grid(device, scene.description.width, scene.description.height),
         bins(make_bins()) {
     if (plan.use == DepthUse::Sliced) {
-      for (const auto& splat : projected.splats) reach = std::max(reach, slices.last(splat.depth) - slices.first(splat.depth));
+      for (const auto& splat : projected.splats)
+        reach = std::max(reach, slices.last(splat.depth) - slices.first(splat.depth));
     }
     make_preamble(scene);
   }
 
-  int first_sheet(const ProjectedSplat& splat) const { return plan.use == DepthUse::Sliced ? slices.first(splat.depth) : splat.depth; }
+  int first_sheet(const ProjectedSplat& splat) const {
+    return plan.use == DepthUse::Sliced ? slices.first(splat.depth) : splat.depth;
+  }
 
   TileBins make_bins() const {
     const Windows windows(config, projected.sets);
@@ -139,16 +149,19 @@ struct CompiledFrame::State {
 
   /// Records of one sheet of one tile; begin_sheet only when there is something to say.
   std::uint32_t emit_sheet(int tile, int sheet, std::uint32_t& tag, BlockSink& out, TileReport& report) const {
-    const std::int32_t x0 = grid.x(tile) * (1 << config.position_frac_bits), y0 = grid.y(tile) * (1 << config.position_frac_bits);
+    const std::int32_t x0 = grid.x(tile) * (1 << config.position_frac_bits),
+                       y0 = grid.y(tile) * (1 << config.position_frac_bits);
     std::uint32_t records = 0;
     for (int from = std::max(0, sheet - reach); from <= sheet; ++from) {
       for (const std::uint32_t number : bins.bin(tile, from)) {
         const ProjectedSplat& splat = projected.splats[number];
-        const Share share = plan.use == DepthUse::Sliced ? slices.share(splat.words, splat.depth, sheet) : slices.whole(splat.words);
+        const Share share =
+            plan.use == DepthUse::Sliced ? slices.share(splat.words, splat.depth, sheet) : slices.whole(splat.words);
         if (share.empty()) continue;
         if (records == 0) out.put(cmodel::BeginSheet{static_cast<std::uint32_t>(sheet)});
         report.saturated_records += share.saturated ? 1 : 0;
-        out.put(cmodel::SplatRecord{.set = splat.set, .tag = tag++, .x = splat.x - x0, .y = splat.y - y0, .colour = share.words});
+        out.put(cmodel::SplatRecord{
+            .set = splat.set, .tag = tag++, .x = splat.x - x0, .y = splat.y - y0, .colour = share.words});
         ++records;
       }
     }
@@ -167,8 +180,8 @@ std::span<const cmodel::Beat> CompiledFrame::preamble() const { return state_->p
 TileReport CompiledFrame::emit_tile(int tile, const BeatSink& sink) const {
   const State& s = *state_;
   BlockSink out(sink);
-  out.put(cmodel::BeginTile{s.plan.mode, static_cast<std::uint32_t>(tile), s.grid.x(tile), s.grid.y(tile), s.grid.width(tile),
-                            s.grid.height(tile)});
+  out.put(cmodel::BeginTile{s.plan.mode, static_cast<std::uint32_t>(tile), s.grid.x(tile), s.grid.y(tile),
+                            s.grid.width(tile), s.grid.height(tile)});
   TileReport report;
   std::uint32_t tag = 0;
   for (int sheet = 0; sheet < s.plan.sheets; ++sheet) {

@@ -1,5 +1,5 @@
-// A scene compiled for a device: everything but the records themselves, which are made tile by tile on demand, so that a
-// long stream is never in memory.
+// A scene compiled for a device: everything but the records themselves, which are made tile by tile on demand, so that
+// a long stream is never in memory.
 #pragma once
 
 #include <cstdint>

@@ -1,12 +1,12 @@
 #include "driver/config_file.hpp"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <toml++/toml.h>
 
 #include "base/suggest.hpp"
 #include "driver/builtin_configs.hpp"
@@ -26,18 +26,28 @@ std::vector<std::string> key_names() {
 
 std::string text_value(const std::string& file, const toml::node& node, const std::string& key) {
   if (const auto value = node.value_exact<std::string>()) return *value;
-  throw_input({.where = place(file, node.source()), .what = key + " is not text", .expected = "a string", .got = {}, .fix = "write " + key + " = \"...\""});
+  throw_input({.where = place(file, node.source()),
+               .what = key + " is not text",
+               .expected = "a string",
+               .got = {},
+               .fix = "write " + key + " = \"...\""});
 }
 
 int number_value(const std::string& file, const toml::node& node, const cmodel::ConfigKey& key) {
   const auto value = node.value_exact<std::int64_t>();
   if (!value) {
-    throw_input({.where = place(file, node.source()), .what = fmt::format("{} is not a whole number", key.name), .expected = fmt::format("{}..{}", key.min, key.max),
-                 .got = {}, .fix = fmt::format("{} is {}", key.name, key.meaning)});
+    throw_input({.where = place(file, node.source()),
+                 .what = fmt::format("{} is not a whole number", key.name),
+                 .expected = fmt::format("{}..{}", key.min, key.max),
+                 .got = {},
+                 .fix = fmt::format("{} is {}", key.name, key.meaning)});
   }
   if (*value < key.min || *value > key.max) {
-    throw_input({.where = place(file, node.source()), .what = fmt::format("{} out of range", key.name), .expected = fmt::format("{}..{}", key.min, key.max),
-                 .got = std::to_string(*value), .fix = fmt::format("{} is {}", key.name, key.meaning)});
+    throw_input({.where = place(file, node.source()),
+                 .what = fmt::format("{} out of range", key.name),
+                 .expected = fmt::format("{}..{}", key.min, key.max),
+                 .got = std::to_string(*value),
+                 .fix = fmt::format("{} is {}", key.name, key.meaning)});
   }
   return static_cast<int>(*value);
 }
@@ -53,7 +63,11 @@ void take(const std::string& file, const toml::node& node, const std::string& na
     const auto keys = cmodel::config_keys();
     const auto found = std::find_if(keys.begin(), keys.end(), [&](const auto& key) { return name == key.name; });
     if (found == keys.end()) {
-      throw_input({.where = place(file, node.source()), .what = fmt::format("unknown key '{}'", name), .expected = {}, .got = {}, .fix = suggestion(name, key_names())});
+      throw_input({.where = place(file, node.source()),
+                   .what = fmt::format("unknown key '{}'", name),
+                   .expected = {},
+                   .got = {},
+                   .fix = suggestion(name, key_names())});
     }
     config.*(found->member) = number_value(file, node, *found);
   }
@@ -64,7 +78,10 @@ cmodel::Config parse(const std::string& file, const std::string& text) {
   try {
     root = toml::parse(text, file);
   } catch (const toml::parse_error& error) {
-    throw_input({.where = place(file, error.source()), .what = fmt::format("not valid TOML: {}", error.description()), .expected = {}, .got = {},
+    throw_input({.where = place(file, error.source()),
+                 .what = fmt::format("not valid TOML: {}", error.description()),
+                 .expected = {},
+                 .got = {},
                  .fix = "compare with the output of 'fastsplat config show base'"});
   }
   cmodel::Config config;
@@ -83,7 +100,10 @@ cmodel::Config parse(const std::string& file, const std::string& text) {
   }
   for (const auto& name : key_names()) {
     if (std::find(seen.begin(), seen.end(), name) == seen.end()) {
-      throw_input({.where = file, .what = fmt::format("key '{}' is missing", name), .expected = "every key", .got = {},
+      throw_input({.where = file,
+                   .what = fmt::format("key '{}' is missing", name),
+                   .expected = "every key",
+                   .got = {},
                    .fix = "add it; 'fastsplat config show base' prints them all"});
     }
   }
@@ -110,15 +130,27 @@ cmodel::Config load_config(const std::string& name_or_path) {
   const auto names = config_names();
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
-    throw_input({.where = name_or_path, .what = "is a directory", .expected = "a configuration file or name", .got = {}, .fix = suggestion(name_or_path, names)});
+    throw_input({.where = name_or_path,
+                 .what = "is a directory",
+                 .expected = "a configuration file or name",
+                 .got = {},
+                 .fix = suggestion(name_or_path, names)});
   }
   std::ifstream in(path, std::ios::binary);
   if (!in) {
-    throw_input({.where = name_or_path, .what = "no such configuration", .expected = "a built-in name or a .toml file", .got = {}, .fix = suggestion(name_or_path, names)});
+    throw_input({.where = name_or_path,
+                 .what = "no such configuration",
+                 .expected = "a built-in name or a .toml file",
+                 .got = {},
+                 .fix = suggestion(name_or_path, names)});
   }
   constexpr std::uintmax_t kLargest = 1 << 20;
   if (std::filesystem::file_size(path, ignored) > kLargest) {
-    throw_input({.where = name_or_path, .what = "too large for a configuration", .expected = "at most 1 MiB", .got = {}, .fix = "name a configuration file"});
+    throw_input({.where = name_or_path,
+                 .what = "too large for a configuration",
+                 .expected = "at most 1 MiB",
+                 .got = {},
+                 .fix = "name a configuration file"});
   }
   std::ostringstream text;
   text << in.rdbuf();

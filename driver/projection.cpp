@@ -21,8 +21,9 @@ RadiusRange radius_range(const scene::Scene& scene) {
   const double support = scene.kernel.radius() * volume.kernel_unit();
   RadiusRange range;
   for (int corner = 0; corner < 8; ++corner) {
-    const auto at = volume.position((corner & 1) != 0 ? volume.dims.x - 1 : 0, (corner & 2) != 0 ? volume.dims.y - 1 : 0,
-                                    (corner & 4) != 0 ? volume.dims.z - 1 : 0);
+    const auto at =
+        volume.position((corner & 1) != 0 ? volume.dims.x - 1 : 0, (corner & 2) != 0 ? volume.dims.y - 1 : 0,
+                        (corner & 4) != 0 ? volume.dims.z - 1 : 0);
     const double radius = support * scene.camera.project(at).scale;
     range.smallest = std::min(range.smallest, radius);
     range.largest = std::max(range.largest, radius);
@@ -49,7 +50,8 @@ Quantised quantise(const scene::Splat& splat, double amplitude, int frac_bits) {
 
 }  // namespace
 
-Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices, DepthUse use, double first_depth) {
+Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices, DepthUse use,
+                  double first_depth) {
   const double unit = scene.volume->kernel_unit();
   const double support = scene.kernel.radius() * unit;
   const double exposure = scene.description.method == scene::Method::XRay ? scene.xray_scale : 1.0;

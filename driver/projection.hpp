@@ -14,10 +14,10 @@ namespace fastsplat::driver {
 
 /// 32 bytes a voxel: what a frame keeps in memory.
 struct ProjectedSplat {
-  std::int32_t x = 0, y = 0;    ///< image pixels, pf fraction bits
-  std::int32_t depth = 0;       ///< Slices::quantise_depth, or the sheet number where splats are not sliced
-  std::uint32_t set = 0;        ///< radius set
-  SplatWords words{};           ///< whole splat, U 4.cf
+  std::int32_t x = 0, y = 0;  ///< image pixels, pf fraction bits
+  std::int32_t depth = 0;     ///< Slices::quantise_depth, or the sheet number where splats are not sliced
+  std::uint32_t set = 0;      ///< radius set
+  SplatWords words{};         ///< whole splat, U 4.cf
 };
 
 struct Projected {
@@ -28,10 +28,12 @@ struct Projected {
   std::uint64_t vanished = 0;   ///< voxels whose words all rounded to 0
 };
 
-/// Where a splat's depth goes: into slabs (image-aligned, sliced X-ray), a grid sheet (axis-aligned), or nowhere (X-ray).
+/// Where a splat's depth goes: into slabs (image-aligned, sliced X-ray), a grid sheet (axis-aligned), or nowhere
+/// (X-ray).
 enum class DepthUse { Sliced, GridSheet, OneSheet };
 
 /// `first_depth`: depth of the nearest slab boundary in kernel units (Sliced).
-Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices, DepthUse use, double first_depth);
+Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices, DepthUse use,
+                  double first_depth);
 
 }  // namespace fastsplat::driver

@@ -13,16 +13,19 @@ namespace fastsplat::driver {
 RadiusSets::RadiusSets(const cmodel::Config& config, double smallest, double largest) : smallest_(smallest) {
   const double widest = config.rlut_columns / 2.0;
   if (!(largest <= widest)) {
-    throw_usage({.where = "configuration " + config.name,
-                 .what = "the kernel's footprint is wider than the RLUT",
-                 .expected = fmt::format("a radius of at most {} pixels (rlut.columns = {})", widest, config.rlut_columns),
-                 .got = fmt::format("{:.2f} pixels", largest),
-                 .fix = "use a smaller --size or --zoom, or a configuration with more rlut.columns"});
+    throw_usage(
+        {.where = "configuration " + config.name,
+         .what = "the kernel's footprint is wider than the RLUT",
+         .expected = fmt::format("a radius of at most {} pixels (rlut.columns = {})", widest, config.rlut_columns),
+         .got = fmt::format("{:.2f} pixels", largest),
+         .fix = "use a smaller --size or --zoom, or a configuration with more rlut.columns"});
   }
-  columns_ = cmodel::StreamDecode::padded_extent(config, static_cast<std::uint32_t>(std::ceil(largest * config.phases)));
+  columns_ =
+      cmodel::StreamDecode::padded_extent(config, static_cast<std::uint32_t>(std::ceil(largest * config.phases)));
   const auto room = static_cast<std::uint32_t>(config.rlut_columns) / columns_;
   const bool one_radius = largest <= smallest * (1.0 + 1e-9);
-  const std::uint32_t count = one_radius ? 1 : std::min<std::uint32_t>(room, static_cast<std::uint32_t>(config.rlut_sets));
+  const std::uint32_t count =
+      one_radius ? 1 : std::min<std::uint32_t>(room, static_cast<std::uint32_t>(config.rlut_sets));
   if (one_radius) {
     radii_ = {largest};
     return;

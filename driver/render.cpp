@@ -33,7 +33,8 @@ DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, con
             // Tiles are independent: each has a device of its own, as several chips would.
             cmodel::Model device(config, cmodel::StreamScope::Subset, frame);
             device.consume(compiled.preamble());
-            reports[tile] = compiled.emit_tile(static_cast<int>(tile), [&](std::span<const cmodel::Beat> beats) { device.consume(beats); });
+            reports[tile] = compiled.emit_tile(static_cast<int>(tile),
+                                               [&](std::span<const cmodel::Beat> beats) { device.consume(beats); });
             device.finish();
             counters[tile] = device.counters();
             if (options.progress) options.progress(done.fetch_add(1) + 1, tiles);

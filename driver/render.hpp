@@ -21,8 +21,8 @@ struct RenderOptions {
 
 /// What the driver had to bend to fit the formats; the last three are 0 in a healthy frame.
 struct DriverReport {
-  std::uint64_t voxels = 0;             ///< non-empty voxels
-  std::uint64_t splat_records = 0;      ///< splat records over all tiles and sheets
+  std::uint64_t voxels = 0;         ///< non-empty voxels
+  std::uint64_t splat_records = 0;  ///< splat records over all tiles and sheets
   std::uint64_t tiles = 0;
   std::uint64_t sheets = 0;             ///< non-empty sheets over all tiles
   std::uint64_t saturated_voxels = 0;   ///< voxels whose whole splat left U 4.cf

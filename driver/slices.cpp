@@ -22,8 +22,8 @@ Slices::Slices(const cmodel::Config& config, const scene::Kernel& kernel, double
     if (s > 0 && boundary_[static_cast<std::size_t>(s)] == boundary_[static_cast<std::size_t>(s) - 1]) {
       throw_usage({.where = "configuration " + config.name,
                    .what = "slabs are thinner than the depth steps of the slice table",
-                   .expected = fmt::format("at least {} kernel units (slices.phase_bits = {})", std::ldexp(1.0, -config.slice_phase_bits),
-                                           config.slice_phase_bits),
+                   .expected = fmt::format("at least {} kernel units (slices.phase_bits = {})",
+                                           std::ldexp(1.0, -config.slice_phase_bits), config.slice_phase_bits),
                    .got = fmt::format("{}", width),
                    .fix = "use a larger --slab-width or fewer --xray-sheets"});
     }
@@ -50,7 +50,8 @@ std::uint32_t Slices::cumulative(std::int32_t depth, int boundary) const {
   const auto steps = static_cast<std::int32_t>(phi_.size()) - 1;
   if (boundary == 0) return phi_.front();
   if (boundary == count()) return phi_.back();
-  return phi_[static_cast<std::size_t>(std::clamp(boundary_[static_cast<std::size_t>(boundary)] - depth + steps / 2, 0, steps))];
+  return phi_[static_cast<std::size_t>(
+      std::clamp(boundary_[static_cast<std::size_t>(boundary)] - depth + steps / 2, 0, steps))];
 }
 
 Share Slices::share(const SplatWords& whole, std::int32_t depth, int s) const {
@@ -59,8 +60,9 @@ Share Slices::share(const SplatWords& whole, std::int32_t depth, int s) const {
   const cmodel::Format whole_format = cmodel::unsigned_format(4, config_.colour_frac_bits);
   SplatWords difference{};
   for (std::size_t c = 0; c < 4; ++c) {
-    difference[c] = static_cast<std::uint32_t>(narrow<Rounding::RND, Overflow::SAT>(whole[c] * far, frac_bits, whole_format).word -
-                                               narrow<Rounding::RND, Overflow::SAT>(whole[c] * near, frac_bits, whole_format).word);
+    difference[c] =
+        static_cast<std::uint32_t>(narrow<Rounding::RND, Overflow::SAT>(whole[c] * far, frac_bits, whole_format).word -
+                                   narrow<Rounding::RND, Overflow::SAT>(whole[c] * near, frac_bits, whole_format).word);
   }
   return this->whole(difference);
 }
@@ -68,7 +70,8 @@ Share Slices::share(const SplatWords& whole, std::int32_t depth, int s) const {
 Share Slices::whole(const SplatWords& whole) const {
   Share out;
   for (std::size_t c = 0; c < 4; ++c) {
-    const auto fitted = narrow<Rounding::TRN, Overflow::SAT>(whole[c], config_.colour_frac_bits, config_.colour_format());
+    const auto fitted =
+        narrow<Rounding::TRN, Overflow::SAT>(whole[c], config_.colour_frac_bits, config_.colour_format());
     out.words[c] = static_cast<std::uint32_t>(fitted.word);
     out.saturated = out.saturated || fitted.overflow;
   }

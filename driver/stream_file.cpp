@@ -21,19 +21,25 @@ namespace {
 using cmodel::Beat;
 using cmodel::kBeatBytes;
 
-static_assert(std::endian::native == std::endian::little, "beats are written as they lie in memory; swap them on a big-endian host");
+static_assert(std::endian::native == std::endian::little,
+              "beats are written as they lie in memory; swap them on a big-endian host");
 static_assert(sizeof(Beat) == kBeatBytes);
 
-constexpr std::int64_t kLargestImage = std::int64_t{1} << 26;  ///< pixels; a header alone must not cost more memory than this
+constexpr std::int64_t kLargestImage = std::int64_t{1}
+                                       << 26;  ///< pixels; a header alone must not cost more memory than this
 
 [[noreturn]] void cannot_write(const std::filesystem::path& path) {
-  throw_input({.where = path.string(), .what = fmt::format("cannot write: {}", std::strerror(errno)), .expected = {}, .got = {},
+  throw_input({.where = path.string(),
+               .what = fmt::format("cannot write: {}", std::strerror(errno)),
+               .expected = {},
+               .got = {},
                .fix = "choose a writable folder with enough free space"});
 }
 
 class Writer {
  public:
-  explicit Writer(const std::filesystem::path& path) : path_(path), file_(path), out_(file_.temporary(), std::ios::binary) {
+  explicit Writer(const std::filesystem::path& path)
+      : path_(path), file_(path), out_(file_.temporary(), std::ios::binary) {
     if (!out_) cannot_write(path_);
   }
   void write(std::span<const Beat> beats) {
@@ -66,12 +72,15 @@ class Reader {
     std::error_code error;
     if (std::filesystem::is_directory(path, error)) refuse("is a directory", "a stream file", {}, "name a .fss file");
     in_.open(path, std::ios::binary);
-    if (!in_) refuse(fmt::format("cannot read: {}", std::strerror(errno)), {}, {}, "check the name; 'fastsplat stream record' makes one");
+    if (!in_)
+      refuse(fmt::format("cannot read: {}", std::strerror(errno)), {}, {},
+             "check the name; 'fastsplat stream record' makes one");
     bytes_ = std::filesystem::file_size(path, error);
     if (error) refuse("is not a regular file", "a stream file", {}, "name a .fss file");
     if (bytes_ == 0) refuse("is empty", "a stream of whole beats", "0 bytes", "record it again");
     if (bytes_ % kBeatBytes != 0) {
-      refuse("truncated", fmt::format("a multiple of {} bytes", kBeatBytes), fmt::format("{} bytes", bytes_), "record it again");
+      refuse("truncated", fmt::format("a multiple of {} bytes", kBeatBytes), fmt::format("{} bytes", bytes_),
+             "record it again");
     }
   }
 
@@ -93,7 +102,11 @@ class Reader {
   std::uintmax_t bytes() const { return bytes_; }
 
   [[noreturn]] void refuse(std::string what, std::string expected, std::string got, std::string fix) const {
-    throw_input({.where = path_.string(), .what = std::move(what), .expected = std::move(expected), .got = std::move(got), .fix = std::move(fix)});
+    throw_input({.where = path_.string(),
+                 .what = std::move(what),
+                 .expected = std::move(expected),
+                 .got = std::move(got),
+                 .fix = std::move(fix)});
   }
 
  private:
@@ -125,7 +138,8 @@ DriverReport record_stream(const scene::Scene& scene, const cmodel::Config& conf
   return report;
 }
 
-DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Config& config, const RenderOptions& options) {
+DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Config& config,
+                           const RenderOptions& options) {
   Reader reader(path);
   // The frame is made when the header is known to be sound; the model hands it tiles only after that.
   class LateFrame final : public cmodel::PixelSink {
@@ -149,8 +163,8 @@ DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Conf
         const auto header = std::get<cmodel::BeginFrame>(cmodel::from_beat(beat));
         image_pixels = std::int64_t{header.width} * header.height;
         if (image_pixels > kLargestImage) {
-          reader.refuse("image too large to replay", fmt::format("at most {} pixels", kLargestImage), fmt::format("{} pixels", image_pixels),
-                        "record it at a smaller --size");
+          reader.refuse("image too large to replay", fmt::format("at most {} pixels", kLargestImage),
+                        fmt::format("{} pixels", image_pixels), "record it at a smaller --size");
         }
         late.frame.emplace(config, header.width, header.height);
       }
@@ -162,7 +176,8 @@ DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Conf
       } else if (is(beat, cmodel::Opcode::EndFrame)) {
         const auto end = std::get<cmodel::EndFrame>(cmodel::from_beat(beat));
         if (end.crc != crc) {
-          reader.refuse(fmt::format("corrupt: checksum of the {} beats before byte offset {} is wrong", beats, beats * kBeatBytes),
+          reader.refuse(fmt::format("corrupt: checksum of the {} beats before byte offset {} is wrong", beats,
+                                    beats * kBeatBytes),
                         fmt::format("{:08x}", end.crc), fmt::format("{:08x}", crc), "record it again");
         }
       }
@@ -178,8 +193,8 @@ DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Conf
     throw UserError(error.code(), parts);
   }
   if (late.pixels != image_pixels) {
-    reader.refuse("tiles do not cover the image once", fmt::format("{} pixels", image_pixels), fmt::format("{} pixels", late.pixels),
-                  "record it again");
+    reader.refuse("tiles do not cover the image once", fmt::format("{} pixels", image_pixels),
+                  fmt::format("{} pixels", late.pixels), "record it again");
   }
   DeviceRender out;
   out.frame = late.frame->take();
@@ -201,15 +216,16 @@ void dump_stream(const std::filesystem::path& path, const std::function<bool(con
     } else {
       const auto* layout = cmodel::find_layout(static_cast<std::uint32_t>(opcode(beat)));
       if (layout == nullptr) {
-        reader.refuse(fmt::format("beat {} (byte offset {}): unknown opcode", number, number * kBeatBytes), "a known opcode",
-                      fmt::format("0x{:02x}", opcode(beat)), "record it again");
+        reader.refuse(fmt::format("beat {} (byte offset {}): unknown opcode", number, number * kBeatBytes),
+                      "a known opcode", fmt::format("0x{:02x}", opcode(beat)), "record it again");
       }
       if (number == 0 && layout->opcode != cmodel::Opcode::BeginFrame) {
         reader.refuse("not a FastSplat stream", "begin_frame first", layout->name, "name a .fss file");
       }
       text = fmt::format("{:>8} {}", number, layout->name);
       for (const auto& [name, field] : layout->fields) text += fmt::format(" {}={}", name, get(beat, field));
-      if (layout->opcode == cmodel::Opcode::LoadTable) payload_left = (std::uint64_t{cmodel::announced_words(beat)} + 5) / 6;
+      if (layout->opcode == cmodel::Opcode::LoadTable)
+        payload_left = (std::uint64_t{cmodel::announced_words(beat)} + 5) / 6;
     }
     ++number;
     return line(text);

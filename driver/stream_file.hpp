@@ -15,7 +15,8 @@ DriverReport record_stream(const scene::Scene& scene, const cmodel::Config& conf
 
 /// Feeds a recorded stream to the cmodel. A corrupt, truncated or foreign stream is a UserError (Input) with the byte
 /// offset and the reason; a configuration that differs from the stream's is refused by hash and name.
-DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Config& config, const RenderOptions& options = {});
+DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Config& config,
+                           const RenderOptions& options = {});
 
 /// One line of text per record, to `line`; stops when it returns false.
 void dump_stream(const std::filesystem::path& path, const std::function<bool(const std::string&)>& line);

@@ -12,7 +12,8 @@ cmodel::LoadTable rlut_table(const cmodel::Config& config, std::uint32_t set, do
   const int k = config.phases;
   const double rim_distance = radius * k;  // 1/k pixel
   const auto rho = static_cast<std::uint32_t>(std::ceil(rim_distance));
-  const auto extent = static_cast<int>((2ULL * rho + static_cast<std::uint64_t>(k) - 1) / static_cast<std::uint64_t>(k));
+  const auto extent =
+      static_cast<int>((2ULL * rho + static_cast<std::uint64_t>(k) - 1) / static_cast<std::uint64_t>(k));
   const auto padded = static_cast<int>(cmodel::StreamDecode::padded_extent(config, rho));
   const auto rim = static_cast<double>(config.rlut_rim());
 
@@ -43,7 +44,8 @@ std::vector<std::uint32_t> quantise_preserving_sum(const std::vector<double>& va
   }
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return remainder[a] > remainder[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return remainder[a] > remainder[b]; });
   const auto raise = static_cast<std::size_t>(static_cast<std::int64_t>(std::floor(sum + 0.5)) - floor_sum);
   for (std::size_t i = 0; i < raise && i < order.size(); ++i) ++words[order[i]];
   return words;
@@ -55,7 +57,8 @@ cmodel::LoadTable radial_table(const cmodel::Config& config, const scene::Kernel
     const double u = (static_cast<double>(t) + 0.5) / static_cast<double>(samples.size());
     samples[t] = std::exp(-kernel.a() * kernel.radius() * kernel.radius() * u);
   }
-  cmodel::LoadTable table{.table = cmodel::Table::Radial, .radius = {}, .words = quantise_preserving_sum(samples, config.radial_frac_bits)};
+  cmodel::LoadTable table{
+      .table = cmodel::Table::Radial, .radius = {}, .words = quantise_preserving_sum(samples, config.radial_frac_bits)};
   const auto largest = static_cast<std::uint32_t>(config.weight_format().max);
   for (auto& word : table.words) word = std::min(word, largest);
   return table;
@@ -78,7 +81,8 @@ std::vector<std::uint32_t> slice_table(const cmodel::Config& config, const scene
   words.reserve(static_cast<std::size_t>(steps) + 1);
   for (int i = 0; i <= steps; ++i) {
     const double z = std::ldexp(static_cast<double>(i - steps / 2), -config.slice_phase_bits);
-    words.push_back(static_cast<std::uint32_t>(std::floor(std::ldexp(kernel.cumulative(z), config.slice_frac_bits) + 0.5)));
+    words.push_back(
+        static_cast<std::uint32_t>(std::floor(std::ldexp(kernel.cumulative(z), config.slice_frac_bits) + 0.5)));
   }
   words.front() = 0;
   words.back() = std::uint32_t{1} << config.slice_frac_bits;

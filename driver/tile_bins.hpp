@@ -40,7 +40,8 @@ class TileBins {
     for (std::size_t bin = 1; bin < start_.size(); ++bin) start_[bin] += start_[bin - 1];
     order_.resize(start_.back());
     std::vector<std::uint64_t> next(start_.begin(), start_.end() - 1);
-    visit(grid, splats, extent, first_sheet, [&](std::size_t bin, std::uint32_t splat) { order_[next[bin]++] = splat; });
+    visit(grid, splats, extent, first_sheet,
+          [&](std::size_t bin, std::uint32_t splat) { order_[next[bin]++] = splat; });
   }
 
   std::span<const std::uint32_t> bin(int tile, int sheet) const {

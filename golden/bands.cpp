@@ -1,12 +1,15 @@
 #include "golden/bands.hpp"
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 
 namespace fastsplat::golden {
 
@@ -26,6 +29,11 @@ void for_each_band(int image_height, int threads, const Progress& progress, cons
       if (progress) progress(finished, static_cast<std::size_t>(bands));
     }
   };
+  // TBB hands out no more workers than cores unless told otherwise (and complains on stderr).
+  std::optional<tbb::global_control> allow;
+  if (threads > tbb::info::default_concurrency()) {
+    allow.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  }
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   arena.execute([&] { tbb::parallel_for(tbb::blocked_range<int>(0, bands, 1), run, tbb::simple_partitioner()); });
 }

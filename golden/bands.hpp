@@ -14,13 +14,14 @@
 
 namespace fastsplat::golden {
 
-/// Small enough that a ring of sheets of one band stays in cache and that 2 rows of a splat are rarely done twice.
+/// Few enough that a band's ring of sheets stays in cache, and enough that most splats lie in one band.
 inline constexpr int kBandRows = 16;
 
 int band_count(int image_height);
 Rows band_rows(int band, int image_height);
 
-/// Runs work(band) for every band on `threads` threads (0: all cores), in any order.
+/// Runs work(band) for every band on `threads` threads (0: all cores), in any order. More threads than cores are
+/// honoured.
 void for_each_band(int image_height, int threads, const Progress& progress, const std::function<void(int band)>& work);
 
 /// For every band the indices of the splats that reach into it, sorted by key; equal keys stay in the order given.

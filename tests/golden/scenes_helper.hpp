@@ -1,0 +1,56 @@
+// Small scenes with known contents, and measures on images, for the tests of the golden renderers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "golden/render.hpp"
+#include "scene/scene.hpp"
+#include "scene/splats.hpp"
+
+namespace fastsplat::golden::testing {
+
+/// What a test scene is made of: a lattice whose voxels are all alike in opacity and graded in colour along x.
+struct Lattice {
+  glm::ivec3 dims{16};
+  glm::dvec3 spacing{1.0};
+  double optical_depth = 0.9;  ///< extinction per kernel unit
+  double a = 2.0, radius = 2.0;
+  double azimuth = 0.0, elevation = 0.0, roll = 0.0;
+  scene::Projection projection = scene::Projection::Orthographic;
+  double fov = 30.0;
+  double pixels_per_mm = 4.0;  ///< at the centre of the volume
+  int width = 128, height = 128;
+  double slab_width = 1.0;
+  scene::SlabOpacity slab_opacity = scene::SlabOpacity::Exponential;
+  int xray_sheets = 1;
+};
+
+scene::Scene make_scene(const Lattice& lattice);
+
+/// A scene of the lattice's extent without any material.
+scene::Scene make_empty_scene(const Lattice& lattice);
+
+/// `count` splats at random places within the lattice's box, of random colour and extinction up to `optical_depth`.
+std::vector<scene::Splat> random_splats(const scene::Scene& scene, int count, double optical_depth, unsigned seed);
+
+/// The technique of the scene's method on these splats.
+Image render_splats(scene::Method method, const scene::Scene& scene, const std::vector<scene::Splat>& splats,
+                    int threads = 0);
+
+/// Largest |a-b| over all channels. The images must have the same size.
+double max_difference(const Image& a, const Image& b);
+/// Root mean square of a-b over the channels of those pixels where either image has opacity.
+double rms_difference(const Image& a, const Image& b);
+/// Sum of one channel over all pixels.
+double channel_sum(const Image& image, int channel);
+/// Largest opacity.
+double max_opacity(const Image& image);
+
+/// Slope of log(error) over log(width), least squares.
+double fitted_order(const std::vector<double>& widths, const std::vector<double>& errors);
+
+/// Prints "[figure] name = value (limit)" and records it as a property of the running test.
+void figure(const std::string& name, double value, const char* limit);
+
+}  // namespace fastsplat::golden::testing

@@ -7,20 +7,22 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
-#include <fstream>
 #include <memory>
 #include <new>
+#include <span>
 
 #include "analysis/image_attributes.hpp"
 #include "analysis/image_file.hpp"
 #include "analysis/png_check.hpp"
 #include "base/error.hpp"
+#include "base/read_file.hpp"
 
 namespace fastsplat::analysis {
 namespace {
 
 using OIIO::TypeDesc;
 
+constexpr std::size_t kLargestFile = std::size_t{1} << 34;  // 2^31 float values and some
 constexpr int kLargestSide = 1 << 20;
 constexpr std::int64_t kMostValues = std::int64_t{1} << 31;
 constexpr std::int64_t kBlockValues = std::int64_t{1} << 22;  // decoded at once: what a lying header can cost
@@ -33,23 +35,8 @@ constexpr const char* kAgain = "write the file again";
   throw_input({path.string(), std::move(what), std::move(expected), std::move(got), std::move(fix)});
 }
 
-std::vector<unsigned char> file_bytes(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) refuse(path, "no such file", {}, {}, "check the path");
-  if (std::filesystem::is_directory(status)) refuse(path, "is a directory", "an image file");
-  if (!std::filesystem::is_regular_file(status)) refuse(path, "is not a regular file", "an image file");
-  const auto size = std::filesystem::file_size(path, error);
-  std::ifstream in(path, std::ios::binary);
-  if (error || !in) refuse(path, "cannot open", {}, {}, "check the permissions");
-  std::vector<unsigned char> bytes(size);
-  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (static_cast<std::uintmax_t>(in.gcount()) != size) refuse(path, "cannot read the whole file");
-  return bytes;
-}
-
 // The format by its magic number: extensions lie, and trying every reader on hostile bytes only adds risk.
-const char* format_of(const std::vector<unsigned char>& bytes) {
+const char* format_of(std::span<const unsigned char> bytes) {
   struct Magic {
     const char* format;
     std::array<unsigned char, 4> bytes;
@@ -69,11 +56,12 @@ const char* format_of(const std::vector<unsigned char>& bytes) {
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& path)
-      : path_(path), bytes_(file_bytes(path)), memory_(bytes_.data(), bytes_.size()) {
-    const char* format = format_of(bytes_);
-    if (format == nullptr) refuse(path_, bytes_.empty() ? "the file is empty" : "not an image", "EXR, PNG or TIFF");
+      : path_(path), file_(read_text_file(path, kLargestFile)), memory_(file_.data(), file_.size()) {
+    const std::span bytes(reinterpret_cast<const unsigned char*>(file_.data()), file_.size());
+    const char* format = format_of(bytes);
+    if (format == nullptr) refuse(path_, "not an image", "EXR, PNG or TIFF");
     if (std::strcmp(format, "png") == 0) {
-      const std::string defect = png_defect(bytes_);
+      const std::string defect = png_defect(bytes);
       if (!defect.empty()) refuse(path_, "corrupt or truncated PNG: " + defect, {}, {}, kAgain);
     }
     input_ = OIIO::ImageInput::create(format);
@@ -232,7 +220,7 @@ class Reader {
   }
 
   std::filesystem::path path_;
-  std::vector<unsigned char> bytes_;
+  std::string file_;
   OIIO::Filesystem::IOMemReader memory_;
   std::unique_ptr<OIIO::ImageInput> input_;
   OIIO::ImageSpec spec_;

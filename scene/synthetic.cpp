@@ -96,7 +96,7 @@ const Entry& find(const std::string& name) {
 
 }  // namespace
 
-Volume make_synthetic(const std::string& name, int size) {
+Volume describe_synthetic(const std::string& name, int size) {
   const Entry& entry = find(name);
   if (size < 2 || size > 1024) {
     throw_input({.where = name,
@@ -110,6 +110,12 @@ Volume make_synthetic(const std::string& name, int size) {
   volume.source = fmt::format("built-in {}, {} voxels along an edge", name, size);
   volume.dims = glm::ivec3(size);
   volume.stored = VoxelType::F32;
+  return volume;
+}
+
+Volume make_synthetic(const std::string& name, int size) {
+  Volume volume = describe_synthetic(name, size);
+  const Entry& entry = find(name);
   volume.voxels.resize(static_cast<std::size_t>(size) * size * size);
   auto voxel = volume.voxels.begin();
   for (int k = 0; k < size; ++k) {

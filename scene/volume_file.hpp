@@ -12,6 +12,8 @@ namespace fastsplat::scene {
 /// Finds what the user named: an existing path; a synthetic "name[:size]"; or a scan of the Debian package
 /// mricron-data by its bare name (`ch2`, `ch2bet`, `inia19-t1-brain`, searched in $FASTSPLAT_DATA and
 /// /usr/share/mricron/templates). Every failure is a UserError (ExitCode::Input) with the fix.
+/// Where a file's header says how its axes lie in a body (NIfTI sform/qform, NRRD space), whole axes are turned so that
+/// +x is right, +y anterior, +z superior; oblique angles are not resampled.
 Volume load_volume(const std::string& name_or_path);
 
 /// Reads only the header: dims, spacing, type; voxels stay empty.

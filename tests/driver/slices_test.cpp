@@ -1,0 +1,77 @@
+// The slices of a splat sum exactly to the splat, whatever its depth within its slab.
+#include "driver/slices.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "driver/config_file.hpp"
+#include "tests/driver/scenes_helper.hpp"
+
+namespace fastsplat::driver {
+namespace {
+
+TEST(Slices, telescope_for_every_phase_width_and_configuration) {
+  std::uint64_t sums = 0, wrong = 0;
+  for (const auto& name : config_names()) {
+    const auto config = load_config(name);
+    const auto one = static_cast<std::uint32_t>(config.colour_format().max);
+    const SplatWords whole{one, one / 2 + 1, 1, one - 3};  // fits one record, so that no share saturates
+    for (const double width : {0.5, 1.0, 2.0, 0.7}) {
+      const Slices slices(config, scene::kernel_by_name("gauss2"), width, 40);
+      for (std::int32_t depth = 0; depth <= slices.quantise_depth(40.0 * width); ++depth) {
+        std::array<std::uint64_t, 4> sum{};
+        for (int s = slices.first(depth); s <= slices.last(depth); ++s) {
+          const Share share = slices.share(whole, depth, s);
+          EXPECT_FALSE(share.saturated);
+          for (std::size_t c = 0; c < 4; ++c) sum[c] += share.words[c];
+        }
+        for (std::size_t c = 0; c < 4; ++c) {
+          ++sums;
+          wrong += sum[c] != whole[c] ? 1 : 0;
+        }
+      }
+    }
+  }
+  figure("splats summed", static_cast<double>(sums));
+  figure("splats whose slices do not sum to them", static_cast<double>(wrong));
+  ASSERT_GT(sums, 0u);
+  EXPECT_EQ(wrong, 0u);
+}
+
+TEST(Slices, nothing_lies_outside_first_and_last) {
+  const auto config = load_config("base");
+  const Slices slices(config, scene::kernel_by_name("gauss2"), 0.5, 60);
+  int empty = 0;
+  for (std::int32_t depth = 0; depth <= slices.quantise_depth(30.0); depth += 7) {
+    for (int s = 0; s < slices.count(); ++s) {
+      if (s >= slices.first(depth) && s <= slices.last(depth)) continue;
+      EXPECT_TRUE(slices.share({60000, 60000, 60000, 60000}, depth, s).empty()) << "depth " << depth << " slab " << s;
+      ++empty;
+    }
+  }
+  figure("slabs checked empty", empty);
+  ASSERT_GT(empty, 0);
+}
+
+TEST(Slices, a_share_that_does_not_fit_a_record_says_so) {
+  const auto config = load_config("base");
+  const Slices slices(config, scene::kernel_by_name("gauss2"), 8.0, 2);
+  const Share share = slices.share({1u << 17, 0, 0, 1u << 17}, slices.quantise_depth(4.0), 0);
+  EXPECT_TRUE(share.saturated);
+  EXPECT_EQ(share.words[0], 65535u);
+}
+
+TEST(Slices, slabs_thinner_than_a_depth_step_are_refused_with_both_numbers) {
+  const auto config = load_config("base");
+  try {
+    Slices(config, scene::kernel_by_name("gauss2"), 0.001, 10);
+    FAIL() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.code(), ExitCode::Usage);
+    EXPECT_NE(std::string(error.what()).find("0.00390625"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("0.001"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace fastsplat::driver

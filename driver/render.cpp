@@ -1,12 +1,9 @@
 #include "driver/render.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <atomic>
 #include <cmath>
 
+#include "base/parallel.hpp"
 #include "cmodel/model.hpp"
 #include "driver/compile.hpp"
 #include "driver/frame_sink.hpp"
@@ -24,23 +21,15 @@ DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, con
   std::vector<TileReport> reports(tiles);
   std::atomic<std::size_t> done{0};
 
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-  arena.execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, tiles, 1),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-          for (std::size_t tile = range.begin(); tile != range.end(); ++tile) {
-            // Tiles are independent: each has a device of its own, as several chips would.
-            cmodel::Model device(config, cmodel::StreamScope::Subset, frame);
-            device.consume(compiled.preamble());
-            reports[tile] = compiled.emit_tile(static_cast<int>(tile),
-                                               [&](std::span<const cmodel::Beat> beats) { device.consume(beats); });
-            device.finish();
-            counters[tile] = device.counters();
-            if (options.progress) options.progress(done.fetch_add(1) + 1, tiles);
-          }
-        },
-        tbb::simple_partitioner());
+  // Tiles are independent: each has a device of its own, as several chips would.
+  parallel_for(tiles, options.threads, [&](std::size_t tile) {
+    cmodel::Model device(config, cmodel::StreamScope::Subset, frame);
+    device.consume(compiled.preamble());
+    reports[tile] =
+        compiled.emit_tile(static_cast<int>(tile), [&](std::span<const cmodel::Beat> beats) { device.consume(beats); });
+    device.finish();
+    counters[tile] = device.counters();
+    if (options.progress) options.progress(done.fetch_add(1) + 1, tiles);
   });
 
   for (std::size_t tile = 0; tile < tiles; ++tile) {

@@ -37,9 +37,11 @@ TEST(Frames, tiled_equals_untiled_bit_for_bit) {
         const auto tiled = render(scene, with_tile("base", width, height));
         const auto apart = difference(whole.frame, tiled.frame);
         EXPECT_GT(tiled.report.tiles, 1u);
-        EXPECT_GT(std::count_if(whole.frame.words.begin(), whole.frame.words.end(), [](auto w) { return w != 0; }), 1000);
+        EXPECT_GT(std::count_if(whole.frame.words.begin(), whole.frame.words.end(), [](auto w) { return w != 0; }),
+                  1000);
         EXPECT_EQ(apart.different, 0u) << scene::to_string(method) << " " << width << "x" << height;
-        figure(std::string("words compared, ") + scene::to_string(method) + " tile " + std::to_string(width), static_cast<double>(apart.compared));
+        figure(std::string("words compared, ") + scene::to_string(method) + " tile " + std::to_string(width),
+               static_cast<double>(apart.compared));
       }
     }
   }
@@ -69,21 +71,25 @@ TEST(Frames, xray_in_any_number_of_sheets_is_bit_exact_where_the_product_is_kept
     const auto apart = difference(one.frame, many.frame);
     EXPECT_EQ(apart.different, 0u) << sheets << " sheets";
     EXPECT_GT(many.report.splat_records, one.report.splat_records);
-    figure("exact, words differing in " + std::to_string(sheets) + " sheets of " + std::to_string(apart.compared), static_cast<double>(apart.different));
+    figure("exact, words differing in " + std::to_string(sheets) + " sheets of " + std::to_string(apart.compared),
+           static_cast<double>(apart.different));
   }
 }
 
 /// Records how often each pixel gets a product, to bound what rounding them may add up to.
 class ProductCount final : public cmodel::TapSink {
  public:
-  ProductCount(int width, int height) : width_(width), height_(height), count_(static_cast<std::size_t>(width) * height, 0) {}
+  ProductCount(int width, int height)
+      : width_(width), height_(height), count_(static_cast<std::size_t>(width) * height, 0) {}
   void on_tap(const cmodel::TapRecord& record) override {
     if (record.tap != cmodel::Tap::Footprint) return;
     const int lanes = static_cast<int>(std::lround(std::sqrt(static_cast<double>(record.payload.size()))));
     for (int j = 0; j < lanes; ++j) {
       for (int i = 0; i < lanes; ++i) {
         const int x = record.x + i, y = record.y + j;
-        if (x < 0 || y < 0 || x >= width_ || y >= height_ || record.payload[static_cast<std::size_t>(j) * lanes + i] == 0) continue;
+        if (x < 0 || y < 0 || x >= width_ || y >= height_ ||
+            record.payload[static_cast<std::size_t>(j) * lanes + i] == 0)
+          continue;
         ++count_[static_cast<std::size_t>(y) * width_ + x];
       }
     }
@@ -147,14 +153,18 @@ TEST(Frames, order_of_splats_within_a_sheet_does_not_matter) {
       a.consume(compiled.preamble());
       b.consume(compiled.preamble());
       std::vector<cmodel::Beat> beats;
-      compiled.emit_tile(tile, [&](std::span<const cmodel::Beat> part) { beats.insert(beats.end(), part.begin(), part.end()); });
+      compiled.emit_tile(
+          tile, [&](std::span<const cmodel::Beat> part) { beats.insert(beats.end(), part.begin(), part.end()); });
       a.consume(beats);
       std::uint32_t tag = 0;
       for (std::size_t i = 0; i < beats.size();) {
-        const auto is_splat = [&](std::size_t at) { return (beats[at][0] & 0xff) == static_cast<std::uint32_t>(cmodel::Opcode::Splat); };
+        const auto is_splat = [&](std::size_t at) {
+          return (beats[at][0] & 0xff) == static_cast<std::uint32_t>(cmodel::Opcode::Splat);
+        };
         std::size_t end = i;
         while (end < beats.size() && is_splat(end)) ++end;
-        std::shuffle(beats.begin() + static_cast<std::ptrdiff_t>(i), beats.begin() + static_cast<std::ptrdiff_t>(end), random);
+        std::shuffle(beats.begin() + static_cast<std::ptrdiff_t>(i), beats.begin() + static_cast<std::ptrdiff_t>(end),
+                     random);
         for (; i < end; ++i, ++splats) beats[i][1] = tag++;
         i = end + 1;
       }

@@ -1,0 +1,14 @@
+// Independent jobs on several threads (oneTBB). Results must not depend on who runs what: jobs write to disjoint
+// places.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace fastsplat {
+
+/// job(i) for every i in [0, count), each exactly once, on at most `threads` threads (0: all cores).
+/// An exception of a job reaches the caller.
+void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& job);
+
+}  // namespace fastsplat

@@ -1,0 +1,40 @@
+// The main job: a real head scan at 512 x 512, integer against golden (Debian's mricron-data).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "driver/config_file.hpp"
+#include "driver/render.hpp"
+#include "golden/render.hpp"
+#include "scene/volume_file.hpp"
+#include "tests/driver/scenes_helper.hpp"
+
+namespace fastsplat::driver {
+namespace {
+
+TEST(Head, base_at_512_holds_48_db_and_3_lsb8) {
+  std::shared_ptr<const scene::Volume> volume;
+  try {
+    volume = std::make_shared<const scene::Volume>(scene::load_volume("ch2bet"));
+  } catch (const UserError& error) {
+    GTEST_SKIP() << "the scan is not installed: " << error.what();
+  }
+  auto description = view_of("ch2bet", 512, "mri-head");
+  const auto scene = scene::build_scene(description, volume);
+  const auto device = render(scene, load_config("base"));
+  const Image reference = golden::render(scene);
+  EXPECT_GT(*std::max_element(reference.data.begin(), reference.data.end()), 0.5f);
+  const Lsb8 apart = distance(reference, to_image(device.frame));
+  figure("ch2bet 512 base: voxels", static_cast<double>(device.report.voxels));
+  figure("ch2bet 512 base: splat records", static_cast<double>(device.report.splat_records));
+  figure("ch2bet 512 base: max", apart.largest, "LSB8");
+  figure("ch2bet 512 base: rms", apart.rms, "LSB8");
+  figure("ch2bet 512 base: PSNR", apart.psnr_db, "dB");
+  EXPECT_LE(apart.largest, 3.0);
+  EXPECT_GE(apart.psnr_db, 48.0);
+  EXPECT_EQ(device.report.saturated_voxels + device.report.saturated_records, 0u);
+}
+
+}  // namespace
+}  // namespace fastsplat::driver

@@ -1,0 +1,93 @@
+#include "tests/cmodel/configs_helper.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+namespace fastsplat::test {
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+}  // namespace
+
+std::map<std::string, std::string> read_keys(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot read " + path);
+  std::map<std::string, std::string> keys;
+  std::string table;
+  for (std::string line; std::getline(file, line);) {
+    line = trimmed(line);
+    if (line.empty() || line[0] == '#') continue;
+    if (line[0] == '[') {
+      table = line.substr(1, line.find(']') - 1) + '.';
+      continue;
+    }
+    const auto equals = line.find('=');
+    if (equals == std::string::npos) throw std::runtime_error(path + ": no key in: " + line);
+    keys[table + trimmed(line.substr(0, equals))] = trimmed(line.substr(equals + 1));
+  }
+  return keys;
+}
+
+cmodel::Config named_config(const std::string& name) {
+  const auto read = read_keys(std::string(FASTSPLAT_SOURCE_DIR) + "/configs/" + name + ".toml");
+  oracle::Symbols symbols;
+  for (const oracle::Key& key : oracle::keys()) symbols.*key.member = std::stoi(read.at(key.name));
+  return config_of(symbols, name);
+}
+
+std::vector<std::string> config_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(FASTSPLAT_SOURCE_DIR) + "/configs"))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+oracle::Symbols symbols_of(const cmodel::Config& config) {
+  oracle::Symbols symbols;
+  for (const cmodel::ConfigKey& theirs : cmodel::config_keys())
+    for (const oracle::Key& ours : oracle::keys())
+      if (std::string(theirs.name) == ours.name) symbols.*ours.member = config.*theirs.member;
+  return symbols;
+}
+
+cmodel::Config config_of(const oracle::Symbols& symbols, const std::string& name) {
+  cmodel::Config config;
+  config.name = name;
+  for (const cmodel::ConfigKey& theirs : cmodel::config_keys())
+    for (const oracle::Key& ours : oracle::keys())
+      if (std::string(theirs.name) == ours.name) config.*theirs.member = symbols.*ours.member;
+  return config;
+}
+
+cmodel::Config random_config(Random& random) {
+  while (true) {
+    cmodel::Config config;
+    config.name = "random";
+    for (const cmodel::ConfigKey& key : cmodel::config_keys()) {
+      const bool at_an_end = random.once_in(3);
+      std::int64_t value = at_an_end ? random.one_of({key.min, key.max}) : random.between(key.min, key.max);
+      if (key.power_of_two) {
+        int bits = 0;
+        while ((std::int64_t{key.min} << (bits + 1)) <= key.max) ++bits;
+        value = std::int64_t{key.min} << (at_an_end ? random.one_of({0, bits}) : random.between(0, bits));
+      }
+      config.*key.member = static_cast<int>(value);
+    }
+    config.lanes = std::min(config.lanes, 8);
+    config.tile_width = config.lanes * static_cast<int>(random.between(1, 40 / config.lanes));
+    config.tile_height = config.lanes * static_cast<int>(random.between(1, 40 / config.lanes));
+    config.rlut_columns = config.lanes * static_cast<int>(random.between(1, 64 / config.lanes));
+    config.phases = std::min(config.phases, 1 << config.position_frac_bits);
+    if (config.phases > 256) config.phases = 256;
+    if (!cmodel::first_violation(config)) return config;
+  }
+}
+
+}  // namespace fastsplat::test

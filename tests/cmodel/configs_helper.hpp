@@ -1,0 +1,29 @@
+// The configurations the tests run on: those of configs/*.toml, read here without the driver, and random legal ones.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cmodel/config.hpp"
+#include "tests/cmodel/oracle/symbols.hpp"
+#include "tests/cmodel/random_helper.hpp"
+
+namespace fastsplat::test {
+
+/// "table.key" -> value of a file of `key = value` lines below [table] lines; texts keep their quotes.
+std::map<std::string, std::string> read_keys(const std::string& path);
+
+/// configs/<name>.toml. Throws std::runtime_error when a key is missing or a number is not one.
+cmodel::Config named_config(const std::string& name);
+/// Names of all files in configs/.
+std::vector<std::string> config_names();
+
+oracle::Symbols symbols_of(const cmodel::Config& config);
+cmodel::Config config_of(const oracle::Symbols& symbols, const std::string& name);
+
+/// Legal, small enough to render quickly (tiles up to 40 pixels, up to 64 columns), otherwise anything; one key in
+/// three sits at an end of its range.
+cmodel::Config random_config(Random& random);
+
+}  // namespace fastsplat::test

@@ -1,0 +1,212 @@
+#include "tests/cmodel/oracle/oracle.hpp"
+
+#include <array>
+#include <set>
+
+#include "tests/cmodel/oracle/number.hpp"
+#include "tests/cmodel/oracle/stream.hpp"
+
+namespace fastsplat::oracle {
+namespace {
+
+using Four = std::array<Wide, 4>;
+
+struct Pixel {
+  Four S{};          // the sheet
+  Four C{};          // C_R, C_G, C_B, T; for X-rays the four sums
+  bool hit = false;  // a window covered it in this sheet
+};
+
+struct RadiusSet {
+  std::int64_t rho = 0, base = 0, Ea = 0;
+};
+
+class Renderer {
+ public:
+  explicit Renderer(const Symbols& symbols) : c(symbols) {}
+
+  Rendering run(std::span<const std::uint8_t> bytes) {
+    for (const Item& item : read_stream(c, bytes)) std::visit([&](const auto& it) { take(it); }, item);
+    return std::move(out);
+  }
+
+ private:
+  Wide count(const Narrowed& narrowed, const char* counter) {
+    if (narrowed.overflow) ++out.counts[counter];
+    return narrowed.word;
+  }
+  Wide sat(Rounding rounding, Wide value, int from_f, const Words& words, const char* counter) {
+    return count(narrow(rounding, Overflow::Sat, value, from_f, words), counter);
+  }
+  static std::uint32_t word(Wide value) { return static_cast<std::uint32_t>(value); }
+  Pixel& at(Wide x, Wide y) { return pixels[static_cast<std::size_t>(y * tile.width + x)]; }
+  bool inside(Wide x, Wide y) const { return x >= 0 && y >= 0 && x < tile.width && y < tile.height; }
+
+  void take(const TableLoad& load) {
+    if (load.table == 1) radial = load.words;
+    if (load.table == 2) factor = load.words;
+    if (load.table != 0) return;
+    sets[load.set] = {load.rho, load.base, load.Ea};
+    // One memory of k x columns words for all sets: what was loaded last is what a column holds.
+    rlut.resize(static_cast<std::size_t>(c.k) * static_cast<std::size_t>(c.columns));
+    for (std::int64_t m = 0; m < c.k; ++m)
+      for (std::int64_t i = 0; i < load.Ea; ++i)
+        rlut[static_cast<std::size_t>(m * c.columns + load.base + i)] =
+            load.words[static_cast<std::size_t>(m * load.Ea + i)];
+  }
+
+  void take(const TileStart& start) {
+    tile = start;
+    Pixel fresh;
+    if (tile.mode != 2) fresh.C[3] = power_of_two(c.tf);
+    pixels.assign(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height), fresh);
+    ++out.counts["tiles"];
+  }
+
+  void take(const SheetStart& start) {
+    sheet = start.sheet;
+    for (Pixel& p : pixels) {
+      p.S = {};
+      p.hit = false;
+    }
+  }
+
+  void take(const CullHint&) { ++out.counts["cull_blocks"]; }
+
+  void take(const Splat& splat) {
+    ++out.counts["splats"];
+    const RadiusSet set = sets.at(splat.set);
+    const Words grid = s(c.pi, log2_of(c.k));
+    const Wide xs = sat(Rounding::Rnd, splat.x, c.pf, grid, "snap_saturated");
+    const Wide ys = sat(Rounding::Rnd, splat.y, c.pf, grid, "snap_saturated");
+    const Wide x0 = floor_divide(xs - set.rho, c.k) + 1, y0 = floor_divide(ys - set.rho, c.k) + 1;
+    const Wide mx = remainder(xs - set.rho, c.k), my = remainder(ys - set.rho, c.k);
+    emit(Kind::Snap, splat.tag, x0, y0, {word(x0), word(y0), word(mx), word(my)});
+    for (std::int64_t j = 0; j < set.Ea; j += c.P)
+      for (std::int64_t i = 0; i < set.Ea; i += c.P) window(splat, set, x0, y0, mx, my, i, j);
+  }
+
+  void window(const Splat& splat, const RadiusSet& set, Wide x0, Wide y0, Wide mx, Wide my, std::int64_t i0,
+              std::int64_t j0) {
+    ++out.counts["windows"];
+    std::vector<std::uint32_t> weights, sums;
+    for (std::int64_t j = j0; j < j0 + c.P; ++j)
+      for (std::int64_t i = i0; i < i0 + c.P; ++i) {
+        const Wide q = column(set, mx, i) + column(set, my, j);
+        const Wide t = floor_divide(q, power_of_two(c.g));
+        const Wide w = t < c.N ? Wide{radial[static_cast<std::size_t>(t)]} : 0;
+        weights.push_back(word(w));
+        if (!inside(x0 + i, y0 + j)) {
+          sums.insert(sums.end(), 4, 0);
+          continue;
+        }
+        ++out.counts["lanes_inside"];
+        if (w > 0) ++out.counts["lanes_weighted"];
+        Pixel& p = at(x0 + i, y0 + j);
+        p.hit = true;
+        const Words sums_format = u(c.si, c.sf);
+        for (std::size_t ch = 0; ch < 4; ++ch) {
+          const Wide product = sat(Rounding::Rnd, Wide{splat.v[ch]} * w, c.cf + c.wf, sums_format, "product_saturated");
+          p.S[ch] = sat(Rounding::Trn, p.S[ch] + product, c.sf, sums_format, "sheet_saturated");
+          sums.push_back(word(p.S[ch]));
+        }
+      }
+    emit(Kind::Footprint, splat.tag, x0 + i0, y0 + j0, std::move(weights));
+    emit(Kind::Sheet, splat.tag, x0 + i0, y0 + j0, std::move(sums));
+  }
+
+  Wide column(const RadiusSet& set, Wide m, std::int64_t i) const {
+    return rlut[static_cast<std::size_t>(m * c.columns + set.base + i)];
+  }
+
+  void take(const SheetEnd&) {
+    ++out.counts["sheets"];
+    for (int by = 0; by < tile.height; by += c.P)
+      for (int bx = 0; bx < tile.width; bx += c.P) block(bx, by);
+  }
+
+  /// Every pixel is composited, dirty or not: the model, which visits dirty blocks only, must agree.
+  void block(int bx, int by) {
+    bool dirty = false;
+    for (int y = by; y < by + c.P; ++y)
+      for (int x = bx; x < bx + c.P; ++x) dirty = dirty || (inside(x, y) && at(x, y).hit);
+    std::vector<std::uint32_t> words;
+    for (int y = by; y < by + c.P; ++y)
+      for (int x = bx; x < bx + c.P; ++x) {
+        if (!inside(x, y)) {
+          words.insert(words.end(), 4, 0);
+          continue;
+        }
+        Pixel& p = at(x, y);
+        if (dirty) ++out.counts["pixels_composited"];
+        if (dirty && tile.mode != 2 && p.C[3] < c.eps) ++out.counts["frozen_pixels"];
+        composite(p);
+        for (const Wide value : p.C) words.push_back(word(value));
+      }
+    if (!dirty) return;
+    ++out.counts["dirty_blocks"];
+    emit(Kind::Composite, 0, bx, by, std::move(words));
+  }
+
+  void composite(Pixel& p) {
+    if (tile.mode == 2) {
+      for (std::size_t ch = 0; ch < 4; ++ch)
+        p.C[ch] = sat(Rounding::Trn, p.C[ch] + p.S[ch], c.sf, u(c.si, c.sf), "composite_saturated");
+      return;
+    }
+    Wide f = 1;
+    int f_bits = 0;  // mode 1: the factor is the integer 1
+    if (tile.mode == 0) {
+      const int b = c.si + c.sf - log2_of(c.G);
+      const Wide i = floor_divide(p.S[3], power_of_two(b)), rem = remainder(p.S[3], power_of_two(b));
+      const Wide left = factor[static_cast<std::size_t>(i)], right = factor[static_cast<std::size_t>(i) + 1];
+      f = left - sat(Rounding::Rnd, (left - right) * rem, c.of + b, one(c.of), "never");
+      f_bits = c.of;
+    }
+    Four slab;
+    for (std::size_t ch = 0; ch < 4; ++ch)
+      slab[ch] = sat(Rounding::Rnd, p.S[ch] * f, c.sf + f_bits, one(c.tf), "opacity_saturated");
+    const Wide T = p.C[3];
+    if (T < c.eps) return;
+    for (std::size_t ch = 0; ch < 3; ++ch) {
+      const Wide seen = sat(Rounding::Rnd, T * slab[ch], 2 * c.tf, one(c.tf), "never");
+      p.C[ch] = sat(Rounding::Trn, p.C[ch] + seen, c.tf, u(1, c.tf), "composite_saturated");
+    }
+    p.C[3] = T - sat(Rounding::Rnd, T * slab[3], 2 * c.tf, one(c.tf), "never");
+  }
+
+  void take(const TileEnd&) {
+    Picture picture{tile.tile, tile.x, tile.y, tile.width, tile.height, {}};
+    const Words pixel = u(c.xi, c.xf);
+    for (int y = 0; y < tile.height; ++y)
+      for (int x = 0; x < tile.width; ++x) {
+        Four rgba = at(x, y).C;
+        if (tile.mode != 2) rgba[3] = power_of_two(c.tf) - rgba[3];
+        std::vector<std::uint32_t> words;
+        for (const Wide value : rgba)
+          words.push_back(word(sat(Rounding::Rnd, value, tile.mode == 2 ? c.sf : c.tf, pixel, "pixel_saturated")));
+        picture.words.insert(picture.words.end(), words.begin(), words.end());
+        emit(Kind::Pixel, 0, x, y, std::move(words));
+      }
+    out.tiles.push_back(std::move(picture));
+  }
+
+  void emit(Kind kind, std::uint32_t tag, Wide x, Wide y, std::vector<std::uint32_t> payload) {
+    out.events.push_back(
+        {kind, tile.tile, sheet, tag, static_cast<std::int32_t>(x), static_cast<std::int32_t>(y), std::move(payload)});
+  }
+
+  Symbols c;
+  Rendering out;
+  std::map<std::int64_t, RadiusSet> sets;
+  std::vector<std::uint32_t> rlut, radial, factor;
+  TileStart tile;
+  std::uint32_t sheet = 0;
+  std::vector<Pixel> pixels;
+};
+
+}  // namespace
+
+Rendering render(const Symbols& symbols, std::span<const std::uint8_t> bytes) { return Renderer(symbols).run(bytes); }
+
+}  // namespace fastsplat::oracle

@@ -1,0 +1,42 @@
+// The device once more, from docs/numerics.md and docs/stream.md alone: plain loops over whole tiles, exact wide
+// integers, nothing shared with the model. What it says and what the model says must be the same words.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tests/cmodel/oracle/symbols.hpp"
+
+namespace fastsplat::oracle {
+
+enum class Kind { Snap, Footprint, Sheet, Composite, Pixel };
+
+struct Event {
+  Kind kind = Kind::Snap;
+  std::uint32_t tile = 0, sheet = 0, tag = 0;
+  std::int32_t x = 0, y = 0;
+  std::vector<std::uint32_t> payload;
+  bool operator==(const Event&) const = default;
+};
+
+struct Picture {
+  std::uint32_t tile = 0;
+  std::int32_t x = 0, y = 0;
+  int width = 0, height = 0;
+  std::vector<std::uint32_t> words;
+  bool operator==(const Picture&) const = default;
+};
+
+struct Rendering {
+  std::vector<Event> events;
+  std::vector<Picture> tiles;
+  std::map<std::string, std::uint64_t> counts;  ///< by the names of the device's counters
+};
+
+/// Renders a whole stream; throws Refusal where the stream breaks a rule.
+Rendering render(const Symbols& symbols, std::span<const std::uint8_t> bytes);
+
+}  // namespace fastsplat::oracle

@@ -1,0 +1,204 @@
+#include "tests/cmodel/oracle/stream.hpp"
+
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "tests/cmodel/oracle/number.hpp"
+
+namespace fastsplat::oracle {
+namespace {
+
+struct Reader {
+  const Symbols& c;
+  std::span<const std::uint8_t> bytes;
+  std::uint64_t beat = 0;  // next to read
+  std::array<std::uint32_t, 6> w{};
+
+  void rule(bool holds, const char* text) const {
+    if (!holds) throw Refusal(beat - 1, text);
+  }
+  std::uint64_t beats() const { return bytes.size() / 24; }
+
+  /// The next beat into w; false at the end.
+  bool next() {
+    if (beat >= beats()) return false;
+    for (std::size_t i = 0; i < 6; ++i) {
+      const std::size_t at = beat * 24 + i * 4;
+      w[i] = std::uint32_t{bytes[at]} + std::uint32_t{bytes[at + 1]} * 256 + std::uint32_t{bytes[at + 2]} * 65536 +
+             std::uint32_t{bytes[at + 3]} * 16777216;
+    }
+    ++beat;
+    return true;
+  }
+  void need() {
+    if (!next()) throw Refusal(beats(), "the stream ends early");
+  }
+  std::uint32_t low(std::size_t i) const { return w[i] % 65536; }
+  std::uint32_t high(std::size_t i) const { return w[i] / 65536; }
+  /// Words `first`..5 carry nothing.
+  void empty_from(std::size_t first) const {
+    for (std::size_t i = first; i < 6; ++i) rule(w[i] == 0, "an unnamed word is not zero");
+  }
+  void only_opcode() const { rule(w[0] < 256, "an unnamed bit of w0 is not zero"); }
+};
+
+TableLoad table_load(Reader& r) {
+  const Symbols& c = r.c;
+  TableLoad load;
+  r.rule(r.w[0] < 65536, "an unnamed bit of w0 is not zero");
+  r.empty_from(5);
+  load.table = static_cast<int>(r.w[0] / 256);
+  r.rule(load.table <= 2, "unknown table");
+  load.set = r.w[1];
+  load.rho = r.w[2];
+  const std::int64_t count = r.w[3];
+  load.base = r.w[4];
+  std::int64_t largest = 0;
+  if (load.table == 0) {
+    r.rule(load.set < c.sets, "radius set");
+    r.rule(load.rho >= 1, "rho");
+    r.rule(load.base % c.P == 0, "base");
+    const Wide E = ceil_divide(2 * Wide{load.rho}, c.k);
+    load.Ea = static_cast<std::int64_t>(ceil_divide(E, c.P)) * c.P;
+    r.rule(load.base + load.Ea <= c.columns, "columns");
+    r.rule(count == c.k * load.Ea, "words");
+    largest = static_cast<std::int64_t>(c.N) * static_cast<std::int64_t>(power_of_two(c.g));
+  } else {
+    r.rule(load.set == 0 && load.rho == 0 && load.base == 0, "a radius set in a table without");
+    r.rule(count == (load.table == 1 ? c.N : c.G + 1), "words");
+    largest = static_cast<std::int64_t>(load.table == 1 ? u(c.wi, c.wf).largest : one(c.of).largest);
+  }
+  for (std::int64_t done = 0; done < count; done += 6) {
+    r.need();
+    for (std::size_t i = 0; i < 6; ++i) {
+      if (done + static_cast<std::int64_t>(i) >= count) {
+        r.rule(r.w[i] == 0, "padding");
+        continue;
+      }
+      r.rule(r.w[i] <= largest, "table word");
+      if (load.table == 2 && !load.words.empty()) r.rule(r.w[i] <= load.words.back(), "FACTOR rises");
+      load.words.push_back(r.w[i]);
+    }
+  }
+  return load;
+}
+
+Splat splat(const Reader& r, const std::set<std::int64_t>& sets, std::uint32_t tag) {
+  const Symbols& c = r.c;
+  r.rule(r.w[0] < 65536, "an unnamed bit of w0 is not zero");
+  Splat splat;
+  splat.set = static_cast<int>(r.w[0] / 256);
+  r.rule(sets.contains(splat.set), "radius set not loaded");
+  splat.tag = r.w[1];
+  r.rule(splat.tag == tag, "tag");
+  splat.x = static_cast<std::int32_t>(r.w[2]);
+  splat.y = static_cast<std::int32_t>(r.w[3]);
+  const Words position = s(c.pi, c.pf);
+  for (const std::int32_t p : {splat.x, splat.y}) r.rule(p >= position.smallest && p <= position.largest, "position");
+  const std::uint32_t v[4] = {r.low(4), r.high(4), r.low(5), r.high(5)};
+  for (int i = 0; i < 4; ++i) {
+    r.rule(v[i] <= u(0, c.cf).largest, "colour");
+    splat.v[i] = v[i];
+  }
+  return splat;
+}
+
+}  // namespace
+
+std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8_t> bytes) {
+  Reader r{symbols, bytes};
+  std::vector<Item> items;
+
+  r.need();
+  r.rule(r.w[0] % 256 == 0x46, "begin_frame expected");
+  r.rule(r.low(0) == 0x46, "an unnamed bit of w0 is not zero");
+  r.rule(r.high(0) == 1, "version");
+  r.rule(r.w[1] == 0x31535346, "magic");
+  r.rule(r.w[2] + r.w[3] * (std::uint64_t{1} << 32) == hash(symbols), "hash");
+  const std::int64_t image_width = r.low(4), image_height = r.high(4);
+  r.rule(image_width >= 1 && image_height >= 1, "image sides");
+  const std::uint64_t tiles = r.w[5];
+
+  std::set<std::int64_t> sets;
+  bool have_radial = false, have_factor = false;
+  std::uint64_t tiles_seen = 0;
+
+  while (true) {
+    r.need();
+    const std::uint32_t opcode = r.w[0] % 256;
+    if (opcode == 0x4C) {
+      r.rule(tiles_seen == 0, "a table after the first tile");
+      TableLoad load = table_load(r);
+      if (load.table == 0) sets.insert(load.set);
+      have_radial |= load.table == 1;
+      have_factor |= load.table == 2;
+      items.emplace_back(std::move(load));
+    } else if (opcode == 0x54) {
+      r.rule(have_radial && have_factor, "a tile before its tables");
+      r.rule(r.w[0] < 1024, "an unnamed bit of w0 is not zero");
+      r.empty_from(5);
+      TileStart tile;
+      tile.mode = static_cast<int>(r.w[0] / 256);
+      r.rule(tile.mode <= 2, "mode");
+      tile.tile = r.w[1];
+      r.rule(tile.tile == tiles_seen && tile.tile < tiles, "tile number");
+      tile.x = static_cast<std::int32_t>(r.w[2]);
+      tile.y = static_cast<std::int32_t>(r.w[3]);
+      tile.width = static_cast<int>(r.low(4));
+      tile.height = static_cast<int>(r.high(4));
+      r.rule(tile.width >= 1 && tile.width <= symbols.W && tile.height >= 1 && tile.height <= symbols.H, "tile sides");
+      r.rule(tile.x >= 0 && tile.y >= 0 && std::int64_t{tile.x} + tile.width <= image_width &&
+                 std::int64_t{tile.y} + tile.height <= image_height,
+             "tile outside the image");
+      ++tiles_seen;
+      items.emplace_back(tile);
+
+      std::uint32_t sheets = 0, tag = 0;
+      std::optional<std::uint32_t> last_sheet;
+      for (r.need(); r.w[0] % 256 != 0x74; r.need()) {
+        r.rule(r.w[0] % 256 == 0x53, "begin_sheet or end_tile expected");
+        r.only_opcode();
+        r.empty_from(2);
+        const std::uint32_t sheet = r.w[1];
+        r.rule(!last_sheet || sheet > *last_sheet, "sheet numbers rise");
+        last_sheet = sheet;
+        ++sheets;
+        items.emplace_back(SheetStart{sheet});
+        std::uint32_t splats = 0;
+        for (r.need(); r.w[0] % 256 != 0x73; r.need()) {
+          if (r.w[0] % 256 == 0x50) {
+            items.emplace_back(splat(r, sets, tag++));
+            ++splats;
+          } else {
+            r.rule(r.w[0] % 256 == 0x43, "splat, cull_block or end_sheet expected");
+            r.only_opcode();
+            items.emplace_back(CullHint{});
+          }
+        }
+        r.only_opcode();
+        r.empty_from(3);
+        r.rule(r.w[1] == sheet, "sheet number");
+        r.rule(r.w[2] == splats, "splat count");
+        items.emplace_back(SheetEnd{});
+      }
+      r.only_opcode();
+      r.empty_from(3);
+      r.rule(r.w[1] == tile.tile, "tile number");
+      r.rule(r.w[2] == sheets, "sheet count");
+      items.emplace_back(TileEnd{});
+    } else {
+      r.rule(opcode == 0x66, "end_frame expected");
+      r.only_opcode();
+      r.empty_from(4);
+      r.rule(tiles_seen == tiles, "tile count");
+      r.rule(r.w[1] + r.w[2] * (std::uint64_t{1} << 32) == r.beat - 1, "beat count");
+      r.rule(r.w[3] == crc32(bytes.first((r.beat - 1) * 24)), "CRC");
+      if (r.next()) r.rule(false, "something follows end_frame");
+      return items;
+    }
+  }
+}
+
+}  // namespace fastsplat::oracle

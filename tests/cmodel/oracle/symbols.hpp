@@ -1,0 +1,38 @@
+// The configuration by the symbols of docs/numerics.md, section 2, its hash, and the CRC of a stream.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace fastsplat::oracle {
+
+struct Symbols {
+  int P = 0, W = 0, H = 0;
+  int pi = 0, pf = 0;
+  int k = 0;
+  int sets = 0, columns = 0, g = 0;
+  int N = 0, wi = 0, wf = 0;
+  int cf = 0;
+  int zf = 0, hf = 0;
+  int si = 0, sf = 0;
+  int G = 0, of = 0;
+  int tf = 0, eps = 0;
+  int xi = 0, xf = 0;
+};
+
+struct Key {
+  const char* name;
+  int Symbols::*member;
+};
+/// In the order of the page's table, which is the order of the hash.
+std::span<const Key> keys();
+
+/// 64-bit FNV-1a over the lines "key=value\n".
+std::uint64_t hash(const Symbols& symbols);
+
+/// CRC-32 of IEEE 802.3, bit by bit.
+std::uint32_t crc32(std::span<const std::uint8_t> bytes);
+
+}  // namespace fastsplat::oracle

@@ -1,0 +1,187 @@
+#include "tests/cmodel/random_stream_helper.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "tests/cmodel/stream_writer_helper.hpp"
+
+namespace fastsplat::test {
+namespace {
+
+struct Set {
+  std::int64_t rho = 0, columns = 0;
+};
+
+class Generator {
+ public:
+  Generator(const oracle::Symbols& symbols, Random& random) : c(symbols), r(random), w(symbols) {}
+
+  RandomStream run(std::uint64_t splats) {
+    // begin_frame names the number of tiles, so the tiles are written first.
+    for (std::int64_t i = 0; i < r.between(1, 3) || sets.empty(); ++i) radius_set();
+    table(1, c.N, (std::int64_t{1} << (c.wi + c.wf)) - 1);
+    factor();
+    if (r.once_in(2)) radius_set();  // perhaps over the columns of another
+    const StreamWriter tables = w;
+    std::uint32_t tiles = 0;
+    w = StreamWriter(c);
+    while (w.total_splats() < splats || tiles < 2) tile(tiles++);
+    const StreamWriter body = w;
+
+    w = StreamWriter(c);
+    w.begin_frame(image_width, image_height, tiles);
+    std::vector<std::uint8_t> bytes = w.bytes();
+    bytes.insert(bytes.end(), tables.bytes().begin(), tables.bytes().end());
+    bytes.insert(bytes.end(), body.bytes().begin(), body.bytes().end());
+    bytes.resize(bytes.size() + 24);
+    bytes[bytes.size() - 24] = 0x66;
+    seal(bytes);
+    return {std::move(bytes), body.total_splats()};
+  }
+
+ private:
+  static constexpr int image_width = 65535, image_height = 4096;
+
+  /// A word of 0..largest: an end, next to one, small, or anything.
+  std::uint32_t word(std::int64_t largest) {
+    switch (r.between(0, 7)) {
+      case 0:
+        return static_cast<std::uint32_t>(largest);
+      case 1:
+        return static_cast<std::uint32_t>(std::max<std::int64_t>(largest - 1, 0));
+      case 2:
+        return 0;
+      case 3:
+        return static_cast<std::uint32_t>(r.between(0, std::min<std::int64_t>(largest, 3)));
+      case 4:
+        return static_cast<std::uint32_t>(r.between(0, 1 + largest / 16) % (largest + 1));
+      case 5:
+        return static_cast<std::uint32_t>((largest + 1) / 2);
+      default:
+        return static_cast<std::uint32_t>(r.between(0, largest));
+    }
+  }
+
+  void radius_set() {
+    const std::int64_t most_windows = c.columns / c.P;
+    const std::int64_t windows = std::min(most_windows, r.once_in(4) ? r.between(1, 4) : r.between(1, 2));
+    // E = ceil(2 rho / k) in (windows-1) P + 1 .. windows P; the widest and the narrowest rho of it are boundary cases.
+    const std::int64_t widest = windows * c.P * c.k / 2, narrowest = (windows - 1) * c.P * c.k / 2 + 1;
+    if (widest < narrowest) return;
+    const std::int64_t rho = r.once_in(2) ? r.between(narrowest, widest) : r.one_of({narrowest, widest});
+    const std::int64_t base = r.between(0, most_windows - windows) * c.P, Ea = windows * c.P;
+    const auto set = static_cast<std::uint32_t>(r.between(0, c.sets - 1));
+    const std::int64_t rim = std::int64_t{c.N} << c.g;
+    std::vector<std::uint32_t> words;
+    const std::int64_t style = r.between(0, 2);
+    for (std::int64_t i = 0; i < c.k * Ea; ++i) {
+      if (style == 0) words.push_back(word(rim));
+      if (style == 1) words.push_back(static_cast<std::uint32_t>(r.between(0, rim / 2)));  // sums mostly inside
+      if (style == 2)
+        words.push_back(static_cast<std::uint32_t>(std::max<std::int64_t>(0, rim / 2 - r.between(-2, 2))));
+      words.back() = std::min(words.back(), static_cast<std::uint32_t>(rim));
+    }
+    w.load_table(0, set, static_cast<std::uint32_t>(rho), static_cast<std::uint32_t>(base), words);
+    const auto known = std::find(numbers.begin(), numbers.end(), set);
+    if (known == numbers.end()) {
+      numbers.push_back(set);
+      sets.push_back({rho, Ea});
+    } else {
+      sets[static_cast<std::size_t>(known - numbers.begin())] = {rho, Ea};
+    }
+  }
+
+  void table(int id, std::int64_t count, std::int64_t largest) {
+    std::vector<std::uint32_t> words;
+    const bool falling = r.once_in(2);
+    for (std::int64_t i = 0; i < count; ++i) words.push_back(word(largest));
+    if (falling) std::sort(words.begin(), words.end(), std::greater<>());
+    w.load_table(id, 0, 0, 0, words);
+  }
+
+  void factor() {
+    const std::int64_t top = std::int64_t{1} << c.of;
+    std::vector<std::uint32_t> words;
+    const std::int64_t style = r.between(0, 2);
+    for (std::int64_t j = 0; j <= c.G; ++j) {
+      if (style == 0) words.push_back(word(top));
+      if (style == 1) words.push_back(static_cast<std::uint32_t>(r.between(top / 2, top)));
+      if (style == 2) words.push_back(static_cast<std::uint32_t>(top * c.G / (c.G + j)));  // near the physical one
+    }
+    std::sort(words.begin(), words.end(), std::greater<>());
+    w.load_table(2, 0, 0, 0, words);
+  }
+
+  void tile(std::uint32_t number) {
+    int width = static_cast<int>(r.between(1, std::min(c.W, 3 * c.P + 8)));
+    int height = static_cast<int>(r.between(1, std::min(c.H, 3 * c.P + 8)));
+    if (r.once_in(8)) width = height = 1;
+    if (r.once_in(8) || c.W * c.H <= 1600) width = c.W, height = c.H;
+    w.begin_tile(static_cast<int>(r.between(0, 2)), number, static_cast<int>(r.between(0, image_width - width)),
+                 static_cast<int>(r.between(0, image_height - height)), width, height);
+    // Bright tiles freeze and saturate; dim ones keep many sheets visible.
+    const int dimming = static_cast<int>(r.one_of({0, 1, 2, 4, 6}));
+    std::uint32_t sheet = static_cast<std::uint32_t>(r.one_of({0, 0, 1, 77}));
+    for (std::int64_t s = r.between(0, 8); s > 0; --s) {
+      w.begin_sheet(sheet);
+      sheet += static_cast<std::uint32_t>(r.between(1, 3));
+      const std::int64_t splats = r.once_in(6) ? 0 : r.between(1, 40);
+      for (std::int64_t i = 0; i < splats; ++i) {
+        if (r.once_in(12)) w.cull_block(static_cast<std::uint32_t>(r.next()), 0, 0, width, height, 3);
+        splat(width, height, dimming);
+      }
+      w.end_sheet();
+    }
+    w.end_tile();
+  }
+
+  void splat(int width, int height, int dimming) {
+    const auto which = static_cast<std::size_t>(r.between(0, static_cast<std::int64_t>(sets.size()) - 1));
+    const std::int32_t x = position(width, sets[which]), y = position(height, sets[which]);
+    std::array<std::uint32_t, 4> colour{};
+    for (std::uint32_t& v : colour) v = word(((std::int64_t{1} << c.cf) - 1) >> std::min(dimming, c.cf - 1));
+    w.splat(static_cast<int>(numbers[which]), x, y, colour);
+  }
+
+  std::int32_t position(int side, const Set& set) {
+    const std::int64_t one = std::int64_t{1} << c.pf, half = std::int64_t{1} << (c.pi + c.pf - 1);
+    const std::int64_t reach = set.columns + 2;
+    std::int64_t p = 0;
+    switch (r.between(0, 9)) {
+      case 0:  // the ends of the format: snapping saturates, the window is far outside
+        p = r.one_of({-half, -half + 1, half - 1, half - 2});
+        break;
+      case 1:  // anywhere at all
+        p = r.between(-half, half - 1);
+        break;
+      case 2:  // around the tile's first edge
+        p = r.between(-reach, reach) * one + r.between(-2, 2);
+        break;
+      case 3:  // around its last edge
+        p = (side + r.between(-reach, reach)) * one + r.between(-2, 2);
+        break;
+      case 4: {  // ties between two grid positions
+        const std::int64_t step = std::max<std::int64_t>(one / c.k, 1);
+        p = r.between(-reach, side + reach) * one + r.between(0, c.k - 1) * step + step / 2 - r.between(0, 1);
+        break;
+      }
+      default:
+        p = r.between(0, side * one);
+    }
+    return static_cast<std::int32_t>(std::clamp(p, -half, half - 1));
+  }
+
+  oracle::Symbols c;
+  Random& r;
+  StreamWriter w;
+  std::vector<Set> sets;
+  std::vector<std::uint32_t> numbers;
+};
+
+}  // namespace
+
+RandomStream random_stream(const oracle::Symbols& symbols, Random& random, std::uint64_t splats) {
+  return Generator(symbols, random).run(splats);
+}
+
+}  // namespace fastsplat::test

@@ -1,0 +1,21 @@
+// Random legal streams, boundary cases first: ties, saturation, every window phase and bank, all tile edges, footprints
+// wider than the lanes, overlapping radius sets, tables no driver would make.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tests/cmodel/oracle/symbols.hpp"
+#include "tests/cmodel/random_helper.hpp"
+
+namespace fastsplat::test {
+
+struct RandomStream {
+  std::vector<std::uint8_t> bytes;
+  std::uint64_t splats = 0;
+};
+
+/// At least `splats` splat records (a few more: sheets are not cut short).
+RandomStream random_stream(const oracle::Symbols& symbols, Random& random, std::uint64_t splats);
+
+}  // namespace fastsplat::test

@@ -1,0 +1,48 @@
+// Writes streams byte by byte from docs/stream.md, without the model's encoder. It writes whatever it is asked to, so
+// that tests can break rules too.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cmodel/beat.hpp"
+#include "tests/cmodel/oracle/symbols.hpp"
+
+namespace fastsplat::test {
+
+class StreamWriter {
+ public:
+  explicit StreamWriter(const oracle::Symbols& symbols) : symbols_(symbols) {}
+
+  void beat(const std::array<std::uint32_t, 6>& words);
+  void begin_frame(int width, int height, std::uint32_t tiles);
+  /// Pads the last beat with zeros.
+  void load_table(int table, std::uint32_t set, std::uint32_t rho, std::uint32_t base,
+                  const std::vector<std::uint32_t>& words);
+  void begin_tile(int mode, std::uint32_t tile, int x, int y, int width, int height);
+  void begin_sheet(std::uint32_t sheet);
+  void splat(int set, std::int32_t x, std::int32_t y, const std::array<std::uint32_t, 4>& colour);
+  void cull_block(std::uint32_t tag, std::int32_t x, std::int32_t y, int width, int height, std::uint32_t splats);
+  void end_sheet();
+  void end_tile();
+  void end_frame();
+
+  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+  std::size_t beats() const { return bytes_.size() / 24; }
+  std::uint64_t total_splats() const { return total_splats_; }
+
+ private:
+  oracle::Symbols symbols_;
+  std::vector<std::uint8_t> bytes_;
+  std::uint32_t tile_ = 0, sheet_ = 0, tag_ = 0, splats_ = 0, sheets_ = 0;
+  std::uint64_t total_splats_ = 0;
+};
+
+/// The same bytes as the model takes them.
+std::vector<cmodel::Beat> to_beats(std::span<const std::uint8_t> bytes);
+/// Puts the right beat count and CRC into the last beat, which is an end_frame.
+void seal(std::vector<std::uint8_t>& bytes);
+
+}  // namespace fastsplat::test

@@ -1,0 +1,106 @@
+// What the user asked for, as plain data: parse.cpp fills one of these, one file per verb carries it out.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace fastsplat::cli {
+
+/// Options that every verb has.
+struct Common {
+  std::string json;    ///< --json: a file, `-` for stdout, empty for none
+  bool quiet = false;  ///< --quiet: errors only
+  int threads = 0;     ///< --threads: 0 all cores; never changes a result
+};
+
+/// A scene: a file, single flags, or a file overridden by flags. Absent ones leave the file's or the default value.
+struct SceneFlags {
+  std::optional<std::string> file, volume, transfer_function, kernel, size, method, slab_opacity, shading;
+  std::optional<double> kernel_a, kernel_radius, azimuth, elevation, roll, zoom, fov;
+  std::optional<double> slab_width, xray_exposure, opacity_scale;
+  std::optional<int> xray_sheets;
+  bool perspective = false, orthographic = false;
+};
+
+struct RenderArguments {
+  Common common;
+  SceneFlags scene;
+  std::string engine = "golden", index = "rlut";
+  std::optional<std::string> config;
+  std::vector<std::string> out;
+  std::string raw;         ///< raw device words as EXR; empty for none
+  std::string save_scene;  ///< where to write the scene as TOML; empty for none
+};
+
+struct CompareArguments {
+  Common common;
+  std::string ref, test, map, heat;
+  int lsb_bits = 8;
+  double peak = 1.0;
+  int clusters = 5;
+  std::optional<double> min_psnr, max_lsb, max_mean_lsb, max_rmse_lsb, max_bias_lsb, max_p99_lsb, min_ssim;
+  bool allow_nonfinite = false;
+};
+
+struct VolumeInfoArguments {
+  Common common;
+  std::string volume;
+};
+
+struct VolumeConvertArguments {
+  Common common;
+  std::string volume, out;
+  std::optional<std::string> type;
+};
+
+struct StreamRecordArguments {
+  Common common;
+  SceneFlags scene;
+  std::string config = "base", out;
+};
+
+struct StreamDumpArguments {
+  Common common;
+  std::string stream;
+  std::optional<int> limit;
+};
+
+struct StreamReplayArguments {
+  Common common;
+  std::string stream, config = "base", raw;
+  std::vector<std::string> out;
+};
+
+struct ConfigListArguments {
+  Common common;
+};
+
+struct ConfigShowArguments {
+  Common common;
+  std::string config;
+};
+
+struct ConfigCheckArguments {
+  Common common;
+  std::string file;
+};
+
+struct DoctorArguments {
+  Common common;
+};
+
+/// --help, --version, `help`: a text to print.
+struct TextArguments {
+  std::string text;
+};
+
+using Command = std::variant<TextArguments, RenderArguments, CompareArguments, VolumeInfoArguments,
+                             VolumeConvertArguments, StreamRecordArguments, StreamDumpArguments, StreamReplayArguments,
+                             ConfigListArguments, ConfigShowArguments, ConfigCheckArguments, DoctorArguments>;
+
+/// The command line as one Command. Whatever makes no sense is a UserError (Usage) with the fix.
+Command parse(int argc, const char* const* argv);
+
+}  // namespace fastsplat::cli

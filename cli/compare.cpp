@@ -1,0 +1,111 @@
+// fastsplat compare: how far TEST is from REF, and whether that is within the limits.
+#include "analysis/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/image_file.hpp"
+#include "cli/image_output.hpp"
+#include "cli/output.hpp"
+#include "cli/verbs.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void check(const CompareArguments& arguments) {
+  const auto at_least = [](const char* flag, const std::optional<double>& value, double least) {
+    if (!value || *value >= least) return;
+    throw_usage({.where = flag,
+                 .what = "no such limit",
+                 .expected = fmt::format("{} or more", least),
+                 .got = fmt::format("{}", *value),
+                 .fix = "limits are on magnitudes"});
+  };
+  at_least("--max-lsb", arguments.max_lsb, 0.0);
+  at_least("--max-mean-lsb", arguments.max_mean_lsb, 0.0);
+  at_least("--max-rmse-lsb", arguments.max_rmse_lsb, 0.0);
+  at_least("--max-bias-lsb", arguments.max_bias_lsb, 0.0);
+  at_least("--max-p99-lsb", arguments.max_p99_lsb, 0.0);
+  if (!(arguments.peak > 0.0)) {
+    throw_usage({.where = "--peak",
+                 .what = "not a peak",
+                 .expected = "more than 0",
+                 .got = fmt::format("{}", arguments.peak),
+                 .fix = {}});
+  }
+  std::vector<std::string> maps;
+  for (const auto& path : {arguments.map, arguments.heat}) {
+    if (!path.empty()) maps.push_back(path);
+  }
+  check_outputs(maps, {}, {arguments.common.json});
+}
+
+analysis::CompareOptions options_from(const CompareArguments& arguments) {
+  analysis::CompareOptions options;
+  options.lsb_bits = arguments.lsb_bits;
+  options.peak = arguments.peak;
+  options.clusters = arguments.clusters;
+  options.min_psnr_db = arguments.min_psnr;
+  options.max_abs_lsb = arguments.max_lsb;
+  options.max_mean_lsb = arguments.max_mean_lsb;
+  options.max_rmse_lsb = arguments.max_rmse_lsb;
+  options.max_bias_lsb = arguments.max_bias_lsb;
+  options.max_p99_lsb = arguments.max_p99_lsb;
+  options.min_ssim = arguments.min_ssim;
+  options.allow_nonfinite = arguments.allow_nonfinite;
+  options.threads = arguments.common.threads;
+  return options;
+}
+
+bool is_display(const analysis::LoadedImage& loaded) { return loaded.metadata.contains("display"); }
+
+// A picture made for looking (sRGB curve, over black) has other numbers than a measurement of the same scene.
+void check_comparable(const CompareArguments& arguments, const analysis::LoadedImage& ref,
+                      const analysis::LoadedImage& test) {
+  if (is_display(ref) == is_display(test)) return;
+  const auto& shown = is_display(ref) ? arguments.ref : arguments.test;
+  throw UserError(ExitCode::NotComparable,
+                  {.where = shown,
+                   .what = "is a picture for looking (sRGB, 8 bit), the other holds linear values",
+                   .expected = {},
+                   .got = {},
+                   .fix = "render both to .exr or .tif and compare those"});
+}
+
+Json origin(const std::string& path, const analysis::LoadedImage& loaded) {
+  Json metadata = Json::object();
+  for (const auto& [key, value] : loaded.metadata) metadata[key] = value;
+  return {{"file", path}, {"format", analysis::to_string(loaded.kind)}, {"metadata", metadata}};
+}
+
+}  // namespace
+
+ExitCode run(const CompareArguments& arguments) {
+  const Output output(arguments.common);
+  check(arguments);
+  const auto ref = analysis::read_image(arguments.ref);
+  const auto test = analysis::read_image(arguments.test);
+  check_comparable(arguments, ref, test);
+  const auto options = options_from(arguments);
+  const auto report = analysis::compare(ref.image, test.image, options);
+
+  if (!arguments.map.empty()) {
+    analysis::write_image(arguments.map, analysis::lsb_map(ref.image, test.image, options), {},
+                          {.kind = analysis::PixelKind::Uint8});
+  }
+  if (!arguments.heat.empty()) {
+    analysis::write_image(arguments.heat, analysis::heat_map(ref.image, test.image, options), {},
+                          {.kind = analysis::PixelKind::Uint8});
+  }
+  output.line(analysis::to_text(report));
+  Json json = Json::parse(analysis::to_json(report));
+  json["ref"] = origin(arguments.ref, ref);
+  json["test"] = origin(arguments.test, test);
+  output.json(json.dump(2));
+  return report.pass ? ExitCode::Pass : ExitCode::Failed;
+}
+
+}  // namespace fastsplat::cli

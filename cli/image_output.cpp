@@ -1,0 +1,95 @@
+#include "cli/image_output.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string ending(const std::string& path) {
+  std::string text = fs::path(path).extension().string();
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+void require_ending(const std::string& path, const std::vector<std::string>& known) {
+  if (std::find(known.begin(), known.end(), ending(path)) != known.end()) return;
+  throw_usage({.where = path,
+               .what = "the ending does not name an image format written here",
+               .expected = fmt::format("{}", fmt::join(known, ", ")),
+               .got = ending(path).empty() ? "none" : ending(path),
+               .fix = "end the name in " + known.front()});
+}
+
+// A device or a pipe takes text, whatever becomes of it; anything else must be creatable.
+void require_writable(const std::string& path) {
+  std::error_code ignored;
+  const auto status = fs::status(path, ignored);
+  if (fs::is_character_file(status) || fs::is_fifo(status)) return;
+  const AtomicFile probe(path);
+}
+
+analysis::WriteOptions options_for(const std::string& path) {
+  if (ending(path) == ".exr") return {.kind = analysis::PixelKind::Float, .display = false};
+  if (ending(path) == ".png") return {.kind = analysis::PixelKind::Uint8, .display = true};
+  return {.kind = analysis::PixelKind::Uint16, .display = false};
+}
+
+}  // namespace
+
+void check_outputs(const std::vector<std::string>& images, const std::string& raw,
+                   const std::vector<std::string>& others) {
+  std::set<fs::path> seen;
+  const auto once = [&seen](const std::string& path) {
+    std::error_code ignored;
+    if (seen.insert(fs::weakly_canonical(fs::absolute(path, ignored), ignored)).second) return;
+    throw_usage(
+        {.where = path, .what = "two results under one name", .expected = {}, .got = {}, .fix = "give each its own"});
+  };
+  for (const auto& path : images) {
+    require_ending(path, {".exr", ".png", ".tif", ".tiff"});
+    once(path);
+    const AtomicFile probe(path);
+  }
+  if (!raw.empty()) {
+    require_ending(raw, {".exr"});
+    once(raw);
+    const AtomicFile probe(raw);
+  }
+  for (const auto& path : others) {
+    if (path.empty() || path == "-") continue;
+    once(path);
+    require_writable(path);
+  }
+}
+
+void write_images(const std::vector<std::string>& paths, const Image& image, const analysis::Metadata& metadata,
+                  const Output& output) {
+  for (const auto& path : paths) {
+    const auto options = options_for(path);
+    auto labelled = metadata;
+    if (options.display) labelled["display"] = "srgb";
+    const std::size_t clamped = analysis::write_image(path, image, labelled, options);
+    if (clamped > 0) {
+      output.warn(fmt::format("{}: {} values lay outside 0..1 and were clamped; write .exr to keep them", path,
+                              grouped(clamped)));
+    }
+    output.line(path);
+  }
+}
+
+void warn_if_empty(const Image& image, const Output& output) {
+  if (std::all_of(image.data.begin(), image.data.end(), [](float value) { return value == 0.0f; })) {
+    output.warn("the picture is empty; try another --tf, a larger --opacity-scale or a smaller --zoom");
+  }
+}
+
+}  // namespace fastsplat::cli

@@ -1,0 +1,118 @@
+#include "cli/output.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+// False with errno set when the descriptor does not take it all.
+bool write_all(int descriptor, std::string_view text) noexcept {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor, text.data(), text.size());
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      return false;
+    }
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+bool set(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && *value != '\0';
+}
+
+void talk(const std::string& label, const char* colour, const std::string& text) {
+  // What goes wrong on stderr cannot be told anyone.
+  if (stderr_has_colour()) {
+    write_all(STDERR_FILENO, fmt::format("\033[{}m{}\033[0m {}\n", colour, label, text));
+  } else {
+    write_all(STDERR_FILENO, label + " " + text + "\n");
+  }
+}
+
+}  // namespace
+
+bool write_stdout(std::string_view text) {
+  static bool reader_gone = false;
+  if (reader_gone) return false;
+  if (write_all(STDOUT_FILENO, text)) return true;
+  if (errno == EPIPE) {
+    reader_gone = true;
+    return false;
+  }
+  throw_input({.where = "standard output",
+               .what = std::string("cannot write: ") + std::strerror(errno),
+               .expected = {},
+               .got = {},
+               .fix = "send it to a place that takes it"});
+}
+
+bool stderr_is_terminal() {
+  static const bool terminal = [] {
+    const char* kind = std::getenv("TERM");
+    return ::isatty(STDERR_FILENO) == 1 && kind != nullptr && std::strcmp(kind, "dumb") != 0;
+  }();
+  return terminal;
+}
+
+bool stderr_has_colour() { return stderr_is_terminal() && !set("NO_COLOR"); }
+
+void print_error(std::string_view message) noexcept {
+  try {
+    std::string line(message);
+    for (char& c : line) {
+      if (c == '\n' || c == '\r') c = ' ';
+    }
+    while (!line.empty() && line.back() == ' ') line.pop_back();
+    talk("fastsplat: error:", "1;31", line);
+  } catch (...) {
+    write_all(STDERR_FILENO, "fastsplat: error: not enough memory to say more\n");
+  }
+}
+
+std::string grouped(unsigned long long number) {
+  std::string digits = std::to_string(number);
+  for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3) digits.insert(static_cast<std::size_t>(at), ",");
+  return digits;
+}
+
+Output::Output(const Common& common) : common_(common) {}
+
+void Output::line(const std::string& text) const {
+  if (!common_.quiet && common_.json != "-") write_stdout(text + "\n");
+}
+
+void Output::json(const std::string& text) const {
+  if (common_.json.empty()) return;
+  if (common_.json == "-") {
+    write_stdout(text + "\n");
+  } else {
+    write_text_file(common_.json, text + "\n");
+  }
+}
+
+void Output::warn(const std::string& text) const {
+  if (!common_.quiet) talk("fastsplat: warning:", "1;33", text);
+}
+
+void Output::note(const std::string& text) const {
+  if (!common_.quiet) talk("fastsplat:", "2", text);
+}
+
+void Output::note_time(const std::string& what) const { note(fmt::format("{} in {:.1f} s", what, seconds())); }
+
+double Output::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+}  // namespace fastsplat::cli

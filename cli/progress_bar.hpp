@@ -1,0 +1,36 @@
+// One line on a terminal that tells how far a long call has come; nothing anywhere else.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <mutex>
+#include <string>
+
+#include "base/progress.hpp"
+
+namespace fastsplat::cli {
+
+enum class Watching { IfTerminal, Never };
+
+class ProgressBar {
+ public:
+  ProgressBar(std::string label, Watching watching);
+  ~ProgressBar();  ///< wipes the line
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  /// For the call to report to; empty when nobody is watching. Must not outlive the bar.
+  Progress callback();
+
+ private:
+  void show(std::size_t done, std::size_t total);
+
+  std::string label_;
+  bool visible_;
+  bool drawn_ = false;
+  std::mutex mutex_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point last_{};
+};
+
+}  // namespace fastsplat::cli

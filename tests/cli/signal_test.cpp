@@ -1,0 +1,55 @@
+// Ctrl-C and its kin: exit 130, no temporary file, nothing under the final name.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+
+#include "tests/cli/process_helper.hpp"
+
+namespace fastsplat::cli_test {
+namespace {
+
+// Long enough that no machine finishes it before the signal comes.
+std::vector<std::string> long_recording(const std::string& out) {
+  return {"stream", "record", "--volume", "shells:200", "--size", "2000", "--slab-width", "0.25", "-o", out, "--quiet"};
+}
+
+// True once a file in the folder has begun to grow.
+std::function<bool()> writing_in(const TempFolder& folder) {
+  return [&folder] {
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path(), ignored)) {
+      if (entry.file_size(ignored) > 0) return true;
+    }
+    return false;
+  };
+}
+
+TEST(Signals, CtrlCWhileWritingRemovesTheTemporaryFile) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const TempFolder folder;
+    Surroundings interrupted;
+    interrupted.signal = signal;
+    interrupted.when = writing_in(folder);
+    const auto result = fastsplat(long_recording(folder / "s.fss"), interrupted);
+    EXPECT_FALSE(result.timed_out);
+    EXPECT_EQ(result.code, 128 + signal) << result.err;
+    EXPECT_TRUE(folder.entries().empty()) << folder.entries().front();
+  }
+}
+
+TEST(Signals, CtrlCWhileRenderingIsExit130) {
+  const TempFolder folder;
+  Surroundings interrupted;
+  interrupted.signal = SIGINT;
+  const auto start = std::chrono::steady_clock::now();
+  interrupted.when = [start] { return std::chrono::steady_clock::now() - start > std::chrono::milliseconds(400); };
+  const auto result =
+      fastsplat({"render", "--volume", "shells:200", "--size", "3000", "--method", "raycast", "-o", folder / "a.exr"},
+                interrupted);
+  EXPECT_EQ(result.code, 130) << result.err;
+  EXPECT_TRUE(folder.entries().empty());
+}
+
+}  // namespace
+}  // namespace fastsplat::cli_test

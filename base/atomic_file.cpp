@@ -59,7 +59,10 @@ void remove_unfinished_files() noexcept {
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
   std::error_code ignored;
   // The rename must replace what a link points to, not the link, and never a device node or a protected file.
-  if (std::filesystem::is_symlink(path_, ignored)) path_ = std::filesystem::weakly_canonical(path_, ignored);
+  for (int links = 0; links < 40 && std::filesystem::is_symlink(path_, ignored); ++links) {
+    path_ =
+        path_.parent_path() / std::filesystem::read_symlink(path_, ignored);  // an absolute target replaces the folder
+  }
   const auto status = std::filesystem::status(path_, ignored);
   if (std::filesystem::is_directory(status)) cannot_write(path_, "it is a directory");
   if (std::filesystem::exists(status)) {

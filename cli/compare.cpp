@@ -34,7 +34,7 @@ void check(const CompareArguments& arguments) {
                  .what = "not a peak",
                  .expected = "more than 0",
                  .got = fmt::format("{}", arguments.peak),
-                 .fix = {}});
+                 .fix = "1 is the peak of linear images"});
   }
   std::vector<std::string> maps;
   for (const auto& path : {arguments.map, arguments.heat}) {

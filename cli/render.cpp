@@ -110,6 +110,7 @@ Image render_golden(const RenderArguments& arguments, const scene::Scene& scene,
     ProgressBar bar("golden", arguments.common.quiet ? Watching::Never : Watching::IfTerminal);
     image = golden::render(scene, {.threads = arguments.common.threads, .progress = bar.callback()});
   }
+  output.line(summary(scene));
   const auto voxels = voxel_count(scene);
   const int sheets = sheet_count(scene);
   output.line(
@@ -129,7 +130,6 @@ ExitCode run(const RenderArguments& arguments) {
   std::optional<cmodel::Config> config;
   if (engine == Engine::CModel) config = driver::load_config(arguments.config.value_or("base"));
   const scene::Scene scene = build(arguments.scene);
-  output.line(summary(scene));
 
   Json json{{"verb", "render"},
             {"version", analysis::program_version()},
@@ -149,6 +149,7 @@ ExitCode run(const RenderArguments& arguments) {
       ProgressBar bar("cmodel", arguments.common.quiet ? Watching::Never : Watching::IfTerminal);
       result = driver::render(scene, *config, {.threads = arguments.common.threads, .progress = bar.callback()});
     }
+    output.line(summary(scene));
     report_device(result, *config, output, json);
     write_device_images(result, arguments.out, arguments.raw, metadata, output);
   }

@@ -35,7 +35,6 @@ ExitCode run(const StreamRecordArguments& arguments) {
   check_outputs({}, {}, {arguments.out, arguments.common.json});
   const auto config = driver::load_config(arguments.config);
   const auto scene = build(arguments.scene);
-  output.line(summary(scene));
 
   driver::DriverReport report;
   {
@@ -47,6 +46,7 @@ ExitCode run(const StreamRecordArguments& arguments) {
             {"version", analysis::program_version()},
             {"stream", arguments.out},
             {"config", {{"name", config.name}, {"hash", cmodel::hash_text(cmodel::config_hash(config))}}}};
+  output.line(summary(scene));
   report_driver(report, output, json);
   output.line(arguments.out);
   output.json(json.dump(2));

@@ -1,4 +1,5 @@
-// The command line itself: verbs, flags, help, and what is said when they make no sense (exit 2).
+// Flags that parse but make no sense together (exit 2), and help, through the program itself; parse_test.cpp has the
+// rest.
 #include <gtest/gtest.h>
 
 #include "tests/cli/process_helper.hpp"
@@ -15,36 +16,6 @@ struct Misuse {
 class Usage : public ::testing::TestWithParam<Misuse> {};
 
 TEST_P(Usage, IsOneLineWithTheFix) { expect_error(fastsplat(GetParam().arguments), 2, GetParam().said); }
-
-INSTANTIATE_TEST_SUITE_P(
-    CommandLine, Usage,
-    ::testing::Values(
-        Misuse{"nothing", {}, {"which verb", "render"}}, Misuse{"verb_mistyped", {"rendr"}, {"did you mean 'render'"}},
-        Misuse{"verb_unknown", {"paint"}, {"unknown verb 'paint'"}},
-        Misuse{"inner_verb_missing", {"stream"}, {"record, dump, replay"}},
-        Misuse{"inner_verb_mistyped", {"volume", "inof"}, {"did you mean 'info'"}},
-        Misuse{"flag_mistyped", {"render", "--sise", "9"}, {"--sise", "did you mean '--size'"}},
-        Misuse{
-            "flag_mistyped_behind_positionals", {"compare", "a", "b", "--max-lbs", "3"}, {"did you mean '--max-lsb'"}},
-        Misuse{"short_flag_unknown", {"render", "-x"}, {"unknown flag -x"}},
-        Misuse{"flag_before_verb", {"--size", "9", "render"}, {"unknown flag --size"}},
-        Misuse{"value_missing_at_end", {"render", "--size"}, {"--size needs a value"}},
-        Misuse{"value_missing_before_flag", {"render", "--json", "--quiet"}, {"--json needs a value"}},
-        Misuse{"value_empty", {"render", "--size="}, {"--size needs a value"}},
-        Misuse{"value_blank", {"render", "--size", ""}, {"--size needs a value"}},
-        Misuse{"flag_twice", {"render", "--size", "9", "--size", "8"}, {"--size is given twice"}},
-        Misuse{"flag_with_value", {"render", "--quiet=yes"}, {"--quiet takes no value"}},
-        Misuse{"positional_missing", {"compare", "a.exr"}, {"TEST is required"}},
-        Misuse{"positional_extra", {"compare", "a", "b", "c"}, {"unexpected 'c'"}},
-        Misuse{"required_flag_missing", {"stream", "record", "--volume", "shells:8"}, {"--out is required"}},
-        Misuse{"help_on_nothing", {"help", "redner"}, {"did you mean 'render'"}},
-        Misuse{"number_nan", {"render", "--azimuth", "nan"}, {"--azimuth", "'nan'"}},
-        Misuse{"number_infinite", {"render", "--zoom", "inf"}, {"--zoom", "'inf'"}},
-        Misuse{"number_too_large", {"render", "--zoom", "1e999"}, {"--zoom", "'1e999'"}},
-        Misuse{"number_with_tail", {"render", "--zoom", "2x"}, {"--zoom", "'2x'"}},
-        Misuse{"number_hexadecimal", {"render", "--zoom", "0x10"}, {"--zoom", "'0x10'"}},
-        Misuse{"integer_with_fraction", {"render", "--xray-sheets", "2.5"}, {"--xray-sheets", "integer"}},
-        Misuse{"threads_negative", {"render", "--threads", "-1"}, {"--threads", "'-1'"}}));
 
 INSTANTIATE_TEST_SUITE_P(
     Render, Usage,

@@ -89,7 +89,8 @@ void expect_write_error(const Result& result, const std::string& path) {
   std::string last = result.err.substr(0, result.err.size() - (result.err.empty() ? 0 : 1));
   last = last.substr(last.rfind('\n') + 1);
   EXPECT_EQ(last.rfind("fastsplat: error: ", 0), 0u) << result.err;
-  EXPECT_NE(last.find(path), std::string::npos) << last;
+  // An .nhdr may fail in the data file beside it, which has its own ending.
+  EXPECT_NE(last.find(path.substr(0, path.rfind("out") + 3)), std::string::npos) << last;
   EXPECT_NE(last.find("; "), std::string::npos) << "no fix in: " << last;
 }
 

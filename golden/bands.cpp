@@ -8,25 +8,21 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace fastsplat::golden {
 
-int band_count(int image_height) { return (image_height + kBandRows - 1) / kBandRows; }
-
-Rows band_rows(int band, int image_height) {
-  return {band * kBandRows, std::min((band + 1) * kBandRows, image_height)};
-}
-
-void for_each_band(int image_height, int threads, const Progress& progress, const std::function<void(int band)>& work) {
-  const int bands = band_count(image_height);
+void for_each_band(const Bands& bands, int threads, const Progress& progress,
+                   const std::function<void(int band)>& work) {
   std::atomic<std::size_t> done = 0;
   const auto run = [&](const tbb::blocked_range<int>& range) {
     for (int band = range.begin(); band < range.end(); ++band) {
       work(band);
       const std::size_t finished = ++done;
-      if (progress) progress(finished, static_cast<std::size_t>(bands));
+      if (progress) progress(finished, static_cast<std::size_t>(bands.count()));
     }
   };
   // TBB hands out no more workers than cores unless told otherwise (and complains on stderr).
@@ -35,7 +31,8 @@ void for_each_band(int image_height, int threads, const Progress& progress, cons
     allow.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   }
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  arena.execute([&] { tbb::parallel_for(tbb::blocked_range<int>(0, bands, 1), run, tbb::simple_partitioner()); });
+  arena.execute(
+      [&] { tbb::parallel_for(tbb::blocked_range<int>(0, bands.count(), 1), run, tbb::simple_partitioner()); });
 }
 
 namespace {
@@ -45,34 +42,34 @@ struct BandRange {
   int end = 0;  ///< first == end: outside the image
 };
 
-BandRange bands_of(const ProjectedSplat& splat, int width, int height) {
+BandRange bands_of(const ProjectedSplat& splat, const Bands& bands, int width) {
   const double left = std::ceil(splat.x - splat.radius);
   const double right = std::floor(splat.x + splat.radius);
   const double top = std::max(std::ceil(splat.y - splat.radius), 0.0);
-  const double bottom = std::min(std::floor(splat.y + splat.radius), height - 1.0);
+  const double bottom = std::min(std::floor(splat.y + splat.radius), bands.image_height - 1.0);
   if (right < 0.0 || left > width - 1.0 || top > bottom) return {};
-  return {static_cast<int>(top) / kBandRows, static_cast<int>(bottom) / kBandRows + 1};
+  return {static_cast<int>(top) / bands.rows_per_band, static_cast<int>(bottom) / bands.rows_per_band + 1};
 }
 
 }  // namespace
 
 // A stable counting sort: count every bucket, turn the counts into starts, fill.
-BandIndex::BandIndex(const scene::Scene& scene, const std::vector<scene::Splat>& splats, int keys,
+BandIndex::BandIndex(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const Bands& bands, int keys,
                      const std::function<int(const ProjectedSplat&)>& key)
     : keys_(static_cast<std::size_t>(keys)) {
   const int width = scene.camera.width();
-  const int height = scene.camera.height();
+  assert(splats.size() <= std::numeric_limits<std::uint32_t>::max());
   const auto for_each_cell = [&](const auto& visit) {
     for (std::size_t i = 0; i < splats.size(); ++i) {
       const ProjectedSplat splat = project(scene, splats[i]);
-      const BandRange bands = bands_of(splat, width, height);
-      if (bands.first == bands.end) continue;
+      const BandRange reached = bands_of(splat, bands, width);
+      if (reached.first == reached.end) continue;
       const auto splat_key = static_cast<std::size_t>(key(splat));
-      for (int band = bands.first; band < bands.end; ++band) visit(band * keys_ + splat_key, i);
+      for (int band = reached.first; band < reached.end; ++band) visit(band * keys_ + splat_key, i);
     }
   };
 
-  start_.assign(band_count(height) * keys_ + 1, 0);
+  start_.assign(bands.count() * keys_ + 1, 0);
   for_each_cell([&](std::size_t cell, std::size_t) { ++start_[cell + 1]; });
   for (std::size_t cell = 1; cell < start_.size(); ++cell) start_[cell] += start_[cell - 1];
 

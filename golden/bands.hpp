@@ -2,6 +2,7 @@
 // that depends on the scene alone; so the bits of the image do not depend on the number of threads.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -14,21 +15,24 @@
 
 namespace fastsplat::golden {
 
-/// Few enough that a band's ring of sheets stays in cache, and enough that most splats lie in one band.
-inline constexpr int kBandRows = 16;
+struct Bands {
+  int image_height = 0;
+  /// By default few enough that a band's ring of sheets stays in cache, and enough that most splats lie in one band.
+  int rows_per_band = 16;
 
-int band_count(int image_height);
-Rows band_rows(int band, int image_height);
+  int count() const { return (image_height + rows_per_band - 1) / rows_per_band; }
+  Rows rows(int band) const { return {band * rows_per_band, std::min((band + 1) * rows_per_band, image_height)}; }
+};
 
-/// Runs work(band) for every band on `threads` threads (0: all cores), in any order. More threads than cores are
-/// honoured.
-void for_each_band(int image_height, int threads, const Progress& progress, const std::function<void(int band)>& work);
+/// Runs work(band) for every band on `threads` threads (0: all cores; more than cores are honoured), in any order.
+void for_each_band(const Bands& bands, int threads, const Progress& progress,
+                   const std::function<void(int band)>& work);
 
 /// For every band the indices of the splats that reach into it, sorted by key; equal keys stay in the order given.
 class BandIndex {
  public:
-  /// key(splat) in [0, keys).
-  BandIndex(const scene::Scene& scene, const std::vector<scene::Splat>& splats, int keys,
+  /// key(splat) in [0, keys). At most 2^32 - 1 splats.
+  BandIndex(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const Bands& bands, int keys,
             const std::function<int(const ProjectedSplat&)>& key);
 
   std::span<const std::uint32_t> bucket(int band, int key) const {

@@ -102,9 +102,10 @@ Image ray_cast(const scene::Scene& scene, const RenderOptions& options) {
   const SplatTree tree(splats);
 
   Image image(scene.camera.width(), scene.camera.height());
-  for_each_band(image.height, options.threads, options.progress, [&](int band) {
+  const Bands bands{image.height};
+  for_each_band(bands, options.threads, options.progress, [&](int band) {
     RayProfile profile(scene.kernel, half_depth);
-    const Rows rows = band_rows(band, image.height);
+    const Rows rows = bands.rows(band);
     for (int y = rows.first; y < rows.end; ++y) {
       for (int x = 0; x < image.width; ++x) {
         const scene::Ray ray = scene.camera.ray(x, y);

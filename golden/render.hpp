@@ -13,11 +13,12 @@ struct RenderOptions {
   Progress progress;
 };
 
-/// Renders scene.description.method. RGBA, premultiplied, linear.
+/// Renders scene.description.method. RGBA, premultiplied, linear; A is the opacity (X-ray: the exposed line integral of
+/// extinction, not clamped). docs/golden.md defines each technique. Progress counts bands of image rows.
 Image render(const scene::Scene& scene, const RenderOptions& options = {});
 
-// The techniques, each in its own file. All but the ray caster take the splats of the scene in traversal order, so that
-// tests can permute them.
+// The techniques, each in its own file; scene.description.method is not read. All but the ray caster take the splats of
+// the scene in traversal order, so that tests can permute them; only westover's picture depends on that order.
 Image ray_cast(const scene::Scene& scene, const RenderOptions& options);
 Image xray(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options);
 Image westover(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options);

@@ -80,6 +80,14 @@ class SheetBand {
   std::vector<Touched> touched_;
 };
 
+/// Thin slabs need long rings; then bands are narrower, to keep a thread's ring below this many bytes.
+constexpr double kRingBytes = 64e6;
+
+int rows_for_ring(int sheets, int width) {
+  const double row_bytes = static_cast<double>(sheets) * width * sizeof(Sums);
+  return static_cast<int>(std::clamp(kRingBytes / row_bytes, 4.0, 16.0));
+}
+
 Sums scaled(const Sums& value, double share) {
   return {value[0] * share, value[1] * share, value[2] * share, value[3] * share};
 }
@@ -92,12 +100,13 @@ Image sweep_sheets(const scene::Scene& scene, const std::vector<scene::Splat>& s
   const int width = scene.camera.width();
   const int height = scene.camera.height();
   Image image(width, height);
-  const BandIndex index(scene, splats, assignment.sheets(),
+  const int reach = assignment.reach();
+  const Bands bands{height, rows_for_ring(reach, width)};
+  const BandIndex index(scene, splats, bands, assignment.sheets(),
                         [&](const ProjectedSplat& splat) { return assignment.first(splat); });
 
-  for_each_band(height, options.threads, options.progress, [&](int band) {
-    const Rows rows = band_rows(band, height);
-    const int reach = assignment.reach();
+  for_each_band(bands, options.threads, options.progress, [&](int band) {
+    const Rows rows = bands.rows(band);
     std::vector<SheetBand> ring(reach, SheetBand(rows, width));
     std::vector<Sums> pixels(static_cast<std::size_t>(rows.end - rows.first) * width, initial);
     std::vector<double> shares;

@@ -12,10 +12,11 @@ Image westover(const scene::Scene& scene, const std::vector<scene::Splat>& splat
   const int height = scene.camera.height();
   const scene::SlabOpacity opacity = scene.description.slab_opacity;
   Image image(width, height);
-  const BandIndex index(scene, splats, 1, [](const ProjectedSplat&) { return 0; });
+  const Bands bands{height};
+  const BandIndex index(scene, splats, bands, 1, [](const ProjectedSplat&) { return 0; });
 
-  for_each_band(height, options.threads, options.progress, [&](int band) {
-    const Rows rows = band_rows(band, height);
+  for_each_band(bands, options.threads, options.progress, [&](int band) {
+    const Rows rows = bands.rows(band);
     std::vector<FrontToBack> pixels(static_cast<std::size_t>(rows.end - rows.first) * width);
     Footprint footprint;
     for (const std::uint32_t i : index.bucket(band, 0)) {

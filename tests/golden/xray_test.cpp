@@ -86,6 +86,23 @@ TEST(XRay, SheetsDoNotMatter) {
   }
 }
 
+// A long ring of wide sheets makes the bands narrower; that must not show either.
+TEST(XRay, ManySheetsInAWideImage) {
+  Lattice lattice;
+  lattice.azimuth = 31;
+  lattice.elevation = 20;
+  lattice.width = 2048;
+  lattice.height = 13;
+  const scene::Scene one = make_scene(lattice);
+  const std::vector<scene::Splat> splats = random_splats(one, 40, 3.0, 11);
+  const Image reference = xray(one, splats, {});
+  ASSERT_GT(max_opacity(reference), 0.1);
+  lattice.xray_sheets = 3000;
+  const double difference = max_difference(reference, xray(make_scene(lattice), splats, {})) / max_opacity(reference);
+  figure("xray_3000_sheets_difference", difference, "limit 1.2e-7: one float rounding");
+  EXPECT_LE(difference, std::ldexp(1.0, -23));
+}
+
 TEST(XRay, ExposureScalesEverything) {
   Lattice lattice;
   scene::Scene scene = make_scene(lattice);
@@ -95,6 +112,27 @@ TEST(XRay, ExposureScalesEverything) {
   const Image quarter = xray(scene, splats, {});
   ASSERT_GT(max_opacity(once), 0.0);
   for (std::size_t i = 0; i < once.data.size(); ++i) ASSERT_EQ(once.data[i] * 0.25f, quarter.data[i]);
+}
+
+// The slabs cover the volume whatever the view; a splat placed outside them must go to the nearest slab, not be lost.
+TEST(XRay, SplatsInFrontOfAndBehindAllSlabsCount) {
+  Lattice lattice;
+  lattice.dims = glm::ivec3(4);
+  lattice.xray_sheets = 5;
+  const scene::Scene scene = make_scene(lattice);
+  const scene::SlabGrid grid = scene::slab_grid(scene);
+  for (const double depth : {-3.0, -1.0, -0.9, 0.9, 1.0, 3.0}) {  // in units of the slabs' extent from the centre
+    const glm::dvec3 position = scene.camera.direction() * (depth * -grid.first);
+    const std::vector<scene::Splat> splats = {one_splat(position, 0.5f)};
+    const Image whole = westover(scene, splats, {});
+    const Image rays = xray(scene, splats, {});
+    const Image slabs = image_aligned(scene, splats, {});
+    ASSERT_GT(max_opacity(whole), 0.2);
+    for (std::size_t i = 3; i < whole.data.size(); i += 4) {
+      ASSERT_NEAR(-std::expm1(-static_cast<double>(rays.data[i])), whole.data[i], std::ldexp(1.0, -23)) << depth;
+      ASSERT_NEAR(slabs.data[i], whole.data[i], std::ldexp(1.0, -23)) << depth;
+    }
+  }
 }
 
 // A faint splat dims nothing: all techniques must show its line integral, up to the square of its optical depth.

@@ -1,38 +1,24 @@
 #include "golden/bands.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <optional>
+
+#include "base/parallel.hpp"
 
 namespace fastsplat::golden {
 
 void for_each_band(const Bands& bands, int threads, const Progress& progress,
                    const std::function<void(int band)>& work) {
+  const auto count = static_cast<std::size_t>(bands.count());
   std::atomic<std::size_t> done = 0;
-  const auto run = [&](const tbb::blocked_range<int>& range) {
-    for (int band = range.begin(); band < range.end(); ++band) {
-      work(band);
-      const std::size_t finished = ++done;
-      if (progress) progress(finished, static_cast<std::size_t>(bands.count()));
-    }
-  };
-  // TBB hands out no more workers than cores unless told otherwise (and complains on stderr).
-  std::optional<tbb::global_control> allow;
-  if (threads > tbb::info::default_concurrency()) {
-    allow.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  }
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  arena.execute(
-      [&] { tbb::parallel_for(tbb::blocked_range<int>(0, bands.count(), 1), run, tbb::simple_partitioner()); });
+  parallel_for(count, threads, [&](std::size_t band) {
+    work(static_cast<int>(band));
+    const std::size_t finished = ++done;
+    if (progress) progress(finished, count);
+  });
 }
 
 namespace {

@@ -19,7 +19,7 @@ namespace fastsplat::golden {
 
 namespace {
 
-/// Samples per kernel unit. Errors at this step (docs/golden.md has the measured ones):
+/// Samples per kernel unit. Errors at this step (measured: at most 2.4e-6 of full scale for a=2, docs/golden.md):
 /// - a step's own self-dimming is exact for a constant field: error of second order, < 1e-5 at optical depth 2 per
 /// unit;
 /// - the sum of a Gaussian's samples is its integral to 2 exp(-(pi/step)^2/a), nothing; the cut at R leaves at most

@@ -300,14 +300,24 @@ std::uint64_t byte_skip(const Header& header, const VoxelSource& source) {
     refuse(header.path, field->line, "byte skip with gzip encoding is not supported", "byte skip: 0",
            field->value.substr(0, 40), "convert it (unu save -f nrrd -e gzip)");
   }
-  if (field->value != "-1") return parse_count(header, *field, field->value);
   std::error_code error;
   const std::uint64_t size = fs::file_size(source.data, error);
+  if (error)
+    refuse(header.path, field->line, "cannot read the data file: " + error.message(), {}, {},
+           "keep the data file beside its header");
+  if (field->value != "-1") {
+    const std::uint64_t skip = parse_count(header, *field, field->value);
+    if (skip > size) {
+      refuse(header.path, field->line, "byte skip leads past the end of the file", fmt::format("at most {}", size),
+             fmt::format("{}", skip), "correct the header");
+    }
+    return skip;
+  }
   std::uint64_t need = size_of(source.component);
   for (const std::uint64_t extent : source.extents) need *= extent;
-  if (error || size < source.file_offset + need) {
+  if (size < source.file_offset + need) {
     refuse(header.path, field->line, "the header promises more than the file holds", fmt::format("{} bytes", need),
-           error ? error.message() : fmt::format("{} bytes", size), "download or copy the file again");
+           fmt::format("{} bytes", size), "download or copy the file again");
   }
   return size - need - source.file_offset;
 }

@@ -19,11 +19,10 @@ enum class SlabOpacity { Additive, Exponential };
 /// What scene.toml says; flags override single fields before `build_scene`.
 struct SceneDescription {
   std::string volume = "shells:64";
-  std::string
-      transfer_function;  ///< empty: chosen by volume (mri-head for the known scans, binary, checker, else default)
-  std::string kernel = "gauss2";  ///< a name, or empty with kernel_a / kernel_radius
+  std::string transfer_function{};  ///< empty: chosen by the volume (mri-head, binary, checker, else default)
+  std::string kernel = "gauss2";    ///< a name, or empty with kernel_a / kernel_radius
   double kernel_a = 2.0, kernel_radius = 2.0;
-  CameraParams camera;
+  CameraParams camera{};
   int width = 512, height = 512;
   Method method = Method::ImageAligned;
   double slab_width = 1.0;  ///< kernel units

@@ -1,0 +1,34 @@
+#include "base/suggest.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace fastsplat {
+namespace {
+
+TEST(Suggest, DistanceCountsEdits) {
+  EXPECT_EQ(edit_distance("", ""), 0);
+  EXPECT_EQ(edit_distance("shells", "shells"), 0);
+  EXPECT_EQ(edit_distance("shels", "shells"), 1);    // insertion
+  EXPECT_EQ(edit_distance("shellss", "shells"), 1);  // deletion
+  EXPECT_EQ(edit_distance("shelks", "shells"), 1);   // substitution
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
+  EXPECT_EQ(edit_distance("", "abc"), 3);
+  EXPECT_EQ(edit_distance("abc", ""), 3);
+}
+
+TEST(Suggest, OffersTheNearestElseAll) {
+  const std::vector<std::string> known = {"bone", "binary", "x-ray"};
+  EXPECT_EQ(suggestion("binray", known), "did you mean 'binary'?");
+  EXPECT_EQ(suggestion("bon", known), "did you mean 'bone'?");
+  EXPECT_EQ(suggestion("something else", known), "known: bone, binary, x-ray");
+}
+
+TEST(Suggest, AShortNameIsNoSuggestionForAnything) {
+  const std::vector<std::string> known = {"a", "radius"};  // "a" is within 3 edits of every short word
+  EXPECT_EQ(suggestion("xyz", known), "known: a, radius");
+}
+
+}  // namespace
+}  // namespace fastsplat

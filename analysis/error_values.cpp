@@ -1,14 +1,12 @@
 #include "analysis/error_values.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 
 namespace fastsplat::analysis {
 namespace {
@@ -86,12 +84,8 @@ std::vector<double> worst_channel(const std::vector<double>& errors, int channel
 
 void for_blocks(std::size_t count, std::size_t block, int threads,
                 const std::function<void(std::size_t, std::size_t, std::size_t)>& body) {
-  const std::size_t blocks = (count + block - 1) / block;
-  const int concurrency = threads > 0 ? threads : oneapi::tbb::task_arena::automatic;
-  oneapi::tbb::task_arena(concurrency).execute([&] {
-    oneapi::tbb::parallel_for(std::size_t{0}, blocks,
-                              [&](std::size_t b) { body(b, b * block, std::min(count, (b + 1) * block)); });
-  });
+  parallel_for((count + block - 1) / block, threads,
+               [&](std::size_t b) { body(b, b * block, std::min(count, (b + 1) * block)); });
 }
 
 }  // namespace fastsplat::analysis

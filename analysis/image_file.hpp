@@ -32,7 +32,7 @@ struct LoadedImage {
 /// EXR, PNG or TIFF, told by content and not by name; 1, 3 (RGB) or 4 (RGBA) channels.
 /// Samples are taken as stored: no alpha (un)premultiplication, no colour conversion, whatever the tags say.
 /// UserError (Input) when missing, not an image, truncated, corrupt, of unsupported channels or sample type, lossy
-/// (JPEG in TIFF), cropped, with several images in the file, or too large (a side > 2^20 or more than 2^31 values).
+/// (JPEG in TIFF), cropped, with several images in the file, or too large (a side > 65536 or more than 2^31 values).
 /// Memory grows with the data that really decodes, so that a header that lies costs nothing.
 LoadedImage read_image(const std::filesystem::path& path);
 

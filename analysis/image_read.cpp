@@ -23,7 +23,7 @@ namespace {
 using OIIO::TypeDesc;
 
 constexpr std::size_t kLargestFile = std::size_t{1} << 34;  // 2^31 float values and some
-constexpr int kLargestSide = 1 << 20;
+constexpr int kLargestSide = 1 << 16;
 constexpr std::int64_t kMostValues = std::int64_t{1} << 31;
 constexpr std::int64_t kBlockValues = std::int64_t{1} << 22;  // decoded at once: what a lying header can cost
 

@@ -116,10 +116,10 @@ std::size_t write_image(const std::filesystem::path& path, const Image& image, c
   const PixelKind usual =
       options.display ? PixelKind::Uint8 : (format == "openexr" ? PixelKind::Float : PixelKind::Uint16);
   const PixelKind kind = options.kind.value_or(usual);
-  check_kind(path, format, kind);
   if (options.display && (format == "openexr" || kind == PixelKind::Float)) {
     throw_input({path.string(), "a display image is 8 or 16 bit", ".png or .tif", format, {}});
   }
+  check_kind(path, format, kind);
 
   std::size_t clamped = 0;
   const auto colour_space = options.display ? ColourSpace::Srgb : ColourSpace::Linear;

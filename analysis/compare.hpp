@@ -16,7 +16,8 @@ struct CompareOptions {
   double peak = 1.0;  ///< PSNR's peak and SSIM's L, stated in the report
   int clusters = 5;   ///< worst clusters reported
   // Thresholds; absent ones are not applied. max_bias_lsb bounds |bias|. NaN/Inf fail unless allowed.
-  std::optional<double> min_psnr_db, max_abs_lsb, max_mean_lsb, max_rmse_lsb, max_bias_lsb, max_p99_lsb, min_ssim;
+  std::optional<double> min_psnr_db = {}, max_abs_lsb = {}, max_mean_lsb = {}, max_rmse_lsb = {}, max_bias_lsb = {},
+                        max_p99_lsb = {}, min_ssim = {};
   bool allow_nonfinite = false;
   int threads = 0;  ///< 0: all cores. Never changes the result.
 };

@@ -38,7 +38,7 @@ LoadedImage read_image(const std::filesystem::path& path);
 
 /// Absent `kind`: .exr Float, .png/.tif/.tiff Uint16; Uint8 where `display` is set.
 struct WriteOptions {
-  std::optional<PixelKind> kind;  ///< .exr Float, Half; .png Uint8, Uint16; .tif Uint8, Uint16, Float
+  std::optional<PixelKind> kind = {};  ///< .exr Float, Half; .png Uint8, Uint16; .tif Uint8, Uint16, Float
   bool display = false;  ///< .png/.tif only: composite over black, apply the sRGB curve, drop alpha (to look at)
 };
 

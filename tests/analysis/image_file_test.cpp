@@ -77,10 +77,10 @@ TEST_P(RoundTrip, SameInputSameBytes) {
   const Image image = random_image(9, 5, channels, 3);
   write_image(folder / (std::string("a") + format.name), image, kMetadata, {.kind = format.kind});
   write_image(folder / (std::string("b") + format.name), image, kMetadata, {.kind = format.kind});
-  const std::string bytes = file_text(folder / (std::string("a") + format.name));
-  EXPECT_EQ(bytes, file_text(folder / (std::string("b") + format.name)));
-  // The clock would make the bytes differ a second later; none is stored.
-  EXPECT_EQ(bytes.find("20" + std::string("26:")), std::string::npos);
+  EXPECT_EQ(file_text(folder / (std::string("a") + format.name)), file_text(folder / (std::string("b") + format.name)));
+  // A second later the clock would make a difference.
+  const auto input = OIIO::ImageInput::open((folder / (std::string("a") + format.name)).string());
+  EXPECT_EQ(input->spec().find_attribute("DateTime"), nullptr);
 }
 
 TEST(ImageFile, EveryCodeOfAnIntegerFileSurvivesReadingAndWriting) {
@@ -149,7 +149,7 @@ TEST(ImageFile, DisplayIsOpaqueSrgbOverBlack) {
   const TempFolder folder;
   Image image(2, 1, 4);
   image.data = {0.5f, 0.25f, 0.0f, 0.5f, 1.0f, 0.0f, 0.0021f, 0.0f};
-  EXPECT_EQ(write_image(folder / "a.png", image, {}, {.kind = {}, .display = true}), 0u);
+  EXPECT_EQ(write_image(folder / "a.png", image, {}, {.display = true}), 0u);
   const LoadedImage loaded = read_image(folder / "a.png");
   EXPECT_EQ(loaded.kind, PixelKind::Uint8);
   // IEC 61966-2-1 by hand: 0.5 -> 187.5, 0.25 -> 136.96, 0.0021 -> 12.92 * 0.0021 * 255 = 6.92.
@@ -293,7 +293,7 @@ TEST(ImageFile, RefusesToWriteWhatTheFormatCannotHold) {
   EXPECT_THAT(write_refusal("a", {}), HasSubstr("got none"));
   EXPECT_THAT(write_refusal("a.png", {.kind = PixelKind::Float}), HasSubstr("expected uint8 or uint16, got float"));
   EXPECT_THAT(write_refusal("a.exr", {.kind = PixelKind::Uint8}), HasSubstr("expected half or float, got uint8"));
-  EXPECT_THAT(write_refusal("a.exr", {.kind = {}, .display = true}), HasSubstr("display"));
+  EXPECT_THAT(write_refusal("a.exr", {.display = true}), HasSubstr("display"));
   EXPECT_THAT(write_refusal("no/such/folder/a.exr", {}), HasSubstr("folder"));
   EXPECT_THAT(
       refusal(ExitCode::Input,

@@ -80,6 +80,10 @@ std::optional<ErrorParts> first_violation(const Config& config) {
                      "at most 2^position.frac_bits = " + std::to_string(1 << config.position_frac_bits), config.phases,
                      "raise position.frac_bits or lower snap.phases");
   }
+  if (config.rlut_columns * config.phases < 2) {
+    return violation("rlut.columns", "cannot hold any radius set", "rlut.columns x snap.phases >= 2 (radius 1/k pixel)",
+                     config.rlut_columns * config.phases, "raise rlut.columns or snap.phases");
+  }
   const int reach = config.tile_width > config.tile_height ? config.tile_width : config.tile_height;
   if ((1 << (config.position_int_bits - 1)) < reach + config.rlut_columns) {
     return violation("position.int_bits", "cannot reach every splat that touches a tile",

@@ -58,6 +58,7 @@ void Model::load(const LoadTable& table) {
 
 void Model::begin_tile(const BeginTile& tile) {
   tile_ = tile;
+  sheet_number_ = 0;
   sheet_.begin_tile(tile.width, tile.height);
   compositor_.begin_tile(tile.mode, tile.width, tile.height);
 }
@@ -108,6 +109,7 @@ void Model::end_sheet() {
 
 void Model::end_tile() {
   ++counters_.tiles;
+  sheet_number_ = 0;  // pixels belong to no sheet
   TilePixels out{
       .tile = tile_.tile, .x = tile_.x, .y = tile_.y, .width = tile_.width, .height = tile_.height, .words = {}};
   out.words.reserve(static_cast<std::size_t>(tile_.width) * tile_.height * 4);

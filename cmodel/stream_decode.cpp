@@ -29,6 +29,10 @@ void StreamDecode::expect(bool holds, const char* what, std::int64_t expected, s
   if (!holds) refuse(what, std::to_string(expected), std::to_string(got));
 }
 
+void StreamDecode::expect_within(std::int64_t got, std::int64_t least, std::int64_t most, const char* what) const {
+  if (got < least || got > most) refuse(what, std::to_string(least) + ".." + std::to_string(most), std::to_string(got));
+}
+
 void StreamDecode::check_reserved(const Beat& beat, const RecordLayout& record) const {
   Beat used{};
   used[0] = field_mask(layout::kOpcode);
@@ -162,14 +166,10 @@ void StreamDecode::check(const BeginTile& record) {
   expect(record.mode <= Mode::Sum, "unknown mode", 2, static_cast<int>(record.mode));
   if (scope_ == StreamScope::Whole) expect(record.tile == tiles_seen_, "tiles out of order", tiles_seen_, record.tile);
   expect(record.tile < frame_.tiles, "more tiles than announced", frame_.tiles, std::int64_t{record.tile} + 1);
-  expect(record.width >= 1 && record.width <= config_.tile_width, "tile wider than the device's", config_.tile_width,
-         record.width);
-  expect(record.height >= 1 && record.height <= config_.tile_height, "tile higher than the device's",
-         config_.tile_height, record.height);
-  expect(record.x >= 0 && std::int64_t{record.x} + record.width <= frame_.width, "tile outside the image in x",
-         frame_.width, std::int64_t{record.x} + record.width);
-  expect(record.y >= 0 && std::int64_t{record.y} + record.height <= frame_.height, "tile outside the image in y",
-         frame_.height, std::int64_t{record.y} + record.height);
+  expect_within(record.width, 1, config_.tile_width, "tile width");
+  expect_within(record.height, 1, config_.tile_height, "tile height");
+  expect_within(record.x, 0, frame_.width - record.width, "tile outside the image in x");
+  expect_within(record.y, 0, frame_.height - record.height, "tile outside the image in y");
   tile_ = record.tile;
   ++tiles_seen_;
   sheets_seen_ = 0;
@@ -188,11 +188,10 @@ void StreamDecode::check(const BeginSheet& record) {
 
 void StreamDecode::check(const SplatRecord& record) {
   const Format position = config_.position_format();
-  expect(record.set < sets_loaded_.size() && sets_loaded_[record.set], "radius set not loaded", 0, record.set);
-  expect(record.x >= position.min && record.x <= position.max, "x does not fit the position format", position.max,
-         record.x);
-  expect(record.y >= position.min && record.y <= position.max, "y does not fit the position format", position.max,
-         record.y);
+  if (record.set >= sets_loaded_.size() || !sets_loaded_[record.set])
+    refuse("radius set not loaded", "a loaded radius set", std::to_string(record.set));
+  expect_within(record.x, position.min, position.max, "x does not fit the position format");
+  expect_within(record.y, position.min, position.max, "y does not fit the position format");
   for (const std::uint32_t colour : record.colour) {
     expect(colour <= config_.colour_format().max, "colour does not fit its format", config_.colour_format().max,
            colour);
@@ -224,6 +223,7 @@ void StreamDecode::check(const EndFrame& record) {
     expect(tiles_seen_ == frame_.tiles, "tiles missing", frame_.tiles, tiles_seen_);
     expect(record.beats == beats_, "beats lost", static_cast<std::int64_t>(record.beats),
            static_cast<std::int64_t>(beats_));
+    expect(record.crc == crc_.value(), "corrupt: checksum of the beats before is wrong", record.crc, crc_.value());
   }
   state_ = State::Ended;
 }
@@ -263,6 +263,7 @@ const Record* StreamDecode::feed(const Beat& beat) {
     }
   }
   ++beats_;
+  if (scope_ == StreamScope::Whole) crc_.add(beat);
   return done;
 }
 

@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "cmodel/config.hpp"
+#include "cmodel/crc32.hpp"
 #include "cmodel/records.hpp"
 
 namespace fastsplat::cmodel {
 
-/// Whether the beats are a whole recorded stream (tiles counted) or any subset of one's tiles.
+/// Whether the beats are a whole recorded stream (tiles, beats and CRC checked) or any subset of one's tiles.
 enum class StreamScope { Whole, Subset };
 
 class StreamDecode {
@@ -33,6 +34,7 @@ class StreamDecode {
 
   [[noreturn]] void refuse(const char* what, const std::string& expected, const std::string& got) const;
   void expect(bool holds, const char* what, std::int64_t expected, std::int64_t got) const;
+  void expect_within(std::int64_t got, std::int64_t least, std::int64_t most, const char* what) const;
   void check_reserved(const Beat& beat, const RecordLayout& record) const;
   void check_order(Opcode opcode, const char* name) const;
   void check(const BeginFrame& record, const Beat& beat);
@@ -52,6 +54,7 @@ class StreamDecode {
   State state_ = State::Start;
   Record record_;
   std::uint64_t beats_ = 0;  ///< complete beats taken
+  Crc32 crc_;                ///< of them; kept for whole streams only
   BeginFrame frame_;
   std::uint32_t words_left_ = 0;
   std::vector<bool> sets_loaded_;

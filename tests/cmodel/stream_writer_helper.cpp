@@ -79,6 +79,15 @@ std::vector<cmodel::Beat> to_beats(std::span<const std::uint8_t> bytes) {
   return beats;
 }
 
+std::size_t first_tile_beat(std::span<const std::uint8_t> bytes) {
+  std::size_t beat = 1;
+  while (bytes[beat * 24] == 0x4C) {
+    const std::uint8_t* count = &bytes[beat * 24 + 12];
+    beat += 1 + (count[0] + 256U * count[1] + 65536U * count[2] + 5) / 6;
+  }
+  return beat;
+}
+
 void seal(std::vector<std::uint8_t>& bytes) {
   const std::size_t at = bytes.size() - 24;
   const std::uint64_t before = at / 24;

@@ -42,6 +42,8 @@ class StreamWriter {
 
 /// The same bytes as the model takes them.
 std::vector<cmodel::Beat> to_beats(std::span<const std::uint8_t> bytes);
+/// Number of the first beat after begin_frame and the tables: table words may look like any record.
+std::size_t first_tile_beat(std::span<const std::uint8_t> bytes);
 /// Puts the right beat count and CRC into the last beat, which is an end_frame.
 void seal(std::vector<std::uint8_t>& bytes);
 

@@ -176,6 +176,7 @@ class Renderer {
   }
 
   void take(const TileEnd&) {
+    sheet = 0;  // of the Pixel events
     Picture picture{tile.tile, tile.x, tile.y, tile.width, tile.height, {}};
     const Words pixel = u(c.xi, c.xf);
     for (int y = 0; y < tile.height; ++y)

@@ -174,6 +174,7 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
           } else {
             r.rule(r.w[0] % 256 == 0x43, "splat, cull_block or end_sheet expected");
             r.only_opcode();
+            r.rule(r.low(4) >= 1 && r.high(4) >= 1, "an empty cull_block");
             items.emplace_back(CullHint{});
           }
         }

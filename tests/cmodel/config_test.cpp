@@ -1,0 +1,112 @@
+// Every limit of a configuration, broken once: the message names the key and has both numbers.
+#include <gtest/gtest.h>
+
+#include "tests/cmodel/configs_helper.hpp"
+
+namespace fastsplat::test {
+namespace {
+
+void expect_violation(const cmodel::Config& config, const std::string& key, const std::string& expected,
+                      const std::string& got) {
+  const auto violation = cmodel::first_violation(config);
+  ASSERT_TRUE(violation) << key << " = " << got << " is taken";
+  const std::string line = one_line(*violation);
+  EXPECT_NE(line.find(key), std::string::npos) << line;
+  EXPECT_NE(violation->expected.find(expected), std::string::npos) << line << " lacks " << expected;
+  EXPECT_EQ(violation->got, got) << line;
+  EXPECT_FALSE(violation->fix.empty()) << line;
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+}
+
+TEST(ConfigLimits, NamedConfigurationsAreSound) {
+  ASSERT_EQ(config_names(),
+            (std::vector<std::string>{"base", "compact", "exact", "small", "tiny", "wide", "year2000"}));
+  for (const std::string& name : config_names()) {
+    const auto violation = cmodel::first_violation(named_config(name));
+    EXPECT_FALSE(violation) << name << ": " << one_line(*violation);
+  }
+}
+
+TEST(ConfigLimits, EveryKeyBelowAboveAndBetweenPowers) {
+  int broken = 0;
+  for (const cmodel::ConfigKey& key : cmodel::config_keys()) {
+    cmodel::Config config = named_config("base");
+    for (const int value : {key.min - 1, key.max + 1, -1, 2147483647, -2147483647 - 1}) {
+      if (value >= key.min && value <= key.max) continue;
+      config.*key.member = value;
+      expect_violation(config, key.name, std::to_string(key.min) + ".." + std::to_string(key.max),
+                       std::to_string(value));
+      ++broken;
+    }
+    if (key.power_of_two && key.max >= 4) {
+      config.*key.member = 3;
+      expect_violation(config, key.name, "power of two", "3");
+      ++broken;
+    }
+  }
+  std::printf("[figure] key limits broken and refused = %d\n", broken);
+  EXPECT_GE(broken, 4 * static_cast<int>(cmodel::config_keys().size()));
+}
+
+struct Between {
+  const char* key;
+  const char* expected;
+  const char* got;
+  void (*violate)(cmodel::Config&);
+};
+
+const Between kBetween[] = {
+    {"tile.width", "multiple of 8", "100", [](cmodel::Config& c) { c.tile_width = 100; }},
+    {"tile.height", "multiple of 8", "4", [](cmodel::Config& c) { c.tile_height = 4; }},
+    {"rlut.columns", "multiple of 8", "12", [](cmodel::Config& c) { c.rlut_columns = 12; }},
+    {"snap.phases", "64", "128", [](cmodel::Config& c) { c.phases = 128; }},
+    {"rlut.columns", "2", "1",
+     [](cmodel::Config& c) {
+       c.lanes = 1;
+       c.rlut_columns = 1;
+       c.phases = 1;
+     }},
+    {"position.int_bits", "256", "128", [](cmodel::Config& c) { c.position_int_bits = 8; }},
+    {"sheet.frac_bits", "32", "33",
+     [](cmodel::Config& c) {
+       c.sheet_int_bits = 3;
+       c.sheet_frac_bits = 30;
+     }},
+    {"pixel.frac_bits", "32", "33",
+     [](cmodel::Config& c) {
+       c.pixel_int_bits = 2;
+       c.pixel_frac_bits = 31;
+     }},
+    {"opacity.segments", "2^6", "128",
+     [](cmodel::Config& c) {
+       c.sheet_int_bits = 2;
+       c.sheet_frac_bits = 4;
+       c.opacity_segments = 128;
+     }},
+    {"composite.freeze_below", "65536", "65537", [](cmodel::Config& c) { c.freeze_below = 65537; }},
+};
+
+TEST(ConfigLimits, EveryLimitBetweenKeys) {
+  for (const Between& limit : kBetween) {
+    cmodel::Config config = named_config("base");
+    limit.violate(config);
+    expect_violation(config, limit.key, limit.expected, limit.got);
+  }
+}
+
+TEST(ConfigLimits, EdgesAreTaken) {
+  cmodel::Config config = named_config("base");
+  config.freeze_below = 65536;
+  EXPECT_FALSE(cmodel::first_violation(config));
+  config.sheet_int_bits = 1;
+  config.sheet_frac_bits = 31;
+  EXPECT_FALSE(cmodel::first_violation(config));
+  config.pixel_int_bits = 1;
+  config.pixel_frac_bits = 31;
+  EXPECT_FALSE(cmodel::first_violation(config));
+  config.position_int_bits = 9;  // 256 = 128 + 128
+  EXPECT_FALSE(cmodel::first_violation(config));
+}
+
+}  // namespace
+}  // namespace fastsplat::test

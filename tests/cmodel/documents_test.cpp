@@ -1,0 +1,187 @@
+// docs/stream.md and docs/numerics.md against the code: tables in the pages and tables in the headers say the same.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "cmodel/counters.hpp"
+#include "cmodel/stream_layout.hpp"
+#include "tests/cmodel/configs_helper.hpp"
+
+namespace fastsplat::test {
+namespace {
+
+std::vector<std::string> lines_of(const std::string& page) {
+  std::ifstream file(std::string(FASTSPLAT_SOURCE_DIR) + "/docs/" + page);
+  EXPECT_TRUE(file) << page;
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  return lines;
+}
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(' ');
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+/// Cells of a "| a | b |" line.
+std::vector<std::string> cells(const std::string& line) {
+  std::vector<std::string> out;
+  std::stringstream stream(line.substr(std::min<std::size_t>(1, line.size())));
+  for (std::string cell; std::getline(stream, cell, '|');) out.push_back(trimmed(cell));
+  return out;
+}
+
+struct PageField {
+  int word, lsb, bits;
+  std::string text;  ///< from its position to the next one
+};
+
+std::vector<PageField> fields_of(const std::string& text) {
+  static const std::regex position(R"(\bw([0-5])(\[(\d+):(\d+)\])?)");
+  std::vector<PageField> fields;
+  for (auto it = std::sregex_iterator(text.begin(), text.end(), position); it != std::sregex_iterator(); ++it) {
+    const std::smatch& m = *it;
+    const int high = m[3].matched ? std::stoi(m[3]) : 31, low = m[4].matched ? std::stoi(m[4]) : 0;
+    const auto next = std::next(it);
+    const auto end = next == std::sregex_iterator() ? text.size() : static_cast<std::size_t>(next->position());
+    const auto begin = static_cast<std::size_t>(m.position() + m.length());
+    fields.push_back({std::stoi(m[1]), low, high - low + 1, text.substr(begin, end - begin)});
+  }
+  return fields;
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+TEST(StreamPage, EveryFieldLiesWhereTheLayoutSays) {
+  std::vector<std::vector<std::string>> rows;
+  for (const std::string& line : lines_of("stream.md"))
+    if (line.rfind("| 0x", 0) == 0) rows.push_back(cells(line));
+
+  const auto layouts = cmodel::record_layouts();
+  ASSERT_EQ(rows.size(), layouts.size()) << "records in the page and in the layout";
+  int fields_compared = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const cmodel::RecordLayout& layout = layouts[i];
+    EXPECT_EQ(std::stoi(rows[i][0], nullptr, 16), static_cast<int>(layout.opcode)) << layout.name;
+    EXPECT_EQ(rows[i][1], layout.name);
+    const std::vector<PageField> fields = fields_of(rows[i][2]);
+    ASSERT_EQ(fields.size(), layout.fields.size()) << layout.name << ": fields in the page and in the layout";
+    for (std::size_t j = 0; j < fields.size(); ++j) {
+      const cmodel::NamedField& named = layout.fields[j];
+      EXPECT_EQ(fields[j].word, named.field.word) << layout.name << '.' << named.name;
+      EXPECT_EQ(fields[j].lsb, named.field.lsb) << layout.name << '.' << named.name;
+      EXPECT_EQ(fields[j].bits, named.field.bits) << layout.name << '.' << named.name;
+      // "w1, w2 number of beats, low and high": the text of such a pair stands behind its second half.
+      std::string stem(named.name);
+      std::size_t said_at = j;
+      if (const auto half = stem.find('_'); half != std::string::npos) {
+        said_at = stem.substr(half) == "_low" ? j + 1 : j;
+        stem.resize(half);
+      }
+      const std::regex word("(^|[^a-z])" + stem + "([^a-z]|$)");
+      EXPECT_TRUE(std::regex_search(lower(fields[said_at].text), word))
+          << layout.name << '.' << named.name << " is not named at its place: " << fields[said_at].text;
+      ++fields_compared;
+    }
+  }
+  std::printf("[figure] fields of the stream page held against the layout = %d\n", fields_compared);
+  EXPECT_EQ(fields_compared, 40);
+}
+
+TEST(StreamPage, FieldsOfARecordDoNotOverlap) {
+  for (const cmodel::RecordLayout& layout : cmodel::record_layouts()) {
+    cmodel::Beat used{};
+    used[0] = cmodel::field_mask(cmodel::layout::kOpcode);
+    for (const auto& named : layout.fields) {
+      auto& word = used[static_cast<std::size_t>(named.field.word)];
+      EXPECT_EQ(word & cmodel::field_mask(named.field), 0U) << layout.name << '.' << named.name;
+      word |= cmodel::field_mask(named.field);
+    }
+  }
+}
+
+TEST(StreamPage, MagicVersionAndEnumerations) {
+  std::string page;
+  for (const std::string& line : lines_of("stream.md")) page += line + '\n';
+  char magic[16];
+  std::snprintf(magic, sizeof magic, "0x%08x", cmodel::kStreamMagic);
+  EXPECT_NE(lower(page).find(magic), std::string::npos);
+  EXPECT_NE(page.find("version (" + std::to_string(cmodel::kStreamVersion) + ")"), std::string::npos);
+  const auto has = [&](auto value, const char* name) {
+    EXPECT_NE(page.find(std::to_string(static_cast<int>(value)) + " " + name), std::string::npos) << name;
+  };
+  has(cmodel::Table::Rlut, "RLUT");
+  has(cmodel::Table::Radial, "RADIAL");
+  has(cmodel::Table::Factor, "FACTOR");
+  has(cmodel::Mode::Exponential, "exponential");
+  has(cmodel::Mode::Additive, "additive");
+  has(cmodel::Mode::Sum, "sum");
+}
+
+/// Rows "| table.key | symbol | base | meaning |" of section 2.
+std::vector<std::vector<std::string>> key_rows() {
+  std::vector<std::vector<std::string>> rows;
+  static const std::regex key(R"(\| [a-z]+\.[a-z_]+ \|.*)");
+  for (const std::string& line : lines_of("numerics.md"))
+    if (std::regex_match(line, key)) rows.push_back(cells(line));
+  return rows;
+}
+
+TEST(NumericsPage, KeysAndBaseValuesAreTheConfigurations) {
+  const auto rows = key_rows();
+  const auto base = read_keys(std::string(FASTSPLAT_SOURCE_DIR) + "/configs/base.toml");
+  const auto keys = cmodel::config_keys();
+  ASSERT_EQ(rows.size(), keys.size());
+  ASSERT_EQ(rows.size(), oracle::keys().size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i][0], keys[i].name) << "key " << i << " of the hash order";
+    EXPECT_EQ(rows[i][0], oracle::keys()[i].name);
+    ASSERT_TRUE(base.contains(rows[i][0])) << rows[i][0] << " is not in configs/base.toml";
+    EXPECT_EQ(rows[i][2], base.at(rows[i][0])) << rows[i][0];
+  }
+  for (const auto& [key, value] : base) {
+    if (key.find('.') == std::string::npos) continue;  // name, description, verified
+    EXPECT_TRUE(std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row[0] == key; })) << key;
+  }
+  std::printf("[figure] configuration keys compared = %zu\n", rows.size());
+}
+
+TEST(NumericsPage, HashIsThatOfThePagesLines) {
+  // From nothing but the page: its keys, its order, its base values.
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const auto& row : key_rows())
+    for (const char c : row[0] + "=" + row[2] + "\n")
+      hash = (hash ^ static_cast<unsigned char>(c)) * std::uint64_t{0x100000001b3U};
+  EXPECT_EQ(hash, cmodel::config_hash(named_config("base")));
+  for (const std::string& name : config_names()) {
+    cmodel::Config config = named_config(name);
+    const std::uint64_t expected = oracle::hash(symbols_of(config));
+    EXPECT_EQ(cmodel::config_hash(config), expected) << name;
+    config.name = config.description = config.verified = "other";
+    EXPECT_EQ(cmodel::config_hash(config), expected) << name << ": names do not enter the hash";
+  }
+}
+
+TEST(NumericsPage, NamesEveryCounterThatNeedsAMeaning) {
+  std::string page;
+  for (const std::string& line : lines_of("numerics.md")) page += line + '\n';
+  cmodel::Counters{}.for_each([&](const std::string& name, std::uint64_t, const char*) {
+    if (name == "tiles" || name == "sheets" || name == "splats" || name == "cull_blocks") return;  // plain counts
+    EXPECT_NE(page.find(name), std::string::npos) << name;
+  });
+}
+
+TEST(Crc, KnownAnswer) {
+  // The check value of CRC-32/ISO-HDLC (zlib's): the nine digits.
+  const std::string digits = "123456789";
+  EXPECT_EQ(oracle::crc32({reinterpret_cast<const std::uint8_t*>(digits.data()), digits.size()}), 0xCBF43926U);
+}
+
+}  // namespace
+}  // namespace fastsplat::test

@@ -21,8 +21,8 @@ struct TapRecord {
   Tap tap = Tap::Snap;
   std::uint32_t tile = 0;
   std::uint32_t sheet = 0;  ///< sheet number; 0 for Pixel, which belongs to no sheet
-  std::uint32_t tag = 0;  ///< splat tag; 0 for Composite and Pixel, which belong to no splat
-  std::int32_t x = 0;     ///< first pixel of the window or block, or the pixel itself
+  std::uint32_t tag = 0;    ///< splat tag; 0 for Composite and Pixel, which belong to no splat
+  std::int32_t x = 0;       ///< first pixel of the window or block, or the pixel itself
   std::int32_t y = 0;
   std::span<const std::uint32_t> payload;
 };

@@ -64,6 +64,7 @@ Classifier::Classifier(const TransferFunction& tf, const Volume& volume)
 
 Material Classifier::operator()(float value) const {
   if (table_.empty()) return evaluate(value);
+  assert(value >= table_min_ && static_cast<std::size_t>(value - table_min_) < table_.size());
   return table_[static_cast<std::size_t>(value - table_min_)];
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cassert>
 
 #include "base/error.hpp"
 
@@ -49,6 +50,7 @@ std::span<const RealSetting> real_settings() { return kReals; }
 std::span<const IntegerSetting> integer_settings() { return kIntegers; }
 
 void check_limits(const SceneDescription& description) {
+  assert(description.shading >= -1 && description.shading <= 1);
   for (const auto& setting : kReals) check(setting, description);
   for (const auto& setting : kIntegers) check(setting, description);
 }

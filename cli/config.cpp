@@ -53,7 +53,6 @@ std::string to_toml(const cmodel::Config& config) {
     text += fmt::format("{:40} # {}..{}{}: {}\n", fmt::format("{} = {}", name.substr(dot + 1), config.*key.member),
                         key.min, key.max, key.power_of_two ? ", a power of two" : "", key.meaning);
   }
-  text.pop_back();  // the line's own end
   return text;
 }
 

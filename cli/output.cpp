@@ -89,7 +89,7 @@ std::string grouped(unsigned long long number) {
 Output::Output(const Common& common) : common_(common) {}
 
 void Output::line(const std::string& text) const {
-  if (!common_.quiet && common_.json != "-") write_stdout(text + "\n");
+  if (!common_.quiet && common_.json != "-") write_stdout(text.ends_with('\n') ? text : text + "\n");
 }
 
 void Output::json(const std::string& text) const {

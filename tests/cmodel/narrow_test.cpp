@@ -56,7 +56,7 @@ TEST(Narrow, EveryWordAroundEverySmallFormat) {
   std::vector<Pair> formats;
   for (int f = 0; f <= 4; ++f) {
     formats.push_back({cmodel::unit_format(f), oracle::one(f), false});
-    for (int i = 0; i <= 3; ++i) formats.push_back({cmodel::unsigned_format(i, f), oracle::u(i, f), true});
+    for (int i = 0; i <= 3; ++i) formats.push_back({cmodel::unsigned_format(i, f), oracle::u(i, f), i + f > 0});
     for (int i = 1; i <= 3; ++i) formats.push_back({cmodel::signed_format(i, f), oracle::s(i, f), true});
   }
   Check check;

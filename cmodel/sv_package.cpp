@@ -1,0 +1,146 @@
+#include "cmodel/sv_package.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+
+#include "cmodel/counters.hpp"
+#include "cmodel/stream_decode.hpp"
+#include "cmodel/stream_layout.hpp"
+
+namespace fastsplat::cmodel {
+namespace {
+
+/// Bits that hold 0..largest, at least one.
+int bits_for(std::int64_t largest) {
+  const int bits = std::bit_width(static_cast<std::uint64_t>(largest));
+  return bits > 0 ? bits : 1;
+}
+
+class Package {
+ public:
+  void number(const std::string& name, std::int64_t value) {
+    text_ += "  localparam int " + name + " = " + std::to_string(value) + ";\n";
+  }
+  void vector(const std::string& name, int bits, std::uint64_t value) {
+    text_ += "  localparam logic [" + std::to_string(bits - 1) + ":0] " + name + " = " + std::to_string(bits) + "'h" +
+             hash_text(value).substr(16 - static_cast<std::size_t>((bits + 3) / 4)) + ";\n";
+  }
+  void section(const std::string& title) { text_ += "\n  // " + title + "\n"; }
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+std::string upper(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+}  // namespace
+
+std::optional<ErrorParts> rtl_violation(const Config& config) {
+  const auto refuse = [](const char* key, const char* what, std::string expected, int got) {
+    return ErrorParts{.where = key, .what = what, .expected = std::move(expected), .got = std::to_string(got), .fix = "use the model for this configuration"};
+  };
+  if (config.phases < 2) return refuse("snap.phases", "the RTL needs a phase bit", "at least 2", config.phases);
+  if (config.lanes < 2) return refuse("array.lanes", "the RTL needs a lane bit", "at least 2", config.lanes);
+  if (config.opacity_segments < 2) return refuse("opacity.segments", "the RTL needs a segment bit", "at least 2", config.opacity_segments);
+  if (config.opacity_remainder_bits() < 1) {
+    return refuse("opacity.segments", "the RTL interpolates over at least one bit", "sheet bits - log2(segments) >= 1", config.opacity_remainder_bits());
+  }
+  const int blocks = config.tile_width / config.lanes * (config.tile_height / config.lanes);
+  if (blocks > 1024) return refuse("tile.width", "the RTL finds dirty blocks in one cycle", "at most 1024 blocks of P x P in a tile", blocks);
+  const int columns = config.tile_width / config.lanes;
+  if (!std::has_single_bit(static_cast<unsigned>(columns))) {
+    return refuse("tile.width", "the RTL addresses blocks by shifts", "tile.width / array.lanes a power of two", columns);
+  }
+  return std::nullopt;
+}
+
+std::string sv_package(const Config& config) {
+  const int blocks_x = config.tile_width / config.lanes, blocks_y = config.tile_height / config.lanes;
+  const int sheet_bits = config.sheet_int_bits + config.sheet_frac_bits;
+  const int transmittance_bits = config.composite_frac_bits + 1;
+  const int largest_side = config.tile_width > config.tile_height ? config.tile_width : config.tile_height;
+
+  Package p;
+  p.section("array and tile");
+  p.number("LANES", config.lanes);
+  p.number("LANE_LOG2", Config::log2_exact(config.lanes));
+  p.number("BANKS", std::int64_t{config.lanes} * config.lanes);
+  p.number("SIDE_BITS", bits_for(largest_side + config.lanes));
+  p.number("BLOCKS_X", blocks_x);
+  p.number("BLOCKS_Y", blocks_y);
+  p.number("BLOCKS", std::int64_t{blocks_x} * blocks_y);
+  p.number("BLK_BITS", bits_for((blocks_x > blocks_y ? blocks_x : blocks_y) - 1));
+  p.number("ADDR_BITS", bits_for(std::int64_t{blocks_x} * blocks_y - 1));
+
+  p.section("position and snapping");
+  p.number("POS_INT", config.position_int_bits);
+  p.number("POS_FRAC", config.position_frac_bits);
+  p.number("POS_BITS", config.position_int_bits + config.position_frac_bits);
+  p.number("PHASES", config.phases);
+  p.number("PHASE_LOG2", config.phase_bits());
+  p.number("PHASE_BITS", config.phase_bits());
+  p.number("ORG_BITS", config.position_int_bits + 2);
+
+  p.section("RLUT and radial table");
+  p.number("RLUT_SETS", config.rlut_sets);
+  p.number("SET_BITS", bits_for(config.rlut_sets - 1));
+  p.number("RLUT_COLUMNS", config.rlut_columns);
+  p.number("COL_BITS", bits_for(config.rlut_columns));
+  p.number("RHO_BITS", bits_for(std::int64_t{config.rlut_columns} * config.phases));
+  p.number("GUARD", config.rlut_guard_bits);
+  p.number("RLUT_BITS", bits_for(config.rlut_rim()));
+  p.number("RADIAL_ENTRIES", config.radial_entries);
+  p.number("RADIAL_LOG2", config.radial_index_bits());
+  p.number("WEIGHT_BITS", config.radial_int_bits + config.radial_frac_bits);
+  p.number("WEIGHT_FRAC", config.radial_frac_bits);
+  p.number("TABLE_BITS", std::max(bits_for(config.rlut_rim()), config.radial_int_bits + config.radial_frac_bits));
+  p.number("COLOUR_BITS", config.colour_frac_bits);
+  p.number("COLOUR_FRAC", config.colour_frac_bits);
+
+  p.section("sheet, slab opacity, compositing, pixels");
+  p.number("SHEET_BITS", sheet_bits);
+  p.number("SHEET_FRAC", config.sheet_frac_bits);
+  p.number("SEGMENTS", config.opacity_segments);
+  p.number("SEG_LOG2", Config::log2_exact(config.opacity_segments));
+  p.number("REM_BITS", config.opacity_remainder_bits());
+  p.number("FACTOR_BITS", config.opacity_frac_bits + 1);
+  p.number("FACTOR_FRAC", config.opacity_frac_bits);
+  p.number("TRANS_BITS", transmittance_bits);
+  p.number("TRANS_FRAC", config.composite_frac_bits);
+  p.number("STATE_BITS", sheet_bits > transmittance_bits ? sheet_bits : transmittance_bits);
+  p.number("FREEZE_BELOW", config.freeze_below);
+  p.number("PIXEL_BITS", config.pixel_int_bits + config.pixel_frac_bits);
+  p.number("PIXEL_FRAC", config.pixel_frac_bits);
+
+  p.section("stream");
+  const std::uint64_t hash = config_hash(config);
+  p.vector("HASH_LOW", 32, hash & 0xffffffffU);
+  p.vector("HASH_HIGH", 32, hash >> 32);
+  p.vector("STREAM_MAGIC", 32, kStreamMagic);
+  p.vector("STREAM_VERSION", 16, kStreamVersion);
+  for (const auto& record : record_layouts()) p.vector("OP_" + upper(record.name), 8, static_cast<std::uint64_t>(record.opcode));
+
+  p.section("counters, in the model's order, then cycles");
+  int counters = 0;
+  Counters{}.for_each([&](const char* name, std::uint64_t, const char*) { p.number("CNT_" + upper(name), counters++); });
+  for (const char* name : {"CYCLES", "STALL_INPUT", "STALL_TABLE", "STALL_BUFFER", "STALL_TILE"}) p.number(std::string("CNT_") + name, counters++);
+  p.number("COUNTERS", counters);
+
+  p.section("registers");
+  int address = 0;
+  for (const char* name : {"MAGIC", "VERSION", "HASH_LOW", "HASH_HIGH", "STATUS", "CONTROL"}) {
+    p.vector(std::string("REG_") + name, 12, static_cast<std::uint64_t>(address));
+    address += 4;
+  }
+  p.vector("REG_COUNTERS", 12, 0x80);
+
+  return "// Generated for configuration '" + config.name + "' (hash " + hash_text(hash) + "); do not edit.\npackage fastsplat_pkg;" + p.take() +
+         "endpackage\n";
+}
+
+}  // namespace fastsplat::cmodel

@@ -1,0 +1,339 @@
+// The FastSplat device: stream in, pixels out, registers beside (docs/microarchitecture.md).
+//
+//   stream -> decode -> splat array (snap, RLUT, lanes, sheet banks) -> compositor -> pixel out -> pixels
+//
+// Synchronous reset, active low. After reset the sheet memories are wiped (BLOCKS cycles) before the first beat is taken.
+module fastsplat_core (
+    input  logic         clk_i,
+    input  logic         rst_ni,
+    // AXI4-Stream in: one beat of docs/stream.md
+    input  logic         s_tvalid_i,
+    output logic         s_tready_o,
+    input  logic [191:0] s_tdata_i,
+    // AXI4-Stream out: P pixels of a row, R, G, B, A of 32 bits each; keep marks the pixels inside the tile
+    output logic         m_tvalid_o,
+    input  logic         m_tready_i,
+    output logic [fastsplat_pkg::LANES*128-1:0] m_tdata_o,
+    output logic [fastsplat_pkg::LANES-1:0] m_tkeep_o,
+    output logic         m_tlast_o,
+    // AXI4-Lite
+    input  logic         awvalid_i,
+    output logic         awready_o,
+    input  logic [11:0]  awaddr_i,
+    input  logic         wvalid_i,
+    output logic         wready_o,
+    input  logic [31:0]  wdata_i,
+    output logic         bvalid_o,
+    input  logic         bready_i,
+    output logic [1:0]   bresp_o,
+    input  logic         arvalid_i,
+    output logic         arready_o,
+    input  logic [11:0]  araddr_i,
+    output logic         rvalid_o,
+    input  logic         rready_i,
+    output logic [31:0]  rdata_o,
+    output logic [1:0]   rresp_o,
+    // taps: what passes each boundary (docs/microarchitecture.md, "Taps")
+    output logic         tap_snap_valid_o,
+    output logic [31:0]  tap_snap_tag_o,
+    output logic signed [fastsplat_pkg::ORG_BITS-1:0] tap_snap_x_o,
+    output logic signed [fastsplat_pkg::ORG_BITS-1:0] tap_snap_y_o,
+    output logic [fastsplat_pkg::PHASE_BITS-1:0] tap_snap_mx_o,
+    output logic [fastsplat_pkg::PHASE_BITS-1:0] tap_snap_my_o,
+    output logic         tap_window_valid_o,
+    output logic [31:0]  tap_window_tag_o,
+    output logic signed [fastsplat_pkg::ORG_BITS-1:0] tap_window_x_o,
+    output logic signed [fastsplat_pkg::ORG_BITS-1:0] tap_window_y_o,
+    output logic [fastsplat_pkg::BANKS*fastsplat_pkg::WEIGHT_BITS-1:0] tap_weights_o,
+    output logic         tap_sheet_valid_o,
+    output logic [31:0]  tap_sheet_tag_o,
+    output logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::SHEET_BITS-1:0] tap_sums_o,
+    output logic         tap_composite_valid_o,
+    output logic [fastsplat_pkg::ADDR_BITS-1:0] tap_composite_block_o,
+    output logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::STATE_BITS-1:0] tap_state_o,
+    output logic [31:0]  tap_tile_o,
+    output logic         tap_sheet_done_o,
+    output logic         error_o
+);
+  localparam int BANKS = fastsplat_pkg::BANKS;
+
+  // Wipe after reset: both memories of every bank, one word a cycle.
+  logic wiping_q;
+  logic [fastsplat_pkg::ADDR_BITS-1:0] wipe_addr_q;
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      wiping_q <= 1'b1;
+      wipe_addr_q <= '0;
+    end else if (wiping_q) begin
+      wipe_addr_q <= wipe_addr_q + fastsplat_pkg::ADDR_BITS'(1);
+      if (wipe_addr_q == fastsplat_pkg::ADDR_BITS'(fastsplat_pkg::BLOCKS - 1)) wiping_q <= 1'b0;
+    end
+  end
+
+  logic rlut_we, radial_we, factor_we;
+  logic [fastsplat_pkg::PHASE_BITS-1:0] rlut_wphase;
+  logic [fastsplat_pkg::COL_BITS-1:0] rlut_wcolumn;
+  logic [31:0] table_index, table_word;
+  logic tile_begin, tile_end, compositor_idle, pixel_idle;
+  logic [1:0] mode;
+  logic [31:0] sheet_number;
+  logic [fastsplat_pkg::SIDE_BITS-1:0] width, height;
+  logic free, free_buffer;
+  logic window_valid, window_last, window_first, window_buffer;
+  logic [31:0] window_tag;
+  logic signed [fastsplat_pkg::POS_BITS-1:0] window_x, window_y;
+  logic [fastsplat_pkg::RHO_BITS-1:0] window_rho;
+  logic [fastsplat_pkg::COL_BITS-1:0] window_base, window_column, window_row;
+  logic [4*fastsplat_pkg::COLOUR_BITS-1:0] window_colour;
+  logic [7:0] error_opcode;
+  logic event_splat, event_cull, stall_input, stall_table, stall_buffer, stall_tile;
+  stream_decode u_decode (
+      .clk_i,
+      .rst_ni,
+      .enable_i(!wiping_q),
+      .valid_i(s_tvalid_i),
+      .ready_o(s_tready_o),
+      .data_i(s_tdata_i),
+      .rlut_we_o(rlut_we),
+      .rlut_wphase_o(rlut_wphase),
+      .rlut_wcolumn_o(rlut_wcolumn),
+      .radial_we_o(radial_we),
+      .factor_we_o(factor_we),
+      .table_index_o(table_index),
+      .table_word_o(table_word),
+      .tile_begin_o(tile_begin),
+      .tile_end_o(tile_end),
+      .tile_idle_i(compositor_idle && pixel_idle),
+      .mode_o(mode),
+      .tile_number_o(tap_tile_o),
+      .sheet_number_o(sheet_number),
+      .width_o(width),
+      .height_o(height),
+      .free_i(free),
+      .free_buffer_i(free_buffer),
+      .window_valid_o(window_valid),
+      .window_last_o(window_last),
+      .window_first_o(window_first),
+      .window_buffer_o(window_buffer),
+      .window_tag_o(window_tag),
+      .window_x_o(window_x),
+      .window_y_o(window_y),
+      .window_rho_o(window_rho),
+      .window_base_o(window_base),
+      .window_column_o(window_column),
+      .window_row_o(window_row),
+      .window_colour_o(window_colour),
+      .error_o(error_o),
+      .error_opcode_o(error_opcode),
+      .event_splat_o(event_splat),
+      .event_cull_o(event_cull),
+      .stall_input_o(stall_input),
+      .stall_table_o(stall_table),
+      .stall_buffer_o(stall_buffer),
+      .stall_tile_o(stall_tile)
+  );
+
+  logic dirty_valid, dirty_buffer, done, done_buffer;
+  logic [fastsplat_pkg::LANES*fastsplat_pkg::BLK_BITS-1:0] dirty_column, dirty_row;
+  logic [fastsplat_pkg::LANES-1:0] dirty_inside_x, dirty_inside_y;
+  logic sheet_re, sheet_buffer;
+  logic [fastsplat_pkg::ADDR_BITS-1:0] sheet_addr;
+  logic [BANKS*4*fastsplat_pkg::SHEET_BITS-1:0] sheet_data;
+  logic [1:0] snap_saturated;
+  logic [BANKS-1:0] window_inside;
+  logic [4*BANKS-1:0] product_saturated, sheet_saturated;
+  splat_array u_splat (
+      .clk_i,
+      .rst_ni,
+      .rlut_we_i(rlut_we),
+      .rlut_wphase_i(rlut_wphase),
+      .rlut_wcolumn_i(rlut_wcolumn),
+      .radial_we_i(radial_we),
+      .radial_waddr_i(table_index[fastsplat_pkg::RADIAL_LOG2-1:0]),
+      .table_word_i(table_word[fastsplat_pkg::TABLE_BITS-1:0]),
+      .width_i(width),
+      .height_i(height),
+      .valid_i(window_valid),
+      .last_i(window_last),
+      .first_window_i(window_first),
+      .buffer_i(window_buffer),
+      .tag_i(window_tag),
+      .x_i(window_x),
+      .y_i(window_y),
+      .rho_i(window_rho),
+      .base_i(window_base),
+      .column_i(window_column),
+      .row_i(window_row),
+      .colour_i(window_colour),
+      .dirty_valid_o(dirty_valid),
+      .dirty_buffer_o(dirty_buffer),
+      .dirty_column_o(dirty_column),
+      .dirty_row_o(dirty_row),
+      .dirty_inside_x_o(dirty_inside_x),
+      .dirty_inside_y_o(dirty_inside_y),
+      .done_o(done),
+      .done_buffer_o(done_buffer),
+      .wipe_i(wiping_q),
+      .wipe_addr_i(wipe_addr_q),
+      .comp_re_i(sheet_re),
+      .comp_buffer_i(sheet_buffer),
+      .comp_addr_i(sheet_addr),
+      .comp_data_o(sheet_data),
+      .tap_snap_valid_o,
+      .tap_snap_tag_o,
+      .tap_snap_x_o,
+      .tap_snap_y_o,
+      .tap_snap_mx_o,
+      .tap_snap_my_o,
+      .tap_snap_saturated_o(snap_saturated),
+      .tap_window_valid_o,
+      .tap_window_tag_o,
+      .tap_window_x_o,
+      .tap_window_y_o,
+      .tap_weights_o,
+      .tap_inside_o(window_inside),
+      .tap_product_saturated_o(product_saturated),
+      .tap_sheet_valid_o,
+      .tap_sheet_tag_o,
+      .tap_sums_o,
+      .tap_sheet_saturated_o(sheet_saturated)
+  );
+
+  logic picture_re;
+  logic [fastsplat_pkg::ADDR_BITS-1:0] picture_addr;
+  logic [BANKS*4*fastsplat_pkg::STATE_BITS-1:0] picture;
+  logic [fastsplat_pkg::BLOCKS-1:0] blocks_touched;
+  logic [BANKS-1:0] composite_inside, composite_frozen;
+  logic [4*BANKS-1:0] opacity_saturated, composite_saturated;
+  compositor u_compositor (
+      .clk_i,
+      .rst_ni,
+      .factor_we_i(factor_we),
+      .factor_index_i(table_index[fastsplat_pkg::SEG_LOG2:0]),
+      .table_word_i(table_word[fastsplat_pkg::FACTOR_BITS-1:0]),
+      .tile_begin_i(tile_begin),
+      .mode_i(mode),
+      .width_i(width),
+      .height_i(height),
+      .dirty_valid_i(dirty_valid),
+      .dirty_buffer_i(dirty_buffer),
+      .dirty_column_i(dirty_column),
+      .dirty_row_i(dirty_row),
+      .dirty_inside_x_i(dirty_inside_x),
+      .dirty_inside_y_i(dirty_inside_y),
+      .done_i(done),
+      .done_buffer_i(done_buffer),
+      .free_o(free),
+      .free_buffer_o(free_buffer),
+      .idle_o(compositor_idle),
+      .sheet_re_o(sheet_re),
+      .sheet_buffer_o(sheet_buffer),
+      .sheet_addr_o(sheet_addr),
+      .sheet_data_i(sheet_data),
+      .picture_re_i(picture_re),
+      .picture_addr_i(picture_addr),
+      .picture_o(picture),
+      .blocks_touched_o(blocks_touched),
+      .tap_valid_o(tap_composite_valid_o),
+      .tap_block_o(tap_composite_block_o),
+      .tap_state_o(tap_state_o),
+      .tap_inside_o(composite_inside),
+      .tap_frozen_o(composite_frozen),
+      .tap_opacity_saturated_o(opacity_saturated),
+      .tap_saturated_o(composite_saturated),
+      .tap_sheet_o(tap_sheet_done_o)
+  );
+
+  logic [4*fastsplat_pkg::LANES-1:0] pixel_saturated;
+  pixel_out u_pixel_out (
+      .clk_i,
+      .rst_ni,
+      .start_i(tile_end),
+      .idle_o(pixel_idle),
+      .mode_i(mode),
+      .width_i(width),
+      .height_i(height),
+      .picture_re_o(picture_re),
+      .picture_addr_o(picture_addr),
+      .picture_i(picture),
+      .blocks_touched_i(blocks_touched),
+      .valid_o(m_tvalid_o),
+      .ready_i(m_tready_i),
+      .last_o(m_tlast_o),
+      .data_o(m_tdata_o),
+      .keep_o(m_tkeep_o),
+      .saturated_o(pixel_saturated)
+  );
+
+  // ---- events of this cycle
+  logic [BANKS-1:0] weighted, inside_now, frozen_now;
+  logic [4*BANKS-1:0] product_saturated_now, opacity_saturated_now, composite_saturated_now;
+  for (genvar b = 0; b < BANKS; b++) begin : gen_event
+    assign inside_now[b] = window_inside[b] && tap_window_valid_o;
+    assign weighted[b] = inside_now[b] && tap_weights_o[b*fastsplat_pkg::WEIGHT_BITS+:fastsplat_pkg::WEIGHT_BITS] != '0;
+    assign frozen_now[b] = tap_composite_valid_o && composite_inside[b] && composite_frozen[b];
+    assign product_saturated_now[4*b+:4] = inside_now[b] ? product_saturated[4*b+:4] : '0;
+    assign opacity_saturated_now[4*b+:4] = (tap_composite_valid_o && composite_inside[b]) ? opacity_saturated[4*b+:4] : '0;
+    assign composite_saturated_now[4*b+:4] = (tap_composite_valid_o && composite_inside[b]) ? composite_saturated[4*b+:4] : '0;
+  end
+  logic pixel_taken, running;
+  assign pixel_taken = m_tvalid_o && m_tready_i;
+  assign running = !stall_input || !compositor_idle || !pixel_idle;
+
+  logic [15:0] events[0:fastsplat_pkg::COUNTERS-1];
+  logic [16*fastsplat_pkg::COUNTERS-1:0] increments;
+  always_comb begin
+    for (int n = 0; n < fastsplat_pkg::COUNTERS; n++) events[n] = '0;
+    events[fastsplat_pkg::CNT_TILES] = 16'(pixel_taken && m_tlast_o);
+    events[fastsplat_pkg::CNT_SHEETS] = 16'(tap_sheet_done_o);
+    events[fastsplat_pkg::CNT_SPLATS] = 16'(event_splat);
+    events[fastsplat_pkg::CNT_WINDOWS] = 16'(tap_window_valid_o);
+    events[fastsplat_pkg::CNT_LANES_INSIDE] = 16'($countones(inside_now));
+    events[fastsplat_pkg::CNT_LANES_WEIGHTED] = 16'($countones(weighted));
+    events[fastsplat_pkg::CNT_CULL_BLOCKS] = 16'(event_cull);
+    events[fastsplat_pkg::CNT_DIRTY_BLOCKS] = 16'(tap_composite_valid_o);
+    events[fastsplat_pkg::CNT_PIXELS_COMPOSITED] = tap_composite_valid_o ? 16'($countones(composite_inside)) : '0;
+    events[fastsplat_pkg::CNT_FROZEN_PIXELS] = 16'($countones(frozen_now));
+    events[fastsplat_pkg::CNT_SNAP_SATURATED] = tap_snap_valid_o ? 16'($countones(snap_saturated)) : '0;
+    events[fastsplat_pkg::CNT_PRODUCT_SATURATED] = 16'($countones(product_saturated_now));
+    events[fastsplat_pkg::CNT_SHEET_SATURATED] = 16'($countones(sheet_saturated));
+    events[fastsplat_pkg::CNT_OPACITY_SATURATED] = 16'($countones(opacity_saturated_now));
+    events[fastsplat_pkg::CNT_COMPOSITE_SATURATED] = 16'($countones(composite_saturated_now));
+    events[fastsplat_pkg::CNT_PIXEL_SATURATED] = pixel_taken ? 16'($countones(pixel_saturated)) : '0;
+    events[fastsplat_pkg::CNT_CYCLES] = 16'(running);
+    events[fastsplat_pkg::CNT_STALL_INPUT] = 16'(running && stall_input);
+    events[fastsplat_pkg::CNT_STALL_TABLE] = 16'(stall_table);
+    events[fastsplat_pkg::CNT_STALL_BUFFER] = 16'(stall_buffer);
+    events[fastsplat_pkg::CNT_STALL_TILE] = 16'(stall_tile);
+  end
+  for (genvar n = 0; n < fastsplat_pkg::COUNTERS; n++) begin : gen_increment
+    assign increments[16*n+:16] = events[n];
+  end
+
+  csr u_csr (
+      .clk_i,
+      .rst_ni,
+      .awvalid_i,
+      .awready_o,
+      .awaddr_i,
+      .wvalid_i,
+      .wready_o,
+      .wdata_i,
+      .bvalid_o,
+      .bready_i,
+      .bresp_o,
+      .arvalid_i,
+      .arready_o,
+      .araddr_i,
+      .rvalid_o,
+      .rready_i,
+      .rdata_o,
+      .rresp_o,
+      .busy_i(running),
+      .error_i(error_o),
+      .error_opcode_i(error_opcode),
+      .increments_i(increments)
+  );
+  logic unused;
+  assign unused = &{1'b0, sheet_number, table_index, table_word};
+endmodule

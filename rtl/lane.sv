@@ -1,0 +1,72 @@
+// One lane of the splat array: q, radial table, four products (docs/numerics.md, sections 4 and 5; cmodel/footprint.hpp).
+// Registers: c4 (q), c5 (table read), c6 (products). Outputs belong to the inputs of three cycles before.
+module lane (
+    input  logic                                    clk_i,
+    // radial table load
+    input  logic                                    we_i,
+    input  logic [fastsplat_pkg::RADIAL_LOG2-1:0]   waddr_i,
+    input  logic [fastsplat_pkg::WEIGHT_BITS-1:0]   wdata_i,
+    // c3
+    input  logic [fastsplat_pkg::RLUT_BITS-1:0]     column_i,  // RLUT word of this lane's column
+    input  logic [fastsplat_pkg::RLUT_BITS-1:0]     row_i,     // and row
+    // c5: the splat's colour, two cycles after its RLUT words
+    input  logic [4*fastsplat_pkg::COLOUR_BITS-1:0] colour_i,
+    output logic [fastsplat_pkg::WEIGHT_BITS-1:0]   weight_o,   // with products_o
+    output logic [4*fastsplat_pkg::SHEET_BITS-1:0]  products_o,
+    output logic [3:0]                              saturated_o
+);
+  localparam int QW = fastsplat_pkg::RLUT_BITS + 1;
+  localparam int CB = fastsplat_pkg::COLOUR_BITS;
+  localparam int SB = fastsplat_pkg::SHEET_BITS;
+  localparam int WB = fastsplat_pkg::WEIGHT_BITS;
+
+  // c4: the rim and everything beyond read as weight 0
+  logic [QW-1:0] q;
+  logic [fastsplat_pkg::RADIAL_LOG2-1:0] index_q;
+  logic outside_q, outside_q2;
+  assign q = {1'b0, column_i} + {1'b0, row_i};
+  always_ff @(posedge clk_i) begin
+    index_q <= q[fastsplat_pkg::GUARD+:fastsplat_pkg::RADIAL_LOG2];
+    outside_q <= |q[QW-1:fastsplat_pkg::GUARD+fastsplat_pkg::RADIAL_LOG2];
+    outside_q2 <= outside_q;
+  end
+
+  logic unused;
+  assign unused = &{1'b0, q};
+
+  // c5
+  logic [WB-1:0] table_word, weight;
+  ram_1r1w #(.BITS(WB), .WORDS(fastsplat_pkg::RADIAL_ENTRIES), .ADDR(fastsplat_pkg::RADIAL_LOG2)) u_radial (
+      .clk_i,
+      .re_i(1'b1),
+      .raddr_i(index_q),
+      .rdata_o(table_word),
+      .we_i,
+      .waddr_i,
+      .wdata_i
+  );
+  assign weight = outside_q2 ? '0 : table_word;
+
+  // c6
+  for (genvar c = 0; c < 4; c++) begin : gen_channel
+    logic [CB+WB-1:0] product;
+    logic [SB-1:0] word;
+    logic overflow;
+    assign product = (CB + WB)'(colour_i[c*CB+:CB]) * (CB + WB)'(weight);
+    narrow #(
+        .IN_BITS(CB + WB),
+        .SHIFT(fastsplat_pkg::COLOUR_FRAC + fastsplat_pkg::WEIGHT_FRAC - fastsplat_pkg::SHEET_FRAC),
+        .OUT_BITS(SB),
+        .ROUND(1)
+    ) u_narrow (
+        .value_i(product),
+        .word_o(word),
+        .overflow_o(overflow)
+    );
+    always_ff @(posedge clk_i) begin
+      products_o[c*SB+:SB] <= word;
+      saturated_o[c] <= overflow;
+    end
+  end
+  always_ff @(posedge clk_i) weight_o <= weight;
+endmodule

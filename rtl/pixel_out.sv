@@ -1,0 +1,124 @@
+// Unit "pixel out": the finished tile, row by row, P pixels a beat (docs/numerics.md, section 7; cmodel/pixel_out.hpp).
+// r0 address -> r1 state -> r2 beat. All stages stand still while a beat waits for ready.
+module pixel_out (
+    input  logic                                 clk_i,
+    input  logic                                 rst_ni,
+    input  logic                                 start_i,   // pulse; tile registers hold until idle
+    output logic                                 idle_o,
+    input  logic [1:0]                           mode_i,
+    input  logic [fastsplat_pkg::SIDE_BITS-1:0]  width_i,
+    input  logic [fastsplat_pkg::SIDE_BITS-1:0]  height_i,
+    // picture
+    output logic                                 picture_re_o,
+    output logic [fastsplat_pkg::ADDR_BITS-1:0]  picture_addr_o,
+    input  logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::STATE_BITS-1:0] picture_i,
+    input  logic [fastsplat_pkg::BLOCKS-1:0]     blocks_touched_i,
+    // stream out: P pixels of R, G, B, A, 32 bits each
+    output logic                                 valid_o,
+    input  logic                                 ready_i,
+    output logic                                 last_o,    // of the tile
+    output logic [fastsplat_pkg::LANES*128-1:0]  data_o,
+    output logic [fastsplat_pkg::LANES-1:0]      keep_o,    // pixels inside the tile
+    output logic [4*fastsplat_pkg::LANES-1:0]    saturated_o
+);
+  localparam int P = fastsplat_pkg::LANES;
+  localparam int DB = fastsplat_pkg::STATE_BITS;
+  localparam int SB = fastsplat_pkg::SHEET_BITS;
+  localparam int TB = fastsplat_pkg::TRANS_BITS;
+  localparam int TF = fastsplat_pkg::TRANS_FRAC;
+  localparam int PB = fastsplat_pkg::PIXEL_BITS;
+  localparam int AB = fastsplat_pkg::ADDR_BITS;
+  localparam int SIDE = fastsplat_pkg::SIDE_BITS;
+  localparam int LOG2 = fastsplat_pkg::LANE_LOG2;
+  localparam int LB = (LOG2 > 0) ? LOG2 : 1;
+
+  logic running_q, valid_r1_q, valid_r2_q, last_r1_q, last_r2_q, touched_r1_q;
+  logic [SIDE-1:0] x_q, y_q, x_r1_q;
+  logic [LB-1:0] row_r1_q;
+  logic enable, last;
+  logic [AB-1:0] address;
+  assign enable = !valid_r2_q || ready_i;
+  localparam int BXL = $clog2(fastsplat_pkg::BLOCKS_X);
+  assign address = AB'(((SIDE + AB)'(y_q) >> LOG2) << BXL) | AB'((SIDE + AB)'(x_q) >> LOG2);
+  assign last = x_q + SIDE'(P) >= width_i && y_q + SIDE'(1) >= height_i;
+  assign picture_re_o = running_q && enable;
+  assign picture_addr_o = address;
+  assign idle_o = !running_q && !valid_r1_q && !valid_r2_q;
+
+  always_ff @(posedge clk_i) begin
+    if (start_i) begin
+      running_q <= 1'b1;
+      x_q <= '0;
+      y_q <= '0;
+    end else if (enable) begin
+      if (running_q) begin
+        x_q <= x_q + SIDE'(P);
+        if (x_q + SIDE'(P) >= width_i) begin
+          x_q <= '0;
+          y_q <= y_q + SIDE'(1);
+        end
+        if (last) running_q <= 1'b0;
+      end
+    end
+    if (enable) begin
+      valid_r1_q <= running_q;
+      last_r1_q <= last;
+      x_r1_q <= x_q;
+      row_r1_q <= y_q[LB-1:0];
+      touched_r1_q <= blocks_touched_i[address];
+      valid_r2_q <= valid_r1_q;
+      last_r2_q <= last_r1_q;
+    end
+`ifdef FASTSPLAT_FAULT_VALID_DROPPED
+    if (valid_r2_q && !ready_i && x_q[LB]) valid_r2_q <= 1'b0;
+`endif
+    if (!rst_ni) begin
+      running_q <= 1'b0;
+      valid_r1_q <= 1'b0;
+      valid_r2_q <= 1'b0;
+    end
+  end
+
+  // r1: the block row's banks, narrowed to output words
+  for (genvar g = 0; g < P; g++) begin : gen_pixel
+    logic [4*DB-1:0] word;
+    logic [P*4*DB-1:0] column;
+    logic in_tile;
+    for (genvar h = 0; h < P; h++) begin : gen_row
+      assign column[h*4*DB+:4*DB] = picture_i[(h*P+g)*4*DB+:4*DB];
+    end
+    assign word = (P > 1) ? column[row_r1_q*4*DB+:4*DB] : column[4*DB-1:0];
+    assign in_tile = x_r1_q + SIDE'(g) < width_i;
+    for (genvar c = 0; c < 4; c++) begin : gen_channel
+      logic [TB-1:0] composited;
+      logic [SB-1:0] sum;
+      logic [PB-1:0] composited_word, sum_word;
+      logic composited_overflow, sum_overflow;
+      if (c == 3) begin : gen_alpha
+        assign composited = touched_r1_q ? (TB'(1) << TF) - word[c*DB+:TB] : '0;
+      end else begin : gen_colour
+        assign composited = touched_r1_q ? word[c*DB+:TB] : '0;
+      end
+      assign sum = touched_r1_q ? word[c*DB+:SB] : '0;
+      narrow #(.IN_BITS(TB), .SHIFT(TF - fastsplat_pkg::PIXEL_FRAC), .OUT_BITS(PB), .ROUND(1)) u_composited (
+          .value_i(composited),
+          .word_o(composited_word),
+          .overflow_o(composited_overflow)
+      );
+      narrow #(.IN_BITS(SB), .SHIFT(fastsplat_pkg::SHEET_FRAC - fastsplat_pkg::PIXEL_FRAC), .OUT_BITS(PB), .ROUND(1)) u_sum (
+          .value_i(sum),
+          .word_o(sum_word),
+          .overflow_o(sum_overflow)
+      );
+      always_ff @(posedge clk_i) begin
+        if (enable) begin
+          data_o[g*128+c*32+:32] <= (mode_i == 2'd2) ? 32'(sum_word) : 32'(composited_word);
+          saturated_o[4*g+c] <= in_tile && (mode_i == 2'd2 ? sum_overflow : composited_overflow);
+        end
+      end
+    end
+    always_ff @(posedge clk_i) if (enable) keep_o[g] <= in_tile;
+  end
+  assign valid_o = valid_r2_q;
+  assign last_o = last_r2_q;
+endmodule

@@ -1,0 +1,22 @@
+// Memory with one registered read port and one write port. What a read of the word being written returns is undefined:
+// nobody may depend on it.
+module ram_1r1w #(
+    parameter int BITS  = 8,
+    parameter int WORDS = 16,
+    parameter int ADDR  = 4
+) (
+    input  logic            clk_i,
+    input  logic            re_i,
+    input  logic [ADDR-1:0] raddr_i,
+    output logic [BITS-1:0] rdata_o,
+    input  logic            we_i,
+    input  logic [ADDR-1:0] waddr_i,
+    input  logic [BITS-1:0] wdata_i
+);
+  (* no_rw_check *)
+  logic [BITS-1:0] mem[0:WORDS-1];
+  always_ff @(posedge clk_i) begin
+    if (we_i) mem[waddr_i] <= wdata_i;
+    if (re_i) rdata_o <= mem[raddr_i];
+  end
+endmodule

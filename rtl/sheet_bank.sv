@@ -1,0 +1,137 @@
+// One bank of the sheet buffer: two memories, read-modify-write at one word a cycle with forwarding, whatever the
+// addresses; the compositor reads and clears the other memory meanwhile (docs/numerics.md, section 5;
+// cmodel/sheet_buffer.hpp).
+//
+// Splat side: A (c6: read issued) -> B (c7: base chosen) -> C (c8: sum) -> W (c9: written). A word needed again 1, 2 or 3
+// cycles later is not in the memory yet: distance 1 is forwarded into C, distances 2 (in W) and 3 (just written; the
+// read met the write) into B.
+module sheet_bank (
+    input  logic                                   clk_i,
+    input  logic                                   rst_ni,
+    // clear walk after reset: writes zero to both memories
+    input  logic                                   wipe_i,
+    input  logic [fastsplat_pkg::ADDR_BITS-1:0]    wipe_addr_i,
+    // A
+    input  logic                                   valid_i,
+    input  logic                                   buffer_i,
+    input  logic [fastsplat_pkg::ADDR_BITS-1:0]    addr_i,
+    input  logic [4*fastsplat_pkg::SHEET_BITS-1:0] products_i,
+    // W
+    output logic [4*fastsplat_pkg::SHEET_BITS-1:0] sum_o,
+    output logic [3:0]                             saturated_o,
+    // compositor: read address, data a cycle later, then cleared
+    input  logic                                   comp_re_i,
+    input  logic                                   comp_buffer_i,
+    input  logic [fastsplat_pkg::ADDR_BITS-1:0]    comp_addr_i,
+    output logic [4*fastsplat_pkg::SHEET_BITS-1:0] comp_data_o
+);
+  localparam int SB = fastsplat_pkg::SHEET_BITS;
+  localparam int AB = fastsplat_pkg::ADDR_BITS;
+
+  logic valid_b_q, valid_c_q, valid_w_q, valid_h_q;
+  logic buffer_b_q, buffer_c_q, buffer_w_q, buffer_h_q;
+  logic [AB-1:0] addr_b_q, addr_c_q, addr_w_q, addr_h_q;
+  logic [4*SB-1:0] products_b_q, products_c_q, base_c_q, sum_w_q, sum_h_q;
+  logic forward_c_q;
+  logic [3:0] saturated_w_q;
+
+  // Memories
+  logic comp_clear_q, comp_buffer_q;
+  logic [AB-1:0] comp_addr_q;
+  logic [4*SB-1:0] rdata[0:1];
+  for (genvar m = 0; m < 2; m++) begin : gen_memory
+    logic we, mine, clear;
+    logic [AB-1:0] raddr, waddr;
+    logic [4*SB-1:0] wdata;
+    assign mine = valid_w_q && buffer_w_q == 1'(m);
+`ifdef FASTSPLAT_FAULT_MISSED_CLEAR
+    assign clear = comp_clear_q && comp_buffer_q == 1'(m) && comp_addr_q != AB'(3);
+`else
+    assign clear = comp_clear_q && comp_buffer_q == 1'(m);
+`endif
+    assign we = rst_ni && (wipe_i || clear || mine);
+    assign waddr = wipe_i ? wipe_addr_i : clear ? comp_addr_q : addr_w_q;
+    assign wdata = (wipe_i || clear) ? '0 : sum_w_q;
+    assign raddr = (comp_re_i && comp_buffer_i == 1'(m)) ? comp_addr_i : addr_i;
+    ram_1r1w #(.BITS(4 * SB), .WORDS(fastsplat_pkg::BLOCKS), .ADDR(AB)) u_ram (
+        .clk_i,
+        .re_i(1'b1),
+        .raddr_i(raddr),
+        .rdata_o(rdata[m]),
+        .we_i(we),
+        .waddr_i(waddr),
+        .wdata_i(wdata)
+    );
+  end
+  assign comp_data_o = comp_buffer_q ? rdata[1] : rdata[0];
+
+  // Forwarding decisions of B. A bank's word is {buffer, address}.
+  logic hit_c, hit_w, hit_h;
+  assign hit_c = valid_b_q && valid_c_q && {buffer_c_q, addr_c_q} == {buffer_b_q, addr_b_q};
+  assign hit_w = valid_w_q && {buffer_w_q, addr_w_q} == {buffer_b_q, addr_b_q};
+  assign hit_h = valid_h_q && {buffer_h_q, addr_h_q} == {buffer_b_q, addr_b_q};
+  logic [4*SB-1:0] memory_b, base_b;
+  assign memory_b = buffer_b_q ? rdata[1] : rdata[0];
+  always_comb begin
+    base_b = memory_b;
+`ifndef FASTSPLAT_FAULT_FORWARD_3
+    if (hit_h) base_b = sum_h_q;
+`endif
+`ifndef FASTSPLAT_FAULT_FORWARD_2
+    if (hit_w) base_b = sum_w_q;
+`endif
+  end
+
+  // C: the only loop
+  logic [4*SB-1:0] base_c, sum_c;
+  logic [3:0] overflow_c;
+`ifdef FASTSPLAT_FAULT_FORWARD_1
+  assign base_c = base_c_q;
+`else
+  assign base_c = forward_c_q ? sum_w_q : base_c_q;
+`endif
+  for (genvar c = 0; c < 4; c++) begin : gen_channel
+    logic [SB:0] exact;
+    assign exact = {1'b0, base_c[c*SB+:SB]} + {1'b0, products_c_q[c*SB+:SB]};
+    narrow #(.IN_BITS(SB + 1), .SHIFT(0), .OUT_BITS(SB), .ROUND(0)) u_narrow (
+        .value_i(exact),
+        .word_o(sum_c[c*SB+:SB]),
+        .overflow_o(overflow_c[c])
+    );
+  end
+
+  always_ff @(posedge clk_i) begin
+    valid_b_q <= valid_i;
+    valid_c_q <= valid_b_q;
+    valid_w_q <= valid_c_q;
+    valid_h_q <= valid_w_q;
+    if (!rst_ni) begin
+      valid_b_q <= 1'b0;
+      valid_c_q <= 1'b0;
+      valid_w_q <= 1'b0;
+      valid_h_q <= 1'b0;
+      comp_clear_q <= 1'b0;
+    end else begin
+      comp_clear_q <= comp_re_i;
+    end
+    buffer_b_q <= buffer_i;
+    buffer_c_q <= buffer_b_q;
+    buffer_w_q <= buffer_c_q;
+    buffer_h_q <= buffer_w_q;
+    addr_b_q <= addr_i;
+    addr_c_q <= addr_b_q;
+    addr_w_q <= addr_c_q;
+    addr_h_q <= addr_w_q;
+    products_b_q <= products_i;
+    products_c_q <= products_b_q;
+    base_c_q <= base_b;
+    forward_c_q <= hit_c;
+    sum_w_q <= sum_c;
+    sum_h_q <= sum_w_q;
+    saturated_w_q <= valid_c_q ? overflow_c : '0;
+    comp_buffer_q <= comp_buffer_i;
+    comp_addr_q <= comp_addr_i;
+  end
+  assign sum_o = sum_w_q;
+  assign saturated_o = saturated_w_q;
+endmodule

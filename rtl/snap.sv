@@ -1,0 +1,44 @@
+// Unit "snap", one axis: centre onto the 1/k grid, window origin and phase (docs/numerics.md, section 3; cmodel/snap.hpp).
+// One register: outputs belong to the inputs of the cycle before.
+module snap (
+    input  logic                                     clk_i,
+    input  logic signed [ fastsplat_pkg::POS_BITS-1:0] centre_i,  // S pi.pf, tile-relative
+    input  logic        [fastsplat_pkg::RHO_BITS-1:0] rho_i,      // support radius, 1/k pixel
+    input  logic        [fastsplat_pkg::COL_BITS-1:0] column_i,   // first column of the window within the footprint
+    output logic signed [fastsplat_pkg::ORG_BITS-1:0] origin_o,   // first pixel of the window, tile-relative
+    output logic        [fastsplat_pkg::PHASE_BITS-1:0] phase_o,  // RLUT row
+    output logic                                     saturated_o
+);
+  localparam int DROP = fastsplat_pkg::POS_FRAC - fastsplat_pkg::PHASE_LOG2;
+  localparam int GRID_BITS = fastsplat_pkg::POS_INT + fastsplat_pkg::PHASE_LOG2;
+  // Wide enough for centre + half and for grid position minus rho.
+  localparam int WIDE = ((fastsplat_pkg::POS_BITS > GRID_BITS + 2) ? fastsplat_pkg::POS_BITS : GRID_BITS + 2) + 2;
+  localparam logic signed [WIDE-1:0] HALF = (DROP > 0) ? WIDE'(1) << (DROP > 0 ? DROP - 1 : 0) : '0;
+  localparam logic signed [WIDE-1:0] LARGEST = (WIDE'(1) << (GRID_BITS - 1)) - WIDE'(1);
+
+  logic signed [WIDE-1:0] rounded, on_grid, rim, first;
+  logic overflow;
+  always_comb begin
+`ifdef FASTSPLAT_FAULT_SNAP_TRN
+    rounded = WIDE'(centre_i) >>> DROP;
+`else
+    rounded = (WIDE'(centre_i) + HALF) >>> DROP;
+`endif
+    // Rounding up can only leave the range at its upper end.
+    overflow = rounded > LARGEST;
+    on_grid = overflow ? LARGEST : rounded;
+    rim = on_grid - $signed(WIDE'(rho_i));
+`ifdef FASTSPLAT_FAULT_SNAP_OFF_BY_ONE
+    first = (rim >>> fastsplat_pkg::PHASE_LOG2) + $signed(WIDE'(column_i));
+`else
+    first = (rim >>> fastsplat_pkg::PHASE_LOG2) + WIDE'(1) + $signed(WIDE'(column_i));
+`endif
+  end
+  always_ff @(posedge clk_i) begin
+    origin_o <= first[fastsplat_pkg::ORG_BITS-1:0];
+    phase_o <= rim[fastsplat_pkg::PHASE_BITS-1:0];
+    saturated_o <= overflow;
+  end
+  logic unused;
+  assign unused = &{1'b0, first[WIDE-1:fastsplat_pkg::ORG_BITS], rim[WIDE-1]};
+endmodule

@@ -1,0 +1,235 @@
+// The splat path: one window a cycle, always moving (docs/microarchitecture.md, "Splat path").
+// c0 window in -> c1 snapped -> c2 RLUT words -> c3 bank order -> c4 q -> c5 weight -> c6 products = A -> B -> C -> W.
+module splat_array (
+    input  logic                                            clk_i,
+    input  logic                                            rst_ni,
+    // table load, one word a cycle
+    input  logic                                            rlut_we_i,
+    input  logic [fastsplat_pkg::PHASE_BITS-1:0]            rlut_wphase_i,
+    input  logic [fastsplat_pkg::COL_BITS-1:0]              rlut_wcolumn_i,
+    input  logic                                            radial_we_i,
+    input  logic [fastsplat_pkg::RADIAL_LOG2-1:0]           radial_waddr_i,
+    input  logic [fastsplat_pkg::TABLE_BITS-1:0]            table_word_i,  // RLUT or radial word
+    // tile, held
+    input  logic [fastsplat_pkg::SIDE_BITS-1:0]             width_i,
+    input  logic [fastsplat_pkg::SIDE_BITS-1:0]             height_i,
+    // c0
+    input  logic                                            valid_i,     // a window
+    input  logic                                            last_i,      // an end-of-sheet token; needs no window
+    input  logic                                            first_window_i,
+    input  logic                                            buffer_i,
+    input  logic [31:0]                                     tag_i,
+    input  logic signed [fastsplat_pkg::POS_BITS-1:0]       x_i,
+    input  logic signed [fastsplat_pkg::POS_BITS-1:0]       y_i,
+    input  logic [fastsplat_pkg::RHO_BITS-1:0]              rho_i,
+    input  logic [fastsplat_pkg::COL_BITS-1:0]              base_i,
+    input  logic [fastsplat_pkg::COL_BITS-1:0]              column_i,    // of the window within the footprint, pixels
+    input  logic [fastsplat_pkg::COL_BITS-1:0]              row_i,
+    input  logic [4*fastsplat_pkg::COLOUR_BITS-1:0]         colour_i,
+    // dirty blocks of the window at c4
+    output logic                                            dirty_valid_o,
+    output logic                                            dirty_buffer_o,
+    output logic [fastsplat_pkg::LANES*fastsplat_pkg::BLK_BITS-1:0] dirty_column_o,
+    output logic [fastsplat_pkg::LANES*fastsplat_pkg::BLK_BITS-1:0] dirty_row_o,
+    output logic [fastsplat_pkg::LANES-1:0]                 dirty_inside_x_o,
+    output logic [fastsplat_pkg::LANES-1:0]                 dirty_inside_y_o,
+    // W: the sheet of buffer done_buffer_o is complete
+    output logic                                            done_o,
+    output logic                                            done_buffer_o,
+    // compositor
+    input  logic                                            wipe_i,
+    input  logic [fastsplat_pkg::ADDR_BITS-1:0]             wipe_addr_i,
+    input  logic                                            comp_re_i,
+    input  logic                                            comp_buffer_i,
+    input  logic [fastsplat_pkg::ADDR_BITS-1:0]             comp_addr_i,
+    output logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::SHEET_BITS-1:0] comp_data_o,
+    // taps
+    output logic                                            tap_snap_valid_o,   // c1, first window of a splat
+    output logic [31:0]                                     tap_snap_tag_o,
+    output logic signed [fastsplat_pkg::ORG_BITS-1:0]       tap_snap_x_o,
+    output logic signed [fastsplat_pkg::ORG_BITS-1:0]       tap_snap_y_o,
+    output logic [fastsplat_pkg::PHASE_BITS-1:0]            tap_snap_mx_o,
+    output logic [fastsplat_pkg::PHASE_BITS-1:0]            tap_snap_my_o,
+    output logic [1:0]                                      tap_snap_saturated_o,
+    output logic                                            tap_window_valid_o,    // c6
+    output logic [31:0]                                     tap_window_tag_o,
+    output logic signed [fastsplat_pkg::ORG_BITS-1:0]       tap_window_x_o,
+    output logic signed [fastsplat_pkg::ORG_BITS-1:0]       tap_window_y_o,
+    output logic [fastsplat_pkg::BANKS*fastsplat_pkg::WEIGHT_BITS-1:0] tap_weights_o,  // by bank
+    output logic [fastsplat_pkg::BANKS-1:0]                 tap_inside_o,          // by bank, c6
+    output logic [4*fastsplat_pkg::BANKS-1:0]               tap_product_saturated_o,  // c6, by bank and channel
+    output logic                                            tap_sheet_valid_o,     // W
+    output logic [31:0]                                     tap_sheet_tag_o,
+    output logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::SHEET_BITS-1:0] tap_sums_o,  // by bank
+    output logic [4*fastsplat_pkg::BANKS-1:0]               tap_sheet_saturated_o
+);
+  localparam int P = fastsplat_pkg::LANES;
+  localparam int RB = fastsplat_pkg::RLUT_BITS;
+  localparam int BLK = fastsplat_pkg::BLK_BITS;
+  localparam int AB = fastsplat_pkg::ADDR_BITS;
+  localparam int SB = fastsplat_pkg::SHEET_BITS;
+  localparam int WB = fastsplat_pkg::WEIGHT_BITS;
+  localparam int CB4 = 4 * fastsplat_pkg::COLOUR_BITS;
+  localparam int ORG = fastsplat_pkg::ORG_BITS;
+  localparam int COL = fastsplat_pkg::COL_BITS;
+
+  // What rides along: index = stage (1..9).
+  logic [9:1] valid_q, last_q, buffer_q;
+  logic first_c1_q;
+  logic [31:0] tag_q[1:9];
+  logic [CB4-1:0] colour_q[1:5];
+  logic [COL-1:0] column_c1_q, row_c1_q;
+  logic signed [ORG-1:0] x_q[2:6], y_q[2:6];
+
+  // c1
+  logic signed [ORG-1:0] x_c1, y_c1;
+  logic [fastsplat_pkg::PHASE_BITS-1:0] mx_c1, my_c1;
+  logic saturated_x, saturated_y;
+  snap u_snap_x (.clk_i, .centre_i(x_i), .rho_i, .column_i, .origin_o(x_c1), .phase_o(mx_c1), .saturated_o(saturated_x));
+  snap u_snap_y (.clk_i, .centre_i(y_i), .rho_i, .column_i(row_i), .origin_o(y_c1), .phase_o(my_c1), .saturated_o(saturated_y));
+
+  // c2
+  logic [P*RB-1:0] rlut_x, rlut_y;
+  rlut u_rlut_x (
+      .clk_i,
+      .we_i(rlut_we_i),
+      .wphase_i(rlut_wphase_i),
+      .wcolumn_i(rlut_wcolumn_i),
+      .wdata_i(table_word_i[RB-1:0]),
+`ifdef FASTSPLAT_FAULT_SWAPPED_AXES
+      .phase_i(my_c1),
+`else
+      .phase_i(mx_c1),
+`endif
+      .column_i(column_c1_q),
+      .words_o(rlut_x)
+  );
+  rlut u_rlut_y (
+      .clk_i,
+      .we_i(rlut_we_i),
+      .wphase_i(rlut_wphase_i),
+      .wcolumn_i(rlut_wcolumn_i),
+      .wdata_i(table_word_i[RB-1:0]),
+`ifdef FASTSPLAT_FAULT_SWAPPED_AXES
+      .phase_i(mx_c1),
+`else
+      .phase_i(my_c1),
+`endif
+      .column_i(row_c1_q),
+      .words_o(rlut_y)
+  );
+
+  // c3
+  logic [P*RB-1:0] columns_c3, rows_c3;
+  logic [P*BLK-1:0] block_x_c3, block_y_c3;
+  logic [P-1:0] inside_x_c3, inside_y_c3;
+  axis u_axis_x (
+      .clk_i, .origin_i(x_q[2]), .side_i(width_i), .words_i(rlut_x), .words_o(columns_c3), .block_o(block_x_c3), .inside_o(inside_x_c3)
+  );
+  axis u_axis_y (
+      .clk_i, .origin_i(y_q[2]), .side_i(height_i), .words_i(rlut_y), .words_o(rows_c3), .block_o(block_y_c3), .inside_o(inside_y_c3)
+  );
+
+  assign dirty_valid_o = valid_q[3];
+  assign dirty_buffer_o = buffer_q[3];
+  assign dirty_column_o = block_x_c3;
+  assign dirty_row_o = block_y_c3;
+  assign dirty_inside_x_o = inside_x_c3;
+  assign dirty_inside_y_o = inside_y_c3;
+
+  for (genvar h = 0; h < P; h++) begin : gen_row
+    for (genvar g = 0; g < P; g++) begin : gen_bank
+      localparam int B = h * P + g;
+      logic inside_c4_q, inside_c5_q, inside_c6_q;
+      logic [AB-1:0] addr_c4_q, addr_c5_q, addr_c6_q;
+      logic [4*SB-1:0] products;
+      always_ff @(posedge clk_i) begin
+        inside_c4_q <= valid_q[3] && inside_x_c3[g] && inside_y_c3[h];
+        inside_c5_q <= inside_c4_q;
+        inside_c6_q <= inside_c5_q;
+        if (!rst_ni) begin
+          inside_c4_q <= 1'b0;
+          inside_c5_q <= 1'b0;
+          inside_c6_q <= 1'b0;
+        end
+        addr_c4_q <= AB'(block_y_c3[h*BLK+:BLK]) * AB'(fastsplat_pkg::BLOCKS_X) + AB'(block_x_c3[g*BLK+:BLK]);
+        addr_c5_q <= addr_c4_q;
+        addr_c6_q <= addr_c5_q;
+      end
+      lane u_lane (
+          .clk_i,
+          .we_i(radial_we_i),
+          .waddr_i(radial_waddr_i),
+          .wdata_i(table_word_i[WB-1:0]),
+          .column_i(columns_c3[g*RB+:RB]),
+          .row_i(rows_c3[h*RB+:RB]),
+          .colour_i(colour_q[5]),
+          .weight_o(tap_weights_o[B*WB+:WB]),
+          .products_o(products),
+          .saturated_o(tap_product_saturated_o[4*B+:4])
+      );
+      assign tap_inside_o[B] = inside_c6_q;
+      sheet_bank u_bank (
+          .clk_i,
+          .rst_ni,
+          .wipe_i,
+          .wipe_addr_i,
+          .valid_i(inside_c6_q),
+          .buffer_i(buffer_q[6]),
+          .addr_i(addr_c6_q),
+          .products_i(products),
+          .sum_o(tap_sums_o[B*4*SB+:4*SB]),
+          .saturated_o(tap_sheet_saturated_o[4*B+:4]),
+          .comp_re_i,
+          .comp_buffer_i,
+          .comp_addr_i,
+          .comp_data_o(comp_data_o[B*4*SB+:4*SB])
+      );
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    valid_q <= {valid_q[8:1], valid_i};
+    last_q <= {last_q[8:1], last_i};
+    buffer_q <= {buffer_q[8:1], buffer_i};
+    if (!rst_ni) begin
+      valid_q <= '0;
+      last_q <= '0;
+    end
+    first_c1_q <= first_window_i;
+    tag_q[1] <= tag_i;
+    colour_q[1] <= colour_i;
+    column_c1_q <= base_i + column_i;
+    row_c1_q <= base_i + row_i;
+    x_q[2] <= x_c1;
+    y_q[2] <= y_c1;
+    for (int s = 2; s <= 9; s++) tag_q[s] <= tag_q[s-1];
+    for (int s = 2; s <= 5; s++) colour_q[s] <= colour_q[s-1];
+    for (int s = 3; s <= 6; s++) begin
+      x_q[s] <= x_q[s-1];
+      y_q[s] <= y_q[s-1];
+    end
+  end
+
+`ifdef FASTSPLAT_FAULT_EARLY_SWAP
+  assign done_o = last_q[4];
+  assign done_buffer_o = buffer_q[4];
+`else
+  assign done_o = last_q[9];
+  assign done_buffer_o = buffer_q[9];
+`endif
+
+  assign tap_snap_valid_o = valid_q[1] && first_c1_q;
+  assign tap_snap_tag_o = tag_q[1];
+  assign tap_snap_x_o = x_c1;
+  assign tap_snap_y_o = y_c1;
+  assign tap_snap_mx_o = mx_c1;
+  assign tap_snap_my_o = my_c1;
+  assign tap_snap_saturated_o = {saturated_y, saturated_x};
+  assign tap_window_valid_o = valid_q[6];
+  assign tap_window_tag_o = tag_q[6];
+  assign tap_window_x_o = x_q[6];
+  assign tap_window_y_o = y_q[6];
+  assign tap_sheet_valid_o = valid_q[9];
+  assign tap_sheet_tag_o = tag_q[9];
+endmodule

@@ -1,0 +1,245 @@
+// Unit "decode": beats in, table words, windows and sheet tokens out (docs/stream.md; cmodel/stream_decode.hpp).
+// One beat register; a beat is done in one cycle but for table payload (a cycle per word), splats (a cycle per window),
+// and begin_tile, begin_sheet and end_tile, which wait for the compositor and pixel out.
+module stream_decode (
+    input  logic                                       clk_i,
+    input  logic                                       rst_ni,
+    input  logic                                       enable_i,    // 0 while memories are wiped after reset
+    // stream in
+    input  logic                                       valid_i,
+    output logic                                       ready_o,
+    input  logic [191:0]                               data_i,
+    // table load
+    output logic                                       rlut_we_o,
+    output logic [fastsplat_pkg::PHASE_BITS-1:0]       rlut_wphase_o,
+    output logic [fastsplat_pkg::COL_BITS-1:0]         rlut_wcolumn_o,
+    output logic                                       radial_we_o,
+    output logic                                       factor_we_o,
+    output logic [31:0]                                table_index_o,
+    output logic [31:0]                                table_word_o,
+    // tile
+    output logic                                       tile_begin_o,  // pulse
+    output logic                                       tile_end_o,    // pulse: send the picture
+    input  logic                                       tile_idle_i,   // compositor and pixel out have nothing to do
+    output logic [1:0]                                 mode_o,
+    output logic [31:0]                                tile_number_o,
+    output logic [31:0]                                sheet_number_o,
+    output logic [fastsplat_pkg::SIDE_BITS-1:0]        width_o,
+    output logic [fastsplat_pkg::SIDE_BITS-1:0]        height_o,
+    // sheet buffers given back by the compositor
+    input  logic                                       free_i,
+    input  logic                                       free_buffer_i,
+    // c0
+    output logic                                       window_valid_o,
+    output logic                                       window_last_o,   // end-of-sheet token
+    output logic                                       window_first_o,
+    output logic                                       window_buffer_o,
+    output logic [31:0]                                window_tag_o,
+    output logic signed [fastsplat_pkg::POS_BITS-1:0]  window_x_o,
+    output logic signed [fastsplat_pkg::POS_BITS-1:0]  window_y_o,
+    output logic [fastsplat_pkg::RHO_BITS-1:0]         window_rho_o,
+    output logic [fastsplat_pkg::COL_BITS-1:0]         window_base_o,
+    output logic [fastsplat_pkg::COL_BITS-1:0]         window_column_o,
+    output logic [fastsplat_pkg::COL_BITS-1:0]         window_row_o,
+    output logic [4*fastsplat_pkg::COLOUR_BITS-1:0]    window_colour_o,
+    // status
+    output logic                                       error_o,       // sticky: unknown opcode, wrong magic, version or hash
+    output logic [7:0]                                 error_opcode_o,
+    output logic                                       event_splat_o,
+    output logic                                       event_cull_o,
+    output logic                                       stall_input_o,   // nothing to decode
+    output logic                                       stall_table_o,   // a table word
+    output logic                                       stall_buffer_o,  // begin_sheet waits for a buffer
+    output logic                                       stall_tile_o     // begin_tile or end_tile waits
+);
+  localparam int CB = fastsplat_pkg::COLOUR_BITS;
+  localparam int COL = fastsplat_pkg::COL_BITS;
+  localparam int P = fastsplat_pkg::LANES;
+
+  logic beat_valid_q, take;
+  logic [191:0] beat_q;
+  logic [31:0] w0, w1, w2, w3, w4, w5;
+  assign {w5, w4, w3, w2, w1, w0} = beat_q;
+  logic [7:0] opcode;
+  assign opcode = w0[7:0];
+  assign ready_o = enable_i && (!beat_valid_q || take);
+
+  // Radius sets
+  logic [fastsplat_pkg::RHO_BITS-1:0] rho_q[0:fastsplat_pkg::RLUT_SETS-1];
+  logic [COL-1:0] base_q[0:fastsplat_pkg::RLUT_SETS-1];
+  logic [COL-1:0] extent_q[0:fastsplat_pkg::RLUT_SETS-1];
+  logic [fastsplat_pkg::SET_BITS-1:0] set;
+  assign set = w0[8+:fastsplat_pkg::SET_BITS];
+
+  // Table payload
+  logic payload_q;
+  logic [7:0] table_q;
+  logic [31:0] words_q, index_q;
+  logic [2:0] word_in_beat_q;
+  logic [COL-1:0] table_base_q, table_extent_q, table_column_q;
+  logic [fastsplat_pkg::PHASE_BITS-1:0] table_phase_q;
+  logic [COL-1:0] header_extent;
+  localparam int RHO2 = fastsplat_pkg::RHO_BITS + 2;
+  logic [RHO2-1:0] header_pixels;
+  assign header_pixels = (RHO2'({w2[fastsplat_pkg::RHO_BITS-1:0], 1'b0}) + RHO2'(fastsplat_pkg::PHASES - 1)) >> fastsplat_pkg::PHASE_LOG2;
+  assign header_extent = COL'((header_pixels + RHO2'(P - 1)) >> fastsplat_pkg::LANE_LOG2) << fastsplat_pkg::LANE_LOG2;
+  logic last_word;
+  assign last_word = index_q + 32'd1 == words_q;
+  always_comb begin
+    case (word_in_beat_q)
+      3'd0: table_word_o = w0;
+      3'd1: table_word_o = w1;
+      3'd2: table_word_o = w2;
+      3'd3: table_word_o = w3;
+      3'd4: table_word_o = w4;
+      default: table_word_o = w5;
+    endcase
+  end
+  logic table_write;
+  assign table_write = beat_valid_q && payload_q;
+  assign rlut_we_o = table_write && table_q == 8'd0;
+`ifdef FASTSPLAT_FAULT_STALE_TABLE
+  assign radial_we_o = table_write && table_q == 8'd1 && index_q[3:0] != 4'd5;
+`else
+  assign radial_we_o = table_write && table_q == 8'd1;
+`endif
+  assign factor_we_o = table_write && table_q == 8'd2;
+  assign rlut_wphase_o = table_phase_q;
+  assign rlut_wcolumn_o = table_base_q + table_column_q;
+  assign table_index_o = index_q;
+
+  // Windows of the splat in the beat register
+  logic [COL-1:0] column_q, row_q, extent;
+  logic last_column, last_window;
+  assign extent = extent_q[set];
+  assign last_column = column_q + COL'(P) >= extent;
+  assign last_window = last_column && row_q + COL'(P) >= extent;
+
+  // Sheet buffers
+  logic [1:0] busy_q;
+  logic buffer_q;
+
+  logic is_splat, wait_buffer, wait_tile, known;
+  assign is_splat = beat_valid_q && !payload_q && opcode == fastsplat_pkg::OP_SPLAT && !error_o;
+  assign wait_buffer = beat_valid_q && !payload_q && opcode == fastsplat_pkg::OP_BEGIN_SHEET && busy_q[buffer_q];
+  // A sheet on its way through the splat path keeps its buffer busy, so "all buffers free" covers the pipe as well.
+  assign wait_tile = beat_valid_q && !payload_q && (opcode == fastsplat_pkg::OP_BEGIN_TILE || opcode == fastsplat_pkg::OP_END_TILE) &&
+                     (!tile_idle_i || busy_q != '0);
+  always_comb begin
+    known = 1'b1;
+    case (opcode)
+      fastsplat_pkg::OP_BEGIN_FRAME:
+      known = w1 == fastsplat_pkg::STREAM_MAGIC && w0[31:16] == fastsplat_pkg::STREAM_VERSION && w2 == fastsplat_pkg::HASH_LOW &&
+              w3 == fastsplat_pkg::HASH_HIGH;
+      fastsplat_pkg::OP_LOAD_TABLE, fastsplat_pkg::OP_BEGIN_TILE, fastsplat_pkg::OP_BEGIN_SHEET, fastsplat_pkg::OP_SPLAT,
+      fastsplat_pkg::OP_CULL_BLOCK, fastsplat_pkg::OP_END_SHEET, fastsplat_pkg::OP_END_TILE, fastsplat_pkg::OP_END_FRAME: known = 1'b1;
+      default: known = 1'b0;
+    endcase
+  end
+  always_comb begin
+    take = beat_valid_q;
+    if (error_o) take = beat_valid_q;  // after an error everything is swallowed
+    else if (payload_q) take = beat_valid_q && (last_word || word_in_beat_q == 3'd5);
+    else if (is_splat) take = last_window;
+    else if (wait_buffer || wait_tile) take = 1'b0;
+  end
+
+  logic accepted;  // the record in the register is carried out in this cycle
+  assign accepted = take && !payload_q && !error_o;
+  assign tile_begin_o = accepted && opcode == fastsplat_pkg::OP_BEGIN_TILE;
+  assign tile_end_o = accepted && opcode == fastsplat_pkg::OP_END_TILE;
+  assign event_splat_o = accepted && opcode == fastsplat_pkg::OP_SPLAT;
+  assign event_cull_o = accepted && opcode == fastsplat_pkg::OP_CULL_BLOCK;
+  assign stall_input_o = !beat_valid_q;
+  assign stall_table_o = table_write;
+  assign stall_buffer_o = wait_buffer;
+  assign stall_tile_o = wait_tile;
+
+  always_ff @(posedge clk_i) begin
+    if (ready_o) begin
+      beat_valid_q <= valid_i;
+      beat_q <= data_i;
+    end
+`ifdef FASTSPLAT_FAULT_LOST_BEAT
+    if (ready_o && valid_i && beat_valid_q && is_splat && w1[5:0] == 6'd37) beat_valid_q <= 1'b0;
+`endif
+
+    // tables
+    if (accepted && opcode == fastsplat_pkg::OP_LOAD_TABLE) begin
+      payload_q <= 1'b1;
+      table_q <= w0[15:8];
+      words_q <= w3;
+      index_q <= '0;
+      word_in_beat_q <= '0;
+      table_base_q <= w4[COL-1:0];
+      table_extent_q <= header_extent;
+      table_column_q <= '0;
+      table_phase_q <= '0;
+      if (w0[15:8] == 8'd0) begin
+        rho_q[w1[fastsplat_pkg::SET_BITS-1:0]] <= w2[fastsplat_pkg::RHO_BITS-1:0];
+        base_q[w1[fastsplat_pkg::SET_BITS-1:0]] <= w4[COL-1:0];
+        extent_q[w1[fastsplat_pkg::SET_BITS-1:0]] <= header_extent;
+      end
+    end
+    if (table_write) begin
+      index_q <= index_q + 32'd1;
+      word_in_beat_q <= (word_in_beat_q == 3'd5) ? 3'd0 : word_in_beat_q + 3'd1;
+      table_column_q <= table_column_q + COL'(1);
+      if (table_column_q + COL'(1) == table_extent_q) begin
+        table_column_q <= '0;
+        table_phase_q <= table_phase_q + fastsplat_pkg::PHASE_BITS'(1);
+      end
+      if (last_word) payload_q <= 1'b0;
+    end
+
+    // tile and sheet
+    if (tile_begin_o) begin
+      mode_o <= w0[9:8];
+      tile_number_o <= w1;
+      width_o <= w4[fastsplat_pkg::SIDE_BITS-1:0];
+      height_o <= w4[16+:fastsplat_pkg::SIDE_BITS];
+    end
+    if (free_i) busy_q[free_buffer_i] <= 1'b0;
+    if (accepted && opcode == fastsplat_pkg::OP_BEGIN_SHEET) begin
+      busy_q[buffer_q] <= 1'b1;
+      sheet_number_o <= w1;
+    end
+    if (accepted && opcode == fastsplat_pkg::OP_END_SHEET) buffer_q <= !buffer_q;
+
+    // windows
+    window_valid_o <= is_splat;
+    window_last_o <= accepted && opcode == fastsplat_pkg::OP_END_SHEET;
+    window_first_o <= column_q == '0 && row_q == '0;
+    window_buffer_o <= buffer_q;
+    window_tag_o <= w1;
+    window_x_o <= w2[fastsplat_pkg::POS_BITS-1:0];
+    window_y_o <= w3[fastsplat_pkg::POS_BITS-1:0];
+    window_rho_o <= rho_q[set];
+    window_base_o <= base_q[set];
+    window_column_o <= column_q;
+    window_row_o <= row_q;
+    window_colour_o <= {w5[16+:CB], w5[0+:CB], w4[16+:CB], w4[0+:CB]};
+    if (is_splat) begin
+      column_q <= last_column ? '0 : column_q + COL'(P);
+      if (last_column) row_q <= last_window ? '0 : row_q + COL'(P);
+    end
+
+    if (beat_valid_q && !payload_q && !known && !error_o) begin
+      error_o <= 1'b1;
+      error_opcode_o <= opcode;
+    end
+
+    if (!rst_ni) begin
+      beat_valid_q <= 1'b0;
+      payload_q <= 1'b0;
+      busy_q <= '0;
+      buffer_q <= 1'b0;
+      column_q <= '0;
+      row_q <= '0;
+      window_valid_o <= 1'b0;
+      window_last_o <= 1'b0;
+      error_o <= 1'b0;
+      error_opcode_o <= '0;
+    end
+  end
+endmodule

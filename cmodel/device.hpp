@@ -30,6 +30,8 @@ class Device {
   virtual ~Device() = default;
   /// Takes whole or partial streams; a beat that breaks docs/stream.md is a UserError (Input) naming beat and offset.
   virtual void consume(std::span<const Beat> beats) = 0;
+  /// No more beats: runs until all is delivered. Throws UserError (Input) if the stream ended where it may not.
+  virtual void finish() = 0;
   virtual const Counters& counters() const = 0;
 };
 

@@ -20,8 +20,7 @@ class Model final : public Device {
   Model(const Config& config, StreamScope scope, PixelSink& pixels, TapSink* taps = nullptr);
 
   void consume(std::span<const Beat> beats) override;
-  /// Throws unless the stream ended where it may.
-  void finish() const { decode_.finish(); }
+  void finish() override { decode_.finish(); }
   const Counters& counters() const override { return counters_; }
 
  private:

@@ -22,6 +22,7 @@ struct TapRecord {
   std::uint32_t tile = 0;
   std::uint32_t sheet = 0;  ///< sheet number; 0 for Pixel, which belongs to no sheet
   std::uint32_t tag = 0;    ///< splat tag; 0 for Composite and Pixel, which belong to no splat
+  std::uint64_t cycle = 0;  ///< clock cycle since reset; 0 from a device without a clock
   std::int32_t x = 0;       ///< first pixel of the window or block, or the pixel itself
   std::int32_t y = 0;
   std::span<const std::uint32_t> payload;

@@ -1,0 +1,48 @@
+# Verilates rtl/ for one configuration. Verilator runs at build time, after the package of the configuration was generated.
+find_program(VERILATOR verilator REQUIRED)
+execute_process(COMMAND ${VERILATOR} --getenv VERILATOR_ROOT OUTPUT_VARIABLE VERILATOR_ROOT OUTPUT_STRIP_TRAILING_WHITESPACE)
+if(NOT EXISTS ${VERILATOR_ROOT}/include/verilated.cpp)
+  set(VERILATOR_ROOT /usr/share/verilator)
+endif()
+file(GLOB RTL_SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.sv)
+file(GLOB RTL_INCLUDES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.svh)
+
+# The simulator's own runtime, shared by all configurations.
+find_package(Threads REQUIRED)
+add_library(verilated_runtime STATIC ${VERILATOR_ROOT}/include/verilated.cpp ${VERILATOR_ROOT}/include/verilated_fst_c.cpp
+                                     ${VERILATOR_ROOT}/include/verilated_threads.cpp ${VERILATOR_ROOT}/include/verilated_cov.cpp)
+target_include_directories(verilated_runtime SYSTEM PUBLIC ${VERILATOR_ROOT}/include ${VERILATOR_ROOT}/include/vltstd)
+target_compile_options(verilated_runtime PRIVATE -w)
+target_link_libraries(verilated_runtime PUBLIC ZLIB::ZLIB Threads::Threads)
+
+# fastsplat_verilate(<target> <config> [DEFINES ...] [ARGS ...]): library <target> with class Vfs_<target> and its headers.
+# DEFINES are `FASTSPLAT_FAULT_...` macros of the must-fail builds; release builds set none.
+function(fastsplat_verilate target config)
+  cmake_parse_arguments(arg "" "" "DEFINES;ARGS" ${ARGN})
+  set(folder ${PROJECT_BINARY_DIR}/verilated/${target})
+  set(package ${folder}/fastsplat_pkg.sv)
+  file(MAKE_DIRECTORY ${folder}/obj)
+  add_custom_command(
+    OUTPUT ${package}
+    COMMAND fastsplat_emit_package ${config} > ${package}
+    DEPENDS fastsplat_emit_package ${PROJECT_SOURCE_DIR}/configs/${config}.toml
+    COMMENT "Package of configuration ${config}")
+  set(defines "")
+  foreach(define ${arg_DEFINES})
+    list(APPEND defines -D${define})
+  endforeach()
+  set(archive ${folder}/obj/Vfs_${target}__ALL.a)
+  add_custom_command(
+    OUTPUT ${archive} ${folder}/obj/Vfs_${target}.h
+    COMMAND ${PROJECT_SOURCE_DIR}/cmake/verilate.sh ${folder}/verilator.log ${CMAKE_COMMAND} -E env OBJCACHE=${FASTSPLAT_CCACHE} ${VERILATOR} --cc --build -j 1 --quiet-exit -Wall --assert -O3 --x-assign unique --x-initial unique --trace-fst
+            --prefix Vfs_${target} --top-module fastsplat_core --Mdir ${folder}/obj ${defines} ${arg_ARGS} -I${PROJECT_SOURCE_DIR}/rtl
+            -CFLAGS -std=c++20 -MAKEFLAGS OPT_FAST=-O2 -MAKEFLAGS OPT_SLOW=-O0 -MAKEFLAGS OPT_GLOBAL=-O2 ${package} ${RTL_SOURCES}
+    DEPENDS ${package} ${RTL_SOURCES} ${RTL_INCLUDES}
+    VERBATIM
+    COMMENT "Verilating ${target}")
+  add_custom_target(verilate_${target} DEPENDS ${archive})
+  add_library(${target} INTERFACE)
+  add_dependencies(${target} verilate_${target})
+  target_include_directories(${target} SYSTEM INTERFACE ${folder}/obj)
+  target_link_libraries(${target} INTERFACE ${archive} verilated_runtime)
+endfunction()

@@ -1,0 +1,39 @@
+// When a side of a ready/valid channel is willing: a pure function of the cycle number, so that the RTL, the cycle model and
+// a replay see the same.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace fastsplat::testbench {
+
+/// `always`; `never-N` (stops for N cycles in every 2N); `every-N` (one cycle in N); `random-P` (P percent of the cycles, by
+/// seed); `burst-N` (seeded runs of up to N cycles on and off).
+class Pattern {
+ public:
+  Pattern() = default;
+  /// Throws UserError (Usage) for an unknown pattern.
+  Pattern(const std::string& text, std::uint64_t seed);
+
+  bool at(std::uint64_t cycle) const;
+  const std::string& text() const { return text_; }
+  static std::vector<std::string> examples();
+
+ private:
+  enum class Kind { Always, Never, Every, Random, Burst };
+  Kind kind_ = Kind::Always;
+  std::uint64_t number_ = 1;
+  std::uint64_t seed_ = 0;
+  std::string text_ = "always";
+};
+
+/// splitmix64: the one generator of the testbench; the same seed gives the same numbers everywhere.
+constexpr std::uint64_t mix(std::uint64_t value) {
+  value += 0x9e3779b97f4a7c15ULL;
+  value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  value = (value ^ (value >> 27)) * 0x94d049bb133111ebULL;
+  return value ^ (value >> 31);
+}
+
+}  // namespace fastsplat::testbench

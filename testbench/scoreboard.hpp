@@ -1,0 +1,72 @@
+// Compares every tap of a device with the model's, joined by tap and order and held to the same tag; keeps the first divergence.
+// Knows no simulator type.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cmodel/config.hpp"
+#include "cmodel/device.hpp"
+#include "cmodel/taps.hpp"
+
+namespace fastsplat::testbench {
+
+/// A tap record that owns its payload.
+struct TapCopy {
+  cmodel::Tap tap = cmodel::Tap::Snap;
+  std::uint32_t tile = 0, sheet = 0, tag = 0;
+  std::uint64_t cycle = 0;
+  std::int32_t x = 0, y = 0;
+  std::vector<std::uint32_t> payload;
+};
+TapCopy copy(const cmodel::TapRecord& record);
+
+struct Divergence {
+  std::optional<TapCopy> model, rtl;  ///< one is absent where a record has no partner
+  std::size_t word = 0;               ///< first differing payload word; payload size where the headers differ
+  bool header = false;                ///< tile, sheet, tag or place differ
+};
+
+/// In the domain's words: stage, tile, sheet, splat, pixel, both values, their bit difference.
+std::string describe(const cmodel::Config& config, const Divergence& divergence);
+
+class Scoreboard {
+ public:
+  cmodel::TapSink& model() { return model_side_; }
+  cmodel::TapSink& rtl() { return rtl_side_; }
+
+  /// Events that never came count as divergences.
+  void finish();
+  std::uint64_t comparisons() const { return comparisons_; }  ///< records compared
+  std::uint64_t mismatches() const { return mismatches_; }
+  const std::array<std::uint64_t, cmodel::kTapCount>& by_tap() const { return by_tap_; }
+  const std::optional<Divergence>& first() const { return first_; }
+
+ private:
+  struct Side final : cmodel::TapSink {
+    Side(Scoreboard* owner, bool model) : board(owner), is_model(model) {}
+    Scoreboard* board;
+    bool is_model;
+    void on_tap(const cmodel::TapRecord& record) override;
+  };
+  void expect(const cmodel::TapRecord& record);
+  void check(const cmodel::TapRecord& record);
+  void mismatch(Divergence divergence);
+
+  Side model_side_{this, true}, rtl_side_{this, false};
+  std::array<std::deque<TapCopy>, cmodel::kTapCount> expected_;
+  std::uint64_t comparisons_ = 0, mismatches_ = 0;
+  std::array<std::uint64_t, cmodel::kTapCount> by_tap_{};
+  std::optional<Divergence> first_;
+
+ public:
+  Scoreboard() = default;
+  Scoreboard(const Scoreboard&) = delete;
+  Scoreboard& operator=(const Scoreboard&) = delete;
+};
+
+}  // namespace fastsplat::testbench

@@ -42,19 +42,28 @@ std::string upper(std::string text) {
 
 std::optional<ErrorParts> rtl_violation(const Config& config) {
   const auto refuse = [](const char* key, const char* what, std::string expected, int got) {
-    return ErrorParts{.where = key, .what = what, .expected = std::move(expected), .got = std::to_string(got), .fix = "use the model for this configuration"};
+    return ErrorParts{.where = key,
+                      .what = what,
+                      .expected = std::move(expected),
+                      .got = std::to_string(got),
+                      .fix = "use the model for this configuration"};
   };
   if (config.phases < 2) return refuse("snap.phases", "the RTL needs a phase bit", "at least 2", config.phases);
   if (config.lanes < 2) return refuse("array.lanes", "the RTL needs a lane bit", "at least 2", config.lanes);
-  if (config.opacity_segments < 2) return refuse("opacity.segments", "the RTL needs a segment bit", "at least 2", config.opacity_segments);
+  if (config.opacity_segments < 2)
+    return refuse("opacity.segments", "the RTL needs a segment bit", "at least 2", config.opacity_segments);
   if (config.opacity_remainder_bits() < 1) {
-    return refuse("opacity.segments", "the RTL interpolates over at least one bit", "sheet bits - log2(segments) >= 1", config.opacity_remainder_bits());
+    return refuse("opacity.segments", "the RTL interpolates over at least one bit", "sheet bits - log2(segments) >= 1",
+                  config.opacity_remainder_bits());
   }
   const int blocks = config.tile_width / config.lanes * (config.tile_height / config.lanes);
-  if (blocks > 1024) return refuse("tile.width", "the RTL finds dirty blocks in one cycle", "at most 1024 blocks of P x P in a tile", blocks);
+  if (blocks > 1024)
+    return refuse("tile.width", "the RTL finds dirty blocks in one cycle", "at most 1024 blocks of P x P in a tile",
+                  blocks);
   const int columns = config.tile_width / config.lanes;
   if (!std::has_single_bit(static_cast<unsigned>(columns))) {
-    return refuse("tile.width", "the RTL addresses blocks by shifts", "tile.width / array.lanes a power of two", columns);
+    return refuse("tile.width", "the RTL addresses blocks by shifts", "tile.width / array.lanes a power of two",
+                  columns);
   }
   return std::nullopt;
 }
@@ -123,12 +132,15 @@ std::string sv_package(const Config& config) {
   p.vector("HASH_HIGH", 32, hash >> 32);
   p.vector("STREAM_MAGIC", 32, kStreamMagic);
   p.vector("STREAM_VERSION", 16, kStreamVersion);
-  for (const auto& record : record_layouts()) p.vector("OP_" + upper(record.name), 8, static_cast<std::uint64_t>(record.opcode));
+  for (const auto& record : record_layouts())
+    p.vector("OP_" + upper(record.name), 8, static_cast<std::uint64_t>(record.opcode));
 
   p.section("counters, in the model's order, then cycles");
   int counters = 0;
-  Counters{}.for_each([&](const char* name, std::uint64_t, const char*) { p.number("CNT_" + upper(name), counters++); });
-  for (const char* name : {"CYCLES", "STALL_INPUT", "STALL_TABLE", "STALL_BUFFER", "STALL_TILE"}) p.number(std::string("CNT_") + name, counters++);
+  Counters{}.for_each(
+      [&](const char* name, std::uint64_t, const char*) { p.number("CNT_" + upper(name), counters++); });
+  for (const char* name : {"CYCLES", "STALL_INPUT", "STALL_TABLE", "STALL_BUFFER", "STALL_TILE"})
+    p.number(std::string("CNT_") + name, counters++);
   p.number("COUNTERS", counters);
 
   p.section("registers");
@@ -139,8 +151,8 @@ std::string sv_package(const Config& config) {
   }
   p.vector("REG_COUNTERS", 12, 0x80);
 
-  return "// Generated for configuration '" + config.name + "' (hash " + hash_text(hash) + "); do not edit.\npackage fastsplat_pkg;" + p.take() +
-         "endpackage\n";
+  return "// Generated for configuration '" + config.name + "' (hash " + hash_text(hash) +
+         "); do not edit.\npackage fastsplat_pkg;" + p.take() + "endpackage\n";
 }
 
 }  // namespace fastsplat::cmodel

@@ -1,5 +1,5 @@
-// The SystemVerilog package of a configuration: every number the RTL needs, as literals, from the same Config, stream layout
-// and counters that the model uses.
+// The SystemVerilog package of a configuration: every number the RTL needs, as literals, from the same Config, stream
+// layout and counters that the model uses.
 #pragma once
 
 #include <string>

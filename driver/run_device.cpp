@@ -5,8 +5,8 @@
 
 namespace fastsplat::driver {
 
-DeviceRender run_device(const scene::Scene& scene, const cmodel::Config& config, const DeviceFactory& make, const RenderOptions& options,
-                        const std::function<void(cmodel::Device&)>& finished) {
+DeviceRender run_device(const scene::Scene& scene, const cmodel::Config& config, const DeviceFactory& make,
+                        const RenderOptions& options, const std::function<void(cmodel::Device&)>& finished) {
   const CompiledFrame compiled(scene, config);
   FrameSink frame(config, compiled.grid().image_width, compiled.grid().image_height);
   const auto device = make(frame);
@@ -15,7 +15,8 @@ DeviceRender run_device(const scene::Scene& scene, const cmodel::Config& config,
   out.report.tiles = static_cast<std::uint64_t>(compiled.grid().count());
   device->consume(compiled.preamble());
   for (int tile = 0; tile < compiled.grid().count(); ++tile) {
-    const TileReport part = compiled.emit_tile(tile, [&](std::span<const cmodel::Beat> beats) { device->consume(beats); });
+    const TileReport part =
+        compiled.emit_tile(tile, [&](std::span<const cmodel::Beat> beats) { device->consume(beats); });
     out.report.splat_records += part.splat_records;
     out.report.saturated_records += part.saturated_records;
     out.report.sheets += part.sheets;

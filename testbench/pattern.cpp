@@ -6,12 +6,17 @@
 
 namespace fastsplat::testbench {
 
-std::vector<std::string> Pattern::examples() { return {"always", "random-50", "random-10", "every-3", "never-40", "burst-16"}; }
+std::vector<std::string> Pattern::examples() {
+  return {"always", "random-50", "random-10", "every-3", "never-40", "burst-16"};
+}
 
 Pattern::Pattern(const std::string& text, std::uint64_t seed) : seed_(mix(seed)), text_(text) {
   const auto refuse = [&] {
-    throw_usage({.where = "pattern '" + text + "'", .what = "unknown ready/valid pattern", .expected = "always, every-N, never-N, random-PERCENT or burst-N, N 1..1000000",
-                 .got = {}, .fix = "for example random-50"});
+    throw_usage({.where = "pattern '" + text + "'",
+                 .what = "unknown ready/valid pattern",
+                 .expected = "always, every-N, never-N, random-PERCENT or burst-N, N 1..1000000",
+                 .got = {},
+                 .fix = "for example random-50"});
   };
   if (text == "always") return;
   const auto dash = text.find('-');
@@ -36,10 +41,14 @@ Pattern::Pattern(const std::string& text, std::uint64_t seed) : seed_(mix(seed))
 
 bool Pattern::at(std::uint64_t cycle) const {
   switch (kind_) {
-    case Kind::Always: return true;
-    case Kind::Every: return (cycle + seed_) % number_ == 0;
-    case Kind::Never: return (cycle + seed_) / number_ % 2 == 0;
-    case Kind::Random: return mix(seed_ + cycle) % 100 < number_;
+    case Kind::Always:
+      return true;
+    case Kind::Every:
+      return (cycle + seed_) % number_ == 0;
+    case Kind::Never:
+      return (cycle + seed_) / number_ % 2 == 0;
+    case Kind::Random:
+      return mix(seed_ + cycle) % 100 < number_;
     case Kind::Burst: {
       // Each stretch of N cycles is on up to a seeded point and off after it, or the other way round.
       const std::uint64_t draw = mix(seed_ + cycle / number_);

@@ -1,5 +1,5 @@
-// When a side of a ready/valid channel is willing: a pure function of the cycle number, so that the RTL, the cycle model and
-// a replay see the same.
+// When a side of a ready/valid channel is willing: a pure function of the cycle number, so that the RTL, the cycle
+// model and a replay see the same.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace fastsplat::testbench {
 
-/// `always`; `never-N` (stops for N cycles in every 2N); `every-N` (one cycle in N); `random-P` (P percent of the cycles, by
-/// seed); `burst-N` (seeded runs of up to N cycles on and off).
+/// `always`; `never-N` (stops for N cycles in every 2N); `every-N` (one cycle in N); `random-P` (P percent of the
+/// cycles, by seed); `burst-N` (seeded runs of up to N cycles on and off).
 class Pattern {
  public:
   Pattern() = default;

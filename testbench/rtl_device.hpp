@@ -18,10 +18,10 @@ namespace fastsplat::testbench {
 enum class ResetFill { Zero, One, Random };
 
 struct RtlOptions {
-  Pattern input;                 ///< when the source offers a beat (an offered beat stays until taken)
-  Pattern output;                ///< when the sink takes pixels
+  Pattern input;   ///< when the source offers a beat (an offered beat stays until taken)
+  Pattern output;  ///< when the sink takes pixels
   ResetFill fill = ResetFill::Random;
-  std::uint64_t seed = 1;        ///< of ResetFill::Random
+  std::uint64_t seed = 1;            ///< of ResetFill::Random
   std::uint64_t timeout = 1u << 20;  ///< cycles without any transfer before UserError (Simulation)
   cmodel::TapSink* taps = nullptr;
   /// A waveform of the cycles [wave_from, wave_to); none while the path is empty.
@@ -47,8 +47,9 @@ class RtlDevice : public cmodel::Device {
 /// Configurations with RTL in this build.
 std::vector<std::string> rtl_config_names();
 
-/// Throws UserError (Usage) for a configuration without RTL, and UserError (Simulation) when the configuration hash in the
-/// device's registers is not `config`'s.
-std::unique_ptr<RtlDevice> make_rtl_device(const cmodel::Config& config, cmodel::PixelSink& pixels, const RtlOptions& options = {});
+/// Throws UserError (Usage) for a configuration without RTL, and UserError (Simulation) when the configuration hash in
+/// the device's registers is not `config`'s.
+std::unique_ptr<RtlDevice> make_rtl_device(const cmodel::Config& config, cmodel::PixelSink& pixels,
+                                           const RtlOptions& options = {});
 
 }  // namespace fastsplat::testbench

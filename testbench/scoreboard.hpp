@@ -1,5 +1,5 @@
-// Compares every tap of a device with the model's, joined by tap and order and held to the same tag; keeps the first divergence.
-// Knows no simulator type.
+// Compares every tap of a device with the model's, joined by tap and order and held to the same tag; keeps the first
+// divergence. Knows no simulator type.
 #pragma once
 
 #include <array>

@@ -40,20 +40,31 @@ void TapAssembly::accept(const cmodel::Beat& beat) {
     return;
   }
   switch (static_cast<cmodel::Opcode>(get(beat, cmodel::layout::kOpcode))) {
-    case cmodel::Opcode::LoadTable: payload_left_ = (std::uint64_t{cmodel::announced_words(beat)} + 5) / 6; break;
+    case cmodel::Opcode::LoadTable:
+      payload_left_ = (std::uint64_t{cmodel::announced_words(beat)} + 5) / 6;
+      break;
     case cmodel::Opcode::BeginTile: {
       Tile tile;
       tile.begin = std::get<cmodel::BeginTile>(cmodel::from_beat(beat));
-      tile.out = {.tile = tile.begin.tile, .x = tile.begin.x, .y = tile.begin.y, .width = tile.begin.width, .height = tile.begin.height, .words = {}};
+      tile.out = {.tile = tile.begin.tile,
+                  .x = tile.begin.x,
+                  .y = tile.begin.y,
+                  .width = tile.begin.width,
+                  .height = tile.begin.height,
+                  .words = {}};
       tile.out.words.reserve(static_cast<std::size_t>(tile.begin.width) * tile.begin.height * 4);
       tiles_.push_back(std::move(tile));
       break;
     }
     case cmodel::Opcode::BeginSheet:
-      tiles_.back().sheets.push_back({static_cast<std::uint32_t>(get(beat, cmodel::layout::kSheetNumber)), tiles_.back().tags});
+      tiles_.back().sheets.push_back(
+          {static_cast<std::uint32_t>(get(beat, cmodel::layout::kSheetNumber)), tiles_.back().tags});
       break;
-    case cmodel::Opcode::Splat: ++tiles_.back().tags; break;
-    default: break;
+    case cmodel::Opcode::Splat:
+      ++tiles_.back().tags;
+      break;
+    default:
+      break;
   }
 }
 
@@ -69,17 +80,27 @@ std::uint32_t TapAssembly::sheet_of(const Tile& tile, std::uint32_t tag) const {
   return 0;
 }
 
-void TapAssembly::emit(cmodel::Tap tap, std::uint64_t cycle, std::uint32_t sheet, std::uint32_t tag, std::int32_t x, std::int32_t y) {
-  taps_->on_tap({.tap = tap, .tile = tiles_.front().begin.tile, .sheet = sheet, .tag = tag, .cycle = cycle, .x = x, .y = y, .payload = payload_});
+void TapAssembly::emit(cmodel::Tap tap, std::uint64_t cycle, std::uint32_t sheet, std::uint32_t tag, std::int32_t x,
+                       std::int32_t y) {
+  taps_->on_tap({.tap = tap,
+                 .tile = tiles_.front().begin.tile,
+                 .sheet = sheet,
+                 .tag = tag,
+                 .cycle = cycle,
+                 .x = x,
+                 .y = y,
+                 .payload = payload_});
 }
 
-void TapAssembly::snap(std::uint64_t cycle, std::uint32_t tag, std::int32_t x, std::int32_t y, std::uint32_t mx, std::uint32_t my) {
+void TapAssembly::snap(std::uint64_t cycle, std::uint32_t tag, std::int32_t x, std::int32_t y, std::uint32_t mx,
+                       std::uint32_t my) {
   if (tiles_.empty()) return;
   payload_ = {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), mx, my};
   emit(cmodel::Tap::Snap, cycle, sheet_of(tiles_.front(), tag), tag, x, y);
 }
 
-void TapAssembly::window(std::uint64_t cycle, std::uint32_t tag, std::int32_t x, std::int32_t y, const std::uint32_t* weights) {
+void TapAssembly::window(std::uint64_t cycle, std::uint32_t tag, std::int32_t x, std::int32_t y,
+                         const std::uint32_t* weights) {
   windows_.push_back({x, y});
   if (tiles_.empty()) return;
   const int lanes = config_.lanes, mask = lanes - 1;
@@ -105,7 +126,8 @@ void TapAssembly::sheet(std::uint64_t cycle, std::uint32_t tag, const std::uint3
       const std::int32_t x = at.x + i, y = at.y + j;
       const bool inside = x >= 0 && y >= 0 && x < begin.width && y < begin.height;
       const auto bank = static_cast<std::size_t>((y & mask) * lanes + (x & mask));
-      for (std::size_t c = 0; c < 4; ++c) payload_.push_back(inside ? field(sums, (bank * 4 + c) * sheet_bits_, sheet_bits_) : 0);
+      for (std::size_t c = 0; c < 4; ++c)
+        payload_.push_back(inside ? field(sums, (bank * 4 + c) * sheet_bits_, sheet_bits_) : 0);
     }
   }
   emit(cmodel::Tap::Sheet, cycle, sheet_of(tiles_.front(), tag), tag, at.x, at.y);
@@ -116,13 +138,15 @@ void TapAssembly::composite(std::uint64_t cycle, std::uint32_t block, const std:
   const Tile& tile = tiles_.front();
   const int lanes = config_.lanes;
   const auto columns = static_cast<std::uint32_t>(config_.tile_width / lanes);
-  const auto x0 = static_cast<std::int32_t>(block % columns) * lanes, y0 = static_cast<std::int32_t>(block / columns) * lanes;
+  const auto x0 = static_cast<std::int32_t>(block % columns) * lanes,
+             y0 = static_cast<std::int32_t>(block / columns) * lanes;
   payload_.clear();
   for (int j = 0; j < lanes; ++j) {
     for (int i = 0; i < lanes; ++i) {
       const bool inside = x0 + i < tile.begin.width && y0 + j < tile.begin.height;
       const auto bank = static_cast<std::size_t>(j * lanes + i);
-      for (std::size_t c = 0; c < 4; ++c) payload_.push_back(inside ? field(state, (bank * 4 + c) * state_bits_, state_bits_) : 0);
+      for (std::size_t c = 0; c < 4; ++c)
+        payload_.push_back(inside ? field(state, (bank * 4 + c) * state_bits_, state_bits_) : 0);
     }
   }
   const std::uint32_t sheet = tile.composited < tile.sheets.size() ? tile.sheets[tile.composited].number : 0;

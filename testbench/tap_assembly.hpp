@@ -1,5 +1,5 @@
-// Turns what the RTL shows by bank into the tap records of the model: window order, tile and sheet numbers, tile-relative
-// places. Knows no simulator type.
+// Turns what the RTL shows by bank into the tap records of the model: window order, tile and sheet numbers,
+// tile-relative places. Knows no simulator type.
 #pragma once
 
 #include <cstdint>
@@ -52,16 +52,17 @@ class TapAssembly {
     std::int32_t x, y;
   };
   std::uint32_t sheet_of(const Tile& tile, std::uint32_t tag) const;
-  void emit(cmodel::Tap tap, std::uint64_t cycle, std::uint32_t sheet, std::uint32_t tag, std::int32_t x, std::int32_t y);
+  void emit(cmodel::Tap tap, std::uint64_t cycle, std::uint32_t sheet, std::uint32_t tag, std::int32_t x,
+            std::int32_t y);
 
   cmodel::Config config_;
   cmodel::PixelSink& pixels_;
   cmodel::TapSink* taps_;
   int sheet_bits_, weight_bits_, state_bits_;
   std::deque<Tile> tiles_;
-  std::deque<Place> windows_;               ///< between the footprint and the sheet tap
-  std::deque<std::uint64_t> finished_;      ///< cycles of sheet_done whose blocks are still in the pipe
-  std::uint64_t payload_left_ = 0;          ///< table beats to pass over
+  std::deque<Place> windows_;           ///< between the footprint and the sheet tap
+  std::deque<std::uint64_t> finished_;  ///< cycles of sheet_done whose blocks are still in the pipe
+  std::uint64_t payload_left_ = 0;      ///< table beats to pass over
   std::vector<std::uint32_t> payload_;
 };
 

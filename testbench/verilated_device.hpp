@@ -46,8 +46,11 @@ class VerilatedDevice final : public RtlDevice {
     pulse_reset();
     const std::uint64_t hash = read(8) | static_cast<std::uint64_t>(read(12)) << 32;
     if (hash != config_hash(config)) {
-      throw UserError(ExitCode::Simulation, {.where = "configuration register", .what = "the RTL was built for another configuration",
-                                             .expected = cmodel::hash_text(config_hash(config)), .got = cmodel::hash_text(hash), .fix = "build again"});
+      throw UserError(ExitCode::Simulation, {.where = "configuration register",
+                                             .what = "the RTL was built for another configuration",
+                                             .expected = cmodel::hash_text(config_hash(config)),
+                                             .got = cmodel::hash_text(hash),
+                                             .fix = "build again"});
     }
   }
   ~VerilatedDevice() override {
@@ -90,7 +93,8 @@ class VerilatedDevice final : public RtlDevice {
     FASTSPLAT_COUNTERS(X)
 #undef X
     RtlCycles out;
-    for (std::uint64_t* field : {&out.busy, &out.stall_input, &out.stall_table, &out.stall_buffer, &out.stall_tile}) *field = counter(number++);
+    for (std::uint64_t* field : {&out.busy, &out.stall_input, &out.stall_table, &out.stall_buffer, &out.stall_tile})
+      *field = counter(number++);
     return out;
   }
 
@@ -157,8 +161,11 @@ class VerilatedDevice final : public RtlDevice {
     edge();
     ++cycle_;
     if (top_->error_o) {
-      throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_), .what = "the device refused the stream", .expected = "a known record and this configuration's hash",
-                                             .got = "error status", .fix = "check the stream with 'fastsplat stream dump'"});
+      throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_),
+                                             .what = "the device refused the stream",
+                                             .expected = "a known record and this configuration's hash",
+                                             .got = "error status",
+                                             .fix = "check the stream with 'fastsplat stream dump'"});
     }
     return taken;
   }
@@ -166,17 +173,20 @@ class VerilatedDevice final : public RtlDevice {
   /// Taps of this cycle and the pixel beat, if one is taken.
   void sample() {
     std::uint64_t a = 0;
-    if (top_->m_tvalid_o && top_->m_tready_i) taps_.pixels(cycle_, port_words(top_->m_tdata_o, a), top_->m_tlast_o != 0);
+    if (top_->m_tvalid_o && top_->m_tready_i)
+      taps_.pixels(cycle_, port_words(top_->m_tdata_o, a), top_->m_tlast_o != 0);
     if (options_.taps == nullptr) return;
     if (top_->tap_snap_valid_o) {
-      taps_.snap(cycle_, top_->tap_snap_tag_o, taps_.origin(top_->tap_snap_x_o), taps_.origin(top_->tap_snap_y_o), top_->tap_snap_mx_o, top_->tap_snap_my_o);
+      taps_.snap(cycle_, top_->tap_snap_tag_o, taps_.origin(top_->tap_snap_x_o), taps_.origin(top_->tap_snap_y_o),
+                 top_->tap_snap_mx_o, top_->tap_snap_my_o);
     }
     if (top_->tap_sheet_valid_o) taps_.sheet(cycle_, top_->tap_sheet_tag_o, port_words(top_->tap_sums_o, a));
     if (top_->tap_window_valid_o) {
-      taps_.window(cycle_, top_->tap_window_tag_o, taps_.origin(top_->tap_window_x_o), taps_.origin(top_->tap_window_y_o),
-                   port_words(top_->tap_weights_o, a));
+      taps_.window(cycle_, top_->tap_window_tag_o, taps_.origin(top_->tap_window_x_o),
+                   taps_.origin(top_->tap_window_y_o), port_words(top_->tap_weights_o, a));
     }
-    if (top_->tap_composite_valid_o) taps_.composite(cycle_, top_->tap_composite_block_o, port_words(top_->tap_state_o, a));
+    if (top_->tap_composite_valid_o)
+      taps_.composite(cycle_, top_->tap_composite_block_o, port_words(top_->tap_state_o, a));
     taps_.sheet_done(cycle_, top_->tap_sheet_done_o != 0);
   }
 
@@ -198,8 +208,12 @@ class VerilatedDevice final : public RtlDevice {
   }
 
   [[noreturn]] void time_out(const char* what) const {
-    throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_), .what = std::string("the device hangs: ") + what,
-                                           .expected = "a transfer within " + std::to_string(options_.timeout) + " cycles", .got = {}, .fix = "look at the waveform of the last cycles"});
+    throw UserError(ExitCode::Simulation,
+                    {.where = "cycle " + std::to_string(cycle_),
+                     .what = std::string("the device hangs: ") + what,
+                     .expected = "a transfer within " + std::to_string(options_.timeout) + " cycles",
+                     .got = {},
+                     .fix = "look at the waveform of the last cycles"});
   }
 
   cmodel::Config config_;

@@ -15,8 +15,9 @@ const Arrows kArrows{
     {"golden", {"base", "scene"}},
     {"cmodel", {"base"}},
     {"driver", {"base", "scene", "cmodel"}},
+    {"testbench", {"base", "cmodel"}},
     {"analysis", {"base", "scene", "golden", "cmodel", "driver"}},
-    {"cli", {"base", "scene", "golden", "cmodel", "driver", "analysis"}},
+    {"cli", {"base", "scene", "golden", "cmodel", "driver", "testbench", "analysis"}},
 };
 
 std::vector<std::string> product_folders() {

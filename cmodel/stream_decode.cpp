@@ -168,8 +168,11 @@ void StreamDecode::check(const BeginTile& record) {
   expect(record.tile < frame_.tiles, "more tiles than announced", frame_.tiles, std::int64_t{record.tile} + 1);
   expect_within(record.width, 1, config_.tile_width, "tile width");
   expect_within(record.height, 1, config_.tile_height, "tile height");
-  expect_within(record.x, 0, frame_.width - record.width, "tile outside the image in x");
-  expect_within(record.y, 0, frame_.height - record.height, "tile outside the image in y");
+  expect(record.x >= 0, "tile begins outside the image in x", 0, record.x);
+  expect(record.y >= 0, "tile begins outside the image in y", 0, record.y);
+  const std::int64_t end_x = std::int64_t{record.x} + record.width, end_y = std::int64_t{record.y} + record.height;
+  expect(end_x <= frame_.width, "tile ends outside the image in x", frame_.width, end_x);
+  expect(end_y <= frame_.height, "tile ends outside the image in y", frame_.height, end_y);
   tile_ = record.tile;
   ++tiles_seen_;
   sheets_seen_ = 0;

@@ -22,6 +22,8 @@ TEST(Suggest, OffersTheNearestElseAll) {
   const std::vector<std::string> known = {"bone", "binary", "x-ray"};
   EXPECT_EQ(suggestion("binray", known), "did you mean 'binary'?");
   EXPECT_EQ(suggestion("bon", known), "did you mean 'bone'?");
+  EXPECT_EQ(suggestion("binaryxyz", known), "did you mean 'binary'?");  // 3 edits
+  EXPECT_EQ(suggestion("binarywxyz", known), "known: bone, binary, x-ray");
   EXPECT_EQ(suggestion("something else", known), "known: bone, binary, x-ray");
 }
 

@@ -1,8 +1,8 @@
 #include "driver/stream_file.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <cstring>
@@ -11,6 +11,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "cmodel/crc32.hpp"
 #include "cmodel/model.hpp"
 #include "driver/compile.hpp"
 #include "driver/frame_sink.hpp"
@@ -44,13 +45,13 @@ class Writer {
   }
   void write(std::span<const Beat> beats) {
     const auto* bytes = reinterpret_cast<const char*>(beats.data());
-    crc_ = static_cast<std::uint32_t>(crc32_z(crc_, reinterpret_cast<const Bytef*>(bytes), beats.size_bytes()));
+    for (const Beat& beat : beats) crc_.add(beat);
     beats_ += beats.size();
     if (!out_.write(bytes, static_cast<std::streamsize>(beats.size_bytes()))) cannot_write(path_);
   }
   void finish() {
     std::vector<Beat> end;
-    cmodel::append(end, cmodel::EndFrame{beats_, crc_});
+    cmodel::append(end, cmodel::EndFrame{beats_, crc_.value()});
     write(end);
     out_.close();
     if (!out_) cannot_write(path_);
@@ -62,7 +63,7 @@ class Writer {
   AtomicFile file_;
   std::ofstream out_;
   std::uint64_t beats_ = 0;
-  std::uint32_t crc_ = 0;
+  cmodel::Crc32 crc_;
 };
 
 /// Beats of a file in blocks, with the CRC of all beats before the current block's end kept for the last one.
@@ -84,17 +85,15 @@ class Reader {
     }
   }
 
-  /// visit(beat, crc of everything before it); stops when it returns false.
+  /// visit(beat) for every beat; stops when it returns false.
   template <class Visit>
   void each(Visit visit) {
     std::vector<Beat> block(4096);
-    std::uint32_t crc = 0;
     while (in_) {
       in_.read(reinterpret_cast<char*>(block.data()), static_cast<std::streamsize>(block.size() * kBeatBytes));
       const auto got = static_cast<std::size_t>(in_.gcount()) / kBeatBytes;
       for (std::size_t i = 0; i < got; ++i) {
-        if (!visit(block[i], crc)) return;
-        crc = static_cast<std::uint32_t>(crc32_z(crc, reinterpret_cast<const Bytef*>(&block[i]), kBeatBytes));
+        if (!visit(block[i])) return;
       }
     }
     if (in_.bad()) refuse(fmt::format("cannot read: {}", std::strerror(errno)), {}, {}, "check the disk");
@@ -116,7 +115,30 @@ class Reader {
 };
 
 std::int64_t opcode(const Beat& beat) { return get(beat, cmodel::layout::kOpcode); }
-bool is(const Beat& beat, cmodel::Opcode wanted) { return opcode(beat) == static_cast<std::int64_t>(wanted); }
+
+/// The frame of a replay: made when the header is known to be sound; the model hands it tiles only after that.
+class ReplayFrame final : public cmodel::PixelSink {
+ public:
+  void begin(const cmodel::Config& config, int width, int height) {
+    frame_.emplace(config, width, height);
+    width_ = width;
+    covered_.assign(static_cast<std::size_t>(width) * height, false);
+  }
+  void on_tile(cmodel::TilePixels&& tile) override {
+    for (int y = tile.y; y < tile.y + tile.height; ++y) {
+      const auto first = covered_.begin() + static_cast<std::ptrdiff_t>(y) * width_ + tile.x;
+      std::fill(first, first + tile.width, true);
+    }
+    frame_->on_tile(std::move(tile));
+  }
+  std::int64_t uncovered() const { return std::count(covered_.begin(), covered_.end(), false); }
+  cmodel::Frame take() { return frame_->take(); }
+
+ private:
+  std::optional<FrameSink> frame_;
+  int width_ = 0;
+  std::vector<bool> covered_;  ///< pixels that a tile delivered
+};
 
 }  // namespace
 
@@ -141,45 +163,20 @@ DriverReport record_stream(const scene::Scene& scene, const cmodel::Config& conf
 DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Config& config,
                            const RenderOptions& options) {
   Reader reader(path);
-  // The frame is made when the header is known to be sound; the model hands it tiles only after that.
-  class LateFrame final : public cmodel::PixelSink {
-   public:
-    std::optional<FrameSink> frame;
-    std::int64_t pixels = 0;
-    void on_tile(cmodel::TilePixels&& tile) override {
-      pixels += std::int64_t{tile.width} * tile.height;
-      frame->on_tile(std::move(tile));
-    }
-  } late;
-  cmodel::Model device(config, cmodel::StreamScope::Whole, late);
-  std::int64_t image_pixels = 0;
+  ReplayFrame frame;
+  cmodel::Model device(config, cmodel::StreamScope::Whole, frame);
   std::uint64_t beats = 0;
-  bool payload = false;
-  std::uint64_t payload_left = 0;
   try {
-    reader.each([&](const Beat& beat, std::uint32_t crc) {
+    reader.each([&](const Beat& beat) {
       device.consume({&beat, 1});
       if (beats == 0) {
         const auto header = std::get<cmodel::BeginFrame>(cmodel::from_beat(beat));
-        image_pixels = std::int64_t{header.width} * header.height;
-        if (image_pixels > kLargestImage) {
+        const std::int64_t pixels = std::int64_t{header.width} * header.height;
+        if (pixels > kLargestImage) {
           reader.refuse("image too large to replay", fmt::format("at most {} pixels", kLargestImage),
-                        fmt::format("{} pixels", image_pixels), "record it at a smaller --size");
+                        fmt::format("{} pixels", pixels), "record it at a smaller --size");
         }
-        late.frame.emplace(config, header.width, header.height);
-      }
-      payload = payload_left > 0;
-      if (payload) {
-        --payload_left;
-      } else if (is(beat, cmodel::Opcode::LoadTable)) {
-        payload_left = (std::uint64_t{cmodel::announced_words(beat)} + 5) / 6;
-      } else if (is(beat, cmodel::Opcode::EndFrame)) {
-        const auto end = std::get<cmodel::EndFrame>(cmodel::from_beat(beat));
-        if (end.crc != crc) {
-          reader.refuse(fmt::format("corrupt: checksum of the {} beats before byte offset {} is wrong", beats,
-                                    beats * kBeatBytes),
-                        fmt::format("{:08x}", end.crc), fmt::format("{:08x}", crc), "record it again");
-        }
+        frame.begin(config, header.width, header.height);
       }
       ++beats;
       if (options.progress && beats % 65536 == 0) options.progress(beats * kBeatBytes, reader.bytes());
@@ -192,12 +189,12 @@ DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Conf
     parts.where = path.string() + ": " + parts.where;
     throw UserError(error.code(), parts);
   }
-  if (late.pixels != image_pixels) {
-    reader.refuse("tiles do not cover the image once", fmt::format("{} pixels", image_pixels),
-                  fmt::format("{} pixels", late.pixels), "record it again");
+  if (const std::int64_t uncovered = frame.uncovered(); uncovered != 0) {
+    reader.refuse("tiles do not cover the image", "every pixel in a tile", fmt::format("{} pixels in none", uncovered),
+                  "record it again");
   }
   DeviceRender out;
-  out.frame = late.frame->take();
+  out.frame = frame.take();
   out.counters = device.counters();
   out.report.tiles = out.counters.tiles;
   out.report.sheets = out.counters.sheets;
@@ -208,7 +205,7 @@ DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Conf
 void dump_stream(const std::filesystem::path& path, const std::function<bool(const std::string&)>& line) {
   Reader reader(path);
   std::uint64_t number = 0, payload_left = 0;
-  reader.each([&](const Beat& beat, std::uint32_t) {
+  reader.each([&](const Beat& beat) {
     std::string text;
     if (payload_left > 0) {
       --payload_left;

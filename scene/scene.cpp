@@ -13,9 +13,6 @@
 namespace fastsplat::scene {
 namespace {
 
-const std::vector<std::string> kMethods = {"raycast", "xray", "westover", "axis_aligned", "image_aligned"};
-const std::vector<std::string> kOpacities = {"additive", "exponential"};
-
 template <typename Enum>
 Enum parse_name(const char* what, const std::string& name, const std::vector<std::string>& names) {
   const auto found = std::find(names.begin(), names.end(), name);
@@ -88,11 +85,21 @@ Scene build_scene(const SceneDescription& description, std::shared_ptr<const Vol
           .xray_scale = xray_scale};
 }
 
-Method method_from(const std::string& name) { return parse_name<Method>("method", name, kMethods); }
-const char* to_string(Method method) { return kMethods[static_cast<std::size_t>(method)].c_str(); }
-SlabOpacity slab_opacity_from(const std::string& name) {
-  return parse_name<SlabOpacity>("slab opacity", name, kOpacities);
+const std::vector<std::string>& method_names() {
+  static const std::vector<std::string> names = {"raycast", "xray", "westover", "axis_aligned", "image_aligned"};
+  return names;
 }
-const char* to_string(SlabOpacity opacity) { return kOpacities[static_cast<std::size_t>(opacity)].c_str(); }
+
+const std::vector<std::string>& slab_opacity_names() {
+  static const std::vector<std::string> names = {"additive", "exponential"};
+  return names;
+}
+
+Method method_from(const std::string& name) { return parse_name<Method>("method", name, method_names()); }
+const char* to_string(Method method) { return method_names()[static_cast<std::size_t>(method)].c_str(); }
+SlabOpacity slab_opacity_from(const std::string& name) {
+  return parse_name<SlabOpacity>("slab opacity", name, slab_opacity_names());
+}
+const char* to_string(SlabOpacity opacity) { return slab_opacity_names()[static_cast<std::size_t>(opacity)].c_str(); }
 
 }  // namespace fastsplat::scene

@@ -65,5 +65,7 @@ Method method_from(
 const char* to_string(Method method);
 SlabOpacity slab_opacity_from(const std::string& name);
 const char* to_string(SlabOpacity opacity);
+const std::vector<std::string>& method_names();        ///< in the order of Method
+const std::vector<std::string>& slab_opacity_names();  ///< in the order of SlabOpacity
 
 }  // namespace fastsplat::scene

@@ -50,8 +50,6 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> kShadings = {"auto", "off", "on"};  // -1, 0, 1
 const std::vector<std::string> kProjections = {"orthographic", "perspective"};
-const std::vector<std::string> kMethods = {"raycast", "xray", "westover", "axis_aligned", "image_aligned"};
-const std::vector<std::string> kOpacities = {"additive", "exponential"};
 
 /// Position of a word in `names`, or `otherwise` when the key is absent.
 int word(TomlTable& table, const char* key, const std::vector<std::string>& names, int otherwise) {
@@ -88,18 +86,17 @@ void read_numbers(TomlTable& table, const std::string& name, SceneDescription& d
 }
 
 void read_image(TomlTable& table, SceneDescription& d) {
-  const auto size = table.integer("size", 1, 16384);
+  const auto size = table.integer("size", 1, kMaxImageSide);
   if (!size) return;
   for (const char* key : {"width", "height"}) {
-    if (table.integer(key, 1, 16384))
-      table.refuse(key, "given twice", "either size, or width and height", {}, "remove one of them");
+    if (table.has(key)) table.refuse(key, "given twice", "either size, or width and height", {}, "remove one of them");
   }
   d.width = d.height = *size;
 }
 
 void read_kernel(TomlTable& table, SceneDescription& d) {
   const auto name = table.text("name");
-  const bool shaped = table.number("a", 0.1, 20.0).has_value() | table.number("radius", 0.5, 8.0).has_value();
+  const bool shaped = table.has("a") || table.has("radius");
   if (name && !name->empty()) {
     if (shaped)
       table.refuse("name", "a kernel has either a name or a shape", {}, {}, "remove name, or remove a and radius");
@@ -153,7 +150,7 @@ SceneDescription load_scene_file(const fs::path& path) {
                   suggestion(*text, transfer_function_presets()));
     }
   }
-  d.method = static_cast<Method>(word(root, "method", kMethods, static_cast<int>(d.method)));
+  d.method = static_cast<Method>(word(root, "method", method_names(), static_cast<int>(d.method)));
   d.shading = word(root, "shading", kShadings, d.shading + 1) - 1;
   read_numbers(root, "", d);
   for (const char* name : {"camera", "image", "kernel", "slabs", "xray"}) {
@@ -168,7 +165,8 @@ SceneDescription load_scene_file(const fs::path& path) {
     } else if (name == std::string("kernel")) {
       read_kernel(*table, d);
     } else if (name == std::string("slabs")) {
-      d.slab_opacity = static_cast<SlabOpacity>(word(*table, "opacity", kOpacities, static_cast<int>(d.slab_opacity)));
+      d.slab_opacity =
+          static_cast<SlabOpacity>(word(*table, "opacity", slab_opacity_names(), static_cast<int>(d.slab_opacity)));
     }
     table->finish();
   }

@@ -28,8 +28,8 @@ constexpr std::array<RealSetting, 10> kReals{{
 }};
 
 constexpr std::array<IntegerSetting, 3> kIntegers{{
-    {"image", "width", 1, 16384, [](D& d) -> int& { return d.width; }},
-    {"image", "height", 1, 16384, [](D& d) -> int& { return d.height; }},
+    {"image", "width", 1, kMaxImageSide, [](D& d) -> int& { return d.width; }},
+    {"image", "height", 1, kMaxImageSide, [](D& d) -> int& { return d.height; }},
     {"xray", "sheets", 1, 65535, [](D& d) -> int& { return d.xray_sheets; }},
 }};
 

@@ -8,6 +8,8 @@
 
 namespace fastsplat::scene {
 
+inline constexpr int kMaxImageSide = 16384;  ///< pixels
+
 struct RealSetting {
   const char* table;  ///< table in scene.toml, "" for the top level
   const char* key;

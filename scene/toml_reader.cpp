@@ -64,6 +64,8 @@ const void* TomlTable::find(const std::string& key) {
   return as_table(table_).get(key);
 }
 
+bool TomlTable::has(const std::string& key) const { return as_table(table_).contains(key); }
+
 std::optional<double> TomlTable::number(const std::string& key, double low, double high) {
   const void* found = find(key);
   if (found == nullptr) return std::nullopt;

@@ -19,6 +19,8 @@ class TomlTable {
   static TomlTable parse(const std::string& text, const std::string& source);
   static TomlTable parse_file(const std::filesystem::path& path);
 
+  bool has(const std::string& key) const;
+
   // Absent keys give nullopt; a wrong type or a value outside [low, high] throws.
   std::optional<double> number(const std::string& key, double low, double high);
   std::optional<int> integer(const std::string& key, int low, int high);

@@ -4,8 +4,6 @@ execute_process(COMMAND ${VERILATOR} --getenv VERILATOR_ROOT OUTPUT_VARIABLE VER
 if(NOT EXISTS ${VERILATOR_ROOT}/include/verilated.cpp)
   set(VERILATOR_ROOT /usr/share/verilator)
 endif()
-file(GLOB RTL_SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.sv)
-file(GLOB RTL_INCLUDES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.svh)
 
 # The simulator's own runtime, shared by all configurations.
 find_package(Threads REQUIRED)
@@ -15,17 +13,23 @@ target_include_directories(verilated_runtime SYSTEM PUBLIC ${VERILATOR_ROOT}/inc
 target_compile_options(verilated_runtime PRIVATE -w)
 target_link_libraries(verilated_runtime PUBLIC ZLIB::ZLIB Threads::Threads)
 
-# fastsplat_verilate(<target> <config> [DEFINES ...] [ARGS ...]): library <target> with class Vfs_<target> and its headers.
-# DEFINES are `FASTSPLAT_FAULT_...` macros of the must-fail builds; release builds set none.
+# fastsplat_verilate(<target> <config> [DEFINES ...] [SOURCES ...] [ARGS ...]): library <target> with class Vfs_<target>
+# and its headers. <config> names a file of configs/ or is the path of one. DEFINES and SOURCES are of the must-fail build (rtl/fault.svh); release builds have none.
 function(fastsplat_verilate target config)
-  cmake_parse_arguments(arg "" "" "DEFINES;ARGS" ${ARGN})
+  cmake_parse_arguments(arg "" "" "DEFINES;SOURCES;ARGS" ${ARGN})
+  file(GLOB RTL_SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.sv)
+  file(GLOB RTL_INCLUDES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.svh)
   set(folder ${PROJECT_BINARY_DIR}/verilated/${target})
+  set(file ${config})
+  if(NOT file MATCHES "\\.toml$")
+    set(file ${PROJECT_SOURCE_DIR}/configs/${config}.toml)
+  endif()
   set(package ${folder}/fastsplat_pkg.sv)
   file(MAKE_DIRECTORY ${folder}/obj)
   add_custom_command(
     OUTPUT ${package}
-    COMMAND fastsplat_emit_package ${config} > ${package}
-    DEPENDS fastsplat_emit_package ${PROJECT_SOURCE_DIR}/configs/${config}.toml
+    COMMAND fastsplat_emit_package ${file} > ${package}
+    DEPENDS fastsplat_emit_package ${file}
     COMMENT "Package of configuration ${config}")
   set(defines "")
   foreach(define ${arg_DEFINES})
@@ -36,8 +40,8 @@ function(fastsplat_verilate target config)
     OUTPUT ${archive} ${folder}/obj/Vfs_${target}.h
     COMMAND ${PROJECT_SOURCE_DIR}/cmake/verilate.sh ${folder}/verilator.log ${CMAKE_COMMAND} -E env OBJCACHE=${FASTSPLAT_CCACHE} ${VERILATOR} --cc --build -j 1 --quiet-exit -Wall --assert -O3 --x-assign unique --x-initial unique --trace-fst
             --prefix Vfs_${target} --top-module fastsplat_core --Mdir ${folder}/obj ${defines} ${arg_ARGS} -I${PROJECT_SOURCE_DIR}/rtl
-            -CFLAGS -std=c++20 -MAKEFLAGS OPT_FAST=-O2 -MAKEFLAGS OPT_SLOW=-O0 -MAKEFLAGS OPT_GLOBAL=-O2 ${package} ${RTL_SOURCES}
-    DEPENDS ${package} ${RTL_SOURCES} ${RTL_INCLUDES}
+            -CFLAGS -std=c++20 -MAKEFLAGS OPT_FAST=-O2 -MAKEFLAGS OPT_SLOW=-O0 -MAKEFLAGS OPT_GLOBAL=-O2 ${package} ${arg_SOURCES} ${RTL_SOURCES}
+    DEPENDS ${package} ${arg_SOURCES} ${RTL_SOURCES} ${RTL_INCLUDES}
     VERBATIM
     COMMENT "Verilating ${target}")
   add_custom_target(verilate_${target} DEPENDS ${archive})

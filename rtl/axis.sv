@@ -1,6 +1,8 @@
 // One axis of a window: RLUT words turned from window order into bank order, with each bank's block and validity.
 // Bank g (pixel mod P = g) takes window lane (g - origin) mod P. Any window hits every bank exactly once.
 // One register.
+`include "fault.svh"
+
 module axis (
     input  logic                                                     clk_i,
     input  logic signed [fastsplat_pkg::ORG_BITS-1:0]                origin_i,  // first pixel of the window
@@ -26,11 +28,7 @@ module axis (
     logic signed [ORG-1:0] block, pixel;
     logic in_tile;
     always_comb begin
-`ifdef FASTSPLAT_FAULT_BANK_ROTATION
-      lane = LB'(g) + offset;
-`else
-      lane = LB'(g) - offset;
-`endif
+      lane = `FASTSPLAT_FAULT(BANK_ROTATION) ? LB'(g) + offset : LB'(g) - offset;
       block = (origin_i >>> LOG2) + (({1'b0, offset} > (LB + 1)'(g)) ? ORG'(1) : ORG'(0));
       pixel = (block <<< LOG2) + ORG'(g);
       in_tile = !block[ORG-1] && pixel < $signed(ORG'(side_i));

@@ -1,5 +1,7 @@
 // One lane of the compositor: a slab over a pixel, front to back, with freezing; or X-ray sums
 // (docs/numerics.md, section 6; cmodel/compositor.hpp). Registers: k5 (products), k6 (new state).
+`include "fault.svh"
+
 module composite_lane (
     input  logic                                   clk_i,
     input  logic [1:0]                             mode_i,    // held over a tile
@@ -24,11 +26,7 @@ module composite_lane (
   logic frozen, frozen_k5_q;
   logic [4*DB-1:0] state_k5_q, light_k5_q;
   assign transmittance = state_i[3*DB+:TB];
-`ifdef FASTSPLAT_FAULT_UNFROZEN
-  assign frozen = 1'b0;
-`else
-  assign frozen = !sum_mode && transmittance < TB'(fastsplat_pkg::FREEZE_BELOW);
-`endif
+  assign frozen = !sum_mode && transmittance < TB'(fastsplat_pkg::FREEZE_BELOW) && !`FASTSPLAT_FAULT(UNFROZEN);
   for (genvar c = 0; c < 4; c++) begin : gen_light
     logic [2*TB-1:0] product;
     logic [TB-1:0] light;

@@ -1,6 +1,8 @@
 // Unit "compositor": walks the dirty blocks of a finished sheet, one P x P block a cycle, lowest number first, clears them
 // behind itself and composites them over the picture (docs/numerics.md, section 6; docs/microarchitecture.md).
 // k0 pick -> k1 sums -> k2 factor -> k3 slope -> k4 slab, state -> k5 products -> k6 new state, written.
+`include "fault.svh"
+
 module compositor (
     input  logic                                   clk_i,
     input  logic                                   rst_ni,
@@ -70,7 +72,7 @@ module compositor (
     end
   end
   for (genvar b = 0; b < NB; b++) begin : gen_mark
-    assign mark[b] = dirty_valid_i && mark_x[b%BX] && mark_y[b/BX];
+    assign mark[b] = dirty_valid_i && mark_x[b%BX] && mark_y[b/BX] && !(`FASTSPLAT_FAULT(MISSED_DIRTY) && b % 4 == 2);
   end
 
   // ---- walk
@@ -107,7 +109,7 @@ module compositor (
       dirty_q[m] <= (dirty_q[m] | (dirty_buffer_i == 1'(m) ? mark : '0)) & ~((issue && walk_buffer_q == 1'(m)) ? lowest : '0);
     end
     if (issue) touched_q <= touched_q | lowest;
-    if (tile_begin_i) touched_q <= '0;
+    if (tile_begin_i && !`FASTSPLAT_FAULT(STALE_PICTURE)) touched_q <= '0;
     case (state_q)
       StIdle: if (full_q[walk_buffer_q]) state_q <= StWalk;
       StWalk:

@@ -3,6 +3,8 @@
 //   stream -> decode -> splat array (snap, RLUT, lanes, sheet banks) -> compositor -> pixel out -> pixels
 //
 // Synchronous reset, active low. After reset the sheet memories are wiped (BLOCKS cycles) before the first beat is taken.
+`include "fault.svh"
+
 module fastsplat_core (
     input  logic         clk_i,
     input  logic         rst_ni,
@@ -296,7 +298,7 @@ module fastsplat_core (
     events[fastsplat_pkg::CNT_FROZEN_PIXELS] = 16'($countones(frozen_now));
     events[fastsplat_pkg::CNT_SNAP_SATURATED] = tap_snap_valid_o ? 16'($countones(snap_saturated)) : '0;
     events[fastsplat_pkg::CNT_PRODUCT_SATURATED] = 16'($countones(product_saturated_now));
-    events[fastsplat_pkg::CNT_SHEET_SATURATED] = 16'($countones(sheet_saturated));
+    events[fastsplat_pkg::CNT_SHEET_SATURATED] = `FASTSPLAT_FAULT(LOST_COUNT) ? '0 : 16'($countones(sheet_saturated));
     events[fastsplat_pkg::CNT_OPACITY_SATURATED] = 16'($countones(opacity_saturated_now));
     events[fastsplat_pkg::CNT_COMPOSITE_SATURATED] = 16'($countones(composite_saturated_now));
     events[fastsplat_pkg::CNT_PIXEL_SATURATED] = pixel_taken ? 16'($countones(pixel_saturated)) : '0;

@@ -3,6 +3,8 @@
 // value_i is unsigned with SHIFT fraction bits more than word_o (fewer when negative). Overflow saturates.
 //   ROUND 0: TRN, towards minus infinity     ROUND 1: RND, nearest, halves up
 //   UNIT  0: U format, largest word all ones UNIT  1: One format, largest word 1.0 = 2^(OUT_BITS-1)
+`include "fault.svh"
+
 module narrow #(
     parameter int IN_BITS  = 8,
     parameter int SHIFT    = 4,
@@ -23,15 +25,7 @@ module narrow #(
 
   logic [WIDE-1:0] value, rounded;
   assign value = WIDE'(value_i) << LEFT;
-`ifdef FASTSPLAT_FAULT_ROUND_TRN
-  assign rounded = value >> RIGHT;
-`else
-  assign rounded = (value + HALF) >> RIGHT;
-`endif
+  assign rounded = (value + (`FASTSPLAT_FAULT(ROUND_TRN) ? '0 : HALF)) >> RIGHT;
   assign overflow_o = rounded > LARGEST;
-`ifdef FASTSPLAT_FAULT_NO_SATURATION
-  assign word_o = rounded[OUT_BITS-1:0];
-`else
-  assign word_o = overflow_o ? LARGEST[OUT_BITS-1:0] : rounded[OUT_BITS-1:0];
-`endif
+  assign word_o = (overflow_o && !`FASTSPLAT_FAULT(NO_SATURATION)) ? LARGEST[OUT_BITS-1:0] : rounded[OUT_BITS-1:0];
 endmodule

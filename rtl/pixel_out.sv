@@ -1,5 +1,7 @@
 // Unit "pixel out": the finished tile, row by row, P pixels a beat (docs/numerics.md, section 7; cmodel/pixel_out.hpp).
 // r0 address -> r1 state -> r2 beat. All stages stand still while a beat waits for ready.
+`include "fault.svh"
+
 module pixel_out (
     input  logic                                 clk_i,
     input  logic                                 rst_ni,
@@ -69,9 +71,7 @@ module pixel_out (
       valid_r2_q <= valid_r1_q;
       last_r2_q <= last_r1_q;
     end
-`ifdef FASTSPLAT_FAULT_VALID_DROPPED
-    if (valid_r2_q && !ready_i && x_q[LB]) valid_r2_q <= 1'b0;
-`endif
+    if (`FASTSPLAT_FAULT(VALID_DROPPED) && valid_r2_q && !ready_i && x_q[LB]) valid_r2_q <= 1'b0;
     if (!rst_ni) begin
       running_q <= 1'b0;
       valid_r1_q <= 1'b0;
@@ -111,7 +111,7 @@ module pixel_out (
           .overflow_o(sum_overflow)
       );
       always_ff @(posedge clk_i) begin
-        if (enable) begin
+        if (enable || (`FASTSPLAT_FAULT(HELD_PAYLOAD) && running_q)) begin
           data_o[g*128+c*32+:32] <= (mode_i == 2'd2) ? 32'(sum_word) : 32'(composited_word);
           saturated_o[4*g+c] <= in_tile && (mode_i == 2'd2 ? sum_overflow : composited_overflow);
         end

@@ -5,6 +5,8 @@
 // Splat side: A (c6: read issued) -> B (c7: base chosen) -> C (c8: sum) -> W (c9: written). A word needed again 1, 2 or 3
 // cycles later is not in the memory yet: distance 1 is forwarded into C, distances 2 (in W) and 3 (just written; the
 // read met the write) into B.
+`include "fault.svh"
+
 module sheet_bank (
     input  logic                                   clk_i,
     input  logic                                   rst_ni,
@@ -44,12 +46,8 @@ module sheet_bank (
     logic [AB-1:0] raddr, waddr;
     logic [4*SB-1:0] wdata;
     assign mine = valid_w_q && buffer_w_q == 1'(m);
-`ifdef FASTSPLAT_FAULT_MISSED_CLEAR
-    assign clear = comp_clear_q && comp_buffer_q == 1'(m) && comp_addr_q != AB'(3);
-`else
-    assign clear = comp_clear_q && comp_buffer_q == 1'(m);
-`endif
-    assign we = rst_ni && (wipe_i || clear || mine);
+    assign clear = comp_clear_q && comp_buffer_q == 1'(m) && !(`FASTSPLAT_FAULT(MISSED_CLEAR) && comp_addr_q[0]);
+    assign we = rst_ni && ((wipe_i && !`FASTSPLAT_FAULT(MISSED_WIPE)) || clear || mine);
     assign waddr = wipe_i ? wipe_addr_i : clear ? comp_addr_q : addr_w_q;
     assign wdata = (wipe_i || clear) ? '0 : sum_w_q;
     assign raddr = (comp_re_i && comp_buffer_i == 1'(m)) ? comp_addr_i : addr_i;
@@ -69,27 +67,19 @@ module sheet_bank (
   logic hit_c, hit_w, hit_h;
   assign hit_c = valid_b_q && valid_c_q && {buffer_c_q, addr_c_q} == {buffer_b_q, addr_b_q};
   assign hit_w = valid_w_q && {buffer_w_q, addr_w_q} == {buffer_b_q, addr_b_q};
-  assign hit_h = valid_h_q && {buffer_h_q, addr_h_q} == {buffer_b_q, addr_b_q};
+  assign hit_h = valid_h_q && (buffer_h_q == buffer_b_q || `FASTSPLAT_FAULT(FORWARD_BUFFER)) && addr_h_q == addr_b_q;
   logic [4*SB-1:0] memory_b, base_b;
   assign memory_b = buffer_b_q ? rdata[1] : rdata[0];
   always_comb begin
     base_b = memory_b;
-`ifndef FASTSPLAT_FAULT_FORWARD_3
-    if (hit_h) base_b = sum_h_q;
-`endif
-`ifndef FASTSPLAT_FAULT_FORWARD_2
-    if (hit_w) base_b = sum_w_q;
-`endif
+    if (hit_h && !`FASTSPLAT_FAULT(FORWARD_3)) base_b = sum_h_q;
+    if (hit_w && !`FASTSPLAT_FAULT(FORWARD_2)) base_b = sum_w_q;
   end
 
   // C: the only loop
   logic [4*SB-1:0] base_c, sum_c;
   logic [3:0] overflow_c;
-`ifdef FASTSPLAT_FAULT_FORWARD_1
-  assign base_c = base_c_q;
-`else
-  assign base_c = forward_c_q ? sum_w_q : base_c_q;
-`endif
+  assign base_c = (forward_c_q && !`FASTSPLAT_FAULT(FORWARD_1)) ? sum_w_q : base_c_q;
   for (genvar c = 0; c < 4; c++) begin : gen_channel
     logic [SB:0] exact;
     assign exact = {1'b0, base_c[c*SB+:SB]} + {1'b0, products_c_q[c*SB+:SB]};

@@ -1,5 +1,7 @@
 // Unit "snap", one axis: centre onto the 1/k grid, window origin and phase (docs/numerics.md, section 3; cmodel/snap.hpp).
 // One register: outputs belong to the inputs of the cycle before.
+`include "fault.svh"
+
 module snap (
     input  logic                                     clk_i,
     input  logic signed [ fastsplat_pkg::POS_BITS-1:0] centre_i,  // S pi.pf, tile-relative
@@ -19,20 +21,13 @@ module snap (
   logic signed [WIDE-1:0] rounded, on_grid, rim, first;
   logic overflow;
   always_comb begin
-`ifdef FASTSPLAT_FAULT_SNAP_TRN
-    rounded = WIDE'(centre_i) >>> DROP;
-`else
-    rounded = (WIDE'(centre_i) + HALF) >>> DROP;
-`endif
+    rounded = (WIDE'(centre_i) + (`FASTSPLAT_FAULT(SNAP_TRN) ? WIDE'(0) : HALF)) >>> DROP;
     // Rounding up can only leave the range at its upper end.
     overflow = rounded > LARGEST;
     on_grid = overflow ? LARGEST : rounded;
     rim = on_grid - $signed(WIDE'(rho_i));
-`ifdef FASTSPLAT_FAULT_SNAP_OFF_BY_ONE
-    first = (rim >>> fastsplat_pkg::PHASE_LOG2) + $signed(WIDE'(column_i));
-`else
-    first = (rim >>> fastsplat_pkg::PHASE_LOG2) + WIDE'(1) + $signed(WIDE'(column_i));
-`endif
+    first = (rim >>> fastsplat_pkg::PHASE_LOG2) + (`FASTSPLAT_FAULT(SNAP_OFF_BY_ONE) ? WIDE'(0) : WIDE'(1)) +
+            $signed(WIDE'(column_i));
   end
   always_ff @(posedge clk_i) begin
     origin_o <= first[fastsplat_pkg::ORG_BITS-1:0];

@@ -1,5 +1,7 @@
 // The splat path: one window a cycle, always moving (docs/microarchitecture.md, "Splat path").
 // c0 window in -> c1 snapped -> c2 RLUT words -> c3 bank order -> c4 q -> c5 weight -> c6 products = A -> B -> C -> W.
+`include "fault.svh"
+
 module splat_array (
     input  logic                                            clk_i,
     input  logic                                            rst_ni,
@@ -96,11 +98,7 @@ module splat_array (
       .wphase_i(rlut_wphase_i),
       .wcolumn_i(rlut_wcolumn_i),
       .wdata_i(table_word_i[RB-1:0]),
-`ifdef FASTSPLAT_FAULT_SWAPPED_AXES
-      .phase_i(my_c1),
-`else
-      .phase_i(mx_c1),
-`endif
+      .phase_i(`FASTSPLAT_FAULT(SWAPPED_AXES) ? my_c1 : mx_c1),
       .column_i(column_c1_q),
       .words_o(rlut_x)
   );
@@ -110,11 +108,7 @@ module splat_array (
       .wphase_i(rlut_wphase_i),
       .wcolumn_i(rlut_wcolumn_i),
       .wdata_i(table_word_i[RB-1:0]),
-`ifdef FASTSPLAT_FAULT_SWAPPED_AXES
-      .phase_i(mx_c1),
-`else
-      .phase_i(my_c1),
-`endif
+      .phase_i(`FASTSPLAT_FAULT(SWAPPED_AXES) ? mx_c1 : my_c1),
       .column_i(row_c1_q),
       .words_o(rlut_y)
   );
@@ -211,13 +205,8 @@ module splat_array (
     end
   end
 
-`ifdef FASTSPLAT_FAULT_EARLY_SWAP
-  assign done_o = last_q[4];
-  assign done_buffer_o = buffer_q[4];
-`else
-  assign done_o = last_q[9];
-  assign done_buffer_o = buffer_q[9];
-`endif
+  assign done_o = `FASTSPLAT_FAULT(EARLY_SWAP) ? last_q[4] : last_q[9];
+  assign done_buffer_o = `FASTSPLAT_FAULT(EARLY_SWAP) ? buffer_q[4] : buffer_q[9];
 
   assign tap_snap_valid_o = valid_q[1] && first_c1_q;
   assign tap_snap_tag_o = tag_q[1];

@@ -1,6 +1,8 @@
 // Unit "decode": beats in, table words, windows and sheet tokens out (docs/stream.md; cmodel/stream_decode.hpp).
 // One beat register; a beat is done in one cycle but for table payload (a cycle per word), splats (a cycle per window),
 // and begin_tile, begin_sheet and end_tile, which wait for the compositor and pixel out.
+`include "fault.svh"
+
 module stream_decode (
     input  logic                                       clk_i,
     input  logic                                       rst_ni,
@@ -98,11 +100,7 @@ module stream_decode (
   logic table_write;
   assign table_write = beat_valid_q && payload_q;
   assign rlut_we_o = table_write && table_q == 8'd0;
-`ifdef FASTSPLAT_FAULT_STALE_TABLE
-  assign radial_we_o = table_write && table_q == 8'd1 && index_q[3:0] != 4'd5;
-`else
-  assign radial_we_o = table_write && table_q == 8'd1;
-`endif
+  assign radial_we_o = table_write && table_q == 8'd1 && !(`FASTSPLAT_FAULT(STALE_TABLE) && index_q[3:0] == 4'd5);
   assign factor_we_o = table_write && table_q == 8'd2;
   assign rlut_wphase_o = table_phase_q;
   assign rlut_wcolumn_o = table_base_q + table_column_q;
@@ -160,9 +158,8 @@ module stream_decode (
       beat_valid_q <= valid_i;
       beat_q <= data_i;
     end
-`ifdef FASTSPLAT_FAULT_LOST_BEAT
-    if (ready_o && valid_i && beat_valid_q && is_splat && w1[5:0] == 6'd37) beat_valid_q <= 1'b0;
-`endif
+    if (`FASTSPLAT_FAULT(LOST_BEAT) && ready_o && valid_i && is_splat && data_i[7:0] == fastsplat_pkg::OP_SPLAT && w1[2:0] == 3'd5)
+      beat_valid_q <= 1'b0;
 
     // tables
     if (accepted && opcode == fastsplat_pkg::OP_LOAD_TABLE) begin
@@ -199,7 +196,7 @@ module stream_decode (
       width_o <= w4[fastsplat_pkg::SIDE_BITS-1:0];
       height_o <= w4[16+:fastsplat_pkg::SIDE_BITS];
     end
-    if (free_i) busy_q[free_buffer_i] <= 1'b0;
+    if (free_i && !(`FASTSPLAT_FAULT(LOST_FREE) && free_buffer_i)) busy_q[free_buffer_i] <= 1'b0;
     if (accepted && opcode == fastsplat_pkg::OP_BEGIN_SHEET) begin
       busy_q[buffer_q] <= 1'b1;
       sheet_number_o <= w1;

@@ -1,0 +1,56 @@
+// Runs the device with one fault against the model and says who saw it first.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cmodel/config.hpp"
+#include "testbench/rtl_device.hpp"
+
+namespace fastsplat::test {
+
+/// Numbers of the faults, as in the generated fastsplat_fault_pkg.sv; 0 is the healthy device.
+enum class Fault : std::uint32_t {
+  None = 0,
+#define FAULT(name, detector, stimulus, meaning) name,
+#include "tests/mustfail/faults.def"
+#undef FAULT
+};
+
+enum class Detector { Snap, Footprint, Sheet, Composite, Pixel, Counters, Timeout, Assertion, Other };
+const char* to_string(Detector detector);
+
+enum class Stimulus {
+  Random,     ///< random streams, bubbles on the input, back-pressure on the output
+  HotSpot,    ///< sheet after sheet on a few words, without a stall and with bubbles
+  Bright,     ///< the same with colours and weights that saturate the sheet
+  WarmReset,  ///< a reset in the middle of a sheet, then the stream from its beginning; memories power up as zero
+};
+constexpr Stimulus kStimuli[] = {Stimulus::Random, Stimulus::HotSpot, Stimulus::Bright, Stimulus::WarmReset};
+const char* to_string(Stimulus stimulus);
+
+/// Who noticed, and what it said.
+struct Caught {
+  Detector by = Detector::Other;
+  std::string report;
+};
+struct Outcome {
+  std::optional<Caught> caught;
+  std::uint64_t comparisons = 0;
+};
+
+using MakeDevice = std::function<std::unique_ptr<testbench::RtlDevice>(const cmodel::Config&, cmodel::PixelSink&,
+                                                                       const testbench::RtlOptions&)>;
+/// Until the first detector speaks or the stimulus ends.
+Outcome run(const cmodel::Config& config, Stimulus stimulus, const MakeDevice& make);
+
+enum class Assertions { Off, On };
+/// The device that can be broken. With assertions on, one that fires ends the run with Detector::Assertion.
+MakeDevice faulty(Fault fault, Assertions assertions);
+
+}  // namespace fastsplat::test

@@ -1,0 +1,66 @@
+// Every fault of faults.def is seen by its named detector, and by that one first; the healthy device passes the same
+// stimuli.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <ostream>
+
+#include "tests/cmodel/configs_helper.hpp"
+#include "tests/mustfail/campaign_helper.hpp"
+
+namespace fastsplat::test {
+namespace {
+
+/// Beside configs/, which holds the products only.
+constexpr const char* kConfig = "../tests/mustfail/mustfail";
+
+struct Row {
+  Fault fault;
+  const char* name;
+  Detector detector;
+  Stimulus stimulus;
+  const char* meaning;
+};
+void PrintTo(const Row& row, std::ostream* out) { *out << row.meaning; }
+constexpr Row kRows[] = {
+#define FAULT(name, detector, stimulus, meaning) {Fault::name, #name, Detector::detector, Stimulus::stimulus, meaning},
+#include "tests/mustfail/faults.def"
+#undef FAULT
+};
+/// The least that a suite of injected faults is worth having for.
+constexpr std::size_t kFewestFaults = 12;
+static_assert(std::size(kRows) >= kFewestFaults);
+
+class MustFail : public ::testing::TestWithParam<Row> {};
+
+TEST_P(MustFail, IsCaughtByItsDetector) {
+  const Row& row = GetParam();
+  const Outcome outcome = run(named_config(kConfig), row.stimulus, faulty(row.fault, Assertions::Off));
+  ASSERT_TRUE(outcome.caught.has_value())
+      << "SURVIVED: " << row.meaning << " (" << outcome.comparisons << " comparisons)";
+  std::printf("[figure] %s: %s; caught by %s after %llu comparisons\n    %s\n", row.name, row.meaning,
+              to_string(outcome.caught->by), static_cast<unsigned long long>(outcome.comparisons),
+              outcome.caught->report.c_str());
+  EXPECT_STREQ(to_string(outcome.caught->by), to_string(row.detector)) << outcome.caught->report;
+}
+
+INSTANTIATE_TEST_SUITE_P(Fault, MustFail, ::testing::ValuesIn(kRows), [](const auto& row) { return row.param.name; });
+
+void passes(const char* what, const char* config, const MakeDevice& make) {
+  for (const Stimulus stimulus : kStimuli) {
+    const Outcome outcome = run(named_config(config), stimulus, make);
+    EXPECT_FALSE(outcome.caught.has_value()) << what << ", " << to_string(stimulus) << ": "
+                                             << to_string(outcome.caught->by) << ": " << outcome.caught->report;
+    EXPECT_GT(outcome.comparisons, 1000U) << to_string(stimulus);
+    std::printf("[figure] %s, %s: %llu comparisons (limit > 1000), %d mismatches\n", what, to_string(stimulus),
+                static_cast<unsigned long long>(outcome.comparisons), outcome.caught.has_value() ? 1 : 0);
+  }
+}
+
+TEST(MustPass, TheBreakableDeviceWithNoFaultSelected) {
+  passes("no fault selected", kConfig, faulty(Fault::None, Assertions::On));
+}
+TEST(MustPass, TheDeviceItself) { passes("the device itself, tiny", "tiny", testbench::make_rtl_device); }
+
+}  // namespace
+}  // namespace fastsplat::test

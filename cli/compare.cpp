@@ -93,12 +93,12 @@ ExitCode run(const CompareArguments& arguments) {
   const auto report = analysis::compare(ref.image, test.image, options);
 
   if (!arguments.map.empty()) {
-    analysis::write_image(arguments.map, analysis::lsb_map(ref.image, test.image, options), {},
-                          {.kind = analysis::PixelKind::Uint8});
+    analysis::write_image(arguments.map, analysis::lsb_map(ref.image, test.image, options), {{"display", "srgb"}},
+                          {.display = true});
   }
   if (!arguments.heat.empty()) {
-    analysis::write_image(arguments.heat, analysis::heat_map(ref.image, test.image, options), {},
-                          {.kind = analysis::PixelKind::Uint8});
+    analysis::write_image(arguments.heat, analysis::heat_map(ref.image, test.image, options), {{"display", "srgb"}},
+                          {.display = true});
   }
   output.line(analysis::to_text(report));
   Json json = Json::parse(analysis::to_json(report));

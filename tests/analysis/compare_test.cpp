@@ -71,6 +71,15 @@ TEST(Compare, TwoByTwoByHand) {
   EXPECT_TRUE(report.pass);
 }
 
+TEST(Compare, OfEqualErrorsTheFirstIsWorst) {
+  // Large enough for several blocks; equal errors in the second half of the first block, and in later ones.
+  const Image ref(300, 300, 4);
+  Image test = ref;
+  for (const int y : {20, 200, 299}) test.pixel(7, y)[2] = test.pixel(9, y)[1] = -0.5f;
+  const Place worst = compare(ref, test).worst;
+  EXPECT_THAT((std::array{worst.x, worst.y, worst.channel}), testing::ElementsAre(7, 20, 2));
+}
+
 TEST(Compare, PeakMovesPsnrOnly) {
   const Image ref = random_image(20, 20, 3, 1);
   const Image test = random_image(20, 20, 3, 2);
@@ -239,15 +248,16 @@ TEST(Compare, NotFiniteFailsAndIsCounted) {
   ref.data[4] = kInf;
   test.data[4] = kInf;  // equal infinities are still nothing that can be compared
   test.data[9] = -kInf;
+  ref.data[20] = -kInf;  // against a number
   const CompareReport report = compare(ref, test);
   EXPECT_FALSE(report.pass);
   EXPECT_FALSE(kept(report, "max_nonfinite"));
-  EXPECT_EQ(report.nonfinite_ref, 2u);
+  EXPECT_EQ(report.nonfinite_ref, 3u);
   EXPECT_EQ(report.nonfinite_test, 2u);
-  EXPECT_EQ(report.values, 20u * 20 * 4 - 3);
+  EXPECT_EQ(report.values, 20u * 20 * 4 - 4);
   EXPECT_EQ(report.figures.max_abs_lsb, clean_max);
   EXPECT_TRUE(std::isfinite(report.figures.ssim));
-  EXPECT_THAT(to_text(report), HasSubstr("NOT FINITE: 2 values in REF, 2 in TEST"));
+  EXPECT_THAT(to_text(report), HasSubstr("NOT FINITE: 3 values in REF, 2 in TEST"));
   EXPECT_TRUE(compare(ref, test, {.allow_nonfinite = true}).pass);
 }
 

@@ -57,8 +57,7 @@ struct CompareReport {
   std::uint64_t values = 0;  ///< compared channel values: finite in both; 0 is a failure
   std::uint64_t nonfinite_ref = 0, nonfinite_test = 0;
   Figures figures;
-  Figures
-      floor;  ///< REF rounded once to the LSB grid (half up, no clamp) against REF: nobody does better at this width
+  Figures floor;  ///< REF rounded once to the LSB grid (half up, no clamp) against REF: what this width costs by itself
   Place worst;
   /// |error| in LSB: [0,0.5), [0.5,1.5), [1.5,2.5), ... up to the worst; a 257th bin holds everything from 255.5 on.
   std::vector<std::uint64_t> histogram;

@@ -83,7 +83,7 @@ class Text {
       row(fmt::format("{:<12}LSB", percentiles()[p].name).c_str(), got.percentiles_lsb[p], floor.percentiles_lsb[p], 3);
     }
     row("SSIM", got.ssim, floor.ssim, 6);
-    line("floor: REF rounded once to this LSB, the best any result of this width can do");
+    line("floor: REF rounded once to this LSB, what storing the result so would cost by itself");
     line("");
   }
 

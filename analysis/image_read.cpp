@@ -59,7 +59,8 @@ class Reader {
       : path_(path), file_(read_text_file(path, kLargestFile)), memory_(file_.data(), file_.size()) {
     const std::span bytes(reinterpret_cast<const unsigned char*>(file_.data()), file_.size());
     const char* format = format_of(bytes);
-    if (format == nullptr) refuse(path_, "not an image", "EXR, PNG or TIFF", {}, "name an image file, or write it again");
+    if (format == nullptr)
+      refuse(path_, "not an image", "EXR, PNG or TIFF", {}, "name an image file, or write it again");
     if (std::strcmp(format, "png") == 0) {
       const std::string defect = png_defect(bytes);
       if (!defect.empty()) refuse(path_, "corrupt or truncated PNG: " + defect, {}, {}, kAgain);

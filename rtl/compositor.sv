@@ -1,6 +1,7 @@
 // Unit "compositor": walks the dirty blocks of a finished sheet, one P x P block a cycle, lowest number first, clears them
 // behind itself and composites them over the picture (docs/numerics.md, section 6; docs/microarchitecture.md).
 // k0 pick -> k1 sums -> k2 factor -> k3 slope -> k4 slab, state -> k5 products -> k6 new state, written.
+`include "assertions.svh"
 `include "fault.svh"
 
 module compositor (
@@ -217,6 +218,8 @@ module compositor (
         tap_inside_o[B] <= (block_x + (SIDE + 2)'(g)) < (SIDE + 2)'(width_i) && (block_y + (SIDE + 2)'(h)) < (SIDE + 2)'(height_i);
       end
       assign tap_opacity_saturated_o[4*B+:4] = opacity_saturated_k6_q;
+      // What is absorbed comes off the transmittance: it never rises and never wraps.
+      `FASTSPLAT_ASSERT(transmittance_falls, !valid_q[6] || mode_i == 2'd2 || state_k6[3*DB+:DB] <= $past(state_k4[3*DB+:DB], 2))
     end
   end
   assign tap_valid_o = valid_q[6];
@@ -224,4 +227,12 @@ module compositor (
 
   // Which blocks hold a picture: pixel out asks by address.
   assign blocks_touched_o = touched_q;
+  `FASTSPLAT_ASSERT(pick_is_one_block, $onehot0(lowest))
+  `FASTSPLAT_ASSERT(pick_is_dirty, !sheet_re_o || walk_dirty[pick])
+  `FASTSPLAT_ASSERT(walk_owns_its_sheet, state_q != StWalk || full_q[walk_buffer_q])
+  `FASTSPLAT_ASSERT(handed_over_once, !done_i || !full_q[done_buffer_i])
+  `FASTSPLAT_ASSERT_NEXT(walk_leaves_no_dirt, finish, walk_dirty == '0)
+  `FASTSPLAT_ASSERT(no_mark_behind_the_walk, !(dirty_valid_i && full_q[dirty_buffer_i]))
+  `FASTSPLAT_ASSERT(picture_sent_when_still, !picture_re_i || idle_o)
+  `FASTSPLAT_COVER(empty_sheet_walked, finish && !any)
 endmodule

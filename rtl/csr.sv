@@ -1,5 +1,7 @@
 // Configuration and status registers behind AXI4-Lite (docs/microarchitecture.md, "Registers").
 // Reads answer one cycle after the address is taken; writes take address and data together.
+`include "assertions.svh"
+
 module csr (
     input  logic        clk_i,
     input  logic        rst_ni,
@@ -90,4 +92,6 @@ module csr (
       bvalid_o <= 1'b0;
     end
   end
+  `FASTSPLAT_ASSERT_NEXT(read_held, rvalid_o && !rready_i, rvalid_o && $stable(rdata_o) && $stable(rresp_o))
+  `FASTSPLAT_ASSERT_NEXT(write_answer_held, bvalid_o && !bready_i, bvalid_o && $stable(bresp_o))
 endmodule

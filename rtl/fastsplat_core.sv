@@ -3,6 +3,7 @@
 //   stream -> decode -> splat array (snap, RLUT, lanes, sheet banks) -> compositor -> pixel out -> pixels
 //
 // Synchronous reset, active low. After reset the sheet memories are wiped (BLOCKS cycles) before the first beat is taken.
+`include "assertions.svh"
 `include "fault.svh"
 
 module fastsplat_core (
@@ -338,4 +339,30 @@ module fastsplat_core (
   );
   logic unused;
   assign unused = &{1'b0, sheet_number, table_index, table_word};
+  `FASTSPLAT_ASSERT(no_beat_while_wiping, !(wiping_q && s_tready_o))
+
+  `FASTSPLAT_INIT(lanes, fastsplat_pkg::LANES == 1 << fastsplat_pkg::LANE_LOG2, "LANES is %0d, but 2^LANE_LOG2 is %0d",
+                  fastsplat_pkg::LANES, 1 << fastsplat_pkg::LANE_LOG2)
+  `FASTSPLAT_INIT(banks, BANKS == fastsplat_pkg::LANES * fastsplat_pkg::LANES, "BANKS is %0d, but LANES squared is %0d", BANKS,
+                  fastsplat_pkg::LANES * fastsplat_pkg::LANES)
+  `FASTSPLAT_INIT(blocks, fastsplat_pkg::BLOCKS == fastsplat_pkg::BLOCKS_X * fastsplat_pkg::BLOCKS_Y,
+                  "BLOCKS is %0d, but BLOCKS_X * BLOCKS_Y is %0d", fastsplat_pkg::BLOCKS,
+                  fastsplat_pkg::BLOCKS_X * fastsplat_pkg::BLOCKS_Y)
+  `FASTSPLAT_INIT(blocks_x, fastsplat_pkg::BLOCKS_X == 1 << $clog2(fastsplat_pkg::BLOCKS_X),
+                  "BLOCKS_X is %0d, but must be a power of two: %0d is the next", fastsplat_pkg::BLOCKS_X,
+                  1 << $clog2(fastsplat_pkg::BLOCKS_X))
+  `FASTSPLAT_INIT(address, fastsplat_pkg::BLOCKS <= 1 << fastsplat_pkg::ADDR_BITS, "BLOCKS is %0d, but addresses end at %0d",
+                  fastsplat_pkg::BLOCKS, 1 << fastsplat_pkg::ADDR_BITS)
+  `FASTSPLAT_INIT(phases, fastsplat_pkg::POS_FRAC >= fastsplat_pkg::PHASE_LOG2,
+                  "POS_FRAC is %0d, but phases need %0d fraction bits", fastsplat_pkg::POS_FRAC, fastsplat_pkg::PHASE_LOG2)
+  `FASTSPLAT_INIT(columns, fastsplat_pkg::RLUT_COLUMNS % fastsplat_pkg::LANES == 0,
+                  "RLUT_COLUMNS is %0d, but must be a multiple of %0d", fastsplat_pkg::RLUT_COLUMNS, fastsplat_pkg::LANES)
+  `FASTSPLAT_INIT(radial, fastsplat_pkg::RADIAL_ENTRIES == 1 << fastsplat_pkg::RADIAL_LOG2,
+                  "RADIAL_ENTRIES is %0d, but 2^RADIAL_LOG2 is %0d", fastsplat_pkg::RADIAL_ENTRIES,
+                  1 << fastsplat_pkg::RADIAL_LOG2)
+  `FASTSPLAT_INIT(state, fastsplat_pkg::STATE_BITS >= fastsplat_pkg::TRANS_BITS && fastsplat_pkg::STATE_BITS >= fastsplat_pkg::SHEET_BITS,
+                  "STATE_BITS is %0d, but holds words of %0d bits", fastsplat_pkg::STATE_BITS,
+                  (fastsplat_pkg::TRANS_BITS > fastsplat_pkg::SHEET_BITS) ? fastsplat_pkg::TRANS_BITS : fastsplat_pkg::SHEET_BITS)
+  `FASTSPLAT_INIT(transmittance, fastsplat_pkg::TRANS_BITS == fastsplat_pkg::TRANS_FRAC + 1,
+                  "TRANS_BITS is %0d, but 1.0 needs %0d", fastsplat_pkg::TRANS_BITS, fastsplat_pkg::TRANS_FRAC + 1)
 endmodule

@@ -1,5 +1,6 @@
 // Unit "pixel out": the finished tile, row by row, P pixels a beat (docs/numerics.md, section 7; cmodel/pixel_out.hpp).
 // r0 address -> r1 state -> r2 beat. All stages stand still while a beat waits for ready.
+`include "assertions.svh"
 `include "fault.svh"
 
 module pixel_out (
@@ -121,4 +122,9 @@ module pixel_out (
   end
   assign valid_o = valid_r2_q;
   assign last_o = last_r2_q;
+  `FASTSPLAT_ASSERT_NEXT(pixel_valid_held, valid_o && !ready_i, valid_o)
+  `FASTSPLAT_ASSERT_NEXT(pixel_payload_held, valid_o && !ready_i, $stable(data_o) && $stable(keep_o) && $stable(last_o))
+  `FASTSPLAT_ASSERT(pixel_start_when_idle, !start_i || idle_o)
+  `FASTSPLAT_ASSERT(pixel_beat_not_empty, !valid_o || keep_o[0])
+  `FASTSPLAT_COVER(pixel_back_pressure, valid_o && !ready_i)
 endmodule

@@ -1,5 +1,6 @@
 // The splat path: one window a cycle, always moving (docs/microarchitecture.md, "Splat path").
 // c0 window in -> c1 snapped -> c2 RLUT words -> c3 bank order -> c4 q -> c5 weight -> c6 products = A -> B -> C -> W.
+`include "assertions.svh"
 `include "fault.svh"
 
 module splat_array (
@@ -221,4 +222,9 @@ module splat_array (
   assign tap_window_y_o = y_q[6];
   assign tap_sheet_valid_o = valid_q[9];
   assign tap_sheet_tag_o = tag_q[9];
+  // The compositor reads and clears a memory that no window is on its way to: A to W.
+  for (genvar s = 6; s <= 9; s++) begin : gen_owner
+    `FASTSPLAT_ASSERT(sheet_has_one_owner, !(comp_re_i && valid_q[s] && buffer_q[s] == comp_buffer_i))
+  end
+  `FASTSPLAT_ASSERT(nothing_moves_while_wiping, !wipe_i || (!valid_q[6] && !comp_re_i))
 endmodule

@@ -1,6 +1,7 @@
 // Unit "decode": beats in, table words, windows and sheet tokens out (docs/stream.md; cmodel/stream_decode.hpp).
 // One beat register; a beat is done in one cycle but for table payload (a cycle per word), splats (a cycle per window),
 // and begin_tile, begin_sheet and end_tile, which wait for the compositor and pixel out.
+`include "assertions.svh"
 `include "fault.svh"
 
 module stream_decode (
@@ -239,4 +240,13 @@ module stream_decode (
       error_opcode_o <= '0;
     end
   end
+  `FASTSPLAT_ASSUME_NEXT(input_held, valid_i && !ready_o, valid_i && $stable(data_i))
+  `FASTSPLAT_ASSERT_NEXT(accepted_beat_arrives, valid_i && ready_o, beat_valid_q)
+  `FASTSPLAT_ASSERT_NEXT(waiting_beat_stays, beat_valid_q && !take, beat_valid_q && $stable(beat_q))
+  `FASTSPLAT_ASSERT(one_thing_at_a_time,
+                    $onehot0({tile_begin_o, tile_end_o, event_splat_o, event_cull_o, rlut_we_o, radial_we_o, factor_we_o}))
+  `FASTSPLAT_ASSERT(window_in_open_sheet, !window_valid_o || busy_q[window_buffer_o])
+  `FASTSPLAT_ASSERT(only_busy_buffers_come_back, !free_i || busy_q[free_buffer_i])
+  `FASTSPLAT_COVER(sheet_waits_for_buffer, wait_buffer)
+  `FASTSPLAT_COVER(both_buffers_busy, busy_q == 2'b11)
 endmodule

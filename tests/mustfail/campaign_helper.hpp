@@ -17,7 +17,7 @@ namespace fastsplat::test {
 /// Numbers of the faults, as in the generated fastsplat_fault_pkg.sv; 0 is the healthy device.
 enum class Fault : std::uint32_t {
   None = 0,
-#define FAULT(name, detector, stimulus, meaning) name,
+#define FAULT(name, detector, stimulus, assertion, meaning) name,
 #include "tests/mustfail/faults.def"
 #undef FAULT
 };

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <ostream>
+#include <string>
 
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/mustfail/campaign_helper.hpp"
@@ -14,16 +15,20 @@ namespace {
 /// Beside configs/, which holds the products only.
 constexpr const char* kConfig = "../tests/mustfail/mustfail";
 
+constexpr const char* kNone = nullptr;
+
 struct Row {
   Fault fault;
   const char* name;
   Detector detector;
   Stimulus stimulus;
+  const char* assertion;
   const char* meaning;
 };
 void PrintTo(const Row& row, std::ostream* out) { *out << row.meaning; }
 constexpr Row kRows[] = {
-#define FAULT(name, detector, stimulus, meaning) {Fault::name, #name, Detector::detector, Stimulus::stimulus, meaning},
+#define FAULT(name, detector, stimulus, assertion, meaning) \
+  {Fault::name, #name, Detector::detector, Stimulus::stimulus, assertion, meaning},
 #include "tests/mustfail/faults.def"
 #undef FAULT
 };
@@ -42,6 +47,23 @@ TEST_P(MustFail, IsCaughtByItsDetector) {
               to_string(outcome.caught->by), static_cast<unsigned long long>(outcome.comparisons),
               outcome.caught->report.c_str());
   EXPECT_STREQ(to_string(outcome.caught->by), to_string(row.detector)) << outcome.caught->report;
+}
+
+TEST_P(MustFail, IsCaughtByItsAssertion) {
+  const Row& row = GetParam();
+  ::testing::internal::CaptureStdout();
+  const Outcome outcome = run(named_config(kConfig), row.stimulus, faulty(row.fault, Assertions::On));
+  const std::string log = ::testing::internal::GetCapturedStdout();
+  ASSERT_TRUE(outcome.caught.has_value()) << "SURVIVED: " << row.meaning;
+  if (row.assertion == kNone) {
+    // Whatever fires is right, but belongs into the table.
+    EXPECT_STREQ(to_string(outcome.caught->by), to_string(row.detector)) << log;
+    return;
+  }
+  std::printf("[figure] %s: %s; assertion after %llu comparisons: %s", row.name, row.meaning,
+              static_cast<unsigned long long>(outcome.comparisons), log.substr(0, log.find('\n') + 1).c_str());
+  EXPECT_STREQ(to_string(outcome.caught->by), to_string(Detector::Assertion)) << outcome.caught->report;
+  EXPECT_NE(log.find(std::string(".") + row.assertion + ":"), std::string::npos) << log;
 }
 
 INSTANTIATE_TEST_SUITE_P(Fault, MustFail, ::testing::ValuesIn(kRows), [](const auto& row) { return row.param.name; });

@@ -36,11 +36,11 @@ void check(const CompareArguments& arguments) {
                  .got = fmt::format("{}", arguments.peak),
                  .fix = "1 is the peak of linear images"});
   }
-  std::vector<std::string> maps;
-  for (const auto& path : {arguments.map, arguments.heat}) {
-    if (!path.empty()) maps.push_back(path);
-  }
-  check_outputs(maps, {}, {arguments.common.json});
+  check_outputs({.images = {},
+                 .maps = {arguments.map, arguments.heat},
+                 .raw = {},
+                 .others = {arguments.common.json},
+                 .inputs = {arguments.ref, arguments.test}});
 }
 
 analysis::CompareOptions options_from(const CompareArguments& arguments) {

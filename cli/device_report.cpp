@@ -28,8 +28,10 @@ bool is_loss(std::string_view name) { return name.ends_with("_saturated"); }
 }  // namespace
 
 void report_driver(const driver::DriverReport& report, const Output& output, nlohmann::ordered_json& json) {
-  output.line(fmt::format("driver: {} voxels, {} splat records, {} sheets, {} tiles", grouped(report.voxels),
-                          grouped(report.splat_records), report.sheets, report.tiles));
+  // A replayed stream no longer knows its voxels.
+  const std::string voxels = report.voxels > 0 ? counted(report.voxels, "voxel") + ", " : "";
+  output.line(fmt::format("driver: {}{}, {}, {}", voxels, counted(report.splat_records, "splat record"),
+                          counted(report.sheets, "sheet"), counted(report.tiles, "tile")));
   if (report.saturated_voxels + report.saturated_records > 0) {
     output.warn(fmt::format(
         "{} voxels and {} splat records had more colour or opacity than the input format holds and were cut; "
@@ -55,8 +57,8 @@ void report_device(const driver::DeviceRender& result, const cmodel::Config& con
   json["config"] = {{"name", config.name}, {"hash", hash}};
   report_driver(result.report, output, json);
   const auto& counters = result.counters;
-  output.line(fmt::format("device: configuration {} {}, {} windows, {} pixels composited", config.name, hash,
-                          grouped(counters.windows), grouped(counters.pixels_composited)));
+  output.line(fmt::format("device: configuration {} {}, {}, {} composited", config.name, hash,
+                          counted(counters.windows, "window"), counted(counters.pixels_composited, "pixel")));
   auto& counts = json["counters"];
   counters.for_each([&](std::string_view name, std::uint64_t value, std::string_view meaning) {
     counts[std::string(name)] = value;

@@ -45,30 +45,35 @@ analysis::WriteOptions options_for(const std::string& path) {
 
 }  // namespace
 
-void check_outputs(const std::vector<std::string>& images, const std::string& raw,
-                   const std::vector<std::string>& others) {
+void check_outputs(const OutputNames& names) {
   std::set<fs::path> seen;
-  const auto once = [&seen](const std::string& path) {
+  const auto place = [](const std::string& path) {
     std::error_code ignored;
-    if (seen.insert(fs::weakly_canonical(fs::absolute(path, ignored), ignored)).second) return;
-    throw_usage(
-        {.where = path, .what = "two results under one name", .expected = {}, .got = {}, .fix = "give each its own"});
+    return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
   };
-  for (const auto& path : images) {
-    require_ending(path, {".exr", ".png", ".tif", ".tiff"});
-    once(path);
-    const AtomicFile probe(path);
-  }
-  if (!raw.empty()) {
-    require_ending(raw, {".exr"});
-    once(raw);
-    const AtomicFile probe(raw);
-  }
-  for (const auto& path : others) {
-    if (path.empty() || path == "-") continue;
-    once(path);
+  const auto take = [&](const std::string& path) {
+    if (path.empty() || path == "-") return;
+    if (!seen.insert(place(path)).second) {
+      throw_usage({.where = path,
+                   .what = "one name for two files of this command",
+                   .expected = {},
+                   .got = {},
+                   .fix = "give each its own"});
+    }
     require_writable(path);
+  };
+  for (const auto& path : names.inputs) seen.insert(place(path));
+  for (const auto& path : names.images) {
+    require_ending(path, {".exr", ".png", ".tif", ".tiff"});
+    take(path);
   }
+  for (const auto& path : names.maps) {
+    if (!path.empty()) require_ending(path, {".png"});
+    take(path);
+  }
+  if (!names.raw.empty()) require_ending(names.raw, {".exr"});
+  take(names.raw);
+  for (const auto& path : names.others) take(path);
 }
 
 void write_images(const std::vector<std::string>& paths, const Image& image, const analysis::Metadata& metadata,

@@ -86,6 +86,10 @@ std::string grouped(unsigned long long number) {
   return digits;
 }
 
+std::string counted(unsigned long long number, const std::string& what) {
+  return grouped(number) + " " + what + (number == 1 ? "" : "s");
+}
+
 Output::Output(const Common& common) : common_(common) {}
 
 void Output::line(const std::string& text) const {

@@ -23,6 +23,8 @@ void print_error(std::string_view message) noexcept;
 
 /// "1234567" as "1,234,567".
 std::string grouped(unsigned long long number);
+/// "1 tile", "1,234 tiles".
+std::string counted(unsigned long long number, const std::string& what);
 
 /// One verb's output, obeying --json and --quiet.
 class Output {

@@ -328,6 +328,12 @@ CLI::App* find_verb(CLI::App& app, const std::vector<std::string>& words, std::s
   return verb;
 }
 
+// The one flag that may have been meant; nothing rather than a list of thirty.
+std::string near_flag(const CLI::App& verb, const std::string& flag) {
+  const auto hint = flag.starts_with("--") ? suggestion(flag, flag_names(verb)) : std::string{};
+  return hint.starts_with("did you mean") ? hint : std::string{};
+}
+
 // Unknown flags, flags without their value and flags given twice, in the user's order.
 void check_words(const CLI::App& verb, std::span<const std::string> words) {
   std::map<const CLI::Option*, int> seen;
@@ -342,8 +348,7 @@ void check_words(const CLI::App& verb, std::span<const std::string> words) {
     const std::string flag = is_long ? word.substr(0, equals) : word.substr(0, 2);
     const CLI::Option* option = verb.get_option_no_throw(flag);
     if (option == nullptr)
-      misused(verb, fmt::format("unknown flag {} of `{}`", flag, called(verb)),
-              is_long ? suggestion(flag, flag_names(verb)) : std::string{});
+      misused(verb, fmt::format("unknown flag {} of `{}`", flag, called(verb)), near_flag(verb, flag));
     const bool repeatable = option->get_items_expected_max() > 1;
     if (++seen[option] > 1 && !repeatable) misused(verb, flag + " is given twice", "give it once");
     if (option->get_items_expected_max() == 0) {

@@ -67,7 +67,11 @@ void check(const RenderArguments& arguments, Engine engine) {
                  .got = {},
                  .fix = "add --engine cmodel, or use --out FILE.exr"});
   }
-  check_outputs(arguments.out, arguments.raw, {arguments.save_scene, arguments.common.json});
+  check_outputs({.images = arguments.out,
+                 .maps = {},
+                 .raw = arguments.raw,
+                 .others = {arguments.save_scene, arguments.common.json},
+                 .inputs = {}});
 }
 
 int sheet_count(const scene::Scene& scene) {
@@ -113,8 +117,7 @@ Image render_golden(const RenderArguments& arguments, const scene::Scene& scene,
   output.line(summary(scene));
   const auto voxels = voxel_count(scene);
   const int sheets = sheet_count(scene);
-  output.line(
-      fmt::format("golden: {} splats{}", grouped(voxels), sheets > 0 ? fmt::format(", {} sheets", sheets) : ""));
+  output.line(fmt::format("golden: {}{}", counted(voxels, "splat"), sheets > 0 ? ", " + counted(sheets, "sheet") : ""));
   json["voxels"] = voxels;
   json["sheets"] = sheets;
   return image;

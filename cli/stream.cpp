@@ -32,7 +32,7 @@ ExitCode run(const StreamRecordArguments& arguments) {
                  .got = {},
                  .fix = "for example --out scene.fss"});
   }
-  check_outputs({}, {}, {arguments.out, arguments.common.json});
+  check_outputs({.images = {}, .maps = {}, .raw = {}, .others = {arguments.out, arguments.common.json}, .inputs = {}});
   const auto config = driver::load_config(arguments.config);
   const auto scene = build(arguments.scene);
 
@@ -80,7 +80,11 @@ ExitCode run(const StreamDumpArguments& arguments) {
 
 ExitCode run(const StreamReplayArguments& arguments) {
   const Output output(arguments.common);
-  check_outputs(arguments.out, arguments.raw, {arguments.common.json});
+  check_outputs({.images = arguments.out,
+                 .maps = {},
+                 .raw = arguments.raw,
+                 .others = {arguments.common.json},
+                 .inputs = {arguments.stream}});
   const auto config = driver::load_config(arguments.config);
   driver::DeviceRender result;
   {

@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{"ending_unknown", {"render", "-o", "a.jpg"}, {"a.jpg", ".exr"}},
         Misuse{"ending_missing", {"render", "-o", "a"}, {".exr"}},
         Misuse{"raw_not_exr", {"render", "--engine", "cmodel", "--raw", "a.png"}, {"a.png", ".exr"}},
-        Misuse{"same_name_twice", {"render", "-o", "a.exr", "-o", "./a.exr"}, {"two results"}},
+        Misuse{"same_name_twice", {"render", "-o", "a.exr", "-o", "./a.exr"}, {"two files"}},
         Misuse{"raycast_on_device",
                {"render", "--volume", "point:4", "--engine", "cmodel", "--method", "raycast", "-o", "a.exr"},
                {"raycast"}},
@@ -55,11 +55,14 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Compare, Usage,
-    ::testing::Values(Misuse{"limit_negative", {"compare", "a", "b", "--max-lsb", "-1"}, {"--max-lsb", "-1"}},
-                      Misuse{"limit_nan", {"compare", "a", "b", "--min-psnr", "nan"}, {"--min-psnr"}},
-                      Misuse{"bits_zero", {"compare", "a", "b", "--lsb-bits", "0"}, {"--lsb-bits"}},
-                      Misuse{"peak_zero", {"compare", "a", "b", "--peak", "0"}, {"--peak"}},
-                      Misuse{"map_not_an_image", {"compare", "a", "b", "--map", "m.txt"}, {"m.txt"}}));
+    ::testing::Values(
+        Misuse{"limit_negative", {"compare", "a", "b", "--max-lsb", "-1"}, {"--max-lsb", "-1"}},
+        Misuse{"limit_nan", {"compare", "a", "b", "--min-psnr", "nan"}, {"--min-psnr"}},
+        Misuse{"bits_zero", {"compare", "a", "b", "--lsb-bits", "0"}, {"--lsb-bits"}},
+        Misuse{"peak_zero", {"compare", "a", "b", "--peak", "0"}, {"--peak"}},
+        Misuse{"map_not_a_png", {"compare", "a", "b", "--map", "m.exr"}, {"m.exr", ".png"}},
+        Misuse{"map_over_input", {"compare", "a", "b.png", "--map", "./b.png"}, {"two files"}},
+        Misuse{"map_and_heat_alike", {"compare", "a", "b", "--map", "m.png", "--heat", "m.png"}, {"two files"}}));
 
 TEST(Help, IsOnStdoutAndSucceeds) {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},

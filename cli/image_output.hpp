@@ -9,10 +9,17 @@
 
 namespace fastsplat::cli {
 
+/// The result files of a command; empty names and "-" stand for none.
+struct OutputNames {
+  std::vector<std::string> images;  ///< .exr, .png, .tif
+  std::vector<std::string> maps;    ///< .png
+  std::string raw;                  ///< .exr
+  std::vector<std::string> others;  ///< any ending: JSON, scene, stream
+  std::vector<std::string> inputs;  ///< files that the command reads and must not replace
+};
+
 /// Every name has a known ending, can be created and is named once; else a UserError, before any time is spent.
-/// `others` are further result files (JSON, scene) that must be writable too; empty and "-" ones are skipped.
-void check_outputs(const std::vector<std::string>& images, const std::string& raw,
-                   const std::vector<std::string>& others);
+void check_outputs(const OutputNames& names);
 
 /// By ending: .exr float, .tif 16 bit linear, .png 8 bit for looking. Warns where values had to be clamped.
 void write_images(const std::vector<std::string>& paths, const Image& image, const analysis::Metadata& metadata,

@@ -134,7 +134,7 @@ Result run_words(const std::vector<std::string>& words, const Surroundings& surr
     const bool enough = surroundings.stop_reading_after >= 0 &&
                         result.out.size() >= static_cast<std::size_t>(surroundings.stop_reading_after);
     if (enough) out.close_read();
-    if (!signalled && surroundings.when()) {
+    if (!signalled && surroundings.when(child)) {
       ::kill(child, surroundings.signal);
       signalled = true;
     }
@@ -150,6 +150,14 @@ Result run_words(const std::vector<std::string>& words, const Surroundings& surr
   if (WIFEXITED(status)) result.code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
   return result;
+}
+
+bool handles_signal(pid_t process, int signal) {
+  const std::string status = read_bytes("/proc/" + std::to_string(process) + "/status");
+  const auto at = status.find("SigCgt:");
+  if (at == std::string::npos) return false;
+  const auto caught = std::strtoull(status.c_str() + at + 7, nullptr, 16);
+  return (caught >> (signal - 1) & 1u) != 0;
 }
 
 std::string program() { return FASTSPLAT_PROGRAM; }

@@ -41,7 +41,7 @@ struct Surroundings {
   bool stdin_closed = false, stdout_closed = false, stderr_closed = false;
   int stop_reading_after = -1;  ///< closes the stdout pipe after this many bytes, as `| head` does
   int signal = 0;               ///< sent once `when` says so
-  std::function<bool()> when;
+  std::function<bool(pid_t)> when;
 };
 
 struct Result {
@@ -53,6 +53,8 @@ struct Result {
 
 /// Runs `words` (the program first) to its end, at most two minutes.
 Result run_words(const std::vector<std::string>& words, const Surroundings& surroundings = {});
+/// True once the process handles `signal` itself: before that, any signal simply ends it.
+bool handles_signal(pid_t process, int signal);
 /// The fastsplat of this build.
 Result fastsplat(const std::vector<std::string>& arguments, const Surroundings& surroundings = {});
 std::string program();

@@ -67,13 +67,16 @@ module compositor (
   always_comb begin
     mark_x = '0;
     mark_y = '0;
-    for (int g = 0; g < P; g++) begin
-      if (dirty_inside_x_i[g]) mark_x[dirty_column_i[g*BLK+:BLK]] = 1'b1;
-      if (dirty_inside_y_i[g]) mark_y[dirty_row_i[g*BLK+:BLK]] = 1'b1;
+    mark   = '0;
+    if (dirty_valid_i) begin
+      for (int g = 0; g < P; g++) begin
+        if (dirty_inside_x_i[g]) mark_x[dirty_column_i[g*BLK+:BLK]] = 1'b1;
+        if (dirty_inside_y_i[g]) mark_y[dirty_row_i[g*BLK+:BLK]] = 1'b1;
+      end
+      for (int r = 0; r < fastsplat_pkg::BLOCKS_Y; r++) begin
+        if (mark_y[r] && !(`FASTSPLAT_FAULT(MISSED_DIRTY) && r % 4 == 2)) mark[r*BX+:BX] = mark_x;
+      end
     end
-  end
-  for (genvar b = 0; b < NB; b++) begin : gen_mark
-    assign mark[b] = dirty_valid_i && mark_x[b%BX] && mark_y[b/BX] && !(`FASTSPLAT_FAULT(MISSED_DIRTY) && b % 4 == 2);
   end
 
   // ---- walk
@@ -85,14 +88,22 @@ module compositor (
   logic [NB-1:0] walk_dirty, lowest, rest;
   logic [AB-1:0] pick;
   logic any, issue, finish;
+  function automatic logic [AB*NB-1:0] number_has_bit(input int unused_argument);
+    number_has_bit = '0;
+    for (int k = 0; k < AB; k++) begin
+      for (int b = 0; b < NB; b++) number_has_bit[k*NB+b] = ((b >> k) & 1) != 0;
+    end
+  endfunction
+  localparam logic [AB*NB-1:0] NUMBER_HAS_BIT = number_has_bit(0);
   assign walk_dirty = walk_buffer_q ? dirty_q[1] : dirty_q[0];
   assign lowest = walk_dirty & (~walk_dirty + NB'(1));
   assign rest = walk_dirty & ~lowest;
   assign any = |walk_dirty;
   always_comb begin
+    // One-hot to number: bit k is set when the hot bit's number has bit k.
     pick = '0;
-    for (int b = 0; b < NB; b++) begin
-      if (lowest[b]) pick = pick | AB'(b);
+    if (state_q == StWalk) begin
+      for (int k = 0; k < AB; k++) pick[k] = |(lowest & NUMBER_HAS_BIT[k*NB+:NB]);
     end
   end
   assign issue = state_q == StWalk && any;

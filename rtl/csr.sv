@@ -65,8 +65,10 @@ module csr (
       fastsplat_pkg::REG_CONTROL: word = '0;
       default: begin
         known = araddr_i >= fastsplat_pkg::REG_COUNTERS && number < 12'(N) && araddr_i[1:0] == 2'b00;
-        for (int n = 0; n < N; n++) begin
-          if (number == 12'(n)) word = araddr_i[2] ? counter_q[n][63:32] : counter_q[n][31:0];
+        if (arvalid_i) begin
+          for (int n = 0; n < N; n++) begin
+            if (number == 12'(n)) word = araddr_i[2] ? counter_q[n][63:32] : counter_q[n][31:0];
+          end
         end
       end
     endcase

@@ -77,7 +77,7 @@ module fastsplat_core (
   logic [fastsplat_pkg::PHASE_BITS-1:0] rlut_wphase;
   logic [fastsplat_pkg::COL_BITS-1:0] rlut_wcolumn;
   logic [31:0] table_index, table_word;
-  logic tile_begin, tile_end, compositor_idle, pixel_idle;
+  logic tile_begin, tile_end, tile_open, compositor_idle, pixel_idle;
   logic [1:0] mode;
   logic [31:0] sheet_number;
   logic [fastsplat_pkg::SIDE_BITS-1:0] width, height;
@@ -106,6 +106,7 @@ module fastsplat_core (
       .table_word_o(table_word),
       .tile_begin_o(tile_begin),
       .tile_end_o(tile_end),
+      .tile_open_o(tile_open),
       .tile_idle_i(compositor_idle && pixel_idle),
       .mode_o(mode),
       .tile_number_o(tap_tile_o),
@@ -281,7 +282,8 @@ module fastsplat_core (
   end
   logic pixel_taken, running;
   assign pixel_taken = m_tvalid_o && m_tready_i;
-  assign running = !stall_input || !compositor_idle || !pixel_idle;
+  // An open tile counts even while nothing moves: its input is late. The compositor only works in one.
+  assign running = !stall_input || tile_open || !pixel_idle;
 
   logic [15:0] events[0:fastsplat_pkg::COUNTERS-1];
   logic [16*fastsplat_pkg::COUNTERS-1:0] increments;

@@ -23,6 +23,7 @@ module stream_decode (
     // tile
     output logic                                       tile_begin_o,  // pulse
     output logic                                       tile_end_o,    // pulse: send the picture
+    output logic                                       tile_open_o,   // between begin_tile and end_tile
     input  logic                                       tile_idle_i,   // compositor and pixel out have nothing to do
     output logic [1:0]                                 mode_o,
     output logic [31:0]                                tile_number_o,
@@ -191,7 +192,9 @@ module stream_decode (
     end
 
     // tile and sheet
+    if (tile_end_o) tile_open_o <= 1'b0;
     if (tile_begin_o) begin
+      tile_open_o <= 1'b1;
       mode_o <= w0[9:8];
       tile_number_o <= w1;
       width_o <= w4[fastsplat_pkg::SIDE_BITS-1:0];
@@ -230,6 +233,7 @@ module stream_decode (
     if (!rst_ni) begin
       beat_valid_q <= 1'b0;
       payload_q <= 1'b0;
+      tile_open_o <= 1'b0;
       busy_q <= '0;
       buffer_q <= 1'b0;
       column_q <= '0;

@@ -58,4 +58,9 @@ bool Pattern::at(std::uint64_t cycle) const {
   return true;
 }
 
+std::uint64_t Pattern::next(std::uint64_t cycle) const {
+  while (!at(cycle)) ++cycle;
+  return cycle;
+}
+
 }  // namespace fastsplat::testbench

@@ -6,17 +6,20 @@
 #include <string>
 #include <vector>
 
+#include "cmodel/willing.hpp"
+
 namespace fastsplat::testbench {
 
 /// `always`; `never-N` (stops for N cycles in every 2N); `every-N` (one cycle in N); `random-P` (P percent of the
 /// cycles, by seed); `burst-N` (seeded runs of up to N cycles on and off).
-class Pattern {
+class Pattern final : public cmodel::Willing {
  public:
   Pattern() = default;
   /// Throws UserError (Usage) for an unknown pattern.
   Pattern(const std::string& text, std::uint64_t seed);
 
   bool at(std::uint64_t cycle) const;
+  std::uint64_t next(std::uint64_t cycle) const override;
   const std::string& text() const { return text_; }
   static std::vector<std::string> examples();
 

@@ -1,0 +1,82 @@
+// Where the cycles of a run went: every busy cycle belongs to exactly one kind (docs/microarchitecture.md, "Account").
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace fastsplat::cmodel {
+
+// clang-format off
+#define FASTSPLAT_CYCLE_KINDS(X)                                                                             \
+  X(ideal, "windows and dirty blocks: n_1 + sum max(n_s, m_(s-1)) + m_S of every tile")                      \
+  X(records, "records that are no splat, one cycle each")                                                    \
+  X(table_load, "table words, one cycle each")                                                               \
+  X(input, "no record: the source was late")                                                                 \
+  X(sheet_buffer, "begin_sheet waits for a buffer, beyond the compositor's ideal")                           \
+  X(drain, "end_tile waits for the pipes: fill and drain of splat path and compositor")                      \
+  X(pixels, "the picture goes out")                                                                          \
+  X(output, "a pixel beat waits: the sink was not ready")
+// clang-format on
+
+struct CycleAccount {
+#define X(name, meaning) std::uint64_t name = 0;
+  FASTSPLAT_CYCLE_KINDS(X)
+#undef X
+
+  std::uint64_t total() const {
+    std::uint64_t sum = 0;
+    for_each([&sum](const char*, std::uint64_t value, const char*) { sum += value; });
+    return sum;
+  }
+  /// visit(name, cycles, meaning) in the order above.
+  template <class Visit>
+  void for_each(Visit visit) const {
+#define X(name, meaning) visit(#name, name, meaning);
+    FASTSPLAT_CYCLE_KINDS(X)
+#undef X
+  }
+  bool operator==(const CycleAccount&) const = default;
+};
+
+/// What decode does in a cycle in which it issues no window; the order is that in which ideal compositing cycles are
+/// taken out of them.
+enum class Pause : std::uint8_t { Buffer, Drain, Input, Record };
+
+/// Splits the cycles of one tile after another. Half-open spans [from, to) in rising order.
+class Accountant {
+ public:
+  /// Decode issued no window during the span.
+  void pause(Pause kind, std::uint64_t from, std::uint64_t to) {
+    if (from >= to) return;
+    pauses_[index(kind)] += to - from;
+    for (Walk& walk : walks_) walk.add(kind, from, to);
+  }
+  /// A sheet with `windows` windows was closed; the compositor picks its blocks in [from, to).
+  void sheet(std::size_t buffer, std::uint64_t windows, std::uint64_t from, std::uint64_t to);
+  /// The walk of this buffer is over and so is what it overlapped.
+  void settle(std::size_t buffer);
+  void table_words(std::uint64_t words) { account_.table_load += words; }
+  void pixels(std::uint64_t working, std::uint64_t held) {
+    account_.pixels += working;
+    account_.output += held;
+  }
+
+  /// Valid when every walk was settled.
+  CycleAccount account() const;
+
+ private:
+  struct Walk {
+    std::uint64_t from = 0, to = 0;
+    std::uint64_t windows_beside = 0;  ///< of the sheet splatted meanwhile
+    std::array<std::uint64_t, 4> paused{};
+    void add(Pause kind, std::uint64_t a, std::uint64_t b);
+  };
+  static constexpr std::size_t index(Pause kind) { return static_cast<std::size_t>(kind); }
+
+  CycleAccount account_;
+  std::array<std::uint64_t, 4> pauses_{};
+  std::array<Walk, 2> walks_;
+};
+
+}  // namespace fastsplat::cmodel

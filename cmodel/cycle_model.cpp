@@ -1,0 +1,243 @@
+#include "cmodel/cycle_model.hpp"
+
+#include <algorithm>
+
+#include "cmodel/cycle_stages.hpp"
+#include "cmodel/snap.hpp"
+
+namespace fastsplat::cmodel {
+namespace {
+
+/// Words of memory wiped after reset, one a cycle: the blocks of a whole tile.
+std::uint64_t wipe_cycles(const Config& config) {
+  return static_cast<std::uint64_t>(config.tile_width / config.lanes) *
+         static_cast<std::uint64_t>(config.tile_height / config.lanes);
+}
+
+constexpr std::uint64_t kWordsPerBeat = std::tuple_size_v<Beat>;
+
+}  // namespace
+
+CycleModel::CycleModel(const Config& config, StreamScope scope, const CycleOptions& options)
+    : config_(config),
+      options_(options),
+      decode_(config, scope),
+      sets_(static_cast<std::size_t>(config.rlut_sets)),
+      dirty_(config.lanes),
+      next_offer_(options.first_beat),
+      ready_(wipe_cycles(config)),
+      end_(ready_) {}
+
+void CycleModel::empty(std::uint64_t from, std::uint64_t to) {
+  if (from >= to) return;
+  if (tile_open_) {
+    accountant_.pause(Pause::Input, from, to);
+    stalls_.stall_input += to - from;
+    stalls_.busy += to - from;
+    return;
+  }
+  // Outside of tiles the device is busy only while a picture goes out; picture() has accounted for that.
+  const std::uint64_t first = std::max(from, picture_from_), last = std::min(to, picture_to_);
+  if (first >= last) return;
+  stalls_.stall_input += last - first;
+  stalls_.busy += last - first;
+}
+
+std::uint64_t CycleModel::enter() {
+  const std::uint64_t offered = options_.input == nullptr ? next_offer_ : options_.input->next(next_offer_);
+  const std::uint64_t taken = std::max(offered, ready_);
+  next_offer_ = taken + 1;
+  empty(register_free_, taken + 1);
+  return taken + 1;
+}
+
+void CycleModel::leave(std::uint64_t since, std::uint64_t at) {
+  ready_ = at;  // the next beat moves in behind it
+  register_free_ = at + 1;
+  stalls_.busy += at + 1 - since;
+  end_ = std::max(end_, at + 1);
+}
+
+void CycleModel::take(const Beat& beat) {
+  const bool payload = payload_words_ > 0;
+  const auto opcode = static_cast<Opcode>(get(beat, layout::kOpcode));
+  const Record* record = decode_.feed(beat);
+  const std::uint64_t at = enter();
+  if (payload) {
+    const std::uint64_t words = std::min(payload_words_, kWordsPerBeat);
+    payload_words_ -= words;
+    leave(at, at + words - 1);
+    stalls_.stall_table += words;
+    accountant_.table_words(words);
+    if (record != nullptr) load(std::get<LoadTable>(*record));
+    return;
+  }
+  switch (opcode) {
+    case Opcode::Splat:
+      splat(std::get<SplatRecord>(*record), at);
+      return;
+    case Opcode::BeginTile:
+      begin_tile(std::get<BeginTile>(*record), at);
+      return;
+    case Opcode::BeginSheet:
+      begin_sheet(std::get<BeginSheet>(*record), at);
+      return;
+    case Opcode::EndSheet:
+      end_sheet(at);
+      return;
+    case Opcode::EndTile:
+      end_tile(at);
+      return;
+    case Opcode::LoadTable:
+      payload_words_ = announced_words(beat);
+      break;
+    case Opcode::CullBlock:
+      ++counters_.cull_blocks;
+      break;
+    case Opcode::BeginFrame:
+    case Opcode::EndFrame:
+      break;
+  }
+  // end_frame costs nothing while the last picture goes out.
+  if (tile_open_ || at >= picture_to_) accountant_.pause(Pause::Record, at, at + 1);
+  leave(at, at);
+}
+
+void CycleModel::load(const LoadTable& table) {
+  if (table.table != Table::Rlut) return;
+  sets_[table.radius.set] = {
+      .rho = table.radius.rho,
+      .extent = static_cast<std::int32_t>(StreamDecode::padded_extent(config_, table.radius.rho))};
+}
+
+void CycleModel::splat(const SplatRecord& record, std::uint64_t at) {
+  const Set& set = sets_[record.set];
+  const std::int32_t x = snap(config_, record.x, set.rho).origin;
+  const std::int32_t y = snap(config_, record.y, set.rho).origin;
+  dirty_.mark(x, y, set.extent);
+  const auto side = static_cast<std::uint64_t>(set.extent / config_.lanes);
+  const std::uint64_t windows = side * side;
+  ++counters_.splats;
+  counters_.windows += windows;
+  sheet_.windows += windows;
+  leave(at, at + windows - 1);
+  if (options_.taps == nullptr) return;
+  tap(Tap::Snap, at + stages::kSnap, record.tag, x, y);
+  for (std::int32_t row = 0; row < set.extent; row += config_.lanes) {
+    for (std::int32_t column = 0; column < set.extent; column += config_.lanes, ++at) {
+      tap(Tap::Footprint, at + stages::kFootprint, record.tag, x + column, y + row);
+      tap(Tap::Sheet, at + stages::kSheet, record.tag, x + column, y + row);
+    }
+  }
+}
+
+void CycleModel::begin_tile(const BeginTile& record, std::uint64_t at) {
+  const std::uint64_t done = std::max(at, picture_to_);
+  stalls_.stall_tile += done - at;
+  accountant_.pause(Pause::Record, done, done + 1);
+  leave(at, done);
+  tile_ = record;
+  tile_open_ = true;
+  dirty_.begin_tile(record.width, record.height);
+  span_ = {.tile = record.tile, .begun = done};
+  sheet_ = {};
+}
+
+void CycleModel::begin_sheet(const BeginSheet& record, std::uint64_t at) {
+  const std::uint64_t done = std::max(at, buffer_free_[buffer_]);
+  stalls_.stall_buffer += done - at;
+  accountant_.pause(Pause::Buffer, at, done);
+  accountant_.settle(buffer_);
+  accountant_.pause(Pause::Record, done, done + 1);
+  leave(at, done);
+  sheet_ = {.tile = tile_.tile, .sheet = record.sheet, .offered = at, .begun = done};
+}
+
+void CycleModel::end_sheet(std::uint64_t at) {
+  accountant_.pause(Pause::Record, at, at + 1);
+  leave(at, at);
+  ++counters_.sheets;
+  const std::uint64_t blocks = dirty_.count();
+  counters_.dirty_blocks += blocks;
+  const std::uint64_t first = std::max(at + stages::kWalk, walk_free_);
+  const std::uint64_t last = first + std::max<std::uint64_t>(blocks, 1) - 1;  // an empty walk is noticed in one cycle
+  walk_free_ = last + stages::kNextWalk;
+  buffer_free_[buffer_] = last + stages::kFree;
+  compositor_idle_ = last + (blocks > 0 ? stages::kIdle : stages::kIdleAfterEmpty);
+  accountant_.sheet(buffer_, sheet_.windows, first, first + blocks);
+  buffer_ = 1 - buffer_;
+  sheet_.closed = at;
+  sheet_.blocks = blocks;
+  sheet_.walk_from = first;
+  sheet_.walk_to = last + 1;
+  if (options_.spans != nullptr) options_.spans->on_sheet(sheet_);
+  if (options_.taps != nullptr) {
+    std::uint64_t pick = first;
+    dirty_.each([&](int column, int row) {
+      tap(Tap::Composite, pick + stages::kComposite, 0, column * config_.lanes, row * config_.lanes);
+      ++pick;
+    });
+  }
+  dirty_.clear();
+}
+
+void CycleModel::end_tile(std::uint64_t at) {
+  const std::uint64_t done = std::max(at, compositor_idle_);
+  stalls_.stall_tile += done - at;
+  accountant_.pause(Pause::Drain, at, done);
+  accountant_.settle(0);
+  accountant_.settle(1);
+  accountant_.pause(Pause::Record, done, done + 1);
+  leave(at, done);
+  tile_open_ = false;
+  ++counters_.tiles;
+  sheet_.sheet = 0;  // pixels belong to no sheet
+  picture(done);
+  span_.closed = done;
+  span_.picture_from = picture_from_;
+  span_.picture_to = picture_to_;
+  if (options_.spans != nullptr) options_.spans->on_tile(span_);
+}
+
+void CycleModel::picture(std::uint64_t at) {
+  const int beats_per_row = (tile_.width + config_.lanes - 1) / config_.lanes;
+  const auto beats = static_cast<std::uint64_t>(beats_per_row) * static_cast<std::uint64_t>(tile_.height);
+  std::uint64_t shown = at + stages::kPixel;
+  if (options_.output == nullptr && options_.taps == nullptr) {
+    shown += beats;
+  } else {
+    for (int y = 0; y < tile_.height; ++y) {
+      for (int x = 0; x < tile_.width; x += config_.lanes) {
+        const std::uint64_t taken = options_.output == nullptr ? shown : options_.output->next(shown);
+        if (options_.taps != nullptr) {
+          for (int i = x; i < std::min(tile_.width, x + config_.lanes); ++i) tap(Tap::Pixel, taken, 0, i, y);
+        }
+        shown = taken + 1;
+      }
+    }
+  }
+  picture_from_ = at + 1;
+  picture_to_ = shown;
+  const std::uint64_t working = beats + stages::kPixel - 1;
+  accountant_.pixels(working, picture_to_ - picture_from_ - working);
+  end_ = std::max(end_, picture_to_);
+}
+
+void CycleModel::finish() {
+  decode_.finish();
+  empty(register_free_, end_);
+  register_free_ = end_;
+}
+
+void CycleModel::tap(Tap kind, std::uint64_t cycle, std::uint32_t tag, std::int32_t x, std::int32_t y) const {
+  options_.taps->on_tap({.tap = kind,
+                         .tile = tile_.tile,
+                         .sheet = sheet_.sheet,
+                         .tag = tag,
+                         .cycle = cycle,
+                         .x = x,
+                         .y = y,
+                         .payload = {}});
+}
+
+}  // namespace fastsplat::cmodel

@@ -1,0 +1,124 @@
+// When everything happens: the clock cycle of each event of the RTL, computed from the stream alone, without a clock
+// (docs/microarchitecture.md). Time goes by records, not by cycles; no pixel is computed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "cmodel/config.hpp"
+#include "cmodel/cycle_account.hpp"
+#include "cmodel/device.hpp"
+#include "cmodel/dirty_map.hpp"
+#include "cmodel/stream_decode.hpp"
+#include "cmodel/willing.hpp"
+
+namespace fastsplat::cmodel {
+
+/// A sheet's way through the device. Half-open spans of cycles.
+struct SheetCycles {
+  std::uint32_t tile = 0, sheet = 0;
+  std::uint64_t offered = 0;                 ///< begin_sheet lies in decode from here
+  std::uint64_t begun = 0, closed = 0;       ///< begin_sheet and end_sheet carried out
+  std::uint64_t windows = 0, blocks = 0;     ///< P x P windows; dirty blocks
+  std::uint64_t walk_from = 0, walk_to = 0;  ///< the compositor picks blocks
+};
+
+/// A tile's. `picture_to` is the cycle after the one in which its last pixels were taken.
+struct TileCycles {
+  std::uint32_t tile = 0;
+  std::uint64_t begun = 0, closed = 0;  ///< begin_tile and end_tile carried out
+  std::uint64_t picture_from = 0, picture_to = 0;
+};
+
+class CycleSink {
+ public:
+  virtual ~CycleSink() = default;
+  virtual void on_sheet(const SheetCycles& sheet) = 0;
+  virtual void on_tile(const TileCycles& tile) = 0;
+};
+
+/// The device's own cycle counters (registers after those of FASTSPLAT_COUNTERS).
+struct StallCounters {
+  std::uint64_t busy = 0, stall_input = 0, stall_table = 0, stall_buffer = 0, stall_tile = 0;
+  bool operator==(const StallCounters&) const = default;
+};
+
+struct CycleOptions {
+  const Willing* input = nullptr;   ///< when the source begins to offer a beat; null: always
+  const Willing* output = nullptr;  ///< when the sink takes pixels; null: always
+  std::uint64_t first_beat = 0;     ///< cycle after reset from which the source has a beat
+  TapSink* taps = nullptr;          ///< every event with its cycle; payloads are empty
+  CycleSink* spans = nullptr;
+};
+
+class CycleModel final : public Device {
+ public:
+  /// What `options` points to outlives the model.
+  CycleModel(const Config& config, StreamScope scope, const CycleOptions& options = {});
+
+  void consume(std::span<const Beat> beats) override {
+    for (const Beat& beat : beats) take(beat);
+  }
+  void finish() override;
+  /// tiles, sheets, splats, windows, cull_blocks and dirty_blocks; the others need pixels and stay 0.
+  const Counters& counters() const override { return counters_; }
+
+  // After finish():
+  /// Sums to stalls().busy.
+  CycleAccount account() const { return accountant_.account(); }
+  const StallCounters& stalls() const { return stalls_; }
+  /// The first cycle after reset from which nothing is left to do.
+  std::uint64_t end_cycle() const { return end_; }
+  /// Cycles after reset in which the device waited for a frame: the wipe, and a late source outside of tiles.
+  std::uint64_t idle_cycles() const { return end_ - stalls_.busy; }
+
+ private:
+  struct Set {
+    std::uint32_t rho = 0;
+    std::int32_t extent = 0;
+  };
+
+  void take(const Beat& beat);
+  /// The beat enters the register at the returned cycle; accounts for the empty register before it.
+  std::uint64_t enter();
+  /// The register is empty in [from, to).
+  void empty(std::uint64_t from, std::uint64_t to);
+  /// A record carried out in cycle `at`, in the register since `since`.
+  void leave(std::uint64_t since, std::uint64_t at);
+  void splat(const SplatRecord& record, std::uint64_t at);
+  void load(const LoadTable& table);
+  void begin_tile(const BeginTile& record, std::uint64_t at);
+  void begin_sheet(const BeginSheet& record, std::uint64_t at);
+  void end_sheet(std::uint64_t at);
+  void end_tile(std::uint64_t at);
+  void picture(std::uint64_t at);
+  void tap(Tap kind, std::uint64_t cycle, std::uint32_t tag, std::int32_t x, std::int32_t y) const;
+
+  Config config_;
+  CycleOptions options_;
+  StreamDecode decode_;
+  Accountant accountant_;
+  Counters counters_;
+  StallCounters stalls_;
+  std::vector<Set> sets_;
+  DirtyMap dirty_;
+
+  std::uint64_t payload_words_ = 0;  ///< of the open table
+  std::uint64_t next_offer_ = 0;     ///< earliest cycle in which the next beat can be offered
+  std::uint64_t ready_ = 0;          ///< earliest cycle in which decode takes the next beat
+  std::uint64_t register_free_ = 0;  ///< first cycle after the last beat left
+  std::uint64_t end_ = 0;
+
+  bool tile_open_ = false;
+  BeginTile tile_;
+  SheetCycles sheet_;
+  TileCycles span_;
+  std::size_t buffer_ = 0;
+  std::array<std::uint64_t, 2> buffer_free_{};  ///< cycle from which begin_sheet may take it
+  std::uint64_t walk_free_ = 0;                 ///< earliest first pick of the next sheet
+  std::uint64_t compositor_idle_ = 0;           ///< cycle from which it has nothing to do
+  std::uint64_t picture_from_ = 0, picture_to_ = 0;
+};
+
+}  // namespace fastsplat::cmodel

@@ -1,0 +1,25 @@
+// Distances in clock cycles between the boundaries of the device: the timing rules of docs/microarchitecture.md.
+#pragma once
+
+#include <cstdint>
+
+namespace fastsplat::cmodel::stages {
+
+// From the cycle in which decode issues a window.
+inline constexpr std::uint64_t kSnap = 2;       ///< c1: the snapped origin
+inline constexpr std::uint64_t kFootprint = 7;  ///< c6: weights and products
+inline constexpr std::uint64_t kSheet = 10;     ///< W: sums written
+
+// From the cycle in which decode carries out end_sheet.
+inline constexpr std::uint64_t kWalk = 12;  ///< first pick, if the compositor is idle
+
+// From the last pick of a sheet.
+inline constexpr std::uint64_t kFree = 1;            ///< begin_sheet may take the buffer
+inline constexpr std::uint64_t kNextWalk = 4;        ///< first pick of the next sheet at the earliest
+inline constexpr std::uint64_t kIdle = 7;            ///< the pipe is empty: begin_tile and end_tile may go on
+inline constexpr std::uint64_t kIdleAfterEmpty = 3;  ///< the same where the sheet had no dirty block
+
+inline constexpr std::uint64_t kComposite = 6;  ///< k6: from a block's pick to its new state
+inline constexpr std::uint64_t kPixel = 3;      ///< r2: from end_tile carried out to the first pixel beat
+
+}  // namespace fastsplat::cmodel::stages

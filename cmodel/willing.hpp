@@ -1,0 +1,15 @@
+// When a side of a ready/valid channel is willing, as a pure function of the clock cycle.
+#pragma once
+
+#include <cstdint>
+
+namespace fastsplat::cmodel {
+
+class Willing {
+ public:
+  virtual ~Willing() = default;
+  /// The first willing cycle at or after `cycle`. There must be one.
+  virtual std::uint64_t next(std::uint64_t cycle) const = 0;
+};
+
+}  // namespace fastsplat::cmodel

@@ -1,0 +1,141 @@
+#include "tests/testbench/cycle_board_helper.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <deque>
+
+#include "testbench/rtl_device.hpp"
+
+namespace fastsplat::test {
+namespace {
+
+struct Event {
+  std::uint32_t tile, sheet, tag;
+  std::int32_t x, y;
+  std::uint64_t cycle;
+  bool operator==(const Event&) const = default;
+};
+
+Event event_of(const cmodel::TapRecord& record) {
+  return {record.tile, record.sheet, record.tag, record.x, record.y, record.cycle};
+}
+
+std::string text_of(const Event& event) {
+  return "tile " + std::to_string(event.tile) + " sheet " + std::to_string(event.sheet) + " tag " +
+         std::to_string(event.tag) + " (" + std::to_string(event.x) + "," + std::to_string(event.y) + ") cycle " +
+         std::to_string(event.cycle);
+}
+
+struct Expected final : cmodel::TapSink {
+  std::array<std::deque<Event>, cmodel::kTapCount> events;
+  void on_tap(const cmodel::TapRecord& record) override {
+    events[static_cast<std::size_t>(record.tap)].push_back(event_of(record));
+  }
+};
+
+struct Checker final : cmodel::TapSink {
+  Checker(Expected& from, CycleComparison& into) : expected(from), result(into) {}
+  Expected& expected;
+  CycleComparison& result;
+  void mismatch(const std::string& what) {
+    if (result.mismatches++ == 0) result.first = what;
+  }
+  void on_tap(const cmodel::TapRecord& record) override {
+    const auto tap = static_cast<std::size_t>(record.tap);
+    const Event rtl = event_of(record);
+    auto& queue = expected.events[tap];
+    if (queue.empty()) {
+      mismatch(std::string(cmodel::to_string(record.tap)) + ": RTL has " + text_of(rtl) + ", the model nothing");
+      return;
+    }
+    ++result.by_tap[tap];
+    ++result.comparisons;
+    if (!(queue.front() == rtl)) {
+      mismatch(std::string(cmodel::to_string(record.tap)) + ": model " + text_of(queue.front()) + ", RTL " +
+               text_of(rtl));
+    }
+    queue.pop_front();
+  }
+  void equal(const char* what, std::uint64_t model, std::uint64_t rtl) {
+    ++result.comparisons;
+    if (model != rtl) mismatch(std::string(what) + ": model " + std::to_string(model) + ", RTL " + std::to_string(rtl));
+  }
+};
+
+struct NoPixels final : cmodel::PixelSink {
+  void on_tile(cmodel::TilePixels&&) override {}
+};
+
+}  // namespace
+
+CycleComparison& CycleComparison::operator+=(const CycleComparison& other) {
+  for (std::size_t i = 0; i < by_tap.size(); ++i) by_tap[i] += other.by_tap[i];
+  comparisons += other.comparisons;
+  mismatches += other.mismatches;
+  rtl_cycles += other.rtl_cycles;
+  if (first.empty()) first = other.first;
+  return *this;
+}
+
+void judge(const std::string& name, const CycleComparison& comparison) {
+  std::printf("[figure] %s: comparisons = %llu, mismatches = %llu (limit 0) over %llu cycles;", name.c_str(),
+              static_cast<unsigned long long>(comparison.comparisons),
+              static_cast<unsigned long long>(comparison.mismatches),
+              static_cast<unsigned long long>(comparison.rtl_cycles));
+  for (int tap = 0; tap < cmodel::kTapCount; ++tap) {
+    const auto count = comparison.by_tap[static_cast<std::size_t>(tap)];
+    std::printf(" %s %llu", cmodel::to_string(static_cast<cmodel::Tap>(tap)), static_cast<unsigned long long>(count));
+    EXPECT_GT(count, 0U) << "no event of this tap was compared";
+  }
+  std::printf("\n");
+  ::testing::Test::RecordProperty("comparisons", std::to_string(comparison.comparisons));
+  EXPECT_EQ(comparison.mismatches, 0U) << comparison.first;
+}
+
+CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmodel::Beat> beats,
+                               const testbench::Pattern& input, const testbench::Pattern& output) {
+  CycleComparison result;
+  Expected expected;
+  Checker checker(expected, result);
+  NoPixels pixels;
+  testbench::RtlOptions rtl_options;
+  rtl_options.input = input;
+  rtl_options.output = output;
+  rtl_options.taps = &checker;
+  const auto rtl = testbench::make_rtl_device(config, pixels, rtl_options);
+
+  // Making the device took some cycles already: it read the configuration's hash.
+  cmodel::CycleModel model(
+      config, cmodel::StreamScope::Subset,
+      {.input = &input, .output = &output, .first_beat = rtl->cycles(), .taps = &expected, .spans = nullptr});
+  model.consume(beats);
+  model.finish();
+  rtl->consume(beats);
+  rtl->finish();
+
+  for (const auto& queue : expected.events) {
+    for (const Event& event : queue) checker.mismatch("the model has " + text_of(event) + ", the RTL nothing");
+  }
+  result.rtl_cycles = rtl->cycles();
+  result.account = model.account();
+  result.stalls = model.stalls();
+  result.counters = model.counters();
+  const testbench::RtlCycles theirs = rtl->cycle_counters();
+  checker.equal("CYCLES", model.stalls().busy, theirs.busy);
+  checker.equal("STALL_INPUT", model.stalls().stall_input, theirs.stall_input);
+  checker.equal("STALL_TABLE", model.stalls().stall_table, theirs.stall_table);
+  checker.equal("STALL_BUFFER", model.stalls().stall_buffer, theirs.stall_buffer);
+  checker.equal("STALL_TILE", model.stalls().stall_tile, theirs.stall_tile);
+  const cmodel::Counters& counts = rtl->counters();
+  checker.equal("tiles", model.counters().tiles, counts.tiles);
+  checker.equal("sheets", model.counters().sheets, counts.sheets);
+  checker.equal("splats", model.counters().splats, counts.splats);
+  checker.equal("windows", model.counters().windows, counts.windows);
+  checker.equal("cull blocks", model.counters().cull_blocks, counts.cull_blocks);
+  checker.equal("dirty blocks", model.counters().dirty_blocks, counts.dirty_blocks);
+  checker.equal("sum of the account", model.account().total(), theirs.busy);
+  return result;
+}
+
+}  // namespace fastsplat::test

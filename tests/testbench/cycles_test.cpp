@@ -1,0 +1,131 @@
+// The cycle model against the Verilated device: every event's cycle, every cycle counter.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "cmodel/cycle_model.hpp"
+#include "driver/compile.hpp"
+#include "driver/config_file.hpp"
+#include "scene/scene.hpp"
+#include "testbench/rtl_device.hpp"
+#include "tests/cmodel/configs_helper.hpp"
+#include "tests/cmodel/random_stream_helper.hpp"
+#include "tests/cmodel/stream_writer_helper.hpp"
+#include "tests/testbench/cycle_board_helper.hpp"
+
+namespace fastsplat::test {
+namespace {
+
+using cmodel::Beat;
+using testbench::Pattern;
+
+std::vector<Beat> scene_beats(const scene::SceneDescription& description, const cmodel::Config& config) {
+  const scene::Scene scene = scene::build_scene(description);
+  const driver::CompiledFrame compiled(scene, config);
+  std::vector<Beat> beats(compiled.preamble().begin(), compiled.preamble().end());
+  for (int tile = 0; tile < compiled.grid().count(); ++tile) {
+    compiled.emit_tile(tile, [&](std::span<const Beat> more) { beats.insert(beats.end(), more.begin(), more.end()); });
+  }
+  return beats;
+}
+
+class EachConfig : public ::testing::TestWithParam<std::string> {
+ protected:
+  cmodel::Config config() const { return driver::load_config(GetParam()); }
+};
+
+TEST_P(EachConfig, RandomStreamsUnderEveryPairOfPatterns) {
+  Random random(seed_or(31));
+  CycleComparison total;
+  const auto patterns = Pattern::examples();
+  ASSERT_GE(patterns.size(), 6U);
+  std::uint64_t seed = 0;
+  for (const auto& input : patterns) {
+    for (const auto& output : patterns) {
+      ++seed;
+      const auto stream = random_stream(symbols_of(config()), random, 60);
+      total += compare_cycles(config(), to_beats(stream.bytes), Pattern(input, seed), Pattern(output, seed + 1000));
+      if (total.mismatches > 0) FAIL() << input << "/" << output << ": " << total.first;
+    }
+  }
+  judge(GetParam() + " random", total);
+}
+
+TEST_P(EachConfig, ScenesOfEveryMethod) {
+  CycleComparison total;
+  const auto patterns = Pattern::examples();
+  std::size_t turn = 0;
+  for (const auto method : {scene::Method::ImageAligned, scene::Method::AxisAligned, scene::Method::XRay}) {
+    for (const int half_slabs : {1, 2, 4}) {
+      if (half_slabs != 2 && method != scene::Method::ImageAligned) continue;
+      scene::SceneDescription description;
+      description.volume = "shells:8";
+      description.width = 36;
+      description.height = 33;
+      description.method = method;
+      description.slab_width = half_slabs / 2.0;
+      const auto beats = scene_beats(description, config());
+      const std::string& input = patterns[turn % patterns.size()];
+      const std::string& output = patterns[(turn * 5 + 1) % patterns.size()];
+      ++turn;
+      total += compare_cycles(config(), beats, Pattern(), Pattern());
+      total += compare_cycles(config(), beats, Pattern(input, turn), Pattern(output, turn));
+    }
+  }
+  judge(GetParam() + " scenes", total);
+}
+
+TEST_P(EachConfig, OneWindowPerCycleOnIdenticalCentres) {
+  constexpr int kSplats = 500;
+  const auto symbols = symbols_of(config());
+  StreamWriter writer(symbols);
+  writer.begin_frame(config().tile_width, config().tile_height, 1);
+  const int rho = config().lanes * config().phases / 2;  // a footprint of exactly P x P: one window a splat
+  writer.load_table(0, 0, static_cast<std::uint32_t>(rho), 0,
+                    std::vector<std::uint32_t>(static_cast<std::size_t>(config().lanes * config().phases), 1));
+  writer.load_table(1, 0, 0, 0, std::vector<std::uint32_t>(static_cast<std::size_t>(config().radial_entries), 1));
+  writer.load_table(2, 0, 0, 0, std::vector<std::uint32_t>(static_cast<std::size_t>(config().opacity_segments) + 1, 1));
+  writer.begin_tile(0, 0, 0, 0, config().tile_width, config().tile_height);
+  writer.begin_sheet(0);
+  const std::int32_t centre = (config().tile_width / 2) << config().position_frac_bits;
+  for (int i = 0; i < kSplats; ++i) writer.splat(0, centre, centre, {9, 9, 9, 9});
+  writer.end_sheet();
+  writer.end_tile();
+  writer.end_frame();
+
+  // Cycles of the first and the last sum written, from the RTL's own taps.
+  struct Span final : cmodel::TapSink {
+    std::uint64_t first = 0, last = 0, count = 0;
+    void on_tap(const cmodel::TapRecord& record) override {
+      if (record.tap != cmodel::Tap::Sheet) return;
+      if (count++ == 0) first = record.cycle;
+      last = record.cycle;
+    }
+  } rtl_span, model_span;
+  struct NoPixels final : cmodel::PixelSink {
+    void on_tile(cmodel::TilePixels&&) override {}
+  } pixels;
+  testbench::RtlOptions options;
+  options.taps = &rtl_span;
+  const auto beats = to_beats(writer.bytes());
+  const auto rtl = testbench::make_rtl_device(config(), pixels, options);
+  rtl->consume(beats);
+  rtl->finish();
+  cmodel::CycleModel model(config(), cmodel::StreamScope::Whole,
+                           {.input = nullptr, .output = nullptr, .first_beat = 4, .taps = &model_span});
+  model.consume(beats);
+  model.finish();
+  for (const Span& span : {rtl_span, model_span}) {
+    ASSERT_EQ(span.count, static_cast<std::uint64_t>(kSplats));
+    EXPECT_EQ(span.last - span.first + 1, span.count);
+  }
+  const double rate = static_cast<double>(rtl_span.count) / static_cast<double>(rtl_span.last - rtl_span.first + 1);
+  std::printf("[figure] %s windows per cycle at identical centres = %.3f (limit 1.000)\n", GetParam().c_str(), rate);
+  RecordProperty("windows_per_cycle", std::to_string(rate));
+}
+
+INSTANTIATE_TEST_SUITE_P(Rtl, EachConfig, ::testing::ValuesIn(testbench::rtl_config_names()),
+                         [](const auto& param_info) { return param_info.param; });
+
+}  // namespace
+}  // namespace fastsplat::test

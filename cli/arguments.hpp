@@ -22,6 +22,7 @@ struct SceneFlags {
   std::optional<double> slab_width, xray_exposure, opacity_scale;
   std::optional<int> xray_sheets;
   bool perspective = false, orthographic = false;
+  bool operator==(const SceneFlags&) const = default;
 };
 
 struct RenderArguments {
@@ -73,6 +74,14 @@ struct StreamReplayArguments {
   std::vector<std::string> out;
 };
 
+struct CyclesArguments {
+  Common common;
+  SceneFlags scene;
+  std::string stream;  ///< a recorded stream instead of a scene
+  std::string config = "base", input = "always", ready = "always", trace;
+  int seed = 1;
+};
+
 struct ConfigListArguments {
   Common common;
 };
@@ -96,9 +105,10 @@ struct TextArguments {
   std::string text;
 };
 
-using Command = std::variant<TextArguments, RenderArguments, CompareArguments, VolumeInfoArguments,
-                             VolumeConvertArguments, StreamRecordArguments, StreamDumpArguments, StreamReplayArguments,
-                             ConfigListArguments, ConfigShowArguments, ConfigCheckArguments, DoctorArguments>;
+using Command =
+    std::variant<TextArguments, RenderArguments, CompareArguments, VolumeInfoArguments, VolumeConvertArguments,
+                 StreamRecordArguments, StreamDumpArguments, StreamReplayArguments, CyclesArguments,
+                 ConfigListArguments, ConfigShowArguments, ConfigCheckArguments, DoctorArguments>;
 
 /// The command line as one Command. Whatever makes no sense is a UserError (Usage) with the fix.
 Command parse(int argc, const char* const* argv);

@@ -134,6 +134,7 @@ struct CommandLine {
   StreamRecordArguments stream_record;
   StreamDumpArguments stream_dump;
   StreamReplayArguments stream_replay;
+  CyclesArguments cycles;
   ConfigListArguments config_list;
   ConfigShowArguments config_show;
   ConfigCheckArguments config_check;
@@ -148,6 +149,7 @@ struct CommandLine {
     declare_compare();
     declare_volume();
     declare_stream();
+    declare_cycles();
     declare_config();
     CLI::App* verb = app.add_subcommand("doctor", "versions, processors, scans; what is missing and how to get it");
     add_common(*verb, doctor.common);
@@ -263,6 +265,32 @@ struct CommandLine {
     add_outputs(*replay, stream_replay.out, stream_replay.raw);
     add_common(*replay, stream_replay.common);
     leaf[replay] = [](const CommandLine& all) -> Command { return all.stream_replay; };
+  }
+
+  void declare_cycles() {
+    CLI::App* verb = app.add_subcommand("cycles", "clock cycles of a scene or stream on the device, and where they go");
+    add_scene(*verb, cycles.scene);
+    verb->add_option("--stream", cycles.stream, "a recorded stream instead of a scene")
+        ->type_name("FILE")
+        ->group("Scene");
+    verb->add_option("--config", cycles.config, "hardware configuration, a name or a TOML file")
+        ->type_name("NAME|FILE")
+        ->group("Engine");
+    const auto pattern = [verb](const char* flag, std::string& value, const char* help) {
+      verb->add_option(flag, value, help)->type_name("PATTERN")->group("Engine");
+    };
+    pattern("--input", cycles.input, "when the source has a beat: always, every-N, never-N, random-PERCENT, burst-N");
+    pattern("--ready", cycles.ready, "when the sink takes pixels: as --input");
+    verb->add_option("--seed", cycles.seed, "of the patterns")
+        ->check(integer(0, 2'000'000'000))
+        ->type_name("N")
+        ->group("Engine");
+    verb->add_option("--trace", cycles.trace, "a timeline as JSON that ui.perfetto.dev opens; 1 us stands for a cycle")
+        ->type_name("FILE")
+        ->group("Output");
+    add_common(*verb, cycles.common);
+    verb->footer("Example: fastsplat cycles --volume shells:64 --size 256 --config base --trace shells.json");
+    leaf[verb] = [](const CommandLine& all) -> Command { return all.cycles; };
   }
 
   void declare_config() {

@@ -14,6 +14,7 @@ ExitCode run(const VolumeConvertArguments& arguments);
 ExitCode run(const StreamRecordArguments& arguments);
 ExitCode run(const StreamDumpArguments& arguments);
 ExitCode run(const StreamReplayArguments& arguments);
+ExitCode run(const CyclesArguments& arguments);
 ExitCode run(const ConfigListArguments& arguments);
 ExitCode run(const ConfigShowArguments& arguments);
 ExitCode run(const ConfigCheckArguments& arguments);

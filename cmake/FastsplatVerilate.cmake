@@ -28,7 +28,8 @@ function(fastsplat_verilate target config)
   file(MAKE_DIRECTORY ${folder}/obj)
   add_custom_command(
     OUTPUT ${package}
-    COMMAND fastsplat_emit_package ${file} > ${package}
+    COMMAND fastsplat_emit_package ${file} > ${package}.new
+    COMMAND ${CMAKE_COMMAND} -E copy_if_different ${package}.new ${package}  # same numbers: nothing to verilate again
     DEPENDS fastsplat_emit_package ${file}
     COMMENT "Package of configuration ${config}")
   set(defines "")

@@ -36,6 +36,12 @@ struct CycleAccount {
     FASTSPLAT_CYCLE_KINDS(X)
 #undef X
   }
+  CycleAccount& operator+=(const CycleAccount& other) {
+#define X(name, meaning) name += other.name;
+    FASTSPLAT_CYCLE_KINDS(X)
+#undef X
+    return *this;
+  }
   bool operator==(const CycleAccount&) const = default;
 };
 

@@ -140,6 +140,28 @@ class ReplayFrame final : public cmodel::PixelSink {
   std::vector<bool> covered_;  ///< pixels that a tile delivered
 };
 
+/// Every beat to the device, which has checked begin_frame when `header` is called with it.
+template <class Header>
+void feed(Reader& reader, const std::filesystem::path& path, cmodel::Device& device, const RenderOptions& options,
+          Header header) {
+  std::uint64_t beats = 0;
+  try {
+    reader.each([&](const Beat& beat) {
+      device.consume({&beat, 1});
+      if (beats == 0) header(beat);
+      ++beats;
+      if (options.progress && beats % 65536 == 0) options.progress(beats * kBeatBytes, reader.bytes());
+      return true;
+    });
+    device.finish();
+  } catch (const UserError& error) {
+    if (error.parts().where.rfind("beat ", 0) != 0) throw;
+    ErrorParts parts = error.parts();
+    parts.where = path.string() + ": " + parts.where;
+    throw UserError(error.code(), parts);
+  }
+}
+
 }  // namespace
 
 DriverReport record_stream(const scene::Scene& scene, const cmodel::Config& config, const std::filesystem::path& path,
@@ -165,30 +187,15 @@ DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Conf
   Reader reader(path);
   ReplayFrame frame;
   cmodel::Model device(config, cmodel::StreamScope::Whole, frame);
-  std::uint64_t beats = 0;
-  try {
-    reader.each([&](const Beat& beat) {
-      device.consume({&beat, 1});
-      if (beats == 0) {
-        const auto header = std::get<cmodel::BeginFrame>(cmodel::from_beat(beat));
-        const std::int64_t pixels = std::int64_t{header.width} * header.height;
-        if (pixels > kLargestImage) {
-          reader.refuse("image too large to replay", fmt::format("at most {} pixels", kLargestImage),
-                        fmt::format("{} pixels", pixels), "record it at a smaller --size");
-        }
-        frame.begin(config, header.width, header.height);
-      }
-      ++beats;
-      if (options.progress && beats % 65536 == 0) options.progress(beats * kBeatBytes, reader.bytes());
-      return true;
-    });
-    device.finish();
-  } catch (const UserError& error) {
-    if (error.parts().where.rfind("beat ", 0) != 0) throw;
-    ErrorParts parts = error.parts();
-    parts.where = path.string() + ": " + parts.where;
-    throw UserError(error.code(), parts);
-  }
+  feed(reader, path, device, options, [&](const Beat& first) {
+    const auto header = std::get<cmodel::BeginFrame>(cmodel::from_beat(first));
+    const std::int64_t pixels = std::int64_t{header.width} * header.height;
+    if (pixels > kLargestImage) {
+      reader.refuse("image too large to replay", fmt::format("at most {} pixels", kLargestImage),
+                    fmt::format("{} pixels", pixels), "record it at a smaller --size");
+    }
+    frame.begin(config, header.width, header.height);
+  });
   if (const std::int64_t uncovered = frame.uncovered(); uncovered != 0) {
     reader.refuse("tiles do not cover the image", "every pixel in a tile", fmt::format("{} pixels in none", uncovered),
                   "record it again");
@@ -200,6 +207,11 @@ DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Conf
   out.report.sheets = out.counters.sheets;
   out.report.splat_records = out.counters.splats;
   return out;
+}
+
+void feed_stream(const std::filesystem::path& path, cmodel::Device& device, const RenderOptions& options) {
+  Reader reader(path);
+  feed(reader, path, device, options, [](const Beat&) {});
 }
 
 void dump_stream(const std::filesystem::path& path, const std::function<bool(const std::string&)>& line) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "cmodel/device.hpp"
 #include "driver/render.hpp"
 
 namespace fastsplat::driver {
@@ -17,6 +18,9 @@ DriverReport record_stream(const scene::Scene& scene, const cmodel::Config& conf
 /// offset and the reason; a configuration that differs from the stream's is refused by hash and name.
 DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Config& config,
                            const RenderOptions& options = {});
+
+/// The same to any device that checks its stream, whatever it does with it; finishes the device.
+void feed_stream(const std::filesystem::path& path, cmodel::Device& device, const RenderOptions& options = {});
 
 /// One line of text per record, to `line`; stops when it returns false.
 void dump_stream(const std::filesystem::path& path, const std::function<bool(const std::string&)>& line);

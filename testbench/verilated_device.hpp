@@ -172,10 +172,15 @@ class VerilatedDevice final : public RtlDevice {
 
   /// Taps of this cycle and the pixel beat, if one is taken.
   void sample() {
+    if (options_.taps != nullptr) sample_taps();
+    // After the taps: a tile of one beat may end in the very cycle that counts its last, empty sheet.
     std::uint64_t a = 0;
     if (top_->m_tvalid_o && top_->m_tready_i)
       taps_.pixels(cycle_, port_words(top_->m_tdata_o, a), top_->m_tlast_o != 0);
-    if (options_.taps == nullptr) return;
+  }
+
+  void sample_taps() {
+    std::uint64_t a = 0;
     if (top_->tap_snap_valid_o) {
       taps_.snap(cycle_, top_->tap_snap_tag_o, taps_.origin(top_->tap_snap_x_o), taps_.origin(top_->tap_snap_y_o),
                  top_->tap_snap_mx_o, top_->tap_snap_my_o);

@@ -162,6 +162,7 @@ TEST(Parse, EveryVerbHasItsArguments) {
   EXPECT_TRUE(std::holds_alternative<StreamRecordArguments>(parsed({"stream", "record", "-o", "s.fss"})));
   EXPECT_TRUE(std::holds_alternative<StreamDumpArguments>(parsed({"stream", "dump", "s.fss", "--limit", "3"})));
   EXPECT_TRUE(std::holds_alternative<StreamReplayArguments>(parsed({"stream", "replay", "s.fss"})));
+  EXPECT_TRUE(std::holds_alternative<CyclesArguments>(parsed({"cycles", "--stream", "s.fss", "--ready", "every-3"})));
   EXPECT_TRUE(std::holds_alternative<ConfigListArguments>(parsed({"config", "list"})));
   EXPECT_TRUE(std::holds_alternative<ConfigShowArguments>(parsed({"config", "show", "base"})));
   EXPECT_TRUE(std::holds_alternative<ConfigCheckArguments>(parsed({"config", "check", "f.toml"})));

@@ -83,7 +83,7 @@ TEST(Help, IsOnStdoutAndSucceeds) {
 
 TEST(Help, NamesEveryVerbAndTheExitCodes) {
   const auto text = fastsplat({"help"}).out;
-  for (const std::string verb : {"render", "compare", "volume", "stream", "config", "doctor", "130 interrupted"}) {
+  for (const std::string verb : {"render", "compare", "volume", "stream", "cycles", "config", "doctor", "130 interrupted"}) {
     EXPECT_NE(text.find(verb), std::string::npos) << verb;
   }
 }

@@ -74,6 +74,7 @@ CycleComparison& CycleComparison::operator+=(const CycleComparison& other) {
   comparisons += other.comparisons;
   mismatches += other.mismatches;
   rtl_cycles += other.rtl_cycles;
+  account += other.account;
   if (first.empty()) first = other.first;
   return *this;
 }

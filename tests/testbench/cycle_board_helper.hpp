@@ -27,7 +27,6 @@ struct CycleComparison {
 /// Prints the figures; fails the test where something differs or nothing of a tap was compared.
 void judge(const std::string& name, const CycleComparison& comparison);
 
-/// One `always` for each of the two patterns is the device's best case.
 CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmodel::Beat> beats,
                                const testbench::Pattern& input, const testbench::Pattern& output);
 

@@ -1,0 +1,149 @@
+// fastsplat cycles: how long the device takes and where the cycles go.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/provenance.hpp"
+#include "base/atomic_file.hpp"
+#include "cli/cycle_trace.hpp"
+#include "cli/image_output.hpp"
+#include "cli/output.hpp"
+#include "cli/progress_bar.hpp"
+#include "cli/scene_flags.hpp"
+#include "cli/verbs.hpp"
+#include "cmodel/cycle_model.hpp"
+#include "driver/config_file.hpp"
+#include "driver/run_device.hpp"
+#include "driver/stream_file.hpp"
+#include "testbench/pattern.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What is kept of the model after the run.
+struct Result {
+  cmodel::CycleAccount account;
+  cmodel::StallCounters stalls;
+  cmodel::Counters counters;
+  std::uint64_t idle = 0, end = 0;
+
+  void take(const cmodel::CycleModel& model) {
+    account = model.account();
+    stalls = model.stalls();
+    counters = model.counters();
+    idle = model.idle_cycles();
+    end = model.end_cycle();
+  }
+};
+
+double ratio(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+void print(const Result& result, const Output& output) {
+  const auto& account = result.account;
+  const auto row = [&](char sign, std::string_view name, std::uint64_t cycles, std::string_view meaning) {
+    output.line(fmt::format("{} {:<14}{:>18}{:>9.3f} %  {}", sign, name, grouped(cycles),
+                            100.0 * ratio(cycles, account.ideal), meaning));
+  };
+  bool first = true;
+  account.for_each([&](std::string_view name, std::uint64_t cycles, std::string_view meaning) {
+    row(first ? ' ' : '+', name, cycles, meaning);
+    first = false;
+  });
+  row('=', "actual", result.stalls.busy, "cycles the device was busy");
+  output.line(fmt::format("  {:<14}{:>18}             waiting for the frame after reset, memories being cleared",
+                          "idle", grouped(result.idle)));
+  output.line(
+      fmt::format("actual/ideal {:.4f}, splat array used {:.1f} %, compositor used {:.1f} %, {:.3f} splats/cycle",
+                  ratio(result.stalls.busy, account.ideal), 100.0 * ratio(result.counters.windows, result.stalls.busy),
+                  100.0 * ratio(result.counters.dirty_blocks, result.stalls.busy),
+                  ratio(result.counters.splats, result.stalls.busy)));
+}
+
+Json to_json(const Result& result) {
+  Json json;
+  json["actual"] = result.stalls.busy;
+  json["idle"] = result.idle;
+  json["end"] = result.end;
+  result.account.for_each([&](const char* name, std::uint64_t cycles, const char*) { json["account"][name] = cycles; });
+  json["counters"] = {{"stall_input", result.stalls.stall_input},
+                      {"stall_table", result.stalls.stall_table},
+                      {"stall_buffer", result.stalls.stall_buffer},
+                      {"stall_tile", result.stalls.stall_tile}};
+  return json;
+}
+
+}  // namespace
+
+ExitCode run(const CyclesArguments& arguments) {
+  const Output output(arguments.common);
+  if (!arguments.stream.empty() && !(arguments.scene == SceneFlags{})) {
+    throw_usage({.where = "--stream",
+                 .what = "a stream holds its scene already",
+                 .expected = {},
+                 .got = {},
+                 .fix = "give either --stream or a scene's flags"});
+  }
+  check_outputs({}, {}, {arguments.trace, arguments.common.json});
+  const auto config = driver::load_config(arguments.config);
+  const auto seed = static_cast<std::uint64_t>(arguments.seed);
+  const testbench::Pattern input(arguments.input, seed), ready(arguments.ready, seed + 1);
+  CycleTrace trace;
+  cmodel::CycleOptions options;
+  if (arguments.input != "always") options.input = &input;
+  if (arguments.ready != "always") options.output = &ready;
+  if (!arguments.trace.empty()) options.spans = &trace;
+
+  Result result;
+  const auto watching = arguments.common.quiet ? Watching::Never : Watching::IfTerminal;
+  if (!arguments.stream.empty()) {
+    ProgressBar bar("cycles", watching);
+    cmodel::CycleModel model(config, cmodel::StreamScope::Whole, options);
+    driver::feed_stream(arguments.stream, model, {.threads = 1, .progress = bar.callback()});
+    result.take(model);
+  } else {
+    const auto scene = build(arguments.scene);
+    output.line(summary(scene));
+    ProgressBar bar("cycles", watching);
+    const auto make = [&](cmodel::PixelSink&) {
+      return std::make_unique<cmodel::CycleModel>(config, cmodel::StreamScope::Subset, options);
+    };
+    driver::run_device(scene, config, make, {.threads = arguments.common.threads, .progress = bar.callback()},
+                       [&](cmodel::Device& device) { result.take(dynamic_cast<const cmodel::CycleModel&>(device)); });
+  }
+  const std::string hash = cmodel::hash_text(cmodel::config_hash(config));
+  output.line(fmt::format("configuration {} {}, {} splats, {} windows, {} sheets, {} tiles", config.name, hash,
+                          grouped(result.counters.splats), grouped(result.counters.windows),
+                          grouped(result.counters.sheets), grouped(result.counters.tiles)));
+  print(result, output);
+  if (!arguments.trace.empty()) {
+    write_text_file(arguments.trace, trace.text());
+    output.line(arguments.trace);
+  }
+
+  Json json{{"verb", "cycles"},
+            {"version", analysis::program_version()},
+            {"config", {{"name", config.name}, {"hash", hash}}},
+            {"input", arguments.input},
+            {"ready", arguments.ready},
+            {"seed", arguments.seed},
+            {"tiles", result.counters.tiles},
+            {"sheets", result.counters.sheets},
+            {"splats", result.counters.splats},
+            {"windows", result.counters.windows},
+            {"dirty_blocks", result.counters.dirty_blocks},
+            {"cycles", to_json(result)},
+            {"actual_to_ideal", ratio(result.stalls.busy, result.account.ideal)},
+            {"utilisation", ratio(result.counters.windows, result.stalls.busy)},
+            {"splats_per_cycle", ratio(result.counters.splats, result.stalls.busy)}};
+  if (!arguments.trace.empty()) json["trace"] = arguments.trace;
+  json["seconds"] = output.seconds();
+  output.json(json.dump(2));
+  output.note_time("counted");
+  return ExitCode::Pass;
+}
+
+}  // namespace fastsplat::cli

@@ -1,0 +1,83 @@
+// `fastsplat cycles`: the rows add up, a stream costs what its scene costs, the timeline can be drawn.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/process_helper.hpp"
+
+namespace fastsplat::cli_test {
+namespace {
+
+using nlohmann::json;
+
+std::uint64_t sum_of(const json& account) {
+  std::uint64_t sum = 0;
+  for (const auto& [name, cycles] : account.items()) sum += cycles.get<std::uint64_t>();
+  return sum;
+}
+
+TEST(Cycles, AddUpAndAreTheSameForSceneAndStream) {
+  const TempFolder folder;
+  const std::vector<std::string> scene{"--volume", "shells:24", "--size", "100", "--config", "small"};
+  const std::vector<std::string> channel{"--input", "random-70", "--ready", "burst-9", "--json", "-"};
+  auto words = scene;
+  words.insert(words.begin(), {"stream", "record"});
+  words.insert(words.end(), {"-o", folder / "s.fss"});
+  expect_success(fastsplat(words));
+
+  words = scene;
+  words.insert(words.begin(), "cycles");
+  words.insert(words.end(), channel.begin(), channel.end());
+  const auto from_scene = fastsplat(words);
+  words = {"cycles", "--config", "small", "--stream", folder / "s.fss"};
+  words.insert(words.end(), channel.begin(), channel.end());
+  const auto from_stream = fastsplat(words);
+  expect_success(from_scene);
+  expect_success(from_stream);
+
+  const auto a = json::parse(from_scene.out)["cycles"], b = json::parse(from_stream.out)["cycles"];
+  EXPECT_GT(a["actual"].get<std::uint64_t>(), 0U);
+  EXPECT_EQ(sum_of(a["account"]), a["actual"].get<std::uint64_t>());
+  EXPECT_EQ(sum_of(b["account"]), b["actual"].get<std::uint64_t>());
+  // The stream's only further record, end_frame, comes while the last picture goes out.
+  EXPECT_EQ(a["account"], b["account"]);
+  std::printf("[figure] busy cycles = %llu, sum of the causes %llu\n",
+              static_cast<unsigned long long>(a["actual"].get<std::uint64_t>()),
+              static_cast<unsigned long long>(sum_of(a["account"])));
+}
+
+TEST(Cycles, TraceHoldsEverySheetOnTracksThatDoNotOverlap) {
+  const TempFolder folder;
+  const auto result = fastsplat({"cycles", "--volume", "shells:24", "--size", "100", "--config", "small", "--trace",
+                                 folder / "t.json", "--json", "-"});
+  expect_success(result);
+  const auto sheets = json::parse(result.out)["sheets"].get<std::size_t>();
+  const auto tiles = json::parse(result.out)["tiles"].get<std::size_t>();
+  const auto trace = json::parse(read_bytes(folder.path() / "t.json"));
+  std::map<int, std::vector<std::pair<std::uint64_t, std::uint64_t>>> tracks;
+  std::map<int, std::string> names;
+  for (const auto& event : trace["traceEvents"]) {
+    if (event["name"] == "thread_name") names[event["tid"]] = event["args"]["name"];
+    if (event["ph"] == "X")
+      tracks[event["tid"]].emplace_back(event["ts"],
+                                        event["ts"].get<std::uint64_t>() + event["dur"].get<std::uint64_t>());
+  }
+  ASSERT_EQ(tracks.size(), 4U);
+  EXPECT_EQ(names.size(), 4U);
+  for (const auto& [track, slices] : tracks) {
+    EXPECT_GE(slices.size(), track == 4 ? tiles : sheets) << names[track];
+    for (std::size_t i = 1; i < slices.size(); ++i) EXPECT_LE(slices[i - 1].second, slices[i].first) << names[track];
+    std::printf("[figure] slices of '%s' = %zu\n", names[track].c_str(), slices.size());
+  }
+}
+
+TEST(Cycles, MisuseIsToldBeforeAnyWork) {
+  const TempFolder folder;
+  expect_error(fastsplat({"cycles", "--stream", "a.fss", "--volume", "shells:8"}), 2, {"--stream", "scene"});
+  expect_error(fastsplat({"cycles", "--volume", "shells:8", "--ready", "sometimes"}), 2, {"sometimes", "every-N"});
+  expect_error(fastsplat({"cycles", "--stream", folder / "none.fss"}), 3, {"none.fss"});
+}
+
+}  // namespace
+}  // namespace fastsplat::cli_test

@@ -1,0 +1,15 @@
+// A small scene as the beats a driver would send.
+#pragma once
+
+#include <vector>
+
+#include "cmodel/beat.hpp"
+#include "cmodel/config.hpp"
+#include "scene/scene.hpp"
+
+namespace fastsplat::test {
+
+/// The whole stream but end_frame.
+std::vector<cmodel::Beat> scene_beats(const scene::SceneDescription& description, const cmodel::Config& config);
+
+}  // namespace fastsplat::test

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <deque>
 
@@ -63,6 +64,19 @@ struct Checker final : cmodel::TapSink {
   }
 };
 
+/// The ideal by its formula, from each sheet's windows and blocks.
+struct Ideal final : cmodel::CycleSink {
+  std::uint64_t cycles = 0, blocks_before = 0;
+  void on_sheet(const cmodel::SheetCycles& sheet) override {
+    cycles += std::max(sheet.windows, blocks_before);
+    blocks_before = sheet.blocks;
+  }
+  void on_tile(const cmodel::TileCycles&) override {
+    cycles += blocks_before;
+    blocks_before = 0;
+  }
+};
+
 struct NoPixels final : cmodel::PixelSink {
   void on_tile(cmodel::TilePixels&&) override {}
 };
@@ -100,6 +114,7 @@ CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmo
   Expected expected;
   Checker checker(expected, result);
   NoPixels pixels;
+  Ideal ideal;
   testbench::RtlOptions rtl_options;
   rtl_options.input = input;
   rtl_options.output = output;
@@ -109,7 +124,7 @@ CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmo
   // Making the device took some cycles already: it read the configuration's hash.
   cmodel::CycleModel model(
       config, cmodel::StreamScope::Subset,
-      {.input = &input, .output = &output, .first_beat = rtl->cycles(), .taps = &expected, .spans = nullptr});
+      {.input = &input, .output = &output, .first_beat = rtl->cycles(), .taps = &expected, .spans = &ideal});
   model.consume(beats);
   model.finish();
   rtl->consume(beats);
@@ -136,6 +151,7 @@ CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmo
   checker.equal("cull blocks", model.counters().cull_blocks, counts.cull_blocks);
   checker.equal("dirty blocks", model.counters().dirty_blocks, counts.dirty_blocks);
   checker.equal("sum of the account", model.account().total(), theirs.busy);
+  checker.equal("ideal of the account", model.account().ideal, ideal.cycles);
   return result;
 }
 

@@ -17,6 +17,16 @@ namespace {
 
 using testbench::Pattern;
 
+/// begin_frame and tables such that a splat's footprint is exactly P x P: one window a splat.
+void begin_one_window_frame(StreamWriter& writer, const cmodel::Config& config) {
+  const auto words = [](int count) { return std::vector<std::uint32_t>(static_cast<std::size_t>(count), 1); };
+  writer.begin_frame(config.tile_width, config.tile_height, 1);
+  const int rho = config.lanes * config.phases / 2;
+  writer.load_table(0, 0, static_cast<std::uint32_t>(rho), 0, words(config.lanes * config.phases));
+  writer.load_table(1, 0, 0, 0, words(config.radial_entries));
+  writer.load_table(2, 0, 0, 0, words(config.opacity_segments + 1));
+}
+
 class EachConfig : public ::testing::TestWithParam<std::string> {
  protected:
   cmodel::Config config() const { return driver::load_config(GetParam()); }
@@ -74,14 +84,8 @@ TEST_P(EachConfig, ScenesOfEveryMethod) {
 
 TEST_P(EachConfig, IdenticalCentresTakeOneCycleEach) {
   constexpr int kSplats = 500;
-  const auto symbols = symbols_of(config());
-  StreamWriter writer(symbols);
-  writer.begin_frame(config().tile_width, config().tile_height, 1);
-  const int rho = config().lanes * config().phases / 2;  // a footprint of exactly P x P: one window a splat
-  writer.load_table(0, 0, static_cast<std::uint32_t>(rho), 0,
-                    std::vector<std::uint32_t>(static_cast<std::size_t>(config().lanes * config().phases), 1));
-  writer.load_table(1, 0, 0, 0, std::vector<std::uint32_t>(static_cast<std::size_t>(config().radial_entries), 1));
-  writer.load_table(2, 0, 0, 0, std::vector<std::uint32_t>(static_cast<std::size_t>(config().opacity_segments) + 1, 1));
+  StreamWriter writer(symbols_of(config()));
+  begin_one_window_frame(writer, config());
   writer.begin_tile(0, 0, 0, 0, config().tile_width, config().tile_height);
   writer.begin_sheet(0);
   const std::int32_t centre = (config().tile_width / 2) << config().position_frac_bits;
@@ -133,6 +137,34 @@ TEST_P(EachConfig, IdenticalCentresTakeOneCycleEach) {
   const double rate = static_cast<double>(rtl_span.count) / static_cast<double>(rtl_span.last - rtl_span.first + 1);
   std::printf("[figure] %s windows per cycle at identical centres = %.3f (limit 1.000)\n", GetParam().c_str(), rate);
   RecordProperty("windows_per_cycle", std::to_string(rate));
+}
+
+// docs/microarchitecture.md, "Account": from how many windows a sheet on begin_sheet never waits for a buffer.
+TEST_P(EachConfig, SheetsOfNineWindowsMoreThanBlocksNeverWait) {
+  constexpr std::uint64_t kSheets = 6;
+  const std::int32_t centre = (config().tile_width / 2) << config().position_frac_bits;
+  const auto run = [&](std::uint64_t splats) {
+    StreamWriter writer(symbols_of(config()));
+    begin_one_window_frame(writer, config());
+    writer.begin_tile(0, 0, 0, 0, config().tile_width, config().tile_height);
+    for (std::uint32_t sheet = 0; sheet < kSheets; ++sheet) {
+      writer.begin_sheet(sheet);
+      for (std::uint64_t i = 0; i < splats; ++i) writer.splat(0, centre, centre, {9, 9, 9, 9});
+      writer.end_sheet();
+    }
+    writer.end_tile();
+    writer.end_frame();
+    return compare_cycles(config(), to_beats(writer.bytes()), Pattern(), Pattern());
+  };
+  const std::uint64_t blocks = run(1).counters.dirty_blocks / kSheets;
+  const auto enough = run(blocks + 9), short_of_one = run(blocks + 8);
+  std::printf("[figure] %s sheets of %llu blocks: waits for a buffer %llu (limit 0), with one window less %llu\n",
+              GetParam().c_str(), static_cast<unsigned long long>(blocks),
+              static_cast<unsigned long long>(enough.stalls.stall_buffer),
+              static_cast<unsigned long long>(short_of_one.stalls.stall_buffer));
+  EXPECT_EQ(enough.mismatches + short_of_one.mismatches, 0U) << enough.first << short_of_one.first;
+  EXPECT_EQ(enough.stalls.stall_buffer, 0U);
+  EXPECT_GT(short_of_one.stalls.stall_buffer, 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rtl, EachConfig, ::testing::ValuesIn(testbench::rtl_config_names()),

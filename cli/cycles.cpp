@@ -87,7 +87,11 @@ ExitCode run(const CyclesArguments& arguments) {
                  .got = {},
                  .fix = "give either --stream or a scene's flags"});
   }
-  check_outputs({}, {}, {arguments.trace, arguments.common.json});
+  check_outputs({.images = {},
+                 .maps = {},
+                 .raw = {},
+                 .others = {arguments.trace, arguments.common.json},
+                 .inputs = {arguments.stream}});
   const auto config = driver::load_config(arguments.config);
   const auto seed = static_cast<std::uint64_t>(arguments.seed);
   const testbench::Pattern input(arguments.input, seed), ready(arguments.ready, seed + 1);

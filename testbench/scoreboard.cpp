@@ -2,9 +2,24 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 
 namespace fastsplat::testbench {
 namespace {
+
+constexpr std::size_t kHeaderWords = sizeof(TapQueue::Header) / sizeof(std::uint32_t);
+constexpr std::size_t kCompactWords = std::size_t{1} << 16;
+
+TapCopy owned(cmodel::Tap tap, const TapQueue::Header& header, std::span<const std::uint32_t> payload) {
+  return {.tap = tap,
+          .tile = header.tile,
+          .sheet = header.sheet,
+          .tag = header.tag,
+          .cycle = 0,
+          .x = header.x,
+          .y = header.y,
+          .payload = {payload.begin(), payload.end()}};
+}
 
 /// Meaning of a payload word, as "window pixel (i,j): weight" or "C_R".
 std::string word_name(const cmodel::Config& config, const TapCopy& record, std::size_t word) {
@@ -75,8 +90,49 @@ void Scoreboard::Side::on_tap(const cmodel::TapRecord& record) {
   is_model ? board->expect(record) : board->check(record);
 }
 
+void TapQueue::push(const cmodel::TapRecord& record) {
+  const std::size_t at = data_.size(), words = record.payload.size();
+  data_.resize(at + kHeaderWords + words);
+  const Header header{.tile = record.tile,
+                      .sheet = record.sheet,
+                      .tag = record.tag,
+                      .x = record.x,
+                      .y = record.y,
+                      .words = static_cast<std::uint32_t>(words)};
+  std::memcpy(&data_[at], &header, sizeof header);
+  if (words > 0) std::memcpy(&data_[at + kHeaderWords], record.payload.data(), words * sizeof(std::uint32_t));
+}
+
+TapQueue::Header TapQueue::front() const {
+  Header header;
+  std::memcpy(&header, &data_[head_], sizeof header);
+  return header;
+}
+
+std::span<const std::uint32_t> TapQueue::payload() const {
+  return {data_.data() + head_ + kHeaderWords, front().words};
+}
+
+void TapQueue::pop() {
+  head_ += kHeaderWords + front().words;
+  if (head_ == data_.size()) {
+    data_.clear();
+    head_ = 0;
+  } else if (head_ > kCompactWords && head_ > data_.size() / 2) {
+    // What is moved is less than what was popped since the last move: constant time per record.
+    data_.erase(data_.begin(), data_.begin() + static_cast<std::ptrdiff_t>(head_));
+    head_ = 0;
+  }
+}
+
 void Scoreboard::expect(const cmodel::TapRecord& record) {
-  expected_[static_cast<std::size_t>(record.tap)].push_back(copy(record));
+  expected_[static_cast<std::size_t>(record.tap)].push(record);
+}
+
+std::size_t Scoreboard::backlog() const {
+  std::size_t words = 0;
+  for (const auto& queue : expected_) words += queue.words();
+  return words;
 }
 
 void Scoreboard::mismatch(Divergence divergence) {
@@ -90,25 +146,34 @@ void Scoreboard::check(const cmodel::TapRecord& record) {
     mismatch({.model = std::nullopt, .rtl = copy(record), .word = 0, .header = false});
     return;
   }
-  const TapCopy& model = queue.front();
+  const auto header = queue.front();
+  const auto payload = queue.payload();
   ++comparisons_;
   ++by_tap_[static_cast<std::size_t>(record.tap)];
-  const bool same_header = model.tile == record.tile && model.sheet == record.sheet && model.tag == record.tag &&
-                           model.x == record.x && model.y == record.y && model.payload.size() == record.payload.size();
-  if (!same_header) {
-    mismatch({.model = model, .rtl = copy(record), .word = 0, .header = true});
-  } else if (!std::equal(model.payload.begin(), model.payload.end(), record.payload.begin())) {
+  const bool same_header = header.tile == record.tile && header.sheet == record.sheet && header.tag == record.tag &&
+                           header.x == record.x && header.y == record.y && payload.size() == record.payload.size();
+  const bool same = same_header && std::memcmp(payload.data(), record.payload.data(), payload.size_bytes()) == 0;
+  if (!same && first_) {
+    ++mismatches_;
+  } else if (!same) {
     const auto at =
-        std::mismatch(model.payload.begin(), model.payload.end(), record.payload.begin()).first - model.payload.begin();
-    mismatch({.model = model, .rtl = copy(record), .word = static_cast<std::size_t>(at), .header = false});
+        same_header ? std::mismatch(payload.begin(), payload.end(), record.payload.begin()).first : payload.begin();
+    mismatch({.model = owned(record.tap, header, payload),
+              .rtl = copy(record),
+              .word = static_cast<std::size_t>(at - payload.begin()),
+              .header = !same_header});
   }
-  queue.pop_front();
+  queue.pop();
 }
 
 void Scoreboard::finish() {
-  for (auto& queue : expected_) {
-    for (auto& record : queue) mismatch({.model = std::move(record), .rtl = std::nullopt, .word = 0, .header = false});
-    queue.clear();
+  for (std::size_t tap = 0; tap < expected_.size(); ++tap) {
+    for (auto& queue = expected_[tap]; !queue.empty(); queue.pop()) {
+      mismatch({.model = owned(static_cast<cmodel::Tap>(tap), queue.front(), queue.payload()),
+                .rtl = std::nullopt,
+                .word = 0,
+                .header = false});
+    }
   }
 }
 

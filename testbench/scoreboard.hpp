@@ -4,8 +4,8 @@
 
 #include <array>
 #include <cstdint>
-#include <deque>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,6 +34,26 @@ struct Divergence {
 /// In the domain's words: stage, tile, sheet, splat, pixel, both values, their bit difference.
 std::string describe(const cmodel::Config& config, const Divergence& divergence);
 
+/// Records in order, headers and payloads in one flat array: no allocation per record.
+class TapQueue {
+ public:
+  struct Header {
+    std::uint32_t tile, sheet, tag;
+    std::int32_t x, y;
+    std::uint32_t words;
+  };
+  void push(const cmodel::TapRecord& record);
+  bool empty() const { return head_ == data_.size(); }
+  Header front() const;
+  std::span<const std::uint32_t> payload() const;  ///< of the front
+  void pop();
+  std::size_t words() const { return data_.size() - head_; }
+
+ private:
+  std::vector<std::uint32_t> data_;
+  std::size_t head_ = 0;
+};
+
 class Scoreboard {
  public:
   cmodel::TapSink& model() { return model_side_; }
@@ -45,6 +65,8 @@ class Scoreboard {
   std::uint64_t mismatches() const { return mismatches_; }
   const std::array<std::uint64_t, cmodel::kTapCount>& by_tap() const { return by_tap_; }
   const std::optional<Divergence>& first() const { return first_; }
+  /// Words of records that the model made and the RTL has not: bounded by the device's depth while it works.
+  std::size_t backlog() const;
 
  private:
   struct Side final : cmodel::TapSink {
@@ -58,7 +80,7 @@ class Scoreboard {
   void mismatch(Divergence divergence);
 
   Side model_side_{this, true}, rtl_side_{this, false};
-  std::array<std::deque<TapCopy>, cmodel::kTapCount> expected_;
+  std::array<TapQueue, cmodel::kTapCount> expected_;
   std::uint64_t comparisons_ = 0, mismatches_ = 0;
   std::array<std::uint64_t, cmodel::kTapCount> by_tap_{};
   std::optional<Divergence> first_;

@@ -1,0 +1,39 @@
+// A stream as a tree of tables, tiles, sheets and splats, to generate, cut and put together again. Whatever is written
+// is a legal whole stream: tile numbers, tags, counts, beats and checksum are made when it is written.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "cmodel/config.hpp"
+#include "cmodel/records.hpp"
+
+namespace fastsplat::testbench {
+
+struct SheetDocument {
+  std::uint32_t number = 0;
+  std::vector<std::variant<cmodel::SplatRecord, cmodel::CullBlock>> records;
+};
+
+struct TileDocument {
+  cmodel::BeginTile begin;
+  std::vector<SheetDocument> sheets;
+};
+
+struct StreamDocument {
+  int width = 0, height = 0;  ///< image
+  std::vector<cmodel::LoadTable> tables;
+  std::vector<TileDocument> tiles;
+
+  std::uint64_t splats() const;
+};
+
+/// Reads any legal subset of a stream. Throws UserError (Input) for an illegal one.
+StreamDocument read_document(const cmodel::Config& config, std::span<const cmodel::Beat> beats);
+
+/// The whole stream, begin_frame to end_frame.
+std::vector<cmodel::Beat> write_document(const cmodel::Config& config, const StreamDocument& document);
+
+}  // namespace fastsplat::testbench

@@ -1,0 +1,128 @@
+#include "testbench/verify.hpp"
+
+#include <algorithm>
+
+namespace fastsplat::testbench {
+namespace {
+
+struct NoPixels final : cmodel::PixelSink {
+  void on_tile(cmodel::TilePixels&&) override {}
+};
+
+std::unique_ptr<RtlDevice> make_device(const VerifyOptions& options, cmodel::PixelSink& pixels, cmodel::TapSink& taps) {
+  RtlOptions rtl = rtl_options(options);
+  rtl.taps = &taps;
+  return options.device ? options.device(pixels, rtl) : make_rtl_device(options.config, pixels, rtl);
+}
+
+/// Feeds the first beats, then resets in the middle of whatever they started.
+void interrupt(CheckedDevice& checked, RtlDevice& rtl, const BeatSource& source, std::uint64_t after) {
+  checked.unchecked([&](cmodel::Device& device) {
+    std::uint64_t left = after;
+    source([&](std::span<const cmodel::Beat> beats) {
+      const auto take = std::min<std::uint64_t>(left, beats.size());
+      device.consume(beats.first(static_cast<std::size_t>(take)));
+      left -= take;
+    });
+    rtl.warm_reset();
+  });
+}
+
+}  // namespace
+
+BeatSource source_of(std::vector<cmodel::Beat> beats) {
+  return [beats = std::make_shared<const std::vector<cmodel::Beat>>(std::move(beats))](const BeatSink& sink) {
+    sink(*beats);
+  };
+}
+
+RtlOptions rtl_options(const VerifyOptions& options) {
+  return {.input = Pattern(options.input, 2 * options.seed),
+          .output = Pattern(options.ready, 2 * options.seed + 1),
+          .fill = options.fill,
+          .seed = options.seed,
+          .timeout = options.timeout,
+          .taps = nullptr,
+          .wave = options.wave,
+          .wave_from = options.wave_from,
+          .wave_to = options.wave_to};
+}
+
+VerifyResult verify(const BeatSource& source, const VerifyOptions& options, cmodel::PixelSink* pixels) {
+  NoPixels none;
+  RtlDevice* rtl = nullptr;
+  CheckedDevice checked(
+      options.config, options.scope, pixels == nullptr ? none : *pixels,
+      [&](cmodel::PixelSink& tiles, cmodel::TapSink& taps) -> std::unique_ptr<cmodel::Device> {
+        auto device = make_device(options, tiles, taps);
+        rtl = device.get();
+        return device;
+      },
+      options.stop_after);
+  VerifyResult out;
+  try {
+    if (options.reset_after > 0) interrupt(checked, *rtl, source, options.reset_after);
+    source([&](std::span<const cmodel::Beat> beats) { checked.consume(beats); });
+    checked.finish();
+  } catch (const UserError& error) {
+    if (error.code() != ExitCode::Simulation) throw;
+    out.error = error.what();
+  }
+  out.check = checked.report();
+  out.counters = checked.counters();
+  out.cycles_rtl = rtl->cycles();
+  if (out.check.mismatches > 0) {
+    out.verdict = Verdict::Mismatch;
+  } else if (!out.error.empty()) {
+    out.verdict = Verdict::Simulation;
+  } else {
+    const auto& taps = out.check.by_tap;
+    const bool compared = std::any_of(taps.begin(), taps.end(), [](std::uint64_t count) { return count > 0; });
+    out.verdict = compared ? Verdict::Pass : Verdict::NothingCompared;
+  }
+  return out;
+}
+
+const char* to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Pass:
+      return "pass";
+    case Verdict::Mismatch:
+      return "mismatch";
+    case Verdict::NothingCompared:
+      return "nothing compared";
+    case Verdict::Simulation:
+      return "simulation";
+  }
+  return "?";
+}
+
+ExitCode exit_code(Verdict verdict) {
+  if (verdict == Verdict::Pass) return ExitCode::Pass;
+  return verdict == Verdict::Simulation ? ExitCode::Simulation : ExitCode::Failed;
+}
+
+ResetFill reset_fill_from(const std::string& name) {
+  for (const ResetFill fill : {ResetFill::Zero, ResetFill::One, ResetFill::Random}) {
+    if (name == to_string(fill)) return fill;
+  }
+  throw_usage({.where = "--fill",
+               .what = "unknown reset fill '" + name + "'",
+               .expected = "zero, one or random",
+               .got = {},
+               .fix = {}});
+}
+
+const char* to_string(ResetFill fill) {
+  switch (fill) {
+    case ResetFill::Zero:
+      return "zero";
+    case ResetFill::One:
+      return "one";
+    case ResetFill::Random:
+      return "random";
+  }
+  return "?";
+}
+
+}  // namespace fastsplat::testbench

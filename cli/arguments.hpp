@@ -1,6 +1,7 @@
 // What the user asked for, as plain data: parse.cpp fills one of these, one file per verb carries it out.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -33,6 +34,20 @@ struct RenderArguments {
   std::vector<std::string> out;
   std::string raw;         ///< raw device words as EXR; empty for none
   std::string save_scene;  ///< where to write the scene as TOML; empty for none
+  bool check = false;      ///< rtl: compares every tap with the model
+};
+
+struct VerifyArguments {
+  Common common;
+  SceneFlags scene;
+  std::string stream;            ///< a .fss file; empty for none
+  std::optional<int> random;     ///< splats per seed
+  std::uint64_t seed = 1;        ///< of the first run
+  int seeds = 1;                 ///< seed, seed+1, ...
+  std::string stimulus = "all";  ///< stimulus class
+  std::string config = "base", ready = "always", input = "always", fill = "random";
+  std::optional<int> reset_after;          ///< beats before a warm reset
+  std::string failure = "verify-failure";  ///< where a failure's stream and waveform go, without ending
 };
 
 struct CompareArguments {
@@ -108,7 +123,7 @@ struct TextArguments {
 using Command =
     std::variant<TextArguments, RenderArguments, CompareArguments, VolumeInfoArguments, VolumeConvertArguments,
                  StreamRecordArguments, StreamDumpArguments, StreamReplayArguments, CyclesArguments,
-                 ConfigListArguments, ConfigShowArguments, ConfigCheckArguments, DoctorArguments>;
+                 ConfigListArguments, ConfigShowArguments, ConfigCheckArguments, DoctorArguments, VerifyArguments>;
 
 /// The command line as one Command. Whatever makes no sense is a UserError (Usage) with the fix.
 Command parse(int argc, const char* const* argv);

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <span>
 
@@ -111,7 +112,7 @@ void add_outputs(CLI::App& verb, std::vector<std::string>& out, std::string& raw
       ->allow_extra_args(false)
       ->type_name("FILE")
       ->group("Output");
-  verb.add_option("--raw", raw, "the device's raw integer words as .exr (cmodel only)")
+  verb.add_option("--raw", raw, "the device's raw integer words as .exr (cmodel, rtl)")
       ->type_name("FILE")
       ->group("Output");
 }
@@ -139,6 +140,7 @@ struct CommandLine {
   ConfigShowArguments config_show;
   ConfigCheckArguments config_check;
   DoctorArguments doctor;
+  VerifyArguments verify;
   std::map<const CLI::App*, Command (*)(const CommandLine&)> leaf;
 
   CommandLine() {
@@ -151,6 +153,7 @@ struct CommandLine {
     declare_stream();
     declare_cycles();
     declare_config();
+    declare_verify();
     CLI::App* verb = app.add_subcommand("doctor", "versions, processors, scans; what is missing and how to get it");
     add_common(*verb, doctor.common);
     leaf[verb] = [](const CommandLine& all) -> Command { return all.doctor; };
@@ -160,15 +163,19 @@ struct CommandLine {
   void declare_render() {
     CLI::App* verb = app.add_subcommand("render", "volume + transfer function + camera to an image");
     add_scene(*verb, render.scene);
-    verb->add_option("--engine", render.engine, "golden (floating point) or cmodel (the integer device)")
-        ->type_name("golden|cmodel")
+    verb->add_option("--engine", render.engine,
+                     "golden (floating point), cmodel (the integer device) or rtl (its Verilated RTL)")
+        ->type_name("golden|cmodel|rtl")
         ->group("Engine");
-    verb->add_option("--config", render.config, "cmodel: hardware configuration, a name or a TOML file (default base)")
+    verb->add_option("--config", render.config,
+                     "cmodel, rtl: hardware configuration, a name or a TOML file (default base)")
         ->type_name("NAME|FILE")
         ->group("Engine");
-    verb->add_option("--index", render.index, "cmodel: index generator (rlut)")
+    verb->add_option("--index", render.index, "cmodel, rtl: index generator (rlut)")
         ->check(one_of({"rlut"}))
         ->type_name("NAME")
+        ->group("Engine");
+    verb->add_flag("--check", render.check, "rtl: compares every tap, pixel and counter with the model (exit 1)")
         ->group("Engine");
     add_outputs(*verb, render.out, render.raw);
     verb->add_option("--save-scene", render.save_scene, "writes the scene, flags applied, as TOML")
@@ -177,6 +184,52 @@ struct CommandLine {
     add_common(*verb, render.common);
     verb->footer("Example: fastsplat render --volume shells:64 --size 256 --engine cmodel --config base -o shells.png");
     leaf[verb] = [](const CommandLine& all) -> Command { return all.render; };
+  }
+
+  void declare_verify() {
+    CLI::App* verb = app.add_subcommand("verify", "the RTL beside the model: every tap, pixel and counter compared");
+    verb->add_option("--stream", verify.stream, "a recorded stream, .fss")->type_name("FILE")->group("Stimulus");
+    verb->add_option("--random", verify.random, "random streams of about N splats per seed")
+        ->check(integer(1, 1'000'000'000))
+        ->type_name("N")
+        ->group("Stimulus");
+    verb->add_option("--class", verify.stimulus, "random: stimulus class (all; an unknown one lists them)")
+        ->type_name("NAME")
+        ->group("Stimulus");
+    verb->add_option("--seed", verify.seed, "of random streams, patterns and reset fill")
+        ->check(integer(0, std::numeric_limits<long>::max()))
+        ->type_name("S")
+        ->group("Stimulus");
+    verb->add_option("--seeds", verify.seeds, "random: runs with seeds S, S+1, ...")
+        ->check(integer(1, 1'000'000))
+        ->type_name("N")
+        ->group("Stimulus");
+    verb->add_option("--config", verify.config, "hardware configuration with RTL")
+        ->type_name("NAME|FILE")
+        ->group("Device");
+    verb->add_option(
+            "--ready", verify.ready,
+            "when pixels are taken: always, every-N, never-N, random-PERCENT, burst-N; random: all takes turns")
+        ->type_name("PATTERN")
+        ->group("Device");
+    verb->add_option("--input", verify.input, "when beats are offered, a pattern as above")
+        ->type_name("PATTERN")
+        ->group("Device");
+    verb->add_option("--fill", verify.fill, "what registers and memories hold before reset")
+        ->check(one_of({"zero", "one", "random"}))
+        ->type_name("zero|one|random")
+        ->group("Device");
+    verb->add_option("--reset-after", verify.reset_after, "warm reset after N beats, then the whole stream")
+        ->check(integer(1, 2'000'000'000))
+        ->type_name("N")
+        ->group("Device");
+    verb->add_option("--failure", verify.failure, "a failure's small stream and waveform: PREFIX.fss and PREFIX.fst")
+        ->type_name("PREFIX")
+        ->group("Output");
+    add_scene(*verb, verify.scene);
+    add_common(*verb, verify.common);
+    verb->footer("Example: fastsplat verify --random 1000 --seed 7 --config tiny --ready random-50");
+    leaf[verb] = [](const CommandLine& all) -> Command { return all.verify; };
   }
 
   void declare_compare() {

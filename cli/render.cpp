@@ -13,6 +13,7 @@
 #include "cli/image_output.hpp"
 #include "cli/output.hpp"
 #include "cli/progress_bar.hpp"
+#include "cli/rtl_run.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/verbs.hpp"
 #include "driver/config_file.hpp"
@@ -24,19 +25,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-enum class Engine { Golden, CModel };
+enum class Engine { Golden, CModel, Rtl };
 
 Engine engine_from(const std::string& name) {
   if (name == "golden") return Engine::Golden;
   if (name == "cmodel") return Engine::CModel;
-  if (name == "rtl") {
-    throw_usage({.where = "--engine rtl",
-                 .what = "the SystemVerilog device is not in this build",
-                 .expected = {},
-                 .got = {},
-                 .fix = "use --engine cmodel: it is the device's bit-accurate model"});
-  }
-  const std::vector<std::string> known{"golden", "cmodel"};
+  if (name == "rtl") return Engine::Rtl;
+  const std::vector<std::string> known{"golden", "cmodel", "rtl"};
   throw_usage({.where = "--engine",
                .what = "unknown engine '" + name + "'",
                .expected = {},
@@ -66,6 +61,13 @@ void check(const RenderArguments& arguments, Engine engine) {
                  .expected = {},
                  .got = {},
                  .fix = "add --engine cmodel, or use --out FILE.exr"});
+  }
+  if (engine != Engine::Rtl && arguments.check) {
+    throw_usage({.where = "--check",
+                 .what = "there is nothing to check the " + arguments.engine + " engine against here",
+                 .expected = {},
+                 .got = {},
+                 .fix = "add --engine rtl; `fastsplat compare` compares two images"});
   }
   check_outputs({.images = arguments.out,
                  .maps = {},
@@ -131,7 +133,8 @@ ExitCode run(const RenderArguments& arguments) {
   check(arguments, engine);
 
   std::optional<cmodel::Config> config;
-  if (engine == Engine::CModel) config = driver::load_config(arguments.config.value_or("base"));
+  if (engine != Engine::Golden) config = driver::load_config(arguments.config.value_or("base"));
+  if (engine == Engine::Rtl) check_has_rtl(*config);
   const scene::Scene scene = build(arguments.scene);
 
   Json json{{"verb", "render"},
@@ -142,6 +145,7 @@ ExitCode run(const RenderArguments& arguments) {
   if (config) hardware = {config->name, cmodel::config_hash(*config)};
   auto metadata = analysis::render_metadata(arguments.engine, scene.description, hardware);
   metadata["volume"] = scene.volume->source;
+  std::optional<RtlRun> checked;
   if (engine == Engine::Golden) {
     const Image image = render_golden(arguments, scene, output, json);
     warn_if_empty(image, output);
@@ -149,11 +153,15 @@ ExitCode run(const RenderArguments& arguments) {
   } else {
     driver::DeviceRender result;
     {
-      ProgressBar bar("cmodel", arguments.common.quiet ? Watching::Never : Watching::IfTerminal);
-      result = driver::render(scene, *config, {.threads = arguments.common.threads, .progress = bar.callback()});
+      ProgressBar bar(arguments.engine, arguments.common.quiet ? Watching::Never : Watching::IfTerminal);
+      const driver::RenderOptions options{.threads = arguments.common.threads, .progress = bar.callback()};
+      result = engine == Engine::Rtl
+                   ? render_rtl(scene, *config, options, arguments.check ? Checking::EveryTap : Checking::Off, checked)
+                   : driver::render(scene, *config, options);
     }
     output.line(summary(scene));
     report_device(result, *config, output, json);
+    if (checked) report_rtl(*checked, output, json);
     write_device_images(result, arguments.out, arguments.raw, metadata, output);
   }
   if (!arguments.save_scene.empty()) write_text_file(arguments.save_scene, scene::to_toml(scene.description));
@@ -163,7 +171,7 @@ ExitCode run(const RenderArguments& arguments) {
   json["seconds"] = output.seconds();
   output.json(json.dump(2));
   output.note_time("rendered");
-  return ExitCode::Pass;
+  return checked ? checked->exit_code() : ExitCode::Pass;
 }
 
 }  // namespace fastsplat::cli

@@ -19,5 +19,6 @@ ExitCode run(const ConfigListArguments& arguments);
 ExitCode run(const ConfigShowArguments& arguments);
 ExitCode run(const ConfigCheckArguments& arguments);
 ExitCode run(const DoctorArguments& arguments);
+ExitCode run(const VerifyArguments& arguments);
 
 }  // namespace fastsplat::cli

@@ -53,6 +53,9 @@ class Writer {
     std::vector<Beat> end;
     cmodel::append(end, cmodel::EndFrame{beats_, crc_.value()});
     write(end);
+    commit();
+  }
+  void commit() {
     out_.close();
     if (!out_) cannot_write(path_);
     file_.commit();
@@ -212,6 +215,27 @@ DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Conf
 void feed_stream(const std::filesystem::path& path, cmodel::Device& device, const RenderOptions& options) {
   Reader reader(path);
   feed(reader, path, device, options, [](const Beat&) {});
+}
+
+void read_beats(const std::filesystem::path& path, const std::function<void(std::span<const Beat>)>& sink) {
+  Reader reader(path);
+  constexpr std::size_t kBlock = 4096;
+  std::vector<Beat> block;
+  reader.each([&](const Beat& beat) {
+    block.push_back(beat);
+    if (block.size() == kBlock) {
+      sink(block);
+      block.clear();
+    }
+    return true;
+  });
+  if (!block.empty()) sink(block);
+}
+
+void write_beats(const std::filesystem::path& path, std::span<const Beat> beats) {
+  Writer writer(path);
+  writer.write(beats);
+  writer.commit();
 }
 
 void dump_stream(const std::filesystem::path& path, const std::function<bool(const std::string&)>& line) {

@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 
 #include "cmodel/device.hpp"
+#include "cmodel/beat.hpp"
 #include "driver/render.hpp"
 
 namespace fastsplat::driver {
@@ -21,6 +23,12 @@ DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Conf
 
 /// The same to any device that checks its stream, whatever it does with it; finishes the device.
 void feed_stream(const std::filesystem::path& path, cmodel::Device& device, const RenderOptions& options = {});
+
+/// The file's beats in order, some thousands at a time, contents unchecked.
+void read_beats(const std::filesystem::path& path, const std::function<void(std::span<const cmodel::Beat>)>& sink);
+
+/// Writes beats as they are; atomic.
+void write_beats(const std::filesystem::path& path, std::span<const cmodel::Beat> beats);
 
 /// One line of text per record, to `line`; stops when it returns false.
 void dump_stream(const std::filesystem::path& path, const std::function<bool(const std::string&)>& line);

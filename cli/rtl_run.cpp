@@ -1,0 +1,86 @@
+#include "cli/rtl_run.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "driver/run_device.hpp"
+
+namespace fastsplat::cli {
+
+ExitCode RtlRun::exit_code() const {
+  if (!check) return ExitCode::Pass;
+  return check->mismatches == 0 && check->comparisons > 0 ? ExitCode::Pass : ExitCode::Failed;
+}
+
+void check_has_rtl(const cmodel::Config& config) {
+  std::string known;
+  for (const auto& name : testbench::rtl_config_names()) {
+    if (name == config.name) return;
+    known += (known.empty() ? "" : ", ") + name;
+  }
+  throw_usage({.where = "--config",
+               .what = "configuration " + config.name + " has no RTL in this build",
+               .expected = "one of " + known,
+               .got = config.name,
+               .fix = "use --engine cmodel: it is the device's bit-accurate model"});
+}
+
+driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config& config,
+                                const driver::RenderOptions& options, Checking checking, std::optional<RtlRun>& run) {
+  testbench::RtlDevice* rtl = nullptr;
+  const testbench::CheckedDevice::Factory make = [&](cmodel::PixelSink& pixels, cmodel::TapSink& taps) {
+    testbench::RtlOptions with_taps;
+    with_taps.taps = &taps;
+    auto device = testbench::make_rtl_device(config, pixels, with_taps);
+    rtl = device.get();
+    return device;
+  };
+  const auto device = [&](cmodel::PixelSink& pixels) -> std::unique_ptr<cmodel::Device> {
+    if (checking == Checking::EveryTap)
+      return std::make_unique<testbench::CheckedDevice>(config, cmodel::StreamScope::Subset, pixels, make);
+    auto plain = testbench::make_rtl_device(config, pixels);
+    rtl = plain.get();
+    return plain;
+  };
+  run.emplace();
+  return driver::run_device(scene, config, device, options, [&](cmodel::Device& finished) {
+    run->cycles = rtl->cycles();
+    run->stalls = rtl->cycle_counters();
+    if (checking == Checking::Off) return;
+    run->check = dynamic_cast<const testbench::CheckedDevice&>(finished).report();
+    if (run->check->first) {
+      run->difference = testbench::describe(config, *run->check->first);
+    } else if (!run->check->differences.empty()) {
+      run->difference = run->check->differences.front();
+    }
+  });
+}
+
+nlohmann::ordered_json by_tap_json(const testbench::CheckReport& check) {
+  nlohmann::ordered_json json;
+  for (int tap = 0; tap < cmodel::kTapCount; ++tap)
+    json[cmodel::to_string(static_cast<cmodel::Tap>(tap))] = check.by_tap[static_cast<std::size_t>(tap)];
+  return json;
+}
+
+void report_rtl(const RtlRun& run, const Output& output, nlohmann::ordered_json& json) {
+  output.line(fmt::format("rtl: {} cycles", grouped(run.cycles)));
+  json["cycles_rtl"] = run.cycles;
+  json["cycles"] = {{"busy", run.stalls.busy},
+                    {"stall_input", run.stalls.stall_input},
+                    {"stall_table", run.stalls.stall_table},
+                    {"stall_buffer", run.stalls.stall_buffer},
+                    {"stall_tile", run.stalls.stall_tile}};
+  if (!run.check) return;
+  output.line(fmt::format("check: {} comparisons, {} mismatches", grouped(run.check->comparisons),
+                          grouped(run.check->mismatches)));
+  json["check"] = {{"comparisons", run.check->comparisons},
+                   {"mismatches", run.check->mismatches},
+                   {"by_tap", by_tap_json(*run.check)}};
+  if (run.difference.empty()) return;
+  output.line(run.difference);
+  json["check"]["first"] = run.difference;
+}
+
+}  // namespace fastsplat::cli

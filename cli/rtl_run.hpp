@@ -1,0 +1,38 @@
+// What `render --engine rtl` and `verify` share: a scene through the Verilated device, and its result in words.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "base/error.hpp"
+#include "cli/output.hpp"
+#include "driver/render.hpp"
+#include "testbench/verify.hpp"
+
+namespace fastsplat::cli {
+
+enum class Checking { Off, EveryTap };
+
+/// A frame of the RTL: its cycles and, if checked, the checker's report.
+struct RtlRun {
+  std::uint64_t cycles = 0;
+  testbench::RtlCycles stalls;
+  std::optional<testbench::CheckReport> check;
+  std::string difference;  ///< first one, in words
+
+  ExitCode exit_code() const;
+};
+
+/// Throws UserError (Usage) for a configuration without RTL in this build, before anything is read.
+void check_has_rtl(const cmodel::Config& config);
+
+driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config& config,
+                                const driver::RenderOptions& options, Checking checking, std::optional<RtlRun>& run);
+
+void report_rtl(const RtlRun& run, const Output& output, nlohmann::ordered_json& json);
+
+/// {"snap": n, ...}
+nlohmann::ordered_json by_tap_json(const testbench::CheckReport& check);
+
+}  // namespace fastsplat::cli

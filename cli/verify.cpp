@@ -1,0 +1,210 @@
+// fastsplat verify: a scene, a recorded stream or random streams through the RTL, beside the model.
+#include "testbench/verify.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/provenance.hpp"
+#include "cli/image_output.hpp"
+#include "cli/output.hpp"
+#include "cli/progress_bar.hpp"
+#include "cli/rtl_run.hpp"
+#include "cli/scene_flags.hpp"
+#include "cli/verbs.hpp"
+#include "driver/compile.hpp"
+#include "driver/config_file.hpp"
+#include "driver/stream_file.hpp"
+#include "testbench/campaign.hpp"
+#include "testbench/failure.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kShrinkRuns = 400;
+
+enum class Source { Scene, Stream, Random };
+
+Source source_from(const VerifyArguments& arguments) {
+  const auto& scene = arguments.scene;
+  const bool has_scene = scene.file || scene.volume;
+  const int given = (has_scene ? 1 : 0) + (arguments.stream.empty() ? 0 : 1) + (arguments.random ? 1 : 0);
+  if (given != 1) {
+    throw_usage({.where = {},
+                 .what = given == 0 ? "verify what?" : "more than one thing to verify",
+                 .expected = "one of --random N, --stream FILE, --volume NAME or --scene FILE",
+                 .got = {},
+                 .fix = "for example --random 1000"});
+  }
+  if (!arguments.random && (arguments.seeds != 1 || arguments.stimulus != "all" || arguments.ready == "all")) {
+    throw_usage({.where = {},
+                 .what = "--seeds, --class and --ready all belong to --random",
+                 .expected = {},
+                 .got = {},
+                 .fix = "add --random N, or leave them out"});
+  }
+  return has_scene ? Source::Scene : arguments.random ? Source::Random : Source::Stream;
+}
+
+testbench::VerifyOptions options_from(const VerifyArguments& arguments, const cmodel::Config& config) {
+  testbench::VerifyOptions options{.config = config,
+                                   .ready = arguments.ready,
+                                   .input = arguments.input,
+                                   .fill = testbench::reset_fill_from(arguments.fill),
+                                   .seed = arguments.seed,
+                                   .reset_after = static_cast<std::uint64_t>(arguments.reset_after.value_or(0)),
+                                   .wave = {},
+                                   .device = {}};
+  if (options.ready != "all") testbench::Pattern(options.ready, 0);  // an unknown pattern is told before any work
+  testbench::Pattern(options.input, 0);
+  return options;
+}
+
+/// A result with what it takes to look into a failure.
+struct Checked {
+  testbench::VerifyResult result;
+  std::uint64_t streams = 1;
+  testbench::VerifyResult failed;
+  testbench::BeatSource source;  ///< of the failed stream
+  testbench::VerifyOptions options;
+};
+
+Checked verify_one(testbench::BeatSource source, const testbench::VerifyOptions& options) {
+  Checked out;
+  out.result = out.failed = testbench::verify(source, options);
+  out.source = std::move(source);
+  out.options = options;
+  return out;
+}
+
+Checked verify_random(const VerifyArguments& arguments, const testbench::VerifyOptions& options,
+                      const Progress& progress) {
+  testbench::CampaignOptions campaign{.verify = options,
+                                      .splats = static_cast<std::uint64_t>(*arguments.random),
+                                      .seeds = static_cast<std::uint64_t>(arguments.seeds),
+                                      .threads = arguments.common.threads,
+                                      .progress = progress};
+  if (arguments.stimulus != "all") campaign.classes = {testbench::stimulus_class_from(arguments.stimulus)};
+  const auto result = testbench::run_campaign(campaign);
+  Checked out;
+  out.result = result.total;
+  out.streams = result.streams;
+  if (result.failed) {
+    auto run = testbench::make_run(campaign, *result.failed);
+    out.failed = *result.failure;
+    out.source = testbench::source_of(std::move(run.beats));
+    out.options = run.options;
+  }
+  return out;
+}
+
+Checked verify_scene(const VerifyArguments& arguments, testbench::VerifyOptions options, const Progress& progress) {
+  options.scope = cmodel::StreamScope::Subset;
+  const auto scene = build(arguments.scene);
+  const auto compiled = std::make_shared<const driver::CompiledFrame>(scene, options.config);
+  const testbench::BeatSource source = [compiled, progress](const testbench::BeatSink& sink) {
+    sink(compiled->preamble());
+    const int tiles = compiled->grid().count();
+    for (int tile = 0; tile < tiles; ++tile) {
+      compiled->emit_tile(tile, sink);
+      if (progress) progress(static_cast<std::size_t>(tile) + 1, static_cast<std::size_t>(tiles));
+    }
+  };
+  return verify_one(source, options);
+}
+
+void report_failure(const Checked& checked, const VerifyArguments& arguments, const Output& output, Json& json) {
+  const std::string stream = arguments.failure + ".fss", waveform = arguments.failure + ".fst";
+  const auto report = testbench::investigate(checked.source, checked.options, checked.failed, waveform, kShrinkRuns);
+  driver::write_beats(stream, testbench::write_document(checked.options.config, report.document));
+  const std::string replay = testbench::replay_line(stream, arguments.config, report.options);
+  output.line("first divergence: " + report.original);
+  output.line(fmt::format("shrunk from {} to {} splats in {} runs{}", grouped(report.shrink.splats_before),
+                          grouped(report.shrink.splats_after), report.shrink.runs,
+                          report.shrink.finished ? "" : " (there may be a smaller one)"));
+  output.line("smallest stream: " + report.divergence);
+  if (!report.operands.empty()) output.line("  " + report.operands);
+  output.line(fmt::format("waveform: {} (cycles {} to {})", waveform, report.wave_from, report.wave_to));
+  output.line("replay: " + replay);
+  json["failure"] = {{"first", report.original},
+                     {"smallest", report.divergence},
+                     {"operands", report.operands},
+                     {"splats_before", report.shrink.splats_before},
+                     {"splats_after", report.shrink.splats_after},
+                     {"shrink_runs", report.shrink.runs},
+                     {"stream", stream},
+                     {"waveform", waveform},
+                     {"wave_from", report.wave_from},
+                     {"wave_to", report.wave_to},
+                     {"replay", replay}};
+}
+
+}  // namespace
+
+ExitCode run(const VerifyArguments& arguments) {
+  const Output output(arguments.common);
+  const Source source = source_from(arguments);
+  check_outputs({.images = {},
+                 .maps = {},
+                 .raw = {},
+                 .others = {arguments.failure + ".fss", arguments.failure + ".fst", arguments.common.json},
+                 .inputs = {arguments.stream}});
+  const auto config = driver::load_config(arguments.config);
+  check_has_rtl(config);
+  const auto options = options_from(arguments, config);
+  const std::string hash = cmodel::hash_text(cmodel::config_hash(config));
+  const std::string seed = fmt::format("seed {}", arguments.seed);
+  // The seed comes first, so that it is known whatever happens next, and last, where the eye is.
+  arguments.common.json == "-" ? output.note(seed) : output.line(seed);
+
+  Checked checked;
+  {
+    ProgressBar bar("verifying", arguments.common.quiet ? Watching::Never : Watching::IfTerminal);
+    switch (source) {
+      case Source::Scene:
+        checked = verify_scene(arguments, options, bar.callback());
+        break;
+      case Source::Stream:
+        checked =
+            verify_one([&](const testbench::BeatSink& sink) { driver::read_beats(arguments.stream, sink); }, options);
+        break;
+      case Source::Random:
+        checked = verify_random(arguments, options, bar.callback());
+        break;
+    }
+  }
+  const auto& result = checked.result;
+  Json json{{"verb", "verify"},
+            {"version", analysis::program_version()},
+            {"verdict", testbench::to_string(result.verdict)},
+            {"comparisons", result.check.comparisons},
+            {"mismatches", result.check.mismatches},
+            {"streams", checked.streams},
+            {"splats", result.counters.splats},
+            {"windows", result.counters.windows},
+            {"cycles_rtl", result.cycles_rtl},
+            {"seed", arguments.seed},
+            {"seeds", arguments.seeds},
+            {"config", config.name},
+            {"config_hash", hash},
+            {"ready", arguments.ready},
+            {"input", arguments.input},
+            {"fill", arguments.fill},
+            {"by_tap", by_tap_json(result.check)}};
+  output.line(fmt::format("{}: configuration {} {}, {} comparisons, {} mismatches",
+                          testbench::to_string(result.verdict), config.name, hash, grouped(result.check.comparisons),
+                          grouped(result.check.mismatches)));
+  output.line(fmt::format("{} streams, {} splats, {} windows, {} cycles", grouped(checked.streams),
+                          grouped(result.counters.splats), grouped(result.counters.windows),
+                          grouped(result.cycles_rtl)));
+  if (result.verdict == testbench::Verdict::Mismatch || result.verdict == testbench::Verdict::Simulation)
+    report_failure(checked, arguments, output, json);
+  json["seconds"] = output.seconds();
+  output.json(json.dump(2));
+  arguments.common.json == "-" ? output.note(seed) : output.line(seed);
+  return testbench::exit_code(result.verdict);
+}
+
+}  // namespace fastsplat::cli

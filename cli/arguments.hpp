@@ -46,8 +46,8 @@ struct VerifyArguments {
   int seeds = 1;                 ///< seed, seed+1, ...
   std::string stimulus = "all";  ///< stimulus class
   std::string config = "base", ready = "always", input = "always", fill = "random";
-  std::optional<int> reset_after;          ///< beats before a warm reset
-  std::string failure = "verify-failure";  ///< where a failure's stream and waveform go, without ending
+  std::optional<int> reset_after;  ///< beats before a warm reset
+  std::string failure;             ///< where a failure's stream and waveform go, without ending; empty: by source
 };
 
 struct CompareArguments {

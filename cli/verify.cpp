@@ -48,6 +48,13 @@ Source source_from(const VerifyArguments& arguments) {
   return has_scene ? Source::Scene : arguments.random ? Source::Random : Source::Stream;
 }
 
+/// Where a failure's files go, without ending: never onto the stream that is verified.
+std::string failure_prefix(const VerifyArguments& arguments) {
+  if (!arguments.failure.empty()) return arguments.failure;
+  if (arguments.stream.empty()) return "verify-failure";
+  return std::filesystem::path(arguments.stream).replace_extension().string() + "-smaller";
+}
+
 testbench::VerifyOptions options_from(const VerifyArguments& arguments, const cmodel::Config& config) {
   testbench::VerifyOptions options{.config = config,
                                    .ready = arguments.ready,
@@ -116,7 +123,7 @@ Checked verify_scene(const VerifyArguments& arguments, testbench::VerifyOptions 
 }
 
 void report_failure(const Checked& checked, const VerifyArguments& arguments, const Output& output, Json& json) {
-  const std::string stream = arguments.failure + ".fss", waveform = arguments.failure + ".fst";
+  const std::string stream = failure_prefix(arguments) + ".fss", waveform = failure_prefix(arguments) + ".fst";
   const auto report = testbench::investigate(checked.source, checked.options, checked.failed, waveform, kShrinkRuns);
   driver::write_beats(stream, testbench::write_document(checked.options.config, report.document));
   const std::string replay = testbench::replay_line(stream, arguments.config, report.options);
@@ -146,11 +153,12 @@ void report_failure(const Checked& checked, const VerifyArguments& arguments, co
 ExitCode run(const VerifyArguments& arguments) {
   const Output output(arguments.common);
   const Source source = source_from(arguments);
-  check_outputs({.images = {},
-                 .maps = {},
-                 .raw = {},
-                 .others = {arguments.failure + ".fss", arguments.failure + ".fst", arguments.common.json},
-                 .inputs = {arguments.stream}});
+  check_outputs(
+      {.images = {},
+       .maps = {},
+       .raw = {},
+       .others = {failure_prefix(arguments) + ".fss", failure_prefix(arguments) + ".fst", arguments.common.json},
+       .inputs = arguments.stream.empty() ? std::vector<std::string>{} : std::vector{arguments.stream}});
   const auto config = driver::load_config(arguments.config);
   check_has_rtl(config);
   const auto options = options_from(arguments, config);

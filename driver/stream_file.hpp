@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
-#include "cmodel/device.hpp"
 #include "cmodel/beat.hpp"
+#include "cmodel/device.hpp"
 #include "driver/render.hpp"
 
 namespace fastsplat::driver {

@@ -3,7 +3,8 @@
 //
 //   FASTSPLAT_ASSERT(NAME, ALWAYS)            holds in every cycle outside reset
 //   FASTSPLAT_ASSERT_NEXT(NAME, IF, THEN)     when IF holds, THEN holds a cycle later; THEN may use $past and $stable
-//   FASTSPLAT_ASSUME_NEXT(NAME, IF, THEN)     the same as a demand on the outside: asserted in simulation, assumed in proofs
+//   FASTSPLAT_ASSUME(NAME, ALWAYS) and FASTSPLAT_ASSUME_NEXT(NAME, IF, THEN)
+//                                             demands on the outside: asserted in simulation, assumed in proofs
 //   FASTSPLAT_COVER(NAME, SOMETIMES)          must have happened once
 //   FASTSPLAT_INIT(NAME, LEGAL, TEXT, A, B)   parameters: refused at elaboration with TEXT, which formats A and B
 `ifndef FASTSPLAT_ASSERTIONS_SVH
@@ -15,6 +16,7 @@
   NAME: assert property (@(posedge clk_i) disable iff (!rst_ni) (ALWAYS)) else $error(`"NAME`");
 `define FASTSPLAT_ASSERT_NEXT(NAME, IF, THEN) \
   NAME: assert property (@(posedge clk_i) disable iff (!rst_ni) (rst_ni && (IF)) |=> (THEN)) else $error(`"NAME`");
+`define FASTSPLAT_ASSUME(NAME, ALWAYS) `FASTSPLAT_ASSERT(NAME, ALWAYS)
 `define FASTSPLAT_ASSUME_NEXT(NAME, IF, THEN) `FASTSPLAT_ASSERT_NEXT(NAME, IF, THEN)
 `define FASTSPLAT_COVER(NAME, SOMETIMES) \
   NAME: cover property (@(posedge clk_i) disable iff (!rst_ni) (SOMETIMES));
@@ -35,6 +37,8 @@
     NAME``_before_q <= rst_ni && (IF); \
     if (rst_ni && NAME``_before_q) assert (THEN); \
   end
+`define FASTSPLAT_ASSUME(NAME, ALWAYS) \
+  always @(posedge clk_i) if (rst_ni) assume (ALWAYS);
 `define FASTSPLAT_ASSUME_NEXT(NAME, IF, THEN) \
   logic NAME``_before_q; \
   initial NAME``_before_q = 1'b0; \
@@ -47,6 +51,7 @@
 `else
 `define FASTSPLAT_ASSERT(NAME, ALWAYS)
 `define FASTSPLAT_ASSERT_NEXT(NAME, IF, THEN)
+`define FASTSPLAT_ASSUME(NAME, ALWAYS)
 `define FASTSPLAT_ASSUME_NEXT(NAME, IF, THEN)
 `define FASTSPLAT_COVER(NAME, SOMETIMES)
 `endif

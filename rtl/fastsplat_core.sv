@@ -342,6 +342,7 @@ module fastsplat_core (
   logic unused;
   assign unused = &{1'b0, sheet_number, table_index, table_word};
   `FASTSPLAT_ASSERT(no_beat_while_wiping, !(wiping_q && s_tready_o))
+  `FASTSPLAT_ASSERT(pixel_beat_not_empty, !m_tvalid_o || m_tkeep_o[0])
 
   `FASTSPLAT_INIT(lanes, fastsplat_pkg::LANES == 1 << fastsplat_pkg::LANE_LOG2, "LANES is %0d, but 2^LANE_LOG2 is %0d",
                   fastsplat_pkg::LANES, 1 << fastsplat_pkg::LANE_LOG2)

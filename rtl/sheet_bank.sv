@@ -5,6 +5,7 @@
 // Splat side: A (c6: read issued) -> B (c7: base chosen) -> C (c8: sum) -> W (c9: written). A word needed again 1, 2 or 3
 // cycles later is not in the memory yet: distance 1 is forwarded into C, distances 2 (in W) and 3 (just written; the
 // read met the write) into B.
+`include "assertions.svh"
 `include "fault.svh"
 
 module sheet_bank (
@@ -37,6 +38,12 @@ module sheet_bank (
   logic forward_c_q;
   logic [3:0] saturated_w_q;
 
+`ifdef FASTSPLAT_PROOF
+  (* anyconst *) logic any_buffer;
+  (* anyconst *) logic [AB-1:0] any_addr;
+  logic [4*SB-1:0] probe[0:1];
+`endif
+
   // Memories
   logic comp_clear_q, comp_buffer_q;
   logic [AB-1:0] comp_addr_q;
@@ -59,6 +66,11 @@ module sheet_bank (
         .we_i(we),
         .waddr_i(waddr),
         .wdata_i(wdata)
+`ifdef FASTSPLAT_PROOF
+        ,
+        .probe_addr_i(any_addr),
+        .probe_o(probe[m])
+`endif
     );
   end
   assign comp_data_o = comp_buffer_q ? rdata[1] : rdata[0];
@@ -124,4 +136,7 @@ module sheet_bank (
   end
   assign sum_o = sum_w_q;
   assign saturated_o = saturated_w_q;
+`ifdef FASTSPLAT_PROOF
+`include "sheet_bank_proof.svh"
+`endif
 endmodule

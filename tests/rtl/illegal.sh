@@ -1,0 +1,31 @@
+#!/bin/sh
+# illegal.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR: a package whose numbers do not fit stops Verilator and Yosys, with the numbers.
+set -eu
+emit=$1 source=$2 work=$3
+mkdir -p "$work"
+checked=0
+
+# refused NAME=VALUE TEXT: the tiny package with one number changed.
+refused() {
+  name=${1%=*} value=${1#*=} text=$2
+  "$emit" "$source/configs/tiny.toml" | sed "s/localparam int $name = .*;/localparam int $name = $value;/" >"$work/fastsplat_pkg.sv"
+  grep -q "localparam int $name = $value;" "$work/fastsplat_pkg.sv" || { echo "the package has no $name"; exit 1; }
+  if verilator --lint-only --top-module fastsplat_core "-I$source/rtl" "$work/fastsplat_pkg.sv" "$source"/rtl/*.sv >"$work/lint.log" 2>&1; then
+    echo "$1: Verilator accepts it"; exit 1
+  fi
+  grep -q "$text" "$work/lint.log" || { cat "$work/lint.log"; echo "$1: Verilator does not say: $text"; exit 1; }
+  if yosys -l "$work/yosys.log" -p "read_verilog -sv -I$source/rtl $work/fastsplat_pkg.sv $source/rtl/*.sv; hierarchy -check -top fastsplat_core" >/dev/null 2>&1; then
+    echo "$1: Yosys accepts it"; exit 1
+  fi
+  grep -q "$text" "$work/yosys.log" || { tail -5 "$work/yosys.log"; echo "$1: Yosys does not say: $text"; exit 1; }
+  grep -q 'illegal_parameter_' "$work/yosys.log" || { tail -5 "$work/yosys.log"; echo "$1: Yosys stops for another reason"; exit 1; }
+  echo "[figure] $1 refused by both: $text"
+  checked=$((checked + 1))
+}
+
+refused BANKS=5 "BANKS is 5, but LANES squared is 4"
+refused POS_FRAC=2 "POS_FRAC is 2, but phases need 3 fraction bits"
+refused RADIAL_ENTRIES=63 "RADIAL_ENTRIES is 63, but 2^RADIAL_LOG2 is 64"
+refused BLOCKS_Y=17 "BLOCKS is 256, but BLOCKS_X \* BLOCKS_Y is 272"
+refused RLUT_COLUMNS=15 "RLUT_COLUMNS is 15, but must be a multiple of 2"
+[ "$checked" -eq 5 ]

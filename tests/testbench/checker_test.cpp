@@ -1,0 +1,171 @@
+// The checker itself: it passes what is right, and sees, tells, shrinks and replays what is wrong.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "cmodel/stream_decode.hpp"
+#include "driver/config_file.hpp"
+#include "testbench/campaign.hpp"
+#include "testbench/failure.hpp"
+
+namespace fastsplat::testbench {
+namespace {
+
+/// What a broken device does to a record: changes it, or loses it.
+using Damage = std::function<bool(cmodel::TapRecord&, std::vector<std::uint32_t>&)>;
+
+class DamagedTaps final : public cmodel::TapSink {
+ public:
+  DamagedTaps(cmodel::TapSink* to, Damage damage) : to_(to), damage_(std::move(damage)) {}
+  void on_tap(const cmodel::TapRecord& record) override {
+    cmodel::TapRecord changed = record;
+    std::vector<std::uint32_t> payload(record.payload.begin(), record.payload.end());
+    if (!damage_(changed, payload)) return;
+    changed.payload = payload;
+    to_->on_tap(changed);
+  }
+
+ private:
+  cmodel::TapSink* to_;
+  Damage damage_;
+};
+
+VerifyOptions tiny() {
+  VerifyOptions options;
+  options.config = driver::load_config("tiny");
+  options.seed = 5;
+  return options;
+}
+
+VerifyOptions damaged(const Damage& damage) {
+  VerifyOptions options = tiny();
+  options.device = [damage, keep = std::make_shared<std::vector<std::unique_ptr<DamagedTaps>>>()](
+                       cmodel::PixelSink& pixels, const RtlOptions& given) {
+    keep->push_back(std::make_unique<DamagedTaps>(given.taps, damage));
+    RtlOptions rtl = given;
+    rtl.taps = keep->back().get();
+    return make_rtl_device(driver::load_config("tiny"), pixels, rtl);
+  };
+  return options;
+}
+
+BeatSource mixed(std::uint64_t splats) {
+  const auto config = driver::load_config("tiny");
+  return source_of(write_document(config, make_stimulus(config, StimulusClass::Mixed, 3, splats).document));
+}
+
+TEST(Checker, PassesTheRtlAndComparesEveryTap) {
+  const auto result = verify(mixed(200), tiny());
+  EXPECT_EQ(result.verdict, Verdict::Pass);
+  EXPECT_EQ(result.check.mismatches, 0u);
+  for (int tap = 0; tap < cmodel::kTapCount; ++tap)
+    EXPECT_GT(result.check.by_tap[static_cast<std::size_t>(tap)], 0u) << tap;
+  EXPECT_EQ(result.check.by_tap[0], result.counters.splats);
+  std::printf("[figure] comparisons = %llu\n", static_cast<unsigned long long>(result.check.comparisons));
+}
+
+TEST(Checker, SeesOneChangedBitInEachTap) {
+  for (int tap = 0; tap < cmodel::kTapCount; ++tap) {
+    auto left = std::make_shared<int>(5);  // the fifth record of the tap
+    const auto result = verify(mixed(100), damaged([=](cmodel::TapRecord& record, std::vector<std::uint32_t>& payload) {
+                                 if (record.tap == static_cast<cmodel::Tap>(tap) && --*left == 0) payload[1] ^= 1;
+                                 return true;
+                               }));
+    EXPECT_EQ(result.verdict, Verdict::Mismatch);
+    EXPECT_EQ(result.check.mismatches, 1u) << tap;
+    ASSERT_TRUE(result.check.first);
+    EXPECT_EQ(static_cast<int>(result.check.first->model->tap), tap);
+    EXPECT_EQ(result.check.first->word, 1u);
+  }
+}
+
+TEST(Checker, SeesALostEventInEachTap) {
+  for (int tap = 0; tap < cmodel::kTapCount; ++tap) {
+    auto left = std::make_shared<int>(3);
+    const auto result = verify(mixed(100), damaged([=](cmodel::TapRecord& record, std::vector<std::uint32_t>&) {
+                                 return record.tap != static_cast<cmodel::Tap>(tap) || --*left != 0;
+                               }));
+    EXPECT_EQ(result.verdict, Verdict::Mismatch) << tap;
+  }
+}
+
+TEST(Checker, NothingComparedIsNoPass) {
+  StreamDocument empty;
+  const auto config = driver::load_config("tiny");
+  empty.width = empty.height = 1;
+  const auto result = verify(source_of(write_document(config, empty)), tiny());
+  EXPECT_EQ(result.verdict, Verdict::NothingCompared);
+  EXPECT_EQ(exit_code(result.verdict), ExitCode::Failed);
+}
+
+TEST(Failure, IsShrunkExplainedAndReplayed) {
+  // A device whose weights are wrong for one window phase.
+  const auto options = damaged([](cmodel::TapRecord& record, std::vector<std::uint32_t>& payload) {
+    if (record.tap == cmodel::Tap::Snap && payload[2] == 3) payload[2] = 4;
+    return true;
+  });
+  const auto source = mixed(300);
+  const auto failed = verify(source, options);
+  ASSERT_EQ(failed.verdict, Verdict::Mismatch);
+  const auto wave = std::filesystem::temp_directory_path() / ("fastsplat-wave-" + std::to_string(::getpid()) + ".fst");
+  const auto report = investigate(source, options, failed, wave, 400);
+  EXPECT_TRUE(report.shrink.finished);
+  EXPECT_EQ(report.shrink.splats_after, 1u);
+  EXPECT_NE(report.divergence.find("stage snap"), std::string::npos) << report.divergence;
+  EXPECT_NE(report.divergence.find("mx 0x3, RTL 0x4 (differs in 0x7"), std::string::npos) << report.divergence;
+  EXPECT_NE(report.operands.find("rho="), std::string::npos) << report.operands;
+  EXPECT_LE(report.wave_to - report.wave_from, 80u);
+  EXPECT_GT(std::filesystem::file_size(wave), 0u);
+  std::filesystem::remove(wave);
+  const auto again = verify(source_of(write_document(options.config, report.document)), report.options);
+  EXPECT_EQ(again.verdict, Verdict::Mismatch);
+  EXPECT_EQ(replay_line("a.fss", "tiny", report.options),
+            "fastsplat verify --stream a.fss --config tiny --ready always --input always --fill random --seed 5");
+  std::printf("[figure] shrunk splats = %llu of %llu in %d runs\n",
+              static_cast<unsigned long long>(report.shrink.splats_after),
+              static_cast<unsigned long long>(report.shrink.splats_before), report.shrink.runs);
+}
+
+TEST(Stimulus, EveryClassIsLegalAndRepeatable) {
+  for (const char* name : {"tiny", "small", "base"}) {
+    const auto config = driver::load_config(name);
+    for (const auto which : stimulus_classes()) {
+      const auto beats = write_document(config, make_stimulus(config, which, 1, 60).document);
+      cmodel::StreamDecode decode(config, cmodel::StreamScope::Whole);
+      for (const auto& beat : beats) decode.feed(beat);
+      EXPECT_NO_THROW(decode.finish());
+      EXPECT_EQ(beats, write_document(config, make_stimulus(config, which, 1, 60).document)) << to_string(which);
+      EXPECT_EQ(beats, write_document(config, read_document(config, beats))) << to_string(which);
+    }
+  }
+}
+
+TEST(Random, EveryClassPassesAndReachesItsCorner) {
+  for (const auto which : stimulus_classes()) {
+    CampaignOptions campaign;
+    campaign.verify = tiny();
+    campaign.splats = 400;
+    campaign.seeds = 3;
+    campaign.classes = {which};
+    const auto result = run_campaign(campaign);
+    EXPECT_EQ(result.total.verdict, Verdict::Pass) << to_string(which);
+    EXPECT_EQ(result.total.counters.splats, 1200u) << to_string(which);
+    if (which == StimulusClass::Saturation) {
+      EXPECT_GT(result.total.counters.sheet_saturated, 0u);
+      EXPECT_GT(result.total.counters.opacity_saturated, 0u);
+      EXPECT_GT(result.total.counters.composite_saturated, 0u);
+      EXPECT_GT(result.total.counters.pixel_saturated, 0u);
+    }
+    if (which == StimulusClass::OffTile) {
+      EXPECT_EQ(result.total.counters.lanes_inside, 0u);
+    }
+    if (which == StimulusClass::MultiWindow) {
+      EXPECT_GT(result.total.counters.windows, 2 * result.total.counters.splats);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fastsplat::testbench

@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "cmodel/counters.hpp"
+#include "cmodel/register_map.hpp"
 #include "cmodel/stream_decode.hpp"
 #include "cmodel/stream_layout.hpp"
 
@@ -144,12 +145,7 @@ std::string sv_package(const Config& config) {
   p.number("COUNTERS", counters);
 
   p.section("registers");
-  int address = 0;
-  for (const char* name : {"MAGIC", "VERSION", "HASH_LOW", "HASH_HIGH", "STATUS", "CONTROL"}) {
-    p.vector(std::string("REG_") + name, 12, static_cast<std::uint64_t>(address));
-    address += 4;
-  }
-  p.vector("REG_COUNTERS", 12, 0x80);
+  for (const auto& reg : kRegisters) p.vector(std::string("REG_") + reg.name, 12, reg.address);
 
   return "// Generated for configuration '" + config.name + "' (hash " + hash_text(hash) +
          "); do not edit.\npackage fastsplat_pkg;" + p.take() + "endpackage\n";

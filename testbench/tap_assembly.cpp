@@ -1,12 +1,9 @@
 #include "testbench/tap_assembly.hpp"
 
-#include <cassert>
+#include "cmodel/cycle_stages.hpp"
 
 namespace fastsplat::testbench {
 namespace {
-
-/// Stages between a block's pick and its new state (rtl/compositor.sv, k0 to k6).
-constexpr std::uint64_t kCompositorStages = 6;
 
 /// Bits lsb .. lsb+bits-1 of a vector of 32-bit words.
 std::uint32_t field(const std::uint32_t* words, std::size_t lsb, int bits) {
@@ -154,7 +151,7 @@ void TapAssembly::composite(std::uint64_t cycle, std::uint32_t block, const std:
 }
 
 void TapAssembly::sheet_done(std::uint64_t cycle, bool done) {
-  if (!finished_.empty() && finished_.front() + kCompositorStages == cycle) {
+  if (!finished_.empty() && finished_.front() + cmodel::stages::kComposite == cycle) {
     finished_.pop_front();
     if (!tiles_.empty()) ++tiles_.front().composited;
   }

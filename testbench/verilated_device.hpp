@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "cmodel/records.hpp"
+#include "cmodel/register_map.hpp"
 #include "testbench/rtl_device.hpp"
 #include "testbench/tap_assembly.hpp"
 
@@ -44,7 +45,8 @@ class VerilatedDevice final : public RtlDevice {
       wave_->open(options_.wave.c_str());
     }
     pulse_reset();
-    const std::uint64_t hash = read(8) | static_cast<std::uint64_t>(read(12)) << 32;
+    const std::uint64_t hash =
+        read(cmodel::kRegHashLow.address) | static_cast<std::uint64_t>(read(cmodel::kRegHashHigh.address)) << 32;
     if (hash != config_hash(config)) {
       throw UserError(ExitCode::Simulation, {.where = "configuration register",
                                              .what = "the RTL was built for another configuration",
@@ -205,9 +207,9 @@ class VerilatedDevice final : public RtlDevice {
     cycle();
     return word;
   }
-  std::uint32_t read_status() { return read(16); }
+  std::uint32_t read_status() { return read(cmodel::kRegStatus.address); }
   std::uint64_t counter(int number) {
-    const auto address = static_cast<std::uint32_t>(0x80 + 8 * number);
+    const auto address = cmodel::kRegCounters.address + 8 * static_cast<std::uint32_t>(number);
     const std::uint64_t low = read(address);
     return low | static_cast<std::uint64_t>(read(address + 4)) << 32;
   }

@@ -11,6 +11,10 @@ namespace fastsplat::golden {
 /// Sums that a sheet gathers per pixel: red, green, blue (premultiplied emission) and optical depth.
 using Sums = std::array<double, 4>;
 
+inline Sums scaled(const Sums& value, double share) {
+  return {value[0] * share, value[1] * share, value[2] * share, value[3] * share};
+}
+
 struct ProjectedSplat {
   double x = 0.0, y = 0.0;       ///< pixels; pixel centres are at integers
   double z = 0.0;                ///< depth of the centre, kernel units

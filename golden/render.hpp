@@ -14,7 +14,7 @@ struct RenderOptions {
 };
 
 /// Renders scene.description.method. RGBA, premultiplied, linear; A is the opacity (X-ray: the exposed line integral of
-/// extinction, not clamped). docs/golden.md defines each technique. Progress counts bands of image rows.
+/// extinction, not clamped). docs/golden.md defines each technique. Progress counts bands of image rows, or sheets.
 Image render(const scene::Scene& scene, const RenderOptions& options = {});
 
 // The techniques, each in its own file; scene.description.method is not read. All but the ray caster take the splats of

@@ -7,6 +7,7 @@
 #include "golden/bands.hpp"
 #include "golden/composite.hpp"
 #include "golden/footprint.hpp"
+#include "golden/sheet.hpp"
 
 namespace fastsplat::golden {
 
@@ -34,51 +35,18 @@ void KernelSlices::shares(const ProjectedSplat& splat, std::vector<double>& out)
 
 namespace {
 
-/// One sheet within a band, with the touched part of each row.
-class SheetBand {
- public:
-  SheetBand(Rows rows, int width)
-      : rows_(rows),
-        width_(width),
-        sums_(static_cast<std::size_t>(rows.end - rows.first) * width),
-        touched_(rows.end - rows.first, Touched{width, 0}) {}
-
-  void add(const Footprint& footprint, const Sums& value) {
-    for (const Footprint::Span& span : footprint.spans()) {
-      const double* weights = footprint.weights(span);
-      Sums* sums = &sums_[static_cast<std::size_t>(span.y - rows_.first) * width_ + span.x];
-      for (int i = 0; i < span.width; ++i) {
-        for (int c = 0; c < 4; ++c) sums[i][c] += weights[i] * value[c];
-      }
-      Touched& touched = touched_[span.y - rows_.first];
-      touched.begin = std::min(touched.begin, span.x);
-      touched.end = std::max(touched.end, span.x + span.width);
-    }
+/// Hands the touched runs over and leaves the sheet empty.
+void drain(Sheet& sheet, std::vector<Sums>& pixels, const TakeSheet& take) {
+  const Rows rows = sheet.rows();
+  for (int y = rows.first; y < rows.end; ++y) {
+    const Run touched = sheet.touched(y);
+    if (touched.empty()) continue;
+    const std::size_t begin = static_cast<std::size_t>(y - rows.first) * sheet.width() + touched.begin;
+    const auto count = static_cast<std::size_t>(touched.size());
+    take(std::span(pixels).subspan(begin, count), std::span<const Sums>(sheet.row(y) + touched.begin, count));
+    sheet.clear_row(y);
   }
-
-  /// Hands the touched runs over and leaves the sheet empty.
-  void drain(std::vector<Sums>& pixels, const TakeSheet& take) {
-    for (std::size_t row = 0; row < touched_.size(); ++row) {
-      Touched& touched = touched_[row];
-      if (touched.begin >= touched.end) continue;
-      const std::size_t begin = row * width_ + touched.begin;
-      const auto count = static_cast<std::size_t>(touched.end - touched.begin);
-      take(std::span(pixels).subspan(begin, count), std::span<const Sums>(sums_).subspan(begin, count));
-      std::fill_n(sums_.begin() + static_cast<std::ptrdiff_t>(begin), count, Sums{});
-      touched = {width_, 0};
-    }
-  }
-
- private:
-  struct Touched {
-    int begin = 0;
-    int end = 0;
-  };
-  Rows rows_;
-  int width_;
-  std::vector<Sums> sums_;
-  std::vector<Touched> touched_;
-};
+}
 
 /// Thin slabs need long rings; then bands are narrower, to keep a thread's ring below this many bytes.
 constexpr double kRingBytes = 64e6;
@@ -86,10 +54,6 @@ constexpr double kRingBytes = 64e6;
 int rows_for_ring(int sheets, int width) {
   const double row_bytes = static_cast<double>(sheets) * width * sizeof(Sums);
   return static_cast<int>(std::clamp(kRingBytes / row_bytes, 4.0, 16.0));
-}
-
-Sums scaled(const Sums& value, double share) {
-  return {value[0] * share, value[1] * share, value[2] * share, value[3] * share};
 }
 
 }  // namespace
@@ -107,7 +71,7 @@ Image sweep_sheets(const scene::Scene& scene, const std::vector<scene::Splat>& s
 
   for_each_band(bands, options.threads, options.progress, [&](int band) {
     const Rows rows = bands.rows(band);
-    std::vector<SheetBand> ring(reach, SheetBand(rows, width));
+    std::vector<Sheet> ring(reach, Sheet(rows, width));
     std::vector<Sums> pixels(static_cast<std::size_t>(rows.end - rows.first) * width, initial);
     std::vector<double> shares;
     Footprint footprint;
@@ -122,7 +86,7 @@ Image sweep_sheets(const scene::Scene& scene, const std::vector<scene::Splat>& s
           ring[(sheet + s) % reach].add(footprint, scaled(splat.value, shares[s]));
         }
       }
-      ring[sheet % reach].drain(pixels, take);
+      drain(ring[sheet % reach], pixels, take);
     }
 
     float* out = image.pixel(0, rows.first);

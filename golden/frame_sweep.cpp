@@ -1,0 +1,229 @@
+#include "golden/frame_sweep.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cassert>
+#include <functional>
+#include <optional>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "golden/bands.hpp"
+
+namespace fastsplat::golden {
+namespace {
+
+class FrameSweep {
+ public:
+  FrameSweep(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options,
+             const SheetAssignment& assignment, const FrameStages& stages)
+      : scene_(scene),
+        splats_(splats),
+        options_(options),
+        assignment_(assignment),
+        stages_(stages),
+        width_(scene.camera.width()),
+        height_(scene.camera.height()),
+        bands_{height_},
+        index_(scene, splats, bands_, assignment.sheets(), first_sheet()),
+        pixels_(static_cast<std::size_t>(width_) * height_),
+        footprints_(bands_.count()),
+        shares_(bands_.count()) {
+    for (const SheetStage* stage : stages.sheet_stages) {
+      needs_neighbours_ |= stage->needs_neighbours();
+      margin_ += stage->margin();
+    }
+    if (stages.filter) {
+      margin_ += stages.filter->margin();
+      layers_ = {width_, std::vector<Layer>(pixels_.size()), std::vector<Run>(height_)};
+    }
+    if (stages.occlusion) {
+      whole_frame_.emplace(scene, splats, Bands{height_, height_}, assignment.sheets(), first_sheet());
+      hidden_.resize(splats.size());
+    }
+    // Live at once: the sheets that the splats at hand reach, and where neighbours are read the two in front of these.
+    const int live = assignment.reach() + (needs_neighbours_ ? 2 : 0);
+    check_memory(live);
+    ring_.assign(live, Sheet({0, height_}, width_));
+    if (needs_neighbours_) nothing_.emplace(Rows{0, height_}, width_);
+  }
+
+  Image run() {
+    const int sheets = assignment_.sheets();
+    for (int sheet = 0; sheet < sheets; ++sheet) {
+      if (stages_.occlusion) ask_occlusion(sheet);
+      splat_sheet(sheet);
+      if (!needs_neighbours_) {
+        const Sheet& here = at(sheet);
+        finish({sheet, here, here, here});
+        clear(sheet);
+      } else {
+        if (sheet > 0) finish({sheet - 1, neighbour(sheet - 2), at(sheet - 1), at(sheet)});
+        if (sheet > 1) clear(sheet - 2);
+      }
+      if (options_.progress && sheet + 1 < sheets) options_.progress(sheet + 1, sheets);
+    }
+    if (needs_neighbours_ && sheets > 0) {
+      finish({sheets - 1, neighbour(sheets - 2), at(sheets - 1), neighbour(sheets)});
+    }
+    Image image(width_, height_);
+    for (std::size_t i = 0; i < pixels_.size(); ++i) pixels_[i].store(&image.data[4 * i]);
+    if (options_.progress) options_.progress(sheets, sheets);
+    return image;
+  }
+
+ private:
+  std::function<int(const ProjectedSplat&)> first_sheet() const {
+    return [this](const ProjectedSplat& splat) { return assignment_.first(splat); };
+  }
+
+  void check_memory(int live) const {
+    const double bytes = static_cast<double>(live) * static_cast<double>(pixels_.size()) * sizeof(Sums);
+    if (bytes <= kFrameSweepBytes) return;
+    throw_usage({.where = {},
+                 .what = fmt::format("{} sheets of {}x{} pixels are live at once", live, width_, height_),
+                 .expected = fmt::format("at most {:.0f} GB", kFrameSweepBytes * 1e-9),
+                 .got = fmt::format("{:.1f} GB", bytes * 1e-9),
+                 .fix = "use a larger slab width or a smaller image"});
+  }
+
+  Sheet& at(int sheet) { return ring_[static_cast<std::size_t>(sheet) % ring_.size()]; }
+  const Sheet& neighbour(int sheet) { return sheet < 0 || sheet >= assignment_.sheets() ? *nothing_ : at(sheet); }
+
+  void for_each_row_band(const std::function<void(int band, Rows rows)>& work) const {
+    parallel_for(static_cast<std::size_t>(bands_.count()), options_.threads,
+                 [&](std::size_t band) { work(static_cast<int>(band), bands_.rows(static_cast<int>(band))); });
+  }
+
+  /// Each splat is judged once, by the picture as it is now, whatever the number of bands it lies in.
+  void ask_occlusion(int sheet) {
+    constexpr std::size_t kBlock = 1024;
+    Occlusion& occlusion = *stages_.occlusion;
+    occlusion.before_sheet(sheet, composited_, pixels_);
+    const auto bucket = whole_frame_->bucket(0, sheet);
+    std::atomic<std::size_t> hidden = 0, by_block = 0;
+    parallel_for((bucket.size() + kBlock - 1) / kBlock, options_.threads, [&](std::size_t block) {
+      for (const std::uint32_t i : bucket.subspan(block * kBlock, std::min(kBlock, bucket.size() - block * kBlock))) {
+        const bool with_block = occlusion.block_hidden(i);
+        hidden_[i] = with_block || occlusion.hidden(project(scene_, splats_[i]), margin_);
+        hidden += hidden_[i];
+        by_block += with_block;
+      }
+    });
+    occlusion.culled(sheet, bucket.size(), hidden, by_block);
+  }
+
+  void splat_sheet(int sheet) {
+    for_each_row_band([&](int band, Rows rows) {
+      Footprint& footprint = footprints_[band];
+      std::vector<double>& shares = shares_[band];
+      for (const std::uint32_t i : index_.bucket(band, sheet)) {
+        if (stages_.occlusion && hidden_[i]) continue;
+        const ProjectedSplat splat = project(scene_, splats_[i]);
+        footprint.rasterise(scene_.kernel, splat, rows, width_);
+        assignment_.shares(splat, shares);
+        assert(static_cast<int>(shares.size()) <= assignment_.reach());
+        for (int s = 0; s < static_cast<int>(shares.size()); ++s) {
+          if (stages_.deposit) {
+            stages_.deposit->add(at(sheet + s), sheet + s, footprint, splat, shares[s]);
+          } else {
+            at(sheet + s).add(footprint, scaled(splat.value, shares[s]));
+          }
+        }
+      }
+    });
+  }
+
+  void clear(int sheet) {
+    for_each_row_band([&](int, Rows rows) {
+      for (int y = rows.first; y < rows.end; ++y) at(sheet).clear_row(y);
+    });
+  }
+
+  /// Stages, layer, filter, compositing.
+  void finish(const SheetWindow& window) {
+    const bool filtered = stages_.filter && !stages_.filter->leaves(window.number);
+    for_each_row_band([&](int, Rows rows) {
+      std::vector<Sums> material(width_);
+      for (int y = rows.first; y < rows.end; ++y) {
+        Run run = window.here.touched(y);
+        for (const SheetStage* stage : stages_.sheet_stages) run = stage->extent(window, y, run);
+        if (run.empty()) run = {};
+        std::copy(window.here.row(y) + run.begin, window.here.row(y) + run.end, material.begin() + run.begin);
+        const std::span<Sums> pixels = std::span(material).subspan(run.begin, run.size());
+        for (const SheetStage* stage : stages_.sheet_stages) stage->row(window, y, run.begin, pixels);
+        if (filtered) {
+          to_layers(y, run, pixels);
+        } else {
+          composite(y, run, pixels);
+        }
+      }
+    });
+    if (filtered) composite_filtered(window.number);
+    composited_ = window.number + 1;
+  }
+
+  FrontToBack* picture_row(int y) { return &pixels_[static_cast<std::size_t>(y) * width_]; }
+
+  void composite(int y, Run run, std::span<const Sums> material) {
+    for (int i = 0; i < run.size(); ++i) {
+      FrontToBack& pixel = picture_row(y)[run.begin + i];
+      if (!(material[i][3] > 0.0) || pixel.transmittance < stages_.freeze_below) continue;
+      pixel.add(make_layer(material[i], scene_.description.slab_opacity));
+    }
+  }
+
+  void to_layers(int y, Run run, std::span<const Sums> material) {
+    layers_.runs[y] = run;
+    Layer* layers = &layers_.layers[static_cast<std::size_t>(y) * width_ + run.begin];
+    for (int i = 0; i < run.size(); ++i) {
+      layers[i] = material[i][3] > 0.0 ? make_layer(material[i], scene_.description.slab_opacity) : Layer{};
+    }
+  }
+
+  void composite_filtered(int sheet) {
+    const LayerFilter& filter = *stages_.filter;
+    for_each_row_band([&](int, Rows rows) {
+      std::vector<Layer> filtered(width_);
+      for (int y = rows.first; y < rows.end; ++y) {
+        const Run run = filter.extent(sheet, layers_, y);
+        if (run.empty()) continue;
+        filter.row(sheet, layers_, y, run.begin, std::span(filtered).first(run.size()));
+        for (int i = 0; i < run.size(); ++i) {
+          FrontToBack& pixel = picture_row(y)[run.begin + i];
+          if (filtered[i].alpha > 0.0 && !(pixel.transmittance < stages_.freeze_below)) pixel.add(filtered[i]);
+        }
+      }
+    });
+  }
+
+  const scene::Scene& scene_;
+  const std::vector<scene::Splat>& splats_;
+  const RenderOptions& options_;
+  const SheetAssignment& assignment_;
+  const FrameStages& stages_;
+  int width_, height_;
+  Bands bands_;
+  BandIndex index_;
+  std::vector<FrontToBack> pixels_;
+  std::vector<Footprint> footprints_;        ///< one per band
+  std::vector<std::vector<double>> shares_;  ///< one per band
+  bool needs_neighbours_ = false;
+  int margin_ = 0;
+  int composited_ = 0;
+  std::vector<Sheet> ring_;
+  std::optional<Sheet> nothing_;
+  LayerFrame layers_;
+  std::optional<BandIndex> whole_frame_;  ///< for Occlusion: every splat once
+  std::vector<std::uint8_t> hidden_;      ///< by splat
+};
+
+}  // namespace
+
+Image sweep_frame(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options,
+                  const SheetAssignment& assignment, const FrameStages& stages) {
+  return FrameSweep(scene, splats, options, assignment, stages).run();
+}
+
+}  // namespace fastsplat::golden

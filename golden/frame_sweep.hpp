@@ -1,0 +1,114 @@
+// Sheets, front to back, each over the whole frame: for techniques that look beyond one pixel of one sheet. What
+// sweep_sheets does band by band is done here sheet by sheet, so that a sheet's neighbours in y and in depth, a filter
+// across it, or the picture in front of it can be asked for. Without a stage the picture is that of composite_sheets,
+// bit for bit; with any stages it does not depend on the number of threads.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "golden/composite.hpp"
+#include "golden/sheet.hpp"
+#include "golden/sheet_sweep.hpp"
+
+namespace fastsplat::golden {
+
+/// What a sheet gets of a splat. The default of the sweep is share * value * footprint.
+class Deposit {
+ public:
+  virtual ~Deposit() = default;
+  /// Adds the splat's share of sheet number `sheet` to the pixels of the footprint. Called for different rows of one
+  /// sheet at once.
+  virtual void add(Sheet& to, int sheet, const Footprint& footprint, const ProjectedSplat& splat,
+                   double share) const = 0;
+};
+
+/// A finished sheet and its neighbours as the splats left them; beyond the first and the last sheet all sums are 0.
+struct SheetWindow {
+  int number = 0;  ///< of `here`; 0 is nearest to the eye
+  const Sheet& before;
+  const Sheet& here;
+  const Sheet& behind;
+};
+
+/// Turns a finished sheet's sums into material: premultiplied emission and optical depth. Stages run one after another
+/// on the same pixels, each on what the one before it made; the window always shows what was splatted.
+class SheetStage {
+ public:
+  virtual ~SheetStage() = default;
+  /// Whether it reads `before` and `behind`; else these are not to be touched.
+  virtual bool needs_neighbours() const = 0;
+  /// By how many pixels it reads beyond its own.
+  virtual int margin() const { return 0; }
+  /// Pixels of row y that can come out with material, all others having none: `so_far` of the stage before.
+  virtual Run extent(const SheetWindow& window, int y, Run so_far) const {
+    (void)window, (void)y;
+    return so_far;
+  }
+  /// Pixels begin, begin+1, ... of row y, in place. Called for different rows at once.
+  virtual void row(const SheetWindow& window, int y, int begin, std::span<Sums> pixels) const = 0;
+};
+
+/// A whole frame of layers. Outside a row's run there is nothing, whatever `layers` holds there.
+struct LayerFrame {
+  int width = 0;
+  std::vector<Layer> layers;  ///< row by row
+  std::vector<Run> runs;      ///< one per row
+
+  const Layer* row(int y) const { return &layers[static_cast<std::size_t>(y) * width]; }
+};
+
+/// Filters a sheet's colour and opacity before it is composited.
+class LayerFilter {
+ public:
+  virtual ~LayerFilter() = default;
+  /// True: the sheet is composited as it is.
+  virtual bool leaves(int sheet) const = 0;
+  /// The farthest that any sheet's pixel can reach, pixels.
+  virtual int margin() const = 0;
+  /// Pixels of row y that can come out with opacity.
+  virtual Run extent(int sheet, const LayerFrame& in, int y) const = 0;
+  /// Pixels begin, begin+1, ... of row y. Called for different rows at once.
+  virtual void row(int sheet, const LayerFrame& in, int y, int begin, std::span<Layer> out) const = 0;
+};
+
+/// Which splats need not be splatted, since what is in front of them is opaque.
+class Occlusion {
+ public:
+  virtual ~Occlusion() = default;
+  /// Called before the splats whose nearest sheet is `sheet` are splatted, with the picture of the first `composited`
+  /// sheets (`sheet`, or one less where a stage needs neighbours). Row by row. On one thread.
+  virtual void before_sheet(int sheet, int composited, std::span<const FrontToBack> pixels) = 0;
+  /// A voxel set (block, brick) may have been found hidden as a whole: asked first, by the splat's index.
+  virtual bool block_hidden(std::uint32_t index) const {
+    (void)index;
+    return false;
+  }
+  /// True only if all pixels of the footprint grown by `margin` pixels on every side are opaque. Asked once per splat
+  /// that reaches the image; for many splats at once.
+  virtual bool hidden(const ProjectedSplat& splat, int margin) const = 0;
+  /// How many splats of the sheet reached the image, and how many of these were left out (of them, by block).
+  virtual void culled(int sheet, std::size_t asked, std::size_t hidden, std::size_t by_block) {
+    (void)sheet, (void)asked, (void)hidden, (void)by_block;
+  }
+};
+
+/// What is done besides adding and compositing; null and empty: nothing. Nothing is owned.
+struct FrameStages {
+  const Deposit* deposit = nullptr;
+  std::vector<const SheetStage*> sheet_stages{};
+  const LayerFilter* filter = nullptr;
+  Occlusion* occlusion = nullptr;
+  /// A pixel whose transmittance is below this no longer changes (docs/numerics.md, "freeze").
+  double freeze_below = 0.0;
+};
+
+/// Composites the sheets front to back by the scene's slab opacity. Progress counts sheets. UserError (Usage) when the
+/// sheets that are live at once do not fit into kFrameSweepBytes.
+Image sweep_frame(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options,
+                  const SheetAssignment& assignment, const FrameStages& stages);
+
+inline constexpr double kFrameSweepBytes = 4e9;
+
+}  // namespace fastsplat::golden

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -18,11 +19,10 @@ struct Common {
 
 /// A scene: a file, single flags, or a file overridden by flags. Absent ones leave the file's or the default value.
 struct SceneFlags {
-  std::optional<std::string> file, volume, transfer_function, kernel, size, method, slab_opacity, shading;
-  std::optional<double> kernel_a, kernel_radius, azimuth, elevation, roll, zoom, fov;
-  std::optional<double> slab_width, xray_exposure, opacity_scale;
-  std::optional<int> xray_sheets;
+  std::optional<std::string> file, volume, transfer_function, kernel, size;
   bool perspective = false, orthographic = false;
+  /// The flags made from scene::settings() ("--slab-width"), with their texts, which have no problem.
+  std::map<std::string, std::string> settings;
   bool operator==(const SceneFlags&) const = default;
 };
 

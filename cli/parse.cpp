@@ -2,32 +2,21 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <span>
 
 #include "analysis/provenance.hpp"
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "base/suggest.hpp"
 #include "cli/arguments.hpp"
+#include "scene/settings.hpp"
 
 namespace fastsplat::cli {
 namespace {
 
 // --- values ---------------------------------------------------------------------------------------------------------
-
-// Locale-free and whole: "0x10", "1e", "nan", "inf" and "3 " are no numbers here.
-std::optional<double> number_from(const std::string& text) {
-  const char* begin = text.data();
-  const char* end = begin + text.size();
-  if (begin != end && *begin == '+') ++begin;
-  double value = 0.0;
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error != std::errc{} || stop != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
 
 CLI::Validator number() {
   return {[](std::string& text) {
@@ -38,9 +27,8 @@ CLI::Validator number() {
 
 CLI::Validator integer(long low, long high) {
   return {[low, high](std::string& text) -> std::string {
-            long value = 0;
-            const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-            if (error == std::errc{} && stop == text.data() + text.size() && value >= low && value <= high) return {};
+            const auto value = integer_from<long>(text);
+            if (value && *value >= low && *value <= high) return {};
             return fmt::format("expected an integer from {} to {}, got '{}'", low, high, text);
           },
           ""};
@@ -68,43 +56,25 @@ void add_common(CLI::App& verb, Common& to) {
 }
 
 void add_scene(CLI::App& verb, SceneFlags& to) {
-  const auto real = [&verb](const char* flag, std::optional<double>& value, const char* help, const char* group,
-                            const char* unit = "NUMBER") {
-    verb.add_option(flag, value, help)->check(number())->type_name(unit)->group(group);
-  };
   const auto word = [&verb](const char* flag, std::optional<std::string>& value, const char* help, const char* group,
-                            const char* unit) {
-    return verb.add_option(flag, value, help)->type_name(unit)->group(group);
-  };
-
+                            const char* unit) { verb.add_option(flag, value, help)->type_name(unit)->group(group); };
   word("--scene", to.file, "a scene.toml; the flags below override it", "Scene", "FILE");
   word("--volume", to.volume, "NRRD or NIfTI file, a built-in like shells:128, or ch2, ch2bet, inia19-t1-brain",
        "Scene", "NAME|PATH");
   word("--tf", to.transfer_function, "transfer function: a preset or a TOML file", "Scene", "NAME|FILE");
   word("--kernel", to.kernel, "kernel by name: gauss2 (a=2,R=2), smooth (a=1.35,R=2)", "Scene", "NAME");
-  real("--kernel-a", to.kernel_a, "kernel exp(-a r^2): its a", "Scene");
-  real("--kernel-radius", to.kernel_radius, "kernel's radius R in voxels", "Scene");
-  word("--shading", to.shading, "on or off; default as the transfer function suggests", "Scene", "on|off")
-      ->check(one_of({"on", "off"}));
-  real("--opacity-scale", to.opacity_scale, "multiplies every extinction", "Scene");
-
   word("--size", to.size, "image size: N (square) or WxH", "Camera", "N|WxH");
-  real("--azimuth", to.azimuth, "degrees about the vertical axis; 0 looks from the front", "Camera", "DEGREES");
-  real("--elevation", to.elevation, "degrees, positive looks down", "Camera", "DEGREES");
-  real("--roll", to.roll, "degrees about the view axis", "Camera", "DEGREES");
-  real("--zoom", to.zoom, "1 fits the volume's bounding sphere", "Camera");
-  real("--fov", to.fov, "degrees across the smaller side (perspective)", "Camera", "DEGREES");
   verb.add_flag("--perspective", to.perspective, "perspective projection")->group("Camera");
   verb.add_flag("--orthographic", to.orthographic, "orthographic projection (default)")->group("Camera");
 
-  word("--method", to.method, "raycast (golden only), xray, westover, axis_aligned, image_aligned", "Method", "NAME");
-  real("--slab-width", to.slab_width, "image-aligned: slab width in voxels", "Method", "VOXELS");
-  word("--slab-opacity", to.slab_opacity, "additive or exponential", "Method", "NAME");
-  verb.add_option("--xray-sheets", to.xray_sheets, "X-ray: sheets it is summed in")
-      ->check(integer(1, 65535))
-      ->type_name("N")
-      ->group("Method");
-  real("--xray-exposure", to.xray_exposure, "X-ray: pixel = exposure * integral; 0 automatic", "Method");
+  for (const scene::Setting& setting : scene::settings()) {
+    if (*setting.flag == '\0') continue;
+    verb.add_option_function<std::string>(
+            setting.flag, [&to, &setting](const std::string& text) { to.settings[setting.flag] = text; }, setting.help)
+        ->check(CLI::Validator([&setting](std::string& text) { return scene::problem_with(setting, text); }, ""))
+        ->type_name(setting.unit)
+        ->group(setting.group);
+  }
 }
 
 void add_outputs(CLI::App& verb, std::vector<std::string>& out, std::string& raw) {

@@ -3,34 +3,26 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <charconv>
-
 #include "base/error.hpp"
+#include "base/number_text.hpp"
+#include "scene/settings.hpp"
 
 namespace fastsplat::cli {
 namespace {
-
-constexpr int kMaxSide = 16384;
 
 struct Size {
   int width, height;
 };
 
-std::optional<int> whole_number(std::string_view text) {
-  int value = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || stop != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 Size size_from(const std::string& text) {
   const auto cross = text.find('x');
-  const auto width = whole_number(std::string_view(text).substr(0, cross));
-  const auto height = cross == std::string::npos ? width : whole_number(std::string_view(text).substr(cross + 1));
-  if (!width || !height || *width < 1 || *height < 1 || *width > kMaxSide || *height > kMaxSide) {
+  const auto width = integer_from<int>(std::string_view(text).substr(0, cross));
+  const auto height = cross == std::string::npos ? width : integer_from<int>(std::string_view(text).substr(cross + 1));
+  if (!width || !height || *width < 1 || *height < 1 || *width > scene::kMaxImageSide ||
+      *height > scene::kMaxImageSide) {
     throw_usage({.where = "--size",
                  .what = "not an image size",
-                 .expected = fmt::format("N or WxH, each from 1 to {}", kMaxSide),
+                 .expected = fmt::format("N or WxH, each from 1 to {}", scene::kMaxImageSide),
                  .got = "'" + text + "'",
                  .fix = "for example --size 512 or --size 640x480"});
   }
@@ -60,36 +52,28 @@ void set(T& to, const std::optional<U>& from) {
   if (from) to = *from;
 }
 
+// --kernel-a alone keeps the radius of the kernel that was named before, and the other way round.
 void apply_kernel(const SceneFlags& flags, scene::SceneDescription& to) {
-  if (flags.kernel && (flags.kernel_a || flags.kernel_radius)) {
+  const bool shaped = flags.settings.contains("--kernel-a") || flags.settings.contains("--kernel-radius");
+  if (flags.kernel && shaped) {
     contradiction("--kernel names a and R already", "give either --kernel or --kernel-a and --kernel-radius");
   }
   set(to.kernel, flags.kernel);
-  if (!flags.kernel_a && !flags.kernel_radius) return;
-  if (!to.kernel.empty()) {
-    const auto named = scene::kernel_by_name(to.kernel);
-    to.kernel_a = named.a();
-    to.kernel_radius = named.radius();
-    to.kernel.clear();
-  }
-  set(to.kernel_a, flags.kernel_a);
-  set(to.kernel_radius, flags.kernel_radius);
+  if (!shaped || to.kernel.empty()) return;
+  const auto named = scene::kernel_by_name(to.kernel);
+  to.kernel_a = named.a();
+  to.kernel_radius = named.radius();
+  to.kernel.clear();
 }
 
 void apply_camera(const SceneFlags& flags, scene::SceneDescription& to) {
   if (flags.perspective && flags.orthographic)
     contradiction("--perspective and --orthographic exclude each other", "give one");
-  auto& camera = to.camera;
-  if (flags.perspective) camera.projection = scene::Projection::Perspective;
-  if (flags.orthographic) camera.projection = scene::Projection::Orthographic;
-  if (flags.fov && camera.projection == scene::Projection::Orthographic) {
+  if (flags.perspective) to.camera.projection = scene::Projection::Perspective;
+  if (flags.orthographic) to.camera.projection = scene::Projection::Orthographic;
+  if (flags.settings.contains("--fov") && to.camera.projection == scene::Projection::Orthographic) {
     contradiction("--fov means nothing to an orthographic camera", "add --perspective, or use --zoom");
   }
-  set(camera.azimuth, flags.azimuth);
-  set(camera.elevation, flags.elevation);
-  set(camera.roll, flags.roll);
-  set(camera.zoom, flags.zoom);
-  set(camera.fov, flags.fov);
 }
 
 }  // namespace
@@ -106,13 +90,10 @@ scene::SceneDescription describe(const SceneFlags& flags) {
     to.height = height;
   }
   check_memory(to.width, to.height);
-  if (flags.method) to.method = scene::method_from(*flags.method);
-  set(to.slab_width, flags.slab_width);
-  if (flags.slab_opacity) to.slab_opacity = scene::slab_opacity_from(*flags.slab_opacity);
-  set(to.xray_sheets, flags.xray_sheets);
-  set(to.xray_exposure, flags.xray_exposure);
-  if (flags.shading) to.shading = *flags.shading == "on" ? 1 : 0;
-  set(to.opacity_scale, flags.opacity_scale);
+  for (const scene::Setting& setting : scene::settings()) {
+    const auto flag = flags.settings.find(setting.flag);
+    if (flag != flags.settings.end()) scene::set_from_text(setting, flag->second, to);
+  }
   return to;
 }
 

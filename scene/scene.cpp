@@ -5,26 +5,11 @@
 #include <algorithm>
 #include <array>
 
-#include "base/error.hpp"
-#include "base/suggest.hpp"
-#include "scene/scene_limits.hpp"
+#include "scene/settings.hpp"
 #include "scene/volume_file.hpp"
 
 namespace fastsplat::scene {
 namespace {
-
-template <typename Enum>
-Enum parse_name(const char* what, const std::string& name, const std::vector<std::string>& names) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    throw_usage({.where = {},
-                 .what = fmt::format("unknown {} '{}'", what, name),
-                 .expected = {},
-                 .got = {},
-                 .fix = suggestion(name, names)});
-  }
-  return static_cast<Enum>(found - names.begin());
-}
 
 /// A transfer function that suits the volume, by what it was called.
 std::string preset_for(const std::string& volume) {
@@ -95,11 +80,7 @@ const std::vector<std::string>& slab_opacity_names() {
   return names;
 }
 
-Method method_from(const std::string& name) { return parse_name<Method>("method", name, method_names()); }
 const char* to_string(Method method) { return method_names()[static_cast<std::size_t>(method)].c_str(); }
-SlabOpacity slab_opacity_from(const std::string& name) {
-  return parse_name<SlabOpacity>("slab opacity", name, slab_opacity_names());
-}
 const char* to_string(SlabOpacity opacity) { return slab_opacity_names()[static_cast<std::size_t>(opacity)].c_str(); }
 
 }  // namespace fastsplat::scene

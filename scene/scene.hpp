@@ -60,10 +60,7 @@ Scene build_scene(const SceneDescription& description);
 /// The same with a volume already in memory.
 Scene build_scene(const SceneDescription& description, std::shared_ptr<const Volume> volume);
 
-Method method_from(
-    const std::string& name);  ///< raycast xray westover axis_aligned image_aligned; else UserError(Usage)
 const char* to_string(Method method);
-SlabOpacity slab_opacity_from(const std::string& name);
 const char* to_string(SlabOpacity opacity);
 const std::vector<std::string>& method_names();        ///< in the order of Method
 const std::vector<std::string>& slab_opacity_names();  ///< in the order of SlabOpacity

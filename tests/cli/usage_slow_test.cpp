@@ -34,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{"golden_raw", {"render", "--raw", "a.exr"}, {"--engine cmodel"}},
         Misuse{"method_unknown", {"render", "--method", "xrai", "-o", "a.exr"}, {"xray"}},
         Misuse{"slab_opacity_unknown", {"render", "--slab-opacity", "aditive", "-o", "a.exr"}, {"additive"}},
-        Misuse{"shading_maybe", {"render", "--shading", "maybe", "-o", "a.exr"}, {"--shading", "on or off"}},
+        Misuse{"shading_maybe", {"render", "--shading", "maybe", "-o", "a.exr"}, {"--shading", "off or on"}},
         Misuse{"index_unknown", {"render", "--index", "blit", "-o", "a.exr"}, {"--index", "rlut"}},
         Misuse{"kernel_both_ways", {"render", "--kernel", "smooth", "--kernel-a", "2", "-o", "a.exr"}, {"--kernel"}},
         Misuse{"kernel_radius_out_of_range", {"render", "--kernel-radius", "99", "-o", "a.exr"}, {"8"}},

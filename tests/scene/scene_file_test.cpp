@@ -3,7 +3,6 @@
 #include <cstdio>
 
 #include "scene/scene.hpp"
-#include "scene/scene_limits.hpp"
 #include "scene/volume_file.hpp"
 #include "tests/scene/scene_testing.hpp"
 
@@ -117,38 +116,6 @@ TEST_F(SceneFile, RefusesWithLineColumnAndHint) {
   EXPECT_THAT(refused("volume = 3\n"), HasSubstr("text in quotes"));
   EXPECT_THAT(refused("volume = \"a\"\nvolume = \"b\"\n"), HasSubstr("not valid TOML"));
   EXPECT_THAT(refused("[slabs]\nwidth = inf\n"), HasSubstr("out of range"));
-}
-
-TEST(SceneLimits, AreCheckedForFlagsToo) {
-  // Every number of a description, pushed just outside its limits, is refused by name.
-  int checked = 0;
-  for (const auto& setting : real_settings()) {
-    for (const double bad : {setting.low - 1e-3 * (std::abs(setting.low) + 1), setting.high * 1.01, std::nan("")}) {
-      SceneDescription d;
-      setting.field(d) = bad;
-      EXPECT_THAT(refusal([&] { build_scene(d); }, ExitCode::Usage), HasSubstr(setting.key));
-      ++checked;
-    }
-  }
-  for (const auto& setting : integer_settings()) {
-    for (const int bad : {setting.low - 1, setting.high + 1}) {
-      SceneDescription d;
-      setting.field(d) = bad;
-      EXPECT_THAT(refusal([&] { build_scene(d); }, ExitCode::Usage), HasSubstr(setting.key));
-      ++checked;
-    }
-  }
-  EXPECT_EQ(checked, 36);
-}
-
-TEST(SceneNames, MethodsAndOpacitiesRoundTrip) {
-  for (const Method m : {Method::RayCast, Method::XRay, Method::Westover, Method::AxisAligned, Method::ImageAligned}) {
-    EXPECT_EQ(method_from(to_string(m)), m);
-  }
-  for (const SlabOpacity o : {SlabOpacity::Additive, SlabOpacity::Exponential})
-    EXPECT_EQ(slab_opacity_from(to_string(o)), o);
-  EXPECT_THAT(refusal([] { method_from("raycst"); }, ExitCode::Usage), HasSubstr("did you mean 'raycast'?"));
-  EXPECT_THAT(refusal([] { slab_opacity_from("exp"); }, ExitCode::Usage), HasSubstr("exponential"));
 }
 
 TEST(BuildScene, ChoosesTheTransferFunctionByVolume) {

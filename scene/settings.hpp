@@ -1,0 +1,71 @@
+// The settings of a scene in one list: each with its key in scene.toml, its flag on the command line, its limits and
+// what it does. Reading, writing, checking and the flags are all made from this list; a new technique adds its entries
+// here.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "scene/toml_reader.hpp"
+
+namespace fastsplat::scene {
+
+inline constexpr int kMaxImageSide = 16384;  ///< pixels
+
+// What a setting is. Limits are inclusive; `of` finds the value in a description.
+struct Real {
+  double low, high;
+  double& (*of)(SceneDescription&);
+};
+struct Integer {
+  int low, high;
+  int& (*of)(SceneDescription&);
+};
+struct Triple {
+  double low, high;  ///< of each component
+  glm::dvec3& (*of)(SceneDescription&);
+};
+struct Switch {
+  bool& (*of)(SceneDescription&);
+};
+/// One of some names; get and set speak of positions in names().
+struct Choice {
+  const std::vector<std::string>& (*names)();
+  int (*get)(const SceneDescription&);
+  void (*set)(SceneDescription&, int);
+};
+
+struct Setting {
+  const char* table;  ///< table in scene.toml, "" for the top level
+  const char* key;
+  const char* flag;   ///< "--slab-width"; "" where the command line has flags of its own for it
+  const char* group;  ///< of the flag, in the help
+  const char* unit;   ///< of the flag's value, in the help
+  const char* help;
+  std::variant<Real, Integer, Triple, Switch, Choice> value;
+};
+
+/// All of them, table by table in the order scene.toml is written.
+std::span<const Setting> settings();
+/// The tables of the list, "" first, in its order.
+std::vector<std::string> setting_tables();
+
+/// What is wrong with a flag's text ("expected a number in 0.01..64, got '0'"), empty if nothing. Numbers are
+/// locale-free; a triple is "X,Y,Z"; a switch is on or off.
+std::string problem_with(const Setting& setting, const std::string& text);
+/// Takes a flag's text, which must have no problem.
+void set_from_text(const Setting& setting, const std::string& text, SceneDescription& description);
+
+/// Takes what `table` has of the settings whose table is `name`; bad values are refused with line and column.
+void read_settings(TomlTable& table, const std::string& name, SceneDescription& description);
+/// The setting's value as TOML.
+std::string value_as_toml(const Setting& setting, const SceneDescription& description);
+
+/// UserError (Usage) that names the first setting out of its limits. Camera and kernel check what depends on more.
+void check_limits(const SceneDescription& description);
+
+}  // namespace fastsplat::scene

@@ -1,6 +1,22 @@
 #include "analysis/provenance.hpp"
 
+#include <bit>
+
 namespace fastsplat::analysis {
+namespace {
+
+/// FNV-1a, eight bytes at a time.
+class Hash {
+ public:
+  void add(std::uint64_t word) { value_ = (value_ ^ word) * 0x100000001b3u; }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325u;
+};
+
+}  // namespace
 
 Metadata render_metadata(const std::string& engine, const scene::SceneDescription& scene,
                          const std::optional<HardwareConfig>& config) {
@@ -13,6 +29,37 @@ Metadata render_metadata(const std::string& engine, const scene::SceneDescriptio
     metadata["config_hash"] = hash_text(config->hash);
   }
   return metadata;
+}
+
+Metadata render_metadata(const std::string& engine, const scene::Scene& scene,
+                         const std::optional<HardwareConfig>& config) {
+  auto metadata = render_metadata(engine, scene.description, config);
+  metadata["volume"] = scene.volume->source;
+  metadata["content_hash"] = hash_text(content_hash(scene));
+  return metadata;
+}
+
+std::uint64_t content_hash(const scene::Scene& scene) {
+  Hash hash;
+  const scene::Volume& volume = *scene.volume;
+  for (int axis = 0; axis < 3; ++axis) {
+    hash.add(static_cast<std::uint64_t>(volume.dims[axis]));
+    hash.add(volume.spacing[axis]);
+  }
+  for (const float voxel : volume.voxels) hash.add(static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(voxel)));
+  const scene::TransferFunction& tf = scene.transfer_function;
+  hash.add(static_cast<std::uint64_t>(tf.domain));
+  hash.add(tf.reference_length);
+  for (const auto& point : tf.points) {
+    for (const double number : {point.at, point.colour.r, point.colour.g, point.colour.b, point.opacity})
+      hash.add(number);
+  }
+  const scene::Shading& shading = scene.shading;
+  hash.add(static_cast<std::uint64_t>(shading.on));
+  for (const double number :
+       {shading.ambient, shading.diffuse, shading.specular, shading.shininess, shading.gradient_floor})
+    hash.add(number);
+  return hash.value();
 }
 
 }  // namespace fastsplat::analysis

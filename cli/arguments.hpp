@@ -35,6 +35,12 @@ struct RenderArguments {
   std::string raw;         ///< raw device words as EXR; empty for none
   std::string save_scene;  ///< where to write the scene as TOML; empty for none
   bool check = false;      ///< rtl: compares every tap with the model
+  // An animation; its names in `out` and `raw` hold a run of '#' for the frame's number.
+  std::optional<std::string> orbit;  ///< "A..B", degrees
+  bool sequence = false;             ///< as the scene's [sequence] says
+  std::optional<int> frames;
+  std::string video;   ///< empty for none
+  double rate = 24.0;  ///< of the video, frames a second
 };
 
 struct VerifyArguments {

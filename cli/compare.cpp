@@ -38,7 +38,7 @@ void check(const CompareArguments& arguments) {
   }
   check_outputs({.images = {},
                  .maps = {arguments.map, arguments.heat},
-                 .raw = {},
+                 .raws = {},
                  .others = {arguments.common.json},
                  .inputs = {arguments.ref, arguments.test}});
 }

@@ -89,7 +89,7 @@ ExitCode run(const CyclesArguments& arguments) {
   }
   check_outputs({.images = {},
                  .maps = {},
-                 .raw = {},
+                 .raws = {},
                  .others = {arguments.trace, arguments.common.json},
                  .inputs = {arguments.stream}});
   const auto config = driver::load_config(arguments.config);

@@ -71,8 +71,10 @@ void check_outputs(const OutputNames& names) {
     if (!path.empty()) require_ending(path, {".png"});
     take(path);
   }
-  if (!names.raw.empty()) require_ending(names.raw, {".exr"});
-  take(names.raw);
+  for (const auto& path : names.raws) {
+    if (!path.empty()) require_ending(path, {".exr"});
+    take(path);
+  }
   for (const auto& path : names.others) take(path);
 }
 

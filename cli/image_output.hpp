@@ -13,7 +13,7 @@ namespace fastsplat::cli {
 struct OutputNames {
   std::vector<std::string> images;  ///< .exr, .png, .tif
   std::vector<std::string> maps;    ///< .png
-  std::string raw;                  ///< .exr
+  std::vector<std::string> raws;    ///< .exr
   std::vector<std::string> others;  ///< any ending: JSON, scene, stream
   std::vector<std::string> inputs;  ///< files that the command reads and must not replace
 };

@@ -90,9 +90,10 @@ std::string counted(unsigned long long number, const std::string& what) {
   return grouped(number) + " " + what + (number == 1 ? "" : "s");
 }
 
-Output::Output(const Common& common) : common_(common) {}
+Output::Output(const Common& common, Lines lines) : common_(common), lines_(lines) {}
 
 void Output::line(const std::string& text) const {
+  if (lines_ == Lines::None) return;
   if (!common_.quiet && common_.json != "-") write_stdout(text.ends_with('\n') ? text : text + "\n");
 }
 

@@ -26,10 +26,13 @@ std::string grouped(unsigned long long number);
 /// "1 tile", "1,234 tiles".
 std::string counted(unsigned long long number, const std::string& what);
 
+enum class Lines { All, None };
+
 /// One verb's output, obeying --json and --quiet.
 class Output {
  public:
-  explicit Output(const Common& common);
+  /// Lines::None: line() says nothing, whatever the flags; for what is repeated frame by frame.
+  explicit Output(const Common& common, Lines lines = Lines::All);
 
   /// A line of the result, to stdout; not when --quiet, nor when stdout belongs to the JSON.
   void line(const std::string& text) const;
@@ -45,6 +48,7 @@ class Output {
 
  private:
   const Common& common_;
+  Lines lines_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -11,6 +11,7 @@
 #include "base/number_text.hpp"
 #include "base/suggest.hpp"
 #include "cli/arguments.hpp"
+#include "scene/sequence.hpp"
 #include "scene/settings.hpp"
 
 namespace fastsplat::cli {
@@ -147,6 +148,21 @@ struct CommandLine {
         ->group("Engine");
     verb->add_flag("--check", render.check, "rtl: compares every tap, pixel and counter with the model (exit 1)")
         ->group("Engine");
+    verb->add_option("--orbit", render.orbit, "azimuth from A to B degrees, both included; 0..360 is a whole turn")
+        ->type_name("A..B")
+        ->group("Animation");
+    verb->add_flag("--sequence", render.sequence, "what the scene's [sequence] says")->group("Animation");
+    verb->add_option("--frames", render.frames, "frames; the # in --out become their numbers, from 0")
+        ->check(integer(1, scene::kMaxFrames))
+        ->type_name("N")
+        ->group("Animation");
+    verb->add_option("--video", render.video, "the PNG frames as a video, .mp4, .mkv or .webm (needs ffmpeg)")
+        ->type_name("FILE")
+        ->group("Animation");
+    verb->add_option("--rate", render.rate, "the video's frames a second (24)")
+        ->check(number())
+        ->type_name("NUMBER")
+        ->group("Animation");
     add_outputs(*verb, render.out, render.raw);
     verb->add_option("--save-scene", render.save_scene, "writes the scene, flags applied, as TOML")
         ->type_name("FILE")

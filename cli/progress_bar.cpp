@@ -24,8 +24,8 @@ int columns() {
 
 }  // namespace
 
-ProgressBar::ProgressBar(std::string label, Watching watching)
-    : label_(std::move(label)), visible_(watching == Watching::IfTerminal && stderr_is_terminal()) {}
+ProgressBar::ProgressBar(std::string label, Watching watching, Clock::time_point start)
+    : label_(std::move(label)), visible_(watching == Watching::IfTerminal && stderr_is_terminal()), start_(start) {}
 
 ProgressBar::~ProgressBar() {
   if (drawn_) put("\r\033[K");

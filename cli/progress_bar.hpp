@@ -14,7 +14,9 @@ enum class Watching { IfTerminal, Never };
 
 class ProgressBar {
  public:
-  ProgressBar(std::string label, Watching watching);
+  using Clock = std::chrono::steady_clock;
+  /// `start`: since when the time shown is counted.
+  ProgressBar(std::string label, Watching watching, Clock::time_point start = Clock::now());
   ~ProgressBar();  ///< wipes the line
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -29,8 +31,8 @@ class ProgressBar {
   bool visible_;
   bool drawn_ = false;
   std::mutex mutex_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::chrono::steady_clock::time_point last_{};
+  Clock::time_point start_;
+  Clock::time_point last_{};
 };
 
 }  // namespace fastsplat::cli

@@ -1,43 +1,22 @@
-// fastsplat render: a scene through one engine, to image files.
-#include "driver/render.hpp"
-
+// fastsplat render: a scene through one engine, to image files: a still or the frames of an animation.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "analysis/image_file.hpp"
 #include "analysis/provenance.hpp"
 #include "base/atomic_file.hpp"
-#include "base/suggest.hpp"
-#include "cli/device_report.hpp"
+#include "cli/animation.hpp"
+#include "cli/frame.hpp"
 #include "cli/image_output.hpp"
-#include "cli/output.hpp"
 #include "cli/progress_bar.hpp"
-#include "cli/rtl_run.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/verbs.hpp"
 #include "driver/config_file.hpp"
-#include "golden/render.hpp"
-#include "scene/splats.hpp"
 
 namespace fastsplat::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-enum class Engine { Golden, CModel, Rtl };
-
-Engine engine_from(const std::string& name) {
-  if (name == "golden") return Engine::Golden;
-  if (name == "cmodel") return Engine::CModel;
-  if (name == "rtl") return Engine::Rtl;
-  const std::vector<std::string> known{"golden", "cmodel", "rtl"};
-  throw_usage({.where = "--engine",
-               .what = "unknown engine '" + name + "'",
-               .expected = {},
-               .got = {},
-               .fix = suggestion(name, known)});
-}
 
 // Everything about the flags that can be wrong without reading a file.
 void check(const RenderArguments& arguments, Engine engine) {
@@ -69,32 +48,6 @@ void check(const RenderArguments& arguments, Engine engine) {
                  .got = {},
                  .fix = "add --engine rtl; `fastsplat compare` compares two images"});
   }
-  check_outputs({.images = arguments.out,
-                 .maps = {},
-                 .raw = arguments.raw,
-                 .others = {arguments.save_scene, arguments.common.json},
-                 .inputs = {}});
-}
-
-int sheet_count(const scene::Scene& scene) {
-  switch (scene.description.method) {
-    case scene::Method::ImageAligned:
-      return scene::slab_grid(scene).count;
-    case scene::Method::AxisAligned:
-      return scene::axis_sheet_count(scene);
-    case scene::Method::XRay:
-      return scene.description.xray_sheets;
-    case scene::Method::Westover:
-    case scene::Method::RayCast:
-      return 0;
-  }
-  return 0;
-}
-
-std::uint64_t voxel_count(const scene::Scene& scene) {
-  std::uint64_t count = 0;
-  scene::for_each_splat(scene, [&count](const scene::Splat&) { ++count; });
-  return count;
 }
 
 Json scene_json(const scene::Scene& scene) {
@@ -110,60 +63,19 @@ Json scene_json(const scene::Scene& scene) {
           {"toml", scene::to_toml(description)}};
 }
 
-Image render_golden(const RenderArguments& arguments, const scene::Scene& scene, const Output& output, Json& json) {
-  Image image;
-  {
-    ProgressBar bar("golden", arguments.common.quiet ? Watching::Never : Watching::IfTerminal);
-    image = golden::render(scene, {.threads = arguments.common.threads, .progress = bar.callback()});
-  }
-  output.line(summary(scene));
-  const auto voxels = voxel_count(scene);
-  const int sheets = sheet_count(scene);
-  output.line(fmt::format("golden: {}{}", counted(voxels, "splat"), sheets > 0 ? ", " + counted(sheets, "sheet") : ""));
-  json["voxels"] = voxels;
-  json["sheets"] = sheets;
-  return image;
-}
-
-}  // namespace
-
-ExitCode run(const RenderArguments& arguments) {
-  const Output output(arguments.common);
-  const Engine engine = engine_from(arguments.engine);
-  check(arguments, engine);
-
-  std::optional<cmodel::Config> config;
-  if (engine != Engine::Golden) config = driver::load_config(arguments.config.value_or("base"));
-  if (engine == Engine::Rtl) check_has_rtl(*config);
+ExitCode run_still(const RenderArguments& arguments, const Renderer& renderer, const Output& output) {
   const scene::Scene scene = build(arguments.scene);
-
   Json json{{"verb", "render"},
             {"version", analysis::program_version()},
             {"engine", arguments.engine},
             {"scene", scene_json(scene)}};
-  std::optional<analysis::HardwareConfig> hardware;
-  if (config) hardware = {config->name, cmodel::config_hash(*config)};
-  auto metadata = analysis::render_metadata(arguments.engine, scene.description, hardware);
-  metadata["volume"] = scene.volume->source;
-  std::optional<RtlRun> checked;
-  if (engine == Engine::Golden) {
-    const Image image = render_golden(arguments, scene, output, json);
-    warn_if_empty(image, output);
-    write_images(arguments.out, image, metadata, output);
-  } else {
-    driver::DeviceRender result;
-    {
-      ProgressBar bar(arguments.engine, arguments.common.quiet ? Watching::Never : Watching::IfTerminal);
-      const driver::RenderOptions options{.threads = arguments.common.threads, .progress = bar.callback()};
-      result = engine == Engine::Rtl
-                   ? render_rtl(scene, *config, options, arguments.check ? Checking::EveryTap : Checking::Off, checked)
-                   : driver::render(scene, *config, options);
-    }
-    output.line(summary(scene));
-    report_device(result, *config, output, json);
-    if (checked) report_rtl(*checked, output, json);
-    write_device_images(result, arguments.out, arguments.raw, metadata, output);
+  RenderedFrame frame;
+  {
+    ProgressBar bar(arguments.engine, arguments.common.quiet ? Watching::Never : Watching::IfTerminal);
+    frame = render_frame(renderer, scene, bar.callback());
   }
+  report_frame(renderer, scene, frame, output, json);
+  write_frame(frame, {.out = arguments.out, .raw = arguments.raw}, metadata_of(renderer, scene), output);
   if (!arguments.save_scene.empty()) write_text_file(arguments.save_scene, scene::to_toml(scene.description));
 
   json["outputs"] = arguments.out;
@@ -171,7 +83,32 @@ ExitCode run(const RenderArguments& arguments) {
   json["seconds"] = output.seconds();
   output.json(json.dump(2));
   output.note_time("rendered");
-  return checked ? checked->exit_code() : ExitCode::Pass;
+  return frame.checked ? frame.checked->exit_code() : ExitCode::Pass;
+}
+
+}  // namespace
+
+ExitCode run(const RenderArguments& arguments) {
+  const Output output(arguments.common);
+  Renderer renderer{.engine = engine_from(arguments.engine),
+                    .config = {},
+                    .checking = arguments.check ? Checking::EveryTap : Checking::Off,
+                    .threads = arguments.common.threads};
+  check(arguments, renderer.engine);
+  const auto sequence = sequence_of(arguments);
+  if (sequence) {
+    check_animation(arguments, *sequence);
+  } else {
+    check_outputs({.images = arguments.out,
+                   .maps = {},
+                   .raws = {arguments.raw},
+                   .others = {arguments.save_scene, arguments.common.json},
+                   .inputs = {}});
+  }
+  if (renderer.engine != Engine::Golden) renderer.config = driver::load_config(arguments.config.value_or("base"));
+  if (renderer.engine == Engine::Rtl) check_has_rtl(*renderer.config);
+  return sequence ? run_animation(arguments, renderer, describe(arguments.scene), *sequence, output)
+                  : run_still(arguments, renderer, output);
 }
 
 }  // namespace fastsplat::cli

@@ -32,7 +32,7 @@ ExitCode run(const StreamRecordArguments& arguments) {
                  .got = {},
                  .fix = "for example --out scene.fss"});
   }
-  check_outputs({.images = {}, .maps = {}, .raw = {}, .others = {arguments.out, arguments.common.json}, .inputs = {}});
+  check_outputs({.images = {}, .maps = {}, .raws = {}, .others = {arguments.out, arguments.common.json}, .inputs = {}});
   const auto config = driver::load_config(arguments.config);
   const auto scene = build(arguments.scene);
 
@@ -82,7 +82,7 @@ ExitCode run(const StreamReplayArguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.images = arguments.out,
                  .maps = {},
-                 .raw = arguments.raw,
+                 .raws = {arguments.raw},
                  .others = {arguments.common.json},
                  .inputs = {arguments.stream}});
   const auto config = driver::load_config(arguments.config);

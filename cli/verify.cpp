@@ -156,7 +156,7 @@ ExitCode run(const VerifyArguments& arguments) {
   check_outputs(
       {.images = {},
        .maps = {},
-       .raw = {},
+       .raws = {},
        .others = {failure_prefix(arguments) + ".fss", failure_prefix(arguments) + ".fst", arguments.common.json},
        .inputs = arguments.stream.empty() ? std::vector<std::string>{} : std::vector{arguments.stream}});
   const auto config = driver::load_config(arguments.config);

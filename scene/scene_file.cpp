@@ -1,6 +1,7 @@
 // scene.toml: every key is optional, what is absent keeps its default. The keys are those of scene/settings_list.cpp,
 // and here what is more than a plain setting: volume and transfer_function (relative to the file), image.size for width
-// and height, kernel.name in place of its a and radius.
+// and height, kernel.name in place of its a and radius. A table [sequence] (scene/sequence.cpp) must make
+// sense but changes no still.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/suggest.hpp"
 #include "scene/scene.hpp"
+#include "scene/sequence_table.hpp"
 #include "scene/settings.hpp"
 #include "scene/synthetic.hpp"
 #include "scene/toml_reader.hpp"
@@ -100,6 +102,7 @@ SceneDescription load_scene_file(const fs::path& path) {
       table->finish();
     }
   }
+  if (auto table = root.table("sequence")) read_sequence(*table);
   root.finish();
   return d;
 }

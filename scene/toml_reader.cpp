@@ -106,22 +106,38 @@ std::optional<std::string> TomlTable::text(const std::string& key) {
   return value;
 }
 
-std::optional<std::array<double, 3>> TomlTable::triple(const std::string& key, double low, double high) {
+std::optional<std::vector<double>> TomlTable::numbers(const std::string& key, std::size_t least, double low,
+                                                      double high) {
   const void* found = find(key);
   if (found == nullptr) return std::nullopt;
-  const std::string expected = fmt::format("three numbers in {}..{}", low, high);
   const auto* list = as_node(found).as_array();
-  if (list == nullptr || list->size() != 3)
-    refuse(key, "wrong type", expected, shown(as_node(found)), "write for example [1, 0.5, 0]");
-  std::array<double, 3> values{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const toml::node& node = *list->get(i);
+  if (list == nullptr || list->size() < least) {
+    refuse(key, "wrong type", fmt::format("an array of {} or more numbers", least), shown(as_node(found)),
+           "write for example [0, 90]");
+  }
+  std::vector<double> values;
+  for (const toml::node& node : *list) {
     const auto value = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!value || !(*value >= low && *value <= high))
-      refuse(key, value ? "value out of range" : "wrong type", expected, shown(node), "change it");
-    values[i] = *value;
+    if (!value || !(*value >= low && *value <= high)) {
+      refuse(key, value ? "value out of range" : "wrong type", fmt::format("numbers in {}..{}", low, high), shown(node),
+             "change it");
+    }
+    values.push_back(*value);
   }
   return values;
+}
+
+std::optional<std::array<double, 3>> TomlTable::triple(const std::string& key, double low, double high) {
+  if (const void* found = find(key)) {
+    const auto* list = as_node(found).as_array();
+    if (list == nullptr || list->size() != 3) {
+      refuse(key, "wrong type", fmt::format("three numbers in {}..{}", low, high), shown(as_node(found)),
+             "write for example [1, 0.5, 0]");
+    }
+  }
+  const auto values = numbers(key, 3, low, high);
+  if (!values) return std::nullopt;
+  return std::array<double, 3>{(*values)[0], (*values)[1], (*values)[2]};
 }
 
 std::optional<TomlTable> TomlTable::table(const std::string& key) {

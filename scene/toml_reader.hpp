@@ -27,6 +27,8 @@ class TomlTable {
   std::optional<bool> flag(const std::string& key);
   std::optional<std::string> text(const std::string& key);
   std::optional<std::array<double, 3>> triple(const std::string& key, double low, double high);
+  /// An array of at least `least` numbers.
+  std::optional<std::vector<double>> numbers(const std::string& key, std::size_t least, double low, double high);
   std::optional<TomlTable> table(const std::string& key);
   std::vector<TomlTable> tables(const std::string& key);  ///< array of tables; empty when absent
 

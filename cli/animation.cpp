@@ -1,0 +1,194 @@
+#include "cli/animation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "analysis/provenance.hpp"
+#include "base/error.hpp"
+#include "base/number_text.hpp"
+#include "cli/frame_names.hpp"
+#include "cli/image_output.hpp"
+#include "cli/progress_bar.hpp"
+#include "cli/scene_flags.hpp"
+#include "cli/video.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+[[noreturn]] void misused(const std::string& where, const std::string& what, const std::string& fix) {
+  throw_usage({.where = where, .what = what, .expected = {}, .got = {}, .fix = fix});
+}
+
+std::optional<double> angle(std::string_view text) {
+  const auto value = number_from(text);
+  return value && std::abs(*value) <= 3600.0 ? value : std::nullopt;
+}
+
+scene::Sequence orbit_from(const std::string& text, int frames) {
+  const auto dots = text.find("..");
+  const auto from = angle(std::string_view(text).substr(0, dots));
+  const auto to = dots == std::string::npos ? std::nullopt : angle(std::string_view(text).substr(dots + 2));
+  if (!from || !to) {
+    throw_usage({.where = "--orbit",
+                 .what = "not a range of angles",
+                 .expected = "A..B, each from -3600 to 3600 degrees",
+                 .got = "'" + text + "'",
+                 .fix = "for example --orbit 0..360"});
+  }
+  return scene::orbit(*from, *to, frames);
+}
+
+FrameFiles files_of(const RenderArguments& arguments, int frame, int frames) {
+  FrameFiles files;
+  for (const auto& pattern : arguments.out) files.out.push_back(FrameNames(pattern, frames)(frame));
+  if (!arguments.raw.empty()) files.raw = FrameNames(arguments.raw, frames)(frame);
+  return files;
+}
+
+/// The file is a whole image that carries every entry of `metadata`.
+bool is_current(const std::string& path, const analysis::Metadata& metadata) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) return false;
+  try {
+    const auto found = analysis::read_image(path).metadata;
+    return std::all_of(metadata.begin(), metadata.end(), [&found](const auto& entry) {
+      const auto at = found.find(entry.first);
+      return at != found.end() && at->second == entry.second;
+    });
+  } catch (const UserError&) {
+    return false;  // torn, or no image of ours: render it
+  }
+}
+
+bool is_current(const FrameFiles& files, const analysis::Metadata& metadata) {
+  return std::all_of(files.out.begin(), files.out.end(),
+                     [&](const std::string& path) { return is_current(path, metadata); }) &&
+         (files.raw.empty() || is_current(files.raw, metadata));
+}
+
+/// The frames that a video is made of: the first --out that is a PNG, for it alone is ready to be looked at.
+const std::string& video_source(const RenderArguments& arguments) {
+  const auto png = std::find_if(arguments.out.begin(), arguments.out.end(),
+                                [](const std::string& path) { return path.ends_with(".png"); });
+  if (png == arguments.out.end())
+    misused("--video", "a video is made of PNG frames, and none are written", "add --out frame.####.png");
+  return *png;
+}
+
+}  // namespace
+
+std::optional<scene::Sequence> sequence_of(const RenderArguments& arguments) {
+  if (!arguments.orbit && !arguments.sequence) {
+    if (arguments.frames) misused("--frames", "frames of what?", "add --orbit A..B or --sequence");
+    if (!arguments.video.empty()) misused("--video", "a still has no video", "add --orbit A..B --frames N");
+    return std::nullopt;
+  }
+  if (arguments.orbit && arguments.sequence) misused({}, "--orbit and --sequence exclude each other", "give one");
+  if (arguments.out.empty() && arguments.raw.empty()) misused({}, "no frames to write", "add --out frame.####.png");
+  if (!(arguments.rate >= 0.1 && arguments.rate <= 1000.0)) {
+    throw_usage({.where = "--rate",
+                 .what = "out of range",
+                 .expected = "0.1..1000 frames a second",
+                 .got = fmt::format("{}", arguments.rate),
+                 .fix = "24 is the default"});
+  }
+  if (!arguments.save_scene.empty()) {
+    misused("--save-scene", "an animation is many scenes", "each frame carries its own; leave --save-scene out");
+  }
+  if (arguments.orbit) {
+    if (!arguments.frames) misused("--orbit", "how many frames?", "add --frames N");
+    if (arguments.scene.settings.contains("--azimuth"))
+      misused("--azimuth", "--orbit sets the azimuth", "leave --azimuth out");
+    return orbit_from(*arguments.orbit, *arguments.frames);
+  }
+  if (!arguments.scene.file) misused("--sequence", "the frames of which scene?", "add --scene FILE with a [sequence]");
+  auto sequence = scene::load_sequence(*arguments.scene.file);
+  if (arguments.frames) sequence.frames = *arguments.frames;
+  return sequence;
+}
+
+void check_animation(const RenderArguments& arguments, const scene::Sequence& sequence) {
+  OutputNames names;
+  names.others = {arguments.common.json, arguments.video};
+  for (int frame = 0; frame < sequence.frames; ++frame) {
+    const auto files = files_of(arguments, frame, sequence.frames);
+    names.images.insert(names.images.end(), files.out.begin(), files.out.end());
+    if (!files.raw.empty()) names.raws.push_back(files.raw);
+  }
+  if (!arguments.video.empty()) {
+    video_source(arguments);
+    check_video(arguments.video);
+  }
+  check_outputs(names);
+}
+
+ExitCode run_animation(const RenderArguments& arguments, const Renderer& renderer, const scene::SceneDescription& still,
+                       const scene::Sequence& sequence, const Output& output) {
+  const auto start = ProgressBar::Clock::now();
+  const auto watching = arguments.common.quiet ? Watching::Never : Watching::IfTerminal;
+  const auto count = static_cast<std::size_t>(sequence.frames);
+  const Output per_frame(arguments.common, Lines::None);  // warnings, and no counts
+  Json json{{"verb", "render"},
+            {"version", analysis::program_version()},
+            {"engine", to_string(renderer.engine)},
+            {"frames", Json::array()}};
+  std::shared_ptr<const scene::Volume> volume;  // no track changes it
+  std::size_t kept = 0;
+  for (std::size_t frame = 0; frame < count; ++frame) {
+    const auto description = scene::at_frame(sequence, still, static_cast<int>(frame));
+    const scene::Scene scene = volume ? scene::build_scene(description, volume) : scene::build_scene(description);
+    if (!volume) output.line(fmt::format("{}, {}", summary(scene), counted(count, "frame")));
+    volume = scene.volume;
+
+    const auto files = files_of(arguments, static_cast<int>(frame), sequence.frames);
+    const auto metadata = metadata_of(renderer, scene);
+    Json entry{{"frame", frame}, {"outputs", files.out}, {"kept", false}};
+    if (!files.raw.empty()) entry["raw"] = files.raw;
+    ExitCode code = ExitCode::Pass;
+    // A kept frame cannot be checked: where every tap is asked for, every frame is rendered.
+    if (renderer.checking == Checking::Off && is_current(files, metadata)) {
+      entry["kept"] = true;
+      ++kept;
+      for (const auto& path : files.out) output.line(path + " kept");
+    } else {
+      RenderedFrame rendered;
+      {
+        ProgressBar bar(fmt::format("{} {}/{}", to_string(renderer.engine), frame + 1, count), watching, start);
+        const auto show = bar.callback();
+        const auto whole = [&show, frame, count](std::size_t done, std::size_t total) {
+          show(frame * total + done, count * total);
+        };
+        rendered = render_frame(renderer, scene, show ? Progress(whole) : Progress());
+      }
+      report_frame(renderer, scene, rendered, per_frame, entry);
+      write_frame(rendered, files, metadata, output);
+      if (rendered.checked) code = rendered.checked->exit_code();
+    }
+    json["frames"].push_back(std::move(entry));
+    if (code != ExitCode::Pass) {
+      output.json(json.dump(2));
+      return code;
+    }
+  }
+  if (!arguments.video.empty()) {
+    write_video({.path = arguments.video,
+                 .frames = FrameNames(video_source(arguments), sequence.frames).format(),
+                 .count = sequence.frames,
+                 .rate = arguments.rate});
+    output.line(arguments.video);
+    json["video"] = arguments.video;
+  }
+  json["rendered"] = count - kept;
+  json["kept"] = kept;
+  json["seconds"] = output.seconds();
+  output.json(json.dump(2));
+  output.note_time(fmt::format("{} rendered, {} kept", counted(count - kept, "frame"), kept));
+  return ExitCode::Pass;
+}
+
+}  // namespace fastsplat::cli

@@ -1,0 +1,106 @@
+#include "cli/frame.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/provenance.hpp"
+#include "base/suggest.hpp"
+#include "cli/device_report.hpp"
+#include "cli/image_output.hpp"
+#include "cli/scene_flags.hpp"
+#include "golden/render.hpp"
+#include "scene/splats.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+const std::vector<std::string> kEngines{"golden", "cmodel", "rtl"};
+
+int sheet_count(const scene::Scene& scene) {
+  switch (scene.description.method) {
+    case scene::Method::ImageAligned:
+      return scene::slab_grid(scene).count;
+    case scene::Method::AxisAligned:
+      return scene::axis_sheet_count(scene);
+    case scene::Method::XRay:
+      return scene.description.xray_sheets;
+    case scene::Method::Westover:
+    case scene::Method::RayCast:
+      return 0;
+  }
+  return 0;
+}
+
+std::uint64_t voxel_count(const scene::Scene& scene) {
+  std::uint64_t count = 0;
+  scene::for_each_splat(scene, [&count](const scene::Splat&) { ++count; });
+  return count;
+}
+
+void report_golden(const scene::Scene& scene, const Output& output, nlohmann::ordered_json& json) {
+  const auto voxels = voxel_count(scene);
+  const int sheets = sheet_count(scene);
+  output.line(fmt::format("golden: {}{}", counted(voxels, "splat"), sheets > 0 ? ", " + counted(sheets, "sheet") : ""));
+  json["voxels"] = voxels;
+  json["sheets"] = sheets;
+}
+
+}  // namespace
+
+Engine engine_from(const std::string& name) {
+  const auto found = std::find(kEngines.begin(), kEngines.end(), name);
+  if (found == kEngines.end()) {
+    throw_usage({.where = "--engine",
+                 .what = "unknown engine '" + name + "'",
+                 .expected = {},
+                 .got = {},
+                 .fix = suggestion(name, kEngines)});
+  }
+  return static_cast<Engine>(found - kEngines.begin());
+}
+
+const char* to_string(Engine engine) { return kEngines[static_cast<std::size_t>(engine)].c_str(); }
+
+analysis::Metadata metadata_of(const Renderer& renderer, const scene::Scene& scene) {
+  std::optional<analysis::HardwareConfig> hardware;
+  if (renderer.config) hardware = {renderer.config->name, cmodel::config_hash(*renderer.config)};
+  return analysis::render_metadata(to_string(renderer.engine), scene, hardware);
+}
+
+RenderedFrame render_frame(const Renderer& renderer, const scene::Scene& scene, const Progress& progress) {
+  RenderedFrame frame;
+  if (renderer.engine == Engine::Golden) {
+    frame.picture = golden::render(scene, {.threads = renderer.threads, .progress = progress});
+    return frame;
+  }
+  const driver::RenderOptions options{.threads = renderer.threads, .progress = progress};
+  frame.picture = renderer.engine == Engine::Rtl
+                      ? render_rtl(scene, *renderer.config, options, renderer.checking, frame.checked)
+                      : driver::render(scene, *renderer.config, options);
+  return frame;
+}
+
+void report_frame(const Renderer& renderer, const scene::Scene& scene, const RenderedFrame& frame, const Output& output,
+                  nlohmann::ordered_json& json) {
+  output.line(summary(scene));
+  if (const auto* device = std::get_if<driver::DeviceRender>(&frame.picture)) {
+    report_device(*device, *renderer.config, output, json);
+  } else {
+    report_golden(scene, output, json);
+  }
+  if (frame.checked) report_rtl(*frame.checked, output, json);
+}
+
+void write_frame(const RenderedFrame& frame, const FrameFiles& files, const analysis::Metadata& metadata,
+                 const Output& output) {
+  if (const auto* device = std::get_if<driver::DeviceRender>(&frame.picture)) {
+    write_device_images(*device, files.out, files.raw, metadata, output);
+    return;
+  }
+  const Image& image = std::get<Image>(frame.picture);
+  warn_if_empty(image, output);
+  write_images(files.out, image, metadata, output);
+}
+
+}  // namespace fastsplat::cli

@@ -1,0 +1,50 @@
+// One frame of a scene through one engine: what a still and each picture of an animation have in common.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "analysis/image_file.hpp"
+#include "cli/output.hpp"
+#include "cli/rtl_run.hpp"
+#include "driver/render.hpp"
+
+namespace fastsplat::cli {
+
+enum class Engine { Golden, CModel, Rtl };
+
+/// UserError (Usage) with the nearest known name.
+Engine engine_from(const std::string& name);
+const char* to_string(Engine engine);
+
+/// How frames are rendered.
+struct Renderer {
+  Engine engine = Engine::Golden;
+  std::optional<cmodel::Config> config;  ///< present for a device
+  Checking checking = Checking::Off;
+  int threads = 0;
+};
+
+/// Result files of one frame; `raw` empty for none.
+struct FrameFiles {
+  std::vector<std::string> out;
+  std::string raw;
+};
+
+struct RenderedFrame {
+  std::variant<Image, driver::DeviceRender> picture;
+  std::optional<RtlRun> checked;
+};
+
+analysis::Metadata metadata_of(const Renderer& renderer, const scene::Scene& scene);
+RenderedFrame render_frame(const Renderer& renderer, const scene::Scene& scene, const Progress& progress);
+/// Counts to stdout and into `json`, losses as warnings.
+void report_frame(const Renderer& renderer, const scene::Scene& scene, const RenderedFrame& frame, const Output& output,
+                  nlohmann::ordered_json& json);
+void write_frame(const RenderedFrame& frame, const FrameFiles& files, const analysis::Metadata& metadata,
+                 const Output& output);
+
+}  // namespace fastsplat::cli

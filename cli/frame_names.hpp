@@ -1,0 +1,23 @@
+// Names of numbered frames: head.####.png is head.0000.png, head.0001.png, ...
+#pragma once
+
+#include <string>
+
+namespace fastsplat::cli {
+
+class FrameNames {
+ public:
+  /// UserError (Usage) unless the file name in `pattern` holds exactly one run of '#', wide enough for the number of
+  /// the last of `frames`.
+  FrameNames(const std::string& pattern, int frames);
+
+  std::string operator()(int frame) const;  ///< padded with zeros to the width of the run
+  /// The same as a printf format: head.%04d.png, where a % of the name is doubled.
+  std::string format() const;
+
+ private:
+  std::string before_, after_;
+  int digits_ = 0;
+};
+
+}  // namespace fastsplat::cli

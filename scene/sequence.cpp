@@ -1,0 +1,111 @@
+#include "scene/sequence.hpp"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <cmath>
+#include <optional>
+
+#include "base/error.hpp"
+#include "scene/sequence_table.hpp"
+#include "scene/settings.hpp"
+
+namespace fastsplat::scene {
+namespace {
+
+std::string dotted(const Setting& setting) {
+  return *setting.table ? fmt::format("{}.{}", setting.table, setting.key) : setting.key;
+}
+
+struct Limits {
+  double low, high;
+};
+
+/// Nothing for what is not a number: names and switches have nothing between them.
+std::optional<Limits> limits_of(const Setting& setting) {
+  if (const auto* real = std::get_if<Real>(&setting.value)) return Limits{real->low, real->high};
+  if (const auto* whole = std::get_if<Integer>(&setting.value))
+    return Limits{static_cast<double>(whole->low), static_cast<double>(whole->high)};
+  return std::nullopt;
+}
+
+void set_number(const Setting& setting, double value, SceneDescription& description) {
+  if (const auto* real = std::get_if<Real>(&setting.value)) real->of(description) = value;
+  if (const auto* whole = std::get_if<Integer>(&setting.value))
+    whole->of(description) = static_cast<int>(std::lround(value));
+}
+
+/// Value at `step` of `steps`, where the keys are spread over 0..steps. Exact at every key and, between whole keys that
+/// are a step apart, at every step.
+double between(const std::vector<double>& keys, std::int64_t step, std::int64_t steps) {
+  if (keys.size() == 1 || steps == 0) return keys.front();
+  const std::int64_t place = step * static_cast<std::int64_t>(keys.size() - 1);
+  const auto key = static_cast<std::size_t>(place / steps);
+  const std::int64_t rest = place % steps;
+  if (rest == 0) return keys[key];
+  return keys[key] + (keys[key + 1] - keys[key]) * static_cast<double>(rest) / static_cast<double>(steps);
+}
+
+}  // namespace
+
+Sequence orbit(double from, double to, int frames) {
+  if (from == to) {
+    throw_usage({.where = "orbit",
+                 .what = "it goes nowhere",
+                 .expected = "two different angles",
+                 .got = fmt::format("{}..{}", from, to),
+                 .fix = "for example 0..360 for a whole turn"});
+  }
+  return {.frames = frames,
+          .loop = std::fmod(to - from, 360.0) == 0.0,
+          .tracks = {{.setting = "camera.azimuth", .keys = {from, to}}}};
+}
+
+Sequence read_sequence(TomlTable& table) {
+  Sequence sequence;
+  const auto frames = table.integer("frames", 1, kMaxFrames);
+  if (!frames) table.refuse("frames", "missing", "how many frames there are", {}, "write for example frames = 48");
+  sequence.frames = *frames;
+  sequence.loop = table.flag("loop").value_or(false);
+
+  for (const std::string& name : setting_tables()) {
+    auto inner = name.empty() ? std::nullopt : table.table(name);
+    if (!name.empty() && !inner) continue;
+    TomlTable& place = inner ? *inner : table;
+    for (const Setting& setting : settings()) {
+      const auto limits = limits_of(setting);
+      if (name != setting.table || !limits) continue;
+      if (auto keys = place.numbers(setting.key, 1, limits->low, limits->high))
+        sequence.tracks.push_back({.setting = dotted(setting), .keys = std::move(*keys)});
+    }
+    if (inner) inner->finish();
+  }
+  table.finish();
+  if (sequence.tracks.empty()) {
+    table.refuse("", "nothing changes", "at least one setting with its values", {},
+                 "write for example camera.azimuth = [0, 90]");
+  }
+  return sequence;
+}
+
+Sequence load_sequence(const std::filesystem::path& scene_file) {
+  TomlTable root = TomlTable::parse_file(scene_file);
+  auto table = root.table("sequence");
+  if (!table) root.refuse("", "there is no [sequence]", {}, {}, "add one with frames = N and what changes");
+  return read_sequence(*table);
+}
+
+SceneDescription at_frame(const Sequence& sequence, const SceneDescription& still, int frame) {
+  assert(frame >= 0 && frame < sequence.frames);
+  const int steps = sequence.loop ? sequence.frames : sequence.frames - 1;
+  SceneDescription now = still;
+  for (const auto& track : sequence.tracks) {
+    const double value = between(track.keys, frame, steps);
+    for (const Setting& setting : settings()) {
+      if (track.setting == dotted(setting)) set_number(setting, value, now);
+    }
+  }
+  return now;
+}
+
+}  // namespace fastsplat::scene

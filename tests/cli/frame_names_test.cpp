@@ -1,0 +1,41 @@
+// Numbered names, and which of them are refused.
+#include "cli/frame_names.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+TEST(FrameNames, ArePaddedToTheWidthOfTheRun) {
+  const FrameNames names("a#b/head.####.png", 10000);
+  EXPECT_EQ(names(0), "a#b/head.0000.png");
+  EXPECT_EQ(names(9999), "a#b/head.9999.png");
+  EXPECT_EQ(FrameNames("#", 10)(7), "7");
+  EXPECT_EQ(FrameNames("x.##", 10)(7), "x.07");
+}
+
+TEST(FrameNames, AsAPrintfFormat) { EXPECT_EQ(FrameNames("50%/##% done.png", 3).format(), "50%%/%02d%% done.png"); }
+
+TEST(FrameNames, WithoutOneFittingRunAreRefusedWithAFix) {
+  struct Bad {
+    const char* pattern;
+    int frames;
+    const char* said;
+  };
+  for (const Bad& bad :
+       {Bad{"head.png", 3, "no place"}, Bad{"a##/head.png", 3, "no place"}, Bad{"##-##.png", 3, "two places"},
+        Bad{"h.#.png", 11, "write ##"}, Bad{"h.###.png", 1001, "write ####"}, Bad{"", 3, "no place"}}) {
+    try {
+      FrameNames(bad.pattern, bad.frames);
+      ADD_FAILURE() << bad.pattern << " was accepted";
+    } catch (const UserError& error) {
+      EXPECT_EQ(error.code(), ExitCode::Usage);
+      EXPECT_NE(std::string(error.what()).find(bad.said), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fastsplat::cli

@@ -37,7 +37,7 @@ CycleAccount Accountant::account() const {
   out.sheet_buffer = pauses_[index(Pause::Buffer)];
   out.drain = pauses_[index(Pause::Drain)];
   out.input = pauses_[index(Pause::Input)];
-  out.records = pauses_[index(Pause::Record)];
+  out.records = pauses_[index(Pause::Records)];
   return out;
 }
 

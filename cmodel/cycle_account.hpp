@@ -47,7 +47,7 @@ struct CycleAccount {
 
 /// What decode does in a cycle in which it issues no window; the order is that in which ideal compositing cycles are
 /// taken out of them.
-enum class Pause : std::uint8_t { Buffer, Drain, Input, Record };
+enum class Pause : std::uint8_t { Buffer, Drain, Input, Records };
 
 /// Splits the cycles of one tile after another. Half-open spans [from, to) in rising order.
 class Accountant {

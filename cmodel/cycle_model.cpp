@@ -46,6 +46,9 @@ void CycleModel::empty(std::uint64_t from, std::uint64_t to) {
 std::uint64_t CycleModel::enter() {
   const std::uint64_t offered = options_.input == nullptr ? next_offer_ : options_.input->next(next_offer_);
   const std::uint64_t taken = std::max(offered, ready_);
+  beat_.wanted = std::max(next_offer_, ready_);
+  beat_.offered = offered;
+  beat_.entered = taken + 1;
   next_offer_ = taken + 1;
   empty(register_free_, taken + 1);
   return taken + 1;
@@ -56,12 +59,17 @@ void CycleModel::leave(std::uint64_t since, std::uint64_t at) {
   register_free_ = at + 1;
   stalls_.busy += at + 1 - since;
   end_ = std::max(end_, at + 1);
+  if (options_.spans == nullptr) return;
+  beat_.left = at;
+  options_.spans->on_beat(beat_);
 }
 
 void CycleModel::take(const Beat& beat) {
   const bool payload = payload_words_ > 0;
   const auto opcode = static_cast<Opcode>(get(beat, layout::kOpcode));
   const Record* record = decode_.feed(beat);
+  beat_.payload = payload;
+  beat_.opcode = payload ? Opcode::LoadTable : opcode;
   const std::uint64_t at = enter();
   if (payload) {
     const std::uint64_t words = std::min(payload_words_, kWordsPerBeat);
@@ -99,7 +107,7 @@ void CycleModel::take(const Beat& beat) {
       break;
   }
   // end_frame costs nothing while the last picture goes out.
-  if (tile_open_ || at >= picture_to_) accountant_.pause(Pause::Record, at, at + 1);
+  if (tile_open_ || at >= picture_to_) accountant_.pause(Pause::Records, at, at + 1);
   leave(at, at);
 }
 
@@ -134,7 +142,7 @@ void CycleModel::splat(const SplatRecord& record, std::uint64_t at) {
 void CycleModel::begin_tile(const BeginTile& record, std::uint64_t at) {
   const std::uint64_t done = std::max(at, picture_to_);
   stalls_.stall_tile += done - at;
-  accountant_.pause(Pause::Record, done, done + 1);
+  accountant_.pause(Pause::Records, done, done + 1);
   leave(at, done);
   tile_ = record;
   tile_open_ = true;
@@ -148,13 +156,13 @@ void CycleModel::begin_sheet(const BeginSheet& record, std::uint64_t at) {
   stalls_.stall_buffer += done - at;
   accountant_.pause(Pause::Buffer, at, done);
   accountant_.settle(buffer_);
-  accountant_.pause(Pause::Record, done, done + 1);
+  accountant_.pause(Pause::Records, done, done + 1);
   leave(at, done);
   sheet_ = {.tile = tile_.tile, .sheet = record.sheet, .offered = at, .begun = done};
 }
 
 void CycleModel::end_sheet(std::uint64_t at) {
-  accountant_.pause(Pause::Record, at, at + 1);
+  accountant_.pause(Pause::Records, at, at + 1);
   leave(at, at);
   ++counters_.sheets;
   const std::uint64_t blocks = dirty_.count();
@@ -187,7 +195,7 @@ void CycleModel::end_tile(std::uint64_t at) {
   accountant_.pause(Pause::Drain, at, done);
   accountant_.settle(0);
   accountant_.settle(1);
-  accountant_.pause(Pause::Record, done, done + 1);
+  accountant_.pause(Pause::Records, done, done + 1);
   leave(at, done);
   tile_open_ = false;
   ++counters_.tiles;

@@ -31,9 +31,19 @@ struct TileCycles {
   std::uint64_t picture_from = 0, picture_to = 0;
 };
 
+/// A beat's way through decode.
+struct BeatCycles {
+  Opcode opcode{};                         ///< of its record; of a table's payload, load_table
+  bool payload = false;                    ///< table words
+  std::uint64_t wanted = 0;                ///< first cycle in which decode could have taken it
+  std::uint64_t offered = 0, entered = 0;  ///< the source has it; it lies in the register
+  std::uint64_t left = 0;                  ///< its last cycle there
+};
+
 class CycleSink {
  public:
   virtual ~CycleSink() = default;
+  virtual void on_beat(const BeatCycles&) {}
   virtual void on_sheet(const SheetCycles& sheet) = 0;
   virtual void on_tile(const TileCycles& tile) = 0;
 };
@@ -109,6 +119,7 @@ class CycleModel final : public Device {
   std::uint64_t ready_ = 0;          ///< earliest cycle in which decode takes the next beat
   std::uint64_t register_free_ = 0;  ///< first cycle after the last beat left
   std::uint64_t end_ = 0;
+  BeatCycles beat_;  ///< in the register
 
   bool tile_open_ = false;
   BeginTile tile_;

@@ -6,6 +6,8 @@
 #include <mutex>
 #include <thread>
 
+#include "testbench/coverage_collector.hpp"
+
 namespace fastsplat::testbench {
 namespace {
 
@@ -15,6 +17,11 @@ void add(VerifyResult& total, const VerifyResult& part) {
   for (std::size_t i = 0; i < part.check.by_tap.size(); ++i) total.check.by_tap[i] += part.check.by_tap[i];
   total.counters += part.counters;
   total.cycles_rtl += part.cycles_rtl;
+}
+
+constexpr const char* kClassReady = "class_ready";
+std::string with_pattern(StimulusClass which, const std::string& ready) {
+  return std::string(to_string(which)) + "_" + ready;
 }
 
 }  // namespace
@@ -32,7 +39,12 @@ CampaignRun make_run(const CampaignOptions& options, std::size_t index) {
   if (run.options.ready == "all") {
     // Over the seeds each class meets each pattern.
     const auto patterns = Pattern::examples();
-    run.options.ready = patterns[(index + index / classes) % patterns.size()];
+    run.options.ready = patterns[(which + index / classes) % patterns.size()];
+  }
+  if (run.options.input == "all") {
+    // The other way round, so that over the seeds the pairs change as well.
+    const auto patterns = Pattern::examples();
+    run.options.input = patterns[(which + (patterns.size() - 1) * (index / classes)) % patterns.size()];
   }
   if (!stimulus.ready.empty() && run.options.ready == "always") run.options.ready = stimulus.ready;
   if (!stimulus.input.empty() && run.options.input == "always") run.options.input = stimulus.input;
@@ -41,9 +53,20 @@ CampaignRun make_run(const CampaignOptions& options, std::size_t index) {
   return run;
 }
 
+Coverage class_bins(const cmodel::Config& config, StimulusClass which) {
+  Coverage coverage = CoverageCollector::declare(config);
+  // The class brings a pattern of its own where the sink was always ready.
+  const bool pauses = which == StimulusClass::BackPressure;
+  for (const auto& pattern : Pattern::examples()) {
+    if (!pauses || pattern != "always") coverage.declare(kClassReady, with_pattern(which, pattern));
+  }
+  return coverage;
+}
+
 CampaignResult run_campaign(const CampaignOptions& options) {
   const std::size_t count = run_count(options);
   std::vector<std::optional<VerifyResult>> results(count);
+  std::vector<std::string> ready(count);
   std::atomic<std::size_t> next = 0, done = 0;
   std::atomic<bool> stop = false;
   std::exception_ptr thrown;
@@ -52,6 +75,7 @@ CampaignResult run_campaign(const CampaignOptions& options) {
     for (std::size_t i = next++; i < count && !stop; i = next++) {
       try {
         CampaignRun run = make_run(options, i);
+        ready[i] = run.options.ready;
         results[i] = verify(source_of(std::move(run.beats)), run.options);
         if (results[i]->verdict != Verdict::Pass) stop = true;
         ++done;
@@ -81,6 +105,15 @@ CampaignResult run_campaign(const CampaignOptions& options) {
     if (!results[i]) continue;
     add(out.total, *results[i]);
     ++out.streams;
+    if (results[i]->coverage) {
+      const StimulusClass which = options.classes[i % options.classes.size()];
+      const auto [at, added] = out.coverage.try_emplace(which);
+      if (added) at->second = class_bins(options.verify.config, which);
+      at->second.merge(*results[i]->coverage);
+      const std::string pattern = with_pattern(which, ready[i]);
+      if (at->second.declared(std::string(kClassReady) + "." + pattern))
+        at->second.hit(at->second.declare(kClassReady, pattern));
+    }
     if (results[i]->verdict == Verdict::Pass || out.failed) continue;
     out.failed = i;
     out.failure = results[i];

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,7 +14,8 @@
 namespace fastsplat::testbench {
 
 struct CampaignOptions {
-  VerifyOptions verify;  ///< seed: of the first run; ready `all`: each stream takes the next of Pattern::examples()
+  VerifyOptions
+      verify;  ///< seed: of the first run; ready or input `all`: each stream takes the next of Pattern::examples()
   std::uint64_t splats = 1000;  ///< per seed, shared by the classes
   std::uint64_t seeds = 1;      ///< seed, seed+1, ...
   std::vector<StimulusClass> classes = stimulus_classes();
@@ -33,9 +35,13 @@ CampaignRun make_run(const CampaignOptions& options, std::size_t index);
 struct CampaignResult {
   VerifyResult total;  ///< sums; first divergence and error are the first failed run's
   std::uint64_t streams = 0;
-  std::optional<std::size_t> failed;    ///< first run that did not pass
-  std::optional<VerifyResult> failure;  ///< its result
+  std::map<StimulusClass, Coverage> coverage;  ///< of each class's streams, if asked for
+  std::optional<std::size_t> failed;           ///< first run that did not pass
+  std::optional<VerifyResult> failure;         ///< its result
 };
+
+/// The bins of a class: those of the configuration, and that it met each ready pattern.
+Coverage class_bins(const cmodel::Config& config, StimulusClass which);
 
 /// Runs all; after a failure no new streams are begun.
 CampaignResult run_campaign(const CampaignOptions& options);

@@ -34,12 +34,23 @@ struct RtlCycles {
   std::uint64_t busy = 0, stall_input = 0, stall_table = 0, stall_buffer = 0, stall_tile = 0;
 };
 
+/// What a register access was answered with.
+struct RegisterAnswer {
+  std::uint32_t word = 0;  ///< of a read
+  bool okay = false;       ///< false: SLVERR
+};
+
+/// Of a stream that the device refuses, consume() throws UserError (Simulation) once; what follows is swallowed until a
+/// reset.
 class RtlDevice : public cmodel::Device {
  public:
   /// Cycles since reset was released.
   virtual std::uint64_t cycles() const = 0;
   /// Read through AXI4-Lite.
   virtual RtlCycles cycle_counters() = 0;
+  /// One AXI4-Lite access; the answer is taken `wait` cycles after it came. The stream side goes on by its patterns.
+  virtual RegisterAnswer read_register(std::uint32_t address, int wait = 0) = 0;
+  virtual RegisterAnswer write_register(std::uint32_t address, std::uint32_t word, int wait = 0) = 0;
   /// Resets again in the middle of whatever is going on; memories keep what they hold, counters restart.
   virtual void warm_reset() = 0;
 };

@@ -21,6 +21,8 @@ constexpr std::array kNames{
     ClassName{StimulusClass::TableCorners, "table-corners", "RLUT sums on both sides of every table's ends"},
     ClassName{StimulusClass::RoundingTies, "rounding-ties", "products exactly between two words"},
     ClassName{StimulusClass::Saturation, "saturation", "each channel and all, in every saturating stage"},
+    ClassName{StimulusClass::Thresholds, "thresholds",
+              "transmittance beside the freeze threshold, sums beside the largest word"},
     ClassName{StimulusClass::BankPhases, "bank-phases", "every window origin modulo P"},
     ClassName{StimulusClass::ScreenEdges, "screen-edges", "windows across each edge and corner of partial tiles"},
     ClassName{StimulusClass::Hazards, "hazards", "the same words again after 1, 2, 3, ... windows"},
@@ -53,13 +55,47 @@ class Generator {
     if (which_ == StimulusClass::Bubbles) out.input = pick({"random-50", "burst-16", "every-3", "never-7"});
     if (which_ == StimulusClass::BackPressure) out.ready = pick({"random-10", "burst-64", "every-5", "never-500"});
     if (which_ == StimulusClass::Reset) {
-      const auto beats = write_document(config_, document).size();
-      out.reset_after = static_cast<std::uint64_t>(random_.between(1, static_cast<std::int64_t>(beats)));
+      out.reset_after = reset_point(write_document(config_, document));
     }
     return out;
   }
 
  private:
+  /// Beats before the reset: any number, or so that it falls into the tables, a tile's begin, a walk or a picture.
+  std::uint64_t reset_point(const std::vector<cmodel::Beat>& beats) {
+    std::vector<std::size_t> tiles, sheets, pictures;
+    cmodel::StreamDecode decode(config_, cmodel::StreamScope::Whole);
+    for (std::size_t i = 0; i < beats.size(); ++i) {
+      const cmodel::Record* record = decode.feed(beats[i]);
+      if (record == nullptr) continue;
+      if (std::holds_alternative<cmodel::BeginTile>(*record)) tiles.push_back(i + 1);
+      if (std::holds_alternative<cmodel::EndSheet>(*record)) sheets.push_back(i + 1);
+      if (std::holds_alternative<cmodel::EndTile>(*record)) pictures.push_back(i + 1);
+    }
+    const auto draw = [this](std::size_t low, std::size_t high) {
+      return static_cast<std::size_t>(random_.between(static_cast<std::int64_t>(low), static_cast<std::int64_t>(high)));
+    };
+    const auto one_of = [&](const std::vector<std::size_t>& places) { return places[draw(0, places.size() - 1)]; };
+    std::size_t after = 0;
+    switch (random_.between(0, 4)) {
+      case 0:
+        after = draw(1, random_.chance(50) ? tiles.front() : 2);
+        break;
+      case 1:
+        after = one_of(tiles) + draw(0, 1);
+        break;
+      case 2:
+        after = (sheets.empty() ? 0 : one_of(sheets)) + draw(8, 30);  // the walk begins 12 cycles later
+        break;
+      case 3:
+        after = one_of(pictures) + 1;
+        break;
+      default:
+        after = draw(1, beats.size());
+    }
+    return std::min(after, beats.size());
+  }
+
   const char* pick(std::initializer_list<const char*> names) {
     return names.begin()[random_.between(0, static_cast<std::int64_t>(names.size()) - 1)];
   }
@@ -72,6 +108,8 @@ class Generator {
         return TableStyle::Powers;
       case StimulusClass::Saturation:
         return TableStyle::Largest;
+      case StimulusClass::Thresholds:
+        return TableStyle::Unit;
       default:
         return TableStyle::Any;
     }
@@ -99,7 +137,7 @@ class Generator {
   cmodel::BeginTile begin_tile() {
     // Small tiles mostly: a tile costs its pixels, whatever is splatted into it.
     const auto side = [this](int most) {
-      if (random_.chance(10)) return most;
+      if (random_.chance(which_ == StimulusClass::ScreenEdges ? 40 : 10)) return most;
       return static_cast<int>(random_.between(1, random_.between(1, most)));
     };
     cmodel::BeginTile tile{.mode = static_cast<cmodel::Mode>(random_.between(0, 2)),
@@ -144,11 +182,29 @@ class Generator {
         return draw(1, 6);
       case StimulusClass::OffTile:
         return draw(0, 8);
+      case StimulusClass::Thresholds:
+        return threshold_splats();
       case StimulusClass::Hazards:
         return draw(20, 200);
       default:
         return random_.chance(20) ? draw(0, 4) : draw(5, 100);
     }
+  }
+
+  /// Weights and factors pass words on as they are, so that the sum of a sheet's splats can be aimed at a word: the
+  /// optical depth that takes the transmittance from 1.0 to within two steps of the threshold, or the largest word of
+  /// each channel, or one more.
+  std::uint64_t threshold_splats() {
+    const std::int64_t most = config_.colour_format().max;
+    missing_.fill(-1);  // anything
+    if (random_.chance(60)) {
+      const int up = config_.sheet_frac_bits - config_.composite_frac_bits;
+      const std::int64_t opacity = config_.transmittance_format().max - config_.freeze_below + random_.between(-2, 2);
+      missing_[3] = up >= 0 ? opacity << up : opacity >> -up;
+    } else {
+      for (auto& channel : missing_) channel = config_.sheet_format().max + random_.between(0, 1);
+    }
+    return static_cast<std::uint64_t>((missing_[3] + most - 1) / most);
   }
 
   struct Place {
@@ -214,7 +270,13 @@ class Generator {
 
   std::array<std::uint32_t, 4> colours() {
     std::array<std::uint32_t, 4> words{colour(), colour(), colour(), colour()};
-    if (which_ == StimulusClass::RoundingTies) {
+    if (which_ == StimulusClass::Thresholds) {
+      for (std::size_t c = 0; c < 4; ++c) {
+        if (missing_[c] < 0) continue;
+        words[c] = static_cast<std::uint32_t>(std::min<std::int64_t>(missing_[c], config_.colour_format().max));
+        missing_[c] -= words[c];
+      }
+    } else if (which_ == StimulusClass::RoundingTies) {
       // Small odd numbers times powers of two.
       for (auto& word : words) {
         const std::int64_t odd = 2 * random_.between(0, 7) + 1;
@@ -242,6 +304,7 @@ class Generator {
       if (random_.chance(25)) distance_ = static_cast<std::uint64_t>(random_.between(1, 8));
       return hot_;
     }
+    if (which_ == StimulusClass::Thresholds) return hot_;
     if (random_.chance(which_ == StimulusClass::Saturation ? 80 : 10)) return hot_;
     return place();
   }
@@ -276,6 +339,7 @@ class Generator {
   Place hot_;
   std::uint64_t left_ = 0, distance_ = 1;
   std::int64_t phase_ = 0;
+  std::array<std::int64_t, 4> missing_{};  ///< of the words that a sheet aims at; negative: any colour will do
 };
 
 }  // namespace

@@ -14,6 +14,7 @@ enum class StimulusClass {
   TableCorners,      ///< RLUT words 0, just inside, at the rim; sums on both sides of the last radial entry
   RoundingTies,      ///< products that lie exactly between two words, in every rounding
   Saturation,        ///< each channel alone and all, in product, sum, slab, picture and output
+  Thresholds,        ///< transmittances beside the freeze threshold, sums beside the largest word
   BankPhases,        ///< every window origin modulo P, in both axes
   ScreenEdges,       ///< windows across each edge and corner of partial tiles
   Hazards,           ///< the same words again after 1, 2, 3, ... windows

@@ -38,6 +38,8 @@ std::int64_t styled(Random& random, TableStyle style, std::int64_t most) {
       return power_below(random, most);
     case TableStyle::Largest:
       return random.chance(90) ? most : any_word(random, most);
+    case TableStyle::Unit:
+      return most;
   }
   return 0;
 }
@@ -70,6 +72,7 @@ cmodel::LoadTable random_rlut(const cmodel::Config& config, Random& random, Tabl
       }
       case TableStyle::Powers:
       case TableStyle::Largest:
+      case TableStyle::Unit:
         value = random.between(0, rim / 2 - 1);
         break;
     }
@@ -80,8 +83,11 @@ cmodel::LoadTable random_rlut(const cmodel::Config& config, Random& random, Tabl
 
 cmodel::LoadTable random_radial(const cmodel::Config& config, Random& random, TableStyle style) {
   cmodel::LoadTable table{.table = cmodel::Table::Radial, .radius = {}, .words = {}};
+  // The product of a colour and this weight has the colour's word.
+  const int shift = std::max(0, config.colour_frac_bits + config.radial_frac_bits - config.sheet_frac_bits);
+  const std::int64_t unit = std::min(std::int64_t{1} << shift, config.weight_format().max);
   for (int i = 0; i < config.radial_entries; ++i)
-    table.words.push_back(word(styled(random, style, config.weight_format().max)));
+    table.words.push_back(word(style == TableStyle::Unit ? unit : styled(random, style, config.weight_format().max)));
   return table;
 }
 

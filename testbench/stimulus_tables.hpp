@@ -14,6 +14,7 @@ enum class TableStyle {
   Corners,  ///< mostly ends of ranges
   Powers,   ///< powers of two: products tie
   Largest,  ///< the largest words
+  Unit,     ///< weights that keep a colour word as it is, factors of 1.0
 };
 
 /// At most `most_windows` windows per axis.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "testbench/coverage_collector.hpp"
+
 namespace fastsplat::testbench {
 namespace {
 
@@ -16,16 +18,38 @@ std::unique_ptr<RtlDevice> make_device(const VerifyOptions& options, cmodel::Pix
 }
 
 /// Feeds the first beats, then resets in the middle of whatever they started.
-void interrupt(CheckedDevice& checked, RtlDevice& rtl, const BeatSource& source, std::uint64_t after) {
+void interrupt(CheckedDevice& checked, RtlDevice& rtl, const BeatSource& source, std::uint64_t after,
+               CoverageCollector* coverage) {
   checked.unchecked([&](cmodel::Device& device) {
+    const std::uint64_t first_beat = rtl.cycles();
     std::uint64_t left = after;
+    std::vector<cmodel::Beat> fed;
     source([&](std::span<const cmodel::Beat> beats) {
-      const auto take = std::min<std::uint64_t>(left, beats.size());
-      device.consume(beats.first(static_cast<std::size_t>(take)));
-      left -= take;
+      const auto part = beats.first(static_cast<std::size_t>(std::min<std::uint64_t>(left, beats.size())));
+      device.consume(part);
+      if (coverage != nullptr) fed.insert(fed.end(), part.begin(), part.end());
+      left -= part.size();
     });
+    if (coverage != nullptr) coverage->interrupted(fed, first_beat, rtl.cycles());
     rtl.warm_reset();
   });
+}
+
+/// The cycle model that was sampled must be the device that ran.
+void check_stalls(const cmodel::StallCounters& model, RtlDevice& rtl) {
+  const RtlCycles counted = rtl.cycle_counters();
+  const cmodel::StallCounters device{.busy = counted.busy,
+                                     .stall_input = counted.stall_input,
+                                     .stall_table = counted.stall_table,
+                                     .stall_buffer = counted.stall_buffer,
+                                     .stall_tile = counted.stall_tile};
+  if (model == device) return;
+  throw UserError(ExitCode::Simulation,
+                  {.where = "coverage",
+                   .what = "cycle model and RTL took different cycles: what was sampled is not what ran",
+                   .expected = std::to_string(model.busy) + " busy cycles",
+                   .got = std::to_string(device.busy),
+                   .fix = "compare them with './run test -R EachConfig'"});
 }
 
 }  // namespace
@@ -59,11 +83,29 @@ VerifyResult verify(const BeatSource& source, const VerifyOptions& options, cmod
         return device;
       },
       options.stop_after);
+  const RtlOptions driven = rtl_options(options);
+  std::optional<CoverageCollector> coverage;
+  if (options.coverage) {
+    coverage.emplace(options.config, options.scope,
+                     CoverageRun{.ready = options.ready,
+                                 .input = options.input,
+                                 .fill = to_string(options.fill),
+                                 .source = &driven.input,
+                                 .sink = &driven.output});
+  }
   VerifyResult out;
   try {
-    if (options.reset_after > 0) interrupt(checked, *rtl, source, options.reset_after);
-    source([&](std::span<const cmodel::Beat> beats) { checked.consume(beats); });
+    if (options.reset_after > 0) interrupt(checked, *rtl, source, options.reset_after, coverage ? &*coverage : nullptr);
+    if (coverage) coverage->start(rtl->cycles());
+    source([&](std::span<const cmodel::Beat> beats) {
+      checked.consume(beats);
+      if (coverage && !checked.stopped()) coverage->consume(beats);
+    });
     checked.finish();
+    if (coverage && !checked.stopped()) {
+      coverage->finish();
+      check_stalls(coverage->stalls(), *rtl);
+    }
   } catch (const UserError& error) {
     if (error.code() != ExitCode::Simulation) throw;
     out.error = error.what();
@@ -80,6 +122,7 @@ VerifyResult verify(const BeatSource& source, const VerifyOptions& options, cmod
     const bool compared = std::any_of(taps.begin(), taps.end(), [](std::uint64_t count) { return count > 0; });
     out.verdict = compared ? Verdict::Pass : Verdict::NothingCompared;
   }
+  if (coverage && out.verdict == Verdict::Pass) out.coverage = std::make_shared<const Coverage>(coverage->coverage());
   return out;
 }
 

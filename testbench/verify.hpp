@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "testbench/checked_device.hpp"
+#include "testbench/coverage.hpp"
 #include "testbench/rtl_device.hpp"
 
 namespace fastsplat::testbench {
@@ -30,6 +31,7 @@ struct VerifyOptions {
   std::uint64_t stop_after = 1000;  ///< mismatches
   std::filesystem::path wave;       ///< waveform of the cycles [wave_from, wave_to)
   std::uint64_t wave_from = 0, wave_to = 0;
+  bool coverage = false;  ///< samples functional coverage (testbench/coverage_collector.hpp)
   /// Takes the RTL's place, to test the checker with a device that is wrong; empty: the Verilated device of `config`.
   std::function<std::unique_ptr<RtlDevice>(cmodel::PixelSink&, const RtlOptions&)> device;
 };
@@ -43,7 +45,8 @@ struct VerifyResult {
   CheckReport check;
   cmodel::Counters counters;  ///< the RTL's
   std::uint64_t cycles_rtl = 0;
-  std::string error;  ///< of Verdict::Simulation: what the device did
+  std::string error;                         ///< of Verdict::Simulation: what the device did
+  std::shared_ptr<const Coverage> coverage;  ///< of a run that passed, if asked for
 };
 
 /// Options of the device that verify() makes.

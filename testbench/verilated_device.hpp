@@ -102,6 +102,36 @@ class VerilatedDevice final : public RtlDevice {
 
   std::uint64_t cycles() const override { return cycle_; }
 
+  RegisterAnswer read_register(std::uint32_t address, int wait) override {
+    top_->araddr_i = address;
+    top_->arvalid_i = 1;
+    for (bool taken = false; !taken; cycle()) taken = top_->arready_o != 0;
+    top_->arvalid_i = 0;
+    top_->rready_i = wait == 0 ? 1 : 0;
+    for (int i = 0; i < wait; ++i) cycle();
+    const RegisterAnswer answer{top_->rdata_o, top_->rvalid_o != 0 && top_->rresp_o == 0};
+    top_->rready_i = 1;
+    cycle();
+    return answer;
+  }
+
+  RegisterAnswer write_register(std::uint32_t address, std::uint32_t word, int wait) override {
+    top_->awaddr_i = address;
+    top_->wdata_i = word;
+    top_->awvalid_i = top_->wvalid_i = 1;
+    for (bool taken = false; !taken; cycle()) {
+      top_->eval();  // ready answers valid within the cycle
+      taken = top_->awready_o != 0;
+    }
+    top_->awvalid_i = top_->wvalid_i = 0;
+    top_->bready_i = wait == 0 ? 1 : 0;
+    for (int i = 0; i < wait; ++i) cycle();
+    const RegisterAnswer answer{0, top_->bvalid_o != 0 && top_->bresp_o == 0};
+    top_->bready_i = 1;
+    cycle();
+    return answer;
+  }
+
   void warm_reset() override {
     pulse_reset();
     taps_.reset();
@@ -139,7 +169,7 @@ class VerilatedDevice final : public RtlDevice {
     top_->rst_ni = 1;
     top_->eval();
     cycle_ = 0;
-    offering_ = pending_ = false;
+    offering_ = pending_ = refused_ = false;
   }
 
   void offer(const cmodel::Beat& beat) {
@@ -162,7 +192,9 @@ class VerilatedDevice final : public RtlDevice {
     }
     edge();
     ++cycle_;
-    if (top_->error_o) {
+    if (top_->error_o && !refused_) {
+      refused_ = true;
+      top_->arvalid_i = top_->awvalid_i = top_->wvalid_i = 0;
       throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_),
                                              .what = "the device refused the stream",
                                              .expected = "a known record and this configuration's hash",
@@ -197,16 +229,7 @@ class VerilatedDevice final : public RtlDevice {
     taps_.sheet_done(cycle_, top_->tap_sheet_done_o != 0);
   }
 
-  /// One AXI4-Lite read; the stream side keeps running by its patterns.
-  std::uint32_t read(std::uint32_t address) {
-    top_->araddr_i = address;
-    top_->arvalid_i = 1;
-    cycle();
-    top_->arvalid_i = 0;
-    const std::uint32_t word = top_->rdata_o;
-    cycle();
-    return word;
-  }
+  std::uint32_t read(std::uint32_t address) { return read_register(address, 0).word; }
   std::uint32_t read_status() { return read(cmodel::kRegStatus.address); }
   std::uint64_t counter(int number) {
     const auto address = cmodel::kRegCounters.address + 8 * static_cast<std::uint32_t>(number);
@@ -233,6 +256,7 @@ class VerilatedDevice final : public RtlDevice {
   cmodel::Beat beat_{};
   bool pending_ = false;   ///< a beat waits to be offered
   bool offering_ = false;  ///< and has been: valid stays up until taken
+  bool refused_ = false;   ///< the device said so since reset
   cmodel::Counters counters_;
 };
 

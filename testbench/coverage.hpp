@@ -1,0 +1,71 @@
+// Functional coverage: named bins and how often each was hit. A bin is `group.name`; only what is reachable in a
+// configuration is declared for it, so every declared bin has to be hit.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace fastsplat::testbench {
+
+struct CoverBin {
+  std::string name;  ///< "group.name"
+  std::uint64_t hits = 0;
+};
+
+class Coverage {
+ public:
+  using Id = std::size_t;
+
+  /// The bin `group.name`; declaring it again gives the same one.
+  Id declare(const std::string& group, const std::string& name);
+  /// `count` bins of a group, named prefix0, prefix1, ... with equally many digits. Returns the first; the others
+  /// follow.
+  Id declare_range(const std::string& group, const std::string& prefix, std::size_t count);
+
+  void hit(Id id, std::uint64_t times = 1) { bins_[id].hits += times; }
+  std::uint64_t hits(const std::string& name) const;  ///< 0 for a bin that was not declared
+  bool declared(const std::string& name) const { return index_.contains(name); }
+  const std::vector<CoverBin>& bins() const { return bins_; }  ///< in the order of declaration
+
+  /// Adds the other's hits. Bins that only the other declares are taken over.
+  void merge(const Coverage& other);
+
+ private:
+  std::vector<CoverBin> bins_;
+  std::map<std::string, Id> index_;
+};
+
+/// Where a narrowing rounds: exact, below the half, at it (a tie), above it; and where it saturates. Only what `shift`
+/// dropped bits and a largest value can reach is declared.
+class RoundingPoint {
+ public:
+  RoundingPoint() = default;
+  /// Bins group.PREFIXexact, ...tie and so on. `largest` is the largest value before narrowing, `limit` the largest
+  /// word.
+  RoundingPoint(Coverage& coverage, const std::string& group, const std::string& prefix, int shift,
+                std::int64_t largest, std::int64_t limit);
+
+  /// True if the value is cut to the limit.
+  bool sample(Coverage& coverage, std::int64_t value) const {
+    if (shift_ <= 0) {
+      coverage.hit(exact_);
+    } else {
+      const std::int64_t dropped = value & ((std::int64_t{1} << shift_) - 1), half = std::int64_t{1} << (shift_ - 1);
+      coverage.hit(dropped == 0 ? exact_ : dropped == half ? tie_ : dropped < half ? below_ : above_);
+    }
+    const bool cut =
+        shift_ <= 0 ? value << -shift_ > limit_ : (value + (std::int64_t{1} << (shift_ - 1))) >> shift_ > limit_;
+    if (cut) coverage.hit(saturated_);
+    return cut;
+  }
+
+ private:
+  int shift_ = 0;
+  std::int64_t limit_ = 0;
+  Coverage::Id exact_ = 0, below_ = 0, tie_ = 0, above_ = 0, saturated_ = 0;
+};
+
+}  // namespace fastsplat::testbench

@@ -1,0 +1,180 @@
+// Functional coverage: what a small known stream hits, that it costs nothing when off, and that random campaigns reach
+// what they promise.
+#include "testbench/coverage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "driver/config_file.hpp"
+#include "testbench/campaign.hpp"
+#include "testbench/coverage_collector.hpp"
+#include "testbench/directed.hpp"
+
+namespace fastsplat::testbench {
+namespace {
+
+VerifyOptions sampled(const char* config) {
+  VerifyOptions options;
+  options.config = driver::load_config(config);
+  options.coverage = true;
+  return options;
+}
+
+/// Tables and one full tile with one sheet per list of centres, in pixels.
+StreamDocument centres(const cmodel::Config& config, const std::vector<std::vector<int>>& sheets) {
+  auto document = make_stimulus(config, StimulusClass::Thresholds, 1, 1).document;
+  const auto rlut = document.tables.front();
+  document.tiles.resize(1);
+  auto& tile = document.tiles.front();
+  tile.begin = {.mode = cmodel::Mode::Additive,
+                .tile = 0,
+                .x = 0,
+                .y = 0,
+                .width = config.tile_width,
+                .height = config.tile_height};
+  tile.sheets.clear();
+  const std::int32_t pixel = 1 << config.position_frac_bits;
+  for (const auto& places : sheets) {
+    SheetDocument sheet{static_cast<std::uint32_t>(tile.sheets.size()), {}};
+    for (const int place : places)
+      sheet.records.emplace_back(cmodel::SplatRecord{
+          .set = rlut.radius.set, .tag = 0, .x = place * pixel, .y = 5 * pixel, .colour = {1, 1, 1, 1}});
+    tile.sheets.push_back(std::move(sheet));
+  }
+  return document;
+}
+
+Coverage coverage_of(const StreamDocument& document, const VerifyOptions& options) {
+  const auto result = verify(source_of(write_document(options.config, document)), options);
+  EXPECT_EQ(result.verdict, Verdict::Pass) << result.error;
+  return result.coverage ? *result.coverage : Coverage();
+}
+
+TEST(Coverage, IsFreeWhenOff) {
+  VerifyOptions options = sampled("tiny");
+  options.coverage = false;
+  const auto beats = write_document(options.config, centres(options.config, {{5, 5}}));
+  EXPECT_EQ(verify(source_of(beats), options).coverage, nullptr);
+}
+
+TEST(Coverage, OfHazardsIsThatOfTheHand) {
+  const auto options = sampled("tiny");
+  // Twice the same place, then again over one window elsewhere; then across a swap: end_sheet, begin_sheet, window.
+  const Coverage coverage = coverage_of(centres(options.config, {{5, 5, 20, 5}, {5}}), options);
+  EXPECT_EQ(coverage.hits("hazard.distance_1"), 1u);
+  EXPECT_EQ(coverage.hits("hazard.distance_2"), 1u);
+  EXPECT_EQ(coverage.hits("hazard.distance_3"), 0u);
+  EXPECT_EQ(coverage.hits("hazard.whole_window_1"), 1u);
+  EXPECT_EQ(coverage.hits("hazard.across_swap_3"), 1u);
+  EXPECT_EQ(coverage.hits("swap.sheet_of_windows_04"), 1u);
+  EXPECT_EQ(coverage.hits("swap.sheet_of_windows_01"), 1u);
+  EXPECT_EQ(coverage.hits("record.splat"), 5u);
+  EXPECT_EQ(coverage.hits("tile.additive"), 1u);
+  EXPECT_EQ(coverage.hits("tile.sum"), 0u);
+  EXPECT_EQ(coverage.hits("fill.random"), 1u);
+  EXPECT_EQ(coverage.hits("ready.always"), 1u);
+  EXPECT_EQ(coverage.hits("counter.splats"), 5u);
+  EXPECT_EQ(coverage.hits("output.tile_never_held"), 1u);
+  EXPECT_EQ(coverage.hits("output.first_beat_held"), 0u);
+}
+
+TEST(Coverage, OfASheetLongerThanItsWalkSaysSo) {
+  const auto options = sampled("tiny");
+  const Coverage coverage = coverage_of(centres(options.config, {{5}, std::vector<int>(30, 9)}), options);
+  EXPECT_EQ(coverage.hits("swap.walk_begins_at_window_10"), 1u);
+  EXPECT_EQ(coverage.hits("swap.walk_begins_after_the_sheet"), 0u);
+}
+
+TEST(Coverage, BinsHitInAFailingRunDoNotCount) {
+  VerifyOptions options = sampled("tiny");
+  options.timeout = 1;  // the device wipes its memories for longer
+  const auto result = verify(source_of(write_document(options.config, centres(options.config, {{5}}))), options);
+  EXPECT_EQ(result.verdict, Verdict::Simulation);
+  EXPECT_EQ(result.coverage, nullptr);
+}
+
+TEST(Coverage, MergesAndAddsUp) {
+  Coverage a, b;
+  a.hit(a.declare("g", "x"), 2);
+  b.hit(b.declare("g", "y"), 3);
+  b.hit(b.declare("g", "x"), 5);
+  a.merge(b);
+  EXPECT_EQ(a.hits("g.x"), 7u);
+  EXPECT_EQ(a.hits("g.y"), 3u);
+  EXPECT_EQ(a.hits("g.z"), 0u);
+  EXPECT_EQ(a.bins().size(), 2u);
+}
+
+TEST(Coverage, OfARoundingTellsExactTieAndSides) {
+  Coverage coverage;
+  const RoundingPoint point(coverage, "g", "p_", 2, 100, 20);
+  for (const std::int64_t value : {4, 5, 6, 7, 82, 81}) point.sample(coverage, value);
+  EXPECT_EQ(coverage.hits("g.p_exact"), 1u);
+  EXPECT_EQ(coverage.hits("g.p_below"), 2u);
+  EXPECT_EQ(coverage.hits("g.p_tie"), 2u);
+  EXPECT_EQ(coverage.hits("g.p_above"), 1u);
+  EXPECT_EQ(coverage.hits("g.p_saturated"), 1u) << "82/4 rounds up to 21";
+  const RoundingPoint none(coverage, "h", "", 0, 20, 20);
+  EXPECT_FALSE(coverage.declared("h.tie"));
+  EXPECT_FALSE(coverage.declared("h.saturated"));
+}
+
+TEST(Campaign, EveryClassMeetsEveryPatternOverSixSeeds) {
+  const std::vector<StimulusClass> one{StimulusClass::Hazards}, all = stimulus_classes();
+  const std::vector<StimulusClass> most(all.begin(), all.end() - 1);
+  // However many classes take turns.
+  for (const auto& classes : {one, most, all}) {
+    CampaignOptions campaign;
+    campaign.verify = sampled("tiny");
+    campaign.verify.ready = "all";
+    campaign.seeds = Pattern::examples().size();
+    campaign.splats = classes.size();
+    campaign.classes = classes;
+    const auto result = run_campaign(campaign);
+    ASSERT_EQ(result.total.verdict, Verdict::Pass);
+    EXPECT_EQ(result.coverage.size(), classes.size());
+    std::size_t crossed = 0;
+    for (const auto& [which, coverage] : result.coverage) {
+      for (const auto& bin : coverage.bins()) {
+        if (!bin.name.starts_with("class_ready.")) continue;
+        EXPECT_EQ(bin.hits, 1u) << bin.name;
+        ++crossed;
+      }
+    }
+    std::printf("[figure] class x ready pattern = %zu of %zu classes x %zu patterns\n", crossed, classes.size(),
+                Pattern::examples().size());
+    EXPECT_GE(crossed + 1, classes.size() * Pattern::examples().size());
+  }
+}
+
+class Directed : public ::testing::TestWithParam<const char*> {};
+
+void expect_all(const DirectedResult& result) {
+  for (const auto& failure : result.failures) ADD_FAILURE() << failure;
+  EXPECT_GT(result.comparisons, 0u);
+  for (const auto& bin : result.coverage.bins()) EXPECT_GT(bin.hits, 0u) << bin.name;
+  std::printf("[figure] comparisons = %llu (limit > 0)\n", static_cast<unsigned long long>(result.comparisons));
+}
+
+MakeDevice rtl_of(const cmodel::Config& config) {
+  return [config](cmodel::PixelSink& pixels, const RtlOptions& options) {
+    return make_rtl_device(config, pixels, options);
+  };
+}
+
+TEST_P(Directed, RegistersAnswerAsThePageSays) {
+  const auto config = driver::load_config(GetParam());
+  expect_all(check_registers(config, rtl_of(config)));
+}
+
+TEST_P(Directed, ForeignStreamsAreRefusedUntilAReset) {
+  const auto config = driver::load_config(GetParam());
+  expect_all(check_refusals(config, rtl_of(config)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Configurations, Directed, ::testing::Values("tiny", "small", "base"),
+                         [](const auto& param) { return std::string(param.param); });
+
+}  // namespace
+}  // namespace fastsplat::testbench

@@ -94,6 +94,10 @@ scene::SceneDescription describe(const SceneFlags& flags) {
     const auto flag = flags.settings.find(setting.flag);
     if (flag != flags.settings.end()) scene::set_from_text(setting, flag->second, to);
   }
+  for (const char* flag : {"--aperture", "--focus"}) {
+    if (flags.settings.contains(flag) && to.lens.depth_of_field == scene::DepthOfField::Off)
+      contradiction(std::string(flag) + " means nothing without depth of field", "add --depth-of-field splats");
+  }
   return to;
 }
 

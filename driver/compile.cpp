@@ -23,8 +23,20 @@ struct Plan {
   int sheets = 1;
 };
 
+/// The device draws circles of the splat's own scale and nothing else.
+void refuse_golden_only(const scene::SceneDescription& description) {
+  const std::string key = scene::technique_in_use(description.footprint, description.motion, description.lens);
+  if (key.empty()) return;
+  throw_usage({.where = key,
+               .what = "the device does not have this technique",
+               .expected = {},
+               .got = {},
+               .fix = "use --engine golden, or turn it off"});
+}
+
 Plan make_plan(const scene::Scene& scene) {
   const auto& description = scene.description;
+  refuse_golden_only(description);
   const scene::SlabGrid slabs = scene::slab_grid(scene);
   const auto slab_mode =
       description.slab_opacity == scene::SlabOpacity::Exponential ? cmodel::Mode::Exponential : cmodel::Mode::Additive;

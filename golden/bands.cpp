@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/parallel.hpp"
+#include "golden/projection.hpp"
 
 namespace fastsplat::golden {
 
@@ -29,10 +30,10 @@ struct BandRange {
 };
 
 BandRange bands_of(const ProjectedSplat& splat, const Bands& bands, int width) {
-  const double left = std::ceil(splat.x - splat.radius);
-  const double right = std::floor(splat.x + splat.radius);
-  const double top = std::max(std::ceil(splat.y - splat.radius), 0.0);
-  const double bottom = std::min(std::floor(splat.y + splat.radius), bands.image_height - 1.0);
+  const double left = std::ceil(splat.x - splat.reach_x);
+  const double right = std::floor(splat.x + splat.reach_x);
+  const double top = std::max(std::ceil(splat.y - splat.reach_y), 0.0);
+  const double bottom = std::min(std::floor(splat.y + splat.reach_y), bands.image_height - 1.0);
   if (right < 0.0 || left > width - 1.0 || top > bottom) return {};
   return {static_cast<int>(top) / bands.rows_per_band, static_cast<int>(bottom) / bands.rows_per_band + 1};
 }
@@ -44,10 +45,11 @@ BandIndex::BandIndex(const scene::Scene& scene, const std::vector<scene::Splat>&
                      const std::function<int(const ProjectedSplat&)>& key)
     : keys_(static_cast<std::size_t>(keys)) {
   const int width = scene.camera.width();
+  const Projector project(scene);
   assert(splats.size() <= std::numeric_limits<std::uint32_t>::max());
   const auto for_each_cell = [&](const auto& visit) {
     for (std::size_t i = 0; i < splats.size(); ++i) {
-      const ProjectedSplat splat = project(scene, splats[i]);
+      const ProjectedSplat splat = project(splats[i]);
       const BandRange reached = bands_of(splat, bands, width);
       if (reached.first == reached.end) continue;
       const auto splat_key = static_cast<std::size_t>(key(splat));

@@ -12,6 +12,8 @@
 #include "base/progress.hpp"
 #include "golden/footprint.hpp"
 #include "golden/projected_splat.hpp"
+#include "scene/scene.hpp"
+#include "scene/splats.hpp"
 
 namespace fastsplat::golden {
 

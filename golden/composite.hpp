@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "golden/projected_splat.hpp"
+#include "scene/scene.hpp"
 
 namespace fastsplat::golden {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "golden/projected_splat.hpp"
+#include "scene/kernel.hpp"
 
 namespace fastsplat::golden {
 
@@ -26,7 +27,8 @@ class Footprint {
     std::size_t weights = 0;  ///< index of the first pixel's weight
   };
 
-  /// Weight of pixel (i,j) = kernel.footprint(d^2) with d its distance from the centre in kernel units, strict support.
+  /// Weight of pixel (i,j) = kernel.footprint(q) with q = d^T S^-1 d, d its offset from the centre and S the splat's
+  /// shape; strict support.
   void rasterise(const scene::Kernel& kernel, const ProjectedSplat& splat, Rows rows, int image_width);
 
   const std::vector<Span>& spans() const { return spans_; }

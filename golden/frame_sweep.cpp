@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "golden/bands.hpp"
+#include "golden/projection.hpp"
 
 namespace fastsplat::golden {
 namespace {
@@ -25,6 +26,7 @@ class FrameSweep {
         stages_(stages),
         width_(scene.camera.width()),
         height_(scene.camera.height()),
+        project_(scene),
         bands_{height_},
         index_(scene, splats, bands_, assignment.sheets(), first_sheet()),
         pixels_(static_cast<std::size_t>(width_) * height_),
@@ -106,7 +108,7 @@ class FrameSweep {
     parallel_for((bucket.size() + kBlock - 1) / kBlock, options_.threads, [&](std::size_t block) {
       for (const std::uint32_t i : bucket.subspan(block * kBlock, std::min(kBlock, bucket.size() - block * kBlock))) {
         const bool with_block = occlusion.block_hidden(i);
-        hidden_[i] = with_block || occlusion.hidden(project(scene_, splats_[i]), margin_);
+        hidden_[i] = with_block || occlusion.hidden(project_(splats_[i]), margin_);
         hidden += hidden_[i];
         by_block += with_block;
       }
@@ -120,7 +122,7 @@ class FrameSweep {
       std::vector<double>& shares = shares_[band];
       for (const std::uint32_t i : index_.bucket(band, sheet)) {
         if (stages_.occlusion && hidden_[i]) continue;
-        const ProjectedSplat splat = project(scene_, splats_[i]);
+        const ProjectedSplat splat = project_(splats_[i]);
         footprint.rasterise(scene_.kernel, splat, rows, width_);
         assignment_.shares(splat, shares);
         assert(static_cast<int>(shares.size()) <= assignment_.reach());
@@ -204,6 +206,7 @@ class FrameSweep {
   const SheetAssignment& assignment_;
   const FrameStages& stages_;
   int width_, height_;
+  Projector project_;
   Bands bands_;
   BandIndex index_;
   std::vector<FrontToBack> pixels_;

@@ -7,7 +7,7 @@
 namespace fastsplat::golden {
 
 Image image_aligned(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options) {
-  return composite_sheets(scene, splats, options, KernelSlices(scene.kernel, scene::slab_grid(scene)));
+  return composite_sheets(scene, splats, options, image_slabs(scene));
 }
 
 }  // namespace fastsplat::golden

@@ -12,6 +12,7 @@
 
 #include "golden/bands.hpp"
 #include "golden/composite.hpp"
+#include "golden/projection.hpp"
 #include "golden/render.hpp"
 #include "golden/splat_tree.hpp"
 

@@ -4,33 +4,40 @@
 #include <cassert>
 #include <cmath>
 
+#include "golden/antialias.hpp"
 #include "golden/bands.hpp"
 #include "golden/composite.hpp"
 #include "golden/footprint.hpp"
+#include "golden/projection.hpp"
 #include "golden/sheet.hpp"
 
 namespace fastsplat::golden {
 
 int KernelSlices::reach() const {
   // One more than 2R/W slabs when the ends fall inside slabs, one more for the rounding of the ends' positions.
-  return std::min(grid_.count, static_cast<int>(std::ceil(2.0 * kernel_.radius() / grid_.width)) + 2);
+  return std::min(grid_.count, static_cast<int>(std::ceil(2.0 * kernel_.radius() * largest_growth_ / grid_.width)) + 2);
 }
 
 int KernelSlices::first(const ProjectedSplat& splat) const {
-  const double slab = std::floor((splat.z - kernel_.radius() - grid_.first) / grid_.width);
+  const double slab = std::floor((splat.z - kernel_.radius() * splat.depth_growth - grid_.first) / grid_.width);
   return static_cast<int>(std::clamp(slab, 0.0, grid_.count - 1.0));
 }
 
 void KernelSlices::shares(const ProjectedSplat& splat, std::vector<double>& out) const {
+  assert(splat.depth_growth <= largest_growth_ * (1.0 + 1e-6));  // positions are float
   out.clear();
   double in_front = 0.0;  // share of the splat in front of the current slab
   for (int slab = first(splat); slab < grid_.count && in_front < 1.0; ++slab) {
     const bool last = slab == grid_.count - 1;
     const double z1 = grid_.first + (slab + 1) * grid_.width;
-    const double behind_slab = last ? 1.0 : kernel_.cumulative(z1 - splat.z);
+    const double behind_slab = last ? 1.0 : kernel_.cumulative((z1 - splat.z) / splat.depth_growth);
     out.push_back(behind_slab - in_front);
     in_front = behind_slab;
   }
+}
+
+KernelSlices image_slabs(const scene::Scene& scene) {
+  return {scene.kernel, slabs_for_grown_kernels(scene), largest_growth(scene)};
 }
 
 namespace {
@@ -64,6 +71,7 @@ Image sweep_sheets(const scene::Scene& scene, const std::vector<scene::Splat>& s
   const int width = scene.camera.width();
   const int height = scene.camera.height();
   Image image(width, height);
+  const Projector project(scene);
   const int reach = assignment.reach();
   const Bands bands{height, rows_for_ring(reach, width)};
   const BandIndex index(scene, splats, bands, assignment.sheets(),
@@ -78,7 +86,7 @@ Image sweep_sheets(const scene::Scene& scene, const std::vector<scene::Splat>& s
 
     for (int sheet = 0; sheet < assignment.sheets(); ++sheet) {
       for (const std::uint32_t i : index.bucket(band, sheet)) {
-        const ProjectedSplat splat = project(scene, splats[i]);
+        const ProjectedSplat splat = project(splats[i]);
         footprint.rasterise(scene.kernel, splat, rows, width);
         assignment.shares(splat, shares);
         assert(static_cast<int>(shares.size()) <= reach);

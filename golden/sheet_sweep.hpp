@@ -38,11 +38,14 @@ class WholeSplats final : public SheetAssignment {
   int sheets_;
 };
 
-/// Kernel slices: the slab [z0,z1) of depth gets Phi(z1-z) - Phi(z0-z) of a splat centred at z, Phi =
-/// Kernel::cumulative. The first slab reaches to the eye and the last to infinity, so nothing is lost.
+/// Kernel slices: the slab [z0,z1) of depth gets Phi((z1-z)/l) - Phi((z0-z)/l) of a splat centred at z, Phi =
+/// Kernel::cumulative, l its depth_growth. The first slab reaches to the eye and the last to infinity, so nothing is
+/// lost.
 class KernelSlices final : public SheetAssignment {
  public:
-  KernelSlices(const scene::Kernel& kernel, const scene::SlabGrid& grid) : kernel_(kernel), grid_(grid) {}
+  /// `largest_growth`: of any splat.
+  KernelSlices(const scene::Kernel& kernel, const scene::SlabGrid& grid, double largest_growth)
+      : kernel_(kernel), grid_(grid), largest_growth_(largest_growth) {}
   int sheets() const override { return grid_.count; }
   int reach() const override;
   int first(const ProjectedSplat& splat) const override;
@@ -51,7 +54,11 @@ class KernelSlices final : public SheetAssignment {
  private:
   const scene::Kernel& kernel_;
   scene::SlabGrid grid_;
+  double largest_growth_;
 };
+
+/// The sheets of image_aligned: scene::slab_grid, longer where anti-aliased kernels reach beyond it.
+KernelSlices image_slabs(const scene::Scene& scene);
 
 /// Takes a run of pixels of a finished sheet into the picture. `pixels` start as given to sweep_sheets.
 using TakeSheet = std::function<void(std::span<Sums> pixels, std::span<const Sums> sheet)>;

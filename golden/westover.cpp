@@ -3,6 +3,7 @@
 #include "golden/bands.hpp"
 #include "golden/composite.hpp"
 #include "golden/footprint.hpp"
+#include "golden/projection.hpp"
 #include "golden/render.hpp"
 
 namespace fastsplat::golden {
@@ -12,6 +13,7 @@ Image westover(const scene::Scene& scene, const std::vector<scene::Splat>& splat
   const int height = scene.camera.height();
   const scene::SlabOpacity opacity = scene.description.slab_opacity;
   Image image(width, height);
+  const Projector project(scene);
   const Bands bands{height};
   const BandIndex index(scene, splats, bands, 1, [](const ProjectedSplat&) { return 0; });
 
@@ -20,7 +22,7 @@ Image westover(const scene::Scene& scene, const std::vector<scene::Splat>& splat
     std::vector<FrontToBack> pixels(static_cast<std::size_t>(rows.end - rows.first) * width);
     Footprint footprint;
     for (const std::uint32_t i : index.bucket(band, 0)) {
-      const ProjectedSplat splat = project(scene, splats[i]);
+      const ProjectedSplat splat = project(splats[i]);
       footprint.rasterise(scene.kernel, splat, rows, width);
       for (const Footprint::Span& span : footprint.spans()) {
         const double* weights = footprint.weights(span);

@@ -1,5 +1,6 @@
 // X-ray: the line integral of emission (RGB) and of extinction (A), times the exposure. Exact for splatting, since the
 // integral of a sum of kernels is the sum of their footprints; no order, no compositing.
+#include "golden/antialias.hpp"
 #include "golden/render.hpp"
 #include "golden/sheet_sweep.hpp"
 
@@ -27,7 +28,8 @@ Image xray(const scene::Scene& scene, const std::vector<scene::Splat>& splats, c
   const auto expose = [&scene](const Sums& pixel, float* rgba) {
     for (int c = 0; c < 4; ++c) rgba[c] = static_cast<float>(scene.xray_scale * pixel[c]);
   };
-  return sweep_sheets(scene, splats, options, KernelSlices(scene.kernel, xray_grid(scene)), Sums{}, add, expose);
+  return sweep_sheets(scene, splats, options, KernelSlices(scene.kernel, xray_grid(scene), largest_growth(scene)),
+                      Sums{}, add, expose);
 }
 
 }  // namespace fastsplat::golden

@@ -85,10 +85,13 @@ Camera::Camera(const CameraParams& params, const Volume& volume, double kernel_r
   scale_ = half_side / std::tan(half_fov) / eye_distance_;
 }
 
+double Camera::scale_at(double depth) const {
+  return projection_ == Projection::Orthographic ? scale_ : scale_ * (eye_distance_ / (eye_distance_ + depth));
+}
+
 ScreenPoint Camera::project(const glm::dvec3& world) const {
   const double depth = glm::dot(world, forward_);
-  const double scale =
-      projection_ == Projection::Orthographic ? scale_ : scale_ * (eye_distance_ / (eye_distance_ + depth));
+  const double scale = scale_at(depth);
   return {.x = 0.5 * (width_ - 1) + scale * glm::dot(world, right_),
           .y = 0.5 * (height_ - 1) + scale * glm::dot(world, down_),
           .depth = depth,

@@ -43,7 +43,8 @@ class Camera {
 
   /// Perspective: meant for points in front of the eye, as all of the bounding sphere is.
   ScreenPoint project(const glm::dvec3& world) const;
-  Ray ray(double x, double y) const;  ///< through pixel coordinates (x,y)
+  double scale_at(double depth) const;  ///< ScreenPoint::scale of a point at ScreenPoint::depth
+  Ray ray(double x, double y) const;    ///< through pixel coordinates (x,y)
 
   glm::dvec3 direction() const { return forward_; }  ///< unit view axis in world space, away from the eye
   glm::dvec3 right() const { return right_; }        ///< unit, image +x

@@ -37,6 +37,12 @@ double Kernel::value(double rho2, double z) const {
 
 double Kernel::footprint(double rho2) const { return rho2 < radius_ * radius_ ? peak_ * std::exp(-a_ * rho2) : 0.0; }
 
+// Half of the mean squared radius, Int rho^2 exp(-a rho^2) over the disc by parts.
+double Kernel::variance() const {
+  const double edge = a_ * radius_ * radius_;
+  return (1.0 - edge * std::exp(-edge) / -std::expm1(-edge)) / (2.0 * a_);
+}
+
 double Kernel::cumulative(double z) const {
   if (z <= -radius_) return 0.0;
   if (z >= radius_) return 1.0;

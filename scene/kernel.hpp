@@ -22,6 +22,9 @@ class Kernel {
   /// Integral of h over all z: F(rho) = peak() exp(-a rho^2), strict support rho < R.
   double footprint(double rho2) const;
   double peak() const { return peak_; }
+  /// Second moment of the footprint along x (or y): the footprint integrates to 1. Kernel units squared; a little less
+  /// than the endless Gaussian's 1/(2a), since the footprint ends at R.
+  double variance() const;
   /// Share of the footprint lying in front of z: 0 for z <= -R, 1 for z >= R, exactly.
   double cumulative(double z) const;
 

@@ -50,6 +50,7 @@ Scene build_scene(const SceneDescription& description, std::shared_ptr<const Vol
   const Kernel kernel = make_kernel(description);
   const double unit = volume->kernel_unit();
   const Camera camera(description.camera, *volume, kernel.radius() * unit, description.width, description.height);
+  check_techniques(description.motion, description.lens, camera, volume->bounding_radius() + kernel.radius() * unit);
   TransferFunction tf = load_transfer_function(description.transfer_function.empty() ? preset_for(description.volume)
                                                                                      : description.transfer_function);
   Shading shading = tf.shading;

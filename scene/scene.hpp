@@ -8,6 +8,7 @@
 
 #include "scene/camera.hpp"
 #include "scene/kernel.hpp"
+#include "scene/techniques.hpp"
 #include "scene/transfer_function.hpp"
 #include "scene/volume.hpp"
 
@@ -31,6 +32,9 @@ struct SceneDescription {
   double xray_exposure = 0.0;  ///< pixel = exposure * integral; 0: automatic, see Scene::xray_scale
   int shading = -1;            ///< -1 as the transfer function suggests, 0 off, 1 on
   double opacity_scale = 1.0;  ///< multiplies extinction
+  FootprintSettings footprint{};
+  Motion motion{};
+  Lens lens{};
 };
 
 /// Ready to render: files read, names resolved, limits checked.

@@ -10,6 +10,8 @@ namespace {
 using D = SceneDescription;
 
 constexpr double kDegrees = 3600.0;
+constexpr double kMotion = 1e4;  // mm
+constexpr double kOrbit = 30.0;  // degrees: the way is taken as straight, 3.4 % of the radius off an arc of 30 degrees
 
 const std::vector<std::string>& shading_names() {
   static const std::vector<std::string> names = {"auto", "off", "on"};
@@ -21,125 +23,85 @@ const std::vector<std::string>& projection_names() {
   return names;
 }
 
-/// A choice kept in an enum whose values are positions in names(). `Of`: D& -> the enum's reference.
+// The enums that are settings, by reference.
+Method& method(D& d) { return d.method; }
+Projection& projection(D& d) { return d.camera.projection; }
+SlabOpacity& slab_opacity(D& d) { return d.slab_opacity; }
+FootprintShape& footprint_shape(D& d) { return d.footprint.shape; }
+DepthOfField& depth_of_field(D& d) { return d.lens.depth_of_field; }
+
+/// A choice kept in an enum whose values are positions in names().
 template <auto Of>
 constexpr Choice choice(const std::vector<std::string>& (*names)()) {
-  using Enum = std::remove_cvref_t<decltype(Of(std::declval<D&>()))>;
   return {names, [](const D& d) { return static_cast<int>(Of(const_cast<D&>(d))); },
-          [](D& d, int at) { Of(d) = static_cast<Enum>(at); }};
+          [](D& d, int at) {
+            auto& value = Of(d);
+            value = static_cast<std::remove_reference_t<decltype(value)>>(at);
+          }};
 }
 
-const std::array kSettings{Setting{"", "method", "--method", "Method", "NAME",
-                                   "raycast (golden only), xray, westover, axis_aligned, image_aligned",
-                                   choice < [](D& d) -> auto& {return d.method;
-}  // namespace
-> (method_names)
-}  // namespace fastsplat::scene
-,
-    Setting{"",
-            "shading",
-            "--shading",
-            "Scene",
-            "on|off|auto",
-            "auto: as the transfer function suggests",
+const std::array kSettings{
+    Setting{"", "method", "--method", "Method", "NAME",
+            "raycast (golden only), xray, westover, axis_aligned, image_aligned", choice<method>(method_names)},
+    Setting{"", "shading", "--shading", "Scene", "on|off|auto", "auto: as the transfer function suggests",
             Choice{shading_names, [](const D& d) { return d.shading + 1; }, [](D& d, int at) { d.shading = at - 1; }}},
-    Setting{"",
-            "opacity_scale",
-            "--opacity-scale",
-            "Scene",
-            "NUMBER",
-            "multiplies every extinction",
+    Setting{"", "opacity_scale", "--opacity-scale", "Scene", "NUMBER", "multiplies every extinction",
             Real{1e-6, 1e6, [](D& d) -> double& { return d.opacity_scale; }}},
 
-    Setting{"camera", "projection", "", "", "", "", choice < [](D& d) -> auto& {return d.camera.projection;
-}
-> (projection_names)
-}
-,
-    Setting{"camera",
-            "azimuth",
-            "--azimuth",
-            "Camera",
-            "DEGREES",
+    Setting{"camera", "projection", "", "", "", "", choice<projection>(projection_names)},
+    Setting{"camera", "azimuth", "--azimuth", "Camera", "DEGREES",
             "degrees about the vertical axis; 0 looks from the front",
             Real{-kDegrees, kDegrees, [](D& d) -> double& { return d.camera.azimuth; }}},
-    Setting{"camera",
-            "elevation",
-            "--elevation",
-            "Camera",
-            "DEGREES",
-            "degrees, positive looks down",
+    Setting{"camera", "elevation", "--elevation", "Camera", "DEGREES", "degrees, positive looks down",
             Real{-kDegrees, kDegrees, [](D& d) -> double& { return d.camera.elevation; }}},
-    Setting{"camera",
-            "roll",
-            "--roll",
-            "Camera",
-            "DEGREES",
-            "degrees about the view axis",
+    Setting{"camera", "roll", "--roll", "Camera", "DEGREES", "degrees about the view axis",
             Real{-kDegrees, kDegrees, [](D& d) -> double& { return d.camera.roll; }}},
-    Setting{"camera",
-            "zoom",
-            "--zoom",
-            "Camera",
-            "NUMBER",
-            "1 fits the volume's bounding sphere",
+    Setting{"camera", "zoom", "--zoom", "Camera", "NUMBER", "1 fits the volume's bounding sphere",
             Real{1e-6, 1e6, [](D& d) -> double& { return d.camera.zoom; }}},
-    Setting{"camera",
-            "fov",
-            "--fov",
-            "Camera",
-            "DEGREES",
-            "degrees across the smaller side (perspective)",
+    Setting{"camera", "fov", "--fov", "Camera", "DEGREES", "degrees across the smaller side (perspective)",
             Real{1.0, 150.0, [](D& d) -> double& { return d.camera.fov; }}},
 
     Setting{"image", "width", "", "", "", "", Integer{1, kMaxImageSide, [](D& d) -> int& { return d.width; }}},
     Setting{"image", "height", "", "", "", "", Integer{1, kMaxImageSide, [](D& d) -> int& { return d.height; }}},
 
-    Setting{"kernel",
-            "a",
-            "--kernel-a",
-            "Scene",
-            "NUMBER",
-            "kernel exp(-a r^2): its a",
+    Setting{"kernel", "a", "--kernel-a", "Scene", "NUMBER", "kernel exp(-a r^2): its a",
             Real{0.1, 20.0, [](D& d) -> double& { return d.kernel_a; }}},
-    Setting{"kernel",
-            "radius",
-            "--kernel-radius",
-            "Scene",
-            "NUMBER",
-            "kernel's radius R in voxels",
+    Setting{"kernel", "radius", "--kernel-radius", "Scene", "NUMBER", "kernel's radius R in voxels",
             Real{0.5, 8.0, [](D& d) -> double& { return d.kernel_radius; }}},
 
     Setting{"slabs", "opacity", "--slab-opacity", "Method", "NAME", "additive or exponential",
-            choice < [](D& d) -> auto& {return d.slab_opacity;
-}
-> (slab_opacity_names)
-}
-,
-    Setting{"slabs",
-            "width",
-            "--slab-width",
-            "Method",
-            "VOXELS",
-            "image-aligned: slab width in voxels",
+            choice<slab_opacity>(slab_opacity_names)},
+    Setting{"slabs", "width", "--slab-width", "Method", "VOXELS", "image-aligned: slab width in voxels",
             Real{0.01, 64.0, [](D& d) -> double& { return d.slab_width; }}},
 
-    Setting{"xray",
-            "exposure",
-            "--xray-exposure",
-            "Method",
-            "NUMBER",
+    Setting{"xray", "exposure", "--xray-exposure", "Method", "NUMBER",
             "X-ray: pixel = exposure * integral; 0 automatic",
             Real{0.0, 1e9, [](D& d) -> double& { return d.xray_exposure; }}},
-    Setting{"xray",
-            "sheets",
-            "--xray-sheets",
-            "Method",
-            "N",
-            "X-ray: sheets it is summed in",
+    Setting{"xray", "sheets", "--xray-sheets", "Method", "N", "X-ray: sheets it is summed in",
             Integer{1, 65535, [](D& d) -> int& { return d.xray_sheets; }}},
-}
-;
+
+    Setting{"footprint", "shape", "--footprint", "Footprint", "NAME",
+            "circle, or ellipse: the kernel's sphere as perspective shows it",
+            choice<footprint_shape>(footprint_shape_names)},
+    Setting{"footprint", "antialias", "--antialias", "Footprint", "on|off",
+            "kernels never smaller on the screen than one pixel a voxel",
+            Switch{[](D& d) -> bool& { return d.footprint.antialias; }}},
+
+    Setting{"motion", "translate", "--motion-translate", "Footprint", "X,Y,Z",
+            "motion blur: the volume's way while the shutter is open, mm",
+            Triple{-kMotion, kMotion, [](D& d) -> glm::dvec3& { return d.motion.translate; }}},
+    Setting{"motion", "orbit", "--motion-orbit", "Footprint", "DEGREES",
+            "motion blur: the camera's way in azimuth while the shutter is open",
+            Real{-kOrbit, kOrbit, [](D& d) -> double& { return d.motion.orbit; }}},
+
+    Setting{"lens", "depth_of_field", "--depth-of-field", "Footprint", "NAME",
+            "off, or splats: each widened to its circle of confusion", choice<depth_of_field>(depth_of_field_names)},
+    Setting{"lens", "aperture", "--aperture", "Footprint", "MM", "the lens's diameter",
+            Real{0.0, 1e6, [](D& d) -> double& { return d.lens.aperture; }}},
+    Setting{"lens", "focus", "--focus", "Footprint", "MM",
+            "depth in focus, from the volume's centre, positive is farther",
+            Real{-1e6, 1e6, [](D& d) -> double& { return d.lens.focus; }}},
+};
 
 }  // namespace
 

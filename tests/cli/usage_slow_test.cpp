@@ -42,6 +42,26 @@ INSTANTIATE_TEST_SUITE_P(
                {"render", "--perspective", "--orthographic", "-o", "a.exr"},
                {"exclude each other"}},
         Misuse{"fov_orthographic", {"render", "--fov", "30", "-o", "a.exr"}, {"--perspective"}},
+        Misuse{"aperture_without_depth_of_field",
+               {"render", "--perspective", "--aperture", "5", "-o", "a.exr"},
+               {"--aperture", "--depth-of-field"}},
+        Misuse{"aperture_negative",
+               {"render", "--perspective", "--depth-of-field", "splats", "--aperture", "-5", "-o", "a.exr"},
+               {"--aperture"}},
+        Misuse{"focus_behind_the_eye",
+               {"render", "--perspective", "--depth-of-field", "splats", "--focus", "-9999", "-o", "a.exr"},
+               {"behind the eye"}},
+        Misuse{"depth_of_field_orthographic",
+               {"render", "--depth-of-field", "splats", "--aperture", "5", "-o", "a.exr"},
+               {"perspective"}},
+        Misuse{"motion_two_numbers", {"render", "--motion-translate", "1,2", "-o", "a.exr"}, {"X,Y,Z"}},
+        Misuse{"motion_orbit_too_far", {"render", "--motion-orbit", "90", "-o", "a.exr"}, {"-30..30"}},
+        Misuse{"antialias_on_device",
+               {"render", "--engine", "cmodel", "--antialias", "on", "--volume", "point:4", "-o", "a.exr"},
+               {"footprint.antialias", "--engine golden"}},
+        Misuse{"ellipse_by_rays",
+               {"render", "--method", "raycast", "--footprint", "ellipse", "--volume", "point:4", "-o", "a.exr"},
+               {"footprint.shape", "ray caster"}},
         Misuse{"zoom_zero", {"render", "--zoom", "0", "-o", "a.exr"}, {"zoom"}},
         Misuse{"zoom_negative", {"render", "--zoom", "-1", "-o", "a.exr"}, {"zoom"}},
         Misuse{"slab_width_zero", {"render", "--slab-width", "0", "-o", "a.exr"}, {"slab"}},
@@ -85,7 +105,8 @@ TEST(Help, IsOnStdoutAndSucceeds) {
 
 TEST(Help, NamesEveryVerbAndTheExitCodes) {
   const auto text = fastsplat({"help"}).out;
-  for (const std::string verb : {"render", "compare", "volume", "stream", "cycles", "config", "doctor", "130 interrupted"}) {
+  for (const std::string verb :
+       {"render", "compare", "volume", "stream", "cycles", "config", "doctor", "130 interrupted"}) {
     EXPECT_NE(text.find(verb), std::string::npos) << verb;
   }
 }

@@ -26,7 +26,7 @@ Lattice view() {
   return lattice;
 }
 
-KernelSlices slices(const scene::Scene& scene) { return {scene.kernel, scene::slab_grid(scene)}; }
+KernelSlices slices(const scene::Scene& scene) { return image_slabs(scene); }
 
 /// Leaves the sums as they are.
 class Idle final : public SheetStage {

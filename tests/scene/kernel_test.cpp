@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -93,6 +94,24 @@ TEST_P(KernelIntegrals, TheWholeIsOne) {
   std::printf("[figure] volume under the kernel - 1, a=%g R=%g = %.3g (limit %.3g)\n", kernel_.a(), kernel_.radius(),
               sum - 1.0, limit);
   EXPECT_NEAR(sum, 1.0, limit);
+}
+
+TEST_P(KernelIntegrals, VarianceIsTheFootprintsSecondMoment) {
+  // Rings: pi rho^3 F(rho), midpoint; with t = sqrt(a) rho the second derivative is below sqrt(a) (6t + 14t^3 + 4t^5)
+  // exp(-t^2) < 11 sqrt(a), over what the cut at R leaves of the volume.
+  constexpr int kRings = 20000;
+  const double a = kernel_.a(), r = kernel_.radius();
+  const double step = r / kRings;
+  double sum = 0.0;
+  for (int i = 0; i < kRings; ++i) {
+    const double rho = (i + 0.5) * step;
+    sum += std::numbers::pi * rho * rho * rho * kernel_.footprint(rho * rho) * step;
+  }
+  const double limit = r * step * step / 24.0 * 11.0 * std::sqrt(a) / -std::expm1(-a * r * r) + 1e-12;
+  std::printf("[figure] variance of the footprint - quadrature, a=%g R=%g = %.3g (limit %.3g)\n", a, r,
+              kernel_.variance() - sum, limit);
+  EXPECT_NEAR(kernel_.variance(), sum, limit);
+  EXPECT_GT(sum, 0.2 * std::min(0.5 / a, r * r / 4));
 }
 
 TEST_P(KernelIntegrals, SupportIsStrict) {

@@ -1,0 +1,53 @@
+// What bends a splat's footprint on the screen: perspective, minification, motion, a lens. Only the golden renderer has
+// these; docs/techniques/ has a page for each.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "scene/camera.hpp"
+
+namespace fastsplat::scene {
+
+enum class FootprintShape {
+  Circle,   ///< of the splat's own scale
+  Ellipse,  ///< the kernel's sphere in perspective, local affine projection
+};
+
+struct FootprintSettings {
+  FootprintShape shape = FootprintShape::Circle;
+  bool antialias = false;  ///< kernels never smaller on the screen than one pixel a voxel
+};
+
+/// What happens while the shutter is open, from -1/2 to +1/2 about the picture's own moment.
+struct Motion {
+  glm::dvec3 translate{0.0};  ///< mm, world: the volume's way
+  double orbit = 0.0;         ///< degrees of azimuth: the camera's way, which ends at azimuth + orbit/2
+
+  bool none() const { return translate == glm::dvec3(0.0) && orbit == 0.0; }
+};
+
+enum class DepthOfField { Off, Splats, Sheets };
+
+/// A thin lens focused on a plane. The field of view fixes how large the picture is, so the focal length cancels:
+/// docs/techniques/depth-of-field.md.
+struct Lens {
+  DepthOfField depth_of_field = DepthOfField::Off;
+  double aperture = 0.0;  ///< mm, diameter
+  double focus = 0.0;     ///< mm along the view axis from the volume's centre, positive is farther
+};
+
+/// Diameter of the circle of confusion at `depth`, pixels: A |s(depth) - s(focus)|, s the camera's pixels per mm.
+double circle_of_confusion(const Camera& camera, const Lens& lens, double depth);
+
+/// UserError (Usage) unless they make sense with this camera. `radius`: of the ball that holds all kernels, mm.
+void check_techniques(const Motion& motion, const Lens& lens, const Camera& camera, double radius);
+
+/// The first of them that is turned on, as its key in scene.toml ("motion.orbit"); empty if none is.
+std::string technique_in_use(const FootprintSettings& footprint, const Motion& motion, const Lens& lens);
+
+const std::vector<std::string>& footprint_shape_names();  ///< in the order of FootprintShape
+const std::vector<std::string>& depth_of_field_names();   ///< in the order of DepthOfField
+
+}  // namespace fastsplat::scene

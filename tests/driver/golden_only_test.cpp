@@ -1,0 +1,41 @@
+// Techniques that the device does not have are refused by name, never left out in silence.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "base/error.hpp"
+#include "driver/compile.hpp"
+#include "driver/config_file.hpp"
+#include "tests/driver/scenes_helper.hpp"
+
+namespace fastsplat::driver {
+namespace {
+
+TEST(GoldenOnly, techniques_are_refused_by_their_key) {
+  const auto config = load_config("small");
+  auto plain = view_of("point:9", 16);
+  plain.camera.projection = scene::Projection::Perspective;
+  EXPECT_NO_THROW(CompiledFrame(scene::build_scene(plain), config));
+
+  std::vector<std::pair<std::string, scene::SceneDescription>> scenes;
+  const auto with = [&](const char* key) -> scene::SceneDescription& { return scenes.emplace_back(key, plain).second; };
+  with("footprint.shape").footprint.shape = scene::FootprintShape::Ellipse;
+  with("footprint.antialias").footprint.antialias = true;
+  with("motion.translate").motion.translate = {0.0, 0.1, 0.0};
+  with("motion.orbit").motion.orbit = 1.0;
+  with("lens.depth_of_field").lens.depth_of_field = scene::DepthOfField::Splats;
+
+  for (const auto& [key, description] : scenes) {
+    try {
+      CompiledFrame(scene::build_scene(description), config);
+      ADD_FAILURE() << key << " was accepted";
+    } catch (const UserError& error) {
+      EXPECT_EQ(error.code(), ExitCode::Usage);
+      EXPECT_EQ(std::string(error.what()).rfind(key, 0), 0u) << error.what();
+      EXPECT_NE(std::string(error.what()).find("--engine golden"), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fastsplat::driver

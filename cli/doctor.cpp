@@ -10,6 +10,7 @@
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "driver/config_file.hpp"
+#include "scene/scene.hpp"
 #include "scene/synthetic.hpp"
 #include "scene/transfer_function.hpp"
 #include "scene/volume_file.hpp"
@@ -95,9 +96,11 @@ ExitCode run(const DoctorArguments& arguments) {
   }
   output.line(fmt::format("built-in volumes: {}", fmt::join(scene::synthetic_names(), ", ")));
   output.line(fmt::format("transfer functions: {}", fmt::join(scene::transfer_function_presets(), ", ")));
+  output.line(fmt::format("demo scenes: {}", fmt::join(scene::demo_names(), ", ")));
   output.line(fmt::format("configurations: {}", fmt::join(driver::config_names(), ", ")));
   json["synthetics"] = scene::synthetic_names();
   json["transfer_functions"] = scene::transfer_function_presets();
+  json["demos"] = scene::demo_names();
   json["configurations"] = driver::config_names();
 
   const std::string fix =

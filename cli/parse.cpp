@@ -59,7 +59,8 @@ void add_common(CLI::App& verb, Common& to) {
 void add_scene(CLI::App& verb, SceneFlags& to) {
   const auto word = [&verb](const char* flag, std::optional<std::string>& value, const char* help, const char* group,
                             const char* unit) { verb.add_option(flag, value, help)->type_name(unit)->group(group); };
-  word("--scene", to.file, "a scene.toml; the flags below override it", "Scene", "FILE");
+  word("--scene", to.file, "a scene.toml or a built-in demo:NAME (`doctor` lists them); the flags below override it",
+       "Scene", "FILE|demo:NAME");
   word("--volume", to.volume, "NRRD or NIfTI file, a built-in like shells:128, or ch2, ch2bet, inia19-t1-brain",
        "Scene", "NAME|PATH");
   word("--tf", to.transfer_function, "transfer function: a preset or a TOML file", "Scene", "NAME|FILE");

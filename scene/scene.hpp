@@ -54,9 +54,10 @@ struct Scene {
   double xray_scale = 1.0;
 };
 
-/// Unknown keys and bad values are UserErrors with file:line and a hint. Relative volume paths are relative to the
-/// file.
+/// A scene.toml, or a built-in scene as "demo:NAME". Unknown keys and bad values are UserErrors with file:line and a
+/// hint, an unknown demo is one with the nearest name. Relative volume paths are relative to the file.
 SceneDescription load_scene_file(const std::filesystem::path& path);
+std::vector<std::string> demo_names();  ///< sorted
 /// As TOML that load_scene_file reads back to the same description.
 std::string to_toml(const SceneDescription& description);
 

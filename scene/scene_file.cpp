@@ -8,6 +8,8 @@
 
 #include "base/error.hpp"
 #include "base/suggest.hpp"
+#include "scene/embedded.hpp"
+#include "scene/open_scene.hpp"
 #include "scene/scene.hpp"
 #include "scene/sequence_table.hpp"
 #include "scene/settings.hpp"
@@ -19,6 +21,8 @@ namespace fastsplat::scene {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view kDemoPrefix = "demo:";
 
 bool is_known_volume(const std::string& text) {
   const auto names = known_volume_names();
@@ -75,9 +79,29 @@ std::string toml_string(const std::string& text) {
 
 }  // namespace
 
+TomlTable open_scene(const fs::path& path) {
+  const std::string text = path.string();
+  if (!text.starts_with(kDemoPrefix)) return TomlTable::parse_file(path);
+  const std::string name = text.substr(kDemoPrefix.size());
+  for (const auto& demo : demos()) {
+    if (demo.name == name) return TomlTable::parse(demo.text, text);
+  }
+  throw_usage({.where = {},
+               .what = "unknown demo scene '" + name + "'",
+               .expected = {},
+               .got = {},
+               .fix = suggestion(name, demo_names())});
+}
+
+std::vector<std::string> demo_names() {
+  std::vector<std::string> names;
+  for (const auto& demo : demos()) names.push_back(demo.name);
+  return names;
+}
+
 SceneDescription load_scene_file(const fs::path& path) {
   SceneDescription d;
-  TomlTable root = TomlTable::parse_file(path);
+  TomlTable root = open_scene(path);
   const fs::path folder = path.parent_path();
   if (const auto text = root.text("volume")) {
     if (text->empty())

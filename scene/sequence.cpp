@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "scene/open_scene.hpp"
 #include "scene/sequence_table.hpp"
 #include "scene/settings.hpp"
 
@@ -89,7 +90,7 @@ Sequence read_sequence(TomlTable& table) {
 }
 
 Sequence load_sequence(const std::filesystem::path& scene_file) {
-  TomlTable root = TomlTable::parse_file(scene_file);
+  TomlTable root = open_scene(scene_file);
   auto table = root.table("sequence");
   if (!table) root.refuse("", "there is no [sequence]", {}, {}, "add one with frames = N and what changes");
   return read_sequence(*table);

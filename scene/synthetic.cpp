@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/suggest.hpp"
+#include "scene/landscape.hpp"
 
 namespace fastsplat::scene {
 namespace {
@@ -69,19 +70,31 @@ float constant(int, int, int, int) { return 1.0f; }
 /// One voxel of 1 at index n/2 of every axis.
 float point(int i, int j, int k, int n) { return i == n / 2 && j == n / 2 && k == n / 2 ? 1.0f : 0.0f; }
 
+/// 1 in the middle layer of z, else 0.
+float layer(int, int, int k, int n) { return k == n / 2 ? 1.0f : 0.0f; }
+
+/// Two neighbours along x in the middle of the grid, of value 0.5 and 1.
+float pair(int i, int j, int k, int n) {
+  if (j != n / 2 || k != n / 2) return 0.0f;
+  return i == n / 2 - 1 ? 0.5f : i == n / 2 ? 1.0f : 0.0f;
+}
+
 struct Entry {
   const char* name;
   int default_size;
   Generator generate;
 };
 
-constexpr std::array<Entry, 7> kEntries{{{"marschner-lobb", 64, marschner_lobb},
-                                         {"shells", 64, shells},
-                                         {"binary-cube", 32, binary_cube},
-                                         {"checkerboard-floor", 128, checkerboard_floor},
-                                         {"checkerboard-tunnel", 64, checkerboard_tunnel},
-                                         {"constant", 32, constant},
-                                         {"point", 9, point}}};
+constexpr std::array<Entry, 10> kEntries{{{"marschner-lobb", 64, marschner_lobb},
+                                          {"shells", 64, shells},
+                                          {"binary-cube", 32, binary_cube},
+                                          {"checkerboard-floor", 128, checkerboard_floor},
+                                          {"checkerboard-tunnel", 64, checkerboard_tunnel},
+                                          {"constant", 32, constant},
+                                          {"point", 9, point},
+                                          {"layer", 24, layer},
+                                          {"pair", 4, pair},
+                                          {"terrain", 128, terrain}}};
 
 const Entry& find(const std::string& name) {
   for (const auto& entry : kEntries) {

@@ -18,7 +18,7 @@
 
 #include "base/error.hpp"
 #include "base/suggest.hpp"
-#include "scene/presets.hpp"
+#include "scene/embedded.hpp"
 #include "scene/toml_reader.hpp"
 
 namespace fastsplat::scene {

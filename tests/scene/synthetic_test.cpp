@@ -11,7 +11,7 @@ namespace fastsplat::scene {
 namespace {
 
 TEST(Synthetic, AllNamesGiveCubesInRange) {
-  ASSERT_EQ(synthetic_names().size(), 7u);
+  ASSERT_EQ(synthetic_names().size(), 10u);
   for (const auto& name : synthetic_names()) {
     const Volume volume = make_synthetic(name, 17);
     EXPECT_EQ(volume.dims, glm::ivec3(17)) << name;
@@ -44,6 +44,13 @@ TEST(Synthetic, ContentIsWhatItsNameSays) {
   EXPECT_GT(tunnel.at(0, 3, 4), 0.0f);
   EXPECT_GT(tunnel.at(4, 3, 7), 0.0f);
   EXPECT_EQ(tunnel.at(4, 3, 4), 0.0f);
+  const Volume layer = make_synthetic("layer", 6);
+  EXPECT_EQ(std::count(layer.voxels.begin(), layer.voxels.end(), 1.0f), 6 * 6);
+  EXPECT_EQ(layer.at(5, 0, 3), 1.0f);
+  const Volume pair = make_synthetic("pair", 4);
+  EXPECT_EQ(std::count(pair.voxels.begin(), pair.voxels.end(), 0.0f), 4 * 4 * 4 - 2);
+  EXPECT_EQ(pair.at(1, 2, 2), 0.5f);
+  EXPECT_EQ(pair.at(2, 2, 2), 1.0f);
 }
 
 TEST(Synthetic, MarschnerLobbIsTheirFormula) {

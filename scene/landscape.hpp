@@ -1,0 +1,10 @@
+// Built-in volumes made of noise: a landscape and a fire.
+#pragma once
+
+namespace fastsplat::scene {
+
+/// Ground below a fractal height field with a lake in its valleys: 0 in the air, 0..0.5 in the skin of half-covered
+/// voxels, above that 0.5 to 1 by height.
+float terrain(int i, int j, int k, int n);
+
+}  // namespace fastsplat::scene

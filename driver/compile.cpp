@@ -9,6 +9,7 @@
 #include "cmodel/snap.hpp"
 #include "driver/projection.hpp"
 #include "driver/tables.hpp"
+#include "scene/pixel_techniques.hpp"
 #include "scene/splats.hpp"
 
 namespace fastsplat::driver {
@@ -25,7 +26,8 @@ struct Plan {
 
 /// The device draws circles of the splat's own scale and nothing else.
 void refuse_golden_only(const scene::SceneDescription& description) {
-  const std::string key = scene::technique_in_use(description.footprint, description.motion, description.lens);
+  std::string key = scene::technique_in_use(description.footprint, description.motion, description.lens);
+  if (key.empty()) key = scene::pixel_technique_in_use(description);
   if (key.empty()) return;
   throw_usage({.where = key,
                .what = "the device does not have this technique",

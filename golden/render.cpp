@@ -32,6 +32,7 @@ Image render(const scene::Scene& scene, const RenderOptions& options) {
     case scene::Method::AxisAligned:
       return axis_aligned(scene, scene::collect_splats(scene), options);
     case scene::Method::ImageAligned:
+      if (scene.description.classify == scene::ClassifyOrder::Post) return post_classified(scene, options);
       return image_aligned(scene, scene::collect_splats(scene), options);
   }
   assert(false && "unknown method");

@@ -24,5 +24,7 @@ Image xray(const scene::Scene& scene, const std::vector<scene::Splat>& splats, c
 Image westover(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options);
 Image axis_aligned(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options);
 Image image_aligned(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options);
+/// Image-aligned, but the voxels' densities are splatted and classified at every pixel; with textures and bumps.
+Image post_classified(const scene::Scene& scene, const RenderOptions& options);
 
 }  // namespace fastsplat::golden

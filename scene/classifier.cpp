@@ -68,6 +68,12 @@ Material Classifier::operator()(float value) const {
   return table_[static_cast<std::size_t>(value - table_min_)];
 }
 
+bool Classifier::transparent(double low, double high) const {
+  const auto inside = [&](const ControlPoint& p) { return p.at >= low && p.at <= high && p.opacity > 0.0; };
+  return !(evaluate(low).extinction > 0.0f) && !(evaluate(high).extinction > 0.0f) &&
+         std::none_of(points_.begin(), points_.end(), inside);
+}
+
 Material Classifier::evaluate(double value) const {
   // The first point beyond the value: of two at the same place the later one rules there and above.
   const auto above =

@@ -49,6 +49,11 @@ double Kernel::cumulative(double z) const {
   return 0.5 * (1.0 + std::erf(std::sqrt(a_) * z) / erf_edge_);
 }
 
+double Kernel::profile(double z) const {
+  if (std::abs(z) >= radius_) return 0.0;
+  return std::sqrt(a_ / std::numbers::pi) / erf_edge_ * std::exp(-a_ * z * z);
+}
+
 Kernel kernel_by_name(const std::string& name) {
   if (name == "gauss2") return Kernel(2.0, 2.0);
   if (name == "smooth") return Kernel(1.35, 2.0);

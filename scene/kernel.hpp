@@ -27,6 +27,8 @@ class Kernel {
   double variance() const;
   /// Share of the footprint lying in front of z: 0 for z <= -R, 1 for z >= R, exactly.
   double cumulative(double z) const;
+  /// Its derivative: the share per unit of depth at z; 0 for |z| >= R.
+  double profile(double z) const;
 
  private:
   double a_, radius_, peak_, norm_, erf_edge_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "scene/pixel_techniques.hpp"
 #include "scene/settings.hpp"
 #include "scene/volume_file.hpp"
 
@@ -55,6 +56,7 @@ Scene build_scene(const SceneDescription& description, std::shared_ptr<const Vol
                                                                                      : description.transfer_function);
   Shading shading = tf.shading;
   if (description.shading >= 0) shading.on = description.shading == 1;
+  check_pixel_techniques(description, shading);
   double xray_scale = 1.0;
   if (description.method == Method::XRay) {
     xray_scale = description.xray_exposure > 0.0 ? description.xray_exposure

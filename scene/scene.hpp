@@ -9,6 +9,7 @@
 #include "scene/camera.hpp"
 #include "scene/kernel.hpp"
 #include "scene/techniques.hpp"
+#include "scene/solid_texture.hpp"
 #include "scene/transfer_function.hpp"
 #include "scene/volume.hpp"
 
@@ -16,6 +17,10 @@ namespace fastsplat::scene {
 
 enum class Method { RayCast, XRay, Westover, AxisAligned, ImageAligned };
 enum class SlabOpacity { Additive, Exponential };
+/// Whether voxels are classified before they are splatted, or pixels after.
+enum class ClassifyOrder { Pre, Post };
+/// Of post-classified densities: differences between pixels and sheets, or splatted derivatives.
+enum class GradientKind { Central, Splats };
 
 /// What scene.toml says; flags override single fields before `build_scene`.
 struct SceneDescription {
@@ -35,6 +40,10 @@ struct SceneDescription {
   FootprintSettings footprint{};
   Motion motion{};
   Lens lens{};
+  ClassifyOrder classify = ClassifyOrder::Pre;
+  GradientKind gradients = GradientKind::Central;
+  Texture texture{};
+  Bump bump{};
 };
 
 /// Ready to render: files read, names resolved, limits checked.

@@ -23,12 +23,32 @@ const std::vector<std::string>& projection_names() {
   return names;
 }
 
+const std::vector<std::string>& order_names() {
+  static const std::vector<std::string> names = {"pre", "post"};
+  return names;
+}
+
+const std::vector<std::string>& gradient_names() {
+  static const std::vector<std::string> names = {"central", "splats"};
+  return names;
+}
+
+const std::vector<std::string>& where_names() {
+  static const std::vector<std::string> names = {"voxel", "pixel"};
+  return names;
+}
+
 // The enums that are settings, by reference.
 Method& method(D& d) { return d.method; }
 Projection& projection(D& d) { return d.camera.projection; }
 SlabOpacity& slab_opacity(D& d) { return d.slab_opacity; }
 FootprintShape& footprint_shape(D& d) { return d.footprint.shape; }
 DepthOfField& depth_of_field(D& d) { return d.lens.depth_of_field; }
+ClassifyOrder& classify_order(D& d) { return d.classify; }
+GradientKind& gradients(D& d) { return d.gradients; }
+SolidKind& texture_kind(D& d) { return d.texture.kind; }
+TextureWhere& texture_where(D& d) { return d.texture.where; }
+SolidKind& bump_kind(D& d) { return d.bump.kind; }
 
 /// A choice kept in an enum whose values are positions in names().
 template <auto Of>
@@ -101,6 +121,27 @@ const std::array kSettings{
     Setting{"lens", "focus", "--focus", "Footprint", "MM",
             "depth in focus, from the volume's centre, positive is farther",
             Real{-1e6, 1e6, [](D& d) -> double& { return d.lens.focus; }}},
+
+    Setting{"classify", "order", "--classify", "Technique", "pre|post", "classify voxels, or densities at every pixel",
+            choice<classify_order>(order_names)},
+    Setting{"classify", "gradients", "--gradients", "Technique", "central|splats",
+            "post: differences of densities, or splatted derivatives", choice<gradients>(gradient_names)},
+
+    Setting{"texture", "kind", "--texture", "Technique", "NAME",
+            "solid texture: none, stripes, marble, wood, noise, checker", choice<texture_kind>(solid_kind_names)},
+    Setting{"texture", "where", "--texture-where", "Technique", "voxel|pixel", "where colours are tinted",
+            choice<texture_where>(where_names)},
+    Setting{"texture", "scale", "--texture-scale", "Technique", "MM", "one unit of the pattern",
+            Real{1e-3, 1e6, [](D& d) -> double& { return d.texture.scale; }}},
+    Setting{"texture", "amplitude", "--texture-amplitude", "Technique", "NUMBER", "0 none .. 1 full",
+            Real{0.0, 1.0, [](D& d) -> double& { return d.texture.amplitude; }}},
+
+    Setting{"bump", "kind", "--bump", "Technique", "NAME", "bump mapping: none, stripes, marble, wood, noise",
+            choice<bump_kind>(smooth_kind_names)},
+    Setting{"bump", "scale", "--bump-scale", "Technique", "MM", "one unit of the pattern",
+            Real{1e-3, 1e6, [](D& d) -> double& { return d.bump.scale; }}},
+    Setting{"bump", "amplitude", "--bump-amplitude", "Technique", "NUMBER", "height of the pattern, in its scale",
+            Real{0.0, 10.0, [](D& d) -> double& { return d.bump.amplitude; }}},
 };
 
 }  // namespace

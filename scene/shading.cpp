@@ -20,7 +20,10 @@ Shader::Shader(const Shading& shading, const Camera& camera, const Volume& volum
                                 volume.kernel_unit())) {}
 
 glm::vec3 Shader::operator()(const glm::vec3& colour, int i, int j, int k) const {
-  const glm::vec3 slope = gradient(volume_, i, j, k);
+  return (*this)(colour, gradient(volume_, i, j, k));
+}
+
+glm::vec3 Shader::operator()(const glm::vec3& colour, const glm::vec3& slope) const {
   const float length = glm::length(slope);
   if (!(length > floor_)) return colour;
   const float share = floor_ > 0.0f ? std::min(1.0f, (length - floor_) / floor_) : 1.0f;

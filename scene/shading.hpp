@@ -1,4 +1,4 @@
-// Pre-classified shading: Phong with a light that travels with the camera.
+// Shading: Phong with a light that travels with the camera, for voxels and for pixels.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,15 +9,17 @@
 
 namespace fastsplat::scene {
 
-/// Shades a voxel's colour by its central-difference gradient. The light is directional, slightly above and to the left
-/// of the view axis; surfaces are lit from both sides. Where the gradient is weaker than Shading::gradient_floor the
-/// colour stays as classified; up to twice the floor it is blended in.
+/// Shades a colour by a gradient; a voxel's is its central difference. The light is directional, slightly above and to
+/// the left of the view axis; surfaces are lit from both sides. Where the gradient is weaker than
+/// Shading::gradient_floor the colour stays as classified; up to twice the floor it is blended in.
 class Shader {
  public:
   Shader(const Shading& shading, const Camera& camera, const Volume& volume);
 
   /// Every channel of the result is in [0,1].
   glm::vec3 operator()(const glm::vec3& colour, int i, int j, int k) const;
+  /// `slope` in value per mm, world.
+  glm::vec3 operator()(const glm::vec3& colour, const glm::vec3& slope) const;
 
  private:
   Shading shading_;

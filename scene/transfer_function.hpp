@@ -47,9 +47,12 @@ class Classifier {
  public:
   Classifier(const TransferFunction& tf, const Volume& volume);
   Material operator()(float value) const;
+  /// Between the values that a volume stores, too.
+  Material evaluate(double value) const;
+  /// Whether no value of [low, high] has any opacity.
+  bool transparent(double low, double high) const;
 
  private:
-  Material evaluate(double value) const;
   std::vector<ControlPoint> points_;  // `at` in raw values
   double reference_length_ = 1.0;
   float table_min_ = 0.0f;

@@ -45,6 +45,8 @@ void for_each_splat(const Scene& scene, const std::function<void(const Splat&)>&
   const Shader shade(scene.shading, scene.camera, volume);
   const float opacity_scale = static_cast<float>(scene.description.opacity_scale);
   const auto order = walk_order(scene);
+  const Texture& texture = scene.description.texture;
+  const bool textured = texture.kind != SolidKind::None && texture.where == TextureWhere::Voxel;
 
   glm::ivec3 at;
   for (int slice = 0; slice < order[0].extent; ++slice) {
@@ -56,8 +58,11 @@ void for_each_splat(const Scene& scene, const std::function<void(const Splat&)>&
         const Material material = classify(volume.at(at.x, at.y, at.z));
         const float extinction = material.extinction * opacity_scale;
         if (!(extinction > 0.0f)) continue;
-        const glm::vec3 colour = scene.shading.on ? shade(material.colour, at.x, at.y, at.z) : material.colour;
-        visit({.position = glm::vec3(volume.position(at.x, at.y, at.z)),
+        const glm::dvec3 position = volume.position(at.x, at.y, at.z);
+        glm::vec3 colour = material.colour;
+        if (textured) colour *= glm::vec3(tint(texture, position));
+        if (scene.shading.on) colour = shade(colour, at.x, at.y, at.z);
+        visit({.position = glm::vec3(position),
                .emission = glm::min(colour * extinction, glm::vec3(extinction)),
                .extinction = extinction,
                .sheet = static_cast<std::uint16_t>(slice)});

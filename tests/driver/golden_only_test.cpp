@@ -25,6 +25,13 @@ TEST(GoldenOnly, techniques_are_refused_by_their_key) {
   with("motion.orbit").motion.orbit = 1.0;
   with("lens.depth_of_field").lens.depth_of_field = scene::DepthOfField::Splats;
 
+  with("classify.order").classify = scene::ClassifyOrder::Post;
+  with("texture.where").texture.kind = scene::SolidKind::Marble;
+  auto& bumpy = with("classify.order");
+  bumpy.classify = scene::ClassifyOrder::Post;
+  bumpy.bump.kind = scene::SolidKind::Noise;
+  bumpy.shading = 1;
+
   for (const auto& [key, description] : scenes) {
     try {
       CompiledFrame(scene::build_scene(description), config);

@@ -1,0 +1,27 @@
+// Bump mapping per pixel (Blinn 1978, on a solid pattern; splatting.md section 2 item 12;
+// docs/techniques/bump-mapping.md): the normal leans with the pattern's slope along the surface,
+//     n' = normalize(n + amplitude (grad B - (grad B . n) n)),   B(x) = pattern(x / scale), grad by x / scale.
+#pragma once
+
+#include "golden/pixel_stage.hpp"
+#include "scene/solid_texture.hpp"
+
+namespace fastsplat::golden {
+
+/// The gradient keeps its length up to the lean, so that the shader treats weak ones alike; amplitude 0 changes no bit.
+class BumpMapping final : public PixelStage {
+ public:
+  explicit BumpMapping(const scene::Bump& bump) : bump_(bump) {}
+  void apply(PixelSample& sample) const override {
+    const double length = glm::length(sample.gradient);
+    if (!(length > 0.0)) return;
+    const glm::dvec3 normal = sample.gradient / length;
+    const glm::dvec3 slope = scene::solid_gradient(bump_.kind, sample.position / bump_.scale);
+    sample.gradient += bump_.amplitude * length * (slope - glm::dot(slope, normal) * normal);
+  }
+
+ private:
+  scene::Bump bump_;
+};
+
+}  // namespace fastsplat::golden

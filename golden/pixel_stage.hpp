@@ -1,0 +1,21 @@
+// What is known of one pixel of one sheet once its density is classified, and what may be done to it.
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace fastsplat::golden {
+
+struct PixelSample {
+  glm::dvec3 position{0.0};  ///< world, mm, in the middle of the sheet
+  glm::dvec3 gradient{0.0};  ///< world, value per mm
+  glm::dvec3 colour{0.0};    ///< 0..1, not multiplied by opacity
+};
+
+/// One step from the classified pixel to the shaded one; steps run one after another.
+class PixelStage {
+ public:
+  virtual ~PixelStage() = default;
+  virtual void apply(PixelSample& sample) const = 0;
+};
+
+}  // namespace fastsplat::golden

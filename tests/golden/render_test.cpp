@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "base/error.hpp"
 #include "scenes_helper.hpp"
 
 namespace fastsplat::golden::testing {
@@ -40,6 +41,36 @@ TEST(Render, ThreadsDoNotChangeABit) {
       ++compared;
     }
     std::printf("%s: %d comparisons of %zu values, bit for bit\n", scene::to_string(method), compared, one.data.size());
+  }
+}
+
+TEST(Render, ThreadsDoNotChangeABitOfShapedFootprints) {
+  Lattice lattice = odd_view();
+  lattice.pixels_per_mm = 0.9;
+  scene::Scene scene = make_scene(lattice);
+  scene.description.footprint = {scene::FootprintShape::Ellipse, true};
+  scene.description.motion = {{3.0, -2.0, 1.0}, 10.0};
+  scene.description.lens = {scene::DepthOfField::Splats, 10.0, -4.0};
+  for (const Method method : {Method::XRay, Method::Westover, Method::AxisAligned, Method::ImageAligned}) {
+    scene.description.method = method;
+    const Image one = render(scene, {1, {}});
+    ASSERT_GT(max_opacity(one), 0.1) << scene::to_string(method);
+    for (const int threads : {2, 3, 0}) {
+      EXPECT_EQ(one, render(scene, {threads, {}})) << scene::to_string(method) << " with " << threads << " threads";
+    }
+  }
+}
+
+TEST(Render, RayCasterRefusesShapedFootprints) {
+  scene::Scene scene = make_scene(odd_view());
+  scene.description.method = Method::RayCast;
+  scene.description.motion.orbit = 1.0;
+  try {
+    render(scene);
+    FAIL() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.code(), ExitCode::Usage);
+    EXPECT_NE(std::string(error.what()).find("motion.orbit"), std::string::npos) << error.what();
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <random>
 
 namespace fastsplat::golden::testing {
@@ -140,6 +141,30 @@ double channel_sum(const Image& image, int channel) {
   double sum = 0.0;
   for (std::size_t i = static_cast<std::size_t>(channel); i < image.data.size(); i += 4) sum += image.data[i];
   return sum;
+}
+
+Moments moments(const Image& image, int channel) {
+  Moments m;
+  const auto for_each = [&](const auto& visit) {
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) visit(x, y, static_cast<double>(image.pixel(x, y)[channel]));
+    }
+  };
+  for_each([&](int x, int y, double value) { m.sum += value, m.x += value * x, m.y += value * y; });
+  m.x /= m.sum, m.y /= m.sum;
+  for_each([&](int x, int y, double value) {
+    m.xx += value * (x - m.x) * (x - m.x), m.xy += value * (x - m.x) * (y - m.y), m.yy += value * (y - m.y) * (y - m.y);
+  });
+  m.xx /= m.sum, m.xy /= m.sum, m.yy /= m.sum;
+  return m;
+}
+
+double sampling_bound(double a, double radius, double pixels_per_unit) {
+  const double s = pixels_per_unit;
+  const double ripple = 2.0 * std::exp(-std::numbers::pi * std::numbers::pi * s * s / a);
+  const double rim =
+      a / std::numbers::pi * std::exp(-a * radius * radius) * 2 * std::numbers::pi * radius * std::sqrt(2.0) / s;
+  return (1 + ripple) * (1 + ripple) - 1 + rim;
 }
 
 double max_opacity(const Image& image) {

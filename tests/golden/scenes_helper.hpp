@@ -44,6 +44,16 @@ double max_difference(const Image& a, const Image& b);
 double rms_difference(const Image& a, const Image& b);
 /// Sum of one channel over all pixels.
 double channel_sum(const Image& image, int channel);
+/// Sum, centre and second moments of a channel, as if each pixel were a point, pixels.
+struct Moments {
+  double sum = 0.0;
+  double x = 0.0, y = 0.0;
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+};
+Moments moments(const Image& image, int channel);
+/// By how much the sum of a footprint's pixels may miss its integral, relative: aliasing of the endless Gaussian, and
+/// the step at the rim, exp(-aR^2) of the peak, on the pixels that the rim (length 2 pi R s) crosses.
+double sampling_bound(double a, double radius, double pixels_per_unit);
 /// Largest opacity.
 double max_opacity(const Image& image);
 

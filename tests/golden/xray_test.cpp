@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "scenes_helper.hpp"
 
@@ -11,16 +10,6 @@ namespace {
 
 scene::Splat one_splat(const glm::vec3& position, float extinction) {
   return {position, glm::vec3(0.25f, 0.5f, 1.0f) * extinction, extinction, 0};
-}
-
-/// By how much the sum of a footprint's pixels may miss its integral, relative: aliasing of the endless Gaussian, and
-/// the step at the rim, exp(-aR^2) of the peak, on the pixels that the rim (length 2 pi R s) crosses.
-double sampling_bound(double a, double radius, double pixels_per_unit) {
-  const double s = pixels_per_unit;
-  const double ripple = 2.0 * std::exp(-std::numbers::pi * std::numbers::pi * s * s / a);
-  const double rim =
-      a / std::numbers::pi * std::exp(-a * radius * radius) * 2 * std::numbers::pi * radius * std::sqrt(2.0) / s;
-  return (1 + ripple) * (1 + ripple) - 1 + rim;
 }
 
 TEST(XRay, TotalOfOneVoxelIsItsExtinction) {

@@ -1,8 +1,11 @@
 // Image-aligned sheets (Mueller and Crawfis 1998): slabs parallel to the image cut each splat's kernel into slices, and
 // all the material between two planes is added before compositing. Nothing depends on the volume's axes, so nothing
 // pops. What looks at pixels of whole sheets is put together here.
+#include <optional>
+
 #include "golden/bump_mapping.hpp"
 #include "golden/density_splats.hpp"
+#include "golden/depth_of_field_sheets.hpp"
 #include "golden/frame_sweep.hpp"
 #include "golden/gradient_splats.hpp"
 #include "golden/post_classified.hpp"
@@ -18,14 +21,24 @@ bool textured_pixels(const scene::Scene& scene) {
   return texture.kind != scene::SolidKind::None && texture.where == scene::TextureWhere::Pixel;
 }
 
+/// Depth of field, if it is to be had from sheets.
+std::optional<DepthOfFieldSheets> lens_on_sheets(const scene::Scene& scene, const SheetGeometry& geometry) {
+  const scene::Lens& lens = scene.description.lens;
+  if (lens.depth_of_field != scene::DepthOfField::Sheets) return std::nullopt;
+  return DepthOfFieldSheets(lens, geometry);
+}
+
 }  // namespace
 
 Image image_aligned(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options) {
-  const KernelSlices slices = image_slabs(scene);
-  if (!textured_pixels(scene)) return composite_sheets(scene, splats, options, slices);
   const SheetGeometry geometry(scene);
   const TextureOfSheet texture(scene.description.texture, geometry);
-  return sweep_frame(scene, splats, options, slices, {.sheet_stages = {&texture}});
+  const std::optional<DepthOfFieldSheets> lens = lens_on_sheets(scene, geometry);
+  FrameStages stages;
+  if (textured_pixels(scene)) stages.sheet_stages.push_back(&texture);
+  if (lens) stages.filter = &*lens;
+  if (stages.sheet_stages.empty() && !lens) return composite_sheets(scene, splats, options, image_slabs(scene));
+  return sweep_frame(scene, splats, options, image_slabs(scene), stages);
 }
 
 Image post_classified(const scene::Scene& scene, const RenderOptions& options) {
@@ -40,8 +53,10 @@ Image post_classified(const scene::Scene& scene, const RenderOptions& options) {
   const PostClassified classified(scene, geometry, field.base, steps);
   const GradientSplats gradients(scene.kernel, geometry);
   const bool splatted = scene.shading.on && scene.description.gradients == scene::GradientKind::Splats;
-  return sweep_frame(scene, field.splats, options, image_slabs(scene),
-                     {.deposit = splatted ? &gradients : nullptr, .sheet_stages = {&classified}});
+  const std::optional<DepthOfFieldSheets> lens = lens_on_sheets(scene, geometry);
+  return sweep_frame(
+      scene, field.splats, options, image_slabs(scene),
+      {.deposit = splatted ? &gradients : nullptr, .sheet_stages = {&classified}, .filter = lens ? &*lens : nullptr});
 }
 
 }  // namespace fastsplat::golden

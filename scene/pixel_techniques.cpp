@@ -43,6 +43,10 @@ void check_pixel_techniques(const SceneDescription& d, const Shading& shading) {
         key, fmt::format("needs the pixels of image-aligned sheets, not method {}", to_string(d.method)),
         key == "texture.where" ? "use --method image_aligned, or --texture-where voxel" : "use --method image_aligned");
   }
+  if (d.lens.depth_of_field == DepthOfField::Sheets && d.method != Method::ImageAligned) {
+    refuse("lens.depth_of_field", fmt::format("sheets of one depth are image-aligned, not {}", to_string(d.method)),
+           "use --method image_aligned, or --depth-of-field splats");
+  }
   if (d.classify == ClassifyOrder::Post) check_post(d);
   if (d.bump.kind == SolidKind::None) return;
   if (d.classify == ClassifyOrder::Pre) refuse("bump.kind", "needs a normal at every pixel", "add --classify post");

@@ -115,7 +115,8 @@ const std::array kSettings{
             Real{-kOrbit, kOrbit, [](D& d) -> double& { return d.motion.orbit; }}},
 
     Setting{"lens", "depth_of_field", "--depth-of-field", "Footprint", "NAME",
-            "off, or splats: each widened to its circle of confusion", choice<depth_of_field>(depth_of_field_names)},
+            "off; splats: each widened to its circle of confusion; sheets: each filtered by its",
+            choice<depth_of_field>(depth_of_field_names)},
     Setting{"lens", "aperture", "--aperture", "Footprint", "MM", "the lens's diameter",
             Real{0.0, 1e6, [](D& d) -> double& { return d.lens.aperture; }}},
     Setting{"lens", "focus", "--focus", "Footprint", "MM",

@@ -67,7 +67,7 @@ const std::vector<std::string>& footprint_shape_names() {
 }
 
 const std::vector<std::string>& depth_of_field_names() {
-  static const std::vector<std::string> names = {"off", "splats"};
+  static const std::vector<std::string> names = {"off", "splats", "sheets"};
   return names;
 }
 

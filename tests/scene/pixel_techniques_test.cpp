@@ -44,6 +44,8 @@ TEST(PixelTechniques, RefusedCombinationsSayWhy) {
        [](SceneDescription& d) {
          d.classify = ClassifyOrder::Post, d.gradients = GradientKind::Splats, d.footprint.antialias = true;
        }},
+      {"lens.depth_of_field: sheets of one depth are image-aligned, not axis_aligned",
+       [](SceneDescription& d) { d.lens.depth_of_field = DepthOfField::Sheets, d.method = Method::AxisAligned; }},
       {"bump.kind: needs a normal at every pixel; add --classify post",
        [](SceneDescription& d) { d.bump.kind = SolidKind::Noise; }},
       {"bump.kind: bumps show in shading only",
@@ -62,7 +64,7 @@ TEST(PixelTechniques, RefusedCombinationsSayWhy) {
       ++refused;
     }
   }
-  EXPECT_EQ(refused, 8);
+  EXPECT_EQ(refused, 9);
 }
 
 TEST(PixelTechniques, WhatGoesTogetherIsTaken) {
@@ -71,6 +73,7 @@ TEST(PixelTechniques, WhatGoesTogetherIsTaken) {
   d.footprint.antialias = true;
   d.texture.kind = SolidKind::Marble;
   d.bump.kind = SolidKind::Noise;
+  d.lens.depth_of_field = DepthOfField::Sheets;
   EXPECT_NO_THROW(build_scene(d));
   for (const Method method : {Method::RayCast, Method::XRay, Method::Westover, Method::AxisAligned}) {
     SceneDescription voxels = perspective();

@@ -1,0 +1,54 @@
+#include "golden/depth_of_field_sheets.hpp"
+
+#include <algorithm>
+
+namespace fastsplat::golden {
+namespace {
+
+void add(Layer& to, const Layer& layer, double weight) {
+  to.red += weight * layer.red;
+  to.green += weight * layer.green;
+  to.blue += weight * layer.blue;
+  to.alpha += weight * layer.alpha;
+}
+
+}  // namespace
+
+DepthOfFieldSheets::DepthOfFieldSheets(const scene::Lens& lens, const SheetGeometry& geometry) {
+  for (int sheet = 0; sheet < geometry.sheets(); ++sheet) {
+    const double diameter = scene::circle_of_confusion(geometry.camera(), lens, geometry.depth_mm(sheet));
+    if (!(diameter > 0.0)) continue;
+    margin_ = std::max(margin_, discs_.emplace(sheet, DiscFilter(diameter)).first->second.reach());
+  }
+}
+
+Run DepthOfFieldSheets::extent(int sheet, const LayerFrame& in, int y) const {
+  const DiscFilter& disc = discs_.at(sheet);
+  Run run{in.width, 0};
+  const int rows = static_cast<int>(in.runs.size());
+  for (int from = std::max(y - disc.reach(), 0); from <= std::min(y + disc.reach(), rows - 1); ++from) {
+    if (in.runs[from].empty()) continue;
+    const int reach = disc.row_reach(from - y);
+    run = {std::min(run.begin, in.runs[from].begin - reach), std::max(run.end, in.runs[from].end + reach)};
+  }
+  return {std::max(run.begin, 0), std::min(run.end, in.width)};
+}
+
+void DepthOfFieldSheets::row(int sheet, const LayerFrame& in, int y, int begin, std::span<Layer> out) const {
+  const DiscFilter& disc = discs_.at(sheet);
+  const int rows = static_cast<int>(in.runs.size());
+  const int end = begin + static_cast<int>(out.size());
+  std::fill(out.begin(), out.end(), Layer{});
+  for (int from = std::max(y - disc.reach(), 0); from <= std::min(y + disc.reach(), rows - 1); ++from) {
+    const double* weights = disc.half_row(from - y);
+    const int reach = disc.row_reach(from - y);
+    for (int x = in.runs[from].begin; x < in.runs[from].end; ++x) {
+      const Layer& layer = in.row(from)[x];
+      if (!(layer.alpha > 0.0)) continue;
+      const int first = std::max(x - reach, begin), last = std::min(x + reach, end - 1);
+      for (int to = first; to <= last; ++to) add(out[to - begin], layer, weights[std::abs(to - x)]);
+    }
+  }
+}
+
+}  // namespace fastsplat::golden

@@ -6,6 +6,8 @@
 #include "base/error.hpp"
 #include "driver/compile.hpp"
 #include "driver/config_file.hpp"
+#include "driver/render.hpp"
+#include "golden/render.hpp"
 #include "tests/driver/scenes_helper.hpp"
 
 namespace fastsplat::driver {
@@ -42,6 +44,20 @@ TEST(GoldenOnly, techniques_are_refused_by_their_key) {
       EXPECT_NE(std::string(error.what()).find("--engine golden"), std::string::npos) << error.what();
     }
   }
+}
+
+// A texture at the voxels is not golden only: the splats come tinted.
+TEST(GoldenOnly, textured_voxels_are_the_devices_too) {
+  auto description = view_of("shells:24", 96);
+  const Image plain = golden::render(scene::build_scene(description));
+  description.texture = {scene::SolidKind::Marble, scene::TextureWhere::Voxel, 8.0, 1.0};
+  const auto scene = scene::build_scene(description);
+  const Image golden = golden::render(scene);
+  const auto apart = distance(golden, to_image(render(scene, load_config("base")).frame));
+  figure("textured_voxels, device minus golden, largest", apart.largest, "8-bit steps, limit 3");
+  EXPECT_GT(distance(golden, plain).largest, 20.0);
+  EXPECT_LE(apart.largest, 3.0);
+  EXPECT_GT(apart.largest, 0.0);
 }
 
 }  // namespace

@@ -230,8 +230,12 @@ TEST(PostClassified, VoxelsThatCannotMatterAreNotSplatted) {
     what.dims = glm::ivec3(52);
     what.width = what.height = 96;
     what.pixels_per_mm = 1.6;
-    const auto core = ball(5.0, 4.0);
-    what.density = [core](const glm::dvec3& mm) { return std::max(core(mm), 0.1 + 0.05 * std::sin(mm.x)); };
+    // A wide flat kernel, a hard edge, and around it what is just too thin to be seen: there the reach is all used.
+    what.a = 1.02;
+    what.radius = 3.0;
+    what.description.slab_width = projection == scene::Projection::Orthographic ? 2.0 : 1.0;
+    const auto core = ball(5.0, 0.01);
+    what.density = [core](const glm::dvec3& mm) { return std::max(core(mm), 0.25 + 0.05 * std::sin(mm.x)); };
     what.points = {{0.4, {1, 0.5, 0.2}, 0.0}, {0.5, {1, 0.5, 0.2}, 0.9}, {0.6, {1, 0.5, 0.2}, 0.0}};
     what.shading = true;
     what.description.gradients = kind;

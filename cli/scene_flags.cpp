@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <vector>
+
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "scene/settings.hpp"
@@ -76,6 +78,37 @@ void apply_camera(const SceneFlags& flags, scene::SceneDescription& to) {
   }
 }
 
+/// Flags that shape a technique which is off.
+void refuse_idle_flags(const SceneFlags& flags, const scene::SceneDescription& to) {
+  struct Technique {
+    bool on;
+    const char* name;
+    const char* fix;
+    std::vector<const char*> flags;
+  };
+  const Technique techniques[] = {
+      {to.lens.depth_of_field != scene::DepthOfField::Off,
+       "depth of field",
+       "add --depth-of-field splats",
+       {"--aperture", "--focus"}},
+      {to.classify == scene::ClassifyOrder::Post,
+       "classification after splatting",
+       "add --classify post",
+       {"--gradients"}},
+      {to.texture.kind != scene::SolidKind::None,
+       "a texture",
+       "add --texture NAME",
+       {"--texture-where", "--texture-scale", "--texture-amplitude"}},
+      {to.bump.kind != scene::SolidKind::None, "bumps", "add --bump NAME", {"--bump-scale", "--bump-amplitude"}},
+  };
+  for (const Technique& technique : techniques) {
+    for (const char* flag : technique.flags) {
+      if (!technique.on && flags.settings.contains(flag))
+        contradiction(fmt::format("{} means nothing without {}", flag, technique.name), technique.fix);
+    }
+  }
+}
+
 }  // namespace
 
 scene::SceneDescription describe(const SceneFlags& flags) {
@@ -94,10 +127,7 @@ scene::SceneDescription describe(const SceneFlags& flags) {
     const auto flag = flags.settings.find(setting.flag);
     if (flag != flags.settings.end()) scene::set_from_text(setting, flag->second, to);
   }
-  for (const char* flag : {"--aperture", "--focus"}) {
-    if (flags.settings.contains(flag) && to.lens.depth_of_field == scene::DepthOfField::Off)
-      contradiction(std::string(flag) + " means nothing without depth of field", "add --depth-of-field splats");
-  }
+  refuse_idle_flags(flags, to);
   return to;
 }
 

@@ -75,7 +75,7 @@ TEST(MotionBlur, EnergyAndSecondMoment) {
   // The rim's step weighs (R s)^2 in a second moment, which is 1/(2a) s^2 without the cut; each side may err so.
   const double bound = 2 * sampling_bound(lattice.a, lattice.radius, lattice.pixels_per_mm);
   const double energy = after.sum / before.sum - 1;
-  figure("motion_energy_error", energy, "sampling ripple and rim, 2.5e-3");
+  figure("motion_energy_error", energy, "sampling ripple and rim, 1.3e-3");
   EXPECT_LE(std::abs(energy), bound);
   const double moment_bound = bound * lattice.radius * lattice.radius * 2 * lattice.a * after.yy;
   const double errors[] = {after.xx - before.xx - u.x * u.x / 12, after.xy - before.xy - u.x * u.y / 12,

@@ -53,6 +53,7 @@ struct VerifyArguments {
   std::string stimulus = "all";  ///< stimulus class
   std::string config = "base", ready = "always", input = "always", fill = "random";
   std::optional<int> reset_after;  ///< beats before a warm reset
+  std::string coverage;            ///< where functional coverage is added up; empty for none
   std::string failure;             ///< where a failure's stream and waveform go, without ending; empty: by source
 };
 

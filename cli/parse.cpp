@@ -210,6 +210,9 @@ struct CommandLine {
         ->check(integer(1, 2'000'000'000))
         ->type_name("N")
         ->group("Device");
+    verb->add_option("--coverage", verify.coverage, "functional coverage as JSON, added to what FILE holds")
+        ->type_name("FILE")
+        ->group("Output");
     verb->add_option("--failure", verify.failure, "a failure's small stream and waveform: PREFIX.fss and PREFIX.fst")
         ->type_name("PREFIX")
         ->group("Output");

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "analysis/provenance.hpp"
@@ -16,6 +17,7 @@
 #include "driver/config_file.hpp"
 #include "driver/stream_file.hpp"
 #include "testbench/campaign.hpp"
+#include "testbench/coverage_book.hpp"
 #include "testbench/failure.hpp"
 
 namespace fastsplat::cli {
@@ -63,6 +65,7 @@ testbench::VerifyOptions options_from(const VerifyArguments& arguments, const cm
                                    .seed = arguments.seed,
                                    .reset_after = static_cast<std::uint64_t>(arguments.reset_after.value_or(0)),
                                    .wave = {},
+                                   .coverage = !arguments.coverage.empty(),
                                    .device = {}};
   if (options.ready != "all") testbench::Pattern(options.ready, 0);  // an unknown pattern is told before any work
   testbench::Pattern(options.input, 0);
@@ -74,13 +77,15 @@ struct Checked {
   testbench::VerifyResult result;
   std::uint64_t streams = 1;
   testbench::VerifyResult failed;
-  testbench::BeatSource source;  ///< of the failed stream
+  std::map<std::string, testbench::Coverage> coverage;  ///< by campaign
+  testbench::BeatSource source;                         ///< of the failed stream
   testbench::VerifyOptions options;
 };
 
-Checked verify_one(testbench::BeatSource source, const testbench::VerifyOptions& options) {
+Checked verify_one(testbench::BeatSource source, const testbench::VerifyOptions& options, const char* campaign) {
   Checked out;
   out.result = out.failed = testbench::verify(source, options);
+  if (out.result.coverage) out.coverage[campaign] = *out.result.coverage;
   out.source = std::move(source);
   out.options = options;
   return out;
@@ -98,6 +103,7 @@ Checked verify_random(const VerifyArguments& arguments, const testbench::VerifyO
   Checked out;
   out.result = result.total;
   out.streams = result.streams;
+  for (const auto& [which, coverage] : result.coverage) out.coverage[testbench::to_string(which)] = coverage;
   if (result.failed) {
     auto run = testbench::make_run(campaign, *result.failed);
     out.failed = *result.failure;
@@ -119,7 +125,7 @@ Checked verify_scene(const VerifyArguments& arguments, testbench::VerifyOptions 
       if (progress) progress(static_cast<std::size_t>(tile) + 1, static_cast<std::size_t>(tiles));
     }
   };
-  return verify_one(source, options);
+  return verify_one(source, options, "scene");
 }
 
 void report_failure(const Checked& checked, const VerifyArguments& arguments, const Output& output, Json& json) {
@@ -148,20 +154,44 @@ void report_failure(const Checked& checked, const VerifyArguments& arguments, co
                      {"replay", replay}};
 }
 
+/// What the coverage file holds so far: read before any work, for it may be of another configuration.
+testbench::CoverageBook earlier_coverage(const std::string& path, const cmodel::Config& config) {
+  auto book = testbench::CoverageBook::of(config);
+  if (!path.empty() && std::filesystem::exists(path)) book.merge(testbench::read_book(path));
+  return book;
+}
+
+/// Adds the run's coverage to it, and says how much of the configuration's that is.
+void save_coverage(const Checked& checked, const std::string& path, testbench::CoverageBook book, const Output& output,
+                   Json& json) {
+  book.streams += checked.streams;
+  book.splats += checked.result.counters.splats;
+  book.comparisons += checked.result.check.comparisons;
+  book.cycles += checked.result.cycles_rtl;
+  testbench::Coverage all;
+  for (const auto& [campaign, coverage] : checked.coverage) book.campaigns[campaign].merge(coverage);
+  for (const auto& [campaign, coverage] : book.campaigns) all.merge(coverage);
+  testbench::write_book(path, book);
+  const auto hit = std::count_if(all.bins().begin(), all.bins().end(), [](const auto& bin) { return bin.hits > 0; });
+  output.line(fmt::format("coverage: {} of {} bins hit, in {}", hit, all.bins().size(), path));
+  json["coverage"] = {{"bins", all.bins().size()}, {"hit", hit}};
+}
+
 }  // namespace
 
 ExitCode run(const VerifyArguments& arguments) {
   const Output output(arguments.common);
   const Source source = source_from(arguments);
-  check_outputs(
-      {.images = {},
-       .maps = {},
-       .raws = {},
-       .others = {failure_prefix(arguments) + ".fss", failure_prefix(arguments) + ".fst", arguments.common.json},
-       .inputs = arguments.stream.empty() ? std::vector<std::string>{} : std::vector{arguments.stream}});
+  check_outputs({.images = {},
+                 .maps = {},
+                 .raws = {},
+                 .others = {failure_prefix(arguments) + ".fss", failure_prefix(arguments) + ".fst",
+                            arguments.common.json, arguments.coverage},
+                 .inputs = arguments.stream.empty() ? std::vector<std::string>{} : std::vector{arguments.stream}});
   const auto config = driver::load_config(arguments.config);
   check_has_rtl(config);
   const auto options = options_from(arguments, config);
+  auto coverage = earlier_coverage(arguments.coverage, config);
   const std::string hash = cmodel::hash_text(cmodel::config_hash(config));
   const std::string seed = fmt::format("seed {}", arguments.seed);
   // The seed comes first, so that it is known whatever happens next, and last, where the eye is.
@@ -175,8 +205,8 @@ ExitCode run(const VerifyArguments& arguments) {
         checked = verify_scene(arguments, options, bar.callback());
         break;
       case Source::Stream:
-        checked =
-            verify_one([&](const testbench::BeatSink& sink) { driver::read_beats(arguments.stream, sink); }, options);
+        checked = verify_one([&](const testbench::BeatSink& sink) { driver::read_beats(arguments.stream, sink); },
+                             options, "stream");
         break;
       case Source::Random:
         checked = verify_random(arguments, options, bar.callback());
@@ -209,6 +239,8 @@ ExitCode run(const VerifyArguments& arguments) {
                           grouped(result.cycles_rtl)));
   if (result.verdict == testbench::Verdict::Mismatch || result.verdict == testbench::Verdict::Simulation)
     report_failure(checked, arguments, output, json);
+  if (!arguments.coverage.empty() && result.verdict == testbench::Verdict::Pass)
+    save_coverage(checked, arguments.coverage, std::move(coverage), output, json);
   json["seconds"] = output.seconds();
   output.json(json.dump(2));
   arguments.common.json == "-" ? output.note(seed) : output.line(seed);

@@ -2,7 +2,8 @@
 // -formal proves them; elsewhere (synthesis) they vanish. A failing one prints its name.
 //
 //   FASTSPLAT_ASSERT(NAME, ALWAYS)            holds in every cycle outside reset
-//   FASTSPLAT_ASSERT_NEXT(NAME, IF, THEN)     when IF holds, THEN holds a cycle later; THEN may use $past and $stable
+//   FASTSPLAT_ASSERT_NEXT(NAME, IF, THEN)     when IF holds, THEN holds a cycle later; THEN may use $past and $stable. That
+//                                             IF held at all is cover point NAME_met
 //   FASTSPLAT_ASSUME(NAME, ALWAYS) and FASTSPLAT_ASSUME_NEXT(NAME, IF, THEN)
 //                                             demands on the outside: asserted in simulation, assumed in proofs
 //   FASTSPLAT_COVER(NAME, SOMETIMES)          must have happened once
@@ -15,7 +16,8 @@
 `define FASTSPLAT_ASSERT(NAME, ALWAYS) \
   NAME: assert property (@(posedge clk_i) disable iff (!rst_ni) (ALWAYS)) else $error(`"NAME`");
 `define FASTSPLAT_ASSERT_NEXT(NAME, IF, THEN) \
-  NAME: assert property (@(posedge clk_i) disable iff (!rst_ni) (rst_ni && (IF)) |=> (THEN)) else $error(`"NAME`");
+  NAME: assert property (@(posedge clk_i) disable iff (!rst_ni) (rst_ni && (IF)) |=> (THEN)) else $error(`"NAME`"); \
+  NAME``_met: cover property (@(posedge clk_i) disable iff (!rst_ni) (IF));
 `define FASTSPLAT_ASSUME(NAME, ALWAYS) `FASTSPLAT_ASSERT(NAME, ALWAYS)
 `define FASTSPLAT_ASSUME_NEXT(NAME, IF, THEN) `FASTSPLAT_ASSERT_NEXT(NAME, IF, THEN)
 `define FASTSPLAT_COVER(NAME, SOMETIMES) \

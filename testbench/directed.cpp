@@ -14,6 +14,21 @@ namespace {
 constexpr int kWait = 3;
 constexpr std::uint32_t kErrorBit = 1 << 1;
 
+constexpr const char* kRegisterBins[] = {
+    "identity",          "counters",          "counters_cleared",     "control_without_clear",
+    "status_busy",       "status_idle",       "unknown_read_refused", "unknown_write_refused",
+    "read_answer_waits", "write_answer_waits"};
+struct Refusal {
+  const char* name;
+  cmodel::Field field;
+  bool at_the_end = false;  ///< in the last record rather than in begin_frame
+};
+constexpr Refusal kRefusals[] = {
+    {"wrong_magic", cmodel::layout::kFrameMagic},      {"wrong_version", cmodel::layout::kFrameVersion},
+    {"wrong_hash_low", cmodel::layout::kFrameHashLow}, {"wrong_hash_high", cmodel::layout::kFrameHashHigh},
+    {"unknown_first_opcode", cmodel::layout::kOpcode}, {"unknown_last_opcode", cmodel::layout::kOpcode, true}};
+constexpr const char* kAfterRefusal[] = {"rest_is_swallowed", "works_after_reset"};
+
 struct NoPixels final : cmodel::PixelSink {
   void on_tile(cmodel::TilePixels&&) override {}
 };
@@ -42,6 +57,14 @@ std::uint64_t read_counter(RtlDevice& device, int number) {
 }
 
 }  // namespace
+
+Coverage directed_bins() {
+  Coverage bins;
+  for (const char* name : kRegisterBins) bins.declare("register", name);
+  for (const Refusal& refusal : kRefusals) bins.declare("refusal", refusal.name);
+  for (const char* name : kAfterRefusal) bins.declare("refusal", name);
+  return bins;
+}
 
 DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& make) {
   Check check;
@@ -108,31 +131,21 @@ DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& m
 DirectedResult check_refusals(const cmodel::Config& config, const MakeDevice& make) {
   Check check;
   const auto beats = small_stream(config);
-  struct Refusal {
-    const char* name;
-    std::size_t beat;  ///< of the small stream that is spoiled
-    cmodel::Field field;
-  };
-  const Refusal refusals[] = {{"wrong_magic", 0, cmodel::layout::kFrameMagic},
-                              {"wrong_version", 0, cmodel::layout::kFrameVersion},
-                              {"wrong_hash_low", 0, cmodel::layout::kFrameHashLow},
-                              {"wrong_hash_high", 0, cmodel::layout::kFrameHashHigh},
-                              {"unknown_first_opcode", 0, cmodel::layout::kOpcode},
-                              {"unknown_last_opcode", beats.size() - 1, cmodel::layout::kOpcode}};
   NoPixels pixels;
   const auto device = make(pixels, {});
   const auto swallowed = check.bin("refusal", "rest_is_swallowed"),
              recovers = check.bin("refusal", "works_after_reset");
-  for (const Refusal& refusal : refusals) {
+  for (const Refusal& refusal : kRefusals) {
+    const std::size_t at = refusal.at_the_end ? beats.size() - 1 : 0;
     const auto bin = check.bin("refusal", refusal.name);
     auto spoiled = beats;
-    auto& beat = spoiled[refusal.beat];
+    auto& beat = spoiled[at];
     const auto value = get(beat, refusal.field) ^ 0x80;  // no opcode has this bit
     beat[static_cast<std::size_t>(refusal.field.word)] &= ~field_mask(refusal.field);
     put(beat, refusal.field, value);
     bool refused = false;
     try {
-      device->consume(std::span(spoiled).first(refusal.beat + 1));
+      device->consume(std::span(spoiled).first(at + 1));
       // Refused in the cycle in which it lies in the register: look there.
       device->read_register(cmodel::kRegStatus.address);
     } catch (const UserError& error) {

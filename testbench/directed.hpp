@@ -20,6 +20,9 @@ struct DirectedResult {
   Coverage coverage;                  ///< register.* or refusal.*
 };
 
+/// Every bin of the two.
+Coverage directed_bins();
+
 /// Identity, status, counters (against the model, cleared by CONTROL), answers to unknown addresses, answers that wait.
 DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& make);
 

@@ -38,10 +38,16 @@ constexpr std::array kNames{
     ClassName{StimulusClass::Reset, "reset", "a warm reset in the middle, then the whole stream"},
 };
 
+/// Windows per side that footprints go up to: more are repetitions.
+constexpr std::uint64_t kMostWindows = 6;
+
+/// Sheets of 0, 1, ... splats: longer than pipe and walk of a few blocks together.
+constexpr std::int64_t kSheetSizes = 41;
+
 class Generator {
  public:
   Generator(const cmodel::Config& config, StimulusClass which, std::uint64_t seed)
-      : config_(config), which_(which), random_(mix(seed) + static_cast<std::uint64_t>(which)) {}
+      : config_(config), which_(which), seed_(seed), random_(mix(seed) + static_cast<std::uint64_t>(which)) {}
 
   Stimulus make(std::uint64_t splats) {
     Stimulus out;
@@ -51,7 +57,14 @@ class Generator {
     make_tables(document);
     left_ = std::max<std::uint64_t>(splats, 1);
     while (left_ > 0) document.tiles.push_back(make_tile());
-    if (which_ == StimulusClass::EmptySheets) document.tiles.push_back({begin_tile(), {}});
+    if (which_ == StimulusClass::EmptySheets) {
+      // Tiles without a sheet, of one beat: the picture goes out while the next record is already offered.
+      TileDocument empty{begin_tile(), {}};
+      empty.begin.width = static_cast<int>(random_.between(1, config_.lanes));
+      empty.begin.height = 1;
+      document.tiles.insert(document.tiles.begin(), 3, empty);
+      document.tiles.push_back(empty);
+    }
     if (which_ == StimulusClass::Bubbles) out.input = pick({"random-50", "burst-16", "every-3", "never-7"});
     if (which_ == StimulusClass::BackPressure) out.ready = pick({"random-10", "burst-64", "every-5", "never-500"});
     if (which_ == StimulusClass::Reset) {
@@ -116,18 +129,20 @@ class Generator {
   }
 
   void make_tables(StreamDocument& document) {
-    const int windows = which_ == StimulusClass::MultiWindow ? 6 : random_.chance(30) ? 3 : 1;
+    int least = 1, most = random_.chance(30) ? 3 : 1;
+    // Each size in turn, over the seeds.
+    if (which_ == StimulusClass::MultiWindow) least = most = 1 + static_cast<int>(seed_ % kMostWindows);
     // A set's load takes thousands of beats in the large configurations; more sets than this add no new case.
     sets_ = static_cast<std::uint32_t>(random_.between(1, std::min(config_.rlut_sets, 4)));
     first_set_ = static_cast<std::uint32_t>(random_.between(0, config_.rlut_sets - static_cast<int>(sets_)));
     for (std::uint32_t i = 0; i < sets_; ++i)
-      document.tables.push_back(random_rlut(config_, random_, style(), first_set_ + i, windows));
+      document.tables.push_back(random_rlut(config_, random_, style(), first_set_ + i, least, most));
     document.tables.push_back(random_radial(config_, random_, style()));
     document.tables.push_back(random_factor(config_, random_, style()));
     if (random_.chance(30)) {
       // What was loaded last counts.
       const std::uint32_t again = first_set_ + static_cast<std::uint32_t>(random_.between(0, sets_ - 1));
-      document.tables.push_back(random_rlut(config_, random_, style(), again, windows));
+      document.tables.push_back(random_rlut(config_, random_, style(), again, least, most));
     }
     for (const auto& table : document.tables) {
       if (table.table == cmodel::Table::Rlut) rho_[table.radius.set] = table.radius.rho;
@@ -137,6 +152,9 @@ class Generator {
   cmodel::BeginTile begin_tile() {
     // Small tiles mostly: a tile costs its pixels, whatever is splatted into it.
     const auto side = [this](int most) {
+      // Narrower than a window: it reaches over both edges.
+      if (which_ == StimulusClass::ScreenEdges && random_.chance(25))
+        return static_cast<int>(random_.between(1, std::max(1, config_.lanes - 2)));
       if (random_.chance(which_ == StimulusClass::ScreenEdges ? 40 : 10)) return most;
       return static_cast<int>(random_.between(1, random_.between(1, most)));
     };
@@ -154,12 +172,14 @@ class Generator {
   TileDocument make_tile() {
     tile_ = begin_tile();
     TileDocument tile{tile_, {}};
-    const auto tile_splats = static_cast<std::uint64_t>(random_.between(20, 600));
+    // What happens once in a pixel's life wants many tiles.
+    const bool many_tiles = which_ == StimulusClass::Thresholds;
+    const auto tile_splats = static_cast<std::uint64_t>(random_.between(20, many_tiles ? 60 : 600));
     std::uint64_t in_tile = std::min(left_, tile_splats);
     left_ -= in_tile;
     auto number = static_cast<std::uint32_t>(random_.between(0, 5));
     hot_ = place();
-    std::uint64_t sheet = 0;
+    auto sheet = static_cast<std::uint64_t>(random_.between(0, kSheetSizes - 1));
     while (in_tile > 0) {
       const std::uint64_t count = std::min(in_tile, sheet_size(sheet++));
       tile.sheets.push_back(make_sheet(number, count));
@@ -177,7 +197,7 @@ class Generator {
       case StimulusClass::SwapHazards:
         return draw(1, 4);
       case StimulusClass::SwapPhases:
-        return sheet % 41;
+        return sheet % kSheetSizes;
       case StimulusClass::SparseSheets:
         return draw(1, 6);
       case StimulusClass::OffTile:
@@ -191,11 +211,10 @@ class Generator {
     }
   }
 
-  /// Weights and factors pass words on as they are, so that the sum of a sheet's splats can be aimed at a word: the
+  /// Weights and factors pass words on evenly, so that the sum of a sheet's splats can be aimed at a word: the
   /// optical depth that takes the transmittance from 1.0 to within two steps of the threshold, or the largest word of
   /// each channel, or one more.
   std::uint64_t threshold_splats() {
-    const std::int64_t most = config_.colour_format().max;
     missing_.fill(-1);  // anything
     if (random_.chance(60)) {
       const int up = config_.sheet_frac_bits - config_.composite_frac_bits;
@@ -204,7 +223,19 @@ class Generator {
     } else {
       for (auto& channel : missing_) channel = config_.sheet_format().max + random_.between(0, 1);
     }
+    const std::int64_t most = product(static_cast<std::uint32_t>(config_.colour_format().max));
     return static_cast<std::uint64_t>((missing_[3] + most - 1) / most);
+  }
+
+  int product_shift() const { return config_.colour_frac_bits + config_.radial_frac_bits - config_.sheet_frac_bits; }
+  /// The sheet word that a colour becomes under the unit weight.
+  std::int64_t product(std::uint32_t colour) const {
+    return (std::int64_t{colour} * unit_weight(config_) + (std::int64_t{1} << product_shift() >> 1)) >> product_shift();
+  }
+  /// The colour for a sheet word, or the largest there is.
+  std::uint32_t colour_for(std::int64_t word) const {
+    const std::int64_t exact = ((word << product_shift()) + unit_weight(config_) - 1) / unit_weight(config_);
+    return static_cast<std::uint32_t>(std::min(exact, config_.colour_format().max));
   }
 
   struct Place {
@@ -273,8 +304,8 @@ class Generator {
     if (which_ == StimulusClass::Thresholds) {
       for (std::size_t c = 0; c < 4; ++c) {
         if (missing_[c] < 0) continue;
-        words[c] = static_cast<std::uint32_t>(std::min<std::int64_t>(missing_[c], config_.colour_format().max));
-        missing_[c] -= words[c];
+        words[c] = colour_for(missing_[c]);
+        missing_[c] -= product(words[c]);
       }
     } else if (which_ == StimulusClass::RoundingTies) {
       // Small odd numbers times powers of two.
@@ -332,6 +363,7 @@ class Generator {
 
   const cmodel::Config& config_;
   StimulusClass which_;
+  std::uint64_t seed_;
   Random random_;
   std::uint32_t first_set_ = 0, sets_ = 1;
   std::array<std::uint32_t, 256> rho_{};

@@ -47,9 +47,11 @@ std::int64_t styled(Random& random, TableStyle style, std::int64_t most) {
 }  // namespace
 
 cmodel::LoadTable random_rlut(const cmodel::Config& config, Random& random, TableStyle style, std::uint32_t set,
-                              int most_windows) {
+                              int least_windows, int most_windows) {
   const int lanes = config.lanes, k = config.phases;
-  const int windows = static_cast<int>(random.between(1, std::min(most_windows, config.rlut_columns / lanes)));
+  const int fitting = config.rlut_columns / lanes;
+  const int windows =
+      static_cast<int>(random.between(std::min(least_windows, fitting), std::min(most_windows, fitting)));
   const int columns = windows * lanes;
   // E = ceil(2 rho / k) in (columns - P, columns].
   const std::int64_t least = std::int64_t{columns - lanes} * k / 2 + 1, most = std::int64_t{columns} * k / 2;
@@ -81,11 +83,14 @@ cmodel::LoadTable random_rlut(const cmodel::Config& config, Random& random, Tabl
   return table;
 }
 
+std::int64_t unit_weight(const cmodel::Config& config) {
+  const int shift = std::max(0, config.colour_frac_bits + config.radial_frac_bits - config.sheet_frac_bits);
+  return std::min(std::int64_t{1} << shift, config.weight_format().max);
+}
+
 cmodel::LoadTable random_radial(const cmodel::Config& config, Random& random, TableStyle style) {
   cmodel::LoadTable table{.table = cmodel::Table::Radial, .radius = {}, .words = {}};
-  // The product of a colour and this weight has the colour's word.
-  const int shift = std::max(0, config.colour_frac_bits + config.radial_frac_bits - config.sheet_frac_bits);
-  const std::int64_t unit = std::min(std::int64_t{1} << shift, config.weight_format().max);
+  const std::int64_t unit = unit_weight(config);
   for (int i = 0; i < config.radial_entries; ++i)
     table.words.push_back(word(style == TableStyle::Unit ? unit : styled(random, style, config.weight_format().max)));
   return table;

@@ -14,12 +14,14 @@ enum class TableStyle {
   Corners,  ///< mostly ends of ranges
   Powers,   ///< powers of two: products tie
   Largest,  ///< the largest words
-  Unit,     ///< weights that keep a colour word as it is, factors of 1.0
+  Unit,     ///< one weight that takes colour words to sheet words as evenly as it can; factors of 1.0
 };
 
-/// At most `most_windows` windows per axis.
+/// Windows per axis: `least_windows` to `most_windows`, as far as the table holds them.
 cmodel::LoadTable random_rlut(const cmodel::Config& config, Random& random, TableStyle style, std::uint32_t set,
-                              int most_windows);
+                              int least_windows, int most_windows);
+/// The weight of TableStyle::Unit: 1 in units of product per colour word, or the largest there is.
+std::int64_t unit_weight(const cmodel::Config& config);
 cmodel::LoadTable random_radial(const cmodel::Config& config, Random& random, TableStyle style);
 cmodel::LoadTable random_factor(const cmodel::Config& config, Random& random, TableStyle style);
 

@@ -27,7 +27,7 @@ const std::uint32_t* port_words(const Port& port, std::uint64_t& small) {
 }
 
 template <class Top>
-class VerilatedDevice final : public RtlDevice {
+class VerilatedDevice : public RtlDevice {
  public:
   VerilatedDevice(const cmodel::Config& config, cmodel::PixelSink& pixels, const RtlOptions& options)
       : config_(config), options_(options), taps_(config, pixels, options.taps) {
@@ -136,6 +136,9 @@ class VerilatedDevice final : public RtlDevice {
     pulse_reset();
     taps_.reset();
   }
+
+ protected:
+  VerilatedContext& context() { return context_; }
 
  private:
   void quiet() {

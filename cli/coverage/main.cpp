@@ -1,0 +1,187 @@
+// fastsplat_coverage: runs the campaigns, closes docs/verification_plan.toml, writes closure.md and closure.html.
+//   fastsplat_coverage --tests              prints the plan's tests as a regular expression for ctest
+//   fastsplat_coverage FOLDER [RESULTS.xml] [COVERAGE.json ...]
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <mutex>
+
+#include "analysis/provenance.hpp"
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+#include "cli/output.hpp"
+#include "driver/compile.hpp"
+#include "driver/config_file.hpp"
+#include "scene/scene.hpp"
+#include "testbench/closure_report.hpp"
+#include "testbench/coverage_campaigns.hpp"
+#include "testbench/covered_registry.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+namespace tb = testbench;
+
+const std::filesystem::path kSource = FASTSPLAT_SOURCE_DIR;
+
+/// How much each configuration runs: the smaller it is, the faster. Scenes only fit the products.
+struct Run {
+  const char* config;
+  tb::CoverageVolume volume;
+  bool scenes;
+};
+constexpr Run kRuns[] = {{"tiny", {.splats = 18000, .seeds = 12, .resets = 240}, true},
+                         {"mustfail", {.splats = 18000, .seeds = 12, .resets = 240}, false},
+                         {"small", {.splats = 18000, .seeds = 12, .resets = 240}, true},
+                         {"base", {.splats = 5400, .seeds = 18, .resets = 120}, true}};
+
+cmodel::Config load(const std::string& name) {
+  const auto own = kSource / "tests" / "mustfail" / (name + ".toml");
+  return driver::load_config(std::filesystem::exists(own) ? own.string() : name);
+}
+
+struct Frame {
+  const char* name;
+  scene::Method method;
+  scene::SlabOpacity opacity;
+};
+constexpr Frame kFrames[] = {
+    {"image-aligned, exponential", scene::Method::ImageAligned, scene::SlabOpacity::Exponential},
+    {"axis-aligned, additive", scene::Method::AxisAligned, scene::SlabOpacity::Additive},
+    {"X-ray", scene::Method::XRay, scene::SlabOpacity::Exponential},
+};
+
+std::vector<std::pair<std::string, tb::BeatSource>> scenes(const cmodel::Config& config) {
+  std::vector<std::pair<std::string, tb::BeatSource>> out;
+  for (const Frame& frame : kFrames) {
+    scene::SceneDescription description;
+    description.volume = "shells:24";
+    description.width = 72;  // more than a tile of the small configurations, and no multiple of one
+    description.height = 40;
+    description.method = frame.method;
+    description.slab_opacity = frame.opacity;
+    const auto compiled = std::make_shared<const driver::CompiledFrame>(scene::build_scene(description), config);
+    out.emplace_back(frame.name, [compiled](const tb::BeatSink& sink) {
+      sink(compiled->preamble());
+      for (int tile = 0; tile < compiled->grid().count(); ++tile) compiled->emit_tile(tile, sink);
+    });
+  }
+  return out;
+}
+
+/// The device of a configuration whose lines are counted, where the build has one.
+class Covered {
+ public:
+  explicit Covered(const cmodel::Config& config) {
+    for (const tb::CoveredEntry& entry : tb::covered_registry()) {
+      if (config.name != entry.config) continue;
+      device_ = [this, config, make = entry.make](cmodel::PixelSink& pixels, const tb::RtlOptions& options) {
+        return make(config, pixels, options, [this](const std::string& dat) {
+          const std::lock_guard lock(mutex_);
+          lines_.add(dat);
+        });
+      };
+    }
+  }
+  const tb::MakeDevice& device() const { return device_; }  ///< empty: not counted
+  const tb::LineCoverage& lines() const { return lines_; }
+
+  /// Its cover points, as bins.
+  tb::Coverage cover_points() const {
+    tb::Coverage out;
+    for (const auto& [name, hits] : lines_.cover_points()) out.hit(out.declare("cover", name), hits);
+    return out;
+  }
+
+ private:
+  std::mutex mutex_;
+  tb::LineCoverage lines_;
+  tb::MakeDevice device_;
+};
+
+tb::ClosureInput run_one(const Run& run, tb::LineCoverage& lines, std::vector<std::string>& failures) {
+  const auto config = load(run.config);
+  Covered covered(config);
+  tb::CoverageOrder order{
+      .config = config,
+      .volume = run.volume,
+      .scenes = run.scenes ? scenes(config) : decltype(scenes(config)){},
+      .device = covered.device(),
+      .progress = [](const std::string& what) { std::fprintf(stderr, "coverage: %s\n", what.c_str()); }};
+  auto runs = tb::run_coverage(order);
+  for (const auto& failure : runs.failures) failures.push_back(config.name + ": " + failure);
+  tb::ClosureInput input{std::move(runs.book), tb::planned_bins(config)};
+  if (covered.device()) {
+    const auto points = covered.cover_points();
+    input.planned.merge(points);
+    input.book.campaigns[tb::kCoverPoints] = points;
+    lines.merge(covered.lines());
+  }
+  return input;
+}
+
+ExitCode run(const std::vector<std::string>& arguments) {
+  const auto plan = tb::read_plan(kSource / "docs" / "verification_plan.toml");
+  if (arguments == std::vector<std::string>{"--tests"}) {
+    std::puts(tb::tests_expression(plan).c_str());
+    return ExitCode::Pass;
+  }
+  if (arguments.empty()) {
+    throw_usage({.where = "fastsplat_coverage",
+                 .what = "where to?",
+                 .expected = "a folder",
+                 .got = {},
+                 .fix = "./run coverage knows"});
+  }
+  const std::filesystem::path folder = arguments[0];
+  tb::ClosureReport report{
+      .version = analysis::program_version(), .plan = plan, .inputs = {}, .closure = {}, .lines = {}, .failures = {}};
+  std::map<std::string, bool> results;
+  std::vector<tb::CoverageBook> more;
+  for (std::size_t i = 1; i < arguments.size(); ++i) {
+    if (arguments[i].ends_with(".xml"))
+      results = tb::read_test_results(arguments[i]);
+    else
+      more.push_back(tb::read_book(arguments[i]));
+  }
+  tb::LineCoverage lines;
+  for (const Run& one : kRuns) {
+    tb::ClosureInput input = run_one(one, lines, report.failures);
+    for (const auto& book : more) {
+      if (book.config == input.book.config) input.book.merge(book);
+    }
+    tb::write_book(folder / (input.book.config + ".json"), input.book);
+    report.inputs.push_back(std::move(input));
+  }
+  report.closure = tb::close_coverage(plan, report.inputs, results);
+  report.lines =
+      tb::close_lines(lines, kSource / "rtl", tb::read_exclusions(kSource / "docs" / "coverage_exclusions.toml"));
+  write_text_file(folder / "closure.md", tb::closure_markdown(report));
+  write_text_file(folder / "closure.html", tb::closure_html(report));
+  for (const auto* list : {&report.failures, &report.closure.findings, &report.lines.findings}) {
+    for (const auto& line : *list) std::printf("open: %s\n", line.c_str());
+  }
+  std::printf("%s: %zu of %zu bins hit, %zu of %zu lines and branches reached, %zu not; see %s\n",
+              report.closed() ? "closed" : "open", report.closure.hit, report.closure.bins,
+              report.lines.points.size() - report.lines.unreached.size(), report.lines.points.size(),
+              report.lines.unreached.size(), (folder / "closure.html").c_str());
+  return report.closed() ? ExitCode::Pass : ExitCode::Failed;
+}
+
+}  // namespace
+}  // namespace fastsplat::cli
+
+int main(int argc, char** argv) {
+  using namespace fastsplat;
+  try {
+    return static_cast<int>(cli::run({argv + 1, argv + argc}));
+  } catch (const UserError& error) {
+    cli::print_error(error.what());
+    return static_cast<int>(error.code());
+  } catch (const std::exception& error) {
+    cli::print_error(std::string("internal: ") + error.what());
+    return static_cast<int>(ExitCode::Internal);
+  }
+}

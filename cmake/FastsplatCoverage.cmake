@@ -1,0 +1,46 @@
+# The RTL with line coverage and cover points counted. Built only for the program that closes coverage (`./run coverage`).
+#   tiny      the smallest named configuration
+#   mustfail  what tiny does not have: centres that are rounded, two radius sets, early freezing
+set(FASTSPLAT_COVERED_CONFIGS tiny mustfail)
+set(declarations "")
+set(entries "")
+add_library(fastsplat_covered_rtl STATIC EXCLUDE_FROM_ALL)
+target_link_libraries(fastsplat_covered_rtl PUBLIC fastsplat_testbench)
+foreach(config ${FASTSPLAT_COVERED_CONFIGS})
+  set(file ${PROJECT_SOURCE_DIR}/configs/${config}.toml)
+  if(NOT EXISTS ${file})
+    set(file ${PROJECT_SOURCE_DIR}/tests/mustfail/${config}.toml)
+  endif()
+  fastsplat_verilate(covered_${config} ${file} ARGS --coverage-line --coverage-user)
+  string(APPEND declarations "std::unique_ptr<RtlDevice> make_covered_${config}(const cmodel::Config&, cmodel::PixelSink&, const RtlOptions&, const CoverageDat&);\n")
+  string(APPEND entries "    {\"${config}\", make_covered_${config}},\n")
+  set(source ${PROJECT_BINARY_DIR}/generated/testbench/covered_${config}.cpp)
+  file(CONFIGURE OUTPUT ${source} @ONLY CONTENT [=[
+// Generated; do not edit.
+#include "Vfs_covered_@config@.h"
+#include "testbench/covered_device.hpp"
+
+namespace fastsplat::testbench {
+std::unique_ptr<RtlDevice> make_covered_@config@(const cmodel::Config& config, cmodel::PixelSink& pixels, const RtlOptions& options, const CoverageDat& dat) {
+  return std::make_unique<CoveredDevice<Vfs_covered_@config@>>(config, pixels, options, dat);
+}
+}  // namespace fastsplat::testbench
+]=])
+  target_sources(fastsplat_covered_rtl PRIVATE ${source})
+  target_link_libraries(fastsplat_covered_rtl PUBLIC covered_${config})
+endforeach()
+set(registry ${PROJECT_BINARY_DIR}/generated/testbench/covered_registry.cpp)
+file(CONFIGURE OUTPUT ${registry} @ONLY CONTENT [=[
+// Generated; do not edit.
+#include "testbench/covered_registry.hpp"
+
+namespace fastsplat::testbench {
+@declarations@
+namespace {
+constexpr CoveredEntry kEntries[] = {
+@entries@};
+}  // namespace
+std::span<const CoveredEntry> covered_registry() { return kEntries; }
+}  // namespace fastsplat::testbench
+]=])
+target_sources(fastsplat_covered_rtl PRIVATE ${registry})

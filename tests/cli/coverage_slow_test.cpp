@@ -1,0 +1,47 @@
+// verify --coverage: sampled, added up over runs, refused for another configuration.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/process_helper.hpp"
+
+namespace fastsplat::cli_test {
+namespace {
+
+nlohmann::json book(const std::filesystem::path& path) { return nlohmann::json::parse(read_bytes(path)); }
+
+std::uint64_t hits(const nlohmann::json& book, const char* campaign, const char* bin) {
+  return book.at("campaigns").at(campaign).at(bin);
+}
+
+TEST(VerifyCoverage, AddsUpOverRuns) {
+  const TempFolder folder;
+  const std::string file = folder / "c.json";
+  const auto random = [&](const char* config) {
+    return fastsplat({"verify", "--random", "50", "--class", "hazards", "--config", config, "--coverage", file});
+  };
+  const auto first = random("tiny");
+  ASSERT_EQ(first.code, 0) << first.err;
+  EXPECT_NE(first.out.find("coverage: "), std::string::npos) << first.out;
+  const auto once = book(file);
+  EXPECT_EQ(hits(once, "hazards", "record.splat"), 50u);
+  EXPECT_EQ(once.at("config"), "tiny");
+  ASSERT_EQ(random("tiny").code, 0);
+  const auto twice = book(file);
+  EXPECT_EQ(hits(twice, "hazards", "record.splat"), 100u);
+  EXPECT_EQ(twice.at("streams"), 2);
+  const auto scene =
+      fastsplat({"verify", "--volume", "shells:8", "--size", "16", "--config", "tiny", "--coverage", file});
+  ASSERT_EQ(scene.code, 0) << scene.err;
+  EXPECT_GT(hits(book(file), "scene", "record.splat"), 0u);
+  const auto other = random("small");
+  EXPECT_EQ(other.code, 4);
+  EXPECT_NE(other.err.find("was taken with another configuration"), std::string::npos) << other.err;
+  folder.write("d.json", "{}");
+  const auto foreign = fastsplat({"verify", "--random", "50", "--config", "tiny", "--coverage", folder / "d.json"});
+  EXPECT_EQ(foreign.code, 3);
+  EXPECT_NE(foreign.err.find("is no coverage file"), std::string::npos) << foreign.err;
+}
+
+}  // namespace
+}  // namespace fastsplat::cli_test

@@ -87,6 +87,10 @@ void refuse_idle_flags(const SceneFlags& flags, const scene::SceneDescription& t
     std::vector<const char*> flags;
   };
   const Technique techniques[] = {
+      {to.footprint.texture.amplitude > 0.0,
+       "detail in the splats",
+       "add --splat-texture 1",
+       {"--splat-phases", "--splat-frame", "--splat-scale"}},
       {to.lens.depth_of_field != scene::DepthOfField::Off,
        "depth of field",
        "add --depth-of-field splats",

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "golden/textured_splats.hpp"
+
 namespace fastsplat::golden {
 
 // The canonical radius of an ellipse with shape S, by completing the square along a row:
@@ -35,6 +37,19 @@ void Footprint::rasterise(const scene::Kernel& kernel, const ProjectedSplat& spl
     for (double x = left; x <= right; x += 1.0) {
       const double dx = x - middle;
       weights_.push_back(kernel.footprint((aspect * (dx * dx) + dy * dy) * to_units2));
+    }
+  }
+  if (splat.texture != nullptr) modulate(splat);
+}
+
+void Footprint::modulate(const ProjectedSplat& splat) {
+  const double per_x = 1.0 / std::sqrt(splat.shape.xx);  // kernel units a pixel
+  const double per_y = 1.0 / std::sqrt(splat.shape.yy);
+  for (const Span& span : spans_) {
+    const double v = (span.y - splat.y) * per_y;
+    for (int i = 0; i < span.width; ++i) {
+      const double u = (span.x + i - splat.x) * per_x;
+      weights_[span.weights + i] *= 1.0 + splat.texture_amplitude * (*splat.texture)(u, v);
     }
   }
 }

@@ -28,13 +28,15 @@ class Footprint {
   };
 
   /// Weight of pixel (i,j) = kernel.footprint(q) with q = d^T S^-1 d, d its offset from the centre and S the splat's
-  /// shape; strict support.
+  /// shape; strict support. A textured splat's is times 1 + m t(u,v), (u,v) = d in kernel units along x and y.
   void rasterise(const scene::Kernel& kernel, const ProjectedSplat& splat, Rows rows, int image_width);
 
   const std::vector<Span>& spans() const { return spans_; }
   const double* weights(const Span& span) const { return &weights_[span.weights]; }
 
  private:
+  void modulate(const ProjectedSplat& splat);
+
   std::vector<Span> spans_;
   std::vector<double> weights_;
 };

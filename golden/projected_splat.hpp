@@ -21,14 +21,18 @@ struct ScreenShape {
   double determinant() const { return xx * yy - xy * xy; }
 };
 
+class TexturePhase;
+
 struct ProjectedSplat {
   double x = 0.0, y = 0.0;  ///< pixels; pixel centres are at integers
   double z = 0.0;           ///< depth of the centre, kernel units
   ScreenShape shape;
-  double depth_growth = 1.0;            ///< the kernel's extent along z, relative to its own
-  double reach_x = 0.0, reach_y = 0.0;  ///< pixels; the footprint's support is strictly inside
-  Sums value{};                         ///< times Kernel::footprint(): what the whole splat adds to a pixel
-  int sheet = 0;                        ///< axis-aligned sheet
+  double depth_growth = 1.0;              ///< the kernel's extent along z, relative to its own
+  double reach_x = 0.0, reach_y = 0.0;    ///< pixels; the footprint's support is strictly inside
+  Sums value{};                           ///< times Kernel::footprint(): what the whole splat adds to a pixel
+  int sheet = 0;                          ///< axis-aligned sheet
+  const TexturePhase* texture = nullptr;  ///< of the Projector; null for a plain splat
+  double texture_amplitude = 0.0;
 };
 
 /// Gives the splat another shape; what it adds to the picture in all stays what it was.

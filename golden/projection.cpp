@@ -12,7 +12,8 @@ Projector::Projector(const scene::Scene& scene)
       unit_(scene.volume->kernel_unit()),
       density_(cell_density(scene)),
       motion_(scene.description.motion, scene.camera, scene.kernel),
-      lens_(scene.description.lens, scene.camera, scene.kernel) {}
+      lens_(scene.description.lens, scene.camera, scene.kernel),
+      textures_(scene.description.footprint.texture, scene.kernel) {}
 
 ProjectedSplat Projector::operator()(const scene::Splat& splat) const {
   const glm::dvec3 world(splat.position);
@@ -33,6 +34,9 @@ ProjectedSplat Projector::operator()(const scene::Splat& splat) const {
   if (footprint.antialias) apply_antialias(pixels_per_unit, p);
   motion_.apply(world, p);
   lens_.apply(at.depth, p);
+
+  p.texture = textures_.phase_of(splat.position);
+  p.texture_amplitude = textures_.amplitude();
 
   p.reach_x = scene_.kernel.radius() * std::sqrt(p.shape.xx);
   p.reach_y = scene_.kernel.radius() * std::sqrt(p.shape.yy);

@@ -9,6 +9,7 @@
 #include "golden/depth_of_field_splats.hpp"
 #include "golden/motion_blur.hpp"
 #include "golden/projected_splat.hpp"
+#include "golden/textured_splats.hpp"
 #include "scene/scene.hpp"
 #include "scene/splats.hpp"
 
@@ -27,6 +28,7 @@ class Projector {
   double unit_, density_;
   MotionBlur motion_;
   DepthOfFieldSplats lens_;
+  TexturedSplats textures_;
 };
 
 }  // namespace fastsplat::golden

@@ -7,4 +7,7 @@ namespace fastsplat::scene {
 /// voxels, above that 0.5 to 1 by height.
 float terrain(int i, int j, int k, int n);
 
+/// A flame: hottest inside and below, torn into tongues above; 0 outside.
+float fire(int i, int j, int k, int n);
+
 }  // namespace fastsplat::scene

@@ -107,6 +107,16 @@ const std::array kSettings{
             "kernels never smaller on the screen than one pixel a voxel",
             Switch{[](D& d) -> bool& { return d.footprint.antialias; }}},
 
+    Setting{"splat_texture", "amplitude", "--splat-texture", "Footprint", "0..1",
+            "detail inside every splat: 0 none, 1 from nothing to twice the footprint",
+            Real{0.0, 1.0, [](D& d) -> double& { return d.footprint.texture.amplitude; }}},
+    Setting{"splat_texture", "phases", "--splat-phases", "Footprint", "N", "pictures a textured splat goes through",
+            Integer{2, 64, [](D& d) -> int& { return d.footprint.texture.phases; }}},
+    Setting{"splat_texture", "frame", "--splat-frame", "Footprint", "N", "which of them it shows now; cycles",
+            Integer{0, 1'000'000'000, [](D& d) -> int& { return d.footprint.texture.frame; }}},
+    Setting{"splat_texture", "scale", "--splat-scale", "Footprint", "VOXELS", "size of a textured splat's detail",
+            Real{0.1, 4.0, [](D& d) -> double& { return d.footprint.texture.scale; }}},
+
     Setting{"motion", "translate", "--motion-translate", "Footprint", "X,Y,Z",
             "motion blur: the volume's way while the shutter is open, mm",
             Triple{-kMotion, kMotion, [](D& d) -> glm::dvec3& { return d.motion.translate; }}},

@@ -85,7 +85,7 @@ struct Entry {
   Generator generate;
 };
 
-constexpr std::array<Entry, 10> kEntries{{{"marschner-lobb", 64, marschner_lobb},
+constexpr std::array<Entry, 11> kEntries{{{"marschner-lobb", 64, marschner_lobb},
                                           {"shells", 64, shells},
                                           {"binary-cube", 32, binary_cube},
                                           {"checkerboard-floor", 128, checkerboard_floor},
@@ -94,7 +94,8 @@ constexpr std::array<Entry, 10> kEntries{{{"marschner-lobb", 64, marschner_lobb}
                                           {"point", 9, point},
                                           {"layer", 24, layer},
                                           {"pair", 4, pair},
-                                          {"terrain", 128, terrain}}};
+                                          {"terrain", 128, terrain},
+                                         {"fire", 64, fire}}};
 
 const Entry& find(const std::string& name) {
   for (const auto& entry : kEntries) {

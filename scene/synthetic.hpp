@@ -9,7 +9,7 @@
 namespace fastsplat::scene {
 
 /// `marschner-lobb`, `shells`, `binary-cube`, `checkerboard-floor`, `checkerboard-tunnel`, `constant`, `point`,
-/// `layer`, `pair`, `terrain`. Values in [0,1], spacing 1 mm, cubic, edge `size` voxels (2..1024).
+/// `layer`, `pair`, `terrain`, `fire`. Values in [0,1], spacing 1 mm, cubic, edge `size` voxels (2..1024).
 Volume make_synthetic(const std::string& name, int size);
 /// The same without voxels.
 Volume describe_synthetic(const std::string& name, int size);

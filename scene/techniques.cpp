@@ -55,6 +55,7 @@ void check_techniques(const Motion& motion, const Lens& lens, const Camera& came
 std::string technique_in_use(const FootprintSettings& footprint, const Motion& motion, const Lens& lens) {
   if (footprint.shape != FootprintShape::Circle) return "footprint.shape";
   if (footprint.antialias) return "footprint.antialias";
+  if (footprint.texture.amplitude > 0.0) return "splat_texture.amplitude";
   if (motion.translate != glm::dvec3(0.0)) return "motion.translate";
   if (motion.orbit != 0.0) return "motion.orbit";
   if (lens.depth_of_field != DepthOfField::Off) return "lens.depth_of_field";

@@ -15,9 +15,18 @@ enum class FootprintShape {
   Ellipse,  ///< the kernel's sphere in perspective, local affine projection
 };
 
+/// Detail inside every footprint, one of `phases` pictures of it that a splat goes through frame by frame.
+struct SplatTexture {
+  int phases = 16;
+  double amplitude = 0.0;  ///< 0: plain splats; 1: down to nothing and up to twice the footprint
+  int frame = 0;
+  double scale = 0.5;  ///< size of the detail, kernel units
+};
+
 struct FootprintSettings {
   FootprintShape shape = FootprintShape::Circle;
   bool antialias = false;  ///< kernels never smaller on the screen than one pixel a voxel
+  SplatTexture texture{};
 };
 
 /// What happens while the shutter is open, from -1/2 to +1/2 about the picture's own moment.

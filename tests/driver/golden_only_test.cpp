@@ -23,6 +23,7 @@ TEST(GoldenOnly, techniques_are_refused_by_their_key) {
   const auto with = [&](const char* key) -> scene::SceneDescription& { return scenes.emplace_back(key, plain).second; };
   with("footprint.shape").footprint.shape = scene::FootprintShape::Ellipse;
   with("footprint.antialias").footprint.antialias = true;
+  with("splat_texture.amplitude").footprint.texture.amplitude = 0.5;
   with("motion.translate").motion.translate = {0.0, 0.1, 0.0};
   with("motion.orbit").motion.orbit = 1.0;
   with("lens.depth_of_field").lens.depth_of_field = scene::DepthOfField::Splats;

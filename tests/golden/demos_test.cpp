@@ -188,10 +188,36 @@ TEST(DemoScenes, TheTerrainIsTheSameOnEveryMachine) {
   EXPECT_GT(max_opacity(render(scene)), 0.99);
 }
 
+TEST(DemoScenes, TheFireMovesAndComesBack) {
+  const auto sequence = scene::load_sequence("demo:fire");
+  const auto small = [&](int frame, double amplitude) {
+    auto description = scene::at_frame(sequence, demo("fire", 96), frame);
+    description.footprint.texture.amplitude *= amplitude;
+    return picture(description);
+  };
+  const Image first = small(0, 1.0);
+  const double moved = rms_difference(small(1, 1.0), first);
+  const double detail = rms_difference(small(0, 0.0), first);
+  figure("demo_fire_frame_to_frame", moved, "rms, above 0.005");
+  figure("demo_fire_detail", detail, "rms from plain splats, above 0.005");
+  EXPECT_GT(moved, 0.005);
+  EXPECT_GT(detail, 0.005);
+  auto after = demo("fire", 96);
+  after.footprint.texture.frame = sequence.frames;
+  EXPECT_EQ(picture(after), first) << "the cycle does not close";
+}
+
 TEST(DemoScenes, EveryOneIsATestedOne) {
-  const std::vector<std::string> tested{
-      "footprint-resolutions", "layer-adding",          "layer-compositing", "overlap-adding", "overlap-compositing",
-      "popping-axis-aligned",  "popping-image-aligned", "terrain",           "tunnel"};
+  const std::vector<std::string> tested{"fire",
+                                        "footprint-resolutions",
+                                        "layer-adding",
+                                        "layer-compositing",
+                                        "overlap-adding",
+                                        "overlap-compositing",
+                                        "popping-axis-aligned",
+                                        "popping-image-aligned",
+                                        "terrain",
+                                        "tunnel"};
   EXPECT_EQ(scene::demo_names(), tested);
 }
 

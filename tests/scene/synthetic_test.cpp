@@ -11,7 +11,7 @@ namespace fastsplat::scene {
 namespace {
 
 TEST(Synthetic, AllNamesGiveCubesInRange) {
-  ASSERT_EQ(synthetic_names().size(), 10u);
+  ASSERT_EQ(synthetic_names().size(), 11u);
   for (const auto& name : synthetic_names()) {
     const Volume volume = make_synthetic(name, 17);
     EXPECT_EQ(volume.dims, glm::ivec3(17)) << name;

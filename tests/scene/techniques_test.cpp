@@ -95,6 +95,8 @@ TEST(Techniques, TheOneInUseIsNamed) {
   EXPECT_EQ(named(), "motion.orbit");
   d.motion.translate.z = 1.0;
   EXPECT_EQ(named(), "motion.translate");
+  d.footprint.texture.amplitude = 0.1;
+  EXPECT_EQ(named(), "splat_texture.amplitude");
   d.footprint.antialias = true;
   EXPECT_EQ(named(), "footprint.antialias");
   d.footprint.shape = FootprintShape::Ellipse;

@@ -1,0 +1,95 @@
+// docs/gallery.md is what docs/gallery.toml generates, its pictures are there and small, its commands run.
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <sstream>
+
+#include "tests/cli/process_helper.hpp"
+
+namespace fastsplat::cli_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = FASTSPLAT_SOURCE_DIR;
+
+/// The first group of every match.
+std::vector<std::string> all_in(const std::string& text, const std::string& pattern) {
+  const std::regex regex(pattern);
+  std::vector<std::string> found;
+  for (std::sregex_iterator at(text.begin(), text.end(), regex), end; at != end; ++at) found.push_back((*at)[1]);
+  return found;
+}
+
+TEST(Gallery, PageIsWhatTheManifestGenerates) {
+  const auto generated = run_words({kRoot / "packaging/gallery", "--markdown", kRoot});
+  ASSERT_EQ(generated.code, 0) << generated.err;
+  EXPECT_EQ(generated.out, read_bytes(kRoot / "docs/gallery.md")) << "run ./run gallery, look at the pictures, commit";
+}
+
+TEST(Gallery, PicturesAndPagesAreThere) {
+  constexpr std::uintmax_t kLargest = 60000;  // bytes
+  const auto page = read_bytes(kRoot / "docs/gallery.md");
+  const auto pictures = all_in(page, R"(\]\((images/gallery/[^)]+)\))");
+  std::uintmax_t largest = 0;
+  for (const auto& picture : pictures) {
+    ASSERT_TRUE(fs::exists(kRoot / "docs" / picture)) << picture;
+    EXPECT_EQ(read_bytes(kRoot / "docs" / picture).substr(1, 3), "PNG") << picture;
+    EXPECT_LE(fs::file_size(kRoot / "docs" / picture), kLargest) << picture;
+    largest = std::max(largest, fs::file_size(kRoot / "docs" / picture));
+  }
+  const auto pages = all_in(page, R"(\[How and how well\]\(([^)]+)\))");
+  for (const auto& name : pages) EXPECT_TRUE(fs::exists(kRoot / "docs" / name)) << name;
+  std::printf("[figure] gallery_pictures = %zu, largest %ju bytes (limit %ju)\n", pictures.size(), largest, kLargest);
+  ASSERT_GT(pictures.size(), 0u);
+  ASSERT_GT(pages.size(), 0u);
+  // Nothing lies about that no entry shows.
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(kRoot / "docs/images/gallery")) ++files;
+  EXPECT_EQ(files, pictures.size());
+}
+
+TEST(Gallery, EveryCommandRuns) {
+  const TempFolder folder;
+  const bool scans = fastsplat({"volume", "info", "ch2bet"}).code == 0;
+  int ran = 0, skipped = 0;
+  for (const auto& command : all_in(read_bytes(kRoot / "docs/gallery.md"), "`fastsplat (render [^`]+)`")) {
+    if (!scans && command.find("ch2") != std::string::npos) {
+      ++skipped;
+      continue;
+    }
+    // As small as may be: here the flags count, not the picture.
+    std::istringstream words(std::regex_replace(command, std::regex(" --size [^ ]+"), "") + " --size 20 --quiet");
+    std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
+    arguments.insert(arguments.end(), {"--out", folder / "picture.png"});
+    SCOPED_TRACE(command);
+    expect_success(fastsplat(arguments));
+    ++ran;
+  }
+  std::printf("[figure] gallery_commands = %d (limit > 0)%s\n", ran,
+              skipped > 0 ? ", those on mricron-data's scans skipped: package not installed" : "");
+  ASSERT_GT(ran, 0);
+}
+
+TEST(GalleryMustFail, AManifestWithAMistakeIsToldWhere) {
+  const TempFolder folder;
+  fs::create_directory(folder / "docs");
+  const std::string good =
+      "[[picture]]\nsection = \"a\"\npage = \"b\"\nname = \"c\"\ntitle = \"d\"\narguments = \"e\"\ncaption = \"f\"\n";
+  struct Bad {
+    std::string text, said;
+  };
+  for (const Bad& bad : {Bad{good + "captoin = \"g\"\n", ":8: unknown key captoin"},
+                         Bad{good + "[[picture]]\nname = \"x\"\n", "lacks section"},
+                         Bad{good + good, "two pictures are named c"}, Bad{good + "enlarge = 3\n", ":8: expected"}}) {
+    folder.write("docs/gallery.toml", bad.text);
+    const auto result = run_words({kRoot / "packaging/gallery", "--markdown", folder.path()});
+    EXPECT_NE(result.err.find(bad.said), std::string::npos) << result.err;
+  }
+  folder.write("docs/gallery.toml", good);
+  EXPECT_NE(run_words({kRoot / "packaging/gallery", "--markdown", folder.path()}).out.find("images/gallery/c.png"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace fastsplat::cli_test

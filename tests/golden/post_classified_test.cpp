@@ -228,8 +228,8 @@ TEST(PostClassified, VoxelsThatCannotMatterAreNotSplatted) {
                                          std::pair(GradientKind::Splats, scene::Projection::Perspective)}) {
     DensityScene what = soft_ball();
     what.dims = glm::ivec3(52);
-    what.width = what.height = 96;
-    what.pixels_per_mm = 1.6;
+    what.width = what.height = 60;
+    what.pixels_per_mm = 1.0;
     // A wide flat kernel, a hard edge, and around it what is just too thin to be seen: there the reach is all used.
     what.a = 1.02;
     what.radius = 3.0;

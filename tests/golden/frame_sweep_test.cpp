@@ -65,6 +65,19 @@ TEST(FrameSweep, WithoutStagesItIsTheBandSweep) {
   figure("frame_sweep_images_equal_to_band_sweep", compared, "more than 0, bit for bit");
 }
 
+TEST(FrameSweep, ShapedFootprintsToo) {
+  Lattice lattice = view();
+  lattice.pixels_per_mm = 0.8;
+  scene::Scene scene = make_scene(lattice);
+  scene.description.footprint = {scene::FootprintShape::Ellipse, true};
+  scene.description.motion = {{3.0, -2.0, 1.0}, 10.0};
+  const std::vector<scene::Splat> splats = scene::collect_splats(scene);
+  const Image bands = composite_sheets(scene, splats, {}, slices(scene));
+  ASSERT_GT(max_opacity(bands), 0.5);
+  const Idle idle(true);
+  EXPECT_EQ(bands, sweep_frame(scene, splats, {}, slices(scene), {.sheet_stages = {&idle}}));
+}
+
 /// The mean of the six neighbours, two of them in other sheets; reads beyond its own rows and sheet.
 class Neighbours final : public SheetStage {
  public:

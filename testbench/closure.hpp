@@ -44,7 +44,8 @@ struct ClosureInput {
   Coverage planned;  ///< every bin that has to be hit (planned_bins, and cover points where they were collected)
 };
 
-/// `results`: names of tests that ran, as ctest knows them, and whether they passed; may be empty.
+/// `results`: names of tests that ran, as ctest knows them, and whether they passed. Empty: tests are not looked at;
+/// else a testpoint that has only tests needs one that passed.
 Closure close_coverage(const VerificationPlan& plan, const std::vector<ClosureInput>& inputs,
                        const std::map<std::string, bool>& results);
 

@@ -1,8 +1,7 @@
 // fastsplat_coverage: runs the campaigns, closes docs/verification_plan.toml, writes closure.md and closure.html.
 //   fastsplat_coverage --tests              prints the plan's tests as a regular expression for ctest
 //   fastsplat_coverage FOLDER [RESULTS.xml] [COVERAGE.json ...]
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -32,10 +31,10 @@ struct Run {
   tb::CoverageVolume volume;
   bool scenes;
 };
-constexpr Run kRuns[] = {{"tiny", {.splats = 18000, .seeds = 12, .resets = 240}, true},
-                         {"mustfail", {.splats = 18000, .seeds = 12, .resets = 240}, false},
-                         {"small", {.splats = 18000, .seeds = 12, .resets = 240}, true},
-                         {"base", {.splats = 5400, .seeds = 18, .resets = 120}, true}};
+constexpr Run kRuns[] = {{"tiny", {.splats = 36000, .seeds = 18, .resets = 480}, true},
+                         {"mustfail", {.splats = 36000, .seeds = 18, .resets = 480}, false},
+                         {"small", {.splats = 36000, .seeds = 18, .resets = 480}, true},
+                         {"base", {.splats = 7200, .seeds = 24, .resets = 180}, true}};
 
 cmodel::Config load(const std::string& name) {
   const auto own = kSource / "tests" / "mustfail" / (name + ".toml");
@@ -122,6 +121,12 @@ tb::ClosureInput run_one(const Run& run, tb::LineCoverage& lines, std::vector<st
   return input;
 }
 
+std::map<std::string, bool> tests_of(const std::string& path, std::vector<std::string>& failures) {
+  auto results = tb::read_test_results(path);
+  if (results.empty()) failures.push_back("no test of the plan ran: " + path + " names none");
+  return results;
+}
+
 ExitCode run(const std::vector<std::string>& arguments) {
   const auto plan = tb::read_plan(kSource / "docs" / "verification_plan.toml");
   if (arguments == std::vector<std::string>{"--tests"}) {
@@ -142,7 +147,7 @@ ExitCode run(const std::vector<std::string>& arguments) {
   std::vector<tb::CoverageBook> more;
   for (std::size_t i = 1; i < arguments.size(); ++i) {
     if (arguments[i].ends_with(".xml"))
-      results = tb::read_test_results(arguments[i]);
+      results = tests_of(arguments[i], report.failures);
     else
       more.push_back(tb::read_book(arguments[i]));
   }
@@ -163,10 +168,16 @@ ExitCode run(const std::vector<std::string>& arguments) {
   for (const auto* list : {&report.failures, &report.closure.findings, &report.lines.findings}) {
     for (const auto& line : *list) std::printf("open: %s\n", line.c_str());
   }
-  std::printf("%s: %zu of %zu bins hit, %zu of %zu lines and branches reached, %zu not; see %s\n",
-              report.closed() ? "closed" : "open", report.closure.hit, report.closure.bins,
-              report.lines.points.size() - report.lines.unreached.size(), report.lines.points.size(),
-              report.lines.unreached.size(), (folder / "closure.html").c_str());
+  const auto excused = std::count_if(report.lines.unreached.begin(), report.lines.unreached.end(),
+                                     [](const auto& finding) { return !finding.reason.empty(); });
+  const auto passed = std::count_if(report.closure.tests.begin(), report.closure.tests.end(),
+                                    [](const auto& test) { return test.outcome == tb::TestOutcome::Passed; });
+  std::printf(
+      "%s: %zu of %zu bins hit; %zu of %zu lines and branches reached, %td excused; %td of %zu tests of the plan "
+      "run\n%s\n",
+      report.closed() ? "closed" : "open", report.closure.hit, report.closure.bins,
+      report.lines.points.size() - report.lines.unreached.size(), report.lines.points.size(), excused, passed,
+      report.closure.tests.size(), (folder / "closure.html").c_str());
   return report.closed() ? ExitCode::Pass : ExitCode::Failed;
 }
 

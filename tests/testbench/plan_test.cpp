@@ -199,6 +199,24 @@ TEST(Closure, IsRedForEveryKindOfGap) {
             "p, c: g.z was never hit\np: test testbench.Suite.Name fails\n");
 }
 
+TEST(Closure, NeedsATestWhereThereAreNoBins) {
+  ClosureInput input;
+  input.book.config = "c";
+  input.planned.declare("g", "x");
+  Coverage& run = input.book.campaigns["hazards"];
+  run.hit(run.declare("g", "x"));
+  Testpoint tested = point_of("t", {}, {});
+  tested.tests = {"testbench.Suite.Name"};
+  const VerificationPlan both{{point_of("p", {"hazards"}, {"g.x"}), tested}};
+  const auto findings = [&](const std::map<std::string, bool>& results) {
+    return close_coverage(both, {input}, results).findings;
+  };
+  EXPECT_EQ(findings({{"testbench.Suite.Name", true}}), std::vector<std::string>{});
+  EXPECT_EQ(findings({{"testbench.Suite.Other", true}}),
+            (std::vector<std::string>{"t: none of its tests passed, and it has no bins"}));
+  EXPECT_EQ(findings({}), std::vector<std::string>{}) << "tests were not looked at";
+}
+
 TEST(Closure, KnowsTestsByTheirNames) {
   EXPECT_TRUE(is_test("a.S.N", "a.S.N"));
   EXPECT_TRUE(is_test("a.S.N", "a.I/S.N/0"));
@@ -208,7 +226,9 @@ TEST(Closure, KnowsTestsByTheirNames) {
   EXPECT_FALSE(is_test("a.S.N", "b.S.N"));
   const std::regex expression(tests_expression(plan()));
   EXPECT_TRUE(std::regex_search(std::string("mustfail.Fault/MustFail.IsCaughtByItsDetector/ROUND_TRN"), expression));
+  EXPECT_TRUE(std::regex_search(std::string("rtl.proofs"), expression));
   EXPECT_FALSE(std::regex_search(std::string("mustfail.Fault/MustFail.IsCaught"), expression));
+  EXPECT_EQ(tests_expression(plan()).find('('), std::string::npos) << "ctest refuses more than 32";
 }
 
 const std::string kDat =

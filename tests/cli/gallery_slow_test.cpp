@@ -49,11 +49,41 @@ TEST(Gallery, PicturesAndPagesAreThere) {
   EXPECT_EQ(files, pictures.size());
 }
 
-TEST(Gallery, EveryCommandRuns) {
+std::size_t number_at(const std::string& bytes, std::size_t at) {
+  std::size_t number = 0;
+  for (std::size_t i = at; i < at + 4; ++i) number = number << 8 | static_cast<unsigned char>(bytes.at(i));
+  return number;
+}
+
+/// What the PNG says of its origin (its tEXt chunks "fastsplat:...") in lines, without its size.
+std::vector<std::string> origin_of(const fs::path& png) {
+  const std::string bytes = read_bytes(png);
+  std::vector<std::string> lines;
+  for (std::size_t at = 8; at + 12 <= bytes.size(); at += 12 + number_at(bytes, at)) {
+    const std::string chunk = bytes.substr(at + 8, number_at(bytes, at));
+    if (bytes.compare(at + 4, 4, "tEXt") != 0 || !chunk.starts_with("fastsplat:")) continue;
+    std::istringstream text(chunk.substr(std::string("fastsplat:").size()));
+    std::string table;
+    for (std::string line; std::getline(text, line);) {
+      if (line.starts_with("[")) table = line;
+      if (!line.empty() && table != "[image]") lines.push_back(table + line);
+    }
+  }
+  return lines;
+}
+
+// A command or a built-in scene that was changed leaves its picture behind; the picture knows what it was made of.
+// Settings that are newer than the picture are at their default, or it would have been rendered again.
+TEST(Gallery, EveryCommandRunsAndIsWhatItsPictureWasMadeBy) {
   const TempFolder folder;
   const bool scans = fastsplat({"volume", "info", "ch2bet"}).code == 0;
+  const auto page = read_bytes(kRoot / "docs/gallery.md");
+  const auto commands = all_in(page, "`fastsplat (render [^`]+)`");
+  const auto pictures = all_in(page, R"(\]\((images/gallery/[^)]+)\))");
+  ASSERT_EQ(commands.size(), pictures.size());
   int ran = 0, skipped = 0;
-  for (const auto& command : all_in(read_bytes(kRoot / "docs/gallery.md"), "`fastsplat (render [^`]+)`")) {
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    const std::string& command = commands[i];
     if (!scans && command.find("ch2") != std::string::npos) {
       ++skipped;
       continue;
@@ -64,6 +94,13 @@ TEST(Gallery, EveryCommandRuns) {
     arguments.insert(arguments.end(), {"--out", folder / "picture.png"});
     SCOPED_TRACE(command);
     expect_success(fastsplat(arguments));
+    const auto now = origin_of(folder / "picture.png");
+    const auto then = origin_of(kRoot / "docs" / pictures[i]);
+    EXPECT_GT(then.size(), 10u) << pictures[i] << " does not tell its origin";
+    for (const auto& line : then) {
+      EXPECT_NE(std::find(now.begin(), now.end(), line), now.end())
+          << pictures[i] << " was made by another command or scene: " << line << "; run ./run gallery";
+    }
     ++ran;
   }
   std::printf("[figure] gallery_commands = %d (limit > 0)%s\n", ran,

@@ -1,10 +1,11 @@
 // One axis of a window: RLUT words turned from window order into bank order, with each bank's block and validity.
 // Bank g (pixel mod P = g) takes window lane (g - origin) mod P. Any window hits every bank exactly once.
-// One register.
+// One register; holds while there is no window.
 `include "fault.svh"
 
 module axis (
     input  logic                                                     clk_i,
+    input  logic                                                     valid_i,
     input  logic signed [fastsplat_pkg::ORG_BITS-1:0]                origin_i,  // first pixel of the window
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]                      side_i,    // tile width or height in pixels
     input  logic [fastsplat_pkg::LANES*fastsplat_pkg::RLUT_BITS-1:0] words_i,   // by window lane
@@ -26,17 +27,15 @@ module axis (
   for (genvar g = 0; g < P; g++) begin : gen_bank
     logic [LB-1:0] lane;
     logic signed [ORG-1:0] block, pixel;
-    logic in_tile;
-    always_comb begin
-      lane = `FASTSPLAT_FAULT(BANK_ROTATION) ? LB'(g) + offset : LB'(g) - offset;
-      block = (origin_i >>> LOG2) + (({1'b0, offset} > (LB + 1)'(g)) ? ORG'(1) : ORG'(0));
-      pixel = (block <<< LOG2) + ORG'(g);
-      in_tile = !block[ORG-1] && pixel < $signed(ORG'(side_i));
-    end
+    assign lane = `FASTSPLAT_FAULT(BANK_ROTATION) ? LB'(g) + offset : LB'(g) - offset;
+    assign block = (origin_i >>> LOG2) + (({1'b0, offset} > (LB + 1)'(g)) ? ORG'(1) : ORG'(0));
+    assign pixel = (block <<< LOG2) + ORG'(g);
     always_ff @(posedge clk_i) begin
-      words_o[g*W+:W] <= words_i[lane*W+:W];
-      block_o[g*BLK+:BLK] <= block[BLK-1:0];
-      inside_o[g] <= in_tile;
+      if (valid_i) begin
+        words_o[g*W+:W] <= words_i[lane*W+:W];
+        block_o[g*BLK+:BLK] <= block[BLK-1:0];
+        inside_o[g] <= !block[ORG-1] && pixel < $signed(ORG'(side_i));
+      end
     end
   end
 endmodule

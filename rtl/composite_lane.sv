@@ -1,9 +1,13 @@
 // One lane of the compositor: a slab over a pixel, front to back, with freezing; or X-ray sums
-// (docs/numerics.md, section 6; cmodel/compositor.hpp). Registers: k5 (products), k6 (new state).
-`include "fault.svh"
+// (docs/numerics.md, section 6; cmodel/compositor.hpp). Registers: k5 (products), k6 (new state). A stage without a
+// block holds.
+`include "assertions.svh"
+`include "narrow.svh"
 
 module composite_lane (
     input  logic                                   clk_i,
+    input  logic                                   rst_ni,    // of the assertions
+    input  logic [5:4]                             valid_i,   // stages that hold a block: k4, k5
     input  logic [1:0]                             mode_i,    // held over a tile
     // k4
     input  logic [4*fastsplat_pkg::STATE_BITS-1:0] slab_i,
@@ -16,75 +20,46 @@ module composite_lane (
   localparam int DB = fastsplat_pkg::STATE_BITS;
   localparam int TB = fastsplat_pkg::TRANS_BITS;
   localparam int SB = fastsplat_pkg::SHEET_BITS;
-  localparam int TF = fastsplat_pkg::TRANS_FRAC;
+  `FASTSPLAT_NARROW(narrow_light, 2 * TB, fastsplat_pkg::TRANS_FRAC, TB, 1, 1)
+  `FASTSPLAT_NARROW(narrow_colour, TB + 1, 0, TB, 0, 0)
+  `FASTSPLAT_NARROW(narrow_sum, SB + 1, 0, SB, 0, 0)
 
-  logic sum_mode;
-  assign sum_mode = mode_i == 2'd2;
+  // {overflow, word} with the word as wide as the state
+  function automatic logic [DB:0] colour_to_state(input logic [TB:0] narrowed);
+    colour_to_state = {narrowed[TB], DB'(narrowed[TB-1:0])};
+  endfunction
+  function automatic logic [DB:0] sum_to_state(input logic [SB:0] narrowed);
+    sum_to_state = {narrowed[SB], DB'(narrowed[SB-1:0])};
+  endfunction
 
-  // k4: T * slab, four times
+  logic sum_mode, frozen_k5_q;
   logic [TB-1:0] transmittance;
-  logic frozen, frozen_k5_q;
-  logic [4*DB-1:0] state_k5_q, light_k5_q;
+  assign sum_mode = mode_i == 2'd2;
   assign transmittance = state_i[3*DB+:TB];
-  assign frozen = !sum_mode && transmittance < TB'(fastsplat_pkg::FREEZE_BELOW) && !`FASTSPLAT_FAULT(UNFROZEN);
-  for (genvar c = 0; c < 4; c++) begin : gen_light
-    logic [2*TB-1:0] product;
-    logic [TB-1:0] light;
-    logic overflow;
-    assign product = (2 * TB)'(transmittance) * (2 * TB)'(slab_i[c*DB+:TB]);
-    narrow #(.IN_BITS(2 * TB), .SHIFT(TF), .OUT_BITS(TB), .ROUND(1), .UNIT(1)) u_narrow (
-        .value_i(product),
-        .word_o(light),
-        .overflow_o(overflow)
-    );
-    always_ff @(posedge clk_i) light_k5_q[c*DB+:DB] <= sum_mode ? slab_i[c*DB+:DB] : DB'(light);
-    logic unused;
-    assign unused = &{1'b0, overflow};
+  always_ff @(posedge clk_i) begin
+    if (valid_i[4]) frozen_k5_q <= !sum_mode && transmittance < TB'(fastsplat_pkg::FREEZE_BELOW) && !`FASTSPLAT_FAULT(UNFROZEN);
+    if (valid_i[5]) frozen_o <= frozen_k5_q;
   end
 
-  // k5: C + light, T - absorbed, X + S
-  logic [4*DB-1:0] next;
-  logic [3:0] overflow_k5;
-  for (genvar c = 0; c < 4; c++) begin : gen_next
-    logic [TB:0] colour_exact;
-    logic [TB-1:0] colour;
-    logic [SB:0] sum_exact;
-    logic [SB-1:0] sum;
-    logic colour_overflow, sum_overflow;
-    assign colour_exact = {1'b0, state_k5_q[c*DB+:TB]} + {1'b0, light_k5_q[c*DB+:TB]};
-    assign sum_exact = {1'b0, state_k5_q[c*DB+:SB]} + {1'b0, light_k5_q[c*DB+:SB]};
-    narrow #(.IN_BITS(TB + 1), .SHIFT(0), .OUT_BITS(TB), .ROUND(0)) u_colour (
-        .value_i(colour_exact),
-        .word_o(colour),
-        .overflow_o(colour_overflow)
-    );
-    narrow #(.IN_BITS(SB + 1), .SHIFT(0), .OUT_BITS(SB), .ROUND(0)) u_sum (
-        .value_i(sum_exact),
-        .word_o(sum),
-        .overflow_o(sum_overflow)
-    );
-    always_comb begin
-      next[c*DB+:DB] = state_k5_q[c*DB+:DB];
-      overflow_k5[c] = 1'b0;
-      if (sum_mode) begin
-        next[c*DB+:DB] = DB'(sum);
-        overflow_k5[c] = sum_overflow;
-      end else if (!frozen_k5_q) begin
-        if (c == 3) begin
-          next[c*DB+:DB] = state_k5_q[c*DB+:DB] - light_k5_q[c*DB+:DB];
-        end else begin
-          next[c*DB+:DB] = DB'(colour);
-          overflow_k5[c] = colour_overflow;
-        end
+  for (genvar c = 0; c < 4; c++) begin : gen_channel
+    logic [DB-1:0] state_k5_q, light_k5_q;
+    always_ff @(posedge clk_i) begin
+      // k4: T * slab
+      if (valid_i[4]) begin
+        state_k5_q <= state_i[c*DB+:DB];
+        light_k5_q <= sum_mode ? slab_i[c*DB+:DB] :
+                      DB'(TB'(narrow_light((2 * TB)'(transmittance) * (2 * TB)'(slab_i[c*DB+:TB]))));
+      end
+      // k5: X + S; C + light, T - absorbed
+      if (valid_i[5]) begin
+        if (sum_mode) {saturated_o[c], state_o[c*DB+:DB]} <= sum_to_state(narrow_sum({1'b0, state_k5_q[SB-1:0]} + {1'b0, light_k5_q[SB-1:0]}));
+        else if (frozen_k5_q) {saturated_o[c], state_o[c*DB+:DB]} <= {1'b0, state_k5_q};
+        else if (c == 3) {saturated_o[c], state_o[c*DB+:DB]} <= {1'b0, state_k5_q - light_k5_q};
+        else {saturated_o[c], state_o[c*DB+:DB]} <= colour_to_state(narrow_colour({1'b0, state_k5_q[TB-1:0]} + {1'b0, light_k5_q[TB-1:0]}));
       end
     end
   end
-
-  always_ff @(posedge clk_i) begin
-    state_k5_q <= state_i;
-    frozen_k5_q <= frozen;
-    state_o <= next;
-    frozen_o <= frozen_k5_q;
-    saturated_o <= overflow_k5;
-  end
+  // What is absorbed comes off the transmittance: it never rises and never wraps.
+  `FASTSPLAT_ASSERT(transmittance_falls,
+                    !valid_i[5] || sum_mode || frozen_k5_q || gen_channel[3].light_k5_q <= gen_channel[3].state_k5_q)
 endmodule

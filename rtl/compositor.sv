@@ -37,13 +37,15 @@ module compositor (
     // pixel out reads the picture when idle
     input  logic                                   picture_re_i,
     input  logic [fastsplat_pkg::ADDR_BITS-1:0]    picture_addr_i,
-    output logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::STATE_BITS-1:0] picture_o,     // a cycle later
+    input  logic [fastsplat_pkg::LANES-1:0]        picture_row_i,     // of the block, one bit each; a cycle later
+    output logic [fastsplat_pkg::LANES*4*fastsplat_pkg::STATE_BITS-1:0] picture_o,     // with it
     output logic [fastsplat_pkg::BLOCKS-1:0]       blocks_touched_o,  // blocks that any sheet of the tile reached
     // taps and events, k6
     output logic                                   tap_valid_o,
     output logic [fastsplat_pkg::ADDR_BITS-1:0]    tap_block_o,
     output logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::STATE_BITS-1:0] tap_state_o,
-    output logic [fastsplat_pkg::BANKS-1:0]        tap_inside_o,
+    output logic [fastsplat_pkg::LANES-1:0]        tap_inside_x_o,  // by lane column and row
+    output logic [fastsplat_pkg::LANES-1:0]        tap_inside_y_o,
     output logic [fastsplat_pkg::BANKS-1:0]        tap_frozen_o,
     output logic [4*fastsplat_pkg::BANKS-1:0]      tap_opacity_saturated_o,
     output logic [4*fastsplat_pkg::BANKS-1:0]      tap_saturated_o,
@@ -54,60 +56,63 @@ module compositor (
   localparam int AB = fastsplat_pkg::ADDR_BITS;
   localparam int BLK = fastsplat_pkg::BLK_BITS;
   localparam int BX = fastsplat_pkg::BLOCKS_X;
+  localparam int BY = fastsplat_pkg::BLOCKS_Y;
   localparam int SB = fastsplat_pkg::SHEET_BITS;
   localparam int DB = fastsplat_pkg::STATE_BITS;
   localparam int FB = fastsplat_pkg::FACTOR_BITS;
   localparam int SIDE = fastsplat_pkg::SIDE_BITS;
 
-  // ---- dirty maps: a window marks at most two block columns and two block rows
-  logic [NB-1:0] dirty_q[0:1];
-  logic [NB-1:0] mark;
+  // ---- dirty maps, row by row of blocks: a window marks at most two block columns and two block rows
+  logic [BX-1:0] dirty[0:2*BY-1];  // of buffer 0, then of buffer 1
   logic [BX-1:0] mark_x;
-  logic [fastsplat_pkg::BLOCKS_Y-1:0] mark_y;
+  logic [BY-1:0] mark_y;
   always_comb begin
     mark_x = '0;
     mark_y = '0;
-    mark   = '0;
     if (dirty_valid_i) begin
       for (int g = 0; g < P; g++) begin
         if (dirty_inside_x_i[g]) mark_x[dirty_column_i[g*BLK+:BLK]] = 1'b1;
         if (dirty_inside_y_i[g]) mark_y[dirty_row_i[g*BLK+:BLK]] = 1'b1;
       end
-      for (int r = 0; r < fastsplat_pkg::BLOCKS_Y; r++) begin
-        if (mark_y[r] && !(`FASTSPLAT_FAULT(MISSED_DIRTY) && r % 4 == 2)) mark[r*BX+:BX] = mark_x;
-      end
+      if (`FASTSPLAT_FAULT(MISSED_DIRTY)) for (int r = 2; r < BY; r += 4) mark_y[r] = 1'b0;
     end
   end
 
-  // ---- walk
+  // ---- walk: the lowest dirty block is the lowest of the lowest dirty row
   typedef enum logic [1:0] {StIdle, StWalk, StGap} state_e;
   state_e state_q;
   logic [1:0] gap_q;
   logic walk_buffer_q;
   logic [1:0] full_q;
-  logic [NB-1:0] walk_dirty, lowest, rest;
+  logic [BY-1:0] dirty_rows, pick_y;
+  logic [BX-1:0] row, pick_x;
   logic [AB-1:0] pick;
-  logic any, issue, finish;
-  function automatic logic [AB*NB-1:0] number_has_bit(input int unused_argument);
-    number_has_bit = '0;
-    for (int k = 0; k < AB; k++) begin
-      for (int b = 0; b < NB; b++) number_has_bit[k*NB+b] = ((b >> k) & 1) != 0;
-    end
-  endfunction
-  localparam logic [AB*NB-1:0] NUMBER_HAS_BIT = number_has_bit(0);
-  assign walk_dirty = walk_buffer_q ? dirty_q[1] : dirty_q[0];
-  assign lowest = walk_dirty & (~walk_dirty + NB'(1));
-  assign rest = walk_dirty & ~lowest;
-  assign any = |walk_dirty;
+  logic any, issue, finish, touched;
+  logic [NB-1:0] touched_q;
   always_comb begin
-    // One-hot to number: bit k is set when the hot bit's number has bit k.
+    dirty_rows = '0;
+    pick_y = '0;
+    row = '0;
+    pick_x = '0;
     pick = '0;
+    touched = 1'b0;
     if (state_q == StWalk) begin
-      for (int k = 0; k < AB; k++) pick[k] = |(lowest & NUMBER_HAS_BIT[k*NB+:NB]);
+      for (int r = 0; r < BY; r++) dirty_rows[r] = |(walk_buffer_q ? dirty[BY+r] : dirty[r]);
+      pick_y = dirty_rows & (~dirty_rows + BY'(1));
+      for (int r = 0; r < BY; r++) begin
+        if (pick_y[r]) begin
+          row = walk_buffer_q ? dirty[BY+r] : dirty[r];
+          pick = AB'(r * BX);
+        end
+      end
+      pick_x = row & (~row + BX'(1));
+      for (int b = 0; b < BX; b++) if (pick_x[b]) pick = pick | AB'(b);
+      touched = touched_q[pick];
     end
   end
-  assign issue = state_q == StWalk && any;
-  assign finish = state_q == StWalk && rest == '0;
+  assign any = |pick_y;
+  assign issue = any;
+  assign finish = state_q == StWalk && dirty_rows == pick_y && row == pick_x;
   assign sheet_re_o = issue;
   assign sheet_buffer_o = walk_buffer_q;
   assign sheet_addr_o = pick;
@@ -115,12 +120,32 @@ module compositor (
   assign free_buffer_o = walk_buffer_q;
   assign tap_sheet_o = finish;
 
-  logic [NB-1:0] touched_q;
-  always_ff @(posedge clk_i) begin
-    for (int m = 0; m < 2; m++) begin
-      dirty_q[m] <= (dirty_q[m] | (dirty_buffer_i == 1'(m) ? mark : '0)) & ~((issue && walk_buffer_q == 1'(m)) ? lowest : '0);
+  // A row changes where a window marks it or the walk clears its pick.
+  logic [BX-1:0] mark_x_of[0:1], pick_x_of[0:1];
+  logic [BY-1:0] changed_y, left_y;
+  for (genvar m = 0; m < 2; m++) begin : gen_buffer
+    assign mark_x_of[m] = dirty_buffer_i == 1'(m) ? mark_x : '0;
+    assign pick_x_of[m] = walk_buffer_q == 1'(m) ? pick_x : '0;
+  end
+  assign changed_y = mark_y | pick_y;
+  for (genvar r = 0; r < BY; r++) begin : gen_dirty
+    logic [BX-1:0] row_q[0:1];
+    always_ff @(posedge clk_i) begin
+      if (changed_y[r]) begin
+        for (int m = 0; m < 2; m++) row_q[m] <= (row_q[m] | (mark_y[r] ? mark_x_of[m] : '0)) & ~(pick_y[r] ? pick_x_of[m] : '0);
+      end
+      if (!rst_ni) begin
+        row_q[0] <= '0;
+        row_q[1] <= '0;
+      end
     end
-    if (issue) touched_q <= touched_q | lowest;
+    assign dirty[r] = row_q[0];
+    assign dirty[BY+r] = row_q[1];
+    assign left_y[r] = row_q[walk_buffer_q] != '0;
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (issue) touched_q[pick] <= 1'b1;
     if (tile_begin_i && !`FASTSPLAT_FAULT(STALE_PICTURE)) touched_q <= '0;
     case (state_q)
       StIdle: if (full_q[walk_buffer_q]) state_q <= StWalk;
@@ -145,8 +170,6 @@ module compositor (
       gap_q <= '0;
       walk_buffer_q <= 1'b0;
       full_q <= '0;
-      dirty_q[0] <= '0;
-      dirty_q[1] <= '0;
       touched_q <= '0;
     end
   end
@@ -158,7 +181,7 @@ module compositor (
   always_ff @(posedge clk_i) begin
     valid_q <= {valid_q[5:1], issue};
     if (!rst_ni) valid_q <= '0;
-    touched_k_q <= {touched_k_q[3:1], |(touched_q & lowest)};
+    touched_k_q <= {touched_k_q[3:1], touched};
     addr_q[1] <= pick;
     for (int s = 2; s <= 6; s++) addr_q[s] <= addr_q[s-1];
   end
@@ -183,19 +206,30 @@ module compositor (
   assign block_x = (SIDE + 2)'(number_x) << fastsplat_pkg::LANE_LOG2;
   assign block_y = (SIDE + 2)'(number_y) << fastsplat_pkg::LANE_LOG2;
 
+  always_ff @(posedge clk_i) begin
+    if (valid_q[5]) begin
+      for (int g = 0; g < P; g++) begin
+        tap_inside_x_o[g] <= (block_x + (SIDE + 2)'(g)) < (SIDE + 2)'(width_i);
+        tap_inside_y_o[g] <= (block_y + (SIDE + 2)'(g)) < (SIDE + 2)'(height_i);
+      end
+    end
+  end
+
   logic [AB-1:0] picture_raddr;
   assign picture_raddr = picture_re_i ? picture_addr_i : addr_q[3];
 
+  logic [4*DB-1:0] picture[0:P*P-1], states[0:P*P-1];
   for (genvar h = 0; h < P; h++) begin : gen_row
     for (genvar g = 0; g < P; g++) begin : gen_lane
       localparam int B = h * P + g;
-      logic [4*DB-1:0] slab, state_k4, memory_word, state_k6, blank;
+      logic [4*DB-1:0] slab, state_k4, blank;
       logic [3:0] opacity_saturated_k4, opacity_saturated_k5_q, opacity_saturated_k6_q;
       slab_opacity u_opacity (
           .clk_i,
           .we_i(segment_we),
           .waddr_i(segment),
           .wdata_i(segment_word),
+          .valid_i(valid_q[3:1]),
           .mode_i,
           .sums_i(sheet_data_i[B*4*SB+:4*SB]),
           .slab_o(slab),
@@ -205,32 +239,39 @@ module compositor (
           .clk_i,
           .re_i(valid_q[3] || picture_re_i),
           .raddr_i(picture_raddr),
-          .rdata_o(memory_word),
-          .we_i(rst_ni && valid_q[6]),
+          .rdata_o(picture[B]),
+          .we_i(valid_q[6]),
           .waddr_i(addr_q[6]),
-          .wdata_i(state_k6)
+          .wdata_i(states[B])
       );
       assign blank = (mode_i == 2'd2) ? '0 : {DB'(1) << fastsplat_pkg::TRANS_FRAC, {(3 * DB) {1'b0}}};
-      assign state_k4 = touched_k_q[4] ? memory_word : blank;
+      assign state_k4 = touched_k_q[4] ? picture[B] : blank;
       composite_lane u_composite (
           .clk_i,
+          .rst_ni,
+          .valid_i(valid_q[5:4]),
           .mode_i,
           .slab_i(slab),
           .state_i(state_k4),
-          .state_o(state_k6),
+          .state_o(states[B]),
           .frozen_o(tap_frozen_o[B]),
           .saturated_o(tap_saturated_o[4*B+:4])
       );
-      assign picture_o[B*4*DB+:4*DB] = memory_word;
-      assign tap_state_o[B*4*DB+:4*DB] = state_k6;
       always_ff @(posedge clk_i) begin
-        opacity_saturated_k5_q <= opacity_saturated_k4;
-        opacity_saturated_k6_q <= opacity_saturated_k5_q;
-        tap_inside_o[B] <= (block_x + (SIDE + 2)'(g)) < (SIDE + 2)'(width_i) && (block_y + (SIDE + 2)'(h)) < (SIDE + 2)'(height_i);
+        if (valid_q[4]) opacity_saturated_k5_q <= opacity_saturated_k4;
+        if (valid_q[5]) opacity_saturated_k6_q <= opacity_saturated_k5_q;
       end
       assign tap_opacity_saturated_o[4*B+:4] = opacity_saturated_k6_q;
-      // What is absorbed comes off the transmittance: it never rises and never wraps.
-      `FASTSPLAT_ASSERT(transmittance_falls, !valid_q[6] || mode_i == 2'd2 || state_k6[3*DB+:DB] <= $past(state_k4[3*DB+:DB], 2))
+    end
+  end
+  always_comb begin
+    picture_o = '0;
+    tap_state_o = '0;
+    for (int h = 0; h < P; h++) begin
+      for (int g = 0; g < P; g++) begin
+        if (picture_row_i[h]) picture_o[g*4*DB+:4*DB] = picture[h*P+g];
+        if (valid_q[6]) tap_state_o[(h*P+g)*4*DB+:4*DB] = states[h*P+g];
+      end
     end
   end
   assign tap_valid_o = valid_q[6];
@@ -238,11 +279,11 @@ module compositor (
 
   // Which blocks hold a picture: pixel out asks by address.
   assign blocks_touched_o = touched_q;
-  `FASTSPLAT_ASSERT(pick_is_one_block, $onehot0(lowest))
-  `FASTSPLAT_ASSERT(pick_is_dirty, !sheet_re_o || walk_dirty[pick])
+  `FASTSPLAT_ASSERT(pick_is_one_block, $onehot0(pick_x) && $onehot0(pick_y))
+  `FASTSPLAT_ASSERT(pick_is_dirty, !sheet_re_o || (pick_x & row) != '0)
+  `FASTSPLAT_ASSERT_NEXT(walk_leaves_no_dirt, finish, left_y == '0)
   `FASTSPLAT_ASSERT(walk_owns_its_sheet, state_q != StWalk || full_q[walk_buffer_q])
   `FASTSPLAT_ASSERT(handed_over_once, !done_i || !full_q[done_buffer_i])
-  `FASTSPLAT_ASSERT_NEXT(walk_leaves_no_dirt, finish, walk_dirty == '0)
   `FASTSPLAT_ASSERT(no_mark_behind_the_walk, !(dirty_valid_i && full_q[dirty_buffer_i]))
   `FASTSPLAT_ASSERT(picture_sent_when_still, !picture_re_i || idle_o)
   `FASTSPLAT_COVER(empty_sheet_walked, finish && !any)

@@ -1,5 +1,6 @@
 // Configuration and status registers behind AXI4-Lite (docs/microarchitecture.md, "Registers").
-// Reads answer one cycle after the address is taken; writes take address and data together.
+// Reads answer one cycle after the address is taken; writes take address and data together. Counters count an event in
+// the second cycle after it.
 `include "assertions.svh"
 
 module csr (
@@ -26,7 +27,7 @@ module csr (
     input  logic        busy_i,
     input  logic        error_i,
     input  logic [7:0]  error_opcode_i,
-    // increments of this cycle, one 16-bit field a counter
+    // increments, one 16-bit field a counter
     input  logic [16*fastsplat_pkg::COUNTERS-1:0] increments_i
 );
   localparam int N = fastsplat_pkg::COUNTERS;
@@ -49,37 +50,31 @@ module csr (
     end
   end
 
-  logic [31:0] word;
-  logic known;
   logic [11:0] number;
+  logic is_counter;
   assign number = (araddr_i - fastsplat_pkg::REG_COUNTERS) >> 3;
-  always_comb begin
-    known = 1'b1;
-    word = '0;
-    case (araddr_i)
-      fastsplat_pkg::REG_MAGIC: word = fastsplat_pkg::STREAM_MAGIC;
-      fastsplat_pkg::REG_VERSION: word = 32'(fastsplat_pkg::STREAM_VERSION);
-      fastsplat_pkg::REG_HASH_LOW: word = fastsplat_pkg::HASH_LOW;
-      fastsplat_pkg::REG_HASH_HIGH: word = fastsplat_pkg::HASH_HIGH;
-      fastsplat_pkg::REG_STATUS: word = {16'd0, error_opcode_i, 6'd0, error_i, busy_i};
-      fastsplat_pkg::REG_CONTROL: word = '0;
-      default: begin
-        known = araddr_i >= fastsplat_pkg::REG_COUNTERS && number < 12'(N) && araddr_i[1:0] == 2'b00;
-        if (arvalid_i) begin
-          for (int n = 0; n < N; n++) begin
-            if (number == 12'(n)) word = araddr_i[2] ? counter_q[n][63:32] : counter_q[n][31:0];
-          end
-        end
-      end
-    endcase
-  end
+  assign is_counter = araddr_i >= fastsplat_pkg::REG_COUNTERS && number < 12'(N) && araddr_i[1:0] == 2'b00;
 
   assign arready_o = !rvalid_o;
   always_ff @(posedge clk_i) begin
     if (arvalid_i && arready_o) begin
       rvalid_o <= 1'b1;
-      rdata_o <= known ? word : '0;
-      rresp_o <= known ? OKAY : SLVERR;
+      rdata_o <= '0;
+      rresp_o <= OKAY;
+      case (araddr_i)
+        fastsplat_pkg::REG_MAGIC: rdata_o <= fastsplat_pkg::STREAM_MAGIC;
+        fastsplat_pkg::REG_VERSION: rdata_o <= 32'(fastsplat_pkg::STREAM_VERSION);
+        fastsplat_pkg::REG_HASH_LOW: rdata_o <= fastsplat_pkg::HASH_LOW;
+        fastsplat_pkg::REG_HASH_HIGH: rdata_o <= fastsplat_pkg::HASH_HIGH;
+        fastsplat_pkg::REG_STATUS: rdata_o <= {16'd0, error_opcode_i, 6'd0, error_i, busy_i};
+        fastsplat_pkg::REG_CONTROL: rdata_o <= '0;
+        default: begin
+          if (!is_counter) rresp_o <= SLVERR;
+          for (int n = 0; n < N; n++) begin
+            if (is_counter && number == 12'(n)) rdata_o <= araddr_i[2] ? counter_q[n][63:32] : counter_q[n][31:0];
+          end
+        end
+      endcase
     end else if (rready_i) begin
       rvalid_o <= 1'b0;
     end

@@ -144,7 +144,8 @@ module fastsplat_core (
   logic [fastsplat_pkg::ADDR_BITS-1:0] sheet_addr;
   logic [BANKS*4*fastsplat_pkg::SHEET_BITS-1:0] sheet_data;
   logic [1:0] snap_saturated;
-  logic [BANKS-1:0] window_inside;
+  logic [fastsplat_pkg::LANES-1:0] window_inside_x, window_inside_y;
+  logic [BANKS-1:0] weighted;
   logic [4*BANKS-1:0] product_saturated, sheet_saturated;
   splat_array u_splat (
       .clk_i,
@@ -195,7 +196,9 @@ module fastsplat_core (
       .tap_window_x_o,
       .tap_window_y_o,
       .tap_weights_o,
-      .tap_inside_o(window_inside),
+      .tap_inside_x_o(window_inside_x),
+      .tap_inside_y_o(window_inside_y),
+      .tap_weighted_o(weighted),
       .tap_product_saturated_o(product_saturated),
       .tap_sheet_valid_o,
       .tap_sheet_tag_o,
@@ -205,8 +208,10 @@ module fastsplat_core (
 
   logic picture_re;
   logic [fastsplat_pkg::ADDR_BITS-1:0] picture_addr;
-  logic [BANKS*4*fastsplat_pkg::STATE_BITS-1:0] picture;
+  logic [fastsplat_pkg::LANES-1:0] picture_row;
+  logic [fastsplat_pkg::LANES*4*fastsplat_pkg::STATE_BITS-1:0] picture;
   logic [fastsplat_pkg::BLOCKS-1:0] blocks_touched;
+  logic [fastsplat_pkg::LANES-1:0] composite_inside_x, composite_inside_y;
   logic [BANKS-1:0] composite_inside, composite_frozen;
   logic [4*BANKS-1:0] opacity_saturated, composite_saturated;
   compositor u_compositor (
@@ -236,12 +241,14 @@ module fastsplat_core (
       .sheet_data_i(sheet_data),
       .picture_re_i(picture_re),
       .picture_addr_i(picture_addr),
+      .picture_row_i(picture_row),
       .picture_o(picture),
       .blocks_touched_o(blocks_touched),
       .tap_valid_o(tap_composite_valid_o),
       .tap_block_o(tap_composite_block_o),
       .tap_state_o(tap_state_o),
-      .tap_inside_o(composite_inside),
+      .tap_inside_x_o(composite_inside_x),
+      .tap_inside_y_o(composite_inside_y),
       .tap_frozen_o(composite_frozen),
       .tap_opacity_saturated_o(opacity_saturated),
       .tap_saturated_o(composite_saturated),
@@ -259,6 +266,7 @@ module fastsplat_core (
       .height_i(height),
       .picture_re_o(picture_re),
       .picture_addr_o(picture_addr),
+      .picture_row_o(picture_row),
       .picture_i(picture),
       .blocks_touched_i(blocks_touched),
       .valid_o(m_tvalid_o),
@@ -269,50 +277,53 @@ module fastsplat_core (
       .saturated_o(pixel_saturated)
   );
 
-  // ---- events of this cycle
-  logic [BANKS-1:0] weighted, inside_now, frozen_now;
-  logic [4*BANKS-1:0] product_saturated_now, opacity_saturated_now, composite_saturated_now;
-  for (genvar b = 0; b < BANKS; b++) begin : gen_event
-    assign inside_now[b] = window_inside[b] && tap_window_valid_o;
-    assign weighted[b] = inside_now[b] && tap_weights_o[b*fastsplat_pkg::WEIGHT_BITS+:fastsplat_pkg::WEIGHT_BITS] != '0;
-    assign frozen_now[b] = tap_composite_valid_o && composite_inside[b] && composite_frozen[b];
-    assign product_saturated_now[4*b+:4] = inside_now[b] ? product_saturated[4*b+:4] : '0;
-    assign opacity_saturated_now[4*b+:4] = (tap_composite_valid_o && composite_inside[b]) ? opacity_saturated[4*b+:4] : '0;
-    assign composite_saturated_now[4*b+:4] = (tap_composite_valid_o && composite_inside[b]) ? composite_saturated[4*b+:4] : '0;
+  // ---- events, counted a cycle after they happened
+  logic [4*BANKS-1:0] composite_inside4;
+  for (genvar b = 0; b < BANKS; b++) begin : gen_inside
+    assign composite_inside[b] = composite_inside_x[b%fastsplat_pkg::LANES] && composite_inside_y[b/fastsplat_pkg::LANES];
+    assign composite_inside4[4*b+:4] = {4{composite_inside[b]}};
   end
   logic pixel_taken, running;
   assign pixel_taken = m_tvalid_o && m_tready_i;
   // An open tile counts even while nothing moves: its input is late. The compositor only works in one.
   assign running = !stall_input || tile_open || !pixel_idle;
 
-  logic [15:0] events[0:fastsplat_pkg::COUNTERS-1];
+  logic [15:0] events_q[0:fastsplat_pkg::COUNTERS-1];
   logic [16*fastsplat_pkg::COUNTERS-1:0] increments;
-  always_comb begin
-    for (int n = 0; n < fastsplat_pkg::COUNTERS; n++) events[n] = '0;
-    events[fastsplat_pkg::CNT_TILES] = 16'(pixel_taken && m_tlast_o);
-    events[fastsplat_pkg::CNT_SHEETS] = 16'(tap_sheet_done_o);
-    events[fastsplat_pkg::CNT_SPLATS] = 16'(event_splat);
-    events[fastsplat_pkg::CNT_WINDOWS] = 16'(tap_window_valid_o);
-    events[fastsplat_pkg::CNT_LANES_INSIDE] = 16'($countones(inside_now));
-    events[fastsplat_pkg::CNT_LANES_WEIGHTED] = 16'($countones(weighted));
-    events[fastsplat_pkg::CNT_CULL_BLOCKS] = 16'(event_cull);
-    events[fastsplat_pkg::CNT_DIRTY_BLOCKS] = 16'(tap_composite_valid_o);
-    events[fastsplat_pkg::CNT_PIXELS_COMPOSITED] = tap_composite_valid_o ? 16'($countones(composite_inside)) : '0;
-    events[fastsplat_pkg::CNT_FROZEN_PIXELS] = 16'($countones(frozen_now));
-    events[fastsplat_pkg::CNT_SNAP_SATURATED] = tap_snap_valid_o ? 16'($countones(snap_saturated)) : '0;
-    events[fastsplat_pkg::CNT_PRODUCT_SATURATED] = 16'($countones(product_saturated_now));
-    events[fastsplat_pkg::CNT_SHEET_SATURATED] = `FASTSPLAT_FAULT(LOST_COUNT) ? '0 : 16'($countones(sheet_saturated));
-    events[fastsplat_pkg::CNT_OPACITY_SATURATED] = 16'($countones(opacity_saturated_now));
-    events[fastsplat_pkg::CNT_COMPOSITE_SATURATED] = 16'($countones(composite_saturated_now));
-    events[fastsplat_pkg::CNT_PIXEL_SATURATED] = pixel_taken ? 16'($countones(pixel_saturated)) : '0;
-    events[fastsplat_pkg::CNT_CYCLES] = 16'(running);
-    events[fastsplat_pkg::CNT_STALL_INPUT] = 16'(running && stall_input);
-    events[fastsplat_pkg::CNT_STALL_TABLE] = 16'(stall_table);
-    events[fastsplat_pkg::CNT_STALL_BUFFER] = 16'(stall_buffer);
-    events[fastsplat_pkg::CNT_STALL_TILE] = 16'(stall_tile);
+  always_ff @(posedge clk_i) begin
+    for (int n = 0; n < fastsplat_pkg::COUNTERS; n++) events_q[n] <= '0;
+    events_q[fastsplat_pkg::CNT_SHEETS] <= 16'(tap_sheet_done_o);
+    events_q[fastsplat_pkg::CNT_SPLATS] <= 16'(event_splat);
+    events_q[fastsplat_pkg::CNT_CULL_BLOCKS] <= 16'(event_cull);
+    if (tap_snap_valid_o) events_q[fastsplat_pkg::CNT_SNAP_SATURATED] <= 16'($countones(snap_saturated));
+    if (tap_window_valid_o) begin
+      events_q[fastsplat_pkg::CNT_WINDOWS] <= 16'd1;
+      events_q[fastsplat_pkg::CNT_LANES_INSIDE] <= 16'($countones(window_inside_x)) * 16'($countones(window_inside_y));
+      events_q[fastsplat_pkg::CNT_LANES_WEIGHTED] <= 16'($countones(weighted));
+      events_q[fastsplat_pkg::CNT_PRODUCT_SATURATED] <= 16'($countones(product_saturated));
+    end
+    if (tap_sheet_valid_o && !`FASTSPLAT_FAULT(LOST_COUNT))
+      events_q[fastsplat_pkg::CNT_SHEET_SATURATED] <= 16'($countones(sheet_saturated));
+    if (tap_composite_valid_o) begin
+      events_q[fastsplat_pkg::CNT_DIRTY_BLOCKS] <= 16'd1;
+      events_q[fastsplat_pkg::CNT_PIXELS_COMPOSITED] <= 16'($countones(composite_inside_x)) * 16'($countones(composite_inside_y));
+      events_q[fastsplat_pkg::CNT_FROZEN_PIXELS] <= 16'($countones(composite_inside & composite_frozen));
+      events_q[fastsplat_pkg::CNT_OPACITY_SATURATED] <= 16'($countones(composite_inside4 & opacity_saturated));
+      events_q[fastsplat_pkg::CNT_COMPOSITE_SATURATED] <= 16'($countones(composite_inside4 & composite_saturated));
+    end
+    if (pixel_taken) begin
+      events_q[fastsplat_pkg::CNT_TILES] <= 16'(m_tlast_o);
+      events_q[fastsplat_pkg::CNT_PIXEL_SATURATED] <= 16'($countones(pixel_saturated));
+    end
+    events_q[fastsplat_pkg::CNT_CYCLES] <= 16'(running);
+    events_q[fastsplat_pkg::CNT_STALL_INPUT] <= 16'(running && stall_input);
+    events_q[fastsplat_pkg::CNT_STALL_TABLE] <= 16'(stall_table);
+    events_q[fastsplat_pkg::CNT_STALL_BUFFER] <= 16'(stall_buffer);
+    events_q[fastsplat_pkg::CNT_STALL_TILE] <= 16'(stall_tile);
+    if (!rst_ni) for (int n = 0; n < fastsplat_pkg::COUNTERS; n++) events_q[n] <= '0;
   end
   for (genvar n = 0; n < fastsplat_pkg::COUNTERS; n++) begin : gen_increment
-    assign increments[16*n+:16] = events[n];
+    assign increments[16*n+:16] = events_q[n];
   end
 
   csr u_csr (

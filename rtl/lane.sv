@@ -1,11 +1,16 @@
 // One lane of the splat array: q, radial table, four products (docs/numerics.md, sections 4 and 5; cmodel/footprint.hpp).
-// Registers: c4 (q), c5 (table read), c6 (products). Outputs belong to the inputs of three cycles before.
+// Registers: c4 (q), c5 (table read), c6 (products). Outputs belong to the inputs of three cycles before and hold while no
+// window is in the stage before.
+`include "narrow.svh"
+
 module lane (
     input  logic                                    clk_i,
     // radial table load
     input  logic                                    we_i,
     input  logic [fastsplat_pkg::RADIAL_LOG2-1:0]   waddr_i,
     input  logic [fastsplat_pkg::WEIGHT_BITS-1:0]   wdata_i,
+    // stages that hold a window: c3, c4, c5
+    input  logic [5:3]                              valid_i,
     // c3
     input  logic [fastsplat_pkg::RLUT_BITS-1:0]     column_i,  // RLUT word of this lane's column
     input  logic [fastsplat_pkg::RLUT_BITS-1:0]     row_i,     // and row
@@ -19,6 +24,7 @@ module lane (
   localparam int CB = fastsplat_pkg::COLOUR_BITS;
   localparam int SB = fastsplat_pkg::SHEET_BITS;
   localparam int WB = fastsplat_pkg::WEIGHT_BITS;
+  `FASTSPLAT_NARROW(narrow_product, CB + WB, fastsplat_pkg::COLOUR_FRAC + fastsplat_pkg::WEIGHT_FRAC - fastsplat_pkg::SHEET_FRAC, SB, 1, 0)
 
   // c4: the rim and everything beyond read as weight 0
   logic [QW-1:0] q;
@@ -26,9 +32,11 @@ module lane (
   logic outside_q, outside_q2;
   assign q = {1'b0, column_i} + {1'b0, row_i};
   always_ff @(posedge clk_i) begin
-    index_q <= q[fastsplat_pkg::GUARD+:fastsplat_pkg::RADIAL_LOG2];
-    outside_q <= |q[QW-1:fastsplat_pkg::GUARD+fastsplat_pkg::RADIAL_LOG2];
-    outside_q2 <= outside_q;
+    if (valid_i[3]) begin
+      index_q <= q[fastsplat_pkg::GUARD+:fastsplat_pkg::RADIAL_LOG2];
+      outside_q <= |q[QW-1:fastsplat_pkg::GUARD+fastsplat_pkg::RADIAL_LOG2];
+    end
+    if (valid_i[4]) outside_q2 <= outside_q;
   end
 
   logic unused;
@@ -38,7 +46,7 @@ module lane (
   logic [WB-1:0] table_word, weight;
   ram_1r1w #(.BITS(WB), .WORDS(fastsplat_pkg::RADIAL_ENTRIES), .ADDR(fastsplat_pkg::RADIAL_LOG2)) u_radial (
       .clk_i,
-      .re_i(1'b1),
+      .re_i(valid_i[4]),
       .raddr_i(index_q),
       .rdata_o(table_word),
       .we_i,
@@ -47,26 +55,14 @@ module lane (
   );
   assign weight = outside_q2 ? '0 : table_word;
 
-  // c6
+  // c6: {overflow, word} by channel
   for (genvar c = 0; c < 4; c++) begin : gen_channel
-    logic [CB+WB-1:0] product;
-    logic [SB-1:0] word;
-    logic overflow;
-    assign product = (CB + WB)'(colour_i[c*CB+:CB]) * (CB + WB)'(weight);
-    narrow #(
-        .IN_BITS(CB + WB),
-        .SHIFT(fastsplat_pkg::COLOUR_FRAC + fastsplat_pkg::WEIGHT_FRAC - fastsplat_pkg::SHEET_FRAC),
-        .OUT_BITS(SB),
-        .ROUND(1)
-    ) u_narrow (
-        .value_i(product),
-        .word_o(word),
-        .overflow_o(overflow)
-    );
+    logic [SB:0] product_q;
     always_ff @(posedge clk_i) begin
-      products_o[c*SB+:SB] <= word;
-      saturated_o[c] <= overflow;
+      if (valid_i[5]) product_q <= narrow_product((CB + WB)'(colour_i[c*CB+:CB]) * (CB + WB)'(weight));
     end
+    assign products_o[c*SB+:SB] = product_q[SB-1:0];
+    assign saturated_o[c] = product_q[SB];
   end
-  always_ff @(posedge clk_i) weight_o <= weight;
+  always_ff @(posedge clk_i) if (valid_i[5]) weight_o <= weight;
 endmodule

@@ -1,7 +1,7 @@
 // Unit "pixel out": the finished tile, row by row, P pixels a beat (docs/numerics.md, section 7; cmodel/pixel_out.hpp).
 // r0 address -> r1 state -> r2 beat. All stages stand still while a beat waits for ready.
 `include "assertions.svh"
-`include "fault.svh"
+`include "narrow.svh"
 
 module pixel_out (
     input  logic                                 clk_i,
@@ -14,7 +14,8 @@ module pixel_out (
     // picture
     output logic                                 picture_re_o,
     output logic [fastsplat_pkg::ADDR_BITS-1:0]  picture_addr_o,
-    input  logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::STATE_BITS-1:0] picture_i,
+    output logic [fastsplat_pkg::LANES-1:0]      picture_row_o,   // r1: the row of the block, one bit each
+    input  logic [fastsplat_pkg::LANES*4*fastsplat_pkg::STATE_BITS-1:0] picture_i,  // r1
     input  logic [fastsplat_pkg::BLOCKS-1:0]     blocks_touched_i,
     // stream out: P pixels of R, G, B, A, 32 bits each
     output logic                                 valid_o,
@@ -80,45 +81,28 @@ module pixel_out (
     end
   end
 
-  // r1: the block row's banks, narrowed to output words
+  assign picture_row_o = valid_r1_q ? P'(1) << row_r1_q : '0;
+
+  // r1: the row narrowed to output words, {overflow, word}
+  `FASTSPLAT_NARROW(narrow_composited, TB, TF - fastsplat_pkg::PIXEL_FRAC, PB, 1, 0)
+  `FASTSPLAT_NARROW(narrow_sum, SB, fastsplat_pkg::SHEET_FRAC - fastsplat_pkg::PIXEL_FRAC, PB, 1, 0)
   for (genvar g = 0; g < P; g++) begin : gen_pixel
-    logic [4*DB-1:0] word;
-    logic [P*4*DB-1:0] column;
-    logic in_tile;
-    for (genvar h = 0; h < P; h++) begin : gen_row
-      assign column[h*4*DB+:4*DB] = picture_i[(h*P+g)*4*DB+:4*DB];
-    end
-    assign word = (P > 1) ? column[row_r1_q*4*DB+:4*DB] : column[4*DB-1:0];
-    assign in_tile = x_r1_q + SIDE'(g) < width_i;
     for (genvar c = 0; c < 4; c++) begin : gen_channel
+      logic [DB-1:0] word;
       logic [TB-1:0] composited;
-      logic [SB-1:0] sum;
-      logic [PB-1:0] composited_word, sum_word;
-      logic composited_overflow, sum_overflow;
-      if (c == 3) begin : gen_alpha
-        assign composited = touched_r1_q ? (TB'(1) << TF) - word[c*DB+:TB] : '0;
-      end else begin : gen_colour
-        assign composited = touched_r1_q ? word[c*DB+:TB] : '0;
-      end
-      assign sum = touched_r1_q ? word[c*DB+:SB] : '0;
-      narrow #(.IN_BITS(TB), .SHIFT(TF - fastsplat_pkg::PIXEL_FRAC), .OUT_BITS(PB), .ROUND(1)) u_composited (
-          .value_i(composited),
-          .word_o(composited_word),
-          .overflow_o(composited_overflow)
-      );
-      narrow #(.IN_BITS(SB), .SHIFT(fastsplat_pkg::SHEET_FRAC - fastsplat_pkg::PIXEL_FRAC), .OUT_BITS(PB), .ROUND(1)) u_sum (
-          .value_i(sum),
-          .word_o(sum_word),
-          .overflow_o(sum_overflow)
-      );
+      logic [PB:0] pixel_q;
+      assign word = picture_i[(4*g+c)*DB+:DB];
+      assign composited = (c == 3) ? (TB'(1) << TF) - word[TB-1:0] : word[TB-1:0];
       always_ff @(posedge clk_i) begin
-        if (enable || (`FASTSPLAT_FAULT(HELD_PAYLOAD) && running_q)) begin
-          data_o[g*128+c*32+:32] <= (mode_i == 2'd2) ? 32'(sum_word) : 32'(composited_word);
-          saturated_o[4*g+c] <= in_tile && (mode_i == 2'd2 ? sum_overflow : composited_overflow);
+        if ((enable && valid_r1_q) || (`FASTSPLAT_FAULT(HELD_PAYLOAD) && running_q)) begin
+          if (!touched_r1_q) pixel_q <= '0;
+          else pixel_q <= (mode_i == 2'd2) ? narrow_sum(word[SB-1:0]) : narrow_composited(composited);
         end
       end
+      assign data_o[g*128+c*32+:32] = 32'(pixel_q[PB-1:0]);
+      assign saturated_o[4*g+c] = keep_o[g] && pixel_q[PB];
     end
-    always_ff @(posedge clk_i) if (enable) keep_o[g] <= in_tile;
+    always_ff @(posedge clk_i) if (enable) keep_o[g] <= x_r1_q + SIDE'(g) < width_i;
   end
   assign valid_o = valid_r2_q;
   assign last_o = last_r2_q;

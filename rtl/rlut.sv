@@ -9,6 +9,7 @@ module rlut (
     input  logic [fastsplat_pkg::COL_BITS-1:0]      wcolumn_i,
     input  logic [fastsplat_pkg::RLUT_BITS-1:0]     wdata_i,
     // read
+    input  logic                                    re_i,
     input  logic [fastsplat_pkg::PHASE_BITS-1:0]    phase_i,
     input  logic [fastsplat_pkg::COL_BITS-1:0]      column_i,  // first column, a multiple of P
     output logic [fastsplat_pkg::LANES*fastsplat_pkg::RLUT_BITS-1:0] words_o
@@ -29,7 +30,7 @@ module rlut (
     assign lane_we = we_i && (wcolumn_i & fastsplat_pkg::COL_BITS'(P - 1)) == fastsplat_pkg::COL_BITS'(l);
     ram_1r1w #(.BITS(W), .WORDS(WORDS), .ADDR(ADDR)) u_ram (
         .clk_i,
-        .re_i(1'b1),
+        .re_i,
         .raddr_i(raddr),
         .rdata_o(words_o[l*W+:W]),
         .we_i(lane_we),

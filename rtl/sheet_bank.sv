@@ -6,7 +6,7 @@
 // cycles later is not in the memory yet: distance 1 is forwarded into C, distances 2 (in W) and 3 (just written; the
 // read met the write) into B.
 `include "assertions.svh"
-`include "fault.svh"
+`include "narrow.svh"
 
 module sheet_bank (
     input  logic                                   clk_i,
@@ -34,9 +34,9 @@ module sheet_bank (
   logic valid_b_q, valid_c_q, valid_w_q, valid_h_q;
   logic buffer_b_q, buffer_c_q, buffer_w_q, buffer_h_q;
   logic [AB-1:0] addr_b_q, addr_c_q, addr_w_q, addr_h_q;
-  logic [4*SB-1:0] products_b_q, products_c_q, base_c_q, sum_w_q, sum_h_q;
   logic forward_c_q;
-  logic [3:0] saturated_w_q;
+  logic [4*SB-1:0] sum_w;
+  `FASTSPLAT_NARROW(narrow_sum, SB + 1, 0, SB, 0, 0)
 
 `ifdef FASTSPLAT_PROOF
   (* anyconst *) logic any_buffer;
@@ -49,18 +49,20 @@ module sheet_bank (
   logic [AB-1:0] comp_addr_q;
   logic [4*SB-1:0] rdata[0:1];
   for (genvar m = 0; m < 2; m++) begin : gen_memory
-    logic we, mine, clear;
+    logic re, we, mine, clear, comp_mine;  // comp: the compositor reads this one
     logic [AB-1:0] raddr, waddr;
     logic [4*SB-1:0] wdata;
     assign mine = valid_w_q && buffer_w_q == 1'(m);
     assign clear = comp_clear_q && comp_buffer_q == 1'(m) && !(`FASTSPLAT_FAULT(MISSED_CLEAR) && comp_addr_q[0]);
-    assign we = rst_ni && ((wipe_i && !`FASTSPLAT_FAULT(MISSED_WIPE)) || clear || mine);
+    assign comp_mine = comp_re_i && comp_buffer_i == 1'(m);
+    assign re = comp_mine || (valid_i && buffer_i == 1'(m));
+    assign we = (wipe_i && !`FASTSPLAT_FAULT(MISSED_WIPE)) || clear || mine;
     assign waddr = wipe_i ? wipe_addr_i : clear ? comp_addr_q : addr_w_q;
-    assign wdata = (wipe_i || clear) ? '0 : sum_w_q;
-    assign raddr = (comp_re_i && comp_buffer_i == 1'(m)) ? comp_addr_i : addr_i;
+    assign wdata = (wipe_i || clear) ? '0 : sum_w;
+    assign raddr = comp_mine ? comp_addr_i : addr_i;
     ram_1r1w #(.BITS(4 * SB), .WORDS(fastsplat_pkg::BLOCKS), .ADDR(AB)) u_ram (
         .clk_i,
-        .re_i(1'b1),
+        .re_i(re),
         .raddr_i(raddr),
         .rdata_o(rdata[m]),
         .we_i(we),
@@ -80,26 +82,24 @@ module sheet_bank (
   assign hit_c = valid_b_q && valid_c_q && {buffer_c_q, addr_c_q} == {buffer_b_q, addr_b_q};
   assign hit_w = valid_w_q && {buffer_w_q, addr_w_q} == {buffer_b_q, addr_b_q};
   assign hit_h = valid_h_q && (buffer_h_q == buffer_b_q || `FASTSPLAT_FAULT(FORWARD_BUFFER)) && addr_h_q == addr_b_q;
-  logic [4*SB-1:0] memory_b, base_b;
+  logic [4*SB-1:0] memory_b;
   assign memory_b = buffer_b_q ? rdata[1] : rdata[0];
-  always_comb begin
-    base_b = memory_b;
-    if (hit_h && !`FASTSPLAT_FAULT(FORWARD_3)) base_b = sum_h_q;
-    if (hit_w && !`FASTSPLAT_FAULT(FORWARD_2)) base_b = sum_w_q;
-  end
 
-  // C: the only loop
-  logic [4*SB-1:0] base_c, sum_c;
-  logic [3:0] overflow_c;
-  assign base_c = (forward_c_q && !`FASTSPLAT_FAULT(FORWARD_1)) ? sum_w_q : base_c_q;
+  // By channel; a sum is {overflow, word}. C is the only loop.
   for (genvar c = 0; c < 4; c++) begin : gen_channel
-    logic [SB:0] exact;
-    assign exact = {1'b0, base_c[c*SB+:SB]} + {1'b0, products_c_q[c*SB+:SB]};
-    narrow #(.IN_BITS(SB + 1), .SHIFT(0), .OUT_BITS(SB), .ROUND(0)) u_narrow (
-        .value_i(exact),
-        .word_o(sum_c[c*SB+:SB]),
-        .overflow_o(overflow_c[c])
-    );
+    logic [SB-1:0] products_b_q, products_c_q, base_c_q, sum_h_q, base_c;
+    logic [SB:0] sum_w_q;
+    assign base_c = (forward_c_q && !`FASTSPLAT_FAULT(FORWARD_1)) ? sum_w_q[SB-1:0] : base_c_q;
+    always_ff @(posedge clk_i) begin
+      products_b_q <= products_i[c*SB+:SB];
+      products_c_q <= products_b_q;
+      base_c_q <= (hit_w && !`FASTSPLAT_FAULT(FORWARD_2)) ? sum_w_q[SB-1:0] :
+                  (hit_h && !`FASTSPLAT_FAULT(FORWARD_3)) ? sum_h_q : memory_b[c*SB+:SB];
+      sum_w_q <= narrow_sum({1'b0, base_c} + {1'b0, products_c_q});
+      sum_h_q <= sum_w_q[SB-1:0];
+    end
+    assign sum_w[c*SB+:SB] = sum_w_q[SB-1:0];
+    assign saturated_o[c] = valid_w_q && sum_w_q[SB];
   end
 
   always_ff @(posedge clk_i) begin
@@ -124,18 +124,11 @@ module sheet_bank (
     addr_c_q <= addr_b_q;
     addr_w_q <= addr_c_q;
     addr_h_q <= addr_w_q;
-    products_b_q <= products_i;
-    products_c_q <= products_b_q;
-    base_c_q <= base_b;
     forward_c_q <= hit_c;
-    sum_w_q <= sum_c;
-    sum_h_q <= sum_w_q;
-    saturated_w_q <= valid_c_q ? overflow_c : '0;
     comp_buffer_q <= comp_buffer_i;
     comp_addr_q <= comp_addr_i;
   end
-  assign sum_o = sum_w_q;
-  assign saturated_o = saturated_w_q;
+  assign sum_o = sum_w;
 `ifdef FASTSPLAT_PROOF
 `include "sheet_bank_proof.svh"
 `endif

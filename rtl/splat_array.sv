@@ -59,8 +59,10 @@ module splat_array (
     output logic signed [fastsplat_pkg::ORG_BITS-1:0]       tap_window_x_o,
     output logic signed [fastsplat_pkg::ORG_BITS-1:0]       tap_window_y_o,
     output logic [fastsplat_pkg::BANKS*fastsplat_pkg::WEIGHT_BITS-1:0] tap_weights_o,  // by bank
-    output logic [fastsplat_pkg::BANKS-1:0]                 tap_inside_o,          // by bank, c6
-    output logic [4*fastsplat_pkg::BANKS-1:0]               tap_product_saturated_o,  // c6, by bank and channel
+    output logic [fastsplat_pkg::LANES-1:0]                 tap_inside_x_o,        // by bank column and row, c6
+    output logic [fastsplat_pkg::LANES-1:0]                 tap_inside_y_o,
+    output logic [fastsplat_pkg::BANKS-1:0]                 tap_weighted_o,        // inside and of weight, by bank, c6
+    output logic [4*fastsplat_pkg::BANKS-1:0]               tap_product_saturated_o,  // weighted, by bank and channel, c6
     output logic                                            tap_sheet_valid_o,     // W
     output logic [31:0]                                     tap_sheet_tag_o,
     output logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::SHEET_BITS-1:0] tap_sums_o,  // by bank
@@ -99,6 +101,7 @@ module splat_array (
       .wphase_i(rlut_wphase_i),
       .wcolumn_i(rlut_wcolumn_i),
       .wdata_i(table_word_i[RB-1:0]),
+      .re_i(valid_q[1]),
       .phase_i(`FASTSPLAT_FAULT(SWAPPED_AXES) ? my_c1 : mx_c1),
       .column_i(column_c1_q),
       .words_o(rlut_x)
@@ -109,6 +112,7 @@ module splat_array (
       .wphase_i(rlut_wphase_i),
       .wcolumn_i(rlut_wcolumn_i),
       .wdata_i(table_word_i[RB-1:0]),
+      .re_i(valid_q[1]),
       .phase_i(`FASTSPLAT_FAULT(SWAPPED_AXES) ? mx_c1 : my_c1),
       .column_i(row_c1_q),
       .words_o(rlut_y)
@@ -119,10 +123,24 @@ module splat_array (
   logic [P*BLK-1:0] block_x_c3, block_y_c3;
   logic [P-1:0] inside_x_c3, inside_y_c3;
   axis u_axis_x (
-      .clk_i, .origin_i(x_q[2]), .side_i(width_i), .words_i(rlut_x), .words_o(columns_c3), .block_o(block_x_c3), .inside_o(inside_x_c3)
+      .clk_i,
+      .valid_i(valid_q[2]),
+      .origin_i(x_q[2]),
+      .side_i(width_i),
+      .words_i(rlut_x),
+      .words_o(columns_c3),
+      .block_o(block_x_c3),
+      .inside_o(inside_x_c3)
   );
   axis u_axis_y (
-      .clk_i, .origin_i(y_q[2]), .side_i(height_i), .words_i(rlut_y), .words_o(rows_c3), .block_o(block_y_c3), .inside_o(inside_y_c3)
+      .clk_i,
+      .valid_i(valid_q[2]),
+      .origin_i(y_q[2]),
+      .side_i(height_i),
+      .words_i(rlut_y),
+      .words_o(rows_c3),
+      .block_o(block_y_c3),
+      .inside_o(inside_y_c3)
   );
 
   assign dirty_valid_o = valid_q[3];
@@ -132,48 +150,57 @@ module splat_array (
   assign dirty_inside_x_o = inside_x_c3;
   assign dirty_inside_y_o = inside_y_c3;
 
+  // A bank's block is its column's and its row's: they ride along by axis.
+  logic [P*BLK-1:0] block_x_q[4:6], block_y_q[4:6];
+  logic [P-1:0] inside_x_q[4:6], inside_y_q[4:6];
+  always_ff @(posedge clk_i) begin
+    block_x_q[4] <= block_x_c3;
+    block_y_q[4] <= block_y_c3;
+    inside_x_q[4] <= inside_x_c3;
+    inside_y_q[4] <= inside_y_c3;
+    for (int s = 5; s <= 6; s++) begin
+      block_x_q[s] <= block_x_q[s-1];
+      block_y_q[s] <= block_y_q[s-1];
+      inside_x_q[s] <= inside_x_q[s-1];
+      inside_y_q[s] <= inside_y_q[s-1];
+    end
+  end
+  assign tap_inside_x_o = inside_x_q[6];
+  assign tap_inside_y_o = inside_y_q[6];
+
+  logic [WB-1:0] weights[0:P*P-1];
+  logic [4*SB-1:0] sums[0:P*P-1];
   for (genvar h = 0; h < P; h++) begin : gen_row
     for (genvar g = 0; g < P; g++) begin : gen_bank
       localparam int B = h * P + g;
-      logic inside_c4_q, inside_c5_q, inside_c6_q;
-      logic [AB-1:0] addr_c4_q, addr_c5_q, addr_c6_q;
       logic [4*SB-1:0] products;
-      always_ff @(posedge clk_i) begin
-        inside_c4_q <= valid_q[3] && inside_x_c3[g] && inside_y_c3[h];
-        inside_c5_q <= inside_c4_q;
-        inside_c6_q <= inside_c5_q;
-        if (!rst_ni) begin
-          inside_c4_q <= 1'b0;
-          inside_c5_q <= 1'b0;
-          inside_c6_q <= 1'b0;
-        end
-        addr_c4_q <= AB'(block_y_c3[h*BLK+:BLK]) * AB'(fastsplat_pkg::BLOCKS_X) + AB'(block_x_c3[g*BLK+:BLK]);
-        addr_c5_q <= addr_c4_q;
-        addr_c6_q <= addr_c5_q;
-      end
+      logic [3:0] saturated;
+      // Lanes outside the tile work, too, but count nothing.
+      assign tap_weighted_o[B] = inside_x_q[6][g] && inside_y_q[6][h] && weights[B] != '0;
+      assign tap_product_saturated_o[4*B+:4] = tap_weighted_o[B] ? saturated : '0;
       lane u_lane (
           .clk_i,
           .we_i(radial_we_i),
           .waddr_i(radial_waddr_i),
           .wdata_i(table_word_i[WB-1:0]),
+          .valid_i(valid_q[5:3]),
           .column_i(columns_c3[g*RB+:RB]),
           .row_i(rows_c3[h*RB+:RB]),
           .colour_i(colour_q[5]),
-          .weight_o(tap_weights_o[B*WB+:WB]),
+          .weight_o(weights[B]),
           .products_o(products),
-          .saturated_o(tap_product_saturated_o[4*B+:4])
+          .saturated_o(saturated)
       );
-      assign tap_inside_o[B] = inside_c6_q;
       sheet_bank u_bank (
           .clk_i,
           .rst_ni,
           .wipe_i,
           .wipe_addr_i,
-          .valid_i(inside_c6_q),
+          .valid_i(valid_q[6] && inside_x_q[6][g] && inside_y_q[6][h]),
           .buffer_i(buffer_q[6]),
-          .addr_i(addr_c6_q),
+          .addr_i(AB'(block_y_q[6][h*BLK+:BLK]) * AB'(fastsplat_pkg::BLOCKS_X) + AB'(block_x_q[6][g*BLK+:BLK])),
           .products_i(products),
-          .sum_o(tap_sums_o[B*4*SB+:4*SB]),
+          .sum_o(sums[B]),
           .saturated_o(tap_sheet_saturated_o[4*B+:4]),
           .comp_re_i,
           .comp_buffer_i,
@@ -222,6 +249,14 @@ module splat_array (
   assign tap_window_y_o = y_q[6];
   assign tap_sheet_valid_o = valid_q[9];
   assign tap_sheet_tag_o = tag_q[9];
+  always_comb begin
+    tap_weights_o = '0;
+    tap_sums_o = '0;
+    for (int b = 0; b < P * P; b++) begin
+      if (valid_q[6]) tap_weights_o[b*WB+:WB] = weights[b];
+      if (valid_q[9]) tap_sums_o[b*4*SB+:4*SB] = sums[b];
+    end
+  end
   // The compositor reads and clears a memory that no window is on its way to: A to W.
   for (genvar s = 6; s <= 9; s++) begin : gen_owner
     `FASTSPLAT_ASSERT(sheet_has_one_owner, !(comp_re_i && valid_q[s] && buffer_q[s] == comp_buffer_i))

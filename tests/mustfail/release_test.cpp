@@ -77,7 +77,7 @@ TEST(Release, NothingButTheMustFailBuildNamesTheMacro) {
 
 TEST(Faults, TableAndRtlNameTheSame) {
   std::set<std::string> placed;
-  for (const auto& path : files_below(kSource / "rtl", {".sv"}))
+  for (const auto& path : files_below(kSource / "rtl", {".sv", ".svh"}))
     placed.merge(matches(read(path), "`FASTSPLAT_FAULT\\((\\w+)\\)"));
   const auto listed = matches(read(kSource / "tests/mustfail/faults.def"), "\nFAULT\\((\\w+),");
   EXPECT_EQ(placed, listed);

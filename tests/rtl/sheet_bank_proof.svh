@@ -30,7 +30,7 @@ assign at_c = valid_c_q && buffer_c_q == any_buffer && addr_c_q == any_addr;
 assign at_w = valid_w_q && buffer_w_q == any_buffer && addr_w_q == any_addr;
 for (genvar t = 0; t < 4; t++) begin : gen_truth
   logic [SB:0] total;
-  assign total = {1'b0, truth[t*SB+:SB]} + {1'b0, products_c_q[t*SB+:SB]};
+  assign total = {1'b0, truth[t*SB+:SB]} + {1'b0, gen_channel[t].products_c_q};
   assign truth_next[t*SB+:SB] = total[SB] ? '1 : total[SB-1:0];
 end
 always @(posedge clk_i) begin
@@ -41,7 +41,7 @@ end
 
 logic [4*SB-1:0] memory_word;
 assign memory_word = any_buffer ? probe[1] : probe[0];
-`FASTSPLAT_ASSERT(sum_is_complete, !(started && known && at_w) || sum_w_q == truth)
+`FASTSPLAT_ASSERT(sum_is_complete, !(started && known && at_w) || sum_w == truth)
 // For induction: what is not on its way is in the memory, and nothing is on its way before the memories are wiped.
 `FASTSPLAT_ASSERT(memory_is_complete, !(started && known && !at_w) || memory_word == truth)
 `FASTSPLAT_ASSERT(empty_until_wiped, !started || known || in_reset || !(valid_b_q || valid_c_q || valid_w_q || comp_clear_q))

@@ -29,23 +29,25 @@ void check_has_rtl(const cmodel::Config& config) {
 driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config& config,
                                 const driver::RenderOptions& options, Checking checking, std::optional<RtlRun>& run) {
   testbench::RtlDevice* rtl = nullptr;
-  const testbench::CheckedDevice::Factory make = [&](cmodel::PixelSink& pixels, cmodel::TapSink& taps) {
-    testbench::RtlOptions with_taps;
-    with_taps.taps = &taps;
-    auto device = testbench::make_rtl_device(config, pixels, with_taps);
-    rtl = device.get();
-    return device;
-  };
   const auto device = [&](cmodel::PixelSink& pixels) -> std::unique_ptr<cmodel::Device> {
-    if (checking == Checking::EveryTap)
-      return std::make_unique<testbench::CheckedDevice>(config, cmodel::StreamScope::Subset, pixels, make);
-    auto plain = testbench::make_rtl_device(config, pixels);
+    if (checking == Checking::EveryTap) {
+      auto checked = std::make_unique<testbench::CheckedDevice>(
+          config, cmodel::StreamScope::Subset, pixels, [&](cmodel::PixelSink& tiles, cmodel::TapSink& taps) {
+            testbench::RtlOptions with_taps;
+            with_taps.taps = &taps;
+            return testbench::make_rtl_device(config, tiles, with_taps);
+          });
+      rtl = &checked->device();
+      return checked;
+    }
+    testbench::RtlOptions unchecked;
+    unchecked.build = testbench::RtlBuild::Plain;
+    auto plain = testbench::make_rtl_device(config, pixels, unchecked);
     rtl = plain.get();
     return plain;
   };
   run.emplace();
   return driver::run_device(scene, config, device, options, [&](cmodel::Device& finished) {
-    run->cycles = rtl->cycles();
     run->stalls = rtl->cycle_counters();
     if (checking == Checking::Off) return;
     run->check = dynamic_cast<const testbench::CheckedDevice&>(finished).report();
@@ -57,6 +59,10 @@ driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config&
   });
 }
 
+nlohmann::ordered_json optional_json(const std::optional<std::uint64_t>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
 nlohmann::ordered_json by_tap_json(const testbench::CheckReport& check) {
   nlohmann::ordered_json json;
   for (int tap = 0; tap < cmodel::kTapCount; ++tap)
@@ -65,8 +71,9 @@ nlohmann::ordered_json by_tap_json(const testbench::CheckReport& check) {
 }
 
 void report_rtl(const RtlRun& run, const Output& output, nlohmann::ordered_json& json) {
-  output.line(fmt::format("rtl: {} cycles", grouped(run.cycles)));
-  json["cycles_rtl"] = run.cycles;
+  output.line(fmt::format("rtl: {} cycles", grouped(run.stalls.busy)));
+  json["cycles_rtl"] = run.stalls.busy;
+  if (run.check) json["cycles_model"] = optional_json(run.check->cycles_model);
   json["cycles"] = {{"busy", run.stalls.busy},
                     {"stall_input", run.stalls.stall_input},
                     {"stall_table", run.stalls.stall_table},

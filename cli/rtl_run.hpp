@@ -16,7 +16,6 @@ enum class Checking { Off, EveryTap };
 
 /// A frame of the RTL: its cycles and, if checked, the checker's report.
 struct RtlRun {
-  std::uint64_t cycles = 0;
   testbench::RtlCycles stalls;
   std::optional<testbench::CheckReport> check;
   std::string difference;  ///< first one, in words
@@ -32,6 +31,8 @@ driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config&
 
 void report_rtl(const RtlRun& run, const Output& output, nlohmann::ordered_json& json);
 
+/// null where there is none
+nlohmann::ordered_json optional_json(const std::optional<std::uint64_t>& value);
 /// {"snap": n, ...}
 nlohmann::ordered_json by_tap_json(const testbench::CheckReport& check);
 

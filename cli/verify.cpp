@@ -167,7 +167,7 @@ void save_coverage(const Checked& checked, const std::string& path, testbench::C
   book.streams += checked.streams;
   book.splats += checked.result.counters.splats;
   book.comparisons += checked.result.check.comparisons;
-  book.cycles += checked.result.cycles_rtl;
+  book.cycles += checked.result.check.cycles_rtl.value_or(0);
   testbench::Coverage all;
   for (const auto& [campaign, coverage] : checked.coverage) book.campaigns[campaign].merge(coverage);
   for (const auto& [campaign, coverage] : book.campaigns) all.merge(coverage);
@@ -222,7 +222,8 @@ ExitCode run(const VerifyArguments& arguments) {
             {"streams", checked.streams},
             {"splats", result.counters.splats},
             {"windows", result.counters.windows},
-            {"cycles_rtl", result.cycles_rtl},
+            {"cycles_rtl", optional_json(result.check.cycles_rtl)},
+            {"cycles_model", optional_json(result.check.cycles_model)},
             {"seed", arguments.seed},
             {"seeds", arguments.seeds},
             {"config", config.name},
@@ -236,7 +237,7 @@ ExitCode run(const VerifyArguments& arguments) {
                           grouped(result.check.mismatches)));
   output.line(fmt::format("{} streams, {} splats, {} windows, {} cycles", grouped(checked.streams),
                           grouped(result.counters.splats), grouped(result.counters.windows),
-                          grouped(result.cycles_rtl)));
+                          grouped(result.check.cycles_rtl.value_or(result.last_cycle))));
   if (result.verdict == testbench::Verdict::Mismatch || result.verdict == testbench::Verdict::Simulation)
     report_failure(checked, arguments, output, json);
   if (!arguments.coverage.empty() && result.verdict == testbench::Verdict::Pass)

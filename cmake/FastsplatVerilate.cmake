@@ -8,15 +8,27 @@ endif()
 # The simulator's own runtime, shared by all configurations.
 find_package(Threads REQUIRED)
 add_library(verilated_runtime STATIC ${VERILATOR_ROOT}/include/verilated.cpp ${VERILATOR_ROOT}/include/verilated_fst_c.cpp
-                                     ${VERILATOR_ROOT}/include/verilated_threads.cpp ${VERILATOR_ROOT}/include/verilated_cov.cpp)
+                                     ${VERILATOR_ROOT}/include/verilated_threads.cpp ${VERILATOR_ROOT}/include/verilated_cov.cpp
+                                     ${PROJECT_SOURCE_DIR}/testbench/simulator_output.cpp)
 target_include_directories(verilated_runtime SYSTEM PUBLIC ${VERILATOR_ROOT}/include ${VERILATOR_ROOT}/include/vltstd)
-target_compile_options(verilated_runtime PRIVATE -w)
+target_include_directories(verilated_runtime PRIVATE ${PROJECT_SOURCE_DIR})
+target_compile_features(verilated_runtime PRIVATE cxx_std_20)
+target_compile_definitions(verilated_runtime PRIVATE VL_PRINTF=fastsplat::testbench::simulator_print)
+target_compile_options(verilated_runtime PRIVATE -w -include ${PROJECT_SOURCE_DIR}/testbench/simulator_output.hpp)
 target_link_libraries(verilated_runtime PUBLIC ZLIB::ZLIB Threads::Threads)
 
-# fastsplat_verilate(<target> <config> [DEFINES ...] [SOURCES ...] [ARGS ...]): library <target> with class Vfs_<target>
+# fastsplat_verilate(<target> <config> [ASSERT] [WAVE] [DEFINES ...] [SOURCES ...] [ARGS ...]): library <target> with class Vfs_<target>
 # and its headers. <config> names a file of configs/ or is the path of one. DEFINES and SOURCES are of the must-fail build (rtl/fault.svh); release builds have none.
+# ASSERT: checks the assertions of rtl/; WAVE: can write waveforms (half of its compile time). Without either it is fastest.
 function(fastsplat_verilate target config)
-  cmake_parse_arguments(arg "" "" "DEFINES;SOURCES;ARGS" ${ARGN})
+  cmake_parse_arguments(arg "ASSERT;WAVE" "" "DEFINES;SOURCES;ARGS" ${ARGN})
+  set(abilities "")
+  if(arg_ASSERT)
+    list(APPEND abilities --assert)
+  endif()
+  if(arg_WAVE)
+    list(APPEND abilities --trace-fst)
+  endif()
   file(GLOB RTL_SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.sv)
   file(GLOB RTL_INCLUDES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.svh)
   set(folder ${PROJECT_BINARY_DIR}/verilated/${target})
@@ -39,7 +51,7 @@ function(fastsplat_verilate target config)
   set(archive ${folder}/obj/Vfs_${target}__ALL.a)
   add_custom_command(
     OUTPUT ${archive} ${folder}/obj/Vfs_${target}.h
-    COMMAND ${PROJECT_SOURCE_DIR}/cmake/verilate.sh ${folder}/verilator.log ${CMAKE_COMMAND} -E env OBJCACHE=${FASTSPLAT_CCACHE} ${VERILATOR} --cc --build -j 1 --quiet-exit -Wall --assert -O3 --x-assign unique --x-initial unique --trace-fst
+    COMMAND ${PROJECT_SOURCE_DIR}/cmake/verilate.sh ${folder}/verilator.log ${CMAKE_COMMAND} -E env OBJCACHE=${FASTSPLAT_CCACHE} ${VERILATOR} --cc --build -j 1 --quiet-exit -Wall -O3 --x-assign unique --x-initial unique ${abilities}
             --prefix Vfs_${target} --top-module fastsplat_core --Mdir ${folder}/obj ${defines} ${arg_ARGS} -I${PROJECT_SOURCE_DIR}/rtl
             -CFLAGS -std=c++20 -MAKEFLAGS OPT_FAST=-O2 -MAKEFLAGS OPT_SLOW=-O0 -MAKEFLAGS OPT_GLOBAL=-O2 ${package} ${arg_SOURCES} ${RTL_SOURCES}
     DEPENDS ${package} ${arg_SOURCES} ${RTL_SOURCES} ${RTL_INCLUDES}

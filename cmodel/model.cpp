@@ -130,22 +130,22 @@ void Model::tap(Tap kind, std::uint32_t tag, std::int32_t x, std::int32_t y,
 }
 
 void Model::tap_sheet(const SplatRecord& record, std::int32_t x, std::int32_t y) {
-  scratch_.clear();
+  scratch_.assign(weights_.size() * 4, 0);
+  auto out = scratch_.begin();
   for (std::int32_t j = 0; j < config_.lanes; ++j) {
-    for (std::int32_t i = 0; i < config_.lanes; ++i) {
-      const SheetWord word = sheet_.inside(x + i, y + j) ? sheet_.at(x + i, y + j) : SheetWord{};
-      scratch_.insert(scratch_.end(), word.begin(), word.end());
+    for (std::int32_t i = 0; i < config_.lanes; ++i, out += 4) {
+      if (sheet_.inside(x + i, y + j)) std::ranges::copy(sheet_.at(x + i, y + j), out);
     }
   }
   tap(Tap::Sheet, record.tag, x, y, scratch_);
 }
 
 void Model::tap_composite(int x0, int y0) {
-  scratch_.clear();
+  scratch_.assign(weights_.size() * 4, 0);
+  auto out = scratch_.begin();
   for (int y = y0; y < y0 + config_.lanes; ++y) {
-    for (int x = x0; x < x0 + config_.lanes; ++x) {
-      const PixelState word = sheet_.inside(x, y) ? compositor_.at(x, y) : PixelState{};
-      scratch_.insert(scratch_.end(), word.begin(), word.end());
+    for (int x = x0; x < x0 + config_.lanes; ++x, out += 4) {
+      if (sheet_.inside(x, y)) std::ranges::copy(compositor_.at(x, y), out);
     }
   }
   tap(Tap::Composite, 0, x0, y0, scratch_);

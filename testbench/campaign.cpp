@@ -16,7 +16,12 @@ void add(VerifyResult& total, const VerifyResult& part) {
   total.check.mismatches += part.check.mismatches;
   for (std::size_t i = 0; i < part.check.by_tap.size(); ++i) total.check.by_tap[i] += part.check.by_tap[i];
   total.counters += part.counters;
-  total.cycles_rtl += part.cycles_rtl;
+  total.last_cycle += part.last_cycle;
+  const auto add_to = [](std::optional<std::uint64_t>& sum, const std::optional<std::uint64_t>& more) {
+    if (more) sum = sum.value_or(0) + *more;
+  };
+  add_to(total.check.cycles_rtl, part.check.cycles_rtl);
+  add_to(total.check.cycles_model, part.check.cycles_model);
 }
 
 constexpr const char* kClassReady = "class_ready";

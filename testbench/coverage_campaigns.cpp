@@ -94,7 +94,7 @@ class Runner {
     runs_.book.streams += result.streams;
     runs_.book.splats += result.total.counters.splats;
     runs_.book.comparisons += result.total.check.comparisons;
-    runs_.book.cycles += result.total.cycles_rtl;
+    runs_.book.cycles += result.total.check.cycles_rtl.value_or(0);
     if (result.total.verdict != Verdict::Pass) runs_.failures.push_back(what_failed(name, result.total));
     return result;
   }

@@ -17,7 +17,8 @@ constexpr std::uint64_t kShrinkTimeout = 1u << 16;
 bool same_failure(const VerifyResult& a, const VerifyResult& b) {
   if (a.verdict != b.verdict || a.check.first.has_value() != b.check.first.has_value()) return false;
   const auto tap = [](const Divergence& d) { return d.model ? d.model->tap : d.rtl->tap; };
-  return !a.check.first || tap(*a.check.first) == tap(*b.check.first);
+  if (a.check.first) return tap(*a.check.first) == tap(*b.check.first);
+  return a.fault == b.fault;
 }
 
 std::string in_words(const VerifyResult& result, const cmodel::Config& config) {
@@ -81,7 +82,7 @@ FailureReport investigate(const BeatSource& source, const VerifyOptions& options
   report.divergence = in_words(smallest, options.config);
   if (smallest.check.first) report.operands = explain(source_of(beats), options.config, *smallest.check.first);
   const auto& diverged = smallest.check.first;
-  const std::uint64_t cycle = diverged && diverged->rtl ? diverged->rtl->cycle : smallest.cycles_rtl;
+  const std::uint64_t cycle = diverged && diverged->rtl ? diverged->rtl->cycle : smallest.last_cycle;
   report.wave_from = cycle > kCyclesBefore ? cycle - kCyclesBefore : 0;
   report.wave_to = cycle + kCyclesAfter;
   if (!waveform.empty()) {

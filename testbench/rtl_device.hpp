@@ -17,6 +17,9 @@ namespace fastsplat::testbench {
 /// What every register and memory holds before reset.
 enum class ResetFill { Zero, One, Random };
 
+/// Which simulation of the RTL runs. Both behave the same; a plain one neither checks assertions nor writes waveforms.
+enum class RtlBuild { Checked, Plain };
+
 struct RtlOptions {
   Pattern input;   ///< when the source offers a beat (an offered beat stays until taken)
   Pattern output;  ///< when the sink takes pixels
@@ -27,6 +30,7 @@ struct RtlOptions {
   /// A waveform of the cycles [wave_from, wave_to); none while the path is empty.
   std::filesystem::path wave;
   std::uint64_t wave_from = 0, wave_to = 0;
+  RtlBuild build = RtlBuild::Checked;
 };
 
 /// Cycles the device was busy and what it waited for (its own counters).
@@ -59,7 +63,8 @@ class RtlDevice : public cmodel::Device {
 std::vector<std::string> rtl_config_names();
 
 /// Throws UserError (Usage) for a configuration without RTL, and UserError (Simulation) when the configuration hash in
-/// the device's registers is not `config`'s.
+/// the device's registers is not `config`'s. While the device runs, UserError (Simulation) tells that it hangs, that it
+/// refused the stream, or which assertion of the RTL failed, where and in which cycle.
 std::unique_ptr<RtlDevice> make_rtl_device(const cmodel::Config& config, cmodel::PixelSink& pixels,
                                            const RtlOptions& options = {});
 

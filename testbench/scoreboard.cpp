@@ -1,6 +1,8 @@
 #include "testbench/scoreboard.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdio>
 #include <cstring>
 
@@ -91,16 +93,15 @@ void Scoreboard::Side::on_tap(const cmodel::TapRecord& record) {
 }
 
 void TapQueue::push(const cmodel::TapRecord& record) {
-  const std::size_t at = data_.size(), words = record.payload.size();
-  data_.resize(at + kHeaderWords + words);
   const Header header{.tile = record.tile,
                       .sheet = record.sheet,
                       .tag = record.tag,
                       .x = record.x,
                       .y = record.y,
-                      .words = static_cast<std::uint32_t>(words)};
-  std::memcpy(&data_[at], &header, sizeof header);
-  if (words > 0) std::memcpy(&data_[at + kHeaderWords], record.payload.data(), words * sizeof(std::uint32_t));
+                      .words = static_cast<std::uint32_t>(record.payload.size())};
+  const auto words = std::bit_cast<std::array<std::uint32_t, kHeaderWords>>(header);
+  data_.insert(data_.end(), words.begin(), words.end());
+  data_.insert(data_.end(), record.payload.begin(), record.payload.end());
 }
 
 TapQueue::Header TapQueue::front() const {

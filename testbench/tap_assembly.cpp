@@ -101,11 +101,12 @@ void TapAssembly::window(std::uint64_t cycle, std::uint32_t tag, std::int32_t x,
   windows_.push_back({x, y});
   if (tiles_.empty()) return;
   const int lanes = config_.lanes, mask = lanes - 1;
-  payload_.clear();
+  payload_.resize(static_cast<std::size_t>(lanes) * lanes);
+  std::uint32_t* out = payload_.data();
   for (int j = 0; j < lanes; ++j) {
     for (int i = 0; i < lanes; ++i) {
       const auto bank = static_cast<std::size_t>(((y + j) & mask) * lanes + ((x + i) & mask));
-      payload_.push_back(field(weights, bank * weight_bits_, weight_bits_));
+      *out++ = field(weights, bank * weight_bits_, weight_bits_);
     }
   }
   emit(cmodel::Tap::Footprint, cycle, sheet_of(tiles_.front(), tag), tag, x, y);
@@ -117,14 +118,14 @@ void TapAssembly::sheet(std::uint64_t cycle, std::uint32_t tag, const std::uint3
   windows_.pop_front();
   const auto& begin = tiles_.front().begin;
   const int lanes = config_.lanes, mask = lanes - 1;
-  payload_.clear();
+  payload_.assign(static_cast<std::size_t>(lanes) * lanes * 4, 0);
+  std::uint32_t* out = payload_.data();
   for (int j = 0; j < lanes; ++j) {
-    for (int i = 0; i < lanes; ++i) {
+    for (int i = 0; i < lanes; ++i, out += 4) {
       const std::int32_t x = at.x + i, y = at.y + j;
-      const bool inside = x >= 0 && y >= 0 && x < begin.width && y < begin.height;
+      if (x < 0 || y < 0 || x >= begin.width || y >= begin.height) continue;
       const auto bank = static_cast<std::size_t>((y & mask) * lanes + (x & mask));
-      for (std::size_t c = 0; c < 4; ++c)
-        payload_.push_back(inside ? field(sums, (bank * 4 + c) * sheet_bits_, sheet_bits_) : 0);
+      for (std::size_t c = 0; c < 4; ++c) out[c] = field(sums, (bank * 4 + c) * sheet_bits_, sheet_bits_);
     }
   }
   emit(cmodel::Tap::Sheet, cycle, sheet_of(tiles_.front(), tag), tag, at.x, at.y);
@@ -137,13 +138,13 @@ void TapAssembly::composite(std::uint64_t cycle, std::uint32_t block, const std:
   const auto columns = static_cast<std::uint32_t>(config_.tile_width / lanes);
   const auto x0 = static_cast<std::int32_t>(block % columns) * lanes,
              y0 = static_cast<std::int32_t>(block / columns) * lanes;
-  payload_.clear();
+  payload_.assign(static_cast<std::size_t>(lanes) * lanes * 4, 0);
+  std::uint32_t* out = payload_.data();
   for (int j = 0; j < lanes; ++j) {
-    for (int i = 0; i < lanes; ++i) {
-      const bool inside = x0 + i < tile.begin.width && y0 + j < tile.begin.height;
+    for (int i = 0; i < lanes; ++i, out += 4) {
+      if (x0 + i >= tile.begin.width || y0 + j >= tile.begin.height) continue;
       const auto bank = static_cast<std::size_t>(j * lanes + i);
-      for (std::size_t c = 0; c < 4; ++c)
-        payload_.push_back(inside ? field(state, (bank * 4 + c) * state_bits_, state_bits_) : 0);
+      for (std::size_t c = 0; c < 4; ++c) out[c] = field(state, (bank * 4 + c) * state_bits_, state_bits_);
     }
   }
   const std::uint32_t sheet = tile.composited < tile.sheets.size() ? tile.sheets[tile.composited].number : 0;

@@ -43,9 +43,10 @@ ExitCode exit_code(Verdict verdict);
 struct VerifyResult {
   Verdict verdict = Verdict::NothingCompared;
   CheckReport check;
-  cmodel::Counters counters;  ///< the RTL's
-  std::uint64_t cycles_rtl = 0;
-  std::string error;                         ///< of Verdict::Simulation: what the device did
+  cmodel::Counters counters;                 ///< the RTL's
+  std::uint64_t last_cycle = 0;              ///< after reset, at the end of the run
+  std::string error;                         ///< of Verdict::Simulation: what the device did, where and when
+  std::string fault;                         ///< the same without where and when
   std::shared_ptr<const Coverage> coverage;  ///< of a run that passed, if asked for
 };
 

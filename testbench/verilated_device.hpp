@@ -4,13 +4,14 @@
 #include <verilated.h>
 #include <verilated_fst_c.h>
 
-#include <deque>
+#include <limits>
 #include <type_traits>
 
 #include "base/error.hpp"
 #include "cmodel/records.hpp"
 #include "cmodel/register_map.hpp"
 #include "testbench/rtl_device.hpp"
+#include "testbench/simulator_output.hpp"
 #include "testbench/tap_assembly.hpp"
 
 namespace fastsplat::testbench {
@@ -31,18 +32,25 @@ class VerilatedDevice : public RtlDevice {
  public:
   VerilatedDevice(const cmodel::Config& config, cmodel::PixelSink& pixels, const RtlOptions& options)
       : config_(config), options_(options), taps_(config, pixels, options.taps) {
+    context_.threads(1);  // the default starts idle workers
     context_.randReset(options.fill == ResetFill::Zero ? 0 : options.fill == ResetFill::One ? 1 : 2);
     context_.randSeed(static_cast<int>(options.seed % 0x7fffffff) + 1);
     context_.traceEverOn(!options.wave.empty());
+    // A failing assertion is counted here and told by cycle(); the default is to end the process.
+    context_.fatalOnError(false);
+    context_.errorLimit(std::numeric_limits<int>::max());
+    take_simulator_output();
     top_ = std::make_unique<Top>(&context_);
     top_->clk_i = 0;
     quiet();
     top_->rst_ni = 0;
     top_->eval();
-    if (!options_.wave.empty()) {
-      wave_ = std::make_unique<VerilatedFstC>();
-      top_->trace(wave_.get(), 99);
-      wave_->open(options_.wave.c_str());
+    if constexpr (requires(Top & top, VerilatedFstC * wave) { top.trace(wave, 99); }) {
+      if (!options_.wave.empty()) {
+        wave_ = std::make_unique<VerilatedFstC>();
+        top_->trace(wave_.get(), 99);
+        wave_->open(options_.wave.c_str());
+      }
     }
     pulse_reset();
     const std::uint64_t hash =
@@ -57,7 +65,10 @@ class VerilatedDevice : public RtlDevice {
   }
   ~VerilatedDevice() override {
     if (wave_) wave_->close();
+    // The simulator's objects take leave of the thread's context, which is that of the device that ran last.
+    Verilated::threadContextp(&context_);
     top_->final();
+    top_.reset();
   }
 
   void consume(std::span<const cmodel::Beat> beats) override {
@@ -195,6 +206,7 @@ class VerilatedDevice : public RtlDevice {
     }
     edge();
     ++cycle_;
+    if (context_.errorCount() != 0) assertion_failed();
     if (top_->error_o && !refused_) {
       refused_ = true;
       top_->arvalid_i = top_->awvalid_i = top_->wvalid_i = 0;
@@ -240,6 +252,15 @@ class VerilatedDevice : public RtlDevice {
     return low | static_cast<std::uint64_t>(read(address + 4)) << 32;
   }
 
+  [[noreturn]] void assertion_failed() const {
+    const FailedAssertion failed = first_failed_assertion(take_simulator_output());
+    throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_ - 1),
+                                           .what = "assertion " + failed.name + " of the RTL failed in " + failed.path +
+                                                   " (" + failed.place + ")",
+                                           .expected = {},
+                                           .got = {},
+                                           .fix = "look at the waveform of the last cycles"});
+  }
   [[noreturn]] void time_out(const char* what) const {
     throw UserError(ExitCode::Simulation,
                     {.where = "cycle " + std::to_string(cycle_),

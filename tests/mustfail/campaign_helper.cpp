@@ -8,7 +8,6 @@
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/cmodel/random_stream_helper.hpp"
 #include "tests/cmodel/stream_writer_helper.hpp"
-#include "tests/mustfail/faulty_device_helper.hpp"
 
 namespace fastsplat::test {
 namespace {
@@ -155,11 +154,13 @@ Outcome run_one(const cmodel::Config& config, const Run& run, Stimulus stimulus,
       });
       outcome.caught = Caught{Detector::Counters, report};
     }
-  } catch (const AssertionFired& fired) {
-    outcome.caught = Caught{Detector::Assertion, fired.what()};
   } catch (const UserError& error) {
-    if (judge()) return outcome;
     const std::string text = error.what();
+    if (text.find(": assertion ") != std::string::npos) {
+      outcome.caught = Caught{Detector::Assertion, text};
+      return outcome;
+    }
+    if (judge()) return outcome;
     outcome.caught = Caught{text.find("hangs") != std::string::npos ? Detector::Timeout : Detector::Other, text};
   }
   return outcome;

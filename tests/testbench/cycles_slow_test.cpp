@@ -61,7 +61,9 @@ TEST(CycleModelSpeed, AHundredTimesTheClockedBase) {
   description.width = description.height = 64;
   const auto beats = scene_beats(description, config);
   NoPixels pixels;
-  const auto rtl = testbench::make_rtl_device(config, pixels);
+  testbench::RtlOptions plain;
+  plain.build = testbench::RtlBuild::Plain;
+  const auto rtl = testbench::make_rtl_device(config, pixels, plain);
   auto start = std::chrono::steady_clock::now();
   rtl->consume(beats);
   rtl->finish();

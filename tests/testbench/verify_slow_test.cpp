@@ -64,7 +64,7 @@ TEST_P(Rtl, RandomStreamsEqualTheModelUnderEveryReadyPattern) {
   std::printf("[figure] %s random splats = %llu, comparisons = %llu, cycles = %llu\n", GetParam(),
               static_cast<unsigned long long>(result.total.counters.splats),
               static_cast<unsigned long long>(result.total.check.comparisons),
-              static_cast<unsigned long long>(result.total.cycles_rtl));
+              static_cast<unsigned long long>(result.total.check.cycles_rtl.value_or(0)));
 }
 
 TEST_P(Rtl, ResetFillsAndPatternsNeverChangeAPixel) {

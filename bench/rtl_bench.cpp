@@ -1,0 +1,101 @@
+// The Verilated device of each configuration on a scene's stream: clock cycles per second of the plain simulation
+// (no assertions, no checker), and beside it in the same run what the checks cost and how much faster the cycle model
+// is. Best of all iterations, by processor time: a ratio then means something on a machine that others use, too.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <ctime>
+
+#include "cmodel/cycle_model.hpp"
+#include "driver/compile.hpp"
+#include "driver/config_file.hpp"
+#include "scene/scene.hpp"
+#include "testbench/checked_device.hpp"
+#include "testbench/rtl_device.hpp"
+
+namespace fastsplat {
+namespace {
+
+double processor_seconds() {
+  std::timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Two shells with default transfer function and kernel: dense sheets, as a driver sends them.
+std::vector<cmodel::Beat> scene_stream(const cmodel::Config& config) {
+  scene::SceneDescription description;
+  description.volume = "shells:24";
+  description.width = description.height = 64;
+  const scene::Scene scene = scene::build_scene(description);
+  const driver::CompiledFrame compiled(scene, config);
+  std::vector<cmodel::Beat> beats(compiled.preamble().begin(), compiled.preamble().end());
+  for (int tile = 0; tile < compiled.grid().count(); ++tile)
+    compiled.emit_tile(
+        tile, [&](std::span<const cmodel::Beat> more) { beats.insert(beats.end(), more.begin(), more.end()); });
+  return beats;
+}
+
+class Pixels final : public cmodel::PixelSink {
+ public:
+  void on_tile(cmodel::TilePixels&& tile) override { benchmark::DoNotOptimize(tile.words.data()); }
+};
+
+/// Seconds from the first beat to the last pixel.
+double run(cmodel::Device& device, std::span<const cmodel::Beat> beats) {
+  const double start = processor_seconds();
+  device.consume(beats);
+  device.finish();
+  return processor_seconds() - start;
+}
+
+void rtl(benchmark::State& state, const std::string& name) {
+  const cmodel::Config config = driver::load_config(name);
+  const std::vector<cmodel::Beat> beats = scene_stream(config);
+  Pixels pixels;
+  double plain = 1e9, asserted = 1e9, checked = 1e9, model = 1e9;
+  std::uint64_t cycles = 0;
+  for (auto _ : state) {
+    testbench::RtlOptions options;
+    options.build = testbench::RtlBuild::Plain;
+    const auto device = testbench::make_rtl_device(config, pixels, options);
+    const double seconds = run(*device, beats);
+    plain = std::min(plain, seconds);
+    cycles = device->cycles();
+    state.SetIterationTime(seconds);
+
+    const auto with_assertions = testbench::make_rtl_device(config, pixels);
+    asserted = std::min(asserted, run(*with_assertions, beats));
+
+    testbench::CheckedDevice scoreboard(config, cmodel::StreamScope::Subset, pixels,
+                                        [&](cmodel::PixelSink& tiles, cmodel::TapSink& taps) {
+                                          testbench::RtlOptions with_taps;
+                                          with_taps.taps = &taps;
+                                          return testbench::make_rtl_device(config, tiles, with_taps);
+                                        });
+    checked = std::min(checked, run(scoreboard, beats));
+    const auto report = scoreboard.report();
+    if (report.mismatches != 0 || report.comparisons == 0) {
+      state.SkipWithError("the RTL differs from the model");
+      break;
+    }
+
+    cmodel::CycleModel cycle_model(config, cmodel::StreamScope::Subset);
+    model = std::min(model, run(cycle_model, beats));
+  }
+  const auto count = static_cast<double>(cycles);
+  state.counters["cycles/s"] = count / plain;
+  state.counters["asserted/plain"] = asserted / plain;
+  state.counters["checked/asserted"] = checked / asserted;
+  state.counters["checked/plain"] = checked / plain;
+  state.counters["plain/cycle_model"] = plain / model;
+}
+
+const bool kRegistered = [] {
+  for (const std::string& name : testbench::rtl_config_names())
+    benchmark::RegisterBenchmark(("rtl/" + name).c_str(), rtl, name)->UseManualTime()->Unit(benchmark::kMillisecond);
+  return true;
+}();
+
+}  // namespace
+}  // namespace fastsplat

@@ -1,0 +1,22 @@
+// What the simulator's runtime prints (a failing assertion's line), kept for the device that ran instead of going to
+// stdout. The build includes this file in front of the runtime's sources, with VL_PRINTF as simulator_print.
+#pragma once
+
+#include <string>
+
+namespace fastsplat::testbench {
+
+/// Stands in for printf in the simulator's runtime. By thread: a device is run by one.
+int simulator_print(const char* format, ...) __attribute__((format(printf, 1, 2)));
+/// What was printed since the last call.
+std::string take_simulator_output();
+
+/// A failed assertion as the simulator words it: "%Error: FILE:LINE: Assertion failed in PATH.NAME: NAME".
+struct FailedAssertion {
+  std::string name;   ///< empty if there was none
+  std::string path;   ///< of the instance
+  std::string place;  ///< FILE:LINE
+};
+FailedAssertion first_failed_assertion(const std::string& output);
+
+}  // namespace fastsplat::testbench

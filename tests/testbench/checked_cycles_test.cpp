@@ -1,0 +1,114 @@
+// Cycles in the checker: the cycle model beside every verified run, and one cycle too many is a failure.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "driver/config_file.hpp"
+#include "testbench/stimulus.hpp"
+#include "testbench/verify.hpp"
+
+namespace fastsplat::testbench {
+namespace {
+
+/// A device that tells one stall counter wrong.
+class Miscounting final : public RtlDevice {
+ public:
+  Miscounting(std::unique_ptr<RtlDevice> device, std::uint64_t RtlCycles::*field)
+      : device_(std::move(device)), field_(field) {}
+  void consume(std::span<const cmodel::Beat> beats) override { device_->consume(beats); }
+  void finish() override { device_->finish(); }
+  const cmodel::Counters& counters() const override { return device_->counters(); }
+  std::uint64_t cycles() const override { return device_->cycles(); }
+  RtlCycles cycle_counters() override {
+    RtlCycles cycles = device_->cycle_counters();
+    ++(cycles.*field_);
+    return cycles;
+  }
+  RegisterAnswer read_register(std::uint32_t address, int wait) override {
+    return device_->read_register(address, wait);
+  }
+  RegisterAnswer write_register(std::uint32_t address, std::uint32_t word, int wait) override {
+    return device_->write_register(address, word, wait);
+  }
+  void warm_reset() override { device_->warm_reset(); }
+
+ private:
+  std::unique_ptr<RtlDevice> device_;
+  std::uint64_t RtlCycles::*field_;
+};
+
+VerifyOptions tiny() {
+  VerifyOptions options;
+  options.config = driver::load_config("tiny");
+  options.ready = "random-50";
+  options.input = "burst-16";
+  options.seed = 7;
+  return options;
+}
+
+BeatSource mixed(const cmodel::Config& config) {
+  return source_of(write_document(config, make_stimulus(config, StimulusClass::Mixed, 3, 150).document));
+}
+
+TEST(CheckedCycles, ModelAndRtlAgreeUnderPatternsAndAfterAReset) {
+  for (const std::uint64_t reset_after : {0u, 40u}) {
+    VerifyOptions options = tiny();
+    options.reset_after = reset_after;
+    const auto result = verify(mixed(options.config), options);
+    EXPECT_EQ(result.verdict, Verdict::Pass);
+    ASSERT_TRUE(result.check.cycles_rtl && result.check.cycles_model);
+    std::printf("[figure] reset after %llu beats: cycles of the RTL = %llu, of the model = %llu\n",
+                static_cast<unsigned long long>(reset_after), static_cast<unsigned long long>(*result.check.cycles_rtl),
+                static_cast<unsigned long long>(*result.check.cycles_model));
+    EXPECT_EQ(*result.check.cycles_rtl, *result.check.cycles_model);
+    EXPECT_GT(*result.check.cycles_rtl, 500u);
+  }
+}
+
+TEST(CheckedCycles, OneCycleMoreInAnyCounterIsAMismatch) {
+  for (const auto field : {&RtlCycles::busy, &RtlCycles::stall_input, &RtlCycles::stall_table, &RtlCycles::stall_buffer,
+                           &RtlCycles::stall_tile}) {
+    VerifyOptions options = tiny();
+    options.device = [&](cmodel::PixelSink& pixels, const RtlOptions& rtl) {
+      return std::make_unique<Miscounting>(make_rtl_device(options.config, pixels, rtl), field);
+    };
+    const auto result = verify(mixed(options.config), options);
+    EXPECT_EQ(result.verdict, Verdict::Mismatch);
+    EXPECT_EQ(result.check.mismatches, 1u);
+    EXPECT_FALSE(result.check.first);
+    ASSERT_EQ(result.check.differences.size(), 1u);
+    EXPECT_EQ(result.check.differences[0].rfind("cycles", 0), 0u) << result.check.differences[0];
+  }
+}
+
+TEST(CheckedCycles, AreAbsentOfARunThatDidNotEnd) {
+  VerifyOptions options = tiny();
+  options.ready = "always";
+  options.timeout = 0;  // any wait is a hang
+  const auto result = verify(mixed(options.config), options);
+  EXPECT_EQ(result.verdict, Verdict::Simulation);
+  EXPECT_FALSE(result.check.cycles_rtl);
+  EXPECT_FALSE(result.check.cycles_model);
+}
+
+// Devices in one thread do not lean on each other: the simulator keeps a context by thread.
+TEST(VerilatedDevices, MayGoInAnyOrder) {
+  const auto config = driver::load_config("tiny");
+  struct NoPixels final : cmodel::PixelSink {
+    void on_tile(cmodel::TilePixels&&) override {}
+  } pixels;
+  RtlOptions plain;
+  plain.build = RtlBuild::Plain;
+  for (int turn = 0; turn < 8; ++turn) {
+    auto first = make_rtl_device(config, pixels), second = make_rtl_device(config, pixels, plain),
+         third = make_rtl_device(config, pixels);
+    third->warm_reset();
+    third.reset();
+    first->warm_reset();
+    second.reset();
+    first.reset();
+  }
+}
+
+}  // namespace
+}  // namespace fastsplat::testbench

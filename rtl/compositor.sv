@@ -265,8 +265,8 @@ module compositor (
     end
   end
   always_comb begin
-    picture_o = '0;
-    tap_state_o = '0;
+    picture_o = '0;  // verilator lint_off WIDTHCONCAT
+    tap_state_o = '0;  // verilator lint_on WIDTHCONCAT
     for (int h = 0; h < P; h++) begin
       for (int g = 0; g < P; g++) begin
         if (picture_row_i[h]) picture_o[g*4*DB+:4*DB] = picture[h*P+g];

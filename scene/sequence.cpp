@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <optional>
+#include <string_view>
 
 #include "base/error.hpp"
 #include "scene/open_scene.hpp"
@@ -30,7 +31,17 @@ std::optional<Limits> limits_of(const Setting& setting) {
   return std::nullopt;
 }
 
+/// A kernel's name stands for its numbers: spelt out, they can change.
+void spell_out_kernel(SceneDescription& description) {
+  if (description.kernel.empty()) return;
+  const Kernel named = kernel_by_name(description.kernel);
+  description.kernel_a = named.a();
+  description.kernel_radius = named.radius();
+  description.kernel.clear();
+}
+
 void set_number(const Setting& setting, double value, SceneDescription& description) {
+  if (setting.table == std::string_view("kernel")) spell_out_kernel(description);
   if (const auto* real = std::get_if<Real>(&setting.value)) real->of(description) = value;
   if (const auto* whole = std::get_if<Integer>(&setting.value))
     whole->of(description) = static_cast<int>(std::lround(value));

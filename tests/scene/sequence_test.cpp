@@ -47,6 +47,15 @@ TEST(Sequence, WholeSettingsCountExactlyAtAnyLength) {
   ASSERT_EQ(compared, 2 + 3 + 7 + 24 + 97 + 1000);
 }
 
+TEST(Sequence, AKernelsNumbersTakeOverFromItsName) {
+  SceneDescription still;
+  still.kernel = "smooth";
+  const auto now = at_frame({.frames = 2, .loop = false, .tracks = {{"kernel.radius", {2.0, 3.0}}}}, still, 1);
+  EXPECT_EQ(now.kernel, "");
+  EXPECT_EQ(now.kernel_a, kernel_by_name("smooth").a());
+  EXPECT_EQ(now.kernel_radius, 3.0);
+}
+
 TEST(Sequence, WhatHasNoTrackStaysAsItWas) {
   SceneDescription still;
   still.volume = "point:5";

@@ -1,0 +1,55 @@
+// What scripts read of a verified run: both clocks, and that they agree.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/process_helper.hpp"
+
+namespace fastsplat::cli_test {
+namespace {
+
+std::uint64_t agreed_cycles(const nlohmann::json& json) {
+  const std::uint64_t rtl = json.at("cycles_rtl"), model = json.at("cycles_model");
+  std::printf("[figure] %s: cycles of the RTL = %llu, of the cycle model = %llu\n",
+              json.at("verb").get<std::string>().c_str(), static_cast<unsigned long long>(rtl),
+              static_cast<unsigned long long>(model));
+  EXPECT_EQ(rtl, model);
+  return rtl;
+}
+
+TEST(Verify, TellsTheCyclesOfRtlAndModel) {
+  for (const std::vector<std::string>& what :
+       {std::vector<std::string>{"--random", "100"}, {"--volume", "shells:8", "--size", "24"}}) {
+    std::vector<std::string> arguments{"verify", "--config", "tiny", "--json", "-"};
+    arguments.insert(arguments.end(), what.begin(), what.end());
+    const auto run = fastsplat(arguments);
+    ASSERT_EQ(run.code, 0) << run.err;
+    const auto json = nlohmann::json::parse(run.out);
+    EXPECT_EQ(json.at("verdict"), "pass");
+    EXPECT_EQ(json.at("mismatches"), 0);
+    EXPECT_GT(json.at("comparisons"), 100);
+    EXPECT_GT(json.at("splats"), 50);
+    EXPECT_EQ(json.at("seed"), 1);
+    EXPECT_EQ(json.at("config_hash").get<std::string>().size(), 16u);
+    EXPECT_GT(agreed_cycles(json), 500u);
+  }
+}
+
+TEST(Verify, RenderWithCheckTellsThemToo) {
+  const auto render = [](bool check) {
+    std::vector<std::string> arguments{"render", "--volume", "shells:8", "--size", "24", "--engine",
+                                       "rtl",    "--config", "tiny",     "--json", "-"};
+    if (check) arguments.push_back("--check");
+    const auto run = fastsplat(arguments);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return nlohmann::json::parse(run.out);
+  };
+  const auto checked = render(true), plain = render(false);
+  EXPECT_EQ(agreed_cycles(checked), plain.at("cycles_rtl").get<std::uint64_t>());
+  EXPECT_FALSE(plain.contains("cycles_model"));
+  EXPECT_EQ(checked.at("counters"), plain.at("counters"));
+}
+
+}  // namespace
+}  // namespace fastsplat::cli_test

@@ -90,9 +90,10 @@ DensityField collect_densities(const scene::Scene& scene, bool skip) {
   const SheetGeometry geometry(scene);
   const scene::Classifier classify(scene.transfer_function, volume);
   const glm::ivec3 reach(glm::ceil(influence(scene, geometry) * geometry.unit() / volume.spacing));
-  // How far grown and elliptical footprints reach is not worked out here.
+  // How far grown and elliptical footprints reach, and how high textured ones add up, is not worked out here.
   const scene::FootprintSettings& footprint = scene.description.footprint;
-  skip = skip && footprint.shape == scene::FootprintShape::Circle && !footprint.antialias;
+  skip = skip && footprint.shape == scene::FootprintShape::Circle && !footprint.antialias &&
+         !(footprint.texture.amplitude > 0.0);
   const BrickMaxima maxima(volume, skip ? reach : glm::ivec3(0));
   const double most = 1.0 + ripple_bound(scene.kernel, largest_tilt(geometry));
 

@@ -20,10 +20,11 @@ void check_post(const SceneDescription& d) {
     refuse("classify.order", "motion and lens on splats blur colours, and densities have none yet",
            "use --classify pre");
   }
-  const bool circles = d.footprint.shape == FootprintShape::Circle && !d.footprint.antialias;
-  if (d.gradients == GradientKind::Splats && !circles) {
-    refuse("classify.gradients", "gradient splats are derivatives of circles that do not grow",
-           "use --gradients central, or --footprint circle without --antialias");
+  const bool plain =
+      d.footprint.shape == FootprintShape::Circle && !d.footprint.antialias && !(d.footprint.texture.amplitude > 0.0);
+  if (d.gradients == GradientKind::Splats && !plain) {
+    refuse("classify.gradients", "gradient splats are derivatives of plain circular footprints",
+           "use --gradients central, or --footprint circle without --antialias and --splat-texture");
   }
 }
 

@@ -259,6 +259,22 @@ TEST(PostClassified, VoxelsThatCannotMatterAreNotSplatted) {
   }
 }
 
+TEST(PostClassified, NoVoxelIsLeftOutWhereFootprintsAreNotPlain) {
+  DensityScene what = soft_ball();
+  what.dims = glm::ivec3(40);
+  what.points = step_at(0.5);
+  what.density = [](const glm::dvec3& mm) { return std::max(ball(2.0, 1.0)(mm), 0.1 + 0.001 * mm.x); };
+  ASSERT_GT(collect_densities(make_scene(what)).skipped, 0u);
+  what.description.footprint.antialias = true;
+  EXPECT_EQ(collect_densities(make_scene(what)).skipped, 0u);
+  what.description.footprint = {};
+  what.description.footprint.shape = scene::FootprintShape::Ellipse;
+  EXPECT_EQ(collect_densities(make_scene(what)).skipped, 0u);
+  what.description.footprint = {};
+  what.description.footprint.texture.amplitude = 0.5;
+  EXPECT_EQ(collect_densities(make_scene(what)).skipped, 0u);
+}
+
 TEST(PostClassified, TheRippleBoundHolds) {
   for (const double a : {1.0, 1.35, 2.0}) {
     DensityScene what;

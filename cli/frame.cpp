@@ -9,7 +9,6 @@
 #include "cli/device_report.hpp"
 #include "cli/image_output.hpp"
 #include "cli/scene_flags.hpp"
-#include "golden/render.hpp"
 #include "scene/splats.hpp"
 
 namespace fastsplat::cli {
@@ -38,12 +37,39 @@ std::uint64_t voxel_count(const scene::Scene& scene) {
   return count;
 }
 
-void report_golden(const scene::Scene& scene, const Output& output, nlohmann::ordered_json& json) {
+void report_culling(const golden::CullingReport& culling, const Output& output, nlohmann::ordered_json& json) {
+  const auto share = [&culling](std::uint64_t part) {
+    return culling.voxels == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(culling.voxels);
+  };
+  output.line(fmt::format("culling: {:.1f} % splatted, {:.1f} % culled in blocks, {:.1f} % singly, {:.1f} % outside",
+                          share(culling.splatted), share(culling.culled_in_blocks), share(culling.culled_singly),
+                          share(culling.outside)));
+  output.line(fmt::format("culling: {} of splats, {} of blocks, {} hidden", counted(culling.splat_tests, "test"),
+                          counted(culling.block_tests, "test"), counted(culling.blocks_culled, "block")));
+  json["culling"] = {{"voxels", culling.voxels},
+                     {"splatted", culling.splatted},
+                     {"culled_in_blocks", culling.culled_in_blocks},
+                     {"culled_singly", culling.culled_singly},
+                     {"outside", culling.outside},
+                     {"share_splatted", culling.share_splatted()},
+                     {"splat_tests", culling.splat_tests},
+                     {"block_tests", culling.block_tests},
+                     {"blocks", culling.blocks},
+                     {"blocks_culled", culling.blocks_culled},
+                     {"map_seconds", culling.map_seconds},
+                     {"test_seconds", culling.test_seconds}};
+}
+
+void report_golden(const scene::Scene& scene, const golden::RenderReport& report, const Output& output,
+                   nlohmann::ordered_json& json) {
   const auto voxels = voxel_count(scene);
   const int sheets = sheet_count(scene);
   output.line(fmt::format("golden: {}{}", counted(voxels, "splat"), sheets > 0 ? ", " + counted(sheets, "sheet") : ""));
   json["voxels"] = voxels;
   json["sheets"] = sheets;
+  json["traversal_seconds"] = report.traversal_seconds;
+  json["splatting_seconds"] = report.splatting_seconds;
+  if (report.culling) report_culling(*report.culling, output, json);
 }
 
 }  // namespace
@@ -71,7 +97,7 @@ analysis::Metadata metadata_of(const Renderer& renderer, const scene::Scene& sce
 RenderedFrame render_frame(const Renderer& renderer, const scene::Scene& scene, const Progress& progress) {
   RenderedFrame frame;
   if (renderer.engine == Engine::Golden) {
-    frame.picture = golden::render(scene, {.threads = renderer.threads, .progress = progress});
+    frame.picture = golden::render(scene, {.threads = renderer.threads, .progress = progress, .report = &frame.golden});
     return frame;
   }
   const driver::RenderOptions options{.threads = renderer.threads, .progress = progress};
@@ -87,7 +113,7 @@ void report_frame(const Renderer& renderer, const scene::Scene& scene, const Ren
   if (const auto* device = std::get_if<driver::DeviceRender>(&frame.picture)) {
     report_device(*device, *renderer.config, output, json);
   } else {
-    report_golden(scene, output, json);
+    report_golden(scene, frame.golden, output, json);
   }
   if (frame.checked) report_rtl(*frame.checked, output, json);
 }

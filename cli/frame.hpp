@@ -11,6 +11,7 @@
 #include "cli/output.hpp"
 #include "cli/rtl_run.hpp"
 #include "driver/render.hpp"
+#include "golden/render.hpp"
 
 namespace fastsplat::cli {
 
@@ -36,6 +37,7 @@ struct FrameFiles {
 
 struct RenderedFrame {
   std::variant<Image, driver::DeviceRender> picture;
+  golden::RenderReport golden;  ///< of the golden engine
   std::optional<RtlRun> checked;
 };
 

@@ -103,6 +103,14 @@ void refuse_idle_flags(const SceneFlags& flags, const scene::SceneDescription& t
        "a texture",
        "add --texture NAME",
        {"--texture-where", "--texture-scale", "--texture-amplitude"}},
+      {to.culling.mode != scene::CullingMode::Off,
+       "culling",
+       "add --culling blocks",
+       {"--culling-test", "--culling-theta", "--culling-block"}},
+      {to.culling.test == scene::VisibilityTest::Average,
+       "the average test",
+       "add --culling-test average",
+       {"--culling-theta"}},
       {to.bump.kind != scene::SolidKind::None, "bumps", "add --bump NAME", {"--bump-scale", "--bump-amplitude"}},
   };
   for (const Technique& technique : techniques) {

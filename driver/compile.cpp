@@ -28,6 +28,7 @@ struct Plan {
 void refuse_golden_only(const scene::SceneDescription& description) {
   std::string key = scene::technique_in_use(description.footprint, description.motion, description.lens);
   if (key.empty()) key = scene::pixel_technique_in_use(description);
+  if (key.empty()) key = scene::culling_in_use(description.culling);
   if (key.empty()) return;
   throw_usage({.where = key,
                .what = "the device does not have this technique",

@@ -22,13 +22,6 @@ void for_each_band(const Bands& bands, int threads, const Progress& progress,
   });
 }
 
-namespace {
-
-struct BandRange {
-  int first = 0;
-  int end = 0;  ///< first == end: outside the image
-};
-
 BandRange bands_of(const ProjectedSplat& splat, const Bands& bands, int width) {
   const double left = std::ceil(splat.x - splat.reach_x);
   const double right = std::floor(splat.x + splat.reach_x);
@@ -37,8 +30,6 @@ BandRange bands_of(const ProjectedSplat& splat, const Bands& bands, int width) {
   if (right < 0.0 || left > width - 1.0 || top > bottom) return {};
   return {static_cast<int>(top) / bands.rows_per_band, static_cast<int>(bottom) / bands.rows_per_band + 1};
 }
-
-}  // namespace
 
 // A stable counting sort: count every bucket, turn the counts into starts, fill.
 BandIndex::BandIndex(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const Bands& bands, int keys,

@@ -30,6 +30,13 @@ struct Bands {
 void for_each_band(const Bands& bands, int threads, const Progress& progress,
                    const std::function<void(int band)>& work);
 
+struct BandRange {
+  int first = 0;
+  int end = 0;  ///< first == end: outside the image
+};
+/// The bands that the splat's footprint may reach into.
+BandRange bands_of(const ProjectedSplat& splat, const Bands& bands, int width);
+
 /// For every band the indices of the splats that reach into it, sorted by key; equal keys stay in the order given.
 class BandIndex {
  public:

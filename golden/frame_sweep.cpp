@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <cassert>
 #include <functional>
 #include <optional>
@@ -28,10 +27,11 @@ class FrameSweep {
         height_(scene.camera.height()),
         project_(scene),
         bands_{height_},
-        index_(scene, splats, bands_, assignment.sheets(), first_sheet()),
         pixels_(static_cast<std::size_t>(width_) * height_),
         footprints_(bands_.count()),
-        shares_(bands_.count()) {
+        shares_(bands_.count()),
+        visible_in_(bands_.count()),
+        changed_(height_) {
     for (const SheetStage* stage : stages.sheet_stages) {
       needs_neighbours_ |= stage->needs_neighbours();
       margin_ += stage->margin();
@@ -40,9 +40,9 @@ class FrameSweep {
       margin_ += stages.filter->margin();
       layers_ = {width_, std::vector<Layer>(pixels_.size()), std::vector<Run>(height_)};
     }
-    if (stages.occlusion) {
-      whole_frame_.emplace(scene, splats, Bands{height_, height_}, assignment.sheets(), first_sheet());
-      hidden_.resize(splats.size());
+    if (!stages.occlusion) {
+      index_.emplace(scene, splats, bands_, assignment.sheets(),
+                     [&assignment](const ProjectedSplat& splat) { return assignment.first(splat); });
     }
     // Live at once: the sheets that the splats at hand reach, and where neighbours are read the two in front of these.
     const int live = assignment.reach() + (needs_neighbours_ ? 2 : 0);
@@ -54,9 +54,10 @@ class FrameSweep {
   Image run() {
     const int sheets = assignment_.sheets();
     for (int sheet = 0; sheet < sheets; ++sheet) {
-      if (stages_.occlusion) ask_occlusion(sheet);
       splat_sheet(sheet);
-      if (!needs_neighbours_) {
+      if (stages_.sheet_stages.empty()) {
+        finish_plain(sheet);
+      } else if (!needs_neighbours_) {
         const Sheet& here = at(sheet);
         finish({sheet, here, here, here});
         clear(sheet);
@@ -76,10 +77,6 @@ class FrameSweep {
   }
 
  private:
-  std::function<int(const ProjectedSplat&)> first_sheet() const {
-    return [this](const ProjectedSplat& splat) { return assignment_.first(splat); };
-  }
-
   void check_memory(int live) const {
     const double bytes = static_cast<double>(live) * static_cast<double>(pixels_.size()) * sizeof(Sums);
     if (bytes <= kFrameSweepBytes) return;
@@ -98,43 +95,41 @@ class FrameSweep {
                  [&](std::size_t band) { work(static_cast<int>(band), bands_.rows(static_cast<int>(band))); });
   }
 
-  /// Each splat is judged once, by the picture as it is now, whatever the number of bands it lies in.
-  void ask_occlusion(int sheet) {
-    constexpr std::size_t kBlock = 1024;
-    Occlusion& occlusion = *stages_.occlusion;
-    occlusion.before_sheet(sheet, composited_, pixels_);
-    const auto bucket = whole_frame_->bucket(0, sheet);
-    std::atomic<std::size_t> hidden = 0, by_block = 0;
-    parallel_for((bucket.size() + kBlock - 1) / kBlock, options_.threads, [&](std::size_t block) {
-      for (const std::uint32_t i : bucket.subspan(block * kBlock, std::min(kBlock, bucket.size() - block * kBlock))) {
-        const bool with_block = occlusion.block_hidden(i);
-        hidden_[i] = with_block || occlusion.hidden(project_(splats_[i]), margin_);
-        hidden += hidden_[i];
-        by_block += with_block;
-      }
-    });
-    occlusion.culled(sheet, bucket.size(), hidden, by_block);
-  }
-
+  /// What is visible is decided before the sheet's first splat, by the picture as it is then, for all bands alike.
   void splat_sheet(int sheet) {
+    std::span<const ProjectedSplat> visible;
+    if (stages_.occlusion) {
+      visible = stages_.occlusion->visible(sheet, margin_);
+      for (std::vector<std::uint32_t>& indices : visible_in_) indices.clear();
+      for (std::uint32_t i = 0; i < visible.size(); ++i) {
+        const BandRange reached = bands_of(visible[i], bands_, width_);
+        for (int band = reached.first; band < reached.end; ++band) visible_in_[band].push_back(i);
+      }
+    }
     for_each_row_band([&](int band, Rows rows) {
-      Footprint& footprint = footprints_[band];
-      std::vector<double>& shares = shares_[band];
-      for (const std::uint32_t i : index_.bucket(band, sheet)) {
-        if (stages_.occlusion && hidden_[i]) continue;
-        const ProjectedSplat splat = project_(splats_[i]);
-        footprint.rasterise(scene_.kernel, splat, rows, width_);
-        assignment_.shares(splat, shares);
-        assert(static_cast<int>(shares.size()) <= assignment_.reach());
-        for (int s = 0; s < static_cast<int>(shares.size()); ++s) {
-          if (stages_.deposit) {
-            stages_.deposit->add(at(sheet + s), sheet + s, footprint, splat, shares[s]);
-          } else {
-            at(sheet + s).add(footprint, scaled(splat.value, shares[s]));
-          }
+      if (stages_.occlusion) {
+        for (const std::uint32_t i : visible_in_[band]) splat_rows(sheet, visible[i], band, rows);
+      } else {
+        for (const std::uint32_t i : index_->bucket(band, sheet)) {
+          splat_rows(sheet, project_(splats_[i]), band, rows);
         }
       }
     });
+  }
+
+  void splat_rows(int sheet, const ProjectedSplat& splat, int band, Rows rows) {
+    Footprint& footprint = footprints_[band];
+    std::vector<double>& shares = shares_[band];
+    footprint.rasterise(scene_.kernel, splat, rows, width_);
+    assignment_.shares(splat, shares);
+    assert(static_cast<int>(shares.size()) <= assignment_.reach());
+    for (int s = 0; s < static_cast<int>(shares.size()); ++s) {
+      if (stages_.deposit) {
+        stages_.deposit->add(at(sheet + s), sheet + s, footprint, splat, shares[s]);
+      } else {
+        at(sheet + s).add(footprint, scaled(splat.value, shares[s]));
+      }
+    }
   }
 
   void clear(int sheet) {
@@ -155,20 +150,43 @@ class FrameSweep {
         std::copy(window.here.row(y) + run.begin, window.here.row(y) + run.end, material.begin() + run.begin);
         const std::span<Sums> pixels = std::span(material).subspan(run.begin, run.size());
         for (const SheetStage* stage : stages_.sheet_stages) stage->row(window, y, run.begin, pixels);
-        if (filtered) {
-          to_layers(y, run, pixels);
-        } else {
-          composite(y, run, pixels);
-        }
+        hand_over(y, run, pixels, filtered);
       }
     });
-    if (filtered) composite_filtered(window.number);
-    composited_ = window.number + 1;
+    after_layers(window.number, filtered);
+  }
+
+  /// finish and clear in one go, each row while it is at hand.
+  void finish_plain(int number) {
+    Sheet& sheet = at(number);
+    const bool filtered = stages_.filter && !stages_.filter->leaves(number);
+    for_each_row_band([&](int, Rows rows) {
+      for (int y = rows.first; y < rows.end; ++y) {
+        const Run run = sheet.touched(y).empty() ? Run{} : sheet.touched(y);
+        hand_over(y, run, {sheet.row(y) + run.begin, static_cast<std::size_t>(run.size())}, filtered);
+        sheet.clear_row(y);
+      }
+    });
+    after_layers(number, filtered);
+  }
+
+  void hand_over(int y, Run run, std::span<const Sums> material, bool filtered) {
+    if (filtered) {
+      to_layers(y, run, material);
+    } else {
+      composite(y, run, material);
+    }
+  }
+
+  void after_layers(int sheet, bool filtered) {
+    if (filtered) composite_filtered(sheet);
+    if (stages_.occlusion) stages_.occlusion->composited(pixels_, changed_);
   }
 
   FrontToBack* picture_row(int y) { return &pixels_[static_cast<std::size_t>(y) * width_]; }
 
   void composite(int y, Run run, std::span<const Sums> material) {
+    changed_[y] = run;
     for (int i = 0; i < run.size(); ++i) {
       FrontToBack& pixel = picture_row(y)[run.begin + i];
       if (!(material[i][3] > 0.0) || pixel.transmittance < stages_.freeze_below) continue;
@@ -190,6 +208,7 @@ class FrameSweep {
       std::vector<Layer> filtered(width_);
       for (int y = rows.first; y < rows.end; ++y) {
         const Run run = filter.extent(sheet, layers_, y);
+        changed_[y] = run;
         if (run.empty()) continue;
         filter.row(sheet, layers_, y, run.begin, std::span(filtered).first(run.size()));
         for (int i = 0; i < run.size(); ++i) {
@@ -208,18 +227,17 @@ class FrameSweep {
   int width_, height_;
   Projector project_;
   Bands bands_;
-  BandIndex index_;
+  std::optional<BandIndex> index_;  ///< without Occlusion
   std::vector<FrontToBack> pixels_;
   std::vector<Footprint> footprints_;        ///< one per band
   std::vector<std::vector<double>> shares_;  ///< one per band
   bool needs_neighbours_ = false;
   int margin_ = 0;
-  int composited_ = 0;
   std::vector<Sheet> ring_;
   std::optional<Sheet> nothing_;
   LayerFrame layers_;
-  std::optional<BandIndex> whole_frame_;  ///< for Occlusion: every splat once
-  std::vector<std::uint8_t> hidden_;      ///< by splat
+  std::vector<std::vector<std::uint32_t>> visible_in_;  ///< with Occlusion: by band, of the sheet's visible splats
+  std::vector<Run> changed_;                            ///< by row, of the sheet composited last
 };
 
 }  // namespace

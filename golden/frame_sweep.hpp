@@ -77,21 +77,12 @@ class LayerFilter {
 class Occlusion {
  public:
   virtual ~Occlusion() = default;
-  /// Called before the splats whose nearest sheet is `sheet` are splatted, with the picture of the first `composited`
-  /// sheets (`sheet`, or one less where a stage needs neighbours). Row by row. On one thread.
-  virtual void before_sheet(int sheet, int composited, std::span<const FrontToBack> pixels) = 0;
-  /// A voxel set (block, brick) may have been found hidden as a whole: asked first, by the splat's index.
-  virtual bool block_hidden(std::uint32_t index) const {
-    (void)index;
-    return false;
-  }
-  /// True only if all pixels of the footprint grown by `margin` pixels on every side are opaque. Asked once per splat
-  /// that reaches the image; for many splats at once.
-  virtual bool hidden(const ProjectedSplat& splat, int margin) const = 0;
-  /// How many splats of the sheet reached the image, and how many of these were left out (of them, by block).
-  virtual void culled(int sheet, std::size_t asked, std::size_t hidden, std::size_t by_block) {
-    (void)sheet, (void)asked, (void)hidden, (void)by_block;
-  }
+  /// The splats that reach the image and whose nearest sheet is `sheet`, in their order, without those of which every
+  /// pixel of the footprint grown by `margin` pixels on every side is opaque. Asked once per sheet, front to back;
+  /// valid until asked again.
+  virtual std::span<const ProjectedSplat> visible(int sheet, int margin) = 0;
+  /// The picture after each sheet, and the pixels of each row that the sheet may have changed.
+  virtual void composited(std::span<const FrontToBack> picture, std::span<const Run> changed) = 0;
 };
 
 /// What is done besides adding and compositing; null and empty: nothing. Nothing is owned.

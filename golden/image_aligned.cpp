@@ -6,8 +6,8 @@
 #include "golden/bump_mapping.hpp"
 #include "golden/density_splats.hpp"
 #include "golden/depth_of_field_sheets.hpp"
-#include "golden/frame_sweep.hpp"
 #include "golden/gradient_splats.hpp"
+#include "golden/occlusion_culling.hpp"
 #include "golden/post_classified.hpp"
 #include "golden/render.hpp"
 #include "golden/sheet_sweep.hpp"
@@ -37,8 +37,7 @@ Image image_aligned(const scene::Scene& scene, const std::vector<scene::Splat>& 
   FrameStages stages;
   if (textured_pixels(scene)) stages.sheet_stages.push_back(&texture);
   if (lens) stages.filter = &*lens;
-  if (stages.sheet_stages.empty() && !lens) return composite_sheets(scene, splats, options, image_slabs(scene));
-  return sweep_frame(scene, splats, options, image_slabs(scene), stages);
+  return composite_visible(scene, splats, options, image_slabs(scene), stages);
 }
 
 Image post_classified(const scene::Scene& scene, const RenderOptions& options) {
@@ -54,7 +53,7 @@ Image post_classified(const scene::Scene& scene, const RenderOptions& options) {
   const GradientSplats gradients(scene.kernel, geometry);
   const bool splatted = scene.shading.on && scene.description.gradients == scene::GradientKind::Splats;
   const std::optional<DepthOfFieldSheets> lens = lens_on_sheets(scene, geometry);
-  return sweep_frame(
+  return composite_visible(
       scene, field.splats, options, image_slabs(scene),
       {.deposit = splatted ? &gradients : nullptr, .sheet_stages = {&classified}, .filter = lens ? &*lens : nullptr});
 }

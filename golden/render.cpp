@@ -1,12 +1,38 @@
 #include "golden/render.hpp"
 
 #include <cassert>
+#include <chrono>
 
 #include "base/error.hpp"
 
 namespace fastsplat::golden {
-
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+using Technique = Image (*)(const scene::Scene&, const std::vector<scene::Splat>&, const RenderOptions&);
+
+Image render_splats(Technique technique, const scene::Scene& scene, const RenderOptions& options) {
+  const auto start = Clock::now();
+  const std::vector<scene::Splat> splats = scene::collect_splats(scene);
+  const auto collected = Clock::now();
+  Image image = technique(scene, splats, options);
+  if (options.report) {
+    options.report->traversal_seconds = std::chrono::duration<double>(collected - start).count();
+    options.report->splatting_seconds = seconds_since(collected);
+  }
+  return image;
+}
+
+/// Collects its own densities; all its time is splatting.
+Image timed_post_classified(const scene::Scene& scene, const RenderOptions& options) {
+  const auto start = Clock::now();
+  Image image = post_classified(scene, options);
+  if (options.report) options.report->splatting_seconds = seconds_since(start);
+  return image;
+}
 
 void refuse_footprints(const scene::SceneDescription& description) {
   const std::string key = scene::technique_in_use(description.footprint, description.motion, description.lens);
@@ -26,14 +52,14 @@ Image render(const scene::Scene& scene, const RenderOptions& options) {
       refuse_footprints(scene.description);
       return ray_cast(scene, options);
     case scene::Method::XRay:
-      return xray(scene, scene::collect_splats(scene), options);
+      return render_splats(xray, scene, options);
     case scene::Method::Westover:
-      return westover(scene, scene::collect_splats(scene), options);
+      return render_splats(westover, scene, options);
     case scene::Method::AxisAligned:
-      return axis_aligned(scene, scene::collect_splats(scene), options);
+      return render_splats(axis_aligned, scene, options);
     case scene::Method::ImageAligned:
-      if (scene.description.classify == scene::ClassifyOrder::Post) return post_classified(scene, options);
-      return image_aligned(scene, scene::collect_splats(scene), options);
+      if (scene.description.classify == scene::ClassifyOrder::Post) return timed_post_classified(scene, options);
+      return render_splats(image_aligned, scene, options);
   }
   assert(false && "unknown method");
   return {};

@@ -1,16 +1,27 @@
 // The floating-point reference: one technique per file, formulas as in the papers. Double inside, float out.
 #pragma once
 
+#include <optional>
+
 #include "base/progress.hpp"
+#include "golden/culling_report.hpp"
 #include "scene/image.hpp"
 #include "scene/scene.hpp"
 #include "scene/splats.hpp"
 
 namespace fastsplat::golden {
 
+/// What a frame took.
+struct RenderReport {
+  double traversal_seconds = 0.0;  ///< classifying and shading the voxels
+  double splatting_seconds = 0.0;  ///< all else: sorting, culling, splatting, compositing
+  std::optional<CullingReport> culling;
+};
+
 struct RenderOptions {
   int threads = 0;  ///< 0: all cores. Never changes the result.
   Progress progress;
+  RenderReport* report = nullptr;  ///< filled when given
 };
 
 /// Renders scene.description.method. RGBA, premultiplied, linear; A is the opacity (X-ray: the exposed line integral of

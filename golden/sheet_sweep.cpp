@@ -109,9 +109,10 @@ Image sweep_sheets(const scene::Scene& scene, const std::vector<scene::Splat>& s
 Image composite_sheets(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options,
                        const SheetAssignment& assignment) {
   const scene::SlabOpacity opacity = scene.description.slab_opacity;
-  const auto take = [opacity](std::span<Sums> pixels, std::span<const Sums> sheet) {
+  const double freeze = scene.description.culling.freeze;
+  const auto take = [opacity, freeze](std::span<Sums> pixels, std::span<const Sums> sheet) {
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-      if (!(sheet[i][3] > 0.0)) continue;
+      if (!(sheet[i][3] > 0.0) || pixels[i][3] < freeze) continue;
       FrontToBack pixel{pixels[i][0], pixels[i][1], pixels[i][2], pixels[i][3]};
       pixel.add(make_layer(sheet[i], opacity));
       pixels[i] = {pixel.red, pixel.green, pixel.blue, pixel.transmittance};

@@ -71,7 +71,8 @@ Image sweep_sheets(const scene::Scene& scene, const std::vector<scene::Splat>& s
                    const SheetAssignment& assignment, const Sums& initial, const TakeSheet& take,
                    const StorePixel& store);
 
-/// sweep_sheets with the sheets composited front to back by the scene's slab opacity.
+/// sweep_sheets with the sheets composited front to back by the scene's slab opacity; a pixel whose transmittance is
+/// below culling.freeze no longer changes.
 Image composite_sheets(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options,
                        const SheetAssignment& assignment);
 

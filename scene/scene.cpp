@@ -43,11 +43,13 @@ double automatic_exposure(const Volume& volume, const TransferFunction& tf, doub
 
 Scene build_scene(const SceneDescription& description) {
   check_limits(description);
+  check_culling(description);
   return build_scene(description, std::make_shared<const Volume>(load_volume(description.volume)));
 }
 
 Scene build_scene(const SceneDescription& description, std::shared_ptr<const Volume> volume) {
   check_limits(description);
+  check_culling(description);
   const Kernel kernel = make_kernel(description);
   const double unit = volume->kernel_unit();
   const Camera camera(description.camera, *volume, kernel.radius() * unit, description.width, description.height);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/camera.hpp"
+#include "scene/culling.hpp"
 #include "scene/kernel.hpp"
 #include "scene/techniques.hpp"
 #include "scene/solid_texture.hpp"
@@ -44,6 +45,7 @@ struct SceneDescription {
   GradientKind gradients = GradientKind::Central;
   Texture texture{};
   Bump bump{};
+  Culling culling{};
 };
 
 /// Ready to render: files read, names resolved, limits checked.

@@ -28,6 +28,8 @@ TEST(GoldenOnly, techniques_are_refused_by_their_key) {
   with("motion.orbit").motion.orbit = 1.0;
   with("lens.depth_of_field").lens.depth_of_field = scene::DepthOfField::Splats;
 
+  with("culling.freeze").culling.freeze = 0.01;
+  with("culling.mode").culling = {.mode = scene::CullingMode::Blocks, .freeze = 0.01};
   with("classify.order").classify = scene::ClassifyOrder::Post;
   with("texture.where").texture.kind = scene::SolidKind::Marble;
   auto& bumpy = with("classify.order");

@@ -1,5 +1,5 @@
 // The sweep over whole sheets: without stages it is the band sweep bit for bit; with stages that look around it is the
-// same for every number of threads; and it asks about occlusion exactly once per splat, with the picture in front.
+// same for every number of threads; and it splats what occlusion shows, which sees the picture in front.
 #include "golden/frame_sweep.hpp"
 
 #include <gtest/gtest.h>
@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "golden/projection.hpp"
 #include "scenes_helper.hpp"
 
 namespace fastsplat::golden::testing {
@@ -174,70 +175,80 @@ TEST(FrameSweep, TheWindowShowsEverySheetInThreeRoles) {
   EXPECT_GT(filled, 10);
 }
 
-/// Hides splats of odd index by block and every third other one; keeps the books.
+/// Shows the splats of even place in each sheet only, or all; keeps the books.
 class Books final : public Occlusion {
  public:
-  explicit Books(std::size_t splats) : asked_of(splats) {}
-  void before_sheet(int sheet, int composited, std::span<const FrontToBack> pixels) override {
+  Books(const scene::Scene& scene, const std::vector<scene::Splat>& splats, bool half)
+      : half_(half), by_sheet_(static_cast<std::size_t>(slices(scene).sheets())) {
+    const Projector project(scene);
+    for (const scene::Splat& splat : splats) {
+      const ProjectedSplat projected = project(splat);
+      by_sheet_[static_cast<std::size_t>(slices(scene).first(projected))].push_back(projected);
+    }
+  }
+  std::span<const ProjectedSplat> visible(int sheet, int margin) override {
     EXPECT_EQ(sheet, sheets++);
-    EXPECT_EQ(composited, std::max(0, sheet - lag));
-    double now = 0.0;
-    for (const FrontToBack& pixel : pixels) now += pixel.transmittance;
-    EXPECT_LE(now, light);
-    light = now;
-  }
-  bool block_hidden(std::uint32_t index) const override {
-    ++asked_of[index];
-    return hide && index % 2 == 1;
-  }
-  bool hidden(const ProjectedSplat&, int margin) const override {
     EXPECT_EQ(margin, expected_margin);
-    return false;
+    EXPECT_EQ(pictures, std::max(0, sheet - lag));
+    shown_.clear();
+    const auto& all = by_sheet_[static_cast<std::size_t>(sheet)];
+    for (std::size_t i = 0; i < all.size(); i += half_ ? 2 : 1) shown_.push_back(all[i]);
+    shown += shown_.size(), asked += all.size();
+    return shown_;
   }
-  void culled(int, std::size_t asked, std::size_t hidden, std::size_t by_block) override {
-    total += asked, hid += hidden;
-    EXPECT_EQ(hidden, by_block);
+  void composited(std::span<const FrontToBack> picture, std::span<const Run> changed) override {
+    ++pictures;
+    before_.resize(picture.size());
+    const std::size_t width = picture.size() / changed.size();
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+      EXPECT_LE(picture[i].transmittance, before_[i].transmittance);
+      const Run run = changed[i / width];
+      const int x = static_cast<int>(i % width);
+      const bool told = x >= run.begin && x < run.end;
+      ASSERT_TRUE(told || picture[i].transmittance == before_[i].transmittance) << i;
+      changes += picture[i].transmittance != before_[i].transmittance;
+      before_[i] = picture[i];
+    }
   }
-  bool hide = false;
   int lag = 0, expected_margin = 0;
-  int sheets = 0;
-  double light = 1e30;
-  std::size_t total = 0, hid = 0;
-  mutable std::vector<int> asked_of;  // each entry belongs to one splat, asked by one thread
+  int sheets = 0, pictures = 0;
+  std::size_t shown = 0, asked = 0, changes = 0;
+
+ private:
+  bool half_;
+  std::vector<std::vector<ProjectedSplat>> by_sheet_;
+  std::vector<ProjectedSplat> shown_;
+  std::vector<FrontToBack> before_;
 };
 
-TEST(FrameSweep, AsksAboutEachSplatOnceBeforeItIsSplatted) {
+TEST(FrameSweep, SplatsWhatOcclusionShowsAndTellsItWhatChanged) {
   const scene::Scene scene = make_scene(view());
   const std::vector<scene::Splat> splats = scene::collect_splats(scene);
-  const Image plain = composite_sheets(scene, splats, {}, slices(scene));
-  Books nothing(splats.size());
-  EXPECT_EQ(plain, sweep_frame(scene, splats, {}, slices(scene), {.occlusion = &nothing}));
-  EXPECT_EQ(nothing.sheets, slices(scene).sheets());
-  EXPECT_EQ(nothing.hid, 0u);
-  std::size_t in_image = 0;
-  for (const int times : nothing.asked_of) {
-    ASSERT_LE(times, 1);
-    in_image += static_cast<std::size_t>(times);
-  }
-  EXPECT_EQ(in_image, nothing.total);
-  ASSERT_LT(in_image, splats.size()) << "no splat was outside the picture";
+  Books all(scene, splats, false);
+  EXPECT_EQ(composite_sheets(scene, splats, {}, slices(scene)),
+            sweep_frame(scene, splats, {}, slices(scene), {.occlusion = &all}));
+  EXPECT_EQ(all.sheets, slices(scene).sheets());
+  EXPECT_EQ(all.pictures, all.sheets);
+  EXPECT_EQ(all.shown, splats.size());
+  figure("pixels_changed_by_sheets", static_cast<double>(all.changes), "all of them told");
+  ASSERT_GT(all.changes, 10000u);
 
-  Books half(splats.size());
-  half.hide = true;
-  std::vector<scene::Splat> kept;
-  for (std::size_t i = 0; i < splats.size(); i += 2) kept.push_back(splats[i]);
-  EXPECT_EQ(composite_sheets(scene, kept, {}, slices(scene)),
-            sweep_frame(scene, splats, {}, slices(scene), {.occlusion = &half}));
-  figure("splats_asked_about", static_cast<double>(half.total), "each once");
-  figure("splats_hidden", static_cast<double>(half.hid), "those of odd index");
-  ASSERT_GT(half.hid, 100u);
+  Books half(scene, splats, true);
+  const Image hidden = sweep_frame(scene, splats, {}, slices(scene), {.occlusion = &half});
+  EXPECT_LT(max_opacity(hidden), max_opacity(composite_sheets(scene, splats, {}, slices(scene))));
+  figure("splats_shown", static_cast<double>(half.shown), "about half of those asked about");
+  EXPECT_NEAR(static_cast<double>(half.shown), 0.5 * static_cast<double>(half.asked), 0.5 * half.sheets);
 
   const Neighbours neighbours;
   const TwoRows filter;
-  Books late(splats.size());
+  Books late(scene, splats, false);
   late.lag = 1;
   late.expected_margin = 2;
-  sweep_frame(scene, splats, {}, slices(scene), {.sheet_stages = {&neighbours}, .filter = &filter, .occlusion = &late});
+  const FrameStages around{.sheet_stages = {&neighbours}, .filter = &filter};
+  FrameStages watched = around;
+  watched.occlusion = &late;
+  EXPECT_EQ(sweep_frame(scene, splats, {}, slices(scene), around),
+            sweep_frame(scene, splats, {}, slices(scene), watched));
   EXPECT_EQ(late.sheets, slices(scene).sheets());
 }
 

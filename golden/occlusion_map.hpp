@@ -1,0 +1,47 @@
+// The occlusion map: which pixels are opaque after the sheets so far, and whether a whole window of them is.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "golden/composite.hpp"
+#include "golden/sheet.hpp"
+#include "golden/summed_area_table.hpp"
+#include "scene/culling.hpp"
+
+namespace fastsplat::golden {
+
+class OcclusionMap {
+ public:
+  OcclusionMap(int width, int height, const scene::Culling& culling);
+
+  /// After a sheet: takes the pixels of each row's run anew. The picture's transmittances must not have grown.
+  void update(std::span<const FrontToBack> picture, std::span<const Run> changed);
+
+  /// The visibility test, of a window inside the image that is not empty.
+  ///   Count: every pixel's transmittance is below culling.freeze. Exact.
+  ///   Average: the mean opacity is at least theta, so the transmittances in it add up to at most area * (1 - theta):
+  ///   what is hidden can be seen at one pixel with up to min(1, area * (1 - theta)). Opacities are rounded down to
+  ///   1/256 (a map of bytes, as in the papers), so the mean can only seem smaller than it is.
+  bool hides(const Window& window) const;
+
+  /// By pixel: Count 1 where opaque; Average the opacity in 1/256, at most 255.
+  std::span<const std::uint8_t> levels() const { return levels_; }
+  /// By pixel: after how many updates its transmittance was below culling.freeze; 0: not yet.
+  const std::vector<std::uint32_t>& opaque_after() const { return opaque_after_; }
+
+ private:
+  int width_;
+  bool average_;
+  double freeze_, theta_;
+  std::vector<std::uint8_t> levels_;
+  std::vector<std::uint32_t> opaque_after_;
+  std::uint32_t updates_ = 0;
+  SummedAreaTable table_;
+  bool any_ = false;  ///< whether any level is above 0: before that nothing hides anything
+};
+
+/// Pixels whose centres lie within reach_x, reach_y of (x,y), clipped to the image; empty outside it.
+Window window_around(double x, double y, double reach_x, double reach_y, int width, int height);
+
+}  // namespace fastsplat::golden

@@ -1,0 +1,41 @@
+// Occlusion culling's settings: docs/techniques/occlusion_culling.md. Only the golden renderer has them; the device has
+// its configuration's own freeze_below.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace fastsplat::scene {
+
+struct SceneDescription;
+
+enum class CullingMode {
+  Off,
+  Splats,  ///< every splat is tested when its nearest sheet's turn comes
+  Blocks,  ///< blocks of voxels first, from the whole volume down; then the splats that are left
+};
+
+enum class VisibilityTest {
+  Count,    ///< all pixels are opaque: exact
+  Average,  ///< their mean opacity reaches theta: may lose what shows through a hole
+};
+
+struct Culling {
+  CullingMode mode = CullingMode::Off;
+  VisibilityTest test = VisibilityTest::Count;
+  double freeze = 0.0;  ///< a pixel of transmittance below this is opaque and no longer changes, whatever the mode
+  double theta = 0.95;  ///< mean opacity that VisibilityTest::Average asks for
+  int block = 8;        ///< edge of the smallest block, voxels
+};
+
+/// The first key of it that is turned on ("culling.mode"); empty if none is.
+std::string culling_in_use(const Culling& culling);
+
+/// UserError (Usage) unless the method has sheets to composite and culling has something to go by. Blocks know the
+/// footprints of circles only.
+void check_culling(const SceneDescription& description);
+
+const std::vector<std::string>& culling_mode_names();     ///< in the order of CullingMode
+const std::vector<std::string>& visibility_test_names();  ///< in the order of VisibilityTest
+
+}  // namespace fastsplat::scene

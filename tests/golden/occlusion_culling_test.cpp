@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "scenes_helper.hpp"
 
 namespace fastsplat::golden::testing {
@@ -118,6 +120,32 @@ TEST(OcclusionCulling, BlocksDoNotChangeTheOrder) {
   }
   figure("splats_in_the_same_place", static_cast<double>(compared), "all");
   EXPECT_EQ(compared, splats.size());
+}
+
+// What looks around a pixel widens what must be opaque: a splat at `margin` pixels from an open half is kept.
+TEST(OcclusionCulling, AMarginKeepsTheSplatsBesideWhatIsOpen) {
+  const scene::Scene scene = culled(opaque(), CullingMode::Splats);
+  const std::vector<scene::Splat> splats = scene::collect_splats(scene);
+  const KernelSlices slices = image_slabs(scene);
+  const int width = scene.camera.width(), height = scene.camera.height(), open = width / 2;
+  std::vector<FrontToBack> picture(static_cast<std::size_t>(width) * height);
+  for (std::size_t i = 0; i < picture.size(); ++i) {
+    picture[i].transmittance = static_cast<int>(i % static_cast<std::size_t>(width)) < open ? 1.0 : 0.0;
+  }
+  std::size_t kept[2] = {};
+  for (const int margin : {0, 3}) {
+    OcclusionCulling culling(scene, splats, 0, slices, scene.description.culling);
+    culling.composited(picture, std::vector<golden::Run>(static_cast<std::size_t>(height), golden::Run{0, width}));
+    for (int sheet = 0; sheet < slices.sheets(); ++sheet) {
+      for (const ProjectedSplat& splat : culling.visible(sheet, margin)) {
+        ASSERT_LE(std::ceil(splat.x - splat.reach_x - margin), open - 1);
+        ++kept[margin > 0];
+      }
+    }
+  }
+  figure("splats_kept", static_cast<double>(kept[0]), "fewer than with a margin");
+  figure("splats_kept_with_margin_3", static_cast<double>(kept[1]), "more");
+  EXPECT_GT(kept[1], kept[0]);
 }
 
 // Splats anywhere, of any opacity: holes between them, and blocks that are not full.

@@ -125,7 +125,11 @@ Checked verify_scene(const VerifyArguments& arguments, testbench::VerifyOptions 
       if (progress) progress(static_cast<std::size_t>(tile) + 1, static_cast<std::size_t>(tiles));
     }
   };
-  return verify_one(source, options, "scene");
+  Checked out = verify_one(source, options, "scene");
+  // Pixels of a device that was given no splat are equal whatever is wrong with it.
+  if (out.result.verdict == testbench::Verdict::Pass && out.result.counters.splats == 0)
+    out.result.verdict = testbench::Verdict::NothingCompared;
+  return out;
 }
 
 void report_failure(const Checked& checked, const VerifyArguments& arguments, const Output& output, Json& json) {
@@ -235,9 +239,14 @@ ExitCode run(const VerifyArguments& arguments) {
   output.line(fmt::format("{}: configuration {} {}, {} comparisons, {} mismatches",
                           testbench::to_string(result.verdict), config.name, hash, grouped(result.check.comparisons),
                           grouped(result.check.mismatches)));
-  output.line(fmt::format("{} streams, {} splats, {} windows, {} cycles", grouped(checked.streams),
-                          grouped(result.counters.splats), grouped(result.counters.windows),
-                          grouped(result.check.cycles_rtl.value_or(result.last_cycle))));
+  output.line(fmt::format("{}, {}, {}, {}", counted(checked.streams, "stream"),
+                          counted(result.counters.splats, "splat"), counted(result.counters.windows, "window"),
+                          counted(result.check.cycles_rtl.value_or(result.last_cycle), "cycle")));
+  if (source == Source::Scene && result.verdict == testbench::Verdict::NothingCompared) {
+    output.warn(
+        "no splat of the scene reached the device; try a larger --opacity-scale or --xray-exposure, another --tf or a "
+        "smaller --zoom");
+  }
   if (result.verdict == testbench::Verdict::Mismatch || result.verdict == testbench::Verdict::Simulation)
     report_failure(checked, arguments, output, json);
   if (!arguments.coverage.empty() && result.verdict == testbench::Verdict::Pass)

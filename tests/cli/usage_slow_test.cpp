@@ -12,6 +12,7 @@ struct Misuse {
   std::vector<std::string> arguments;
   std::vector<std::string> said;
 };
+void PrintTo(const Misuse& misuse, std::ostream* out) { *out << misuse.name; }
 
 class Usage : public ::testing::TestWithParam<Misuse> {};
 

@@ -51,5 +51,21 @@ TEST(Verify, RenderWithCheckTellsThemToo) {
   EXPECT_EQ(checked.at("counters"), plain.at("counters"));
 }
 
+TEST(Verify, ASceneOfWhichNothingReachesTheDeviceIsNoPass) {
+  // tiny's colour words are too short for the automatic exposure of an X-ray: every voxel rounds to nothing.
+  const auto verify = [](const std::string& exposure) {
+    return fastsplat({"verify", "--volume", "shells:64", "--size", "24", "--method", "xray", "--xray-exposure",
+                      exposure, "--config", "tiny", "--json", "-"});
+  };
+  const auto dark = verify("1e-9"), bright = verify("0.1");
+  EXPECT_EQ(dark.code, 1);
+  EXPECT_NE(dark.err.find("no splat of the scene reached the device"), std::string::npos) << dark.err;
+  const auto json = nlohmann::json::parse(dark.out);
+  EXPECT_EQ(json.at("verdict"), "nothing compared");
+  EXPECT_EQ(json.at("splats"), 0);
+  EXPECT_EQ(bright.code, 0) << bright.err;
+  EXPECT_GT(nlohmann::json::parse(bright.out).at("splats"), 100);
+}
+
 }  // namespace
 }  // namespace fastsplat::cli_test

@@ -16,6 +16,7 @@ namespace {
 struct Shape {
   double a, radius;
 };
+void PrintTo(const Shape& shape, std::ostream* out) { *out << "a=" << shape.a << ",R=" << shape.radius; }
 
 class KernelIntegrals : public ::testing::TestWithParam<Shape> {
  protected:

@@ -93,8 +93,8 @@ ExitCode run(const CyclesArguments& arguments) {
                  .others = {arguments.trace, arguments.common.json},
                  .inputs = {arguments.stream}});
   const auto config = driver::load_config(arguments.config);
-  const auto seed = static_cast<std::uint64_t>(arguments.seed);
-  const testbench::Pattern input(arguments.input, seed), ready(arguments.ready, seed + 1);
+  const auto [input, ready] =
+      testbench::patterns_of(arguments.input, arguments.ready, static_cast<std::uint64_t>(arguments.seed));
   CycleTrace trace;
   cmodel::CycleOptions options;
   if (arguments.input != "always") options.input = &input;

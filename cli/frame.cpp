@@ -9,6 +9,7 @@
 #include "cli/device_report.hpp"
 #include "cli/image_output.hpp"
 #include "cli/scene_flags.hpp"
+#include "golden/antialias.hpp"
 #include "scene/splats.hpp"
 
 namespace fastsplat::cli {
@@ -19,7 +20,7 @@ const std::vector<std::string> kEngines{"golden", "cmodel", "rtl"};
 int sheet_count(const scene::Scene& scene) {
   switch (scene.description.method) {
     case scene::Method::ImageAligned:
-      return scene::slab_grid(scene).count;
+      return golden::slabs_for_grown_kernels(scene).count;
     case scene::Method::AxisAligned:
       return scene::axis_sheet_count(scene);
     case scene::Method::XRay:

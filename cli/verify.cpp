@@ -40,6 +40,13 @@ Source source_from(const VerifyArguments& arguments) {
                  .got = {},
                  .fix = "for example --random 1000"});
   }
+  if (!has_scene && !(scene == SceneFlags{})) {
+    throw_usage({.where = arguments.random ? "--random" : "--stream",
+                 .what = "a scene's flags mean nothing here",
+                 .expected = {},
+                 .got = {},
+                 .fix = "leave them out, or verify a scene with --volume NAME or --scene FILE"});
+  }
   if (!arguments.random && (arguments.seeds != 1 || arguments.stimulus != "all" || arguments.ready == "all")) {
     throw_usage({.where = {},
                  .what = "--seeds, --class and --ready all belong to --random",

@@ -32,17 +32,12 @@ inline double depth_growth(const scene::Scene& scene, double depth) {
 /// The most that any splat of the scene grows: the farthest one.
 inline double largest_growth(const scene::Scene& scene) { return depth_growth(scene, scene.volume->bounding_radius()); }
 
+/// The most slabs that grown kernels may add: each one that a splat reaches is kept in memory.
+inline constexpr double kMostSlabsMore = 4096;
+
 /// scene::slab_grid with whole slabs added at both ends, so that the grown kernels of the nearest and the farthest
-/// voxels find slabs as thin as all others. What was there keeps its place.
-inline scene::SlabGrid slabs_for_grown_kernels(const scene::Scene& scene) {
-  scene::SlabGrid grid = scene::slab_grid(scene);
-  const auto slabs_more = [&](double depth) {
-    return static_cast<int>(std::ceil((depth_growth(scene, depth) - 1.0) * scene.kernel.radius() / grid.width));
-  };
-  const int before = slabs_more(-scene.volume->bounding_radius());
-  grid.first -= before * grid.width;
-  grid.count += before + slabs_more(scene.volume->bounding_radius());
-  return grid;
-}
+/// voxels find slabs as thin as all others. What was there keeps its place. UserError (Usage) when these are more than
+/// kMostSlabsMore.
+scene::SlabGrid slabs_for_grown_kernels(const scene::Scene& scene);
 
 }  // namespace fastsplat::golden

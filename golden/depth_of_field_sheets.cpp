@@ -1,6 +1,10 @@
 #include "golden/depth_of_field_sheets.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+
+#include "base/error.hpp"
 
 namespace fastsplat::golden {
 namespace {
@@ -18,6 +22,15 @@ DepthOfFieldSheets::DepthOfFieldSheets(const scene::Lens& lens, const SheetGeome
   for (int sheet = 0; sheet < geometry.sheets(); ++sheet) {
     const double diameter = scene::circle_of_confusion(geometry.camera(), lens, geometry.depth_mm(sheet));
     if (!(diameter > 0.0)) continue;
+    // A disc's weights are a table of its own size; one as wide as the picture leaves nothing to be seen in it.
+    const int side = std::max(geometry.camera().width(), geometry.camera().height());
+    if (!(diameter <= side)) {
+      throw_usage({.where = "lens.aperture",
+                   .what = "circles of confusion are wider than the picture",
+                   .expected = fmt::format("at most {} pixels", side),
+                   .got = fmt::format("{:.6g}", diameter),
+                   .fix = "lower --aperture, or use --depth-of-field splats"});
+    }
     margin_ = std::max(margin_, discs_.emplace(sheet, DiscFilter(diameter)).first->second.reach());
   }
 }

@@ -29,7 +29,7 @@ module splat_array (
     input  logic [fastsplat_pkg::COL_BITS-1:0]              column_i,    // of the window within the footprint, pixels
     input  logic [fastsplat_pkg::COL_BITS-1:0]              row_i,
     input  logic [4*fastsplat_pkg::COLOUR_BITS-1:0]         colour_i,
-    // dirty blocks of the window at c4
+    // dirty blocks of the window at c3
     output logic                                            dirty_valid_o,
     output logic                                            dirty_buffer_o,
     output logic [fastsplat_pkg::LANES*fastsplat_pkg::BLK_BITS-1:0] dirty_column_o,

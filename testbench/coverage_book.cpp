@@ -48,6 +48,16 @@ void write_book(const std::filesystem::path& path, const CoverageBook& book) {
   write_text_file(path, json.dump(1) + "\n");
 }
 
+namespace {
+
+/// nlohmann would wrap a negative number and cut a fraction.
+std::uint64_t count_of(const Json& json) {
+  if (!json.is_number_unsigned()) throw std::runtime_error(json.dump() + " is no count");
+  return json.get<std::uint64_t>();
+}
+
+}  // namespace
+
 CoverageBook read_book(const std::filesystem::path& path) {
   const std::string text = read_text_file(path, kMostBytes);
   try {
@@ -55,15 +65,16 @@ CoverageBook read_book(const std::filesystem::path& path) {
     if (json.at("format") != kFormat) throw std::runtime_error("another format");
     CoverageBook book{.config = json.at("config"),
                       .config_hash = std::stoull(json.at("config_hash").get<std::string>(), nullptr, 16),
-                      .streams = json.at("streams"),
-                      .splats = json.at("splats"),
-                      .comparisons = json.at("comparisons"),
-                      .cycles = json.at("cycles")};
+                      .streams = count_of(json.at("streams")),
+                      .splats = count_of(json.at("splats")),
+                      .comparisons = count_of(json.at("comparisons")),
+                      .cycles = count_of(json.at("cycles"))};
+    if (!json.at("campaigns").is_object()) throw std::runtime_error("campaigns are no table");
     for (const auto& [name, bins] : json.at("campaigns").items()) {
       Coverage& coverage = book.campaigns[name];
       for (const auto& [bin, hits] : bins.items()) {
         const auto [group, short_name] = split(bin);
-        coverage.hit(coverage.declare(group, short_name), hits.get<std::uint64_t>());
+        coverage.hit(coverage.declare(group, short_name), count_of(hits));
       }
     }
     return book;

@@ -31,6 +31,16 @@ class Pattern final : public cmodel::Willing {
   std::string text_ = "always";
 };
 
+/// When the source offers beats and when the sink takes pixels, in one run.
+struct Patterns {
+  Pattern input, ready;
+};
+
+/// The run's seed decides both, the same wherever the run is made.
+inline Patterns patterns_of(const std::string& input, const std::string& ready, std::uint64_t seed) {
+  return {Pattern(input, 2 * seed), Pattern(ready, 2 * seed + 1)};
+}
+
 /// splitmix64: the one generator of the testbench; the same seed gives the same numbers everywhere.
 constexpr std::uint64_t mix(std::uint64_t value) {
   value += 0x9e3779b97f4a7c15ULL;

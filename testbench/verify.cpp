@@ -43,8 +43,9 @@ BeatSource source_of(std::vector<cmodel::Beat> beats) {
 }
 
 RtlOptions rtl_options(const VerifyOptions& options) {
-  return {.input = Pattern(options.input, 2 * options.seed),
-          .output = Pattern(options.ready, 2 * options.seed + 1),
+  const Patterns patterns = patterns_of(options.input, options.ready, options.seed);
+  return {.input = patterns.input,
+          .output = patterns.ready,
           .fill = options.fill,
           .seed = options.seed,
           .timeout = options.timeout,

@@ -47,6 +47,23 @@ TEST(Cycles, AddUpAndAreTheSameForSceneAndStream) {
               static_cast<unsigned long long>(sum_of(a["account"])));
 }
 
+TEST(Cycles, AreThoseOfVerifyUnderTheSamePatterns) {
+  int compared = 0;
+  for (const auto& [input, ready] : {std::pair{"always", "always"}, {"random-70", "burst-9"}, {"never-5", "every-3"}}) {
+    const auto told_by = [&](const std::string& verb) {
+      const auto run = fastsplat({verb, "--volume", "shells:16", "--size", "40", "--config", "tiny", "--input", input,
+                                  "--ready", ready, "--seed", "5", "--json", "-"});
+      expect_success(run);
+      return json::parse(run.out);
+    };
+    const auto cycles = told_by("cycles")["cycles"]["actual"].get<std::uint64_t>();
+    EXPECT_EQ(cycles, told_by("verify")["cycles_rtl"].get<std::uint64_t>()) << input << ' ' << ready;
+    EXPECT_GT(cycles, 500U);
+    ++compared;
+  }
+  std::printf("[figure] runs with the cycles of both verbs = %d\n", compared);
+}
+
 TEST(Cycles, TraceHoldsEverySheetOnTracksThatDoNotOverlap) {
   const TempFolder folder;
   const auto result = fastsplat({"cycles", "--volume", "shells:24", "--size", "100", "--config", "small", "--trace",

@@ -2,8 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "driver/config_file.hpp"
+#include "driver/stream_file.hpp"
+#include "testbench/failure.hpp"
+#include "testbench/verify.hpp"
 #include "tests/cli/process_helper.hpp"
 
 namespace fastsplat::cli_test {
@@ -49,6 +55,45 @@ TEST(Verify, RenderWithCheckTellsThemToo) {
   EXPECT_EQ(agreed_cycles(checked), plain.at("cycles_rtl").get<std::uint64_t>());
   EXPECT_FALSE(plain.contains("cycles_model"));
   EXPECT_EQ(checked.at("counters"), plain.at("counters"));
+}
+
+TEST(Verify, AReplayLineIsTakenAsItIs) {
+  // The line that a failure prints, run: the stream it names is verified, under what the line says.
+  const TempFolder folder;
+  const std::string stream = folder / "a.fss";
+  expect_success(
+      fastsplat({"stream", "record", "--volume", "shells:8", "--size", "24", "--config", "tiny", "-o", stream}));
+  const auto config = driver::load_config("tiny");
+  const testbench::VerifyOptions options{.config = config,
+                                         .ready = "random-40",
+                                         .input = "burst-5",
+                                         .fill = testbench::ResetFill::One,
+                                         .seed = 77,
+                                         .reset_after = 40,
+                                         .wave = {},
+                                         .coverage = false,
+                                         .device = {}};
+  std::istringstream line(testbench::replay_line(stream, "tiny", options));
+  std::vector<std::string> words{std::istream_iterator<std::string>(line), {}};
+  ASSERT_EQ(words.front(), "fastsplat");
+  words.erase(words.begin());
+  words.insert(words.end(), {"--json", "-"});
+  const auto run = fastsplat(words);
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json.at("ready"), "random-40");
+  EXPECT_EQ(json.at("input"), "burst-5");
+  EXPECT_EQ(json.at("fill"), "one");
+  EXPECT_EQ(json.at("seed"), 77);
+  testbench::BeatSource source = [&](const testbench::BeatSink& sink) { driver::read_beats(stream, sink); };
+  const auto here = testbench::verify(source, options);
+  EXPECT_EQ(json.at("comparisons"), here.check.comparisons);
+  EXPECT_EQ(agreed_cycles(json), here.check.cycles_rtl.value_or(0));
+}
+
+TEST(Verify, ScenesFlagsBesideAStreamAreRefused) {
+  expect_error(fastsplat({"verify", "--random", "10", "--config", "tiny", "--size", "64"}), 2,
+               {"--random", "a scene's flags", "--volume"});
 }
 
 TEST(Verify, ASceneOfWhichNothingReachesTheDeviceIsNoPass) {

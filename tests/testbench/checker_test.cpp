@@ -121,6 +121,8 @@ TEST(Failure, IsShrunkExplainedAndReplayed) {
   std::filesystem::remove(wave);
   const auto again = verify(source_of(write_document(options.config, report.document)), report.options);
   EXPECT_EQ(again.verdict, Verdict::Mismatch);
+  EXPECT_NE(replay_line("it's a.fss", "tiny", report.options).find("--stream 'it'\\''s a.fss' --config"),
+            std::string::npos);
   EXPECT_EQ(replay_line("a.fss", "tiny", report.options),
             "fastsplat verify --stream a.fss --config tiny --ready always --input always --fill random --seed 5");
   std::printf("[figure] shrunk splats = %llu of %llu in %d runs\n",

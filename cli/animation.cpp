@@ -127,6 +127,27 @@ void check_animation(const RenderArguments& arguments, const scene::Sequence& se
   check_outputs(names);
 }
 
+/// The scene of a frame; what is wrong with it is told with the frame's number.
+scene::Scene scene_of(const scene::Sequence& sequence, const scene::SceneDescription& still, std::size_t frame,
+                      const std::shared_ptr<const scene::Volume>& volume) {
+  const auto description = scene::at_frame(sequence, still, static_cast<int>(frame));
+  try {
+    return volume ? scene::build_scene(description, volume) : scene::build_scene(description);
+  } catch (const UserError& error) {
+    ErrorParts parts = error.parts();
+    parts.where = fmt::format("frame {}{}{}", frame, parts.where.empty() ? "" : ": ", parts.where);
+    throw UserError(error.code(), parts);
+  }
+}
+
+/// A last frame that cannot be is told before the first is rendered. X-rays are left out: their exposure walks the
+/// volume.
+void check_frames(const scene::Sequence& sequence, const scene::SceneDescription& still, std::size_t count,
+                  const std::shared_ptr<const scene::Volume>& volume) {
+  if (still.method == scene::Method::XRay) return;
+  for (std::size_t frame = 1; frame < count; ++frame) scene_of(sequence, still, frame, volume);
+}
+
 ExitCode run_animation(const RenderArguments& arguments, const Renderer& renderer, const scene::SceneDescription& still,
                        const scene::Sequence& sequence, const Output& output) {
   const auto start = ProgressBar::Clock::now();
@@ -140,9 +161,11 @@ ExitCode run_animation(const RenderArguments& arguments, const Renderer& rendere
   std::shared_ptr<const scene::Volume> volume;  // no track changes it
   std::size_t kept = 0;
   for (std::size_t frame = 0; frame < count; ++frame) {
-    const auto description = scene::at_frame(sequence, still, static_cast<int>(frame));
-    const scene::Scene scene = volume ? scene::build_scene(description, volume) : scene::build_scene(description);
-    if (!volume) output.line(fmt::format("{}, {}", summary(scene), counted(count, "frame")));
+    const scene::Scene scene = scene_of(sequence, still, frame, volume);
+    if (!volume) {
+      check_frames(sequence, still, count, scene.volume);
+      output.line(fmt::format("{}, {}", summary(scene), counted(count, "frame")));
+    }
     volume = scene.volume;
 
     const auto files = files_of(arguments, static_cast<int>(frame), sequence.frames);

@@ -95,7 +95,7 @@ void write_images(const std::vector<std::string>& paths, const Image& image, con
 
 void warn_if_empty(const Image& image, const Output& output) {
   if (std::all_of(image.data.begin(), image.data.end(), [](float value) { return value == 0.0f; })) {
-    output.warn("the picture is empty; try another --tf, a larger --opacity-scale or a smaller --zoom");
+    output.warn("the picture is empty; try another --tf, a larger --opacity-scale or another --zoom");
   }
 }
 

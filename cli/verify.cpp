@@ -251,8 +251,8 @@ ExitCode run(const VerifyArguments& arguments) {
                           counted(result.check.cycles_rtl.value_or(result.last_cycle), "cycle")));
   if (source == Source::Scene && result.verdict == testbench::Verdict::NothingCompared) {
     output.warn(
-        "no splat of the scene reached the device; try a larger --opacity-scale or --xray-exposure, another --tf or a "
-        "smaller --zoom");
+        "no splat of the scene reached the device; try a larger --opacity-scale or --xray-exposure, another --tf or "
+        "another --zoom");
   }
   if (result.verdict == testbench::Verdict::Mismatch || result.verdict == testbench::Verdict::Simulation)
     report_failure(checked, arguments, output, json);

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <csignal>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -227,6 +228,16 @@ TEST(AnimationMisuse, IsOneLineWithTheFixAndNoFile) {
     expect_error(fastsplat(words), 2, misuse.said);
     EXPECT_TRUE(folder.entries().empty());
   }
+}
+
+TEST(AnimationMisuse, AFrameThatCannotBeIsToldBeforeTheFirst) {
+  const TempFolder folder;
+  std::ofstream(folder / "s.toml") << "volume = \"shells:8\"\n[camera]\nprojection = \"perspective\"\n[image]\nsize = "
+                                      "16\n[lens]\ndepth_of_field = \"splats\"\naperture = 2.0\n[sequence]\nframes = "
+                                      "5\nlens.focus = [0, -5000]\n";
+  expect_error(fastsplat({"render", "--scene", folder / "s.toml", "--sequence", "-o", folder / "f#.png"}), 2,
+               {"frame 1", "focus is behind the eye"});
+  EXPECT_EQ(folder.entries().size(), 1u);
 }
 
 TEST(AnimationMisuse, WhereNothingCanBeWrittenIsToldBeforeTheFirstFrame) {

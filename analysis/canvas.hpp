@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/image.hpp"
+#include "base/image.hpp"
 
 namespace fastsplat::analysis {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/image.hpp"
+#include "base/image.hpp"
 
 namespace fastsplat::analysis {
 
@@ -75,8 +75,8 @@ CompareReport compare(const Image& ref, const Image& test, const CompareOptions&
 std::string to_json(const CompareReport& report);
 std::string to_text(const CompareReport& report);  ///< for a person, no colour
 
-// Maps: RGBA, opaque, linear as every Image, to be written with WriteOptions::display. The picture sits at the top
-// left, pixel for pixel (images narrower than 256 pixels are enlarged by a whole factor), a legend in LSB below it.
+// Maps: RGBA, opaque, linear as every Image, to be written with images::WriteOptions::display. The picture sits at the
+// top left, pixel for pixel (images narrower than 256 pixels are enlarged by a whole factor), a legend in LSB below it.
 
 /// Signed error of the worst channel: blue where TEST is below REF, red where above, light grey at 0.
 Image lsb_map(const Image& ref, const Image& test, const CompareOptions& options);

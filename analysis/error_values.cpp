@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
+#include "base/parallel/parallel.hpp"
 
 namespace fastsplat::analysis {
 namespace {

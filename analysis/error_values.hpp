@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/compare.hpp"
-#include "scene/image.hpp"
+#include "base/image.hpp"
 
 namespace fastsplat::analysis {
 

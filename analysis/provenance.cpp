@@ -2,6 +2,9 @@
 
 #include <bit>
 
+#include "base/hash_text.hpp"
+#include "base/version.hpp"
+
 namespace fastsplat::analysis {
 namespace {
 
@@ -18,12 +21,12 @@ class Hash {
 
 }  // namespace
 
-Metadata render_metadata(const std::string& engine, const scene::SceneDescription& scene,
-                         const std::optional<HardwareConfig>& config) {
-  Metadata metadata{{"engine", engine},
-                    {"method", scene::to_string(scene.method)},
-                    {"scene", scene::to_toml(scene)},
-                    {"version", program_version()}};
+images::Metadata render_metadata(const std::string& engine, const scene::SceneDescription& scene,
+                                 const std::optional<HardwareConfig>& config) {
+  images::Metadata metadata{{"engine", engine},
+                            {"method", scene::to_string(scene.method)},
+                            {"scene", scene::to_toml(scene)},
+                            {"version", program_version()}};
   if (config) {
     metadata["config"] = config->name;
     metadata["config_hash"] = hash_text(config->hash);
@@ -31,8 +34,8 @@ Metadata render_metadata(const std::string& engine, const scene::SceneDescriptio
   return metadata;
 }
 
-Metadata render_metadata(const std::string& engine, const scene::Scene& scene,
-                         const std::optional<HardwareConfig>& config) {
+images::Metadata render_metadata(const std::string& engine, const scene::Scene& scene,
+                                 const std::optional<HardwareConfig>& config) {
   auto metadata = render_metadata(engine, scene.description, config);
   metadata["volume"] = scene.volume->source;
   metadata["content_hash"] = hash_text(content_hash(scene));
@@ -41,7 +44,7 @@ Metadata render_metadata(const std::string& engine, const scene::Scene& scene,
 
 std::uint64_t content_hash(const scene::Scene& scene) {
   Hash hash;
-  const scene::Volume& volume = *scene.volume;
+  const volume::Volume& volume = *scene.volume;
   for (int axis = 0; axis < 3; ++axis) {
     hash.add(static_cast<std::uint64_t>(volume.dims[axis]));
     hash.add(volume.spacing[axis]);

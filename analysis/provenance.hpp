@@ -5,16 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "analysis/image_file.hpp"
+#include "images/image_file.hpp"
 #include "scene/scene.hpp"
 
 namespace fastsplat::analysis {
-
-/// The project's version, "0.1.0".
-std::string program_version();
-
-/// 16 hex digits, as everywhere a configuration hash is printed.
-std::string hash_text(std::uint64_t hash);
 
 struct HardwareConfig {
   std::string name;  ///< `base`, or the file it came from
@@ -22,13 +16,13 @@ struct HardwareConfig {
 };
 
 /// Keys engine, method, scene (TOML that load_scene_file reads), version, and with a configuration config, config_hash.
-Metadata render_metadata(const std::string& engine, const scene::SceneDescription& scene,
-                         const std::optional<HardwareConfig>& config = {});
+images::Metadata render_metadata(const std::string& engine, const scene::SceneDescription& scene,
+                                 const std::optional<HardwareConfig>& config = {});
 
 /// The same for a scene that has been built: also volume (where it came from) and content_hash. The scene's text names
 /// files; the hash tells whether what was read from them is still the same.
-Metadata render_metadata(const std::string& engine, const scene::Scene& scene,
-                         const std::optional<HardwareConfig>& config = {});
+images::Metadata render_metadata(const std::string& engine, const scene::Scene& scene,
+                                 const std::optional<HardwareConfig>& config = {});
 
 /// Of the voxels, their grid and the transfer function.
 std::uint64_t content_hash(const scene::Scene& scene);

@@ -10,8 +10,8 @@
 #include "driver/compile.hpp"
 #include "driver/config_file.hpp"
 #include "scene/scene.hpp"
-#include "testbench/checked_device.hpp"
-#include "testbench/rtl_device.hpp"
+#include "testbench/check/checked_device.hpp"
+#include "testbench/device/rtl_device.hpp"
 
 namespace fastsplat {
 namespace {

@@ -9,6 +9,7 @@
 #include "analysis/provenance.hpp"
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "base/version.hpp"
 #include "cli/frame_names.hpp"
 #include "cli/image_output.hpp"
 #include "cli/progress_bar.hpp"
@@ -51,11 +52,11 @@ FrameFiles files_of(const RenderArguments& arguments, int frame, int frames) {
 }
 
 /// The file is a whole image that carries every entry of `metadata`.
-bool is_current(const std::string& path, const analysis::Metadata& metadata) {
+bool is_current(const std::string& path, const images::Metadata& metadata) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return false;
   try {
-    const auto found = analysis::read_image(path).metadata;
+    const auto found = images::read_image(path).metadata;
     return std::all_of(metadata.begin(), metadata.end(), [&found](const auto& entry) {
       const auto at = found.find(entry.first);
       return at != found.end() && at->second == entry.second;
@@ -65,7 +66,7 @@ bool is_current(const std::string& path, const analysis::Metadata& metadata) {
   }
 }
 
-bool is_current(const FrameFiles& files, const analysis::Metadata& metadata) {
+bool is_current(const FrameFiles& files, const images::Metadata& metadata) {
   return std::all_of(files.out.begin(), files.out.end(),
                      [&](const std::string& path) { return is_current(path, metadata); }) &&
          (files.raw.empty() || is_current(files.raw, metadata));
@@ -129,7 +130,7 @@ void check_animation(const RenderArguments& arguments, const scene::Sequence& se
 
 /// The scene of a frame; what is wrong with it is told with the frame's number.
 scene::Scene scene_of(const scene::Sequence& sequence, const scene::SceneDescription& still, std::size_t frame,
-                      const std::shared_ptr<const scene::Volume>& volume) {
+                      const std::shared_ptr<const volume::Volume>& volume) {
   const auto description = scene::at_frame(sequence, still, static_cast<int>(frame));
   try {
     return volume ? scene::build_scene(description, volume) : scene::build_scene(description);
@@ -143,7 +144,7 @@ scene::Scene scene_of(const scene::Sequence& sequence, const scene::SceneDescrip
 /// A last frame that cannot be is told before the first is rendered. X-rays are left out: their exposure walks the
 /// volume.
 void check_frames(const scene::Sequence& sequence, const scene::SceneDescription& still, std::size_t count,
-                  const std::shared_ptr<const scene::Volume>& volume) {
+                  const std::shared_ptr<const volume::Volume>& volume) {
   if (still.method == scene::Method::XRay) return;
   for (std::size_t frame = 1; frame < count; ++frame) scene_of(sequence, still, frame, volume);
 }
@@ -155,10 +156,10 @@ ExitCode run_animation(const RenderArguments& arguments, const Renderer& rendere
   const auto count = static_cast<std::size_t>(sequence.frames);
   const Output per_frame(arguments.common, Lines::None);  // warnings, and no counts
   Json json{{"verb", "render"},
-            {"version", analysis::program_version()},
+            {"version", program_version()},
             {"engine", to_string(renderer.engine)},
             {"frames", Json::array()}};
-  std::shared_ptr<const scene::Volume> volume;  // no track changes it
+  std::shared_ptr<const volume::Volume> volume;  // no track changes it
   std::size_t kept = 0;
   for (std::size_t frame = 0; frame < count; ++frame) {
     const scene::Scene scene = scene_of(sequence, still, frame, volume);

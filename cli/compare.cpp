@@ -5,10 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "analysis/image_file.hpp"
 #include "cli/image_output.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
+#include "images/image_file.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -60,11 +60,11 @@ analysis::CompareOptions options_from(const CompareArguments& arguments) {
   return options;
 }
 
-bool is_display(const analysis::LoadedImage& loaded) { return loaded.metadata.contains("display"); }
+bool is_display(const images::LoadedImage& loaded) { return loaded.metadata.contains("display"); }
 
 // A picture made for looking (sRGB curve, over black) has other numbers than a measurement of the same scene.
-void check_comparable(const CompareArguments& arguments, const analysis::LoadedImage& ref,
-                      const analysis::LoadedImage& test) {
+void check_comparable(const CompareArguments& arguments, const images::LoadedImage& ref,
+                      const images::LoadedImage& test) {
   if (is_display(ref) == is_display(test)) return;
   const auto& shown = is_display(ref) ? arguments.ref : arguments.test;
   throw UserError(ExitCode::NotComparable,
@@ -75,10 +75,10 @@ void check_comparable(const CompareArguments& arguments, const analysis::LoadedI
                    .fix = "render both to .exr or .tif and compare those"});
 }
 
-Json origin(const std::string& path, const analysis::LoadedImage& loaded) {
+Json origin(const std::string& path, const images::LoadedImage& loaded) {
   Json metadata = Json::object();
   for (const auto& [key, value] : loaded.metadata) metadata[key] = value;
-  return {{"file", path}, {"format", analysis::to_string(loaded.kind)}, {"metadata", metadata}};
+  return {{"file", path}, {"format", images::to_string(loaded.kind)}, {"metadata", metadata}};
 }
 
 }  // namespace
@@ -86,19 +86,19 @@ Json origin(const std::string& path, const analysis::LoadedImage& loaded) {
 ExitCode run(const CompareArguments& arguments) {
   const Output output(arguments.common);
   check(arguments);
-  const auto ref = analysis::read_image(arguments.ref);
-  const auto test = analysis::read_image(arguments.test);
+  const auto ref = images::read_image(arguments.ref);
+  const auto test = images::read_image(arguments.test);
   check_comparable(arguments, ref, test);
   const auto options = options_from(arguments);
   const auto report = analysis::compare(ref.image, test.image, options);
 
   if (!arguments.map.empty()) {
-    analysis::write_image(arguments.map, analysis::lsb_map(ref.image, test.image, options), {{"display", "srgb"}},
-                          {.display = true});
+    images::write_image(arguments.map, analysis::lsb_map(ref.image, test.image, options), {{"display", "srgb"}},
+                        {.display = true});
   }
   if (!arguments.heat.empty()) {
-    analysis::write_image(arguments.heat, analysis::heat_map(ref.image, test.image, options), {{"display", "srgb"}},
-                          {.display = true});
+    images::write_image(arguments.heat, analysis::heat_map(ref.image, test.image, options), {{"display", "srgb"}},
+                        {.display = true});
   }
   output.line(analysis::to_text(report));
   Json json = Json::parse(analysis::to_json(report));

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/hash_text.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "driver/config_file.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string hash_of(const cmodel::Config& config) { return cmodel::hash_text(cmodel::config_hash(config)); }
+std::string hash_of(const cmodel::Config& config) { return hash_text(cmodel::config_hash(config)); }
 
 Json to_json(const cmodel::Config& config) {
   Json json{{"name", config.name},

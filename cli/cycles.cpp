@@ -5,6 +5,8 @@
 
 #include "analysis/provenance.hpp"
 #include "base/atomic_file.hpp"
+#include "base/hash_text.hpp"
+#include "base/version.hpp"
 #include "cli/cycle_trace.hpp"
 #include "cli/image_output.hpp"
 #include "cli/output.hpp"
@@ -15,7 +17,7 @@
 #include "driver/config_file.hpp"
 #include "driver/run_device.hpp"
 #include "driver/stream_file.hpp"
-#include "testbench/pattern.hpp"
+#include "testbench/device/pattern.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -118,7 +120,7 @@ ExitCode run(const CyclesArguments& arguments) {
     driver::run_device(scene, config, make, {.threads = arguments.common.threads, .progress = bar.callback()},
                        [&](cmodel::Device& device) { result.take(dynamic_cast<const cmodel::CycleModel&>(device)); });
   }
-  const std::string hash = cmodel::hash_text(cmodel::config_hash(config));
+  const std::string hash = hash_text(cmodel::config_hash(config));
   output.line(fmt::format("configuration {} {}, {} splats, {} windows, {} sheets, {} tiles", config.name, hash,
                           grouped(result.counters.splats), grouped(result.counters.windows),
                           grouped(result.counters.sheets), grouped(result.counters.tiles)));
@@ -129,7 +131,7 @@ ExitCode run(const CyclesArguments& arguments) {
   }
 
   Json json{{"verb", "cycles"},
-            {"version", analysis::program_version()},
+            {"version", program_version()},
             {"config", {{"name", config.name}, {"hash", hash}}},
             {"input", arguments.input},
             {"ready", arguments.ready},

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/hash_text.hpp"
 #include "cli/image_output.hpp"
 #include "cmodel/config.hpp"
 #include "cmodel/counters.hpp"
@@ -53,7 +54,7 @@ void report_driver(const driver::DriverReport& report, const Output& output, nlo
 
 void report_device(const driver::DeviceRender& result, const cmodel::Config& config, const Output& output,
                    nlohmann::ordered_json& json) {
-  const std::string hash = cmodel::hash_text(cmodel::config_hash(config));
+  const std::string hash = hash_text(cmodel::config_hash(config));
   json["config"] = {{"name", config.name}, {"hash", hash}};
   report_driver(result.report, output, json);
   const auto& counters = result.counters;
@@ -67,12 +68,20 @@ void report_device(const driver::DeviceRender& result, const cmodel::Config& con
 }
 
 void write_device_images(const driver::DeviceRender& result, const std::vector<std::string>& out,
-                         const std::string& raw, const analysis::Metadata& metadata, const Output& output) {
+                         const std::string& raw, const images::Metadata& metadata, const Output& output) {
   const Image image = driver::to_image(result.frame);
   warn_if_empty(image, output);
   write_images(out, image, metadata, output);
   if (!raw.empty()) {
-    analysis::write_frame(raw, result.frame, metadata);
+    const cmodel::Frame& frame = result.frame;
+    images::write_raw(raw,
+                      {.width = frame.width,
+                       .height = frame.height,
+                       .int_bits = frame.int_bits,
+                       .frac_bits = frame.frac_bits,
+                       .words = frame.words,
+                       .config_hash = frame.config_hash},
+                      metadata);
     output.line(raw);
   }
 }

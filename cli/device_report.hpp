@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/image_file.hpp"
 #include "cli/output.hpp"
 #include "driver/render.hpp"
+#include "images/image_file.hpp"
 
 namespace fastsplat::cli {
 
@@ -18,6 +18,6 @@ void report_device(const driver::DeviceRender& result, const cmodel::Config& con
 void report_driver(const driver::DriverReport& report, const Output& output, nlohmann::ordered_json& json);
 
 void write_device_images(const driver::DeviceRender& result, const std::vector<std::string>& out,
-                         const std::string& raw, const analysis::Metadata& metadata, const Output& output);
+                         const std::string& raw, const images::Metadata& metadata, const Output& output);
 
 }  // namespace fastsplat::cli

@@ -7,13 +7,14 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/provenance.hpp"
+#include "base/version.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "driver/config_file.hpp"
 #include "scene/scene.hpp"
-#include "scene/synthetic.hpp"
 #include "scene/transfer_function.hpp"
-#include "scene/volume_file.hpp"
+#include "volume/synthetic.hpp"
+#include "volume/volume_file.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -49,7 +50,7 @@ double memory_gb() {
 }
 
 bool is_synthetic(const std::string& name) {
-  const auto names = scene::synthetic_names();
+  const auto names = volume::synthetic_names();
   return std::find(names.begin(), names.end(), name.substr(0, name.find(':'))) != names.end();
 }
 
@@ -57,12 +58,12 @@ bool is_synthetic(const std::string& name) {
 
 ExitCode run(const DoctorArguments& arguments) {
   const Output output(arguments.common);
-  Json json{{"version", analysis::program_version()},
+  Json json{{"version", program_version()},
             {"build", VERSION_BUILD},
             {"compiler", VERSION_COMPILER},
             {"cmake", VERSION_CMAKE}};
-  output.line(fmt::format("fastsplat {} ({} build, {}, CMake {})", analysis::program_version(), VERSION_BUILD,
-                          VERSION_COMPILER, VERSION_CMAKE));
+  output.line(fmt::format("fastsplat {} ({} build, {}, CMake {})", program_version(), VERSION_BUILD, VERSION_COMPILER,
+                          VERSION_CMAKE));
   output.line(fmt::format("machine: {} processors, {:.1f} GB memory", usable_processors(), memory_gb()));
   json["processors"] = usable_processors();
   json["memory_gb"] = memory_gb();
@@ -77,11 +78,11 @@ ExitCode run(const DoctorArguments& arguments) {
   output.line("scans:");
   bool all_there = true;
   json["scans"] = Json::array();
-  for (const auto& name : scene::known_volume_names()) {
+  for (const auto& name : volume::known_volume_names()) {
     if (is_synthetic(name)) continue;
     Json entry{{"name", name}};
     try {
-      const auto volume = scene::read_volume_header(name);
+      const auto volume = volume::read_volume_header(name);
       output.line(fmt::format("  {:16} found: {} ({}x{}x{})", name, volume.source, volume.dims.x, volume.dims.y,
                               volume.dims.z));
       entry["found"] = true;
@@ -94,11 +95,11 @@ ExitCode run(const DoctorArguments& arguments) {
     }
     json["scans"].push_back(entry);
   }
-  output.line(fmt::format("built-in volumes: {}", fmt::join(scene::synthetic_names(), ", ")));
+  output.line(fmt::format("built-in volumes: {}", fmt::join(volume::synthetic_names(), ", ")));
   output.line(fmt::format("transfer functions: {}", fmt::join(scene::transfer_function_presets(), ", ")));
   output.line(fmt::format("demo scenes: {}", fmt::join(scene::demo_names(), ", ")));
   output.line(fmt::format("configurations: {}", fmt::join(driver::config_names(), ", ")));
-  json["synthetics"] = scene::synthetic_names();
+  json["synthetics"] = volume::synthetic_names();
   json["transfer_functions"] = scene::transfer_function_presets();
   json["demos"] = scene::demo_names();
   json["configurations"] = driver::config_names();

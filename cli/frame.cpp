@@ -9,7 +9,7 @@
 #include "cli/device_report.hpp"
 #include "cli/image_output.hpp"
 #include "cli/scene_flags.hpp"
-#include "golden/antialias.hpp"
+#include "golden/splat/antialias.hpp"
 #include "scene/splats.hpp"
 
 namespace fastsplat::cli {
@@ -89,7 +89,7 @@ Engine engine_from(const std::string& name) {
 
 const char* to_string(Engine engine) { return kEngines[static_cast<std::size_t>(engine)].c_str(); }
 
-analysis::Metadata metadata_of(const Renderer& renderer, const scene::Scene& scene) {
+images::Metadata metadata_of(const Renderer& renderer, const scene::Scene& scene) {
   std::optional<analysis::HardwareConfig> hardware;
   if (renderer.config) hardware = {renderer.config->name, cmodel::config_hash(*renderer.config)};
   return analysis::render_metadata(to_string(renderer.engine), scene, hardware);
@@ -119,7 +119,7 @@ void report_frame(const Renderer& renderer, const scene::Scene& scene, const Ren
   if (frame.checked) report_rtl(*frame.checked, output, json);
 }
 
-void write_frame(const RenderedFrame& frame, const FrameFiles& files, const analysis::Metadata& metadata,
+void write_frame(const RenderedFrame& frame, const FrameFiles& files, const images::Metadata& metadata,
                  const Output& output) {
   if (const auto* device = std::get_if<driver::DeviceRender>(&frame.picture)) {
     write_device_images(*device, files.out, files.raw, metadata, output);

@@ -7,11 +7,11 @@
 #include <variant>
 #include <vector>
 
-#include "analysis/image_file.hpp"
 #include "cli/output.hpp"
 #include "cli/rtl_run.hpp"
 #include "driver/render.hpp"
 #include "golden/render.hpp"
+#include "images/image_file.hpp"
 
 namespace fastsplat::cli {
 
@@ -41,12 +41,12 @@ struct RenderedFrame {
   std::optional<RtlRun> checked;
 };
 
-analysis::Metadata metadata_of(const Renderer& renderer, const scene::Scene& scene);
+images::Metadata metadata_of(const Renderer& renderer, const scene::Scene& scene);
 RenderedFrame render_frame(const Renderer& renderer, const scene::Scene& scene, const Progress& progress);
 /// Counts to stdout and into `json`, losses as warnings.
 void report_frame(const Renderer& renderer, const scene::Scene& scene, const RenderedFrame& frame, const Output& output,
                   nlohmann::ordered_json& json);
-void write_frame(const RenderedFrame& frame, const FrameFiles& files, const analysis::Metadata& metadata,
+void write_frame(const RenderedFrame& frame, const FrameFiles& files, const images::Metadata& metadata,
                  const Output& output);
 
 }  // namespace fastsplat::cli

@@ -37,10 +37,10 @@ void require_writable(const std::string& path) {
   const AtomicFile probe(path);
 }
 
-analysis::WriteOptions options_for(const std::string& path) {
-  if (ending(path) == ".exr") return {.kind = analysis::PixelKind::Float, .display = false};
-  if (ending(path) == ".png") return {.kind = analysis::PixelKind::Uint8, .display = true};
-  return {.kind = analysis::PixelKind::Uint16, .display = false};
+images::WriteOptions options_for(const std::string& path) {
+  if (ending(path) == ".exr") return {.kind = images::PixelKind::Float, .display = false};
+  if (ending(path) == ".png") return {.kind = images::PixelKind::Uint8, .display = true};
+  return {.kind = images::PixelKind::Uint16, .display = false};
 }
 
 }  // namespace
@@ -78,13 +78,13 @@ void check_outputs(const OutputNames& names) {
   for (const auto& path : names.others) take(path);
 }
 
-void write_images(const std::vector<std::string>& paths, const Image& image, const analysis::Metadata& metadata,
+void write_images(const std::vector<std::string>& paths, const Image& image, const images::Metadata& metadata,
                   const Output& output) {
   for (const auto& path : paths) {
     const auto options = options_for(path);
     auto labelled = metadata;
     if (options.display) labelled["display"] = "srgb";
-    const std::size_t clamped = analysis::write_image(path, image, labelled, options);
+    const std::size_t clamped = images::write_image(path, image, labelled, options);
     if (clamped > 0) {
       output.warn(fmt::format("{}: {} values lay outside 0..1 and were clamped; write .exr to keep them", path,
                               grouped(clamped)));

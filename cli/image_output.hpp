@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/image_file.hpp"
 #include "cli/output.hpp"
+#include "images/image_file.hpp"
 
 namespace fastsplat::cli {
 
@@ -22,7 +22,7 @@ struct OutputNames {
 void check_outputs(const OutputNames& names);
 
 /// By ending: .exr float, .tif 16 bit linear, .png 8 bit for looking. Warns where values had to be clamped.
-void write_images(const std::vector<std::string>& paths, const Image& image, const analysis::Metadata& metadata,
+void write_images(const std::vector<std::string>& paths, const Image& image, const images::Metadata& metadata,
                   const Output& output);
 
 /// Nothing in the picture is almost always a mistake worth a word.

@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/suggest.hpp"
+#include "base/version.hpp"
 #include "cli/arguments.hpp"
 #include "scene/sequence.hpp"
 #include "scene/settings.hpp"
@@ -118,7 +119,7 @@ struct CommandLine {
   CommandLine() {
     app.footer(kFooter);
     app.set_help_flag("-h,--help", "what you are reading");
-    app.set_version_flag("--version", analysis::program_version(), "the version of the program");
+    app.set_version_flag("--version", program_version(), "the version of the program");
     declare_render();
     declare_compare();
     declare_volume();
@@ -458,8 +459,7 @@ Command parse(int argc, const char* const* argv) {
   const std::span rest(words.begin() + static_cast<std::ptrdiff_t>(at), words.end());
   for (const auto& word : rest) {
     if (word == "--help" || word == "-h") return help_of(line.app, *verb);
-    if (word == "--version" && verb == &line.app)
-      return TextArguments{"fastsplat " + analysis::program_version() + "\n"};
+    if (word == "--version" && verb == &line.app) return TextArguments{"fastsplat " + program_version() + "\n"};
   }
   check_words(*verb, rest);
   if (!line.leaf.contains(verb)) {

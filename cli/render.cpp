@@ -5,6 +5,7 @@
 
 #include "analysis/provenance.hpp"
 #include "base/atomic_file.hpp"
+#include "base/version.hpp"
 #include "cli/animation.hpp"
 #include "cli/frame.hpp"
 #include "cli/image_output.hpp"
@@ -65,10 +66,8 @@ Json scene_json(const scene::Scene& scene) {
 
 ExitCode run_still(const RenderArguments& arguments, const Renderer& renderer, const Output& output) {
   const scene::Scene scene = build(arguments.scene);
-  Json json{{"verb", "render"},
-            {"version", analysis::program_version()},
-            {"engine", arguments.engine},
-            {"scene", scene_json(scene)}};
+  Json json{
+      {"verb", "render"}, {"version", program_version()}, {"engine", arguments.engine}, {"scene", scene_json(scene)}};
   RenderedFrame frame;
   {
     ProgressBar bar(arguments.engine, arguments.common.quiet ? Watching::Never : Watching::IfTerminal);

@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "cli/output.hpp"
 #include "driver/render.hpp"
-#include "testbench/verify.hpp"
+#include "testbench/check/verify.hpp"
 
 namespace fastsplat::cli {
 

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/provenance.hpp"
+#include "base/hash_text.hpp"
+#include "base/version.hpp"
 #include "cli/device_report.hpp"
 #include "cli/image_output.hpp"
 #include "cli/output.hpp"
@@ -43,9 +45,9 @@ ExitCode run(const StreamRecordArguments& arguments) {
                                    {.threads = arguments.common.threads, .progress = bar.callback()});
   }
   Json json{{"verb", "stream record"},
-            {"version", analysis::program_version()},
+            {"version", program_version()},
             {"stream", arguments.out},
-            {"config", {{"name", config.name}, {"hash", cmodel::hash_text(cmodel::config_hash(config))}}}};
+            {"config", {{"name", config.name}, {"hash", hash_text(cmodel::config_hash(config))}}}};
   output.line(summary(scene));
   report_driver(report, output, json);
   output.line(arguments.out);
@@ -93,16 +95,16 @@ ExitCode run(const StreamReplayArguments& arguments) {
                                    {.threads = arguments.common.threads, .progress = bar.callback()});
   }
   Json json{{"verb", "stream replay"},
-            {"version", analysis::program_version()},
+            {"version", program_version()},
             {"stream", arguments.stream},
             {"width", result.frame.width},
             {"height", result.frame.height}};
   report_device(result, config, output, json);
-  const analysis::Metadata metadata{{"engine", "cmodel"},
-                                    {"version", analysis::program_version()},
-                                    {"stream", arguments.stream},
-                                    {"config", config.name},
-                                    {"config_hash", cmodel::hash_text(cmodel::config_hash(config))}};
+  const images::Metadata metadata{{"engine", "cmodel"},
+                                  {"version", program_version()},
+                                  {"stream", arguments.stream},
+                                  {"config", config.name},
+                                  {"config_hash", hash_text(cmodel::config_hash(config))}};
   write_device_images(result, arguments.out, arguments.raw, metadata, output);
   json["outputs"] = arguments.out;
   if (!arguments.raw.empty()) json["raw"] = arguments.raw;

@@ -1,5 +1,5 @@
 // fastsplat verify: a scene, a recorded stream or random streams through the RTL, beside the model.
-#include "testbench/verify.hpp"
+#include "testbench/check/verify.hpp"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/provenance.hpp"
+#include "base/hash_text.hpp"
+#include "base/version.hpp"
 #include "cli/image_output.hpp"
 #include "cli/output.hpp"
 #include "cli/progress_bar.hpp"
@@ -16,9 +18,9 @@
 #include "driver/compile.hpp"
 #include "driver/config_file.hpp"
 #include "driver/stream_file.hpp"
-#include "testbench/campaign.hpp"
-#include "testbench/coverage_book.hpp"
-#include "testbench/failure.hpp"
+#include "testbench/coverage/coverage_book.hpp"
+#include "testbench/stimulus/campaign.hpp"
+#include "testbench/triage/failure.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -203,7 +205,7 @@ ExitCode run(const VerifyArguments& arguments) {
   check_has_rtl(config);
   const auto options = options_from(arguments, config);
   auto coverage = earlier_coverage(arguments.coverage, config);
-  const std::string hash = cmodel::hash_text(cmodel::config_hash(config));
+  const std::string hash = hash_text(cmodel::config_hash(config));
   const std::string seed = fmt::format("seed {}", arguments.seed);
   // The seed comes first, so that it is known whatever happens next, and last, where the eye is.
   arguments.common.json == "-" ? output.note(seed) : output.line(seed);
@@ -226,7 +228,7 @@ ExitCode run(const VerifyArguments& arguments) {
   }
   const auto& result = checked.result;
   Json json{{"verb", "verify"},
-            {"version", analysis::program_version()},
+            {"version", program_version()},
             {"verdict", testbench::to_string(result.verdict)},
             {"comparisons", result.check.comparisons},
             {"mismatches", result.check.mismatches},

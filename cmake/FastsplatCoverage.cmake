@@ -18,7 +18,7 @@ foreach(config ${FASTSPLAT_COVERED_CONFIGS})
   file(CONFIGURE OUTPUT ${source} @ONLY CONTENT [=[
 // Generated; do not edit.
 #include "Vfs_covered_@config@.h"
-#include "testbench/covered_device.hpp"
+#include "testbench/device/covered_device.hpp"
 
 namespace fastsplat::testbench {
 std::unique_ptr<RtlDevice> make_covered_@config@(const cmodel::Config& config, cmodel::PixelSink& pixels, const RtlOptions& options, const CoverageDat& dat) {
@@ -32,7 +32,7 @@ endforeach()
 set(registry ${PROJECT_BINARY_DIR}/generated/testbench/covered_registry.cpp)
 file(CONFIGURE OUTPUT ${registry} @ONLY CONTENT [=[
 // Generated; do not edit.
-#include "testbench/covered_registry.hpp"
+#include "testbench/device/covered_registry.hpp"
 
 namespace fastsplat::testbench {
 @declarations@

@@ -9,12 +9,12 @@ endif()
 find_package(Threads REQUIRED)
 add_library(verilated_runtime STATIC ${VERILATOR_ROOT}/include/verilated.cpp ${VERILATOR_ROOT}/include/verilated_fst_c.cpp
                                      ${VERILATOR_ROOT}/include/verilated_threads.cpp ${VERILATOR_ROOT}/include/verilated_cov.cpp
-                                     ${PROJECT_SOURCE_DIR}/testbench/simulator_output.cpp)
+                                     ${PROJECT_SOURCE_DIR}/testbench/device/simulator_output.cpp)
 target_include_directories(verilated_runtime SYSTEM PUBLIC ${VERILATOR_ROOT}/include ${VERILATOR_ROOT}/include/vltstd)
 target_include_directories(verilated_runtime PRIVATE ${PROJECT_SOURCE_DIR})
 target_compile_features(verilated_runtime PRIVATE cxx_std_20)
 target_compile_definitions(verilated_runtime PRIVATE VL_PRINTF=fastsplat::testbench::simulator_print)
-target_compile_options(verilated_runtime PRIVATE -w -include ${PROJECT_SOURCE_DIR}/testbench/simulator_output.hpp)
+target_compile_options(verilated_runtime PRIVATE -w -include ${PROJECT_SOURCE_DIR}/testbench/device/simulator_output.hpp)
 target_link_libraries(verilated_runtime PUBLIC ZLIB::ZLIB Threads::Threads)
 
 # fastsplat_verilate(<target> <config> [ASSERT] [WAVE] [DEFINES ...] [SOURCES ...] [ARGS ...]): library <target> with class Vfs_<target>

@@ -123,11 +123,4 @@ std::uint64_t config_hash(const Config& config) {
   return hash;
 }
 
-std::string hash_text(std::uint64_t hash) {
-  std::string text(16, '0');
-  for (int digit = 15; digit >= 0; --digit, hash >>= 4)
-    text[static_cast<std::size_t>(digit)] = "0123456789abcdef"[hash & 15];
-  return text;
-}
-
 }  // namespace fastsplat::cmodel

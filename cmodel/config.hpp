@@ -80,6 +80,5 @@ std::optional<ErrorParts> first_violation(const Config& config);
 
 /// 64-bit FNV-1a over "key=value\n" in table order.
 std::uint64_t config_hash(const Config& config);
-std::string hash_text(std::uint64_t hash);  ///< 16 hex digits
 
 }  // namespace fastsplat::cmodel

@@ -1,6 +1,7 @@
 #include "cmodel/stream_decode.hpp"
 
 #include "base/error.hpp"
+#include "base/hash_text.hpp"
 
 namespace fastsplat::cmodel {
 

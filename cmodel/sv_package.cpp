@@ -4,6 +4,7 @@
 #include <bit>
 #include <cctype>
 
+#include "base/hash_text.hpp"
 #include "cmodel/counters.hpp"
 #include "cmodel/register_map.hpp"
 #include "cmodel/stream_decode.hpp"

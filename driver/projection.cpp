@@ -17,7 +17,7 @@ struct RadiusRange {
 
 /// Footprint radii over the corners of the volume's box: scale is monotone in depth, so the corners bound it.
 RadiusRange radius_range(const scene::Scene& scene) {
-  const scene::Volume& volume = *scene.volume;
+  const volume::Volume& volume = *scene.volume;
   const double support = scene.kernel.radius() * volume.kernel_unit();
   RadiusRange range;
   for (int corner = 0; corner < 8; ++corner) {

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "base/parallel.hpp"
+#include "base/parallel/parallel.hpp"
 #include "cmodel/model.hpp"
 #include "driver/compile.hpp"
 #include "driver/frame_sink.hpp"

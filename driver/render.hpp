@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "base/image.hpp"
 #include "base/progress.hpp"
 #include "cmodel/config.hpp"
 #include "cmodel/counters.hpp"
 #include "cmodel/frame.hpp"
-#include "scene/image.hpp"
 #include "scene/scene.hpp"
 
 namespace fastsplat::driver {

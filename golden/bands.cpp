@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/parallel.hpp"
-#include "golden/projection.hpp"
+#include "base/parallel/parallel.hpp"
+#include "golden/splat/projection.hpp"
 
 namespace fastsplat::golden {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/progress.hpp"
-#include "golden/footprint.hpp"
-#include "golden/projected_splat.hpp"
+#include "golden/splat/footprint.hpp"
+#include "golden/splat/projected_splat.hpp"
 #include "scene/scene.hpp"
 #include "scene/splats.hpp"
 

@@ -15,7 +15,7 @@ constexpr int kBrick = 4;  // voxels along an edge
 /// The largest value of every brick, then of every brick's surroundings.
 class BrickMaxima {
  public:
-  BrickMaxima(const scene::Volume& volume, const glm::ivec3& reach_voxels)
+  BrickMaxima(const volume::Volume& volume, const glm::ivec3& reach_voxels)
       : bricks_((volume.dims + (kBrick - 1)) / kBrick),
         largest_(static_cast<std::size_t>(bricks_.x) * bricks_.y * bricks_.z, -std::numeric_limits<float>::infinity()) {
     const float* value = volume.voxels.data();
@@ -86,7 +86,7 @@ double ripple_bound(const scene::Kernel& kernel, double tilt) {
 }
 
 DensityField collect_densities(const scene::Scene& scene, bool skip) {
-  const scene::Volume& volume = *scene.volume;
+  const volume::Volume& volume = *scene.volume;
   const SheetGeometry geometry(scene);
   const scene::Classifier classify(scene.transfer_function, volume);
   const glm::ivec3 reach(glm::ceil(influence(scene, geometry) * geometry.unit() / volume.spacing));

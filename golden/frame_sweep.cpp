@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
+#include "base/parallel/parallel.hpp"
 #include "golden/bands.hpp"
-#include "golden/projection.hpp"
+#include "golden/splat/projection.hpp"
 
 namespace fastsplat::golden {
 namespace {

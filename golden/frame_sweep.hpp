@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "golden/composite.hpp"
 #include "golden/sheet.hpp"
 #include "golden/sheet_sweep.hpp"
+#include "golden/splat/composite.hpp"
 
 namespace fastsplat::golden {
 

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <numeric>
 
-#include "base/parallel.hpp"
+#include "base/parallel/parallel.hpp"
 
 namespace fastsplat::golden {
 namespace {

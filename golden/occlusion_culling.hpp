@@ -9,7 +9,7 @@
 #include "golden/culling_report.hpp"
 #include "golden/frame_sweep.hpp"
 #include "golden/occlusion_map.hpp"
-#include "golden/projection.hpp"
+#include "golden/splat/projection.hpp"
 #include "golden/voxel_blocks.hpp"
 
 namespace fastsplat::golden {

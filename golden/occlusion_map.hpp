@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "golden/composite.hpp"
 #include "golden/sheet.hpp"
+#include "golden/splat/composite.hpp"
 #include "golden/summed_area_table.hpp"
 #include "scene/culling.hpp"
 

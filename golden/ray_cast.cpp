@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "golden/bands.hpp"
-#include "golden/composite.hpp"
-#include "golden/projection.hpp"
 #include "golden/render.hpp"
+#include "golden/splat/composite.hpp"
+#include "golden/splat/projection.hpp"
 #include "golden/splat_tree.hpp"
 
 namespace fastsplat::golden {

@@ -3,9 +3,9 @@
 
 #include <optional>
 
+#include "base/image.hpp"
 #include "base/progress.hpp"
 #include "golden/culling_report.hpp"
-#include "scene/image.hpp"
 #include "scene/scene.hpp"
 #include "scene/splats.hpp"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "golden/footprint.hpp"
-#include "golden/projected_splat.hpp"
+#include "golden/splat/footprint.hpp"
+#include "golden/splat/projected_splat.hpp"
 
 namespace fastsplat::golden {
 

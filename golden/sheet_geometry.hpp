@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-#include "golden/antialias.hpp"
+#include "golden/splat/antialias.hpp"
 #include "scene/scene.hpp"
 #include "scene/splats.hpp"
 

@@ -4,12 +4,12 @@
 #include <cassert>
 #include <cmath>
 
-#include "golden/antialias.hpp"
 #include "golden/bands.hpp"
-#include "golden/composite.hpp"
-#include "golden/footprint.hpp"
-#include "golden/projection.hpp"
 #include "golden/sheet.hpp"
+#include "golden/splat/antialias.hpp"
+#include "golden/splat/composite.hpp"
+#include "golden/splat/footprint.hpp"
+#include "golden/splat/projection.hpp"
 
 namespace fastsplat::golden {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "golden/projected_splat.hpp"
 #include "golden/render.hpp"
+#include "golden/splat/projected_splat.hpp"
 
 namespace fastsplat::golden {
 

@@ -39,7 +39,7 @@ VoxelBlock nothing(bool leaf, std::size_t first) {
 
 }  // namespace
 
-VoxelBlocks::VoxelBlocks(const scene::Volume& volume, const std::vector<scene::Splat>& splats, int edge)
+VoxelBlocks::VoxelBlocks(const volume::Volume& volume, const std::vector<scene::Splat>& splats, int edge)
     : order_(splats.size()) {
   if (splats.empty()) return;
   const glm::uvec3 grid((volume.dims + edge - 1) / edge);

@@ -23,7 +23,7 @@ struct VoxelBlock {
 class VoxelBlocks {
  public:
   /// `edge` voxels. Blocks without splats are left out; no splats, no blocks.
-  VoxelBlocks(const scene::Volume& volume, const std::vector<scene::Splat>& splats, int edge);
+  VoxelBlocks(const volume::Volume& volume, const std::vector<scene::Splat>& splats, int edge);
 
   /// The last one is the root: children lie before their parents, side by side.
   std::span<const VoxelBlock> blocks() const { return blocks_; }

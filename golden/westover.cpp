@@ -1,10 +1,10 @@
 // Composite every sample (Westover 1989): each splat is composited on its own, in traversal order. Overlapping kernels
 // of one layer, which ought to be added, dim one another instead: the picture depends on the order inside a layer.
 #include "golden/bands.hpp"
-#include "golden/composite.hpp"
-#include "golden/footprint.hpp"
-#include "golden/projection.hpp"
 #include "golden/render.hpp"
+#include "golden/splat/composite.hpp"
+#include "golden/splat/footprint.hpp"
+#include "golden/splat/projection.hpp"
 
 namespace fastsplat::golden {
 

@@ -1,8 +1,8 @@
 // X-ray: the line integral of emission (RGB) and of extinction (A), times the exposure. Exact for splatting, since the
 // integral of a sum of kernels is the sum of their footprints; no order, no compositing.
-#include "golden/antialias.hpp"
 #include "golden/render.hpp"
 #include "golden/sheet_sweep.hpp"
+#include "golden/splat/antialias.hpp"
 
 namespace fastsplat::golden {
 

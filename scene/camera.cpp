@@ -45,7 +45,7 @@ void check_angle(const char* name, double degrees) {
 
 }  // namespace
 
-Camera::Camera(const CameraParams& params, const Volume& volume, double kernel_radius_mm, int width, int height)
+Camera::Camera(const CameraParams& params, const volume::Volume& volume, double kernel_radius_mm, int width, int height)
     : projection_(params.projection), width_(width), height_(height) {
   check_angle("azimuth", params.azimuth);
   check_angle("elevation", params.elevation);

@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-#include "scene/volume.hpp"
+#include "volume/volume.hpp"
 
 namespace fastsplat::scene {
 
@@ -39,7 +39,7 @@ class Camera {
  public:
   /// Perspective zoom brings the eye nearer; the field of view stays. Throws UserError (Usage) for zoom <= 0, fov
   /// outside (1,150), an eye inside the bounding sphere, sizes < 1.
-  Camera(const CameraParams& params, const Volume& volume, double kernel_radius_mm, int width, int height);
+  Camera(const CameraParams& params, const volume::Volume& volume, double kernel_radius_mm, int width, int height);
 
   /// Perspective: meant for points in front of the eye, as all of the bounding sphere is.
   ScreenPoint project(const glm::dvec3& world) const;

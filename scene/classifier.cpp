@@ -7,7 +7,7 @@
 namespace fastsplat::scene {
 namespace {
 
-bool is_integer(VoxelType type) { return type != VoxelType::F32; }
+bool is_integer(volume::VoxelType type) { return type != volume::VoxelType::F32; }
 
 struct Span {
   double low, high;
@@ -20,7 +20,7 @@ Span non_empty(Span span) {
 }
 
 /// Values at the 0.5 and 99.8 percent ranks of the voxels above the minimum.
-Span percentile_span(const Volume& volume) {
+Span percentile_span(const volume::Volume& volume) {
   std::vector<float> values;
   values.reserve(volume.voxels.size());
   std::copy_if(volume.voxels.begin(), volume.voxels.end(), std::back_inserter(values),
@@ -35,7 +35,7 @@ Span percentile_span(const Volume& volume) {
   return {low, at_rank(0.998)};
 }
 
-Span resolve(Domain domain, const Volume& volume) {
+Span resolve(Domain domain, const volume::Volume& volume) {
   switch (domain) {
     case Domain::Value:
       return {0.0, 1.0};
@@ -50,7 +50,7 @@ Span resolve(Domain domain, const Volume& volume) {
 
 }  // namespace
 
-Classifier::Classifier(const TransferFunction& tf, const Volume& volume)
+Classifier::Classifier(const TransferFunction& tf, const volume::Volume& volume)
     : points_(tf.points), reference_length_(tf.reference_length), table_min_(volume.min) {
   assert(!points_.empty());
   const Span span = resolve(tf.domain, volume);

@@ -7,7 +7,7 @@
 
 #include "scene/pixel_techniques.hpp"
 #include "scene/settings.hpp"
-#include "scene/volume_file.hpp"
+#include "volume/volume_file.hpp"
 
 namespace fastsplat::scene {
 namespace {
@@ -30,7 +30,7 @@ Kernel make_kernel(const SceneDescription& description) {
 }
 
 /// 1 / (densest voxel's extinction x the longest straight way through the volume, ripple of the kernel included).
-double automatic_exposure(const Volume& volume, const TransferFunction& tf, double opacity_scale) {
+double automatic_exposure(const volume::Volume& volume, const TransferFunction& tf, double opacity_scale) {
   constexpr double kRipple = 1.05;  // the named kernels stay below: splatting.md 2, 4.38 % at a = 2
   const Classifier classify(tf, volume);
   float densest = 0.0f;
@@ -44,10 +44,10 @@ double automatic_exposure(const Volume& volume, const TransferFunction& tf, doub
 Scene build_scene(const SceneDescription& description) {
   check_limits(description);
   check_culling(description);
-  return build_scene(description, std::make_shared<const Volume>(load_volume(description.volume)));
+  return build_scene(description, std::make_shared<const volume::Volume>(volume::load_volume(description.volume)));
 }
 
-Scene build_scene(const SceneDescription& description, std::shared_ptr<const Volume> volume) {
+Scene build_scene(const SceneDescription& description, std::shared_ptr<const volume::Volume> volume) {
   check_limits(description);
   check_culling(description);
   const Kernel kernel = make_kernel(description);

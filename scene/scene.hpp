@@ -9,10 +9,10 @@
 #include "scene/camera.hpp"
 #include "scene/culling.hpp"
 #include "scene/kernel.hpp"
-#include "scene/techniques.hpp"
 #include "scene/solid_texture.hpp"
+#include "scene/techniques.hpp"
 #include "scene/transfer_function.hpp"
-#include "scene/volume.hpp"
+#include "volume/volume.hpp"
 
 namespace fastsplat::scene {
 
@@ -51,7 +51,7 @@ struct SceneDescription {
 /// Ready to render: files read, names resolved, limits checked.
 struct Scene {
   SceneDescription description;
-  std::shared_ptr<const Volume> volume;
+  std::shared_ptr<const volume::Volume> volume;
   TransferFunction transfer_function;
   Kernel kernel;
   Camera camera;
@@ -74,7 +74,7 @@ std::string to_toml(const SceneDescription& description);
 
 Scene build_scene(const SceneDescription& description);
 /// The same with a volume already in memory.
-Scene build_scene(const SceneDescription& description, std::shared_ptr<const Volume> volume);
+Scene build_scene(const SceneDescription& description, std::shared_ptr<const volume::Volume> volume);
 
 const char* to_string(Method method);
 const char* to_string(SlabOpacity opacity);

@@ -13,9 +13,9 @@
 #include "scene/scene.hpp"
 #include "scene/sequence_table.hpp"
 #include "scene/settings.hpp"
-#include "scene/synthetic.hpp"
 #include "scene/toml_reader.hpp"
-#include "scene/volume_file.hpp"
+#include "volume/synthetic.hpp"
+#include "volume/volume_file.hpp"
 
 namespace fastsplat::scene {
 namespace {
@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kDemoPrefix = "demo:";
 
 bool is_known_volume(const std::string& text) {
-  const auto names = known_volume_names();
+  const auto names = volume::known_volume_names();
   return std::find(names.begin(), names.end(), text.substr(0, text.find(':'))) != names.end();
 }
 

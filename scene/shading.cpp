@@ -11,7 +11,7 @@ constexpr double kLightUp = 0.50;
 
 }  // namespace
 
-Shader::Shader(const Shading& shading, const Camera& camera, const Volume& volume)
+Shader::Shader(const Shading& shading, const Camera& camera, const volume::Volume& volume)
     : shading_(shading),
       volume_(volume),
       light_(glm::normalize(-camera.direction() - kLightLeft * camera.right() - kLightUp * camera.down())),

@@ -5,7 +5,7 @@
 
 #include "scene/camera.hpp"
 #include "scene/transfer_function.hpp"
-#include "scene/volume.hpp"
+#include "volume/volume.hpp"
 
 namespace fastsplat::scene {
 
@@ -14,7 +14,7 @@ namespace fastsplat::scene {
 /// Shading::gradient_floor the colour stays as classified; up to twice the floor it is blended in.
 class Shader {
  public:
-  Shader(const Shading& shading, const Camera& camera, const Volume& volume);
+  Shader(const Shading& shading, const Camera& camera, const volume::Volume& volume);
 
   /// Every channel of the result is in [0,1].
   glm::vec3 operator()(const glm::vec3& colour, int i, int j, int k) const;
@@ -23,7 +23,7 @@ class Shader {
 
  private:
   Shading shading_;
-  const Volume& volume_;
+  const volume::Volume& volume_;
   glm::vec3 light_;  // unit, towards the light
   glm::vec3 half_;   // unit, between light and eye
   float floor_;      // value per mm

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/volume.hpp"
+#include "volume/volume.hpp"
 
 namespace fastsplat::scene {
 
@@ -45,7 +45,7 @@ struct Material {
 /// for float volumes evaluated directly.
 class Classifier {
  public:
-  Classifier(const TransferFunction& tf, const Volume& volume);
+  Classifier(const TransferFunction& tf, const volume::Volume& volume);
   Material operator()(float value) const;
   /// Between the values that a volume stores, too.
   Material evaluate(double value) const;

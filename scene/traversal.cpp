@@ -40,7 +40,7 @@ std::array<Walk, 3> walk_order(const Scene& scene) {
 }  // namespace
 
 void for_each_splat(const Scene& scene, const std::function<void(const Splat&)>& visit) {
-  const Volume& volume = *scene.volume;
+  const volume::Volume& volume = *scene.volume;
   const Classifier classify(scene.transfer_function, volume);
   const Shader shade(scene.shading, scene.camera, volume);
   const float opacity_scale = static_cast<float>(scene.description.opacity_scale);

@@ -10,13 +10,14 @@
 #include "analysis/provenance.hpp"
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/version.hpp"
 #include "cli/output.hpp"
 #include "driver/compile.hpp"
 #include "driver/config_file.hpp"
 #include "scene/scene.hpp"
-#include "testbench/closure_report.hpp"
-#include "testbench/coverage_campaigns.hpp"
-#include "testbench/covered_registry.hpp"
+#include "testbench/closure/closure_report.hpp"
+#include "testbench/closure/coverage_campaigns.hpp"
+#include "testbench/device/covered_registry.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -142,7 +143,7 @@ ExitCode run(const std::vector<std::string>& arguments) {
   }
   const std::filesystem::path folder = arguments[0];
   tb::ClosureReport report{
-      .version = analysis::program_version(), .plan = plan, .inputs = {}, .closure = {}, .lines = {}, .failures = {}};
+      .version = program_version(), .plan = plan, .inputs = {}, .closure = {}, .lines = {}, .failures = {}};
   std::map<std::string, bool> results;
   std::vector<tb::CoverageBook> more;
   for (std::size_t i = 1; i < arguments.size(); ++i) {

@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "tests/analysis/image_helper.hpp"
+#include "tests/images/image_helper.hpp"
 
 namespace fastsplat::analysis {
 namespace {
@@ -81,8 +81,8 @@ TEST(Compare, OfEqualErrorsTheFirstIsWorst) {
 }
 
 TEST(Compare, PeakMovesPsnrOnly) {
-  const Image ref = random_image(20, 20, 3, 1);
-  const Image test = random_image(20, 20, 3, 2);
+  const Image ref = images::random_image(20, 20, 3, 1);
+  const Image test = images::random_image(20, 20, 3, 2);
   const auto one = compare(ref, test).figures;
   const auto ten = compare(ref, test, {.peak = 10.0}).figures;
   EXPECT_NEAR(ten.psnr_db - one.psnr_db, 20.0, 1e-12);
@@ -96,9 +96,9 @@ struct OiioCase {
 
 std::vector<OiioCase> oiio_cases() {
   std::vector<OiioCase> cases;
-  cases.push_back({"noise", random_image(129, 67, 4, 1), random_image(129, 67, 4, 2)});
-  const Image base = random_image(200, 150, 4, 3);
-  cases.push_back({"small noise", base, plus(base, random_image(200, 150, 4, 4, -0.01f, 0.01f))});
+  cases.push_back({"noise", images::random_image(129, 67, 4, 1), images::random_image(129, 67, 4, 2)});
+  const Image base = images::random_image(200, 150, 4, 3);
+  cases.push_back({"small noise", base, plus(base, images::random_image(200, 150, 4, 4, -0.01f, 0.01f))});
   Image gradient(256, 64, 3), shifted(256, 64, 3);
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 256; ++x) {
@@ -109,7 +109,7 @@ std::vector<OiioCase> oiio_cases() {
     }
   }
   cases.push_back({"gradient", gradient, shifted});
-  cases.push_back({"one channel", random_image(33, 34, 1, 5), random_image(33, 34, 1, 6)});
+  cases.push_back({"one channel", images::random_image(33, 34, 1, 5), images::random_image(33, 34, 1, 6)});
   cases.push_back({"identical", base, base});
   return cases;
 }
@@ -164,8 +164,8 @@ TEST(Compare, AgreesWithOpenImageIO) {
 
 TEST(Compare, LeavesOutExactlyTheValuesThatAreNotFinite) {
   // OpenImageIO gets equal numbers where ours gets NaN: no error there, only more values to divide by.
-  const Image ref = random_image(90, 70, 4, 1);
-  Image holes = random_image(90, 70, 4, 2);
+  const Image ref = images::random_image(90, 70, 4, 1);
+  Image holes = images::random_image(90, 70, 4, 2);
   Image filled = holes;
   for (std::size_t i = 0; i < ref.data.size(); i += 97) {
     holes.data[i] = i % 2 == 0 ? kNaN : -kInf;
@@ -184,8 +184,8 @@ TEST(Compare, LeavesOutExactlyTheValuesThatAreNotFinite) {
 
 TEST(Compare, OrderStatisticsAreExact) {
   for (const int width : {1, 7, 100, 1009}) {
-    const Image ref = random_image(width, 1, 1, 9);
-    const Image test = random_image(width, 1, 1, 10);
+    const Image ref = images::random_image(width, 1, 1, 9);
+    const Image test = images::random_image(width, 1, 1, 10);
     std::vector<double> sorted;
     for (int x = 0; x < width; ++x) sorted.push_back(std::abs((double{test.data[x]} - ref.data[x]) * 255));
     std::sort(sorted.begin(), sorted.end());
@@ -201,7 +201,7 @@ TEST(Compare, OrderStatisticsAreExact) {
 }
 
 TEST(Compare, IdenticalImages) {
-  const Image image = random_image(64, 48, 4, 3);
+  const Image image = images::random_image(64, 48, 4, 3);
   const CompareReport report = compare(image, image, {.min_psnr_db = 200.0, .max_abs_lsb = 0.0, .min_ssim = 1.0});
   EXPECT_TRUE(report.pass);
   EXPECT_EQ(report.figures.psnr_db, std::numeric_limits<double>::infinity());
@@ -212,7 +212,7 @@ TEST(Compare, IdenticalImages) {
 }
 
 TEST(Compare, FloorIsWhatRoundingOnceGives) {
-  const Image ref = random_image(100, 80, 4, 3);
+  const Image ref = images::random_image(100, 80, 4, 3);
   Image rounded = ref;
   for (float& value : rounded.data) value = static_cast<float>(std::floor(value * 255.0 + 0.5) / 255.0);
   const CompareReport report = compare(ref, rounded);
@@ -233,15 +233,15 @@ TEST(Compare, FloorIsWhatRoundingOnceGives) {
 }
 
 TEST(Compare, ThreadsNeverChangeTheResult) {
-  const Image ref = random_image(317, 301, 4, 1);
-  Image test = plus(ref, random_image(317, 301, 4, 2, -0.02f, 0.02f));
+  const Image ref = images::random_image(317, 301, 4, 1);
+  Image test = plus(ref, images::random_image(317, 301, 4, 2, -0.02f, 0.02f));
   test.data[5] = kNaN;
   const std::string one = to_json(compare(ref, test, {.threads = 1}));
   for (const int threads : {0, 2, 3, 8}) EXPECT_EQ(to_json(compare(ref, test, {.threads = threads})), one) << threads;
 }
 
 TEST(Compare, NotFiniteFailsAndIsCounted) {
-  Image ref = random_image(20, 20, 4, 1);
+  Image ref = images::random_image(20, 20, 4, 1);
   Image test = ref;
   const double clean_max = compare(ref, test).figures.max_abs_lsb;
   ref.data[3] = kNaN;
@@ -275,7 +275,7 @@ TEST(Compare, ComparingNothingFails) {
 }
 
 TEST(Compare, EveryThresholdCanFail) {
-  const Image ref = random_image(40, 40, 4, 1);
+  const Image ref = images::random_image(40, 40, 4, 1);
   Image test = ref;
   for (float& value : test.data) value -= 0.01f;  // bias -2.55 LSB
   const Figures got = compare(ref, test).figures;
@@ -333,8 +333,8 @@ TEST(Compare, WorstClusters) {
 }
 
 TEST(Compare, HistogramCountsEverythingOnce) {
-  const Image ref = random_image(50, 50, 4, 1);
-  const Image test = plus(ref, random_image(50, 50, 4, 2, -2.0f, 2.0f));
+  const Image ref = images::random_image(50, 50, 4, 1);
+  const Image test = plus(ref, images::random_image(50, 50, 4, 2, -2.0f, 2.0f));
   const CompareReport report = compare(ref, test);
   std::uint64_t total = 0;
   for (const auto count : report.histogram) total += count;
@@ -347,14 +347,14 @@ TEST(Compare, HistogramCountsEverythingOnce) {
 }
 
 TEST(Compare, RefusesWhatIsNotComparable) {
-  const auto message = refusal(ExitCode::NotComparable, [] { compare(Image(4, 3, 4), Image(4, 4, 4)); });
+  const auto message = images::refusal(ExitCode::NotComparable, [] { compare(Image(4, 3, 4), Image(4, 4, 4)); });
   EXPECT_THAT(message, HasSubstr("expected 4 x 3 x 4, got 4 x 4 x 4"));
-  refusal(ExitCode::NotComparable, [] { compare(Image(4, 3, 4), Image(4, 3, 3)); });
-  refusal(ExitCode::NotComparable, [] { lsb_map(Image(4, 3, 4), Image(3, 3, 4), {}); });
-  refusal(ExitCode::Usage, [] { compare(Image(1, 1, 1), Image(1, 1, 1), {.lsb_bits = 0}); });
-  refusal(ExitCode::Usage, [] { compare(Image(1, 1, 1), Image(1, 1, 1), {.peak = 0.0}); });
-  refusal(ExitCode::Usage, [] { compare(Image(1, 1, 1), Image(1, 1, 1), {.clusters = -1}); });
-  refusal(ExitCode::Usage, [] { compare(Image(1, 1, 1), Image(1, 1, 1), {.min_psnr_db = NAN}); });
+  images::refusal(ExitCode::NotComparable, [] { compare(Image(4, 3, 4), Image(4, 3, 3)); });
+  images::refusal(ExitCode::NotComparable, [] { lsb_map(Image(4, 3, 4), Image(3, 3, 4), {}); });
+  images::refusal(ExitCode::Usage, [] { compare(Image(1, 1, 1), Image(1, 1, 1), {.lsb_bits = 0}); });
+  images::refusal(ExitCode::Usage, [] { compare(Image(1, 1, 1), Image(1, 1, 1), {.peak = 0.0}); });
+  images::refusal(ExitCode::Usage, [] { compare(Image(1, 1, 1), Image(1, 1, 1), {.clusters = -1}); });
+  images::refusal(ExitCode::Usage, [] { compare(Image(1, 1, 1), Image(1, 1, 1), {.min_psnr_db = NAN}); });
 }
 
 }  // namespace

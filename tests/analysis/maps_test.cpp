@@ -8,9 +8,9 @@
 #include "analysis/bitmap_font.hpp"
 #include "analysis/colour_map.hpp"
 #include "analysis/compare.hpp"
-#include "analysis/image_file.hpp"
-#include "analysis/srgb.hpp"
-#include "tests/analysis/image_helper.hpp"
+#include "images/image_file.hpp"
+#include "images/srgb.hpp"
+#include "tests/images/image_helper.hpp"
 
 namespace fastsplat::analysis {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 std::array<int, 3> drawn(const Image& map, int x, int y) {
   std::array<int, 3> codes{};
   for (std::size_t c = 0; c < 3; ++c) {
-    codes[c] = static_cast<int>(std::lround(srgb_encode(map.pixel(x, y)[c]) * 255));
+    codes[c] = static_cast<int>(std::lround(images::srgb_encode(map.pixel(x, y)[c]) * 255));
   }
   return codes;
 }
@@ -72,7 +72,7 @@ TEST(HeatMap, ColoursRiseWithTheError) {
 }
 
 TEST(Maps, HaveALegendThatDependsOnTheScale) {
-  const Image ref = random_image(256, 64, 3, 1);
+  const Image ref = images::random_image(256, 64, 3, 1);
   Image small = ref, large = ref;
   for (std::size_t i = 0; i < ref.data.size(); i += 7) small.data[i] += 0.5f / 255, large.data[i] += 90.0f / 255;
   for (const auto& map : {lsb_map, heat_map}) {
@@ -92,21 +92,21 @@ TEST(Maps, HaveALegendThatDependsOnTheScale) {
 }
 
 TEST(Maps, SmallImagesAreEnlargedToTheLegend) {
-  const Image image = random_image(30, 20, 4, 1);
+  const Image image = images::random_image(30, 20, 4, 1);
   const Image map = lsb_map(image, image, {});
   EXPECT_EQ(map.width, 270);  // 9 times
   EXPECT_GT(map.height, 180);
-  const Image strip = random_image(3, 2000, 4, 1);
+  const Image strip = images::random_image(3, 2000, 4, 1);
   EXPECT_EQ(lsb_map(strip, strip, {}).width, 256);
   EXPECT_GT(lsb_map(Image(0, 0, 4), Image(0, 0, 4), {}).height, 0);
 }
 
 TEST(Maps, SurviveADisplayFileExactly) {
-  const TempFolder folder;
+  const images::TempFolder folder;
   const Pair pair;
   const Image map = lsb_map(pair.ref, pair.test, {});
-  EXPECT_EQ(write_image(folder / "map.png", map, {}, {.display = true}), 0u);
-  const Image shown = read_image(folder / "map.png").image;
+  EXPECT_EQ(images::write_image(folder / "map.png", map, {}, {.display = true}), 0u);
+  const Image shown = images::read_image(folder / "map.png").image;
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(std::lround(shown.pixel(x, y)[c] * 255), drawn(map, x, y)[c]);

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/compare.hpp"
-#include "tests/analysis/image_helper.hpp"
+#include "tests/images/image_helper.hpp"
 
 namespace fastsplat::analysis {
 namespace {
@@ -16,8 +16,8 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 TEST(JsonReport, HasThePromisedKeysAndTheReportsNumbers) {
-  const Image ref = random_image(32, 24, 4, 1);
-  const CompareReport report = compare(ref, random_image(32, 24, 4, 2), {.lsb_bits = 10, .min_psnr_db = 48.0});
+  const Image ref = images::random_image(32, 24, 4, 1);
+  const CompareReport report = compare(ref, images::random_image(32, 24, 4, 2), {.lsb_bits = 10, .min_psnr_db = 48.0});
   const json parsed = json::parse(to_json(report));
   for (const char* key : {"schema",
                           "verdict",
@@ -64,7 +64,7 @@ TEST(JsonReport, HasThePromisedKeysAndTheReportsNumbers) {
 }
 
 TEST(JsonReport, HasNoNaNAndNoInfinity) {
-  const Image image = random_image(8, 8, 3, 1);
+  const Image image = images::random_image(8, 8, 3, 1);
   const json same = json::parse(to_json(compare(image, image, {.min_psnr_db = 48.0})));
   EXPECT_TRUE(same["psnr_db"].is_null());
   EXPECT_EQ(same["identical"], true);

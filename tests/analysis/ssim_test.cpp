@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "tests/analysis/image_helper.hpp"
+#include "tests/images/image_helper.hpp"
 
 namespace fastsplat::analysis {
 namespace {
@@ -60,8 +60,8 @@ TEST(Ssim, IsTheDefinition) {
   constexpr double kTolerance = 1e-10;
   double worst = 0;
   for (const auto& [width, height, channels] : {std::array{11, 11, 1}, std::array{40, 23, 3}, std::array{17, 90, 4}}) {
-    const Image a = random_image(width, height, channels, 1);
-    Image b = random_image(width, height, channels, 2);
+    const Image a = images::random_image(width, height, channels, 1);
+    Image b = images::random_image(width, height, channels, 2);
     for (std::size_t i = 0; i < b.data.size(); ++i) b.data[i] = 0.7f * a.data[i] + 0.2f * b.data[i];
     worst = std::max(worst, std::abs(ssim_of(a, b) - direct_ssim(a, b)));
     EXPECT_EQ(ssim_of(a, b, 1), ssim_of(a, b, 2));
@@ -90,8 +90,8 @@ TEST(Ssim, OppositeStructureIsNegative) {
 }
 
 TEST(Ssim, LeavesOutWindowsWithoutNumbers) {
-  const Image a = random_image(40, 30, 1, 1);
-  Image b = random_image(40, 30, 1, 2);
+  const Image a = images::random_image(40, 30, 1, 1);
+  Image b = images::random_image(40, 30, 1, 2);
   // One NaN in the last column touches only windows whose right edge is there: as if the image ended one column earlier
   // in 11 rows. In a column that every row covers, exactly so.
   Image narrow_a(39, 30, 1), narrow_b(39, 30, 1);

@@ -111,10 +111,19 @@ std::vector<Word> words_of(const std::string& text) {
   return words;
 }
 
+std::string room_of(const std::string& path, const Arrows& arrows) {
+  for (auto end = path.rfind('/'); end != std::string::npos && end > 0; end = path.rfind('/', end - 1)) {
+    const std::string room = path.substr(0, end);
+    if (arrows.contains(room)) return room;
+  }
+  return {};
+}
+
 std::vector<std::string> arrow_offences(const std::vector<SourceFile>& files, const Arrows& arrows, int& checked) {
   std::vector<std::string> offences;
   for (const auto& file : files) {
-    const auto allowed = arrows.find(file.folder());
+    const std::string own = room_of(file.path, arrows);
+    const auto allowed = arrows.find(own);
     for (const auto& include : includes_of(file.text)) {
       if (include.target.starts_with(".") ||
           (include.target.ends_with(".hpp") && include.target.find('/') == std::string::npos)) {
@@ -123,17 +132,17 @@ std::vector<std::string> arrow_offences(const std::vector<SourceFile>& files, co
                            "; write the path from the root of the repository");
         continue;
       }
-      const auto folder = include.target.substr(0, include.target.find('/'));
-      if (include.target.find('/') == std::string::npos || !arrows.contains(folder)) continue;
+      const auto room = room_of(include.target, arrows);
+      if (room.empty()) continue;
       ++checked;
-      if (folder == file.folder()) continue;
-      if (allowed != arrows.end() && allowed->second.contains(folder)) continue;
+      if (room == own) continue;
+      if (allowed != arrows.end() && allowed->second.contains(room)) continue;
       std::string list;
       if (allowed != arrows.end()) {
         for (const auto& name : allowed->second) list += " " + name;
       }
-      offences.push_back(file.path + ":" + std::to_string(include.line) + ": includes " + include.target + "; " +
-                         file.folder() + " may include only itself and:" + (list.empty() ? " nothing" : list));
+      offences.push_back(file.path + ":" + std::to_string(include.line) + ": includes " + include.target + "; " + own +
+                         " may include only itself and:" + (list.empty() ? " nothing" : list));
     }
   }
   return offences;

@@ -12,7 +12,6 @@ namespace fastsplat::architecture {
 struct SourceFile {
   std::string path;  ///< relative to the root, "cmodel/device.cpp"
   std::string text;
-  std::string folder() const { return path.substr(0, path.find('/')); }
   bool is_header() const { return path.ends_with(".hpp") || path.ends_with(".h"); }
 };
 
@@ -36,10 +35,14 @@ struct Word {
 /// parts.
 std::vector<Word> words_of(const std::string& text);
 
-/// folder -> folders it may include (itself always).
+/// room -> rooms it may include (itself always). A room is a folder, or a sub-folder that has an entry of its own; a
+/// file belongs to the deepest room that holds it.
 using Arrows = std::map<std::string, std::set<std::string>>;
 
-/// "cmodel/x.cpp:3: includes scene/image.hpp; cmodel may include base", one per offence. `checked` counts project
+/// The deepest room of `arrows` that holds `path`; empty when none does.
+std::string room_of(const std::string& path, const Arrows& arrows);
+
+/// "cmodel/x.cpp:3: includes scene/scene.hpp; cmodel may include base", one per offence. `checked` counts project
 /// includes seen.
 std::vector<std::string> arrow_offences(const std::vector<SourceFile>& files, const Arrows& arrows, int& checked);
 

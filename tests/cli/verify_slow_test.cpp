@@ -8,8 +8,8 @@
 
 #include "driver/config_file.hpp"
 #include "driver/stream_file.hpp"
-#include "testbench/failure.hpp"
-#include "testbench/verify.hpp"
+#include "testbench/check/verify.hpp"
+#include "testbench/triage/failure.hpp"
 #include "tests/cli/process_helper.hpp"
 
 namespace fastsplat::cli_test {

@@ -7,16 +7,16 @@
 #include "driver/config_file.hpp"
 #include "driver/render.hpp"
 #include "golden/render.hpp"
-#include "scene/volume_file.hpp"
 #include "tests/driver/scenes_helper.hpp"
+#include "volume/volume_file.hpp"
 
 namespace fastsplat::driver {
 namespace {
 
 TEST(Head, base_at_512_holds_48_db_and_3_lsb8) {
-  std::shared_ptr<const scene::Volume> volume;
+  std::shared_ptr<const volume::Volume> volume;
   try {
-    volume = std::make_shared<const scene::Volume>(scene::load_volume("ch2bet"));
+    volume = std::make_shared<const volume::Volume>(volume::load_volume("ch2bet"));
   } catch (const UserError& error) {
     GTEST_SKIP() << "the scan is not installed: " << error.what();
   }

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string>
 
+#include "base/image.hpp"
 #include "cmodel/config.hpp"
 #include "cmodel/frame.hpp"
-#include "scene/image.hpp"
 #include "scene/scene.hpp"
 
 namespace fastsplat::driver {

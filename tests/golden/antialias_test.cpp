@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "golden/projection.hpp"
 #include "golden/sheet_sweep.hpp"
+#include "golden/splat/projection.hpp"
 #include "scenes_helper.hpp"
 
 namespace fastsplat::golden::testing {

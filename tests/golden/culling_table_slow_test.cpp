@@ -8,8 +8,8 @@
 
 #include "base/error.hpp"
 #include "golden/render.hpp"
-#include "scene/volume_file.hpp"
 #include "scenes_helper.hpp"
+#include "volume/volume_file.hpp"
 
 namespace fastsplat::golden::testing {
 namespace {
@@ -70,7 +70,7 @@ Row measure(const char* name, const std::string& volume, const char* transfer_fu
 
 TEST(CullingTable, InTheLecturesShape) {
   try {
-    scene::load_volume("ch2bet");
+    volume::load_volume("ch2bet");
   } catch (const UserError& error) {
     GTEST_SKIP() << "the scan is not installed: " << error.what();
   }

@@ -5,7 +5,7 @@
 namespace fastsplat::golden::testing {
 
 scene::Scene make_scene(const DensityScene& what) {
-  auto volume = std::make_shared<scene::Volume>();
+  auto volume = std::make_shared<volume::Volume>();
   volume->name = volume->source = "test densities";
   volume->dims = what.dims;
   volume->spacing = what.spacing;

@@ -1,5 +1,5 @@
 // The shape of a footprint: circles as they always were, ellipses as the sphere's silhouette, energy kept.
-#include "golden/footprint.hpp"
+#include "golden/splat/footprint.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "golden/projection.hpp"
+#include "golden/splat/projection.hpp"
 #include "scenes_helper.hpp"
 
 namespace fastsplat::golden::testing {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "golden/projection.hpp"
+#include "golden/splat/projection.hpp"
 #include "scenes_helper.hpp"
 
 namespace fastsplat::golden::testing {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <random>
 
-#include "golden/projection.hpp"
+#include "golden/splat/projection.hpp"
 #include "golden/voxel_blocks.hpp"
 #include "scenes_helper.hpp"
 

@@ -44,7 +44,7 @@ Image defined(const scene::Scene& scene) {
   };
   const scene::SlabGrid grid = scene::slab_grid(scene);
   const scene::Classifier classify(scene.transfer_function, *scene.volume);
-  const scene::Volume& volume = *scene.volume;
+  const volume::Volume& volume = *scene.volume;
   Image image(scene.camera.width(), scene.camera.height());
   std::vector<double> density(image.data.size() / 4 * grid.count, 0.0);
   for (int k = 0; k < volume.dims.z; ++k) {

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "scene/synthetic.hpp"
 #include "scenes_helper.hpp"
+#include "volume/synthetic.hpp"
 
 namespace fastsplat::golden::testing {
 namespace {
@@ -14,7 +14,7 @@ TEST(RayCastSlow, ShellsAgainstSlabs) {
   scene::SceneDescription description;
   description.width = description.height = 256;
   description.shading = 0;
-  const auto volume = std::make_shared<scene::Volume>(scene::make_synthetic("shells", 64));
+  const auto volume = std::make_shared<volume::Volume>(volume::make_synthetic("shells", 64));
   scene::Scene scene = scene::build_scene(description, volume);
   // Colours that change with depth inside each shell, so that what hides what shows in the picture.
   scene.transfer_function = {};

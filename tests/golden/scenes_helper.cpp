@@ -12,8 +12,8 @@ namespace fastsplat::golden::testing {
 
 namespace {
 
-std::shared_ptr<const scene::Volume> graded_volume(const Lattice& lattice) {
-  auto volume = std::make_shared<scene::Volume>();
+std::shared_ptr<const volume::Volume> graded_volume(const Lattice& lattice) {
+  auto volume = std::make_shared<volume::Volume>();
   volume->name = volume->source = "test lattice";
   volume->dims = lattice.dims;
   volume->spacing = lattice.spacing;

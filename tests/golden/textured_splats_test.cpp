@@ -1,5 +1,5 @@
 // Textured splats: detail that changes nothing but detail, cycles, and can be turned off to the last bit.
-#include "golden/textured_splats.hpp"
+#include "golden/splat/textured_splats.hpp"
 
 #include <gtest/gtest.h>
 

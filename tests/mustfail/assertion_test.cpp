@@ -6,9 +6,9 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "testbench/failure.hpp"
-#include "testbench/simulator_output.hpp"
-#include "testbench/stimulus.hpp"
+#include "testbench/device/simulator_output.hpp"
+#include "testbench/stimulus/stimulus.hpp"
+#include "testbench/triage/failure.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/mustfail/campaign_helper.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "base/error.hpp"
 #include "cmodel/model.hpp"
-#include "testbench/scoreboard.hpp"
+#include "testbench/check/scoreboard.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/cmodel/random_stream_helper.hpp"
 #include "tests/cmodel/stream_writer_helper.hpp"

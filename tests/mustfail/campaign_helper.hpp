@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cmodel/config.hpp"
-#include "testbench/rtl_device.hpp"
+#include "testbench/device/rtl_device.hpp"
 
 namespace fastsplat::test {
 

@@ -1,7 +1,7 @@
 #include "Vfs_rtl_faulty.h"
 #include "Vfs_rtl_faulty___024root.h"
 #include "Vfs_rtl_faulty_fastsplat_fault_pkg.h"
-#include "testbench/verilated_device.hpp"
+#include "testbench/device/verilated_device.hpp"
 #include "tests/mustfail/campaign_helper.hpp"
 
 namespace fastsplat::test {

@@ -13,8 +13,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-Volume box() {
-  Volume volume;
+volume::Volume box() {
+  volume::Volume volume;
   volume.dims = {41, 61, 21};
   volume.spacing = {1.0, 0.5, 2.0};
   return volume;

@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "scene/scene.hpp"
-#include "scene/volume_file.hpp"
 #include "tests/scene/scene_testing.hpp"
+#include "volume/volume_file.hpp"
 
 namespace fastsplat::scene {
 namespace {

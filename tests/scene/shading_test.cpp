@@ -10,8 +10,8 @@ namespace {
 TEST(Gradient, IsExactOnALinearRamp) {
   // Powers of two: every operation is exact, borders included.
   const glm::dvec3 spacing(0.5, 1.0, 2.0);
-  const Volume volume =
-      make_volume({5, 4, 6}, spacing, VoxelType::F32, [](int i, int j, int k) { return 3 * i - 8 * j + 5 * k + 7; });
+  const volume::Volume volume = make_volume({5, 4, 6}, spacing, volume::VoxelType::F32,
+                                            [](int i, int j, int k) { return 3 * i - 8 * j + 5 * k + 7; });
   int compared = 0;
   for (int k = 0; k < 6; ++k) {
     for (int j = 0; j < 4; ++j) {
@@ -22,17 +22,18 @@ TEST(Gradient, IsExactOnALinearRamp) {
 }
 
 TEST(Gradient, IsZeroAlongAnAxisOfOneVoxel) {
-  const Volume volume = make_volume({3, 1, 1}, glm::dvec3(1), VoxelType::F32, [](int i, int, int) { return i * i; });
+  const volume::Volume volume =
+      make_volume({3, 1, 1}, glm::dvec3(1), volume::VoxelType::F32, [](int i, int, int) { return i * i; });
   EXPECT_EQ(gradient(volume, 1, 0, 0), glm::vec3(2, 0, 0));
 }
 
 class Light : public ::testing::Test {
  protected:
-  static Volume ramp(glm::dvec3 slope) {
-    return make_volume({5, 5, 5}, glm::dvec3(1), VoxelType::F32,
+  static volume::Volume ramp(glm::dvec3 slope) {
+    return make_volume({5, 5, 5}, glm::dvec3(1), volume::VoxelType::F32,
                        [slope](int i, int j, int k) { return glm::dot(slope, glm::dvec3(i, j, k)); });
   }
-  static glm::vec3 shade(const Volume& volume, Shading shading) {
+  static glm::vec3 shade(const volume::Volume& volume, Shading shading) {
     const Camera camera({.azimuth = 0.0, .elevation = 0.0}, volume, 1.0, 10, 10);
     return Shader(shading, camera, volume)(glm::vec3(0.5f), 2, 2, 2);
   }
@@ -62,8 +63,8 @@ TEST_F(Light, NeverLeavesTheUnitRange) {
 }
 
 TEST_F(Light, LeavesWeakGradientsAlone) {
-  const Volume flat =
-      make_volume({5, 5, 5}, glm::dvec3(1), VoxelType::F32, [](int i, int, int) { return i == 0 ? 100 : 0; });
+  const volume::Volume flat =
+      make_volume({5, 5, 5}, glm::dvec3(1), volume::VoxelType::F32, [](int i, int, int) { return i == 0 ? 100 : 0; });
   EXPECT_EQ(shade(flat, shading_), glm::vec3(0.5f));  // no gradient at all
   shading_.gradient_floor = 0.3;                      // the ramp's is 1/4 of its range per kernel unit
   EXPECT_EQ(shade(ramp({1, 0, 0}), shading_), glm::vec3(0.5f));

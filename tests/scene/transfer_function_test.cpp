@@ -13,7 +13,7 @@ namespace {
 using ::testing::HasSubstr;
 
 /// All 16-bit values as a 256 x 256 x 1 volume.
-Volume every_value(VoxelType type, int low) {
+volume::Volume every_value(volume::VoxelType type, int low) {
   return make_volume({256, 256, 1}, glm::dvec3(1), type, [low](int i, int j, int) { return low + i + 256 * j; });
 }
 
@@ -41,8 +41,8 @@ TEST(Classifier, IsExactForEverySixteenBitValue) {
   tf.points = {{0.1, {0, 0, 0}, 0.0}, {0.3, {1, 0.5, 0}, 0.4}, {0.6, {0, 1, 1}, 0.1}, {0.9, {1, 1, 1}, 0.95}};
   std::size_t compared = 0;
   double worst = 0.0;
-  for (const auto& [type, low] : {std::pair{VoxelType::U16, 0}, {VoxelType::I16, -32768}}) {
-    const Volume volume = every_value(type, low);
+  for (const auto& [type, low] : {std::pair{volume::VoxelType::U16, 0}, {volume::VoxelType::I16, -32768}}) {
+    const volume::Volume volume = every_value(type, low);
     const Classifier classify(tf, volume);
     for (const float value : volume.voxels) {
       const Material got = classify(value);
@@ -64,9 +64,9 @@ TEST(Classifier, IsExactForEverySixteenBitValue) {
 
 TEST(Classifier, FloatsAreEvaluatedDirectlyTheSameWay) {
   const TransferFunction tf = load_transfer_function("default");
-  Volume integers = every_value(VoxelType::U16, 0);
-  Volume floats = integers;
-  floats.stored = VoxelType::F32;
+  volume::Volume integers = every_value(volume::VoxelType::U16, 0);
+  volume::Volume floats = integers;
+  floats.stored = volume::VoxelType::F32;
   const Classifier tabulated(tf, integers);
   const Classifier direct(tf, floats);
   for (const float value : integers.voxels) {
@@ -79,7 +79,8 @@ TEST(Classifier, PointsAtOnePlaceMakeAStep) {
   TransferFunction tf;
   tf.domain = Domain::Value;
   tf.points = {{5.0, {1, 0, 0}, 0.0}, {5.0, {0, 1, 0}, 0.5}};
-  const Volume volume = make_volume({11, 1, 1}, glm::dvec3(1), VoxelType::U8, [](int i, int, int) { return i; });
+  const volume::Volume volume =
+      make_volume({11, 1, 1}, glm::dvec3(1), volume::VoxelType::U8, [](int i, int, int) { return i; });
   const Classifier classify(tf, volume);
   EXPECT_EQ(classify(4).extinction, 0.0f);
   EXPECT_FLOAT_EQ(classify(5).extinction, static_cast<float>(std::log(2.0)));
@@ -92,7 +93,8 @@ TEST(Classifier, OpacityOfOneReferenceLengthComesBack) {
   tf.domain = Domain::Value;
   tf.reference_length = 3.0;
   tf.points = {{0.0, {1, 1, 1}, 0.37}};
-  const Volume volume = make_volume({2, 1, 1}, glm::dvec3(1), VoxelType::U8, [](int i, int, int) { return i; });
+  const volume::Volume volume =
+      make_volume({2, 1, 1}, glm::dvec3(1), volume::VoxelType::U8, [](int i, int, int) { return i; });
   const double extinction = static_cast<double>(Classifier(tf, volume)(0).extinction);
   EXPECT_NEAR(1.0 - std::exp(-extinction * 3.0), 0.37, 1e-7);
 }
@@ -100,8 +102,8 @@ TEST(Classifier, OpacityOfOneReferenceLengthComesBack) {
 TEST(Classifier, PercentilesLeaveTheBackgroundOut) {
   // 5000 voxels of background 0 and the values 1..1000: ranks 0.5 % and 99.8 % of 1000 values are 5 and 998 (rank 4,
   // 997 counted from 0 and rounded down).
-  const Volume volume =
-      make_volume({6000, 1, 1}, glm::dvec3(1), VoxelType::U16, [](int i, int, int) { return std::max(0, i - 4999); });
+  const volume::Volume volume = make_volume({6000, 1, 1}, glm::dvec3(1), volume::VoxelType::U16,
+                                            [](int i, int, int) { return std::max(0, i - 4999); });
   TransferFunction tf;
   tf.domain = Domain::Percentile;
   tf.points = {{0.0, {0, 0, 0}, 0.0}, {0.0, {0, 0, 0}, 0.5}, {1.0, {0, 0, 0}, 0.5}, {1.0, {0, 0, 0}, 0.9}};
@@ -117,8 +119,8 @@ TEST(Classifier, AConstantVolumeCountsAsFull) {
     TransferFunction tf = load_transfer_function("linear");
     tf.domain = domain;
     for (const float value : {-3.0f, 0.0f, 1.0f, 200.0f}) {
-      const Volume volume =
-          make_volume({2, 2, 2}, glm::dvec3(1), VoxelType::F32, [value](int, int, int) { return value; });
+      const volume::Volume volume =
+          make_volume({2, 2, 2}, glm::dvec3(1), volume::VoxelType::F32, [value](int, int, int) { return value; });
       EXPECT_FLOAT_EQ(Classifier(tf, volume)(value).extinction, static_cast<float>(std::log(2.0)));
     }
   }

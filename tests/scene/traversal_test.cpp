@@ -6,19 +6,19 @@
 #include <set>
 
 #include "scene/splats.hpp"
-#include "scene/synthetic.hpp"
 #include "tests/scene/scene_testing.hpp"
+#include "volume/synthetic.hpp"
 
 namespace fastsplat::scene {
 namespace {
 
-Scene scene_of(SceneDescription description, Volume volume) {
-  return build_scene(description, std::make_shared<const Volume>(std::move(volume)));
+Scene scene_of(SceneDescription description, volume::Volume volume) {
+  return build_scene(description, std::make_shared<const volume::Volume>(std::move(volume)));
 }
 
 /// Every third voxel or so is visible; all visible values differ.
-Volume sparse() {
-  return make_volume({7, 6, 5}, {1.0, 1.5, 2.0}, VoxelType::F32,
+volume::Volume sparse() {
+  return make_volume({7, 6, 5}, {1.0, 1.5, 2.0}, volume::VoxelType::F32,
                      [](int i, int j, int k) { return (i + 2 * j + 5 * k) % 3 == 0 ? 1 + i + 7 * j + 42 * k : 0; });
 }
 
@@ -36,7 +36,7 @@ const std::vector<std::pair<double, double>> kViews = {{0, 0},   {90, 0},  {180,
 TEST(Traversal, VisitsEveryVisibleVoxelOnce) {
   for (const auto& [azimuth, elevation] : kViews) {
     const Scene scene = scene_of(view(azimuth, elevation), sparse());
-    const Volume& volume = *scene.volume;
+    const volume::Volume& volume = *scene.volume;
     std::set<std::vector<float>> expected;
     for (int k = 0; k < volume.dims.z; ++k) {
       for (int j = 0; j < volume.dims.y; ++j) {
@@ -94,7 +94,7 @@ TEST(Traversal, SheetsFollowTheDominantAxisAcross45Degrees) {
 }
 
 TEST(Traversal, IsAFunctionOfTheSceneOnly) {
-  const Scene scene = scene_of(view(30, 15), make_synthetic("shells", 24));
+  const Scene scene = scene_of(view(30, 15), volume::make_synthetic("shells", 24));
   const auto first = collect_splats(scene);
   const auto second = collect_splats(scene);
   ASSERT_GT(first.size(), 1000u);
@@ -113,7 +113,7 @@ TEST(Traversal, EmissionNeverExceedsExtinction) {
       SceneDescription description = view(30, 15);
       description.transfer_function = name;
       description.shading = shading;
-      for_each_splat(scene_of(description, make_synthetic("marschner-lobb", 20)), [&](const Splat& s) {
+      for_each_splat(scene_of(description, volume::make_synthetic("marschner-lobb", 20)), [&](const Splat& s) {
         EXPECT_GT(s.extinction, 0.0f);
         for (int c = 0; c < 3; ++c) {
           EXPECT_GE(s.emission[c], 0.0f);
@@ -168,13 +168,13 @@ TEST(Slabs, CoverEveryKernelWithABoundaryInTheCentre) {
 TEST(Scene, AmplitudeIsTheOpticalDepthOfAVoxel) {
   // A field of extinction 1 must give optical depth 1 per kernel unit: summed over a lattice, amplitude times the mean
   // footprint per area equals the cell's thickness.
-  const Scene cubic =
-      scene_of(view(0, 0), make_volume({4, 4, 4}, glm::dvec3(2.0), VoxelType::F32, [](int, int, int) { return 1; }));
+  const Scene cubic = scene_of(
+      view(0, 0), make_volume({4, 4, 4}, glm::dvec3(2.0), volume::VoxelType::F32, [](int, int, int) { return 1; }));
   EXPECT_DOUBLE_EQ(cubic.amplitude, cubic.kernel.peak());
   // A kernel as wide as the coarsest axis is sampled more densely along the others.
   for (const glm::dvec3 spacing : {glm::dvec3(1.0, 0.5, 2.0), glm::dvec3(2.0, 1.0, 0.5), glm::dvec3(0.5, 2.0, 1.0)}) {
     const Scene flat =
-        scene_of(view(0, 0), make_volume({4, 4, 4}, spacing, VoxelType::F32, [](int, int, int) { return 1; }));
+        scene_of(view(0, 0), make_volume({4, 4, 4}, spacing, volume::VoxelType::F32, [](int, int, int) { return 1; }));
     EXPECT_DOUBLE_EQ(flat.amplitude, flat.kernel.peak() * 0.5 * 0.25);
   }
 }
@@ -186,7 +186,7 @@ TEST(Scene, AutomaticExposureKeepsEveryRayBelowOne) {
     SceneDescription description = view(45, 35.264);
     description.method = Method::XRay;
     description.kernel = kernel;
-    const Scene scene = scene_of(description, make_synthetic("constant", 16));
+    const Scene scene = scene_of(description, volume::make_synthetic("constant", 16));
     double brightest = 0.0;
     for (const auto& [azimuth, elevation] : kViews) {
       description.camera.azimuth = azimuth;

@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "driver/config_file.hpp"
-#include "testbench/stimulus.hpp"
-#include "testbench/verify.hpp"
+#include "testbench/check/verify.hpp"
+#include "testbench/stimulus/stimulus.hpp"
 
 namespace fastsplat::testbench {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "cmodel/stream_decode.hpp"
 #include "driver/config_file.hpp"
-#include "testbench/campaign.hpp"
-#include "testbench/failure.hpp"
+#include "testbench/stimulus/campaign.hpp"
+#include "testbench/triage/failure.hpp"
 
 namespace fastsplat::testbench {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "base/read_file.hpp"
 #include "driver/config_file.hpp"
-#include "testbench/closure_report.hpp"
-#include "testbench/coverage_campaigns.hpp"
+#include "testbench/closure/closure_report.hpp"
+#include "testbench/closure/coverage_campaigns.hpp"
 #include "tests/testbench/scene_beats_helper.hpp"
 
 namespace fastsplat::testbench {

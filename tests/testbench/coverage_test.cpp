@@ -1,15 +1,15 @@
 // Functional coverage: what a small known stream hits, that it costs nothing when off, and that random campaigns reach
 // what they promise.
-#include "testbench/coverage.hpp"
+#include "testbench/coverage/coverage.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 
 #include "driver/config_file.hpp"
-#include "testbench/campaign.hpp"
-#include "testbench/coverage_collector.hpp"
-#include "testbench/directed.hpp"
+#include "testbench/coverage/coverage_collector.hpp"
+#include "testbench/stimulus/campaign.hpp"
+#include "testbench/stimulus/directed.hpp"
 
 namespace fastsplat::testbench {
 namespace {

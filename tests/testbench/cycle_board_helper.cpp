@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <deque>
 
-#include "testbench/rtl_device.hpp"
+#include "testbench/device/rtl_device.hpp"
 
 namespace fastsplat::test {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "cmodel/cycle_model.hpp"
-#include "testbench/pattern.hpp"
+#include "testbench/device/pattern.hpp"
 
 namespace fastsplat::test {
 

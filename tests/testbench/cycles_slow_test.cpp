@@ -9,7 +9,7 @@
 #include "cmodel/cycle_model.hpp"
 #include "driver/config_file.hpp"
 #include "driver/run_device.hpp"
-#include "testbench/rtl_device.hpp"
+#include "testbench/device/rtl_device.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/cmodel/random_stream_helper.hpp"
 #include "tests/cmodel/stream_writer_helper.hpp"

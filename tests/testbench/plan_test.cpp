@@ -11,8 +11,8 @@
 #include "base/error.hpp"
 #include "base/read_file.hpp"
 #include "driver/config_file.hpp"
-#include "testbench/closure_report.hpp"
-#include "testbench/coverage_campaigns.hpp"
+#include "testbench/closure/closure_report.hpp"
+#include "testbench/closure/coverage_campaigns.hpp"
 
 namespace fastsplat::testbench {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "driver/config_file.hpp"
-#include "testbench/campaign.hpp"
+#include "testbench/stimulus/campaign.hpp"
 #include "tests/testbench/scene_beats_helper.hpp"
 
 namespace fastsplat::testbench {

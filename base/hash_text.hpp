@@ -1,0 +1,16 @@
+// A 64-bit hash as text, as everywhere one is printed or stored.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace fastsplat {
+
+/// 16 lower-case hex digits.
+inline std::string hash_text(std::uint64_t hash) {
+  std::string text(16, '0');
+  for (std::size_t digit = 16; digit-- > 0; hash >>= 4) text[digit] = "0123456789abcdef"[hash & 15];
+  return text;
+}
+
+}  // namespace fastsplat

@@ -1,0 +1,7 @@
+#include "base/version.hpp"
+
+namespace fastsplat {
+
+std::string program_version() { return FASTSPLAT_VERSION; }
+
+}  // namespace fastsplat

@@ -1,0 +1,64 @@
+// Image files through OpenImageIO: EXR (float, half, raw integer words), PNG (8/16), TIFF (8/16/float).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/image.hpp"
+
+namespace fastsplat::images {
+
+/// Metadata carried in the file's attributes under "fastsplat:<key>": engine, method, scene (one-line TOML or path),
+/// config, config_hash (16 hex digits), version, format ("float", "U1.16"), ...
+using Metadata = std::map<std::string, std::string>;
+
+enum class PixelKind { Float, Half, Uint8, Uint16, RawWords };
+const char* to_string(PixelKind kind);
+
+struct LoadedImage {
+  Image image;  ///< decoded to value (integer files divided by their maximum; raw words by 2^frac_bits)
+  PixelKind kind = PixelKind::Float;
+  int frac_bits = 0;                 ///< raw words only
+  std::vector<std::uint32_t> words;  ///< raw words only, as in the file
+  Metadata metadata;
+};
+
+/// EXR, PNG or TIFF, told by content and not by name; 1, 3 (RGB) or 4 (RGBA) channels.
+/// Samples are taken as stored: no alpha (un)premultiplication, no colour conversion, whatever the tags say.
+/// UserError (Input) when missing, not an image, truncated, corrupt, of unsupported channels or sample type, lossy
+/// (JPEG in TIFF), cropped, with several images in the file, or too large (a side > 65536 or more than 2^31 values).
+/// Memory grows with the data that really decodes, so that a header that lies costs nothing.
+LoadedImage read_image(const std::filesystem::path& path);
+
+/// Absent `kind`: .exr Float, .png/.tif/.tiff Uint16; Uint8 where `display` is set.
+struct WriteOptions {
+  std::optional<PixelKind> kind = {};  ///< .exr Float, Half; .png Uint8, Uint16; .tif Uint8, Uint16, Float
+  bool display = false;  ///< .png/.tif only: composite over black, apply the sRGB curve, drop alpha (to look at)
+};
+
+/// Premultiplied linear values exactly as they are (integer kinds: clamped to [0,1], round half up; Half: clamped to
+/// +-65504, round half even). Returns how many values had to be clamped (NaN is written as 0 and counted; Float clamps
+/// nothing). Metadata keys are [a-z0-9_]+, values any text without NUL. The same input gives the same bytes.
+/// Atomic; every failure (unknown extension, kind that the format lacks, read-only, disk full) is a UserError (Input).
+std::size_t write_image(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
+                        const WriteOptions& options = {});
+
+/// A device's picture: row-major RGBA words, value = word / 2^frac_bits.
+struct RawImage {
+  int width = 0, height = 0;
+  int int_bits = 0, frac_bits = 0;
+  std::span<const std::uint32_t> words;  ///< width*height*4
+  std::uint64_t config_hash = 0;
+};
+
+/// EXR with one uint32 channel per colour: the device's raw words, bit for bit. Adds frac_bits, int_bits, config_hash
+/// (16 hex digits) and format ("U1.16") to the metadata.
+void write_raw(const std::filesystem::path& path, const RawImage& image, Metadata metadata);
+
+}  // namespace fastsplat::images

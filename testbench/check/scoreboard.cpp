@@ -1,0 +1,181 @@
+#include "testbench/check/scoreboard.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdio>
+#include <cstring>
+
+namespace fastsplat::testbench {
+namespace {
+
+constexpr std::size_t kHeaderWords = sizeof(TapQueue::Header) / sizeof(std::uint32_t);
+constexpr std::size_t kCompactWords = std::size_t{1} << 16;
+
+TapCopy owned(cmodel::Tap tap, const TapQueue::Header& header, std::span<const std::uint32_t> payload) {
+  return {.tap = tap,
+          .tile = header.tile,
+          .sheet = header.sheet,
+          .tag = header.tag,
+          .cycle = 0,
+          .x = header.x,
+          .y = header.y,
+          .payload = {payload.begin(), payload.end()}};
+}
+
+/// Meaning of a payload word, as "window pixel (i,j): weight" or "C_R".
+std::string word_name(const cmodel::Config& config, const TapCopy& record, std::size_t word) {
+  static constexpr const char* kChannels[] = {"R", "G", "B", "tau"};
+  static constexpr const char* kState[] = {"C_R", "C_G", "C_B", "T"};
+  static constexpr const char* kSnap[] = {"x0", "y0", "mx", "my"};
+  static constexpr const char* kPixel[] = {"R", "G", "B", "A"};
+  const auto lanes = static_cast<std::size_t>(config.lanes);
+  const auto pixel = [&](std::size_t lane) {
+    return "(" + std::to_string(lane % lanes) + "," + std::to_string(lane / lanes) + ")";
+  };
+  switch (record.tap) {
+    case cmodel::Tap::Snap:
+      return kSnap[word % 4];
+    case cmodel::Tap::Footprint:
+      return "window pixel " + pixel(word) + ": weight";
+    case cmodel::Tap::Sheet:
+      return "window pixel " + pixel(word / 4) + ": sheet " + kChannels[word % 4];
+    case cmodel::Tap::Composite:
+      return "block pixel " + pixel(word / 4) + ": " + kState[word % 4];
+    case cmodel::Tap::Pixel:
+      return std::string("output ") + kPixel[word % 4];
+  }
+  return "?";
+}
+
+std::string hex(std::uint32_t value) {
+  char text[16];
+  std::snprintf(text, sizeof text, "0x%X", value);
+  return text;
+}
+
+std::string place(const TapCopy& record) {
+  std::string text = std::string("stage ") + cmodel::to_string(record.tap) + ", tile " + std::to_string(record.tile);
+  if (record.tap != cmodel::Tap::Pixel) text += ", sheet " + std::to_string(record.sheet);
+  if (record.tap <= cmodel::Tap::Sheet) text += ", splat " + std::to_string(record.tag);
+  return text + ", pixel (" + std::to_string(record.x) + "," + std::to_string(record.y) + ")";
+}
+
+}  // namespace
+
+TapCopy copy(const cmodel::TapRecord& record) {
+  return {.tap = record.tap,
+          .tile = record.tile,
+          .sheet = record.sheet,
+          .tag = record.tag,
+          .cycle = record.cycle,
+          .x = record.x,
+          .y = record.y,
+          .payload = {record.payload.begin(), record.payload.end()}};
+}
+
+std::string describe(const cmodel::Config& config, const Divergence& divergence) {
+  if (!divergence.rtl) return place(*divergence.model) + ": the RTL never produced this event";
+  if (!divergence.model)
+    return place(*divergence.rtl) + ": the RTL produced an event that the model has not (cycle " +
+           std::to_string(divergence.rtl->cycle) + ")";
+  const TapCopy& model = *divergence.model;
+  const TapCopy& rtl = *divergence.rtl;
+  if (divergence.header)
+    return "expected " + place(model) + ", RTL has " + place(rtl) + " (cycle " + std::to_string(rtl.cycle) + ")";
+  const std::uint32_t a = model.payload[divergence.word], b = rtl.payload[divergence.word];
+  return place(model) + ", " + word_name(config, model, divergence.word) + " " + hex(a) + ", RTL " + hex(b) +
+         " (differs in " + hex(a ^ b) + ", cycle " + std::to_string(rtl.cycle) + ")";
+}
+
+void Scoreboard::Side::on_tap(const cmodel::TapRecord& record) {
+  is_model ? board->expect(record) : board->check(record);
+}
+
+void TapQueue::push(const cmodel::TapRecord& record) {
+  const Header header{.tile = record.tile,
+                      .sheet = record.sheet,
+                      .tag = record.tag,
+                      .x = record.x,
+                      .y = record.y,
+                      .words = static_cast<std::uint32_t>(record.payload.size())};
+  const auto words = std::bit_cast<std::array<std::uint32_t, kHeaderWords>>(header);
+  data_.insert(data_.end(), words.begin(), words.end());
+  data_.insert(data_.end(), record.payload.begin(), record.payload.end());
+}
+
+TapQueue::Header TapQueue::front() const {
+  Header header;
+  std::memcpy(&header, &data_[head_], sizeof header);
+  return header;
+}
+
+std::span<const std::uint32_t> TapQueue::payload() const {
+  return {data_.data() + head_ + kHeaderWords, front().words};
+}
+
+void TapQueue::pop() {
+  head_ += kHeaderWords + front().words;
+  if (head_ == data_.size()) {
+    data_.clear();
+    head_ = 0;
+  } else if (head_ > kCompactWords && head_ > data_.size() / 2) {
+    // What is moved is less than what was popped since the last move: constant time per record.
+    data_.erase(data_.begin(), data_.begin() + static_cast<std::ptrdiff_t>(head_));
+    head_ = 0;
+  }
+}
+
+void Scoreboard::expect(const cmodel::TapRecord& record) {
+  expected_[static_cast<std::size_t>(record.tap)].push(record);
+}
+
+std::size_t Scoreboard::backlog() const {
+  std::size_t words = 0;
+  for (const auto& queue : expected_) words += queue.words();
+  return words;
+}
+
+void Scoreboard::mismatch(Divergence divergence) {
+  ++mismatches_;
+  if (!first_) first_ = std::move(divergence);
+}
+
+void Scoreboard::check(const cmodel::TapRecord& record) {
+  auto& queue = expected_[static_cast<std::size_t>(record.tap)];
+  if (queue.empty()) {
+    mismatch({.model = std::nullopt, .rtl = copy(record), .word = 0, .header = false});
+    return;
+  }
+  const auto header = queue.front();
+  const auto payload = queue.payload();
+  ++comparisons_;
+  ++by_tap_[static_cast<std::size_t>(record.tap)];
+  const bool same_header = header.tile == record.tile && header.sheet == record.sheet && header.tag == record.tag &&
+                           header.x == record.x && header.y == record.y && payload.size() == record.payload.size();
+  const bool same = same_header && std::memcmp(payload.data(), record.payload.data(), payload.size_bytes()) == 0;
+  if (!same && first_) {
+    ++mismatches_;
+  } else if (!same) {
+    const auto at =
+        same_header ? std::mismatch(payload.begin(), payload.end(), record.payload.begin()).first : payload.begin();
+    mismatch({.model = owned(record.tap, header, payload),
+              .rtl = copy(record),
+              .word = static_cast<std::size_t>(at - payload.begin()),
+              .header = !same_header});
+  }
+  queue.pop();
+}
+
+void Scoreboard::finish() {
+  for (std::size_t tap = 0; tap < expected_.size(); ++tap) {
+    for (auto& queue = expected_[tap]; !queue.empty(); queue.pop()) {
+      mismatch({.model = owned(static_cast<cmodel::Tap>(tap), queue.front(), queue.payload()),
+                .rtl = std::nullopt,
+                .word = 0,
+                .header = false});
+    }
+  }
+}
+
+}  // namespace fastsplat::testbench

@@ -1,0 +1,91 @@
+#include "testbench/coverage/coverage_book.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+#include "base/hash_text.hpp"
+#include "base/read_file.hpp"
+
+namespace fastsplat::testbench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kFormat = "fastsplat coverage 1";
+constexpr std::size_t kMostBytes = std::size_t{1} << 26;
+
+std::pair<std::string, std::string> split(const std::string& bin) {
+  const auto dot = bin.find('.');
+  return {bin.substr(0, dot), dot == std::string::npos ? "" : bin.substr(dot + 1)};
+}
+
+}  // namespace
+
+void CoverageBook::merge(const CoverageBook& other) {
+  if (other.config_hash != config_hash) {
+    throw UserError(ExitCode::NotComparable, {.where = "coverage of configuration " + other.config,
+                                              .what = "was taken with another configuration",
+                                              .expected = config + " " + hash_text(config_hash),
+                                              .got = hash_text(other.config_hash),
+                                              .fix = "run it again with this version"});
+  }
+  streams += other.streams;
+  splats += other.splats;
+  comparisons += other.comparisons;
+  cycles += other.cycles;
+  for (const auto& [name, coverage] : other.campaigns) campaigns[name].merge(coverage);
+}
+
+void write_book(const std::filesystem::path& path, const CoverageBook& book) {
+  Json json{{"format", kFormat},       {"config", book.config}, {"config_hash", hash_text(book.config_hash)},
+            {"streams", book.streams}, {"splats", book.splats}, {"comparisons", book.comparisons},
+            {"cycles", book.cycles}};
+  json["campaigns"] = Json::object();
+  for (const auto& [name, coverage] : book.campaigns) {
+    Json& bins = json["campaigns"][name] = Json::object();
+    for (const auto& bin : coverage.bins()) bins[bin.name] = bin.hits;
+  }
+  write_text_file(path, json.dump(1) + "\n");
+}
+
+namespace {
+
+/// nlohmann would wrap a negative number and cut a fraction.
+std::uint64_t count_of(const Json& json) {
+  if (!json.is_number_unsigned()) throw std::runtime_error(json.dump() + " is no count");
+  return json.get<std::uint64_t>();
+}
+
+}  // namespace
+
+CoverageBook read_book(const std::filesystem::path& path) {
+  const std::string text = read_text_file(path, kMostBytes);
+  try {
+    const Json json = Json::parse(text);
+    if (json.at("format") != kFormat) throw std::runtime_error("another format");
+    CoverageBook book{.config = json.at("config"),
+                      .config_hash = std::stoull(json.at("config_hash").get<std::string>(), nullptr, 16),
+                      .streams = count_of(json.at("streams")),
+                      .splats = count_of(json.at("splats")),
+                      .comparisons = count_of(json.at("comparisons")),
+                      .cycles = count_of(json.at("cycles"))};
+    if (!json.at("campaigns").is_object()) throw std::runtime_error("campaigns are no table");
+    for (const auto& [name, bins] : json.at("campaigns").items()) {
+      Coverage& coverage = book.campaigns[name];
+      for (const auto& [bin, hits] : bins.items()) {
+        const auto [group, short_name] = split(bin);
+        coverage.hit(coverage.declare(group, short_name), count_of(hits));
+      }
+    }
+    return book;
+  } catch (const std::exception& error) {
+    throw_input({.where = path.string(),
+                 .what = "is no coverage file",
+                 .expected = std::string("what 'fastsplat verify --coverage FILE' writes (") + kFormat + ")",
+                 .got = error.what(),
+                 .fix = {}});
+  }
+}
+
+}  // namespace fastsplat::testbench

@@ -1,0 +1,31 @@
+// The coverage of one configuration, campaign by campaign: saved as JSON, added up over runs.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "cmodel/config.hpp"
+#include "testbench/coverage/coverage.hpp"
+
+namespace fastsplat::testbench {
+
+struct CoverageBook {
+  std::string config;  ///< name
+  std::uint64_t config_hash = 0;
+  std::uint64_t streams = 0, splats = 0, comparisons = 0, cycles = 0;
+  std::map<std::string, Coverage> campaigns{};  ///< stimulus class, "scene", "stream", "registers", ...
+
+  static CoverageBook of(const cmodel::Config& config) {
+    return {.config = config.name, .config_hash = cmodel::config_hash(config)};
+  }
+  /// Adds what another run saw. Throws UserError (NotComparable) if it was another configuration.
+  void merge(const CoverageBook& other);
+};
+
+void write_book(const std::filesystem::path& path, const CoverageBook& book);
+/// Throws UserError (Input) for a file that is no coverage of this program.
+CoverageBook read_book(const std::filesystem::path& path);
+
+}  // namespace fastsplat::testbench

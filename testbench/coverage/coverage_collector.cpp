@@ -1,0 +1,110 @@
+#include "testbench/coverage/coverage_collector.hpp"
+
+#include <algorithm>
+
+#include "testbench/device/pattern.hpp"
+#include "testbench/device/reset_fill.hpp"
+
+namespace fastsplat::testbench {
+namespace {
+
+constexpr ResetFill kFills[] = {ResetFill::Zero, ResetFill::One, ResetFill::Random};
+
+/// Counters that cannot rise: the configuration's largest operands do not overflow.
+bool reachable(const cmodel::Config& config, const std::string& counter) {
+  Coverage probe;
+  if (counter == "snap_saturated")
+    RoundingPoint(probe, "p", "", config.position_frac_bits - config.phase_bits(), config.position_format().max,
+                  config.snapped_format().max);
+  else if (counter == "product_saturated")
+    RoundingPoint(probe, "p", "", config.colour_frac_bits + config.radial_frac_bits - config.sheet_frac_bits,
+                  config.colour_format().max * config.weight_format().max, config.sheet_format().max);
+  else
+    return true;
+  return probe.declared("p.saturated");
+}
+
+}  // namespace
+
+CoverageCollector::CoverageCollector(const cmodel::Config& config, cmodel::StreamScope scope, CoverageRun run)
+    : config_(config),
+      scope_(scope),
+      run_(std::move(run)),
+      decode_(config, scope),
+      stream_(config, coverage_),
+      splats_(config, coverage_),
+      composite_(config, coverage_, splats_),
+      times_(config, coverage_),
+      resets_(config, coverage_),
+      model_(config, scope, pixels_, &taps_) {
+  cmodel::Counters{}.for_each([&](const char* name, std::uint64_t, const char*) {
+    if (reachable(config_, name)) coverage_.declare("counter", name);
+  });
+  for (const ResetFill fill : kFills) coverage_.declare("fill", to_string(fill));
+  for (const auto& pattern : Pattern::examples()) coverage_.declare("ready", pattern);
+  for (const auto& pattern : Pattern::examples()) coverage_.declare("input", pattern);
+}
+
+Coverage CoverageCollector::declare(const cmodel::Config& config) {
+  return CoverageCollector(config, cmodel::StreamScope::Subset, {}).coverage();
+}
+
+void CoverageCollector::interrupted(std::span<const cmodel::Beat> beats, std::uint64_t first_beat,
+                                    std::uint64_t cycle) {
+  cmodel::CycleModel model(
+      config_, cmodel::StreamScope::Subset,
+      {.input = run_.source, .output = run_.sink, .first_beat = first_beat, .taps = nullptr, .spans = &resets_});
+  model.consume(beats);
+  resets_.reset(cycle);
+}
+
+void CoverageCollector::start(std::uint64_t first_beat) {
+  cycles_.emplace(
+      config_, scope_,
+      cmodel::CycleOptions{
+          .input = run_.source, .output = run_.sink, .first_beat = first_beat, .taps = &times_, .spans = &times_});
+}
+
+void CoverageCollector::before(const cmodel::Record& record) {
+  stream_.on_record(record);
+  if (const auto* splat = std::get_if<cmodel::SplatRecord>(&record)) {
+    splats_.splat(*splat);
+  } else if (const auto* tile = std::get_if<cmodel::BeginTile>(&record)) {
+    splats_.begin_tile(*tile);
+    composite_.begin_tile(*tile);
+    times_.begin_tile(tile->width, tile->height);
+  } else if (const auto* table = std::get_if<cmodel::LoadTable>(&record)) {
+    splats_.load(*table);
+    composite_.load(*table);
+  }
+}
+
+void CoverageCollector::consume(std::span<const cmodel::Beat> beats) {
+  for (const auto& beat : beats) {
+    if (const cmodel::Record* record = decode_.feed(beat)) before(*record);
+    model_.consume({&beat, 1});
+    cycles_->consume({&beat, 1});
+  }
+}
+
+void CoverageCollector::finish() {
+  decode_.finish();
+  model_.finish();
+  cycles_->finish();
+  times_.stalls(cycles_->stalls());
+  run_bins();
+}
+
+void CoverageCollector::run_bins() {
+  model_.counters().for_each([&](const char* name, std::uint64_t value, const char*) {
+    if (value > 0) coverage_.hit(coverage_.declare("counter", name), value);
+  });
+  const auto hit = [&](const char* group, const std::string& name) {
+    if (coverage_.declared(std::string(group) + "." + name)) coverage_.hit(coverage_.declare(group, name));
+  };
+  hit("fill", run_.fill);
+  hit("ready", run_.ready);
+  hit("input", run_.input);
+}
+
+}  // namespace fastsplat::testbench

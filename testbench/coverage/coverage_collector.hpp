@@ -1,0 +1,76 @@
+// Samples the coverage of one run of the checked device: the same beats through the model for its taps and through the
+// cycle model for its cycles. Both are what the RTL did, for the run that is sampled proves it equal to them; the
+// coverage of a run that fails is thrown away. Knows no simulator type.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "cmodel/cycle_model.hpp"
+#include "cmodel/model.hpp"
+#include "testbench/coverage/coverage.hpp"
+#include "testbench/coverage/coverage_composite.hpp"
+#include "testbench/coverage/coverage_cycles.hpp"
+#include "testbench/coverage/coverage_splat.hpp"
+#include "testbench/coverage/coverage_stream.hpp"
+
+namespace fastsplat::testbench {
+
+/// How the run's device was driven.
+struct CoverageRun {
+  std::string ready, input;  ///< patterns, as text
+  std::string fill;          ///< what memories held before reset
+  const cmodel::Willing* source = nullptr;
+  const cmodel::Willing* sink = nullptr;
+};
+
+class CoverageCollector {
+ public:
+  /// Every bin of the configuration, none hit.
+  static Coverage declare(const cmodel::Config& config);
+
+  CoverageCollector(const cmodel::Config& config, cmodel::StreamScope scope, CoverageRun run);
+
+  /// The first beats of a stream, fed from `first_beat` on and cut off by a reset in `cycle`.
+  void interrupted(std::span<const cmodel::Beat> beats, std::uint64_t first_beat, std::uint64_t cycle);
+  /// Cycle since reset from which the source has a beat; before the first beat.
+  void start(std::uint64_t first_beat);
+  void consume(std::span<const cmodel::Beat> beats);
+  void finish();
+
+  const cmodel::StallCounters& stalls() const { return cycles_->stalls(); }  ///< after finish()
+  const Coverage& coverage() const { return coverage_; }
+
+ private:
+  struct ModelTaps final : cmodel::TapSink {
+    explicit ModelTaps(CoverageCollector* collector) : owner(collector) {}
+    CoverageCollector* owner;
+    void on_tap(const cmodel::TapRecord& record) override {
+      owner->splats_.on_tap(record);
+      owner->composite_.on_tap(record);
+    }
+  };
+  struct NoPixels final : cmodel::PixelSink {
+    void on_tile(cmodel::TilePixels&&) override {}
+  };
+  void before(const cmodel::Record& record);
+  void run_bins();
+
+  cmodel::Config config_;
+  cmodel::StreamScope scope_;
+  CoverageRun run_;
+  Coverage coverage_;
+  cmodel::StreamDecode decode_;
+  StreamCoverage stream_;
+  SplatCoverage splats_;
+  CompositeCoverage composite_;
+  CycleCoverage times_;
+  ResetCoverage resets_;
+  ModelTaps taps_{this};
+  NoPixels pixels_;
+  cmodel::Model model_;
+  std::optional<cmodel::CycleModel> cycles_;
+};
+
+}  // namespace fastsplat::testbench

@@ -1,0 +1,152 @@
+#include "testbench/coverage/coverage_stream.hpp"
+
+#include <set>
+
+#include "cmodel/stream_decode.hpp"
+
+namespace fastsplat::testbench {
+namespace {
+
+constexpr std::size_t kWordsPerBeat = std::tuple_size_v<cmodel::Beat>;
+constexpr const char* kChannels[] = {"R", "G", "B", "tau"};
+
+std::size_t words_in_last_beat(std::size_t words) { return (words + kWordsPerBeat - 1) % kWordsPerBeat; }
+
+/// Fills of a table's last beat (0: one word ... 5: six) that the configuration's tables can have.
+std::set<std::size_t> last_beats(const cmodel::Config& config) {
+  std::set<std::size_t> out{words_in_last_beat(static_cast<std::size_t>(config.radial_entries)),
+                            words_in_last_beat(static_cast<std::size_t>(config.opacity_segments) + 1)};
+  for (int columns = config.lanes; columns <= config.rlut_columns; columns += config.lanes)
+    out.insert(words_in_last_beat(static_cast<std::size_t>(columns) * static_cast<std::size_t>(config.phases)));
+  return out;
+}
+
+}  // namespace
+
+StreamCoverage::StreamCoverage(const cmodel::Config& config, Coverage& coverage)
+    : config_(config),
+      coverage_(coverage),
+      sets_(static_cast<std::size_t>(config.rlut_sets)),
+      extents_(static_cast<std::size_t>(config.rlut_sets)) {
+  record_ = coverage.bins().size();
+  // In the order of cmodel::Record.
+  for (const char* name : {"begin_frame", "load_table", "begin_tile", "begin_sheet", "splat", "cull_block", "end_sheet",
+                           "end_tile", "end_frame"})
+    coverage.declare("record", name);
+  table_kind_ = coverage.bins().size();
+  for (const char* name : {"rlut", "radial", "factor"}) coverage.declare("table", name);
+  for (const std::size_t words : last_beats(config))
+    coverage.declare("table", "last_beat_of_" + std::to_string(words + 1));
+  loaded_again_ = coverage.declare("table", "set_loaded_again");
+  first_columns_ = coverage.declare("table", "set_in_first_columns");
+  last_columns_ = coverage.declare("table", "set_in_last_columns");
+  mode_ = coverage.bins().size();
+  for (const char* name : {"exponential", "additive", "sum"}) coverage.declare("tile", name);
+  full_width_ = coverage.declare("tile", "full_width");
+  full_height_ = coverage.declare("tile", "full_height");
+  partial_width_ = coverage.declare("tile", "partial_block_width");
+  partial_height_ = coverage.declare("tile", "partial_block_height");
+  one_pixel_ = coverage.declare("tile", "one_pixel");
+  no_sheet_ = coverage.declare("tile", "without_sheet");
+  next_tile_ = coverage.declare("tile", "after_another");
+  empty_sheet_ = coverage.declare("sheet", "empty");
+  one_splat_ = coverage.declare("sheet", "of_one_splat");
+  number_gap_ = coverage.declare("sheet", "number_skips");
+  number_zero_ = coverage.declare("sheet", "number_zero");
+  cull_first_ = coverage.declare("cull", "before_all_splats");
+  cull_between_ = coverage.declare("cull", "between_splats");
+  cull_last_ = coverage.declare("cull", "after_all_splats");
+  if (config.rlut_sets > 1) {
+    overlap_ = coverage.declare("table", "sets_overlap");
+    first_set_ = coverage.declare("set", "first");
+    last_set_ = coverage.declare("set", "last");
+    other_set_ = coverage.declare("set", "another_than_before");
+  }
+  colour_zero_ = coverage.bins().size();
+  for (const char* channel : kChannels) coverage.declare("colour", std::string(channel) + "_zero");
+  colour_largest_ = coverage.bins().size();
+  for (const char* channel : kChannels) coverage.declare("colour", std::string(channel) + "_largest");
+}
+
+void StreamCoverage::on_record(const cmodel::Record& record) {
+  // Variant order: BeginFrame, LoadTable, BeginTile, BeginSheet, SplatRecord, CullBlock, EndSheet, EndTile, EndFrame.
+  coverage_.hit(record_ + record.index());
+  if (const auto* splat_record = std::get_if<cmodel::SplatRecord>(&record)) {
+    splat(*splat_record);
+  } else if (const auto* load = std::get_if<cmodel::LoadTable>(&record)) {
+    table(*load);
+  } else if (const auto* begin = std::get_if<cmodel::BeginTile>(&record)) {
+    tile(*begin);
+  } else if (const auto* begin_sheet = std::get_if<cmodel::BeginSheet>(&record)) {
+    sheet(*begin_sheet);
+  } else if (const auto* end = std::get_if<cmodel::EndSheet>(&record)) {
+    end_sheet(*end);
+  } else if (const auto* end_tile = std::get_if<cmodel::EndTile>(&record)) {
+    if (end_tile->sheets == 0) coverage_.hit(no_sheet_);
+  } else if (std::holds_alternative<cmodel::CullBlock>(record)) {
+    if (splats_ == 0) coverage_.hit(cull_first_);
+    cull_pending_ = true;
+  }
+}
+
+void StreamCoverage::table(const cmodel::LoadTable& table) {
+  coverage_.hit(table_kind_ + static_cast<std::size_t>(table.table));
+  coverage_.hit(
+      coverage_.declare("table", "last_beat_of_" + std::to_string(words_in_last_beat(table.words.size()) + 1)));
+  if (table.table != cmodel::Table::Rlut) return;
+  const auto extent = cmodel::StreamDecode::padded_extent(config_, table.radius.rho);
+  const std::uint32_t base = table.radius.base, end = base + extent;
+  if (sets_[table.radius.set].rho != 0) coverage_.hit(loaded_again_);
+  if (base == 0) coverage_.hit(first_columns_);
+  if (end == static_cast<std::uint32_t>(config_.rlut_columns)) coverage_.hit(last_columns_);
+  for (std::size_t other = 0; other < sets_.size(); ++other) {
+    if (other == table.radius.set || sets_[other].rho == 0) continue;
+    if (sets_[other].base < end && base < sets_[other].base + extents_[other]) coverage_.hit(overlap_);
+  }
+  sets_[table.radius.set] = table.radius;
+  extents_[table.radius.set] = extent;
+}
+
+void StreamCoverage::tile(const cmodel::BeginTile& tile) {
+  coverage_.hit(mode_ + static_cast<std::size_t>(tile.mode));
+  if (tile.width == config_.tile_width) coverage_.hit(full_width_);
+  if (tile.height == config_.tile_height) coverage_.hit(full_height_);
+  if (tile.width % config_.lanes != 0) coverage_.hit(partial_width_);
+  if (tile.height % config_.lanes != 0) coverage_.hit(partial_height_);
+  if (tile.width == 1 && tile.height == 1) coverage_.hit(one_pixel_);
+  if (tiles_++ > 0) coverage_.hit(next_tile_);
+  sheets_ = 0;
+}
+
+void StreamCoverage::sheet(const cmodel::BeginSheet& sheet) {
+  if (sheet.sheet == 0) coverage_.hit(number_zero_);
+  if (sheets_++ > 0 && sheet.sheet != number_ + 1) coverage_.hit(number_gap_);
+  number_ = sheet.sheet;
+  splats_ = 0;
+  cull_pending_ = false;
+}
+
+void StreamCoverage::splat(const cmodel::SplatRecord& splat) {
+  if (cull_pending_ && splats_ > 0) coverage_.hit(cull_between_);
+  cull_pending_ = false;
+  if (config_.rlut_sets > 1) {
+    if (splat.set == 0) coverage_.hit(first_set_);
+    if (splat.set + 1 == sets_.size()) coverage_.hit(last_set_);
+    if (splats_ > 0 && splat.set != set_) coverage_.hit(other_set_);
+  }
+  set_ = splat.set;
+  ++splats_;
+  const auto largest = static_cast<std::uint32_t>(config_.colour_format().max);
+  for (std::size_t c = 0; c < splat.colour.size(); ++c) {
+    if (splat.colour[c] == 0) coverage_.hit(colour_zero_ + c);
+    if (splat.colour[c] == largest) coverage_.hit(colour_largest_ + c);
+  }
+}
+
+void StreamCoverage::end_sheet(const cmodel::EndSheet& end) {
+  if (end.splats == 0) coverage_.hit(empty_sheet_);
+  if (end.splats == 1) coverage_.hit(one_splat_);
+  if (cull_pending_ && splats_ > 0) coverage_.hit(cull_last_);
+}
+
+}  // namespace fastsplat::testbench

@@ -1,0 +1,66 @@
+#include "testbench/device/pattern.hpp"
+
+#include <charconv>
+
+#include "base/error.hpp"
+
+namespace fastsplat::testbench {
+
+std::vector<std::string> Pattern::examples() {
+  return {"always", "random-50", "random-10", "every-3", "never-40", "burst-16"};
+}
+
+Pattern::Pattern(const std::string& text, std::uint64_t seed) : seed_(mix(seed)), text_(text) {
+  const auto refuse = [&] {
+    throw_usage({.where = "pattern '" + text + "'",
+                 .what = "unknown ready/valid pattern",
+                 .expected = "always, every-N, never-N, random-PERCENT or burst-N, N 1..1000000",
+                 .got = {},
+                 .fix = "for example random-50"});
+  };
+  if (text == "always") return;
+  const auto dash = text.find('-');
+  if (dash == std::string::npos) refuse();
+  const std::string name = text.substr(0, dash);
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data() + dash + 1, end, number_);
+  const bool percent = name == "random";
+  if (error != std::errc{} || stop != end || number_ < 1 || number_ > (percent ? 100 : 1000000)) refuse();
+  if (name == "every") {
+    kind_ = Kind::Every;
+  } else if (name == "never") {
+    kind_ = Kind::Never;
+  } else if (percent) {
+    kind_ = Kind::Random;
+  } else if (name == "burst") {
+    kind_ = Kind::Burst;
+  } else {
+    refuse();
+  }
+}
+
+bool Pattern::at(std::uint64_t cycle) const {
+  switch (kind_) {
+    case Kind::Always:
+      return true;
+    case Kind::Every:
+      return (cycle + seed_) % number_ == 0;
+    case Kind::Never:
+      return (cycle + seed_) / number_ % 2 == 0;
+    case Kind::Random:
+      return mix(seed_ + cycle) % 100 < number_;
+    case Kind::Burst: {
+      // Each stretch of N cycles is on up to a seeded point and off after it, or the other way round.
+      const std::uint64_t draw = mix(seed_ + cycle / number_);
+      return (cycle % number_ < draw % number_) != ((draw >> 40 & 1) != 0);
+    }
+  }
+  return true;
+}
+
+std::uint64_t Pattern::next(std::uint64_t cycle) const {
+  while (!at(cycle)) ++cycle;
+  return cycle;
+}
+
+}  // namespace fastsplat::testbench

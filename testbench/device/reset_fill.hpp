@@ -1,0 +1,13 @@
+// What every register and memory of a simulated device holds before reset.
+#pragma once
+
+#include <string>
+
+namespace fastsplat::testbench {
+
+enum class ResetFill { Zero, One, Random };
+
+ResetFill reset_fill_from(const std::string& name);  ///< throws UserError (Usage)
+const char* to_string(ResetFill fill);
+
+}  // namespace fastsplat::testbench

@@ -1,0 +1,69 @@
+// The Verilated device behind the model's interface: beats in, pixels, taps and counters out, plus a clock.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cmodel/config.hpp"
+#include "cmodel/device.hpp"
+#include "testbench/device/pattern.hpp"
+#include "testbench/device/reset_fill.hpp"
+
+namespace fastsplat::testbench {
+
+/// Which simulation of the RTL runs. Both behave the same; a plain one neither checks assertions nor writes waveforms.
+enum class RtlBuild { Checked, Plain };
+
+struct RtlOptions {
+  Pattern input;   ///< when the source offers a beat (an offered beat stays until taken)
+  Pattern output;  ///< when the sink takes pixels
+  ResetFill fill = ResetFill::Random;
+  std::uint64_t seed = 1;            ///< of ResetFill::Random
+  std::uint64_t timeout = 1u << 20;  ///< cycles without any transfer before UserError (Simulation)
+  cmodel::TapSink* taps = nullptr;
+  /// A waveform of the cycles [wave_from, wave_to); none while the path is empty.
+  std::filesystem::path wave;
+  std::uint64_t wave_from = 0, wave_to = 0;
+  RtlBuild build = RtlBuild::Checked;
+};
+
+/// Cycles the device was busy and what it waited for (its own counters).
+struct RtlCycles {
+  std::uint64_t busy = 0, stall_input = 0, stall_table = 0, stall_buffer = 0, stall_tile = 0;
+};
+
+/// What a register access was answered with.
+struct RegisterAnswer {
+  std::uint32_t word = 0;  ///< of a read
+  bool okay = false;       ///< false: SLVERR
+};
+
+/// Of a stream that the device refuses, consume() throws UserError (Simulation) once; what follows is swallowed until a
+/// reset.
+class RtlDevice : public cmodel::Device {
+ public:
+  /// Cycles since reset was released.
+  virtual std::uint64_t cycles() const = 0;
+  /// Read through AXI4-Lite.
+  virtual RtlCycles cycle_counters() = 0;
+  /// One AXI4-Lite access; the answer is taken `wait` cycles after it came. The stream side goes on by its patterns.
+  virtual RegisterAnswer read_register(std::uint32_t address, int wait = 0) = 0;
+  virtual RegisterAnswer write_register(std::uint32_t address, std::uint32_t word, int wait = 0) = 0;
+  /// Resets again in the middle of whatever is going on; memories keep what they hold, counters restart.
+  virtual void warm_reset() = 0;
+};
+
+/// Configurations with RTL in this build.
+std::vector<std::string> rtl_config_names();
+
+/// Throws UserError (Usage) for a configuration without RTL, and UserError (Simulation) when the configuration hash in
+/// the device's registers is not `config`'s. While the device runs, UserError (Simulation) tells that it hangs, that it
+/// refused the stream, or which assertion of the RTL failed, where and in which cycle.
+std::unique_ptr<RtlDevice> make_rtl_device(const cmodel::Config& config, cmodel::PixelSink& pixels,
+                                           const RtlOptions& options = {});
+
+}  // namespace fastsplat::testbench

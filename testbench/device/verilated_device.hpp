@@ -1,0 +1,288 @@
+// RtlDevice over one Verilated class. Included once per configuration by a generated source; nobody else needs it.
+#pragma once
+
+#include <verilated.h>
+#include <verilated_fst_c.h>
+
+#include <limits>
+#include <type_traits>
+
+#include "base/error.hpp"
+#include "base/hash_text.hpp"
+#include "cmodel/records.hpp"
+#include "cmodel/register_map.hpp"
+#include "testbench/device/rtl_device.hpp"
+#include "testbench/device/simulator_output.hpp"
+#include "testbench/device/tap_assembly.hpp"
+
+namespace fastsplat::testbench {
+
+/// The 32-bit words of a Verilated port of any width.
+template <class Port>
+const std::uint32_t* port_words(const Port& port, std::uint64_t& small) {
+  if constexpr (std::is_integral_v<Port>) {
+    small = port;
+    return reinterpret_cast<const std::uint32_t*>(&small);
+  } else {
+    return port.data();
+  }
+}
+
+template <class Top>
+class VerilatedDevice : public RtlDevice {
+ public:
+  VerilatedDevice(const cmodel::Config& config, cmodel::PixelSink& pixels, const RtlOptions& options)
+      : config_(config), options_(options), taps_(config, pixels, options.taps) {
+    context_.threads(1);  // the default starts idle workers
+    context_.randReset(options.fill == ResetFill::Zero ? 0 : options.fill == ResetFill::One ? 1 : 2);
+    context_.randSeed(static_cast<int>(options.seed % 0x7fffffff) + 1);
+    context_.traceEverOn(!options.wave.empty());
+    // A failing assertion is counted here and told by cycle(); the default is to end the process.
+    context_.fatalOnError(false);
+    context_.errorLimit(std::numeric_limits<int>::max());
+    take_simulator_output();
+    top_ = std::make_unique<Top>(&context_);
+    top_->clk_i = 0;
+    quiet();
+    top_->rst_ni = 0;
+    top_->eval();
+    if constexpr (requires(Top & top, VerilatedFstC * wave) { top.trace(wave, 99); }) {
+      if (!options_.wave.empty()) {
+        wave_ = std::make_unique<VerilatedFstC>();
+        top_->trace(wave_.get(), 99);
+        wave_->open(options_.wave.c_str());
+      }
+    }
+    pulse_reset();
+    const std::uint64_t hash =
+        read(cmodel::kRegHashLow.address) | static_cast<std::uint64_t>(read(cmodel::kRegHashHigh.address)) << 32;
+    if (hash != config_hash(config)) {
+      throw UserError(ExitCode::Simulation, {.where = "configuration register",
+                                             .what = "the RTL was built for another configuration",
+                                             .expected = hash_text(config_hash(config)),
+                                             .got = hash_text(hash),
+                                             .fix = "build again"});
+    }
+  }
+  ~VerilatedDevice() override {
+    if (wave_) wave_->close();
+    // The simulator's objects take leave of the thread's context, which is that of the device that ran last.
+    Verilated::threadContextp(&context_);
+    top_->final();
+    top_.reset();
+  }
+
+  void consume(std::span<const cmodel::Beat> beats) override {
+    for (const auto& beat : beats) {
+      offer(beat);
+      for (std::uint64_t waited = 0; !cycle(); ++waited) {
+        if (waited > options_.timeout) time_out("no beat taken");
+      }
+    }
+  }
+
+  void finish() override {
+    top_->s_tvalid_i = 0;
+    offering_ = false;
+    pending_ = false;
+    for (std::uint64_t waited = 0; (read_status() & 1) != 0 || !taps_.complete(); ++waited) {
+      if (waited > options_.timeout) time_out("the device does not come to rest");
+    }
+    // A few cycles more: pipelines behind the last busy cycle deliver their taps.
+    for (int i = 0; i < 16; ++i) cycle();
+  }
+
+  const cmodel::Counters& counters() const override {
+    auto* self = const_cast<VerilatedDevice*>(this);
+    int number = 0;
+#define X(name, meaning) self->counters_.name = self->counter(number++);
+    FASTSPLAT_COUNTERS(X)
+#undef X
+    return counters_;
+  }
+
+  RtlCycles cycle_counters() override {
+    int number = 0;
+#define X(name, meaning) ++number;
+    FASTSPLAT_COUNTERS(X)
+#undef X
+    RtlCycles out;
+    for (std::uint64_t* field : {&out.busy, &out.stall_input, &out.stall_table, &out.stall_buffer, &out.stall_tile})
+      *field = counter(number++);
+    return out;
+  }
+
+  std::uint64_t cycles() const override { return cycle_; }
+
+  RegisterAnswer read_register(std::uint32_t address, int wait) override {
+    top_->araddr_i = address;
+    top_->arvalid_i = 1;
+    for (bool taken = false; !taken; cycle()) taken = top_->arready_o != 0;
+    top_->arvalid_i = 0;
+    top_->rready_i = wait == 0 ? 1 : 0;
+    for (int i = 0; i < wait; ++i) cycle();
+    const RegisterAnswer answer{top_->rdata_o, top_->rvalid_o != 0 && top_->rresp_o == 0};
+    top_->rready_i = 1;
+    cycle();
+    return answer;
+  }
+
+  RegisterAnswer write_register(std::uint32_t address, std::uint32_t word, int wait) override {
+    top_->awaddr_i = address;
+    top_->wdata_i = word;
+    top_->awvalid_i = top_->wvalid_i = 1;
+    for (bool taken = false; !taken; cycle()) {
+      top_->eval();  // ready answers valid within the cycle
+      taken = top_->awready_o != 0;
+    }
+    top_->awvalid_i = top_->wvalid_i = 0;
+    top_->bready_i = wait == 0 ? 1 : 0;
+    for (int i = 0; i < wait; ++i) cycle();
+    const RegisterAnswer answer{0, top_->bvalid_o != 0 && top_->bresp_o == 0};
+    top_->bready_i = 1;
+    cycle();
+    return answer;
+  }
+
+  void warm_reset() override {
+    pulse_reset();
+    taps_.reset();
+  }
+
+ protected:
+  VerilatedContext& context() { return context_; }
+
+ private:
+  void quiet() {
+    top_->s_tvalid_i = 0;
+    top_->m_tready_i = 0;
+    top_->awvalid_i = 0;
+    top_->wvalid_i = 0;
+    top_->bready_i = 1;
+    top_->arvalid_i = 0;
+    top_->rready_i = 1;
+  }
+
+  void edge() {
+    top_->clk_i = 1;
+    top_->eval();
+    dump(1);
+    top_->clk_i = 0;
+    top_->eval();
+    dump(2);
+  }
+
+  void dump(int half) {
+    if (!wave_ || cycle_ < options_.wave_from || cycle_ >= options_.wave_to) return;
+    wave_->dump(2 * cycle_ + static_cast<std::uint64_t>(half));
+  }
+
+  void pulse_reset() {
+    quiet();
+    top_->rst_ni = 0;
+    for (int i = 0; i < 4; ++i) edge();
+    top_->rst_ni = 1;
+    top_->eval();
+    cycle_ = 0;
+    offering_ = pending_ = refused_ = false;
+  }
+
+  void offer(const cmodel::Beat& beat) {
+    for (std::size_t i = 0; i < beat.size(); ++i) top_->s_tdata_i[i] = beat[i];
+    beat_ = beat;
+    pending_ = true;
+    offering_ = false;
+  }
+
+  /// One clock; true when the offered beat was taken.
+  bool cycle() {
+    offering_ = pending_ && (offering_ || options_.input.at(cycle_));
+    top_->s_tvalid_i = offering_ ? 1 : 0;
+    top_->m_tready_i = options_.output.at(cycle_) ? 1 : 0;
+    const bool taken = offering_ && top_->s_tready_o != 0;
+    sample();
+    if (taken) {
+      taps_.accept(beat_);
+      pending_ = offering_ = false;
+    }
+    edge();
+    ++cycle_;
+    if (context_.errorCount() != 0) assertion_failed();
+    if (top_->error_o && !refused_) {
+      refused_ = true;
+      top_->arvalid_i = top_->awvalid_i = top_->wvalid_i = 0;
+      throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_),
+                                             .what = "the device refused the stream",
+                                             .expected = "a known record and this configuration's hash",
+                                             .got = "error status",
+                                             .fix = "check the stream with 'fastsplat stream dump'"});
+    }
+    return taken;
+  }
+
+  /// Taps of this cycle and the pixel beat, if one is taken.
+  void sample() {
+    if (options_.taps != nullptr) sample_taps();
+    // After the taps: a tile of one beat may end in the very cycle that counts its last, empty sheet.
+    std::uint64_t a = 0;
+    if (top_->m_tvalid_o && top_->m_tready_i)
+      taps_.pixels(cycle_, port_words(top_->m_tdata_o, a), top_->m_tlast_o != 0);
+  }
+
+  void sample_taps() {
+    std::uint64_t a = 0;
+    if (top_->tap_snap_valid_o) {
+      taps_.snap(cycle_, top_->tap_snap_tag_o, taps_.origin(top_->tap_snap_x_o), taps_.origin(top_->tap_snap_y_o),
+                 top_->tap_snap_mx_o, top_->tap_snap_my_o);
+    }
+    if (top_->tap_sheet_valid_o) taps_.sheet(cycle_, top_->tap_sheet_tag_o, port_words(top_->tap_sums_o, a));
+    if (top_->tap_window_valid_o) {
+      taps_.window(cycle_, top_->tap_window_tag_o, taps_.origin(top_->tap_window_x_o),
+                   taps_.origin(top_->tap_window_y_o), port_words(top_->tap_weights_o, a));
+    }
+    if (top_->tap_composite_valid_o)
+      taps_.composite(cycle_, top_->tap_composite_block_o, port_words(top_->tap_state_o, a));
+    taps_.sheet_done(cycle_, top_->tap_sheet_done_o != 0);
+  }
+
+  std::uint32_t read(std::uint32_t address) { return read_register(address, 0).word; }
+  std::uint32_t read_status() { return read(cmodel::kRegStatus.address); }
+  std::uint64_t counter(int number) {
+    const auto address = cmodel::kRegCounters.address + 8 * static_cast<std::uint32_t>(number);
+    const std::uint64_t low = read(address);
+    return low | static_cast<std::uint64_t>(read(address + 4)) << 32;
+  }
+
+  [[noreturn]] void assertion_failed() const {
+    const FailedAssertion failed = first_failed_assertion(take_simulator_output());
+    throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_ - 1),
+                                           .what = "assertion " + failed.name + " of the RTL failed in " + failed.path +
+                                                   " (" + failed.place + ")",
+                                           .expected = {},
+                                           .got = {},
+                                           .fix = "look at the waveform of the last cycles"});
+  }
+  [[noreturn]] void time_out(const char* what) const {
+    throw UserError(ExitCode::Simulation,
+                    {.where = "cycle " + std::to_string(cycle_),
+                     .what = std::string("the device hangs: ") + what,
+                     .expected = "a transfer within " + std::to_string(options_.timeout) + " cycles",
+                     .got = {},
+                     .fix = "look at the waveform of the last cycles"});
+  }
+
+  cmodel::Config config_;
+  RtlOptions options_;
+  TapAssembly taps_;
+  VerilatedContext context_;
+  std::unique_ptr<Top> top_;
+  std::unique_ptr<VerilatedFstC> wave_;
+  std::uint64_t cycle_ = 0;
+  cmodel::Beat beat_{};
+  bool pending_ = false;   ///< a beat waits to be offered
+  bool offering_ = false;  ///< and has been: valid stays up until taken
+  bool refused_ = false;   ///< the device said so since reset
+  cmodel::Counters counters_;
+};
+
+}  // namespace fastsplat::testbench

@@ -1,0 +1,134 @@
+#include "testbench/stimulus/campaign.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "testbench/coverage/coverage_collector.hpp"
+
+namespace fastsplat::testbench {
+namespace {
+
+void add(VerifyResult& total, const VerifyResult& part) {
+  total.check.comparisons += part.check.comparisons;
+  total.check.mismatches += part.check.mismatches;
+  for (std::size_t i = 0; i < part.check.by_tap.size(); ++i) total.check.by_tap[i] += part.check.by_tap[i];
+  total.counters += part.counters;
+  total.last_cycle += part.last_cycle;
+  const auto add_to = [](std::optional<std::uint64_t>& sum, const std::optional<std::uint64_t>& more) {
+    if (more) sum = sum.value_or(0) + *more;
+  };
+  add_to(total.check.cycles_rtl, part.check.cycles_rtl);
+  add_to(total.check.cycles_model, part.check.cycles_model);
+}
+
+constexpr const char* kClassReady = "class_ready";
+std::string with_pattern(StimulusClass which, const std::string& ready) {
+  return std::string(to_string(which)) + "_" + ready;
+}
+
+}  // namespace
+
+std::size_t run_count(const CampaignOptions& options) {
+  return static_cast<std::size_t>(options.seeds) * options.classes.size();
+}
+
+CampaignRun make_run(const CampaignOptions& options, std::size_t index) {
+  const std::size_t classes = options.classes.size(), which = index % classes;
+  CampaignRun run{.which = options.classes[which], .options = options.verify, .beats = {}};
+  run.options.seed += index / classes;
+  const std::uint64_t share = options.splats / classes + (which < options.splats % classes ? 1 : 0);
+  const Stimulus stimulus = make_stimulus(options.verify.config, run.which, run.options.seed, share);
+  if (run.options.ready == "all") {
+    // Over the seeds each class meets each pattern.
+    const auto patterns = Pattern::examples();
+    run.options.ready = patterns[(which + index / classes) % patterns.size()];
+  }
+  if (run.options.input == "all") {
+    // The other way round, so that over the seeds the pairs change as well.
+    const auto patterns = Pattern::examples();
+    run.options.input = patterns[(which + (patterns.size() - 1) * (index / classes)) % patterns.size()];
+  }
+  if (!stimulus.ready.empty() && run.options.ready == "always") run.options.ready = stimulus.ready;
+  if (!stimulus.input.empty() && run.options.input == "always") run.options.input = stimulus.input;
+  if (run.options.reset_after == 0) run.options.reset_after = stimulus.reset_after;
+  run.beats = write_document(options.verify.config, stimulus.document);
+  return run;
+}
+
+Coverage class_bins(const cmodel::Config& config, StimulusClass which) {
+  Coverage coverage = CoverageCollector::declare(config);
+  // The class brings a pattern of its own where the sink was always ready.
+  const bool pauses = which == StimulusClass::BackPressure;
+  for (const auto& pattern : Pattern::examples()) {
+    if (!pauses || pattern != "always") coverage.declare(kClassReady, with_pattern(which, pattern));
+  }
+  return coverage;
+}
+
+CampaignResult run_campaign(const CampaignOptions& options) {
+  const std::size_t count = run_count(options);
+  std::vector<std::optional<VerifyResult>> results(count);
+  std::vector<std::string> ready(count);
+  std::atomic<std::size_t> next = 0, done = 0;
+  std::atomic<bool> stop = false;
+  std::exception_ptr thrown;
+  std::mutex mutex;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < count && !stop; i = next++) {
+      try {
+        CampaignRun run = make_run(options, i);
+        ready[i] = run.options.ready;
+        results[i] = verify(source_of(std::move(run.beats)), run.options);
+        if (results[i]->verdict != Verdict::Pass) stop = true;
+        ++done;
+        if (options.progress) {
+          const std::lock_guard lock(mutex);
+          options.progress(done, count);
+        }
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!thrown) thrown = std::current_exception();
+        stop = true;
+      }
+    }
+  };
+  const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+  std::vector<std::thread> workers;
+  for (std::size_t i = 1; i < std::min(count, options.threads == 0 ? cores : static_cast<std::size_t>(options.threads));
+       ++i)
+    workers.emplace_back(work);
+  work();
+  for (auto& worker : workers) worker.join();
+  if (thrown) std::rethrow_exception(thrown);
+
+  CampaignResult out;
+  out.total.verdict = Verdict::Pass;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!results[i]) continue;
+    add(out.total, *results[i]);
+    ++out.streams;
+    if (results[i]->coverage) {
+      const StimulusClass which = options.classes[i % options.classes.size()];
+      const auto [at, added] = out.coverage.try_emplace(which);
+      if (added) at->second = class_bins(options.verify.config, which);
+      at->second.merge(*results[i]->coverage);
+      const std::string pattern = with_pattern(which, ready[i]);
+      if (at->second.declared(std::string(kClassReady) + "." + pattern))
+        at->second.hit(at->second.declare(kClassReady, pattern));
+    }
+    if (results[i]->verdict == Verdict::Pass || out.failed) continue;
+    out.failed = i;
+    out.failure = results[i];
+    out.total.verdict = results[i]->verdict;
+    out.total.check.first = results[i]->check.first;
+    out.total.check.differences = results[i]->check.differences;
+    out.total.error = results[i]->error;
+  }
+  if (out.streams == 0) out.total.verdict = Verdict::NothingCompared;
+  return out;
+}
+
+}  // namespace fastsplat::testbench

@@ -1,0 +1,49 @@
+// Many random streams through the checked RTL.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "testbench/check/verify.hpp"
+#include "testbench/stimulus/stimulus.hpp"
+
+namespace fastsplat::testbench {
+
+struct CampaignOptions {
+  VerifyOptions
+      verify;  ///< seed: of the first run; ready or input `all`: each stream takes the next of Pattern::examples()
+  std::uint64_t splats = 1000;  ///< per seed, shared by the classes
+  std::uint64_t seeds = 1;      ///< seed, seed+1, ...
+  std::vector<StimulusClass> classes = stimulus_classes();
+  int threads = 0;  ///< streams in parallel; 0: all cores. Never changes a result.
+  std::function<void(std::size_t done, std::size_t of)> progress;
+};
+
+/// One stream of a campaign: its beats and the options it ran with.
+struct CampaignRun {
+  StimulusClass which{};
+  VerifyOptions options;
+  std::vector<cmodel::Beat> beats;
+};
+std::size_t run_count(const CampaignOptions& options);
+CampaignRun make_run(const CampaignOptions& options, std::size_t index);
+
+struct CampaignResult {
+  VerifyResult total;  ///< sums; first divergence and error are the first failed run's
+  std::uint64_t streams = 0;
+  std::map<StimulusClass, Coverage> coverage;  ///< of each class's streams, if asked for
+  std::optional<std::size_t> failed;           ///< first run that did not pass
+  std::optional<VerifyResult> failure;         ///< its result
+};
+
+/// The bins of a class: those of the configuration, and that it met each ready pattern.
+Coverage class_bins(const cmodel::Config& config, StimulusClass which);
+
+/// Runs all; after a failure no new streams are begun.
+CampaignResult run_campaign(const CampaignOptions& options);
+
+}  // namespace fastsplat::testbench

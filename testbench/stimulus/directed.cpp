@@ -1,0 +1,172 @@
+#include "testbench/stimulus/directed.hpp"
+
+#include "base/error.hpp"
+#include "cmodel/model.hpp"
+#include "cmodel/register_map.hpp"
+#include "cmodel/stream_layout.hpp"
+#include "testbench/check/verify.hpp"
+#include "testbench/stimulus/stimulus.hpp"
+
+namespace fastsplat::testbench {
+namespace {
+
+/// Cycles for which an answer is left waiting.
+constexpr int kWait = 3;
+constexpr std::uint32_t kErrorBit = 1 << 1;
+
+constexpr const char* kRegisterBins[] = {
+    "identity",          "counters",          "counters_cleared",     "control_without_clear",
+    "status_busy",       "status_idle",       "unknown_read_refused", "unknown_write_refused",
+    "read_answer_waits", "write_answer_waits"};
+struct Refusal {
+  const char* name;
+  cmodel::Field field;
+  bool at_the_end = false;  ///< in the last record rather than in begin_frame
+};
+constexpr Refusal kRefusals[] = {
+    {"wrong_magic", cmodel::layout::kFrameMagic},      {"wrong_version", cmodel::layout::kFrameVersion},
+    {"wrong_hash_low", cmodel::layout::kFrameHashLow}, {"wrong_hash_high", cmodel::layout::kFrameHashHigh},
+    {"unknown_first_opcode", cmodel::layout::kOpcode}, {"unknown_last_opcode", cmodel::layout::kOpcode, true}};
+constexpr const char* kAfterRefusal[] = {"rest_is_swallowed", "works_after_reset"};
+
+struct NoPixels final : cmodel::PixelSink {
+  void on_tile(cmodel::TilePixels&&) override {}
+};
+
+std::vector<cmodel::Beat> small_stream(const cmodel::Config& config) {
+  return write_document(config, make_stimulus(config, StimulusClass::Mixed, 1, 40).document);
+}
+
+class Check {
+ public:
+  DirectedResult result;
+  Coverage::Id bin(const char* group, const char* name) { return result.coverage.declare(group, name); }
+  void equal(const std::string& what, std::uint64_t expected, std::uint64_t got, Coverage::Id bin) {
+    ++result.comparisons;
+    if (expected == got)
+      result.coverage.hit(bin);
+    else
+      result.failures.push_back(what + ": expected " + std::to_string(expected) + ", got " + std::to_string(got));
+  }
+};
+
+std::uint64_t read_counter(RtlDevice& device, int number) {
+  const auto address = cmodel::kRegCounters.address + 8 * static_cast<std::uint32_t>(number);
+  const std::uint64_t low = device.read_register(address).word;
+  return low | std::uint64_t{device.read_register(address + 4).word} << 32;
+}
+
+}  // namespace
+
+Coverage directed_bins() {
+  Coverage bins;
+  for (const char* name : kRegisterBins) bins.declare("register", name);
+  for (const Refusal& refusal : kRefusals) bins.declare("refusal", refusal.name);
+  for (const char* name : kAfterRefusal) bins.declare("refusal", name);
+  return bins;
+}
+
+DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& make) {
+  Check check;
+  const auto identity = check.bin("register", "identity"), counters = check.bin("register", "counters"),
+             cleared = check.bin("register", "counters_cleared"), kept = check.bin("register", "control_without_clear"),
+             busy = check.bin("register", "status_busy"), idle = check.bin("register", "status_idle"),
+             unknown_read = check.bin("register", "unknown_read_refused"),
+             unknown_write = check.bin("register", "unknown_write_refused"),
+             read_waits = check.bin("register", "read_answer_waits"),
+             write_waits = check.bin("register", "write_answer_waits");
+  NoPixels pixels;
+  const auto device = make(pixels, {});
+  const auto read = [&](const cmodel::Register& which) { return device->read_register(which.address); };
+  const std::uint64_t hash = config_hash(config);
+  check.equal("MAGIC", cmodel::kStreamMagic, read(cmodel::kRegMagic).word, identity);
+  check.equal("VERSION", cmodel::kStreamVersion, read(cmodel::kRegVersion).word, identity);
+  check.equal("HASH_LOW", hash & 0xffffffffU, read(cmodel::kRegHashLow).word, identity);
+  check.equal("HASH_HIGH", hash >> 32, read(cmodel::kRegHashHigh).word, identity);
+  check.equal("CONTROL reads", 0, read(cmodel::kRegControl).word, identity);
+  check.equal("STATUS before a frame", 0, read(cmodel::kRegStatus).word, idle);
+
+  const auto beats = small_stream(config);
+  cmodel::Model model(config, cmodel::StreamScope::Whole, pixels);
+  model.consume(beats);
+  // Up to the last tile's last record but one: a tile is open.
+  device->consume(std::span(beats).first(beats.size() - 2));
+  check.equal("STATUS in a tile", 1, read(cmodel::kRegStatus).word, busy);
+  device->consume(std::span(beats).last(2));
+  device->finish();
+  check.equal("STATUS after a frame", 0, read(cmodel::kRegStatus).word, idle);
+
+  const auto all_counters = [&](bool zero, Coverage::Id bin) {
+    int number = 0;
+    model.counters().for_each([&](const char* name, std::uint64_t value, const char*) {
+      check.equal(std::string("counter ") + name, zero ? 0 : value, read_counter(*device, number++), bin);
+    });
+  };
+  all_counters(false, counters);
+  check.equal("CONTROL takes 0", 1, device->write_register(cmodel::kRegControl.address, 0).okay ? 1 : 0, kept);
+  all_counters(false, kept);
+  check.equal("CONTROL takes 1", 1, device->write_register(cmodel::kRegControl.address, 1, kWait).okay ? 1 : 0,
+              write_waits);
+  all_counters(true, cleared);
+
+  // Below the counters, between two of them, and above the last.
+  int number = 0;
+  model.counters().for_each([&](const char*, std::uint64_t, const char*) { ++number; });
+  const auto beyond = cmodel::kRegCounters.address + 8 * (static_cast<std::uint32_t>(number) + 5);
+  for (const std::uint32_t address :
+       {cmodel::kRegControl.address + 4, cmodel::kRegCounters.address + 2, beyond, 0xffcU}) {
+    const auto answer = device->read_register(address);
+    check.equal("unknown read answers SLVERR", 0, answer.okay ? 1 : 0, unknown_read);
+    check.equal("unknown read gives", 0, answer.word, unknown_read);
+  }
+  check.equal("a counter is not written", 0, device->write_register(cmodel::kRegCounters.address, 1).okay ? 1 : 0,
+              unknown_write);
+  check.equal("MAGIC is not written", 0, device->write_register(cmodel::kRegMagic.address, 1).okay ? 1 : 0,
+              unknown_write);
+  check.equal("a waiting answer holds", cmodel::kStreamMagic,
+              device->read_register(cmodel::kRegMagic.address, kWait).word, read_waits);
+  return check.result;
+}
+
+DirectedResult check_refusals(const cmodel::Config& config, const MakeDevice& make) {
+  Check check;
+  const auto beats = small_stream(config);
+  NoPixels pixels;
+  const auto device = make(pixels, {});
+  const auto swallowed = check.bin("refusal", "rest_is_swallowed"),
+             recovers = check.bin("refusal", "works_after_reset");
+  for (const Refusal& refusal : kRefusals) {
+    const std::size_t at = refusal.at_the_end ? beats.size() - 1 : 0;
+    const auto bin = check.bin("refusal", refusal.name);
+    auto spoiled = beats;
+    auto& beat = spoiled[at];
+    const auto value = get(beat, refusal.field) ^ 0x80;  // no opcode has this bit
+    beat[static_cast<std::size_t>(refusal.field.word)] &= ~field_mask(refusal.field);
+    put(beat, refusal.field, value);
+    bool refused = false;
+    try {
+      device->consume(std::span(spoiled).first(at + 1));
+      // Refused in the cycle in which it lies in the register: look there.
+      device->read_register(cmodel::kRegStatus.address);
+    } catch (const UserError& error) {
+      refused = error.code() == ExitCode::Simulation;
+    }
+    check.equal(std::string(refusal.name) + " is refused", 1, refused ? 1 : 0, bin);
+    const std::uint32_t status = device->read_register(cmodel::kRegStatus.address).word;
+    const auto opcode = static_cast<std::uint32_t>(get(beat, cmodel::layout::kOpcode));
+    check.equal(std::string(refusal.name) + ": STATUS", kErrorBit | opcode << 8, status & ~std::uint32_t{1}, bin);
+    const std::uint64_t splats = device->counters().splats;
+    device->consume(beats);
+    check.equal("splats after a refusal", splats, device->counters().splats, swallowed);
+    device->warm_reset();
+    check.equal("STATUS after a reset", 0, device->read_register(cmodel::kRegStatus.address).word, recovers);
+  }
+  device->consume(beats);
+  device->finish();
+  cmodel::Model model(config, cmodel::StreamScope::Whole, pixels);
+  model.consume(beats);
+  check.equal("counters after a refusal and a reset", 1, device->counters() == model.counters() ? 1 : 0, recovers);
+  return check.result;
+}
+
+}  // namespace fastsplat::testbench

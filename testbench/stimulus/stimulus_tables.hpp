@@ -1,0 +1,28 @@
+// Random tables, legal by docs/stream.md and as odd as that allows.
+#pragma once
+
+#include <vector>
+
+#include "cmodel/config.hpp"
+#include "cmodel/records.hpp"
+#include "testbench/stimulus/random.hpp"
+
+namespace fastsplat::testbench {
+
+enum class TableStyle {
+  Any,      ///< words of every size
+  Corners,  ///< mostly ends of ranges
+  Powers,   ///< powers of two: products tie
+  Largest,  ///< the largest words
+  Unit,     ///< one weight that takes colour words to sheet words as evenly as it can; factors of 1.0
+};
+
+/// Windows per axis: `least_windows` to `most_windows`, as far as the table holds them.
+cmodel::LoadTable random_rlut(const cmodel::Config& config, Random& random, TableStyle style, std::uint32_t set,
+                              int least_windows, int most_windows);
+/// The weight of TableStyle::Unit: 1 in units of product per colour word, or the largest there is.
+std::int64_t unit_weight(const cmodel::Config& config);
+cmodel::LoadTable random_radial(const cmodel::Config& config, Random& random, TableStyle style);
+cmodel::LoadTable random_factor(const cmodel::Config& config, Random& random, TableStyle style);
+
+}  // namespace fastsplat::testbench

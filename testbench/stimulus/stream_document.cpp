@@ -1,0 +1,78 @@
+#include "testbench/stimulus/stream_document.hpp"
+
+#include "cmodel/crc32.hpp"
+#include "cmodel/stream_decode.hpp"
+
+namespace fastsplat::testbench {
+
+std::uint64_t StreamDocument::splats() const {
+  std::uint64_t count = 0;
+  for (const auto& tile : tiles) {
+    for (const auto& sheet : tile.sheets) {
+      for (const auto& record : sheet.records) count += std::holds_alternative<cmodel::SplatRecord>(record) ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+StreamDocument read_document(const cmodel::Config& config, std::span<const cmodel::Beat> beats) {
+  cmodel::StreamDecode decode(config, cmodel::StreamScope::Subset);
+  StreamDocument document;
+  for (const auto& beat : beats) {
+    const cmodel::Record* record = decode.feed(beat);
+    if (record == nullptr) continue;
+    if (const auto* frame = std::get_if<cmodel::BeginFrame>(record)) {
+      document.width = frame->width;
+      document.height = frame->height;
+    } else if (const auto* table = std::get_if<cmodel::LoadTable>(record)) {
+      document.tables.push_back(*table);
+    } else if (const auto* tile = std::get_if<cmodel::BeginTile>(record)) {
+      document.tiles.push_back({*tile, {}});
+    } else if (const auto* sheet = std::get_if<cmodel::BeginSheet>(record)) {
+      document.tiles.back().sheets.push_back({sheet->sheet, {}});
+    } else if (const auto* splat = std::get_if<cmodel::SplatRecord>(record)) {
+      document.tiles.back().sheets.back().records.emplace_back(*splat);
+    } else if (const auto* cull = std::get_if<cmodel::CullBlock>(record)) {
+      document.tiles.back().sheets.back().records.emplace_back(*cull);
+    }
+  }
+  decode.finish();
+  return document;
+}
+
+std::vector<cmodel::Beat> write_document(const cmodel::Config& config, const StreamDocument& document) {
+  std::vector<cmodel::Beat> beats;
+  append(beats, cmodel::BeginFrame{.config_hash = config_hash(config),
+                                   .width = document.width,
+                                   .height = document.height,
+                                   .tiles = static_cast<std::uint32_t>(document.tiles.size())});
+  for (const auto& table : document.tables) append(beats, table);
+  std::uint32_t number = 0;
+  for (const auto& tile : document.tiles) {
+    cmodel::BeginTile begin = tile.begin;
+    begin.tile = number;
+    append(beats, begin);
+    std::uint32_t tag = 0;
+    for (const auto& sheet : tile.sheets) {
+      append(beats, cmodel::BeginSheet{sheet.number});
+      const std::uint32_t first = tag;
+      for (const auto& record : sheet.records) {
+        if (const auto* splat = std::get_if<cmodel::SplatRecord>(&record)) {
+          cmodel::SplatRecord numbered = *splat;
+          numbered.tag = tag++;
+          beats.push_back(to_beat(numbered));
+        } else {
+          append(beats, std::get<cmodel::CullBlock>(record));
+        }
+      }
+      append(beats, cmodel::EndSheet{sheet.number, tag - first});
+    }
+    append(beats, cmodel::EndTile{number++, static_cast<std::uint32_t>(tile.sheets.size())});
+  }
+  cmodel::Crc32 crc;
+  for (const auto& beat : beats) crc.add(beat);
+  append(beats, cmodel::EndFrame{beats.size(), crc.value()});
+  return beats;
+}
+
+}  // namespace fastsplat::testbench

@@ -1,0 +1,16 @@
+// The operands behind one word of the model, recomputed unit by unit: what a divergence report shows besides the
+// values.
+#pragma once
+
+#include <string>
+
+#include "testbench/check/scoreboard.hpp"
+#include "testbench/check/verify.hpp"
+
+namespace fastsplat::testbench {
+
+/// One line: for a footprint the two RLUT words, q and the radial index; for a sheet word the sum before and the
+/// product; for a composited word T, the sheet's sums and the slab; and so on. Empty where the model has no such event.
+std::string explain(const BeatSource& source, const cmodel::Config& config, const Divergence& divergence);
+
+}  // namespace fastsplat::testbench

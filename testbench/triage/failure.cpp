@@ -1,0 +1,122 @@
+#include "testbench/triage/failure.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <optional>
+
+#include "cmodel/stream_decode.hpp"
+#include "testbench/triage/explain.hpp"
+
+namespace fastsplat::testbench {
+namespace {
+
+constexpr std::uint64_t kCyclesBefore = 64, kCyclesAfter = 16;  ///< of the waveform, around the divergence
+/// A candidate that hangs is given up sooner than the full stream: no stream that fits one tile waits this long.
+constexpr std::uint64_t kShrinkTimeout = 1u << 16;
+
+/// The same failure: a mismatch at the same tap (or in no tap at all), or the same kind of stop.
+bool same_failure(const VerifyResult& a, const VerifyResult& b) {
+  if (a.verdict != b.verdict || a.check.first.has_value() != b.check.first.has_value()) return false;
+  const auto tap = [](const Divergence& d) { return d.model ? d.model->tap : d.rtl->tap; };
+  if (a.check.first) return tap(*a.check.first) == tap(*b.check.first);
+  return a.fault == b.fault;
+}
+
+std::string in_words(const VerifyResult& result, const cmodel::Config& config) {
+  if (result.check.first) return describe(config, *result.check.first);
+  if (!result.check.differences.empty()) return result.check.differences.front();
+  return result.error;
+}
+
+/// The stream as a tree: all of it, or its tables and one tile.
+StreamDocument gather(const BeatSource& source, const cmodel::Config& config, std::optional<std::uint32_t> only) {
+  std::vector<cmodel::Beat> beats;
+  cmodel::StreamDecode decode(config, cmodel::StreamScope::Subset);
+  bool keep = true;
+  source([&](std::span<const cmodel::Beat> part) {
+    for (const auto& beat : part) {
+      const cmodel::Record* record = decode.feed(beat);
+      const auto* tile = record == nullptr ? nullptr : std::get_if<cmodel::BeginTile>(record);
+      if (tile != nullptr) keep = !only || tile->tile == *only;
+      if (keep) beats.push_back(beat);
+    }
+  });
+  return read_document(config, beats);
+}
+
+/// Starts from the tile that diverged where that alone fails; else from the whole stream.
+StreamDocument start(const BeatSource& source, const cmodel::Config& config, const VerifyResult& failed,
+                     const std::function<bool(const StreamDocument&)>& fails) {
+  if (const auto& diverged = failed.check.first) {
+    StreamDocument tile = gather(source, config, (diverged->model ? diverged->model : diverged->rtl)->tile);
+    if (fails(tile)) return tile;
+  }
+  return gather(source, config, std::nullopt);
+}
+
+}  // namespace
+
+FailureReport investigate(const BeatSource& source, const VerifyOptions& options, const VerifyResult& failed,
+                          const std::filesystem::path& waveform, int most_runs) {
+  FailureReport report;
+  report.options = options;
+  report.options.wave.clear();
+  report.options.scope = cmodel::StreamScope::Whole;
+  VerifyOptions trial = report.options;
+  trial.stop_after = 1;
+  trial.timeout = std::min(options.timeout, kShrinkTimeout);
+  const auto fails = [&](const StreamDocument& candidate) {
+    VerifyOptions run = trial;
+    const auto beats = write_document(options.config, candidate);
+    run.reset_after = std::min<std::uint64_t>(run.reset_after, beats.size());
+    return same_failure(failed, verify(source_of(beats), run));
+  };
+  report.original = in_words(failed, options.config);
+  report.document = shrink(start(source, options.config, failed, fails), fails, most_runs, report.shrink);
+
+  const auto beats = write_document(options.config, report.document);
+  report.options.reset_after = std::min<std::uint64_t>(options.reset_after, beats.size());
+  VerifyOptions last = report.options;
+  last.stop_after = 1;
+  last.timeout = trial.timeout;
+  const VerifyResult smallest = verify(source_of(beats), last);
+  report.divergence = in_words(smallest, options.config);
+  if (smallest.check.first) report.operands = explain(source_of(beats), options.config, *smallest.check.first);
+  const auto& diverged = smallest.check.first;
+  const std::uint64_t cycle = diverged && diverged->rtl ? diverged->rtl->cycle : smallest.last_cycle;
+  report.wave_from = cycle > kCyclesBefore ? cycle - kCyclesBefore : 0;
+  report.wave_to = cycle + kCyclesAfter;
+  if (!waveform.empty()) {
+    // The device runs on past the divergence, so the waveform has what follows it.
+    last.stop_after = options.stop_after;
+    last.wave = waveform;
+    last.wave_from = report.wave_from;
+    last.wave_to = report.wave_to;
+    verify(source_of(beats), last);
+  }
+  return report;
+}
+
+namespace {
+
+/// As a shell reads it back.
+std::string quoted(const std::string& word) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("/._-+,=:@%", c) != nullptr; };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+}  // namespace
+
+std::string replay_line(const std::filesystem::path& stream, const std::string& config, const VerifyOptions& options) {
+  std::string line = "fastsplat verify --stream " + quoted(stream.string()) + " --config " + quoted(config) +
+                     " --ready " + options.ready + " --input " + options.input + " --fill " + to_string(options.fill) +
+                     " --seed " + std::to_string(options.seed);
+  if (options.reset_after > 0) line += " --reset-after " + std::to_string(options.reset_after);
+  return line;
+}
+
+}  // namespace fastsplat::testbench

@@ -1,0 +1,31 @@
+// What a user gets of a failing stream: the divergence in words with its operands, the stream made small, a waveform of
+// the cycles around the divergence, and the line that replays it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "testbench/check/verify.hpp"
+#include "testbench/triage/shrink.hpp"
+
+namespace fastsplat::testbench {
+
+struct FailureReport {
+  std::string original;    ///< the first divergence of the stream as it was
+  std::string divergence;  ///< that of the small one: stage, place, both values, bit difference; or what the device did
+  std::string operands;    ///< what the model computed it from; may be empty
+  ShrinkReport shrink;
+  std::uint64_t wave_from = 0, wave_to = 0;  ///< cycles of the waveform
+  VerifyOptions options;                     ///< of the replay: they fail with the small stream
+  StreamDocument document;
+};
+
+/// Runs a failing stream again, smaller and smaller (at most `most_runs` times), and reports the smallest. Writes the
+/// waveform if it has a path; writing the stream is the caller's.
+FailureReport investigate(const BeatSource& source, const VerifyOptions& options, const VerifyResult& failed,
+                          const std::filesystem::path& waveform, int most_runs);
+
+/// The command that fails again: `fastsplat verify --stream ... --config ... --ready ... --seed ...`.
+std::string replay_line(const std::filesystem::path& stream, const std::string& config, const VerifyOptions& options);
+
+}  // namespace fastsplat::testbench

@@ -1,0 +1,143 @@
+// PNG files whose checksums are right and whose content is not: built chunk by chunk.
+#include "images/png_check.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "images/image_file.hpp"
+#include "tests/images/image_helper.hpp"
+
+namespace fastsplat::images {
+namespace {
+
+using testing::HasSubstr;
+
+std::string big_endian(std::uint32_t value) {
+  std::string out;
+  for (int shift = 24; shift >= 0; shift -= 8) out += static_cast<char>(value >> shift & 0xff);
+  return out;
+}
+
+std::string chunk(const std::string& type, const std::string& data) {
+  const std::string body = type + data;
+  const auto crc = crc32(0, reinterpret_cast<const unsigned char*>(body.data()), static_cast<uInt>(body.size()));
+  return big_endian(static_cast<std::uint32_t>(data.size())) + body + big_endian(static_cast<std::uint32_t>(crc));
+}
+
+std::string deflated(const std::string& data) {
+  uLongf size = compressBound(data.size());
+  std::string out(size, '\0');
+  compress(reinterpret_cast<unsigned char*>(out.data()), &size, reinterpret_cast<const unsigned char*>(data.data()),
+           data.size());
+  out.resize(size);
+  return out;
+}
+
+const std::string kSignature = "\x89PNG\r\n\x1a\n";
+
+std::string header(std::uint32_t width, std::uint32_t height, int depth, int colour, int interlace) {
+  std::string tail{static_cast<char>(depth), static_cast<char>(colour), 0, 0, static_cast<char>(interlace)};
+  return chunk("IHDR", big_endian(width) + big_endian(height) + tail);
+}
+
+std::string defect(const std::string& bytes) {
+  return png_defect({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
+}
+
+/// Grey 8-bit pixels, every row with filter 0.
+std::string rows(const std::vector<std::string>& lines) {
+  std::string out;
+  for (const auto& line : lines) out += '\0' + line;
+  return out;
+}
+
+const std::string kEnd = chunk("IEND", "");
+const std::string kPixels = rows({"abc", "def"});
+
+TEST(PngCheck, AcceptsAWholeFileInOneOrManyPieces) {
+  const std::string packed = deflated(kPixels);
+  EXPECT_EQ(defect(kSignature + header(3, 2, 8, 0, 0) + chunk("IDAT", packed) + kEnd), "");
+  std::string pieces;
+  for (const char c : packed) pieces += chunk("IDAT", std::string(1, c)) + chunk("IDAT", "");
+  EXPECT_EQ(
+      defect(kSignature + header(3, 2, 8, 0, 0) + chunk("tEXt", "k\0v") + pieces + chunk("tIME", "1234567") + kEnd),
+      "");
+}
+
+TEST(PngCheck, AcceptsInterlacedFilesAndTheyRead) {
+  // 3 x 2 in Adam7: pass 1 (0,0); passes 2 and 3 have no pixel; pass 4 (2,0); pass 5 none; pass 6 (1,0); pass 7 row 1.
+  const std::string file =
+      kSignature + header(3, 2, 8, 0, 1) + chunk("IDAT", deflated(rows({"a", "c", "b", "def"}))) + kEnd;
+  EXPECT_EQ(defect(file), "");
+  const TempFolder folder;
+  write_bytes(folder / "a.png", file);
+  const Image image = read_image(folder / "a.png").image;
+  std::string codes;
+  for (const float value : image.data) codes += static_cast<char>(std::lround(value * 255));
+  EXPECT_EQ(codes, "abcdef");
+}
+
+TEST(PngCheck, AcceptsPalettesAndFewBits) {
+  const std::string palette = chunk("PLTE", std::string("\xff\x00\x00\x00\xff\x00", 6));
+  const std::string pixels = chunk("IDAT", deflated(std::string("\0\x40", 2)));  // one row, bits 0 1 0
+  const std::string file = kSignature + header(3, 1, 1, 3, 0) + palette + pixels + kEnd;
+  EXPECT_EQ(defect(file), "");
+  const TempFolder folder;
+  write_bytes(folder / "a.png", file);
+  const Image image = read_image(folder / "a.png").image;
+  EXPECT_EQ(image.data, (std::vector<float>{1, 0, 0, 0, 1, 0, 1, 0, 0}));
+  EXPECT_THAT(defect(kSignature + header(3, 1, 1, 3, 0) + pixels + kEnd), HasSubstr("no palette"));
+}
+
+TEST(PngCheck, NamesEveryDefect) {
+  const std::string start = kSignature + header(3, 2, 8, 0, 0);
+  const auto pixels = [](const std::string& data) { return chunk("IDAT", deflated(data)); };
+  const std::string good = pixels(kPixels);
+  const struct {
+    std::string bytes;
+    const char* expected;
+  } cases[] = {
+      {"", "signature"},
+      {start, "ends inside a chunk at byte 33"},
+      {start + good, "ends inside a chunk"},
+      {start + kEnd, "pixels are missing before chunk IEND"},
+      {start + pixels(rows({"abc"})) + kEnd, "pixels are missing"},
+      {start + pixels(rows({"abc", "def", "ghi"})) + kEnd, "more pixels than the header says"},
+      {start + pixels(kPixels + "x") + kEnd, "more pixels"},
+      {start +
+           pixels("\x05"
+                  "abc" +
+                  rows({"def"})) +
+           kEnd,
+       "unknown row filter"},
+      {start + chunk("IDAT", deflated(kPixels).substr(0, 6)) + kEnd, "pixels are missing"},
+      {start + chunk("IDAT", "not zlib") + kEnd, "bad compressed pixels"},
+      {start + chunk("IDAT", deflated(kPixels) + "x") + kEnd, "data after the end"},
+      {start + good + chunk("tEXt", "k") + good + kEnd, "misplaced chunk IDAT"},
+      {start + header(3, 2, 8, 0, 0) + good + kEnd, "misplaced chunk IHDR"},
+      {kSignature + good + kEnd, "misplaced chunk IDAT"},
+      {start + chunk("ABCD", "") + good + kEnd, "unknown critical chunk ABCD"},
+      {start + chunk("AB D", "") + good + kEnd, "bad chunk type"},
+      {kSignature + header(0, 2, 8, 0, 0) + good + kEnd, "bad chunk IHDR"},
+      {kSignature + header(3, 2, 7, 0, 0) + good + kEnd, "bad chunk IHDR"},
+      {kSignature + header(3, 2, 4, 2, 0) + good + kEnd, "bad chunk IHDR"},
+      {kSignature + header(3, 2, 8, 5, 0) + good + kEnd, "bad chunk IHDR"},
+      {kSignature + header(3, 2, 8, 0, 2) + good + kEnd, "bad chunk IHDR"},
+      {kSignature + header(0x7fffffff, 0x7fffffff, 16, 6, 0) + good + kEnd, "pixels are missing"},
+      {start + good + chunk("IEND", "x"), "pixels are missing before chunk IEND"},
+  };
+  int checked = 0;
+  for (const auto& [bytes, expected] : cases) {
+    EXPECT_THAT(defect(bytes), HasSubstr(expected));
+    ++checked;
+  }
+  EXPECT_EQ(checked, 23);
+}
+
+}  // namespace
+}  // namespace fastsplat::images

@@ -1,0 +1,226 @@
+// NRRD files written by hand: byte orders, geometry, detached data, and everything that must be refused.
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <sstream>
+
+#include "tests/volume/volume_testing.hpp"
+#include "volume/byte_reader.hpp"
+#include "volume/volume_file.hpp"
+
+namespace fastsplat::volume {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::string gzip(const std::string& text) {
+  std::ostringstream out;
+  write_gzip(out, text.data(), text.size());
+  return out.str();
+}
+
+template <typename T>
+std::string bytes_of(std::initializer_list<T> values, bool big_endian = false) {
+  std::string out;
+  for (const T value : values) {
+    std::string one(sizeof(T), '\0');
+    std::memcpy(one.data(), &value, sizeof(T));
+    if (big_endian) std::reverse(one.begin(), one.end());
+    out += one;
+  }
+  return out;
+}
+
+class Nrrd : public TemporaryFolder {
+ protected:
+  /// A header of these lines with what is missing filled in for 2 x 2 x 2 uint8, raw.
+  static std::string header(const std::string& lines, bool attached = true) {
+    std::string text = "NRRD0004\n";
+    for (const std::string line : {"type: uint8", "dimension: 3", "sizes: 2 2 2", "encoding: raw"}) {
+      const std::string field = "\n" + line.substr(0, line.find(':') + 1);
+      if (("\n" + lines).find(field) == std::string::npos) text += line + "\n";
+    }
+    return text + lines + (attached ? "\n" : "");
+  }
+  Volume load(const std::string& lines, const std::string& data) const {
+    return load_volume(write("v.nrrd", header(lines) + data).string());
+  }
+  std::string refused(const std::string& lines, const std::string& data = "12345678") const {
+    const auto path = write("v.nrrd", header(lines) + data);
+    const std::string message = refusal([&] { load_volume(path.string()); });
+    EXPECT_THAT(message, HasSubstr("v.nrrd"));
+    return message;
+  }
+};
+
+TEST_F(Nrrd, ReadsBothByteOrdersRawAndGzip) {
+  for (const bool big : {false, true}) {
+    const std::string endian = std::string("endian: ") + (big ? "big" : "little") + "\n";
+    for (const bool packed : {false, true}) {
+      const std::string encoding = std::string("encoding: ") + (packed ? "gzip" : "raw") + "\n";
+      const auto data = [&](const std::string& raw) { return packed ? gzip(raw) : raw; };
+      EXPECT_THAT(load("type: int16\n" + endian + encoding,
+                       data(bytes_of<std::int16_t>({-2, 1, 258, 3, -32768, 32767, 6, 7}, big)))
+                      .voxels,
+                  ElementsAre(-2, 1, 258, 3, -32768, 32767, 6, 7));
+      EXPECT_THAT(
+          load("type: ushort\n" + endian + encoding, data(bytes_of<std::uint16_t>({0, 1, 258, 3, 4, 65535, 6, 7}, big)))
+              .voxels,
+          ElementsAre(0, 1, 258, 3, 4, 65535, 6, 7));
+      EXPECT_THAT(
+          load("type: float\n" + endian + encoding, data(bytes_of<float>({0, 1, 0.1f, 3, -4, 5, 6, 7}, big))).voxels,
+          ElementsAre(0, 1, 0.1f, 3, -4, 5, 6, 7));
+      EXPECT_THAT(
+          load("type: double\n" + endian + encoding, data(bytes_of<double>({0, 1, 0.1, 3, -4, 5, 6, 7}, big))).voxels,
+          ElementsAre(0, 1, 0.1f, 3, -4, 5, 6, 7));
+    }
+  }
+  EXPECT_THAT(load("", "\x01\x02\x03\x04\x05\x06\x07\xff").voxels, ElementsAre(1, 2, 3, 4, 5, 6, 7, 255));
+  EXPECT_THAT(load("type: signed char\n", "\x01\x02\x03\x04\x05\x06\x07\xff").voxels,
+              ElementsAre(1, 2, 3, 4, 5, 6, 7, -1));
+}
+
+TEST_F(Nrrd, WideIntegersBecomeTheSmallestTypeThatHoldsThem) {
+  const std::string lines = "type: int\nendian: little\n";
+  EXPECT_EQ(load(lines, bytes_of<std::int32_t>({0, 1, 2, 3, 4, 5, 6, 255})).stored, VoxelType::U8);
+  EXPECT_EQ(load(lines, bytes_of<std::int32_t>({0, 1, 2, 3, 4, 5, 6, 256})).stored, VoxelType::U16);
+  EXPECT_EQ(load(lines, bytes_of<std::int32_t>({-1, 1, 2, 3, 4, 5, 6, 256})).stored, VoxelType::I16);
+  EXPECT_EQ(load(lines, bytes_of<std::int32_t>({-1, 1, 2, 3, 4, 5, 6, 1 << 24})).stored, VoxelType::F32);
+  EXPECT_THAT(refused(lines, bytes_of<std::int32_t>({0, 1, 2, 3, 4, 5, (1 << 24) + 1, (1 << 24) + 3})),
+              HasSubstr("2 of 8 voxels"));
+}
+
+TEST_F(Nrrd, SpacingFromEitherField) {
+  EXPECT_EQ(load("spacings: 0.5 1 2.5\n", "12345678").spacing, glm::dvec3(0.5, 1, 2.5));
+  EXPECT_EQ(load("", "12345678").spacing, glm::dvec3(1.0));
+  EXPECT_EQ(load("spacings: nan 2 nan\n", "12345678").spacing, glm::dvec3(1, 2, 1));
+  EXPECT_EQ(load("space dimension: 3\nspace directions: (3,4,0) (0,0,2) (0,0.5,0)\n", "12345678").spacing,
+            glm::dvec3(5, 2, 0.5));
+}
+
+TEST_F(Nrrd, AnatomicalAxesAreTurnedToRightAnteriorSuperior) {
+  const std::string data = "\x01\x02\x03\x04\x05\x06\x07\x08";  // 1 at (0,0,0), x fastest
+  const std::string straight = "space directions: (1,0,0) (0,1,0) (0,0,2)\n";
+  EXPECT_THAT(load("space: right-anterior-superior\n" + straight, data).voxels, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
+  // +x is left, +y posterior: both are turned round.
+  EXPECT_THAT(load("space: left-posterior-superior\n" + straight, data).voxels, ElementsAre(4, 3, 2, 1, 8, 7, 6, 5));
+  // The fastest axis runs upwards, the slowest to the right.
+  const Volume sagittal = load("space: RAS\nspace directions: (0,0,3) (0,1,0) (2,0,0)\n", data);
+  EXPECT_THAT(sagittal.voxels, ElementsAre(1, 5, 3, 7, 2, 6, 4, 8));
+  EXPECT_EQ(sagittal.spacing, glm::dvec3(2, 1, 3));
+  // Spaces that are no body's stay as they are.
+  EXPECT_THAT(load("space: scanner-xyz\nspace directions: (-1,0,0) (0,1,0) (0,0,2)\n", data).voxels,
+              ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
+}
+
+TEST_F(Nrrd, AxesOfOneAreDropped) {
+  EXPECT_EQ(load("dimension: 4\nsizes: 1 2 2 2\n", "12345678").dims, glm::ivec3(2));
+  EXPECT_EQ(load("dimension: 5\nsizes: 2 2 2 1 1\nspacings: 1 2 3 nan nan\n", "12345678").spacing, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(load("sizes: 8 1 1\n", "12345678").dims, glm::ivec3(8, 1, 1));
+  EXPECT_THAT(refused("dimension: 4\nsizes: 3 2 2 2\n"), HasSubstr("one scalar per voxel"));
+  EXPECT_THAT(refused("dimension: 2\nsizes: 4 2\n"), HasSubstr("3 axes"));
+}
+
+TEST_F(Nrrd, DetachedData) {
+  const auto nhdr = [&](const std::string& lines) { return write("v.nhdr", header(lines, false)).string(); };
+  write("v.raw", "xx12345678");
+  EXPECT_EQ(load_volume(nhdr("data file: v.raw\nbyte skip: 2\n")).at(0, 0, 0), '1');
+  EXPECT_EQ(load_volume(nhdr("datafile: ./v.raw\nbyte skip: -1\n")).at(0, 0, 0), '1');
+  fs::create_directory(folder_ / "sub");
+  write("sub/v.gz", gzip("12345678"));
+  EXPECT_EQ(load_volume(nhdr("encoding: gzip\ndata file: sub/v.gz\n")).at(1, 1, 1), '8');
+}
+
+TEST_F(Nrrd, DetachedDataMustStayInTheirFolder) {
+  const fs::path inside = folder_ / "inside";
+  fs::create_directory(inside);
+  write("secret.raw", "12345678");
+  const auto message = [&](const std::string& name) {
+    std::ofstream(inside / "v.nhdr") << header("data file: " + name + "\n", false);
+    return refusal([&] { load_volume((inside / "v.nhdr").string()); });
+  };
+  EXPECT_THAT(message("../secret.raw"), HasSubstr("must lie in the header's own folder"));
+  EXPECT_THAT(message("sub/../../secret.raw"), HasSubstr("must lie in the header's own folder"));
+  EXPECT_THAT(message((folder_ / "secret.raw").string()), HasSubstr("must lie in the header's own folder"));
+  EXPECT_THAT(message("/etc/passwd"), HasSubstr("must lie in the header's own folder"));
+  fs::create_symlink(folder_ / "secret.raw", inside / "link.raw");
+  EXPECT_THAT(message("link.raw"), HasSubstr("link out of"));
+  fs::create_directory_symlink(folder_, inside / "up");
+  EXPECT_THAT(message("up/secret.raw"), HasSubstr("link out of"));
+  EXPECT_THAT(message("missing.raw"), HasSubstr("no such file"));
+  EXPECT_THAT(message("LIST"), HasSubstr("several files"));
+  EXPECT_THAT(message("slice%03d.raw 1 9 1"), HasSubstr("several files"));
+  EXPECT_THAT(message("."), HasSubstr("directory"));
+  EXPECT_THAT(message(""), HasSubstr("own folder"));
+}
+
+TEST_F(Nrrd, SizesAreCheckedBeforeAnythingIsAllocated) {
+  EXPECT_THAT(refused("sizes: 100000000000000000000000000000000000000000000000000000 2 2\n"), HasSubstr("not a size"));
+  EXPECT_THAT(refused("sizes: 18446744073709551615 18446744073709551615 2\n"), HasSubstr("impossible"));
+  EXPECT_THAT(refused("sizes: 65535 65535 65535\n"), HasSubstr("more voxels than can be handled"));
+  EXPECT_THAT(refused("sizes: 65535 32768 1\n"), HasSubstr("promises more than the file holds"));
+  EXPECT_THAT(refused("sizes: 2 2 3\n"), HasSubstr("expected 12 bytes for 2 x 2 x 3 voxels, got 8 bytes"));
+  EXPECT_THAT(refused("encoding: gzip\nsizes: 1000 1000 1000\n", gzip("12345678")),
+              HasSubstr("promises more than the file holds"));
+  EXPECT_THAT(refused("sizes: 2 0 2\n"), HasSubstr("impossible"));
+  EXPECT_THAT(refused("sizes: 2 -2 2\n"), HasSubstr("not a size"));
+  EXPECT_THAT(refused("sizes: 2 2\n"), HasSubstr("disagree"));
+  EXPECT_THAT(refused("sizes: 2 2 2 2\n"), HasSubstr("disagree"));
+  EXPECT_THAT(refused("dimension: 4294967297\n"), HasSubstr("dimension"));
+  EXPECT_THAT(refused("byte skip: 18446744073709551615\n"), HasSubstr("past the end"));
+  EXPECT_THAT(refused("byte skip: 1\n"), HasSubstr("promises more"));
+}
+
+TEST_F(Nrrd, DamagedGzipIsNamed) {
+  std::string noise(4096, '\0');
+  unsigned state = 1;
+  for (char& c : noise) c = static_cast<char>((state = state * 1664525u + 1013904223u) >> 24);
+  const std::string lines = "encoding: gzip\nsizes: 16 16 16\n";
+  const std::string good = gzip(noise);
+  EXPECT_EQ(load(lines, good).voxels.size(), 4096u);
+  EXPECT_THAT(refused(lines, good.substr(0, good.size() / 2)), HasSubstr("truncated"));
+  EXPECT_THAT(refused(lines, good.substr(0, good.size() - 5)),
+              HasSubstr("truncated"));  // all voxels there, checksum not
+  std::string flipped = good;
+  flipped[good.size() - 6] = static_cast<char>(flipped[good.size() - 6] ^ 1);  // in the checksum
+  EXPECT_THAT(refused(lines, flipped), HasSubstr("corrupt"));
+  EXPECT_THAT(refused(lines, "this is not gzip data at all....."), HasSubstr("corrupt"));
+  EXPECT_THAT(refused("encoding: gzip\nsizes: 16 16 17\n", good), HasSubstr("ends early"));
+}
+
+TEST_F(Nrrd, NotFiniteIsRefusedWithCountAndPlace) {
+  const std::string lines = "type: float\nendian: little\n";
+  EXPECT_THAT(refused(lines, bytes_of<float>({0, 1, 2, NAN, 4, INFINITY, 6, 7})),
+              HasSubstr("2 of 8 voxels are not finite numbers (got nan first, at voxel (1, 1, 0))"));
+  EXPECT_THAT(refused("type: double\nendian: little\n", bytes_of<double>({0, 1, 2, 3, 4, 1e39, 6, 7})),
+              HasSubstr("1 of 8 voxels"));
+}
+
+TEST_F(Nrrd, DamagedHeadersAreNamed) {
+  EXPECT_THAT(refused("encoding: bzip2\n"), HasSubstr("raw or gzip"));
+  EXPECT_THAT(refused("type: block\nblock size: 1\n"), HasSubstr("v.nrrd"));
+  EXPECT_THAT(refused("type: longlong\nendian: little\n"), HasSubstr("voxel type"));
+  EXPECT_THAT(refused("type: banana\n"), HasSubstr("banana"));
+  EXPECT_THAT(refused("type: int16\n"), HasSubstr("no 'endian'"));
+  EXPECT_THAT(refused("type: int16\nendian: middle\n"), HasSubstr("little or big"));
+  EXPECT_THAT(refused("spacings: 1 0 1\n"), HasSubstr("spacing"));
+  EXPECT_THAT(refused("spacings: 1 1\n"), HasSubstr("NRRD header"));
+  EXPECT_THAT(refused("sizes: 2 2 2\nsizes: 2 2 2\n"), HasSubstr("given twice"));
+  EXPECT_THAT(refused("line skip: 1\n"), HasSubstr("byte skip"));
+  EXPECT_THAT(refused("no colon here\n"), HasSubstr("v.nrrd:6"));
+  EXPECT_THAT(refused(std::string("content: a\0b\n", 13)), HasSubstr("binary data"));
+  EXPECT_NO_THROW(load("# a comment\nkey:=value\ncontent: anything\n", "12345678"));
+  const auto path = write("cut.nrrd", "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n");
+  EXPECT_THAT(refusal([&] { load_volume(path.string()); }), HasSubstr("does not end"));
+  EXPECT_THAT(refusal([&] { load_volume(write("x.nrrd", "NRRD").string()); }), HasSubstr("no 'dimension'"));
+  EXPECT_THAT(refusal([&] { load_volume(write("x.nrrd", "NRRD0004\n" + std::string(2000000, 'x')).string()); }),
+              HasSubstr("x.nrrd"));
+}
+
+}  // namespace
+}  // namespace fastsplat::volume

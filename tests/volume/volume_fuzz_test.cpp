@@ -1,0 +1,96 @@
+// Seeded damage to small volume files: each either loads or is a UserError on one line, and nothing reaches stderr.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <random>
+#include <sstream>
+
+#include "tests/volume/volume_testing.hpp"
+#include "volume/volume_file.hpp"
+
+namespace fastsplat::volume {
+namespace {
+
+class VolumeFuzz : public TemporaryFolder {
+ protected:
+  std::string saved(const char* name, VoxelType type) const {
+    const Volume volume = make_volume({6, 5, 4}, {1.0, 1.5, 2.0}, type,
+                                      [](int i, int j, int k) { return (i * 37 + j * 11 + k * 5) % 100; });
+    save_volume(volume, folder_ / name, type);
+    std::ostringstream bytes;
+    bytes << std::ifstream(folder_ / name, std::ios::binary).rdbuf();
+    return bytes.str();
+  }
+};
+
+/// One to four changes: bytes, bits, digits of headers, cuts, repeats.
+std::string mutated(std::string bytes, std::mt19937& random) {
+  const auto below = [&random](std::size_t n) { return static_cast<std::size_t>(random()) % n; };
+  for (std::size_t changes = 1 + below(4); changes-- > 0 && !bytes.empty();) {
+    // Half of the damage goes to the header, where the decisions are.
+    const std::size_t at = below(below(2) == 0 ? std::min<std::size_t>(bytes.size(), 360) : bytes.size());
+    switch (below(6)) {
+      case 0:
+        bytes[at] = static_cast<char>(below(256));
+        break;
+      case 1:
+        bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8)));
+        break;
+      case 2:
+        bytes[at] = "0123456789-.en \n:%/"[below(19)];
+        break;
+      case 3:
+        bytes.resize(at);
+        break;
+      case 4:
+        bytes.insert(at, bytes.substr(below(bytes.size()), below(40)));
+        break;
+      default:
+        bytes.replace(at, std::min<std::size_t>(8, bytes.size() - at), std::string(8, below(2) == 0 ? '\xff' : '\x7f'));
+        break;
+    }
+  }
+  return bytes;
+}
+
+TEST_F(VolumeFuzz, LoadsOrRefuses) {
+  constexpr unsigned kSeed = 20241;
+  constexpr int kPerFile = 500;
+  std::printf("[figure] fuzz seed = %u\n", kSeed);
+  const std::string header =
+      "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 6 5 4\nspace directions: (1,0,0) "
+      "(0,1,0) (0,0,2)\n"
+      "kinds: domain domain domain\nendian: little\nencoding: raw\nspace origin: (0,0,0)\n\n" +
+      std::string(240, 'a');
+  const std::vector<std::pair<const char*, std::string>> originals = {{"a.nrrd", saved("a.nrrd", VoxelType::U16)},
+                                                                      {"b.nii", saved("b.nii", VoxelType::F32)},
+                                                                      {"c.nii.gz", saved("c.nii.gz", VoxelType::I16)},
+                                                                      {"d.nhdr", saved("d.nhdr", VoxelType::U8)},
+                                                                      {"e.nrrd", header}};
+  std::mt19937 random(kSeed);
+  int loaded = 0;
+  int refused = 0;
+  ::testing::internal::CaptureStderr();
+  for (const auto& [name, bytes] : originals) {
+    for (int i = 0; i < kPerFile; ++i) {
+      const auto path = write(name, mutated(bytes, random));
+      try {
+        const Volume volume = load_volume(path.string());
+        EXPECT_EQ(volume.voxels.size(), static_cast<std::size_t>(volume.dims.x) * volume.dims.y * volume.dims.z);
+        ++loaded;
+      } catch (const UserError& error) {
+        EXPECT_EQ(error.code(), ExitCode::Input);
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+        ++refused;
+      }
+    }
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  std::printf("[figure] damaged files loaded = %d, refused = %d\n", loaded, refused);
+  EXPECT_EQ(loaded + refused, kPerFile * static_cast<int>(originals.size()));
+  EXPECT_GT(loaded, 100);  // damage that does not matter
+  EXPECT_GT(refused, 500);
+}
+
+}  // namespace
+}  // namespace fastsplat::volume

@@ -1,0 +1,281 @@
+#include "volume/voxel_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <new>
+
+#include "base/error.hpp"
+#include "base/read_file.hpp"
+
+namespace fastsplat::volume {
+namespace {
+
+constexpr std::uint64_t kMaxExtent = 65535;                   // sheet numbers have 16 bits
+constexpr std::uint64_t kMaxVoxels = std::uint64_t{1} << 31;  // 8 GiB of voxels in memory
+constexpr std::uint64_t kGzipLimit = 1032;                    // deflate cannot shrink more
+constexpr std::uint64_t kGzipOverhead = 4096;                 // generous, for the few bytes of a tiny file
+
+[[noreturn]] void refuse(const VoxelSource& source, std::string what, std::string expected, std::string got,
+                         std::string fix) {
+  throw_input({.where = source.header.string(),
+               .what = std::move(what),
+               .expected = std::move(expected),
+               .got = std::move(got),
+               .fix = std::move(fix)});
+}
+
+std::uint64_t voxel_count(const VoxelSource& source) {
+  return source.extents[0] * source.extents[1] * source.extents[2];
+}
+
+std::string extents_text(const VoxelSource& source) {
+  return fmt::format("{} x {} x {}", source.extents[0], source.extents[1], source.extents[2]);
+}
+
+template <typename T>
+T load(const unsigned char* bytes, bool swap) {
+  std::array<unsigned char, sizeof(T)> ordered;
+  std::copy_n(bytes, sizeof(T), ordered.begin());
+  if (swap) std::reverse(ordered.begin(), ordered.end());
+  return std::bit_cast<T>(ordered);
+}
+
+double load_component(const unsigned char* bytes, Component component, bool swap) {
+  switch (component) {
+    case Component::U8:
+      return load<std::uint8_t>(bytes, swap);
+    case Component::I8:
+      return load<std::int8_t>(bytes, swap);
+    case Component::U16:
+      return load<std::uint16_t>(bytes, swap);
+    case Component::I16:
+      return load<std::int16_t>(bytes, swap);
+    case Component::U32:
+      return load<std::uint32_t>(bytes, swap);
+    case Component::I32:
+      return load<std::int32_t>(bytes, swap);
+    case Component::F32:
+      return static_cast<double>(load<float>(bytes, swap));
+    case Component::F64:
+      return load<double>(bytes, swap);
+  }
+  return 0.0;
+}
+
+bool is_wide_integer(Component component) { return component == Component::U32 || component == Component::I32; }
+bool is_scaled(const VoxelSource& source) { return source.slope != 1.0 || source.intercept != 0.0; }
+
+VoxelType announced_type(const VoxelSource& source) {
+  if (is_scaled(source)) return VoxelType::F32;
+  switch (source.component) {
+    case Component::U8:
+      return VoxelType::U8;
+    case Component::I8:
+      return VoxelType::I8;
+    case Component::U16:
+      return VoxelType::U16;
+    case Component::I16:
+      return VoxelType::I16;
+    default:
+      return VoxelType::F32;
+  }
+}
+
+/// The smallest type that holds whole numbers in [min,max].
+VoxelType integer_type(float min, float max) {
+  if (min >= 0.0f && max <= 255.0f) return VoxelType::U8;
+  if (min >= -128.0f && max <= 127.0f) return VoxelType::I8;
+  if (min >= 0.0f && max <= 65535.0f) return VoxelType::U16;
+  if (min >= -32768.0f && max <= 32767.0f) return VoxelType::I16;
+  return VoxelType::F32;
+}
+
+/// What must not enter a volume: counted while reading, told afterwards.
+struct Trouble {
+  std::uint64_t count = 0;
+  std::uint64_t first = 0;
+  double value = 0.0;
+
+  void note(std::uint64_t at, double what) {
+    if (count++ == 0) first = at, value = what;
+  }
+};
+
+void refuse_trouble(const VoxelSource& source, const Trouble& trouble, const char* what, const std::string& fix) {
+  if (trouble.count == 0) return;
+  const auto [nx, ny, nz] = source.extents;
+  refuse(source, fmt::format("{} of {} voxels {}", trouble.count, voxel_count(source), what), {},
+         fmt::format("{} first, at voxel ({}, {}, {})", trouble.value, trouble.first % nx, trouble.first / nx % ny,
+                     trouble.first / nx / ny),
+         fix);
+}
+
+std::vector<float> read_voxels(const VoxelSource& source) {
+  const std::uint64_t count = voxel_count(source);
+  const std::size_t width = size_of(source.component);
+  const bool swap = source.order != std::endian::native;
+  ByteReader reader(source.data, source.file_offset, source.packing);
+  std::vector<unsigned char> chunk(std::size_t{1} << 16);
+
+  std::uint64_t skipped = 0;
+  while (skipped < source.stream_offset) {
+    const auto want = static_cast<std::size_t>(std::min<std::uint64_t>(chunk.size(), source.stream_offset - skipped));
+    const std::size_t got = reader.read(chunk.data(), want);
+    if (got == 0) refuse(source, "the data ends before the first voxel", {}, {}, "download or copy the file again");
+    skipped += got;
+  }
+
+  std::vector<float> voxels;
+  try {
+    voxels.reserve(count);  // not touched until data arrives, so that a lying gzip header costs nothing
+  } catch (const std::bad_alloc&) {
+    refuse(source, "not enough memory for its voxels", {}, extents_text(source),
+           "downsample the volume (unu resample)");
+  }
+  Trouble infinite;
+  Trouble inexact;
+  while (voxels.size() < count) {
+    const auto want = static_cast<std::size_t>(std::min<std::uint64_t>(chunk.size(), (count - voxels.size()) * width));
+    const std::size_t got = reader.read(chunk.data(), want);
+    for (std::size_t at = 0; at + width <= got; at += width) {
+      const double stored = load_component(&chunk[at], source.component, swap);
+      const double value = is_scaled(source) ? source.slope * stored + source.intercept : stored;
+      const auto voxel = std::abs(value) <= 3.4028234663852886e38 ? static_cast<float>(value)
+                                                                  : static_cast<float>(std::copysign(INFINITY, value));
+      if (!std::isfinite(value) || std::isinf(voxel)) infinite.note(voxels.size(), value);
+      if (is_wide_integer(source.component) && static_cast<double>(static_cast<float>(stored)) != stored)
+        inexact.note(voxels.size(), stored);
+      voxels.push_back(voxel);
+    }
+    if (got < want) {
+      refuse(source, "the data ends early: the file is truncated, or its header wrong",
+             fmt::format("{} bytes for {} voxels", count * width, extents_text(source)),
+             fmt::format("{} bytes", (voxels.size() * width) + got % width), "download or copy the file again");
+    }
+  }
+  reader.verify_rest();
+  refuse_trouble(source, infinite, "are not finite numbers", "replace them, for example by 0, and save again");
+  refuse_trouble(source, inexact, "do not fit a 24-bit mantissa", "rescale to 16 bits (unu quantize -b 16)");
+  return voxels;
+}
+
+/// Turns whole axes so that the volume's run the way `orientation` says.
+void reorient(Volume& volume, const Orientation& orientation) {
+  if (orientation == Orientation{}) return;
+  Volume turned = volume;
+  for (int a = 0; a < 3; ++a) {
+    turned.dims[a] = volume.dims[orientation.axis[static_cast<std::size_t>(a)]];
+    turned.spacing[a] = volume.spacing[orientation.axis[static_cast<std::size_t>(a)]];
+  }
+  if (!volume.voxels.empty()) {
+    auto out = turned.voxels.begin();
+    glm::ivec3 from;
+    for (int k = 0; k < turned.dims.z; ++k) {
+      for (int j = 0; j < turned.dims.y; ++j) {
+        for (int i = 0; i < turned.dims.x; ++i) {
+          const glm::ivec3 to(i, j, k);
+          for (int a = 0; a < 3; ++a) {
+            const auto slot = static_cast<std::size_t>(a);
+            from[orientation.axis[slot]] = orientation.flipped[slot] ? turned.dims[a] - 1 - to[a] : to[a];
+          }
+          *out++ = volume.at(from.x, from.y, from.z);
+        }
+      }
+    }
+  }
+  volume = std::move(turned);
+}
+
+Volume empty_volume(const VoxelSource& source) {
+  Volume volume;
+  for (int a = 0; a < 3; ++a) {
+    volume.dims[a] = static_cast<int>(source.extents[static_cast<std::size_t>(a)]);
+    volume.spacing[a] = source.spacing[static_cast<std::size_t>(a)];
+  }
+  volume.stored = announced_type(source);
+  return volume;
+}
+
+}  // namespace
+
+std::size_t size_of(Component component) {
+  switch (component) {
+    case Component::U8:
+    case Component::I8:
+      return 1;
+    case Component::U16:
+    case Component::I16:
+      return 2;
+    case Component::U32:
+    case Component::I32:
+    case Component::F32:
+      return 4;
+    case Component::F64:
+      return 8;
+  }
+  return 0;
+}
+
+void check_source(const VoxelSource& source) {
+  std::uint64_t count = 1;
+  for (const std::uint64_t extent : source.extents) {
+    if (extent < 1 || extent > kMaxExtent) {
+      refuse(source, "an axis has an impossible number of voxels", fmt::format("1..{}", kMaxExtent),
+             extents_text(source), "check the header's sizes");
+    }
+    count *= extent;  // at most 65535^3: no overflow
+  }
+  if (count > kMaxVoxels) {
+    refuse(source, "more voxels than can be handled", fmt::format("at most {}", kMaxVoxels), extents_text(source),
+           "downsample the volume (unu resample)");
+  }
+  for (const double spacing : source.spacing) {
+    if (!(spacing >= 1e-6 && spacing <= 1e6)) {
+      refuse(source, "a voxel spacing makes no sense", "1e-6..1e6 mm", fmt::format("{}", spacing),
+             "correct the header's spacing");
+    }
+  }
+  if (!std::isfinite(source.slope) || !std::isfinite(source.intercept)) {
+    refuse(source, "the header's value scaling is not a number", "finite scl_slope and scl_inter",
+           fmt::format("{} and {}", source.slope, source.intercept), "correct the header");
+  }
+
+  require_readable_file(source.data);
+  std::error_code error;
+  const std::uint64_t file_size = std::filesystem::file_size(source.data, error);
+  if (error) refuse(source, "cannot read: " + error.message(), {}, {}, "check the path");
+  const std::uint64_t on_disk = file_size > source.file_offset ? file_size - source.file_offset : 0;
+  const std::uint64_t need = count * size_of(source.component) + std::min(source.stream_offset, std::uint64_t{1} << 62);
+  const bool gzip = source.packing == Packing::Gzip;
+  const std::uint64_t can_hold = gzip ? (on_disk + 8) * kGzipLimit + (on_disk > 0 ? kGzipOverhead : 0) : on_disk;
+  if (need > can_hold) {
+    refuse(source, "the header promises more than the file holds",
+           fmt::format("{} bytes for {} voxels", need, extents_text(source)),
+           fmt::format("{}{} bytes", gzip ? "at most " : "", can_hold),
+           "download or copy the file again, or correct the header's sizes");
+  }
+}
+
+Volume describe_source(const VoxelSource& source) {
+  check_source(source);
+  Volume volume = empty_volume(source);
+  reorient(volume, source.orientation);
+  return volume;
+}
+
+Volume read_source(const VoxelSource& source) {
+  check_source(source);
+  Volume volume = empty_volume(source);
+  volume.voxels = read_voxels(source);
+  const auto [low, high] = std::minmax_element(volume.voxels.begin(), volume.voxels.end());
+  volume.min = *low;
+  volume.max = *high;
+  if (is_wide_integer(source.component) && !is_scaled(source)) volume.stored = integer_type(volume.min, volume.max);
+  reorient(volume, source.orientation);
+  return volume;
+}
+
+}  // namespace fastsplat::volume

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "scene/scene.hpp"
 #include "tests/scene/scene_testing.hpp"
 
 namespace fastsplat::scene {
@@ -208,6 +209,15 @@ TEST_F(TransferFunctionFile, MissingFilesAndNamesAreSuggested) {
   EXPECT_THAT(refusal([] { load_transfer_function("mri-heat"); }), HasSubstr("did you mean 'mri-head'?"));
   EXPECT_THAT(refusal([&] { load_transfer_function((folder_ / "none.toml").string()); }), HasSubstr("no such file"));
   EXPECT_THAT(refusal([&] { load_transfer_function(folder_.string()); }), HasSubstr("directory"));
+}
+
+TEST(TransferFunctions, AreChosenByTheVolumesName) {
+  const auto volume = std::make_shared<const volume::Volume>(
+      make_volume({2, 3, 4}, glm::dvec3(1), volume::VoxelType::U8, [](int i, int, int) { return i; }));
+  EXPECT_EQ(build_scene({.volume = "ch2bet"}, volume).transfer_function.name, "mri-head");
+  EXPECT_EQ(build_scene({.volume = "/some/folder/ch2bet.nii.gz"}, volume).transfer_function.name, "mri-head");
+  EXPECT_EQ(build_scene({.volume = "checkerboard-floor:8"}, volume).transfer_function.name, "checker");
+  EXPECT_EQ(build_scene({.volume = "other.nrrd"}, volume).transfer_function.name, "default");
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include <cstdlib>
 
-#include "scene/scene.hpp"
 #include "tests/volume/volume_testing.hpp"
 #include "volume/volume_file.hpp"
 
@@ -57,8 +56,6 @@ TEST_F(VolumeName, KnownScansComeFromTheUsersFolderFirst) {
   EXPECT_EQ(found.dims, mine.dims);
   EXPECT_EQ(found.name, "ch2bet");
   EXPECT_EQ(found.source, (folder_ / "ch2bet.nii.gz").string());
-  const Scene scene = build_scene({.volume = "ch2bet"});
-  EXPECT_EQ(scene.transfer_function.name, "mri-head");
 }
 
 TEST_F(VolumeName, KnownScansComeFromDebian) {

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <sstream>
 
 #include "cmodel/counters.hpp"
+#include "cmodel/register_map.hpp"
 #include "cmodel/stream_layout.hpp"
+#include "cmodel/sv_package.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 
 namespace fastsplat::test {
@@ -175,6 +178,72 @@ TEST(NumericsPage, NamesEveryCounterThatNeedsAMeaning) {
     if (name == "tiles" || name == "sheets" || name == "splats" || name == "cull_blocks") return;  // plain counts
     EXPECT_NE(page.find(name), std::string::npos) << name;
   });
+}
+
+/// "CNT_TILES" -> 0, as the RTL gets them.
+std::map<std::string, int> counter_numbers() {
+  std::map<std::string, int> numbers;
+  const std::string package = cmodel::sv_package(named_config("base"));
+  static const std::regex number(R"(localparam int CNT_([A-Z_]+) = (\d+);)");
+  for (std::sregex_iterator match(package.begin(), package.end(), number), end; match != end; ++match)
+    numbers[lower((*match)[1].str())] = std::stoi((*match)[2].str());
+  return numbers;
+}
+
+TEST(MicroarchitecturePage, NumbersEveryCounterAsThePackageDoes) {
+  std::map<std::string, int> named;
+  static const std::regex row(R"(\| \d+ \| [A-Za-z_]+ \|.*)");
+  for (const std::string& line : lines_of("microarchitecture.md")) {
+    if (!std::regex_match(line, row)) continue;
+    const auto columns = cells(line);
+    for (std::size_t i = 0; i + 1 < columns.size(); i += 2) named[lower(columns[i + 1])] = std::stoi(columns[i]);
+  }
+  const auto numbers = counter_numbers();
+  std::printf("[figure] counters with number and address in the page = %zu (limit %zu)\n", named.size(),
+              numbers.size());
+  EXPECT_EQ(named, numbers);
+  EXPECT_GT(named.size(), 16u);
+}
+
+TEST(MicroarchitecturePage, NamesEveryRegisterAtItsAddress) {
+  std::string page;
+  for (const std::string& line : lines_of("microarchitecture.md")) page += line + '\n';
+  for (const auto& reg : cmodel::kRegisters) {
+    char address[8];
+    std::snprintf(address, sizeof address, "0x%02X", static_cast<unsigned>(reg.address));
+    const auto at = page.find(address);
+    ASSERT_NE(at, std::string::npos) << reg.name << " at " << address;
+    const std::string line = page.substr(at, page.find('\n', at) - at);
+    const bool counters = std::string(reg.name) == "COUNTERS";
+    EXPECT_NE(line.find(counters ? "8n" : reg.name), std::string::npos) << address << ": " << line;
+  }
+}
+
+/// Who has only the page can connect the device: every port of the top module is there.
+TEST(MicroarchitecturePage, NamesEveryPort) {
+  std::string page;
+  for (const std::string& line : lines_of("microarchitecture.md")) page += line + '\n';
+  std::ifstream file(FASTSPLAT_SOURCE_DIR "/rtl/fastsplat_core.sv");
+  static const std::regex port(R"(^ +(input|output) +logic.* ([a-z_]+_n?[io]),?$)");
+  int ports = 0;
+  std::smatch match;
+  for (std::string line; std::getline(file, line) && line != ");";) {
+    if (!std::regex_match(line, match, port)) continue;
+    ++ports;
+    const std::string name = match[2];
+    static const std::regex axi_lite("(aw|w|b|ar|r)(valid|ready|addr|data|resp)_[io]");
+    std::smatch channel;
+    if (std::regex_match(name, channel, axi_lite)) {
+      EXPECT_NE(page.find("`" + channel[1].str() + "*`"), std::string::npos) << name;
+      continue;
+    }
+    // "`tap_snap_valid_o`, `_tag_o[31:0]`": what follows the first of a family is written without it.
+    const auto part = name.rfind('_', name.size() - 3);
+    const std::string tail = part == std::string::npos ? name : name.substr(part);
+    EXPECT_TRUE(page.find("`" + name) != std::string::npos || page.find("`" + tail) != std::string::npos) << name;
+  }
+  std::printf("[figure] ports of the top module named in the page = %d (limit > 40)\n", ports);
+  EXPECT_GT(ports, 40);
 }
 
 TEST(Crc, KnownAnswer) {

@@ -1,0 +1,338 @@
+#include "tests/driver/oracle/frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "tests/cmodel/oracle/number.hpp"
+
+namespace fastsplat::scene_oracle {
+namespace {
+
+using oracle::ceil_divide;
+using oracle::floor_divide;
+using oracle::log2_of;
+using oracle::narrow;
+using oracle::Overflow;
+using oracle::power_of_two;
+using oracle::Rounding;
+using oracle::Wide;
+
+std::int64_t to_int(Wide wide) { return static_cast<std::int64_t>(wide); }
+std::uint32_t u32(std::int64_t word) { return static_cast<std::uint32_t>(static_cast<std::uint64_t>(word)); }
+
+struct Sets {
+  std::vector<RadiusSet> all;
+  double r_min = 0.0;
+  double b = 0.0;  ///< bins per e-fold
+};
+
+Sets radius_sets(const Given& given) {
+  const oracle::Symbols& symbols = given.symbols;
+  double r_max = 0.0;
+  Sets sets;
+  sets.r_min = HUGE_VAL;
+  for (const double s : given.scale_at_corner) {
+    const double r = given.R * given.u * s;
+    sets.r_min = std::min(sets.r_min, r);
+    r_max = std::max(r_max, r);
+  }
+  if (r_max > symbols.columns / 2.0) throw Refused("a support radius beyond half the RLUT's columns");
+  const RadiusSet largest = radius_set(symbols, r_max);
+  if (r_max <= sets.r_min * (1 + 1e-9)) {
+    sets.all = {largest};
+    return sets;
+  }
+  const std::int64_t n = std::min<std::int64_t>(symbols.columns / largest.Ea, symbols.sets);
+  sets.b = static_cast<double>(n) / std::log(r_max / sets.r_min);
+  for (std::int64_t i = 0; i < n; ++i) {
+    sets.all.push_back(radius_set(symbols, sets.r_min * std::exp((static_cast<double>(i) + 0.5) / sets.b)));
+    sets.all.back().base = i * largest.Ea;
+  }
+  return sets;
+}
+
+struct Sheets {
+  int mode = 0;
+  std::int64_t S = 1;
+  bool sliced = false;
+  double nearest_boundary = 0.0, width = 0.0;  ///< kernel units, where sliced
+};
+
+Sheets sheets_of(const Given& given) {
+  const double half = std::ceil((given.D / given.u + given.R) / given.w);
+  const auto slabs = static_cast<std::int64_t>(2 * half);
+  const int composited = given.additive ? 1 : 0;
+  switch (given.method) {
+    case Method::ImageAligned:
+      return {composited, slabs, true, -half * given.w, given.w};
+    case Method::AxisAligned:
+      return {composited, given.grid_sheets, false, 0.0, 0.0};
+    case Method::XRay:
+      break;
+  }
+  if (given.xray_sheets == 1) return {2, 1, false, 0.0, 0.0};
+  return {2, given.xray_sheets, true, -half * given.w, 2 * half * given.w / given.xray_sheets};
+}
+
+double exposure(const Given& given) {
+  if (given.method != Method::XRay) return 1.0;
+  if (given.xray_exposure != 0.0) return given.xray_exposure;
+  return 1 / (1.05 * given.kappa * given.o * (2 * given.D / given.u + 1));
+}
+
+using Words = std::array<std::int64_t, 4>;  // R, G, B, tau
+
+/// What a sheet gets of a splat.
+struct Share {
+  Words v{};
+  bool cut = false;
+};
+
+/// A splat in whole numbers.
+struct Splat {
+  std::uint64_t order = 0;    ///< in the traversal
+  std::int64_t x = 0, y = 0;  ///< 2^-pf pixel, of the image
+  std::size_t set = 0;
+  std::int64_t first_sheet = 0;
+  std::vector<Share> shares;  ///< of every sheet
+  std::int64_t first_tile = -1;
+};
+
+class Page {
+ public:
+  explicit Page(const Given& given)
+      : given_(given), symbols_(given.symbols), sets_(radius_sets(given)), sheets_(sheets_of(given)), phi_(phi(given)) {
+    for (std::int64_t s = 0; sheets_.sliced && s <= sheets_.S; ++s) {
+      B_.push_back(nearest(static_cast<double>(s) * sheets_.width * std::ldexp(1.0, symbols_.zf)));
+      if (s > 0 && B_[static_cast<std::size_t>(s)] == B_[static_cast<std::size_t>(s - 1)])
+        throw Refused("two slab boundaries are equal");
+    }
+    for (const RealSplat& real : given.splats) add(real);
+    std::stable_sort(splats_.begin(), splats_.end(),
+                     [](const Splat& x, const Splat& y) { return x.first_sheet < y.first_sheet; });
+  }
+
+  Frame frame() {
+    Frame frame;
+    preamble(frame.preamble);
+    for (std::int64_t tile = 0; tile < across() * down(); ++tile) frame.tiles.push_back(tile_beats(tile));
+    met_.radius_sets = sets_.all.size();
+    met_.several_sets = sets_.all.size() > 1 ? 1 : 0;
+    for (const std::uint32_t word : radial(given_))
+      met_.cut_weights += word == oracle::u(symbols_.wi, symbols_.wf).largest ? 1 : 0;
+    met_.odd_steps = std::ceil(std::ldexp(2.0 * given_.R, symbols_.zf)) + 1 == static_cast<double>(phi_.size()) ? 0 : 1;
+    frame.met = met_;
+    return frame;
+  }
+
+ private:
+  std::int64_t across() const { return to_int(ceil_divide(given_.width, symbols_.W)); }
+  std::int64_t down() const { return to_int(ceil_divide(given_.height, symbols_.H)); }
+
+  std::size_t set_of(double r) {
+    if (sets_.all.size() == 1) return 0;
+    const double bin = std::floor(std::log(r / sets_.r_min) * sets_.b);
+    const auto last = static_cast<double>(sets_.all.size() - 1);
+    met_.clamped_sets += bin < 0.0 || bin > last ? 1 : 0;
+    return static_cast<std::size_t>(std::clamp(bin, 0.0, last));
+  }
+
+  void add(const RealSplat& real) {
+    ++met_.voxels;
+    const double one = std::ldexp(1.0, symbols_.pf);
+    Splat splat;
+    splat.order = met_.voxels;
+    splat.x = nearest(real.x * one);
+    splat.y = nearest(real.y * one);
+    const double r = given_.R * given_.u * real.s;
+    splat.set = set_of(r);
+    const double r_set = sets_.all[splat.set].r;
+
+    const double peak = given_.a / (std::numbers::pi * (1 - std::exp(-given_.a * given_.R * given_.R)));
+    const double A = peak * given_.cx * given_.cy * given_.cz;
+    const double f = A * exposure(given_) * (r / r_set) * (r / r_set);
+    const Wide most = power_of_two(symbols_.cf + 4) - 1;
+    std::array<Wide, 4> V{};
+    bool cut = false, visible = false;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const double word = std::floor(real.e[c] * f * std::ldexp(1.0, symbols_.cf) + 0.5);
+      const bool beyond = word > static_cast<double>(most);
+      V[c] = beyond ? most : static_cast<Wide>(word);
+      met_.saturated_words += beyond ? 1 : 0;
+      cut = cut || beyond;
+      visible = visible || V[c] != 0;
+    }
+    met_.saturated_voxels += cut ? 1 : 0;
+    if (!visible) {
+      ++met_.vanished_voxels;
+      return;
+    }
+    if (sheets_.sliced)
+      slice(splat, V, real.z);
+    else
+      whole(splat, V, given_.method == Method::AxisAligned ? real.g : 0);
+    splats_.push_back(splat);
+  }
+
+  /// One channel of what a record carries of a splat.
+  void input(Share& share, std::size_t c, Wide part) {
+    const auto v = narrow(Rounding::Trn, Overflow::Sat, part, symbols_.cf, oracle::u(0, symbols_.cf));
+    share.v[c] = to_int(v.word);
+    share.cut = share.cut || v.overflow;
+    met_.saturated_words += v.overflow ? 1 : 0;
+  }
+
+  void whole(Splat& splat, const std::array<Wide, 4>& V, int sheet) {
+    splat.first_sheet = sheet;
+    splat.shares.resize(static_cast<std::size_t>(sheets_.S));
+    for (std::size_t c = 0; c < 4; ++c) input(splat.shares[static_cast<std::size_t>(sheet)], c, V[c]);
+  }
+
+  void slice(Splat& splat, const std::array<Wide, 4>& V, double z) {
+    const auto M = static_cast<std::int64_t>(phi_.size()) - 1;
+    const std::int64_t zq = nearest((z / given_.u - sheets_.nearest_boundary) * std::ldexp(1.0, symbols_.zf));
+    while (splat.first_sheet < sheets_.S - 1 && B_[static_cast<std::size_t>(splat.first_sheet + 1)] <= zq - M / 2)
+      ++splat.first_sheet;
+    const auto entry = [&](std::int64_t s) {
+      const std::int64_t i = std::clamp<std::int64_t>(B_[static_cast<std::size_t>(s)] - zq + M / 2, 0, M);
+      const std::int64_t ended = s == 0 ? 0 : s == sheets_.S ? M : i;
+      met_.rims_kept += ended != i ? 1 : 0;
+      return ended;
+    };
+    const auto h = [&](std::int64_t i, std::size_t c) {
+      return narrow(Rounding::Rnd, Overflow::Sat, V[c] * phi_[static_cast<std::size_t>(i)], symbols_.cf + symbols_.hf,
+                    oracle::u(4, symbols_.cf))
+          .word;
+    };
+    for (std::int64_t s = 0; s < sheets_.S; ++s) {
+      const std::int64_t before = entry(s), after = entry(s + 1);
+      Share& share = splat.shares.emplace_back();
+      if (before == after) continue;  // the kernel does not reach this slab
+      for (std::size_t c = 0; c < 4; ++c) input(share, c, h(after, c) - h(before, c));
+      met_.left_out += share.v == Words{} ? 1 : 0;
+    }
+  }
+
+  void preamble(std::vector<Beat>& beats) const {
+    const std::uint64_t hash = oracle::hash(symbols_);
+    beats.push_back({0x46U | 1U << 16, 0x31535346U, static_cast<std::uint32_t>(hash),
+                     static_cast<std::uint32_t>(hash >> 32), u32(given_.width) | u32(given_.height) << 16,
+                     u32(across() * down())});
+    load_table(beats, 1, 0, {}, radial(given_));
+    load_table(beats, 2, 0, {}, factor(symbols_));
+    for (std::size_t n = 0; n < sets_.all.size(); ++n)
+      load_table(beats, 0, n, sets_.all[n], rlut(symbols_, sets_.all[n]));
+  }
+
+  static void load_table(std::vector<Beat>& beats, std::uint32_t table, std::size_t n, const RadiusSet& set,
+                         std::vector<std::uint32_t> words) {
+    beats.push_back({0x4CU | table << 8, static_cast<std::uint32_t>(n), u32(set.rho),
+                     static_cast<std::uint32_t>(words.size()), u32(set.base), 0});
+    while (words.size() % 6 != 0) words.push_back(0);
+    for (std::size_t i = 0; i < words.size(); i += 6)
+      beats.push_back({words[i], words[i + 1], words[i + 2], words[i + 3], words[i + 4], words[i + 5]});
+  }
+
+  /// Whether `extent` pixels from the window's first one on meet a whole tile's `side` pixels, along one axis.
+  bool meets(std::int64_t q, const RadiusSet& set, std::int64_t extent, std::int64_t first, std::int64_t side) const {
+    const Wide step = power_of_two(symbols_.pf - log2_of(symbols_.k));
+    const Wide xs = floor_divide(2 * Wide{q} + step, 2 * step);  // half up
+    const Wide x0 = floor_divide(xs - set.rho, symbols_.k) + 1;
+    return x0 < first + side && x0 + extent > first;
+  }
+
+  std::vector<Beat> tile_beats(std::int64_t tile) {
+    const std::int64_t X = tile % across() * symbols_.W, Y = tile / across() * symbols_.H;
+    const std::int64_t width = std::min<std::int64_t>(symbols_.W, given_.width - X);
+    const std::int64_t height = std::min<std::int64_t>(symbols_.H, given_.height - Y);
+    std::vector<Beat> beats{
+        {0x54U | u32(sheets_.mode) << 8, u32(tile), u32(X), u32(Y), u32(width) | u32(height) << 16, 0}};
+    std::uint32_t tag = 0, sheets = 0;
+    for (std::int64_t s = 0; s < sheets_.S; ++s) {
+      std::vector<Beat> records;
+      std::uint64_t last_order = 0;
+      for (Splat& splat : splats_) {
+        const auto& [v, cut] = splat.shares[static_cast<std::size_t>(s)];
+        if (v == Words{}) continue;
+        const RadiusSet& set = sets_.all[splat.set];
+        if (!meets(splat.x, set, set.E, X, symbols_.W) || !meets(splat.y, set, set.E, Y, symbols_.H)) {
+          met_.beyond_E +=
+              meets(splat.x, set, set.Ea, X, symbols_.W) && meets(splat.y, set, set.Ea, Y, symbols_.H) ? 1 : 0;
+          continue;
+        }
+        const std::int64_t pixel = to_int(power_of_two(symbols_.pf));
+        records.push_back({0x50U | static_cast<std::uint32_t>(splat.set) << 8, tag++, u32(splat.x - X * pixel),
+                           u32(splat.y - Y * pixel), u32(v[0]) | u32(v[1]) << 16, u32(v[2]) | u32(v[3]) << 16});
+        met_.saturated_records += cut ? 1 : 0;
+        met_.reordered += splat.order < last_order ? 1 : 0;
+        last_order = splat.order;
+        if (splat.first_tile < 0) splat.first_tile = tile;
+        met_.other_tiles += splat.first_tile != tile ? 1 : 0;
+      }
+      if (records.empty()) continue;
+      ++sheets;
+      beats.push_back({0x53U, u32(s), 0, 0, 0, 0});
+      beats.insert(beats.end(), records.begin(), records.end());
+      beats.push_back({0x73U, u32(s), static_cast<std::uint32_t>(records.size()), 0, 0, 0});
+    }
+    beats.push_back({0x74U, u32(tile), sheets, 0, 0, 0});
+    met_.splat_records += tag;
+    met_.sheets += sheets;
+    met_.empty_tiles += sheets == 0 ? 1 : 0;
+    return beats;
+  }
+
+  const Given& given_;
+  const oracle::Symbols& symbols_;
+  Sets sets_;
+  Sheets sheets_;
+  std::vector<std::int64_t> phi_, B_;
+  std::vector<Splat> splats_;
+  Met met_;
+};
+
+constexpr MetName kMet[] = {
+    {"voxels", &Met::voxels},
+    {"vanished voxels", &Met::vanished_voxels},
+    {"saturated voxels", &Met::saturated_voxels},
+    {"splat records", &Met::splat_records},
+    {"saturated records", &Met::saturated_records},
+    {"sheets", &Met::sheets},
+    {"radius sets", &Met::radius_sets},
+    {"frames with several sets", &Met::several_sets},
+    {"radii outside the bins", &Met::clamped_sets},
+    {"saturated words", &Met::saturated_words},
+    {"weights cut", &Met::cut_weights},
+    {"frames with M made even", &Met::odd_steps},
+    {"slices that kept a rim", &Met::rims_kept},
+    {"slices left out", &Met::left_out},
+    {"records that only Ea would bring", &Met::beyond_E},
+    {"records in further tiles", &Met::other_tiles},
+    {"records out of traversal order", &Met::reordered},
+    {"empty tiles", &Met::empty_tiles},
+};
+
+}  // namespace
+
+std::span<const MetName> met_names() { return kMet; }
+
+Frame compile(const Given& given) { return Page(given).frame(); }
+
+Beat end_frame(const Frame& frame) {
+  std::uint64_t beats = 0;
+  std::vector<std::uint8_t> bytes;
+  const auto add = [&](const std::vector<Beat>& part) {
+    beats += part.size();
+    for (const Beat& beat : part)
+      for (const std::uint32_t word : beat)
+        for (int byte = 0; byte < 4; ++byte) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * byte)));
+  };
+  add(frame.preamble);
+  for (const auto& tile : frame.tiles) add(tile);
+  return {0x66U, static_cast<std::uint32_t>(beats), static_cast<std::uint32_t>(beats >> 32), oracle::crc32(bytes), 0,
+          0};
+}
+
+}  // namespace fastsplat::scene_oracle

@@ -1,0 +1,58 @@
+// From real splats to the records of a frame once more, from docs/numerics.md, section 8, and docs/stream.md alone:
+// loops over all tiles, sheets and splats, exact wide integers, nothing shared with the driver. What it says and what
+// the driver says must be the same words.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "tests/driver/oracle/given.hpp"
+#include "tests/driver/oracle/tables.hpp"
+
+namespace fastsplat::scene_oracle {
+
+using Beat = std::array<std::uint32_t, 6>;
+
+/// The page says that the frame is refused.
+struct Refused : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What a frame met.
+struct Met {
+  std::uint64_t voxels = 0, vanished_voxels = 0, saturated_voxels = 0;
+  std::uint64_t splat_records = 0, saturated_records = 0, sheets = 0;  ///< so far what the driver reports too
+  std::uint64_t radius_sets = 0;
+  std::uint64_t several_sets = 0;     ///< frames with more than one
+  std::uint64_t clamped_sets = 0;     ///< splats whose radius lies outside the bins
+  std::uint64_t saturated_words = 0;  ///< V_c and v_c cut to their formats
+  std::uint64_t cut_weights = 0;      ///< words of RADIAL cut to their format
+  std::uint64_t odd_steps = 0;        ///< frames whose M was made even
+  std::uint64_t rims_kept = 0;        ///< slices that i_0 = 0 or i_S = M changed
+  std::uint64_t left_out = 0;         ///< slices of a splat that is there, with four words 0
+  std::uint64_t beyond_E = 0;         ///< records that Ea would bring and E does not
+  std::uint64_t other_tiles = 0;      ///< records of splats that have some in an earlier tile too
+  std::uint64_t reordered = 0;        ///< neighbours in a sheet that are not in traversal order
+  std::uint64_t empty_tiles = 0;
+};
+struct MetName {
+  const char* name;
+  std::uint64_t Met::*member;
+};
+std::span<const MetName> met_names();
+
+struct Frame {
+  std::vector<Beat> preamble;            ///< begin_frame and tables
+  std::vector<std::vector<Beat>> tiles;  ///< begin_tile .. end_tile
+  Met met;
+};
+
+/// Throws Refused.
+Frame compile(const Given& given);
+
+Beat end_frame(const Frame& frame);
+
+}  // namespace fastsplat::scene_oracle

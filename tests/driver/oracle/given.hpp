@@ -1,0 +1,45 @@
+// What docs/numerics.md, section 8, takes as given for a frame, by the names of the page; nothing of it is rounded yet.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "cmodel/config.hpp"
+#include "scene/scene.hpp"
+#include "tests/cmodel/oracle/symbols.hpp"
+
+namespace fastsplat::scene_oracle {
+
+struct RealSplat {
+  double x = 0.0, y = 0.0;    ///< projected centre, image pixels
+  double z = 0.0;             ///< depth from the volume's centre, mm
+  double s = 0.0;             ///< pixels per mm at that depth
+  std::array<double, 4> e{};  ///< emission R, G, B and extinction
+  int g = 0;                  ///< grid sheet, 0 nearest
+};
+
+enum class Method { ImageAligned, AxisAligned, XRay };
+
+struct Given {
+  oracle::Symbols symbols;
+  int width = 0, height = 0;  ///< image, pixels
+  Method method = Method::ImageAligned;
+  bool additive = false;                    ///< slabs.opacity
+  int xray_sheets = 1;                      ///< xray.sheets
+  double xray_exposure = 0.0;               ///< xray.exposure
+  double a = 0.0, R = 0.0;                  ///< kernel
+  double u = 0.0, D = 0.0;                  ///< mm
+  double cx = 0.0, cy = 0.0, cz = 0.0;      ///< spacings divided by u
+  double w = 0.0;                           ///< slab width, kernel units
+  double o = 0.0;                           ///< opacity_scale
+  double kappa = 0.0;                       ///< largest extinction that the transfer function gives any voxel
+  std::array<double, 8> scale_at_corner{};  ///< pixels per mm at the corners of the box of voxel centres
+  int grid_sheets = 0;                      ///< voxels along the axis of the slices
+  std::vector<RealSplat> splats;            ///< in traversal order
+};
+
+/// From the scene's own splats and camera. The order is enumerated here by the page; throws std::runtime_error where
+/// the scene's traversal has another one.
+Given given_by(const scene::Scene& scene, const cmodel::Config& config);
+
+}  // namespace fastsplat::scene_oracle

@@ -25,7 +25,11 @@ Json to_json(const cmodel::Config& config) {
   for (const auto& key : cmodel::config_keys()) {
     const std::string name = key.name;
     const auto dot = name.find('.');
-    json[name.substr(0, dot)][name.substr(dot + 1)] = config.*key.member;
+    Json& value = json[name.substr(0, dot)][name.substr(dot + 1)];
+    if (key.names.empty())
+      value = config.*key.member;
+    else
+      value = cmodel::text_of(config, key);
   }
   return json;
 }
@@ -51,8 +55,11 @@ std::string to_toml(const cmodel::Config& config) {
       table = name.substr(0, dot);
       text += fmt::format("\n[{}]\n", table);
     }
-    text += fmt::format("{:40} # {}..{}{}: {}\n", fmt::format("{} = {}", name.substr(dot + 1), config.*key.member),
-                        key.min, key.max, key.power_of_two ? ", a power of two" : "", key.meaning);
+    const std::string value = cmodel::text_of(config, key);
+    text += fmt::format("{:40} # {}{}{}: {}\n",
+                        fmt::format("{} = {}", name.substr(dot + 1), key.names.empty() ? value : quoted(value)),
+                        cmodel::allowed(key), key.power_of_two ? ", a power of two" : "",
+                        key.neutral ? ", may be absent" : "", key.meaning);
   }
   return text;
 }

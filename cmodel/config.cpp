@@ -1,10 +1,28 @@
 #include "cmodel/config.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
+#include <vector>
+
+#include "base/suggest.hpp"
 
 namespace fastsplat::cmodel {
 namespace {
+
+constexpr const char* kRoundings[] = {"trn", "rnd", "rnd_conv"};  // in the order of Rounding
+
+constexpr ConfigKey rounding(const char* name, int Config::*member, const char* meaning) {
+  return {.name = name,
+          .member = member,
+          .min = 0,
+          .max = 2,
+          .power_of_two = false,
+          .meaning = meaning,
+          .names = kRoundings,
+          .neutral = static_cast<int>(Rounding::RND)};
+}
 
 constexpr std::array kKeys{
     ConfigKey{"array.lanes", &Config::lanes, 1, 32, true, "P: lanes per side; a window is P x P pixels"},
@@ -37,6 +55,12 @@ constexpr std::array kKeys{
               "eps: transmittance words below this are frozen"},
     ConfigKey{"pixel.int_bits", &Config::pixel_int_bits, 0, 8, false, "xi: output words U xi.xf"},
     ConfigKey{"pixel.frac_bits", &Config::pixel_frac_bits, 4, 31, false, "xf"},
+    rounding("rounding.snap", &Config::rounding_snap, "R_s: of a centre onto the 1/k grid"),
+    rounding("rounding.product", &Config::rounding_product, "R_p: of colour times weight"),
+    rounding("rounding.fall", &Config::rounding_fall, "R_f: of the slab factor's interpolation"),
+    rounding("rounding.slab", &Config::rounding_slab, "R_a: of slab colour and opacity"),
+    rounding("rounding.light", &Config::rounding_light, "R_l: of transmittance times slab colour and opacity"),
+    rounding("rounding.pixel", &Config::rounding_pixel, "R_o: of output words"),
 };
 
 ErrorParts violation(const char* key, std::string what, std::string expected, int got, std::string fix) {
@@ -52,24 +76,79 @@ ErrorParts multiple_of_lanes(const char* key, int got, int lanes) {
                    "use " + std::to_string((got + lanes - 1) / lanes * lanes));
 }
 
+/// What the key's own limits say of a value.
+std::optional<ErrorParts> key_violation(const ConfigKey& key, int value) {
+  if (value < key.min || value > key.max)
+    return violation(key.name, "out of range", allowed(key), value, std::string(key.name) + " is " + key.meaning);
+  if (key.power_of_two && !std::has_single_bit(static_cast<unsigned>(value))) {
+    return violation(key.name, "is not a power of two", "a power of two", value,
+                     "use " + std::to_string(std::bit_floor(static_cast<unsigned>(value))) + " or " +
+                         std::to_string(std::bit_ceil(static_cast<unsigned>(value))));
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 int Config::log2_exact(int power_of_two) { return std::bit_width(static_cast<unsigned>(power_of_two)) - 1; }
 
 std::span<const ConfigKey> config_keys() { return kKeys; }
 
+const ConfigKey* find_key(std::string_view name) {
+  const auto found = std::find_if(kKeys.begin(), kKeys.end(), [&](const ConfigKey& key) { return key.name == name; });
+  return found == kKeys.end() ? nullptr : &*found;
+}
+
+std::string allowed(const ConfigKey& key) {
+  if (key.names.empty()) return std::to_string(key.min) + ".." + std::to_string(key.max);
+  std::string text = key.names.front();
+  for (std::size_t i = 1; i < key.names.size(); ++i)
+    text += std::string(i + 1 < key.names.size() ? ", " : " or ") + key.names[i];
+  return text;
+}
+
+std::string text_of(const Config& config, const ConfigKey& key) {
+  const int value = config.*key.member;
+  return key.names.empty() ? std::to_string(value) : key.names[static_cast<std::size_t>(value)];
+}
+
+std::optional<ErrorParts> set(Config& config, std::string_view name, std::string_view text) {
+  const ConfigKey* key = find_key(name);
+  if (key == nullptr) {
+    std::vector<std::string> known;
+    for (const ConfigKey& other : kKeys) known.emplace_back(other.name);
+    return ErrorParts{.where = std::string(name),
+                      .what = "no such key of a configuration",
+                      .expected = {},
+                      .got = {},
+                      .fix = suggestion(name, known)};
+  }
+  int value = 0;
+  const auto refuse = [&](const char* what) {
+    return ErrorParts{.where = key->name,
+                      .what = what,
+                      .expected = allowed(*key),
+                      .got = std::string(text),
+                      .fix = std::string(key->name) + " is " + key->meaning};
+  };
+  if (key->names.empty()) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (end != text.data() + text.size() || error == std::errc::invalid_argument)
+      return refuse("is not a whole number");
+    if (error == std::errc::result_out_of_range) return refuse("out of range");
+  } else {
+    const auto found = std::find(key->names.begin(), key->names.end(), text);
+    if (found == key->names.end()) return refuse("is no such word");
+    value = static_cast<int>(found - key->names.begin());
+  }
+  if (auto violation = key_violation(*key, value)) return violation;
+  config.*key->member = value;
+  return std::nullopt;
+}
+
 std::optional<ErrorParts> first_violation(const Config& config) {
   for (const auto& key : kKeys) {
-    const int value = config.*key.member;
-    if (value < key.min || value > key.max) {
-      return violation(key.name, "out of range", std::to_string(key.min) + ".." + std::to_string(key.max), value,
-                       std::string(key.name) + " is " + key.meaning);
-    }
-    if (key.power_of_two && !std::has_single_bit(static_cast<unsigned>(value))) {
-      return violation(key.name, "is not a power of two", "a power of two", value,
-                       "use " + std::to_string(std::bit_floor(static_cast<unsigned>(value))) + " or " +
-                           std::to_string(std::bit_ceil(static_cast<unsigned>(value))));
-    }
+    if (auto found = key_violation(key, config.*key.member)) return found;
   }
   if (config.tile_width % config.lanes != 0) return multiple_of_lanes("tile.width", config.tile_width, config.lanes);
   if (config.tile_height % config.lanes != 0) return multiple_of_lanes("tile.height", config.tile_height, config.lanes);
@@ -116,7 +195,8 @@ std::optional<ErrorParts> first_violation(const Config& config) {
 std::uint64_t config_hash(const Config& config) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
   for (const auto& key : kKeys) {
-    for (const char c : std::string(key.name) + "=" + std::to_string(config.*key.member) + "\n") {
+    if (key.neutral == config.*key.member) continue;
+    for (const char c : std::string(key.name) + "=" + text_of(config, key) + "\n") {
       hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
     }
   }

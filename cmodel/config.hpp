@@ -5,9 +5,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "base/error.hpp"
-#include "cmodel/format.hpp"
+#include "cmodel/narrow.hpp"
 
 namespace fastsplat::cmodel {
 
@@ -39,6 +40,14 @@ struct Config {
   int freeze_below = 0;         ///< eps
   int pixel_int_bits = 0;       ///< xi
   int pixel_frac_bits = 0;      ///< xf
+
+  // How bits are dropped, each a Rounding.
+  int rounding_snap = static_cast<int>(Rounding::RND);     ///< R_s
+  int rounding_product = static_cast<int>(Rounding::RND);  ///< R_p
+  int rounding_fall = static_cast<int>(Rounding::RND);     ///< R_f
+  int rounding_slab = static_cast<int>(Rounding::RND);     ///< R_a
+  int rounding_light = static_cast<int>(Rounding::RND);    ///< R_l
+  int rounding_pixel = static_cast<int>(Rounding::RND);    ///< R_o
 
   bool operator==(const Config&) const = default;
 
@@ -72,13 +81,25 @@ struct ConfigKey {
   int min, max;
   bool power_of_two;
   const char* meaning;
+  std::span<const char* const> names = {};  ///< a key of words: that of value i is names[i], min = 0; else a number
+  std::optional<int> neutral = {};          ///< value of an absent key, which does not enter the hash; else required
 };
 std::span<const ConfigKey> config_keys();
+/// Null when there is no such key.
+const ConfigKey* find_key(std::string_view name);
+
+/// The values the key takes by itself: "1..32", "trn, rnd or rnd_conv".
+std::string allowed(const ConfigKey& key);
+/// The key's value as it stands in the hash and, a word without its quotes, in a file.
+std::string text_of(const Config& config, const ConfigKey& key);
+/// The key takes the value; or nothing changes, and what is wrong with the key or the value is returned. Limits between
+/// keys are first_violation()'s.
+std::optional<ErrorParts> set(Config& config, std::string_view key, std::string_view value);
 
 /// The first limit that does not hold, with both numbers; empty for a sound configuration.
 std::optional<ErrorParts> first_violation(const Config& config);
 
-/// 64-bit FNV-1a over "key=value\n" in table order.
+/// 64-bit FNV-1a over "key=value\n" in table order, without keys at their neutral value.
 std::uint64_t config_hash(const Config& config);
 
 }  // namespace fastsplat::cmodel

@@ -2,31 +2,40 @@
 
 #include <algorithm>
 
-#include "cmodel/pixel_out.hpp"
-#include "cmodel/snap.hpp"
-
 namespace fastsplat::cmodel {
 
-Model::Model(const Config& config, StreamScope scope, PixelSink& pixels, TapSink* taps)
+Model::Model(const Config& config, StreamScope scope, PixelSink& pixels, TapSink* taps, Ranges* ranges)
     : config_(config),
       decode_(config, scope),
+      snap_(config),
       rlut_(config),
       radial_(config),
       sheet_(config),
       compositor_(config),
+      pixel_out_(config),
       pixels_(pixels),
       taps_(taps),
+      ranges_(ranges),
       weights_(static_cast<std::size_t>(config.lanes) * config.lanes) {}
 
 void Model::consume(std::span<const Beat> beats) {
+  Counting counting{counters_};
   for (const Beat& beat : beats) {
-    if (const Record* record = decode_.feed(beat)) take(*record);
+    const Record* record = decode_.feed(beat);
+    if (record == nullptr) continue;
+    if (ranges_ == nullptr) {
+      take(*record, counting);
+    } else {
+      Both<Counting, Ranges> both{counting, *ranges_};
+      take(*record, both);
+    }
   }
 }
 
-void Model::take(const Record& record) {
+template <class Observer>
+void Model::take(const Record& record, Observer& observer) {
   if (const auto* found = std::get_if<SplatRecord>(&record)) {
-    splat(*found);
+    splat(*found, observer);
   } else if (const auto* table = std::get_if<LoadTable>(&record)) {
     load(*table);
   } else if (const auto* tile = std::get_if<BeginTile>(&record)) {
@@ -34,9 +43,9 @@ void Model::take(const Record& record) {
   } else if (const auto* sheet = std::get_if<BeginSheet>(&record)) {
     sheet_number_ = sheet->sheet;
   } else if (std::holds_alternative<EndSheet>(record)) {
-    end_sheet();
+    end_sheet(observer);
   } else if (std::holds_alternative<EndTile>(record)) {
-    end_tile();
+    end_tile(observer);
   } else if (std::holds_alternative<CullBlock>(record)) {
     ++counters_.cull_blocks;
   }
@@ -63,12 +72,12 @@ void Model::begin_tile(const BeginTile& tile) {
   compositor_.begin_tile(tile.mode, tile.width, tile.height);
 }
 
-void Model::splat(const SplatRecord& record) {
+template <class Observer>
+void Model::splat(const SplatRecord& record, Observer& observer) {
   const std::uint32_t rho = rlut_.rho(record.set);
-  const SnappedAxis x = snap(config_, record.x, rho);
-  const SnappedAxis y = snap(config_, record.y, rho);
+  const SnappedAxis x = snap_(record.x, rho, observer);
+  const SnappedAxis y = snap_(record.y, rho, observer);
   ++counters_.splats;
-  counters_.snap_saturated += (x.saturated ? 1 : 0) + (y.saturated ? 1 : 0);
   if (taps_ != nullptr) {
     const std::array<std::uint32_t, 4> payload{static_cast<std::uint32_t>(x.origin),
                                                static_cast<std::uint32_t>(y.origin), x.phase, y.phase};
@@ -80,34 +89,37 @@ void Model::splat(const SplatRecord& record) {
     const auto rows = rlut_.read(record.set, y.phase, row);
     for (std::uint32_t column = 0; column < extent; column += lanes) {
       footprint(radial_, rlut_.read(record.set, x.phase, column), rows, weights_);
-      window(record, x.origin + static_cast<std::int32_t>(column), y.origin + static_cast<std::int32_t>(row));
+      window(record, x.origin + static_cast<std::int32_t>(column), y.origin + static_cast<std::int32_t>(row), observer);
     }
   }
 }
 
-void Model::window(const SplatRecord& record, std::int32_t x, std::int32_t y) {
+template <class Observer>
+void Model::window(const SplatRecord& record, std::int32_t x, std::int32_t y, Observer& observer) {
   ++counters_.windows;
-  sheet_.accumulate(x, y, weights_, record.colour, counters_);
+  sheet_.accumulate(x, y, weights_, record.colour, counters_, observer);
   if (taps_ != nullptr) {
     tap(Tap::Footprint, record.tag, x, y, weights_);
     tap_sheet(record, x, y);
   }
 }
 
-void Model::end_sheet() {
+template <class Observer>
+void Model::end_sheet(Observer& observer) {
   ++counters_.sheets;
-  sheet_.drain([this](int bx, int by) {
+  sheet_.drain([&](int bx, int by) {
     ++counters_.dirty_blocks;
     const int x0 = bx * config_.lanes, x1 = std::min(tile_.width, x0 + config_.lanes);
     const int y0 = by * config_.lanes, y1 = std::min(tile_.height, y0 + config_.lanes);
     for (int y = y0; y < y1; ++y) {
-      for (int x = x0; x < x1; ++x) compositor_.step(sheet_.at(x, y), x, y, counters_);
+      for (int x = x0; x < x1; ++x) compositor_.step(sheet_.at(x, y), x, y, counters_, observer);
     }
     if (taps_ != nullptr) tap_composite(x0, y0);
   });
 }
 
-void Model::end_tile() {
+template <class Observer>
+void Model::end_tile(Observer& observer) {
   ++counters_.tiles;
   sheet_number_ = 0;  // pixels belong to no sheet
   TilePixels out{
@@ -115,7 +127,7 @@ void Model::end_tile() {
   out.words.reserve(static_cast<std::size_t>(tile_.width) * tile_.height * 4);
   for (int y = 0; y < tile_.height; ++y) {
     for (int x = 0; x < tile_.width; ++x) {
-      const auto words = pixel_out(config_, tile_.mode, compositor_.at(x, y), counters_);
+      const auto words = pixel_out_(tile_.mode, compositor_.at(x, y), observer);
       if (taps_ != nullptr) tap(Tap::Pixel, 0, x, y, words);
       out.words.insert(out.words.end(), words.begin(), words.end());
     }

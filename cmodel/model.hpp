@@ -8,42 +8,55 @@
 #include "cmodel/config.hpp"
 #include "cmodel/device.hpp"
 #include "cmodel/footprint.hpp"
+#include "cmodel/observers.hpp"
+#include "cmodel/pixel_out.hpp"
 #include "cmodel/rlut.hpp"
 #include "cmodel/sheet_buffer.hpp"
+#include "cmodel/snap.hpp"
 #include "cmodel/stream_decode.hpp"
 
 namespace fastsplat::cmodel {
 
 class Model final : public Device {
  public:
-  /// `pixels` takes every finished tile; `taps` may be null (no cost). Both outlive the model.
-  Model(const Config& config, StreamScope scope, PixelSink& pixels, TapSink* taps = nullptr);
+  /// `pixels` takes every finished tile; `taps` and `ranges` (of all narrowing sites) may be null (no cost). All
+  /// outlive the model.
+  Model(const Config& config, StreamScope scope, PixelSink& pixels, TapSink* taps = nullptr, Ranges* ranges = nullptr);
 
   void consume(std::span<const Beat> beats) override;
   void finish() override { decode_.finish(); }
   const Counters& counters() const override { return counters_; }
 
  private:
-  void take(const Record& record);
+  /// `Observer` counts saturation, and watches ranges if there are any to watch.
+  template <class Observer>
+  void take(const Record& record, Observer& observer);
   void load(const LoadTable& table);
   void begin_tile(const BeginTile& tile);
-  void splat(const SplatRecord& record);
-  void window(const SplatRecord& record, std::int32_t x, std::int32_t y);
-  void end_sheet();
-  void end_tile();
+  template <class Observer>
+  void splat(const SplatRecord& record, Observer& observer);
+  template <class Observer>
+  void window(const SplatRecord& record, std::int32_t x, std::int32_t y, Observer& observer);
+  template <class Observer>
+  void end_sheet(Observer& observer);
+  template <class Observer>
+  void end_tile(Observer& observer);
   void tap(Tap kind, std::uint32_t tag, std::int32_t x, std::int32_t y, std::span<const std::uint32_t> payload) const;
   void tap_sheet(const SplatRecord& record, std::int32_t x, std::int32_t y);
   void tap_composite(int x, int y);
 
   Config config_;
   StreamDecode decode_;
+  Snap snap_;
   Rlut rlut_;
   RadialTable radial_;
   SheetBuffer sheet_;
   Compositor compositor_;
+  PixelOut pixel_out_;
   Counters counters_;
   PixelSink& pixels_;
   TapSink* taps_;
+  Ranges* ranges_;
   BeginTile tile_;
   std::uint32_t sheet_number_ = 0;
   std::vector<std::uint32_t> weights_;  ///< of the window in flight, P*P

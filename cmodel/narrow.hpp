@@ -25,36 +25,67 @@ struct Narrowed {
   bool overflow = false;  ///< the rounded value lay outside the format
 };
 
-/// `value` has `from_frac` fraction bits. |value| < 2^62 and the result before overflow handling fits 63 bits.
+/// A narrowing made ready: what follows from rounding and formats is worked out once.
+class Narrowing {
+ public:
+  constexpr Narrowing(Rounding rounding, Overflow overflow, int from_frac, const Format& to)
+      : rounding_(rounding), overflow_(overflow), from_frac_(from_frac), to_(to) {
+    const int shift = from_frac - to.frac_bits;
+    if (shift <= 0) {
+      grown_bits_ = -shift;
+      return;
+    }
+    dropped_bits_ = shift;
+    const std::int64_t half = std::int64_t{1} << (shift - 1);
+    even_ = rounding == Rounding::RND_CONV ? 1 : 0;
+    bias_ = rounding == Rounding::TRN ? 0 : half - even_;
+  }
+
+  /// `value` has from_frac() fraction bits. |value| < 2^62 and the result before overflow handling fits 63 bits.
+  constexpr Narrowed operator()(std::int64_t value) const {
+    Narrowed out;
+    if (dropped_bits_ == 0) {
+      out.word = value * (std::int64_t{1} << grown_bits_);
+    } else {
+      // Half less one, and one more where the word would be odd: only then does a tie go up.
+      out.word = (value + bias_ + ((value >> dropped_bits_) & even_)) >> dropped_bits_;
+      out.inexact = dropped(value) != 0;
+    }
+    if (out.word < to_.min || out.word > to_.max) {
+      out.overflow = true;
+      out.word = overflow_ == Overflow::SAT ? (out.word < to_.min ? to_.min : to_.max) : wrapped(out.word);
+    }
+    return out;
+  }
+
+  constexpr Rounding rounding() const { return rounding_; }
+  constexpr int from_frac() const { return from_frac_; }
+  constexpr const Format& to() const { return to_; }
+  constexpr int dropped_bits() const { return dropped_bits_; }  ///< 0 where no bit is lost
+  /// The bits of `value` that are lost.
+  constexpr std::int64_t dropped(std::int64_t value) const { return value & ((std::int64_t{1} << dropped_bits_) - 1); }
+
+ private:
+  constexpr std::int64_t wrapped(std::int64_t word) const {
+    assert(to_.word_bits > 0 && "a unit-interval format cannot wrap");
+    const std::int64_t modulus = std::int64_t{1} << to_.word_bits;
+    word &= modulus - 1;
+    return word > to_.max ? word - modulus : word;
+  }
+
+  Rounding rounding_;
+  Overflow overflow_;
+  int from_frac_;
+  Format to_;
+  int dropped_bits_ = 0, grown_bits_ = 0;
+  std::int64_t bias_ = 0;  ///< added before the bits are dropped
+  std::int64_t even_ = 0;  ///< 1: ties go to even
+};
+
+/// One value, see Narrowing.
 template <Rounding R, Overflow O>
 constexpr Narrowed narrow(std::int64_t value, int from_frac, const Format& to) {
-  const int shift = from_frac - to.frac_bits;
-  Narrowed out;
-  if (shift <= 0) {
-    out.word = value * (std::int64_t{1} << -shift);
-  } else {
-    const std::int64_t dropped = value & ((std::int64_t{1} << shift) - 1);
-    const std::int64_t half = std::int64_t{1} << (shift - 1);
-    out.inexact = dropped != 0;
-    out.word = value >> shift;
-    if constexpr (R == Rounding::RND) {
-      out.word += dropped >= half ? 1 : 0;
-    } else if constexpr (R == Rounding::RND_CONV) {
-      out.word += (dropped > half || (dropped == half && (out.word & 1) != 0)) ? 1 : 0;
-    }
-  }
-  if (out.word < to.min || out.word > to.max) {
-    out.overflow = true;
-    if constexpr (O == Overflow::SAT) {
-      out.word = out.word < to.min ? to.min : to.max;
-    } else {
-      assert(to.word_bits > 0 && "a unit-interval format cannot wrap");
-      const std::int64_t modulus = std::int64_t{1} << to.word_bits;
-      out.word &= modulus - 1;
-      if (out.word > to.max) out.word -= modulus;
-    }
-  }
-  return out;
+  return Narrowing(R, O, from_frac, to)(value);
 }
 
 }  // namespace fastsplat::cmodel

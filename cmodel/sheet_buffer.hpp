@@ -1,6 +1,7 @@
 // Unit "sheet buffer": P x P banks of saturating accumulators with a dirty map (docs/numerics.md, section 5).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -8,23 +9,42 @@
 
 #include "cmodel/config.hpp"
 #include "cmodel/counters.hpp"
+#include "cmodel/lane.hpp"
 
 namespace fastsplat::cmodel {
 
-/// One pixel's sums, U si.sf: R, G, B, tau.
-using SheetWord = std::array<std::uint32_t, 4>;
-
 class SheetBuffer {
  public:
-  explicit SheetBuffer(const Config& config);
+  explicit SheetBuffer(const Config& config)
+      : lane_(config), lanes_(config.lanes), lane_bits_(Config::log2_exact(config.lanes)) {}
 
   /// A new tile of width x height pixels, all zero.
   void begin_tile(int width, int height);
 
   /// Adds one window's products: first pixel (x,y), tile-relative, weights row by row. Pixels outside the tile are
   /// dropped.
+  template <class Observer>
   void accumulate(std::int32_t x, std::int32_t y, std::span<const std::uint32_t> weights,
-                  const std::array<std::uint32_t, 4>& colour, Counters& counters);
+                  const std::array<std::uint32_t, 4>& colour, Counters& counters, Observer& observer) {
+    const int first_column = std::max(0, -x), last_column = std::min(lanes_, width_ - x);
+    const int first_row = std::max(0, -y), last_row = std::min(lanes_, height_ - y);
+    if (first_column >= last_column || first_row >= last_row) return;
+    mark(x + first_column, y + first_row, x + last_column, y + last_row);
+    const Lane lane = lane_;
+    std::uint64_t weighted = 0;
+    for (int j = first_row; j < last_row; ++j) {
+      SheetWord* row = &words_[index(x + first_column, y + j)];
+      for (int i = first_column; i < last_column; ++i, ++row) {
+        const std::uint32_t weight = weights[static_cast<std::size_t>(j) * lanes_ + i];
+        if (weight == 0) continue;
+        ++weighted;
+        for (std::size_t c = 0; c < 4; ++c)
+          (*row)[c] = lane.accumulate((*row)[c], lane.product(colour[c], weight, observer), observer);
+      }
+    }
+    counters.lanes_inside += static_cast<std::uint64_t>(last_column - first_column) * (last_row - first_row);
+    counters.lanes_weighted += weighted;
+  }
 
   const SheetWord& at(int x, int y) const { return words_[index(x, y)]; }
   bool inside(std::int64_t x, std::int64_t y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }
@@ -45,10 +65,11 @@ class SheetBuffer {
 
  private:
   std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width_ + x; }
+  /// The blocks of columns x0..x1-1 and rows y0..y1-1 are dirty.
+  void mark(int x0, int y0, int x1, int y1);
   void clear_block(int bx, int by);
 
-  Format format_;
-  int product_frac_bits_;
+  Lane lane_;
   int lanes_, lane_bits_;
   int width_ = 0, height_ = 0, blocks_x_ = 0, blocks_y_ = 0;
   std::vector<SheetWord> words_;

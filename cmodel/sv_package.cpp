@@ -58,6 +58,14 @@ std::optional<ErrorParts> rtl_violation(const Config& config) {
     return refuse("opacity.segments", "the RTL interpolates over at least one bit", "sheet bits - log2(segments) >= 1",
                   config.opacity_remainder_bits());
   }
+  for (const auto& key : config_keys()) {
+    if (!key.neutral || config.*key.member == *key.neutral) continue;
+    return ErrorParts{.where = key.name,
+                      .what = "the RTL rounds halves up everywhere",
+                      .expected = "rnd",
+                      .got = text_of(config, key),
+                      .fix = "use the model for this configuration"};
+  }
   const int blocks = config.tile_width / config.lanes * (config.tile_height / config.lanes);
   if (blocks > 1024)
     return refuse("tile.width", "the RTL finds dirty blocks in one cycle", "at most 1024 blocks of P x P in a tile",

@@ -33,23 +33,15 @@ std::string text_value(const std::string& file, const toml::node& node, const st
                .fix = "write " + key + " = \"...\""});
 }
 
-int number_value(const std::string& file, const toml::node& node, const cmodel::ConfigKey& key) {
-  const auto value = node.value_exact<std::int64_t>();
-  if (!value) {
-    throw_input({.where = place(file, node.source()),
-                 .what = fmt::format("{} is not a whole number", key.name),
-                 .expected = fmt::format("{}..{}", key.min, key.max),
-                 .got = {},
-                 .fix = fmt::format("{} is {}", key.name, key.meaning)});
-  }
-  if (*value < key.min || *value > key.max) {
-    throw_input({.where = place(file, node.source()),
-                 .what = fmt::format("{} out of range", key.name),
-                 .expected = fmt::format("{}..{}", key.min, key.max),
-                 .got = std::to_string(*value),
-                 .fix = fmt::format("{} is {}", key.name, key.meaning)});
-  }
-  return static_cast<int>(*value);
+/// A number or a word, as cmodel::set() takes it.
+std::string value_text(const std::string& file, const toml::node& node, const cmodel::ConfigKey& key) {
+  if (!key.names.empty()) return text_value(file, node, key.name);
+  if (const auto value = node.value_exact<std::int64_t>()) return std::to_string(*value);
+  throw_input({.where = place(file, node.source()),
+               .what = fmt::format("{} is not a whole number", key.name),
+               .expected = cmodel::allowed(key),
+               .got = {},
+               .fix = fmt::format("{} is {}", key.name, key.meaning)});
 }
 
 void take(const std::string& file, const toml::node& node, const std::string& name, cmodel::Config& config) {
@@ -60,16 +52,19 @@ void take(const std::string& file, const toml::node& node, const std::string& na
   } else if (name == "verified") {
     config.verified = text_value(file, node, name);
   } else {
-    const auto keys = cmodel::config_keys();
-    const auto found = std::find_if(keys.begin(), keys.end(), [&](const auto& key) { return name == key.name; });
-    if (found == keys.end()) {
+    const cmodel::ConfigKey* key = cmodel::find_key(name);
+    if (key == nullptr) {
       throw_input({.where = place(file, node.source()),
                    .what = fmt::format("unknown key '{}'", name),
                    .expected = {},
                    .got = {},
                    .fix = suggestion(name, key_names())});
     }
-    config.*(found->member) = number_value(file, node, *found);
+    if (auto wrong = cmodel::set(config, name, value_text(file, node, *key))) {
+      wrong->where = place(file, node.source());
+      wrong->what = name + " " + wrong->what;
+      throw_input(*wrong);
+    }
   }
 }
 
@@ -99,7 +94,9 @@ cmodel::Config parse(const std::string& file, const std::string& text) {
     }
   }
   for (const auto& name : key_names()) {
-    if (std::find(seen.begin(), seen.end(), name) == seen.end()) {
+    const cmodel::ConfigKey* key = cmodel::find_key(name);
+    const bool optional = key != nullptr && key->neutral;
+    if (!optional && std::find(seen.begin(), seen.end(), name) == seen.end()) {
       throw_input({.where = file,
                    .what = fmt::format("key '{}' is missing", name),
                    .expected = "every key",

@@ -8,8 +8,8 @@
 
 namespace fastsplat::driver {
 
-/// A built-in name (`base`) or a path to a .toml file. Every key must be present, unknown keys are refused, limits are
-/// checked; each failure is a UserError (Input) with file, line, key and the numbers.
+/// A built-in name (`base`) or a path to a .toml file. Every key without a neutral value must be present, unknown keys
+/// are refused, limits are checked; each failure is a UserError (Input) with file, line, key and the numbers.
 cmodel::Config load_config(const std::string& name_or_path);
 std::vector<std::string> config_names();
 

@@ -34,17 +34,15 @@ void Coverage::merge(const Coverage& other) {
   }
 }
 
-RoundingPoint::RoundingPoint(Coverage& coverage, const std::string& group, const std::string& prefix, int shift,
-                             std::int64_t largest, std::int64_t limit)
-    : shift_(shift), limit_(limit) {
-  exact_ = coverage.declare(group, prefix + "exact");
-  if (shift_ >= 1) tie_ = coverage.declare(group, prefix + "tie");
-  if (shift_ >= 2) {
+RoundingPoint::RoundingPoint(Coverage& coverage, const std::string& group, const std::string& prefix,
+                             const cmodel::Narrowing& narrowing, std::int64_t largest)
+    : narrowing_(narrowing), exact_(coverage.declare(group, prefix + "exact")) {
+  if (narrowing.dropped_bits() >= 1) tie_ = coverage.declare(group, prefix + "tie");
+  if (narrowing.dropped_bits() >= 2) {
     below_ = coverage.declare(group, prefix + "below");
     above_ = coverage.declare(group, prefix + "above");
   }
-  const std::int64_t most = shift_ <= 0 ? largest << -shift_ : (largest + (std::int64_t{1} << (shift_ - 1))) >> shift_;
-  if (most > limit_) saturated_ = coverage.declare(group, prefix + "saturated");
+  if (narrowing(largest).overflow) saturated_ = coverage.declare(group, prefix + "saturated");
 }
 
 }  // namespace fastsplat::testbench

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "cmodel/narrow.hpp"
+
 namespace fastsplat::testbench {
 
 struct CoverBin {
@@ -38,33 +40,26 @@ class Coverage {
   std::map<std::string, Id> index_;
 };
 
-/// Where a narrowing rounds: exact, below the half, at it (a tie), above it; and where it saturates. Only what `shift`
+/// Where a narrowing rounds: exact, below the half, at it (a tie), above it; and where it saturates. Only what its
 /// dropped bits and a largest value can reach is declared.
 class RoundingPoint {
  public:
   RoundingPoint() = default;
-  /// Bins group.PREFIXexact, ...tie and so on. `largest` is the largest value before narrowing, `limit` the largest
-  /// word.
-  RoundingPoint(Coverage& coverage, const std::string& group, const std::string& prefix, int shift,
-                std::int64_t largest, std::int64_t limit);
+  /// Bins group.PREFIXexact, ...tie and so on. `largest` is the largest value before narrowing.
+  RoundingPoint(Coverage& coverage, const std::string& group, const std::string& prefix,
+                const cmodel::Narrowing& narrowing, std::int64_t largest);
 
-  /// True if the value is cut to the limit.
-  bool sample(Coverage& coverage, std::int64_t value) const {
-    if (shift_ <= 0) {
-      coverage.hit(exact_);
-    } else {
-      const std::int64_t dropped = value & ((std::int64_t{1} << shift_) - 1), half = std::int64_t{1} << (shift_ - 1);
-      coverage.hit(dropped == 0 ? exact_ : dropped == half ? tie_ : dropped < half ? below_ : above_);
-    }
-    const bool cut =
-        shift_ <= 0 ? value << -shift_ > limit_ : (value + (std::int64_t{1} << (shift_ - 1))) >> shift_ > limit_;
-    if (cut) coverage.hit(saturated_);
-    return cut;
+  /// What becomes of the value, its bin hit.
+  cmodel::Narrowed sample(Coverage& coverage, std::int64_t value) const {
+    const cmodel::Narrowed narrowed = narrowing_(value);
+    const std::int64_t twice = 2 * narrowing_.dropped(value), one = std::int64_t{1} << narrowing_.dropped_bits();
+    coverage.hit(twice == 0 ? exact_ : twice == one ? tie_ : twice < one ? below_ : above_);
+    if (narrowed.overflow) coverage.hit(saturated_);
+    return narrowed;
   }
 
  private:
-  int shift_ = 0;
-  std::int64_t limit_ = 0;
+  cmodel::Narrowing narrowing_{cmodel::Rounding::TRN, cmodel::Overflow::SAT, 0, {}};
   Coverage::Id exact_ = 0, below_ = 0, tie_ = 0, above_ = 0, saturated_ = 0;
 };
 

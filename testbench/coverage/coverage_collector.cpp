@@ -12,16 +12,12 @@ constexpr ResetFill kFills[] = {ResetFill::Zero, ResetFill::One, ResetFill::Rand
 
 /// Counters that cannot rise: the configuration's largest operands do not overflow.
 bool reachable(const cmodel::Config& config, const std::string& counter) {
-  Coverage probe;
   if (counter == "snap_saturated")
-    RoundingPoint(probe, "p", "", config.position_frac_bits - config.phase_bits(), config.position_format().max,
-                  config.snapped_format().max);
-  else if (counter == "product_saturated")
-    RoundingPoint(probe, "p", "", config.colour_frac_bits + config.radial_frac_bits - config.sheet_frac_bits,
-                  config.colour_format().max * config.weight_format().max, config.sheet_format().max);
-  else
-    return true;
-  return probe.declared("p.saturated");
+    return cmodel::narrowing(config, cmodel::Site::Snap)(config.position_format().max).overflow;
+  if (counter == "product_saturated")
+    return cmodel::narrowing(config, cmodel::Site::Product)(config.colour_format().max * config.weight_format().max)
+        .overflow;
+  return true;
 }
 
 }  // namespace

@@ -14,11 +14,11 @@ std::size_t blocks(const cmodel::Config& config) {
 
 }  // namespace
 
-CompositeCoverage::Four CompositeCoverage::four(const char* group, const std::string& prefix, int shift,
-                                                std::int64_t largest, std::int64_t limit) {
+CompositeCoverage::Four CompositeCoverage::four(const char* group, const std::string& prefix, cmodel::Site site,
+                                                std::int64_t largest) {
   Four points;
   for (std::size_t c = 0; c < 4; ++c)
-    points[c] = RoundingPoint(coverage_, group, prefix + kChannels[c] + "_", shift, largest, limit);
+    points[c] = RoundingPoint(coverage_, group, prefix + kChannels[c] + "_", sites_[site], largest);
   return points;
 }
 
@@ -28,21 +28,21 @@ CompositeCoverage::CompositeCoverage(const cmodel::Config& config, Coverage& cov
       splats_(splats),
       columns_(static_cast<std::size_t>(config.tile_width)),
       factor_(static_cast<std::size_t>(config.opacity_segments) + 1, 0),
-      opacity_(config),
+      sites_(config),
       picture_(columns_ * static_cast<std::size_t>(config.tile_height)),
       touched_(blocks(config)) {
   // Colours end below 2.0, but the picture's alpha and, but for saturation, its colours at 1.0.
   const std::int64_t sum = config.sheet_format().max, one = config.transmittance_format().max;
   const std::int64_t factor = config.factor_format().max;
-  const int tf = config.composite_frac_bits, sf = config.sheet_frac_bits, rem = config.opacity_remainder_bits();
+  const std::int64_t remainder = (std::int64_t{1} << config.opacity_remainder_bits()) - 1;
   segment_first_ = coverage.declare("factor", "first_segment");
   segment_last_ = coverage.declare("factor", "last_segment");
   tau_zero_ = coverage.declare("factor", "tau_zero");
   tau_largest_ = coverage.declare("factor", "tau_largest");
-  fall_ = RoundingPoint(coverage, "factor", "fall_", rem, factor * ((std::int64_t{1} << rem) - 1), factor);
-  exponential_ = four("slab", "exponential_", sf + config.opacity_frac_bits - tf, sum * factor, one);
-  additive_ = four("slab", "additive_", sf - tf, sum, one);
-  light_ = four("light", "", tf, one * one, one);
+  fall_ = RoundingPoint(coverage, "factor", "fall_", sites_[cmodel::Site::Fall], factor * remainder);
+  exponential_ = four("slab", "exponential_", cmodel::Site::SlabColour, sum * factor);
+  additive_ = four("slab", "additive_", cmodel::Site::AddedColour, sum);
+  light_ = four("light", "", cmodel::Site::Light, one * one);
   colour_saturated_ = coverage.bins().size();
   for (int c = 0; c < 3; ++c) coverage.declare("picture", std::string(kChannels[c]) + "_saturated");
   colour_alone_ = coverage.bins().size();
@@ -62,17 +62,15 @@ CompositeCoverage::CompositeCoverage(const cmodel::Config& config, Coverage& cov
   block_blank_ = coverage.declare("block", "on_blank_picture");
   block_again_ = coverage.declare("block", "on_an_earlier_sheet");
   block_partial_ = coverage.declare("block", "partly_outside_the_tile");
-  composited_out_ = four("pixel", "", tf - config.pixel_frac_bits, one, config.pixel_format().max);
-  sum_out_ = four("pixel", "sum_", sf - config.pixel_frac_bits, sum, config.pixel_format().max);
+  composited_out_ = four("pixel", "", cmodel::Site::PixelOut, one);
+  sum_out_ = four("pixel", "sum_", cmodel::Site::PixelSum, sum);
   untouched_ = coverage.declare("pixel", "never_composited");
   alpha_zero_ = coverage.declare("pixel", "alpha_zero");
   alpha_one_ = coverage.declare("pixel", "alpha_one");
 }
 
 void CompositeCoverage::load(const cmodel::LoadTable& table) {
-  if (table.table != cmodel::Table::Factor) return;
-  factor_ = table.words;
-  opacity_.load(table.words);
+  if (table.table == cmodel::Table::Factor) factor_ = table.words;
 }
 
 cmodel::PixelState CompositeCoverage::blank() const {
@@ -115,7 +113,6 @@ void CompositeCoverage::block(const cmodel::TapRecord& record) {
 }
 
 std::array<std::int64_t, 4> CompositeCoverage::slab(const cmodel::SheetWord& sums) {
-  const std::int64_t one = config_.transmittance_format().max;
   const bool exponential = tile_.mode == cmodel::Mode::Exponential;
   std::int64_t f = 1;
   if (exponential) {
@@ -126,17 +123,11 @@ std::array<std::int64_t, 4> CompositeCoverage::slab(const cmodel::SheetWord& sum
     if (segment + 2 == factor_.size()) coverage_.hit(segment_last_);
     if (sums[3] == 0) coverage_.hit(tau_zero_);
     if (sums[3] == static_cast<std::uint32_t>(config_.sheet_format().max)) coverage_.hit(tau_largest_);
-    fall_.sample(coverage_, (std::int64_t{factor_[segment]} - factor_[segment + 1]) * rem);
-    f = opacity_.factor(sums[3]);
+    f = factor_[segment] - fall_.sample(coverage_, (std::int64_t{factor_[segment]} - factor_[segment + 1]) * rem).word;
   }
-  const int shift =
-      config_.sheet_frac_bits + (exponential ? config_.opacity_frac_bits : 0) - config_.composite_frac_bits;
   std::array<std::int64_t, 4> out{};
-  for (std::size_t c = 0; c < 4; ++c) {
-    const std::int64_t value = sums[c] * f;
-    const bool cut = (exponential ? exponential_ : additive_)[c].sample(coverage_, value);
-    out[c] = cut ? one : shift <= 0 ? value << -shift : (value + (std::int64_t{1} << (shift - 1))) >> shift;
-  }
+  for (std::size_t c = 0; c < 4; ++c)
+    out[c] = (exponential ? exponential_ : additive_)[c].sample(coverage_, sums[c] * f).word;
   return out;
 }
 
@@ -146,7 +137,7 @@ void CompositeCoverage::pixel_step(const cmodel::SheetWord& sums, const cmodel::
   std::size_t last = 0;
   if (tile_.mode == cmodel::Mode::Sum) {
     for (std::size_t c = 0; c < 4; ++c) {
-      if (std::int64_t{before[c]} + sums[c] <= config_.sheet_format().max) continue;
+      if (!sites_[cmodel::Site::SumOver](std::int64_t{before[c]} + sums[c]).overflow) continue;
       coverage_.hit(sum_saturated_ + c);
       ++cut;
       last = c;
@@ -155,16 +146,12 @@ void CompositeCoverage::pixel_step(const cmodel::SheetWord& sums, const cmodel::
     return;
   }
   const auto words = slab(sums);
-  const bool light = std::any_of(words.begin(), words.end(), [](std::int64_t word) { return word > 0; });
-  transmittance(before[3], after[3], light);
+  const bool lit = std::any_of(words.begin(), words.end(), [](std::int64_t word) { return word > 0; });
+  transmittance(before[3], after[3], lit);
   if (before[3] < static_cast<std::uint32_t>(config_.freeze_below)) return;
-  const int tf = config_.composite_frac_bits;
   for (std::size_t c = 0; c < 4; ++c) {
-    const std::int64_t product = before[3] * words[c];
-    light_[c].sample(coverage_, product);
-    if (c == 3) continue;
-    const std::int64_t sum = before[c] + ((product + (std::int64_t{1} << (tf - 1))) >> tf);
-    if (sum <= config_.composited_format().max) continue;
+    const std::int64_t light = light_[c].sample(coverage_, before[3] * words[c]).word;
+    if (c == 3 || !sites_[cmodel::Site::Over](before[c] + light).overflow) continue;
     coverage_.hit(colour_saturated_ + c);
     ++cut;
     last = c;

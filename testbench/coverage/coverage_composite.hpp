@@ -5,9 +5,10 @@
 #include <array>
 #include <vector>
 
-#include "cmodel/compositor.hpp"
+#include "cmodel/composite_lane.hpp"
 #include "cmodel/config.hpp"
 #include "cmodel/records.hpp"
+#include "cmodel/sites.hpp"
 #include "cmodel/taps.hpp"
 #include "testbench/coverage/coverage.hpp"
 #include "testbench/coverage/coverage_splat.hpp"
@@ -26,7 +27,7 @@ class CompositeCoverage {
  private:
   using Id = Coverage::Id;
   using Four = std::array<RoundingPoint, 4>;
-  Four four(const char* group, const std::string& prefix, int shift, std::int64_t largest, std::int64_t limit);
+  Four four(const char* group, const std::string& prefix, cmodel::Site site, std::int64_t largest);
   void block(const cmodel::TapRecord& record);
   void pixel_step(const cmodel::SheetWord& sums, const cmodel::PixelState& before, const cmodel::PixelState& after);
   std::array<std::int64_t, 4> slab(const cmodel::SheetWord& sums);
@@ -39,7 +40,7 @@ class CompositeCoverage {
   SplatCoverage& splats_;
   std::size_t columns_;
   std::vector<std::uint32_t> factor_;
-  cmodel::SlabOpacity opacity_;
+  cmodel::Sites sites_;
   cmodel::BeginTile tile_;
   std::vector<cmodel::PixelState> picture_;
   std::vector<bool> touched_;  ///< blocks of the tile

@@ -18,12 +18,12 @@ SplatCoverage::SplatCoverage(const cmodel::Config& config, Coverage& coverage)
     : config_(config),
       coverage_(coverage),
       columns_(static_cast<std::size_t>(config.tile_width)),
+      sites_(config),
       rlut_(config),
       sums_(columns_ * static_cast<std::size_t>(config.tile_height)) {
-  const int drop = config.position_frac_bits - config.phase_bits();
-  const std::int64_t largest = config.position_format().max, limit = config.snapped_format().max;
-  snap_x_ = RoundingPoint(coverage, "snap", "x_", drop, largest, limit);
-  snap_y_ = RoundingPoint(coverage, "snap", "y_", drop, largest, limit);
+  const std::int64_t largest = config.position_format().max;
+  snap_x_ = RoundingPoint(coverage, "snap", "x_", sites_[cmodel::Site::Snap], largest);
+  snap_y_ = RoundingPoint(coverage, "snap", "y_", sites_[cmodel::Site::Snap], largest);
   centre_ = coverage.bins().size();
   for (const char* name : {"x_least", "y_least", "x_greatest", "y_greatest"}) coverage.declare("centre", name);
   phase_x_ = coverage.declare_range("phase", "x_", static_cast<std::size_t>(config.phases));
@@ -55,11 +55,10 @@ SplatCoverage::SplatCoverage(const cmodel::Config& config, Coverage& coverage)
   index_furthest_ = coverage.declare("radial", "q_at_twice_the_rim");
   weight_zero_ = coverage.declare("radial", "weight_zero_inside");
   weight_largest_ = coverage.declare("radial", "weight_largest");
-  const int shift = config.colour_frac_bits + config.radial_frac_bits - config.sheet_frac_bits;
   const std::int64_t product = config.colour_format().max * config.weight_format().max;
   for (std::size_t c = 0; c < 4; ++c)
     product_[c] =
-        RoundingPoint(coverage, "product", std::string(kChannels[c]) + "_", shift, product, config.sheet_format().max);
+        RoundingPoint(coverage, "product", std::string(kChannels[c]) + "_", sites_[cmodel::Site::Product], product);
   const auto per_channel = [&](const char* name) {
     const Id first = coverage.bins().size();
     for (const char* channel : kChannels) coverage.declare("sum", std::string(channel) + name);
@@ -172,16 +171,13 @@ void SplatCoverage::accumulated(const cmodel::TapRecord& record) {
 
 void SplatCoverage::accumulated(cmodel::SheetWord& before, std::uint32_t weight) {
   const std::int64_t largest = config_.sheet_format().max;
-  const int shift = config_.colour_frac_bits + config_.radial_frac_bits - config_.sheet_frac_bits;
   int cut = 0;
   std::size_t last = 0;
   for (std::size_t c = 0; c < 4; ++c) {
-    const std::int64_t product = std::int64_t{record_.colour[c]} * weight;
-    const bool product_cut = product_[c].sample(coverage_, product);
-    const std::int64_t rounded = shift <= 0 ? product << -shift : (product + (std::int64_t{1} << (shift - 1))) >> shift;
-    const std::int64_t sum = before[c] + (product_cut ? largest : rounded);
-    if (sum == largest && rounded > 0) coverage_.hit(sum_exactly_ + c);
-    if (sum <= largest) continue;
+    const std::int64_t product = product_[c].sample(coverage_, std::int64_t{record_.colour[c]} * weight).word;
+    const std::int64_t sum = before[c] + product;
+    if (sum == largest && product > 0) coverage_.hit(sum_exactly_ + c);
+    if (!sites_[cmodel::Site::Sum](sum).overflow) continue;
     if (before[c] == largest) coverage_.hit(sum_stays_ + c);
     coverage_.hit(sum_saturated_ + c);
     ++cut;

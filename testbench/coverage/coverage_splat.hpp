@@ -9,6 +9,7 @@
 #include "cmodel/records.hpp"
 #include "cmodel/rlut.hpp"
 #include "cmodel/sheet_buffer.hpp"
+#include "cmodel/sites.hpp"
 #include "cmodel/taps.hpp"
 #include "testbench/coverage/coverage.hpp"
 
@@ -41,6 +42,7 @@ class SplatCoverage {
   cmodel::Config config_;
   Coverage& coverage_;
   std::size_t columns_;  ///< tile width
+  cmodel::Sites sites_;
   cmodel::Rlut rlut_;
   std::array<std::uint32_t, 256> base_{};  ///< first RLUT column of each set
   cmodel::BeginTile tile_;

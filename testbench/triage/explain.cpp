@@ -5,8 +5,7 @@
 
 #include "cmodel/compositor.hpp"
 #include "cmodel/footprint.hpp"
-#include "cmodel/narrow.hpp"
-#include "cmodel/pixel_out.hpp"
+#include "cmodel/observers.hpp"
 #include "cmodel/rlut.hpp"
 #include "cmodel/sheet_buffer.hpp"
 #include "cmodel/snap.hpp"
@@ -109,7 +108,7 @@ class Walk {
                              column + word_ % lanes(), row + word_ / lanes()));
         if (this_window && here(cmodel::Tap::Sheet, record.tag)) return sum(record, left, top, weights);
         cmodel::Counters unused;
-        sheet_.accumulate(left, top, weights, record.colour, unused);
+        sheet_.accumulate(left, top, weights, record.colour, unused, nobody_);
       }
     }
   }
@@ -133,9 +132,8 @@ class Walk {
     const std::int32_t y = top + static_cast<std::int32_t>(lane / lanes());
     if (!sheet_.inside(x, y))
       return tell("pixel (" + std::to_string(x) + "," + std::to_string(y) + ") is outside the tile");
-    const auto product = cmodel::narrow<cmodel::Rounding::RND, cmodel::Overflow::SAT>(
-        static_cast<std::int64_t>(record.colour[channel]) * weights[lane],
-        config_.colour_frac_bits + config_.radial_frac_bits, config_.sheet_format());
+    const auto product = cmodel::narrowing(
+        config_, cmodel::Site::Product)(static_cast<std::int64_t>(record.colour[channel]) * weights[lane]);
     tell("pixel (" + std::to_string(x) + "," + std::to_string(y) + "): sum before " + hex(sheet_.at(x, y)[channel]) +
          ", colour " + kChannels[channel] + "=" + hex(record.colour[channel]) + " x weight " + hex(weights[lane]) +
          " = product " + hex(product.word) + (product.overflow ? " (saturated)" : ""));
@@ -149,7 +147,7 @@ class Walk {
       for (int y = by * block; y < std::min(tile_.height, (by + 1) * block); ++y) {
         for (int x = bx * block; x < std::min(tile_.width, (bx + 1) * block); ++x) {
           cmodel::Counters unused;
-          compositor_.step(sheet_.at(x, y), x, y, unused);
+          compositor_.step(sheet_.at(x, y), x, y, unused, nobody_);
         }
       }
     });
@@ -174,8 +172,9 @@ class Walk {
     for (std::size_t c = 0; c < 4; ++c) text += std::string(" ") + kChannels[c] + "=" + hex(sums[c]);
     if (!summing) {
       const bool exponential = tile_.mode == cmodel::Mode::Exponential;
-      const auto slab = exponential ? compositor_.opacity().exponential(sums) : compositor_.opacity().additive(sums);
-      if (exponential) text += "; factor " + hex(compositor_.opacity().factor(sums[3]));
+      const auto& opacity = compositor_.opacity();
+      const auto slab = exponential ? opacity.exponential(sums, nobody_) : opacity.additive(sums, nobody_);
+      if (exponential) text += "; factor " + hex(opacity.factor(sums[3], nobody_));
       text += "; slab R=" + hex(slab.colour[0]) + " G=" + hex(slab.colour[1]) + " B=" + hex(slab.colour[2]) +
               " opacity=" + hex(slab.opacity);
       if (state[3] < static_cast<std::uint32_t>(config_.freeze_below))
@@ -199,6 +198,7 @@ class Walk {
   cmodel::RadialTable radial_;
   cmodel::SheetBuffer sheet_;
   cmodel::Compositor compositor_;
+  cmodel::Nothing nobody_;
   cmodel::BeginTile tile_;
   std::uint32_t number_ = 0;
   std::string text_;

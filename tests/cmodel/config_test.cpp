@@ -1,6 +1,8 @@
 // Every limit of a configuration, broken once: the message names the key and has both numbers.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "tests/cmodel/configs_helper.hpp"
 
 namespace fastsplat::test {
@@ -34,8 +36,10 @@ TEST(ConfigLimits, EveryKeyBelowAboveAndBetweenPowers) {
     for (const int value : {key.min - 1, key.max + 1, -1, 2147483647, -2147483647 - 1}) {
       if (value >= key.min && value <= key.max) continue;
       config.*key.member = value;
-      expect_violation(config, key.name, std::to_string(key.min) + ".." + std::to_string(key.max),
-                       std::to_string(value));
+      expect_violation(
+          config, key.name,
+          key.names.empty() ? std::to_string(key.min) + ".." + std::to_string(key.max) : "trn, rnd or rnd_conv",
+          std::to_string(value));
       ++broken;
     }
     if (key.power_of_two && key.max >= 4) {
@@ -106,6 +110,68 @@ TEST(ConfigLimits, EdgesAreTaken) {
   EXPECT_FALSE(cmodel::first_violation(config));
   config.position_int_bits = 9;  // 256 = 128 + 128
   EXPECT_FALSE(cmodel::first_violation(config));
+}
+
+TEST(ConfigSet, EveryKeyTakesItsTextAndGivesItBack) {
+  int compared = 0;
+  for (const cmodel::ConfigKey& key : cmodel::config_keys()) {
+    const std::vector<std::string> texts = key.names.empty()
+                                               ? std::vector{std::to_string(key.min), std::to_string(key.max)}
+                                               : std::vector<std::string>{key.names.begin(), key.names.end()};
+    for (const std::string& text : texts) {
+      cmodel::Config config = named_config("base"), expected = config;
+      const auto wrong = cmodel::set(config, key.name, text);
+      ASSERT_FALSE(wrong) << one_line(*wrong);
+      EXPECT_EQ(cmodel::text_of(config, key), text) << key.name;
+      expected.*key.member = config.*key.member;
+      EXPECT_EQ(config, expected) << key.name << " sets another key";
+      ++compared;
+    }
+  }
+  std::printf("[figure] texts set and read back = %d\n", compared);
+  EXPECT_EQ(compared, 23 * 2 + 6 * 3);
+}
+
+TEST(ConfigSet, WhatIsWrongIsToldAndNothingChanges) {
+  struct Wrong {
+    const char *key, *value, *expected, *got;
+  };
+  for (const Wrong& wrong :
+       {Wrong{"sheet.frac_bit", "16", "", ""}, Wrong{"sheet.frac_bits", "sixteen", "4..31", "sixteen"},
+        Wrong{"sheet.frac_bits", "16 ", "4..31", "16 "}, Wrong{"sheet.frac_bits", "", "4..31", ""},
+        Wrong{"sheet.frac_bits", "32", "4..31", "32"}, Wrong{"sheet.frac_bits", "99999999999", "4..31", "99999999999"},
+        Wrong{"array.lanes", "12", "a power of two", "12"}, Wrong{"rounding.light", "1", "trn, rnd or rnd_conv", "1"},
+        Wrong{"rounding.light", "RND", "trn, rnd or rnd_conv", "RND"}}) {
+    cmodel::Config config = named_config("base");
+    const auto told = cmodel::set(config, wrong.key, wrong.value);
+    ASSERT_TRUE(told) << wrong.key << " = " << wrong.value << " is taken";
+    EXPECT_EQ(told->where, wrong.key);
+    EXPECT_EQ(told->expected, wrong.expected) << wrong.key;
+    EXPECT_EQ(told->got, wrong.got) << wrong.key;
+    EXPECT_FALSE(told->fix.empty()) << wrong.key;
+    EXPECT_EQ(config, named_config("base")) << wrong.key << " has changed it";
+  }
+}
+
+TEST(ConfigHash, ANeutralKeyDoesNotEnterItAndAnyOtherValueDoes) {
+  const cmodel::Config base = named_config("base");
+  EXPECT_EQ(cmodel::config_hash(base), oracle::hash(symbols_of(base)));
+  int neutral = 0;
+  std::set<std::uint64_t> hashes{cmodel::config_hash(base)};
+  for (const cmodel::ConfigKey& key : cmodel::config_keys()) {
+    if (!key.neutral) continue;
+    EXPECT_EQ(base.*key.member, *key.neutral) << key.name << ": absent is neutral";
+    ++neutral;
+    for (int value = key.min; value <= key.max; ++value) {
+      cmodel::Config config = base;
+      config.*key.member = value;
+      EXPECT_EQ(hashes.insert(cmodel::config_hash(config)).second, value != *key.neutral) << key.name << " = " << value;
+      EXPECT_EQ(cmodel::config_hash(config), oracle::hash(symbols_of(config))) << key.name;
+    }
+  }
+  std::printf("[figure] neutral keys = %d, hashes = %zu\n", neutral, hashes.size());
+  EXPECT_EQ(neutral, 6);
+  EXPECT_EQ(hashes.size(), 13U);
 }
 
 }  // namespace

@@ -38,6 +38,11 @@ cmodel::Config named_config(const std::string& name) {
   const auto read = read_keys(std::string(FASTSPLAT_SOURCE_DIR) + "/configs/" + name + ".toml");
   oracle::Symbols symbols;
   for (const oracle::Key& key : oracle::keys()) symbols.*key.member = std::stoi(read.at(key.name));
+  for (const oracle::RoundingKey& key : oracle::rounding_keys()) {
+    if (!read.contains(key.name)) continue;
+    for (const auto rounding : {oracle::Rounding::Trn, oracle::Rounding::Rnd, oracle::Rounding::RndConv})
+      if (read.at(key.name) == '"' + std::string(oracle::word_of(rounding)) + '"') symbols.*key.member = rounding;
+  }
   return config_of(symbols, name);
 }
 
@@ -54,6 +59,10 @@ oracle::Symbols symbols_of(const cmodel::Config& config) {
   for (const cmodel::ConfigKey& theirs : cmodel::config_keys())
     for (const oracle::Key& ours : oracle::keys())
       if (std::string(theirs.name) == ours.name) symbols.*ours.member = config.*theirs.member;
+  for (const oracle::RoundingKey& ours : oracle::rounding_keys())
+    for (const auto rounding : {oracle::Rounding::Trn, oracle::Rounding::Rnd, oracle::Rounding::RndConv})
+      if (cmodel::text_of(config, *cmodel::find_key(ours.name)) == oracle::word_of(rounding))
+        symbols.*ours.member = rounding;
   return symbols;
 }
 
@@ -63,6 +72,9 @@ cmodel::Config config_of(const oracle::Symbols& symbols, const std::string& name
   for (const cmodel::ConfigKey& theirs : cmodel::config_keys())
     for (const oracle::Key& ours : oracle::keys())
       if (std::string(theirs.name) == ours.name) config.*theirs.member = symbols.*ours.member;
+  for (const oracle::RoundingKey& ours : oracle::rounding_keys())
+    if (const auto wrong = cmodel::set(config, ours.name, oracle::word_of(symbols.*ours.member)))
+      throw std::runtime_error(one_line(*wrong));
   return config;
 }
 

@@ -108,14 +108,15 @@ TEST(Coverage, MergesAndAddsUp) {
 
 TEST(Coverage, OfARoundingTellsExactTieAndSides) {
   Coverage coverage;
-  const RoundingPoint point(coverage, "g", "p_", 2, 100, 20);
+  const cmodel::Format format{0, 20, 0, 0};
+  const RoundingPoint point(coverage, "g", "p_", {cmodel::Rounding::RND, cmodel::Overflow::SAT, 2, format}, 100);
   for (const std::int64_t value : {4, 5, 6, 7, 82, 81}) point.sample(coverage, value);
   EXPECT_EQ(coverage.hits("g.p_exact"), 1u);
   EXPECT_EQ(coverage.hits("g.p_below"), 2u);
   EXPECT_EQ(coverage.hits("g.p_tie"), 2u);
   EXPECT_EQ(coverage.hits("g.p_above"), 1u);
   EXPECT_EQ(coverage.hits("g.p_saturated"), 1u) << "82/4 rounds up to 21";
-  const RoundingPoint none(coverage, "h", "", 0, 20, 20);
+  const RoundingPoint none(coverage, "h", "", {cmodel::Rounding::RND, cmodel::Overflow::SAT, 0, format}, 20);
   EXPECT_FALSE(coverage.declared("h.tie"));
   EXPECT_FALSE(coverage.declared("h.saturated"));
 }

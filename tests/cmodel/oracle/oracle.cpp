@@ -77,8 +77,8 @@ class Renderer {
     ++out.counts["splats"];
     const RadiusSet set = sets.at(splat.set);
     const Words grid = s(c.pi, log2_of(c.k));
-    const Wide xs = sat(Rounding::Rnd, splat.x, c.pf, grid, "snap_saturated");
-    const Wide ys = sat(Rounding::Rnd, splat.y, c.pf, grid, "snap_saturated");
+    const Wide xs = sat(c.Rs, splat.x, c.pf, grid, "snap_saturated");
+    const Wide ys = sat(c.Rs, splat.y, c.pf, grid, "snap_saturated");
     const Wide x0 = floor_divide(xs - set.rho, c.k) + 1, y0 = floor_divide(ys - set.rho, c.k) + 1;
     const Wide mx = remainder(xs - set.rho, c.k), my = remainder(ys - set.rho, c.k);
     emit(Kind::Snap, splat.tag, x0, y0, {word(x0), word(y0), word(mx), word(my)});
@@ -106,7 +106,7 @@ class Renderer {
         p.hit = true;
         const Words sums_format = u(c.si, c.sf);
         for (std::size_t ch = 0; ch < 4; ++ch) {
-          const Wide product = sat(Rounding::Rnd, Wide{splat.v[ch]} * w, c.cf + c.wf, sums_format, "product_saturated");
+          const Wide product = sat(c.Rp, Wide{splat.v[ch]} * w, c.cf + c.wf, sums_format, "product_saturated");
           p.S[ch] = sat(Rounding::Trn, p.S[ch] + product, c.sf, sums_format, "sheet_saturated");
           sums.push_back(word(p.S[ch]));
         }
@@ -160,19 +160,19 @@ class Renderer {
       const int b = c.si + c.sf - log2_of(c.G);
       const Wide i = floor_divide(p.S[3], power_of_two(b)), rem = remainder(p.S[3], power_of_two(b));
       const Wide left = factor[static_cast<std::size_t>(i)], right = factor[static_cast<std::size_t>(i) + 1];
-      f = left - sat(Rounding::Rnd, (left - right) * rem, c.of + b, one(c.of), "never");
+      f = left - sat(c.Rf, (left - right) * rem, c.of + b, one(c.of), "never");
       f_bits = c.of;
     }
     Four slab;
     for (std::size_t ch = 0; ch < 4; ++ch)
-      slab[ch] = sat(Rounding::Rnd, p.S[ch] * f, c.sf + f_bits, one(c.tf), "opacity_saturated");
+      slab[ch] = sat(c.Ra, p.S[ch] * f, c.sf + f_bits, one(c.tf), "opacity_saturated");
     const Wide T = p.C[3];
     if (T < c.eps) return;
     for (std::size_t ch = 0; ch < 3; ++ch) {
-      const Wide seen = sat(Rounding::Rnd, T * slab[ch], 2 * c.tf, one(c.tf), "never");
+      const Wide seen = sat(c.Rl, T * slab[ch], 2 * c.tf, one(c.tf), "never");
       p.C[ch] = sat(Rounding::Trn, p.C[ch] + seen, c.tf, u(1, c.tf), "composite_saturated");
     }
-    p.C[3] = T - sat(Rounding::Rnd, T * slab[3], 2 * c.tf, one(c.tf), "never");
+    p.C[3] = T - sat(c.Rl, T * slab[3], 2 * c.tf, one(c.tf), "never");
   }
 
   void take(const TileEnd&) {
@@ -185,7 +185,7 @@ class Renderer {
         if (tile.mode != 2) rgba[3] = power_of_two(c.tf) - rgba[3];
         std::vector<std::uint32_t> words;
         for (const Wide value : rgba)
-          words.push_back(word(sat(Rounding::Rnd, value, tile.mode == 2 ? c.sf : c.tf, pixel, "pixel_saturated")));
+          words.push_back(word(sat(c.Ro, value, tile.mode == 2 ? c.sf : c.tf, pixel, "pixel_saturated")));
         picture.words.insert(picture.words.end(), words.begin(), words.end());
         emit(Kind::Pixel, 0, x, y, std::move(words));
       }

@@ -29,19 +29,32 @@ constexpr Key kKeys[] = {
     {"pixel.frac_bits", &Symbols::xf},
 };
 
+constexpr RoundingKey kRoundingKeys[] = {
+    {"rounding.snap", &Symbols::Rs}, {"rounding.product", &Symbols::Rp}, {"rounding.fall", &Symbols::Rf},
+    {"rounding.slab", &Symbols::Ra}, {"rounding.light", &Symbols::Rl},   {"rounding.pixel", &Symbols::Ro},
+};
+
 }  // namespace
 
 std::span<const Key> keys() { return kKeys; }
+std::span<const RoundingKey> rounding_keys() { return kRoundingKeys; }
+
+const char* word_of(Rounding rounding) {
+  if (rounding == Rounding::RndConv) return "rnd_conv";
+  return rounding == Rounding::Trn ? "trn" : "rnd";
+}
 
 std::uint64_t hash(const Symbols& symbols) {
   std::uint64_t state = 0xcbf29ce484222325U;
-  for (const Key& key : kKeys) {
-    const std::string line = std::string(key.name) + '=' + std::to_string(symbols.*key.member) + '\n';
-    for (const char c : line) {
+  const auto line = [&](const std::string& key, const std::string& value) {
+    for (const char c : key + '=' + value + '\n') {
       state ^= static_cast<unsigned char>(c);
       state *= 0x100000001b3U;
     }
-  }
+  };
+  for (const Key& key : kKeys) line(key.name, std::to_string(symbols.*key.member));
+  for (const RoundingKey& key : kRoundingKeys)
+    if (symbols.*key.member != Rounding::Rnd) line(key.name, word_of(symbols.*key.member));
   return state;
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/cmodel/oracle/number.hpp"
+
 namespace fastsplat::oracle {
 
 struct Symbols {
@@ -20,6 +22,8 @@ struct Symbols {
   int G = 0, of = 0;
   int tf = 0, eps = 0;
   int xi = 0, xf = 0;
+  Rounding Rs = Rounding::Rnd, Rp = Rounding::Rnd, Rf = Rounding::Rnd;
+  Rounding Ra = Rounding::Rnd, Rl = Rounding::Rnd, Ro = Rounding::Rnd;
 };
 
 struct Key {
@@ -29,7 +33,15 @@ struct Key {
 /// In the order of the page's table, which is the order of the hash.
 std::span<const Key> keys();
 
-/// 64-bit FNV-1a over the lines "key=value\n".
+/// The keys that may be absent: they follow the others.
+struct RoundingKey {
+  const char* name;
+  Rounding Symbols::*member;
+};
+std::span<const RoundingKey> rounding_keys();
+const char* word_of(Rounding rounding);
+
+/// 64-bit FNV-1a over the lines "key=value\n", those that may be absent only where they are not rnd.
 std::uint64_t hash(const Symbols& symbols);
 
 /// CRC-32 of IEEE 802.3, bit by bit.

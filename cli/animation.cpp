@@ -152,7 +152,6 @@ void check_frames(const scene::Sequence& sequence, const scene::SceneDescription
 ExitCode run_animation(const RenderArguments& arguments, const Renderer& renderer, const scene::SceneDescription& still,
                        const scene::Sequence& sequence, const Output& output) {
   const auto start = ProgressBar::Clock::now();
-  const auto watching = arguments.common.quiet ? Watching::Never : Watching::IfTerminal;
   const auto count = static_cast<std::size_t>(sequence.frames);
   const Output per_frame(arguments.common, Lines::None);  // warnings, and no counts
   Json json{{"verb", "render"},
@@ -182,7 +181,8 @@ ExitCode run_animation(const RenderArguments& arguments, const Renderer& rendere
     } else {
       RenderedFrame rendered;
       {
-        ProgressBar bar(fmt::format("{} {}/{}", to_string(renderer.engine), frame + 1, count), watching, start);
+        ProgressBar bar(fmt::format("{} {}/{}", to_string(renderer.engine), frame + 1, count),
+                        watching(arguments.common), start);
         const auto show = bar.callback();
         const auto whole = [&show, frame, count](std::size_t done, std::size_t total) {
           show(frame * total + done, count * total);

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "cli/arguments.hpp"
 #include "cli/frame.hpp"
 #include "cli/output.hpp"
+#include "cli/render_arguments.hpp"
 #include "scene/sequence.hpp"
 
 namespace fastsplat::cli {

@@ -45,6 +45,13 @@ images::WriteOptions options_for(const std::string& path) {
 
 }  // namespace
 
+void declare_images(Options& options, std::vector<std::string>& out, std::string& raw) {
+  options.group("Output");
+  options.words("-o,--out", out, "FILE",
+                "image: .exr (float, linear), .tif (16 bit, linear), .png (8 bit, sRGB); repeatable");
+  options.word("--raw", raw, "FILE", "the device's raw integer words as .exr (cmodel, rtl)");
+}
+
 void check_outputs(const OutputNames& names) {
   std::set<fs::path> seen;
   const auto place = [](const std::string& path) {

@@ -4,10 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "images/image_file.hpp"
 
 namespace fastsplat::cli {
+
+/// --out and --raw.
+void declare_images(Options& options, std::vector<std::string>& out, std::string& raw);
 
 /// The result files of a command; empty names and "-" stand for none.
 struct OutputNames {

@@ -7,10 +7,12 @@
 #include <string>
 
 #include "base/progress.hpp"
+#include "cli/common.hpp"
 
 namespace fastsplat::cli {
 
 enum class Watching { IfTerminal, Never };
+inline Watching watching(const Common& common) { return common.quiet ? Watching::Never : Watching::IfTerminal; }
 
 class ProgressBar {
  public:

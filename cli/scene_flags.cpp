@@ -123,6 +123,27 @@ void refuse_idle_flags(const SceneFlags& flags, const scene::SceneDescription& t
 
 }  // namespace
 
+void declare(Options& options, SceneFlags& to) {
+  options.group("Scene");
+  options.word("--scene", to.file, "FILE|demo:NAME",
+               "a scene.toml or a built-in demo:NAME (`doctor` lists them); the flags below override it");
+  options.word("--volume", to.volume, "NAME|PATH",
+               "NRRD or NIfTI file, a built-in like shells:128, or ch2, ch2bet, inia19-t1-brain");
+  options.word("--tf", to.transfer_function, "NAME|FILE", "transfer function: a preset or a TOML file");
+  options.word("--kernel", to.kernel, "NAME", "kernel by name: gauss2 (a=2,R=2), smooth (a=1.35,R=2)");
+  options.group("Camera");
+  options.word("--size", to.size, "N|WxH", "image size: N (square) or WxH");
+  options.flag("--perspective", to.perspective, "perspective projection");
+  options.flag("--orthographic", to.orthographic, "orthographic projection (default)");
+  for (const scene::Setting& setting : scene::settings()) {
+    if (*setting.flag == '\0') continue;
+    options.group(setting.group);
+    options.value(
+        setting.flag, [&setting](const std::string& text) { return scene::problem_with(setting, text); },
+        [&to, &setting](const std::string& text) { to.settings[setting.flag] = text; }, setting.unit, setting.help);
+  }
+}
+
 scene::SceneDescription describe(const SceneFlags& flags) {
   scene::SceneDescription to = flags.file ? scene::load_scene_file(*flags.file) : scene::SceneDescription{};
   set(to.volume, flags.volume);

@@ -1,10 +1,25 @@
 // From flags to a scene: file first, flags over it, everything checked before anything is read or allocated.
 #pragma once
 
-#include "cli/arguments.hpp"
+#include <map>
+#include <optional>
+#include <string>
+
+#include "cli/options.hpp"
 #include "scene/scene.hpp"
 
 namespace fastsplat::cli {
+
+/// A scene: a file, single flags, or a file overridden by flags. Absent ones leave the file's or the default value.
+struct SceneFlags {
+  std::optional<std::string> file, volume, transfer_function, kernel, size;
+  bool perspective = false, orthographic = false;
+  /// The flags made from scene::settings() ("--slab-width"), with their texts, which have no problem.
+  std::map<std::string, std::string> settings;
+  bool operator==(const SceneFlags&) const = default;
+};
+
+void declare(Options& options, SceneFlags& to);
 
 scene::SceneDescription describe(const SceneFlags& flags);
 

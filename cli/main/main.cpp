@@ -2,19 +2,17 @@
 #include <exception>
 #include <new>
 #include <string>
-#include <variant>
 
 #include "base/error.hpp"
+#include "cli/command_line.hpp"
 #include "cli/output.hpp"
 #include "cli/process.hpp"
-#include "cli/verbs.hpp"
 
 int main(int argc, char** argv) {
   using namespace fastsplat;
   try {
     cli::prepare_process();
-    const auto command = cli::parse(argc, argv);
-    return static_cast<int>(std::visit([](const auto& arguments) { return cli::run(arguments); }, command));
+    return static_cast<int>(cli::parse(argc, argv)());
   } catch (const UserError& error) {
     cli::print_error(error.what());
     return static_cast<int>(error.code());

@@ -1,17 +1,44 @@
 // The command line, parsed: what the flags become, and what is said when words make no sense.
 #include <gtest/gtest.h>
 
-#include "base/error.hpp"
-#include "cli/arguments.hpp"
+#include <map>
+
+#include "cli/command_line.hpp"
+#include "cli/render_arguments.hpp"
+#include "images/image_file.hpp"
+#include "tests/cli/process_helper.hpp"
 
 namespace fastsplat::cli {
 namespace {
 
-Command parsed(const std::vector<std::string>& words) {
+Action parsed(const std::vector<std::string>& words, const std::vector<Verb>& verbs = all_verbs()) {
   std::vector<const char*> all{"fastsplat"};
   for (const auto& word : words) all.push_back(word.c_str());
   all.push_back(nullptr);
-  return parse(static_cast<int>(all.size()) - 1, all.data());
+  return parse(static_cast<int>(all.size()) - 1, all.data(), verbs);
+}
+
+template <class Arguments>
+Arguments kept;
+
+template <class Arguments>
+ExitCode keep(const Arguments& arguments) {
+  kept<Arguments> = arguments;
+  return ExitCode::Pass;
+}
+
+/// The arguments that `words` fill in.
+template <class Arguments, void (*declare)(Options&, Arguments&)>
+Arguments filled(const std::vector<std::string>& words) {
+  const std::vector<Verb> verbs{Verb{"verb", "", verb<Arguments, declare, keep<Arguments>>}};
+  EXPECT_EQ(parsed(words, verbs)(), ExitCode::Pass);
+  return kept<Arguments>;
+}
+
+std::string printed(const std::vector<std::string>& words) {
+  ::testing::internal::CaptureStdout();
+  EXPECT_EQ(parsed(words)(), ExitCode::Pass);
+  return ::testing::internal::GetCapturedStdout();
 }
 
 struct Misuse {
@@ -68,46 +95,45 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{"threads_negative", {"render", "--threads", "-1"}, {"--threads", "'-1'"}}));
 
 TEST(Parse, FlagsReachTheirFields) {
-  const auto command = parsed({"render",
-                               "--volume",
-                               "ch2bet",
-                               "--tf=mri-head",
-                               "--size",
-                               "640x480",
-                               "--azimuth",
-                               "-30",
-                               "--elevation",
-                               "+5",
-                               "--roll",
-                               "-.5",
-                               "--zoom",
-                               "1e0",
-                               "--perspective",
-                               "--fov",
-                               "40",
-                               "--method",
-                               "xray",
-                               "--xray-sheets",
-                               "3",
-                               "--shading",
-                               "off",
-                               "--engine",
-                               "cmodel",
-                               "--config",
-                               "tiny",
-                               "-o",
-                               "a.exr",
-                               "-ob.png",
-                               "--out",
-                               "c.tif",
-                               "--raw",
-                               "r.exr",
-                               "--json",
-                               "-",
-                               "--quiet",
-                               "--threads",
-                               "2"});
-  const auto& render = std::get<RenderArguments>(command);
+  const auto render = filled<RenderArguments, declare>({"verb",
+                                                        "--volume",
+                                                        "ch2bet",
+                                                        "--tf=mri-head",
+                                                        "--size",
+                                                        "640x480",
+                                                        "--azimuth",
+                                                        "-30",
+                                                        "--elevation",
+                                                        "+5",
+                                                        "--roll",
+                                                        "-.5",
+                                                        "--zoom",
+                                                        "1e0",
+                                                        "--perspective",
+                                                        "--fov",
+                                                        "40",
+                                                        "--method",
+                                                        "xray",
+                                                        "--xray-sheets",
+                                                        "3",
+                                                        "--shading",
+                                                        "off",
+                                                        "--engine",
+                                                        "cmodel",
+                                                        "--config",
+                                                        "tiny",
+                                                        "-o",
+                                                        "a.exr",
+                                                        "-ob.png",
+                                                        "--out",
+                                                        "c.tif",
+                                                        "--raw",
+                                                        "r.exr",
+                                                        "--json",
+                                                        "-",
+                                                        "--quiet",
+                                                        "--threads",
+                                                        "2"});
   EXPECT_EQ(render.scene.volume, "ch2bet");
   EXPECT_EQ(render.scene.transfer_function, "mri-head");
   EXPECT_EQ(render.scene.size, "640x480");
@@ -129,54 +155,145 @@ TEST(Parse, FlagsReachTheirFields) {
   EXPECT_EQ(render.common.threads, 2);
 }
 
-TEST(Parse, LimitsOfCompareAreAbsentUnlessGiven) {
-  const auto plain = std::get<CompareArguments>(parsed({"compare", "a", "b"}));
-  EXPECT_FALSE(plain.min_psnr || plain.max_lsb || plain.max_mean_lsb || plain.max_rmse_lsb || plain.max_bias_lsb ||
-               plain.max_p99_lsb || plain.min_ssim);
-  EXPECT_EQ(plain.lsb_bits, 8);
-  const auto all = std::get<CompareArguments>(
-      parsed({"compare", "--min-psnr", "1", "a", "--max-lsb", "2", "--max-mean-lsb", "3", "b", "--max-rmse-lsb", "4",
-              "--max-bias-lsb", "5", "--max-p99-lsb", "6", "--min-ssim", "7", "--lsb-bits", "10"}));
-  EXPECT_EQ(all.ref, "a");
-  EXPECT_EQ(all.test, "b");
-  EXPECT_EQ(all.min_psnr, 1.0);
-  EXPECT_EQ(all.max_lsb, 2.0);
-  EXPECT_EQ(all.max_mean_lsb, 3.0);
-  EXPECT_EQ(all.max_rmse_lsb, 4.0);
-  EXPECT_EQ(all.max_bias_lsb, 5.0);
-  EXPECT_EQ(all.max_p99_lsb, 6.0);
-  EXPECT_EQ(all.min_ssim, 7.0);
-  EXPECT_EQ(all.lsb_bits, 10);
+/// A flag of every kind.
+struct Everything {
+  std::string first, second, word = "as it was", mode = "slow", must;
+  std::optional<std::string> maybe_word, maybe_mode;
+  std::vector<std::string> words;
+  int integer = 1;
+  std::uint64_t large = 1;
+  std::optional<int> maybe_integer;
+  double number = 0.5;
+  std::optional<double> maybe_number;
+  bool flag = false;
+};
+
+void declare_everything(Options& options, Everything& to) {
+  options.positional("FIRST", to.first, "");
+  options.positional("SECOND", to.second, "");
+  options.group("Some");
+  options.word("--word", to.word, "W", "");
+  options.word("--maybe-word", to.maybe_word, "W", "");
+  options.choice("--mode", to.mode, {"slow", "fast"}, "NAME", "");
+  options.choice("--maybe-mode", to.maybe_mode, {"slow", "fast"}, "NAME", "");
+  options.words("-w,--words", to.words, "W", "");
+  options.integer("--integer", to.integer, -9, 9, "N", "");
+  options.integer("--large", to.large, 0, std::numeric_limits<long>::max(), "N", "");
+  options.integer("--maybe-integer", to.maybe_integer, 1, 9, "N", "");
+  options.number("--number", to.number, "NUMBER", "");
+  options.number("--maybe-number", to.maybe_number, "NUMBER", "");
+  options.flag("--flag", to.flag, "");
+}
+
+TEST(Parse, WhatIsNotGivenKeepsItsDefault) {
+  const auto to = filled<Everything, declare_everything>({"verb", "a", "b"});
+  EXPECT_EQ(to.first, "a");
+  EXPECT_EQ(to.second, "b");
+  EXPECT_EQ(to.word, "as it was");
+  EXPECT_EQ(to.mode, "slow");
+  EXPECT_FALSE(to.maybe_word || to.maybe_mode || to.maybe_integer || to.maybe_number || to.flag);
+  EXPECT_TRUE(to.words.empty());
+  EXPECT_EQ(to.integer, 1);
+  EXPECT_EQ(to.large, 1u);
+  EXPECT_EQ(to.number, 0.5);
+}
+
+TEST(Parse, EveryKindOfValueReachesItsField) {
+  const auto to = filled<Everything, declare_everything>({"verb",
+                                                          "--word=x",
+                                                          "a",
+                                                          "--maybe-word",
+                                                          "-y",
+                                                          "--mode",
+                                                          "fast",
+                                                          "b",
+                                                          "-wp",
+                                                          "--words",
+                                                          "q",
+                                                          "--maybe-mode",
+                                                          "slow",
+                                                          "--flag",
+                                                          "--integer",
+                                                          "-9",
+                                                          "--large",
+                                                          "9223372036854775807",
+                                                          "--maybe-integer",
+                                                          "07",
+                                                          "--number",
+                                                          "-1e-3",
+                                                          "--maybe-number",
+                                                          "+2"});
+  EXPECT_EQ(to.first, "a");
+  EXPECT_EQ(to.second, "b");
+  EXPECT_EQ(to.word, "x");
+  EXPECT_EQ(to.maybe_word, "-y");
+  EXPECT_EQ(to.mode, "fast");
+  EXPECT_EQ(to.maybe_mode, "slow");
+  EXPECT_EQ(to.words, (std::vector<std::string>{"p", "q"}));
+  EXPECT_EQ(to.integer, -9);
+  EXPECT_EQ(to.large, 9223372036854775807u);
+  EXPECT_EQ(to.maybe_integer, 7);
+  EXPECT_EQ(to.number, -1e-3);
+  EXPECT_EQ(to.maybe_number, 2.0);
+  EXPECT_TRUE(to.flag);
 }
 
 TEST(Parse, ADoubleDashEndsTheFlags) {
-  const auto compare = std::get<CompareArguments>(parsed({"compare", "--", "--a.exr", "-b.exr"}));
-  EXPECT_EQ(compare.ref, "--a.exr");
-  EXPECT_EQ(compare.test, "-b.exr");
+  const auto to = filled<Everything, declare_everything>({"verb", "--", "--a.exr", "-b.exr"});
+  EXPECT_EQ(to.first, "--a.exr");
+  EXPECT_EQ(to.second, "-b.exr");
 }
 
-TEST(Parse, EveryVerbHasItsArguments) {
-  EXPECT_TRUE(std::holds_alternative<VolumeInfoArguments>(parsed({"volume", "info", "v"})));
-  EXPECT_TRUE(
-      std::holds_alternative<VolumeConvertArguments>(parsed({"volume", "convert", "v", "w.nrrd", "--type", "u8"})));
-  EXPECT_TRUE(std::holds_alternative<StreamRecordArguments>(parsed({"stream", "record", "-o", "s.fss"})));
-  EXPECT_TRUE(std::holds_alternative<StreamDumpArguments>(parsed({"stream", "dump", "s.fss", "--limit", "3"})));
-  EXPECT_TRUE(std::holds_alternative<StreamReplayArguments>(parsed({"stream", "replay", "s.fss"})));
-  EXPECT_TRUE(std::holds_alternative<CyclesArguments>(parsed({"cycles", "--stream", "s.fss", "--ready", "every-3"})));
-  EXPECT_TRUE(std::holds_alternative<ConfigListArguments>(parsed({"config", "list"})));
-  EXPECT_TRUE(std::holds_alternative<ConfigShowArguments>(parsed({"config", "show", "base"})));
-  EXPECT_TRUE(std::holds_alternative<ConfigCheckArguments>(parsed({"config", "check", "f.toml"})));
-  EXPECT_TRUE(std::holds_alternative<DoctorArguments>(parsed({"doctor"})));
-  EXPECT_TRUE(std::holds_alternative<TextArguments>(parsed({"--version"})));
-  EXPECT_TRUE(std::holds_alternative<TextArguments>(parsed({"render", "--help"})));
-}
-
-TEST(Parse, HelpNamesEveryFlagOfAVerb) {
-  const auto text = std::get<TextArguments>(parsed({"help", "compare"})).text;
-  for (const std::string flag :
-       {"--lsb-bits", "--min-psnr", "--max-lsb", "--map", "--heat", "--json", "--quiet", "--threads"}) {
-    EXPECT_NE(text.find(flag), std::string::npos) << flag;
+// Each limit passes on equal images and fails where it is impossible or just missed.
+TEST(Parse, EveryLimitOfCompareIsOne) {
+  const cli_test::TempFolder folder;
+  Image dark(8, 8), light(8, 8);
+  for (float& value : light.data) value = 0.5f;
+  images::write_image(folder / "dark.exr", dark, {}, {});
+  images::write_image(folder / "light.exr", light, {}, {});
+  const auto compare = [&](const char* test, const std::vector<std::string>& limit) {
+    std::vector<std::string> words{"compare", folder / "dark.exr", folder / test, "--quiet"};
+    words.insert(words.end(), limit.begin(), limit.end());
+    return parsed(words)();
+  };
+  EXPECT_EQ(compare("light.exr", {}), ExitCode::Pass);
+  for (const std::vector<std::string>& limit : {std::vector<std::string>{"--min-psnr", "48"},
+                                                {"--max-lsb", "100"},
+                                                {"--max-mean-lsb", "100"},
+                                                {"--max-rmse-lsb", "100"},
+                                                {"--max-bias-lsb", "100"},
+                                                {"--max-p99-lsb", "100"},
+                                                {"--min-ssim", "0.99"}}) {
+    EXPECT_EQ(compare("light.exr", limit), ExitCode::Failed) << limit[0];
+    EXPECT_EQ(compare("dark.exr", limit), ExitCode::Pass) << limit[0];
   }
+  // One LSB of 1 bit is the whole range.
+  EXPECT_EQ(compare("light.exr", {"--max-lsb", "100", "--lsb-bits", "1"}), ExitCode::Pass);
+}
+
+TEST(Parse, EveryVerbHasANameASummaryAndHelp) {
+  int leaves = 0;
+  for (const Verb& verb : all_verbs()) {
+    SCOPED_TRACE(verb.name);
+    std::vector<std::string> words{"help"};
+    std::istringstream names(verb.name);
+    for (std::string word; names >> word;) words.push_back(word);
+    const auto text = printed(words);
+    EXPECT_NE(text.find(verb.summary), std::string::npos) << text;
+    if (verb.declare == nullptr) continue;
+    ++leaves;
+    for (const char* flag : {"--json", "--quiet", "--threads"}) EXPECT_NE(text.find(flag), std::string::npos) << flag;
+  }
+  std::printf("[figure] verbs = %d (limit > 0)\n", leaves);
+  EXPECT_GT(leaves, 0);
+}
+
+TEST(Parse, HelpAndVersionPrint) {
+  EXPECT_EQ(printed({"render", "--help"}), printed({"help", "render"}));
+  EXPECT_EQ(printed({"--version"}).rfind("fastsplat ", 0), 0u);
+  const auto text = printed({"help", "compare"});
+  for (const std::string flag : {"--lsb-bits", "--min-psnr", "--max-lsb", "--map", "--heat"})
+    EXPECT_NE(text.find(flag), std::string::npos) << flag;
 }
 
 }  // namespace

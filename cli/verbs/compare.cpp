@@ -7,15 +7,25 @@
 
 #include "cli/image_output.hpp"
 #include "cli/output.hpp"
-#include "cli/verbs.hpp"
+#include "cli/verbs/verbs.hpp"
 #include "images/image_file.hpp"
 
 namespace fastsplat::cli {
 namespace {
 
+struct Arguments {
+  Common common;
+  std::string ref, test, map, heat;
+  int lsb_bits = 8;
+  double peak = 1.0;
+  int clusters = 5;
+  std::optional<double> min_psnr, max_lsb, max_mean_lsb, max_rmse_lsb, max_bias_lsb, max_p99_lsb, min_ssim;
+  bool allow_nonfinite = false;
+};
+
 using Json = nlohmann::ordered_json;
 
-void check(const CompareArguments& arguments) {
+void check(const Arguments& arguments) {
   const auto at_least = [](const char* flag, const std::optional<double>& value, double least) {
     if (!value || *value >= least) return;
     throw_usage({.where = flag,
@@ -43,7 +53,7 @@ void check(const CompareArguments& arguments) {
                  .inputs = {arguments.ref, arguments.test}});
 }
 
-analysis::CompareOptions options_from(const CompareArguments& arguments) {
+analysis::CompareOptions options_from(const Arguments& arguments) {
   analysis::CompareOptions options;
   options.lsb_bits = arguments.lsb_bits;
   options.peak = arguments.peak;
@@ -63,8 +73,7 @@ analysis::CompareOptions options_from(const CompareArguments& arguments) {
 bool is_display(const images::LoadedImage& loaded) { return loaded.metadata.contains("display"); }
 
 // A picture made for looking (sRGB curve, over black) has other numbers than a measurement of the same scene.
-void check_comparable(const CompareArguments& arguments, const images::LoadedImage& ref,
-                      const images::LoadedImage& test) {
+void check_comparable(const Arguments& arguments, const images::LoadedImage& ref, const images::LoadedImage& test) {
   if (is_display(ref) == is_display(test)) return;
   const auto& shown = is_display(ref) ? arguments.ref : arguments.test;
   throw UserError(ExitCode::NotComparable,
@@ -81,9 +90,7 @@ Json origin(const std::string& path, const images::LoadedImage& loaded) {
   return {{"file", path}, {"format", images::to_string(loaded.kind)}, {"metadata", metadata}};
 }
 
-}  // namespace
-
-ExitCode run(const CompareArguments& arguments) {
+ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
   check(arguments);
   const auto ref = images::read_image(arguments.ref);
@@ -107,5 +114,32 @@ ExitCode run(const CompareArguments& arguments) {
   output.json(json.dump(2));
   return report.pass ? ExitCode::Pass : ExitCode::Failed;
 }
+
+void declare(Options& options, Arguments& to) {
+  options.positional("REF", to.ref, "the reference image");
+  options.positional("TEST", to.test, "the image under test");
+  options.group("Measure");
+  options.integer("--lsb-bits", to.lsb_bits, 1, 24, "N", "one LSB is 1/(2^N - 1)");
+  options.number("--peak", to.peak, "NUMBER", "PSNR's peak value");
+  options.integer("--clusters", to.clusters, 0, 1000, "N", "worst clusters listed");
+  options.group("Limits (exit 1 when one fails)");
+  options.number("--min-psnr", to.min_psnr, "DB", "least PSNR");
+  options.number("--max-lsb", to.max_lsb, "LSB", "greatest |error|");
+  options.number("--max-mean-lsb", to.max_mean_lsb, "LSB", "mean |error|");
+  options.number("--max-rmse-lsb", to.max_rmse_lsb, "LSB", "root mean square error");
+  options.number("--max-bias-lsb", to.max_bias_lsb, "LSB", "|mean error|");
+  options.number("--max-p99-lsb", to.max_p99_lsb, "LSB", "99th percentile of |error|");
+  options.number("--min-ssim", to.min_ssim, "0..1", "least structural similarity");
+  options.flag("--allow-nonfinite", to.allow_nonfinite, "NaN and infinity are counted but do not fail");
+  options.group("Output");
+  options.word("--map", to.map, "FILE", "signed error map in LSB with legend, .png");
+  options.word("--heat", to.heat, "FILE", "|error| heat map with legend, .png");
+  declare(options, to.common);
+  options.example("fastsplat compare golden.exr cmodel.exr --min-psnr 48 --max-lsb 3 --map map.png");
+}
+
+}  // namespace
+
+const Verb verbs::compare{"compare", "two images: metrics in LSB and dB, maps, limits", verb<Arguments, declare, run>};
 
 }  // namespace fastsplat::cli

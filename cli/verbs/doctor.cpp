@@ -9,7 +9,7 @@
 #include "analysis/provenance.hpp"
 #include "base/version.hpp"
 #include "cli/output.hpp"
-#include "cli/verbs.hpp"
+#include "cli/verbs/verbs.hpp"
 #include "driver/config_file.hpp"
 #include "scene/scene.hpp"
 #include "scene/transfer_function.hpp"
@@ -18,6 +18,10 @@
 
 namespace fastsplat::cli {
 namespace {
+
+struct Arguments {
+  Common common;
+};
 
 using Json = nlohmann::ordered_json;
 
@@ -54,9 +58,7 @@ bool is_synthetic(const std::string& name) {
   return std::find(names.begin(), names.end(), name.substr(0, name.find(':'))) != names.end();
 }
 
-}  // namespace
-
-ExitCode run(const DoctorArguments& arguments) {
+ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
   Json json{{"version", program_version()},
             {"build", VERSION_BUILD},
@@ -112,5 +114,12 @@ ExitCode run(const DoctorArguments& arguments) {
   output.json(json.dump(2));
   return ExitCode::Pass;
 }
+
+void declare(Options& options, Arguments& to) { declare(options, to.common); }
+
+}  // namespace
+
+const Verb verbs::doctor{"doctor", "versions, processors, scans; what is missing and how to get it",
+                         verb<Arguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -12,7 +12,7 @@
 #include "cli/output.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
-#include "cli/verbs.hpp"
+#include "cli/verbs/verbs.hpp"
 #include "cmodel/cycle_model.hpp"
 #include "driver/config_file.hpp"
 #include "driver/run_device.hpp"
@@ -21,6 +21,14 @@
 
 namespace fastsplat::cli {
 namespace {
+
+struct Arguments {
+  Common common;
+  SceneFlags scene;
+  std::string stream;  ///< a recorded stream instead of a scene
+  std::string config = "base", input = "always", ready = "always", trace;
+  int seed = 1;
+};
 
 using Json = nlohmann::ordered_json;
 
@@ -78,9 +86,7 @@ Json to_json(const Result& result) {
   return json;
 }
 
-}  // namespace
-
-ExitCode run(const CyclesArguments& arguments) {
+ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
   if (!arguments.stream.empty() && !(arguments.scene == SceneFlags{})) {
     throw_usage({.where = "--stream",
@@ -104,16 +110,15 @@ ExitCode run(const CyclesArguments& arguments) {
   if (!arguments.trace.empty()) options.spans = &trace;
 
   Result result;
-  const auto watching = arguments.common.quiet ? Watching::Never : Watching::IfTerminal;
   if (!arguments.stream.empty()) {
-    ProgressBar bar("cycles", watching);
+    ProgressBar bar("cycles", watching(arguments.common));
     cmodel::CycleModel model(config, cmodel::StreamScope::Whole, options);
     driver::feed_stream(arguments.stream, model, {.threads = 1, .progress = bar.callback()});
     result.take(model);
   } else {
     const auto scene = build(arguments.scene);
     output.line(summary(scene));
-    ProgressBar bar("cycles", watching);
+    ProgressBar bar("cycles", watching(arguments.common));
     const auto make = [&](cmodel::PixelSink&) {
       return std::make_unique<cmodel::CycleModel>(config, cmodel::StreamScope::Subset, options);
     };
@@ -151,5 +156,26 @@ ExitCode run(const CyclesArguments& arguments) {
   output.note_time("counted");
   return ExitCode::Pass;
 }
+
+void declare(Options& options, Arguments& to) {
+  declare(options, to.scene);
+  options.group("Scene");
+  options.word("--stream", to.stream, "FILE", "a recorded stream instead of a scene");
+  options.group("Engine");
+  options.word("--config", to.config, "NAME|FILE", "hardware configuration, a name or a TOML file");
+  options.word("--input", to.input, "PATTERN",
+               "when the source has a beat: always, every-N, never-N, random-PERCENT, burst-N");
+  options.word("--ready", to.ready, "PATTERN", "when the sink takes pixels: as --input");
+  options.integer("--seed", to.seed, 0, 2'000'000'000, "N", "of the patterns");
+  options.group("Output");
+  options.word("--trace", to.trace, "FILE", "a timeline as JSON that ui.perfetto.dev opens; 1 us stands for a cycle");
+  declare(options, to.common);
+  options.example("fastsplat cycles --volume shells:64 --size 256 --config base --trace shells.json");
+}
+
+}  // namespace
+
+const Verb verbs::cycles{"cycles", "clock cycles of a scene or stream on the device, and where they go",
+                         verb<Arguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -11,7 +11,7 @@
 #include "cli/image_output.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
-#include "cli/verbs.hpp"
+#include "cli/verbs/verbs.hpp"
 #include "driver/config_file.hpp"
 
 namespace fastsplat::cli {
@@ -70,7 +70,7 @@ ExitCode run_still(const RenderArguments& arguments, const Renderer& renderer, c
       {"verb", "render"}, {"version", program_version()}, {"engine", arguments.engine}, {"scene", scene_json(scene)}};
   RenderedFrame frame;
   {
-    ProgressBar bar(arguments.engine, arguments.common.quiet ? Watching::Never : Watching::IfTerminal);
+    ProgressBar bar(arguments.engine, watching(arguments.common));
     frame = render_frame(renderer, scene, bar.callback());
   }
   report_frame(renderer, scene, frame, output, json);
@@ -84,8 +84,6 @@ ExitCode run_still(const RenderArguments& arguments, const Renderer& renderer, c
   output.note_time("rendered");
   return frame.checked ? frame.checked->exit_code() : ExitCode::Pass;
 }
-
-}  // namespace
 
 ExitCode run(const RenderArguments& arguments) {
   const Output output(arguments.common);
@@ -109,5 +107,10 @@ ExitCode run(const RenderArguments& arguments) {
   return sequence ? run_animation(arguments, renderer, describe(arguments.scene), *sequence, output)
                   : run_still(arguments, renderer, output);
 }
+
+}  // namespace
+
+const Verb verbs::render{"render", "volume + transfer function + camera to an image",
+                         verb<RenderArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -14,7 +14,7 @@
 #include "cli/progress_bar.hpp"
 #include "cli/rtl_run.hpp"
 #include "cli/scene_flags.hpp"
-#include "cli/verbs.hpp"
+#include "cli/verbs/verbs.hpp"
 #include "driver/compile.hpp"
 #include "driver/config_file.hpp"
 #include "driver/stream_file.hpp"
@@ -25,13 +25,27 @@
 namespace fastsplat::cli {
 namespace {
 
+struct Arguments {
+  Common common;
+  SceneFlags scene;
+  std::string stream;            ///< a .fss file; empty for none
+  std::optional<int> random;     ///< splats per seed
+  std::uint64_t seed = 1;        ///< of the first run
+  int seeds = 1;                 ///< seed, seed+1, ...
+  std::string stimulus = "all";  ///< stimulus class
+  std::string config = "base", ready = "always", input = "always", fill = "random";
+  std::optional<int> reset_after;  ///< beats before a warm reset
+  std::string coverage;            ///< where functional coverage is added up; empty for none
+  std::string failure;             ///< where a failure's stream and waveform go, without ending; empty: by source
+};
+
 using Json = nlohmann::ordered_json;
 
 constexpr int kShrinkRuns = 400;
 
 enum class Source { Scene, Stream, Random };
 
-Source source_from(const VerifyArguments& arguments) {
+Source source_from(const Arguments& arguments) {
   const auto& scene = arguments.scene;
   const bool has_scene = scene.file || scene.volume;
   const int given = (has_scene ? 1 : 0) + (arguments.stream.empty() ? 0 : 1) + (arguments.random ? 1 : 0);
@@ -60,13 +74,13 @@ Source source_from(const VerifyArguments& arguments) {
 }
 
 /// Where a failure's files go, without ending: never onto the stream that is verified.
-std::string failure_prefix(const VerifyArguments& arguments) {
+std::string failure_prefix(const Arguments& arguments) {
   if (!arguments.failure.empty()) return arguments.failure;
   if (arguments.stream.empty()) return "verify-failure";
   return std::filesystem::path(arguments.stream).replace_extension().string() + "-smaller";
 }
 
-testbench::VerifyOptions options_from(const VerifyArguments& arguments, const cmodel::Config& config) {
+testbench::VerifyOptions options_from(const Arguments& arguments, const cmodel::Config& config) {
   testbench::VerifyOptions options{.config = config,
                                    .ready = arguments.ready,
                                    .input = arguments.input,
@@ -100,8 +114,7 @@ Checked verify_one(testbench::BeatSource source, const testbench::VerifyOptions&
   return out;
 }
 
-Checked verify_random(const VerifyArguments& arguments, const testbench::VerifyOptions& options,
-                      const Progress& progress) {
+Checked verify_random(const Arguments& arguments, const testbench::VerifyOptions& options, const Progress& progress) {
   testbench::CampaignOptions campaign{.verify = options,
                                       .splats = static_cast<std::uint64_t>(*arguments.random),
                                       .seeds = static_cast<std::uint64_t>(arguments.seeds),
@@ -122,7 +135,7 @@ Checked verify_random(const VerifyArguments& arguments, const testbench::VerifyO
   return out;
 }
 
-Checked verify_scene(const VerifyArguments& arguments, testbench::VerifyOptions options, const Progress& progress) {
+Checked verify_scene(const Arguments& arguments, testbench::VerifyOptions options, const Progress& progress) {
   options.scope = cmodel::StreamScope::Subset;
   const auto scene = build(arguments.scene);
   const auto compiled = std::make_shared<const driver::CompiledFrame>(scene, options.config);
@@ -141,7 +154,7 @@ Checked verify_scene(const VerifyArguments& arguments, testbench::VerifyOptions 
   return out;
 }
 
-void report_failure(const Checked& checked, const VerifyArguments& arguments, const Output& output, Json& json) {
+void report_failure(const Checked& checked, const Arguments& arguments, const Output& output, Json& json) {
   const std::string stream = failure_prefix(arguments) + ".fss", waveform = failure_prefix(arguments) + ".fst";
   const auto report = testbench::investigate(checked.source, checked.options, checked.failed, waveform, kShrinkRuns);
   driver::write_beats(stream, testbench::write_document(checked.options.config, report.document));
@@ -190,9 +203,7 @@ void save_coverage(const Checked& checked, const std::string& path, testbench::C
   json["coverage"] = {{"bins", all.bins().size()}, {"hit", hit}};
 }
 
-}  // namespace
-
-ExitCode run(const VerifyArguments& arguments) {
+ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
   const Source source = source_from(arguments);
   check_outputs({.images = {},
@@ -212,7 +223,7 @@ ExitCode run(const VerifyArguments& arguments) {
 
   Checked checked;
   {
-    ProgressBar bar("verifying", arguments.common.quiet ? Watching::Never : Watching::IfTerminal);
+    ProgressBar bar("verifying", watching(arguments.common));
     switch (source) {
       case Source::Scene:
         checked = verify_scene(arguments, options, bar.callback());
@@ -265,5 +276,35 @@ ExitCode run(const VerifyArguments& arguments) {
   arguments.common.json == "-" ? output.note(seed) : output.line(seed);
   return testbench::exit_code(result.verdict);
 }
+
+void declare(Options& options, Arguments& to) {
+  options.group("Stimulus");
+  options.word("--stream", to.stream, "FILE", "a recorded stream, .fss");
+  options.integer("--random", to.random, 1, 1'000'000'000, "N", "random streams of about N splats per seed");
+  options.word("--class", to.stimulus, "NAME", "random: stimulus class (all; an unknown one lists them)");
+  options.integer("--seed", to.seed, 0, std::numeric_limits<long>::max(), "S",
+                  "of random streams, patterns and reset fill");
+  options.integer("--seeds", to.seeds, 1, 1'000'000, "N", "random: runs with seeds S, S+1, ...");
+  options.group("Device");
+  options.word("--config", to.config, "NAME|FILE", "hardware configuration with RTL");
+  options.word("--ready", to.ready, "PATTERN",
+               "when pixels are taken: always, every-N, never-N, random-PERCENT, burst-N; random: all takes turns");
+  options.word("--input", to.input, "PATTERN", "when beats are offered, a pattern as above");
+  options.choice("--fill", to.fill, {"zero", "one", "random"}, "zero|one|random",
+                 "what registers and memories hold before reset");
+  options.integer("--reset-after", to.reset_after, 1, 2'000'000'000, "N",
+                  "warm reset after N beats, then the whole stream");
+  options.group("Output");
+  options.word("--coverage", to.coverage, "FILE", "functional coverage as JSON, added to what FILE holds");
+  options.word("--failure", to.failure, "PREFIX", "a failure's small stream and waveform: PREFIX.fss and PREFIX.fst");
+  declare(options, to.scene);
+  declare(options, to.common);
+  options.example("fastsplat verify --random 1000 --seed 7 --config tiny --ready random-50");
+}
+
+}  // namespace
+
+const Verb verbs::verify{"verify", "the RTL beside the model: every tap, pixel and counter compared",
+                         verb<Arguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -1,0 +1,187 @@
+#include "cli/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+#include <span>
+
+#include "base/error.hpp"
+#include "base/suggest.hpp"
+#include "base/version.hpp"
+#include "cli/output.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+const char* const kDescription =
+    "fastsplat: volume splatting hardware, as an integer device model and a floating-point golden renderer";
+const char* const kFooter =
+    "Exit codes: 0 pass, 1 failed, 2 usage, 3 input or output, 4 not comparable, 5 simulation, 70 internal, 130 "
+    "interrupted.\n"
+    "`fastsplat help VERB` (or VERB --help) tells the rest; docs/guide.md is the guide.";
+
+/// The tree of verbs, by name and summary; a verb's flags are declared once it is known that it is meant.
+class CommandLine {
+ public:
+  explicit CommandLine(const std::vector<Verb>& verbs) {
+    app.footer(kFooter);
+    app.set_help_flag("-h,--help", "what you are reading");
+    app.set_version_flag("--version", program_version(), "the version of the program");
+    for (const Verb& verb : verbs) {
+      const std::string name = verb.name;
+      const auto space = name.find(' ');
+      CLI::App* parent = space == std::string::npos ? &app : app.get_subcommand(name.substr(0, space));
+      CLI::App* sub = parent->add_subcommand(space == std::string::npos ? name : name.substr(space + 1), verb.summary);
+      if (verb.declare != nullptr) declare_[sub] = verb.declare;
+    }
+    app.add_subcommand("help", "help on a verb")->add_option("verb", "a verb");
+  }
+
+  /// Declares the flags of `verb`; no action for a group's head.
+  Action declare(CLI::App& verb) const {
+    const auto found = declare_.find(&verb);
+    if (found == declare_.end()) return {};
+    Options options(verb);
+    return found->second(options);
+  }
+
+  CLI::App app{kDescription, "fastsplat"};
+
+ private:
+  std::map<const CLI::App*, Action (*)(Options&)> declare_;
+};
+
+std::string called(const CLI::App& verb) {
+  std::string name = verb.get_name();
+  for (const CLI::App* app = verb.get_parent(); app != nullptr; app = app->get_parent())
+    name = app->get_name() + " " + name;
+  return name;
+}
+
+std::vector<std::string> subcommand_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(sub->get_name());
+  return names;
+}
+
+std::vector<std::string> flag_names(const CLI::App& verb) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : verb.get_options()) {
+    for (const auto& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+[[noreturn]] void misused(const CLI::App& verb, const std::string& what, std::string fix = {}) {
+  if (fix.empty()) fix = "`" + called(verb) + " --help` lists what there is";
+  throw_usage({.where = {}, .what = what, .expected = {}, .got = {}, .fix = std::move(fix)});
+}
+
+// Descends words of verbs from `app`; `at` ends on the first word that is none.
+CLI::App* find_verb(CLI::App& app, const std::vector<std::string>& words, std::size_t& at) {
+  CLI::App* verb = &app;
+  while (at < words.size()) {
+    const auto names = subcommand_names(*verb);
+    if (names.empty() || words[at].starts_with('-')) break;
+    if (std::find(names.begin(), names.end(), words[at]) == names.end()) {
+      misused(*verb, fmt::format("unknown {} '{}'", verb == &app ? "verb" : verb->get_name() + " verb", words[at]),
+              suggestion(words[at], names));
+    }
+    verb = verb->get_subcommand(words[at++]);
+  }
+  return verb;
+}
+
+// The one flag that may have been meant; nothing rather than a list of thirty.
+std::string near_flag(const CLI::App& verb, const std::string& flag) {
+  const auto hint = flag.starts_with("--") ? suggestion(flag, flag_names(verb)) : std::string{};
+  return hint.starts_with("did you mean") ? hint : std::string{};
+}
+
+// Unknown flags, flags without their value and flags given twice, in the user's order.
+void check_words(const CLI::App& verb, std::span<const std::string> words) {
+  std::map<const CLI::Option*, int> seen;
+  for (std::size_t at = 0; at < words.size(); ++at) {
+    const std::string& word = words[at];
+    if (word == "--") return;
+    const bool is_long = word.starts_with("--");
+    const bool is_short =
+        !is_long && word.size() >= 2 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1]));
+    if (!is_long && !is_short) continue;
+    const auto equals = word.find('=');
+    const std::string flag = is_long ? word.substr(0, equals) : word.substr(0, 2);
+    const CLI::Option* option = verb.get_option_no_throw(flag);
+    if (option == nullptr)
+      misused(verb, fmt::format("unknown flag {} of `{}`", flag, called(verb)), near_flag(verb, flag));
+    const bool repeatable = option->get_items_expected_max() > 1;
+    if (++seen[option] > 1 && !repeatable) misused(verb, flag + " is given twice", "give it once");
+    if (option->get_items_expected_max() == 0) {
+      if (is_long && equals != std::string::npos) misused(verb, flag + " takes no value", "write just " + flag);
+      continue;
+    }
+    if (is_long ? equals != std::string::npos : word.size() > 2) {
+      if (is_long && equals + 1 == word.size())
+        misused(verb, flag + " needs a value", "it is a " + option->get_type_name());
+      continue;
+    }
+    ++at;
+    const bool missing = at >= words.size() || words[at].empty() || words[at].starts_with("--");
+    if (missing) misused(verb, flag + " needs a value", "expected " + option->get_type_name() + " after it");
+  }
+}
+
+Action print(std::string text) {
+  return [text = std::move(text)] {
+    write_stdout(text);
+    return ExitCode::Pass;
+  };
+}
+
+Action print_help(CLI::App& app, CLI::App& verb) {
+  return print(verb.help(&verb == &app ? "" : called(*verb.get_parent())));
+}
+
+}  // namespace
+
+Action parse(int argc, const char* const* argv, const std::vector<Verb>& verbs) {
+  CommandLine line(verbs);
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  std::size_t at = 0;
+  if (!words.empty() && words[0] == "help") {
+    at = 1;
+    CLI::App* verb = find_verb(line.app, words, at);
+    if (at < words.size())
+      misused(line.app, "unexpected '" + words[at] + "' after help", "`fastsplat help` lists the verbs");
+    line.declare(*verb);
+    return print_help(line.app, *verb);
+  }
+  CLI::App* verb = find_verb(line.app, words, at);
+  const Action action = line.declare(*verb);
+  const std::span rest(words.begin() + static_cast<std::ptrdiff_t>(at), words.end());
+  for (const auto& word : rest) {
+    if (word == "--help" || word == "-h") return print_help(line.app, *verb);
+    if (word == "--version" && verb == &line.app) return print("fastsplat " + program_version() + "\n");
+  }
+  check_words(*verb, rest);
+  if (!action) {
+    misused(*verb, fmt::format("{}: which verb?", called(*verb)),
+            fmt::format("one of {}; `{} --help` tells what they do", fmt::join(subcommand_names(*verb), ", "),
+                        called(*verb)));
+  }
+  try {
+    line.app.parse(argc, argv);
+  } catch (const CLI::ExtrasError&) {
+    const auto extra = line.app.remaining(true);
+    misused(*verb, fmt::format("unexpected '{}' after `{}`", extra.empty() ? "?" : extra.front(), called(*verb)));
+  } catch (const CLI::RequiredError& error) {
+    misused(*verb, fmt::format("{}: {}", called(*verb), error.what()));
+  } catch (const CLI::ParseError& error) {
+    misused(*verb, error.what());
+  }
+  return action;
+}
+
+}  // namespace fastsplat::cli

@@ -1,0 +1,30 @@
+#include "cli/render_arguments.hpp"
+
+#include "cli/image_output.hpp"
+#include "scene/sequence.hpp"
+
+namespace fastsplat::cli {
+
+void declare(Options& options, RenderArguments& to) {
+  declare(options, to.scene);
+  options.group("Engine");
+  options.word("--engine", to.engine, "golden|cmodel|rtl",
+               "golden (floating point), cmodel (the integer device) or rtl (its Verilated RTL)");
+  options.word("--config", to.config, "NAME|FILE",
+               "cmodel, rtl: hardware configuration, a name or a TOML file (default base)");
+  options.choice("--index", to.index, {"rlut"}, "NAME", "cmodel, rtl: index generator (rlut)");
+  options.flag("--check", to.check, "rtl: compares every tap, pixel and counter with the model (exit 1)");
+  options.group("Animation");
+  options.word("--orbit", to.orbit, "A..B", "azimuth from A to B degrees, both included; 0..360 is a whole turn");
+  options.flag("--sequence", to.sequence, "what the scene's [sequence] says");
+  options.integer("--frames", to.frames, 1, scene::kMaxFrames, "N",
+                  "frames; the # in --out become their numbers, from 0");
+  options.word("--video", to.video, "FILE", "the PNG frames as a video, .mp4, .mkv or .webm (needs ffmpeg)");
+  options.number("--rate", to.rate, "NUMBER", "the video's frames a second (24)");
+  declare_images(options, to.out, to.raw);
+  options.word("--save-scene", to.save_scene, "FILE", "writes the scene, flags applied, as TOML");
+  declare(options, to.common);
+  options.example("fastsplat render --volume shells:64 --size 256 --engine cmodel --config base -o shells.png");
+}
+
+}  // namespace fastsplat::cli

@@ -1,0 +1,32 @@
+// What `render` was asked for: a still, or an animation where --orbit or --sequence is given.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/common.hpp"
+#include "cli/scene_flags.hpp"
+
+namespace fastsplat::cli {
+
+struct RenderArguments {
+  Common common;
+  SceneFlags scene;
+  std::string engine = "golden", index = "rlut";
+  std::optional<std::string> config;
+  std::vector<std::string> out;
+  std::string raw;         ///< raw device words as EXR; empty for none
+  std::string save_scene;  ///< where to write the scene as TOML; empty for none
+  bool check = false;      ///< rtl: compares every tap with the model
+  // An animation; its names in `out` and `raw` hold a run of '#' for the frame's number.
+  std::optional<std::string> orbit;  ///< "A..B", degrees
+  bool sequence = false;             ///< as the scene's [sequence] says
+  std::optional<int> frames;
+  std::string video;   ///< empty for none
+  double rate = 24.0;  ///< of the video, frames a second
+};
+
+void declare(Options& options, RenderArguments& to);
+
+}  // namespace fastsplat::cli

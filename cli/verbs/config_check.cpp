@@ -1,0 +1,40 @@
+// fastsplat config check: is a configuration file one that the device can be?
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/hash_text.hpp"
+#include "cli/common.hpp"
+#include "cli/config_json.hpp"
+#include "cli/output.hpp"
+#include "cli/verbs/verbs.hpp"
+#include "driver/config_file.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+struct Arguments {
+  Common common;
+  std::string file;
+};
+
+void declare(Options& options, Arguments& to) {
+  options.positional("FILE", to.file, "a TOML file (or a name)");
+  declare(options, to.common);
+}
+
+ExitCode run(const Arguments& arguments) {
+  const Output output(arguments.common);
+  const auto config = driver::load_config(arguments.file);
+  output.line(fmt::format("{}: sound; configuration {}, hash {}", arguments.file, config.name,
+                          hash_text(cmodel::config_hash(config))));
+  output.json(config_json(config).dump(2));
+  return ExitCode::Pass;
+}
+
+}  // namespace
+
+const Verb verbs::config_check{"config check", "every key there, known and within its limits?",
+                               verb<Arguments, declare, run>};
+
+}  // namespace fastsplat::cli

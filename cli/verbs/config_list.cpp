@@ -1,0 +1,40 @@
+// fastsplat config list: the configurations built into the program.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/hash_text.hpp"
+#include "cli/common.hpp"
+#include "cli/config_json.hpp"
+#include "cli/output.hpp"
+#include "cli/verbs/verbs.hpp"
+#include "driver/config_file.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+struct Arguments {
+  Common common;
+};
+
+void declare(Options& options, Arguments& to) { declare(options, to.common); }
+
+ExitCode run(const Arguments& arguments) {
+  const Output output(arguments.common);
+  auto json = nlohmann::ordered_json::array();
+  for (const auto& name : driver::config_names()) {
+    const auto config = driver::load_config(name);
+    output.line(fmt::format("{:10} {}  {:2}x{:<2} lanes, {:4}x{:<4} tile  {}", name,
+                            hash_text(cmodel::config_hash(config)), config.lanes, config.lanes, config.tile_width,
+                            config.tile_height, config.description));
+    json.push_back(config_json(config));
+  }
+  output.json(json.dump(2));
+  return ExitCode::Pass;
+}
+
+}  // namespace
+
+const Verb verbs::config_list{"config list", "the built-in ones", verb<Arguments, declare, run>};
+
+}  // namespace fastsplat::cli

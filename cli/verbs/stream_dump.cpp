@@ -1,0 +1,55 @@
+// fastsplat stream dump: a stream file as text.
+#include <nlohmann/json.hpp>
+
+#include "cli/common.hpp"
+#include "cli/output.hpp"
+#include "cli/verbs/verbs.hpp"
+#include "driver/stream_file.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Arguments {
+  Common common;
+  std::string stream;
+  std::optional<int> limit;
+};
+
+void declare(Options& options, Arguments& to) {
+  options.positional("STREAM", to.stream, "a stream file");
+  options.group("Output");
+  options.integer("--limit", to.limit, 0, 2'000'000'000, "N", "stops after N records");
+  declare(options, to.common);
+}
+
+ExitCode run(const Arguments& arguments) {
+  const Output output(arguments.common);
+  const auto limit = static_cast<std::uint64_t>(arguments.limit.value_or(INT32_MAX));
+  const bool text_wanted = !arguments.common.quiet && arguments.common.json != "-";
+  Json records = Json::array();
+  std::string buffer;
+  std::uint64_t count = 0;
+  driver::dump_stream(arguments.stream, [&](const std::string& line) {
+    if (count == limit) return false;
+    ++count;
+    if (!arguments.common.json.empty()) records.push_back(line);
+    if (!text_wanted) return true;
+    buffer += line;
+    buffer += '\n';
+    if (buffer.size() < 1 << 16) return true;
+    const bool more = write_stdout(buffer);
+    buffer.clear();
+    return more;
+  });
+  if (text_wanted) write_stdout(buffer);
+  output.json(Json{{"verb", "stream dump"}, {"stream", arguments.stream}, {"records", std::move(records)}}.dump(2));
+  return ExitCode::Pass;
+}
+
+}  // namespace
+
+const Verb verbs::stream_dump{"stream dump", "one line of text per record", verb<Arguments, declare, run>};
+
+}  // namespace fastsplat::cli

@@ -1,0 +1,27 @@
+#include "cli/verbs/verbs.hpp"
+
+namespace fastsplat::cli {
+
+const std::vector<Verb>& all_verbs() {
+  static const std::vector<Verb> all{
+      verbs::render,
+      verbs::compare,
+      {"volume", "info and convert: NRRD, NIfTI, built-in volumes", nullptr},
+      verbs::volume_info,
+      verbs::volume_convert,
+      {"stream", "record, dump and replay what the device is fed (.fss)", nullptr},
+      verbs::stream_record,
+      verbs::stream_dump,
+      verbs::stream_replay,
+      verbs::cycles,
+      {"config", "list, show and check hardware configurations", nullptr},
+      verbs::config_list,
+      verbs::config_show,
+      verbs::config_check,
+      verbs::verify,
+      verbs::doctor,
+  };
+  return all;
+}
+
+}  // namespace fastsplat::cli

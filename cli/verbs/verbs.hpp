@@ -1,0 +1,11 @@
+// The verbs, each defined in the file of its name.
+#pragma once
+
+#include "cli/verb.hpp"
+
+namespace fastsplat::cli::verbs {
+
+extern const Verb compare, config_check, config_list, config_show, cycles, doctor, render, stream_dump, stream_record,
+    stream_replay, verify, volume_convert, volume_info;
+
+}  // namespace fastsplat::cli::verbs

@@ -1,0 +1,60 @@
+// fastsplat volume convert: a volume of any format read here, in one that is written here.
+#include <fmt/format.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "base/atomic_file.hpp"
+#include "cli/common.hpp"
+#include "cli/output.hpp"
+#include "cli/verbs/verbs.hpp"
+#include "cli/volume_json.hpp"
+#include "volume/volume_file.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+struct Arguments {
+  Common common;
+  std::string volume, out;
+  std::optional<std::string> type;
+};
+
+void declare(Options& options, Arguments& to) {
+  options.positional("VOLUME", to.volume, "a file or a name");
+  options.positional("OUT", to.out, "the file to write");
+  options.group("Output");
+  options.choice("--type", to.type, {"u8", "i8", "u16", "i16", "f32"}, "u8|i8|u16|i16|f32",
+                 "voxel type; default as stored");
+  declare(options, to.common);
+}
+
+volume::VoxelType type_from(const std::string& name) {
+  static const std::map<std::string, volume::VoxelType> types{{"u8", volume::VoxelType::U8},
+                                                              {"i8", volume::VoxelType::I8},
+                                                              {"u16", volume::VoxelType::U16},
+                                                              {"i16", volume::VoxelType::I16},
+                                                              {"f32", volume::VoxelType::F32}};
+  return types.at(name);  // declare() lets no other name through
+}
+
+ExitCode run(const Arguments& arguments) {
+  const Output output(arguments.common);
+  { const AtomicFile probe(arguments.out); }  // before the volume is read
+  const auto volume = volume::load_volume(arguments.volume);
+  const auto type = arguments.type ? type_from(*arguments.type) : volume.stored;
+  volume::save_volume(volume, arguments.out, type);
+  output.line(fmt::format("{}: {} x {} x {}, {}", arguments.out, volume.dims.x, volume.dims.y, volume.dims.z,
+                          volume::to_string(type)));
+  auto json = volume_json(volume);
+  json["out"] = arguments.out;
+  json["out_type"] = volume::to_string(type);
+  output.json(json.dump(2));
+  return ExitCode::Pass;
+}
+
+}  // namespace
+
+const Verb verbs::volume_convert{"volume convert", "to .nrrd, .nhdr, .nii or .nii.gz", verb<Arguments, declare, run>};
+
+}  // namespace fastsplat::cli

@@ -81,6 +81,40 @@ const std::string& video_source(const RenderArguments& arguments) {
   return *png;
 }
 
+/// An animation in words; one that ended early has no `seconds`.
+struct Result {
+  struct Frame {
+    FrameFiles files;
+    std::optional<FrameReport> report;  ///< none: kept from an earlier run
+  };
+  std::string engine;
+  std::vector<Frame> frames;
+  std::string video;  ///< empty for none
+  std::optional<double> seconds;
+
+  std::size_t kept() const {
+    return static_cast<std::size_t>(
+        std::count_if(frames.begin(), frames.end(), [](const Frame& frame) { return !frame.report; }));
+  }
+};
+
+Json to_json(const Result& result) {
+  Json json{{"verb", "render"}, {"version", program_version()}, {"engine", result.engine}, {"frames", Json::array()}};
+  for (std::size_t at = 0; at < result.frames.size(); ++at) {
+    const auto& [files, report] = result.frames[at];
+    Json entry{{"frame", at}, {"outputs", files.out}, {"kept", !report}};
+    if (!files.raw.empty()) entry["raw"] = files.raw;
+    if (report) entry.update(to_json(*report));
+    json["frames"].push_back(std::move(entry));
+  }
+  if (!result.seconds) return json;
+  if (!result.video.empty()) json["video"] = result.video;
+  json["rendered"] = result.frames.size() - result.kept();
+  json["kept"] = result.kept();
+  json["seconds"] = *result.seconds;
+  return json;
+}
+
 }  // namespace
 
 std::optional<scene::Sequence> sequence_of(const RenderArguments& arguments) {
@@ -153,13 +187,9 @@ ExitCode run_animation(const RenderArguments& arguments, const Renderer& rendere
                        const scene::Sequence& sequence, const Output& output) {
   const auto start = ProgressBar::Clock::now();
   const auto count = static_cast<std::size_t>(sequence.frames);
-  const Output per_frame(arguments.common, Lines::None);  // warnings, and no counts
-  Json json{{"verb", "render"},
-            {"version", program_version()},
-            {"engine", to_string(renderer.engine)},
-            {"frames", Json::array()}};
+  Result result;
+  result.engine = to_string(renderer.engine);
   std::shared_ptr<const volume::Volume> volume;  // no track changes it
-  std::size_t kept = 0;
   for (std::size_t frame = 0; frame < count; ++frame) {
     const scene::Scene scene = scene_of(sequence, still, frame, volume);
     if (!volume) {
@@ -170,13 +200,10 @@ ExitCode run_animation(const RenderArguments& arguments, const Renderer& rendere
 
     const auto files = files_of(arguments, static_cast<int>(frame), sequence.frames);
     const auto metadata = metadata_of(renderer, scene);
-    Json entry{{"frame", frame}, {"outputs", files.out}, {"kept", false}};
-    if (!files.raw.empty()) entry["raw"] = files.raw;
+    Result::Frame& entry = result.frames.emplace_back(Result::Frame{files, {}});
     ExitCode code = ExitCode::Pass;
     // A kept frame cannot be checked: where every tap is asked for, every frame is rendered.
     if (renderer.checking == Checking::Off && is_current(files, metadata)) {
-      entry["kept"] = true;
-      ++kept;
       for (const auto& path : files.out) output.line(path + " kept");
     } else {
       RenderedFrame rendered;
@@ -189,13 +216,13 @@ ExitCode run_animation(const RenderArguments& arguments, const Renderer& rendere
         };
         rendered = render_frame(renderer, scene, show ? Progress(whole) : Progress());
       }
-      report_frame(renderer, scene, rendered, per_frame, entry);
+      entry.report = report_of(renderer, scene, rendered);
+      output.remark(remarks(*entry.report));
       write_frame(rendered, files, metadata, output);
       if (rendered.checked) code = rendered.checked->exit_code();
     }
-    json["frames"].push_back(std::move(entry));
     if (code != ExitCode::Pass) {
-      output.json(json.dump(2));
+      output.json(to_json(result));
       return code;
     }
   }
@@ -205,13 +232,11 @@ ExitCode run_animation(const RenderArguments& arguments, const Renderer& rendere
                  .count = sequence.frames,
                  .rate = arguments.rate});
     output.line(arguments.video);
-    json["video"] = arguments.video;
+    result.video = arguments.video;
   }
-  json["rendered"] = count - kept;
-  json["kept"] = kept;
-  json["seconds"] = output.seconds();
-  output.json(json.dump(2));
-  output.note_time(fmt::format("{} rendered, {} kept", counted(count - kept, "frame"), kept));
+  result.seconds = output.seconds();
+  output.json(to_json(result));
+  output.note_time(fmt::format("{} rendered, {} kept", counted(count - result.kept(), "frame"), result.kept()));
   return ExitCode::Pass;
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/hash_text.hpp"
+#include "cli/config_json.hpp"
 #include "cli/image_output.hpp"
 #include "cmodel/config.hpp"
 #include "cmodel/counters.hpp"
@@ -28,43 +29,64 @@ bool is_loss(std::string_view name) { return name.ends_with("_saturated"); }
 
 }  // namespace
 
-void report_driver(const driver::DriverReport& report, const Output& output, nlohmann::ordered_json& json) {
+std::string to_text(const driver::DriverReport& report) {
   // A replayed stream no longer knows its voxels.
   const std::string voxels = report.voxels > 0 ? counted(report.voxels, "voxel") + ", " : "";
-  output.line(fmt::format("driver: {}{}, {}, {}", voxels, counted(report.splat_records, "splat record"),
-                          counted(report.sheets, "sheet"), counted(report.tiles, "tile")));
-  if (report.saturated_voxels + report.saturated_records > 0) {
-    output.warn(fmt::format(
-        "{} voxels and {} splat records had more colour or opacity than the input format holds and were cut; "
-        "lower --opacity-scale or --xray-exposure, or use a smaller --slab-width",
-        grouped(report.saturated_voxels), grouped(report.saturated_records)));
-  }
-  if (report.vanished_voxels > 0) {
-    output.note(fmt::format("{} of {} voxels are too transparent for the input format and vanished",
-                            grouped(report.vanished_voxels), grouped(report.voxels)));
-  }
-  json["voxels"] = report.voxels;
-  json["sheets"] = report.sheets;
-  json["tiles"] = report.tiles;
-  json["driver"] = {{"splat_records", report.splat_records},
-                    {"saturated_voxels", report.saturated_voxels},
-                    {"saturated_records", report.saturated_records},
-                    {"vanished_voxels", report.vanished_voxels}};
+  return fmt::format("driver: {}{}, {}, {}\n", voxels, counted(report.splat_records, "splat record"),
+                     counted(report.sheets, "sheet"), counted(report.tiles, "tile"));
 }
 
-void report_device(const driver::DeviceRender& result, const cmodel::Config& config, const Output& output,
-                   nlohmann::ordered_json& json) {
-  const std::string hash = hash_text(cmodel::config_hash(config));
-  json["config"] = {{"name", config.name}, {"hash", hash}};
-  report_driver(result.report, output, json);
-  const auto& counters = result.counters;
-  output.line(fmt::format("device: configuration {} {}, {}, {} composited", config.name, hash,
-                          counted(counters.windows, "window"), counted(counters.pixels_composited, "pixel")));
+nlohmann::ordered_json to_json(const driver::DriverReport& report) {
+  return {{"voxels", report.voxels},
+          {"sheets", report.sheets},
+          {"tiles", report.tiles},
+          {"driver",
+           {{"splat_records", report.splat_records},
+            {"saturated_voxels", report.saturated_voxels},
+            {"saturated_records", report.saturated_records},
+            {"vanished_voxels", report.vanished_voxels}}}};
+}
+
+std::vector<Remark> remarks(const driver::DriverReport& report) {
+  std::vector<Remark> remarks;
+  if (report.saturated_voxels + report.saturated_records > 0) {
+    remarks.push_back(
+        {Remark::Warning,
+         fmt::format("{} voxels and {} splat records had more colour or opacity than the input format holds and were "
+                     "cut; lower --opacity-scale or --xray-exposure, or use a smaller --slab-width",
+                     grouped(report.saturated_voxels), grouped(report.saturated_records))});
+  }
+  if (report.vanished_voxels > 0) {
+    remarks.push_back(
+        {Remark::Note, fmt::format("{} of {} voxels are too transparent for the input format and vanished",
+                                   grouped(report.vanished_voxels), grouped(report.voxels))});
+  }
+  return remarks;
+}
+
+std::string to_text(const DeviceReport& report) {
+  return to_text(report.driver) + fmt::format("device: configuration {} {}, {}, {} composited\n", report.config.name,
+                                              hash_text(cmodel::config_hash(report.config)),
+                                              counted(report.counters.windows, "window"),
+                                              counted(report.counters.pixels_composited, "pixel"));
+}
+
+nlohmann::ordered_json to_json(const DeviceReport& report) {
+  nlohmann::ordered_json json{{"config", config_identity_json(report.config)}};
+  json.update(to_json(report.driver));
   auto& counts = json["counters"];
-  counters.for_each([&](std::string_view name, std::uint64_t value, std::string_view meaning) {
-    counts[std::string(name)] = value;
-    if (is_loss(name) && value > 0) output.warn(fmt::format("{} {}; {}", grouped(value), meaning, fix_for(name)));
+  report.counters.for_each(
+      [&](std::string_view name, std::uint64_t value, std::string_view) { counts[std::string(name)] = value; });
+  return json;
+}
+
+std::vector<Remark> remarks(const DeviceReport& report) {
+  auto remarks = cli::remarks(report.driver);
+  report.counters.for_each([&](std::string_view name, std::uint64_t value, std::string_view meaning) {
+    if (is_loss(name) && value > 0)
+      remarks.push_back({Remark::Warning, fmt::format("{} {}; {}", grouped(value), meaning, fix_for(name))});
   });
+  return remarks;
 }
 
 void write_device_images(const driver::DeviceRender& result, const std::vector<std::string>& out,

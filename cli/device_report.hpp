@@ -12,10 +12,21 @@
 
 namespace fastsplat::cli {
 
-/// Counts to stdout and into `json`; every loss that is not zero as a warning with the fix.
-void report_device(const driver::DeviceRender& result, const cmodel::Config& config, const Output& output,
-                   nlohmann::ordered_json& json);
-void report_driver(const driver::DriverReport& report, const Output& output, nlohmann::ordered_json& json);
+/// What a device made of a scene or a stream, without its picture.
+struct DeviceReport {
+  cmodel::Config config;
+  driver::DriverReport driver;
+  cmodel::Counters counters;
+};
+
+std::string to_text(const driver::DriverReport& report);
+std::string to_text(const DeviceReport& report);
+/// Keys for the JSON of a verb.
+nlohmann::ordered_json to_json(const driver::DriverReport& report);
+nlohmann::ordered_json to_json(const DeviceReport& report);
+/// Every loss that is not zero, with the fix.
+std::vector<Remark> remarks(const driver::DriverReport& report);
+std::vector<Remark> remarks(const DeviceReport& report);
 
 void write_device_images(const driver::DeviceRender& result, const std::vector<std::string>& out,
                          const std::string& raw, const images::Metadata& metadata, const Output& output);

@@ -15,6 +15,8 @@
 namespace fastsplat::cli {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 const std::vector<std::string> kEngines{"golden", "cmodel", "rtl"};
 
 int sheet_count(const scene::Scene& scene) {
@@ -38,39 +40,46 @@ std::uint64_t voxel_count(const scene::Scene& scene) {
   return count;
 }
 
-void report_culling(const golden::CullingReport& culling, const Output& output, nlohmann::ordered_json& json) {
+std::string to_text(const golden::CullingReport& culling) {
   const auto share = [&culling](std::uint64_t part) {
     return culling.voxels == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(culling.voxels);
   };
-  output.line(fmt::format("culling: {:.1f} % splatted, {:.1f} % culled in blocks, {:.1f} % singly, {:.1f} % outside",
-                          share(culling.splatted), share(culling.culled_in_blocks), share(culling.culled_singly),
-                          share(culling.outside)));
-  output.line(fmt::format("culling: {} of splats, {} of blocks, {} hidden", counted(culling.splat_tests, "test"),
-                          counted(culling.block_tests, "test"), counted(culling.blocks_culled, "block")));
-  json["culling"] = {{"voxels", culling.voxels},
-                     {"splatted", culling.splatted},
-                     {"culled_in_blocks", culling.culled_in_blocks},
-                     {"culled_singly", culling.culled_singly},
-                     {"outside", culling.outside},
-                     {"share_splatted", culling.share_splatted()},
-                     {"splat_tests", culling.splat_tests},
-                     {"block_tests", culling.block_tests},
-                     {"blocks", culling.blocks},
-                     {"blocks_culled", culling.blocks_culled},
-                     {"map_seconds", culling.map_seconds},
-                     {"test_seconds", culling.test_seconds}};
+  return fmt::format("culling: {:.1f} % splatted, {:.1f} % culled in blocks, {:.1f} % singly, {:.1f} % outside\n",
+                     share(culling.splatted), share(culling.culled_in_blocks), share(culling.culled_singly),
+                     share(culling.outside)) +
+         fmt::format("culling: {} of splats, {} of blocks, {} hidden\n", counted(culling.splat_tests, "test"),
+                     counted(culling.block_tests, "test"), counted(culling.blocks_culled, "block"));
 }
 
-void report_golden(const scene::Scene& scene, const golden::RenderReport& report, const Output& output,
-                   nlohmann::ordered_json& json) {
-  const auto voxels = voxel_count(scene);
-  const int sheets = sheet_count(scene);
-  output.line(fmt::format("golden: {}{}", counted(voxels, "splat"), sheets > 0 ? ", " + counted(sheets, "sheet") : ""));
-  json["voxels"] = voxels;
-  json["sheets"] = sheets;
-  json["traversal_seconds"] = report.traversal_seconds;
-  json["splatting_seconds"] = report.splatting_seconds;
-  if (report.culling) report_culling(*report.culling, output, json);
+Json to_json(const golden::CullingReport& culling) {
+  return {{"voxels", culling.voxels},
+          {"splatted", culling.splatted},
+          {"culled_in_blocks", culling.culled_in_blocks},
+          {"culled_singly", culling.culled_singly},
+          {"outside", culling.outside},
+          {"share_splatted", culling.share_splatted()},
+          {"splat_tests", culling.splat_tests},
+          {"block_tests", culling.block_tests},
+          {"blocks", culling.blocks},
+          {"blocks_culled", culling.blocks_culled},
+          {"map_seconds", culling.map_seconds},
+          {"test_seconds", culling.test_seconds}};
+}
+
+std::string to_text(const GoldenReport& golden) {
+  const std::string text =
+      fmt::format("golden: {}{}\n", counted(golden.voxels, "splat"),
+                  golden.sheets > 0 ? ", " + counted(static_cast<std::uint64_t>(golden.sheets), "sheet") : "");
+  return golden.report.culling ? text + to_text(*golden.report.culling) : text;
+}
+
+Json to_json(const GoldenReport& golden) {
+  Json json{{"voxels", golden.voxels},
+            {"sheets", golden.sheets},
+            {"traversal_seconds", golden.report.traversal_seconds},
+            {"splatting_seconds", golden.report.splatting_seconds}};
+  if (golden.report.culling) json["culling"] = to_json(*golden.report.culling);
+  return json;
 }
 
 }  // namespace
@@ -108,15 +117,30 @@ RenderedFrame render_frame(const Renderer& renderer, const scene::Scene& scene, 
   return frame;
 }
 
-void report_frame(const Renderer& renderer, const scene::Scene& scene, const RenderedFrame& frame, const Output& output,
-                  nlohmann::ordered_json& json) {
-  output.line(summary(scene));
+FrameReport report_of(const Renderer& renderer, const scene::Scene& scene, const RenderedFrame& frame) {
+  FrameReport report{.scene = summary(scene), .engine = {}, .checked = frame.checked};
   if (const auto* device = std::get_if<driver::DeviceRender>(&frame.picture)) {
-    report_device(*device, *renderer.config, output, json);
+    report.engine = DeviceReport{*renderer.config, device->report, device->counters};
   } else {
-    report_golden(scene, frame.golden, output, json);
+    report.engine = GoldenReport{voxel_count(scene), sheet_count(scene), frame.golden};
   }
-  if (frame.checked) report_rtl(*frame.checked, output, json);
+  return report;
+}
+
+std::string to_text(const FrameReport& report) {
+  return report.scene + "\n" + std::visit([](const auto& engine) { return to_text(engine); }, report.engine) +
+         (report.checked ? to_text(*report.checked) : "");
+}
+
+nlohmann::ordered_json to_json(const FrameReport& report) {
+  auto json = std::visit([](const auto& engine) { return to_json(engine); }, report.engine);
+  if (report.checked) json.update(to_json(*report.checked));
+  return json;
+}
+
+std::vector<Remark> remarks(const FrameReport& report) {
+  const auto* device = std::get_if<DeviceReport>(&report.engine);
+  return device != nullptr ? remarks(*device) : std::vector<Remark>{};
 }
 
 void write_frame(const RenderedFrame& frame, const FrameFiles& files, const images::Metadata& metadata,

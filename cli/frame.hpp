@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "cli/device_report.hpp"
 #include "cli/output.hpp"
 #include "cli/rtl_run.hpp"
 #include "driver/render.hpp"
@@ -41,11 +42,27 @@ struct RenderedFrame {
   std::optional<RtlRun> checked;
 };
 
+/// What the golden renderer counted; 0 sheets where the method has none.
+struct GoldenReport {
+  std::uint64_t voxels = 0;
+  int sheets = 0;
+  golden::RenderReport report;
+};
+
+/// A frame in numbers.
+struct FrameReport {
+  std::string scene;  ///< its summary
+  std::variant<GoldenReport, DeviceReport> engine;
+  std::optional<RtlRun> checked;
+};
+
 images::Metadata metadata_of(const Renderer& renderer, const scene::Scene& scene);
 RenderedFrame render_frame(const Renderer& renderer, const scene::Scene& scene, const Progress& progress);
-/// Counts to stdout and into `json`, losses as warnings.
-void report_frame(const Renderer& renderer, const scene::Scene& scene, const RenderedFrame& frame, const Output& output,
-                  nlohmann::ordered_json& json);
+FrameReport report_of(const Renderer& renderer, const scene::Scene& scene, const RenderedFrame& frame);
+std::string to_text(const FrameReport& report);
+/// Keys for the JSON of a verb.
+nlohmann::ordered_json to_json(const FrameReport& report);
+std::vector<Remark> remarks(const FrameReport& report);
 void write_frame(const RenderedFrame& frame, const FrameFiles& files, const images::Metadata& metadata,
                  const Output& output);
 

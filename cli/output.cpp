@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
@@ -90,15 +91,13 @@ std::string counted(unsigned long long number, const std::string& what) {
   return grouped(number) + " " + what + (number == 1 ? "" : "s");
 }
 
-Output::Output(const Common& common, Lines lines) : common_(common), lines_(lines) {}
-
 void Output::line(const std::string& text) const {
-  if (lines_ == Lines::None) return;
   if (!common_.quiet && common_.json != "-") write_stdout(text.ends_with('\n') ? text : text + "\n");
 }
 
-void Output::json(const std::string& text) const {
+void Output::json(const nlohmann::ordered_json& json) const {
   if (common_.json.empty()) return;
+  const std::string text = json.dump(2);
   if (common_.json == "-") {
     write_stdout(text + "\n");
   } else {
@@ -112,6 +111,10 @@ void Output::warn(const std::string& text) const {
 
 void Output::note(const std::string& text) const {
   if (!common_.quiet) talk("fastsplat:", "2", text);
+}
+
+void Output::remark(const std::vector<Remark>& remarks) const {
+  for (const auto& [kind, text] : remarks) kind == Remark::Warning ? warn(text) : note(text);
 }
 
 void Output::note_time(const std::string& what) const { note(fmt::format("{} in {:.1f} s", what, seconds())); }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <chrono>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/common.hpp"
 
@@ -26,21 +28,26 @@ std::string grouped(unsigned long long number);
 /// "1 tile", "1,234 tiles".
 std::string counted(unsigned long long number, const std::string& what);
 
-enum class Lines { All, None };
+/// What a result has to say on stderr.
+struct Remark {
+  enum Kind { Note, Warning } kind = Note;
+  std::string text;
+};
 
-/// One verb's output, obeying --json and --quiet.
+/// One verb's output, obeying --json and --quiet. A verb's result is a struct; to_text(), to_json() and remarks() of it
+/// are what this is given.
 class Output {
  public:
-  /// Lines::None: line() says nothing, whatever the flags; for what is repeated frame by frame.
-  explicit Output(const Common& common, Lines lines = Lines::All);
+  explicit Output(const Common& common) : common_(common) {}
 
-  /// A line of the result, to stdout; not when --quiet, nor when stdout belongs to the JSON.
+  /// The result, or a part of it, as lines to stdout; not when --quiet, nor when stdout belongs to the JSON.
   void line(const std::string& text) const;
   /// The result as JSON, to --json's file or stdout; nothing without --json.
-  void json(const std::string& text) const;
+  void json(const nlohmann::ordered_json& json) const;
   /// A warning or a remark on stderr; not when --quiet.
   void warn(const std::string& text) const;
   void note(const std::string& text) const;
+  void remark(const std::vector<Remark>& remarks) const;
   /// A note of the seconds since this object was made.
   void note_time(const std::string& what) const;
 
@@ -48,7 +55,6 @@ class Output {
 
  private:
   const Common& common_;
-  Lines lines_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

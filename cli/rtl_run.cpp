@@ -70,24 +70,28 @@ nlohmann::ordered_json by_tap_json(const testbench::CheckReport& check) {
   return json;
 }
 
-void report_rtl(const RtlRun& run, const Output& output, nlohmann::ordered_json& json) {
-  output.line(fmt::format("rtl: {} cycles", grouped(run.stalls.busy)));
-  json["cycles_rtl"] = run.stalls.busy;
+std::string to_text(const RtlRun& run) {
+  std::string text = fmt::format("rtl: {} cycles\n", grouped(run.stalls.busy));
+  if (!run.check) return text;
+  text += fmt::format("check: {} comparisons, {} mismatches\n", grouped(run.check->comparisons),
+                      grouped(run.check->mismatches));
+  return run.difference.empty() ? text : text + run.difference + "\n";
+}
+
+nlohmann::ordered_json to_json(const RtlRun& run) {
+  nlohmann::ordered_json json{{"cycles_rtl", run.stalls.busy}};
   if (run.check) json["cycles_model"] = optional_json(run.check->cycles_model);
   json["cycles"] = {{"busy", run.stalls.busy},
                     {"stall_input", run.stalls.stall_input},
                     {"stall_table", run.stalls.stall_table},
                     {"stall_buffer", run.stalls.stall_buffer},
                     {"stall_tile", run.stalls.stall_tile}};
-  if (!run.check) return;
-  output.line(fmt::format("check: {} comparisons, {} mismatches", grouped(run.check->comparisons),
-                          grouped(run.check->mismatches)));
+  if (!run.check) return json;
   json["check"] = {{"comparisons", run.check->comparisons},
                    {"mismatches", run.check->mismatches},
                    {"by_tap", by_tap_json(*run.check)}};
-  if (run.difference.empty()) return;
-  output.line(run.difference);
-  json["check"]["first"] = run.difference;
+  if (!run.difference.empty()) json["check"]["first"] = run.difference;
+  return json;
 }
 
 }  // namespace fastsplat::cli

@@ -29,7 +29,9 @@ void check_has_rtl(const cmodel::Config& config);
 driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config& config,
                                 const driver::RenderOptions& options, Checking checking, std::optional<RtlRun>& run);
 
-void report_rtl(const RtlRun& run, const Output& output, nlohmann::ordered_json& json);
+std::string to_text(const RtlRun& run);
+/// Keys for the JSON of a verb.
+nlohmann::ordered_json to_json(const RtlRun& run);
 
 /// null where there is none
 nlohmann::ordered_json optional_json(const std::optional<std::uint64_t>& value);

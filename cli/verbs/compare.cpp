@@ -84,10 +84,29 @@ void check_comparable(const Arguments& arguments, const images::LoadedImage& ref
                    .fix = "render both to .exr or .tif and compare those"});
 }
 
-Json origin(const std::string& path, const images::LoadedImage& loaded) {
+struct Origin {
+  std::string file;
+  images::PixelKind kind;
+  images::Metadata metadata;
+};
+
+/// The measurement and of what.
+struct Result {
+  analysis::CompareReport report;
+  Origin ref, test;
+};
+
+Json to_json(const Origin& origin) {
   Json metadata = Json::object();
-  for (const auto& [key, value] : loaded.metadata) metadata[key] = value;
-  return {{"file", path}, {"format", images::to_string(loaded.kind)}, {"metadata", metadata}};
+  for (const auto& [key, value] : origin.metadata) metadata[key] = value;
+  return {{"file", origin.file}, {"format", images::to_string(origin.kind)}, {"metadata", metadata}};
+}
+
+Json to_json(const Result& result) {
+  Json json = Json::parse(analysis::to_json(result.report));
+  json["ref"] = to_json(result.ref);
+  json["test"] = to_json(result.test);
+  return json;
 }
 
 ExitCode run(const Arguments& arguments) {
@@ -97,7 +116,9 @@ ExitCode run(const Arguments& arguments) {
   const auto test = images::read_image(arguments.test);
   check_comparable(arguments, ref, test);
   const auto options = options_from(arguments);
-  const auto report = analysis::compare(ref.image, test.image, options);
+  const Result result{.report = analysis::compare(ref.image, test.image, options),
+                      .ref = {arguments.ref, ref.kind, ref.metadata},
+                      .test = {arguments.test, test.kind, test.metadata}};
 
   if (!arguments.map.empty()) {
     images::write_image(arguments.map, analysis::lsb_map(ref.image, test.image, options), {{"display", "srgb"}},
@@ -107,12 +128,9 @@ ExitCode run(const Arguments& arguments) {
     images::write_image(arguments.heat, analysis::heat_map(ref.image, test.image, options), {{"display", "srgb"}},
                         {.display = true});
   }
-  output.line(analysis::to_text(report));
-  Json json = Json::parse(analysis::to_json(report));
-  json["ref"] = origin(arguments.ref, ref);
-  json["test"] = origin(arguments.test, test);
-  output.json(json.dump(2));
-  return report.pass ? ExitCode::Pass : ExitCode::Failed;
+  output.line(analysis::to_text(result.report));
+  output.json(to_json(result));
+  return result.report.pass ? ExitCode::Pass : ExitCode::Failed;
 }
 
 void declare(Options& options, Arguments& to) {

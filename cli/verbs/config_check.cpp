@@ -28,7 +28,7 @@ ExitCode run(const Arguments& arguments) {
   const auto config = driver::load_config(arguments.file);
   output.line(fmt::format("{}: sound; configuration {}, hash {}", arguments.file, config.name,
                           hash_text(cmodel::config_hash(config))));
-  output.json(config_json(config).dump(2));
+  output.json(config_json(config));
   return ExitCode::Pass;
 }
 

@@ -19,17 +19,28 @@ struct Arguments {
 
 void declare(Options& options, Arguments& to) { declare(options, to.common); }
 
+std::string to_text(const std::vector<cmodel::Config>& configs) {
+  std::string text;
+  for (const auto& config : configs) {
+    text += fmt::format("{:10} {}  {:2}x{:<2} lanes, {:4}x{:<4} tile  {}\n", config.name,
+                        hash_text(cmodel::config_hash(config)), config.lanes, config.lanes, config.tile_width,
+                        config.tile_height, config.description);
+  }
+  return text;
+}
+
+nlohmann::ordered_json to_json(const std::vector<cmodel::Config>& configs) {
+  auto json = nlohmann::ordered_json::array();
+  for (const auto& config : configs) json.push_back(config_json(config));
+  return json;
+}
+
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
-  auto json = nlohmann::ordered_json::array();
-  for (const auto& name : driver::config_names()) {
-    const auto config = driver::load_config(name);
-    output.line(fmt::format("{:10} {}  {:2}x{:<2} lanes, {:4}x{:<4} tile  {}", name,
-                            hash_text(cmodel::config_hash(config)), config.lanes, config.lanes, config.tile_width,
-                            config.tile_height, config.description));
-    json.push_back(config_json(config));
-  }
-  output.json(json.dump(2));
+  std::vector<cmodel::Config> configs;
+  for (const auto& name : driver::config_names()) configs.push_back(driver::load_config(name));
+  output.line(to_text(configs));
+  output.json(to_json(configs));
   return ExitCode::Pass;
 }
 

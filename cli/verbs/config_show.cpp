@@ -58,7 +58,7 @@ ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
   const auto config = driver::load_config(arguments.config);
   output.line(to_toml(config));
-  output.json(config_json(config).dump(2));
+  output.json(config_json(config));
   return ExitCode::Pass;
 }
 

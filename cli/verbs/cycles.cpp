@@ -7,6 +7,7 @@
 #include "base/atomic_file.hpp"
 #include "base/hash_text.hpp"
 #include "base/version.hpp"
+#include "cli/config_json.hpp"
 #include "cli/cycle_trace.hpp"
 #include "cli/image_output.hpp"
 #include "cli/output.hpp"
@@ -33,7 +34,7 @@ struct Arguments {
 using Json = nlohmann::ordered_json;
 
 /// What is kept of the model after the run.
-struct Result {
+struct Counts {
   cmodel::CycleAccount account;
   cmodel::StallCounters stalls;
   cmodel::Counters counters;
@@ -48,41 +49,84 @@ struct Result {
   }
 };
 
+struct Result {
+  std::string scene;  ///< its summary; empty for a stream
+  cmodel::Config config;
+  std::string input, ready;  ///< patterns
+  int seed = 1;
+  Counts counts;
+  std::string trace;  ///< empty for none
+  double seconds = 0.0;
+};
+
 double ratio(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-void print(const Result& result, const Output& output) {
-  const auto& account = result.account;
+std::string to_text(const Counts& counts) {
+  const auto& account = counts.account;
+  std::string text;
   const auto row = [&](char sign, std::string_view name, std::uint64_t cycles, std::string_view meaning) {
-    output.line(fmt::format("{} {:<14}{:>18}{:>9.3f} %  {}", sign, name, grouped(cycles),
-                            100.0 * ratio(cycles, account.ideal), meaning));
+    text += fmt::format("{} {:<14}{:>18}{:>9.3f} %  {}\n", sign, name, grouped(cycles),
+                        100.0 * ratio(cycles, account.ideal), meaning);
   };
   bool first = true;
   account.for_each([&](std::string_view name, std::uint64_t cycles, std::string_view meaning) {
     row(first ? ' ' : '+', name, cycles, meaning);
     first = false;
   });
-  row('=', "actual", result.stalls.busy, "cycles the device was busy");
-  output.line(fmt::format("  {:<14}{:>18}             waiting for the frame after reset, memories being cleared",
-                          "idle", grouped(result.idle)));
-  output.line(
-      fmt::format("actual/ideal {:.4f}, splat array used {:.1f} %, compositor used {:.1f} %, {:.3f} splats/cycle",
-                  ratio(result.stalls.busy, account.ideal), 100.0 * ratio(result.counters.windows, result.stalls.busy),
-                  100.0 * ratio(result.counters.dirty_blocks, result.stalls.busy),
-                  ratio(result.counters.splats, result.stalls.busy)));
+  row('=', "actual", counts.stalls.busy, "cycles the device was busy");
+  text += fmt::format("  {:<14}{:>18}             waiting for the frame after reset, memories being cleared\n", "idle",
+                      grouped(counts.idle));
+  text +=
+      fmt::format("actual/ideal {:.4f}, splat array used {:.1f} %, compositor used {:.1f} %, {:.3f} splats/cycle\n",
+                  ratio(counts.stalls.busy, account.ideal), 100.0 * ratio(counts.counters.windows, counts.stalls.busy),
+                  100.0 * ratio(counts.counters.dirty_blocks, counts.stalls.busy),
+                  ratio(counts.counters.splats, counts.stalls.busy));
+  return text;
+}
+
+std::string to_text(const Result& result) {
+  const auto& counters = result.counts.counters;
+  return (result.scene.empty() ? "" : result.scene + "\n") +
+         fmt::format("configuration {} {}, {} splats, {} windows, {} sheets, {} tiles\n", result.config.name,
+                     hash_text(cmodel::config_hash(result.config)), grouped(counters.splats), grouped(counters.windows),
+                     grouped(counters.sheets), grouped(counters.tiles)) +
+         to_text(result.counts) + (result.trace.empty() ? "" : result.trace + "\n");
+}
+
+Json to_json(const Counts& counts) {
+  Json json;
+  json["actual"] = counts.stalls.busy;
+  json["idle"] = counts.idle;
+  json["end"] = counts.end;
+  counts.account.for_each([&](const char* name, std::uint64_t cycles, const char*) { json["account"][name] = cycles; });
+  json["counters"] = {{"stall_input", counts.stalls.stall_input},
+                      {"stall_table", counts.stalls.stall_table},
+                      {"stall_buffer", counts.stalls.stall_buffer},
+                      {"stall_tile", counts.stalls.stall_tile}};
+  return json;
 }
 
 Json to_json(const Result& result) {
-  Json json;
-  json["actual"] = result.stalls.busy;
-  json["idle"] = result.idle;
-  json["end"] = result.end;
-  result.account.for_each([&](const char* name, std::uint64_t cycles, const char*) { json["account"][name] = cycles; });
-  json["counters"] = {{"stall_input", result.stalls.stall_input},
-                      {"stall_table", result.stalls.stall_table},
-                      {"stall_buffer", result.stalls.stall_buffer},
-                      {"stall_tile", result.stalls.stall_tile}};
+  const auto& [account, stalls, counters, idle, end] = result.counts;
+  Json json{{"verb", "cycles"},
+            {"version", program_version()},
+            {"config", config_identity_json(result.config)},
+            {"input", result.input},
+            {"ready", result.ready},
+            {"seed", result.seed},
+            {"tiles", counters.tiles},
+            {"sheets", counters.sheets},
+            {"splats", counters.splats},
+            {"windows", counters.windows},
+            {"dirty_blocks", counters.dirty_blocks},
+            {"cycles", to_json(result.counts)},
+            {"actual_to_ideal", ratio(stalls.busy, account.ideal)},
+            {"utilisation", ratio(counters.windows, stalls.busy)},
+            {"splats_per_cycle", ratio(counters.splats, stalls.busy)}};
+  if (!result.trace.empty()) json["trace"] = result.trace;
+  json["seconds"] = result.seconds;
   return json;
 }
 
@@ -109,50 +153,33 @@ ExitCode run(const Arguments& arguments) {
   if (arguments.ready != "always") options.output = &ready;
   if (!arguments.trace.empty()) options.spans = &trace;
 
-  Result result;
+  Result result{.scene = {},
+                .config = config,
+                .input = arguments.input,
+                .ready = arguments.ready,
+                .seed = arguments.seed,
+                .counts = {},
+                .trace = arguments.trace};
   if (!arguments.stream.empty()) {
     ProgressBar bar("cycles", watching(arguments.common));
     cmodel::CycleModel model(config, cmodel::StreamScope::Whole, options);
     driver::feed_stream(arguments.stream, model, {.threads = 1, .progress = bar.callback()});
-    result.take(model);
+    result.counts.take(model);
   } else {
     const auto scene = build(arguments.scene);
-    output.line(summary(scene));
+    result.scene = summary(scene);
     ProgressBar bar("cycles", watching(arguments.common));
     const auto make = [&](cmodel::PixelSink&) {
       return std::make_unique<cmodel::CycleModel>(config, cmodel::StreamScope::Subset, options);
     };
-    driver::run_device(scene, config, make, {.threads = arguments.common.threads, .progress = bar.callback()},
-                       [&](cmodel::Device& device) { result.take(dynamic_cast<const cmodel::CycleModel&>(device)); });
+    driver::run_device(
+        scene, config, make, {.threads = arguments.common.threads, .progress = bar.callback()},
+        [&](cmodel::Device& device) { result.counts.take(dynamic_cast<const cmodel::CycleModel&>(device)); });
   }
-  const std::string hash = hash_text(cmodel::config_hash(config));
-  output.line(fmt::format("configuration {} {}, {} splats, {} windows, {} sheets, {} tiles", config.name, hash,
-                          grouped(result.counters.splats), grouped(result.counters.windows),
-                          grouped(result.counters.sheets), grouped(result.counters.tiles)));
-  print(result, output);
-  if (!arguments.trace.empty()) {
-    write_text_file(arguments.trace, trace.text());
-    output.line(arguments.trace);
-  }
-
-  Json json{{"verb", "cycles"},
-            {"version", program_version()},
-            {"config", {{"name", config.name}, {"hash", hash}}},
-            {"input", arguments.input},
-            {"ready", arguments.ready},
-            {"seed", arguments.seed},
-            {"tiles", result.counters.tiles},
-            {"sheets", result.counters.sheets},
-            {"splats", result.counters.splats},
-            {"windows", result.counters.windows},
-            {"dirty_blocks", result.counters.dirty_blocks},
-            {"cycles", to_json(result)},
-            {"actual_to_ideal", ratio(result.stalls.busy, result.account.ideal)},
-            {"utilisation", ratio(result.counters.windows, result.stalls.busy)},
-            {"splats_per_cycle", ratio(result.counters.splats, result.stalls.busy)}};
-  if (!arguments.trace.empty()) json["trace"] = arguments.trace;
-  json["seconds"] = output.seconds();
-  output.json(json.dump(2));
+  if (!arguments.trace.empty()) write_text_file(arguments.trace, trace.text());
+  output.line(to_text(result));
+  result.seconds = output.seconds();
+  output.json(to_json(result));
   output.note_time("counted");
   return ExitCode::Pass;
 }

@@ -58,60 +58,97 @@ bool is_synthetic(const std::string& name) {
   return std::find(names.begin(), names.end(), name.substr(0, name.find(':'))) != names.end();
 }
 
-ExitCode run(const Arguments& arguments) {
-  const Output output(arguments.common);
-  Json json{{"version", program_version()},
-            {"build", VERSION_BUILD},
-            {"compiler", VERSION_COMPILER},
-            {"cmake", VERSION_CMAKE}};
-  output.line(fmt::format("fastsplat {} ({} build, {}, CMake {})", program_version(), VERSION_BUILD, VERSION_COMPILER,
-                          VERSION_CMAKE));
-  output.line(fmt::format("machine: {} processors, {:.1f} GB memory", usable_processors(), memory_gb()));
-  json["processors"] = usable_processors();
-  json["memory_gb"] = memory_gb();
+struct Scan {
+  std::string name;
+  std::optional<volume::Volume> header;  ///< none: missing
+  std::string reason;                    ///< of a missing one
+};
 
-  output.line("libraries:");
-  for (const auto& [name, version] : kLibraries) {
-    const std::string text = *version == '\0' ? "unknown" : version;
-    output.line(fmt::format("  {:14} {}", name, text));
-    json["libraries"][name] = text;
+/// What the program is and what it found.
+struct Result {
+  int processors = 0;
+  double memory_gb = 0.0;
+  std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
+  std::vector<Scan> scans;
+  std::vector<std::string> synthetics, transfer_functions, demos, configurations;
+
+  bool all_there() const {
+    return std::all_of(scans.begin(), scans.end(), [](const Scan& scan) { return scan.header.has_value(); });
   }
+};
 
-  output.line("scans:");
-  bool all_there = true;
-  json["scans"] = Json::array();
+const char* const kFix =
+    "apt-get install mricron-data, or put the .nii.gz files in a folder and set FASTSPLAT_DATA to it";
+
+Result look() {
+  Result result{.processors = usable_processors(),
+                .memory_gb = memory_gb(),
+                .libraries = {},
+                .scans = {},
+                .synthetics = volume::synthetic_names(),
+                .transfer_functions = scene::transfer_function_presets(),
+                .demos = scene::demo_names(),
+                .configurations = driver::config_names()};
+  for (const auto& [name, version] : kLibraries)
+    result.libraries.emplace_back(name, *version == '\0' ? "unknown" : version);
   for (const auto& name : volume::known_volume_names()) {
     if (is_synthetic(name)) continue;
-    Json entry{{"name", name}};
+    Scan scan{.name = name, .header = {}, .reason = {}};
     try {
-      const auto volume = volume::read_volume_header(name);
-      output.line(fmt::format("  {:16} found: {} ({}x{}x{})", name, volume.source, volume.dims.x, volume.dims.y,
-                              volume.dims.z));
-      entry["found"] = true;
-      entry["source"] = volume.source;
+      scan.header = volume::read_volume_header(name);
     } catch (const UserError& error) {
-      output.line(fmt::format("  {:16} missing", name));
-      entry["found"] = false;
-      entry["reason"] = error.what();
-      all_there = false;
+      scan.reason = error.what();
     }
-    json["scans"].push_back(entry);
+    result.scans.push_back(std::move(scan));
   }
-  output.line(fmt::format("built-in volumes: {}", fmt::join(volume::synthetic_names(), ", ")));
-  output.line(fmt::format("transfer functions: {}", fmt::join(scene::transfer_function_presets(), ", ")));
-  output.line(fmt::format("demo scenes: {}", fmt::join(scene::demo_names(), ", ")));
-  output.line(fmt::format("configurations: {}", fmt::join(driver::config_names(), ", ")));
-  json["synthetics"] = volume::synthetic_names();
-  json["transfer_functions"] = scene::transfer_function_presets();
-  json["demos"] = scene::demo_names();
-  json["configurations"] = driver::config_names();
+  return result;
+}
 
-  const std::string fix =
-      "apt-get install mricron-data, or put the .nii.gz files in a folder and set FASTSPLAT_DATA to it";
-  output.line(all_there ? "nothing is missing" : "missing scans: " + fix + "; everything else works without them");
+std::string to_text(const Result& result) {
+  std::string text = fmt::format("fastsplat {} ({} build, {}, CMake {})\n", program_version(), VERSION_BUILD,
+                                 VERSION_COMPILER, VERSION_CMAKE);
+  text += fmt::format("machine: {} processors, {:.1f} GB memory\n", result.processors, result.memory_gb);
+  text += "libraries:\n";
+  for (const auto& [name, version] : result.libraries) text += fmt::format("  {:14} {}\n", name, version);
+  text += "scans:\n";
+  for (const auto& [name, header, reason] : result.scans) {
+    text += header ? fmt::format("  {:16} found: {} ({}x{}x{})\n", name, header->source, header->dims.x, header->dims.y,
+                                 header->dims.z)
+                   : fmt::format("  {:16} missing\n", name);
+  }
+  text += fmt::format("built-in volumes: {}\n", fmt::join(result.synthetics, ", "));
+  text += fmt::format("transfer functions: {}\n", fmt::join(result.transfer_functions, ", "));
+  text += fmt::format("demo scenes: {}\n", fmt::join(result.demos, ", "));
+  text += fmt::format("configurations: {}\n", fmt::join(result.configurations, ", "));
+  return text + (result.all_there() ? "nothing is missing\n"
+                                    : fmt::format("missing scans: {}; everything else works without them\n", kFix));
+}
+
+Json to_json(const Scan& scan) {
+  if (scan.header) return {{"name", scan.name}, {"found", true}, {"source", scan.header->source}};
+  return {{"name", scan.name}, {"found", false}, {"reason", scan.reason}};
+}
+
+Json to_json(const Result& result) {
+  Json json{{"version", program_version()}, {"build", VERSION_BUILD},          {"compiler", VERSION_COMPILER},
+            {"cmake", VERSION_CMAKE},       {"processors", result.processors}, {"memory_gb", result.memory_gb}};
+  for (const auto& [name, version] : result.libraries) json["libraries"][name] = version;
+  json["scans"] = Json::array();
+  for (const auto& scan : result.scans) json["scans"].push_back(to_json(scan));
+  json["synthetics"] = result.synthetics;
+  json["transfer_functions"] = result.transfer_functions;
+  json["demos"] = result.demos;
+  json["configurations"] = result.configurations;
   json["missing"] = Json::array();
-  if (!all_there) json["missing"].push_back({{"what", "scans of mricron-data"}, {"fix", fix}});
-  output.json(json.dump(2));
+  if (!result.all_there()) json["missing"].push_back({{"what", "scans of mricron-data"}, {"fix", kFix}});
+  return json;
+}
+
+ExitCode run(const Arguments& arguments) {
+  const Output output(arguments.common);
+  const Result result = look();
+  output.line(to_text(result));
+  output.json(to_json(result));
   return ExitCode::Pass;
 }
 

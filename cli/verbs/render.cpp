@@ -51,7 +51,16 @@ void check(const RenderArguments& arguments, Engine engine) {
   }
 }
 
-Json scene_json(const scene::Scene& scene) {
+/// A picture in words; its pixels are in the files.
+struct Result {
+  std::string engine;
+  scene::Scene scene;
+  FrameReport frame;
+  FrameFiles files;
+  double seconds = 0.0;
+};
+
+Json to_json(const scene::Scene& scene) {
   const auto& description = scene.description;
   const auto& volume = *scene.volume;
   return {{"volume", volume.name},
@@ -64,23 +73,34 @@ Json scene_json(const scene::Scene& scene) {
           {"toml", scene::to_toml(description)}};
 }
 
+Json to_json(const Result& result) {
+  Json json{
+      {"verb", "render"}, {"version", program_version()}, {"engine", result.engine}, {"scene", to_json(result.scene)}};
+  json.update(to_json(result.frame));
+  json["outputs"] = result.files.out;
+  if (!result.files.raw.empty()) json["raw"] = result.files.raw;
+  json["seconds"] = result.seconds;
+  return json;
+}
+
 ExitCode run_still(const RenderArguments& arguments, const Renderer& renderer, const Output& output) {
   const scene::Scene scene = build(arguments.scene);
-  Json json{
-      {"verb", "render"}, {"version", program_version()}, {"engine", arguments.engine}, {"scene", scene_json(scene)}};
   RenderedFrame frame;
   {
     ProgressBar bar(arguments.engine, watching(arguments.common));
     frame = render_frame(renderer, scene, bar.callback());
   }
-  report_frame(renderer, scene, frame, output, json);
-  write_frame(frame, {.out = arguments.out, .raw = arguments.raw}, metadata_of(renderer, scene), output);
+  Result result{.engine = arguments.engine,
+                .scene = scene,
+                .frame = report_of(renderer, scene, frame),
+                .files = {.out = arguments.out, .raw = arguments.raw}};
+  output.line(to_text(result.frame));
+  output.remark(remarks(result.frame));
+  write_frame(frame, result.files, metadata_of(renderer, scene), output);
   if (!arguments.save_scene.empty()) write_text_file(arguments.save_scene, scene::to_toml(scene.description));
 
-  json["outputs"] = arguments.out;
-  if (!arguments.raw.empty()) json["raw"] = arguments.raw;
-  json["seconds"] = output.seconds();
-  output.json(json.dump(2));
+  result.seconds = output.seconds();
+  output.json(to_json(result));
   output.note_time("rendered");
   return frame.checked ? frame.checked->exit_code() : ExitCode::Pass;
 }

@@ -44,7 +44,7 @@ ExitCode run(const Arguments& arguments) {
     return more;
   });
   if (text_wanted) write_stdout(buffer);
-  output.json(Json{{"verb", "stream dump"}, {"stream", arguments.stream}, {"records", std::move(records)}}.dump(2));
+  output.json({{"verb", "stream dump"}, {"stream", arguments.stream}, {"records", std::move(records)}});
   return ExitCode::Pass;
 }
 

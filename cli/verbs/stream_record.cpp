@@ -32,6 +32,27 @@ void declare(Options& options, Arguments& to) {
   declare(options, to.common);
 }
 
+/// What was recorded, in words.
+struct Result {
+  std::string scene;  ///< its summary
+  std::string stream;
+  cmodel::Config config;
+  driver::DriverReport driver;
+};
+
+std::string to_text(const Result& result) {
+  return result.scene + "\n" + cli::to_text(result.driver) + result.stream + "\n";
+}
+
+Json to_json(const Result& result) {
+  Json json{{"verb", "stream record"},
+            {"version", program_version()},
+            {"stream", result.stream},
+            {"config", config_identity_json(result.config)}};
+  json.update(cli::to_json(result.driver));
+  return json;
+}
+
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
   if (!arguments.out.ends_with(".fss")) {
@@ -45,20 +66,15 @@ ExitCode run(const Arguments& arguments) {
   const auto config = driver::load_config(arguments.config);
   const auto scene = build(arguments.scene);
 
-  driver::DriverReport report;
+  Result result{.scene = summary(scene), .stream = arguments.out, .config = config, .driver = {}};
   {
     ProgressBar bar("recording", watching(arguments.common));
-    report = driver::record_stream(scene, config, arguments.out,
-                                   {.threads = arguments.common.threads, .progress = bar.callback()});
+    result.driver = driver::record_stream(scene, config, arguments.out,
+                                          {.threads = arguments.common.threads, .progress = bar.callback()});
   }
-  Json json{{"verb", "stream record"},
-            {"version", program_version()},
-            {"stream", arguments.out},
-            {"config", config_identity_json(config)}};
-  output.line(summary(scene));
-  report_driver(report, output, json);
-  output.line(arguments.out);
-  output.json(json.dump(2));
+  output.line(to_text(result));
+  output.remark(remarks(result.driver));
+  output.json(to_json(result));
   output.note_time("recorded");
   return ExitCode::Pass;
 }

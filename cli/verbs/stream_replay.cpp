@@ -31,6 +31,29 @@ void declare(Options& options, Arguments& to) {
   declare(options, to.common);
 }
 
+/// What was replayed, in words; its pixels are in the files.
+struct Result {
+  std::string stream;
+  int width = 0, height = 0;
+  DeviceReport device;
+  std::vector<std::string> outputs;
+  std::string raw;  ///< empty for none
+  double seconds = 0.0;
+};
+
+Json to_json(const Result& result) {
+  Json json{{"verb", "stream replay"},
+            {"version", program_version()},
+            {"stream", result.stream},
+            {"width", result.width},
+            {"height", result.height}};
+  json.update(cli::to_json(result.device));
+  json["outputs"] = result.outputs;
+  if (!result.raw.empty()) json["raw"] = result.raw;
+  json["seconds"] = result.seconds;
+  return json;
+}
+
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.images = arguments.out,
@@ -39,28 +62,28 @@ ExitCode run(const Arguments& arguments) {
                  .others = {arguments.common.json},
                  .inputs = {arguments.stream}});
   const auto config = driver::load_config(arguments.config);
-  driver::DeviceRender result;
+  driver::DeviceRender frame;
   {
     ProgressBar bar("replaying", watching(arguments.common));
-    result = driver::replay_stream(arguments.stream, config,
-                                   {.threads = arguments.common.threads, .progress = bar.callback()});
+    frame = driver::replay_stream(arguments.stream, config,
+                                  {.threads = arguments.common.threads, .progress = bar.callback()});
   }
-  Json json{{"verb", "stream replay"},
-            {"version", program_version()},
-            {"stream", arguments.stream},
-            {"width", result.frame.width},
-            {"height", result.frame.height}};
-  report_device(result, config, output, json);
+  Result result{.stream = arguments.stream,
+                .width = frame.frame.width,
+                .height = frame.frame.height,
+                .device = {config, frame.report, frame.counters},
+                .outputs = arguments.out,
+                .raw = arguments.raw};
+  output.line(to_text(result.device));
+  output.remark(remarks(result.device));
   const images::Metadata metadata{{"engine", "cmodel"},
                                   {"version", program_version()},
                                   {"stream", arguments.stream},
                                   {"config", config.name},
                                   {"config_hash", hash_text(cmodel::config_hash(config))}};
-  write_device_images(result, arguments.out, arguments.raw, metadata, output);
-  json["outputs"] = arguments.out;
-  if (!arguments.raw.empty()) json["raw"] = arguments.raw;
-  json["seconds"] = output.seconds();
-  output.json(json.dump(2));
+  write_device_images(frame, arguments.out, arguments.raw, metadata, output);
+  result.seconds = output.seconds();
+  output.json(to_json(result));
   output.note_time("replayed");
   return ExitCode::Pass;
 }

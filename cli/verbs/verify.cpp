@@ -154,30 +154,49 @@ Checked verify_scene(const Arguments& arguments, testbench::VerifyOptions option
   return out;
 }
 
-void report_failure(const Checked& checked, const Arguments& arguments, const Output& output, Json& json) {
-  const std::string stream = failure_prefix(arguments) + ".fss", waveform = failure_prefix(arguments) + ".fst";
-  const auto report = testbench::investigate(checked.source, checked.options, checked.failed, waveform, kShrinkRuns);
-  driver::write_beats(stream, testbench::write_document(checked.options.config, report.document));
-  const std::string replay = testbench::replay_line(stream, arguments.config, report.options);
-  output.line("first divergence: " + report.original);
-  output.line(fmt::format("shrunk from {} to {} splats in {} runs{}", grouped(report.shrink.splats_before),
-                          grouped(report.shrink.splats_after), report.shrink.runs,
-                          report.shrink.finished ? "" : " (there may be a smaller one)"));
-  output.line("smallest stream: " + report.divergence);
-  if (!report.operands.empty()) output.line("  " + report.operands);
-  output.line(fmt::format("waveform: {} (cycles {} to {})", waveform, report.wave_from, report.wave_to));
-  output.line("replay: " + replay);
-  json["failure"] = {{"first", report.original},
-                     {"smallest", report.divergence},
-                     {"operands", report.operands},
-                     {"splats_before", report.shrink.splats_before},
-                     {"splats_after", report.shrink.splats_after},
-                     {"shrink_runs", report.shrink.runs},
-                     {"stream", stream},
-                     {"waveform", waveform},
-                     {"wave_from", report.wave_from},
-                     {"wave_to", report.wave_to},
-                     {"replay", replay}};
+/// A failure in words, with the files that show it again.
+struct Failure {
+  testbench::FailureReport report;
+  std::string stream, waveform, replay;
+};
+
+Failure investigate(const Checked& checked, const Arguments& arguments) {
+  Failure failure{.report = {},
+                  .stream = failure_prefix(arguments) + ".fss",
+                  .waveform = failure_prefix(arguments) + ".fst",
+                  .replay = {}};
+  failure.report =
+      testbench::investigate(checked.source, checked.options, checked.failed, failure.waveform, kShrinkRuns);
+  driver::write_beats(failure.stream, testbench::write_document(checked.options.config, failure.report.document));
+  failure.replay = testbench::replay_line(failure.stream, arguments.config, failure.report.options);
+  return failure;
+}
+
+std::string to_text(const Failure& failure) {
+  const auto& report = failure.report;
+  return "first divergence: " + report.original + "\n" +
+         fmt::format("shrunk from {} to {} splats in {} runs{}\n", grouped(report.shrink.splats_before),
+                     grouped(report.shrink.splats_after), report.shrink.runs,
+                     report.shrink.finished ? "" : " (there may be a smaller one)") +
+         "smallest stream: " + report.divergence + "\n" +
+         (report.operands.empty() ? "" : "  " + report.operands + "\n") +
+         fmt::format("waveform: {} (cycles {} to {})\n", failure.waveform, report.wave_from, report.wave_to) +
+         "replay: " + failure.replay + "\n";
+}
+
+Json to_json(const Failure& failure) {
+  const auto& report = failure.report;
+  return {{"first", report.original},
+          {"smallest", report.divergence},
+          {"operands", report.operands},
+          {"splats_before", report.shrink.splats_before},
+          {"splats_after", report.shrink.splats_after},
+          {"shrink_runs", report.shrink.runs},
+          {"stream", failure.stream},
+          {"waveform", failure.waveform},
+          {"wave_from", report.wave_from},
+          {"wave_to", report.wave_to},
+          {"replay", failure.replay}};
 }
 
 /// What the coverage file holds so far: read before any work, for it may be of another configuration.
@@ -187,9 +206,13 @@ testbench::CoverageBook earlier_coverage(const std::string& path, const cmodel::
   return book;
 }
 
-/// Adds the run's coverage to it, and says how much of the configuration's that is.
-void save_coverage(const Checked& checked, const std::string& path, testbench::CoverageBook book, const Output& output,
-                   Json& json) {
+/// How much of the configuration's coverage is hit, this run's added to what the file held.
+struct Gain {
+  std::string path;
+  std::size_t bins = 0, hit = 0;
+};
+
+Gain save_coverage(const Checked& checked, const std::string& path, testbench::CoverageBook book) {
   book.streams += checked.streams;
   book.splats += checked.result.counters.splats;
   book.comparisons += checked.result.check.comparisons;
@@ -199,8 +222,59 @@ void save_coverage(const Checked& checked, const std::string& path, testbench::C
   for (const auto& [campaign, coverage] : book.campaigns) all.merge(coverage);
   testbench::write_book(path, book);
   const auto hit = std::count_if(all.bins().begin(), all.bins().end(), [](const auto& bin) { return bin.hits > 0; });
-  output.line(fmt::format("coverage: {} of {} bins hit, in {}", hit, all.bins().size(), path));
-  json["coverage"] = {{"bins", all.bins().size()}, {"hit", hit}};
+  return {.path = path, .bins = all.bins().size(), .hit = static_cast<std::size_t>(hit)};
+}
+
+std::string to_text(const Gain& gain) {
+  return fmt::format("coverage: {} of {} bins hit, in {}\n", gain.hit, gain.bins, gain.path);
+}
+
+/// Everything said about a run.
+struct Result {
+  const Arguments& arguments;
+  cmodel::Config config;
+  std::uint64_t streams = 0;
+  testbench::VerifyResult run;
+  std::optional<Failure> failure;
+  std::optional<Gain> coverage;
+  double seconds = 0.0;
+};
+
+/// Verdict and counts.
+std::string to_text(const Result& result) {
+  const auto& run = result.run;
+  return fmt::format("{}: configuration {} {}, {} comparisons, {} mismatches\n", testbench::to_string(run.verdict),
+                     result.config.name, hash_text(cmodel::config_hash(result.config)), grouped(run.check.comparisons),
+                     grouped(run.check.mismatches)) +
+         fmt::format("{}, {}, {}, {}\n", counted(result.streams, "stream"), counted(run.counters.splats, "splat"),
+                     counted(run.counters.windows, "window"),
+                     counted(run.check.cycles_rtl.value_or(run.last_cycle), "cycle"));
+}
+
+Json to_json(const Result& result) {
+  const auto& [arguments, config, streams, run, failure, coverage, seconds] = result;
+  Json json{{"verb", "verify"},
+            {"version", program_version()},
+            {"verdict", testbench::to_string(run.verdict)},
+            {"comparisons", run.check.comparisons},
+            {"mismatches", run.check.mismatches},
+            {"streams", streams},
+            {"splats", run.counters.splats},
+            {"windows", run.counters.windows},
+            {"cycles_rtl", optional_json(run.check.cycles_rtl)},
+            {"cycles_model", optional_json(run.check.cycles_model)},
+            {"seed", arguments.seed},
+            {"seeds", arguments.seeds},
+            {"config", config.name},
+            {"config_hash", hash_text(cmodel::config_hash(config))},
+            {"ready", arguments.ready},
+            {"input", arguments.input},
+            {"fill", arguments.fill},
+            {"by_tap", by_tap_json(run.check)}};
+  if (failure) json["failure"] = to_json(*failure);
+  if (coverage) json["coverage"] = {{"bins", coverage->bins}, {"hit", coverage->hit}};
+  json["seconds"] = seconds;
+  return json;
 }
 
 ExitCode run(const Arguments& arguments) {
@@ -216,7 +290,6 @@ ExitCode run(const Arguments& arguments) {
   check_has_rtl(config);
   const auto options = options_from(arguments, config);
   auto coverage = earlier_coverage(arguments.coverage, config);
-  const std::string hash = hash_text(cmodel::config_hash(config));
   const std::string seed = fmt::format("seed {}", arguments.seed);
   // The seed comes first, so that it is known whatever happens next, and last, where the eye is.
   arguments.common.json == "-" ? output.note(seed) : output.line(seed);
@@ -237,44 +310,31 @@ ExitCode run(const Arguments& arguments) {
         break;
     }
   }
-  const auto& result = checked.result;
-  Json json{{"verb", "verify"},
-            {"version", program_version()},
-            {"verdict", testbench::to_string(result.verdict)},
-            {"comparisons", result.check.comparisons},
-            {"mismatches", result.check.mismatches},
-            {"streams", checked.streams},
-            {"splats", result.counters.splats},
-            {"windows", result.counters.windows},
-            {"cycles_rtl", optional_json(result.check.cycles_rtl)},
-            {"cycles_model", optional_json(result.check.cycles_model)},
-            {"seed", arguments.seed},
-            {"seeds", arguments.seeds},
-            {"config", config.name},
-            {"config_hash", hash},
-            {"ready", arguments.ready},
-            {"input", arguments.input},
-            {"fill", arguments.fill},
-            {"by_tap", by_tap_json(result.check)}};
-  output.line(fmt::format("{}: configuration {} {}, {} comparisons, {} mismatches",
-                          testbench::to_string(result.verdict), config.name, hash, grouped(result.check.comparisons),
-                          grouped(result.check.mismatches)));
-  output.line(fmt::format("{}, {}, {}, {}", counted(checked.streams, "stream"),
-                          counted(result.counters.splats, "splat"), counted(result.counters.windows, "window"),
-                          counted(result.check.cycles_rtl.value_or(result.last_cycle), "cycle")));
-  if (source == Source::Scene && result.verdict == testbench::Verdict::NothingCompared) {
+  Result result{.arguments = arguments,
+                .config = config,
+                .streams = checked.streams,
+                .run = checked.result,
+                .failure = {},
+                .coverage = {}};
+  const auto verdict = result.run.verdict;
+  output.line(to_text(result));  // what follows takes time
+  if (source == Source::Scene && verdict == testbench::Verdict::NothingCompared) {
     output.warn(
         "no splat of the scene reached the device; try a larger --opacity-scale or --xray-exposure, another --tf or "
         "another --zoom");
   }
-  if (result.verdict == testbench::Verdict::Mismatch || result.verdict == testbench::Verdict::Simulation)
-    report_failure(checked, arguments, output, json);
-  if (!arguments.coverage.empty() && result.verdict == testbench::Verdict::Pass)
-    save_coverage(checked, arguments.coverage, std::move(coverage), output, json);
-  json["seconds"] = output.seconds();
-  output.json(json.dump(2));
+  if (verdict == testbench::Verdict::Mismatch || verdict == testbench::Verdict::Simulation) {
+    result.failure = investigate(checked, arguments);
+    output.line(to_text(*result.failure));
+  }
+  if (!arguments.coverage.empty() && verdict == testbench::Verdict::Pass) {
+    result.coverage = save_coverage(checked, arguments.coverage, std::move(coverage));
+    output.line(to_text(*result.coverage));
+  }
+  result.seconds = output.seconds();
+  output.json(to_json(result));
   arguments.common.json == "-" ? output.note(seed) : output.line(seed);
-  return testbench::exit_code(result.verdict);
+  return testbench::exit_code(verdict);
 }
 
 void declare(Options& options, Arguments& to) {

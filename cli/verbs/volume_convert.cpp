@@ -38,18 +38,34 @@ volume::VoxelType type_from(const std::string& name) {
   return types.at(name);  // declare() lets no other name through
 }
 
+/// What was written.
+struct Result {
+  volume::Volume volume;
+  std::string out;
+  volume::VoxelType type;
+};
+
+std::string to_text(const Result& result) {
+  const auto& dims = result.volume.dims;
+  return fmt::format("{}: {} x {} x {}, {}\n", result.out, dims.x, dims.y, dims.z, volume::to_string(result.type));
+}
+
+nlohmann::ordered_json to_json(const Result& result) {
+  auto json = volume_json(result.volume);
+  json["out"] = result.out;
+  json["out_type"] = volume::to_string(result.type);
+  return json;
+}
+
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
   { const AtomicFile probe(arguments.out); }  // before the volume is read
-  const auto volume = volume::load_volume(arguments.volume);
+  auto volume = volume::load_volume(arguments.volume);
   const auto type = arguments.type ? type_from(*arguments.type) : volume.stored;
   volume::save_volume(volume, arguments.out, type);
-  output.line(fmt::format("{}: {} x {} x {}, {}", arguments.out, volume.dims.x, volume.dims.y, volume.dims.z,
-                          volume::to_string(type)));
-  auto json = volume_json(volume);
-  json["out"] = arguments.out;
-  json["out_type"] = volume::to_string(type);
-  output.json(json.dump(2));
+  const Result result{.volume = std::move(volume), .out = arguments.out, .type = type};
+  output.line(to_text(result));
+  output.json(to_json(result));
   return ExitCode::Pass;
 }
 

@@ -22,20 +22,28 @@ void declare(Options& options, Arguments& to) {
   declare(options, to.common);
 }
 
-ExitCode run(const Arguments& arguments) {
-  const Output output(arguments.common);
-  const auto volume = volume::load_volume(arguments.volume);
+std::string to_text(const volume::Volume& volume) {
   const auto& dims = volume.dims;
   const auto& spacing = volume.spacing;
   const auto extent = glm::dvec3(dims) * spacing;
-  output.line(fmt::format("volume   {}", volume.name));
-  output.line(fmt::format("source   {}", volume.source));
-  output.line(fmt::format("voxels   {} x {} x {} = {}", dims.x, dims.y, dims.z, grouped(volume.voxels.size())));
-  output.line(fmt::format("type     {}", volume::to_string(volume.stored)));
-  output.line(fmt::format("spacing  {:g} x {:g} x {:g} mm", spacing.x, spacing.y, spacing.z));
-  output.line(fmt::format("extent   {:g} x {:g} x {:g} mm", extent.x, extent.y, extent.z));
-  output.line(fmt::format("values   {:g} to {:g}", volume.min, volume.max));
-  output.json(volume_json(volume).dump(2));
+  return fmt::format(
+      "volume   {}\n"
+      "source   {}\n"
+      "voxels   {} x {} x {} = {}\n"
+      "type     {}\n"
+      "spacing  {:g} x {:g} x {:g} mm\n"
+      "extent   {:g} x {:g} x {:g} mm\n"
+      "values   {:g} to {:g}\n",
+      volume.name, volume.source, dims.x, dims.y, dims.z, grouped(volume.voxels.size()),
+      volume::to_string(volume.stored), spacing.x, spacing.y, spacing.z, extent.x, extent.y, extent.z, volume.min,
+      volume.max);
+}
+
+ExitCode run(const Arguments& arguments) {
+  const Output output(arguments.common);
+  const auto volume = volume::load_volume(arguments.volume);
+  output.line(to_text(volume));
+  output.json(volume_json(volume));
   return ExitCode::Pass;
 }
 

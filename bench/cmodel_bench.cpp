@@ -6,6 +6,7 @@
 
 #include "cmodel/compositor.hpp"
 #include "cmodel/model.hpp"
+#include "cmodel/observers.hpp"
 #include "driver/config_file.hpp"
 #include "driver/tables.hpp"
 #include "scene/kernel.hpp"
@@ -85,6 +86,7 @@ void composite_pixels(benchmark::State& state, const std::string& name, cmodel::
   cmodel::Compositor compositor(config);
   compositor.opacity().load(driver::factor_table(config).words);
   cmodel::Counters counters;
+  cmodel::Counting observer{counters};
   Sequence sequence;
   // So thin that no pixel freezes within the sheets of one round.
   std::vector<cmodel::SheetWord> sums(4096);
@@ -96,7 +98,7 @@ void composite_pixels(benchmark::State& state, const std::string& name, cmodel::
     for (int sheet = 0; sheet < 16; ++sheet)
       for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x)
-          compositor.step(sums[static_cast<std::size_t>((y * side + x + sheet * 37) % 4096)], x, y, counters);
+          compositor.step(sums[static_cast<std::size_t>((y * side + x + sheet * 37) % 4096)], x, y, counters, observer);
     benchmark::DoNotOptimize(compositor.at(0, 0));
   }
   state.counters["time/pixel"] = benchmark::Counter(static_cast<double>(counters.pixels_composited),

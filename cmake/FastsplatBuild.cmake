@@ -33,7 +33,8 @@ if(FASTSPLAT_ASAN)
   target_link_options(fastsplat_settings INTERFACE -fsanitize=address,undefined)
 endif()
 
-# Floating-point reference code: no contraction, so the same source gives the same bits on every x86-64.
+# Floating-point code: no contraction, so that the compiler rounds each operation once, as it is written. The C library's
+# exp, erf and the like may still differ in the last bit from processor to processor (docs/decisions.md, 28).
 add_library(fastsplat_strict_float INTERFACE)
 target_compile_options(fastsplat_strict_float INTERFACE -ffp-contract=off)
 

@@ -231,10 +231,14 @@ void compare_with_oracle(const std::string& name, const scene::Scene& scene, con
   }
   if (!expected) return;
   ++figures.frames;
-  std::size_t beats = expected->preamble.size();
-  for (const auto& tile : expected->tiles) beats += tile.size();
-  figures.beats += beats;
-  figures.words += beats * 6;
+  const auto add = [&figures](const std::vector<Beat>& beats) {
+    figures.beats += beats.size();
+    figures.words += beats.size() * 6;
+    for (const Beat& beat : beats)
+      for (const std::uint32_t word : beat) figures.hash = (figures.hash ^ word) * 0x100000001b3U;
+  };
+  add(expected->preamble);
+  for (const auto& tile : expected->tiles) add(tile);
   for (const auto& [unused, member] : scene_oracle::met_names()) figures.met.*member += expected->met.*member;
 }
 
@@ -267,6 +271,7 @@ void print_and_expect_equal(const OracleFigures& figures) {
   for (const auto& [name, member] : scene_oracle::met_names()) {
     if (figures.met.*member > 0) print(name, figures.met.*member, "");
   }
+  std::printf("[figure] hash of the words = %016llx\n", static_cast<unsigned long long>(figures.hash));
   print("frames that differ", figures.mismatches, " (limit 0)");
   EXPECT_GT(figures.words, 0U);
   EXPECT_EQ(figures.mismatches, 0U) << "first: " << figures.first;

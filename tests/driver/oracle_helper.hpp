@@ -18,8 +18,9 @@ std::shared_ptr<const volume::Volume> volume_of(glm::ivec3 dims, glm::dvec3 spac
 struct OracleFigures {
   std::uint64_t frames = 0, refused = 0, beats = 0, words = 0;
   scene_oracle::Met met;
-  std::uint64_t mismatches = 0;  ///< frames with one
-  std::string first;             ///< the first of them, in words
+  std::uint64_t hash = 0xcbf29ce484222325U;  ///< FNV-1a of all words: must not depend on the processor
+  std::uint64_t mismatches = 0;              ///< frames with one
+  std::string first;                         ///< the first of them, in words
 };
 /// Compiles the scene in both ways and compares every beat, the counts of the report and refusals.
 void compare_with_oracle(const std::string& name, const scene::Scene& scene, const cmodel::Config& config,

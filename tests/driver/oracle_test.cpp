@@ -131,6 +131,28 @@ TEST(DriverOracle, TheSameRadiusIsTheFirstRefused) {
   EXPECT_EQ(figures.refused, config_names().size());
 }
 
+// Radii within 10^-9 of each other are one set: the turn of a row, in perspective, at which they no longer are.
+TEST(DriverOracle, TheSameRatioOfRadiiIsTheFirstWithSeveralSets) {
+  OracleFigures figures;
+  const std::vector<std::string> names = {"base", "year2000"};
+  for (const auto& name : names) {
+    const auto config = load_config(name);
+    auto description = row_from_the_left();
+    description.camera.projection = scene::Projection::Perspective;
+    const auto turned = [&](double azimuth) {
+      description.camera.azimuth = azimuth;
+      return row_of(2, description);
+    };
+    const auto [below, above] = change(0.0, 1.0, [&](double azimuth) {
+      return scene_oracle::compile(scene_oracle::given_by(turned(azimuth), config)).met.several_sets > 0;
+    });
+    compare_with_oracle(name, turned(below), config, figures);
+    compare_with_oracle(name, turned(above), config, figures);
+  }
+  print_and_expect_equal(figures);
+  EXPECT_EQ(figures.met.several_sets, names.size());
+}
+
 /// Splat records of the whole frame.
 std::vector<cmodel::SplatRecord> splats_of(const CompiledFrame& compiled) {
   std::vector<cmodel::SplatRecord> splats;

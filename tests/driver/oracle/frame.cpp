@@ -237,8 +237,8 @@ class Page {
 
   /// Whether `extent` pixels from the window's first one on meet a whole tile's `side` pixels, along one axis.
   bool meets(std::int64_t q, const RadiusSet& set, std::int64_t extent, std::int64_t first, std::int64_t side) const {
-    const Wide step = power_of_two(symbols_.pf - log2_of(symbols_.k));
-    const Wide xs = floor_divide(2 * Wide{q} + step, 2 * step);  // half up
+    const int kl = log2_of(symbols_.k);
+    const Wide xs = narrow(symbols_.Rs, Overflow::Sat, q, symbols_.pf, oracle::s(60, kl)).word;  // no end is near
     const Wide x0 = floor_divide(xs - set.rho, symbols_.k) + 1;
     return x0 < first + side && x0 + extent > first;
   }

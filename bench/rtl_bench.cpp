@@ -68,7 +68,7 @@ void rtl(benchmark::State& state, const std::string& name) {
     asserted = std::min(asserted, run(*with_assertions, beats));
 
     testbench::CheckedDevice scoreboard(config, cmodel::StreamScope::Subset, pixels,
-                                        [&](cmodel::PixelSink& tiles, cmodel::TapSink& taps) {
+                                        [&](cmodel::PixelSink& tiles, testbench::RawTapSink& taps) {
                                           testbench::RtlOptions with_taps;
                                           with_taps.taps = &taps;
                                           return testbench::make_rtl_device(config, tiles, with_taps);

@@ -32,7 +32,7 @@ driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config&
   const auto device = [&](cmodel::PixelSink& pixels) -> std::unique_ptr<cmodel::Device> {
     if (checking == Checking::EveryTap) {
       auto checked = std::make_unique<testbench::CheckedDevice>(
-          config, cmodel::StreamScope::Subset, pixels, [&](cmodel::PixelSink& tiles, cmodel::TapSink& taps) {
+          config, cmodel::StreamScope::Subset, pixels, [&](cmodel::PixelSink& tiles, testbench::RawTapSink& taps) {
             testbench::RtlOptions with_taps;
             with_taps.taps = &taps;
             return testbench::make_rtl_device(config, tiles, with_taps);
@@ -81,11 +81,7 @@ std::string to_text(const RtlRun& run) {
 nlohmann::ordered_json to_json(const RtlRun& run) {
   nlohmann::ordered_json json{{"cycles_rtl", run.stalls.busy}};
   if (run.check) json["cycles_model"] = optional_json(run.check->cycles_model);
-  json["cycles"] = {{"busy", run.stalls.busy},
-                    {"stall_input", run.stalls.stall_input},
-                    {"stall_table", run.stalls.stall_table},
-                    {"stall_buffer", run.stalls.stall_buffer},
-                    {"stall_tile", run.stalls.stall_tile}};
+  run.stalls.for_each([&](const char* name, std::uint64_t value, const char*) { json["cycles"][name] = value; });
   if (!run.check) return json;
   json["check"] = {{"comparisons", run.check->comparisons},
                    {"mismatches", run.check->mismatches},

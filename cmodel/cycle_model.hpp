@@ -10,6 +10,7 @@
 #include "cmodel/cycle_account.hpp"
 #include "cmodel/device.hpp"
 #include "cmodel/dirty_map.hpp"
+#include "cmodel/stall_counters.hpp"
 #include "cmodel/stream_decode.hpp"
 #include "cmodel/willing.hpp"
 
@@ -46,12 +47,6 @@ class CycleSink {
   virtual void on_beat(const BeatCycles&) {}
   virtual void on_sheet(const SheetCycles& sheet) = 0;
   virtual void on_tile(const TileCycles& tile) = 0;
-};
-
-/// The device's own cycle counters (registers after those of FASTSPLAT_COUNTERS).
-struct StallCounters {
-  std::uint64_t busy = 0, stall_input = 0, stall_table = 0, stall_buffer = 0, stall_tile = 0;
-  bool operator==(const StallCounters&) const = default;
 };
 
 struct CycleOptions {

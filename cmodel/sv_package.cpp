@@ -7,6 +7,7 @@
 #include "base/hash_text.hpp"
 #include "cmodel/counters.hpp"
 #include "cmodel/register_map.hpp"
+#include "cmodel/stall_counters.hpp"
 #include "cmodel/stream_decode.hpp"
 #include "cmodel/stream_layout.hpp"
 
@@ -149,8 +150,9 @@ std::string sv_package(const Config& config) {
   int counters = 0;
   Counters{}.for_each(
       [&](const char* name, std::uint64_t, const char*) { p.number("CNT_" + upper(name), counters++); });
-  for (const char* name : {"CYCLES", "STALL_INPUT", "STALL_TABLE", "STALL_BUFFER", "STALL_TILE"})
-    p.number(std::string("CNT_") + name, counters++);
+#define X(name, counter, meaning) p.number("CNT_" #counter, counters++);
+  FASTSPLAT_STALL_COUNTERS(X)
+#undef X
   p.number("COUNTERS", counters);
 
   p.section("registers");

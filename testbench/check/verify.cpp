@@ -11,7 +11,7 @@ struct NoPixels final : cmodel::PixelSink {
   void on_tile(cmodel::TilePixels&&) override {}
 };
 
-std::unique_ptr<RtlDevice> make_device(const VerifyOptions& options, cmodel::PixelSink& pixels, cmodel::TapSink& taps) {
+std::unique_ptr<RtlDevice> make_device(const VerifyOptions& options, cmodel::PixelSink& pixels, RawTapSink& taps) {
   RtlOptions rtl = rtl_options(options);
   rtl.taps = &taps;
   return options.device ? options.device(pixels, rtl) : make_rtl_device(options.config, pixels, rtl);
@@ -58,10 +58,9 @@ RtlOptions rtl_options(const VerifyOptions& options) {
 VerifyResult verify(const BeatSource& source, const VerifyOptions& options, cmodel::PixelSink* pixels) {
   NoPixels none;
   const RtlOptions driven = rtl_options(options);
-  CheckedDevice checked(
-      options.config, options.scope, pixels == nullptr ? none : *pixels,
-      [&](cmodel::PixelSink& tiles, cmodel::TapSink& taps) { return make_device(options, tiles, taps); },
-      {.stop_after = options.stop_after, .source = &driven.input, .sink = &driven.output});
+  CheckedDevice checked(options.config, options.scope, pixels == nullptr ? none : *pixels,
+                        [&](cmodel::PixelSink& tiles, RawTapSink& taps) { return make_device(options, tiles, taps); },
+                        {.stop_after = options.stop_after, .source = &driven.input, .sink = &driven.output});
   std::optional<CoverageCollector> coverage;
   if (options.coverage) {
     coverage.emplace(options.config, options.scope,

@@ -90,8 +90,8 @@ CycleCoverage::CycleCoverage(const cmodel::Config& config, Coverage& coverage)
   one_beat_ = coverage.declare("output", "tile_of_one_beat");
   hold_length_ = lengths(coverage, "output", "held_");
   stall_ = coverage.bins().size();
-  for (const char* name : {"busy", "stall_input", "stall_table", "stall_buffer", "stall_tile"})
-    coverage.declare("counter", name);
+  cmodel::StallCounters{}.for_each(
+      [&](const char* name, std::uint64_t, const char*) { coverage.declare("counter", name); });
 }
 
 void CycleCoverage::on_beat(const cmodel::BeatCycles& beat) {
@@ -201,9 +201,7 @@ void CycleCoverage::on_tile(const cmodel::TileCycles& tile) {
 
 void CycleCoverage::stalls(const cmodel::StallCounters& stalls) {
   Id id = stall_;
-  for (const std::uint64_t count :
-       {stalls.busy, stalls.stall_input, stalls.stall_table, stalls.stall_buffer, stalls.stall_tile})
-    coverage_.hit(id++, count);
+  stalls.for_each([&](const char*, std::uint64_t count, const char*) { coverage_.hit(id++, count); });
 }
 
 ResetCoverage::ResetCoverage(const cmodel::Config&, Coverage& coverage) : coverage_(coverage) {

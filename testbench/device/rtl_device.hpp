@@ -10,7 +10,9 @@
 
 #include "cmodel/config.hpp"
 #include "cmodel/device.hpp"
+#include "cmodel/stall_counters.hpp"
 #include "testbench/device/pattern.hpp"
+#include "testbench/device/raw_taps.hpp"
 #include "testbench/device/reset_fill.hpp"
 
 namespace fastsplat::testbench {
@@ -24,16 +26,11 @@ struct RtlOptions {
   ResetFill fill = ResetFill::Random;
   std::uint64_t seed = 1;            ///< of ResetFill::Random
   std::uint64_t timeout = 1u << 20;  ///< cycles without any transfer before UserError (Simulation)
-  cmodel::TapSink* taps = nullptr;
+  RawTapSink* taps = nullptr;        ///< outlives the device; null: nothing is told
   /// A waveform of the cycles [wave_from, wave_to); none while the path is empty.
   std::filesystem::path wave;
   std::uint64_t wave_from = 0, wave_to = 0;
   RtlBuild build = RtlBuild::Checked;
-};
-
-/// Cycles the device was busy and what it waited for (its own counters).
-struct RtlCycles {
-  std::uint64_t busy = 0, stall_input = 0, stall_table = 0, stall_buffer = 0, stall_tile = 0;
 };
 
 /// What a register access was answered with.
@@ -49,7 +46,7 @@ class RtlDevice : public cmodel::Device {
   /// Cycles since reset was released.
   virtual std::uint64_t cycles() const = 0;
   /// Read through AXI4-Lite.
-  virtual RtlCycles cycle_counters() = 0;
+  virtual cmodel::StallCounters cycle_counters() = 0;
   /// One AXI4-Lite access; the answer is taken `wait` cycles after it came. The stream side goes on by its patterns.
   virtual RegisterAnswer read_register(std::uint32_t address, int wait = 0) = 0;
   virtual RegisterAnswer write_register(std::uint32_t address, std::uint32_t word, int wait = 0) = 0;

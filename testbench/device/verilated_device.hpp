@@ -4,27 +4,28 @@
 #include <verilated.h>
 #include <verilated_fst_c.h>
 
+#include <array>
 #include <limits>
+#include <span>
 #include <type_traits>
 
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
-#include "cmodel/records.hpp"
 #include "cmodel/register_map.hpp"
 #include "testbench/device/rtl_device.hpp"
 #include "testbench/device/simulator_output.hpp"
-#include "testbench/device/tap_assembly.hpp"
+#include "testbench/device/tile_assembly.hpp"
 
 namespace fastsplat::testbench {
 
-/// The 32-bit words of a Verilated port of any width.
+/// The 32-bit words of a Verilated port of any width; `small` holds those of a port that is a plain integer.
 template <class Port>
-const std::uint32_t* port_words(const Port& port, std::uint64_t& small) {
+std::span<const std::uint32_t> port_words(const Port& port, std::array<std::uint32_t, 2>& small) {
   if constexpr (std::is_integral_v<Port>) {
-    small = port;
-    return reinterpret_cast<const std::uint32_t*>(&small);
+    small = {static_cast<std::uint32_t>(port), static_cast<std::uint32_t>(std::uint64_t{port} >> 32)};
+    return small;
   } else {
-    return port.data();
+    return {port.data(), sizeof(Port) / sizeof(std::uint32_t)};
   }
 }
 
@@ -32,7 +33,7 @@ template <class Top>
 class VerilatedDevice : public RtlDevice {
  public:
   VerilatedDevice(const cmodel::Config& config, cmodel::PixelSink& pixels, const RtlOptions& options)
-      : config_(config), options_(options), taps_(config, pixels, options.taps) {
+      : config_(config), options_(options), tiles_(config, pixels) {
     context_.threads(1);  // the default starts idle workers
     context_.randReset(options.fill == ResetFill::Zero ? 0 : options.fill == ResetFill::One ? 1 : 2);
     context_.randSeed(static_cast<int>(options.seed % 0x7fffffff) + 1);
@@ -85,7 +86,7 @@ class VerilatedDevice : public RtlDevice {
     top_->s_tvalid_i = 0;
     offering_ = false;
     pending_ = false;
-    for (std::uint64_t waited = 0; (read_status() & 1) != 0 || !taps_.complete(); ++waited) {
+    for (std::uint64_t waited = 0; (read_status() & 1) != 0 || !tiles_.complete(); ++waited) {
       if (waited > options_.timeout) time_out("the device does not come to rest");
     }
     // A few cycles more: pipelines behind the last busy cycle deliver their taps.
@@ -101,14 +102,15 @@ class VerilatedDevice : public RtlDevice {
     return counters_;
   }
 
-  RtlCycles cycle_counters() override {
+  cmodel::StallCounters cycle_counters() override {
     int number = 0;
 #define X(name, meaning) ++number;
     FASTSPLAT_COUNTERS(X)
 #undef X
-    RtlCycles out;
-    for (std::uint64_t* field : {&out.busy, &out.stall_input, &out.stall_table, &out.stall_buffer, &out.stall_tile})
-      *field = counter(number++);
+    cmodel::StallCounters out;
+#define X(name, counter_name, meaning) out.name = counter(number++);
+    FASTSPLAT_STALL_COUNTERS(X)
+#undef X
     return out;
   }
 
@@ -146,7 +148,7 @@ class VerilatedDevice : public RtlDevice {
 
   void warm_reset() override {
     pulse_reset();
-    taps_.reset();
+    tiles_.reset();
   }
 
  protected:
@@ -202,7 +204,8 @@ class VerilatedDevice : public RtlDevice {
     const bool taken = offering_ && top_->s_tready_o != 0;
     sample();
     if (taken) {
-      taps_.accept(beat_);
+      tiles_.accept(beat_);
+      if (options_.taps != nullptr) options_.taps->accept(beat_);
       pending_ = offering_ = false;
     }
     edge();
@@ -222,27 +225,49 @@ class VerilatedDevice : public RtlDevice {
 
   /// Taps of this cycle and the pixel beat, if one is taken.
   void sample() {
-    if (options_.taps != nullptr) sample_taps();
-    // After the taps: a tile of one beat may end in the very cycle that counts its last, empty sheet.
-    std::uint64_t a = 0;
-    if (top_->m_tvalid_o && top_->m_tready_i)
-      taps_.pixels(cycle_, port_words(top_->m_tdata_o, a), top_->m_tlast_o != 0);
+    if (options_.taps != nullptr) sample_taps(*options_.taps);
+    if (!top_->m_tvalid_o || !top_->m_tready_i) return;
+    std::array<std::uint32_t, 2> small;
+    const auto words = port_words(top_->m_tdata_o, small);
+    const bool last = top_->m_tlast_o != 0;
+    if (options_.taps != nullptr)
+      options_.taps->on_raw({.port = RawPort::Pixels, .cycle = cycle_, .last = last, .words = words});
+    tiles_.pixels(words, last);
   }
 
-  void sample_taps() {
-    std::uint64_t a = 0;
+  void sample_taps(RawTapSink& taps) {
+    std::array<std::uint32_t, 2> small;
     if (top_->tap_snap_valid_o) {
-      taps_.snap(cycle_, top_->tap_snap_tag_o, taps_.origin(top_->tap_snap_x_o), taps_.origin(top_->tap_snap_y_o),
-                 top_->tap_snap_mx_o, top_->tap_snap_my_o);
+      taps.on_raw({.port = RawPort::Snap,
+                   .cycle = cycle_,
+                   .tag = top_->tap_snap_tag_o,
+                   .x = top_->tap_snap_x_o,
+                   .y = top_->tap_snap_y_o,
+                   .mx = top_->tap_snap_mx_o,
+                   .my = top_->tap_snap_my_o,
+                   .words = {}});
     }
-    if (top_->tap_sheet_valid_o) taps_.sheet(cycle_, top_->tap_sheet_tag_o, port_words(top_->tap_sums_o, a));
+    if (top_->tap_sheet_valid_o) {
+      taps.on_raw({.port = RawPort::Sheet,
+                   .cycle = cycle_,
+                   .tag = top_->tap_sheet_tag_o,
+                   .words = port_words(top_->tap_sums_o, small)});
+    }
     if (top_->tap_window_valid_o) {
-      taps_.window(cycle_, top_->tap_window_tag_o, taps_.origin(top_->tap_window_x_o),
-                   taps_.origin(top_->tap_window_y_o), port_words(top_->tap_weights_o, a));
+      taps.on_raw({.port = RawPort::Window,
+                   .cycle = cycle_,
+                   .tag = top_->tap_window_tag_o,
+                   .x = top_->tap_window_x_o,
+                   .y = top_->tap_window_y_o,
+                   .words = port_words(top_->tap_weights_o, small)});
     }
-    if (top_->tap_composite_valid_o)
-      taps_.composite(cycle_, top_->tap_composite_block_o, port_words(top_->tap_state_o, a));
-    taps_.sheet_done(cycle_, top_->tap_sheet_done_o != 0);
+    if (top_->tap_composite_valid_o) {
+      taps.on_raw({.port = RawPort::Composite,
+                   .cycle = cycle_,
+                   .block = top_->tap_composite_block_o,
+                   .words = port_words(top_->tap_state_o, small)});
+    }
+    if (top_->tap_sheet_done_o) taps.on_raw({.port = RawPort::SheetDone, .cycle = cycle_, .words = {}});
   }
 
   std::uint32_t read(std::uint32_t address) { return read_register(address, 0).word; }
@@ -273,7 +298,7 @@ class VerilatedDevice : public RtlDevice {
 
   cmodel::Config config_;
   RtlOptions options_;
-  TapAssembly taps_;
+  TileAssembly tiles_;
   VerilatedContext context_;
   std::unique_ptr<Top> top_;
   std::unique_ptr<VerilatedFstC> wave_;

@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.hpp"
-#include "cmodel/model.hpp"
-#include "testbench/check/scoreboard.hpp"
+#include "testbench/check/verify.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/cmodel/random_stream_helper.hpp"
 #include "tests/cmodel/stream_writer_helper.hpp"
@@ -86,82 +84,32 @@ std::vector<Run> runs_of(const cmodel::Config& config, Stimulus stimulus) {
   return {};
 }
 
-struct NoPixels final : cmodel::PixelSink {
-  void on_tile(cmodel::TilePixels&&) override {}
-};
-
-/// Passes taps on once a reset is over.
-struct Gate final : cmodel::TapSink {
-  explicit Gate(cmodel::TapSink& next) : sink(next) {}
-  cmodel::TapSink& sink;
-  bool open = true;
-  void on_tap(const cmodel::TapRecord& record) override {
-    if (open) sink.on_tap(record);
-  }
-};
-
-Detector detector_of(cmodel::Tap tap) { return static_cast<Detector>(static_cast<int>(tap)); }
+static_assert(static_cast<int>(Detector::Cycles) == static_cast<int>(testbench::Detector::Cycles));
 
 Outcome run_one(const cmodel::Config& config, const Run& run, Stimulus stimulus, const MakeDevice& make) {
-  testbench::Scoreboard board;
-  Outcome outcome;
-  const auto judge = [&] {
-    outcome.comparisons = board.comparisons();
-    if (!board.first()) return false;
-    const auto& first = *board.first();
-    outcome.caught = Caught{detector_of((first.model ? first.model : first.rtl)->tap), describe(config, first)};
-    return true;
+  testbench::VerifyOptions options;
+  options.config = config;
+  options.ready = run.output;
+  options.input = run.input;
+  options.fill = stimulus == Stimulus::WarmReset ? testbench::ResetFill::Zero : testbench::ResetFill::Random;
+  options.seed = run.seed;
+  options.reset_after = run.reset_after;
+  options.timeout = kTimeout;
+  options.stop_after = 1;
+  options.device = [&](cmodel::PixelSink& pixels, const testbench::RtlOptions& rtl) {
+    return make(config, pixels, rtl);
   };
-  NoPixels pixels;
-  cmodel::Model model(config, cmodel::StreamScope::Whole, pixels, &board.model());
-  model.consume(run.beats);
-  model.finish();
-
-  Gate gate(board.rtl());
-  try {
-    const auto device =
-        make(config, pixels,
-             {.input = testbench::Pattern(run.input, run.seed),
-              .output = testbench::Pattern(run.output, run.seed + 1),
-              .fill = stimulus == Stimulus::WarmReset ? testbench::ResetFill::Zero : testbench::ResetFill::Random,
-              .seed = run.seed,
-              .timeout = kTimeout,
-              .taps = &gate,
-              .wave = {}});
-    if (run.reset_after != 0) {
-      gate.open = false;
-      device->consume(std::span(run.beats).first(run.reset_after));
-      device->warm_reset();
-      gate.open = true;
-    }
-    for (const auto& beat : run.beats) {
-      device->consume({&beat, 1});
-      if (judge()) return outcome;
-    }
-    device->finish();
-    board.finish();
-    if (judge()) return outcome;
-    const auto& counters = device->counters();
-    if (!(counters == model.counters())) {
-      std::string report = "counters differ:";
-      std::vector<std::uint64_t> expected;
-      model.counters().for_each([&](const char*, std::uint64_t value, const char*) { expected.push_back(value); });
-      std::size_t n = 0;
-      counters.for_each([&](const char* name, std::uint64_t value, const char*) {
-        if (value != expected[n])
-          report += std::string(" ") + name + " " + std::to_string(expected[n]) + ", RTL " + std::to_string(value);
-        ++n;
-      });
-      outcome.caught = Caught{Detector::Counters, report};
-    }
-  } catch (const UserError& error) {
-    const std::string text = error.what();
-    if (text.find(": assertion ") != std::string::npos) {
-      outcome.caught = Caught{Detector::Assertion, text};
-      return outcome;
-    }
-    if (judge()) return outcome;
-    outcome.caught = Caught{text.find("hangs") != std::string::npos ? Detector::Timeout : Detector::Other, text};
+  const auto result = testbench::verify(testbench::source_of(run.beats), options);
+  Outcome outcome{.caught = std::nullopt, .comparisons = result.check.comparisons};
+  if (result.error.find(": assertion ") != std::string::npos) {
+    outcome.caught = Caught{Detector::Assertion, result.error};
+  } else if (result.check.detector) {
+    outcome.caught = Caught{static_cast<Detector>(*result.check.detector),
+                            result.check.first ? describe(config, *result.check.first) : ""};
+    for (const auto& difference : result.check.differences) outcome.caught->report += difference + "; ";
+  } else if (result.verdict != testbench::Verdict::Pass) {
+    outcome.caught = Caught{result.error.find("hangs") != std::string::npos ? Detector::Timeout : Detector::Other,
+                            result.error + to_string(result.verdict)};
   }
   return outcome;
 }
@@ -169,9 +117,16 @@ Outcome run_one(const cmodel::Config& config, const Run& run, Stimulus stimulus,
 }  // namespace
 
 const char* to_string(Detector detector) {
-  constexpr const char* kNames[] = {"tap snap", "tap footprint", "tap sheet", "tap composite", "tap pixel",
-                                    "counters", "timeout",       "assertion", "other"};
-  return kNames[static_cast<int>(detector)];
+  switch (detector) {
+    case Detector::Timeout:
+      return "timeout";
+    case Detector::Assertion:
+      return "assertion";
+    case Detector::Other:
+      return "other";
+    default:
+      return to_string(static_cast<testbench::Detector>(detector));
+  }
 }
 
 const char* to_string(Stimulus stimulus) {

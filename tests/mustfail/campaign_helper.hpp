@@ -1,4 +1,4 @@
-// Runs the device with one fault against the model and says who saw it first.
+// Runs the device with one fault through verify() and says who saw it first.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cmodel/config.hpp"
+#include "testbench/check/checker.hpp"
 #include "testbench/device/rtl_device.hpp"
 
 namespace fastsplat::test {
@@ -22,7 +23,8 @@ enum class Fault : std::uint32_t {
 #undef FAULT
 };
 
-enum class Detector { Snap, Footprint, Sheet, Composite, Pixel, Counters, Timeout, Assertion, Other };
+/// Those of testbench::Detector, in its order, then how a simulation may end.
+enum class Detector { Snap, Footprint, Sheet, Composite, Pixel, Tiles, Counters, Cycles, Timeout, Assertion, Other };
 const char* to_string(Detector detector);
 
 enum class Stimulus {

@@ -13,14 +13,14 @@ namespace {
 /// A device that tells one stall counter wrong.
 class Miscounting final : public RtlDevice {
  public:
-  Miscounting(std::unique_ptr<RtlDevice> device, std::uint64_t RtlCycles::*field)
+  Miscounting(std::unique_ptr<RtlDevice> device, std::uint64_t cmodel::StallCounters::*field)
       : device_(std::move(device)), field_(field) {}
   void consume(std::span<const cmodel::Beat> beats) override { device_->consume(beats); }
   void finish() override { device_->finish(); }
   const cmodel::Counters& counters() const override { return device_->counters(); }
   std::uint64_t cycles() const override { return device_->cycles(); }
-  RtlCycles cycle_counters() override {
-    RtlCycles cycles = device_->cycle_counters();
+  cmodel::StallCounters cycle_counters() override {
+    cmodel::StallCounters cycles = device_->cycle_counters();
     ++(cycles.*field_);
     return cycles;
   }
@@ -34,7 +34,7 @@ class Miscounting final : public RtlDevice {
 
  private:
   std::unique_ptr<RtlDevice> device_;
-  std::uint64_t RtlCycles::*field_;
+  std::uint64_t cmodel::StallCounters::*field_;
 };
 
 VerifyOptions tiny() {
@@ -66,8 +66,10 @@ TEST(CheckedCycles, ModelAndRtlAgreeUnderPatternsAndAfterAReset) {
 }
 
 TEST(CheckedCycles, OneCycleMoreInAnyCounterIsAMismatch) {
-  for (const auto field : {&RtlCycles::busy, &RtlCycles::stall_input, &RtlCycles::stall_table, &RtlCycles::stall_buffer,
-                           &RtlCycles::stall_tile}) {
+  using Cycles = cmodel::StallCounters;
+#define X(name, counter, meaning) &Cycles::name,
+  for (const auto field : {FASTSPLAT_STALL_COUNTERS(X)}) {
+#undef X
     VerifyOptions options = tiny();
     options.device = [&](cmodel::PixelSink& pixels, const RtlOptions& rtl) {
       return std::make_unique<Miscounting>(make_rtl_device(options.config, pixels, rtl), field);
@@ -76,6 +78,7 @@ TEST(CheckedCycles, OneCycleMoreInAnyCounterIsAMismatch) {
     EXPECT_EQ(result.verdict, Verdict::Mismatch);
     EXPECT_EQ(result.check.mismatches, 1u);
     EXPECT_FALSE(result.check.first);
+    EXPECT_EQ(result.check.detector, Detector::Cycles);
     ASSERT_EQ(result.check.differences.size(), 1u);
     EXPECT_EQ(result.check.differences[0].rfind("cycles", 0), 0u) << result.check.differences[0];
   }

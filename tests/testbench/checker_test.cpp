@@ -13,24 +13,32 @@
 namespace fastsplat::testbench {
 namespace {
 
-/// What a broken device does to a record: changes it, or loses it.
-using Damage = std::function<bool(cmodel::TapRecord&, std::vector<std::uint32_t>&)>;
+/// What a broken device does to a tap: changes it, or loses it.
+using Damage = std::function<bool(RawTap&, std::vector<std::uint32_t>&)>;
 
-class DamagedTaps final : public cmodel::TapSink {
+class DamagedTaps final : public RawTapSink {
  public:
-  DamagedTaps(cmodel::TapSink* to, Damage damage) : to_(to), damage_(std::move(damage)) {}
-  void on_tap(const cmodel::TapRecord& record) override {
-    cmodel::TapRecord changed = record;
-    std::vector<std::uint32_t> payload(record.payload.begin(), record.payload.end());
-    if (!damage_(changed, payload)) return;
-    changed.payload = payload;
-    to_->on_tap(changed);
+  DamagedTaps(RawTapSink* to, Damage damage) : to_(to), damage_(std::move(damage)) {}
+  void on_raw(const RawTap& tap) override {
+    RawTap changed = tap;
+    std::vector<std::uint32_t> words(tap.words.begin(), tap.words.end());
+    if (!damage_(changed, words)) return;
+    changed.words = words;
+    to_->on_raw(changed);
   }
+  void accept(const cmodel::Beat& beat) override { to_->accept(beat); }
 
  private:
-  cmodel::TapSink* to_;
+  RawTapSink* to_;
   Damage damage_;
 };
+
+/// The ports whose words are compared, with who compares them.
+constexpr std::pair<RawPort, Detector> kPorts[] = {{RawPort::Snap, Detector::Snap},
+                                                   {RawPort::Window, Detector::Footprint},
+                                                   {RawPort::Sheet, Detector::Sheet},
+                                                   {RawPort::Composite, Detector::Composite},
+                                                   {RawPort::Pixels, Detector::Pixel}};
 
 VerifyOptions tiny() {
   VerifyOptions options;
@@ -66,28 +74,34 @@ TEST(Checker, PassesTheRtlAndComparesEveryTap) {
   std::printf("[figure] comparisons = %llu\n", static_cast<unsigned long long>(result.check.comparisons));
 }
 
-TEST(Checker, SeesOneChangedBitInEachTap) {
-  for (int tap = 0; tap < cmodel::kTapCount; ++tap) {
-    auto left = std::make_shared<int>(5);  // the fifth record of the tap
-    const auto result = verify(mixed(100), damaged([=](cmodel::TapRecord& record, std::vector<std::uint32_t>& payload) {
-                                 if (record.tap == static_cast<cmodel::Tap>(tap) && --*left == 0) payload[1] ^= 1;
+TEST(Checker, SeesOneDamagedEventOfEachTap) {
+  for (const auto& [port, detector] : kPorts) {
+    auto left = std::make_shared<int>(5);  // the fifth
+    const auto result = verify(mixed(100), damaged([port = port, left](RawTap& tap, std::vector<std::uint32_t>& words) {
+                                 if (tap.port != port || --*left != 0) return true;
+                                 tap.mx ^= 1;
+                                 for (auto& word : words) word = ~word;
                                  return true;
                                }));
     EXPECT_EQ(result.verdict, Verdict::Mismatch);
-    EXPECT_EQ(result.check.mismatches, 1u) << tap;
+    EXPECT_EQ(result.check.detector, detector);
+    // A pixel is seen in its tile as well.
+    const bool pixel = port == RawPort::Pixels;
+    EXPECT_EQ(result.check.mismatches > 1, pixel) << to_string(detector);
     ASSERT_TRUE(result.check.first);
-    EXPECT_EQ(static_cast<int>(result.check.first->model->tap), tap);
-    EXPECT_EQ(result.check.first->word, 1u);
+    EXPECT_FALSE(result.check.first->header);
+    EXPECT_EQ(result.check.differences.size(), pixel ? 1u : 0u);
   }
 }
 
-TEST(Checker, SeesALostEventInEachTap) {
-  for (int tap = 0; tap < cmodel::kTapCount; ++tap) {
+TEST(Checker, SeesALostEventOfEachTap) {
+  for (const auto& [port, detector] : kPorts) {
     auto left = std::make_shared<int>(3);
-    const auto result = verify(mixed(100), damaged([=](cmodel::TapRecord& record, std::vector<std::uint32_t>&) {
-                                 return record.tap != static_cast<cmodel::Tap>(tap) || --*left != 0;
+    const auto result = verify(mixed(100), damaged([port = port, left](RawTap& tap, std::vector<std::uint32_t>&) {
+                                 return tap.port != port || --*left != 0;
                                }));
-    EXPECT_EQ(result.verdict, Verdict::Mismatch) << tap;
+    EXPECT_EQ(result.verdict, Verdict::Mismatch);
+    EXPECT_EQ(result.check.detector, detector);
   }
 }
 
@@ -102,8 +116,8 @@ TEST(Checker, NothingComparedIsNoPass) {
 
 TEST(Failure, IsShrunkExplainedAndReplayed) {
   // A device whose weights are wrong for one window phase.
-  const auto options = damaged([](cmodel::TapRecord& record, std::vector<std::uint32_t>& payload) {
-    if (record.tap == cmodel::Tap::Snap && payload[2] == 3) payload[2] = 4;
+  const auto options = damaged([](RawTap& tap, std::vector<std::uint32_t>&) {
+    if (tap.port == RawPort::Snap && tap.mx == 3) tap.mx = 4;
     return true;
   });
   const auto source = mixed(300);

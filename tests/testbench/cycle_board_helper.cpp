@@ -7,6 +7,7 @@
 #include <deque>
 
 #include "testbench/device/rtl_device.hpp"
+#include "testbench/device/tap_assembly.hpp"
 
 namespace fastsplat::test {
 namespace {
@@ -118,7 +119,8 @@ CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmo
   testbench::RtlOptions rtl_options;
   rtl_options.input = input;
   rtl_options.output = output;
-  rtl_options.taps = &checker;
+  testbench::TapAssembly taps(config, pixels, checker);
+  rtl_options.taps = &taps;
   const auto rtl = testbench::make_rtl_device(config, pixels, rtl_options);
 
   // Making the device took some cycles already: it read the configuration's hash.
@@ -137,12 +139,10 @@ CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmo
   result.account = model.account();
   result.stalls = model.stalls();
   result.counters = model.counters();
-  const testbench::RtlCycles theirs = rtl->cycle_counters();
-  checker.equal("CYCLES", model.stalls().busy, theirs.busy);
-  checker.equal("STALL_INPUT", model.stalls().stall_input, theirs.stall_input);
-  checker.equal("STALL_TABLE", model.stalls().stall_table, theirs.stall_table);
-  checker.equal("STALL_BUFFER", model.stalls().stall_buffer, theirs.stall_buffer);
-  checker.equal("STALL_TILE", model.stalls().stall_tile, theirs.stall_tile);
+  const cmodel::StallCounters theirs = rtl->cycle_counters();
+#define X(name, counter, meaning) checker.equal(#counter, model.stalls().name, theirs.name);
+  FASTSPLAT_STALL_COUNTERS(X)
+#undef X
   const cmodel::Counters& counts = rtl->counters();
   checker.equal("tiles", model.counters().tiles, counts.tiles);
   checker.equal("sheets", model.counters().sheets, counts.sheets);

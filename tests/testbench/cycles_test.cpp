@@ -6,6 +6,7 @@
 #include "cmodel/cycle_model.hpp"
 #include "driver/config_file.hpp"
 #include "testbench/device/rtl_device.hpp"
+#include "testbench/device/tap_assembly.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/cmodel/random_stream_helper.hpp"
 #include "tests/cmodel/stream_writer_helper.hpp"
@@ -107,7 +108,8 @@ TEST_P(EachConfig, IdenticalCentresTakeOneCycleEach) {
     void on_tile(cmodel::TilePixels&&) override {}
   } pixels;
   testbench::RtlOptions options;
-  options.taps = &rtl_span;
+  testbench::TapAssembly taps(config(), pixels, rtl_span);
+  options.taps = &taps;
   const auto beats = to_beats(writer.bytes());
   const auto rtl = testbench::make_rtl_device(config(), pixels, options);
   rtl->consume(beats);

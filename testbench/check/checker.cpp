@@ -1,0 +1,128 @@
+#include "testbench/check/checker.hpp"
+
+#include <algorithm>
+
+namespace fastsplat::testbench {
+namespace {
+
+/// More than any device can hold back (a tile's pixels, a sheet's blocks): beyond it the device has gone silent.
+constexpr std::size_t kBacklogWords = std::size_t{1} << 26;
+constexpr std::size_t kDifferencesTold = 32;
+
+static_assert(static_cast<int>(Detector::Tiles) == cmodel::kTapCount);
+Detector detector_of(const Divergence& divergence) {
+  return static_cast<Detector>((divergence.model ? divergence.model : divergence.rtl)->tap);
+}
+
+}  // namespace
+
+const char* to_string(Detector detector) {
+  constexpr const char* kNames[] = {"tap snap",  "tap footprint", "tap sheet", "tap composite",
+                                    "tap pixel", "tiles",         "counters",  "cycles"};
+  return kNames[static_cast<std::size_t>(detector)];
+}
+
+Checker::Checker(const cmodel::Config& config, cmodel::StreamScope scope, cmodel::PixelSink& pixels,
+                 const CheckOptions& options)
+    : config_(config),
+      scope_(scope),
+      options_(options),
+      pixels_(pixels),
+      assembly_(config, device_tiles_, board_.rtl()),
+      model_(config, scope, model_tiles_, &board_.model()) {}
+
+void Checker::start(std::uint64_t first_beat) {
+  cycle_model_.emplace(
+      config_, scope_,
+      cmodel::CycleOptions{.input = options_.source, .output = options_.sink, .first_beat = first_beat});
+}
+
+void Checker::accept(const cmodel::Beat& beat) {
+  if (stopped()) return;
+  // A record is expected before the device can show it, and no earlier than that.
+  model_.consume({&beat, 1});
+  if (cycle_model_) cycle_model_->consume({&beat, 1});
+  assembly_.accept(beat);
+  if (board_.backlog() > kBacklogWords) {
+    silent_ = true;
+    board_.finish();
+    differ(*first_detector(Detector::Tiles), "the RTL shows none of the last events");
+  }
+}
+
+CheckReport Checker::finish(const cmodel::Counters& counters, const cmodel::StallCounters& cycles) {
+  if (stopped()) return report();
+  end_of_stream();
+  board_.finish();
+  for (const auto& tile : model_tiles_.tiles)
+    differ(Detector::Tiles, "tile " + std::to_string(tile.tile) + " never came out");
+  model_tiles_.tiles.clear();
+  check_counters(counters);
+  if (cycle_model_) check_cycles(cycles);
+  return report();
+}
+
+void Checker::check_counters(const cmodel::Counters& rtl) {
+  std::vector<std::uint64_t> expected;
+  model_.counters().for_each([&](const char*, std::uint64_t value, const char*) { expected.push_back(value); });
+  auto model = expected.begin();
+  rtl.for_each([&](const char* name, std::uint64_t value, const char*) {
+    equal(Detector::Counters, std::string("counter ") + name, *model++, value);
+  });
+}
+
+void Checker::check_cycles(const cmodel::StallCounters& rtl) {
+  cycle_model_->finish();
+  const cmodel::StallCounters& model = cycle_model_->stalls();
+  cycles_model_ = model.busy;
+  cycles_rtl_ = rtl.busy;
+#define X(name, counter, meaning) equal(Detector::Cycles, meaning, model.name, rtl.name);
+  FASTSPLAT_STALL_COUNTERS(X)
+#undef X
+}
+
+void Checker::equal(Detector detector, const std::string& what, std::uint64_t model, std::uint64_t rtl) {
+  ++comparisons_;
+  if (model != rtl) differ(detector, what + ": expected " + std::to_string(model) + ", RTL " + std::to_string(rtl));
+}
+
+void Checker::check_tile(cmodel::TilePixels&& tile) {
+  const std::string name = "tile " + std::to_string(tile.tile);
+  if (model_tiles_.tiles.empty()) {
+    differ(Detector::Tiles, name + " came out of the RTL and not out of the model");
+  } else {
+    const auto& expected = model_tiles_.tiles.front();
+    comparisons_ += expected.words.size();
+    if (expected.tile != tile.tile || expected.x != tile.x || expected.y != tile.y || expected.width != tile.width ||
+        expected.height != tile.height || expected.words != tile.words) {
+      differ(Detector::Tiles,
+             name + ": its pixels differ from tile " + std::to_string(expected.tile) + " of the model");
+    }
+    model_tiles_.tiles.pop_front();
+  }
+  pixels_.on_tile(std::move(tile));
+}
+
+std::optional<Detector> Checker::first_detector(std::optional<Detector> next) const {
+  if (detector_) return detector_;
+  return board_.first() ? detector_of(*board_.first()) : next;
+}
+
+void Checker::differ(Detector detector, std::string text) {
+  detector_ = first_detector(detector);
+  ++mismatches_;
+  if (differences_.size() < kDifferencesTold) differences_.push_back(std::move(text));
+}
+
+CheckReport Checker::report() const {
+  return {.comparisons = board_.comparisons() + comparisons_,
+          .mismatches = board_.mismatches() + mismatches_,
+          .detector = first_detector(std::nullopt),
+          .by_tap = board_.by_tap(),
+          .first = board_.first(),
+          .differences = differences_,
+          .cycles_rtl = cycles_rtl_,
+          .cycles_model = cycles_model_};
+}
+
+}  // namespace fastsplat::testbench

@@ -1,0 +1,112 @@
+// The checker: told what a device took and what it shows, says whether that is what the model and the cycle model have:
+// every tap, every pixel, every counter, the cycles. Drives nothing and knows no simulator.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cmodel/cycle_model.hpp"
+#include "cmodel/model.hpp"
+#include "testbench/check/scoreboard.hpp"
+#include "testbench/device/raw_taps.hpp"
+#include "testbench/device/tap_assembly.hpp"
+
+namespace fastsplat::testbench {
+
+/// What part of the checker noticed a difference. The first five are the taps, in their order.
+enum class Detector : std::uint8_t {
+  Snap,
+  Footprint,
+  Sheet,
+  Composite,
+  Pixel,
+  Tiles,     ///< whole tiles: cut short, too long, never there
+  Counters,  ///< the device's own, but for the next
+  Cycles,    ///< its cycle counters
+};
+const char* to_string(Detector detector);
+
+/// What passed the checker.
+struct CheckReport {
+  std::uint64_t comparisons = 0;  ///< tap records, pixel words, counters and cycles
+  std::uint64_t mismatches = 0;
+  std::optional<Detector> detector;                       ///< that saw the first of them
+  std::array<std::uint64_t, cmodel::kTapCount> by_tap{};  ///< records compared
+  std::optional<Divergence> first;                        ///< of the taps
+  std::vector<std::string> differences;                   ///< tiles, counters and cycles that differ, in words
+  /// Busy cycles of the device and of the cycle model; absent of a run that did not reach its end.
+  std::optional<std::uint64_t> cycles_rtl, cycles_model;
+};
+
+struct CheckOptions {
+  std::uint64_t stop_after = 1000;          ///< mismatches; then no more beats are taken
+  const cmodel::Willing* source = nullptr;  ///< when beats are offered to the device; null: always
+  const cmodel::Willing* sink = nullptr;    ///< when its pixels are taken; null: always
+};
+
+/// Told everything in the order of the device's cycles (RawTapSink): start(), then beats and taps as they pass,
+/// end_of_stream(), and finish() once the device has come to rest. Memory stays bounded by the device's depth, whatever
+/// the stream's length.
+class Checker final : public RawTapSink {
+ public:
+  /// `pixels` receives the device's tiles (not the model's). What `options` points to outlives the checker.
+  Checker(const cmodel::Config& config, cmodel::StreamScope scope, cmodel::PixelSink& pixels,
+          const CheckOptions& options = {});
+
+  /// The cycle after reset from which the source has the first beat. Without it cycles are not compared.
+  void start(std::uint64_t first_beat);
+  bool started() const { return cycle_model_.has_value(); }
+
+  /// Throws UserError (Input) for a beat that breaks docs/stream.md. After stopped() nothing more is expected.
+  void accept(const cmodel::Beat& beat) override;
+  void on_raw(const RawTap& tap) override { assembly_.on_raw(tap); }
+
+  /// Throws UserError (Input) if the stream ended where it may not.
+  void end_of_stream() { model_.finish(); }
+  /// What the device has not shown by now never came. Its counters are compared, and its cycles after start().
+  CheckReport finish(const cmodel::Counters& counters, const cmodel::StallCounters& cycles);
+
+  /// Too many mismatches, or a device that has gone silent.
+  bool stopped() const { return silent_ || board_.mismatches() + mismatches_ >= options_.stop_after; }
+  CheckReport report() const;  ///< so far
+
+ private:
+  struct ModelTiles final : cmodel::PixelSink {
+    std::deque<cmodel::TilePixels> tiles;
+    void on_tile(cmodel::TilePixels&& tile) override { tiles.push_back(std::move(tile)); }
+  };
+  struct DeviceTiles final : cmodel::PixelSink {
+    explicit DeviceTiles(Checker* checker) : owner(checker) {}
+    Checker* owner;
+    void on_tile(cmodel::TilePixels&& tile) override { owner->check_tile(std::move(tile)); }
+  };
+  void check_tile(cmodel::TilePixels&& tile);
+  void check_counters(const cmodel::Counters& rtl);
+  void check_cycles(const cmodel::StallCounters& rtl);
+  void equal(Detector detector, const std::string& what, std::uint64_t model, std::uint64_t rtl);
+  void differ(Detector detector, std::string text);
+  /// Of the first difference so far, `next` if there is none.
+  std::optional<Detector> first_detector(std::optional<Detector> next) const;
+
+  cmodel::Config config_;
+  cmodel::StreamScope scope_;
+  CheckOptions options_;
+  cmodel::PixelSink& pixels_;
+  Scoreboard board_;
+  ModelTiles model_tiles_;
+  DeviceTiles device_tiles_{this};
+  TapAssembly assembly_;
+  cmodel::Model model_;
+  std::optional<cmodel::CycleModel> cycle_model_;  ///< from start() on
+  std::optional<std::uint64_t> cycles_rtl_, cycles_model_;
+  bool silent_ = false;
+  std::uint64_t comparisons_ = 0, mismatches_ = 0;  ///< of tiles, counters and cycles
+  std::optional<Detector> detector_;                ///< of the first difference, once one of those differed
+  std::vector<std::string> differences_;
+};
+
+}  // namespace fastsplat::testbench

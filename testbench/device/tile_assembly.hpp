@@ -1,0 +1,54 @@
+// Finished tiles out of a device's pixel beats: which tile they belong to is known from the beats the device took.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+
+#include "cmodel/config.hpp"
+#include "cmodel/device.hpp"
+#include "cmodel/records.hpp"
+
+namespace fastsplat::testbench {
+
+class TileAssembly {
+ public:
+  /// A tile that was begun and has not come out.
+  struct Tile {
+    cmodel::BeginTile begin;
+    cmodel::TilePixels out;
+    int taken = 0;  ///< pixel beats
+  };
+
+  TileAssembly(const cmodel::Config& config, cmodel::PixelSink& pixels) : lanes_(config.lanes), pixels_(pixels) {}
+
+  /// A beat the device took. The record that begins with it; none for the words of a table.
+  std::optional<cmodel::Opcode> accept(const cmodel::Beat& beat);
+  /// P pixels of 4 words; `last` ends the tile, whatever it lacks.
+  void pixels(std::span<const std::uint32_t> words, bool last);
+  void reset() {
+    tiles_.clear();
+    payload_left_ = 0;
+  }
+
+  /// All accepted tiles were delivered.
+  bool complete() const { return tiles_.empty(); }
+  /// The tile whose pixels come next; not when complete().
+  const Tile& front() const { return tiles_.front(); }
+
+  /// The pixel, relative to the tile, at which its next pixel beat begins, and how many pixels of that beat lie in it.
+  struct Place {
+    std::int32_t x, y;
+    int count;
+  };
+  Place next_place() const;
+
+ private:
+  int lanes_;
+  cmodel::PixelSink& pixels_;
+  std::deque<Tile> tiles_;
+  std::uint64_t payload_left_ = 0;  ///< table beats to pass over
+};
+
+}  // namespace fastsplat::testbench

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <exception>
 #include <mutex>
-#include <thread>
 
+#include "base/parallel/parallel.hpp"
 #include "testbench/coverage/coverage_collector.hpp"
 
 namespace fastsplat::testbench {
@@ -73,41 +72,30 @@ CampaignResult run_campaign(const CampaignOptions& options) {
   std::vector<std::optional<VerifyResult>> results(count);
   std::vector<std::string> ready(count);
   std::atomic<std::size_t> next = 0, done = 0;
-  std::atomic<bool> stop = false;
-  std::exception_ptr thrown;
-  std::mutex mutex;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < count && !stop; i = next++) {
-      try {
-        CampaignRun run = make_run(options, i);
-        ready[i] = run.options.ready;
-        results[i] = verify(source_of(std::move(run.beats)), run.options);
-        if (results[i]->verdict != Verdict::Pass) stop = true;
-        ++done;
-        if (options.progress) {
-          const std::lock_guard lock(mutex);
-          options.progress(done, count);
-        }
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!thrown) thrown = std::current_exception();
-        stop = true;
+  std::atomic<std::size_t> failed = count;  ///< the first run that did not pass
+  std::mutex telling;
+  parallel_for(count, options.threads, [&](std::size_t) {
+    // In order, whichever job a thread was given: a failure is known as soon as may be.
+    const std::size_t i = next++;
+    if (i > failed) return;
+    CampaignRun run = make_run(options, i);
+    ready[i] = run.options.ready;
+    results[i] = verify(source_of(std::move(run.beats)), run.options);
+    if (results[i]->verdict != Verdict::Pass) {
+      for (std::size_t first = failed; i < first && !failed.compare_exchange_weak(first, i);) {
       }
     }
-  };
-  const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
-  std::vector<std::thread> workers;
-  for (std::size_t i = 1; i < std::min(count, options.threads == 0 ? cores : static_cast<std::size_t>(options.threads));
-       ++i)
-    workers.emplace_back(work);
-  work();
-  for (auto& worker : workers) worker.join();
-  if (thrown) std::rethrow_exception(thrown);
+    ++done;
+    if (options.progress) {
+      const std::lock_guard lock(telling);
+      options.progress(done, count);
+    }
+  });
 
   CampaignResult out;
   out.total.verdict = Verdict::Pass;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!results[i]) continue;
+  // What was begun beside the failure and lies behind it does not count: another number of threads would not have it.
+  for (std::size_t i = 0; i < count && i <= failed; ++i) {
     add(out.total, *results[i]);
     ++out.streams;
     if (results[i]->coverage) {
@@ -119,7 +107,7 @@ CampaignResult run_campaign(const CampaignOptions& options) {
       if (at->second.declared(std::string(kClassReady) + "." + pattern))
         at->second.hit(at->second.declare(kClassReady, pattern));
     }
-    if (results[i]->verdict == Verdict::Pass || out.failed) continue;
+    if (results[i]->verdict == Verdict::Pass) continue;
     out.failed = i;
     out.failure = results[i];
     out.total.verdict = results[i]->verdict;

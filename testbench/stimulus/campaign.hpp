@@ -33,8 +33,8 @@ std::size_t run_count(const CampaignOptions& options);
 CampaignRun make_run(const CampaignOptions& options, std::size_t index);
 
 struct CampaignResult {
-  VerifyResult total;  ///< sums; first divergence and error are the first failed run's
-  std::uint64_t streams = 0;
+  VerifyResult total;                          ///< sums; first divergence and error are the first failed run's
+  std::uint64_t streams = 0;                   ///< run: all, or those up to the failed one
   std::map<StimulusClass, Coverage> coverage;  ///< of each class's streams, if asked for
   std::optional<std::size_t> failed;           ///< first run that did not pass
   std::optional<VerifyResult> failure;         ///< its result
@@ -43,7 +43,7 @@ struct CampaignResult {
 /// The bins of a class: those of the configuration, and that it met each ready pattern.
 Coverage class_bins(const cmodel::Config& config, StimulusClass which);
 
-/// Runs all; after a failure no new streams are begun.
+/// Runs all, or up to the first that fails: its result and the sums up to it are the same for any number of threads.
 CampaignResult run_campaign(const CampaignOptions& options);
 
 }  // namespace fastsplat::testbench

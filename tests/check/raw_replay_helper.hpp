@@ -1,0 +1,28 @@
+// What a right device would show of a stream, with no simulator: the model's own taps, turned into those of the ports.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cmodel/config.hpp"
+#include "cmodel/device.hpp"
+#include "testbench/device/raw_taps.hpp"
+
+namespace fastsplat::test {
+
+/// A beat that the device takes, or a tap that it shows.
+struct RawEvent {
+  std::optional<cmodel::Beat> beat;
+  testbench::RawTap tap;  ///< its words are those below
+  std::vector<std::uint32_t> words;
+};
+
+/// Everything in order. A beat's taps follow at once, but for the sums, which come kSumsLater windows later, as they do
+/// in the device. Banks outside the tile hold ones: nobody may look at them.
+std::vector<RawEvent> replay(const cmodel::Config& config, std::span<const cmodel::Beat> beats);
+constexpr std::size_t kSumsLater = 3;
+
+void play(std::span<const RawEvent> events, testbench::RawTapSink& sink);
+
+}  // namespace fastsplat::test

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "testbench/device/tap_assembly.hpp"
+
 namespace fastsplat::testbench {
 namespace {
 
@@ -55,7 +57,8 @@ std::string hex(std::uint32_t value) {
 }
 
 std::string place(const TapCopy& record) {
-  std::string text = std::string("stage ") + cmodel::to_string(record.tap) + ", tile " + std::to_string(record.tile);
+  std::string text = std::string("stage ") + cmodel::to_string(record.tap) +
+                     (record.tile == kNoTile ? ", outside of any tile" : ", tile " + std::to_string(record.tile));
   if (record.tap != cmodel::Tap::Pixel) text += ", sheet " + std::to_string(record.sheet);
   if (record.tap <= cmodel::Tap::Sheet) text += ", splat " + std::to_string(record.tag);
   return text + ", pixel (" + std::to_string(record.x) + "," + std::to_string(record.y) + ")";

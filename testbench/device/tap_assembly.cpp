@@ -44,7 +44,13 @@ std::int32_t TapAssembly::origin(std::uint32_t port) const {
   return static_cast<std::int32_t>(port << (32 - bits)) >> (32 - bits);
 }
 
+cmodel::BeginTile TapAssembly::tile() const {
+  if (tiles_.complete()) return {.mode = {}, .tile = kNoTile, .x = 0, .y = 0, .width = 0, .height = 0};
+  return tiles_.front().begin;
+}
+
 std::uint32_t TapAssembly::sheet_of(std::uint32_t tag) const {
+  if (tiles_.complete()) return 0;
   const auto& begun = sheets_.front().begun;
   for (std::size_t i = begun.size(); i-- > 0;) {
     if (begun[i].first_tag <= tag) return begun[i].number;
@@ -55,7 +61,7 @@ std::uint32_t TapAssembly::sheet_of(std::uint32_t tag) const {
 void TapAssembly::emit(cmodel::Tap tap, std::uint64_t cycle, std::uint32_t sheet, std::uint32_t tag, std::int32_t x,
                        std::int32_t y) {
   taps_.on_tap({.tap = tap,
-                .tile = tiles_.front().begin.tile,
+                .tile = tile().tile,
                 .sheet = sheet,
                 .tag = tag,
                 .cycle = cycle,
@@ -82,7 +88,6 @@ void TapAssembly::on_raw(const RawTap& tap) {
 }
 
 void TapAssembly::snap(const RawTap& tap) {
-  if (tiles_.complete()) return;
   const std::int32_t x = origin(tap.x), y = origin(tap.y);
   payload_ = {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), tap.mx, tap.my};
   emit(cmodel::Tap::Snap, tap.cycle, sheet_of(tap.tag), tap.tag, x, y);
@@ -91,7 +96,6 @@ void TapAssembly::snap(const RawTap& tap) {
 void TapAssembly::window(const RawTap& tap) {
   const std::int32_t x = origin(tap.x), y = origin(tap.y);
   windows_.push_back({x, y});
-  if (tiles_.complete()) return;
   const int lanes = config_.lanes, mask = lanes - 1;
   payload_.resize(static_cast<std::size_t>(lanes) * lanes);
   std::uint32_t* out = payload_.data();
@@ -105,10 +109,12 @@ void TapAssembly::window(const RawTap& tap) {
 }
 
 void TapAssembly::sheet(const RawTap& tap) {
-  if (windows_.empty() || tiles_.complete()) return;
-  const Place at = windows_.front();
-  windows_.pop_front();
-  const auto& begin = tiles_.front().begin;
+  Place at;
+  if (!windows_.empty()) {
+    at = windows_.front();
+    windows_.pop_front();
+  }
+  const cmodel::BeginTile begin = tile();
   const int lanes = config_.lanes, mask = lanes - 1;
   payload_.assign(static_cast<std::size_t>(lanes) * lanes * 4, 0);
   std::uint32_t* out = payload_.data();
@@ -124,10 +130,8 @@ void TapAssembly::sheet(const RawTap& tap) {
 }
 
 void TapAssembly::composite(const RawTap& tap) {
-  if (tiles_.complete()) return;
   pass_sheets(tap.cycle);
-  const auto& begin = tiles_.front().begin;
-  const Sheets& sheets = sheets_.front();
+  const cmodel::BeginTile begin = tile();
   const int lanes = config_.lanes;
   const auto columns = static_cast<std::uint32_t>(config_.tile_width / lanes);
   const auto x0 = static_cast<std::int32_t>(tap.block % columns) * lanes,
@@ -141,24 +145,29 @@ void TapAssembly::composite(const RawTap& tap) {
       for (std::size_t c = 0; c < 4; ++c) out[c] = field(tap.words, (bank * 4 + c) * state_bits_, state_bits_);
     }
   }
-  const std::uint32_t sheet = sheets.composited < sheets.begun.size() ? sheets.begun[sheets.composited].number : 0;
-  emit(cmodel::Tap::Composite, tap.cycle, sheet, 0, x0, y0);
+  emit(cmodel::Tap::Composite, tap.cycle, composited_sheet(), 0, x0, y0);
 }
 
 void TapAssembly::pass_sheets(std::uint64_t cycle) {
   for (; !finished_.empty() && finished_.front() + cmodel::stages::kComposite < cycle; finished_.pop_front())
-    ++sheets_.front().composited;
+    if (!sheets_.empty()) ++sheets_.front().composited;
+}
+
+std::uint32_t TapAssembly::composited_sheet() const {
+  if (sheets_.empty()) return 0;
+  const Sheets& sheets = sheets_.front();
+  return sheets.composited < sheets.begun.size() ? sheets.begun[sheets.composited].number : 0;
 }
 
 void TapAssembly::pixels(const RawTap& tap) {
-  if (tiles_.complete()) return;
-  const auto place = tiles_.next_place();
+  const auto place =
+      tiles_.complete() ? TileAssembly::Place{.x = 0, .y = 0, .count = config_.lanes} : tiles_.next_place();
   for (int i = 0; i < place.count; ++i) {
     const auto pixel = tap.words.subspan(4 * static_cast<std::size_t>(i), 4);
     payload_.assign(pixel.begin(), pixel.end());
     emit(cmodel::Tap::Pixel, tap.cycle, 0, 0, place.x + i, place.y);
   }
-  if (tap.last) {
+  if (tap.last && !sheets_.empty()) {
     // A tile of one beat may end in the very cycle that counts its last, empty sheet.
     pass_sheets(tap.cycle + 1);
     sheets_.pop_front();

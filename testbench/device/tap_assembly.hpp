@@ -14,6 +14,9 @@
 
 namespace fastsplat::testbench {
 
+/// Tile of a record that belongs to none: the device showed it before its first tile or after its last.
+constexpr std::uint32_t kNoTile = ~std::uint32_t{0};
+
 class TapAssembly final : public RawTapSink {
  public:
   /// Both sinks outlive it.
@@ -33,8 +36,10 @@ class TapAssembly final : public RawTapSink {
     std::uint32_t tags = 0;
   };
   struct Place {
-    std::int32_t x, y;
+    std::int32_t x = 0, y = 0;
   };
+  /// The tile whose events come now; an empty one if there is none.
+  cmodel::BeginTile tile() const;
   void snap(const RawTap& tap);
   void window(const RawTap& tap);
   void sheet(const RawTap& tap);
@@ -44,6 +49,7 @@ class TapAssembly final : public RawTapSink {
   std::uint32_t sheet_of(std::uint32_t tag) const;
   /// Counts the sheets whose blocks have all been shown before the cycle.
   void pass_sheets(std::uint64_t cycle);
+  std::uint32_t composited_sheet() const;
   void emit(cmodel::Tap tap, std::uint64_t cycle, std::uint32_t sheet, std::uint32_t tag, std::int32_t x,
             std::int32_t y);
 

@@ -61,6 +61,26 @@ TEST(DriverOracle, RimsAtBothEndsOfTheSlabs) {
   EXPECT_GT(figures.met.rims_kept, 0U);
 }
 
+// Slabs of one depth step each, or of three steps under splats at each third of them: every entry of the slice table is
+// in a record, also with an odd number of steps made even.
+TEST(DriverOracle, EveryStepOfTheSliceTable) {
+  OracleFigures figures;
+  for (const auto& name : config_names()) {
+    const auto config = load_config(name);
+    for (const double steps_too_many : {0.0, 0.3, 0.7}) {
+      auto description = row_from_the_left();
+      description.kernel = "";
+      description.kernel_a = 0.3;
+      description.kernel_radius = 1.0 + std::ldexp(steps_too_many, -config.slice_phase_bits);
+      description.slab_width = std::ldexp(config.slice_phase_bits > 6 ? 3.0 : 1.0, -config.slice_phase_bits);
+      description.opacity_scale = 1e3;
+      compare_with_oracle(name + ", " + std::to_string(steps_too_many), row_of(3, description), config, figures);
+    }
+  }
+  print_and_expect_equal(figures);
+  EXPECT_EQ(figures.met.odd_steps, config_names().size());
+}
+
 /// Both sides of the number at which `is` changes within low..high: they are neighbours.
 template <typename Is>
 std::pair<double, double> change(double low, double high, const Is& is) {

@@ -10,6 +10,11 @@ nlohmann::ordered_json config_identity_json(const cmodel::Config& config) {
   return {{"name", config.name}, {"hash", hash_text(cmodel::config_hash(config))}};
 }
 
+nlohmann::ordered_json value_json(const cmodel::Config& config, const cmodel::ConfigKey& key) {
+  if (key.names.empty()) return config.*key.member;
+  return cmodel::text_of(config, key);
+}
+
 nlohmann::ordered_json config_json(const cmodel::Config& config) {
   nlohmann::ordered_json json{{"name", config.name},
                               {"description", config.description},
@@ -18,12 +23,7 @@ nlohmann::ordered_json config_json(const cmodel::Config& config) {
   for (const auto& key : cmodel::config_keys()) {
     const std::string name = key.name;
     const auto dot = name.find('.');
-    nlohmann::ordered_json& value = json[name.substr(0, dot)][name.substr(dot + 1)];
-    if (key.names.empty()) {
-      value = config.*key.member;
-    } else {
-      value = cmodel::text_of(config, key);
-    }
+    json[name.substr(0, dot)][name.substr(dot + 1)] = value_json(config, key);
   }
   return json;
 }

@@ -10,8 +10,7 @@ void declare(Options& options, RenderArguments& to) {
   options.group("Engine");
   options.word("--engine", to.engine, "golden|cmodel|rtl",
                "golden (floating point), cmodel (the integer device) or rtl (its Verilated RTL)");
-  options.word("--config", to.config, "NAME|FILE",
-               "cmodel, rtl: hardware configuration, a name or a TOML file (default base)");
+  declare(options, to.config, "cmodel, rtl: hardware configuration, a name or a TOML file (default base)");
   options.choice("--index", to.index, {"rlut"}, "NAME", "cmodel, rtl: index generator (rlut)");
   options.flag("--check", to.check, "rtl: compares every tap, pixel and counter with the model (exit 1)");
   options.group("Animation");

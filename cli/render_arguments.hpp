@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/common.hpp"
+#include "cli/config_flags.hpp"
 #include "cli/scene_flags.hpp"
 
 namespace fastsplat::cli {
@@ -14,7 +15,7 @@ struct RenderArguments {
   Common common;
   SceneFlags scene;
   std::string engine = "golden", index = "rlut";
-  std::optional<std::string> config;
+  ConfigFlags config;
   std::vector<std::string> out;
   std::string raw;         ///< raw device words as EXR; empty for none
   std::string save_scene;  ///< where to write the scene as TOML; empty for none

@@ -13,19 +13,6 @@ ExitCode RtlRun::exit_code() const {
   return check->mismatches == 0 && check->comparisons > 0 ? ExitCode::Pass : ExitCode::Failed;
 }
 
-void check_has_rtl(const cmodel::Config& config) {
-  std::string known;
-  for (const auto& name : testbench::rtl_config_names()) {
-    if (name == config.name) return;
-    known += (known.empty() ? "" : ", ") + name;
-  }
-  throw_usage({.where = "--config",
-               .what = "configuration " + config.name + " has no RTL in this build",
-               .expected = "one of " + known,
-               .got = config.name,
-               .fix = "use --engine cmodel: it is the device's bit-accurate model"});
-}
-
 driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config& config,
                                 const driver::RenderOptions& options, Checking checking, std::optional<RtlRun>& run) {
   testbench::RtlDevice* rtl = nullptr;

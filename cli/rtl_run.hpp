@@ -23,9 +23,6 @@ struct RtlRun {
   ExitCode exit_code() const;
 };
 
-/// Throws UserError (Usage) for a configuration without RTL in this build, before anything is read.
-void check_has_rtl(const cmodel::Config& config);
-
 driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config& config,
                                 const driver::RenderOptions& options, Checking checking, std::optional<RtlRun>& run);
 

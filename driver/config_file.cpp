@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/hash_text.hpp"
 #include "base/suggest.hpp"
 #include "driver/builtin_configs.hpp"
 
@@ -111,7 +112,42 @@ cmodel::Config parse(const std::string& file, const std::string& text) {
   return config;
 }
 
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      out += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
+    } else {
+      out += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+    }
+  }
+  return out + "\"";
+}
+
 }  // namespace
+
+std::string to_toml(const cmodel::Config& config) {
+  std::string text =
+      fmt::format("# hash {}\nname = {}\ndescription = {}\nverified = {}\n", hash_text(cmodel::config_hash(config)),
+                  quoted(config.name), quoted(config.description), quoted(config.verified));
+  std::string table;
+  for (const auto& key : cmodel::config_keys()) {
+    const std::string name = key.name;
+    const auto dot = name.find('.');
+    if (name.substr(0, dot) != table) {
+      table = name.substr(0, dot);
+      text += fmt::format("\n[{}]\n", table);
+    }
+    const std::string value = cmodel::text_of(config, key);
+    const bool neutral = key.neutral == config.*key.member;
+    text += fmt::format(
+        "{:40} # {}{}{}: {}\n",
+        fmt::format("{}{} = {}", neutral ? "# " : "", name.substr(dot + 1), key.names.empty() ? value : quoted(value)),
+        cmodel::allowed(key), key.power_of_two ? ", a power of two" : "", key.neutral ? ", may be absent" : "",
+        key.meaning);
+  }
+  return text;
+}
 
 std::vector<std::string> config_names() {
   std::vector<std::string> names;

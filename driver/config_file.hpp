@@ -13,4 +13,8 @@ namespace fastsplat::driver {
 cmodel::Config load_config(const std::string& name_or_path);
 std::vector<std::string> config_names();
 
+/// A file that load_config() reads back to the same configuration: each key with its limits and meaning, those at their
+/// neutral value as comments.
+std::string to_toml(const cmodel::Config& config);
+
 }  // namespace fastsplat::driver

@@ -5,10 +5,10 @@
 
 #include "base/hash_text.hpp"
 #include "cli/common.hpp"
+#include "cli/config_flags.hpp"
 #include "cli/config_json.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "driver/config_file.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -16,16 +16,19 @@ namespace {
 struct Arguments {
   Common common;
   std::string file;
+  std::vector<std::string> changes;
 };
 
 void declare(Options& options, Arguments& to) {
   options.positional("FILE", to.file, "a TOML file (or a name)");
+  options.group("Configuration");
+  declare_changes(options, to.changes);
   declare(options, to.common);
 }
 
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
-  const auto config = driver::load_config(arguments.file);
+  const auto config = load(arguments.file, arguments.changes);
   output.line(fmt::format("{}: sound; configuration {}, hash {}", arguments.file, config.name,
                           hash_text(cmodel::config_hash(config))));
   output.json(config_json(config));

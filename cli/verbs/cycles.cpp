@@ -7,6 +7,7 @@
 #include "base/atomic_file.hpp"
 #include "base/hash_text.hpp"
 #include "base/version.hpp"
+#include "cli/config_flags.hpp"
 #include "cli/config_json.hpp"
 #include "cli/cycle_trace.hpp"
 #include "cli/image_output.hpp"
@@ -15,7 +16,6 @@
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "cmodel/cycle_model.hpp"
-#include "driver/config_file.hpp"
 #include "driver/run_device.hpp"
 #include "driver/stream_file.hpp"
 #include "testbench/device/pattern.hpp"
@@ -27,7 +27,8 @@ struct Arguments {
   Common common;
   SceneFlags scene;
   std::string stream;  ///< a recorded stream instead of a scene
-  std::string config = "base", input = "always", ready = "always", trace;
+  ConfigFlags config;
+  std::string input = "always", ready = "always", trace;
   int seed = 1;
 };
 
@@ -144,7 +145,7 @@ ExitCode run(const Arguments& arguments) {
                  .raws = {},
                  .others = {arguments.trace, arguments.common.json},
                  .inputs = {arguments.stream}});
-  const auto config = driver::load_config(arguments.config);
+  const auto config = load(arguments.config);
   const auto [input, ready] =
       testbench::patterns_of(arguments.input, arguments.ready, static_cast<std::uint64_t>(arguments.seed));
   CycleTrace trace;
@@ -189,7 +190,7 @@ void declare(Options& options, Arguments& to) {
   options.group("Scene");
   options.word("--stream", to.stream, "FILE", "a recorded stream instead of a scene");
   options.group("Engine");
-  options.word("--config", to.config, "NAME|FILE", "hardware configuration, a name or a TOML file");
+  declare(options, to.config, "hardware configuration, a name or a TOML file");
   options.word("--input", to.input, "PATTERN",
                "when the source has a beat: always, every-N, never-N, random-PERCENT, burst-N");
   options.word("--ready", to.ready, "PATTERN", "when the sink takes pixels: as --input");

@@ -12,7 +12,6 @@
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "driver/config_file.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -28,12 +27,12 @@ void check(const RenderArguments& arguments, Engine engine) {
                  .got = {},
                  .fix = "add --out FILE.exr or --out FILE.png"});
   }
-  if (engine == Engine::Golden && arguments.config) {
-    throw_usage({.where = "--config",
+  if (engine == Engine::Golden && (arguments.config.config || !arguments.config.changes.empty())) {
+    throw_usage({.where = arguments.config.config ? "--config" : "--set",
                  .what = "the golden renderer has no hardware configuration",
                  .expected = {},
                  .got = {},
-                 .fix = "add --engine cmodel, or leave --config out"});
+                 .fix = "add --engine cmodel, or leave it out"});
   }
   if (engine == Engine::Golden && !arguments.raw.empty()) {
     throw_usage({.where = "--raw",
@@ -122,8 +121,8 @@ ExitCode run(const RenderArguments& arguments) {
                    .others = {arguments.save_scene, arguments.common.json},
                    .inputs = {}});
   }
-  if (renderer.engine != Engine::Golden) renderer.config = driver::load_config(arguments.config.value_or("base"));
-  if (renderer.engine == Engine::Rtl) check_has_rtl(*renderer.config);
+  if (renderer.engine != Engine::Golden) renderer.config = load(arguments.config);
+  if (renderer.engine == Engine::Rtl) testbench::require_rtl(*renderer.config);
   return sequence ? run_animation(arguments, renderer, describe(arguments.scene), *sequence, output)
                   : run_still(arguments, renderer, output);
 }

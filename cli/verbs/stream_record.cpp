@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/version.hpp"
+#include "cli/config_flags.hpp"
 #include "cli/config_json.hpp"
 #include "cli/device_report.hpp"
 #include "cli/image_output.hpp"
@@ -9,7 +10,6 @@
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "driver/config_file.hpp"
 #include "driver/stream_file.hpp"
 
 namespace fastsplat::cli {
@@ -20,13 +20,14 @@ using Json = nlohmann::ordered_json;
 struct Arguments {
   Common common;
   SceneFlags scene;
-  std::string config = "base", out;
+  ConfigFlags config;
+  std::string out;
 };
 
 void declare(Options& options, Arguments& to) {
   declare(options, to.scene);
   options.group("Engine");
-  options.word("--config", to.config, "NAME|FILE", "hardware configuration, a name or a TOML file");
+  declare(options, to.config, "hardware configuration, a name or a TOML file");
   options.group("Output");
   options.required("-o,--out", to.out, "FILE", "the stream file, .fss");
   declare(options, to.common);
@@ -63,7 +64,7 @@ ExitCode run(const Arguments& arguments) {
                  .fix = "for example --out scene.fss"});
   }
   check_outputs({.images = {}, .maps = {}, .raws = {}, .others = {arguments.out, arguments.common.json}, .inputs = {}});
-  const auto config = driver::load_config(arguments.config);
+  const auto config = load(arguments.config);
   const auto scene = build(arguments.scene);
 
   Result result{.scene = summary(scene), .stream = arguments.out, .config = config, .driver = {}};

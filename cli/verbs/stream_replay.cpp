@@ -3,12 +3,12 @@
 
 #include "base/hash_text.hpp"
 #include "base/version.hpp"
+#include "cli/config_flags.hpp"
 #include "cli/device_report.hpp"
 #include "cli/image_output.hpp"
 #include "cli/output.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "driver/config_file.hpp"
 #include "driver/render.hpp"
 #include "driver/stream_file.hpp"
 
@@ -19,14 +19,15 @@ using Json = nlohmann::ordered_json;
 
 struct Arguments {
   Common common;
-  std::string stream, config = "base", raw;
+  ConfigFlags config;
+  std::string stream, raw;
   std::vector<std::string> out;
 };
 
 void declare(Options& options, Arguments& to) {
   options.positional("STREAM", to.stream, "a stream file");
   options.group("Engine");
-  options.word("--config", to.config, "NAME|FILE", "the configuration it was recorded for");
+  declare(options, to.config, "the configuration it was recorded for");
   declare_images(options, to.out, to.raw);
   declare(options, to.common);
 }
@@ -61,7 +62,7 @@ ExitCode run(const Arguments& arguments) {
                  .raws = {arguments.raw},
                  .others = {arguments.common.json},
                  .inputs = {arguments.stream}});
-  const auto config = driver::load_config(arguments.config);
+  const auto config = load(arguments.config);
   driver::DeviceRender frame;
   {
     ProgressBar bar("replaying", watching(arguments.common));

@@ -14,10 +14,11 @@ const std::vector<Verb>& all_verbs() {
       verbs::stream_dump,
       verbs::stream_replay,
       verbs::cycles,
-      {"config", "list, show and check hardware configurations", nullptr},
+      {"config", "list, show, check and compare hardware configurations", nullptr},
       verbs::config_list,
       verbs::config_show,
       verbs::config_check,
+      verbs::config_diff,
       verbs::verify,
       verbs::doctor,
   };

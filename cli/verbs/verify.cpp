@@ -9,6 +9,7 @@
 #include "analysis/provenance.hpp"
 #include "base/hash_text.hpp"
 #include "base/version.hpp"
+#include "cli/config_flags.hpp"
 #include "cli/image_output.hpp"
 #include "cli/output.hpp"
 #include "cli/progress_bar.hpp"
@@ -16,7 +17,6 @@
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "driver/compile.hpp"
-#include "driver/config_file.hpp"
 #include "driver/stream_file.hpp"
 #include "testbench/coverage/coverage_book.hpp"
 #include "testbench/stimulus/campaign.hpp"
@@ -33,7 +33,8 @@ struct Arguments {
   std::uint64_t seed = 1;        ///< of the first run
   int seeds = 1;                 ///< seed, seed+1, ...
   std::string stimulus = "all";  ///< stimulus class
-  std::string config = "base", ready = "always", input = "always", fill = "random";
+  ConfigFlags config;
+  std::string ready = "always", input = "always", fill = "random";
   std::optional<int> reset_after;  ///< beats before a warm reset
   std::string coverage;            ///< where functional coverage is added up; empty for none
   std::string failure;             ///< where a failure's stream and waveform go, without ending; empty: by source
@@ -168,7 +169,9 @@ Failure investigate(const Checked& checked, const Arguments& arguments) {
   failure.report =
       testbench::investigate(checked.source, checked.options, checked.failed, failure.waveform, kShrinkRuns);
   driver::write_beats(failure.stream, testbench::write_document(checked.options.config, failure.report.document));
-  failure.replay = testbench::replay_line(failure.stream, arguments.config, failure.report.options);
+  failure.replay =
+      testbench::replay_line(failure.stream, arguments.config.config.value_or("base"), failure.report.options);
+  for (const auto& change : arguments.config.changes) failure.replay += " --set " + change;
   return failure;
 }
 
@@ -286,8 +289,8 @@ ExitCode run(const Arguments& arguments) {
                  .others = {failure_prefix(arguments) + ".fss", failure_prefix(arguments) + ".fst",
                             arguments.common.json, arguments.coverage},
                  .inputs = arguments.stream.empty() ? std::vector<std::string>{} : std::vector{arguments.stream}});
-  const auto config = driver::load_config(arguments.config);
-  check_has_rtl(config);
+  const auto config = load(arguments.config);
+  testbench::require_rtl(config);
   const auto options = options_from(arguments, config);
   auto coverage = earlier_coverage(arguments.coverage, config);
   const std::string seed = fmt::format("seed {}", arguments.seed);
@@ -346,7 +349,7 @@ void declare(Options& options, Arguments& to) {
                   "of random streams, patterns and reset fill");
   options.integer("--seeds", to.seeds, 1, 1'000'000, "N", "random: runs with seeds S, S+1, ...");
   options.group("Device");
-  options.word("--config", to.config, "NAME|FILE", "hardware configuration with RTL");
+  declare(options, to.config, "hardware configuration with RTL");
   options.word("--ready", to.ready, "PATTERN",
                "when pixels are taken: always, every-N, never-N, random-PERCENT, burst-N; random: all takes turns");
   options.word("--input", to.input, "PATTERN", "when beats are offered, a pattern as above");

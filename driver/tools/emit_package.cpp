@@ -1,19 +1,26 @@
-// Build-time tool: the SystemVerilog package of a configuration, to standard output.
+// Build-time tool, to standard output: the SystemVerilog package of a configuration, or its hash as a C++ literal.
 #include <cstdio>
+#include <cstring>
 #include <exception>
 
+#include "base/hash_text.hpp"
 #include "cmodel/sv_package.hpp"
 #include "driver/config_file.hpp"
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: fastsplat_emit_package CONFIG\n");
+  const bool hash_only = argc == 3 && std::strcmp(argv[1], "--hash") == 0;
+  if (argc != 2 && !hash_only) {
+    std::fprintf(stderr, "usage: fastsplat_emit_package [--hash] CONFIG\n");
     return 2;
   }
   try {
-    const auto config = fastsplat::driver::load_config(argv[1]);
+    const auto config = fastsplat::driver::load_config(argv[argc - 1]);
     if (const auto violation = fastsplat::cmodel::rtl_violation(config)) fastsplat::throw_input(*violation);
-    std::fputs(fastsplat::cmodel::sv_package(config).c_str(), stdout);
+    if (hash_only) {
+      std::printf("0x%sULL\n", fastsplat::hash_text(fastsplat::cmodel::config_hash(config)).c_str());
+    } else {
+      std::fputs(fastsplat::cmodel::sv_package(config).c_str(), stdout);
+    }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 3;

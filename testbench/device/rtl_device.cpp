@@ -1,28 +1,43 @@
 #include "testbench/device/rtl_device.hpp"
 
 #include "base/error.hpp"
+#include "base/hash_text.hpp"
 #include "testbench/device/rtl_registry.hpp"
 
 namespace fastsplat::testbench {
+namespace {
 
-std::vector<std::string> rtl_config_names() {
-  std::vector<std::string> names;
-  for (const auto& entry : rtl_registry()) names.emplace_back(entry.config);
-  return names;
-}
-
-std::unique_ptr<RtlDevice> make_rtl_device(const cmodel::Config& config, cmodel::PixelSink& pixels,
-                                           const RtlOptions& options) {
+const RtlEntry& entry_of(const cmodel::Config& config) {
+  const std::uint64_t hash = cmodel::config_hash(config);
   std::string known;
   for (const auto& entry : rtl_registry()) {
-    if (config.name == entry.config) return entry.make(config, pixels, options);
-    known += (known.empty() ? "" : ", ") + std::string(entry.config);
+    if (entry.hash == hash) return entry;
+    known += (known.empty() ? "" : ", ") + std::string(entry.config) + " (" + hash_text(entry.hash) + ")";
   }
   throw_usage({.where = "configuration " + config.name,
                .what = "has no RTL in this build",
                .expected = "one of " + known,
-               .got = config.name,
-               .fix = "use --engine cmodel, or add it to FASTSPLAT_RTL_CONFIGS and build again"});
+               .got = hash_text(hash),
+               .fix =
+                   "use --engine cmodel, its bit-accurate model; or save it with `fastsplat config show` and build its "
+                   "RTL: FASTSPLAT_RTL_CONFIGS=FILE.toml ./run build (docs/guide.md, \"RTL of your own\")"});
+}
+
+}  // namespace
+
+std::vector<std::string> rtl_config_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : rtl_registry()) {
+    if (std::string name = entry.config; !name.ends_with(".toml")) names.push_back(std::move(name));
+  }
+  return names;
+}
+
+void require_rtl(const cmodel::Config& config) { entry_of(config); }
+
+std::unique_ptr<RtlDevice> make_rtl_device(const cmodel::Config& config, cmodel::PixelSink& pixels,
+                                           const RtlOptions& options) {
+  return entry_of(config).make(config, pixels, options);
 }
 
 }  // namespace fastsplat::testbench

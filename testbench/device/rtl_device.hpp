@@ -54,12 +54,15 @@ class RtlDevice : public cmodel::Device {
   virtual void warm_reset() = 0;
 };
 
-/// Configurations with RTL in this build.
+/// Built-in configurations with RTL in this build; files of the user's are not among them.
 std::vector<std::string> rtl_config_names();
 
-/// Throws UserError (Usage) for a configuration without RTL, and UserError (Simulation) when the configuration hash in
-/// the device's registers is not `config`'s. While the device runs, UserError (Simulation) tells that it hangs, that it
-/// refused the stream, or which assertion of the RTL failed, where and in which cycle.
+/// Throws UserError (Usage) for a configuration whose hash no RTL of this build has; what it is called says nothing.
+void require_rtl(const cmodel::Config& config);
+
+/// The RTL of the configuration's hash. Throws as require_rtl() does, and UserError (Simulation) when the configuration
+/// hash in the device's registers is not `config`'s. While the device runs, UserError (Simulation) tells that it hangs,
+/// that it refused the stream, or which assertion of the RTL failed, where and in which cycle.
 std::unique_ptr<RtlDevice> make_rtl_device(const cmodel::Config& config, cmodel::PixelSink& pixels,
                                            const RtlOptions& options = {});
 

@@ -8,7 +8,8 @@
 namespace fastsplat::testbench {
 
 struct RtlEntry {
-  const char* config;
+  const char* config;  ///< a name, or the path of the file it was built from
+  std::uint64_t hash;  ///< of the configuration
   std::unique_ptr<RtlDevice> (*make)(const cmodel::Config&, cmodel::PixelSink&, const RtlOptions&);
 };
 std::span<const RtlEntry> rtl_registry();

@@ -147,7 +147,7 @@ TEST(Parse, FlagsReachTheirFields) {
   EXPECT_EQ(render.scene.settings.at("--shading"), "off");
   EXPECT_FALSE(render.scene.settings.contains("--slab-width"));
   EXPECT_EQ(render.engine, "cmodel");
-  EXPECT_EQ(render.config, "tiny");
+  EXPECT_EQ(render.config.config, "tiny");
   EXPECT_EQ(render.out, (std::vector<std::string>{"a.exr", "b.png", "c.tif"}));
   EXPECT_EQ(render.raw, "r.exr");
   EXPECT_EQ(render.common.json, "-");

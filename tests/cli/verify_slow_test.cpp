@@ -42,6 +42,20 @@ TEST(Verify, TellsTheCyclesOfRtlAndModel) {
   }
 }
 
+// RTL goes by the numbers of a configuration, not by its name.
+TEST(Verify, AFileThatEqualsAConfigurationWithRtlRunsOnIt) {
+  const TempFolder folder;
+  auto config = driver::load_config("tiny");
+  config.name = "mine";
+  const auto file = folder.write("mine.toml", driver::to_toml(config));
+  const auto run = fastsplat({"verify", "--random", "50", "--config", file, "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json.at("verdict"), "pass");
+  EXPECT_EQ(json.at("config"), "mine");
+  EXPECT_GT(json.at("comparisons"), 100);
+}
+
 TEST(Verify, RenderWithCheckTellsThemToo) {
   const auto render = [](bool check) {
     std::vector<std::string> arguments{"render", "--volume", "shells:8", "--size", "24", "--engine",

@@ -1,0 +1,27 @@
+// From --config and --set to a hardware configuration.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/options.hpp"
+#include "cmodel/config.hpp"
+
+namespace fastsplat::cli {
+
+struct ConfigFlags {
+  std::optional<std::string> config;  ///< a name or a file; absent: base
+  std::vector<std::string> changes;   ///< "radial.entries=256"
+};
+
+/// `help` of --config.
+void declare(Options& options, ConfigFlags& to, const char* help);
+void declare_changes(Options& options, std::vector<std::string>& to);
+
+/// The configuration with its changes; each key is set once, limits between keys hold after the last. What differs is
+/// in its name, in the order of the keys: "base+radial.entries=256". UserError (Usage) names the --set that is wrong.
+cmodel::Config load(const std::string& name_or_path, const std::vector<std::string>& changes);
+cmodel::Config load(const ConfigFlags& flags);
+
+}  // namespace fastsplat::cli

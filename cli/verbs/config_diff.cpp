@@ -1,0 +1,83 @@
+// fastsplat config diff: the keys in which two configurations differ.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/hash_text.hpp"
+#include "cli/common.hpp"
+#include "cli/config_json.hpp"
+#include "cli/output.hpp"
+#include "cli/verbs/verbs.hpp"
+#include "driver/config_file.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Arguments {
+  Common common;
+  std::string a, b;
+};
+
+void declare(Options& options, Arguments& to) {
+  options.positional("A", to.a, "a name or a TOML file");
+  options.positional("B", to.b, "a name or a TOML file");
+  declare(options, to.common);
+}
+
+/// What the device would see; names and descriptions are none of that.
+struct Result {
+  cmodel::Config a, b;
+  std::vector<const cmodel::ConfigKey*> differ;
+};
+
+Result compared(const cmodel::Config& a, const cmodel::Config& b) {
+  Result result{.a = a, .b = b, .differ = {}};
+  for (const auto& key : cmodel::config_keys()) {
+    if (a.*key.member != b.*key.member) result.differ.push_back(&key);
+  }
+  return result;
+}
+
+std::string identity(const cmodel::Config& config) {
+  return config.name + " " + hash_text(cmodel::config_hash(config));
+}
+
+std::string to_text(const Result& result) {
+  if (result.differ.empty()) return fmt::format("equal: {} and {}\n", identity(result.a), identity(result.b));
+  std::string text = fmt::format("{} and {} differ in {}\n", identity(result.a), identity(result.b),
+                                 counted(result.differ.size(), "key"));
+  for (const auto* key : result.differ) {
+    text += fmt::format("  {:24}{:>8}{:>8}   {}\n", key->name, cmodel::text_of(result.a, *key),
+                        cmodel::text_of(result.b, *key), key->meaning);
+  }
+  return text;
+}
+
+Json to_json(const Result& result) {
+  Json json{{"verb", "config diff"},
+            {"equal", result.differ.empty()},
+            {"a", config_identity_json(result.a)},
+            {"b", config_identity_json(result.b)},
+            {"differences", Json::array()}};
+  for (const auto* key : result.differ)
+    json["differences"].push_back(
+        {{"key", key->name}, {"a", value_json(result.a, *key)}, {"b", value_json(result.b, *key)}});
+  return json;
+}
+
+ExitCode run(const Arguments& arguments) {
+  const Output output(arguments.common);
+  const Result result = compared(driver::load_config(arguments.a), driver::load_config(arguments.b));
+  output.line(to_text(result));
+  output.json(to_json(result));
+  return result.differ.empty() ? ExitCode::Pass : ExitCode::Failed;
+}
+
+}  // namespace
+
+const Verb verbs::config_diff{"config diff", "the keys in which two differ; exit 1 when there are any",
+                              verb<Arguments, declare, run>};
+
+}  // namespace fastsplat::cli

@@ -1,0 +1,121 @@
+// The verbs that take a configuration: config diff, --set wherever --config is, what a changed one is called
+// afterwards.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "base/hash_text.hpp"
+#include "cli/command_line.hpp"
+#include "driver/config_file.hpp"
+#include "images/image_file.hpp"
+#include "tests/cli/process_helper.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+struct Said {
+  ExitCode code;
+  std::string out;
+};
+
+Said said(const std::vector<std::string>& words) {
+  std::vector<const char*> all{"fastsplat"};
+  for (const auto& word : words) all.push_back(word.c_str());
+  all.push_back(nullptr);
+  const auto action = parse(static_cast<int>(all.size()) - 1, all.data());
+  ::testing::internal::CaptureStdout();
+  const auto code = action();
+  return {code, ::testing::internal::GetCapturedStdout()};
+}
+
+TEST(ConfigDiff, EqualIsAPass) {
+  const auto [code, out] = said({"config", "diff", "base", "base", "--json", "-"});
+  EXPECT_EQ(code, ExitCode::Pass);
+  const auto json = Json::parse(out);
+  EXPECT_TRUE(json.at("equal").get<bool>());
+  EXPECT_TRUE(json.at("differences").empty());
+}
+
+TEST(ConfigDiff, TellsEveryKeyThatDiffersAndNoOther) {
+  const auto [code, out] = said({"config", "diff", "base", "wide", "--json", "-"});
+  EXPECT_EQ(code, ExitCode::Failed);
+  const auto base = driver::load_config("base"), wide = driver::load_config("wide");
+  const auto json = Json::parse(out);
+  EXPECT_FALSE(json.at("equal").get<bool>());
+  EXPECT_EQ(json.at("b").at("hash"), hash_text(cmodel::config_hash(wide)));
+  std::size_t differ = 0;
+  for (const auto& key : cmodel::config_keys()) {
+    if (base.*key.member == wide.*key.member) continue;
+    ASSERT_LT(differ, json.at("differences").size()) << key.name << " is not told";
+    const auto& told = json.at("differences").at(differ++);
+    EXPECT_EQ(told.at("key"), key.name);
+    EXPECT_EQ(told.at("a"), base.*key.member);
+    EXPECT_EQ(told.at("b"), wide.*key.member);
+  }
+  EXPECT_EQ(differ, json.at("differences").size());
+  std::printf("[figure] keys in which base and wide differ = %zu (limit > 0)\n", differ);
+  EXPECT_GT(differ, 0u);
+}
+
+// The names are different, the device is the same.
+TEST(ConfigDiff, ANameIsNoDifference) {
+  const cli_test::TempFolder folder;
+  auto config = driver::load_config("tiny");
+  config.name = "mine";
+  const auto file = folder.write("mine.toml", driver::to_toml(config));
+  EXPECT_EQ(said({"config", "diff", "tiny", file}).code, ExitCode::Pass);
+  config.radial_entries *= 2;
+  const auto other = folder.write("other.toml", driver::to_toml(config));
+  const auto [code, out] = said({"config", "diff", file, other});
+  EXPECT_EQ(code, ExitCode::Failed);
+  EXPECT_NE(out.find("differ in 1 key\n  radial.entries"), std::string::npos) << out;
+}
+
+TEST(ConfigShow, PrintsAChangedConfigurationThatIsReadBack) {
+  const cli_test::TempFolder folder;
+  const auto [code, out] = said({"config", "show", "tiny", "--set", "radial.entries=128", "--set=rlut.sets=2"});
+  EXPECT_EQ(code, ExitCode::Pass);
+  const auto config = driver::load_config(folder.write("changed.toml", out));
+  EXPECT_EQ(config.radial_entries, 128);
+  EXPECT_EQ(config.rlut_sets, 2);
+  EXPECT_EQ(config.name, "tiny+rlut.sets=2+radial.entries=128");
+}
+
+TEST(Set, IsWhereverAConfigurationIsNamed) {
+  int verbs = 0;
+  for (const Verb& verb : all_verbs()) {
+    std::vector<std::string> words{"help"};
+    std::istringstream names(verb.name);
+    for (std::string word; names >> word;) words.push_back(word);
+    const auto help = said(words).out;
+    const std::string name = verb.name;
+    const bool named = help.find("--config NAME") != std::string::npos || name == "config show" || name == "config check";
+    EXPECT_EQ(help.find("--set KEY=VALUE") != std::string::npos, named) << name;
+    verbs += named ? 1 : 0;
+  }
+  std::printf("[figure] verbs with --set = %d (limit >= 7)\n", verbs);
+  EXPECT_GE(verbs, 7);
+}
+
+TEST(Set, NamesTheConfigurationOfAPicture) {
+  const cli_test::TempFolder folder;
+  const auto picture = folder / "a.exr";
+  const auto [code, out] = said({"render", "--volume", "point:4", "--size", "8", "--engine", "cmodel", "--config",
+                                 "tiny", "--set", "radial.entries=128", "-o", picture, "--json", "-", "--quiet"});
+  EXPECT_EQ(code, ExitCode::Pass);
+  auto config = driver::load_config("tiny");
+  config.radial_entries = 128;
+  const auto hash = hash_text(cmodel::config_hash(config));
+  const auto json = Json::parse(out);
+  EXPECT_EQ(json.at("config").at("name"), "tiny+radial.entries=128");
+  EXPECT_EQ(json.at("config").at("hash"), hash);
+  const auto metadata = images::read_image(picture).metadata;
+  EXPECT_EQ(metadata.at("config"), "tiny+radial.entries=128");
+  EXPECT_EQ(metadata.at("config_hash"), hash);
+}
+
+}  // namespace
+}  // namespace fastsplat::cli

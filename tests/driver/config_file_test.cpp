@@ -1,0 +1,61 @@
+// A configuration written as TOML is read back as it was.
+#include "driver/config_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+namespace fastsplat::driver {
+namespace {
+
+class ConfigFile : public ::testing::Test {
+ protected:
+  cmodel::Config read_back(const cmodel::Config& config) const {
+    std::ofstream(path_, std::ios::binary) << to_toml(config);
+    return load_config(path_.string());
+  }
+  void TearDown() override { std::filesystem::remove(path_); }
+
+  std::filesystem::path path_ = std::filesystem::path(::testing::TempDir()) / "fastsplat_config_file_test.toml";
+};
+
+TEST_F(ConfigFile, every_named_configuration_is_read_back) {
+  int read = 0;
+  for (const auto& name : config_names()) {
+    const auto config = load_config(name);
+    EXPECT_EQ(read_back(config), config) << name;
+    ++read;
+  }
+  std::printf("[figure] configurations read back = %d (limit > 0)\n", read);
+  EXPECT_GT(read, 0);
+}
+
+// A key that may be absent is written wherever it is not neutral, and its hash is another then.
+TEST_F(ConfigFile, keys_off_their_neutral_value_are_read_back) {
+  int read = 0;
+  for (const auto& key : cmodel::config_keys()) {
+    if (!key.neutral) continue;
+    for (int value = key.min; value <= key.max; ++value) {
+      auto config = load_config("base");
+      config.*key.member = value;
+      EXPECT_EQ(read_back(config), config) << key.name << " = " << value;
+      EXPECT_EQ(cmodel::config_hash(config) == cmodel::config_hash(load_config("base")), value == *key.neutral);
+      ++read;
+    }
+  }
+  std::printf("[figure] keys that may be absent, values read back = %d (limit > 0)\n", read);
+  EXPECT_GT(read, 0);
+}
+
+TEST_F(ConfigFile, texts_of_any_kind_are_read_back) {
+  auto config = load_config("tiny");
+  config.name = "a \"name\" with \\ and \t and \x01";
+  config.description = "# no comment = \"x\"\n[table]";
+  config.verified = "";
+  EXPECT_EQ(read_back(config), config);
+}
+
+}  // namespace
+}  // namespace fastsplat::driver

@@ -31,7 +31,7 @@ struct VerifyOptions {
   std::uint64_t stop_after = 1000;  ///< mismatches
   std::filesystem::path wave;       ///< waveform of the cycles [wave_from, wave_to)
   std::uint64_t wave_from = 0, wave_to = 0;
-  bool coverage = false;  ///< samples functional coverage (testbench/coverage_collector.hpp)
+  bool coverage = false;  ///< samples functional coverage (testbench/coverage/coverage_collector.hpp)
   /// Takes the RTL's place, to test the checker with a device that is wrong; empty: the Verilated device of `config`.
   std::function<std::unique_ptr<RtlDevice>(cmodel::PixelSink&, const RtlOptions&)> device;
 };

@@ -83,6 +83,10 @@ void check_outputs(const OutputNames& names) {
     take(path);
   }
   for (const auto& path : names.others) take(path);
+  const auto named = [](const std::string& path) { return !path.empty(); };
+  for (const auto* pictures : {&names.images, &names.maps, &names.raws}) {
+    if (std::any_of(pictures->begin(), pictures->end(), named)) images::require_library();
+  }
 }
 
 void write_images(const std::vector<std::string>& paths, const Image& image, const images::Metadata& metadata,

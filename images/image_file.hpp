@@ -1,4 +1,5 @@
-// Image files through OpenImageIO: EXR (float, half, raw integer words), PNG (8/16), TIFF (8/16/float).
+// Image files: EXR (float, half, raw integer words), PNG (8/16), TIFF (8/16/float). OpenImageIO does the work; it is
+// loaded when the first picture is read or written, because it takes a fifth of a second and 100 MB.
 #pragma once
 
 #include <cstddef>
@@ -28,6 +29,14 @@ struct LoadedImage {
   std::vector<std::uint32_t> words;  ///< raw words only, as in the file
   Metadata metadata;
 };
+
+/// Loads OpenImageIO now, so that a run that will write pictures fails before its work. UserError (Input) when it
+/// cannot: no module beside the program, a library it needs is missing, or it belongs to another build. All below may
+/// throw it.
+void require_library();
+
+/// OpenImageIO's, as found at run time: "2.4.7". Loads it.
+std::string library_version();
 
 /// EXR, PNG or TIFF, told by content and not by name; 1, 3 (RGB) or 4 (RGBA) channels.
 /// Samples are taken as stored: no alpha (un)premultiplication, no colour conversion, whatever the tags say.

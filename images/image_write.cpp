@@ -1,28 +1,18 @@
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cctype>
 #include <cmath>
-#include <cstring>
-#include <exception>
-#include <memory>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
 #include "base/version.hpp"
-#include "images/image_attributes.hpp"
+#include "images/codec.hpp"
 #include "images/image_file.hpp"
 #include "images/srgb.hpp"
 
 namespace fastsplat::images {
 namespace {
-
-using OIIO::TypeDesc;
-
-enum class ColourSpace { Linear, Srgb };
 
 std::string format_of(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -47,34 +37,12 @@ void check_kind(const std::filesystem::path& path, const std::string& format, Pi
 }
 
 /// Encodes to memory first, so that every byte that reaches the disk goes through one checked, atomic write.
-void write_encoded(const std::filesystem::path& path, const std::string& format, int width, int height, int channels,
-                   TypeDesc stored, TypeDesc given, const void* samples, const Metadata& metadata,
-                   ColourSpace colour_space) {
-  const auto fail = [&](const std::string& reason) {
-    throw_input({path.string(), "cannot encode as " + format + ": " + reason, {}, {}, {}});
-  };
+void write_encoded(const std::filesystem::path& path, Encoding picture) {
+  picture.name = path.filename().string();
+  picture.software = "FastSplat " + program_version();
   std::vector<unsigned char> bytes;
-  try {
-    auto output = OIIO::ImageOutput::create(format);
-    if (!output) fail(OIIO::geterror());
-    OIIO::ImageSpec spec(width, height, channels, stored);
-    set_metadata(spec, format, metadata);
-    spec.attribute("Software", "FastSplat " + program_version());
-    spec.attribute("DateTime", "");  // else OpenImageIO writes the clock and equal pictures get unequal bytes
-    spec.attribute("compression", "zip");
-    spec.attribute("oiio:ColorSpace", colour_space == ColourSpace::Linear ? "Linear" : "sRGB");
-    // PNG defines alpha as unassociated and OpenImageIO would divide by it. TIFF's tag says associated, as it is.
-    if (format == "png") spec.attribute("oiio:UnassociatedAlpha", 1);
-    OIIO::Filesystem::IOVecOutput memory(bytes);
-    output->set_ioproxy(&memory);
-    const bool done =
-        output->open(path.filename().string(), spec) && output->write_image(given, samples) && output->close();
-    if (!done) fail(output->geterror());
-  } catch (const UserError&) {
-    throw;
-  } catch (const std::exception& error) {  // the encoders' own
-    fail(error.what());
-  }
+  const std::string defect = codec().encode(picture, bytes);
+  if (!defect.empty()) throw_input({path.string(), "cannot encode as " + picture.format + ": " + defect, {}, {}, {}});
   write_text_file(path, std::string(bytes.begin(), bytes.end()));
 }
 
@@ -123,29 +91,36 @@ std::size_t write_image(const std::filesystem::path& path, const Image& image, c
   check_kind(path, format, kind);
 
   std::size_t clamped = 0;
-  const auto colour_space = options.display ? ColourSpace::Srgb : ColourSpace::Linear;
   const Image shown = options.display ? display_image(image, clamped) : Image();
   const Image& source = options.display ? shown : image;
-  const auto write = [&](TypeDesc stored, TypeDesc given, const void* samples) {
-    write_encoded(path, format, source.width, source.height, source.channels, stored, given, samples, metadata,
-                  colour_space);
+  const auto write = [&](const void* samples) {
+    write_encoded(path, {.format = format,
+                         .name = {},
+                         .width = source.width,
+                         .height = source.height,
+                         .channels = source.channels,
+                         .kind = kind,
+                         .samples = samples,
+                         .srgb = options.display,
+                         .software = {},
+                         .metadata = metadata});
   };
   switch (kind) {
     case PixelKind::Float:
-      write(TypeDesc::FLOAT, TypeDesc::FLOAT, source.data.data());
+      write(source.data.data());
       break;
     case PixelKind::Half: {
       constexpr double kLargestHalf = 65504.0;
       std::vector<float> samples = source.data;
       for (float& v : samples) v = static_cast<float>(clamp_counted(v, -kLargestHalf, kLargestHalf, clamped));
-      write(TypeDesc::HALF, TypeDesc::FLOAT, samples.data());
+      write(samples.data());
       break;
     }
     case PixelKind::Uint8:
-      write(TypeDesc::UINT8, TypeDesc::UINT8, quantised<std::uint8_t>(source.data, 255.0, clamped).data());
+      write(quantised<std::uint8_t>(source.data, 255.0, clamped).data());
       break;
     case PixelKind::Uint16:
-      write(TypeDesc::UINT16, TypeDesc::UINT16, quantised<std::uint16_t>(source.data, 65535.0, clamped).data());
+      write(quantised<std::uint16_t>(source.data, 65535.0, clamped).data());
       break;
     case PixelKind::RawWords:
       assert(!"raw words are written by write_raw");
@@ -164,8 +139,16 @@ void write_raw(const std::filesystem::path& path, const RawImage& image, Metadat
   metadata["int_bits"] = std::to_string(image.int_bits);
   metadata["frac_bits"] = std::to_string(image.frac_bits);
   metadata["format"] = "U" + metadata["int_bits"] + "." + metadata["frac_bits"];
-  write_encoded(path, format, image.width, image.height, 4, TypeDesc::UINT32, TypeDesc::UINT32, image.words.data(),
-                metadata, ColourSpace::Linear);
+  write_encoded(path, {.format = format,
+                       .name = {},
+                       .width = image.width,
+                       .height = image.height,
+                       .channels = 4,
+                       .kind = PixelKind::RawWords,
+                       .samples = image.words.data(),
+                       .srgb = false,
+                       .software = {},
+                       .metadata = std::move(metadata)});
 }
 
 }  // namespace fastsplat::images

@@ -11,6 +11,7 @@
 #include "cli/output.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "driver/config_file.hpp"
+#include "images/image_file.hpp"
 #include "scene/scene.hpp"
 #include "scene/transfer_function.hpp"
 #include "volume/synthetic.hpp"
@@ -27,17 +28,11 @@ using Json = nlohmann::ordered_json;
 
 struct Library {
   const char* name;
-  const char* version;
+  const char* version;  ///< null: loaded at need, so it is asked
 };
 constexpr Library kLibraries[] = {
-    {"CLI11", VERSION_CLI11},
-    {"fmt", VERSION_FMT},
-    {"GLM", VERSION_GLM},
-    {"nlohmann-json", VERSION_JSON},
-    {"OpenImageIO", VERSION_OPENIMAGEIO},
-    {"oneTBB", VERSION_TBB},
-    {"teem", VERSION_TEEM},
-    {"toml++", VERSION_TOMLPLUSPLUS},
+    {"CLI11", VERSION_CLI11}, {"fmt", VERSION_FMT},    {"GLM", VERSION_GLM},   {"nlohmann-json", VERSION_JSON},
+    {"OpenImageIO", nullptr}, {"oneTBB", VERSION_TBB}, {"teem", VERSION_TEEM}, {"toml++", VERSION_TOMLPLUSPLUS},
     {"zlib", VERSION_ZLIB},
 };
 
@@ -64,6 +59,10 @@ struct Scan {
   std::string reason;                    ///< of a missing one
 };
 
+struct Missing {
+  std::string what, fix;
+};
+
 /// What the program is and what it found.
 struct Result {
   int processors = 0;
@@ -71,14 +70,18 @@ struct Result {
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
   std::vector<Scan> scans;
   std::vector<std::string> synthetics, transfer_functions, demos, configurations;
-
-  bool all_there() const {
-    return std::all_of(scans.begin(), scans.end(), [](const Scan& scan) { return scan.header.has_value(); });
-  }
+  std::vector<Missing> missing;
 };
 
-const char* const kFix =
-    "apt-get install mricron-data, or put the .nii.gz files in a folder and set FASTSPLAT_DATA to it";
+/// Loaded on purpose: whether pictures can be read and written here is what is asked.
+std::string image_library(Result& result) {
+  try {
+    return images::library_version();
+  } catch (const UserError& error) {
+    result.missing.push_back({"image library", error.what()});
+    return "missing";
+  }
+}
 
 Result look() {
   Result result{.processors = usable_processors(),
@@ -88,9 +91,12 @@ Result look() {
                 .synthetics = volume::synthetic_names(),
                 .transfer_functions = scene::transfer_function_presets(),
                 .demos = scene::demo_names(),
-                .configurations = driver::config_names()};
-  for (const auto& [name, version] : kLibraries)
-    result.libraries.emplace_back(name, *version == '\0' ? "unknown" : version);
+                .configurations = driver::config_names(),
+                .missing = {}};
+  for (const auto& [name, version] : kLibraries) {
+    const std::string text = version == nullptr ? image_library(result) : version;
+    result.libraries.emplace_back(name, text.empty() ? "unknown" : text);
+  }
   for (const auto& name : volume::known_volume_names()) {
     if (is_synthetic(name)) continue;
     Scan scan{.name = name, .header = {}, .reason = {}};
@@ -100,6 +106,11 @@ Result look() {
       scan.reason = error.what();
     }
     result.scans.push_back(std::move(scan));
+  }
+  if (std::any_of(result.scans.begin(), result.scans.end(), [](const Scan& scan) { return !scan.header; })) {
+    result.missing.push_back(
+        {"scans of mricron-data",
+         "apt-get install mricron-data, or put the .nii.gz files in a folder and set FASTSPLAT_DATA to it"});
   }
   return result;
 }
@@ -120,8 +131,9 @@ std::string to_text(const Result& result) {
   text += fmt::format("transfer functions: {}\n", fmt::join(result.transfer_functions, ", "));
   text += fmt::format("demo scenes: {}\n", fmt::join(result.demos, ", "));
   text += fmt::format("configurations: {}\n", fmt::join(result.configurations, ", "));
-  return text + (result.all_there() ? "nothing is missing\n"
-                                    : fmt::format("missing scans: {}; everything else works without them\n", kFix));
+  for (const auto& [what, fix] : result.missing)
+    text += fmt::format("missing {}: {}; everything else works without\n", what, fix);
+  return text + (result.missing.empty() ? "nothing is missing\n" : "");
 }
 
 Json to_json(const Scan& scan) {
@@ -140,7 +152,7 @@ Json to_json(const Result& result) {
   json["demos"] = result.demos;
   json["configurations"] = result.configurations;
   json["missing"] = Json::array();
-  if (!result.all_there()) json["missing"].push_back({{"what", "scans of mricron-data"}, {"fix", kFix}});
+  for (const auto& [what, fix] : result.missing) json["missing"].push_back({{"what", what}, {"fix", fix}});
   return json;
 }
 

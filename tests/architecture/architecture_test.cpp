@@ -20,6 +20,7 @@ const Arrows kDrawn{
     {"volume", {"base"}},
     {"scene", {"volume"}},
     {"images", {"base"}},
+    {"images/openimageio", {"images"}},
     {"golden/splat", {"scene"}},
     {"golden", {"golden/splat", "base/parallel"}},
     {"cmodel", {"base"}},
@@ -140,6 +141,22 @@ TEST(Architecture, TheDeviceIsIntegerOnlyAndDeterministic) {
   figure("cmodel_files", static_cast<int>(files.size()));
   figure("cmodel_words", words);
   EXPECT_TRUE(offences.empty()) << joined(offences);
+}
+
+/// Whoever links the image library brings hundreds of others into every run.
+TEST(Architecture, TheImageLibraryIsIncludedByItsModuleAlone) {
+  int inside = 0;
+  for (const auto& file : product()) {
+    for (const auto& include : includes_of(file.text)) {
+      if (!include.target.starts_with("OpenImageIO/")) continue;
+      if (room_of(file.path, kArrows) == "images/openimageio") {
+        ++inside;
+      } else {
+        ADD_FAILURE() << file.path << ":" << include.line << ": includes " << include.target;
+      }
+    }
+  }
+  figure("includes_of_its_module", inside);
 }
 
 TEST(Architecture, NoFileIsLongerThan600Lines) {

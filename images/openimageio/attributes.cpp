@@ -1,4 +1,4 @@
-#include "images/image_attributes.hpp"
+#include "images/openimageio/attributes.hpp"
 
 #include <algorithm>
 #include <cassert>

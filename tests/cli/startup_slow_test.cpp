@@ -1,0 +1,190 @@
+// What every run pays before it does anything: the image library, hundreds of libraries deep, is loaded for pictures
+// alone.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/cli/process_helper.hpp"
+
+namespace fastsplat::cli_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kModule = "fastsplat_openimageio.so";
+constexpr const char* kTag = "fastsplat-codec ";
+
+using Words = std::vector<std::string>;
+
+/// Commands that meet no picture, each on next to no work.
+const std::vector<Words> kWithoutPictures{
+    {"--version"},
+    {"help"},
+    {"cycles", "--volume", "shells:4", "--size", "8", "--config", "tiny"},
+    {"verify", "--config", "tiny", "--volume", "shells:4", "--size", "8"},
+    {"config", "list"},
+    {"volume", "info", "shells:8"},
+};
+
+Surroundings with_environment(const Words& settings) {
+  Surroundings surroundings;
+  surroundings.environment = settings;
+  return surroundings;
+}
+
+/// The libraries that the loader brings into a run, by name.
+Words libraries_of(const Words& arguments, const std::string& trace) {
+  expect_success(fastsplat(arguments, with_environment({"LD_DEBUG=files", "LD_DEBUG_OUTPUT=" + trace})));
+  Words names;
+  for (const auto& entry : fs::directory_iterator(fs::path(trace).parent_path())) {
+    if (entry.path().string().rfind(trace + ".", 0) != 0) continue;
+    std::istringstream lines(read_bytes(entry.path()));
+    for (std::string line; std::getline(lines, line);) {
+      const auto at = line.find("calling init: ");
+      if (at != std::string::npos) names.push_back(fs::path(line.substr(at + 14)).filename());
+    }
+  }
+  EXPECT_FALSE(names.empty()) << "the loader told nothing: nothing was checked";
+  return names;
+}
+
+bool any_holds(const Words& names, const std::string& part) {
+  return std::any_of(names.begin(), names.end(), [&](const auto& name) { return name.find(part) != name.npos; });
+}
+
+double cpu_seconds_of_children() {
+  rusage usage{};
+  ::getrusage(RUSAGE_CHILDREN, &usage);
+  const auto seconds = [](const timeval& time) { return static_cast<double>(time.tv_sec) + time.tv_usec * 1e-6; };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+TEST(StartUp, TheImageLibraryIsLoadedForPicturesAlone) {
+  const TempFolder folder;
+  int run = 0;
+  std::size_t most = 0;
+  for (const auto& arguments : kWithoutPictures) {
+    SCOPED_TRACE(arguments[0]);
+    const auto names = libraries_of(arguments, folder / ("trace" + std::to_string(++run)));
+    EXPECT_FALSE(any_holds(names, "OpenImageIO"));
+    EXPECT_FALSE(any_holds(names, kModule));
+    most = std::max(most, names.size());
+  }
+  std::printf("[figure] libraries_without_picture = %zu (limit <= 40)\n", most);
+  EXPECT_LE(most, 40u);
+
+  const auto names =
+      libraries_of({"render", "--volume", "shells:8", "--size", "8", "-o", folder / "a.png"}, folder / "p");
+  EXPECT_TRUE(any_holds(names, "libOpenImageIO.so"));
+  EXPECT_TRUE(any_holds(names, kModule));
+  EXPECT_TRUE(fs::exists(folder / "a.png"));
+  std::printf("[figure] libraries_with_picture = %zu (limit > %zu)\n", names.size(), most);
+  EXPECT_GT(names.size(), most);
+}
+
+TEST(StartUp, TakesLessThanATwentiethOfASecond) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the sanitizer's own start is longer";
+#endif
+  constexpr double kLimit = 0.05;
+  constexpr int kRuns = 20;  // the least of them: other work on the machine only adds
+  for (const auto& arguments : kWithoutPictures) {
+    double least = 1e9;
+    for (int run = 0; run < kRuns; ++run) {
+      const double before = cpu_seconds_of_children();
+      expect_success(fastsplat(arguments));
+      least = std::min(least, cpu_seconds_of_children() - before);
+    }
+    std::printf("[figure] cpu_seconds_%s = %.4f (limit < %.2f)\n", arguments[0].c_str(), least, kLimit);
+    EXPECT_GT(least, 0.0) << "nothing was measured";
+    EXPECT_LT(least, kLimit) << arguments[0];
+  }
+}
+
+/// A program copied out of its build, with what lies beside it.
+class Copied {
+ public:
+  Copied() {
+    fs::create_directory(folder_.path() / "bin");
+    fs::copy_file(program(), bin("fastsplat"));
+  }
+  std::string bin(const std::string& name) const { return folder_ / ("bin/" + name); }
+  std::string operator/(const std::string& name) const { return folder_ / name; }
+  static fs::path module() { return fs::path(program()).parent_path() / kModule; }
+  /// Golden takes minutes for this: a refusal that comes after the work is a time-out.
+  Result render_for_minutes(const Words& environment = {}) const {
+    return run_words({bin("fastsplat"), "render", "--volume", "shells:256", "--size", "4096", "-o", folder_ / "a.png"},
+                     with_environment(environment));
+  }
+  Result render() const {
+    return run_words({bin("fastsplat"), "render", "--volume", "shells:8", "--size", "8", "-o", folder_ / "a.png"});
+  }
+  void expect_refused(const Result& result, const Words& words) const {
+    expect_error(result, 3, words);
+    EXPECT_FALSE(fs::exists(folder_ / "a.png"));
+  }
+
+ private:
+  TempFolder folder_;
+};
+
+TEST(StartUp, AMissingModuleIsToldBeforeTheWork) {
+  const Copied copied;
+  copied.expect_refused(copied.render_for_minutes(), {kModule, "missing", "/lib/fastsplat/", "./run build"});
+  const auto compared = run_words({copied.bin("fastsplat"), "compare", "a.exr", "b.exr"});
+  EXPECT_EQ(compared.code, 3) << compared.err;
+  expect_success(run_words({copied.bin("fastsplat"), "volume", "info", "shells:8"}));
+  const auto told = run_words({copied.bin("fastsplat"), "doctor", "--json", "-"});
+  expect_success(told);
+  EXPECT_NE(nlohmann::json::parse(told.out)["missing"].dump().find(kModule), std::string::npos) << told.out;
+}
+
+TEST(StartUp, TheModuleIsFoundBesideTheProgramOrInItsLib) {
+  {
+    const Copied copied;
+    fs::copy_file(Copied::module(), copied.bin(kModule));
+    expect_success(copied.render());
+    EXPECT_GT(fs::file_size(copied / "a.png"), 0u);
+  }
+  const Copied copied;
+  fs::create_directories(copied / "lib/fastsplat");
+  fs::copy_file(Copied::module(), copied / ("lib/fastsplat/" + std::string(kModule)));
+  expect_success(copied.render());
+  EXPECT_GT(fs::file_size(copied / "a.png"), 0u);
+}
+
+TEST(StartUp, AModuleOfAnotherBuildIsRefused) {
+  const Copied copied;
+  std::string bytes = read_bytes(Copied::module());
+  const auto at = bytes.find(kTag);
+  ASSERT_NE(at, std::string::npos);
+  bytes[at + std::string(kTag).size()] = '9';  // of its version
+  std::ofstream(copied.bin(kModule), std::ios::binary) << bytes;
+  copied.expect_refused(copied.render_for_minutes(), {kModule, "another build", "got fastsplat-codec 9"});
+}
+
+TEST(StartUp, AModuleThatCannotBeLoadedIsRefused) {
+  {
+    const Copied copied;
+    std::ofstream(copied.bin(kModule)) << "no library";
+    copied.expect_refused(copied.render_for_minutes(), {kModule, "cannot be loaded", "packaging/debian.txt"});
+  }
+  // A library that it needs is broken.
+  const Copied copied;
+  fs::copy_file(Copied::module(), copied.bin(kModule));
+  std::string needed;
+  std::istringstream names(run_words({"ldd", Copied::module()}).out);
+  for (std::string name; names >> name;) {
+    if (name.rfind("libOpenImageIO.so", 0) == 0) needed = name;
+  }
+  ASSERT_FALSE(needed.empty());
+  std::ofstream(copied / needed) << "no library";
+  copied.expect_refused(copied.render_for_minutes({"LD_LIBRARY_PATH=" + (copied / "")}), {kModule, needed});
+}
+
+}  // namespace
+}  // namespace fastsplat::cli_test

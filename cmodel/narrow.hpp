@@ -51,12 +51,10 @@ class Narrowing {
       out.word = (value + bias_ + ((value >> dropped_bits_) & even_)) >> dropped_bits_;
       out.inexact = dropped(value) != 0;
     }
-    if (out.word < to_.min || out.word > to_.max) {
-      out.overflow = true;
-      out.word = overflow_ == Overflow::SAT ? (out.word < to_.min ? to_.min : to_.max) : wrapped(out.word);
-    }
-    return out;
+    return fitted(out);
   }
+  /// The same of a value that already has the word's fraction bits: only its range is in question.
+  constexpr Narrowed of_word(std::int64_t value) const { return fitted({.word = value}); }
 
   constexpr Rounding rounding() const { return rounding_; }
   constexpr int from_frac() const { return from_frac_; }
@@ -66,6 +64,13 @@ class Narrowing {
   constexpr std::int64_t dropped(std::int64_t value) const { return value & ((std::int64_t{1} << dropped_bits_) - 1); }
 
  private:
+  constexpr Narrowed fitted(Narrowed out) const {
+    if (out.word < to_.min || out.word > to_.max) {
+      out.overflow = true;
+      out.word = overflow_ == Overflow::SAT ? (out.word < to_.min ? to_.min : to_.max) : wrapped(out.word);
+    }
+    return out;
+  }
   constexpr std::int64_t wrapped(std::int64_t word) const {
     assert(to_.word_bits > 0 && "a unit-interval format cannot wrap");
     const std::int64_t modulus = std::int64_t{1} << to_.word_bits;

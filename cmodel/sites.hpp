@@ -32,25 +32,27 @@ enum class Site : std::uint8_t {
 constexpr std::size_t kSiteCount = 14;
 
 struct SiteFacts {
-  const char* name;                 ///< as in the enumeration
+  const char* name;                 ///< "slab_colour"; the RTL writes it in capitals
   std::uint64_t Counters::*counts;  ///< words that left the range; null where none can
 };
 constexpr std::array<SiteFacts, kSiteCount> kSiteFacts{{
-    {"Snap", &Counters::snap_saturated},
-    {"Product", &Counters::product_saturated},
-    {"Sum", &Counters::sheet_saturated},
-    {"Fall", nullptr},
-    {"SlabColour", &Counters::opacity_saturated},
-    {"SlabOpacity", &Counters::opacity_saturated},
-    {"AddedColour", &Counters::opacity_saturated},
-    {"AddedOpacity", &Counters::opacity_saturated},
-    {"Light", nullptr},
-    {"Over", &Counters::composite_saturated},
-    {"Absorbed", nullptr},
-    {"SumOver", &Counters::composite_saturated},
-    {"PixelOut", &Counters::pixel_saturated},
-    {"PixelSum", &Counters::pixel_saturated},
+    {"snap", &Counters::snap_saturated},
+    {"product", &Counters::product_saturated},
+    {"sum", &Counters::sheet_saturated},
+    {"fall", nullptr},
+    {"slab_colour", &Counters::opacity_saturated},
+    {"slab_opacity", &Counters::opacity_saturated},
+    {"added_colour", &Counters::opacity_saturated},
+    {"added_opacity", &Counters::opacity_saturated},
+    {"light", nullptr},
+    {"over", &Counters::composite_saturated},
+    {"absorbed", nullptr},
+    {"sum_over", &Counters::composite_saturated},
+    {"pixel_out", &Counters::pixel_saturated},
+    {"pixel_sum", &Counters::pixel_saturated},
 }};
+/// Sums of words of one format: no bit can be lost, whatever the configuration.
+constexpr bool is_sum(Site site) { return site == Site::Sum || site == Site::Over || site == Site::SumOver; }
 constexpr const SiteFacts& facts(Site site) { return kSiteFacts[static_cast<std::size_t>(site)]; }
 
 /// What the configuration makes of a site.
@@ -75,7 +77,7 @@ class NarrowAt {
   /// The word. The observer is called with (site, narrowing, value, Narrowed).
   template <class Observer>
   std::int64_t operator()(std::int64_t value, Observer& observer) const {
-    const Narrowed narrowed = narrowing_(value);
+    const Narrowed narrowed = is_sum(S) ? narrowing_.of_word(value) : narrowing_(value);
     observer(S, narrowing_, value, narrowed);
     return narrowed.word;
   }

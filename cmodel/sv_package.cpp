@@ -7,6 +7,7 @@
 #include "base/hash_text.hpp"
 #include "cmodel/counters.hpp"
 #include "cmodel/register_map.hpp"
+#include "cmodel/sites.hpp"
 #include "cmodel/stall_counters.hpp"
 #include "cmodel/stream_decode.hpp"
 #include "cmodel/stream_layout.hpp"
@@ -59,14 +60,6 @@ std::optional<ErrorParts> rtl_violation(const Config& config) {
     return refuse("opacity.segments", "the RTL interpolates over at least one bit", "sheet bits - log2(segments) >= 1",
                   config.opacity_remainder_bits());
   }
-  for (const auto& key : config_keys()) {
-    if (!key.neutral || config.*key.member == *key.neutral) continue;
-    return ErrorParts{.where = key.name,
-                      .what = "the RTL rounds halves up everywhere",
-                      .expected = "rnd",
-                      .got = text_of(config, key),
-                      .fix = "use the model for this configuration"};
-  }
   const int blocks = config.tile_width / config.lanes * (config.tile_height / config.lanes);
   if (blocks > 1024)
     return refuse("tile.width", "the RTL finds dirty blocks in one cycle", "at most 1024 blocks of P x P in a tile",
@@ -117,25 +110,30 @@ std::string sv_package(const Config& config) {
   p.number("RADIAL_ENTRIES", config.radial_entries);
   p.number("RADIAL_LOG2", config.radial_index_bits());
   p.number("WEIGHT_BITS", config.radial_int_bits + config.radial_frac_bits);
-  p.number("WEIGHT_FRAC", config.radial_frac_bits);
   p.number("TABLE_BITS", std::max(bits_for(config.rlut_rim()), config.radial_int_bits + config.radial_frac_bits));
   p.number("COLOUR_BITS", config.colour_frac_bits);
-  p.number("COLOUR_FRAC", config.colour_frac_bits);
 
   p.section("sheet, slab opacity, compositing, pixels");
   p.number("SHEET_BITS", sheet_bits);
-  p.number("SHEET_FRAC", config.sheet_frac_bits);
   p.number("SEGMENTS", config.opacity_segments);
   p.number("SEG_LOG2", Config::log2_exact(config.opacity_segments));
   p.number("REM_BITS", config.opacity_remainder_bits());
   p.number("FACTOR_BITS", config.opacity_frac_bits + 1);
-  p.number("FACTOR_FRAC", config.opacity_frac_bits);
   p.number("TRANS_BITS", transmittance_bits);
   p.number("TRANS_FRAC", config.composite_frac_bits);
   p.number("STATE_BITS", sheet_bits > transmittance_bits ? sheet_bits : transmittance_bits);
   p.number("FREEZE_BELOW", config.freeze_below);
   p.number("PIXEL_BITS", config.pixel_int_bits + config.pixel_frac_bits);
-  p.number("PIXEL_FRAC", config.pixel_frac_bits);
+
+  p.section("narrowing sites: fraction bits dropped, 0 TRN 1 RND 2 RND_CONV, 1 where the word is One.f");
+  for (std::size_t i = 0; i < kSiteCount; ++i) {
+    const Narrowing site = narrowing(config, static_cast<Site>(i));
+    const std::string name = upper(kSiteFacts[i].name);
+    p.number("SHIFT_" + name, site.from_frac() - site.to().frac_bits);
+    p.number("ROUND_" + name, static_cast<int>(site.rounding()));
+    const bool is_signed = site.to().min < 0;  // there the RTL knows the format
+    if (!is_signed) p.number("UNIT_" + name, site.to().word_bits == 0 ? 1 : 0);
+  }
 
   p.section("stream");
   const std::uint64_t hash = config_hash(config);

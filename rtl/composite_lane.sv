@@ -1,5 +1,5 @@
 // One lane of the compositor: a slab over a pixel, front to back, with freezing; or X-ray sums
-// (docs/numerics.md, section 6; cmodel/compositor.hpp). Registers: k5 (products), k6 (new state). A stage without a
+// (docs/numerics.md, section 6; cmodel/composite_lane.hpp). Registers: k5 (products), k6 (new state). A stage without a
 // block holds.
 `include "assertions.svh"
 `include "narrow.svh"
@@ -20,9 +20,10 @@ module composite_lane (
   localparam int DB = fastsplat_pkg::STATE_BITS;
   localparam int TB = fastsplat_pkg::TRANS_BITS;
   localparam int SB = fastsplat_pkg::SHEET_BITS;
-  `FASTSPLAT_NARROW(narrow_light, 2 * TB, fastsplat_pkg::TRANS_FRAC, TB, 1, 1)
-  `FASTSPLAT_NARROW(narrow_colour, TB + 1, 0, TB, 0, 0)
-  `FASTSPLAT_NARROW(narrow_sum, SB + 1, 0, SB, 0, 0)
+  `FASTSPLAT_NARROW(narrow_light, 2 * TB, TB, LIGHT)
+  `FASTSPLAT_NARROW(narrow_absorbed, 2 * TB, TB, ABSORBED)
+  `FASTSPLAT_NARROW(narrow_colour, TB + 1, TB, OVER)
+  `FASTSPLAT_NARROW(narrow_sum, SB + 1, SB, SUM_OVER)
 
   // {overflow, word} with the word as wide as the state
   function automatic logic [DB:0] colour_to_state(input logic [TB:0] narrowed);
@@ -48,7 +49,8 @@ module composite_lane (
       if (valid_i[4]) begin
         state_k5_q <= state_i[c*DB+:DB];
         light_k5_q <= sum_mode ? slab_i[c*DB+:DB] :
-                      DB'(TB'(narrow_light((2 * TB)'(transmittance) * (2 * TB)'(slab_i[c*DB+:TB]))));
+                      DB'(TB'((c == 3) ? narrow_absorbed((2 * TB)'(transmittance) * (2 * TB)'(slab_i[c*DB+:TB])) :
+                                         narrow_light((2 * TB)'(transmittance) * (2 * TB)'(slab_i[c*DB+:TB]))));
       end
       // k5: X + S; C + light, T - absorbed
       if (valid_i[5]) begin

@@ -1,4 +1,5 @@
-// One lane of the splat array: q, radial table, four products (docs/numerics.md, sections 4 and 5; cmodel/footprint.hpp).
+// One lane of the splat array: q, radial table, four products (docs/numerics.md, sections 4 and 5; cmodel/footprint.hpp,
+// cmodel/lane.hpp).
 // Registers: c4 (q), c5 (table read), c6 (products). Outputs belong to the inputs of three cycles before and hold while no
 // window is in the stage before.
 `include "narrow.svh"
@@ -24,7 +25,7 @@ module lane (
   localparam int CB = fastsplat_pkg::COLOUR_BITS;
   localparam int SB = fastsplat_pkg::SHEET_BITS;
   localparam int WB = fastsplat_pkg::WEIGHT_BITS;
-  `FASTSPLAT_NARROW(narrow_product, CB + WB, fastsplat_pkg::COLOUR_FRAC + fastsplat_pkg::WEIGHT_FRAC - fastsplat_pkg::SHEET_FRAC, SB, 1, 0)
+  `FASTSPLAT_NARROW(narrow_product, CB + WB, SB, PRODUCT)
 
   // c4: the rim and everything beyond read as weight 0
   logic [QW-1:0] q;

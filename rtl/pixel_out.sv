@@ -84,8 +84,8 @@ module pixel_out (
   assign picture_row_o = valid_r1_q ? P'(1) << row_r1_q : '0;
 
   // r1: the row narrowed to output words, {overflow, word}
-  `FASTSPLAT_NARROW(narrow_composited, TB, TF - fastsplat_pkg::PIXEL_FRAC, PB, 1, 0)
-  `FASTSPLAT_NARROW(narrow_sum, SB, fastsplat_pkg::SHEET_FRAC - fastsplat_pkg::PIXEL_FRAC, PB, 1, 0)
+  `FASTSPLAT_NARROW(narrow_composited, TB, PB, PIXEL_OUT)
+  `FASTSPLAT_NARROW(narrow_sum, SB, PB, PIXEL_SUM)
   for (genvar g = 0; g < P; g++) begin : gen_pixel
     for (genvar c = 0; c < 4; c++) begin : gen_channel
       logic [DB-1:0] word;

@@ -36,7 +36,7 @@ module sheet_bank (
   logic [AB-1:0] addr_b_q, addr_c_q, addr_w_q, addr_h_q;
   logic forward_c_q;
   logic [4*SB-1:0] sum_w;
-  `FASTSPLAT_NARROW(narrow_sum, SB + 1, 0, SB, 0, 0)
+  `FASTSPLAT_NARROW(narrow_sum, SB + 1, SB, SUM)
 
 `ifdef FASTSPLAT_PROOF
   (* anyconst *) logic any_buffer;

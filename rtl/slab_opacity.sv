@@ -24,9 +24,11 @@ module slab_opacity (
   localparam int TB = fastsplat_pkg::TRANS_BITS;
   localparam int DB = fastsplat_pkg::STATE_BITS;
 
-  `FASTSPLAT_NARROW(narrow_fall, FB + REM, REM, FB, 1, 1)
-  `FASTSPLAT_NARROW(narrow_exponential, SB + FB, fastsplat_pkg::SHEET_FRAC + fastsplat_pkg::FACTOR_FRAC - fastsplat_pkg::TRANS_FRAC, TB, 1, 1)
-  `FASTSPLAT_NARROW(narrow_additive, SB, fastsplat_pkg::SHEET_FRAC - fastsplat_pkg::TRANS_FRAC, TB, 1, 1)
+  `FASTSPLAT_NARROW(narrow_fall, FB + REM, FB, FALL)
+  `FASTSPLAT_NARROW(narrow_colour, SB + FB, TB, SLAB_COLOUR)
+  `FASTSPLAT_NARROW(narrow_opacity, SB + FB, TB, SLAB_OPACITY)
+  `FASTSPLAT_NARROW(narrow_added_colour, SB, TB, ADDED_COLOUR)
+  `FASTSPLAT_NARROW(narrow_added_opacity, SB, TB, ADDED_OPACITY)
 
   // {overflow, word} with the word as wide as the state
   function automatic logic [DB:0] to_state(input logic [TB:0] narrowed);
@@ -62,8 +64,10 @@ module slab_opacity (
       if (valid_i[2]) sum_k3_q <= sum_k2_q;
       if (valid_i[3]) begin
         case (mode_i)
-          2'd0: {saturated_o[c], slab_o[c*DB+:DB]} <= to_state(narrow_exponential((SB + FB)'(sum_k3_q) * (SB + FB)'(factor_k3_q)));
-          2'd1: {saturated_o[c], slab_o[c*DB+:DB]} <= to_state(narrow_additive(sum_k3_q));
+          2'd0: {saturated_o[c], slab_o[c*DB+:DB]} <= to_state((c == 3) ?
+              narrow_opacity((SB + FB)'(sum_k3_q) * (SB + FB)'(factor_k3_q)) :
+              narrow_colour((SB + FB)'(sum_k3_q) * (SB + FB)'(factor_k3_q)));
+          2'd1: {saturated_o[c], slab_o[c*DB+:DB]} <= to_state((c == 3) ? narrow_added_opacity(sum_k3_q) : narrow_added_colour(sum_k3_q));
           default: {saturated_o[c], slab_o[c*DB+:DB]} <= {1'b0, DB'(sum_k3_q)};
         endcase
       end

@@ -11,17 +11,20 @@ module snap (
     output logic        [fastsplat_pkg::PHASE_BITS-1:0] phase_o,  // RLUT row
     output logic                                     saturated_o
 );
-  localparam int DROP = fastsplat_pkg::POS_FRAC - fastsplat_pkg::PHASE_LOG2;
+  localparam int DROP = fastsplat_pkg::SHIFT_SNAP;
   localparam int GRID_BITS = fastsplat_pkg::POS_INT + fastsplat_pkg::PHASE_LOG2;
-  // Wide enough for centre + half and for grid position minus rho.
+  // Wide enough for centre + BIAS + 1 and for grid position minus rho.
   localparam int WIDE = ((fastsplat_pkg::POS_BITS > GRID_BITS + 2) ? fastsplat_pkg::POS_BITS : GRID_BITS + 2) + 2;
-  localparam logic signed [WIDE-1:0] HALF = (DROP > 0) ? WIDE'(1) << (DROP > 0 ? DROP - 1 : 0) : '0;
+  localparam logic signed [WIDE-1:0] EVEN = (fastsplat_pkg::ROUND_SNAP == 2 && DROP > 0) ? WIDE'(1) : '0;
+  localparam logic signed [WIDE-1:0] BIAS = (fastsplat_pkg::ROUND_SNAP != 0 && DROP > 0) ? (WIDE'(1) << (DROP > 0 ? DROP - 1 : 0)) - EVEN : '0;
   localparam logic signed [WIDE-1:0] LARGEST = (WIDE'(1) << (GRID_BITS - 1)) - WIDE'(1);
 
-  logic signed [WIDE-1:0] rounded, on_grid, rim, first;
+  logic signed [WIDE-1:0] centre, rounded, on_grid, rim, first;
   logic overflow;
   always_comb begin
-    rounded = (WIDE'(centre_i) + (`FASTSPLAT_FAULT(SNAP_TRN) ? WIDE'(0) : HALF)) >>> DROP;
+    // As in narrow.svh, but signed.
+    centre = WIDE'(centre_i);
+    rounded = (centre + (`FASTSPLAT_FAULT(SNAP_TRN) ? WIDE'(0) : BIAS + ((centre >>> DROP) & EVEN))) >>> DROP;
     // Rounding up can only leave the range at its upper end.
     overflow = rounded > LARGEST;
     on_grid = overflow ? LARGEST : rounded;

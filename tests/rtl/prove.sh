@@ -6,7 +6,7 @@ emit=$1 source=$2 work=$3 faults=$4
 mkdir -p "$work"
 "$emit" "$source/configs/tiny.toml" | sed -e 's/\(localparam int \(STATE_BITS\|TRANS_BITS\)\) = .*;/\1 = 3;/' \
   -e 's/\(localparam int SHEET_BITS\) = .*;/\1 = 2;/' \
-  -e 's/\(localparam int \(SHEET_FRAC\|TRANS_FRAC\|PIXEL_FRAC\|PIXEL_BITS\)\) = .*;/\1 = 2;/' \
+  -e 's/\(localparam int \(TRANS_FRAC\|PIXEL_BITS\)\) = .*;/\1 = 2;/' \
   -e 's/\(localparam int ADDR_BITS\) = .*;/\1 = 2;/' -e 's/\(localparam int SIDE_BITS\) = .*;/\1 = 3;/' -e 's/\(localparam int \(BLOCKS_X\|BLOCKS_Y\)\) = .*;/\1 = 2;/' \
   -e 's/\(localparam int BLOCKS\) = .*;/\1 = 4;/' -e 's/\(localparam int BLK_BITS\) = .*;/\1 = 1;/' >"$work/fastsplat_pkg.sv"
 

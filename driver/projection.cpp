@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.hpp"
+#include "driver/quantise.hpp"
 #include "scene/splats.hpp"
 
 namespace fastsplat::driver {
@@ -31,19 +31,18 @@ RadiusRange radius_range(const scene::Scene& scene) {
   return range;
 }
 
-struct Quantised {
+struct WholeSplat {
   SplatWords words{};
   bool saturated = false;
 };
 
-Quantised quantise(const scene::Splat& splat, double amplitude, int frac_bits) {
-  const double largest = std::ldexp(1.0, frac_bits + 4) - 1.0;
+WholeSplat whole_splat(const scene::Splat& splat, double amplitude, const Target& target) {
   const double values[4] = {splat.emission.x, splat.emission.y, splat.emission.z, splat.extinction};
-  Quantised out;
+  WholeSplat out;
   for (std::size_t c = 0; c < 4; ++c) {
-    const double word = std::floor(std::ldexp(values[c] * amplitude, frac_bits) + 0.5);
-    out.saturated = out.saturated || word > largest;
-    out.words[c] = static_cast<std::uint32_t>(std::clamp(word, 0.0, largest));
+    const Quantised channel = quantise(values[c] * amplitude, target);
+    out.saturated = out.saturated || channel.saturated;
+    out.words[c] = static_cast<std::uint32_t>(channel.word);
   }
   return out;
 }
@@ -55,6 +54,7 @@ Projected project(const scene::Scene& scene, const cmodel::Config& config, const
   const double unit = scene.volume->kernel_unit();
   const double support = scene.kernel.radius() * unit;
   const double exposure = scene.description.method == scene::Method::XRay ? scene.xray_scale : 1.0;
+  const Target position = target(Site::Position, config), whole = target(Site::Whole, config);
   const RadiusRange range = radius_range(scene);
   Projected out{.splats = {}, .sets = RadiusSets(config, range.smallest, range.largest)};
 
@@ -64,8 +64,7 @@ Projected project(const scene::Scene& scene, const cmodel::Config& config, const
     const double radius = support * at.scale;
     const std::uint32_t set = out.sets.nearest(radius);
     const double width_ratio = radius / out.sets.radius(set);
-    const Quantised quantised =
-        quantise(splat, scene.amplitude * exposure * width_ratio * width_ratio, config.colour_frac_bits);
+    const WholeSplat quantised = whole_splat(splat, scene.amplitude * exposure * width_ratio * width_ratio, whole);
     if (quantised.words == SplatWords{}) {
       ++out.vanished;
       return;
@@ -74,8 +73,8 @@ Projected project(const scene::Scene& scene, const cmodel::Config& config, const
     std::int32_t depth = 0;
     if (use == DepthUse::Sliced) depth = slices.quantise_depth(at.depth / unit - first_depth);
     if (use == DepthUse::GridSheet) depth = splat.sheet;
-    out.splats.push_back({.x = static_cast<std::int32_t>(std::floor(std::ldexp(at.x, config.position_frac_bits) + 0.5)),
-                          .y = static_cast<std::int32_t>(std::floor(std::ldexp(at.y, config.position_frac_bits) + 0.5)),
+    out.splats.push_back({.x = quantise_to<std::int32_t>(at.x, position),
+                          .y = quantise_to<std::int32_t>(at.y, position),
                           .depth = depth,
                           .set = set,
                           .words = quantised.words});

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "cmodel/stream_decode.hpp"
+#include "driver/quantise.hpp"
 
 namespace fastsplat::driver {
 
@@ -21,7 +22,7 @@ RadiusSets::RadiusSets(const cmodel::Config& config, double smallest, double lar
          .fix = "use a smaller --size or --zoom, or a configuration with more rlut.columns"});
   }
   columns_ =
-      cmodel::StreamDecode::padded_extent(config, static_cast<std::uint32_t>(std::ceil(largest * config.phases)));
+      cmodel::StreamDecode::padded_extent(config, quantise_to<std::uint32_t>(largest, target(Site::Rho, config)));
   const auto room = static_cast<std::uint32_t>(config.rlut_columns) / columns_;
   const bool one_radius = largest <= smallest * (1.0 + 1e-9);
   const std::uint32_t count =

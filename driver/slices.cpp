@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "cmodel/narrow.hpp"
+#include "driver/quantise.hpp"
 #include "driver/tables.hpp"
 
 namespace fastsplat::driver {
@@ -16,9 +17,10 @@ using cmodel::Overflow;
 using cmodel::Rounding;
 
 Slices::Slices(const cmodel::Config& config, const scene::Kernel& kernel, double width, int count)
-    : config_(config), phi_(slice_table(config, kernel)) {
+    : config_(config), depth_(target(Site::Depth, config)), phi_(slice_table(config, kernel)) {
+  const Target boundary = target(Site::Boundary, config);
   for (int s = 0; s <= count; ++s) {
-    boundary_.push_back(static_cast<std::int32_t>(std::floor(std::ldexp(s * width, config.slice_phase_bits) + 0.5)));
+    boundary_.push_back(quantise_to<std::int32_t>(s * width, boundary));
     if (s > 0 && boundary_[static_cast<std::size_t>(s)] == boundary_[static_cast<std::size_t>(s) - 1]) {
       throw_usage({.where = "configuration " + config.name,
                    .what = "slabs are thinner than the depth steps of the slice table",
@@ -30,9 +32,7 @@ Slices::Slices(const cmodel::Config& config, const scene::Kernel& kernel, double
   }
 }
 
-std::int32_t Slices::quantise_depth(double depth) const {
-  return static_cast<std::int32_t>(std::floor(std::ldexp(depth, config_.slice_phase_bits) + 0.5));
-}
+std::int32_t Slices::quantise_depth(double depth) const { return quantise_to<std::int32_t>(depth, depth_); }
 
 int Slices::first(std::int32_t depth) const {
   const std::int32_t front = depth - static_cast<std::int32_t>(phi_.size() / 2);
@@ -57,7 +57,7 @@ std::uint32_t Slices::cumulative(std::int32_t depth, int boundary) const {
 Share Slices::share(const SplatWords& whole, std::int32_t depth, int s) const {
   const std::int64_t near = cumulative(depth, s), far = cumulative(depth, s + 1);
   const int frac_bits = config_.colour_frac_bits + config_.slice_frac_bits;
-  const cmodel::Format whole_format = cmodel::unsigned_format(4, config_.colour_frac_bits);
+  const cmodel::Format whole_format = target(Site::Whole, config_).to;
   SplatWords difference{};
   for (std::size_t c = 0; c < 4; ++c) {
     difference[c] =

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cmodel/config.hpp"
+#include "driver/quantise.hpp"
 #include "scene/kernel.hpp"
 
 namespace fastsplat::driver {
@@ -40,6 +41,7 @@ class Slices {
   std::uint32_t cumulative(std::int32_t depth, int boundary) const;
 
   cmodel::Config config_;
+  Target depth_;
   std::vector<std::uint32_t> phi_;      ///< M+1 words One.hf
   std::vector<std::int32_t> boundary_;  ///< B_s
 };

@@ -5,40 +5,23 @@
 #include <numeric>
 
 #include "cmodel/stream_decode.hpp"
+#include "driver/quantise.hpp"
 
 namespace fastsplat::driver {
+namespace {
 
-cmodel::LoadTable rlut_table(const cmodel::Config& config, std::uint32_t set, double radius, std::uint32_t base) {
-  const int k = config.phases;
-  const double rim_distance = radius * k;  // 1/k pixel
-  const auto rho = static_cast<std::uint32_t>(std::ceil(rim_distance));
-  const auto extent =
-      static_cast<int>((2ULL * rho + static_cast<std::uint64_t>(k) - 1) / static_cast<std::uint64_t>(k));
-  const auto padded = static_cast<int>(cmodel::StreamDecode::padded_extent(config, rho));
-  const auto rim = static_cast<double>(config.rlut_rim());
-
-  cmodel::LoadTable table{.table = cmodel::Table::Rlut, .radius = {.set = set, .rho = rho, .base = base}, .words = {}};
-  table.words.reserve(static_cast<std::size_t>(k) * padded);
-  for (int m = 0; m < k; ++m) {
-    for (int i = 0; i < padded; ++i) {
-      const double d = static_cast<double>(std::int64_t{i + 1} * k - m) - rho;
-      const bool outside = i >= extent || std::abs(d) >= rim_distance;
-      const double scaled = outside ? rim : std::floor(d * d * rim / (rim_distance * rim_distance) + 0.5);
-      table.words.push_back(static_cast<std::uint32_t>(std::min(rim, scaled)));
-    }
-  }
-  return table;
-}
-
-std::vector<std::uint32_t> quantise_preserving_sum(const std::vector<double>& values, int frac_bits) {
+/// Each value rounded down or up such that the words' sum is the rounded sum of the values; the largest remainders go
+/// up, the first of equal ones first.
+std::vector<std::uint32_t> quantise_preserving_sum(const std::vector<double>& values, const cmodel::Config& config) {
+  const Target each = target(Site::Radial, config), total = target(Site::RadialSum, config);
   std::vector<std::uint32_t> words(values.size());
   std::vector<double> remainder(values.size());
   double sum = 0.0;
   std::int64_t floor_sum = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const double scaled = std::ldexp(values[i], frac_bits);
-    words[i] = static_cast<std::uint32_t>(std::floor(scaled));
-    remainder[i] = scaled - std::floor(scaled);
+    const double scaled = std::ldexp(values[i], each.to.frac_bits);
+    words[i] = quantise_to<std::uint32_t>(values[i], each);
+    remainder[i] = scaled - words[i];
     sum += scaled;
     floor_sum += words[i];
   }
@@ -46,9 +29,34 @@ std::vector<std::uint32_t> quantise_preserving_sum(const std::vector<double>& va
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return remainder[a] > remainder[b]; });
-  const auto raise = static_cast<std::size_t>(static_cast<std::int64_t>(std::floor(sum + 0.5)) - floor_sum);
+  const auto raise = static_cast<std::size_t>(quantise(sum, total).word - floor_sum);
   for (std::size_t i = 0; i < raise && i < order.size(); ++i) ++words[order[i]];
   return words;
+}
+
+}  // namespace
+
+cmodel::LoadTable rlut_table(const cmodel::Config& config, std::uint32_t set, double radius, std::uint32_t base) {
+  const int k = config.phases;
+  const double rim_distance = radius * k;  // 1/k pixel
+  const auto rho = quantise_to<std::uint32_t>(radius, target(Site::Rho, config));
+  const auto extent =
+      static_cast<int>((2ULL * rho + static_cast<std::uint64_t>(k) - 1) / static_cast<std::uint64_t>(k));
+  const auto padded = static_cast<int>(cmodel::StreamDecode::padded_extent(config, rho));
+  const Target scaled = target(Site::Rlut, config);
+  const auto rim = static_cast<double>(scaled.to.max);
+
+  cmodel::LoadTable table{.table = cmodel::Table::Rlut, .radius = {.set = set, .rho = rho, .base = base}, .words = {}};
+  table.words.reserve(static_cast<std::size_t>(k) * padded);
+  for (int m = 0; m < k; ++m) {
+    for (int i = 0; i < padded; ++i) {
+      const double d = static_cast<double>(std::int64_t{i + 1} * k - m) - rho;
+      const bool outside = i >= extent || std::abs(d) >= rim_distance;
+      const double value = outside ? rim : d * d * rim / (rim_distance * rim_distance);
+      table.words.push_back(quantise_to<std::uint32_t>(value, scaled));
+    }
+  }
+  return table;
 }
 
 cmodel::LoadTable radial_table(const cmodel::Config& config, const scene::Kernel& kernel) {
@@ -58,18 +66,19 @@ cmodel::LoadTable radial_table(const cmodel::Config& config, const scene::Kernel
     samples[t] = std::exp(-kernel.a() * kernel.radius() * kernel.radius() * u);
   }
   cmodel::LoadTable table{
-      .table = cmodel::Table::Radial, .radius = {}, .words = quantise_preserving_sum(samples, config.radial_frac_bits)};
+      .table = cmodel::Table::Radial, .radius = {}, .words = quantise_preserving_sum(samples, config)};
   const auto largest = static_cast<std::uint32_t>(config.weight_format().max);
   for (auto& word : table.words) word = std::min(word, largest);
   return table;
 }
 
 cmodel::LoadTable factor_table(const cmodel::Config& config) {
+  const Target words = target(Site::Factor, config);
   cmodel::LoadTable table{.table = cmodel::Table::Factor, .radius = {}, .words = {}};
   for (int j = 0; j <= config.opacity_segments; ++j) {
     const double tau = std::ldexp(static_cast<double>(j), config.sheet_int_bits) / config.opacity_segments;
     const double factor = j == 0 ? 1.0 : -std::expm1(-tau) / tau;
-    table.words.push_back(static_cast<std::uint32_t>(std::floor(std::ldexp(factor, config.opacity_frac_bits) + 0.5)));
+    table.words.push_back(quantise_to<std::uint32_t>(factor, words));
   }
   return table;
 }
@@ -77,15 +86,15 @@ cmodel::LoadTable factor_table(const cmodel::Config& config) {
 std::vector<std::uint32_t> slice_table(const cmodel::Config& config, const scene::Kernel& kernel) {
   auto steps = static_cast<int>(std::ceil(std::ldexp(2.0 * kernel.radius(), config.slice_phase_bits)));
   steps += steps % 2;
+  const Target weight = target(Site::Phi, config);
   std::vector<std::uint32_t> words;
   words.reserve(static_cast<std::size_t>(steps) + 1);
   for (int i = 0; i <= steps; ++i) {
     const double z = std::ldexp(static_cast<double>(i - steps / 2), -config.slice_phase_bits);
-    words.push_back(
-        static_cast<std::uint32_t>(std::floor(std::ldexp(kernel.cumulative(z), config.slice_frac_bits) + 0.5)));
+    words.push_back(quantise_to<std::uint32_t>(kernel.cumulative(z), weight));
   }
   words.front() = 0;
-  words.back() = std::uint32_t{1} << config.slice_frac_bits;
+  words.back() = static_cast<std::uint32_t>(weight.to.max);
   return words;
 }
 

@@ -13,7 +13,7 @@ namespace fastsplat::driver {
 /// RLUT of one radius set: `radius` in pixels, `base` its first column. Words in load_table order.
 cmodel::LoadTable rlut_table(const cmodel::Config& config, std::uint32_t set, double radius, std::uint32_t base);
 
-/// Radial table, U wi.wf, quantised with its sum preserved (largest remainder).
+/// Radial table, U wi.wf, quantised with its sum preserved: the largest remainders are rounded up.
 cmodel::LoadTable radial_table(const cmodel::Config& config, const scene::Kernel& kernel);
 
 /// (1-exp(-tau))/tau at the G+1 segment ends, One.of.
@@ -21,9 +21,5 @@ cmodel::LoadTable factor_table(const cmodel::Config& config);
 
 /// PHI: cumulative slice weights One.hf at steps of 2^-zf kernel units, M+1 words, M even.
 std::vector<std::uint32_t> slice_table(const cmodel::Config& config, const scene::Kernel& kernel);
-
-/// Values to words of `frac_bits`, each rounded down or up such that the sum is the rounded sum of the values;
-/// the largest remainders go up, the first of equal ones first.
-std::vector<std::uint32_t> quantise_preserving_sum(const std::vector<double>& values, int frac_bits);
 
 }  // namespace fastsplat::driver

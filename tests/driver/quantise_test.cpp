@@ -1,0 +1,66 @@
+// Every site of the driver rounds and saturates as docs/numerics.md, section 8 says.
+#include "driver/quantise.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "driver/config_file.hpp"
+#include "tests/driver/scenes_helper.hpp"
+
+namespace fastsplat::driver {
+namespace {
+
+constexpr Site kSites[] = {Site::Position, Site::Depth, Site::Boundary, Site::Whole,     Site::Phi,
+                           Site::Rho,      Site::Rlut,  Site::Radial,   Site::RadialSum, Site::Factor};
+
+/// The site's word of a value `parts`/4 of a unit above the word 3.
+std::int64_t word_near_3(Site site, int parts, const cmodel::Config& config) {
+  const Target to = target(site, config);
+  return quantise(std::ldexp(3.0 + parts / 4.0, -to.to.frac_bits), to).word;
+}
+
+TEST(Quantise, halves_go_up_but_for_radius_and_radial_weights) {
+  int compared = 0;
+  for (const auto& name : config_names()) {
+    const auto config = load_config(name);
+    for (const Site site : kSites) {
+      for (int parts = 0; parts <= 4; ++parts, ++compared) {
+        std::int64_t expected = parts < 2 ? 3 : 4;
+        if (site == Site::Rho) expected = parts == 0 ? 3 : 4;
+        if (site == Site::Radial) expected = parts < 4 ? 3 : 4;
+        EXPECT_EQ(word_near_3(site, parts, config), expected)
+            << name << ", site " << static_cast<int>(site) << ", 3 + " << parts << "/4";
+      }
+    }
+  }
+  figure("values quantised", compared);
+  ASSERT_GT(compared, 0);
+}
+
+TEST(Quantise, negative_halves_go_up) {
+  const auto config = load_config("base");
+  for (const Site site : {Site::Position, Site::Depth, Site::Boundary}) {
+    const Target to = target(site, config);
+    for (const auto& [value, word] : {std::pair{-2.75, -3}, {-2.5, -2}, {-2.25, -2}, {-2.0, -2}}) {
+      EXPECT_EQ(quantise(std::ldexp(value, -to.to.frac_bits), to).word, word) << value;
+    }
+  }
+}
+
+/// U 4.cf: the last word that fits is reached by rounding, the next one saturates and says so.
+TEST(Quantise, a_whole_splat_saturates_and_says_so) {
+  for (const auto& name : config_names()) {
+    const auto config = load_config(name);
+    const Target to = target(Site::Whole, config);
+    const double largest = std::ldexp(16.0, config.colour_frac_bits) - 1.0;
+    for (const auto& [above, saturated] : {std::pair{0.0, false}, {0.25, false}, {0.5, true}, {1e6, true}}) {
+      const Quantised out = quantise(std::ldexp(largest + above, -config.colour_frac_bits), to);
+      EXPECT_EQ(out.word, static_cast<std::int64_t>(largest)) << name << " + " << above;
+      EXPECT_EQ(out.saturated, saturated) << name << " + " << above;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fastsplat::driver

@@ -9,7 +9,7 @@
 #include "cli/device_report.hpp"
 #include "cli/image_output.hpp"
 #include "cli/scene_flags.hpp"
-#include "golden/splat/antialias.hpp"
+#include "scene/sheet_plan.hpp"
 #include "scene/splats.hpp"
 
 namespace fastsplat::cli {
@@ -18,21 +18,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const std::vector<std::string> kEngines{"golden", "cmodel", "rtl"};
-
-int sheet_count(const scene::Scene& scene) {
-  switch (scene.description.method) {
-    case scene::Method::ImageAligned:
-      return golden::slabs_for_grown_kernels(scene).count;
-    case scene::Method::AxisAligned:
-      return scene::axis_sheet_count(scene);
-    case scene::Method::XRay:
-      return scene.description.xray_sheets;
-    case scene::Method::Westover:
-    case scene::Method::RayCast:
-      return 0;
-  }
-  return 0;
-}
 
 std::uint64_t voxel_count(const scene::Scene& scene) {
   std::uint64_t count = 0;
@@ -122,7 +107,7 @@ FrameReport report_of(const Renderer& renderer, const scene::Scene& scene, const
   if (const auto* device = std::get_if<driver::DeviceRender>(&frame.picture)) {
     report.engine = DeviceReport{*renderer.config, device->report, device->counters};
   } else {
-    report.engine = GoldenReport{voxel_count(scene), sheet_count(scene), frame.golden};
+    report.engine = GoldenReport{voxel_count(scene), scene::sheet_plan(scene).slabs.count, frame.golden};
   }
   return report;
 }

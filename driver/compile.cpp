@@ -10,19 +10,10 @@
 #include "driver/projection.hpp"
 #include "driver/tables.hpp"
 #include "scene/pixel_techniques.hpp"
-#include "scene/splats.hpp"
+#include "scene/sheet_plan.hpp"
 
 namespace fastsplat::driver {
 namespace {
-
-/// How a method uses the device.
-struct Plan {
-  cmodel::Mode mode = cmodel::Mode::Exponential;
-  DepthUse use = DepthUse::Sliced;
-  double first = 0.0;  ///< nearest slab boundary, kernel units
-  double width = 1.0;  ///< of a slab
-  int sheets = 1;
-};
 
 /// The device draws circles of the splat's own scale and nothing else.
 void refuse_golden_only(const scene::SceneDescription& description) {
@@ -37,36 +28,28 @@ void refuse_golden_only(const scene::SceneDescription& description) {
                .fix = "use --engine golden, or turn it off"});
 }
 
-Plan make_plan(const scene::Scene& scene) {
-  const auto& description = scene.description;
-  refuse_golden_only(description);
-  const scene::SlabGrid slabs = scene::slab_grid(scene);
-  const auto slab_mode =
-      description.slab_opacity == scene::SlabOpacity::Exponential ? cmodel::Mode::Exponential : cmodel::Mode::Additive;
-  switch (description.method) {
-    case scene::Method::ImageAligned:
-      return {slab_mode, DepthUse::Sliced, slabs.first, slabs.width, slabs.count};
-    case scene::Method::AxisAligned:
-      return {slab_mode, DepthUse::GridSheet, 0.0, 1.0, scene::axis_sheet_count(scene)};
-    case scene::Method::XRay: {
-      const int sheets = description.xray_sheets;
-      const DepthUse use = sheets == 1 ? DepthUse::OneSheet : DepthUse::Sliced;
-      return {cmodel::Mode::Sum, use, slabs.first, slabs.count * slabs.width / sheets, sheets};
-    }
-    case scene::Method::RayCast:
-    case scene::Method::Westover:
-      break;
-  }
+cmodel::Mode mode_of(const scene::SceneDescription& description) {
+  if (description.method == scene::Method::XRay) return cmodel::Mode::Sum;
+  return description.slab_opacity == scene::SlabOpacity::Exponential ? cmodel::Mode::Exponential
+                                                                     : cmodel::Mode::Additive;
+}
+
+/// The device takes sheets, whatever the method that makes them.
+scene::SheetPlan plan_for_device(const scene::Scene& scene) {
+  refuse_golden_only(scene.description);
+  const scene::SheetPlan plan = scene::sheet_plan(scene);
+  if (plan.use != scene::SheetUse::None) return plan;
+  const scene::Method method = scene.description.method;
   throw_usage({.where = "--method",
-               .what = fmt::format("the device has no method '{}'", scene::to_string(description.method)),
+               .what = fmt::format("the device has no method '{}'", scene::to_string(method)),
                .expected = "image_aligned, axis_aligned or xray",
-               .got = scene::to_string(description.method),
+               .got = scene::to_string(method),
                .fix = "choose one of these, or --engine golden"});
 }
 
-Slices make_slices(const cmodel::Config& config, const scene::Scene& scene, const Plan& plan) {
-  const bool sliced = plan.use == DepthUse::Sliced;
-  return Slices(config, scene.kernel, sliced ? plan.width : 1.0, sliced ? plan.sheets : 1);
+Slices make_slices(const cmodel::Config& config, const scene::Scene& scene, const scene::SheetPlan& plan) {
+  const bool sliced = plan.use == scene::SheetUse::Sliced;
+  return Slices(config, scene.kernel, sliced ? plan.slabs.width : 1.0, sliced ? plan.slabs.count : 1);
 }
 
 /// The snapped window of a splat in image pixels. The image may be larger than a tile, so positions get room;
@@ -118,7 +101,8 @@ class BlockSink {
 
 struct CompiledFrame::State {
   cmodel::Config config;
-  Plan plan;
+  cmodel::Mode mode;
+  scene::SheetPlan plan;
   Slices slices;
   Projected projected;
   TileGrid grid;
@@ -128,12 +112,13 @@ struct CompiledFrame::State {
 
   State(const scene::Scene& scene, const cmodel::Config& device)
       : config(device),
-        plan(make_plan(scene)),
+        mode(mode_of(scene.description)),
+        plan(plan_for_device(scene)),
         slices(make_slices(device, scene, plan)),
-        projected(project(scene, device, slices, plan.use, plan.first)),
+        projected(project(scene, device, slices, plan)),
         grid(device, scene.description.width, scene.description.height),
         bins(make_bins()) {
-    if (plan.use == DepthUse::Sliced) {
+    if (plan.use == scene::SheetUse::Sliced) {
       for (const auto& splat : projected.splats)
         reach = std::max(reach, slices.last(splat.depth) - slices.first(splat.depth));
     }
@@ -141,14 +126,14 @@ struct CompiledFrame::State {
   }
 
   int first_sheet(const ProjectedSplat& splat) const {
-    return plan.use == DepthUse::Sliced ? slices.first(splat.depth) : splat.depth;
+    return plan.use == scene::SheetUse::Sliced ? slices.first(splat.depth) : splat.depth;
   }
 
   TileBins make_bins() const {
     const Windows windows(config, projected.sets);
     const auto& splats = projected.splats;
     return TileBins(
-        grid, plan.sheets, splats.size(), [&](std::size_t i) { return windows(splats[i]); },
+        grid, plan.slabs.count, splats.size(), [&](std::size_t i) { return windows(splats[i]); },
         [&](std::size_t i) { return first_sheet(splats[i]); });
   }
 
@@ -170,8 +155,8 @@ struct CompiledFrame::State {
     for (int from = std::max(0, sheet - reach); from <= sheet; ++from) {
       for (const std::uint32_t number : bins.bin(tile, from)) {
         const ProjectedSplat& splat = projected.splats[number];
-        const Share share =
-            plan.use == DepthUse::Sliced ? slices.share(splat.words, splat.depth, sheet) : slices.whole(splat.words);
+        const Share share = plan.use == scene::SheetUse::Sliced ? slices.share(splat.words, splat.depth, sheet)
+                                                                : slices.whole(splat.words);
         if (share.empty()) continue;
         if (records == 0) out.put(cmodel::BeginSheet{static_cast<std::uint32_t>(sheet)});
         report.saturated_records += share.saturated ? 1 : 0;
@@ -195,11 +180,11 @@ std::span<const cmodel::Beat> CompiledFrame::preamble() const { return state_->p
 TileReport CompiledFrame::emit_tile(int tile, const BeatSink& sink) const {
   const State& s = *state_;
   BlockSink out(sink);
-  out.put(cmodel::BeginTile{s.plan.mode, static_cast<std::uint32_t>(tile), s.grid.x(tile), s.grid.y(tile),
+  out.put(cmodel::BeginTile{s.mode, static_cast<std::uint32_t>(tile), s.grid.x(tile), s.grid.y(tile),
                             s.grid.width(tile), s.grid.height(tile)});
   TileReport report;
   std::uint32_t tag = 0;
-  for (int sheet = 0; sheet < s.plan.sheets; ++sheet) {
+  for (int sheet = 0; sheet < s.plan.slabs.count; ++sheet) {
     const std::uint32_t records = s.emit_sheet(tile, sheet, tag, out, report);
     if (records == 0) continue;
     out.put(cmodel::EndSheet{static_cast<std::uint32_t>(sheet), records});

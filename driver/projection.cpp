@@ -49,8 +49,8 @@ WholeSplat whole_splat(const scene::Splat& splat, double amplitude, const Target
 
 }  // namespace
 
-Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices, DepthUse use,
-                  double first_depth) {
+Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices,
+                  const scene::SheetPlan& plan) {
   const double unit = scene.volume->kernel_unit();
   const double support = scene.kernel.radius() * unit;
   const double exposure = scene.description.method == scene::Method::XRay ? scene.xray_scale : 1.0;
@@ -71,8 +71,8 @@ Projected project(const scene::Scene& scene, const cmodel::Config& config, const
     }
     out.saturated += quantised.saturated ? 1 : 0;
     std::int32_t depth = 0;
-    if (use == DepthUse::Sliced) depth = slices.quantise_depth(at.depth / unit - first_depth);
-    if (use == DepthUse::GridSheet) depth = splat.sheet;
+    if (plan.use == scene::SheetUse::Sliced) depth = slices.quantise_depth(at.depth / unit - plan.slabs.first);
+    if (plan.use == scene::SheetUse::GridSheet) depth = splat.sheet;
     out.splats.push_back({.x = quantise_to<std::int32_t>(at.x, position),
                           .y = quantise_to<std::int32_t>(at.y, position),
                           .depth = depth,

@@ -9,6 +9,7 @@
 #include "driver/radius_sets.hpp"
 #include "driver/slices.hpp"
 #include "scene/scene.hpp"
+#include "scene/sheet_plan.hpp"
 
 namespace fastsplat::driver {
 
@@ -28,12 +29,7 @@ struct Projected {
   std::uint64_t vanished = 0;   ///< voxels whose words all rounded to 0
 };
 
-/// Where a splat's depth goes: into slabs (image-aligned, sliced X-ray), a grid sheet (axis-aligned), or nowhere
-/// (X-ray).
-enum class DepthUse { Sliced, GridSheet, OneSheet };
-
-/// `first_depth`: depth of the nearest slab boundary in kernel units (Sliced).
-Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices, DepthUse use,
-                  double first_depth);
+Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices,
+                  const scene::SheetPlan& plan);
 
 }  // namespace fastsplat::driver

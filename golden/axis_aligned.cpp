@@ -8,7 +8,8 @@
 namespace fastsplat::golden {
 
 Image axis_aligned(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options) {
-  return composite_visible(scene, splats, options, WholeSplats(scene::axis_sheet_count(scene)));
+  return composite_visible(scene, splats, options,
+                           WholeSplats(scene::sheet_plan(scene, scene::Method::AxisAligned).slabs.count));
 }
 
 }  // namespace fastsplat::golden

@@ -3,16 +3,17 @@
 
 #include <glm/glm.hpp>
 
-#include "golden/splat/antialias.hpp"
 #include "scene/scene.hpp"
-#include "scene/splats.hpp"
+#include "scene/sheet_plan.hpp"
 
 namespace fastsplat::golden {
 
 class SheetGeometry {
  public:
   explicit SheetGeometry(const scene::Scene& scene)
-      : camera_(scene.camera), grid_(slabs_for_grown_kernels(scene)), unit_(scene.volume->kernel_unit()) {}
+      : camera_(scene.camera),
+        grid_(scene::sheet_plan(scene, scene::Method::ImageAligned).slabs),
+        unit_(scene.volume->kernel_unit()) {}
 
   int sheets() const { return grid_.count; }
   double width() const { return grid_.width; }                                     ///< kernel units

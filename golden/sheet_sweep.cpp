@@ -6,10 +6,10 @@
 
 #include "golden/bands.hpp"
 #include "golden/sheet.hpp"
-#include "golden/splat/antialias.hpp"
 #include "golden/splat/composite.hpp"
 #include "golden/splat/footprint.hpp"
 #include "golden/splat/projection.hpp"
+#include "scene/kernel_growth.hpp"
 
 namespace fastsplat::golden {
 
@@ -37,7 +37,7 @@ void KernelSlices::shares(const ProjectedSplat& splat, std::vector<double>& out)
 }
 
 KernelSlices image_slabs(const scene::Scene& scene) {
-  return {scene.kernel, slabs_for_grown_kernels(scene), largest_growth(scene)};
+  return {scene.kernel, scene::sheet_plan(scene, scene::Method::ImageAligned).slabs, scene::largest_growth(scene)};
 }
 
 namespace {

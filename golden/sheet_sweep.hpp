@@ -8,6 +8,7 @@
 
 #include "golden/render.hpp"
 #include "golden/splat/projected_splat.hpp"
+#include "scene/sheet_plan.hpp"
 
 namespace fastsplat::golden {
 
@@ -57,7 +58,7 @@ class KernelSlices final : public SheetAssignment {
   double largest_growth_;
 };
 
-/// The sheets of image_aligned: scene::slab_grid, longer where anti-aliased kernels reach beyond it.
+/// The sheets of image_aligned.
 KernelSlices image_slabs(const scene::Scene& scene);
 
 /// Takes a run of pixels of a finished sheet into the picture. `pixels` start as given to sweep_sheets.

@@ -25,17 +25,7 @@ void for_each_splat(const Scene& scene, const std::function<void(const Splat&)>&
 
 std::vector<Splat> collect_splats(const Scene& scene);
 
-/// Number of axis-aligned sheets (the grid's extent along the dominant axis).
+/// The grid's extent along its dominant axis: Splat::sheet is below it.
 int axis_sheet_count(const Scene& scene);
-
-/// Image-aligned slabs: sheet s covers depth [first + s*width, first + (s+1)*width) in kernel units, relative to the
-/// volume's centre. A slab boundary lies on the centre whatever the view, and the count depends only on the bounding
-/// radius, the kernel and the width.
-struct SlabGrid {
-  double first = 0.0;  ///< depth of the nearest boundary, kernel units
-  double width = 1.0;  ///< kernel units
-  int count = 0;
-};
-SlabGrid slab_grid(const Scene& scene);
 
 }  // namespace fastsplat::scene

@@ -79,11 +79,4 @@ std::vector<Splat> collect_splats(const Scene& scene) {
 
 int axis_sheet_count(const Scene& scene) { return scene.volume->dims[dominant_axis(scene)]; }
 
-SlabGrid slab_grid(const Scene& scene) {
-  const double reach = scene.volume->bounding_radius() / scene.volume->kernel_unit() + scene.kernel.radius();
-  const double width = scene.description.slab_width;
-  const double half = std::ceil(reach / width);
-  return {.first = -half * width, .width = width, .count = 2 * static_cast<int>(half)};
-}
-
 }  // namespace fastsplat::scene

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/sheet_plan.hpp"
 #include "scenes_helper.hpp"
 
 namespace fastsplat::golden::testing {

@@ -11,6 +11,7 @@
 
 #include "density_helper.hpp"
 #include "golden/gradient_splats.hpp"
+#include "scene/sheet_plan.hpp"
 #include "scenes_helper.hpp"
 
 namespace fastsplat::golden::testing {

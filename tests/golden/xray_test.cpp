@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "scene/sheet_plan.hpp"
 #include "scenes_helper.hpp"
 
 namespace fastsplat::golden::testing {

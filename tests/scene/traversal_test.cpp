@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <set>
 
+#include "scene/sheet_plan.hpp"
 #include "scene/splats.hpp"
 #include "tests/scene/scene_testing.hpp"
 #include "volume/synthetic.hpp"

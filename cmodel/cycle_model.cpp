@@ -4,6 +4,7 @@
 
 #include "cmodel/cycle_stages.hpp"
 #include "cmodel/snap.hpp"
+#include "cmodel/window_geometry.hpp"
 
 namespace fastsplat::cmodel {
 namespace {
@@ -113,9 +114,8 @@ void CycleModel::take(const Beat& beat) {
 
 void CycleModel::load(const LoadTable& table) {
   if (table.table != Table::Rlut) return;
-  sets_[table.radius.set] = {
-      .rho = table.radius.rho,
-      .extent = static_cast<std::int32_t>(StreamDecode::padded_extent(config_, table.radius.rho))};
+  sets_[table.radius.set] = {.rho = table.radius.rho,
+                             .extent = static_cast<std::int32_t>(window_geometry(config_, table.radius.rho).padded)};
 }
 
 void CycleModel::splat(const SplatRecord& record, std::uint64_t at) {

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
+#include "cmodel/window_geometry.hpp"
 
 namespace fastsplat::cmodel {
 
@@ -10,13 +11,6 @@ StreamDecode::StreamDecode(const Config& config, StreamScope scope)
       scope_(scope),
       config_hash_(config_hash(config)),
       sets_loaded_(static_cast<std::size_t>(config.rlut_sets), false) {}
-
-std::uint32_t StreamDecode::padded_extent(const Config& config, std::uint32_t rho) {
-  const auto k = static_cast<std::uint64_t>(config.phases);
-  const auto lanes = static_cast<std::uint64_t>(config.lanes);
-  const std::uint64_t extent = (2ULL * rho + k - 1) / k;
-  return static_cast<std::uint32_t>((extent + lanes - 1) / lanes * lanes);
-}
 
 void StreamDecode::refuse(const char* what, const std::string& expected, const std::string& got) const {
   throw_input({.where = "beat " + std::to_string(beats_) + " (byte offset " + std::to_string(beats_ * kBeatBytes) + ")",
@@ -107,7 +101,7 @@ void StreamDecode::check(const LoadTable& header, std::uint32_t words) {
              "first RLUT column is no multiple of the lanes",
              header.radius.base / static_cast<std::uint32_t>(config_.lanes) * static_cast<std::uint32_t>(config_.lanes),
              header.radius.base);
-      const std::uint32_t columns = padded_extent(config_, header.radius.rho);
+      const std::uint32_t columns = window_geometry(config_, header.radius.rho).padded;
       const std::int64_t end = std::int64_t{header.radius.base} + columns;
       expect(end <= config_.rlut_columns, "RLUT columns past the end", config_.rlut_columns, end);
       expected_words = std::int64_t{columns} * config_.phases;

@@ -26,9 +26,6 @@ class StreamDecode {
 
   std::uint64_t beats() const { return beats_; }
 
-  /// Pixels per side of a loaded radius set, a multiple of P.
-  static std::uint32_t padded_extent(const Config& config, std::uint32_t rho);
-
  private:
   enum class State { Start, Tables, Payload, Tile, Sheet, Ended };
 

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "cmodel/records.hpp"
 #include "cmodel/snap.hpp"
+#include "cmodel/window_geometry.hpp"
 #include "driver/projection.hpp"
 #include "driver/tables.hpp"
 #include "scene/pixel_techniques.hpp"
@@ -56,25 +57,19 @@ Slices make_slices(const cmodel::Config& config, const scene::Scene& scene, cons
 /// the tile's origin is a whole number of pixels, so the window is the one the device finds.
 class Windows {
  public:
-  Windows(const cmodel::Config& config, const RadiusSets& sets) : wide_(config) {
+  Windows(const cmodel::Config& config, const RadiusSets& sets) : wide_(config), sets_(sets) {
     wide_.position_int_bits = 30 - config.position_frac_bits;
-    for (std::size_t set = 0; set < sets.size(); ++set) {
-      const auto table =
-          rlut_table(config, static_cast<std::uint32_t>(set), sets.radius(static_cast<std::uint32_t>(set)), 0);
-      rho_.push_back(table.radius.rho);
-    }
   }
   Extent operator()(const ProjectedSplat& splat) const {
-    const std::uint32_t rho = rho_[splat.set];
-    const auto extent = static_cast<std::int32_t>((2 * rho + static_cast<std::uint32_t>(wide_.phases) - 1) /
-                                                  static_cast<std::uint32_t>(wide_.phases));
+    const std::uint32_t rho = sets_.rho(splat.set);
+    const auto extent = static_cast<std::int32_t>(cmodel::window_geometry(wide_, rho).extent);
     const std::int32_t x0 = cmodel::snap(wide_, splat.x, rho).origin, y0 = cmodel::snap(wide_, splat.y, rho).origin;
     return {x0, x0 + extent, y0, y0 + extent};
   }
 
  private:
   cmodel::Config wide_;
-  std::vector<std::uint32_t> rho_;
+  const RadiusSets& sets_;
 };
 
 /// Collects beats and hands them on in blocks.

@@ -6,10 +6,14 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "cmodel/stream_decode.hpp"
+#include "cmodel/window_geometry.hpp"
 #include "driver/quantise.hpp"
 
 namespace fastsplat::driver {
+
+std::uint32_t support_radius(double radius, const cmodel::Config& config) {
+  return quantise_to<std::uint32_t>(radius, target(Site::Rho, config));
+}
 
 RadiusSets::RadiusSets(const cmodel::Config& config, double smallest, double largest) : smallest_(smallest) {
   const double widest = config.rlut_columns / 2.0;
@@ -21,18 +25,18 @@ RadiusSets::RadiusSets(const cmodel::Config& config, double smallest, double lar
          .got = fmt::format("{:.2f} pixels", largest),
          .fix = "use a smaller --size or --zoom, or a configuration with more rlut.columns"});
   }
-  columns_ =
-      cmodel::StreamDecode::padded_extent(config, quantise_to<std::uint32_t>(largest, target(Site::Rho, config)));
+  columns_ = cmodel::window_geometry(config, support_radius(largest, config)).padded;
   const auto room = static_cast<std::uint32_t>(config.rlut_columns) / columns_;
   const bool one_radius = largest <= smallest * (1.0 + 1e-9);
   const std::uint32_t count =
       one_radius ? 1 : std::min<std::uint32_t>(room, static_cast<std::uint32_t>(config.rlut_sets));
   if (one_radius) {
     radii_ = {largest};
-    return;
+  } else {
+    bins_per_log_ = count / std::log(largest / smallest);
+    for (std::uint32_t set = 0; set < count; ++set) radii_.push_back(smallest * std::exp((set + 0.5) / bins_per_log_));
   }
-  bins_per_log_ = count / std::log(largest / smallest);
-  for (std::uint32_t set = 0; set < count; ++set) radii_.push_back(smallest * std::exp((set + 0.5) / bins_per_log_));
+  for (const double radius : radii_) rho_.push_back(support_radius(radius, config));
 }
 
 std::uint32_t RadiusSets::nearest(double radius) const {

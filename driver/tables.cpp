@@ -4,8 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "cmodel/stream_decode.hpp"
+#include "cmodel/window_geometry.hpp"
 #include "driver/quantise.hpp"
+#include "driver/radius_sets.hpp"
 
 namespace fastsplat::driver {
 namespace {
@@ -39,10 +40,9 @@ std::vector<std::uint32_t> quantise_preserving_sum(const std::vector<double>& va
 cmodel::LoadTable rlut_table(const cmodel::Config& config, std::uint32_t set, double radius, std::uint32_t base) {
   const int k = config.phases;
   const double rim_distance = radius * k;  // 1/k pixel
-  const auto rho = quantise_to<std::uint32_t>(radius, target(Site::Rho, config));
-  const auto extent =
-      static_cast<int>((2ULL * rho + static_cast<std::uint64_t>(k) - 1) / static_cast<std::uint64_t>(k));
-  const auto padded = static_cast<int>(cmodel::StreamDecode::padded_extent(config, rho));
+  const std::uint32_t rho = support_radius(radius, config);
+  const cmodel::WindowGeometry geometry = cmodel::window_geometry(config, rho);
+  const auto extent = static_cast<int>(geometry.extent), padded = static_cast<int>(geometry.padded);
   const Target scaled = target(Site::Rlut, config);
   const auto rim = static_cast<double>(scaled.to.max);
 

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "cmodel/stream_decode.hpp"
+#include "cmodel/window_geometry.hpp"
 
 namespace fastsplat::testbench {
 namespace {
@@ -94,7 +94,7 @@ void StreamCoverage::table(const cmodel::LoadTable& table) {
   coverage_.hit(
       coverage_.declare("table", "last_beat_of_" + std::to_string(words_in_last_beat(table.words.size()) + 1)));
   if (table.table != cmodel::Table::Rlut) return;
-  const auto extent = cmodel::StreamDecode::padded_extent(config_, table.radius.rho);
+  const auto extent = cmodel::window_geometry(config_, table.radius.rho).padded;
   const std::uint32_t base = table.radius.base, end = base + extent;
   if (sets_[table.radius.set].rho != 0) coverage_.hit(loaded_again_);
   if (base == 0) coverage_.hit(first_columns_);

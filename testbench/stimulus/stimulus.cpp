@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "cmodel/stream_decode.hpp"
+#include "cmodel/window_geometry.hpp"
 #include "testbench/stimulus/random.hpp"
 #include "testbench/stimulus/stimulus_tables.hpp"
 
@@ -251,7 +252,7 @@ class Generator {
     return static_cast<std::int32_t>(std::clamp(word, format.min, format.max));
   }
 
-  std::int64_t extent(std::uint32_t set) const { return cmodel::StreamDecode::padded_extent(config_, rho_[set]); }
+  std::int64_t extent(std::uint32_t set) const { return cmodel::window_geometry(config_, rho_[set]).padded; }
 
   std::int32_t coordinate(std::uint32_t set, int side) {
     const std::int64_t wide = extent(set), phase = random_.between(0, config_.phases - 1);

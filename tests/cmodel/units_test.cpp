@@ -2,7 +2,7 @@
 // pixels compared with the oracle.
 #include <gtest/gtest.h>
 
-#include "cmodel/stream_decode.hpp"
+#include "cmodel/window_geometry.hpp"
 #include "tests/cmodel/compare_helper.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/cmodel/stream_writer_helper.hpp"
@@ -94,7 +94,7 @@ TEST(Units, SnapEveryPositionAndRadius) {
         for (int rho = 1; rho <= c.columns * c.k / 2; ++rho) {
           StreamWriter w(c);
           w.begin_frame(4, 4, 1);
-          const auto Ea = cmodel::StreamDecode::padded_extent(config_of(c, "snap"), static_cast<std::uint32_t>(rho));
+          const auto Ea = cmodel::window_geometry(config_of(c, "snap"), static_cast<std::uint32_t>(rho)).padded;
           w.load_table(0, 0, static_cast<std::uint32_t>(rho), 0,
                        std::vector<std::uint32_t>(Ea * static_cast<std::size_t>(c.k), 0));
           w.load_table(1, 0, 0, 0, {3, 1});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,11 @@
 #include "cmodel/taps.hpp"
 
 namespace fastsplat::cmodel {
+
+/// Takes beats in stream order, some thousands at a time.
+using BeatSink = std::function<void(std::span<const Beat>)>;
+/// Delivers a stream in pieces; each call the same one from the start. It may be longer than memory.
+using BeatSource = std::function<void(const BeatSink&)>;
 
 /// A finished tile: RGBA words, row by row.
 struct TilePixels {
@@ -23,6 +29,11 @@ class PixelSink {
  public:
   virtual ~PixelSink() = default;
   virtual void on_tile(TilePixels&& tile) = 0;
+};
+
+/// For runs whose pixels nobody looks at.
+struct NullPixels final : PixelSink {
+  void on_tile(TilePixels&&) override {}
 };
 
 class Device {

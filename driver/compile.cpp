@@ -75,7 +75,7 @@ class Windows {
 /// Collects beats and hands them on in blocks.
 class BlockSink {
  public:
-  explicit BlockSink(const BeatSink& sink) : sink_(sink) { beats_.reserve(kBlock + 64); }
+  explicit BlockSink(const cmodel::BeatSink& sink) : sink_(sink) { beats_.reserve(kBlock + 64); }
   void put(const cmodel::Record& record) { append(beats_, record); }
   void put(const cmodel::SplatRecord& splat) {
     beats_.push_back(to_beat(splat));
@@ -88,7 +88,7 @@ class BlockSink {
 
  private:
   static constexpr std::size_t kBlock = 4096;
-  const BeatSink& sink_;
+  const cmodel::BeatSink& sink_;
   std::vector<cmodel::Beat> beats_;
 };
 
@@ -172,7 +172,7 @@ const cmodel::Config& CompiledFrame::config() const { return state_->config; }
 const TileGrid& CompiledFrame::grid() const { return state_->grid; }
 std::span<const cmodel::Beat> CompiledFrame::preamble() const { return state_->preamble; }
 
-TileReport CompiledFrame::emit_tile(int tile, const BeatSink& sink) const {
+TileReport CompiledFrame::emit_tile(int tile, const cmodel::BeatSink& sink) const {
   const State& s = *state_;
   BlockSink out(sink);
   out.put(cmodel::BeginTile{s.mode, static_cast<std::uint32_t>(tile), s.grid.x(tile), s.grid.y(tile),
@@ -191,8 +191,26 @@ TileReport CompiledFrame::emit_tile(int tile, const BeatSink& sink) const {
   return report;
 }
 
+DriverReport CompiledFrame::emit(const cmodel::BeatSink& sink, const Progress& progress) const {
+  DriverReport out = report();
+  sink(preamble());
+  for (int tile = 0; tile < grid().count(); ++tile) {
+    out += emit_tile(tile, sink);
+    if (progress) progress(static_cast<std::size_t>(tile) + 1, out.tiles);
+  }
+  return out;
+}
+
+DriverReport& operator+=(DriverReport& report, const TileReport& tile) {
+  report.splat_records += tile.splat_records;
+  report.saturated_records += tile.saturated_records;
+  report.sheets += tile.sheets;
+  return report;
+}
+
 DriverReport CompiledFrame::report() const {
   return {.voxels = state_->projected.voxels,
+          .tiles = static_cast<std::uint64_t>(state_->grid.count()),
           .saturated_voxels = state_->projected.saturated,
           .vanished_voxels = state_->projected.vanished};
 }

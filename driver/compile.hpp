@@ -3,26 +3,26 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "cmodel/beat.hpp"
 #include "cmodel/config.hpp"
+#include "cmodel/device.hpp"
 #include "driver/render.hpp"
 #include "driver/tile_bins.hpp"
 #include "scene/scene.hpp"
 
 namespace fastsplat::driver {
 
-/// Takes beats in stream order, some thousands at a time.
-using BeatSink = std::function<void(std::span<const cmodel::Beat>)>;
-
 /// What one tile's records add to the report.
 struct TileReport {
   std::uint64_t splat_records = 0, saturated_records = 0, sheets = 0;
 };
+
+DriverReport& operator+=(DriverReport& report, const TileReport& tile);
 
 class CompiledFrame {
  public:
@@ -35,8 +35,10 @@ class CompiledFrame {
   /// begin_frame and the tables.
   std::span<const cmodel::Beat> preamble() const;
   /// begin_tile .. end_tile. Const and without shared state: tiles may be emitted in parallel.
-  TileReport emit_tile(int tile, const BeatSink& sink) const;
-  /// Voxel counts; record counts come from the tiles.
+  TileReport emit_tile(int tile, const cmodel::BeatSink& sink) const;
+  /// Preamble and all tiles in order: a subset stream, without end_frame. Progress counts tiles.
+  DriverReport emit(const cmodel::BeatSink& sink, const Progress& progress = {}) const;
+  /// Voxels and tiles; what the tiles hold is in what emit() returns, or added to it by those who emit them singly.
   DriverReport report() const;
 
  private:

@@ -15,7 +15,6 @@ DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, con
   const auto tiles = static_cast<std::size_t>(compiled.grid().count());
   DeviceRender out;
   out.report = compiled.report();
-  out.report.tiles = tiles;
   FrameSink frame(config, compiled.grid().image_width, compiled.grid().image_height);
   std::vector<cmodel::Counters> counters(tiles);
   std::vector<TileReport> reports(tiles);
@@ -34,9 +33,7 @@ DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, con
 
   for (std::size_t tile = 0; tile < tiles; ++tile) {
     out.counters += counters[tile];
-    out.report.splat_records += reports[tile].splat_records;
-    out.report.saturated_records += reports[tile].saturated_records;
-    out.report.sheets += reports[tile].sheets;
+    out.report += reports[tile];
   }
   out.frame = frame.take();
   return out;

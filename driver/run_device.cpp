@@ -11,17 +11,7 @@ DeviceRender run_device(const scene::Scene& scene, const cmodel::Config& config,
   FrameSink frame(config, compiled.grid().image_width, compiled.grid().image_height);
   const auto device = make(frame);
   DeviceRender out;
-  out.report = compiled.report();
-  out.report.tiles = static_cast<std::uint64_t>(compiled.grid().count());
-  device->consume(compiled.preamble());
-  for (int tile = 0; tile < compiled.grid().count(); ++tile) {
-    const TileReport part =
-        compiled.emit_tile(tile, [&](std::span<const cmodel::Beat> beats) { device->consume(beats); });
-    out.report.splat_records += part.splat_records;
-    out.report.saturated_records += part.saturated_records;
-    out.report.sheets += part.sheets;
-    if (options.progress) options.progress(static_cast<std::size_t>(tile) + 1, out.report.tiles);
-  }
+  out.report = compiled.emit([&](std::span<const cmodel::Beat> beats) { device->consume(beats); }, options.progress);
   device->finish();
   out.counters = device->counters();
   out.frame = frame.take();

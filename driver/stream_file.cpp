@@ -171,16 +171,8 @@ DriverReport record_stream(const scene::Scene& scene, const cmodel::Config& conf
                            const RenderOptions& options) {
   Writer writer(path);
   const CompiledFrame compiled(scene, config);
-  DriverReport report = compiled.report();
-  report.tiles = static_cast<std::uint64_t>(compiled.grid().count());
-  writer.write(compiled.preamble());
-  for (int tile = 0; tile < compiled.grid().count(); ++tile) {
-    const TileReport part = compiled.emit_tile(tile, [&](std::span<const Beat> beats) { writer.write(beats); });
-    report.splat_records += part.splat_records;
-    report.saturated_records += part.saturated_records;
-    report.sheets += part.sheets;
-    if (options.progress) options.progress(static_cast<std::size_t>(tile) + 1, report.tiles);
-  }
+  const DriverReport report =
+      compiled.emit([&](std::span<const Beat> beats) { writer.write(beats); }, options.progress);
   writer.finish();
   return report;
 }
@@ -217,7 +209,7 @@ void feed_stream(const std::filesystem::path& path, cmodel::Device& device, cons
   feed(reader, path, device, options, [](const Beat&) {});
 }
 
-void read_beats(const std::filesystem::path& path, const std::function<void(std::span<const Beat>)>& sink) {
+void read_beats(const std::filesystem::path& path, const cmodel::BeatSink& sink) {
   Reader reader(path);
   constexpr std::size_t kBlock = 4096;
   std::vector<Beat> block;

@@ -25,7 +25,7 @@ DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Conf
 void feed_stream(const std::filesystem::path& path, cmodel::Device& device, const RenderOptions& options = {});
 
 /// The file's beats in order, some thousands at a time, contents unchecked.
-void read_beats(const std::filesystem::path& path, const std::function<void(std::span<const cmodel::Beat>)>& sink);
+void read_beats(const std::filesystem::path& path, const cmodel::BeatSink& sink);
 
 /// Writes beats as they are; atomic.
 void write_beats(const std::filesystem::path& path, std::span<const cmodel::Beat> beats);

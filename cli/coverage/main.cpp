@@ -53,8 +53,8 @@ constexpr Frame kFrames[] = {
     {"X-ray", scene::Method::XRay, scene::SlabOpacity::Exponential},
 };
 
-std::vector<std::pair<std::string, tb::BeatSource>> scenes(const cmodel::Config& config) {
-  std::vector<std::pair<std::string, tb::BeatSource>> out;
+std::vector<std::pair<std::string, cmodel::BeatSource>> scenes(const cmodel::Config& config) {
+  std::vector<std::pair<std::string, cmodel::BeatSource>> out;
   for (const Frame& frame : kFrames) {
     scene::SceneDescription description;
     description.volume = "shells:24";
@@ -63,10 +63,7 @@ std::vector<std::pair<std::string, tb::BeatSource>> scenes(const cmodel::Config&
     description.method = frame.method;
     description.slab_opacity = frame.opacity;
     const auto compiled = std::make_shared<const driver::CompiledFrame>(scene::build_scene(description), config);
-    out.emplace_back(frame.name, [compiled](const tb::BeatSink& sink) {
-      sink(compiled->preamble());
-      for (int tile = 0; tile < compiled->grid().count(); ++tile) compiled->emit_tile(tile, sink);
-    });
+    out.emplace_back(frame.name, [compiled](const cmodel::BeatSink& sink) { compiled->emit(sink); });
   }
   return out;
 }

@@ -102,11 +102,11 @@ struct Checked {
   std::uint64_t streams = 1;
   testbench::VerifyResult failed;
   std::map<std::string, testbench::Coverage> coverage;  ///< by campaign
-  testbench::BeatSource source;                         ///< of the failed stream
+  cmodel::BeatSource source;                            ///< of the failed stream
   testbench::VerifyOptions options;
 };
 
-Checked verify_one(testbench::BeatSource source, const testbench::VerifyOptions& options, const char* campaign) {
+Checked verify_one(cmodel::BeatSource source, const testbench::VerifyOptions& options, const char* campaign) {
   Checked out;
   out.result = out.failed = testbench::verify(source, options);
   if (out.result.coverage) out.coverage[campaign] = *out.result.coverage;
@@ -140,13 +140,8 @@ Checked verify_scene(const Arguments& arguments, testbench::VerifyOptions option
   options.scope = cmodel::StreamScope::Subset;
   const auto scene = build(arguments.scene);
   const auto compiled = std::make_shared<const driver::CompiledFrame>(scene, options.config);
-  const testbench::BeatSource source = [compiled, progress](const testbench::BeatSink& sink) {
-    sink(compiled->preamble());
-    const int tiles = compiled->grid().count();
-    for (int tile = 0; tile < tiles; ++tile) {
-      compiled->emit_tile(tile, sink);
-      if (progress) progress(static_cast<std::size_t>(tile) + 1, static_cast<std::size_t>(tiles));
-    }
+  const cmodel::BeatSource source = [compiled, progress](const cmodel::BeatSink& sink) {
+    compiled->emit(sink, progress);
   };
   Checked out = verify_one(source, options, "scene");
   // Pixels of a device that was given no splat are equal whatever is wrong with it.
@@ -305,8 +300,8 @@ ExitCode run(const Arguments& arguments) {
         checked = verify_scene(arguments, options, bar.callback());
         break;
       case Source::Stream:
-        checked = verify_one([&](const testbench::BeatSink& sink) { driver::read_beats(arguments.stream, sink); },
-                             options, "stream");
+        checked = verify_one([&](const cmodel::BeatSink& sink) { driver::read_beats(arguments.stream, sink); }, options,
+                             "stream");
         break;
       case Source::Random:
         checked = verify_random(arguments, options, bar.callback());

@@ -14,9 +14,8 @@
 
 namespace fastsplat::testbench {
 
-using BeatSink = std::function<void(std::span<const cmodel::Beat>)>;
-/// Delivers a stream in pieces; each call the same one from the start. It may be longer than memory.
-using BeatSource = std::function<void(const BeatSink&)>;
+using cmodel::BeatSink;
+using cmodel::BeatSource;
 BeatSource source_of(std::vector<cmodel::Beat> beats);
 
 struct VerifyOptions {

@@ -51,9 +51,6 @@ class CoverageCollector {
       owner->composite_.on_tap(record);
     }
   };
-  struct NoPixels final : cmodel::PixelSink {
-    void on_tile(cmodel::TilePixels&&) override {}
-  };
   void before(const cmodel::Record& record);
   void run_bins();
 
@@ -68,7 +65,7 @@ class CoverageCollector {
   CycleCoverage times_;
   ResetCoverage resets_;
   ModelTaps taps_{this};
-  NoPixels pixels_;
+  cmodel::NullPixels pixels_;
   cmodel::Model model_;
   std::optional<cmodel::CycleModel> cycles_;
 };

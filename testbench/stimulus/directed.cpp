@@ -29,10 +29,6 @@ constexpr Refusal kRefusals[] = {
     {"unknown_first_opcode", cmodel::layout::kOpcode}, {"unknown_last_opcode", cmodel::layout::kOpcode, true}};
 constexpr const char* kAfterRefusal[] = {"rest_is_swallowed", "works_after_reset"};
 
-struct NoPixels final : cmodel::PixelSink {
-  void on_tile(cmodel::TilePixels&&) override {}
-};
-
 std::vector<cmodel::Beat> small_stream(const cmodel::Config& config) {
   return write_document(config, make_stimulus(config, StimulusClass::Mixed, 1, 40).document);
 }
@@ -75,7 +71,7 @@ DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& m
              unknown_write = check.bin("register", "unknown_write_refused"),
              read_waits = check.bin("register", "read_answer_waits"),
              write_waits = check.bin("register", "write_answer_waits");
-  NoPixels pixels;
+  cmodel::NullPixels pixels;
   const auto device = make(pixels, {});
   const auto read = [&](const cmodel::Register& which) { return device->read_register(which.address); };
   const std::uint64_t hash = config_hash(config);
@@ -131,7 +127,7 @@ DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& m
 DirectedResult check_refusals(const cmodel::Config& config, const MakeDevice& make) {
   Check check;
   const auto beats = small_stream(config);
-  NoPixels pixels;
+  cmodel::NullPixels pixels;
   const auto device = make(pixels, {});
   const auto swallowed = check.bin("refusal", "rest_is_swallowed"),
              recovers = check.bin("refusal", "works_after_reset");

@@ -107,8 +107,7 @@ cmodel::Frame tapped(const scene::Scene& scene, const cmodel::Config& config, cm
   EXPECT_EQ(compiled.grid().count(), 1);
   FrameSink frame(config, compiled.grid().image_width, compiled.grid().image_height);
   cmodel::Model device(config, cmodel::StreamScope::Subset, frame, &taps);
-  device.consume(compiled.preamble());
-  compiled.emit_tile(0, [&](std::span<const cmodel::Beat> beats) { device.consume(beats); });
+  compiled.emit([&](std::span<const cmodel::Beat> beats) { device.consume(beats); });
   device.finish();
   return frame.take();
 }

@@ -78,8 +78,7 @@ std::string measure(const scene::Scene& scene, const cmodel::Config& config) {
       for (const std::uint32_t word : beat) stream.add(word);
     }
   };
-  take(compiled.preamble());
-  for (int tile = 0; tile < compiled.grid().count(); ++tile) compiled.emit_tile(tile, take);
+  compiled.emit(take);
   const DeviceRender out = render(scene, config, {.threads = 1, .progress = {}});
   for (const std::uint32_t word : out.frame.words) words.add(word);
   out.counters.for_each([&](const char*, std::uint64_t value, const char*) { counts.add(value); });

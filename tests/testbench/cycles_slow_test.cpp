@@ -21,10 +21,6 @@ namespace {
 
 using testbench::Pattern;
 
-struct NoPixels final : cmodel::PixelSink {
-  void on_tile(cmodel::TilePixels&&) override {}
-};
-
 class EachConfig : public ::testing::TestWithParam<std::string> {
  protected:
   cmodel::Config config() const { return driver::load_config(GetParam()); }
@@ -60,7 +56,7 @@ TEST(CycleModelSpeed, AHundredTimesTheClockedBase) {
   description.volume = "shells:16";
   description.width = description.height = 64;
   const auto beats = scene_beats(description, config);
-  NoPixels pixels;
+  cmodel::NullPixels pixels;
   testbench::RtlOptions plain;
   plain.build = testbench::RtlBuild::Plain;
   const auto rtl = testbench::make_rtl_device(config, pixels, plain);

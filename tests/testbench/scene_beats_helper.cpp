@@ -7,11 +7,8 @@ namespace fastsplat::test {
 std::vector<cmodel::Beat> scene_beats(const scene::SceneDescription& description, const cmodel::Config& config) {
   const scene::Scene scene = scene::build_scene(description);
   const driver::CompiledFrame compiled(scene, config);
-  std::vector<cmodel::Beat> beats(compiled.preamble().begin(), compiled.preamble().end());
-  for (int tile = 0; tile < compiled.grid().count(); ++tile) {
-    compiled.emit_tile(
-        tile, [&](std::span<const cmodel::Beat> more) { beats.insert(beats.end(), more.begin(), more.end()); });
-  }
+  std::vector<cmodel::Beat> beats;
+  compiled.emit([&](std::span<const cmodel::Beat> more) { beats.insert(beats.end(), more.begin(), more.end()); });
   return beats;
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 
 #include "base/error.hpp"
@@ -39,7 +40,10 @@ TEST(SheetPlan, AxisAlignedSheetsHoldEverySplat) {
   const int count = sheet_plan(scene, Method::AxisAligned).slabs.count;
   EXPECT_EQ(count, 12);
   int splats = 0;
-  for_each_splat(scene, [&](const Splat& splat) { EXPECT_LT(splat.sheet, count), ++splats; });
+  for_each_splat(scene, [&](const Splat& splat) {
+    EXPECT_LT(splat.sheet, count);
+    ++splats;
+  });
   std::printf("[figure] splats = %d (limit > 0)\n", splats);
   ASSERT_GT(splats, 0);
 }

@@ -60,7 +60,7 @@ class Windows {
   Windows(const cmodel::Config& config, const RadiusSets& sets) : wide_(config), sets_(sets) {
     wide_.position_int_bits = 30 - config.position_frac_bits;
   }
-  Extent operator()(const ProjectedSplat& splat) const {
+  Extent operator()(const QuantisedSplat& splat) const {
     const std::uint32_t rho = sets_.rho(splat.set);
     const auto extent = static_cast<std::int32_t>(cmodel::window_geometry(wide_, rho).extent);
     const std::int32_t x0 = cmodel::snap(wide_, splat.x, rho).origin, y0 = cmodel::snap(wide_, splat.y, rho).origin;
@@ -120,7 +120,7 @@ struct CompiledFrame::State {
     make_preamble(scene);
   }
 
-  int first_sheet(const ProjectedSplat& splat) const {
+  int first_sheet(const QuantisedSplat& splat) const {
     return plan.use == scene::SheetUse::Sliced ? slices.first(splat.depth) : splat.depth;
   }
 
@@ -149,7 +149,7 @@ struct CompiledFrame::State {
     std::uint32_t records = 0;
     for (int from = std::max(0, sheet - reach); from <= sheet; ++from) {
       for (const std::uint32_t number : bins.bin(tile, from)) {
-        const ProjectedSplat& splat = projected.splats[number];
+        const QuantisedSplat& splat = projected.splats[number];
         const Share share = plan.use == scene::SheetUse::Sliced ? slices.share(splat.words, splat.depth, sheet)
                                                                 : slices.whole(splat.words);
         if (share.empty()) continue;

@@ -4,6 +4,7 @@
 
 #include "golden/splat/antialias.hpp"
 #include "golden/splat/perspective_footprint.hpp"
+#include "scene/real_splat.hpp"
 
 namespace fastsplat::golden {
 
@@ -17,23 +18,22 @@ Projector::Projector(const scene::Scene& scene)
 
 ProjectedSplat Projector::operator()(const scene::Splat& splat) const {
   const glm::dvec3 world(splat.position);
-  const scene::ScreenPoint at = scene_.camera.project(world);
-  const double pixels_per_unit = at.scale * unit_;
+  const scene::RealSplat real = scene::real_splat(scene_, splat);
+  const double pixels_per_unit = real.at.scale * unit_;
   const scene::FootprintSettings& footprint = scene_.description.footprint;
 
   ProjectedSplat p;
-  p.x = at.x;
-  p.y = at.y;
-  p.z = at.depth / unit_;
+  p.x = real.at.x;
+  p.y = real.at.y;
+  p.z = real.depth;
   p.shape = {pixels_per_unit * pixels_per_unit, 0.0, pixels_per_unit * pixels_per_unit};
-  for (int c = 0; c < 3; ++c) p.value[c] = density_ * static_cast<double>(splat.emission[c]);
-  p.value[3] = density_ * static_cast<double>(splat.extinction);
-  p.sheet = splat.sheet;
+  p.value = scaled(real.material, density_);
+  p.sheet = real.sheet;
 
-  if (footprint.shape == scene::FootprintShape::Ellipse) apply_perspective(scene_.camera, world, at.depth, p);
+  if (footprint.shape == scene::FootprintShape::Ellipse) apply_perspective(scene_.camera, world, real.at.depth, p);
   if (footprint.antialias) apply_antialias(pixels_per_unit, p);
   motion_.apply(world, p);
-  lens_.apply(at.depth, p);
+  lens_.apply(real.at.depth, p);
 
   p.texture = textures_.phase_of(splat.position);
   p.texture_amplitude = textures_.amplitude();

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstdio>
 #include <cstring>
 
 #include "testbench/device/tap_assembly.hpp"
+#include "testbench/device/words.hpp"
 
 namespace fastsplat::testbench {
 namespace {
@@ -27,7 +27,6 @@ TapCopy owned(cmodel::Tap tap, const TapQueue::Header& header, std::span<const s
 
 /// Meaning of a payload word, as "window pixel (i,j): weight" or "C_R".
 std::string word_name(const cmodel::Config& config, const TapCopy& record, std::size_t word) {
-  static constexpr const char* kChannels[] = {"R", "G", "B", "tau"};
   static constexpr const char* kState[] = {"C_R", "C_G", "C_B", "T"};
   static constexpr const char* kSnap[] = {"x0", "y0", "mx", "my"};
   static constexpr const char* kPixel[] = {"R", "G", "B", "A"};
@@ -48,12 +47,6 @@ std::string word_name(const cmodel::Config& config, const TapCopy& record, std::
       return std::string("output ") + kPixel[word % 4];
   }
   return "?";
-}
-
-std::string hex(std::uint32_t value) {
-  char text[16];
-  std::snprintf(text, sizeof text, "0x%X", value);
-  return text;
 }
 
 std::string place(const TapCopy& record) {

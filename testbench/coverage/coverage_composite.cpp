@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <string>
 
+#include "testbench/device/words.hpp"
+
 namespace fastsplat::testbench {
 namespace {
-
-constexpr const char* kChannels[] = {"R", "G", "B", "tau"};
 
 std::size_t blocks(const cmodel::Config& config) {
   return static_cast<std::size_t>((config.tile_width / config.lanes) * (config.tile_height / config.lanes));

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <string>
 
+#include "testbench/device/words.hpp"
+
 namespace fastsplat::testbench {
 namespace {
-
-constexpr const char* kChannels[] = {"R", "G", "B", "tau"};
 
 /// Where a window lies on one axis of the tile. `Both`: wider than the tile.
 enum Axis : std::size_t { Before, Low, Inside, High, After, Both };

@@ -3,12 +3,12 @@
 #include <set>
 
 #include "cmodel/window_geometry.hpp"
+#include "testbench/device/words.hpp"
 
 namespace fastsplat::testbench {
 namespace {
 
 constexpr std::size_t kWordsPerBeat = std::tuple_size_v<cmodel::Beat>;
-constexpr const char* kChannels[] = {"R", "G", "B", "tau"};
 
 std::size_t words_in_last_beat(std::size_t words) { return (words + kWordsPerBeat - 1) % kWordsPerBeat; }
 

@@ -1,7 +1,6 @@
 #include "testbench/triage/explain.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "cmodel/compositor.hpp"
 #include "cmodel/footprint.hpp"
@@ -10,18 +9,10 @@
 #include "cmodel/sheet_buffer.hpp"
 #include "cmodel/snap.hpp"
 #include "cmodel/stream_decode.hpp"
+#include "testbench/device/words.hpp"
 
 namespace fastsplat::testbench {
 namespace {
-
-std::string hex(std::int64_t value) {
-  char text[24];
-  std::snprintf(text, sizeof text, "%s0x%llX", value < 0 ? "-" : "",
-                static_cast<unsigned long long>(value < 0 ? -value : value));
-  return text;
-}
-
-constexpr const char* kChannels[] = {"R", "G", "B", "tau"};
 
 /// Walks the stream through the model's units up to the event and writes down what meets there.
 class Walk {

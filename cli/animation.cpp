@@ -21,6 +21,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double kFramesASecond = 24.0;
+
 [[noreturn]] void misused(const std::string& where, const std::string& what, const std::string& fix) {
   throw_usage({.where = where, .what = what, .expected = {}, .got = {}, .fix = fix});
 }
@@ -118,18 +120,21 @@ Json to_json(const Result& result) {
 }  // namespace
 
 std::optional<scene::Sequence> sequence_of(const RenderArguments& arguments) {
+  if (arguments.rate && arguments.video.empty()) misused("--rate", "the rate of which video?", "add --video FILE.mp4");
   if (!arguments.orbit && !arguments.sequence) {
     if (arguments.frames) misused("--frames", "frames of what?", "add --orbit A..B or --sequence");
     if (!arguments.video.empty()) misused("--video", "a still has no video", "add --orbit A..B --frames N");
+    for (const auto& path : arguments.out) check_still_name(path);
+    check_still_name(arguments.raw);
     return std::nullopt;
   }
   if (arguments.orbit && arguments.sequence) misused({}, "--orbit and --sequence exclude each other", "give one");
   if (arguments.out.empty() && arguments.raw.empty()) misused({}, "no frames to write", "add --out frame.####.png");
-  if (!(arguments.rate >= 0.1 && arguments.rate <= 1000.0)) {
+  if (arguments.rate && !(*arguments.rate >= 0.1 && *arguments.rate <= 1000.0)) {
     throw_usage({.where = "--rate",
                  .what = "out of range",
                  .expected = "0.1..1000 frames a second",
-                 .got = fmt::format("{}", arguments.rate),
+                 .got = fmt::format("{}", *arguments.rate),
                  .fix = "24 is the default"});
   }
   if (!arguments.save_scene.empty()) {
@@ -230,7 +235,7 @@ ExitCode run_animation(const RenderArguments& arguments, const Renderer& rendere
     write_video({.path = arguments.video,
                  .frames = FrameNames(video_source(arguments), sequence.frames).format(),
                  .count = sequence.frames,
-                 .rate = arguments.rate});
+                 .rate = arguments.rate.value_or(kFramesASecond)});
     output.line(arguments.video);
     result.video = arguments.video;
   }

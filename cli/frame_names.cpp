@@ -17,6 +17,15 @@ std::string without_percent(const std::string& text) {
 
 }  // namespace
 
+void check_still_name(const std::string& path) {
+  if (std::filesystem::path(path).filename().string().find('#') == std::string::npos) return;
+  throw_usage({.where = path,
+               .what = "# stands for a frame's number, and a still has none",
+               .expected = {},
+               .got = {},
+               .fix = "add --orbit A..B --frames N or --sequence, or leave the # out"});
+}
+
 FrameNames::FrameNames(const std::string& pattern, int frames) {
   const auto folder = pattern.size() - std::filesystem::path(pattern).filename().string().size();
   const auto first = pattern.find('#', folder);

@@ -5,6 +5,9 @@
 
 namespace fastsplat::cli {
 
+/// UserError (Usage) where the name of a still's file has a place for a frame's number.
+void check_still_name(const std::string& path);
+
 class FrameNames {
  public:
   /// UserError (Usage) unless the file name in `pattern` holds exactly one run of '#', wide enough for the number of

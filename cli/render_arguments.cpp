@@ -11,7 +11,6 @@ void declare(Options& options, RenderArguments& to) {
   options.word("--engine", to.engine, "golden|cmodel|rtl",
                "golden (floating point), cmodel (the integer device) or rtl (its Verilated RTL)");
   declare(options, to.config, "cmodel, rtl: hardware configuration, a name or a TOML file (default base)");
-  options.choice("--index", to.index, {"rlut"}, "NAME", "cmodel, rtl: index generator (rlut)");
   options.flag("--check", to.check, "rtl: compares every tap, pixel and counter with the model (exit 1)");
   options.group("Animation");
   options.word("--orbit", to.orbit, "A..B", "azimuth from A to B degrees, both included; 0..360 is a whole turn");

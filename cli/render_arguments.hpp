@@ -14,7 +14,7 @@ namespace fastsplat::cli {
 struct RenderArguments {
   Common common;
   SceneFlags scene;
-  std::string engine = "golden", index = "rlut";
+  std::string engine = "golden";
   ConfigFlags config;
   std::vector<std::string> out;
   std::string raw;         ///< raw device words as EXR; empty for none
@@ -24,8 +24,8 @@ struct RenderArguments {
   std::optional<std::string> orbit;  ///< "A..B", degrees
   bool sequence = false;             ///< as the scene's [sequence] says
   std::optional<int> frames;
-  std::string video;   ///< empty for none
-  double rate = 24.0;  ///< of the video, frames a second
+  std::string video;           ///< empty for none
+  std::optional<double> rate;  ///< of the video, frames a second
 };
 
 void declare(Options& options, RenderArguments& to);

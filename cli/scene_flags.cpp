@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "scene/scene_file.hpp"
 #include "scene/settings.hpp"
 
 namespace fastsplat::cli {
@@ -73,52 +74,15 @@ void apply_camera(const SceneFlags& flags, scene::SceneDescription& to) {
     contradiction("--perspective and --orthographic exclude each other", "give one");
   if (flags.perspective) to.camera.projection = scene::Projection::Perspective;
   if (flags.orthographic) to.camera.projection = scene::Projection::Orthographic;
-  if (flags.settings.contains("--fov") && to.camera.projection == scene::Projection::Orthographic) {
-    contradiction("--fov means nothing to an orthographic camera", "add --perspective, or use --zoom");
-  }
 }
 
-/// Flags that shape a technique which is off.
-void refuse_idle_flags(const SceneFlags& flags, const scene::SceneDescription& to) {
-  struct Technique {
-    bool on;
-    const char* name;
-    const char* fix;
-    std::vector<const char*> flags;
-  };
-  const Technique techniques[] = {
-      {to.footprint.texture.amplitude > 0.0,
-       "detail in the splats",
-       "add --splat-texture 1",
-       {"--splat-phases", "--splat-frame", "--splat-scale"}},
-      {to.lens.depth_of_field != scene::DepthOfField::Off,
-       "depth of field",
-       "add --depth-of-field splats",
-       {"--aperture", "--focus"}},
-      {to.classify == scene::ClassifyOrder::Post,
-       "classification after splatting",
-       "add --classify post",
-       {"--gradients"}},
-      {to.texture.kind != scene::SolidKind::None,
-       "a texture",
-       "add --texture NAME",
-       {"--texture-where", "--texture-scale", "--texture-amplitude"}},
-      {to.culling.mode != scene::CullingMode::Off,
-       "culling",
-       "add --culling blocks",
-       {"--culling-test", "--culling-theta", "--culling-block"}},
-      {to.culling.test == scene::VisibilityTest::Average,
-       "the average test",
-       "add --culling-test average",
-       {"--culling-theta"}},
-      {to.bump.kind != scene::SolidKind::None, "bumps", "add --bump NAME", {"--bump-scale", "--bump-amplitude"}},
-  };
-  for (const Technique& technique : techniques) {
-    for (const char* flag : technique.flags) {
-      if (!technique.on && flags.settings.contains(flag))
-        contradiction(fmt::format("{} means nothing without {}", flag, technique.name), technique.fix);
-    }
+/// The flags that were given, of those that settings have.
+std::vector<scene::Given> given_by(const SceneFlags& flags) {
+  std::vector<scene::Given> given;
+  for (const scene::Setting& setting : scene::settings()) {
+    if (flags.settings.contains(setting.flag)) given.push_back({&setting});
   }
+  return given;
 }
 
 }  // namespace
@@ -144,8 +108,9 @@ void declare(Options& options, SceneFlags& to) {
   }
 }
 
-scene::SceneDescription describe(const SceneFlags& flags) {
-  scene::SceneDescription to = flags.file ? scene::load_scene_file(*flags.file) : scene::SceneDescription{};
+scene::SceneDescription describe(const SceneFlags& flags, const scene::Sequence* sequence) {
+  const scene::SceneFile file = flags.file ? scene::read_scene_file(*flags.file) : scene::SceneFile{};
+  scene::SceneDescription to = file.description;
   set(to.volume, flags.volume);
   set(to.transfer_function, flags.transfer_function);
   apply_kernel(flags, to);
@@ -160,7 +125,11 @@ scene::SceneDescription describe(const SceneFlags& flags) {
     const auto flag = flags.settings.find(setting.flag);
     if (flag != flags.settings.end()) scene::set_from_text(setting, flag->second, to);
   }
-  refuse_idle_flags(flags, to);
+  for (const auto& given : {given_by(flags), file.idle}) {
+    auto idle = scene::idle_of(given, to);
+    if (sequence) idle = scene::idle_of(std::move(idle), *sequence, to);
+    scene::refuse_idle(idle, to);
+  }
   return to;
 }
 

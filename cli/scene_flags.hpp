@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cli/options.hpp"
-#include "scene/scene.hpp"
+#include "scene/sequence.hpp"
 
 namespace fastsplat::cli {
 
@@ -21,7 +21,9 @@ struct SceneFlags {
 
 void declare(Options& options, SceneFlags& to);
 
-scene::SceneDescription describe(const SceneFlags& flags);
+/// UserError where a flag, or a key of the file, changes nothing: neither in the scene nor in any frame of `sequence`.
+/// A key may also have its meaning in the file's own scene, before the flags.
+scene::SceneDescription describe(const SceneFlags& flags, const scene::Sequence* sequence = nullptr);
 
 /// Reads the volume and resolves all names.
 scene::Scene build(const SceneFlags& flags);

@@ -1,33 +1,18 @@
 #include "driver/compile.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <cassert>
 
-#include "base/error.hpp"
 #include "cmodel/records.hpp"
 #include "cmodel/snap.hpp"
 #include "cmodel/window_geometry.hpp"
 #include "driver/projection.hpp"
 #include "driver/tables.hpp"
-#include "scene/pixel_techniques.hpp"
+#include "scene/capability.hpp"
 #include "scene/sheet_plan.hpp"
 
 namespace fastsplat::driver {
 namespace {
-
-/// The device draws circles of the splat's own scale and nothing else.
-void refuse_golden_only(const scene::SceneDescription& description) {
-  std::string key = scene::technique_in_use(description.footprint, description.motion, description.lens);
-  if (key.empty()) key = scene::pixel_technique_in_use(description);
-  if (key.empty()) key = scene::culling_in_use(description.culling);
-  if (key.empty()) return;
-  throw_usage({.where = key,
-               .what = "the device does not have this technique",
-               .expected = {},
-               .got = {},
-               .fix = "use --engine golden, or turn it off"});
-}
 
 cmodel::Mode mode_of(const scene::SceneDescription& description) {
   if (description.method == scene::Method::XRay) return cmodel::Mode::Sum;
@@ -35,17 +20,16 @@ cmodel::Mode mode_of(const scene::SceneDescription& description) {
                                                                      : cmodel::Mode::Additive;
 }
 
+const cmodel::Config& checked(const scene::Scene& scene, const cmodel::Config& device) {
+  scene::check_capability(scene, offers(device));
+  return device;
+}
+
 /// The device takes sheets, whatever the method that makes them.
 scene::SheetPlan plan_for_device(const scene::Scene& scene) {
-  refuse_golden_only(scene.description);
   const scene::SheetPlan plan = scene::sheet_plan(scene);
-  if (plan.use != scene::SheetUse::None) return plan;
-  const scene::Method method = scene.description.method;
-  throw_usage({.where = "--method",
-               .what = fmt::format("the device has no method '{}'", scene::to_string(method)),
-               .expected = "image_aligned, axis_aligned or xray",
-               .got = scene::to_string(method),
-               .fix = "choose one of these, or --engine golden"});
+  assert(plan.use != scene::SheetUse::None && "refused by check_capability");
+  return plan;
 }
 
 Slices make_slices(const cmodel::Config& config, const scene::Scene& scene, const scene::SheetPlan& plan) {
@@ -106,7 +90,7 @@ struct CompiledFrame::State {
   std::vector<cmodel::Beat> preamble;
 
   State(const scene::Scene& scene, const cmodel::Config& device)
-      : config(device),
+      : config(checked(scene, device)),
         mode(mode_of(scene.description)),
         plan(plan_for_device(scene)),
         slices(make_slices(device, scene, plan)),
@@ -163,6 +147,11 @@ struct CompiledFrame::State {
     return records;
   }
 };
+
+scene::Offers offers(const cmodel::Config&) {
+  using scene::Method, scene::only;
+  return {"device", only(Method::ImageAligned) | only(Method::AxisAligned) | only(Method::XRay), 0u};
+}
 
 CompiledFrame::CompiledFrame(const scene::Scene& scene, const cmodel::Config& config)
     : state_(std::make_unique<const State>(scene, config)) {}

@@ -13,9 +13,14 @@
 #include "cmodel/device.hpp"
 #include "driver/render.hpp"
 #include "driver/tile_bins.hpp"
+#include "scene/capability.hpp"
 #include "scene/scene.hpp"
 
 namespace fastsplat::driver {
+
+/// What a device of this configuration has: today all have the same methods, and none of the golden renderer's
+/// features.
+scene::Offers offers(const cmodel::Config& config);
 
 /// What one tile's records add to the report.
 struct TileReport {

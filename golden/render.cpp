@@ -3,7 +3,7 @@
 #include <cassert>
 #include <chrono>
 
-#include "base/error.hpp"
+#include "scene/capability.hpp"
 
 namespace fastsplat::golden {
 namespace {
@@ -34,22 +34,12 @@ Image timed_post_classified(const scene::Scene& scene, const RenderOptions& opti
   return image;
 }
 
-void refuse_footprints(const scene::SceneDescription& description) {
-  const std::string key = scene::technique_in_use(description.footprint, description.motion, description.lens);
-  if (key.empty()) return;
-  throw_usage({.where = key,
-               .what = "the ray caster has no footprints to shape",
-               .expected = {},
-               .got = {},
-               .fix = "choose a splatting --method, or turn this off"});
-}
-
 }  // namespace
 
 Image render(const scene::Scene& scene, const RenderOptions& options) {
   switch (scene.description.method) {
     case scene::Method::RayCast:
-      refuse_footprints(scene.description);
+      scene::check_capability(scene, scene::kOffersAll);  // the scene may have been built for another method
       return ray_cast(scene, options);
     case scene::Method::XRay:
       return render_splats(xray, scene, options);

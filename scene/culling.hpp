@@ -7,8 +7,6 @@
 
 namespace fastsplat::scene {
 
-struct SceneDescription;
-
 enum class CullingMode {
   Off,
   Splats,  ///< every splat is tested when its nearest sheet's turn comes
@@ -27,13 +25,6 @@ struct Culling {
   double theta = 0.95;  ///< mean opacity that VisibilityTest::Average asks for
   int block = 8;        ///< edge of the smallest block, voxels
 };
-
-/// The first key of it that is turned on ("culling.mode"); empty if none is.
-std::string culling_in_use(const Culling& culling);
-
-/// UserError (Usage) unless the method has sheets to composite and culling has something to go by. Blocks know the
-/// footprints of circles only.
-void check_culling(const SceneDescription& description);
 
 const std::vector<std::string>& culling_mode_names();     ///< in the order of CullingMode
 const std::vector<std::string>& visibility_test_names();  ///< in the order of VisibilityTest

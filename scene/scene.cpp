@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "scene/pixel_techniques.hpp"
+#include "scene/capability.hpp"
 #include "scene/settings.hpp"
 #include "volume/volume_file.hpp"
 
@@ -43,13 +43,13 @@ double automatic_exposure(const volume::Volume& volume, const TransferFunction& 
 
 Scene build_scene(const SceneDescription& description) {
   check_limits(description);
-  check_culling(description);
+  check_capability(description, kOffersAll);
   return build_scene(description, std::make_shared<const volume::Volume>(volume::load_volume(description.volume)));
 }
 
 Scene build_scene(const SceneDescription& description, std::shared_ptr<const volume::Volume> volume) {
   check_limits(description);
-  check_culling(description);
+  check_capability(description, kOffersAll);
   const Kernel kernel = make_kernel(description);
   const double unit = volume->kernel_unit();
   const Camera camera(description.camera, *volume, kernel.radius() * unit, description.width, description.height);
@@ -58,21 +58,22 @@ Scene build_scene(const SceneDescription& description, std::shared_ptr<const vol
                                                                                      : description.transfer_function);
   Shading shading = tf.shading;
   if (description.shading >= 0) shading.on = description.shading == 1;
-  check_pixel_techniques(description, shading);
   double xray_scale = 1.0;
   if (description.method == Method::XRay) {
     xray_scale = description.xray_exposure > 0.0 ? description.xray_exposure
                                                  : automatic_exposure(*volume, tf, description.opacity_scale);
   }
   const glm::dvec3 cell = volume->spacing / unit;
-  return {.description = description,
-          .volume = std::move(volume),
-          .transfer_function = std::move(tf),
-          .kernel = kernel,
-          .camera = camera,
-          .shading = shading,
-          .amplitude = kernel.peak() * cell.x * cell.y * cell.z,
-          .xray_scale = xray_scale};
+  Scene scene{.description = description,
+              .volume = std::move(volume),
+              .transfer_function = std::move(tf),
+              .kernel = kernel,
+              .camera = camera,
+              .shading = shading,
+              .amplitude = kernel.peak() * cell.x * cell.y * cell.z,
+              .xray_scale = xray_scale};
+  check_capability(scene, kOffersAll);  // now that shading is known
+  return scene;
 }
 
 const std::vector<std::string>& method_names() {

@@ -69,7 +69,8 @@ struct Scene {
 /// hint, an unknown demo is one with the nearest name. Relative volume paths are relative to the file.
 SceneDescription load_scene_file(const std::filesystem::path& path);
 std::vector<std::string> demo_names();  ///< sorted
-/// As TOML that load_scene_file reads back to the same description.
+/// As TOML that load_scene_file reads back to a scene of the same picture, and to_toml writes alike again: settings
+/// that mean nothing there (scene/capability.hpp) are left out unless they are at their default.
 std::string to_toml(const SceneDescription& description);
 
 Scene build_scene(const SceneDescription& description);

@@ -2,6 +2,8 @@
 // and here what is more than a plain setting: volume and transfer_function (relative to the file), image.size for width
 // and height, kernel.name in place of its a and radius. A table [sequence] (scene/sequence.cpp) must make
 // sense but changes no still.
+#include "scene/scene_file.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 #include "base/suggest.hpp"
 #include "scene/embedded.hpp"
 #include "scene/open_scene.hpp"
-#include "scene/scene.hpp"
 #include "scene/sequence_table.hpp"
 #include "scene/settings.hpp"
 #include "scene/toml_reader.hpp"
@@ -99,8 +100,10 @@ std::vector<std::string> demo_names() {
   return names;
 }
 
-SceneDescription load_scene_file(const fs::path& path) {
-  SceneDescription d;
+SceneFile read_scene_file(const fs::path& path) {
+  SceneFile all;
+  SceneDescription& d = all.description;
+  std::vector<Given> given;
   TomlTable root = open_scene(path);
   const fs::path folder = path.parent_path();
   if (const auto text = root.text("volume")) {
@@ -118,17 +121,25 @@ SceneDescription load_scene_file(const fs::path& path) {
   }
   for (const std::string& name : setting_tables()) {
     if (name.empty()) {
-      read_settings(root, name, d);
+      read_settings(root, name, d, given);
     } else if (auto table = root.table(name)) {
-      read_settings(*table, name, d);
+      read_settings(*table, name, d, given);
       if (name == "image") read_image(*table, d);
       if (name == "kernel") read_kernel(*table, d);
       table->finish();
     }
   }
-  if (auto table = root.table("sequence")) read_sequence(*table);
+  if (auto table = root.table("sequence")) all.sequence = read_sequence(*table, given);
   root.finish();
-  return d;
+  all.idle = idle_of(given, d);
+  if (all.sequence) all.idle = idle_of(all.idle, *all.sequence, d);
+  return all;
+}
+
+SceneDescription load_scene_file(const fs::path& path) {
+  SceneFile file = read_scene_file(path);
+  refuse_idle(file.idle, file.description);
+  return file.description;
 }
 
 std::string to_toml(const SceneDescription& d) {
@@ -142,7 +153,9 @@ std::string to_toml(const SceneDescription& d) {
     const bool named = table == "kernel" && !d.kernel.empty();  // a name stands for a and radius
     if (named) text += fmt::format("name = {}\n", toml_string(d.kernel));
     for (const Setting& setting : settings()) {
-      if (table == setting.table && !named) text += fmt::format("{} = {}\n", setting.key, value_as_toml(setting, d));
+      if (table != setting.table || named) continue;
+      if (!at_default(setting, d) && refusal(Given{&setting}, d)) continue;
+      text += fmt::format("{} = {}\n", setting.key, value_as_toml(setting, d));
     }
   }
   return text;

@@ -15,10 +15,6 @@
 namespace fastsplat::scene {
 namespace {
 
-std::string dotted(const Setting& setting) {
-  return *setting.table ? fmt::format("{}.{}", setting.table, setting.key) : setting.key;
-}
-
 struct Limits {
   double low, high;
 };
@@ -73,7 +69,7 @@ Sequence orbit(double from, double to, int frames) {
           .tracks = {{.setting = "camera.azimuth", .keys = {from, to}}}};
 }
 
-Sequence read_sequence(TomlTable& table) {
+Sequence read_sequence(TomlTable& table, std::vector<Given>& given) {
   Sequence sequence;
   const auto frames = table.integer("frames", 1, kMaxFrames);
   if (!frames) table.refuse("frames", "missing", "how many frames there are", {}, "write for example frames = 48");
@@ -87,8 +83,10 @@ Sequence read_sequence(TomlTable& table) {
     for (const Setting& setting : settings()) {
       const auto limits = limits_of(setting);
       if (name != setting.table || !limits) continue;
-      if (auto keys = place.numbers(setting.key, 1, limits->low, limits->high))
-        sequence.tracks.push_back({.setting = dotted(setting), .keys = std::move(*keys)});
+      auto keys = place.numbers(setting.key, 1, limits->low, limits->high);
+      if (!keys) continue;
+      sequence.tracks.push_back({.setting = dotted(setting), .keys = std::move(*keys)});
+      given.push_back({&setting, place.where(setting.key)});
     }
     if (inner) inner->finish();
   }
@@ -104,7 +102,8 @@ Sequence load_sequence(const std::filesystem::path& scene_file) {
   TomlTable root = open_scene(scene_file);
   auto table = root.table("sequence");
   if (!table) root.refuse("", "there is no [sequence]", {}, {}, "add one with frames = N and what changes");
-  return read_sequence(*table);
+  std::vector<Given> judged_with_the_scene;
+  return read_sequence(*table, judged_with_the_scene);
 }
 
 SceneDescription at_frame(const Sequence& sequence, const SceneDescription& still, int frame) {
@@ -118,6 +117,12 @@ SceneDescription at_frame(const Sequence& sequence, const SceneDescription& stil
     }
   }
   return now;
+}
+
+std::vector<Given> idle_of(std::vector<Given> given, const Sequence& sequence, const SceneDescription& still) {
+  for (int frame = 0; frame < sequence.frames && !given.empty(); ++frame)
+    given = idle_of(given, at_frame(sequence, still, frame));
+  return given;
 }
 
 }  // namespace fastsplat::scene

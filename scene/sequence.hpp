@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "scene/capability.hpp"
 
 namespace fastsplat::scene {
 
@@ -34,5 +34,8 @@ Sequence load_sequence(const std::filesystem::path& scene_file);
 
 /// `still` with every track's setting as it is in frame 0 <= frame < frames.
 SceneDescription at_frame(const Sequence& sequence, const SceneDescription& still, int frame);
+
+/// Those settings that would change nothing in any of the frames.
+std::vector<Given> idle_of(std::vector<Given> given, const Sequence& sequence, const SceneDescription& still);
 
 }  // namespace fastsplat::scene

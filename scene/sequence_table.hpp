@@ -6,7 +6,8 @@
 
 namespace fastsplat::scene {
 
-/// Reads and checks all of `table`. A track is named as its setting is: camera.azimuth = [0, 90].
-Sequence read_sequence(TomlTable& table);
+/// Reads and checks all of `table`, and adds its tracks to `given`. A track is named as its setting is:
+/// camera.azimuth = [0, 90].
+Sequence read_sequence(TomlTable& table, std::vector<Given>& given);
 
 }  // namespace fastsplat::scene

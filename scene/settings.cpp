@@ -90,6 +90,15 @@ std::string toml_real(double value) {
 
 }  // namespace
 
+std::string dotted(const Setting& setting) {
+  return *setting.table ? fmt::format("{}.{}", setting.table, setting.key) : setting.key;
+}
+
+bool at_default(const Setting& setting, const SceneDescription& description) {
+  static const SceneDescription plain;
+  return value_as_toml(setting, description) == value_as_toml(setting, plain);
+}
+
 std::vector<std::string> setting_tables() {
   std::vector<std::string> tables;
   for (const Setting& setting : settings()) {
@@ -121,7 +130,8 @@ void set_from_text(const Setting& setting, const std::string& text, SceneDescrip
              setting.value);
 }
 
-void read_settings(TomlTable& table, const std::string& name, SceneDescription& description) {
+void read_settings(TomlTable& table, const std::string& name, SceneDescription& description,
+                   std::vector<Given>& given) {
   for (const Setting& setting : settings()) {
     if (name != setting.table) continue;
     const char* key = setting.key;
@@ -149,6 +159,7 @@ void read_settings(TomlTable& table, const std::string& name, SceneDescription& 
                    },
                },
                setting.value);
+    if (table.has(key) && !at_default(setting, description)) given.push_back({&setting, table.where(key)});
   }
 }
 

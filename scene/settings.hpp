@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "scene/capability.hpp"
 #include "scene/scene.hpp"
 #include "scene/toml_reader.hpp"
 
@@ -47,7 +48,13 @@ struct Setting {
   const char* unit;   ///< of the flag's value, in the help
   const char* help;
   std::variant<Real, Integer, Triple, Switch, Choice> value;
+  Capability capability;  ///< where it has a meaning
 };
+
+/// Its name as in scene.toml: "camera.azimuth", "opacity_scale".
+std::string dotted(const Setting& setting);
+/// Whether it is what it is in a description of which nothing was said.
+bool at_default(const Setting& setting, const SceneDescription& description);
 
 /// All of them, table by table in the order scene.toml is written.
 std::span<const Setting> settings();
@@ -60,8 +67,9 @@ std::string problem_with(const Setting& setting, const std::string& text);
 /// Takes a flag's text, which must have no problem.
 void set_from_text(const Setting& setting, const std::string& text, SceneDescription& description);
 
-/// Takes what `table` has of the settings whose table is `name`; bad values are refused with line and column.
-void read_settings(TomlTable& table, const std::string& name, SceneDescription& description);
+/// Takes what `table` has of the settings whose table is `name`; bad values are refused with line and column. Adds
+/// what it finds to `given`, but for values that are the default: they say what holds anyway.
+void read_settings(TomlTable& table, const std::string& name, SceneDescription& description, std::vector<Given>& given);
 /// The setting's value as TOML.
 std::string value_as_toml(const Setting& setting, const SceneDescription& description);
 

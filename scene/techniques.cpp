@@ -27,13 +27,6 @@ void check_motion(const Motion& motion, const Camera& camera, double radius) {
 
 void check_lens(const Lens& lens, const Camera& camera) {
   if (lens.depth_of_field == DepthOfField::Off) return;
-  if (camera.projection() == Projection::Orthographic) {
-    throw_usage({.where = "lens",
-                 .what = "depth of field needs a perspective camera: to an orthographic one everything is in focus",
-                 .expected = {},
-                 .got = {},
-                 .fix = "add --perspective, or turn depth of field off"});
-  }
   if (!(lens.aperture >= 0.0)) refuse("lens", "aperture is negative", "0 mm or more", lens.aperture, "0 is a pinhole");
   if (!(lens.focus > -camera.eye_distance())) {
     refuse("lens", "focus is behind the eye", fmt::format("more than {:.4g} mm", -camera.eye_distance()), lens.focus,
@@ -50,16 +43,6 @@ double circle_of_confusion(const Camera& camera, const Lens& lens, double depth)
 void check_techniques(const Motion& motion, const Lens& lens, const Camera& camera, double radius) {
   check_motion(motion, camera, radius);
   check_lens(lens, camera);
-}
-
-std::string technique_in_use(const FootprintSettings& footprint, const Motion& motion, const Lens& lens) {
-  if (footprint.shape != FootprintShape::Circle) return "footprint.shape";
-  if (footprint.antialias) return "footprint.antialias";
-  if (footprint.texture.amplitude > 0.0) return "splat_texture.amplitude";
-  if (motion.translate != glm::dvec3(0.0)) return "motion.translate";
-  if (motion.orbit != 0.0) return "motion.orbit";
-  if (lens.depth_of_field != DepthOfField::Off) return "lens.depth_of_field";
-  return {};
 }
 
 const std::vector<std::string>& footprint_shape_names() {

@@ -50,11 +50,9 @@ struct Lens {
 /// Diameter of the circle of confusion at `depth`, pixels: A |s(depth) - s(focus)|, s the camera's pixels per mm.
 double circle_of_confusion(const Camera& camera, const Lens& lens, double depth);
 
-/// UserError (Usage) unless they make sense with this camera. `radius`: of the ball that holds all kernels, mm.
+/// UserError (Usage) unless their numbers make sense with this camera; what goes with what is scene/capability's.
+/// `radius`: of the ball that holds all kernels, mm.
 void check_techniques(const Motion& motion, const Lens& lens, const Camera& camera, double radius);
-
-/// The first of them that is turned on, as its key in scene.toml ("motion.orbit"); empty if none is.
-std::string technique_in_use(const FootprintSettings& footprint, const Motion& motion, const Lens& lens);
 
 const std::vector<std::string>& footprint_shape_names();  ///< in the order of FootprintShape
 const std::vector<std::string>& depth_of_field_names();   ///< in the order of DepthOfField

@@ -123,7 +123,7 @@ ExitCode run(const RenderArguments& arguments) {
   }
   if (renderer.engine != Engine::Golden) renderer.config = load(arguments.config);
   if (renderer.engine == Engine::Rtl) testbench::require_rtl(*renderer.config);
-  return sequence ? run_animation(arguments, renderer, describe(arguments.scene), *sequence, output)
+  return sequence ? run_animation(arguments, renderer, describe(arguments.scene, &*sequence), *sequence, output)
                   : run_still(arguments, renderer, output);
 }
 

@@ -219,7 +219,8 @@ TEST(AnimationMisuse, IsOneLineWithTheFixAndNoFile) {
       {{"--sequence", "-o", out}, {"--sequence", "--scene"}},
       {{"--orbit", "0..90", "--frames", "4", "-o", folder / "f.##.exr", "--video", folder / "v.mp4"}, {"PNG"}},
       {{"--orbit", "0..90", "--frames", "4", "-o", out, "--video", folder / "v.txt"}, {"v.txt", ".mp4"}},
-      {{"--orbit", "0..90", "--frames", "4", "-o", out, "--rate", "0"}, {"--rate"}},
+      {{"--orbit", "0..90", "--frames", "4", "-o", out, "--video", folder / "v.mp4", "--rate", "0"}, {"--rate", "0.1"}},
+      {{"--orbit", "0..90", "--frames", "4", "-o", out, "--rate", "12"}, {"--rate", "--video"}},
       {{"--orbit", "0..90", "--frames", "4", "-o", out, "-o", folder / "./f.##.png"}, {"two files"}}};
   for (const auto& misuse : all) {
     std::vector<std::string> words{"render", "--volume", "shells:8", "--size", "8"};

@@ -155,6 +155,19 @@ TEST(BadInput, TomlSaysFileLineAndHint) {
                  {"b.toml:4", "did you mean 'azimuth'"});
   expect_refused("scene", folder.write("c.toml", "volume = 5\n"), folder, {"c.toml:1"});
   expect_refused("scene", folder.write("d.toml", "[camera]\nzoom = nan\n"), folder, {"d.toml:2"});
+  // What would be ignored; a flag may give it a meaning, or take it away.
+  const auto idle = folder.write("idle.toml", "volume = \"shells:8\"\n[lens]\naperture = 3\n");
+  expect_refused("scene", idle, folder, {"idle.toml:3:", "lens.aperture means nothing", "--depth-of-field splats"});
+  const auto exposed = folder.write("exposed.toml", "volume = \"shells:8\"\n[xray]\nexposure = 0.1\n");
+  expect_refused("scene", exposed, folder, {"exposed.toml:3:", "xray.exposure means nothing", "--method xray"});
+  const std::vector<std::string> quietly{"--size", "8", "--json", "-", "--quiet"};
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--scene", exposed, "--method", "xray"},
+                                                {"--scene", "demo:fire", "--splat-texture", "0"}}) {
+    std::vector<std::string> all{"render"};
+    all.insert(all.end(), words.begin(), words.end());
+    all.insert(all.end(), quietly.begin(), quietly.end());
+    expect_success(fastsplat(all));
+  }
   expect_refused("tf", folder.write("e.toml", "domian = \"value\"\n"), folder, {"e.toml"});
   expect_refused("tf", "mri-haed", folder, {"mri-head"});
 }

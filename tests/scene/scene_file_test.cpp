@@ -21,8 +21,8 @@ class SceneFile : public TemporaryFolder {
   }
 };
 
-/// Nothing at its default.
-SceneDescription unusual() {
+/// Nothing at its default, of what the method reads.
+SceneDescription unusual(Method method) {
   SceneDescription d;
   d.volume = "marschner-lobb:17";
   d.transfer_function = "bone";
@@ -33,18 +33,21 @@ SceneDescription unusual() {
       .projection = Projection::Perspective, .azimuth = 0.1, .elevation = -77.25, .roll = 1e-5, .zoom = 2, .fov = 45.5};
   d.width = 333;
   d.height = 77;
-  d.method = Method::Westover;
-  d.slab_width = 1.0 / 3.0;
-  d.slab_opacity = SlabOpacity::Additive;
-  d.xray_sheets = 9;
-  d.xray_exposure = 0.7;
+  d.method = method;
+  if (method == Method::ImageAligned) {
+    d.slab_width = 1.0 / 3.0;
+    d.slab_opacity = SlabOpacity::Additive;
+  } else {
+    d.xray_sheets = 9;
+    d.xray_exposure = 0.7;
+  }
   d.shading = 1;
   d.opacity_scale = 1e-3;
   return d;
 }
 
 TEST_F(SceneFile, RoundTripsEveryField) {
-  for (const SceneDescription& d : {SceneDescription{}, unusual()}) {
+  for (const SceneDescription& d : {SceneDescription{}, unusual(Method::ImageAligned), unusual(Method::XRay)}) {
     const std::string text = to_toml(d);
     const SceneDescription back = load(text);
     EXPECT_EQ(to_toml(back), text);

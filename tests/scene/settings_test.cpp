@@ -6,6 +6,7 @@
 
 #include <set>
 
+#include "tests/scene/follow_fixes_testing.hpp"
 #include "tests/scene/scene_testing.hpp"
 
 namespace fastsplat::scene {
@@ -45,44 +46,31 @@ TEST(Settings, LimitsAreCheckedForDescriptionsAndFlags) {
   RecordProperty("limits_checked", checked);
 }
 
-/// Some text for a flag that is not the default.
-std::string another_text(const Setting& setting) {
-  const SceneDescription d;
-  if (const auto* choice = std::get_if<Choice>(&setting.value)) {
-    const auto& names = choice->names();
-    return names[static_cast<std::size_t>(choice->get(d) + 1) % names.size()];
-  }
-  if (const auto* real = std::get_if<Real>(&setting.value)) {
-    return fmt::format("{}", real->low + (real->high - real->low) / 3.0);
-  }
-  if (const auto* integer = std::get_if<Integer>(&setting.value))
-    return fmt::format("{}", std::min(integer->high, integer->low + 4));
-  if (const auto* triple = std::get_if<Triple>(&setting.value)) {
-    const double third = (triple->high - triple->low) / 3.0;
-    return fmt::format("{},{},{}", triple->low + third, triple->low, triple->high);
-  }
-  return value_as_toml(setting, d) == "true" ? "off" : "on";
-}
-
 TEST_F(SavedSettings, EveryOneComesBackFromItsFlagAndFromTheSavedScene) {
-  // One description with every setting changed by its text, saved, read again: equal setting by setting.
-  SceneDescription changed;
-  changed.kernel.clear();
+  // Each setting changed by its text, in a scene where it means something; saved, read again: equal setting by setting.
   const SceneDescription plain;
   int changes = 0;
   for (const Setting& setting : settings()) {
-    const std::string text = another_text(setting);
-    ASSERT_EQ(problem_with(setting, text), "") << setting.key;
-    set_from_text(setting, text, changed);
+    ASSERT_EQ(problem_with(setting, setting.capability.probe), "") << setting.key;
+    const Followed way = follow_fixes(setting, plain, kOffersAll, false);
+    ASSERT_TRUE(way.accepted) << setting.key << ": " << way.refusals.back();
+    EXPECT_FALSE(at_default(setting, way.with)) << setting.key;
+    const SceneDescription again = load_scene_file(write("scene.toml", to_toml(way.with)));
+    for (const Setting& each : settings()) {
+      EXPECT_EQ(value_as_toml(each, again), value_as_toml(each, way.with)) << dotted(setting) << ": " << dotted(each);
+    }
+    EXPECT_EQ(to_toml(again), to_toml(way.with)) << setting.key;
     ++changes;
-    EXPECT_NE(value_as_toml(setting, changed), value_as_toml(setting, plain)) << setting.key;
   }
-  const SceneDescription again = load_scene_file(write("scene.toml", to_toml(changed)));
-  for (const Setting& setting : settings()) {
-    EXPECT_EQ(value_as_toml(setting, again), value_as_toml(setting, changed)) << setting.table << '.' << setting.key;
-  }
-  EXPECT_EQ(to_toml(again), to_toml(changed));
-  EXPECT_GE(changes, 17);
+  std::printf("[figure] settings_saved_and_read = %d (all of %zu)\n", changes, settings().size());
+  EXPECT_GE(changes, 42);
+}
+
+TEST_F(SavedSettings, WhatMeansNothingIsNotSaved) {
+  SceneDescription d;
+  d.footprint.texture.phases = 48;  // as demo:fire --splat-texture 0 leaves it
+  EXPECT_THAT(to_toml(d), ::testing::Not(HasSubstr("phases")));
+  EXPECT_EQ(load_scene_file(write("scene.toml", to_toml(d))).footprint.texture.phases, 16);
 }
 
 TEST(Settings, NeitherKeysNorFlagsRepeat) {

@@ -85,23 +85,5 @@ TEST(Techniques, CircleOfConfusionIsTheThinLens) {
   EXPECT_GT(circle_of_confusion(scene.camera, d.lens, 9.0), 1.0);
 }
 
-TEST(Techniques, TheOneInUseIsNamed) {
-  SceneDescription d;
-  const auto named = [&d] { return technique_in_use(d.footprint, d.motion, d.lens); };
-  EXPECT_EQ(named(), "");
-  d.lens.depth_of_field = DepthOfField::Splats;
-  EXPECT_EQ(named(), "lens.depth_of_field");
-  d.motion.orbit = -1.0;
-  EXPECT_EQ(named(), "motion.orbit");
-  d.motion.translate.z = 1.0;
-  EXPECT_EQ(named(), "motion.translate");
-  d.footprint.texture.amplitude = 0.1;
-  EXPECT_EQ(named(), "splat_texture.amplitude");
-  d.footprint.antialias = true;
-  EXPECT_EQ(named(), "footprint.antialias");
-  d.footprint.shape = FootprintShape::Ellipse;
-  EXPECT_EQ(named(), "footprint.shape");
-}
-
 }  // namespace
 }  // namespace fastsplat::scene

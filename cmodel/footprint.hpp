@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cmodel/config.hpp"
+#include "cmodel/lane.hpp"
 
 namespace fastsplat::cmodel {
 
@@ -20,7 +21,7 @@ class RadialTable {
 
   /// Weight (U wi.wf) at q = sum of two RLUT words; 0 at and beyond the rim.
   std::uint32_t weight(std::uint32_t q) const {
-    const std::uint32_t index = q >> guard_bits_;
+    const std::uint32_t index = radial_index(q, guard_bits_);
     return index < weights_.size() ? weights_[index] : 0;
   }
 

@@ -12,6 +12,10 @@ namespace fastsplat::cmodel {
 /// One pixel's sums, U si.sf: R, G, B, tau.
 using SheetWord = std::array<std::uint32_t, 4>;
 
+/// t: the radial table's index at q, the sum of two RLUT words with `guard_bits` fraction bits. At and beyond the rim
+/// it lies past the table's end.
+constexpr std::uint32_t radial_index(std::uint32_t q, int guard_bits) { return q >> guard_bits; }
+
 class Lane {
  public:
   explicit Lane(const Config& config) : product_(config), sum_(config) {}

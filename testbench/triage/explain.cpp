@@ -106,7 +106,7 @@ class Walk {
 
   std::string weight(const cmodel::SplatRecord& record, std::uint32_t column, std::uint32_t row, std::uint32_t mx,
                      std::uint32_t my, std::size_t i, std::size_t j) {
-    const std::uint32_t q = column + row, index = q >> config_.rlut_guard_bits;
+    const std::uint32_t q = column + row, index = cmodel::radial_index(q, config_.rlut_guard_bits);
     const auto name = [&](std::uint32_t phase, std::size_t at) {
       return "RLUT[" + std::to_string(record.set) + "][" + std::to_string(phase) + "][" + std::to_string(at) + "]";
     };

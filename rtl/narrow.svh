@@ -26,7 +26,7 @@
     logic [NAME``_WIDE-1:0] wide, rounded; \
     logic overflow; \
     wide = NAME``_WIDE'(value) << NAME``_LEFT; \
-    rounded = (wide + (`FASTSPLAT_FAULT(ROUND_TRN) ? '0 : NAME``_BIAS + ((wide >> NAME``_RIGHT) & NAME``_EVEN))) >> NAME``_RIGHT; \
+    rounded = (NAME``_RIGHT == 0) ? wide : (wide + (`FASTSPLAT_FAULT(ROUND_TRN) ? '0 : NAME``_BIAS + ((wide >> NAME``_RIGHT) & NAME``_EVEN))) >> NAME``_RIGHT; \
     overflow = rounded > NAME``_LARGEST; \
     NAME = {overflow, (overflow && !`FASTSPLAT_FAULT(NO_SATURATION)) ? NAME``_LARGEST[(OUT_BITS)-1:0] : rounded[(OUT_BITS)-1:0]}; \
   endfunction

@@ -23,10 +23,11 @@
   localparam logic [NAME``_WIDE-1:0] NAME``_BIAS = (NAME``_ROUND != 0 && NAME``_RIGHT > 0) ? (NAME``_ONE << (NAME``_RIGHT - 1)) - NAME``_EVEN : '0; \
   localparam logic [NAME``_WIDE-1:0] NAME``_LARGEST = (fastsplat_pkg::UNIT_``SITE != 0) ? NAME``_ONE << ((OUT_BITS) - 1) : (NAME``_ONE << (OUT_BITS)) - NAME``_ONE; \
   function automatic logic [(OUT_BITS):0] NAME(input logic [(IN_BITS)-1:0] value); \
-    logic [NAME``_WIDE-1:0] wide, rounded; \
+    logic [NAME``_WIDE-1:0] wide, bias, rounded; \
     logic overflow; \
     wide = NAME``_WIDE'(value) << NAME``_LEFT; \
-    rounded = (NAME``_RIGHT == 0) ? wide : (wide + (`FASTSPLAT_FAULT(ROUND_TRN) ? '0 : NAME``_BIAS + ((wide >> NAME``_RIGHT) & NAME``_EVEN))) >> NAME``_RIGHT; \
+    bias = (NAME``_ROUND == 2) ? NAME``_BIAS + ((wide >> NAME``_RIGHT) & NAME``_EVEN) : NAME``_BIAS; \
+    rounded = (NAME``_RIGHT == 0) ? wide : (wide + (`FASTSPLAT_FAULT(ROUND_TRN) ? '0 : bias)) >> NAME``_RIGHT; \
     overflow = rounded > NAME``_LARGEST; \
     NAME = {overflow, (overflow && !`FASTSPLAT_FAULT(NO_SATURATION)) ? NAME``_LARGEST[(OUT_BITS)-1:0] : rounded[(OUT_BITS)-1:0]}; \
   endfunction

@@ -231,7 +231,7 @@ constexpr std::array kRows{
                  .on = [](const D& d) { return d.lens.aperture > 0.0; }},
     TechniqueRow{.technique = Technique::Exposure,
                  .key = "xray.exposure",
-                 .name = "an X-ray's exposure of its own: the automatic one undoes it",
+                 .name = "an exposure of its own where it is an X-ray: the automatic one undoes it",
                  .turn_on = "add --xray-exposure 0.05",
                  .on = [](const D& d) { return d.method != Method::XRay || d.xray_exposure > 0.0; }},
 };

@@ -197,6 +197,8 @@ TEST_P(Checked, EveryWordOfTheSums) {
     seen(without(right, at), Detector::Sheet, "lost sums");
     seen(twice(right, at), Detector::Sheet, "sums twice");
   }
+  std::printf("[figure] %s: words of sums outside the tile that do not count = %d (limit > 0)\n", GetParam(), outside);
+  EXPECT_GT(outside, 0);
 }
 
 TEST_P(Checked, EveryWordOfABlock) {
@@ -211,6 +213,9 @@ TEST_P(Checked, EveryWordOfABlock) {
     seen(without(right, at), Detector::Composite, "a lost block");
     seen(twice(right, at), Detector::Composite, "a block twice");
   }
+  std::printf("[figure] %s: words of blocks outside the tile that do not count = %d (limit > 0)\n", GetParam(),
+              outside);
+  EXPECT_GT(outside, 0);
 }
 
 // Nothing but the sheet's number tells which sheet a block was composited from.

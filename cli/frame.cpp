@@ -19,6 +19,7 @@ using Json = nlohmann::ordered_json;
 
 const std::vector<std::string> kEngines{"golden", "cmodel", "rtl"};
 
+/// For the techniques that collect no splats: the ray caster, and densities classified after splatting.
 std::uint64_t voxel_count(const scene::Scene& scene) {
   std::uint64_t count = 0;
   scene::for_each_splat(scene, [&count](const scene::Splat&) { ++count; });
@@ -107,7 +108,8 @@ FrameReport report_of(const Renderer& renderer, const scene::Scene& scene, const
   if (const auto* device = std::get_if<driver::DeviceRender>(&frame.picture)) {
     report.engine = DeviceReport{*renderer.config, device->report, device->counters};
   } else {
-    report.engine = GoldenReport{voxel_count(scene), scene::sheet_plan(scene).slabs.count, frame.golden};
+    report.engine = GoldenReport{frame.golden.splats ? *frame.golden.splats : voxel_count(scene),
+                                 scene::sheet_plan(scene).slabs.count, frame.golden};
   }
   return report;
 }

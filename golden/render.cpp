@@ -20,6 +20,7 @@ Image render_splats(Technique technique, const scene::Scene& scene, const Render
   const auto collected = Clock::now();
   Image image = technique(scene, splats, options);
   if (options.report) {
+    options.report->splats = splats.size();
     options.report->traversal_seconds = std::chrono::duration<double>(collected - start).count();
     options.report->splatting_seconds = seconds_since(collected);
   }

@@ -1,6 +1,7 @@
 // The floating-point reference: one technique per file, formulas as in the papers. Double inside, float out.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "base/image.hpp"
@@ -13,8 +14,9 @@ namespace fastsplat::golden {
 
 /// What a frame took.
 struct RenderReport {
-  double traversal_seconds = 0.0;  ///< classifying and shading the voxels
-  double splatting_seconds = 0.0;  ///< all else: sorting, culling, splatting, compositing
+  double traversal_seconds = 0.0;       ///< classifying and shading the voxels
+  double splatting_seconds = 0.0;       ///< all else: sorting, culling, splatting, compositing
+  std::optional<std::uint64_t> splats;  ///< classified voxels that are not empty, where the technique collects them
   std::optional<CullingReport> culling;
 };
 

@@ -13,6 +13,7 @@
 #include "cli/image_output.hpp"
 #include "cli/output.hpp"
 #include "cli/progress_bar.hpp"
+#include "cli/replay_line.hpp"
 #include "cli/rtl_run.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
@@ -164,9 +165,7 @@ Failure investigate(const Checked& checked, const Arguments& arguments) {
   failure.report =
       testbench::investigate(checked.source, checked.options, checked.failed, failure.waveform, kShrinkRuns);
   driver::write_beats(failure.stream, testbench::write_document(checked.options.config, failure.report.document));
-  failure.replay =
-      testbench::replay_line(failure.stream, arguments.config.config.value_or("base"), failure.report.options);
-  for (const auto& change : arguments.config.changes) failure.replay += " --set " + change;
+  failure.replay = replay_line(failure.stream, arguments.config, failure.report.options);
   return failure;
 }
 

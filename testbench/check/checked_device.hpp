@@ -33,9 +33,6 @@ class CheckedDevice final : public cmodel::Device {
   RtlDevice& device() { return *device_; }
 
  private:
-  struct NoPixels final : cmodel::PixelSink {
-    void on_tile(cmodel::TilePixels&&) override {}
-  };
   /// Passes everything on while it is open.
   class Gate final : public RawTapSink {
    public:
@@ -54,7 +51,7 @@ class CheckedDevice final : public cmodel::Device {
 
   Checker checker_;
   Gate gate_{checker_};
-  NoPixels none_;
+  cmodel::NullPixels none_;
   std::unique_ptr<RtlDevice> device_;
   cmodel::Counters counters_;
 };

@@ -7,10 +7,6 @@
 namespace fastsplat::testbench {
 namespace {
 
-struct NoPixels final : cmodel::PixelSink {
-  void on_tile(cmodel::TilePixels&&) override {}
-};
-
 std::unique_ptr<RtlDevice> make_device(const VerifyOptions& options, cmodel::PixelSink& pixels, RawTapSink& taps) {
   RtlOptions rtl = rtl_options(options);
   rtl.taps = &taps;
@@ -56,7 +52,7 @@ RtlOptions rtl_options(const VerifyOptions& options) {
 }
 
 VerifyResult verify(const BeatSource& source, const VerifyOptions& options, cmodel::PixelSink* pixels) {
-  NoPixels none;
+  cmodel::NullPixels none;
   const RtlOptions driven = rtl_options(options);
   CheckedDevice checked(options.config, options.scope, pixels == nullptr ? none : *pixels,
                         [&](cmodel::PixelSink& tiles, RawTapSink& taps) { return make_device(options, tiles, taps); },

@@ -111,6 +111,7 @@ CampaignResult run_campaign(const CampaignOptions& options) {
     out.failed = i;
     out.failure = results[i];
     out.total.verdict = results[i]->verdict;
+    out.total.check.detector = results[i]->check.detector;
     out.total.check.first = results[i]->check.first;
     out.total.check.differences = results[i]->check.differences;
     out.total.error = results[i]->error;

@@ -1,8 +1,6 @@
 #include "testbench/triage/failure.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <cstring>
 #include <optional>
 
 #include "cmodel/stream_decode.hpp"
@@ -96,27 +94,6 @@ FailureReport investigate(const BeatSource& source, const VerifyOptions& options
     verify(source_of(beats), last);
   }
   return report;
-}
-
-namespace {
-
-/// As a shell reads it back.
-std::string quoted(const std::string& word) {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("/._-+,=:@%", c) != nullptr; };
-  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
-}  // namespace
-
-std::string replay_line(const std::filesystem::path& stream, const std::string& config, const VerifyOptions& options) {
-  std::string line = "fastsplat verify --stream " + quoted(stream.string()) + " --config " + quoted(config) +
-                     " --ready " + options.ready + " --input " + options.input + " --fill " + to_string(options.fill) +
-                     " --seed " + std::to_string(options.seed);
-  if (options.reset_after > 0) line += " --reset-after " + std::to_string(options.reset_after);
-  return line;
 }
 
 }  // namespace fastsplat::testbench

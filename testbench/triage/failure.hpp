@@ -1,5 +1,5 @@
 // What a user gets of a failing stream: the divergence in words with its operands, the stream made small, a waveform of
-// the cycles around the divergence, and the line that replays it.
+// the cycles around the divergence.
 #pragma once
 
 #include <filesystem>
@@ -24,8 +24,5 @@ struct FailureReport {
 /// waveform if it has a path; writing the stream is the caller's.
 FailureReport investigate(const BeatSource& source, const VerifyOptions& options, const VerifyResult& failed,
                           const std::filesystem::path& waveform, int most_runs);
-
-/// The command that fails again: `fastsplat verify --stream ... --config ... --ready ... --seed ...`.
-std::string replay_line(const std::filesystem::path& stream, const std::string& config, const VerifyOptions& options);
 
 }  // namespace fastsplat::testbench

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cli/replay_line.hpp"
 #include "driver/config_file.hpp"
 #include "driver/stream_file.hpp"
 #include "testbench/check/verify.hpp"
-#include "testbench/triage/failure.hpp"
 #include "tests/cli/process_helper.hpp"
 
 namespace fastsplat::cli_test {
@@ -87,7 +87,7 @@ TEST(Verify, AReplayLineIsTakenAsItIs) {
                                          .wave = {},
                                          .coverage = false,
                                          .device = {}};
-  std::istringstream line(testbench::replay_line(stream, "tiny", options));
+  std::istringstream line(cli::replay_line(stream, {.config = "tiny", .changes = {}}, options));
   std::vector<std::string> words{std::istream_iterator<std::string>(line), {}};
   ASSERT_EQ(words.front(), "fastsplat");
   words.erase(words.begin());

@@ -97,9 +97,7 @@ TEST(CheckedCycles, AreAbsentOfARunThatDidNotEnd) {
 // Devices in one thread do not lean on each other: the simulator keeps a context by thread.
 TEST(VerilatedDevices, MayGoInAnyOrder) {
   const auto config = driver::load_config("tiny");
-  struct NoPixels final : cmodel::PixelSink {
-    void on_tile(cmodel::TilePixels&&) override {}
-  } pixels;
+  cmodel::NullPixels pixels;
   RtlOptions plain;
   plain.build = RtlBuild::Plain;
   for (int turn = 0; turn < 8; ++turn) {

@@ -78,10 +78,6 @@ struct Ideal final : cmodel::CycleSink {
   }
 };
 
-struct NoPixels final : cmodel::PixelSink {
-  void on_tile(cmodel::TilePixels&&) override {}
-};
-
 }  // namespace
 
 CycleComparison& CycleComparison::operator+=(const CycleComparison& other) {
@@ -114,7 +110,7 @@ CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmo
   CycleComparison result;
   Expected expected;
   Checker checker(expected, result);
-  NoPixels pixels;
+  cmodel::NullPixels pixels;
   Ideal ideal;
   testbench::RtlOptions rtl_options;
   rtl_options.input = input;

@@ -104,9 +104,7 @@ TEST_P(EachConfig, IdenticalCentresTakeOneCycleEach) {
       last = record.cycle;
     }
   } rtl_span, model_span;
-  struct NoPixels final : cmodel::PixelSink {
-    void on_tile(cmodel::TilePixels&&) override {}
-  } pixels;
+  cmodel::NullPixels pixels;
   testbench::RtlOptions options;
   testbench::TapAssembly taps(config(), pixels, rtl_span);
   options.taps = &taps;

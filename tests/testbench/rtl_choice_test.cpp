@@ -9,10 +9,6 @@
 namespace fastsplat::testbench {
 namespace {
 
-struct NoPixels final : cmodel::PixelSink {
-  void on_tile(cmodel::TilePixels&&) override {}
-};
-
 TEST(RtlChoice, ByHashWhateverTheName) {
   int made = 0;
   for (const auto& name : rtl_config_names()) {
@@ -20,7 +16,7 @@ TEST(RtlChoice, ByHashWhateverTheName) {
     // A name of its own, and that of another configuration: the device's own hash register is compared when it is made.
     for (const char* called : {"mine", name == "tiny" ? "small" : "tiny"}) {
       config.name = called;
-      NoPixels pixels;
+      cmodel::NullPixels pixels;
       EXPECT_NE(make_rtl_device(config, pixels), nullptr) << name << " called " << called;
       ++made;
     }
@@ -32,7 +28,7 @@ TEST(RtlChoice, ByHashWhateverTheName) {
 TEST(RtlChoice, OtherNumbersUnderAKnownNameAreRefusedInOneLine) {
   auto config = driver::load_config("tiny");
   config.radial_entries = 128;
-  NoPixels pixels;
+  cmodel::NullPixels pixels;
   try {
     make_rtl_device(config, pixels);
     FAIL() << "was made";

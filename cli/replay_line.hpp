@@ -1,0 +1,16 @@
+// The command that runs a failed stream again.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "cli/config_flags.hpp"
+#include "testbench/check/verify.hpp"
+
+namespace fastsplat::cli {
+
+/// `fastsplat verify --stream ... --config ... [--set ...] --ready ... --seed ...`, quoted as a shell reads it back.
+std::string replay_line(const std::filesystem::path& stream, const ConfigFlags& config,
+                        const testbench::VerifyOptions& options);
+
+}  // namespace fastsplat::cli

@@ -14,7 +14,8 @@ option(FASTSPLAT_ASAN "AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
 
 find_program(FASTSPLAT_CCACHE ccache)
 if(FASTSPLAT_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${FASTSPLAT_CCACHE})
+  # The sloppiness is what ccache asks for before it will cache anything that has precompiled headers.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${FASTSPLAT_CCACHE})
 endif()
 
 # Warnings, sanitizers and the include root; every first-party target links it.

@@ -1,0 +1,1 @@
+// Only there so that its precompiled headers are built once for all tests (tests/CMakeLists.txt).

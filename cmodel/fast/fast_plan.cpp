@@ -1,0 +1,37 @@
+#include "cmodel/fast/fast_plan.hpp"
+
+#include "cmodel/sites.hpp"
+
+namespace fastsplat::cmodel::fast {
+
+std::optional<FastPlan> fast_plan(const Config& config) {
+  const Narrowing product = narrowing(config, Site::Product);
+  const int colour_bits = config.colour_frac_bits, weight_bits = config.radial_int_bits + config.radial_frac_bits;
+  const int sheet_bits = config.sheet_int_bits + config.sheet_frac_bits;
+  const int dropped = product.dropped_bits();
+  const std::int64_t largest_product = ((std::int64_t{1} << colour_bits) - 1) * ((std::int64_t{1} << weight_bits) - 1);
+  const bool nearest = product.rounding() == Rounding::RND;
+  if (!nearest && product.rounding() != Rounding::TRN && dropped > 0) return {};
+  if (colour_bits > 16 || weight_bits > 16 || sheet_bits > 32) return {};
+  if (product.from_frac() < product.to().frac_bits) return {};
+  if (product(largest_product).overflow) return {};
+  if ((config.tile_width + config.lanes - 1) / config.lanes > 64) return {};
+
+  FastPlan plan{.largest_sum = static_cast<std::uint32_t>(config.sheet_format().max)};
+  // The factors together shifted left so far that 15 bits are dropped, each still a positive word of 16 bits.
+  const int grow = 15 - dropped, colour_room = 15 - colour_bits, weight_room = 15 - weight_bits;
+  if (nearest && dropped > 0 && grow >= 0 && colour_room >= 0 && weight_room >= 0 &&
+      grow <= colour_room + weight_room && sheet_bits <= 16) {
+    plan.narrow = true;
+    plan.colour_shift = grow < colour_room ? grow : colour_room;
+    plan.weight_shift = grow - plan.colour_shift;
+    return plan;
+  }
+  plan.dropped_bits = dropped;
+  plan.bias = nearest && dropped > 0 ? std::uint32_t{1} << (dropped - 1) : 0;
+  if (largest_product + plan.bias > std::int64_t{0xFFFFFFFF}) return {};
+  plan.carries = plan.largest_sum > std::uint32_t{1} << 24;
+  return plan;
+}
+
+}  // namespace fastsplat::cmodel::fast

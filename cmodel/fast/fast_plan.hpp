@@ -1,0 +1,26 @@
+// What of a configuration lets the fast unit draw it, proved from its numbers alone (docs/performance.md).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "cmodel/config.hpp"
+
+namespace fastsplat::cmodel::fast {
+
+/// How products and sums of a configuration are done in lanes of 16 or 32 bits. With a plan, no product leaves the
+/// sheet's format, whatever colour and weight.
+struct FastPlan {
+  bool narrow = false;  ///< 16-bit lanes: round(colour << colour_shift times weight << weight_shift, 15 bits dropped)
+  int colour_shift = 0, weight_shift = 0;
+  int dropped_bits = 0;    ///< 32-bit lanes: (colour times weight + bias) >> dropped_bits
+  std::uint32_t bias = 0;  ///< likewise
+  bool carries = false;    ///< 32-bit lanes: sums come round so soon that every carry out of a lane is looked for
+  std::uint32_t largest_sum = 0;  ///< of the sheet's format; sums above it were cut
+};
+
+/// Empty where only the plain unit is exact: products wider than 32 bits or above the sheet's format, ties to even, or
+/// more than 64 blocks in a tile's row.
+std::optional<FastPlan> fast_plan(const Config& config);
+
+}  // namespace fastsplat::cmodel::fast

@@ -1,0 +1,70 @@
+#include "cmodel/fast/frame_tables.hpp"
+
+#include <algorithm>
+
+#include "cmodel/fast/row_kernel.hpp"
+#include "cmodel/stream_decode.hpp"
+
+namespace fastsplat::cmodel::fast {
+namespace {
+
+constexpr std::size_t kMemoBytes = std::size_t{1} << 28;
+constexpr int kWidest = 128;      ///< pixels of a footprint
+constexpr int kVectorPixels = 8;  ///< what the widest vector writes
+
+/// Whether tau * factor(tau) stays within 1.0 for every tau: within a segment the factor is at most its first word.
+bool opacity_holds(const Config& config, std::span<const std::uint32_t> factor) {
+  const int shift = config.opacity_remainder_bits(), one = config.sheet_frac_bits + config.opacity_frac_bits;
+  for (std::size_t i = 0; i + 1 < factor.size(); ++i) {
+    const std::uint64_t largest = ((static_cast<std::uint64_t>(i) + 1) << shift) - 1;
+    if (factor[i] < factor[i + 1] || ((largest * factor[i]) >> one) != 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<FrameTables> frame_tables(const Config& config, std::span<const Beat> preamble) {
+  const auto plan = fast_plan(config);
+  if (!plan || !has_vectors()) return {};
+  Rlut rlut(config);
+  RadialTable radial(config);
+  SlabOpacity opacity(config);
+  std::uint32_t sets = 0;
+  std::size_t bytes = 0;
+  bool holds = false;
+  StreamDecode decode(config, StreamScope::Subset);
+  for (const Beat& beat : preamble) {
+    const Record* record = decode.feed(beat);
+    const auto* table = record == nullptr ? nullptr : std::get_if<LoadTable>(record);
+    if (table == nullptr) continue;
+    switch (table->table) {
+      case Table::Rlut:
+        rlut.load(*table);
+        sets = std::max(sets, table->radius.set + 1);
+        bytes += WeightMemo::bytes(config, table->radius.rho);
+        if (static_cast<int>(rlut.extent(table->radius.set)) > kWidest || bytes > kMemoBytes) return {};
+        break;
+      case Table::Radial:
+        radial.load(table->words);
+        break;
+      case Table::Factor:
+        opacity.load(table->words);
+        holds = opacity_holds(config, table->words);
+        break;
+    }
+  }
+  FrameTables out{.config = config,
+                  .jobs = {.plan = *plan, .shapes = {}},
+                  .memo = WeightMemo(config, rlut, radial, sets, plan->weight_shift),
+                  .opacity = opacity,
+                  .opacity_holds = holds};
+  for (std::uint32_t set = 0; set < sets; ++set) {
+    const Shape& shape = out.memo.shape(set);
+    out.jobs.shapes.push_back({static_cast<std::uint32_t>(shape.extent), static_cast<std::uint32_t>(shape.pitch)});
+    out.reach = std::max(out.reach, shape.extent + kVectorPixels);
+  }
+  return out;
+}
+
+}  // namespace fastsplat::cmodel::fast

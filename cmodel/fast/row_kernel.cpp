@@ -1,0 +1,231 @@
+#include "cmodel/fast/row_kernel.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "cmodel/fast/row_kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace fastsplat::cmodel::fast {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+#if HWY_TARGET == HWY_SCALAR
+
+bool add16(const JobFrame&, std::span<const SplatJob>, std::uint16_t*, std::size_t) { return false; }
+bool add32(const JobFrame&, std::span<const SplatJob>, std::uint32_t*, std::size_t) { return false; }
+bool tau16(const JobFrame&, std::span<const SplatJob>, std::uint16_t*, std::size_t) { return false; }
+bool tau32(const JobFrame&, std::span<const SplatJob>, std::uint32_t*, std::size_t) { return false; }
+const char* target() { return nullptr; }
+
+#else
+
+// Of 8 weights in every 128-bit block, the ones of vector v's pixels, each in the four lanes of its pixel.
+template <class D>
+class Spread {
+ public:
+  using T = hn::TFromD<D>;
+  using Bytes = hn::Repartition<std::uint8_t, D>;
+  static constexpr std::size_t kBytes = HWY_MAX_BYTES;
+  static constexpr std::size_t kVectors = 8 * 4 / (HWY_MAX_BYTES / sizeof(T));  // of 8 pixels
+
+  Spread() {
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      for (std::size_t i = 0; i < kBytes; ++i) {
+        const std::size_t pixel = (v * (kBytes / sizeof(T)) + i / sizeof(T)) / 4, byte = i % sizeof(T);
+        index_[v * kBytes + i] = static_cast<std::uint8_t>(byte < 2 ? 2 * pixel + byte : 0x80);
+      }
+    }
+  }
+  template <class V>
+  V operator()(V weights, std::size_t vector) const {
+    const Bytes bytes;
+    const auto index = hn::Load(bytes, index_ + vector * kBytes);
+    return hn::BitCast(D{}, hn::TableLookupBytesOr0(hn::BitCast(bytes, weights), index));
+  }
+
+ private:
+  HWY_ALIGN std::uint8_t index_[kVectors * kBytes];
+};
+
+struct Lanes16 {
+  using D = hn::ScalableTag<std::uint16_t>;
+  static hn::Vec<D> colour(const SplatJob& job) {
+    return hn::BitCast(D{}, hn::Set(hn::Repartition<std::uint64_t, D>{}, [&] {
+      std::uint64_t all = 0;
+      for (std::size_t c = 4; c-- > 0;) all = (all << 16) | job.colour[c];
+      return all;
+    }()));
+  }
+  explicit Lanes16(const FastPlan&) {}
+  hn::Vec<D> sum(hn::Vec<D> before, hn::Vec<D> colour, hn::Vec<D> weight) const {
+    const hn::RebindToSigned<D> s;
+    const auto product = hn::MulFixedPoint15(hn::BitCast(s, colour), hn::BitCast(s, weight));
+    return hn::SaturatedAdd(before, hn::BitCast(D{}, product));
+  }
+  bool sound() const { return true; }
+};
+
+struct Lanes32 {
+  using D = hn::ScalableTag<std::uint32_t>;
+  static hn::Vec<D> colour(const SplatJob& job) {
+    HWY_ALIGN std::uint32_t words[4] = {job.colour[0], job.colour[1], job.colour[2], job.colour[3]};
+    return hn::LoadDup128(D{}, words);
+  }
+  explicit Lanes32(const FastPlan& plan) : bias(hn::Set(D{}, plan.bias)), dropped(plan.dropped_bits) {}
+  hn::Vec<D> sum(hn::Vec<D> before, hn::Vec<D> colour, hn::Vec<D> weight) const {
+    return hn::Add(before, hn::ShiftRightSame(hn::Add(hn::Mul(colour, weight), bias), dropped));
+  }
+  bool sound() const { return true; }
+  hn::Vec<D> bias;
+  int dropped;
+};
+
+/// The same, looking for sums that come round.
+struct Carries32 : Lanes32 {
+  explicit Carries32(const FastPlan& plan) : Lanes32(plan), lost(hn::Zero(D{})) {}
+  hn::Vec<D> sum(hn::Vec<D> before, hn::Vec<D> colour, hn::Vec<D> weight) {
+    const auto after = Lanes32::sum(before, colour, weight);
+    lost = hn::Or(lost, hn::Xor(hn::Max(after, before), after));
+    return after;
+  }
+  bool sound() const { return hn::AllTrue(D{}, hn::Eq(lost, hn::Zero(D{}))); }
+  hn::Vec<D> lost;
+};
+
+template <class Lanes, std::size_t kVectors, class T>
+void add_rows(const SplatJob& job, const JobShape& shape, T* sheet, std::size_t row, Lanes& lanes,
+              const Spread<typename Lanes::D>& spread) {
+  const typename Lanes::D d;
+  constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(T);
+  const auto colour = Lanes::colour(job);
+  T* out = sheet + std::size_t{job.at} * 4;
+  const std::uint16_t* weights = job.weights;
+  for (std::size_t j = 0; j < shape.extent; ++j, out += row * 4, weights += shape.pitch) {
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      const std::size_t block = v / Spread<typename Lanes::D>::kVectors;
+      const auto eight = hn::BitCast(d, hn::LoadDup128(hn::Repartition<std::uint16_t, typename Lanes::D>{}, weights + 8 * block));
+      T* at = out + v * kLanes;
+      const auto weight = spread(eight, v % Spread<typename Lanes::D>::kVectors);
+      hn::StoreU(lanes.sum(hn::LoadU(d, at), colour, weight), d, at);
+    }
+  }
+}
+
+template <class Lanes, class T>
+void add_wide(const SplatJob& job, const JobShape& shape, T* sheet, std::size_t row, Lanes& lanes,
+              const Spread<typename Lanes::D>& spread, std::size_t vectors) {
+  const typename Lanes::D d;
+  constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(T), kEach = Spread<typename Lanes::D>::kVectors;
+  const auto colour = Lanes::colour(job);
+  for (std::size_t j = 0; j < shape.extent; ++j) {
+    T* out = sheet + (job.at + j * row) * 4;
+    const std::uint16_t* weights = job.weights + j * shape.pitch;
+    for (std::size_t v = 0; v < vectors; ++v) {
+      const auto eight = hn::BitCast(d, hn::LoadDup128(hn::Repartition<std::uint16_t, typename Lanes::D>{}, weights + 8 * (v / kEach)));
+      T* at = out + v * kLanes;
+      hn::StoreU(lanes.sum(hn::LoadU(d, at), colour, spread(eight, v % kEach)), d, at);
+    }
+  }
+}
+
+template <class Lanes, class T>
+bool add_all(const JobFrame& frame, std::span<const SplatJob> jobs, T* sheet, std::size_t row) {
+  Lanes lanes(frame.plan);
+  const Spread<typename Lanes::D> spread;
+  constexpr std::size_t kPixels = HWY_MAX_BYTES / sizeof(T) / 4;
+  for (const SplatJob& job : jobs) {
+    const JobShape& shape = frame.shapes[job.set];
+    const std::size_t vectors = (shape.extent + kPixels - 1) / kPixels;
+    switch (vectors) {
+      case 0: break;
+      case 1: add_rows<Lanes, 1>(job, shape, sheet, row, lanes, spread); break;
+      case 2: add_rows<Lanes, 2>(job, shape, sheet, row, lanes, spread); break;
+      case 3: add_rows<Lanes, 3>(job, shape, sheet, row, lanes, spread); break;
+      case 4: add_rows<Lanes, 4>(job, shape, sheet, row, lanes, spread); break;
+      case 5: add_rows<Lanes, 5>(job, shape, sheet, row, lanes, spread); break;
+      case 6: add_rows<Lanes, 6>(job, shape, sheet, row, lanes, spread); break;
+      default: add_wide<Lanes>(job, shape, sheet, row, lanes, spread, vectors); break;
+    }
+  }
+  return lanes.sound();
+}
+
+bool add16(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint16_t* sheet, std::size_t row) {
+  return add_all<Lanes16>(frame, jobs, sheet, row);
+}
+bool add32(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint32_t* sheet, std::size_t row) {
+  return frame.plan.carries ? add_all<Carries32>(frame, jobs, sheet, row) : add_all<Lanes32>(frame, jobs, sheet, row);
+}
+// Rows of weights are padded to 8 words, so no vector is wider than 8 pixels here.
+bool tau16(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint16_t* plane, std::size_t row) {
+  const hn::CappedTag<std::uint16_t, 8> d;
+  const hn::RebindToSigned<decltype(d)> s;
+  for (const SplatJob& job : jobs) {
+    const JobShape& shape = frame.shapes[job.set];
+    const auto colour = hn::BitCast(s, hn::Set(d, job.colour[3]));
+    for (std::size_t j = 0; j < shape.extent; ++j) {
+      std::uint16_t* out = plane + job.at + j * row;
+      const std::uint16_t* weights = job.weights + j * shape.pitch;
+      for (std::size_t i = 0; i < shape.extent; i += hn::Lanes(d)) {
+        const auto product = hn::MulFixedPoint15(colour, hn::BitCast(s, hn::LoadU(d, weights + i)));
+        hn::StoreU(hn::SaturatedAdd(hn::LoadU(d, out + i), hn::BitCast(d, product)), d, out + i);
+      }
+    }
+  }
+  return true;
+}
+bool tau32(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint32_t* plane, std::size_t row) {
+  const hn::CappedTag<std::uint32_t, 8> d;
+  const hn::Rebind<std::uint16_t, decltype(d)> narrow;
+  const auto bias = hn::Set(d, frame.plan.bias);
+  auto lost = hn::Zero(d);
+  for (const SplatJob& job : jobs) {
+    const JobShape& shape = frame.shapes[job.set];
+    const auto colour = hn::Set(d, std::uint32_t{job.colour[3]});
+    for (std::size_t j = 0; j < shape.extent; ++j) {
+      std::uint32_t* out = plane + job.at + j * row;
+      const std::uint16_t* weights = job.weights + j * shape.pitch;
+      for (std::size_t i = 0; i < shape.extent; i += hn::Lanes(d)) {
+        const auto weight = hn::PromoteTo(d, hn::LoadU(narrow, weights + i));
+        const auto product = hn::ShiftRightSame(hn::Add(hn::Mul(colour, weight), bias), frame.plan.dropped_bits);
+        const auto before = hn::LoadU(d, out + i), after = hn::Add(before, product);
+        lost = hn::Or(lost, hn::Xor(hn::Max(after, before), after));
+        hn::StoreU(after, d, out + i);
+      }
+    }
+  }
+  return hn::AllTrue(d, hn::Eq(lost, hn::Zero(d)));
+}
+const char* target() { return hwy::TargetName(HWY_TARGET); }
+
+#endif
+
+}  // namespace HWY_NAMESPACE
+}  // namespace fastsplat::cmodel::fast
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace fastsplat::cmodel::fast {
+HWY_EXPORT(add16);
+HWY_EXPORT(add32);
+HWY_EXPORT(tau16);
+HWY_EXPORT(tau32);
+HWY_EXPORT(target);
+
+bool add_splats(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint16_t* sheet, std::size_t row) {
+  return HWY_DYNAMIC_DISPATCH(add16)(frame, jobs, sheet, row);
+}
+bool add_splats(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint32_t* sheet, std::size_t row) {
+  return HWY_DYNAMIC_DISPATCH(add32)(frame, jobs, sheet, row);
+}
+bool add_tau(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint16_t* plane, std::size_t row) {
+  return HWY_DYNAMIC_DISPATCH(tau16)(frame, jobs, plane, row);
+}
+bool add_tau(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint32_t* plane, std::size_t row) {
+  return HWY_DYNAMIC_DISPATCH(tau32)(frame, jobs, plane, row);
+}
+bool has_vectors() { return vector_target() != nullptr; }
+const char* vector_target() { return HWY_DYNAMIC_DISPATCH(target)(); }
+}  // namespace fastsplat::cmodel::fast
+#endif

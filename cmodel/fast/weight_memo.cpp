@@ -1,0 +1,78 @@
+#include "cmodel/fast/weight_memo.hpp"
+
+#include <algorithm>
+
+#include "cmodel/window_geometry.hpp"
+
+namespace fastsplat::cmodel::fast {
+namespace {
+
+int rounded_up(int value, int step) { return (value + step - 1) / step * step; }
+
+/// One axis of a set, whatever its windows: the RLUT word of column i.
+std::uint32_t word(const Rlut& rlut, std::uint32_t set, std::uint32_t phase, int column, int lanes) {
+  const int window = column / lanes * lanes;
+  return rlut.read(set, phase, static_cast<std::uint32_t>(window))[static_cast<std::size_t>(column - window)];
+}
+
+}  // namespace
+
+WeightMemo::WeightMemo(const Config& config, const Rlut& rlut, const RadialTable& radial, std::uint32_t sets,
+                       int weight_shift)
+    : phases_(config.phases),
+      phase_bits_(config.phase_bits()),
+      lanes_(config.lanes),
+      shapes_(sets),
+      weighted_((static_cast<std::size_t>(sets) << (2 * phase_bits_)), 0) {
+  for (std::uint32_t set = 0; set < sets; ++set) fill(config, rlut, radial, set, weight_shift);
+}
+
+std::size_t WeightMemo::bytes(const Config& config, std::uint32_t rho) {
+  const std::size_t padded = window_geometry(config, rho).padded;
+  return static_cast<std::size_t>(config.phases) * static_cast<std::size_t>(config.phases) * padded *
+         ((padded + 7) / 8 * 8) * sizeof(std::uint16_t);
+}
+
+void WeightMemo::fill(const Config& config, const Rlut& rlut, const RadialTable& radial, std::uint32_t set, int weight_shift) {
+  Shape& shape = shapes_[set];
+  shape.rho = rlut.rho(set);
+  shape.padded = static_cast<int>(rlut.extent(set));
+  shape.windows = static_cast<std::uint32_t>((shape.padded / lanes_) * (shape.padded / lanes_));
+  const auto phases = static_cast<std::uint32_t>(phases_);
+  // A column that no phase brings inside the rim of any row has no weight.
+  std::vector<std::uint32_t> nearest(static_cast<std::size_t>(shape.padded), ~std::uint32_t{0});
+  for (int i = 0; i < shape.padded; ++i) {
+    for (std::uint32_t m = 0; m < phases; ++m)
+      nearest[static_cast<std::size_t>(i)] = std::min(nearest[static_cast<std::size_t>(i)], word(rlut, set, m, i, lanes_));
+  }
+  for (int i = 0; i < shape.padded; ++i) {
+    for (int j = 0; j < shape.padded; ++j) {
+      const std::uint32_t q = nearest[static_cast<std::size_t>(i)] + nearest[static_cast<std::size_t>(j)];
+      if (radial_index(q, config.rlut_guard_bits) < static_cast<std::uint32_t>(config.radial_entries))
+        shape.extent = std::max({shape.extent, i + 1, j + 1});
+    }
+  }
+  shape.pitch = rounded_up(std::max(shape.extent, 1), 8);
+  shape.first = words_.size();
+  const std::size_t footprints = static_cast<std::size_t>(phases) * phases;
+  words_.resize(shape.first + footprints * static_cast<std::size_t>(shape.extent) * shape.pitch, 0);
+  std::uint16_t* out = words_.data() + shape.first;
+  for (std::uint32_t my = 0; my < phases; ++my) {
+    for (std::uint32_t mx = 0; mx < phases; ++mx) {
+      std::uint32_t weighted = 0;
+      for (int j = 0; j < shape.extent; ++j, out += shape.pitch) {
+        const std::uint32_t row = word(rlut, set, my, j, lanes_);
+        for (int i = 0; i < shape.extent; ++i) {
+          const std::uint32_t weight = radial.weight(row + word(rlut, set, mx, i, lanes_));
+          weighted += weight != 0 ? 1 : 0;
+          shape.heaviest = std::max(shape.heaviest, weight);
+          out[i] = static_cast<std::uint16_t>(weight << weight_shift);
+        }
+      }
+      weighted_[(static_cast<std::size_t>(set) << (2 * phase_bits_)) + number(mx, my)] =
+          static_cast<std::uint16_t>(weighted);
+    }
+  }
+}
+
+}  // namespace fastsplat::cmodel::fast

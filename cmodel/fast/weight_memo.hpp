@@ -1,0 +1,57 @@
+// The weights of every footprint a device's tables can give, by radius set and phases: what RLUT, adder and radial
+// table say of a whole splat, looked up once per frame instead of once per pixel.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "cmodel/config.hpp"
+#include "cmodel/footprint.hpp"
+#include "cmodel/rlut.hpp"
+
+namespace fastsplat::cmodel::fast {
+
+/// Footprints of one radius set.
+struct Shape {
+  std::uint32_t rho = 0;      ///< support radius, 1/k pixel
+  int padded = 0;             ///< Ea, pixels: what the windows cover
+  int extent = 0;             ///< pixels from the origin that any phase weights; <= Ea
+  int pitch = 0;              ///< words from row to row, a multiple of 8
+  std::uint32_t windows = 0;  ///< of one splat
+  std::uint32_t heaviest = 0;  ///< largest weight, unshifted
+  std::size_t first = 0;       ///< of words(), phases (0,0)
+};
+
+class WeightMemo {
+ public:
+  /// Weights are kept shifted left by `weight_shift`, as words of 16 bits.
+  WeightMemo(const Config& config, const Rlut& rlut, const RadialTable& radial, std::uint32_t sets, int weight_shift);
+
+  /// Bytes the footprints of one set take.
+  static std::size_t bytes(const Config& config, std::uint32_t rho);
+
+  const Shape& shape(std::uint32_t set) const { return shapes_[set]; }
+  /// Number of the footprint with these phases.
+  std::size_t number(std::uint32_t phase_x, std::uint32_t phase_y) const {
+    return (static_cast<std::size_t>(phase_y) << phase_bits_) | phase_x;
+  }
+  /// extent rows of pitch words.
+  const std::uint16_t* words(const Shape& shape, std::size_t number) const {
+    return words_.data() + shape.first + number * (static_cast<std::size_t>(shape.extent) * shape.pitch);
+  }
+  /// Pixels with a weight above 0.
+  std::uint32_t weighted(std::uint32_t set, std::size_t number) const {
+    return weighted_[(static_cast<std::size_t>(set) << (2 * phase_bits_)) + number];
+  }
+
+ private:
+  void fill(const Config& config, const Rlut& rlut, const RadialTable& radial, std::uint32_t set, int weight_shift);
+
+  int phases_, phase_bits_, lanes_;
+  std::vector<Shape> shapes_;
+  std::vector<std::uint16_t> words_;
+  std::vector<std::uint16_t> weighted_;
+};
+
+}  // namespace fastsplat::cmodel::fast

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "base/hash_text.hpp"
@@ -26,6 +28,21 @@ std::string fix_for(std::string_view counter) {
 }
 
 bool is_loss(std::string_view name) { return name.ends_with("_saturated"); }
+
+/// Where words end below 1.0, every opaque pixel is cut to the largest one: that is how the format says "opaque".
+bool only_opaque(const DeviceReport& report) {
+  return !report.sums && report.config.pixel_int_bits == 0 && report.counters.composite_saturated == 0 &&
+         report.counters.opacity_saturated == 0;
+}
+
+std::string to_text(const driver::UnitReport& units, const cmodel::Counters& counters) {
+  if (units.fast == 0) return units.plain == 0 ? "" : fmt::format("unit: plain, {}\n", counted(units.plain, "tile"));
+  return fmt::format("unit: fast ({}), {}{}; {:.1f} % of the splats lay on frozen blocks and were only counted\n",
+                     units.vectors, counted(units.fast, "tile"),
+                     units.plain > 0 ? fmt::format(", {} again by the plain one", grouped(units.plain)) : "",
+                     100.0 * static_cast<double>(units.hidden_splats) /
+                         static_cast<double>(std::max<std::uint64_t>(counters.splats, 1)));
+}
 
 }  // namespace
 
@@ -68,12 +85,20 @@ std::string to_text(const DeviceReport& report) {
   return to_text(report.driver) + fmt::format("device: configuration {} {}, {}, {} composited\n", report.config.name,
                                               hash_text(cmodel::config_hash(report.config)),
                                               counted(report.counters.windows, "window"),
-                                              counted(report.counters.pixels_composited, "pixel"));
+                                              counted(report.counters.pixels_composited, "pixel")) +
+         to_text(report.units, report.counters);
 }
 
 nlohmann::ordered_json to_json(const DeviceReport& report) {
   nlohmann::ordered_json json{{"config", config_identity_json(report.config)}};
   json.update(to_json(report.driver));
+  if (report.units.fast + report.units.plain > 0) {
+    json["units"] = {{"fast_tiles", report.units.fast},
+                     {"plain_tiles", report.units.plain},
+                     {"redone_tiles", report.units.redone},
+                     {"hidden_splats", report.units.hidden_splats}};
+    if (report.units.vectors != nullptr) json["units"]["vectors"] = report.units.vectors;
+  }
   auto& counts = json["counters"];
   report.counters.for_each(
       [&](std::string_view name, std::uint64_t value, std::string_view) { counts[std::string(name)] = value; });
@@ -83,8 +108,14 @@ nlohmann::ordered_json to_json(const DeviceReport& report) {
 std::vector<Remark> remarks(const DeviceReport& report) {
   auto remarks = cli::remarks(report.driver);
   report.counters.for_each([&](std::string_view name, std::uint64_t value, std::string_view meaning) {
-    if (is_loss(name) && value > 0)
-      remarks.push_back({Remark::Warning, fmt::format("{} {}; {}", grouped(value), meaning, fix_for(name))});
+    if (!is_loss(name) || value == 0) return;
+    if (name == "pixel_saturated" && only_opaque(report)) {
+      const std::int64_t largest = report.config.pixel_format().max;
+      remarks.push_back({Remark::Note, fmt::format("{} output words of 1.0 are {}/{} in this configuration's pixel format",
+                                                   grouped(value), largest, largest + 1)});
+      return;
+    }
+    remarks.push_back({Remark::Warning, fmt::format("{} {}; {}", grouped(value), meaning, fix_for(name))});
   });
   return remarks;
 }

@@ -17,6 +17,8 @@ struct DeviceReport {
   cmodel::Config config;
   driver::DriverReport driver;
   cmodel::Counters counters;
+  driver::UnitReport units{};  ///< of the integer model
+  bool sums = false;           ///< an X-ray: its words may truly be too large
 };
 
 std::string to_text(const driver::DriverReport& report);

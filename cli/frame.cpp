@@ -96,7 +96,7 @@ RenderedFrame render_frame(const Renderer& renderer, const scene::Scene& scene, 
     frame.picture = golden::render(scene, {.threads = renderer.threads, .progress = progress, .report = &frame.golden});
     return frame;
   }
-  const driver::RenderOptions options{.threads = renderer.threads, .progress = progress};
+  const driver::RenderOptions options{.threads = renderer.threads, .unit = renderer.unit, .progress = progress};
   frame.picture = renderer.engine == Engine::Rtl
                       ? render_rtl(scene, *renderer.config, options, renderer.checking, frame.checked)
                       : driver::render(scene, *renderer.config, options);
@@ -106,7 +106,8 @@ RenderedFrame render_frame(const Renderer& renderer, const scene::Scene& scene, 
 FrameReport report_of(const Renderer& renderer, const scene::Scene& scene, const RenderedFrame& frame) {
   FrameReport report{.scene = summary(scene), .engine = {}, .checked = frame.checked};
   if (const auto* device = std::get_if<driver::DeviceRender>(&frame.picture)) {
-    report.engine = DeviceReport{*renderer.config, device->report, device->counters};
+    report.engine = DeviceReport{*renderer.config, device->report, device->counters, device->units,
+                                 scene.description.method == scene::Method::XRay};
   } else {
     report.engine = GoldenReport{frame.golden.splats ? *frame.golden.splats : voxel_count(scene),
                                  scene::sheet_plan(scene).slabs.count, frame.golden};

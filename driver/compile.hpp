@@ -11,6 +11,8 @@
 #include "cmodel/beat.hpp"
 #include "cmodel/config.hpp"
 #include "cmodel/device.hpp"
+#include "cmodel/fast/tile_unit.hpp"
+#include "cmodel/record_sink.hpp"
 #include "driver/render.hpp"
 #include "driver/tile_bins.hpp"
 #include "scene/capability.hpp"
@@ -31,8 +33,11 @@ DriverReport& operator+=(DriverReport& report, const TileReport& tile);
 
 class CompiledFrame {
  public:
-  /// Throws UserError (Usage) where the scene does not fit the configuration.
-  CompiledFrame(const scene::Scene& scene, const cmodel::Config& config);
+  struct State;
+
+  /// Throws UserError (Usage) where the scene does not fit the configuration. `threads` (0: all cores) never change
+  /// the result.
+  CompiledFrame(const scene::Scene& scene, const cmodel::Config& config, int threads = 1);
   ~CompiledFrame();
 
   const cmodel::Config& config() const;
@@ -40,14 +45,21 @@ class CompiledFrame {
   /// begin_frame and the tables.
   std::span<const cmodel::Beat> preamble() const;
   /// begin_tile .. end_tile. Const and without shared state: tiles may be emitted in parallel.
+  TileReport emit_tile(int tile, cmodel::RecordSink& sink) const;
+  /// The same as beats.
   TileReport emit_tile(int tile, const cmodel::BeatSink& sink) const;
+  /// The same into the fast unit, which then has the tile's words and counters: no records, and what a splat's place in
+  /// the tile says is worked out once, not once a sheet.
+  template <class Word>
+  TileReport draw_tile(int tile, cmodel::fast::TileUnit<Word>& unit) const;
   /// Preamble and all tiles in order: a subset stream, without end_frame. Progress counts tiles.
   DriverReport emit(const cmodel::BeatSink& sink, const Progress& progress = {}) const;
   /// Voxels and tiles; what the tiles hold is in what emit() returns, or added to it by those who emit them singly.
   DriverReport report() const;
+  /// Splats that touch each tile: a measure of the work it makes.
+  std::vector<std::uint64_t> work() const;
 
  private:
-  struct State;
   std::unique_ptr<const State> state_;
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/parallel/parallel.hpp"
+
 namespace fastsplat::driver {
 namespace {
 
@@ -29,21 +31,45 @@ RadiusRange radius_range(const scene::Scene& scene) {
 }  // namespace
 
 Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices,
-                  const scene::SheetPlan& plan) {
+                  const scene::SheetPlan& plan, int threads) {
   const RadiusRange range = radius_range(scene);
   Projected out{.splats = {}, .sets = RadiusSets(config, range.smallest, range.largest)};
   const SplatQuantiser quantised(scene, config, out.sets, slices, plan);
-  scene::for_each_splat(scene, [&](const scene::Splat& splat) {
-    ++out.voxels;
-    bool saturated = false;
-    const QuantisedSplat words = quantised(scene::real_splat(scene, splat), saturated);
-    if (words.words == SplatWords{}) {
-      ++out.vanished;
-      return;
-    }
-    out.saturated += saturated ? 1 : 0;
-    out.splats.push_back(words);
+  const scene::Traversal traversal(scene);
+
+  // Slabs of the grid, each on its own, put together in their order.
+  struct Piece {
+    std::vector<QuantisedSplat> splats;
+    std::uint64_t voxels = 0, saturated = 0, vanished = 0;
+  };
+  std::vector<Piece> pieces(static_cast<std::size_t>(std::min(traversal.slices(), 32)));
+  parallel_for(pieces.size(), threads, [&](std::size_t number) {
+    Piece& piece = pieces[number];
+    const auto cut = [&](std::size_t n) {
+      return static_cast<int>(n * static_cast<std::size_t>(traversal.slices()) / pieces.size());
+    };
+    traversal.visit(cut(number), cut(number + 1), [&](const scene::Splat& splat) {
+      ++piece.voxels;
+      bool saturated = false;
+      const QuantisedSplat words = quantised(scene::real_splat(scene, splat), saturated);
+      if (words.words == SplatWords{}) {
+        ++piece.vanished;
+        return;
+      }
+      piece.saturated += saturated ? 1 : 0;
+      piece.splats.push_back(words);
+    });
   });
+  std::size_t total = 0;
+  for (const Piece& piece : pieces) total += piece.splats.size();
+  out.splats.reserve(total);
+  for (Piece& piece : pieces) {
+    out.voxels += piece.voxels;
+    out.saturated += piece.saturated;
+    out.vanished += piece.vanished;
+    out.splats.insert(out.splats.end(), piece.splats.begin(), piece.splats.end());
+    piece.splats = {};
+  }
   return out;
 }
 

@@ -16,8 +16,8 @@ struct Projected {
   std::uint64_t vanished = 0;   ///< voxels whose words all rounded to 0
 };
 
-/// Every real splat of the scene, quantised.
+/// Every real splat of the scene, quantised. `threads` (0: all cores) never change the result.
 Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices,
-                  const scene::SheetPlan& plan);
+                  const scene::SheetPlan& plan, int threads);
 
 }  // namespace fastsplat::driver

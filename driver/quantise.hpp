@@ -1,6 +1,9 @@
 // Real numbers to the device's words: every place where the driver rounds, by name (docs/numerics.md, section 8).
 #pragma once
 
+#include <algorithm>
+#include <cassert>
+#include <cmath>
 #include <cstdint>
 
 #include "cmodel/config.hpp"
@@ -32,6 +35,10 @@ struct Target {
   Rounding rounding = Rounding::Nearest;
   Overflow overflow = Overflow::Impossible;
   cmodel::Format to{};
+  double scale = 1.0;  ///< 2^frac_bits
+
+  Target(Rounding how, Overflow beyond, const cmodel::Format& format)
+      : rounding(how), overflow(beyond), to(format), scale(std::ldexp(1.0, format.frac_bits)) {}
 };
 
 Target target(Site site, const cmodel::Config& config);
@@ -41,8 +48,20 @@ struct Quantised {
   bool saturated = false;  ///< the rounded value lay outside the format
 };
 
-/// `value` is a number.
-Quantised quantise(double value, const Target& target);
+/// `value` is a number. (Inline, and by a product that is exact: the driver quantises seven numbers a voxel.)
+inline Quantised quantise(double value, const Target& target) {
+  const double scaled = value * target.scale;
+  const double word = target.rounding == Target::Rounding::Down      ? std::floor(scaled)
+                      : target.rounding == Target::Rounding::Nearest ? std::floor(scaled + 0.5)
+                                                                     : std::ceil(scaled);
+  const auto least = static_cast<double>(target.to.min), largest = static_cast<double>(target.to.max);
+  const bool outside = word < least || word > largest;
+  assert(!outside || target.overflow == Target::Overflow::Saturates);
+  return {.word = static_cast<std::int64_t>(outside && target.overflow == Target::Overflow::Saturates
+                                                ? std::clamp(word, least, largest)
+                                                : word),
+          .saturated = outside};
+}
 
 /// quantise() where overflow is impossible; T holds the format.
 template <class T>

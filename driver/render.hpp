@@ -14,9 +14,16 @@
 
 namespace fastsplat::driver {
 
+/// The two software devices: the same words and counters.
+enum class Unit {
+  Plain,  ///< cmodel/model.*: readable, tapped, what the RTL is held to
+  Fast,   ///< cmodel/fast/: where the configuration and its tables allow, else plain
+};
+
 struct RenderOptions {
   int threads = 0;  ///< tiles in parallel; 0: all cores. Never changes the result.
-  Progress progress;
+  Unit unit = Unit::Fast;
+  Progress progress = {};
 };
 
 /// What the driver had to bend to fit the formats; the last three are 0 in a healthy frame.
@@ -30,10 +37,19 @@ struct DriverReport {
   std::uint64_t vanished_voxels = 0;    ///< voxels whose colour and opacity rounded to 0
 };
 
+/// Which unit drew the tiles of a frame.
+struct UnitReport {
+  std::uint64_t fast = 0, plain = 0;  ///< tiles; all plain where the fast unit cannot be
+  std::uint64_t redone = 0;           ///< of the plain ones, those the fast unit gave up: a sum may have been cut
+  std::uint64_t hidden_splats = 0;    ///< records the fast unit counted without drawing: nothing there could change
+  const char* vectors = nullptr;      ///< the fast unit's instructions, "AVX2" and the like
+};
+
 struct DeviceRender {
   cmodel::Frame frame;
   cmodel::Counters counters;
   DriverReport report;
+  UnitReport units;
 };
 
 /// Throws UserError (Usage) where the scene does not fit the configuration (method, footprint radius, radius sets),

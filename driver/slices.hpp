@@ -1,6 +1,7 @@
 // How a splat is shared out among the sheets it reaches (docs/numerics.md, section 8): integers only, telescoping.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -30,20 +31,59 @@ class Slices {
   /// Depth (kernel units from the first boundary) as a word: 2^zf steps per kernel unit.
   std::int32_t quantise_depth(double depth) const;
   /// First and last slab that a kernel centred at `depth` reaches.
-  int first(std::int32_t depth) const;
-  int last(std::int32_t depth) const;
+  int first(std::int32_t depth) const {
+    const std::int32_t front = depth - middle_;
+    return last_that(front, [front](std::int32_t boundary) { return boundary <= front; });
+  }
+  int last(std::int32_t depth) const {
+    const std::int32_t back = depth + middle_;
+    return last_that(back, [back](std::int32_t boundary) { return boundary < back; });
+  }
   /// What falls into slab s.
-  Share share(const SplatWords& whole, std::int32_t depth, int s) const;
+  Share share(const SplatWords& whole, std::int32_t depth, int s) const {
+    const std::uint64_t near = cumulative(depth, s), far = cumulative(depth, s + 1);
+    SplatWords difference;
+    for (std::size_t c = 0; c < 4; ++c) difference[c] = part(whole[c], far) - part(whole[c], near);
+    return this->whole(difference);
+  }
   /// The whole splat in one sheet.
-  Share whole(const SplatWords& whole) const;
+  Share whole(const SplatWords& whole) const {
+    Share out;
+    for (std::size_t c = 0; c < 4; ++c) {
+      out.words[c] = std::min(whole[c], largest_);
+      out.saturated = out.saturated || whole[c] > largest_;
+    }
+    return out;
+  }
 
  private:
-  std::uint32_t cumulative(std::int32_t depth, int boundary) const;
+  /// Of the kernel before a boundary, 32 fraction bits. Nothing of it lies outside the first and the last one.
+  std::uint64_t cumulative(std::int32_t depth, int boundary) const {
+    const std::int32_t at = cut_[static_cast<std::size_t>(boundary)] - depth + middle_;
+    return phi_[static_cast<std::size_t>(std::clamp(at, 0, 2 * middle_))];
+  }
+  /// Last slab whose near boundary is `before` the depth, else the first one. Boundaries lie nearly evenly: a guess, then
+  /// a step or two.
+  template <class Before>
+  int last_that(std::int32_t depth, Before before) const {
+    int s = std::clamp(static_cast<int>(depth * per_step_), 0, count() - 1);
+    while (s + 1 < count() && before(boundary_[static_cast<std::size_t>(s) + 1])) ++s;
+    while (s > 0 && !before(boundary_[static_cast<std::size_t>(s)])) --s;
+    return s;
+  }
+  /// narrow<RND, SAT>(word * phi) to the whole's format; phi is at most 1.0, so that nothing saturates. phi has 32
+  /// fraction bits instead of hf, zeros, so that the shift is a constant.
+  static std::uint32_t part(std::uint32_t word, std::uint64_t phi) {
+    return static_cast<std::uint32_t>((word * phi + (std::uint64_t{1} << 31)) >> 32);
+  }
 
-  cmodel::Config config_;
+  std::uint32_t largest_;  ///< word of U 0.cf
+  std::int32_t middle_;    ///< M/2
+  double per_step_ = 0.0;  ///< slabs per depth step
   Target depth_;
-  std::vector<std::uint32_t> phi_;      ///< M+1 words One.hf
+  std::vector<std::uint64_t> phi_;      ///< M+1 words One.hf, with zeros to 32 fraction bits
   std::vector<std::int32_t> boundary_;  ///< B_s
+  std::vector<std::int32_t> cut_;       ///< B_s, but the first and the last one out of every kernel's reach
 };
 
 }  // namespace fastsplat::driver

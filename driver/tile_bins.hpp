@@ -1,10 +1,12 @@
 // Which splats touch which tile, ordered by the first sheet they reach.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "base/parallel/parallel.hpp"
 #include "cmodel/config.hpp"
 
 namespace fastsplat::driver {
@@ -32,35 +34,69 @@ struct Extent {
 /// Counting sort of splat numbers by (tile, first sheet); stable, so traversal order stays within a bin.
 class TileBins {
  public:
-  /// extent(i) and first_sheet(i) for i in [0, splats).
+  /// extent(i) and first_sheet(i) for i in [0, splats): each asked for once, by several threads.
   template <class ExtentOf, class SheetOf>
-  TileBins(const TileGrid& grid, int sheets, std::size_t splats, ExtentOf extent, SheetOf first_sheet)
+  TileBins(const TileGrid& grid, int sheets, std::size_t splats, int threads, ExtentOf extent, SheetOf first_sheet)
       : sheets_(static_cast<std::size_t>(sheets)), start_(static_cast<std::size_t>(grid.count()) * sheets_ + 1, 0) {
-    visit(grid, splats, extent, first_sheet, [this](std::size_t bin, std::uint32_t) { ++start_[bin + 1]; });
+    std::vector<Place> places(splats);
+    const Columns across(grid.image_width, grid.tile_width), down(grid.image_height, grid.tile_height);
+    constexpr std::size_t kPiece = 1 << 16;
+    parallel_for((splats + kPiece - 1) / kPiece, threads, [&](std::size_t piece) {
+      for (std::size_t i = piece * kPiece; i < std::min(splats, (piece + 1) * kPiece); ++i) {
+        const Extent e = extent(i);
+        places[i] = {across.first(e.x0), across.last(e.x1), down.first(e.y0), down.last(e.y1), first_sheet(i)};
+      }
+    });
+    for (const Place& place : places) visit(grid, place, [this](std::size_t bin) { ++start_[bin + 1]; });
     for (std::size_t bin = 1; bin < start_.size(); ++bin) start_[bin] += start_[bin - 1];
     order_.resize(start_.back());
     std::vector<std::uint64_t> next(start_.begin(), start_.end() - 1);
-    visit(grid, splats, extent, first_sheet,
-          [&](std::size_t bin, std::uint32_t splat) { order_[next[bin]++] = splat; });
+    for (std::size_t i = 0; i < splats; ++i)
+      visit(grid, places[i], [&](std::size_t bin) { order_[next[bin]++] = static_cast<std::uint32_t>(i); });
   }
 
   std::span<const std::uint32_t> bin(int tile, int sheet) const {
     const std::size_t at = static_cast<std::size_t>(tile) * sheets_ + static_cast<std::size_t>(sheet);
     return {order_.data() + start_[at], order_.data() + start_[at + 1]};
   }
+  /// All bins of a tile, one after the other.
+  std::span<const std::uint32_t> tile(int tile) const {
+    const std::size_t at = static_cast<std::size_t>(tile) * sheets_;
+    return {order_.data() + start_[at], order_.data() + start_[at + sheets_]};
+  }
 
  private:
-  template <class ExtentOf, class SheetOf, class Visit>
-  void visit(const TileGrid& grid, std::size_t splats, ExtentOf extent, SheetOf first_sheet, Visit visit) const {
-    for (std::size_t i = 0; i < splats; ++i) {
-      const Extent e = extent(i);
-      const int tx0 = e.x0 < 0 ? 0 : e.x0 / grid.tile_width, tx1 = e.x1 <= 0 ? -1 : (e.x1 - 1) / grid.tile_width;
-      const int ty0 = e.y0 < 0 ? 0 : e.y0 / grid.tile_height, ty1 = e.y1 <= 0 ? -1 : (e.y1 - 1) / grid.tile_height;
-      for (int ty = ty0; ty <= ty1 && ty < grid.rows(); ++ty) {
-        for (int tx = tx0; tx <= tx1 && tx < grid.columns(); ++tx) {
-          const std::size_t tile = static_cast<std::size_t>(ty) * grid.columns() + tx;
-          visit(tile * sheets_ + static_cast<std::size_t>(first_sheet(i)), static_cast<std::uint32_t>(i));
-        }
+  /// The tiles a splat touches, and its first sheet.
+  struct Place {
+    std::int16_t tx0, tx1, ty0, ty1;  ///< the last ones included
+    std::int32_t sheet;
+  };
+  /// Tiles along one axis, looked up by pixel: a division each is what most of the binning would cost.
+  class Columns {
+   public:
+    Columns(int pixels, int tile) {
+      for (int at = 0; at < pixels; ++at) tile_.push_back(static_cast<std::int16_t>(at / tile));
+    }
+    /// Of the interval's first pixel; behind the last one if it begins there.
+    std::int16_t first(std::int32_t begin) const {
+      if (begin < 0) return 0;
+      return begin < size() ? tile_[static_cast<std::size_t>(begin)] : static_cast<std::int16_t>(tile_.back() + 1);
+    }
+    /// Of the interval's last pixel; -1 if it ends before the first one.
+    std::int16_t last(std::int32_t end) const {
+      return end <= 0 ? static_cast<std::int16_t>(-1) : tile_[static_cast<std::size_t>(std::min(end, size()) - 1)];
+    }
+
+   private:
+    std::int32_t size() const { return static_cast<std::int32_t>(tile_.size()); }
+    std::vector<std::int16_t> tile_;
+  };
+  template <class Visit>
+  void visit(const TileGrid& grid, const Place& place, Visit visit) const {
+    for (int ty = place.ty0; ty <= place.ty1; ++ty) {
+      for (int tx = place.tx0; tx <= place.tx1; ++tx) {
+        const std::size_t tile = static_cast<std::size_t>(ty) * static_cast<std::size_t>(grid.columns()) + static_cast<std::size_t>(tx);
+        visit(tile * sheets_ + static_cast<std::size_t>(place.sheet));
       }
     }
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <memory>
 #include <vector>
 
 #include "scene/scene.hpp"
@@ -22,6 +23,22 @@ struct Splat {
 /// nearest slice first; inside a slice by the remaining axes, also nearest first. The order is a function of the scene
 /// only. For Method::XRay the order is the same (it does not matter there).
 void for_each_splat(const Scene& scene, const std::function<void(const Splat&)>& visit);
+
+/// The same in pieces, which may be visited by several threads at once: one after the other they are the whole order.
+class Traversal {
+ public:
+  /// The scene outlives it.
+  explicit Traversal(const Scene& scene);
+  ~Traversal();
+  /// Pieces; sheets of the grid, for those who want Splat::sheet.
+  int slices() const;
+  /// Slices first..last-1, 0 nearest to the eye.
+  void visit(int first, int last, const std::function<void(const Splat&)>& visit) const;
+
+ private:
+  struct State;
+  std::unique_ptr<const State> state_;
+};
 
 std::vector<Splat> collect_splats(const Scene& scene);
 

@@ -39,17 +39,37 @@ std::array<Walk, 3> walk_order(const Scene& scene) {
 
 }  // namespace
 
-void for_each_splat(const Scene& scene, const std::function<void(const Splat&)>& visit) {
+struct Traversal::State {
+  const Scene& scene;
+  Classifier classify;
+  Shader shade;
+  std::array<Walk, 3> order;
+
+  explicit State(const Scene& of)
+      : scene(of),
+        classify(of.transfer_function, *of.volume),
+        shade(of.shading, of.camera, *of.volume),
+        order(walk_order(of)) {}
+};
+
+Traversal::Traversal(const Scene& scene) : state_(std::make_unique<const State>(scene)) {}
+Traversal::~Traversal() = default;
+
+int Traversal::slices() const { return state_->order[0].extent; }
+
+void Traversal::visit(int first, int last, const std::function<void(const Splat&)>& visit) const {
+  const Scene& scene = state_->scene;
+  // Copies of one's own: what other code might write to is read again for every voxel.
+  const Classifier classify = state_->classify;
+  const Shader shade = state_->shade;
+  const std::array<Walk, 3> order = state_->order;
   const volume::Volume& volume = *scene.volume;
-  const Classifier classify(scene.transfer_function, volume);
-  const Shader shade(scene.shading, scene.camera, volume);
   const float opacity_scale = static_cast<float>(scene.description.opacity_scale);
-  const auto order = walk_order(scene);
   const Texture& texture = scene.description.texture;
   const bool textured = texture.kind != SolidKind::None && texture.where == TextureWhere::Voxel;
 
   glm::ivec3 at;
-  for (int slice = 0; slice < order[0].extent; ++slice) {
+  for (int slice = first; slice < last; ++slice) {
     at[order[0].axis] = order[0].index(slice);
     for (int row = 0; row < order[1].extent; ++row) {
       at[order[1].axis] = order[1].index(row);
@@ -69,6 +89,11 @@ void for_each_splat(const Scene& scene, const std::function<void(const Splat&)>&
       }
     }
   }
+}
+
+void for_each_splat(const Scene& scene, const std::function<void(const Splat&)>& visit) {
+  const Traversal traversal(scene);
+  traversal.visit(0, traversal.slices(), visit);
 }
 
 std::vector<Splat> collect_splats(const Scene& scene) {

@@ -1,30 +1,44 @@
 #include "base/parallel/parallel.hpp"
 
-#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <atomic>
+#include <numeric>
 #include <optional>
+#include <vector>
 
 namespace fastsplat {
 
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& job) {
+  const std::size_t wanted = static_cast<std::size_t>(threads > 0 ? threads : tbb::info::default_concurrency());
+  const std::size_t workers = std::min(wanted, count);
   // oneTBB warns on stderr when asked for more workers than cores unless this allows them.
   std::optional<tbb::global_control> allow;
-  if (threads > tbb::info::default_concurrency()) {
+  if (threads > tbb::info::default_concurrency())
     allow.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  }
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  // Each worker takes the next job there is. Left to itself, oneTBB halves the range ahead of time, whatever the jobs
+  // hold: one of two threads then had 59 to 72 % of a frame.
+  std::atomic<std::size_t> next{0};
+  tbb::task_arena arena(static_cast<int>(std::max<std::size_t>(wanted, 1)));
   arena.execute([&] {
     tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, count, 1),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-          for (std::size_t i = range.begin(); i != range.end(); ++i) job(i);
+        std::size_t{0}, workers,
+        [&](std::size_t) {
+          for (std::size_t i = next++; i < count; i = next++) job(i);
         },
         tbb::simple_partitioner());
   });
+}
+
+void parallel_for(std::span<const std::uint64_t> work, int threads, const std::function<void(std::size_t)>& job) {
+  std::vector<std::size_t> order(work.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return work[a] > work[b]; });
+  parallel_for(order.size(), threads, [&](std::size_t i) { job(order[i]); });
 }
 
 }  // namespace fastsplat

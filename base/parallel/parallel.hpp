@@ -3,12 +3,17 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <span>
 
 namespace fastsplat {
 
 /// job(i) for every i in [0, count), each exactly once, on at most `threads` threads (0: all cores).
 /// An exception of a job reaches the caller.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& job);
+
+/// The same for every i in [0, work.size()), those with the most work first: so that nobody ends with a long one alone.
+void parallel_for(std::span<const std::uint64_t> work, int threads, const std::function<void(std::size_t)>& job);
 
 }  // namespace fastsplat

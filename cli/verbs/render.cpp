@@ -48,6 +48,13 @@ void check(const RenderArguments& arguments, Engine engine) {
                  .got = {},
                  .fix = "add --engine rtl; `fastsplat compare` compares two images"});
   }
+  if (engine != Engine::CModel && arguments.plain) {
+    throw_usage({.where = "--plain",
+                 .what = "the " + arguments.engine + " engine has one unit only",
+                 .expected = {},
+                 .got = {},
+                 .fix = "add --engine cmodel, or leave it out"});
+  }
 }
 
 /// A picture in words; its pixels are in the files.
@@ -109,6 +116,7 @@ ExitCode run(const RenderArguments& arguments) {
   Renderer renderer{.engine = engine_from(arguments.engine),
                     .config = {},
                     .checking = arguments.check ? Checking::EveryTap : Checking::Off,
+                    .unit = arguments.plain ? driver::Unit::Plain : driver::Unit::Fast,
                     .threads = arguments.common.threads};
   check(arguments, renderer.engine);
   const auto sequence = sequence_of(arguments);

@@ -1,0 +1,152 @@
+// Whole frames, and rows of footprints: the fast unit beside the plain one, in one run. The head is Debian's
+// (mricron-data); without it those lines are missing. Ratios within one run mean something; ./run performance makes
+// docs/performance.md of them.
+#include <benchmark/benchmark.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "cmodel/fast/tile_unit.hpp"
+#include "cmodel/model.hpp"
+#include "driver/config_file.hpp"
+#include "driver/render.hpp"
+#include "driver/tables.hpp"
+#include "golden/render.hpp"
+#include "scene/scene.hpp"
+
+namespace fastsplat {
+namespace {
+
+constexpr const char* kHead = "/usr/share/mricron/templates/ch2bet.nii.gz";
+
+/// Scenes are read once; frames are what is measured.
+const scene::Scene& scene_of(const std::string& volume, int size) {
+  static std::map<std::pair<std::string, int>, scene::Scene> scenes;
+  const auto found = scenes.find({volume, size});
+  if (found != scenes.end()) return found->second;
+  scene::SceneDescription description;
+  description.volume = volume;
+  description.transfer_function = volume == kHead ? "mri-head" : "default";
+  description.width = description.height = size;
+  return scenes.emplace(std::pair{volume, size}, scene::build_scene(description)).first->second;
+}
+
+void device_frame(benchmark::State& state, const std::string& volume, int size, const std::string& config,
+                  driver::Unit unit, int threads) {
+  const scene::Scene& scene = scene_of(volume, size);
+  const cmodel::Config device = driver::load_config(config);
+  driver::DeviceRender frame;
+  for (auto _ : state) frame = driver::render(scene, device, {.threads = threads, .unit = unit});
+  state.counters["splats"] = static_cast<double>(frame.counters.splats);
+  state.counters["hidden"] = static_cast<double>(frame.units.hidden_splats);
+  state.counters["redone"] = static_cast<double>(frame.units.redone);
+}
+
+void golden_frame(benchmark::State& state, const std::string& volume, int size) {
+  const scene::Scene& scene = scene_of(volume, size);
+  for (auto _ : state) benchmark::DoNotOptimize(golden::render(scene, {.threads = 1, .progress = {}, .report = nullptr}).data.data());
+}
+
+/// One tile of splats `extent` pixels wide, anywhere on it.
+struct Rows {
+  cmodel::Config config;
+  std::vector<cmodel::Beat> preamble, tile;
+  std::vector<cmodel::SplatRecord> records;
+
+  Rows(const std::string& name, int extent) : config(driver::load_config(name)) {
+    append(preamble, cmodel::BeginFrame{config_hash(config), config.tile_width, config.tile_height, 1});
+    append(preamble, driver::rlut_table(config, 0, extent / 2.0, 0));
+    append(preamble, driver::radial_table(config, scene::kernel_by_name("smooth")));
+    append(preamble, driver::factor_table(config));
+    std::uint64_t state = 1;
+    const auto below = [&state](std::uint32_t n) {
+      state = state * 6364136223846793005U + 1442695040888963407U;
+      return static_cast<std::uint32_t>((state >> 33) % n);
+    };
+    append(tile, cmodel::BeginTile{.width = config.tile_width, .height = config.tile_height});
+    append(tile, cmodel::BeginSheet{0});
+    // Inside the tile, and so dim that no sum is cut.
+    const auto side = static_cast<std::uint32_t>(config.tile_width - extent) << config.position_frac_bits;
+    const std::int32_t first = (extent / 2) << config.position_frac_bits;
+    for (std::uint32_t i = 0; i < 20000; ++i) {
+      cmodel::SplatRecord splat{.tag = i};
+      splat.x = first + static_cast<std::int32_t>(below(side));
+      splat.y = first + static_cast<std::int32_t>(below(side));
+      splat.colour.fill(1 + below((1U << config.colour_frac_bits) / 512 + 1));
+      records.push_back(splat);
+      tile.push_back(to_beat(splat));
+    }
+  }
+};
+
+void plain_rows(benchmark::State& state, const std::string& config, int extent) {
+  const Rows rows(config, extent);
+  for (auto _ : state) {
+    cmodel::NullPixels pixels;
+    cmodel::Model model(rows.config, cmodel::StreamScope::Subset, pixels);
+    model.consume(rows.preamble);
+    model.consume(rows.tile);
+  }
+  state.counters["splats/s"] =
+      benchmark::Counter(20000.0 * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+
+template <class Word>
+void fast_rows_of(benchmark::State& state, const Rows& rows, const cmodel::fast::FrameTables& tables) {
+  cmodel::NullPixels pixels;
+  cmodel::fast::TileUnit<Word> unit(tables, pixels);
+  for (auto _ : state) {
+    unit.begin_tile({.width = rows.config.tile_width, .height = rows.config.tile_height});
+    unit.splats(rows.records);
+    if (!unit.sound()) state.SkipWithError("a sum was cut: the benchmark measures something else");
+  }
+  state.counters["splats/s"] =
+      benchmark::Counter(20000.0 * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+
+void fast_rows(benchmark::State& state, const std::string& config, int extent) {
+  const Rows rows(config, extent);
+  const auto tables = cmodel::fast::frame_tables(rows.config, rows.preamble);
+  if (!tables) return state.SkipWithError("no fast unit for it here");
+  if (tables->jobs.plan.narrow)
+    fast_rows_of<std::uint16_t>(state, rows, *tables);
+  else
+    fast_rows_of<std::uint32_t>(state, rows, *tables);
+}
+
+/// Before main. Names are unit/what/configuration: the table looks for them.
+const bool kRegistered = [] {
+  using driver::Unit;
+  const auto frame = [](const std::string& name, const std::string& volume, int size, const std::string& config,
+                        Unit unit, int threads = 1) {
+    auto* line = benchmark::RegisterBenchmark(name.c_str(), device_frame, volume, size, config, unit, threads);
+    line->Unit(benchmark::kMillisecond)->Iterations(1)->MeasureProcessCPUTime();
+    if (threads > 1) line->UseRealTime();
+  };
+  if (std::filesystem::exists(kHead)) {
+    for (const char* config : {"base", "compact", "tiny"}) {
+      frame(std::string("plain/head512/") + config, kHead, 512, config, Unit::Plain);
+      frame(std::string("fast/head512/") + config, kHead, 512, config, Unit::Fast);
+    }
+    for (const int size : {128, 256, 1024, 2048})
+      frame("fast/head" + std::to_string(size) + "/base", kHead, size, "base", Unit::Fast);
+    frame("wall1/head512/base", kHead, 512, "base", Unit::Fast);
+    frame("wall2/head512/base", kHead, 512, "base", Unit::Fast, 2);
+    benchmark::RegisterBenchmark("golden/head512", golden_frame, kHead, 512)
+        ->Unit(benchmark::kMillisecond)->Iterations(1)->MeasureProcessCPUTime();
+  }
+  for (const char* config : {"base", "compact"})
+    frame(std::string("fast/shells256/") + config, "shells:256", 512, config, Unit::Fast);
+  for (const char* config : {"compact", "base"}) {
+    for (const int extent : {5, 7, 9, 16}) {
+      const std::string what = "/rows" + std::to_string(extent) + "/" + config;
+      benchmark::RegisterBenchmark(("plain" + what).c_str(), plain_rows, config, extent)->Unit(benchmark::kMillisecond);
+      benchmark::RegisterBenchmark(("fast" + what).c_str(), fast_rows, config, extent)->Unit(benchmark::kMillisecond);
+    }
+  }
+  return true;
+}();
+
+}  // namespace
+}  // namespace fastsplat

@@ -5,6 +5,7 @@
 
 #include "analysis/provenance.hpp"
 #include "base/atomic_file.hpp"
+#include "base/utf8.hpp"
 #include "base/version.hpp"
 #include "cli/animation.hpp"
 #include "cli/frame.hpp"
@@ -82,8 +83,20 @@ Json to_json(const Result& result) {
   return json;
 }
 
+/// TOML is text: a file whose name is none cannot be named in it.
+void require_saveable(const scene::SceneDescription& description) {
+  if (is_utf8(scene::to_toml(description))) return;
+  throw_usage({.where = "--save-scene",
+               .what = "the scene names a file whose name is no UTF-8, and TOML can hold nothing else",
+               .expected = {},
+               .got = {},
+               .fix = "rename the file or its folder, or leave --save-scene out"});
+}
+
 ExitCode run_still(const RenderArguments& arguments, const Renderer& renderer, const Output& output) {
-  const scene::Scene scene = build(arguments.scene);
+  const scene::SceneDescription description = describe(arguments.scene);
+  if (!arguments.save_scene.empty()) require_saveable(description);
+  const scene::Scene scene = scene::build_scene(description);
   RenderedFrame frame;
   {
     ProgressBar bar(arguments.engine, watching(arguments.common));

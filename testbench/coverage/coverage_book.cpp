@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
 #include "base/read_file.hpp"
+#include "base/json_text.hpp"
 
 namespace fastsplat::testbench {
 namespace {
@@ -46,14 +47,14 @@ void write_book(const std::filesystem::path& path, const CoverageBook& book) {
     Json& bins = json["campaigns"][name] = Json::object();
     for (const auto& bin : coverage.bins()) bins[bin.name] = bin.hits;
   }
-  write_text_file(path, json.dump(1) + "\n");
+  write_text_file(path, json_text(json, 1) + "\n");
 }
 
 namespace {
 
 /// nlohmann would wrap a negative number and cut a fraction.
 std::uint64_t count_of(const Json& json) {
-  if (!json.is_number_unsigned()) throw std::runtime_error(json.dump() + " is no count");
+  if (!json.is_number_unsigned()) throw std::runtime_error(json_text(json, -1) + " is no count");
   return json.get<std::uint64_t>();
 }
 

@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/image_output.hpp"
 #include "cli/output.hpp"
+#include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "images/image_file.hpp"
 

@@ -8,6 +8,7 @@
 #include "cli/config_flags.hpp"
 #include "cli/config_json.hpp"
 #include "cli/output.hpp"
+#include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
 
 namespace fastsplat::cli {
@@ -28,6 +29,7 @@ void declare(Options& options, Arguments& to) {
 
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
+  check_outputs({.others = {arguments.common.json}, .inputs = inputs_of_config(arguments.file)});
   const auto config = load(arguments.file, arguments.changes);
   output.line(fmt::format("{}: sound; configuration {}, hash {}", arguments.file, config.name,
                           hash_text(cmodel::config_hash(config))));

@@ -7,6 +7,7 @@
 #include "cli/common.hpp"
 #include "cli/config_json.hpp"
 #include "cli/output.hpp"
+#include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "driver/config_file.hpp"
 
@@ -69,6 +70,8 @@ Json to_json(const Result& result) {
 
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
+  check_outputs({.others = {arguments.common.json},
+                 .inputs = joined(inputs_of_config(arguments.a), inputs_of_config(arguments.b))});
   const Result result = compared(driver::load_config(arguments.a), driver::load_config(arguments.b));
   output.line(to_text(result));
   output.json(to_json(result));

@@ -9,7 +9,7 @@
 #include "base/version.hpp"
 #include "cli/animation.hpp"
 #include "cli/frame.hpp"
-#include "cli/image_output.hpp"
+#include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
@@ -128,11 +128,12 @@ ExitCode run(const RenderArguments& arguments) {
   if (sequence) {
     check_animation(arguments, *sequence);
   } else {
-    check_outputs({.images = arguments.out,
-                   .maps = {},
-                   .raws = {arguments.raw},
-                   .others = {arguments.save_scene, arguments.common.json},
-                   .inputs = {}});
+    check_outputs(
+        {.images = arguments.out,
+         .maps = {},
+         .raws = {arguments.raw},
+         .others = {arguments.save_scene, arguments.common.json},
+         .inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")))});
   }
   if (renderer.engine != Engine::Golden) renderer.config = load(arguments.config);
   if (renderer.engine == Engine::Rtl) testbench::require_rtl(*renderer.config);

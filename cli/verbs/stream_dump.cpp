@@ -3,6 +3,7 @@
 
 #include "cli/common.hpp"
 #include "cli/output.hpp"
+#include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "driver/stream_file.hpp"
 
@@ -26,6 +27,7 @@ void declare(Options& options, Arguments& to) {
 
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
+  check_outputs({.others = {arguments.common.json}, .inputs = {arguments.stream}});
   const auto limit = static_cast<std::uint64_t>(arguments.limit.value_or(INT32_MAX));
   const bool text_wanted = !arguments.common.quiet && arguments.common.json != "-";
   Json records = Json::array();

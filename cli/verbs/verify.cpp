@@ -10,8 +10,8 @@
 #include "base/hash_text.hpp"
 #include "base/version.hpp"
 #include "cli/config_flags.hpp"
-#include "cli/image_output.hpp"
 #include "cli/output.hpp"
+#include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/replay_line.hpp"
 #include "cli/rtl_run.hpp"
@@ -80,6 +80,12 @@ std::string failure_prefix(const Arguments& arguments) {
   if (!arguments.failure.empty()) return arguments.failure;
   if (arguments.stream.empty()) return "verify-failure";
   return std::filesystem::path(arguments.stream).replace_extension().string() + "-smaller";
+}
+
+std::vector<std::string> inputs_of(const Arguments& arguments, Source source) {
+  auto inputs = inputs_of_config(arguments.config.config.value_or(""));
+  if (source == Source::Stream) inputs.push_back(arguments.stream);
+  return source == Source::Scene ? joined(inputs, cli::inputs_of(arguments.scene)) : inputs;
 }
 
 testbench::VerifyOptions options_from(const Arguments& arguments, const cmodel::Config& config) {
@@ -282,7 +288,7 @@ ExitCode run(const Arguments& arguments) {
                  .raws = {},
                  .others = {failure_prefix(arguments) + ".fss", failure_prefix(arguments) + ".fst",
                             arguments.common.json, arguments.coverage},
-                 .inputs = arguments.stream.empty() ? std::vector<std::string>{} : std::vector{arguments.stream}});
+                 .inputs = inputs_of(arguments, source)});
   const auto config = load(arguments.config);
   testbench::require_rtl(config);
   const auto options = options_from(arguments, config);

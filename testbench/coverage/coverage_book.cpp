@@ -4,9 +4,10 @@
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/folder_lock.hpp"
 #include "base/hash_text.hpp"
-#include "base/read_file.hpp"
 #include "base/json_text.hpp"
+#include "base/read_file.hpp"
 
 namespace fastsplat::testbench {
 namespace {
@@ -87,6 +88,17 @@ CoverageBook read_book(const std::filesystem::path& path) {
                  .got = error.what(),
                  .fix = {}});
   }
+}
+
+CoverageBook add_to_book(const std::filesystem::path& path, const CoverageBook& more) {
+  const FolderLock lock(path);
+  CoverageBook sum = more;
+  if (std::filesystem::exists(path)) {
+    sum = read_book(path);
+    sum.merge(more);
+  }
+  write_book(path, sum);
+  return sum;
 }
 
 }  // namespace fastsplat::testbench

@@ -46,7 +46,10 @@ std::string similar_in_folder(const std::filesystem::path& path) {
 
 }  // namespace
 
-void require_readable_file(const std::filesystem::path& path, const std::string& fix_if_missing) {
+namespace {
+
+/// Its size.
+off_t size_of_regular_file(const std::filesystem::path& path, const std::string& fix_if_missing) {
   // O_NONBLOCK: opening a pipe nobody writes to must not hang before it can be refused.
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) {
@@ -62,7 +65,17 @@ void require_readable_file(const std::filesystem::path& path, const std::string&
   if (outcome != 0) refuse(path, std::string("cannot read: ") + std::strerror(errno), "check the path");
   if (S_ISDIR(status.st_mode)) refuse(path, "it is a directory, not a file", "name a file inside it");
   if (!S_ISREG(status.st_mode)) refuse(path, "it is not a regular file", "save it to a file first");
-  if (status.st_size == 0) refuse(path, "the file is empty", "write or download it again");
+  return status.st_size;
+}
+
+}  // namespace
+
+void require_regular_file(const std::filesystem::path& path, const std::string& fix_if_missing) {
+  size_of_regular_file(path, fix_if_missing);
+}
+
+void require_readable_file(const std::filesystem::path& path, const std::string& fix_if_missing) {
+  if (size_of_regular_file(path, fix_if_missing) == 0) refuse(path, "the file is empty", "write or download it again");
 }
 
 std::string read_text_file(const std::filesystem::path& path, std::size_t max_bytes) {

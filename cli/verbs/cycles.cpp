@@ -193,7 +193,7 @@ void declare(Options& options, Arguments& to) {
   options.group("Engine");
   declare(options, to.config, "hardware configuration, a name or a TOML file");
   options.word("--input", to.input, "PATTERN",
-               "when the source has a beat: always, every-N, never-N, random-PERCENT, burst-N");
+               "when the source has a beat: always, every-N, alternate-N, random-PERCENT, burst-N");
   options.word("--ready", to.ready, "PATTERN", "when the sink takes pixels: as --input");
   options.integer("--seed", to.seed, 0, 2'000'000'000, "N", "of the patterns");
   options.group("Output");

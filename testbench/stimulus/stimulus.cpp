@@ -399,7 +399,7 @@ StimulusClass stimulus_class_from(const std::string& name) {
                .what = "unknown stimulus class '" + name + "'",
                .expected = "all, " + known,
                .got = {},
-               .fix = {}});
+               .fix = "`fastsplat help verify` and docs/verify.md tell what they reach"});
 }
 
 Stimulus make_stimulus(const cmodel::Config& config, StimulusClass which, std::uint64_t seed, std::uint64_t splats) {

@@ -136,7 +136,8 @@ ExitCode run(const RenderArguments& arguments) {
          .inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")))});
   }
   if (renderer.engine != Engine::Golden) renderer.config = load(arguments.config);
-  if (renderer.engine == Engine::Rtl) testbench::require_rtl(*renderer.config);
+  if (renderer.engine == Engine::Rtl)
+    testbench::require_rtl(*renderer.config, "use --engine cmodel, its bit-accurate model");
   return sequence ? run_animation(arguments, renderer, describe(arguments.scene, &*sequence), *sequence, output)
                   : run_still(arguments, renderer, output);
 }

@@ -69,7 +69,9 @@ ExitCode run(const Arguments& arguments) {
                  .others = {arguments.out, arguments.common.json},
                  .inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")))});
   const auto config = load(arguments.config);
-  const auto scene = build(arguments.scene);
+  const auto description = describe(arguments.scene);
+  driver::check_image_size(description.width, description.height);
+  const auto scene = scene::build_scene(description);
 
   Result result{.scene = summary(scene), .stream = arguments.out, .config = config, .driver = {}};
   {

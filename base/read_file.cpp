@@ -27,7 +27,6 @@ std::string similar_in_folder(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(folder, error)) return "the folder " + folder.string() + " does not exist";
   const std::string wanted = path.filename().string();
   std::string best;
-  int best_distance = 4;
   std::vector<std::string> names;
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     names.push_back(entry->path().filename().string());
@@ -35,11 +34,8 @@ std::string similar_in_folder(const std::filesystem::path& path) {
   }
   std::sort(names.begin(), names.end());
   for (const auto& name : names) {
-    const int distance = edit_distance(wanted, name);
-    if (distance < best_distance && distance < static_cast<int>(name.size())) {
-      best_distance = distance;
+    if (may_mean(wanted, name) && (best.empty() || edit_distance(wanted, name) < edit_distance(wanted, best)))
       best = name;
-    }
   }
   return best.empty() ? "check the path" : "did you mean '" + (path.parent_path() / best).string() + "'?";
 }

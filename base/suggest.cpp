@@ -21,15 +21,17 @@ int edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+bool may_mean(std::string_view got, std::string_view name) {
+  const auto letters = got.size() - std::min(got.find_first_not_of('-'), got.size());
+  const int allowed = std::clamp(static_cast<int>(letters + 1) / 3, 1, 3);
+  const int distance = edit_distance(got, name);
+  return distance <= allowed && distance < static_cast<int>(name.size());
+}
+
 std::string suggestion(std::string_view got, std::span<const std::string> known) {
   const std::string* best = nullptr;
-  int best_distance = 4;
   for (const auto& name : known) {
-    const int distance = edit_distance(got, name);
-    if (distance < best_distance && distance < static_cast<int>(name.size())) {
-      best_distance = distance;
-      best = &name;
-    }
+    if (may_mean(got, name) && (best == nullptr || edit_distance(got, name) < edit_distance(got, *best))) best = &name;
   }
   if (best != nullptr) return "did you mean '" + *best + "'?";
   std::string list;

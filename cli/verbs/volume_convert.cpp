@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/common.hpp"
+#include "cli/names.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
@@ -59,6 +60,7 @@ nlohmann::ordered_json to_json(const Result& result) {
 
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
+  check_volume_name(arguments.volume);
   const bool detached = std::filesystem::path(arguments.out).extension() == ".nhdr";
   check_outputs(
       {.others = {arguments.out, detached ? volume::data_file_of(arguments.out).string() : "", arguments.common.json},

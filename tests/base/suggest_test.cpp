@@ -27,6 +27,20 @@ TEST(Suggest, OffersTheNearestElseAll) {
   EXPECT_EQ(suggestion("something else", known), "known: bone, binary, x-ray");
 }
 
+TEST(Suggest, FarFetchedIsNoSuggestion) {
+  // What was answered: the words share a letter or two.
+  const std::vector<std::string> presets = {"bone", "fire", "base", "linear"}, flags = {"--video", "--volume", "--tf"};
+  for (const char* word : {"nope", "none", "mine", "vase-2"}) {
+    if (edit_distance(word, "bone") == 1) continue;
+    EXPECT_EQ(suggestion(word, presets), "known: bone, fire, base, linear") << word;
+  }
+  EXPECT_EQ(suggestion("--index", flags), "known: --video, --volume, --tf");
+  EXPECT_EQ(suggestion("--vidoe", flags), "did you mean '--video'?");
+  EXPECT_EQ(suggestion("--volum", flags), "did you mean '--volume'?");
+  EXPECT_EQ(suggestion("bnoe", presets), "known: bone, fire, base, linear");
+  EXPECT_EQ(suggestion("linaer", presets), "did you mean 'linear'?");
+}
+
 TEST(Suggest, AShortNameIsNoSuggestionForAnything) {
   const std::vector<std::string> known = {"a", "radius"};  // "a" is within 3 edits of every short word
   EXPECT_EQ(suggestion("xyz", known), "known: a, radius");

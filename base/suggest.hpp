@@ -7,7 +7,7 @@
 
 namespace fastsplat {
 
-/// Levenshtein distance in characters.
+/// Edits from one to the other: a character more, less or another, or two neighbours exchanged.
 int edit_distance(std::string_view a, std::string_view b);
 
 /// Whether who wrote `got` may have meant `name`: a third of its letters wrong at most, and never more than three.

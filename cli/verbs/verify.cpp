@@ -361,6 +361,10 @@ ExitCode run(const Arguments& arguments) {
         "another --zoom");
   }
   if (verdict == testbench::Verdict::Mismatch || verdict == testbench::Verdict::Simulation) {
+    std::error_code ignored;
+    for (const std::string& name : {prefix + ".fss", prefix + ".fst"}) {
+      if (std::filesystem::exists(name, ignored)) output.note(name + " of an earlier failure is replaced");
+    }
     output.line("first divergence: " + testbench::first_divergence(checked.failed, config));
     result.failure = investigate(checked, arguments, prefix);
     output.line(to_text(*result.failure));

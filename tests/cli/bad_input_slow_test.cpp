@@ -1,4 +1,5 @@
-// Files that are missing, truncated, corrupt or lying: exit 3 (names that there are none of: 2), one line with the fix, no crash, nothing written.
+// Files that are missing, truncated, corrupt or lying: exit 3 (names that there are none of: 2), one line with the fix,
+// no crash, nothing written.
 #include <gtest/gtest.h>
 
 #include "tests/cli/process_helper.hpp"

@@ -5,6 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "driver/config_file.hpp"
+#include "driver/stream_file.hpp"
+#include "testbench/stimulus/stream_document.hpp"
 #include "tests/cli/process_helper.hpp"
 
 namespace fastsplat::cli_test {
@@ -14,7 +17,7 @@ class StreamVerbs : public ::testing::Test {
  protected:
   void SetUp() override {
     expect_success(
-        fastsplat({"stream", "record", "--volume", "shells:8", "--size", "24", "--config", "tiny", "-o", stream_}));
+        fastsplat({"stream", "record", "--volume", "shells:8", "--size", "48", "--config", "tiny", "-o", stream_}));
   }
   TempFolder folder_;
   const std::string stream_ = folder_ / "s.fss";
@@ -89,6 +92,31 @@ TEST_F(StreamVerbs, VerifyNamesTheFile) {
     const auto run = fastsplat({"verify", "--stream", path, "--config", "tiny"});
     EXPECT_EQ(run.code, 3);
     EXPECT_NE(run.err.find(path + ": beat "), std::string::npos) << run.err;
+  }
+}
+
+// A hole in the picture is one to every verb that reads a stream file; as tiles alone the device takes it.
+TEST_F(StreamVerbs, TilesCoverTheImageForEveryVerb) {
+  const auto config = driver::load_config("tiny");
+  std::vector<cmodel::Beat> beats;
+  driver::read_beats(stream_, [&](auto part) { beats.insert(beats.end(), part.begin(), part.end()); });
+  auto document = testbench::read_document(config, beats);
+  ASSERT_GT(document.tiles.size(), 1u);
+  document.tiles.pop_back();
+  const auto hole = folder_ / "hole.fss";
+  beats = testbench::write_document(config, document);
+  driver::write_beats(hole, beats);
+  const auto place = hole + ": beat " + std::to_string(beats.size() - 1) + " (byte offset ";
+  for (const std::vector<std::string>& verb :
+       {std::vector<std::string>{"stream", "replay", hole, "-o", folder_ / "a.exr"},
+        {"cycles", "--stream", hole},
+        {"verify", "--stream", hole}}) {
+    auto words = verb;
+    words.insert(words.end(), {"--config", "tiny"});
+    const auto run = fastsplat(words);
+    EXPECT_EQ(run.code, 3) << verb[0];
+    EXPECT_NE(run.err.find(place), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("tiles do not cover the image"), std::string::npos) << run.err;
   }
 }
 

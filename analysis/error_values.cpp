@@ -56,7 +56,9 @@ void check_comparable(const Image& ref, const Image& test, const CompareOptions&
                                               .what = "REF and TEST differ in size or channels",
                                               .expected = shape(ref),
                                               .got = shape(test),
-                                              .fix = "render both at the same size"});
+                                              .fix = ref.width == test.width && ref.height == test.height
+                                                         ? "give both the same channels (oiiotool --ch)"
+                                                         : "render both at the same size"});
   }
   assert(ref.data.size() == static_cast<std::size_t>(ref.width) * ref.height * ref.channels);
   assert(test.data.size() == ref.data.size());

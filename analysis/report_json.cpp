@@ -3,6 +3,7 @@
 
 #include "analysis/compare.hpp"
 #include "analysis/figures.hpp"
+#include "base/json_text.hpp"
 
 namespace fastsplat::analysis {
 namespace {
@@ -83,7 +84,7 @@ std::string to_json(const CompareReport& report) {
     json["limits"].push_back(
         {{"name", limit.name}, {"limit", number(limit.limit)}, {"got", number(limit.got)}, {"ok", limit.ok}});
   }
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 }  // namespace fastsplat::analysis

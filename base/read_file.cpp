@@ -27,7 +27,6 @@ std::string similar_in_folder(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(folder, error)) return "the folder " + folder.string() + " does not exist";
   const std::string wanted = path.filename().string();
   std::string best;
-  int best_distance = 4;
   std::vector<std::string> names;
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     names.push_back(entry->path().filename().string());
@@ -35,18 +34,18 @@ std::string similar_in_folder(const std::filesystem::path& path) {
   }
   std::sort(names.begin(), names.end());
   for (const auto& name : names) {
-    const int distance = edit_distance(wanted, name);
-    if (distance < best_distance && distance < static_cast<int>(name.size())) {
-      best_distance = distance;
+    if (may_mean(wanted, name) && (best.empty() || edit_distance(wanted, name) < edit_distance(wanted, best)))
       best = name;
-    }
   }
   return best.empty() ? "check the path" : "did you mean '" + (path.parent_path() / best).string() + "'?";
 }
 
 }  // namespace
 
-void require_readable_file(const std::filesystem::path& path, const std::string& fix_if_missing) {
+namespace {
+
+/// Its size.
+off_t size_of_regular_file(const std::filesystem::path& path, const std::string& fix_if_missing) {
   // O_NONBLOCK: opening a pipe nobody writes to must not hang before it can be refused.
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) {
@@ -62,7 +61,17 @@ void require_readable_file(const std::filesystem::path& path, const std::string&
   if (outcome != 0) refuse(path, std::string("cannot read: ") + std::strerror(errno), "check the path");
   if (S_ISDIR(status.st_mode)) refuse(path, "it is a directory, not a file", "name a file inside it");
   if (!S_ISREG(status.st_mode)) refuse(path, "it is not a regular file", "save it to a file first");
-  if (status.st_size == 0) refuse(path, "the file is empty", "write or download it again");
+  return status.st_size;
+}
+
+}  // namespace
+
+void require_regular_file(const std::filesystem::path& path, const std::string& fix_if_missing) {
+  size_of_regular_file(path, fix_if_missing);
+}
+
+void require_readable_file(const std::filesystem::path& path, const std::string& fix_if_missing) {
+  if (size_of_regular_file(path, fix_if_missing) == 0) refuse(path, "the file is empty", "write or download it again");
 }
 
 std::string read_text_file(const std::filesystem::path& path, std::size_t max_bytes) {

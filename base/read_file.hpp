@@ -11,6 +11,9 @@ namespace fastsplat {
 /// a file that is not there; empty: similar names in its folder are offered.
 void require_readable_file(const std::filesystem::path& path, const std::string& fix_if_missing = {});
 
+/// The same, but empty is well.
+void require_regular_file(const std::filesystem::path& path, const std::string& fix_if_missing = {});
+
 /// The whole file; also refuses files above `max_bytes` before reading them.
 std::string read_text_file(const std::filesystem::path& path, std::size_t max_bytes = std::size_t{1} << 20);
 

@@ -1,35 +1,38 @@
 #include "base/suggest.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 namespace fastsplat {
 
 int edit_distance(std::string_view a, std::string_view b) {
-  std::vector<int> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
+  // Rows of the table for the prefixes of `a` that end two before, one before, and here.
+  std::vector<int> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(j);
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    int diagonal = row[0];
+    std::swap(before, last);
+    std::swap(last, row);
     row[0] = static_cast<int>(i);
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const int above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      diagonal = above;
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      const bool exchanged = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (exchanged) row[j] = std::min(row[j], before[j - 2] + 1);
     }
   }
   return row[b.size()];
 }
 
+bool may_mean(std::string_view got, std::string_view name) {
+  const auto letters = got.size() - std::min(got.find_first_not_of('-'), got.size());
+  const int allowed = std::clamp(static_cast<int>(letters + 1) / 3, 1, 3);
+  const int distance = edit_distance(got, name);
+  return distance <= allowed && distance < static_cast<int>(name.size());
+}
+
 std::string suggestion(std::string_view got, std::span<const std::string> known) {
   const std::string* best = nullptr;
-  int best_distance = 4;
   for (const auto& name : known) {
-    const int distance = edit_distance(got, name);
-    if (distance < best_distance && distance < static_cast<int>(name.size())) {
-      best_distance = distance;
-      best = &name;
-    }
+    if (may_mean(got, name) && (best == nullptr || edit_distance(got, name) < edit_distance(got, *best))) best = &name;
   }
   if (best != nullptr) return "did you mean '" + *best + "'?";
   std::string list;

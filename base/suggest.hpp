@@ -7,10 +7,14 @@
 
 namespace fastsplat {
 
-/// Levenshtein distance in characters.
+/// Edits from one to the other: a character more, less or another, or two neighbours exchanged.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// "did you mean 'x'?" for the nearest of `known` within 3 edits, else "known: a, b, c".
+/// Whether who wrote `got` may have meant `name`: a third of its letters wrong at most, and never more than three.
+/// Dashes before a word are none of it.
+bool may_mean(std::string_view got, std::string_view name);
+
+/// "did you mean 'x'?" for the nearest of `known` that may have been meant, else "known: a, b, c".
 std::string suggestion(std::string_view got, std::span<const std::string> known);
 
 }  // namespace fastsplat

@@ -11,7 +11,7 @@
 #include "base/number_text.hpp"
 #include "base/version.hpp"
 #include "cli/frame_names.hpp"
-#include "cli/image_output.hpp"
+#include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/video.hpp"
@@ -155,6 +155,7 @@ std::optional<scene::Sequence> sequence_of(const RenderArguments& arguments) {
 void check_animation(const RenderArguments& arguments, const scene::Sequence& sequence) {
   OutputNames names;
   names.others = {arguments.common.json, arguments.video};
+  names.inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")));
   for (int frame = 0; frame < sequence.frames; ++frame) {
     const auto files = files_of(arguments, frame, sequence.frames);
     names.images.insert(names.images.end(), files.out.begin(), files.out.end());

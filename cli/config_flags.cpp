@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "cli/names.hpp"
 #include "driver/config_file.hpp"
 
 namespace fastsplat::cli {
@@ -57,7 +58,8 @@ void declare_changes(Options& options, std::vector<std::string>& to) {
 }
 
 cmodel::Config load(const std::string& name_or_path, const std::vector<std::string>& changes) {
-  const cmodel::Config loaded = driver::load_config(name_or_path);
+  cmodel::Config loaded;
+  as_word(name_or_path, [&] { loaded = driver::load_config(name_or_path); });
   cmodel::Config config = loaded;
   std::set<std::string> keys;
   for (const auto& change : changes) {

@@ -13,18 +13,6 @@ namespace fastsplat::cli {
 /// --out and --raw.
 void declare_images(Options& options, std::vector<std::string>& out, std::string& raw);
 
-/// The result files of a command; empty names and "-" stand for none.
-struct OutputNames {
-  std::vector<std::string> images;  ///< .exr, .png, .tif
-  std::vector<std::string> maps;    ///< .png
-  std::vector<std::string> raws;    ///< .exr
-  std::vector<std::string> others;  ///< any ending: JSON, scene, stream
-  std::vector<std::string> inputs;  ///< files that the command reads and must not replace
-};
-
-/// Every name has a known ending, can be created and is named once; else a UserError, before any time is spent.
-void check_outputs(const OutputNames& names);
-
 /// By ending: .exr float, .tif 16 bit linear, .png 8 bit for looking. Warns where values had to be clamped.
 void write_images(const std::vector<std::string>& paths, const Image& image, const images::Metadata& metadata,
                   const Output& output);

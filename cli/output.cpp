@@ -10,6 +10,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/json_text.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -97,7 +98,7 @@ void Output::line(const std::string& text) const {
 
 void Output::json(const nlohmann::ordered_json& json) const {
   if (common_.json.empty()) return;
-  const std::string text = json.dump(2);
+  const std::string text = json_text(json, 2);
   if (common_.json == "-") {
     write_stdout(text + "\n");
   } else {

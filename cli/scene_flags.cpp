@@ -7,8 +7,10 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "cli/names.hpp"
 #include "scene/scene_file.hpp"
 #include "scene/settings.hpp"
+#include "scene/transfer_function.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -111,7 +113,10 @@ void declare(Options& options, SceneFlags& to) {
 scene::SceneDescription describe(const SceneFlags& flags, const scene::Sequence* sequence) {
   const scene::SceneFile file = flags.file ? scene::read_scene_file(*flags.file) : scene::SceneFile{};
   scene::SceneDescription to = file.description;
+  if (flags.volume) check_volume_name(*flags.volume);
   set(to.volume, flags.volume);
+  if (const auto& tf = flags.transfer_function; tf && !tf->empty())
+    as_word(*tf, [&] { scene::load_transfer_function(*tf); });
   set(to.transfer_function, flags.transfer_function);
   apply_kernel(flags, to);
   apply_camera(flags, to);

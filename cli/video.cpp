@@ -16,23 +16,12 @@
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "cli/programs.hpp"
 
 namespace fastsplat::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool in_path(const std::string& program) {
-  const char* all = std::getenv("PATH");
-  std::string folders = all == nullptr ? "" : all;
-  while (!folders.empty()) {
-    const auto end = std::min(folders.find(':'), folders.size());
-    const fs::path candidate = fs::path(folders.substr(0, end)) / program;
-    if (end > 0 && ::access(candidate.c_str(), X_OK) == 0) return true;
-    folders.erase(0, end + 1);
-  }
-  return false;
-}
 
 [[noreturn]] void failed(const std::string& path, const std::string& reason) {
   throw_input({.where = path,

@@ -29,9 +29,15 @@ class StreamDecode {
  private:
   enum class State { Start, Tables, Payload, Tile, Sheet, Ended };
 
-  [[noreturn]] void refuse(const char* what, const std::string& expected, const std::string& got) const;
+  /// `fix`: what to do about it; null where who wrote the stream broke a rule.
+  [[noreturn]] void refuse(const char* what, const std::string& expected, const std::string& got,
+                           const char* fix = nullptr) const;
   void expect(bool holds, const char* what, std::int64_t expected, std::int64_t got) const;
+  void expect_least(std::int64_t got, std::int64_t least, const char* what) const;
+  void expect_most(std::int64_t got, std::int64_t most, const char* what) const;
   void expect_within(std::int64_t got, std::int64_t least, std::int64_t most, const char* what) const;
+  /// What may come next, in words.
+  const char* wanted() const;
   void check_reserved(const Beat& beat, const RecordLayout& record) const;
   void check_order(Opcode opcode, const char* name) const;
   void check(const BeginFrame& record, const Beat& beat);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/hash_text.hpp"
+#include "base/read_file.hpp"
 #include "base/suggest.hpp"
 #include "driver/builtin_configs.hpp"
 
@@ -169,14 +170,15 @@ cmodel::Config load_config(const std::string& name_or_path) {
                  .got = {},
                  .fix = suggestion(name_or_path, names)});
   }
-  std::ifstream in(path, std::ios::binary);
-  if (!in) {
+  if (!std::filesystem::exists(path, ignored)) {
     throw_input({.where = name_or_path,
                  .what = "no such configuration",
                  .expected = "a built-in name or a .toml file",
                  .got = {},
                  .fix = suggestion(name_or_path, names)});
   }
+  require_regular_file(path);
+  std::ifstream in(path, std::ios::binary);
   constexpr std::uintmax_t kLargest = 1 << 20;
   if (std::filesystem::file_size(path, ignored) > kLargest) {
     throw_input({.where = name_or_path,

@@ -11,10 +11,13 @@
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/hash_text.hpp"
+#include "base/read_file.hpp"
 #include "cmodel/crc32.hpp"
 #include "cmodel/model.hpp"
 #include "driver/compile.hpp"
 #include "driver/frame_sink.hpp"
+#include "driver/tile_cover.hpp"
 
 namespace fastsplat::driver {
 namespace {
@@ -25,9 +28,6 @@ using cmodel::kBeatBytes;
 static_assert(std::endian::native == std::endian::little,
               "beats are written as they lie in memory; swap them on a big-endian host");
 static_assert(sizeof(Beat) == kBeatBytes);
-
-constexpr std::int64_t kLargestImage = std::int64_t{1}
-                                       << 26;  ///< pixels; a header alone must not cost more memory than this
 
 [[noreturn]] void cannot_write(const std::filesystem::path& path) {
   throw_input({.where = path.string(),
@@ -69,26 +69,23 @@ class Writer {
   cmodel::Crc32 crc_;
 };
 
-/// Beats of a file in blocks, with the CRC of all beats before the current block's end kept for the last one.
+std::string beat_place(std::uint64_t beat) { return fmt::format("beat {} (byte offset {})", beat, beat * kBeatBytes); }
+
+constexpr const char* kDamaged = "the stream is damaged or cut: copy or record it again";
+
+/// Beats of a file in blocks.
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& path) : path_(path) {
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error)) refuse("is a directory", "a stream file", {}, "name a .fss file");
+    require_regular_file(path, "check the name; 'fastsplat stream record' makes one");
     in_.open(path, std::ios::binary);
-    if (!in_)
-      refuse(fmt::format("cannot read: {}", std::strerror(errno)), {}, {},
-             "check the name; 'fastsplat stream record' makes one");
+    if (!in_) refuse(fmt::format("cannot read: {}", std::strerror(errno)), {}, {}, "check the file");
+    std::error_code error;
     bytes_ = std::filesystem::file_size(path, error);
-    if (error) refuse("is not a regular file", "a stream file", {}, "name a .fss file");
-    if (bytes_ == 0) refuse("is empty", "a stream of whole beats", "0 bytes", "record it again");
-    if (bytes_ % kBeatBytes != 0) {
-      refuse("truncated", fmt::format("a multiple of {} bytes", kBeatBytes), fmt::format("{} bytes", bytes_),
-             "record it again");
-    }
+    if (error) refuse("cannot read: " + error.message(), {}, {}, "check the file");
   }
 
-  /// visit(beat) for every beat; stops when it returns false.
+  /// visit(beat) for every whole beat; stops when it returns false. A last beat that is cut is refused where it lies.
   template <class Visit>
   void each(Visit visit) {
     std::vector<Beat> block(4096);
@@ -100,6 +97,13 @@ class Reader {
       }
     }
     if (in_.bad()) refuse(fmt::format("cannot read: {}", std::strerror(errno)), {}, {}, "check the disk");
+    if (const auto rest = bytes_ % kBeatBytes; rest != 0) {
+      throw_input({.where = beat_place(bytes_ / kBeatBytes),
+                   .what = "stream ends within this beat",
+                   .expected = fmt::format("{} bytes", kBeatBytes),
+                   .got = fmt::format("{} byte{}", rest, rest == 1 ? "" : "s"),
+                   .fix = kDamaged});
+    }
   }
   std::uintmax_t bytes() const { return bytes_; }
 
@@ -117,30 +121,83 @@ class Reader {
   std::uintmax_t bytes_ = 0;
 };
 
+std::string hex(std::uint32_t word) { return fmt::format("0x{:08x}", word); }
+
+/// Refuses a beat that dump_stream cannot tell; `layout` is null for an unknown opcode.
+void check_dumped(std::uint64_t number, const Beat& beat, const cmodel::RecordLayout* layout, bool ended) {
+  if (number == 0 && (layout == nullptr || layout->opcode != cmodel::Opcode::BeginFrame)) {
+    throw_input({.where = beat_place(number),
+                 .what = "not a FastSplat stream",
+                 .expected = "begin_frame first",
+                 .got = layout == nullptr ? fmt::format("opcode {}", beat[0] & 0xff) : layout->name,
+                 .fix = "name a .fss file"});
+  }
+  if (layout == nullptr) {
+    throw_input({.where = beat_place(number),
+                 .what = "unknown opcode",
+                 .expected = "a known opcode",
+                 .got = fmt::format("0x{:02x}", beat[0] & 0xff),
+                 .fix = kDamaged});
+  }
+  if (ended) {
+    throw_input({.where = beat_place(number),
+                 .what = "record out of order",
+                 .expected = "nothing after end_frame",
+                 .got = layout->name,
+                 .fix = kDamaged});
+  }
+}
+
+/// " name=value" of each field; the magic and the configuration's hash as they are written everywhere.
+std::string fields_of(const Beat& beat, const cmodel::RecordLayout& layout) {
+  std::string text;
+  for (const auto& [name, field] : layout.fields) {
+    const bool begins = layout.opcode == cmodel::Opcode::BeginFrame;
+    const auto value = get(beat, field);
+    const std::string_view field_name = name;
+    if (begins && field_name == "hash_high") continue;
+    if (begins && field_name == "hash_low") {
+      const auto high = static_cast<std::uint64_t>(get(beat, cmodel::layout::kFrameHashHigh));
+      text += " hash=" + hash_text(high << 32 | static_cast<std::uint64_t>(value));
+    } else if (begins && field_name == "magic") {
+      text += fmt::format(" {}={}", name, hex(static_cast<std::uint32_t>(value)));
+    } else {
+      text += fmt::format(" {}={}", name, value);
+    }
+  }
+  return text;
+}
+
+/// end_frame against what came before it.
+void check_end(std::uint64_t number, const Beat& beat, const cmodel::Crc32& crc) {
+  const auto end = std::get<cmodel::EndFrame>(cmodel::from_beat(beat));
+  if (end.beats != number) {
+    throw_input({.where = beat_place(number),
+                 .what = "end_frame counts other beats than came before it",
+                 .expected = std::to_string(number),
+                 .got = std::to_string(end.beats),
+                 .fix = kDamaged});
+  }
+  if (end.crc != crc.value()) {
+    throw_input({.where = beat_place(number),
+                 .what = "corrupt: not the checksum of the beats before",
+                 .expected = hex(crc.value()),
+                 .got = hex(end.crc),
+                 .fix = kDamaged});
+  }
+}
+
 std::int64_t opcode(const Beat& beat) { return get(beat, cmodel::layout::kOpcode); }
 
 /// The frame of a replay: made when the header is known to be sound; the model hands it tiles only after that.
 class ReplayFrame final : public cmodel::PixelSink {
  public:
-  void begin(const cmodel::Config& config, int width, int height) {
-    frame_.emplace(config, width, height);
-    width_ = width;
-    covered_.assign(static_cast<std::size_t>(width) * height, false);
-  }
-  void on_tile(cmodel::TilePixels&& tile) override {
-    for (int y = tile.y; y < tile.y + tile.height; ++y) {
-      const auto first = covered_.begin() + static_cast<std::ptrdiff_t>(y) * width_ + tile.x;
-      std::fill(first, first + tile.width, true);
-    }
-    frame_->on_tile(std::move(tile));
-  }
-  std::int64_t uncovered() const { return std::count(covered_.begin(), covered_.end(), false); }
+  void begin(const cmodel::Config& config, int width, int height) { frame_.emplace(config, width, height); }
+  void on_tile(cmodel::TilePixels&& tile) override { frame_->on_tile(std::move(tile)); }
   cmodel::Frame take() { return frame_->take(); }
 
  private:
   std::optional<FrameSink> frame_;
-  int width_ = 0;
-  std::vector<bool> covered_;  ///< pixels that a tile delivered
 };
 
 /// Every beat to the device, which has checked begin_frame when `header` is called with it.
@@ -148,27 +205,46 @@ template <class Header>
 void feed(Reader& reader, const std::filesystem::path& path, cmodel::Device& device, const RenderOptions& options,
           Header header) {
   std::uint64_t beats = 0;
-  try {
+  CoverRule cover;
+  naming(path, [&] {
     reader.each([&](const Beat& beat) {
       device.consume({&beat, 1});
+      cover.see(beat);
       if (beats == 0) header(beat);
       ++beats;
       if (options.progress && beats % 65536 == 0) options.progress(beats * kBeatBytes, reader.bytes());
       return true;
     });
     device.finish();
+  });
+}
+
+}  // namespace
+
+void naming(const std::filesystem::path& path, const std::function<void()>& action) {
+  try {
+    action();
   } catch (const UserError& error) {
-    if (error.parts().where.rfind("beat ", 0) != 0) throw;
+    if (!error.parts().where.starts_with("beat ")) throw;
     ErrorParts parts = error.parts();
     parts.where = path.string() + ": " + parts.where;
     throw UserError(error.code(), parts);
   }
 }
 
-}  // namespace
+void check_image_size(int width, int height) {
+  const std::int64_t pixels = std::int64_t{width} * height;
+  if (pixels <= kMostImagePixels) return;
+  throw_usage({.where = "--size",
+               .what = "too large for a recorded stream",
+               .expected = fmt::format("at most {} pixels, 8192x8192", kMostImagePixels),
+               .got = fmt::format("{} pixels, {}x{}", pixels, width, height),
+               .fix = "record it at a smaller --size"});
+}
 
 DriverReport record_stream(const scene::Scene& scene, const cmodel::Config& config, const std::filesystem::path& path,
                            const RenderOptions& options) {
+  check_image_size(scene.camera.width(), scene.camera.height());
   Writer writer(path);
   const CompiledFrame compiled(scene, config);
   const DriverReport report =
@@ -185,16 +261,12 @@ DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Conf
   feed(reader, path, device, options, [&](const Beat& first) {
     const auto header = std::get<cmodel::BeginFrame>(cmodel::from_beat(first));
     const std::int64_t pixels = std::int64_t{header.width} * header.height;
-    if (pixels > kLargestImage) {
-      reader.refuse("image too large to replay", fmt::format("at most {} pixels", kLargestImage),
+    if (pixels > kMostImagePixels) {
+      reader.refuse("image too large to replay", fmt::format("at most {} pixels", kMostImagePixels),
                     fmt::format("{} pixels", pixels), "record it at a smaller --size");
     }
     frame.begin(config, header.width, header.height);
   });
-  if (const std::int64_t uncovered = frame.uncovered(); uncovered != 0) {
-    reader.refuse("tiles do not cover the image", "every pixel in a tile", fmt::format("{} pixels in none", uncovered),
-                  "record it again");
-  }
   DeviceRender out;
   out.frame = frame.take();
   out.counters = device.counters();
@@ -213,15 +285,28 @@ void read_beats(const std::filesystem::path& path, const cmodel::BeatSink& sink)
   Reader reader(path);
   constexpr std::size_t kBlock = 4096;
   std::vector<Beat> block;
-  reader.each([&](const Beat& beat) {
-    block.push_back(beat);
-    if (block.size() == kBlock) {
-      sink(block);
-      block.clear();
-    }
-    return true;
+  naming(path, [&] {
+    reader.each([&](const Beat& beat) {
+      block.push_back(beat);
+      if (block.size() == kBlock) {
+        sink(block);
+        block.clear();
+      }
+      return true;
+    });
+    if (!block.empty()) sink(block);
   });
-  if (!block.empty()) sink(block);
+}
+
+void require_covered(const std::filesystem::path& path) {
+  Reader reader(path);
+  CoverRule cover;
+  naming(path, [&] {
+    reader.each([&](const Beat& beat) {
+      cover.see(beat);
+      return true;
+    });
+  });
 }
 
 void write_beats(const std::filesystem::path& path, std::span<const Beat> beats) {
@@ -232,28 +317,37 @@ void write_beats(const std::filesystem::path& path, std::span<const Beat> beats)
 
 void dump_stream(const std::filesystem::path& path, const std::function<bool(const std::string&)>& line) {
   Reader reader(path);
-  std::uint64_t number = 0, payload_left = 0;
-  reader.each([&](const Beat& beat) {
-    std::string text;
-    if (payload_left > 0) {
-      --payload_left;
-      text = fmt::format("{:>8}    {} {} {} {} {} {}", number, beat[0], beat[1], beat[2], beat[3], beat[4], beat[5]);
-    } else {
-      const auto* layout = cmodel::find_layout(static_cast<std::uint32_t>(opcode(beat)));
-      if (layout == nullptr) {
-        reader.refuse(fmt::format("beat {} (byte offset {}): unknown opcode", number, number * kBeatBytes),
-                      "a known opcode", fmt::format("0x{:02x}", opcode(beat)), "record it again");
+  naming(path, [&] {
+    std::uint64_t number = 0, payload_left = 0;
+    bool ended = false, all = true;
+    cmodel::Crc32 crc;
+    reader.each([&](const Beat& beat) {
+      std::string text;
+      const auto* layout = payload_left > 0 ? nullptr : cmodel::find_layout(static_cast<std::uint32_t>(opcode(beat)));
+      if (payload_left > 0) {
+        --payload_left;
+        text = fmt::format("{:>8}    {} {} {} {} {} {}", number, beat[0], beat[1], beat[2], beat[3], beat[4], beat[5]);
+      } else {
+        check_dumped(number, beat, layout, ended);
+        text = fmt::format("{:>8} {}{}", number, layout->name, fields_of(beat, *layout));
+        if (layout->opcode == cmodel::Opcode::LoadTable)
+          payload_left = (std::uint64_t{cmodel::announced_words(beat)} + 5) / 6;
       }
-      if (number == 0 && layout->opcode != cmodel::Opcode::BeginFrame) {
-        reader.refuse("not a FastSplat stream", "begin_frame first", layout->name, "name a .fss file");
-      }
-      text = fmt::format("{:>8} {}", number, layout->name);
-      for (const auto& [name, field] : layout->fields) text += fmt::format(" {}={}", name, get(beat, field));
-      if (layout->opcode == cmodel::Opcode::LoadTable)
-        payload_left = (std::uint64_t{cmodel::announced_words(beat)} + 5) / 6;
+      all = line(text);
+      if (!all) return false;
+      ended = layout != nullptr && layout->opcode == cmodel::Opcode::EndFrame;
+      if (ended) check_end(number, beat, crc);
+      crc.add(beat);
+      ++number;
+      return true;
+    });
+    if (all && !ended) {
+      throw_input({.where = beat_place(number),
+                   .what = "stream ends too early",
+                   .expected = payload_left > 0 ? "a beat of table words" : "end_frame",
+                   .got = "end of data",
+                   .fix = kDamaged});
     }
-    ++number;
-    return line(text);
   });
 }
 

@@ -1,5 +1,5 @@
-// Image files: EXR (float, half, raw integer words), PNG (8/16), TIFF (8/16/float). OpenImageIO does the work; it is
-// loaded when the first picture is read or written, because it takes a fifth of a second and 100 MB.
+// Image files: EXR (float, half, raw integer words), PNG (8/16), TIFF (8/16/float); JPEG is read only. OpenImageIO does
+// the work; it is loaded when the first picture is read or written, because it takes a fifth of a second and 100 MB.
 #pragma once
 
 #include <cstddef>
@@ -25,6 +25,7 @@ const char* to_string(PixelKind kind);
 struct LoadedImage {
   Image image;  ///< decoded to value (integer files divided by their maximum; raw words by 2^frac_bits)
   PixelKind kind = PixelKind::Float;
+  std::string format;                ///< "openexr", "png", "tiff" or "jpeg", by content
   int frac_bits = 0;                 ///< raw words only
   std::vector<std::uint32_t> words;  ///< raw words only, as in the file
   Metadata metadata;
@@ -38,7 +39,7 @@ void require_library();
 /// OpenImageIO's, as found at run time: "2.4.7". Loads it.
 std::string library_version();
 
-/// EXR, PNG or TIFF, told by content and not by name; 1, 3 (RGB) or 4 (RGBA) channels.
+/// EXR, PNG, TIFF or JPEG, told by content and not by name; 1, 3 (RGB) or 4 (RGBA) channels.
 /// Samples are taken as stored: no alpha (un)premultiplication, no colour conversion, whatever the tags say.
 /// UserError (Input) when missing, not an image, truncated, corrupt, of unsupported channels or sample type, lossy
 /// (JPEG in TIFF), cropped, with several images in the file, or too large (a side > 65536 or more than 2^31 values).

@@ -21,6 +21,8 @@ const char* format_of(std::span<const unsigned char> bytes) {
     const char* format;
     std::array<unsigned char, 4> bytes;
   };
+  static constexpr std::array<unsigned char, 3> kJpeg{0xff, 0xd8, 0xff};  // three bytes, whatever follows
+  if (bytes.size() >= 3 && std::equal(kJpeg.begin(), kJpeg.end(), bytes.begin())) return "jpeg";
   static constexpr std::array<Magic, 6> kMagic{{{"openexr", {0x76, 0x2f, 0x31, 0x01}},
                                                 {"png", {0x89, 'P', 'N', 'G'}},
                                                 {"tiff", {'I', 'I', 42, 0}},
@@ -46,13 +48,17 @@ LoadedImage read_image(const std::filesystem::path& path) {
     const std::span bytes(reinterpret_cast<const unsigned char*>(file.data()), file.size());
     const char* format = format_of(bytes);
     if (format == nullptr) {
-      refuse({{}, "not an image", "EXR, PNG or TIFF", {}, "name an image file, or write it again"});
+      refuse({{}, "not an image", "EXR, PNG, TIFF or JPEG", {}, "name an image file, or write it again"});
     }
     if (std::strcmp(format, "png") == 0) {
       const std::string defect = png_defect(bytes);
       if (!defect.empty()) refuse({{}, "corrupt or truncated PNG: " + defect, {}, {}, "write the file again"});
     }
+    // The decoder fills up with grey what a cut file lacks.
+    if (std::strcmp(format, "jpeg") == 0 && file.rfind("\xff\xd9") == std::string::npos)
+      refuse({{}, "corrupt or truncated JPEG: its end is missing", {}, {}, "write the file again"});
     if (auto refusal = codec().decode(format, file, loaded)) refuse(std::move(*refusal));
+    loaded.format = format;
   } catch (const std::bad_alloc&) {
     refuse({{}, "not enough memory to decode", {}, {}, {}});
   }

@@ -124,6 +124,20 @@ Volume read_volume_header(const std::string& name_or_path) {
   return named(describe_source(read_header(path)), name_or_path, path);
 }
 
+std::vector<fs::path> files_of(const std::string& name_or_path) {
+  std::error_code ignored;
+  std::vector<fs::path> files;
+  try {
+    if (!fs::is_regular_file(name_or_path, ignored) && as_synthetic(name_or_path)) return {};
+    files.push_back(find_file(name_or_path));
+    const VoxelSource source = read_header(files.front());
+    if (source.data != files.front()) files.push_back(source.data);
+  } catch (const UserError&) {
+    // load_volume's to tell
+  }
+  return files;
+}
+
 std::vector<std::string> known_volume_names() {
   auto names = synthetic_names();
   names.insert(names.end(), kScans.begin(), kScans.end());

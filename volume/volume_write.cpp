@@ -149,6 +149,8 @@ std::string nifti_header(const Volume& volume, VoxelType type, std::size_t bytes
 
 }  // namespace
 
+fs::path data_file_of(const fs::path& nhdr) { return nhdr.parent_path() / (nhdr.stem().string() + ".raw.gz"); }
+
 void save_volume(const Volume& volume, const fs::path& path, VoxelType type) {
   const std::string name = path.filename().string();
   const auto ends = [&name](const char* ending) { return name.size() > std::strlen(ending) && name.ends_with(ending); };
@@ -164,9 +166,9 @@ void save_volume(const Volume& volume, const fs::path& path, VoxelType type) {
     write_whole(path, nrrd_header(volume, type, {}), voxels, false, Packing::Gzip);
   } else if (ends(".nhdr")) {
     // Data first: a header that exists always names data that exist.
-    const std::string data_file = path.stem().string() + ".raw.gz";
-    write_whole(path.parent_path() / data_file, {}, voxels, false, Packing::Gzip);
-    write_whole(path, nrrd_header(volume, type, data_file), {}, false, Packing::Plain);
+    const fs::path data_file = data_file_of(path);
+    write_whole(data_file, {}, voxels, false, Packing::Gzip);
+    write_whole(path, nrrd_header(volume, type, data_file.filename().string()), {}, false, Packing::Plain);
   } else {
     const std::size_t width = voxels.size() / volume.voxels.size();
     write_whole(path, nifti_header(volume, type, width, path), voxels, true,

@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/image_output.hpp"
 #include "cli/output.hpp"
+#include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "images/image_file.hpp"
 
@@ -21,6 +21,7 @@ struct Arguments {
   int clusters = 5;
   std::optional<double> min_psnr, max_lsb, max_mean_lsb, max_rmse_lsb, max_bias_lsb, max_p99_lsb, min_ssim;
   bool allow_nonfinite = false;
+  bool srgb = false;  ///< both are display pictures, whoever wrote them
 };
 
 using Json = nlohmann::ordered_json;
@@ -70,18 +71,65 @@ analysis::CompareOptions options_from(const Arguments& arguments) {
   return options;
 }
 
-bool is_display(const images::LoadedImage& loaded) { return loaded.metadata.contains("display"); }
+/// Written by another program, which says nothing of its numbers: PNG and JPEG are sRGB by their own standards.
+bool is_foreign_display(const images::LoadedImage& loaded) {
+  return loaded.metadata.empty() && (loaded.format == "png" || loaded.format == "jpeg");
+}
+
+bool is_display(const images::LoadedImage& loaded) {
+  return loaded.metadata.contains("display") || is_foreign_display(loaded);
+}
+
+[[noreturn]] void not_comparable(const std::string& where, const std::string& what, const std::string& fix) {
+  throw UserError(ExitCode::NotComparable, {.where = where, .what = what, .expected = {}, .got = {}, .fix = fix});
+}
 
 // A picture made for looking (sRGB curve, over black) has other numbers than a measurement of the same scene.
 void check_comparable(const Arguments& arguments, const images::LoadedImage& ref, const images::LoadedImage& test) {
+  if (arguments.srgb) {
+    for (const auto* picture : {&ref, &test}) {
+      if (picture->kind == images::PixelKind::Uint8 || picture->kind == images::PixelKind::Uint16) continue;
+      not_comparable(picture == &ref ? arguments.ref : arguments.test,
+                     fmt::format("holds {} values, and --srgb is said of 8 or 16 bit pictures for looking",
+                                 images::to_string(picture->kind)),
+                     "leave --srgb out and compare linear values with linear values");
+    }
+    return;
+  }
   if (is_display(ref) == is_display(test)) return;
-  const auto& shown = is_display(ref) ? arguments.ref : arguments.test;
-  throw UserError(ExitCode::NotComparable,
-                  {.where = shown,
-                   .what = "is a picture for looking (sRGB, 8 bit), the other holds linear values",
-                   .expected = {},
-                   .got = {},
-                   .fix = "render both to .exr or .tif and compare those"});
+  const bool first = is_display(ref);
+  not_comparable(first ? arguments.ref : arguments.test,
+                 is_foreign_display(first ? ref : test)
+                     ? "is taken as a picture for looking (sRGB), as PNG and JPEG are, the other as linear values"
+                     : "is a picture for looking (sRGB, 8 bit), the other holds linear values",
+                 "render both to .exr or .tif and compare those; --srgb where both are for looking");
+}
+
+bool opaque(const Image& image) {
+  for (std::size_t at = 3; at < image.data.size(); at += 4) {
+    if (image.data[at] != 1.0f) return false;
+  }
+  return true;
+}
+
+/// Pictures for looking come as grey, RGB or with an alpha that is 1 everywhere: the same colours in three channels.
+void spell_out(images::LoadedImage& picture) {
+  Image& image = picture.image;
+  if (image.channels == 3 || (image.channels == 4 && !opaque(image))) return;
+  Image rgb(image.width, image.height, 3);
+  const auto from = static_cast<std::size_t>(image.channels);
+  for (std::size_t pixel = 0; pixel * 3 < rgb.data.size(); ++pixel) {
+    for (std::size_t c = 0; c < 3; ++c) rgb.data[pixel * 3 + c] = image.data[pixel * from + (from == 1 ? 0 : c)];
+  }
+  image = std::move(rgb);
+}
+
+bool all_black(const Image& image) {
+  const auto channels = static_cast<std::size_t>(image.channels);
+  for (std::size_t at = 0; at < image.data.size(); ++at) {
+    if ((channels < 4 || at % channels != 3) && image.data[at] != 0.0f) return false;
+  }
+  return true;
 }
 
 struct Origin {
@@ -94,7 +142,14 @@ struct Origin {
 struct Result {
   analysis::CompareReport report;
   Origin ref, test;
+  std::string all_black;  ///< the one of the two that is, where the other is not; else empty
 };
+
+std::vector<Remark> remarks(const Result& result) {
+  if (result.all_black.empty()) return {};
+  return {
+      {Remark::Warning, result.all_black + " is all black, the other is not: whatever the figures, it shows nothing"}};
+}
 
 Json to_json(const Origin& origin) {
   Json metadata = Json::object();
@@ -104,6 +159,7 @@ Json to_json(const Origin& origin) {
 
 Json to_json(const Result& result) {
   Json json = Json::parse(analysis::to_json(result.report));
+  json["all_black"] = result.all_black.empty() ? Json(nullptr) : Json(result.all_black);
   json["ref"] = to_json(result.ref);
   json["test"] = to_json(result.test);
   return json;
@@ -112,13 +168,21 @@ Json to_json(const Result& result) {
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
   check(arguments);
-  const auto ref = images::read_image(arguments.ref);
-  const auto test = images::read_image(arguments.test);
+  auto ref = images::read_image(arguments.ref);
+  auto test = images::read_image(arguments.test);
   check_comparable(arguments, ref, test);
+  if (ref.image.channels != test.image.channels && (arguments.srgb || is_display(ref))) {
+    spell_out(ref);
+    spell_out(test);
+  }
+  const bool black = all_black(ref.image);
   const auto options = options_from(arguments);
   const Result result{.report = analysis::compare(ref.image, test.image, options),
                       .ref = {arguments.ref, ref.kind, ref.metadata},
-                      .test = {arguments.test, test.kind, test.metadata}};
+                      .test = {arguments.test, test.kind, test.metadata},
+                      .all_black = black == all_black(test.image) ? ""
+                                   : black                        ? arguments.ref
+                                                                  : arguments.test};
 
   if (!arguments.map.empty()) {
     images::write_image(arguments.map, analysis::lsb_map(ref.image, test.image, options), {{"display", "srgb"}},
@@ -129,6 +193,7 @@ ExitCode run(const Arguments& arguments) {
                         {.display = true});
   }
   output.line(analysis::to_text(result.report));
+  output.remark(remarks(result));
   output.json(to_json(result));
   return result.report.pass ? ExitCode::Pass : ExitCode::Failed;
 }
@@ -139,6 +204,7 @@ void declare(Options& options, Arguments& to) {
   options.group("Measure");
   options.integer("--lsb-bits", to.lsb_bits, 1, 24, "N", "one LSB is 1/(2^N - 1)");
   options.number("--peak", to.peak, "NUMBER", "PSNR's peak value");
+  options.flag("--srgb", to.srgb, "both are pictures for looking, whoever wrote them: compared as they are seen");
   options.integer("--clusters", to.clusters, 0, 1000, "N", "worst clusters listed");
   options.group("Limits (exit 1 when one fails)");
   options.number("--min-psnr", to.min_psnr, "DB", "least PSNR");

@@ -3,12 +3,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/error.hpp"
 #include "base/hash_text.hpp"
 #include "cli/common.hpp"
 #include "cli/config_flags.hpp"
 #include "cli/config_json.hpp"
 #include "cli/output.hpp"
+#include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
+#include "cmodel/sv_package.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -28,10 +31,20 @@ void declare(Options& options, Arguments& to) {
 
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
+  check_outputs({.others = {arguments.common.json}, .inputs = inputs_of_config(arguments.file)});
   const auto config = load(arguments.file, arguments.changes);
   output.line(fmt::format("{}: sound; configuration {}, hash {}", arguments.file, config.name,
                           hash_text(cmodel::config_hash(config))));
-  output.json(config_json(config));
+  auto json = config_json(config);
+  const auto wrong = cmodel::rtl_violation(config);
+  json["rtl"] = !wrong;
+  if (wrong) {
+    // The fix says again that there is the model.
+    const auto why = one_line({wrong->where, wrong->what, wrong->expected, wrong->got, {}});
+    output.line("for the model only, no RTL can be built of it: " + why);
+    json["no_rtl"] = why;
+  }
+  output.json(json);
   return ExitCode::Pass;
 }
 

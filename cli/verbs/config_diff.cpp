@@ -5,10 +5,11 @@
 
 #include "base/hash_text.hpp"
 #include "cli/common.hpp"
+#include "cli/config_flags.hpp"
 #include "cli/config_json.hpp"
 #include "cli/output.hpp"
+#include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "driver/config_file.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -69,7 +70,9 @@ Json to_json(const Result& result) {
 
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
-  const Result result = compared(driver::load_config(arguments.a), driver::load_config(arguments.b));
+  check_outputs({.others = {arguments.common.json},
+                 .inputs = joined(inputs_of_config(arguments.a), inputs_of_config(arguments.b))});
+  const Result result = compared(load(arguments.a, {}), load(arguments.b, {}));
   output.line(to_text(result));
   output.json(to_json(result));
   return result.differ.empty() ? ExitCode::Pass : ExitCode::Failed;

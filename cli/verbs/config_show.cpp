@@ -5,6 +5,7 @@
 #include "cli/config_flags.hpp"
 #include "cli/config_json.hpp"
 #include "cli/output.hpp"
+#include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "driver/config_file.hpp"
 
@@ -26,6 +27,7 @@ void declare(Options& options, Arguments& to) {
 
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
+  check_outputs({.others = {arguments.common.json}, .inputs = inputs_of_config(arguments.config)});
   const auto config = load(arguments.config, arguments.changes);
   output.line(driver::to_toml(config));
   output.json(config_json(config));

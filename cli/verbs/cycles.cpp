@@ -10,8 +10,8 @@
 #include "cli/config_flags.hpp"
 #include "cli/config_json.hpp"
 #include "cli/cycle_trace.hpp"
-#include "cli/image_output.hpp"
 #include "cli/output.hpp"
+#include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
@@ -144,7 +144,8 @@ ExitCode run(const Arguments& arguments) {
                  .maps = {},
                  .raws = {},
                  .others = {arguments.trace, arguments.common.json},
-                 .inputs = {arguments.stream}});
+                 .inputs = joined(arguments.stream.empty() ? inputs_of(arguments.scene) : std::vector{arguments.stream},
+                                  inputs_of_config(arguments.config.config.value_or("")))});
   const auto config = load(arguments.config);
   const auto [input, ready] =
       testbench::patterns_of(arguments.input, arguments.ready, static_cast<std::uint64_t>(arguments.seed));
@@ -192,7 +193,7 @@ void declare(Options& options, Arguments& to) {
   options.group("Engine");
   declare(options, to.config, "hardware configuration, a name or a TOML file");
   options.word("--input", to.input, "PATTERN",
-               "when the source has a beat: always, every-N, never-N, random-PERCENT, burst-N");
+               "when the source has a beat: always, every-N, alternate-N, random-PERCENT, burst-N");
   options.word("--ready", to.ready, "PATTERN", "when the sink takes pixels: as --input");
   options.integer("--seed", to.seed, 0, 2'000'000'000, "N", "of the patterns");
   options.group("Output");

@@ -9,6 +9,7 @@
 #include "analysis/provenance.hpp"
 #include "base/version.hpp"
 #include "cli/output.hpp"
+#include "cli/programs.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "driver/config_file.hpp"
 #include "images/image_file.hpp"
@@ -31,8 +32,9 @@ struct Library {
   const char* version;  ///< null: loaded at need, so it is asked
 };
 constexpr Library kLibraries[] = {
-    {"CLI11", VERSION_CLI11}, {"fmt", VERSION_FMT},    {"GLM", VERSION_GLM},   {"nlohmann-json", VERSION_JSON},
-    {"OpenImageIO", nullptr}, {"oneTBB", VERSION_TBB}, {"teem", VERSION_TEEM}, {"toml++", VERSION_TOMLPLUSPLUS},
+    {"CLI11", VERSION_CLI11},        {"fmt", VERSION_FMT},         {"GLM", VERSION_GLM},
+    {"nlohmann-json", VERSION_JSON}, {"libnifti2", VERSION_NIFTI}, {"OpenImageIO", nullptr},
+    {"oneTBB", VERSION_TBB},         {"teem", VERSION_TEEM},       {"toml++", VERSION_TOMLPLUSPLUS},
     {"zlib", VERSION_ZLIB},
 };
 
@@ -59,6 +61,13 @@ struct Scan {
   std::string reason;                    ///< of a missing one
 };
 
+/// A program that something of this one calls.
+struct Program {
+  const char* name;
+  const char* use;
+  bool found = false;
+};
+
 struct Missing {
   std::string what, fix;
 };
@@ -68,6 +77,7 @@ struct Result {
   int processors = 0;
   double memory_gb = 0.0;
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
+  std::vector<Program> programs;
   std::vector<Scan> scans;
   std::vector<std::string> synthetics, transfer_functions, demos, configurations;
   std::vector<Missing> missing;
@@ -87,6 +97,7 @@ Result look() {
   Result result{.processors = usable_processors(),
                 .memory_gb = memory_gb(),
                 .libraries = {},
+                .programs = {{"ffmpeg", "render --video"}, {"verilator", "building RTL"}},
                 .scans = {},
                 .synthetics = volume::synthetic_names(),
                 .transfer_functions = scene::transfer_function_presets(),
@@ -96,6 +107,13 @@ Result look() {
   for (const auto& [name, version] : kLibraries) {
     const std::string text = version == nullptr ? image_library(result) : version;
     result.libraries.emplace_back(name, text.empty() ? "unknown" : text);
+  }
+  for (auto& program : result.programs) {
+    program.found = in_path(program.name);
+    if (!program.found) {
+      result.missing.push_back(
+          {fmt::format("{} ({})", program.name, program.use), fmt::format("apt-get install {}", program.name)});
+    }
   }
   for (const auto& name : volume::known_volume_names()) {
     if (is_synthetic(name)) continue;
@@ -121,6 +139,9 @@ std::string to_text(const Result& result) {
   text += fmt::format("machine: {} processors, {:.1f} GB memory\n", result.processors, result.memory_gb);
   text += "libraries:\n";
   for (const auto& [name, version] : result.libraries) text += fmt::format("  {:14} {}\n", name, version);
+  text += "programs:\n";
+  for (const auto& [name, use, found] : result.programs)
+    text += fmt::format("  {:14} {}, for {}\n", name, found ? "found" : "missing", use);
   text += "scans:\n";
   for (const auto& [name, header, reason] : result.scans) {
     text += header ? fmt::format("  {:16} found: {} ({}x{}x{})\n", name, header->source, header->dims.x, header->dims.y,
@@ -145,6 +166,7 @@ Json to_json(const Result& result) {
   Json json{{"version", program_version()}, {"build", VERSION_BUILD},          {"compiler", VERSION_COMPILER},
             {"cmake", VERSION_CMAKE},       {"processors", result.processors}, {"memory_gb", result.memory_gb}};
   for (const auto& [name, version] : result.libraries) json["libraries"][name] = version;
+  for (const auto& [name, use, found] : result.programs) json["programs"][name] = found;
   json["scans"] = Json::array();
   for (const auto& scan : result.scans) json["scans"].push_back(to_json(scan));
   json["synthetics"] = result.synthetics;

@@ -5,10 +5,11 @@
 
 #include "analysis/provenance.hpp"
 #include "base/atomic_file.hpp"
+#include "base/utf8.hpp"
 #include "base/version.hpp"
 #include "cli/animation.hpp"
 #include "cli/frame.hpp"
-#include "cli/image_output.hpp"
+#include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
@@ -89,8 +90,20 @@ Json to_json(const Result& result) {
   return json;
 }
 
+/// TOML is text: a file whose name is none cannot be named in it.
+void require_saveable(const scene::SceneDescription& description) {
+  if (is_utf8(scene::to_toml(description))) return;
+  throw_usage({.where = "--save-scene",
+               .what = "the scene names a file whose name is no UTF-8, and TOML can hold nothing else",
+               .expected = {},
+               .got = {},
+               .fix = "rename the file or its folder, or leave --save-scene out"});
+}
+
 ExitCode run_still(const RenderArguments& arguments, const Renderer& renderer, const Output& output) {
-  const scene::Scene scene = build(arguments.scene);
+  const scene::SceneDescription description = describe(arguments.scene);
+  if (!arguments.save_scene.empty()) require_saveable(description);
+  const scene::Scene scene = scene::build_scene(description);
   RenderedFrame frame;
   {
     ProgressBar bar(arguments.engine, watching(arguments.common));
@@ -123,14 +136,16 @@ ExitCode run(const RenderArguments& arguments) {
   if (sequence) {
     check_animation(arguments, *sequence);
   } else {
-    check_outputs({.images = arguments.out,
-                   .maps = {},
-                   .raws = {arguments.raw},
-                   .others = {arguments.save_scene, arguments.common.json},
-                   .inputs = {}});
+    check_outputs(
+        {.images = arguments.out,
+         .maps = {},
+         .raws = {arguments.raw},
+         .others = {arguments.save_scene, arguments.common.json},
+         .inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")))});
   }
   if (renderer.engine != Engine::Golden) renderer.config = load(arguments.config);
-  if (renderer.engine == Engine::Rtl) testbench::require_rtl(*renderer.config);
+  if (renderer.engine == Engine::Rtl)
+    testbench::require_rtl(*renderer.config, "use --engine cmodel, its bit-accurate model");
   return sequence ? run_animation(arguments, renderer, describe(arguments.scene, &*sequence), *sequence, output)
                   : run_still(arguments, renderer, output);
 }

@@ -3,6 +3,7 @@
 
 #include "cli/common.hpp"
 #include "cli/output.hpp"
+#include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "driver/stream_file.hpp"
 
@@ -26,12 +27,13 @@ void declare(Options& options, Arguments& to) {
 
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
+  check_outputs({.others = {arguments.common.json}, .inputs = {arguments.stream}});
   const auto limit = static_cast<std::uint64_t>(arguments.limit.value_or(INT32_MAX));
   const bool text_wanted = !arguments.common.quiet && arguments.common.json != "-";
   Json records = Json::array();
   std::string buffer;
   std::uint64_t count = 0;
-  driver::dump_stream(arguments.stream, [&](const std::string& line) {
+  const auto tell = [&](const std::string& line) {
     if (count == limit) return false;
     ++count;
     if (!arguments.common.json.empty()) records.push_back(line);
@@ -42,9 +44,20 @@ ExitCode run(const Arguments& arguments) {
     const bool more = write_stdout(buffer);
     buffer.clear();
     return more;
-  });
+  };
+  // What is wrong with the stream is told after what could be told of it.
+  std::optional<UserError> wrong;
+  try {
+    driver::dump_stream(arguments.stream, tell);
+  } catch (const UserError& error) {
+    wrong = error;
+  }
+  if (wrong && count == 0) throw *wrong;
   if (text_wanted) write_stdout(buffer);
-  output.json({{"verb", "stream dump"}, {"stream", arguments.stream}, {"records", std::move(records)}});
+  Json json{{"verb", "stream dump"}, {"stream", arguments.stream}, {"records", std::move(records)}};
+  if (wrong) json["error"] = wrong->what();
+  output.json(json);
+  if (wrong) throw *wrong;
   return ExitCode::Pass;
 }
 

@@ -5,8 +5,8 @@
 #include "cli/config_flags.hpp"
 #include "cli/config_json.hpp"
 #include "cli/device_report.hpp"
-#include "cli/image_output.hpp"
 #include "cli/output.hpp"
+#include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
@@ -63,9 +63,15 @@ ExitCode run(const Arguments& arguments) {
                  .got = {},
                  .fix = "for example --out scene.fss"});
   }
-  check_outputs({.images = {}, .maps = {}, .raws = {}, .others = {arguments.out, arguments.common.json}, .inputs = {}});
+  check_outputs({.images = {},
+                 .maps = {},
+                 .raws = {},
+                 .others = {arguments.out, arguments.common.json},
+                 .inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")))});
   const auto config = load(arguments.config);
-  const auto scene = build(arguments.scene);
+  const auto description = describe(arguments.scene);
+  driver::check_image_size(description.width, description.height);
+  const auto scene = scene::build_scene(description);
 
   Result result{.scene = summary(scene), .stream = arguments.out, .config = config, .driver = {}};
   {

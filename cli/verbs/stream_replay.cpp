@@ -7,6 +7,7 @@
 #include "cli/device_report.hpp"
 #include "cli/image_output.hpp"
 #include "cli/output.hpp"
+#include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "driver/render.hpp"
@@ -61,7 +62,7 @@ ExitCode run(const Arguments& arguments) {
                  .maps = {},
                  .raws = {arguments.raw},
                  .others = {arguments.common.json},
-                 .inputs = {arguments.stream}});
+                 .inputs = joined(inputs_of_config(arguments.config.config.value_or("")), {arguments.stream})});
   const auto config = load(arguments.config);
   driver::DeviceRender frame;
   {

@@ -10,8 +10,8 @@
 #include "base/hash_text.hpp"
 #include "base/version.hpp"
 #include "cli/config_flags.hpp"
-#include "cli/image_output.hpp"
 #include "cli/output.hpp"
+#include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/replay_line.hpp"
 #include "cli/rtl_run.hpp"
@@ -75,11 +75,26 @@ Source source_from(const Arguments& arguments) {
   return has_scene ? Source::Scene : arguments.random ? Source::Random : Source::Stream;
 }
 
-/// Where a failure's files go, without ending: never onto the stream that is verified.
+/// Where a failure's files go, without ending: never onto the stream that is verified, and not onto those of an earlier
+/// failure unless they were named.
 std::string failure_prefix(const Arguments& arguments) {
   if (!arguments.failure.empty()) return arguments.failure;
-  if (arguments.stream.empty()) return "verify-failure";
-  return std::filesystem::path(arguments.stream).replace_extension().string() + "-smaller";
+  const std::string stem = arguments.stream.empty()
+                               ? "verify-failure"
+                               : std::filesystem::path(arguments.stream).replace_extension().string() + "-smaller";
+  std::error_code ignored;
+  const auto is_there = [&](const std::string& name) {
+    return std::filesystem::exists(name + ".fss", ignored) || std::filesystem::exists(name + ".fst", ignored);
+  };
+  std::string name = stem;
+  for (int number = 2; is_there(name); ++number) name = fmt::format("{}-{}", stem, number);
+  return name;
+}
+
+std::vector<std::string> inputs_of(const Arguments& arguments, Source source) {
+  auto inputs = inputs_of_config(arguments.config.config.value_or(""));
+  if (source == Source::Stream) inputs.push_back(arguments.stream);
+  return source == Source::Scene ? joined(inputs, cli::inputs_of(arguments.scene)) : inputs;
 }
 
 testbench::VerifyOptions options_from(const Arguments& arguments, const cmodel::Config& config) {
@@ -94,13 +109,14 @@ testbench::VerifyOptions options_from(const Arguments& arguments, const cmodel::
                                    .device = {}};
   if (options.ready != "all") testbench::Pattern(options.ready, 0);  // an unknown pattern is told before any work
   testbench::Pattern(options.input, 0);
+  if (arguments.stimulus != "all") testbench::stimulus_class_from(arguments.stimulus);
   return options;
 }
 
 /// A result with what it takes to look into a failure.
 struct Checked {
   testbench::VerifyResult result;
-  std::uint64_t streams = 1;
+  std::uint64_t streams = 1, resets_late = 0;
   testbench::VerifyResult failed;
   std::map<std::string, testbench::Coverage> coverage;  ///< by campaign
   cmodel::BeatSource source;                            ///< of the failed stream
@@ -116,6 +132,19 @@ Checked verify_one(cmodel::BeatSource source, const testbench::VerifyOptions& op
   return out;
 }
 
+Checked verify_stream(const Arguments& arguments, const testbench::VerifyOptions& options) {
+  const std::string path = arguments.stream;
+  Checked out;
+  driver::naming(path, [&] {
+    out = verify_one([path](const cmodel::BeatSink& sink) { driver::read_beats(path, sink); }, options, "stream");
+  });
+  // As replay and cycles have it; a device that is wrong is told first.
+  const auto verdict = out.result.verdict;
+  if (verdict == testbench::Verdict::Pass || verdict == testbench::Verdict::NothingCompared)
+    driver::require_covered(path);
+  return out;
+}
+
 Checked verify_random(const Arguments& arguments, const testbench::VerifyOptions& options, const Progress& progress) {
   testbench::CampaignOptions campaign{.verify = options,
                                       .splats = static_cast<std::uint64_t>(*arguments.random),
@@ -127,6 +156,7 @@ Checked verify_random(const Arguments& arguments, const testbench::VerifyOptions
   Checked out;
   out.result = result.total;
   out.streams = result.streams;
+  out.resets_late = result.resets_late;
   for (const auto& [which, coverage] : result.coverage) out.coverage[testbench::to_string(which)] = coverage;
   if (result.failed) {
     auto run = testbench::make_run(campaign, *result.failed);
@@ -154,31 +184,40 @@ Checked verify_scene(const Arguments& arguments, testbench::VerifyOptions option
 /// A failure in words, with the files that show it again.
 struct Failure {
   testbench::FailureReport report;
-  std::string stream, waveform, replay;
+  std::string stream, waveform, replay;  ///< empty where there is none
+  std::vector<std::string> unwritten;    ///< why there is none
 };
 
-Failure investigate(const Checked& checked, const Arguments& arguments) {
-  Failure failure{.report = {},
-                  .stream = failure_prefix(arguments) + ".fss",
-                  .waveform = failure_prefix(arguments) + ".fst",
-                  .replay = {}};
+/// What cannot be written does not take the failure away.
+Failure investigate(const Checked& checked, const Arguments& arguments, const std::string& prefix) {
+  Failure failure{.report = {}, .stream = prefix + ".fss", .waveform = prefix + ".fst", .replay = {}, .unwritten = {}};
   failure.report =
       testbench::investigate(checked.source, checked.options, checked.failed, failure.waveform, kShrinkRuns);
-  driver::write_beats(failure.stream, testbench::write_document(checked.options.config, failure.report.document));
-  failure.replay = replay_line(failure.stream, arguments.config, failure.report.options);
+  if (!failure.report.no_waveform.empty()) {
+    failure.unwritten.push_back(failure.report.no_waveform);
+    failure.waveform.clear();
+  }
+  try {
+    driver::write_beats(failure.stream, testbench::write_document(checked.options.config, failure.report.document));
+    failure.replay = replay_line(failure.stream, arguments.config, failure.report.options);
+  } catch (const UserError& error) {
+    failure.unwritten.push_back(error.what());
+    failure.stream.clear();
+  }
   return failure;
 }
 
 std::string to_text(const Failure& failure) {
   const auto& report = failure.report;
-  return "first divergence: " + report.original + "\n" +
-         fmt::format("shrunk from {} to {} splats in {} runs{}\n", grouped(report.shrink.splats_before),
+  return fmt::format("shrunk from {} to {} splats in {} runs{}\n", grouped(report.shrink.splats_before),
                      grouped(report.shrink.splats_after), report.shrink.runs,
                      report.shrink.finished ? "" : " (there may be a smaller one)") +
          "smallest stream: " + report.divergence + "\n" +
          (report.operands.empty() ? "" : "  " + report.operands + "\n") +
-         fmt::format("waveform: {} (cycles {} to {})\n", failure.waveform, report.wave_from, report.wave_to) +
-         "replay: " + failure.replay + "\n";
+         (failure.waveform.empty()
+              ? ""
+              : fmt::format("waveform: {} (cycles {} to {})\n", failure.waveform, report.wave_from, report.wave_to)) +
+         (failure.replay.empty() ? "" : "replay: " + failure.replay + "\n");
 }
 
 Json to_json(const Failure& failure) {
@@ -193,14 +232,14 @@ Json to_json(const Failure& failure) {
           {"waveform", failure.waveform},
           {"wave_from", report.wave_from},
           {"wave_to", report.wave_to},
-          {"replay", failure.replay}};
+          {"replay", failure.replay},
+          {"unwritten", failure.unwritten}};
 }
 
-/// What the coverage file holds so far: read before any work, for it may be of another configuration.
-testbench::CoverageBook earlier_coverage(const std::string& path, const cmodel::Config& config) {
-  auto book = testbench::CoverageBook::of(config);
-  if (!path.empty() && std::filesystem::exists(path)) book.merge(testbench::read_book(path));
-  return book;
+/// What the coverage file holds may be of another configuration, or no coverage: told before any work.
+void check_coverage(const std::string& path, const cmodel::Config& config) {
+  if (path.empty() || !std::filesystem::exists(path)) return;
+  testbench::CoverageBook::of(config).merge(testbench::read_book(path));
 }
 
 /// How much of the configuration's coverage is hit, this run's added to what the file held.
@@ -209,15 +248,15 @@ struct Gain {
   std::size_t bins = 0, hit = 0;
 };
 
-Gain save_coverage(const Checked& checked, const std::string& path, testbench::CoverageBook book) {
+Gain save_coverage(const Checked& checked, const std::string& path, const cmodel::Config& config) {
+  auto book = testbench::CoverageBook::of(config);
   book.streams += checked.streams;
   book.splats += checked.result.counters.splats;
   book.comparisons += checked.result.check.comparisons;
   book.cycles += checked.result.check.cycles_rtl.value_or(0);
   testbench::Coverage all;
   for (const auto& [campaign, coverage] : checked.coverage) book.campaigns[campaign].merge(coverage);
-  for (const auto& [campaign, coverage] : book.campaigns) all.merge(coverage);
-  testbench::write_book(path, book);
+  for (const auto& [campaign, coverage] : testbench::add_to_book(path, book).campaigns) all.merge(coverage);
   const auto hit = std::count_if(all.bins().begin(), all.bins().end(), [](const auto& bin) { return bin.hits > 0; });
   return {.path = path, .bins = all.bins().size(), .hit = static_cast<std::size_t>(hit)};
 }
@@ -230,7 +269,7 @@ std::string to_text(const Gain& gain) {
 struct Result {
   const Arguments& arguments;
   cmodel::Config config;
-  std::uint64_t streams = 0;
+  std::uint64_t streams = 0, resets_late = 0;
   testbench::VerifyResult run;
   std::optional<Failure> failure;
   std::optional<Gain> coverage;
@@ -249,7 +288,7 @@ std::string to_text(const Result& result) {
 }
 
 Json to_json(const Result& result) {
-  const auto& [arguments, config, streams, run, failure, coverage, seconds] = result;
+  const auto& [arguments, config, streams, resets_late, run, failure, coverage, seconds] = result;
   Json json{{"verb", "verify"},
             {"version", program_version()},
             {"verdict", testbench::to_string(run.verdict)},
@@ -268,6 +307,7 @@ Json to_json(const Result& result) {
             {"input", arguments.input},
             {"fill", arguments.fill},
             {"by_tap", by_tap_json(run.check)}};
+  if (resets_late > 0) json["resets_late"] = resets_late;
   if (failure) json["failure"] = to_json(*failure);
   if (coverage) json["coverage"] = {{"bins", coverage->bins}, {"hit", coverage->hit}};
   json["seconds"] = seconds;
@@ -277,16 +317,16 @@ Json to_json(const Result& result) {
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
   const Source source = source_from(arguments);
+  const std::string prefix = failure_prefix(arguments);
   check_outputs({.images = {},
                  .maps = {},
                  .raws = {},
-                 .others = {failure_prefix(arguments) + ".fss", failure_prefix(arguments) + ".fst",
-                            arguments.common.json, arguments.coverage},
-                 .inputs = arguments.stream.empty() ? std::vector<std::string>{} : std::vector{arguments.stream}});
+                 .others = {prefix + ".fss", prefix + ".fst", arguments.common.json, arguments.coverage},
+                 .inputs = inputs_of(arguments, source)});
   const auto config = load(arguments.config);
   testbench::require_rtl(config);
   const auto options = options_from(arguments, config);
-  auto coverage = earlier_coverage(arguments.coverage, config);
+  check_coverage(arguments.coverage, config);
   const std::string seed = fmt::format("seed {}", arguments.seed);
   // The seed comes first, so that it is known whatever happens next, and last, where the eye is.
   arguments.common.json == "-" ? output.note(seed) : output.line(seed);
@@ -299,8 +339,7 @@ ExitCode run(const Arguments& arguments) {
         checked = verify_scene(arguments, options, bar.callback());
         break;
       case Source::Stream:
-        checked = verify_one([&](const cmodel::BeatSink& sink) { driver::read_beats(arguments.stream, sink); }, options,
-                             "stream");
+        checked = verify_stream(arguments, options);
         break;
       case Source::Random:
         checked = verify_random(arguments, options, bar.callback());
@@ -310,6 +349,7 @@ ExitCode run(const Arguments& arguments) {
   Result result{.arguments = arguments,
                 .config = config,
                 .streams = checked.streams,
+                .resets_late = checked.resets_late,
                 .run = checked.result,
                 .failure = {},
                 .coverage = {}};
@@ -321,11 +361,21 @@ ExitCode run(const Arguments& arguments) {
         "another --zoom");
   }
   if (verdict == testbench::Verdict::Mismatch || verdict == testbench::Verdict::Simulation) {
-    result.failure = investigate(checked, arguments);
+    std::error_code ignored;
+    for (const std::string& name : {prefix + ".fss", prefix + ".fst"}) {
+      if (std::filesystem::exists(name, ignored)) output.note(name + " of an earlier failure is replaced");
+    }
+    output.line("first divergence: " + testbench::first_divergence(checked.failed, config));
+    result.failure = investigate(checked, arguments, prefix);
     output.line(to_text(*result.failure));
+    for (const auto& why : result.failure->unwritten) output.warn(why);
+  }
+  if (result.resets_late > 0) {
+    output.warn(fmt::format("--reset-after {}: {} of {} is shorter, and was reset after its last beat",
+                            *arguments.reset_after, grouped(result.resets_late), counted(result.streams, "stream")));
   }
   if (!arguments.coverage.empty() && verdict == testbench::Verdict::Pass) {
-    result.coverage = save_coverage(checked, arguments.coverage, std::move(coverage));
+    result.coverage = save_coverage(checked, arguments.coverage, config);
     output.line(to_text(*result.coverage));
   }
   result.seconds = output.seconds();
@@ -345,7 +395,7 @@ void declare(Options& options, Arguments& to) {
   options.group("Device");
   declare(options, to.config, "hardware configuration with RTL");
   options.word("--ready", to.ready, "PATTERN",
-               "when pixels are taken: always, every-N, never-N, random-PERCENT, burst-N; random: all takes turns");
+               "when pixels are taken: always, every-N, alternate-N, random-PERCENT, burst-N; random: all takes turns");
   options.word("--input", to.input, "PATTERN", "when beats are offered, a pattern as above");
   options.choice("--fill", to.fill, {"zero", "one", "random"}, "zero|one|random",
                  "what registers and memories hold before reset");

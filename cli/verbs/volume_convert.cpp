@@ -4,9 +4,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "base/atomic_file.hpp"
 #include "cli/common.hpp"
+#include "cli/names.hpp"
 #include "cli/output.hpp"
+#include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "cli/volume_json.hpp"
 #include "volume/volume_file.hpp"
@@ -59,7 +60,11 @@ nlohmann::ordered_json to_json(const Result& result) {
 
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
-  { const AtomicFile probe(arguments.out); }  // before the volume is read
+  check_volume_name(arguments.volume);
+  const bool detached = std::filesystem::path(arguments.out).extension() == ".nhdr";
+  check_outputs(
+      {.others = {arguments.out, detached ? volume::data_file_of(arguments.out).string() : "", arguments.common.json},
+       .inputs = inputs_of_volume(arguments.volume)});
   auto volume = volume::load_volume(arguments.volume);
   const auto type = arguments.type ? type_from(*arguments.type) : volume.stored;
   volume::save_volume(volume, arguments.out, type);

@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/common.hpp"
+#include "cli/names.hpp"
 #include "cli/output.hpp"
+#include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "cli/volume_json.hpp"
 #include "volume/volume_file.hpp"
@@ -41,6 +43,8 @@ std::string to_text(const volume::Volume& volume) {
 
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
+  check_volume_name(arguments.volume);
+  check_outputs({.others = {arguments.common.json}, .inputs = inputs_of_volume(arguments.volume)});
   const auto volume = volume::load_volume(arguments.volume);
   output.line(to_text(volume));
   output.json(volume_json(volume));

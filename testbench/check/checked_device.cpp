@@ -26,6 +26,7 @@ void CheckedDevice::finish() {
   checker_.end_of_stream();
   device_->finish();
   counters_ = device_->counters();
+  finished_ = true;
   checker_.finish(counters_, device_->cycle_counters());
 }
 

@@ -22,7 +22,8 @@ class CheckedDevice final : public cmodel::Device {
 
   void consume(std::span<const cmodel::Beat> beats) override;
   void finish() override;
-  const cmodel::Counters& counters() const override { return counters_; }  ///< the device's; valid after finish
+  /// The device's once it has come to rest; of a run that was stopped before, what the model counted of the same beats.
+  const cmodel::Counters& counters() const override { return finished_ ? counters_ : checker_.counted(); }
 
   /// Runs `action` with the checker deaf: what the device takes and shows meanwhile (a stream cut off by a reset) is
   /// not compared. Before the first beat only.
@@ -54,6 +55,7 @@ class CheckedDevice final : public cmodel::Device {
   cmodel::NullPixels none_;
   std::unique_ptr<RtlDevice> device_;
   cmodel::Counters counters_;
+  bool finished_ = false;
 };
 
 }  // namespace fastsplat::testbench

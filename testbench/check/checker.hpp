@@ -72,7 +72,8 @@ class Checker final : public RawTapSink {
 
   /// Too many mismatches, or a device that has gone silent.
   bool stopped() const { return silent_ || board_.mismatches() + mismatches_ >= options_.stop_after; }
-  CheckReport report() const;  ///< so far
+  CheckReport report() const;                                            ///< so far
+  const cmodel::Counters& counted() const { return model_.counters(); }  ///< the model's, so far
 
  private:
   struct ModelTiles final : cmodel::PixelSink {

@@ -25,24 +25,27 @@ TapCopy owned(cmodel::Tap tap, const TapQueue::Header& header, std::span<const s
           .payload = {payload.begin(), payload.end()}};
 }
 
-/// Meaning of a payload word, as "window pixel (i,j): weight" or "C_R".
+std::string position(std::int64_t x, std::int64_t y) { return "(" + std::to_string(x) + "," + std::to_string(y) + ")"; }
+
+/// Meaning of a payload word, as "pixel (x,y): weight" or "mx". The pixel is the tile's, not the window's.
 std::string word_name(const cmodel::Config& config, const TapCopy& record, std::size_t word) {
   static constexpr const char* kState[] = {"C_R", "C_G", "C_B", "T"};
   static constexpr const char* kSnap[] = {"x0", "y0", "mx", "my"};
   static constexpr const char* kPixel[] = {"R", "G", "B", "A"};
   const auto lanes = static_cast<std::size_t>(config.lanes);
   const auto pixel = [&](std::size_t lane) {
-    return "(" + std::to_string(lane % lanes) + "," + std::to_string(lane / lanes) + ")";
+    return position(record.x + static_cast<std::int64_t>(lane % lanes),
+                    record.y + static_cast<std::int64_t>(lane / lanes));
   };
   switch (record.tap) {
     case cmodel::Tap::Snap:
       return kSnap[word % 4];
     case cmodel::Tap::Footprint:
-      return "window pixel " + pixel(word) + ": weight";
+      return "pixel " + pixel(word) + ": weight";
     case cmodel::Tap::Sheet:
-      return "window pixel " + pixel(word / 4) + ": sheet " + kChannels[word % 4];
+      return "pixel " + pixel(word / 4) + ": sheet " + kChannels[word % 4];
     case cmodel::Tap::Composite:
-      return "block pixel " + pixel(word / 4) + ": " + kState[word % 4];
+      return "pixel " + pixel(word / 4) + ": " + kState[word % 4];
     case cmodel::Tap::Pixel:
       return std::string("output ") + kPixel[word % 4];
   }
@@ -54,7 +57,11 @@ std::string place(const TapCopy& record) {
                      (record.tile == kNoTile ? ", outside of any tile" : ", tile " + std::to_string(record.tile));
   if (record.tap != cmodel::Tap::Pixel) text += ", sheet " + std::to_string(record.sheet);
   if (record.tap <= cmodel::Tap::Sheet) text += ", splat " + std::to_string(record.tag);
-  return text + ", pixel (" + std::to_string(record.x) + "," + std::to_string(record.y) + ")";
+  // What lies at x, y is one pixel only where the picture goes out; a window may begin outside of the tile.
+  const char* what = record.tap == cmodel::Tap::Pixel       ? ", pixel "
+                     : record.tap == cmodel::Tap::Composite ? ", block at "
+                                                            : ", window at ";
+  return text + what + position(record.x, record.y);
 }
 
 }  // namespace

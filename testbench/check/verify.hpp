@@ -25,7 +25,8 @@ struct VerifyOptions {
   std::string input = "always";  ///< pattern of the stream input
   ResetFill fill = ResetFill::Random;
   std::uint64_t seed = 1;         ///< of patterns and fill
-  std::uint64_t reset_after = 0;  ///< beats before a warm reset, after which the whole stream is fed; 0: none
+  std::uint64_t reset_after = 0;  ///< beats before a warm reset, after which the whole stream is fed; 0: none; more
+                                  ///< than the stream has: UserError (Usage)
   std::uint64_t timeout = 1u << 20;
   std::uint64_t stop_after = 1000;  ///< mismatches
   std::filesystem::path wave;       ///< waveform of the cycles [wave_from, wave_to)
@@ -42,7 +43,7 @@ ExitCode exit_code(Verdict verdict);
 struct VerifyResult {
   Verdict verdict = Verdict::NothingCompared;
   CheckReport check;
-  cmodel::Counters counters;                 ///< the RTL's
+  cmodel::Counters counters;                 ///< the RTL's; of a run that was stopped, the model's up to there
   std::uint64_t last_cycle = 0;              ///< after reset, at the end of the run
   std::string error;                         ///< of Verdict::Simulation: what the device did, where and when
   std::string fault;                         ///< the same without where and when

@@ -4,7 +4,9 @@
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/folder_lock.hpp"
 #include "base/hash_text.hpp"
+#include "base/json_text.hpp"
 #include "base/read_file.hpp"
 
 namespace fastsplat::testbench {
@@ -46,14 +48,14 @@ void write_book(const std::filesystem::path& path, const CoverageBook& book) {
     Json& bins = json["campaigns"][name] = Json::object();
     for (const auto& bin : coverage.bins()) bins[bin.name] = bin.hits;
   }
-  write_text_file(path, json.dump(1) + "\n");
+  write_text_file(path, json_text(json, 1) + "\n");
 }
 
 namespace {
 
 /// nlohmann would wrap a negative number and cut a fraction.
 std::uint64_t count_of(const Json& json) {
-  if (!json.is_number_unsigned()) throw std::runtime_error(json.dump() + " is no count");
+  if (!json.is_number_unsigned()) throw std::runtime_error(json_text(json, -1) + " is no count");
   return json.get<std::uint64_t>();
 }
 
@@ -86,6 +88,17 @@ CoverageBook read_book(const std::filesystem::path& path) {
                  .got = error.what(),
                  .fix = {}});
   }
+}
+
+CoverageBook add_to_book(const std::filesystem::path& path, const CoverageBook& more) {
+  const FolderLock lock(path);
+  CoverageBook sum = more;
+  if (std::filesystem::exists(path)) {
+    sum = read_book(path);
+    sum.merge(more);
+  }
+  write_book(path, sum);
+  return sum;
 }
 
 }  // namespace fastsplat::testbench

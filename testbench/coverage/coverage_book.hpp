@@ -25,6 +25,9 @@ struct CoverageBook {
 };
 
 void write_book(const std::filesystem::path& path, const CoverageBook& book);
+/// Adds `more` to what the file holds, if it is there, and returns the sum. Runs that add to one file at the same time
+/// wait for each other, so none of them is lost.
+CoverageBook add_to_book(const std::filesystem::path& path, const CoverageBook& more);
 /// Throws UserError (Input) for a file that is no coverage of this program.
 CoverageBook read_book(const std::filesystem::path& path);
 

@@ -7,29 +7,30 @@
 namespace fastsplat::testbench {
 
 std::vector<std::string> Pattern::examples() {
-  return {"always", "random-50", "random-10", "every-3", "never-40", "burst-16"};
+  return {"always", "random-50", "random-10", "every-3", "alternate-40", "burst-16"};
 }
 
 Pattern::Pattern(const std::string& text, std::uint64_t seed) : seed_(mix(seed)), text_(text) {
-  const auto refuse = [&] {
+  const auto refuse = [&](const std::string& fix = "for example random-50") {
     throw_usage({.where = "pattern '" + text + "'",
                  .what = "unknown ready/valid pattern",
-                 .expected = "always, every-N, never-N, random-PERCENT or burst-N, N 1..1000000",
+                 .expected = "always, every-N, alternate-N or burst-N with N 1..1000000, or random-PERCENT with 1..100",
                  .got = {},
-                 .fix = "for example random-50"});
+                 .fix = fix});
   };
   if (text == "always") return;
   const auto dash = text.find('-');
   if (dash == std::string::npos) refuse();
   const std::string name = text.substr(0, dash);
+  if (name == "never") refuse("N cycles on, N cycles off is alternate" + text.substr(dash));
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data() + dash + 1, end, number_);
   const bool percent = name == "random";
   if (error != std::errc{} || stop != end || number_ < 1 || number_ > (percent ? 100 : 1000000)) refuse();
   if (name == "every") {
     kind_ = Kind::Every;
-  } else if (name == "never") {
-    kind_ = Kind::Never;
+  } else if (name == "alternate") {
+    kind_ = Kind::Alternate;
   } else if (percent) {
     kind_ = Kind::Random;
   } else if (name == "burst") {
@@ -45,7 +46,7 @@ bool Pattern::at(std::uint64_t cycle) const {
       return true;
     case Kind::Every:
       return (cycle + seed_) % number_ == 0;
-    case Kind::Never:
+    case Kind::Alternate:
       return (cycle + seed_) / number_ % 2 == 0;
     case Kind::Random:
       return mix(seed_ + cycle) % 100 < number_;

@@ -10,7 +10,7 @@
 
 namespace fastsplat::testbench {
 
-/// `always`; `never-N` (stops for N cycles in every 2N); `every-N` (one cycle in N); `random-P` (P percent of the
+/// `always`; `alternate-N` (N cycles on, N off); `every-N` (one cycle in N); `random-P` (P percent of the
 /// cycles, by seed); `burst-N` (seeded runs of up to N cycles on and off).
 class Pattern final : public cmodel::Willing {
  public:
@@ -24,7 +24,7 @@ class Pattern final : public cmodel::Willing {
   static std::vector<std::string> examples();
 
  private:
-  enum class Kind { Always, Never, Every, Random, Burst };
+  enum class Kind { Always, Alternate, Every, Random, Burst };
   Kind kind_ = Kind::Always;
   std::uint64_t number_ = 1;
   std::uint64_t seed_ = 0;

@@ -7,7 +7,7 @@
 namespace fastsplat::testbench {
 namespace {
 
-const RtlEntry& entry_of(const cmodel::Config& config) {
+const RtlEntry& entry_of(const cmodel::Config& config, const std::string& otherwise = {}) {
   const std::uint64_t hash = cmodel::config_hash(config);
   std::string known;
   for (const auto& entry : rtl_registry()) {
@@ -18,9 +18,9 @@ const RtlEntry& entry_of(const cmodel::Config& config) {
                .what = "has no RTL in this build",
                .expected = "one of " + known,
                .got = hash_text(hash),
-               .fix =
-                   "use --engine cmodel, its bit-accurate model; or save it with `fastsplat config show` and build its "
-                   "RTL: FASTSPLAT_RTL_CONFIGS=FILE.toml ./run build (docs/guide.md, \"RTL of your own\")"});
+               .fix = (otherwise.empty() ? "" : otherwise + "; or ") +
+                      "save it with `fastsplat config show` and build its RTL: FASTSPLAT_RTL_CONFIGS=FILE.toml ./run "
+                      "build (docs/guide.md, \"RTL of your own\")"});
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ std::vector<std::string> rtl_config_names() {
   return names;
 }
 
-void require_rtl(const cmodel::Config& config) { entry_of(config); }
+void require_rtl(const cmodel::Config& config, const std::string& otherwise) { entry_of(config, otherwise); }
 
 std::unique_ptr<RtlDevice> make_rtl_device(const cmodel::Config& config, cmodel::PixelSink& pixels,
                                            const RtlOptions& options) {

@@ -58,7 +58,7 @@ class RtlDevice : public cmodel::Device {
 std::vector<std::string> rtl_config_names();
 
 /// Throws UserError (Usage) for a configuration whose hash no RTL of this build has; what it is called says nothing.
-void require_rtl(const cmodel::Config& config);
+void require_rtl(const cmodel::Config& config, const std::string& otherwise = {});
 
 /// The RTL of the configuration's hash. Throws as require_rtl() does, and UserError (Simulation) when the configuration
 /// hash in the device's registers is not `config`'s. While the device runs, UserError (Simulation) tells that it hangs,

@@ -52,6 +52,13 @@ class VerilatedDevice : public RtlDevice {
         wave_ = std::make_unique<VerilatedFstC>();
         top_->trace(wave_.get(), 99);
         wave_->open(options_.wave.c_str());
+        if (!wave_->isOpen()) {
+          throw_input({.where = options_.wave.string(),
+                       .what = "cannot write the waveform",
+                       .expected = {},
+                       .got = {},
+                       .fix = "choose a writable folder with enough free space"});
+        }
       }
     }
     pulse_reset();
@@ -119,7 +126,7 @@ class VerilatedDevice : public RtlDevice {
   RegisterAnswer read_register(std::uint32_t address, int wait) override {
     top_->araddr_i = address;
     top_->arvalid_i = 1;
-    for (bool taken = false; !taken; cycle()) taken = top_->arready_o != 0;
+    wait_for("no register read taken", [this] { return top_->arready_o != 0; });
     top_->arvalid_i = 0;
     top_->rready_i = wait == 0 ? 1 : 0;
     for (int i = 0; i < wait; ++i) cycle();
@@ -133,10 +140,10 @@ class VerilatedDevice : public RtlDevice {
     top_->awaddr_i = address;
     top_->wdata_i = word;
     top_->awvalid_i = top_->wvalid_i = 1;
-    for (bool taken = false; !taken; cycle()) {
+    wait_for("no register write taken", [this] {
       top_->eval();  // ready answers valid within the cycle
-      taken = top_->awready_o != 0;
-    }
+      return top_->awready_o != 0;
+    });
     top_->awvalid_i = top_->wvalid_i = 0;
     top_->bready_i = wait == 0 ? 1 : 0;
     for (int i = 0; i < wait; ++i) cycle();
@@ -155,6 +162,17 @@ class VerilatedDevice : public RtlDevice {
   VerilatedContext& context() { return context_; }
 
  private:
+  /// Clocks up to and with the first cycle in which `taken` holds.
+  template <class Taken>
+  void wait_for(const char* missing, Taken taken) {
+    for (std::uint64_t waited = 0;; ++waited) {
+      const bool last = taken();
+      cycle();
+      if (last) return;
+      if (waited > options_.timeout) time_out(missing);
+    }
+  }
+
   void quiet() {
     top_->s_tvalid_i = 0;
     top_->m_tready_i = 0;

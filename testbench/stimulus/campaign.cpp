@@ -54,6 +54,8 @@ CampaignRun make_run(const CampaignOptions& options, std::size_t index) {
   if (!stimulus.input.empty() && run.options.input == "always") run.options.input = stimulus.input;
   if (run.options.reset_after == 0) run.options.reset_after = stimulus.reset_after;
   run.beats = write_document(options.verify.config, stimulus.document);
+  run.reset_late = run.options.reset_after > run.beats.size();
+  if (run.reset_late) run.options.reset_after = run.beats.size();
   return run;
 }
 
@@ -71,6 +73,7 @@ CampaignResult run_campaign(const CampaignOptions& options) {
   const std::size_t count = run_count(options);
   std::vector<std::optional<VerifyResult>> results(count);
   std::vector<std::string> ready(count);
+  std::vector<char> late(count, 0);
   std::atomic<std::size_t> next = 0, done = 0;
   std::atomic<std::size_t> failed = count;  ///< the first run that did not pass
   std::mutex telling;
@@ -80,6 +83,7 @@ CampaignResult run_campaign(const CampaignOptions& options) {
     if (i > failed) return;
     CampaignRun run = make_run(options, i);
     ready[i] = run.options.ready;
+    late[i] = run.reset_late;
     results[i] = verify(source_of(std::move(run.beats)), run.options);
     if (results[i]->verdict != Verdict::Pass) {
       for (std::size_t first = failed; i < first && !failed.compare_exchange_weak(first, i);) {
@@ -98,6 +102,7 @@ CampaignResult run_campaign(const CampaignOptions& options) {
   for (std::size_t i = 0; i < count && i <= failed; ++i) {
     add(out.total, *results[i]);
     ++out.streams;
+    out.resets_late += late[i] != 0 ? 1 : 0;
     if (results[i]->coverage) {
       const StimulusClass which = options.classes[i % options.classes.size()];
       const auto [at, added] = out.coverage.try_emplace(which);

@@ -28,6 +28,7 @@ struct CampaignRun {
   StimulusClass which{};
   VerifyOptions options;
   std::vector<cmodel::Beat> beats;
+  bool reset_late = false;  ///< the stream is shorter than its reset is late: it comes after the last beat
 };
 std::size_t run_count(const CampaignOptions& options);
 CampaignRun make_run(const CampaignOptions& options, std::size_t index);
@@ -35,6 +36,7 @@ CampaignRun make_run(const CampaignOptions& options, std::size_t index);
 struct CampaignResult {
   VerifyResult total;                          ///< sums; first divergence and error are the first failed run's
   std::uint64_t streams = 0;                   ///< run: all, or those up to the failed one
+  std::uint64_t resets_late = 0;               ///< streams too short for the reset that was asked for
   std::map<StimulusClass, Coverage> coverage;  ///< of each class's streams, if asked for
   std::optional<std::size_t> failed;           ///< first run that did not pass
   std::optional<VerifyResult> failure;         ///< its result

@@ -66,8 +66,8 @@ class Generator {
       document.tiles.insert(document.tiles.begin(), 3, empty);
       document.tiles.push_back(empty);
     }
-    if (which_ == StimulusClass::Bubbles) out.input = pick({"random-50", "burst-16", "every-3", "never-7"});
-    if (which_ == StimulusClass::BackPressure) out.ready = pick({"random-10", "burst-64", "every-5", "never-500"});
+    if (which_ == StimulusClass::Bubbles) out.input = pick({"random-50", "burst-16", "every-3", "alternate-7"});
+    if (which_ == StimulusClass::BackPressure) out.ready = pick({"random-10", "burst-64", "every-5", "alternate-500"});
     if (which_ == StimulusClass::Reset) {
       out.reset_after = reset_point(write_document(config_, document));
     }
@@ -399,7 +399,7 @@ StimulusClass stimulus_class_from(const std::string& name) {
                .what = "unknown stimulus class '" + name + "'",
                .expected = "all, " + known,
                .got = {},
-               .fix = {}});
+               .fix = "`fastsplat help verify` and docs/verify.md tell what they reach"});
 }
 
 Stimulus make_stimulus(const cmodel::Config& config, StimulusClass which, std::uint64_t seed, std::uint64_t splats) {

@@ -1,5 +1,7 @@
 #include "testbench/stimulus/stream_document.hpp"
 
+#include <algorithm>
+
 #include "cmodel/crc32.hpp"
 #include "cmodel/stream_decode.hpp"
 
@@ -37,6 +39,35 @@ StreamDocument read_document(const cmodel::Config& config, std::span<const cmode
     }
   }
   decode.finish();
+  return document;
+}
+
+StreamDocument arranged(StreamDocument document) {
+  constexpr int kLargestSide = 65535;
+  if (document.tiles.empty()) return document;
+  int width = 0, height = 0;
+  for (const auto& tile : document.tiles) {
+    width = std::max(width, static_cast<int>(tile.begin.width));
+    height += static_cast<int>(tile.begin.height);
+  }
+  if (height > kLargestSide) return document;
+  document.width = width;
+  document.height = height;
+  std::vector<TileDocument> fillers;
+  std::int32_t y = 0;
+  for (auto& tile : document.tiles) {
+    tile.begin.x = 0;
+    tile.begin.y = y;
+    if (const int left = width - static_cast<int>(tile.begin.width); left > 0) {
+      // No wider than a tile: the widest of them is one.
+      TileDocument filler{tile.begin, {}};
+      filler.begin.x = static_cast<std::int32_t>(tile.begin.width);
+      filler.begin.width = static_cast<decltype(filler.begin.width)>(left);
+      fillers.push_back(filler);
+    }
+    y += static_cast<std::int32_t>(tile.begin.height);
+  }
+  document.tiles.insert(document.tiles.end(), fillers.begin(), fillers.end());
   return document;
 }
 

@@ -5,6 +5,7 @@
 
 #include "cmodel/stream_decode.hpp"
 #include "testbench/triage/explain.hpp"
+#include "testbench/triage/waveform.hpp"
 
 namespace fastsplat::testbench {
 namespace {
@@ -19,12 +20,6 @@ bool same_failure(const VerifyResult& a, const VerifyResult& b) {
   const auto tap = [](const Divergence& d) { return d.model ? d.model->tap : d.rtl->tap; };
   if (a.check.first) return tap(*a.check.first) == tap(*b.check.first);
   return a.fault == b.fault;
-}
-
-std::string in_words(const VerifyResult& result, const cmodel::Config& config) {
-  if (result.check.first) return describe(config, *result.check.first);
-  if (!result.check.differences.empty()) return result.check.differences.front();
-  return result.error;
 }
 
 /// The stream as a tree: all of it, or its tables and one tile.
@@ -55,6 +50,12 @@ StreamDocument start(const BeatSource& source, const cmodel::Config& config, con
 
 }  // namespace
 
+std::string first_divergence(const VerifyResult& result, const cmodel::Config& config) {
+  if (result.check.first) return describe(config, *result.check.first);
+  if (!result.check.differences.empty()) return result.check.differences.front();
+  return result.error;
+}
+
 FailureReport investigate(const BeatSource& source, const VerifyOptions& options, const VerifyResult& failed,
                           const std::filesystem::path& waveform, int most_runs) {
   FailureReport report;
@@ -70,8 +71,10 @@ FailureReport investigate(const BeatSource& source, const VerifyOptions& options
     run.reset_after = std::min<std::uint64_t>(run.reset_after, beats.size());
     return same_failure(failed, verify(source_of(beats), run));
   };
-  report.original = in_words(failed, options.config);
+  report.original = first_divergence(failed, options.config);
   report.document = shrink(start(source, options.config, failed, fails), fails, most_runs, report.shrink);
+  // As a file it has to cover its image. The device knows no image, so it fails alike; if not, it stays as it is.
+  if (StreamDocument whole = arranged(report.document); fails(whole)) report.document = std::move(whole);
 
   const auto beats = write_document(options.config, report.document);
   report.options.reset_after = std::min<std::uint64_t>(options.reset_after, beats.size());
@@ -79,7 +82,7 @@ FailureReport investigate(const BeatSource& source, const VerifyOptions& options
   last.stop_after = 1;
   last.timeout = trial.timeout;
   const VerifyResult smallest = verify(source_of(beats), last);
-  report.divergence = in_words(smallest, options.config);
+  report.divergence = first_divergence(smallest, options.config);
   if (smallest.check.first) report.operands = explain(source_of(beats), options.config, *smallest.check.first);
   const auto& diverged = smallest.check.first;
   const std::uint64_t cycle = diverged && diverged->rtl ? diverged->rtl->cycle : smallest.last_cycle;
@@ -91,7 +94,7 @@ FailureReport investigate(const BeatSource& source, const VerifyOptions& options
     last.wave = waveform;
     last.wave_from = report.wave_from;
     last.wave_to = report.wave_to;
-    verify(source_of(beats), last);
+    report.no_waveform = write_waveform(source_of(beats), last);
   }
   return report;
 }

@@ -16,9 +16,13 @@ struct FailureReport {
   std::string operands;    ///< what the model computed it from; may be empty
   ShrinkReport shrink;
   std::uint64_t wave_from = 0, wave_to = 0;  ///< cycles of the waveform
+  std::string no_waveform;                   ///< why there is none although it was asked for
   VerifyOptions options;                     ///< of the replay: they fail with the small stream
   StreamDocument document;
 };
+
+/// The first difference of a run that failed, in words: stage, place, both values; or what the device did.
+std::string first_divergence(const VerifyResult& result, const cmodel::Config& config);
 
 /// Runs a failing stream again, smaller and smaller (at most `most_runs` times), and reports the smallest. Writes the
 /// waveform if it has a path; writing the stream is the caller's.

@@ -14,6 +14,9 @@ TEST(Suggest, DistanceCountsEdits) {
   EXPECT_EQ(edit_distance("shellss", "shells"), 1);  // deletion
   EXPECT_EQ(edit_distance("shelks", "shells"), 1);   // substitution
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
+  EXPECT_EQ(edit_distance("inof", "info"), 1);  // neighbours exchanged
+  EXPECT_EQ(edit_distance("ab", "ba"), 1);
+  EXPECT_EQ(edit_distance("abcdef", "badcfe"), 3);
   EXPECT_EQ(edit_distance("", "abc"), 3);
   EXPECT_EQ(edit_distance("abc", ""), 3);
 }
@@ -25,6 +28,20 @@ TEST(Suggest, OffersTheNearestElseAll) {
   EXPECT_EQ(suggestion("binaryxyz", known), "did you mean 'binary'?");  // 3 edits
   EXPECT_EQ(suggestion("binarywxyz", known), "known: bone, binary, x-ray");
   EXPECT_EQ(suggestion("something else", known), "known: bone, binary, x-ray");
+}
+
+TEST(Suggest, FarFetchedIsNoSuggestion) {
+  // What was answered: the words share a letter or two.
+  const std::vector<std::string> presets = {"bone", "fire", "base", "linear"}, flags = {"--video", "--volume", "--tf"};
+  for (const char* word : {"nope", "none", "mine", "vase-2"}) {
+    if (edit_distance(word, "bone") == 1) continue;
+    EXPECT_EQ(suggestion(word, presets), "known: bone, fire, base, linear") << word;
+  }
+  EXPECT_EQ(suggestion("--index", flags), "known: --video, --volume, --tf");
+  EXPECT_EQ(suggestion("--vidoe", flags), "did you mean '--video'?");
+  EXPECT_EQ(suggestion("--volum", flags), "did you mean '--volume'?");
+  EXPECT_EQ(suggestion("bnoe", presets), "did you mean 'bone'?");
+  EXPECT_EQ(suggestion("linaer", presets), "did you mean 'linear'?");
 }
 
 TEST(Suggest, AShortNameIsNoSuggestionForAnything) {

@@ -27,10 +27,10 @@ const std::vector<Difference>& differences() {
       {"tile", [](Record& r) { r.header.tile = 8; }, "RTL has stage sheet, tile 8, sheet 3, splat 5"},
       {"sheet", [](Record& r) { r.header.sheet = 4; }, "RTL has stage sheet, tile 7, sheet 4, splat 5"},
       {"tag", [](Record& r) { r.header.tag = 6; }, "RTL has stage sheet, tile 7, sheet 3, splat 6"},
-      {"x", [](Record& r) { r.header.x = -1; }, "pixel (-1,2) (cycle 99)"},
-      {"y", [](Record& r) { r.header.y = -1; }, "pixel (1,-1) (cycle 99)"},
-      {"first word", [](Record& r) { r.payload.front() = 0; }, "window pixel (0,0): sheet R 0xA, RTL 0x0"},
-      {"last word", [](Record& r) { r.payload.back() = 0; }, "window pixel (1,0): sheet tau 0x11, RTL 0x0"},
+      {"x", [](Record& r) { r.header.x = -1; }, "window at (-1,2) (cycle 99)"},
+      {"y", [](Record& r) { r.header.y = -1; }, "window at (1,-1) (cycle 99)"},
+      {"first word", [](Record& r) { r.payload.front() = 0; }, "window at (1,2), pixel (1,2): sheet R 0xA, RTL 0x0"},
+      {"last word", [](Record& r) { r.payload.back() = 0; }, "window at (1,2), pixel (2,2): sheet tau 0x11, RTL 0x0"},
       {"a word too few", [](Record& r) { r.payload.pop_back(); }, "RTL has stage sheet"}};
   return all;
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "tests/cli/process_helper.hpp"
 
@@ -41,6 +42,32 @@ TEST(VerifyCoverage, AddsUpOverRuns) {
   const auto foreign = fastsplat({"verify", "--random", "50", "--config", "tiny", "--coverage", folder / "d.json"});
   EXPECT_EQ(foreign.code, 3);
   EXPECT_NE(foreign.err.find("is no coverage file"), std::string::npos) << foreign.err;
+}
+
+// Processes that add to one file at the same time: the sum is that of all of them.
+TEST(VerifyCoverage, NothingIsLostBetweenProcesses) {
+  constexpr int kProcesses = 8;
+  const TempFolder folder;
+  const std::string file = folder / "c.json";
+  std::vector<std::thread> threads;
+  std::vector<int> codes(kProcesses, -1);
+  for (int i = 0; i < kProcesses; ++i) {
+    threads.emplace_back([&, i] {
+      codes[static_cast<std::size_t>(i)] =
+          fastsplat({"verify", "--random", "400", "--class", "mixed", "--config", "tiny", "--coverage", file,
+                     "--failure", folder / std::to_string(i)})
+              .code;
+    });
+  }
+  for (auto& thread : threads) thread.join();
+  EXPECT_EQ(codes, std::vector<int>(kProcesses, 0));
+  const auto sum = book(file);
+  std::printf("[figure] splats of %d runs = %llu\n", kProcesses,
+              static_cast<unsigned long long>(sum.at("splats").get<std::uint64_t>()));
+  EXPECT_EQ(sum.at("splats"), 400 * kProcesses);
+  EXPECT_EQ(sum.at("streams"), kProcesses);
+  EXPECT_EQ(hits(sum, "mixed", "record.splat"), 400u * kProcesses);
+  EXPECT_EQ(folder.entries(), std::vector<std::string>{"c.json"});
 }
 
 }  // namespace

@@ -49,7 +49,8 @@ TEST(Cycles, AddUpAndAreTheSameForSceneAndStream) {
 
 TEST(Cycles, AreThoseOfVerifyUnderTheSamePatterns) {
   int compared = 0;
-  for (const auto& [input, ready] : {std::pair{"always", "always"}, {"random-70", "burst-9"}, {"never-5", "every-3"}}) {
+  for (const auto& [input, ready] :
+       {std::pair{"always", "always"}, {"random-70", "burst-9"}, {"alternate-5", "every-3"}}) {
     const auto told_by = [&](const std::string& verb) {
       const auto run = fastsplat({verb, "--volume", "shells:16", "--size", "40", "--config", "tiny", "--input", input,
                                   "--ready", ready, "--seed", "5", "--json", "-"});

@@ -1,11 +1,14 @@
 // Recorded streams: the replayed frame is the rendered frame, and a stream that leaves a hole in the image is refused.
 #include "driver/stream_file.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
+#include "base/error.hpp"
 #include "cmodel/crc32.hpp"
+#include "cmodel/cycle_model.hpp"
 #include "cmodel/records.hpp"
 #include "driver/config_file.hpp"
 #include "tests/driver/scenes_helper.hpp"
@@ -27,6 +30,16 @@ void write_beats(const std::filesystem::path& path, std::vector<cmodel::Beat> be
   std::ofstream out(path, std::ios::binary);
   out.write(reinterpret_cast<const char*>(beats.data()),
             static_cast<std::streamsize>(beats.size() * cmodel::kBeatBytes));
+}
+
+/// What a UserError says; empty for none.
+std::string refusal(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return {};
 }
 
 class StreamFile : public ::testing::Test {
@@ -78,6 +91,79 @@ TEST_F(StreamFile, a_hole_in_the_image_is_refused) {
     EXPECT_EQ(error.code(), ExitCode::Input);
     EXPECT_NE(std::string(error.what()).find("do not cover the image"), std::string::npos) << error.what();
   }
+  // Every reader has the rule, and tells where: at the end, the last beat.
+  const auto end = "beat " + std::to_string(beats.size()) + " (byte offset " +
+                   std::to_string(beats.size() * cmodel::kBeatBytes) + "): tiles do not cover the image";
+  cmodel::CycleModel cycles(config, cmodel::StreamScope::Whole, {});
+  EXPECT_THAT(refusal([&] { feed_stream(path_, cycles); }), ::testing::HasSubstr(end));
+  EXPECT_THAT(refusal([&] { require_covered(path_); }), ::testing::HasSubstr(end));
+  EXPECT_THAT(refusal([&] { replay_stream(path_, config); }), ::testing::HasSubstr(end));
+}
+
+// Cut at any byte: refused at the beat that is missing or not whole, by every reader of the file.
+TEST_F(StreamFile, a_short_file_is_refused_at_the_missing_beat) {
+  const auto config = load_config("tiny");
+  record_stream(scene::build_scene(view_of("shells:8", 24)), config, path_);
+  const auto size = std::filesystem::file_size(path_);
+  int cuts = 0;
+  for (const std::uintmax_t left : {std::uintmax_t{0}, std::uintmax_t{3}, std::uintmax_t{23}, std::uintmax_t{24},
+                                    std::uintmax_t{34}, size / 2, size - 24, size - 23, size - 1}) {
+    if (left >= std::filesystem::file_size(path_))
+      record_stream(scene::build_scene(view_of("shells:8", 24)), config, path_);
+    std::filesystem::resize_file(path_, left);
+    const auto beat = left / cmodel::kBeatBytes;
+    const auto place = path_.string() + ": beat " + std::to_string(beat) + " (byte offset " +
+                       std::to_string(beat * cmodel::kBeatBytes) + ")";
+    cmodel::CycleModel cycles(config, cmodel::StreamScope::Whole, {});
+    EXPECT_THAT(refusal([&] { replay_stream(path_, config); }), ::testing::HasSubstr(place)) << left;
+    EXPECT_THAT(refusal([&] { feed_stream(path_, cycles); }), ::testing::HasSubstr(place)) << left;
+    int lines = 0;
+    EXPECT_THAT(refusal([&] {
+                  dump_stream(path_, [&](const std::string&) {
+                    ++lines;
+                    return true;
+                  });
+                }),
+                ::testing::HasSubstr(place))
+        << left;
+    EXPECT_EQ(lines, static_cast<int>(beat)) << "lines of whole beats come first";
+    ++cuts;
+  }
+  figure("cuts", cuts);
+}
+
+TEST_F(StreamFile, a_dump_tells_the_end_that_is_wrong) {
+  const auto config = load_config("tiny");
+  record_stream(scene::build_scene(view_of("shells:8", 24)), config, path_);
+  const auto whole = read_beats(path_);
+  const auto dumped = [&](std::vector<cmodel::Beat> beats) {
+    std::ofstream(path_, std::ios::binary)
+        .write(reinterpret_cast<const char*>(beats.data()),
+               static_cast<std::streamsize>(beats.size() * cmodel::kBeatBytes));
+    return refusal([&] { dump_stream(path_, [](const std::string&) { return true; }); });
+  };
+  EXPECT_EQ(dumped(whole), "");
+  auto wrong = whole;
+  wrong.back()[3] ^= 1;
+  EXPECT_THAT(dumped(wrong), ::testing::HasSubstr("checksum"));
+  wrong = whole;
+  wrong.back()[1] += 1;
+  EXPECT_THAT(dumped(wrong), ::testing::HasSubstr("counts other beats"));
+  wrong = whole;
+  wrong.push_back(whole.back());
+  EXPECT_THAT(dumped(wrong), ::testing::HasSubstr("nothing after end_frame"));
+  // A reader that has enough asks for no more.
+  EXPECT_EQ(refusal([&] { dump_stream(path_, [](const std::string&) { return false; }); }), "");
+}
+
+TEST_F(StreamFile, what_no_replay_takes_is_not_recorded) {
+  auto description = view_of("shells:8", 64);
+  description.width = 8193;
+  description.height = 8192;
+  EXPECT_THAT(refusal([&] { record_stream(scene::build_scene(description), load_config("base"), path_); }),
+              ::testing::HasSubstr("67108864"));
+  EXPECT_FALSE(std::filesystem::exists(path_));
+  EXPECT_NO_THROW(check_image_size(8192, 8192));
 }
 
 }  // namespace

@@ -264,6 +264,34 @@ TEST(ImageFile, RefusesWhatItCannotMeasure) {
   EXPECT_THAT(read_refusal(folder / "lossy.tif"), HasSubstr("got jpeg"));
 }
 
+TEST(ImageFile, ReadsJpegOfOtherPrograms) {
+  const TempFolder folder;
+  const auto path = folder / "a.jpg";
+  write_foreign(path, [](auto& spec) {
+    spec.set_format(OIIO::TypeDesc::UINT8);
+    spec.nchannels = 3;
+    spec.channelnames = {"R", "G", "B"};
+    spec.alpha_channel = -1;
+    spec.attribute("CompressionQuality", 100);
+  });
+  const auto loaded = read_image(path);
+  EXPECT_EQ(loaded.format, "jpeg");
+  EXPECT_EQ(loaded.kind, PixelKind::Uint8);
+  EXPECT_EQ(loaded.image.channels, 3);
+  EXPECT_TRUE(loaded.metadata.empty());
+  ASSERT_FALSE(loaded.image.data.empty());
+  // Cut anywhere it is refused, and not filled up with grey.
+  std::ifstream in(path, std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(in), {}};
+  int cuts = 0;
+  for (const std::size_t left : {std::size_t{3}, whole.size() / 2, whole.size() - 1}) {
+    std::ofstream(folder / "cut.jpg", std::ios::binary) << whole.substr(0, left);
+    EXPECT_THAT(read_refusal(folder / "cut.jpg"), HasSubstr("truncated")) << left;
+    ++cuts;
+  }
+  std::printf("[figure] JPEG of %zu bytes read, cuts refused = %d\n", whole.size(), cuts);
+}
+
 TEST(ImageFile, ReadsTiledFiles) {
   const TempFolder folder;
   const Image image = random_image(70, 45, 4, 8);
@@ -286,7 +314,7 @@ TEST(ImageFile, RefusesPathsThatAreNoImages) {
   write_bytes(folder / "empty.exr", "");
   EXPECT_THAT(read_refusal(folder / "empty.exr"), HasSubstr("empty"));
   write_bytes(folder / "text.exr", "volume = \"shells\"\n");
-  EXPECT_THAT(read_refusal(folder / "text.exr"), HasSubstr("not an image (expected EXR, PNG or TIFF)"));
+  EXPECT_THAT(read_refusal(folder / "text.exr"), HasSubstr("not an image (expected EXR, PNG, TIFF or JPEG)"));
   EXPECT_THAT(read_refusal("/dev/zero"), HasSubstr("/dev/zero"));
 }
 

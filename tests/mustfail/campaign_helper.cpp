@@ -69,7 +69,7 @@ std::vector<Run> runs_of(const cmodel::Config& config, Stimulus stimulus) {
     case Stimulus::Random:
       return {{random_beats(config, 1), "burst-16", "random-50", 1},
               {random_beats(config, 2), "always", "every-3", 2},
-              {random_beats(config, 3), "random-50", "never-40", 3},
+              {random_beats(config, 3), "random-50", "alternate-40", 3},
               {random_beats(config, 4), "always", "always", 4}};
     case Stimulus::HotSpot:
       return {{hot_spot(config, 1), "always", "always", 1}, {hot_spot(config, 2), "random-50", "always", 2}};

@@ -1,0 +1,38 @@
+#include "base/folder_lock.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "base/error.hpp"
+
+namespace fastsplat {
+
+FolderLock::FolderLock(const std::filesystem::path& path) {
+  // Through links, as what is written goes: two names of one file lie in one folder.
+  std::error_code ignored;
+  const auto whole = std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
+  const auto folder = whole.has_parent_path() ? whole.parent_path() : std::filesystem::path(".");
+  descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  int outcome = -1;
+  if (descriptor_ >= 0) {
+    do {
+      outcome = ::flock(descriptor_, LOCK_EX);
+    } while (outcome != 0 && errno == EINTR);
+  }
+  if (outcome == 0) return;
+  const int reason = errno;
+  if (descriptor_ >= 0) ::close(descriptor_);
+  throw_input({.where = path.string(),
+               .what = std::string("cannot lock its folder: ") + std::strerror(reason),
+               .expected = {},
+               .got = {},
+               .fix = "choose a folder of your own on a local disk"});
+}
+
+FolderLock::~FolderLock() { ::close(descriptor_); }
+
+}  // namespace fastsplat

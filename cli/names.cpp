@@ -1,0 +1,33 @@
+#include "cli/names.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/error.hpp"
+#include "volume/volume_file.hpp"
+
+namespace fastsplat::cli {
+
+bool is_name(const std::string& word) {
+  std::error_code ignored;
+  const auto name = word.substr(0, word.find(':'));
+  return name.find_first_of("/.") == std::string::npos && !std::filesystem::exists(word, ignored);
+}
+
+void as_word(const std::string& word, const std::function<void()>& resolve) {
+  try {
+    resolve();
+  } catch (const UserError& error) {
+    if (error.code() != ExitCode::Input || !is_name(word)) throw;
+    throw UserError(ExitCode::Usage, error.parts());
+  }
+}
+
+void check_volume_name(const std::string& word) {
+  const auto known = volume::known_volume_names();
+  // A scan that is known and not installed is a file that is missing.
+  const bool scan = word.find(':') == std::string::npos && std::find(known.begin(), known.end(), word) != known.end();
+  if (is_name(word) && !scan) as_word(word, [&] { volume::read_volume_header(word); });
+}
+
+}  // namespace fastsplat::cli

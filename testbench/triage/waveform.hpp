@@ -1,0 +1,15 @@
+// A waveform of some cycles of a run, written where a failure of the writing does no harm.
+#pragma once
+
+#include <string>
+
+#include "testbench/check/verify.hpp"
+
+namespace fastsplat::testbench {
+
+/// Runs `source` once more and keeps the cycles [wave_from, wave_to) of `options` in its `wave`, which appears whole or
+/// not at all. Returns why there is none; empty where there is. A process of its own writes it: the simulator's writer
+/// maps the file into memory, so that a full disk would end the process that has the failure to tell.
+std::string write_waveform(const BeatSource& source, const VerifyOptions& options);
+
+}  // namespace fastsplat::testbench

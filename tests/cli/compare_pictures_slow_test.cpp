@@ -1,0 +1,95 @@
+// compare of pictures that this program did not write, of those for looking, and of one that shows nothing.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "images/image_file.hpp"
+#include "tests/cli/process_helper.hpp"
+
+namespace fastsplat::cli_test {
+namespace {
+
+Image ramp(int channels, float scale) {
+  Image image(16, 16, channels);
+  for (std::size_t at = 0; at < image.data.size(); ++at) {
+    const auto pixel = at / static_cast<std::size_t>(channels);
+    image.data[at] = scale * static_cast<float>(pixel) / 255.0f;
+    if (channels == 4 && at % 4 == 3) image.data[at] = 1.0f;
+  }
+  return image;
+}
+
+class ComparePictures : public ::testing::Test {
+ protected:
+  /// As another program writes it: nothing in it tells who did.
+  std::string foreign(const std::string& name, const Image& image) const {
+    images::write_image(folder_ / name, image, {}, {.kind = images::PixelKind::Uint8});
+    return folder_ / name;
+  }
+  Result compare(std::vector<std::string> words) const {
+    words.insert(words.begin(), "compare");
+    words.insert(words.end(), {"--json", folder_ / "c.json"});
+    return fastsplat(words);
+  }
+  nlohmann::json told() const { return nlohmann::json::parse(read_bytes(folder_ / "c.json")); }
+  TempFolder folder_;
+};
+
+TEST_F(ComparePictures, APngOfAnotherProgramIsForLooking) {
+  expect_success(fastsplat(
+      {"render", "--volume", "shells:8", "--size", "16", "-o", folder_ / "ours.png", "-o", folder_ / "ours.exr"}));
+  const auto ours = images::read_image(folder_ / "ours.png");
+  const auto theirs = foreign("theirs.png", ours.image);
+  expect_success(compare({folder_ / "ours.png", theirs}));
+  EXPECT_TRUE(told().at("identical").get<bool>());
+  const auto mixed = compare({folder_ / "ours.exr", theirs});
+  EXPECT_EQ(mixed.code, 4);
+  EXPECT_NE(mixed.err.find("is taken as a picture for looking"), std::string::npos) << mixed.err;
+  EXPECT_NE(mixed.err.find("--srgb"), std::string::npos) << mixed.err;
+}
+
+TEST_F(ComparePictures, SrgbSaysThatBothAre) {
+  expect_success(fastsplat(
+      {"render", "--volume", "shells:8", "--size", "16", "-o", folder_ / "ours.png", "-o", folder_ / "ours.exr"}));
+  const auto tiff = foreign("theirs.tif", images::read_image(folder_ / "ours.png").image);
+  EXPECT_EQ(compare({folder_ / "ours.png", tiff}).code, 4);
+  expect_success(compare({folder_ / "ours.png", tiff, "--srgb"}));
+  EXPECT_TRUE(told().at("identical").get<bool>());
+  const auto real = compare({folder_ / "ours.png", folder_ / "ours.exr", "--srgb"});
+  EXPECT_EQ(real.code, 4);
+  EXPECT_NE(real.err.find("holds float values"), std::string::npos) << real.err;
+}
+
+TEST_F(ComparePictures, GreyAndOpaqueAlphaAreTheSameColours) {
+  const auto grey = foreign("grey.png", ramp(1, 1.0f)), rgb = foreign("rgb.png", ramp(3, 1.0f)),
+             rgba = foreign("rgba.png", ramp(4, 1.0f));
+  for (const auto& other : {rgb, rgba}) {
+    expect_success(compare({grey, other}));
+    EXPECT_TRUE(told().at("identical").get<bool>()) << other;
+  }
+  Image glass = ramp(4, 1.0f);
+  glass.data[3] = 0.5f;
+  const auto refused = compare({rgb, foreign("glass.png", glass)});
+  EXPECT_EQ(refused.code, 4);
+  EXPECT_NE(refused.err.find("channels"), std::string::npos) << refused.err;
+  EXPECT_EQ(refused.err.find("same size"), std::string::npos) << refused.err;
+}
+
+TEST_F(ComparePictures, OneThatIsAllBlackIsSaid) {
+  const auto dim = foreign("dim.png", ramp(3, 0.02f)), black = foreign("black.png", Image(16, 16, 3));
+  const auto run = compare({dim, black, "--min-psnr", "30"});
+  EXPECT_EQ(run.code, 0) << "far above the limit, and yet nothing: " << run.err;
+  EXPECT_NE(run.err.find("black.png is all black"), std::string::npos) << run.err;
+  EXPECT_EQ(told().at("all_black"), black);
+  EXPECT_EQ(compare({black, black}).err.find("all black"), std::string::npos);
+  EXPECT_EQ(compare({dim, dim}).err.find("all black"), std::string::npos);
+  EXPECT_TRUE(told().at("all_black").is_null());
+  // Alpha is no light.
+  Image veil(16, 16, 4);
+  for (std::size_t at = 3; at < veil.data.size(); at += 4) veil.data[at] = 1.0f;
+  EXPECT_NE(compare({foreign("lit.tif", ramp(4, 0.5f)), foreign("veil.tif", veil)}).err.find("veil.tif is all black"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace fastsplat::cli_test

@@ -1,0 +1,87 @@
+// One rule for a word that names nothing: exit 2 where it is a name, 3 where it is a file; hints that are near; what
+// the machine offers.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/process_helper.hpp"
+
+namespace fastsplat::cli_test {
+namespace {
+
+std::vector<std::string> still(const std::vector<std::string>& more) {
+  std::vector<std::string> words{"render", "--size", "8", "-o", "/tmp/never.exr"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+TEST(Names, ANameThatIsNoneIsAWrongCommandLine) {
+  const std::vector<std::vector<std::string>> commands{still({"--scene", "demo:nope"}),
+                                                       still({"--tf", "nope"}),
+                                                       still({"--volume", "nope"}),
+                                                       still({"--volume", "nope:64"}),
+                                                       still({"--volume", "shells:0"}),
+                                                       still({"--volume", "shells:x"}),
+                                                       still({"--volume", "shells:1.5"}),
+                                                       still({"--engine", "cmodel", "--config", "nope"}),
+                                                       {"config", "show", "nope"},
+                                                       {"config", "check", "nope"},
+                                                       {"config", "diff", "base", "nope"},
+                                                       {"volume", "info", "nope"},
+                                                       {"volume", "info", "shells:0"},
+                                                       {"volume", "convert", "nope", "/tmp/never.nrrd"},
+                                                       {"cycles", "--volume", "nope"},
+                                                       {"stream", "record", "--tf", "nope", "-o", "/tmp/never.fss"},
+                                                       {"verify", "--random", "9", "--class", "nope"}};
+  for (const auto& command : commands) {
+    SCOPED_TRACE(command[0] + " ... " + command.back());
+    expect_error(fastsplat(command), 2, {});
+  }
+  std::printf("[figure] names that are none, exit 2 = %zu\n", commands.size());
+}
+
+TEST(Names, AFileThatIsMissingOrBadIsAFile) {
+  const TempFolder folder;
+  const auto scene = folder.write("scene.toml", "volume = \"shells:0\"\n");
+  const std::vector<std::vector<std::string>> commands{still({"--scene", folder / "nope.toml"}),
+                                                       still({"--tf", folder / "nope.toml"}),
+                                                       still({"--volume", folder / "nope.nrrd"}),
+                                                       still({"--scene", scene}),
+                                                       still({"--engine", "cmodel", "--config", folder / "nope.toml"}),
+                                                       {"config", "check", "nope.toml"},
+                                                       {"volume", "info", "./nope"}};
+  for (const auto& command : commands) {
+    SCOPED_TRACE(command[0] + " ... " + command.back());
+    expect_error(fastsplat(command), 3, {});
+  }
+}
+
+TEST(Names, HintsAreNear) {
+  const auto hint = [](const std::vector<std::string>& command) { return fastsplat(command).err; };
+  for (const auto& command : {still({"--tf", "nope"}), still({"--volume", "nope"}), still({"--index", "rlut"}),
+                              still({"--engine", "cmodel", "--config", "mine"})})
+    EXPECT_EQ(hint(command).find("did you mean"), std::string::npos) << hint(command);
+  EXPECT_NE(hint(still({"--tf", "bonne"})).find("did you mean 'bone'"), std::string::npos);
+  EXPECT_NE(hint(still({"--elevtion", "3"})).find("did you mean '--elevation'"), std::string::npos);
+}
+
+TEST(Names, DoctorLooksAtEveryLibraryAndProgram) {
+  const auto json = nlohmann::json::parse(fastsplat({"doctor", "--json", "-"}).out);
+  for (const auto& [name, version] : json.at("libraries").items()) {
+    const std::string text = version;
+    EXPECT_TRUE(std::isdigit(static_cast<unsigned char>(text.empty() ? '.' : text[0]))) << name << " " << text;
+  }
+  EXPECT_TRUE(json.at("libraries").contains("libnifti2"));
+  EXPECT_TRUE(json.at("programs").contains("verilator"));
+  // Where there are no programs, they are missing.
+  Surroundings bare;
+  bare.environment = {"PATH=/nonexistent"};
+  const auto without = nlohmann::json::parse(fastsplat({"doctor", "--json", "-"}, bare).out);
+  EXPECT_FALSE(without.at("programs").at("ffmpeg").get<bool>());
+  std::string missing = without.at("missing").dump();
+  EXPECT_NE(missing.find("apt-get install ffmpeg"), std::string::npos) << missing;
+  EXPECT_NE(missing.find("apt-get install verilator"), std::string::npos) << missing;
+}
+
+}  // namespace
+}  // namespace fastsplat::cli_test

@@ -1,0 +1,114 @@
+// What `verify` says of an RTL that is wrong, through the program built with one (tests/wrong_rtl): the failure first,
+// whatever becomes of its files.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "driver/stream_file.hpp"
+#include "tests/cli/process_helper.hpp"
+
+namespace fastsplat::cli_test {
+namespace {
+
+Result verify(const std::vector<std::string>& arguments, const Surroundings& surroundings) {
+  std::vector<std::string> words{FASTSPLAT_WRONG_RTL, "verify", "--config", "tiny"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return run_words(words, surroundings);
+}
+
+class VerifyFailure : public ::testing::Test {
+ protected:
+  void SetUp() override { here_.folder = folder_.path(); }
+  nlohmann::json told() const { return nlohmann::json::parse(read_bytes(folder_ / "told.json")); }
+
+  TempFolder folder_;
+  Surroundings here_;
+};
+
+TEST_F(VerifyFailure, IsShrunkAndReplayed) {
+  const auto run = verify({"--random", "300", "--json", "told.json"}, here_);
+  ASSERT_EQ(run.code, 1) << run.err;
+  const auto failure = told().at("failure");
+  EXPECT_EQ(failure.at("splats_after"), 7) << "the seventh is the first that is wrong";
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "verify-failure.fss"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "verify-failure.fst"));
+  // The line it prints, run as it stands: a legal stream, as every reader sees it, that fails alike.
+  std::istringstream line(failure.at("replay").get<std::string>());
+  std::vector<std::string> words{std::istream_iterator<std::string>(line), {}};
+  ASSERT_GT(words.size(), 2u);
+  words[0] = FASTSPLAT_WRONG_RTL;
+  const auto again = run_words(words, here_);
+  EXPECT_EQ(again.code, 1) << again.err;
+  EXPECT_NE(again.out.find("first divergence: stage sheet"), std::string::npos) << again.out;
+  EXPECT_NO_THROW(driver::require_covered(folder_ / "verify-failure.fss"));
+  expect_success(
+      fastsplat({"stream", "replay", folder_ / "verify-failure.fss", "--config", "tiny", "-o", folder_ / "a.exr"}));
+}
+
+// The pixel that is named lies in the tile, and is that of the operands below.
+TEST_F(VerifyFailure, NamesThePixelAndNotTheWindow) {
+  for (const std::string stimulus : {"screen-edges", "mixed", "multi-window"}) {
+    const auto run = verify({"--random", "300", "--class", stimulus, "--json", "told.json"}, here_);
+    ASSERT_EQ(run.code, 1) << run.err;
+    const auto failure = told().at("failure");
+    const std::string smallest = failure.at("smallest"), operands = failure.at("operands");
+    const auto at = smallest.find(", pixel ");
+    ASSERT_NE(at, std::string::npos) << smallest;
+    const std::string pixel = smallest.substr(at + 2, smallest.find(':', at) - at - 2);
+    EXPECT_EQ(pixel.find('-'), std::string::npos) << smallest;
+    EXPECT_EQ(operands.rfind(pixel + ":", 0), 0u) << smallest << " | " << operands;
+    EXPECT_NE(smallest.find("window at ("), std::string::npos) << smallest;
+  }
+}
+
+TEST_F(VerifyFailure, OfASceneCountsWhatRan) {
+  const auto run = verify({"--volume", "shells:16", "--size", "48", "--json", "told.json"}, here_);
+  ASSERT_EQ(run.code, 1) << run.err;
+  std::printf("[figure] splats of the scene before it was stopped = %llu\n",
+              static_cast<unsigned long long>(told().at("splats").get<std::uint64_t>()));
+  EXPECT_GT(told().at("splats"), 10);
+  EXPECT_GT(told().at("windows"), 10);
+}
+
+TEST_F(VerifyFailure, IsToldBeforeItsFiles) {
+  // Nothing but what is short can be written: neither the stream nor the waveform.
+  here_.largest_file = 300;
+  const auto run = verify({"--random", "300", "--json", "-"}, here_);
+  EXPECT_EQ(run.code, 1) << run.err;
+  const auto json = nlohmann::json::parse(run.out, nullptr, false);
+  ASSERT_FALSE(json.is_discarded()) << run.out << run.err;
+  EXPECT_EQ(json.at("verdict"), "mismatch");
+  const auto failure = json.at("failure");
+  EXPECT_NE(failure.at("first").get<std::string>().find("stage sheet"), std::string::npos);
+  EXPECT_FALSE(failure.at("unwritten").empty());
+  EXPECT_NE(run.err.find("cannot write"), std::string::npos) << run.err;
+  const auto text = verify({"--random", "300"}, here_);
+  EXPECT_EQ(text.code, 1) << text.err;
+  EXPECT_NE(text.out.find("first divergence: stage sheet"), std::string::npos) << text.out;
+  EXPECT_EQ(text.out.find("replay:"), std::string::npos) << text.out;
+}
+
+TEST_F(VerifyFailure, FoldersAreTriedBeforeTheRun) {
+  const auto run = verify({"--random", "300", "--failure", "/nonexistent/x"}, here_);
+  EXPECT_EQ(run.code, 3);
+  EXPECT_EQ(run.out, "") << "it ran";
+  EXPECT_NE(run.err.find("/nonexistent/x.fss"), std::string::npos) << run.err;
+}
+
+TEST_F(VerifyFailure, KeepsTheFilesOfAnEarlierOne) {
+  ASSERT_EQ(verify({"--random", "300", "--seed", "1"}, here_).code, 1);
+  const auto first = read_bytes(folder_ / "verify-failure.fss");
+  const auto second = verify({"--random", "300", "--seed", "2"}, here_);
+  EXPECT_EQ(second.code, 1);
+  EXPECT_TRUE(read_bytes(folder_ / "verify-failure.fss") == first);
+  EXPECT_NE(second.out.find("verify-failure-2.fss"), std::string::npos) << second.out;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "verify-failure-2.fss"));
+  // A name that was given is taken, and what goes is said.
+  EXPECT_EQ(verify({"--random", "300", "--failure", "mine"}, here_).err.find("is replaced"), std::string::npos);
+  const auto again = verify({"--random", "300", "--failure", "mine"}, here_);
+  EXPECT_NE(again.err.find("mine.fss of an earlier failure is replaced"), std::string::npos) << again.err;
+}
+
+}  // namespace
+}  // namespace fastsplat::cli_test

@@ -1,0 +1,97 @@
+// How a refused beat is told: bounds as bounds, the true limit, and advice that fits the fault.
+#include <gtest/gtest.h>
+
+#include "tests/cmodel/small_stream_helper.hpp"
+#include "tests/cmodel/stream_writer_helper.hpp"
+#include "tests/cmodel/verdict_helper.hpp"
+
+namespace fastsplat::test {
+namespace {
+
+struct Told {
+  const char* name;
+  std::size_t beat, word;
+  std::uint32_t value;
+  const char* expected;
+  const char* got;
+  const char* advice;  ///< a part of it
+};
+
+constexpr const char* kWriter = "correct what wrote the stream";
+constexpr const char* kDamaged = "damaged or cut";
+
+const Told kTold[] = {
+    {"image width", 0, 4, 8U << 16, "at least 1", "0", kWriter},
+    {"magic", 0, 1, 0x32535346, "0x31535346", "0x32535346", ".fss"},
+    {"configuration", 0, 2, 0, "(small_stream)", "", "configuration it was recorded with"},
+    {"radius set", 1, 1, 3, "at most 2", "3", kWriter},
+    {"no radius", 1, 2, 0, "at least 1", "0", kWriter},
+    {"radius", 1, 2, 9, "at most 8", "9", kWriter},  // of 8 columns, k = 2: a radius of 4 pixels
+    {"unknown table, radius and all", 1, 0, 0x34C, "0, 1 or 2", "3", kWriter},
+    {"base", 1, 4, 3, "a multiple of 2", "3", kWriter},
+    {"columns", 1, 4, 8, "at most 8", "10", kWriter},
+    {"table word", 2, 3, 9, "at most 8", "9", kWriter},
+    {"rising", 6, 2, 12, "at most 11", "12", kWriter},
+    {"mode", 7, 0, 0x354, "0, 1 or 2", "3", kWriter},
+    {"tile begins", 7, 2, 0xFFFFFFFF, "at least 0", "-1", kWriter},
+    {"tile ends", 7, 2, 9, "at most 16", "17", kWriter},
+    {"sheet numbers", 13, 1, 3, "more than 3", "3", kWriter},
+    {"reserved bits", 9, 0, 0x10150, "0 in w0", "0x00010000", kWriter},
+    {"splats counted", 12, 2, 1, "2", "1", kWriter},
+    {"sheets counted", 15, 2, 3, "2", "3", kWriter},
+    {"cull block", 10, 4, 0x50000, "at least 1", "0", kWriter},
+    {"unknown opcode", 8, 0, 0x52, "a known opcode", "82", kDamaged},
+};
+
+std::vector<std::uint8_t> with(std::size_t beat, std::size_t word, std::uint32_t value) {
+  auto bytes = small_stream();
+  for (std::size_t i = 0; i < 4; ++i) bytes[beat * 24 + word * 4 + i] = static_cast<std::uint8_t>(value >> (8 * i));
+  return bytes;
+}
+
+TEST(StreamMessages, SayWhatWouldHaveBeenRight) {
+  for (const Told& told : kTold) {
+    const Verdict verdict = model_verdict(small_stream_config(), with(told.beat, told.word, told.value));
+    ASSERT_TRUE(verdict.refused_at) << told.name;
+    EXPECT_EQ(*verdict.refused_at, told.beat) << told.name << ": " << verdict.text;
+    if (told.expected[0] == '(') {
+      EXPECT_NE(verdict.parts.expected.find(told.expected), std::string::npos) << verdict.text;
+    } else {
+      EXPECT_EQ(verdict.parts.expected, told.expected) << told.name << ": " << verdict.text;
+      EXPECT_EQ(verdict.parts.got, told.got) << told.name << ": " << verdict.text;
+    }
+    EXPECT_NE(verdict.parts.fix.find(told.advice), std::string::npos) << told.name << ": " << verdict.text;
+  }
+  std::printf("[figure] messages held = %zu\n", std::size(kTold));
+}
+
+// The limit that is named is the one that holds: one less, and it is the table's words that are too few.
+TEST(StreamMessages, TheLimitOfARadiusIsTheTrueOne) {
+  const Verdict at = model_verdict(small_stream_config(), with(1, 2, 8));
+  ASSERT_TRUE(at.refused_at);
+  EXPECT_EQ(at.text.find("radius above"), std::string::npos) << at.text;
+}
+
+TEST(StreamMessages, ACutStreamSaysWhatIsMissing) {
+  const auto whole = small_stream();
+  const std::pair<std::size_t, const char*> cuts[] = {{0, "begin_frame"},
+                                                      {1, "load_table, begin_tile or end_frame"},
+                                                      {2, "a beat of table words"},
+                                                      {8, "begin_sheet or end_tile"},
+                                                      {9, "splat, cull_block or end_sheet"},
+                                                      {16, "begin_tile or end_frame"}};
+  for (const auto& [beats, expected] : cuts) {
+    const Verdict verdict = model_verdict(small_stream_config(), {whole.data(), beats * 24});
+    ASSERT_TRUE(verdict.refused_at) << beats;
+    EXPECT_EQ(verdict.parts.expected, expected);
+    EXPECT_NE(verdict.parts.fix.find(kDamaged), std::string::npos) << verdict.text;
+  }
+  auto flipped = with(9, 4, 0);
+  const Verdict verdict = model_verdict(small_stream_config(), flipped);
+  EXPECT_NE(verdict.text.find("checksum"), std::string::npos) << verdict.text;
+  EXPECT_NE(verdict.parts.fix.find(kDamaged), std::string::npos) << verdict.text;
+  EXPECT_EQ(verdict.parts.got.substr(0, 2), "0x") << verdict.text;
+}
+
+}  // namespace
+}  // namespace fastsplat::test

@@ -1,0 +1,69 @@
+// A device whose register bus never answers is told, not waited for.
+#include <gtest/gtest.h>
+
+#include "driver/config_file.hpp"
+#include "testbench/device/verilated_device.hpp"
+
+namespace fastsplat::testbench {
+namespace {
+
+/// Ports as Verilator has them, over a device with a register bus of which one side may be dead.
+struct SilentTop {
+  explicit SilentTop(VerilatedContext*) {}
+  void eval() {
+    arready_o = reads_answered ? 1 : 0;
+    awready_o = 0;
+    rvalid_o = 1;
+    const auto hash = config_hash(driver::load_config("tiny"));
+    rdata_o = static_cast<std::uint32_t>(araddr_i == cmodel::kRegHashHigh.address ? hash >> 32 : hash);
+  }
+  void final() {}
+  static inline bool reads_answered = false;
+
+  std::uint8_t clk_i = 0, rst_ni = 0, s_tvalid_i = 0, s_tready_o = 0, m_tready_i = 0, m_tvalid_o = 0, m_tlast_o = 0;
+  std::uint8_t awvalid_i = 0, awready_o = 0, wvalid_i = 0, bready_i = 0, bvalid_o = 0, bresp_o = 0;
+  std::uint8_t arvalid_i = 0, arready_o = 0, rvalid_o = 0, rready_i = 0, rresp_o = 0, error_o = 0;
+  std::uint32_t awaddr_i = 0, wdata_i = 0, araddr_i = 0, rdata_o = 0;
+  std::array<std::uint32_t, 6> s_tdata_i{};
+  std::uint64_t m_tdata_o = 0;
+  std::uint8_t tap_snap_valid_o = 0, tap_sheet_valid_o = 0, tap_window_valid_o = 0, tap_composite_valid_o = 0,
+               tap_sheet_done_o = 0;
+  std::uint32_t tap_snap_tag_o = 0, tap_snap_x_o = 0, tap_snap_y_o = 0, tap_snap_mx_o = 0, tap_snap_my_o = 0;
+  std::uint32_t tap_sheet_tag_o = 0, tap_window_tag_o = 0, tap_window_x_o = 0, tap_window_y_o = 0,
+                tap_composite_block_o = 0;
+  std::uint64_t tap_sums_o = 0, tap_weights_o = 0, tap_state_o = 0;
+};
+
+RtlOptions patient() {
+  RtlOptions options;
+  options.timeout = 500;
+  return options;
+}
+
+void expect_hang(const std::function<void()>& action, const char* told) {
+  try {
+    action();
+    FAIL() << "went on";
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.code(), ExitCode::Simulation);
+    EXPECT_NE(std::string(error.what()).find(told), std::string::npos) << error.what();
+    std::printf("[figure] %s\n", error.what());
+  }
+}
+
+TEST(SilentBus, AReadThatIsNeverTakenEndsTheRun) {
+  cmodel::NullPixels none;
+  SilentTop::reads_answered = false;
+  expect_hang([&] { VerilatedDevice<SilentTop>(driver::load_config("tiny"), none, patient()); },
+              "no register read taken");
+}
+
+TEST(SilentBus, AWriteThatIsNeverTakenEndsTheRun) {
+  cmodel::NullPixels none;
+  SilentTop::reads_answered = true;
+  VerilatedDevice<SilentTop> device(driver::load_config("tiny"), none, patient());
+  expect_hang([&] { device.write_register(0, 1, 0); }, "no register write taken");
+}
+
+}  // namespace
+}  // namespace fastsplat::testbench

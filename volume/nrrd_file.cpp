@@ -253,7 +253,10 @@ Packing packing_from(const Header& header) {
   const std::string value = lower(field.value);
   if (value == "raw") return Packing::Plain;
   if (value == "gzip" || value == "gz") return Packing::Gzip;
-  refuse(header.path, field.line, "an encoding that cannot be read", "raw or gzip", field.value.substr(0, 40),
+  if (value == "bzip2" || value == "bz2") return Packing::Bzip2;
+  if (value == "hex") return Packing::Hex;
+  if (value == "text" || value == "txt" || value == "ascii") return Packing::Text;
+  refuse(header.path, field.line, "an encoding that cannot be read", "raw, gzip, bzip2, hex or ascii", field.value.substr(0, 40),
          "convert it (unu save -f nrrd -e gzip)");
 }
 
@@ -296,8 +299,8 @@ std::uint64_t byte_skip(const Header& header, const VoxelSource& source) {
   }
   const Field* field = header.find("byteskip");
   if (field == nullptr || field->value == "0") return 0;
-  if (source.packing == Packing::Gzip) {
-    refuse(header.path, field->line, "byte skip with gzip encoding is not supported", "byte skip: 0",
+  if (source.packing != Packing::Plain) {
+    refuse(header.path, field->line, "byte skip with an encoding other than raw is not supported", "byte skip: 0",
            field->value.substr(0, 40), "convert it (unu save -f nrrd -e gzip)");
   }
   std::error_code error;
@@ -392,8 +395,9 @@ VoxelSource read_nrrd_header(const fs::path& path) {
   source.spacing = geometry.spacing;
   source.orientation = geometry.orientation;
   source.component = component_of(header, nrrd->type);
-  source.order = endian_of(header, source.component);
   source.packing = packing_from(header);
+  source.order =
+      source.packing == Packing::Text ? std::endian::native : endian_of(header, source.component);
   const Field* detached = header.find("datafile");
   if (detached == nullptr && !header.blank_line) {
     refuse(path, 0, "the NRRD header does not end", "a blank line, then the data", {},

@@ -6,13 +6,10 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "volume/byte_reader.hpp"
+#include "volume/stored_values.hpp"
 #include "volume/volume.hpp"
 
 namespace fastsplat::volume {
-
-enum class Component { U8, I8, U16, I16, U32, I32, F32, F64 };
-std::size_t size_of(Component component);
 
 /// Which grid axis of the file runs along x, y and z of the volume, and whether backwards.
 struct Orientation {
@@ -37,7 +34,7 @@ struct VoxelSource {
 };
 
 /// Throws UserError (Input) unless extents and spacing make sense and the data file can hold that many voxels (gzip
-/// cannot shrink below 1/1032). Allocates nothing.
+/// cannot shrink below 1/1032, bzip2 below a two-millionth). Allocates nothing.
 void check_source(const VoxelSource& source);
 
 /// dims, spacing, stored type; no voxels. 32-bit integers and doubles are announced as F32.

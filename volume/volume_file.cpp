@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/read_file.hpp"
 #include "base/suggest.hpp"
+#include "volume/metaimage_file.hpp"
 #include "volume/nifti_file.hpp"
 #include "volume/nrrd_file.hpp"
 #include "volume/synthetic.hpp"
@@ -88,10 +89,11 @@ fs::path find_file(const std::string& text) {
 VoxelSource read_header(const fs::path& path) {
   require_readable_file(path);
   if (is_nrrd(path)) return read_nrrd_header(path);
+  if (is_metaimage(path)) return read_metaimage_header(path);
   if (is_nifti(path)) return read_nifti_header(path);
   throw_input({.where = path.string(),
                .what = "not a volume file that can be read",
-               .expected = "NRRD or NIfTI",
+               .expected = "NRRD, NIfTI or MetaImage",
                .got = {},
                .fix = "convert it, for example to .nrrd (unu) or .nii.gz"});
 }

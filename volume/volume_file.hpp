@@ -1,4 +1,4 @@
-// Volumes from files and by name: NRRD (teem), NIfTI (nifti2), synthetics.
+// Volumes from files and by name: NRRD (teem), NIfTI (nifti2), MetaImage, synthetics.
 #pragma once
 
 #include <filesystem>
@@ -12,15 +12,17 @@ namespace fastsplat::volume {
 /// Finds what the user named: an existing path; a synthetic "name[:size]"; or a scan of the Debian package
 /// mricron-data by its bare name (`ch2`, `ch2bet`, `inia19-t1-brain`, searched in $FASTSPLAT_DATA and
 /// /usr/share/mricron/templates). Every failure is a UserError (ExitCode::Input) with the fix.
-/// Where a file's header says how its axes lie in a body (NIfTI sform/qform, NRRD space), whole axes are turned so that
-/// +x is right, +y anterior, +z superior; oblique angles are not resampled.
+/// Where a file's header says how its axes lie in a body (NIfTI sform/qform, NRRD space, MetaImage matrix), whole axes
+/// are turned so that +x is right, +y anterior, +z superior as nearly as can be; the rest is Volume::axes. Nothing is
+/// resampled.
 Volume load_volume(const std::string& name_or_path);
 
 /// Reads only the header: dims, spacing, type; voxels stay empty.
 Volume read_volume_header(const std::string& name_or_path);
 
-/// Writes by extension: .nrrd (gzip), .nhdr, .nii, .nii.gz; in the volume's stored type unless `type` says otherwise
-/// (values that do not fit the type are an error, not a clamp). Atomic.
+/// Writes by extension: .nrrd (gzip), .nhdr, .nii, .nii.gz, .mha (zlib), .mhd; in the volume's stored type unless
+/// `type` says otherwise (values that do not fit the type are an error, not a clamp), with the volume's place in the
+/// body. Atomic.
 void save_volume(const Volume& volume, const std::filesystem::path& path, VoxelType type);
 
 /// Names that `load_volume` knows without a path.

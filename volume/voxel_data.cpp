@@ -142,33 +142,6 @@ std::vector<float> read_voxels(const VoxelSource& source) {
   return voxels;
 }
 
-/// Turns whole axes so that the volume's run the way `orientation` says.
-void reorient(Volume& volume, const Orientation& orientation) {
-  if (orientation == Orientation{}) return;
-  Volume turned = volume;
-  for (int a = 0; a < 3; ++a) {
-    turned.dims[a] = volume.dims[orientation.axis[static_cast<std::size_t>(a)]];
-    turned.spacing[a] = volume.spacing[orientation.axis[static_cast<std::size_t>(a)]];
-  }
-  if (!volume.voxels.empty()) {
-    auto out = turned.voxels.begin();
-    glm::ivec3 from;
-    for (int k = 0; k < turned.dims.z; ++k) {
-      for (int j = 0; j < turned.dims.y; ++j) {
-        for (int i = 0; i < turned.dims.x; ++i) {
-          const glm::ivec3 to(i, j, k);
-          for (int a = 0; a < 3; ++a) {
-            const auto slot = static_cast<std::size_t>(a);
-            from[orientation.axis[slot]] = orientation.flipped[slot] ? turned.dims[a] - 1 - to[a] : to[a];
-          }
-          *out++ = volume.at(from.x, from.y, from.z);
-        }
-      }
-    }
-  }
-  volume = std::move(turned);
-}
-
 Volume empty_volume(const VoxelSource& source) {
   Volume volume;
   for (int a = 0; a < 3; ++a) {
@@ -176,7 +149,16 @@ Volume empty_volume(const VoxelSource& source) {
     volume.spacing[a] = source.spacing[static_cast<std::size_t>(a)];
   }
   volume.stored = announced_type(source);
+  volume.remarks = source.remarks;
   return volume;
+}
+
+void note_shear(Volume& volume) {
+  constexpr double kWorthAWord = 0.1;  // degrees
+  const double shear = turn_of(volume).shear;
+  if (!(shear > kWorthAWord)) return;
+  volume.remarks.push_back(
+      fmt::format("the grid is sheared: two of its axes are {:.1f} degrees off a right angle; it is drawn so", shear));
 }
 
 }  // namespace
@@ -223,7 +205,7 @@ void check_source(const VoxelSource& source) {
 Volume describe_source(const VoxelSource& source) {
   check_source(source);
   Volume volume = empty_volume(source);
-  reorient(volume, source.orientation);
+  if (source.placement) place(volume, *source.placement);
   return volume;
 }
 
@@ -235,7 +217,8 @@ Volume read_source(const VoxelSource& source) {
   volume.min = *low;
   volume.max = *high;
   if (is_wide_integer(source.component) && !is_scaled(source)) volume.stored = integer_type(volume.min, volume.max);
-  reorient(volume, source.orientation);
+  if (source.placement) place(volume, *source.placement);
+  if (volume.oblique) note_shear(volume);
   return volume;
 }
 

@@ -1,22 +1,19 @@
-// From the bytes of a volume file to voxels: bounds, byte order, scaling, orientation. Shared by all formats.
+// From the bytes of a volume file to voxels: bounds, byte order, scaling, placement. Shared by all formats.
 #pragma once
 
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "volume/placement.hpp"
 #include "volume/stored_values.hpp"
 #include "volume/volume.hpp"
 
 namespace fastsplat::volume {
-
-/// Which grid axis of the file runs along x, y and z of the volume, and whether backwards.
-struct Orientation {
-  std::array<int, 3> axis{0, 1, 2};
-  std::array<bool, 3> flipped{false, false, false};
-  bool operator==(const Orientation&) const = default;
-};
 
 /// What a header says, checked against nothing yet.
 struct VoxelSource {
@@ -30,7 +27,8 @@ struct VoxelSource {
   std::array<std::uint64_t, 3> extents{};  ///< in the file's axes, x fastest
   std::array<double, 3> spacing{1, 1, 1};  ///< mm, in the file's axes
   double slope = 1.0, intercept = 0.0;     ///< value = slope * stored + intercept
-  Orientation orientation;
+  std::optional<Placement> placement;      ///< absent: the header does not say
+  std::vector<std::string> remarks;        ///< for Volume::remarks
 };
 
 /// Throws UserError (Input) unless extents and spacing make sense and the data file can hold that many voxels (gzip

@@ -65,12 +65,14 @@ ExitCode run(const Arguments& arguments) {
   volume::save_volume(volume, arguments.out, type);
   const Result result{.volume = std::move(volume), .out = arguments.out, .type = type};
   output.line(to_text(result));
+  output.remark(remarks(result.volume));
   output.json(to_json(result));
   return ExitCode::Pass;
 }
 
 }  // namespace
 
-const Verb verbs::volume_convert{"volume convert", "to .nrrd, .nhdr, .nii or .nii.gz", verb<Arguments, declare, run>};
+const Verb verbs::volume_convert{"volume convert", "to .nrrd, .nhdr, .nii, .nii.gz, .mha or .mhd",
+                                 verb<Arguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -123,7 +123,8 @@ TEST_F(Nrrd, ReadsBzip2HexAndAsciiLikeRaw) {
     got("txt", " \n" + text);
     EXPECT_EQ(load("type: " + type + "\nencoding: ascii\n", text).voxels, expected);  // text needs no byte order
   };
-  same("int16", bytes_of<std::int16_t>({-2, 1, 258, 3, -32768, 32767, 6, 7}, true), "-2 1\n258 3\t-32768\r\n32767 +6 7");
+  same("int16", bytes_of<std::int16_t>({-2, 1, 258, 3, -32768, 32767, 6, 7}, true),
+       "-2 1\n258 3\t-32768\r\n32767 +6 7");
   same("float", bytes_of<float>({0, 1, 0.1f, 3, -4, 5e20f, 6, 7}, true), "0 1 0.1 3e0\n-4 5e20 6.0 7");
   same("double", bytes_of<double>({0, 1, 0.1, 3, -4, 5e20, 6, 7}, true), "0 1 0.1 3e0\n-4 5e20 6.0 7");
   std::printf("[figure] encodings read like raw = %d\n", read);

@@ -15,6 +15,7 @@
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/video.hpp"
+#include "cli/volume_json.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -198,6 +199,7 @@ ExitCode run_animation(const RenderArguments& arguments, const Renderer& rendere
   for (std::size_t frame = 0; frame < count; ++frame) {
     const scene::Scene scene = scene_of(sequence, still, frame, volume);
     if (!volume) {
+      output.remark(remarks(*scene.volume));
       check_frames(sequence, still, count, scene.volume);
       output.line(fmt::format("{}, {}", summary(scene), counted(count, "frame")));
     }

@@ -71,6 +71,13 @@ double influence(const scene::Scene& scene, const SheetGeometry& geometry) {
   return std::hypot(across + largest_tilt(geometry) * along, along);
 }
 
+/// How far a ball of radius 1 reaches along each of the grid's axes: farther than 1 where they are sheared.
+glm::dvec3 reach_across(const volume::Volume& volume) {
+  if (!volume.oblique) return glm::dvec3(1.0);
+  const glm::dmat3 rows = glm::transpose(volume.across);
+  return {glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2])};
+}
+
 }  // namespace
 
 double ripple_bound(const scene::Kernel& kernel, double tilt) {
@@ -89,7 +96,8 @@ DensityField collect_densities(const scene::Scene& scene, bool skip) {
   const volume::Volume& volume = *scene.volume;
   const SheetGeometry geometry(scene);
   const scene::Classifier classify(scene.transfer_function, volume);
-  const glm::ivec3 reach(glm::ceil(influence(scene, geometry) * geometry.unit() / volume.spacing));
+  const glm::ivec3 reach(
+      glm::ceil(influence(scene, geometry) * geometry.unit() * reach_across(volume) / volume.spacing));
   // How far grown and elliptical footprints reach, and how high textured ones add up, is not worked out here.
   const scene::FootprintSettings& footprint = scene.description.footprint;
   skip = skip && footprint.shape == scene::FootprintShape::Circle && !footprint.antialias &&

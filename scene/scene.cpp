@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "scene/capability.hpp"
 #include "scene/settings.hpp"
@@ -64,13 +65,14 @@ Scene build_scene(const SceneDescription& description, std::shared_ptr<const vol
                                                  : automatic_exposure(*volume, tf, description.opacity_scale);
   }
   const glm::dvec3 cell = volume->spacing / unit;
+  const double upright = volume->oblique ? std::abs(glm::determinant(volume->axes)) : 1.0;  // a sheared cell is smaller
   Scene scene{.description = description,
               .volume = std::move(volume),
               .transfer_function = std::move(tf),
               .kernel = kernel,
               .camera = camera,
               .shading = shading,
-              .amplitude = kernel.peak() * cell.x * cell.y * cell.z,
+              .amplitude = kernel.peak() * cell.x * cell.y * cell.z * upright,
               .xray_scale = xray_scale};
   check_capability(scene, kOffersAll);  // now that shading is known
   return scene;

@@ -56,7 +56,7 @@ struct Scene {
   Kernel kernel;
   Camera camera;
   Shading shading;
-  /// Footprint amplitude per unit extinction: kernel.peak() * spacing.x*spacing.y*spacing.z / kernel_unit^3
+  /// Footprint amplitude per unit extinction: kernel.peak() * volume of a grid cell / kernel_unit^3
   /// (optical depth that one voxel of extinction 1 adds at its centre).
   double amplitude = 0.0;
   /// Method::XRay: pixel = xray_scale * summed emission. Automatic: 1 / (1.05 * densest voxel's extinction * (diameter

@@ -12,6 +12,7 @@
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
+#include "cli/volume_json.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -84,6 +85,7 @@ Json to_json(const Result& result) {
 
 ExitCode run_still(const RenderArguments& arguments, const Renderer& renderer, const Output& output) {
   const scene::Scene scene = build(arguments.scene);
+  output.remark(remarks(*scene.volume));
   RenderedFrame frame;
   {
     ProgressBar bar(arguments.engine, watching(arguments.common));

@@ -10,6 +10,7 @@
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
+#include "cli/volume_json.hpp"
 #include "driver/stream_file.hpp"
 
 namespace fastsplat::cli {
@@ -66,6 +67,7 @@ ExitCode run(const Arguments& arguments) {
   check_outputs({.images = {}, .maps = {}, .raws = {}, .others = {arguments.out, arguments.common.json}, .inputs = {}});
   const auto config = load(arguments.config);
   const auto scene = build(arguments.scene);
+  output.remark(remarks(*scene.volume));
 
   Result result{.scene = summary(scene), .stream = arguments.out, .config = config, .driver = {}};
   {

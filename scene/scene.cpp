@@ -45,7 +45,10 @@ double automatic_exposure(const volume::Volume& volume, const TransferFunction& 
 Scene build_scene(const SceneDescription& description) {
   check_limits(description);
   check_capability(description, kOffersAll);
-  return build_scene(description, std::make_shared<const volume::Volume>(volume::load_volume(description.volume)));
+  volume::ReadOptions reading;
+  if (description.nan_as) reading.nan_as = static_cast<float>(*description.nan_as);
+  return build_scene(description,
+                     std::make_shared<const volume::Volume>(volume::load_volume(description.volume, reading)));
 }
 
 Scene build_scene(const SceneDescription& description, std::shared_ptr<const volume::Volume> volume) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,7 @@ struct SceneDescription {
   Texture texture{};
   Bump bump{};
   Culling culling{};
+  std::optional<double> nan_as{};  ///< in the place of voxels that are not finite; without it they are refused
 };
 
 /// Ready to render: files read, names resolved, limits checked.

@@ -81,14 +81,13 @@ std::string expected_instead(const Setting& setting, const std::string& text) {
 
 std::string toml_string(const char* text) { return fmt::format("\"{}\"", text); }
 
-/// A number TOML reads back as a float.
-std::string toml_real(double value) {
+}  // namespace
+
+std::string number_as_toml(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find_first_of(".en") == std::string::npos) text += ".0";
   return text;
 }
-
-}  // namespace
 
 std::string dotted(const Setting& setting) {
   return *setting.table ? fmt::format("{}.{}", setting.table, setting.key) : setting.key;
@@ -167,11 +166,11 @@ std::string value_as_toml(const Setting& setting, const SceneDescription& descri
   SceneDescription d = description;  // the list's accessors also write
   return std::visit(
       Each{
-          [&](const Real& kind) { return toml_real(kind.of(d)); },
+          [&](const Real& kind) { return number_as_toml(kind.of(d)); },
           [&](const Integer& kind) { return fmt::format("{}", kind.of(d)); },
           [&](const Triple& kind) {
             const glm::dvec3& v = kind.of(d);
-            return fmt::format("[{}, {}, {}]", toml_real(v.x), toml_real(v.y), toml_real(v.z));
+            return fmt::format("[{}, {}, {}]", number_as_toml(v.x), number_as_toml(v.y), number_as_toml(v.z));
           },
           [&](const Switch& kind) { return std::string(kind.of(d) ? "true" : "false"); },
           [&](const Choice& kind) { return toml_string(kind.names()[static_cast<std::size_t>(kind.get(d))].c_str()); },

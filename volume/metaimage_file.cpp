@@ -185,11 +185,16 @@ void refuse_scaling(const Header& header) {
   }
 }
 
-std::array<double, 3> spacing_of(const Header& header, std::size_t dimensions) {
+void read_spacing(const Header& header, std::size_t dimensions, VoxelSource& source) {
   const Field* field = header.find({"ElementSpacing", "ElementSize"});
-  if (field == nullptr) return {1, 1, 1};
+  if (field == nullptr) return;
   const auto all = numbers_from(header, *field, dimensions);
-  return {std::abs(all[0]), std::abs(all[1]), std::abs(all[2])};
+  for (std::size_t a = 0; a < 3; ++a) {
+    source.spacing[a] = std::abs(all[a]);
+    if (all[a] < 0.0)
+      source.remarks.push_back(
+          fmt::format("the header's spacing of axis {} is {}: {} mm are taken", a + 1, all[a], source.spacing[a]));
+  }
 }
 
 /// Nothing where the header has none of the fields.
@@ -269,7 +274,7 @@ VoxelSource read_metaimage_header(const fs::path& path) {
   source.header = path;
   source.component = component_of(header);
   source.extents = {extents[0], extents[1], extents[2]};
-  source.spacing = spacing_of(header, extents.size());
+  read_spacing(header, extents.size(), source);
   source.placement = placement_of(header, extents.size());
   refuse_scaling(header);
   const bool big = flag_from(header, {"BinaryDataByteOrderMSB", "ElementByteOrderMSB"}, false);

@@ -65,6 +65,7 @@ RawHeader read_raw(const fs::path& path) {
 struct Checked {
   std::array<std::int64_t, 8> dim{};
   int datatype = 0;
+  std::array<double, 3> pixdim{};
   bool pair = false;
   double offset = 0.0;
 };
@@ -90,6 +91,11 @@ Checked check(const fs::path& path, const RawHeader& header) {
   for (std::size_t i = 0; i < 8; ++i) {
     checked.dim[i] = one ? field_at<std::int16_t>(header, offsetof(nifti_1_header, dim) + 2 * i)
                          : field_at<std::int64_t>(header, offsetof(nifti_2_header, dim) + 8 * i);
+  }
+  for (std::size_t a = 0; a < 3; ++a) {
+    checked.pixdim[a] =
+        one ? static_cast<double>(field_at<float>(header, offsetof(nifti_1_header, pixdim) + 4 * (a + 1)))
+            : field_at<double>(header, offsetof(nifti_2_header, pixdim) + 8 * (a + 1));
   }
   checked.datatype =
       field_at<std::int16_t>(header, one ? offsetof(nifti_1_header, datatype) : offsetof(nifti_2_header, datatype));
@@ -227,7 +233,8 @@ VoxelSource read_nifti_header(const fs::path& path) {
   const double mm = mm_per_unit(image->xyz_units);
   for (std::size_t a = 0; a < 3; ++a) {
     source.extents[a] = static_cast<std::uint64_t>(checked.dim[a + 1]);
-    source.spacing[a] = std::abs(image->pixdim[a + 1]) * mm;
+    const double length = std::abs(image->pixdim[a + 1]);
+    source.spacing[a] = (length > 0.0 && std::isfinite(length) ? length : 1.0) * mm;
   }
   if (image->scl_slope != 0.0) {  // 0 means: as stored
     source.slope = image->scl_slope;
@@ -241,6 +248,12 @@ VoxelSource read_nifti_header(const fs::path& path) {
       const double step = glm::length(source.placement->direction[a]);
       if (!(std::abs(step - source.spacing[a]) <= kRounding * step)) source.spacing[a] = step;
     }
+  }
+  // libnifti takes 1 for what is no length, and we a length for what is negative; neither is passed over in silence.
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (checked.pixdim[a] > 0.0 && std::isfinite(checked.pixdim[a])) continue;
+    source.remarks.push_back(fmt::format("the header's pixdim[{}] is {}, no length: {} mm are taken", a + 1,
+                                         checked.pixdim[a], source.spacing[a]));
   }
   return source;
 }

@@ -313,16 +313,24 @@ std::optional<std::array<double, 3>> towards_ras(int space) {
 struct Geometry {
   std::array<double, 3> spacing{1, 1, 1};
   std::optional<Placement> placement;
+  std::vector<std::string> remarks;
 };
 
-Geometry geometry_of(const Nrrd& nrrd, const std::array<unsigned, 3>& axes) {
+/// `says_spacings`: the header has the field; without it 1 mm is what everyone takes.
+Geometry geometry_of(const Nrrd& nrrd, const std::array<unsigned, 3>& axes, bool says_spacings) {
   Geometry geometry;
   std::array<std::array<double, NRRD_SPACE_DIM_MAX>, 3> directions{};
   bool all_directed = nrrd.spaceDim == 3;
   for (std::size_t a = 0; a < 3; ++a) {
     double spacing = 1.0;
     const int status = nrrdSpacingCalculate(&nrrd, axes[a], &spacing, directions[a].data());
-    if (status == nrrdSpacingStatusNone || status == nrrdSpacingStatusUnknown || std::isnan(spacing)) spacing = 1.0;
+    const bool known = status != nrrdSpacingStatusNone && status != nrrdSpacingStatusUnknown && !std::isnan(spacing);
+    if (!known) spacing = 1.0;
+    if (!known && says_spacings)
+      geometry.remarks.push_back(fmt::format("the header's spacing of axis {} is no number: 1 mm is taken", a + 1));
+    if (spacing < 0.0)
+      geometry.remarks.push_back(
+          fmt::format("the header's spacing of axis {} is {}: {} mm are taken", a + 1, spacing, -spacing));
     all_directed = all_directed && status == nrrdSpacingStatusDirection;
     geometry.spacing[a] = std::abs(spacing);
   }
@@ -355,13 +363,14 @@ VoxelSource read_nrrd_header(const fs::path& path) {
   const auto axes = volume_axes(header, sizes);
   header.need("type");
   const NrrdPointer nrrd = parse_with_teem(header);
-  const Geometry geometry = geometry_of(*nrrd, axes);
+  const Geometry geometry = geometry_of(*nrrd, axes, header.find("spacings") != nullptr);
 
   VoxelSource source;
   source.header = path;
   source.extents = {sizes[axes[0]], sizes[axes[1]], sizes[axes[2]]};
   source.spacing = geometry.spacing;
   source.placement = geometry.placement;
+  source.remarks = geometry.remarks;
   source.component = component_of(header, nrrd->type);
   source.packing = packing_from(header);
   source.order = source.packing == Packing::Text ? std::endian::native : endian_of(header, source.component);

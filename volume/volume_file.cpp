@@ -108,13 +108,13 @@ Volume named(Volume volume, const std::string& name, const fs::path& path) {
 
 }  // namespace
 
-Volume load_volume(const std::string& name_or_path) {
+Volume load_volume(const std::string& name_or_path, const ReadOptions& options) {
   std::error_code ignored;
   if (!fs::is_regular_file(name_or_path, ignored)) {
     if (const auto synthetic = as_synthetic(name_or_path)) return make_synthetic(synthetic->name, synthetic->size);
   }
   const fs::path path = find_file(name_or_path);
-  return named(read_source(read_header(path)), name_or_path, path);
+  return named(read_source(read_header(path), options.nan_as), name_or_path, path);
 }
 
 Volume read_volume_header(const std::string& name_or_path) {

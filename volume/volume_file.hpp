@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,13 +10,18 @@
 
 namespace fastsplat::volume {
 
+struct ReadOptions {
+  /// Put in the place of NaN and infinity, which are refused without it.
+  std::optional<float> nan_as{};
+};
+
 /// Finds what the user named: an existing path; a synthetic "name[:size]"; or a scan of the Debian package
 /// mricron-data by its bare name (`ch2`, `ch2bet`, `inia19-t1-brain`, searched in $FASTSPLAT_DATA and
 /// /usr/share/mricron/templates). Every failure is a UserError (ExitCode::Input) with the fix.
 /// Where a file's header says how its axes lie in a body (NIfTI sform/qform, NRRD space, MetaImage matrix), whole axes
 /// are turned so that +x is right, +y anterior, +z superior as nearly as can be; the rest is Volume::axes. Nothing is
 /// resampled.
-Volume load_volume(const std::string& name_or_path);
+Volume load_volume(const std::string& name_or_path, const ReadOptions& options = {});
 
 /// Reads only the header: dims, spacing, type; voxels stay empty.
 Volume read_volume_header(const std::string& name_or_path);

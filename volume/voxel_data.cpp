@@ -110,7 +110,8 @@ std::uint64_t most_unpacked(const VoxelSource& source, std::uint64_t on_disk) {
   return on_disk;
 }
 
-std::vector<float> read_voxels(const VoxelSource& source) {
+/// `replaced`: how many voxels became `nan_as`.
+std::vector<float> read_voxels(const VoxelSource& source, std::optional<float> nan_as, std::uint64_t& replaced) {
   const std::uint64_t count = voxel_count(source);
   StoredValues stored(source.data, source.file_offset, source.stream_offset, source.packing, source.component,
                       source.order);
@@ -129,6 +130,11 @@ std::vector<float> read_voxels(const VoxelSource& source) {
       const double value = is_scaled(source) ? source.slope * number + source.intercept : number;
       const auto voxel = std::abs(value) <= 3.4028234663852886e38 ? static_cast<float>(value)
                                                                   : static_cast<float>(std::copysign(INFINITY, value));
+      if (nan_as && !std::isfinite(number)) {
+        voxels.push_back(*nan_as);
+        ++replaced;
+        continue;
+      }
       if (!std::isfinite(value) || std::isinf(voxel)) infinite.note(voxels.size(), value);
       if (is_wide_integer(source.component) && static_cast<double>(static_cast<float>(number)) != number)
         inexact.note(voxels.size(), number);
@@ -137,7 +143,8 @@ std::vector<float> read_voxels(const VoxelSource& source) {
     if (numbers.empty()) refuse_end(source, voxels.size(), stored.rest());
   }
   stored.verify_rest();
-  refuse_trouble(source, infinite, "are not finite numbers", "replace them, for example by 0, and save again");
+  refuse_trouble(source, infinite, "are not finite numbers",
+                 "add --nan-as 0 (or another value) to put that in their place");
   refuse_trouble(source, inexact, "do not fit a 24-bit mantissa", "rescale to 16 bits (unu quantize -b 16)");
   return voxels;
 }
@@ -209,13 +216,21 @@ Volume describe_source(const VoxelSource& source) {
   return volume;
 }
 
-Volume read_source(const VoxelSource& source) {
+Volume read_source(const VoxelSource& source, std::optional<float> nan_as) {
   check_source(source);
   Volume volume = empty_volume(source);
-  volume.voxels = read_voxels(source);
+  std::uint64_t replaced = 0;
+  volume.voxels = read_voxels(source, nan_as, replaced);
   const auto [low, high] = std::minmax_element(volume.voxels.begin(), volume.voxels.end());
   volume.min = *low;
   volume.max = *high;
+  if (replaced > 0) {
+    volume.remarks.push_back(fmt::format("{} of {} voxels are not finite numbers and were taken as {}", replaced,
+                                         volume.voxels.size(), *nan_as));
+  }
+  if (volume.min == volume.max && volume.voxels.size() > 1)
+    volume.remarks.push_back(
+        fmt::format("a constant volume, every voxel is {}: it shows as a block, or not at all", volume.min));
   if (is_wide_integer(source.component) && !is_scaled(source)) volume.stored = integer_type(volume.min, volume.max);
   if (source.placement) place(volume, *source.placement);
   if (volume.oblique) note_shear(volume);

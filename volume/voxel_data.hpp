@@ -39,7 +39,8 @@ void check_source(const VoxelSource& source);
 Volume describe_source(const VoxelSource& source);
 
 /// Reads the voxels. Stored types: 8/16-bit as they are; float, double and whatever is scaled as F32; 32-bit integers
-/// as the smallest of the others that holds them exactly, else refused. NaN and Inf are refused with count and place.
-Volume read_source(const VoxelSource& source);
+/// as the smallest of the others that holds them exactly, else refused. NaN and Inf become `nan_as`, or are refused
+/// with count and place. What is odd is in Volume::remarks.
+Volume read_source(const VoxelSource& source, std::optional<float> nan_as = {});
 
 }  // namespace fastsplat::volume

@@ -7,6 +7,7 @@
 #include "base/atomic_file.hpp"
 #include "cli/common.hpp"
 #include "cli/output.hpp"
+#include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "cli/volume_json.hpp"
 #include "volume/volume_file.hpp"
@@ -18,11 +19,14 @@ struct Arguments {
   Common common;
   std::string volume, out;
   std::optional<std::string> type;
+  std::optional<double> nan_as;
 };
 
 void declare(Options& options, Arguments& to) {
   options.positional("VOLUME", to.volume, "a file or a name");
   options.positional("OUT", to.out, "the file to write");
+  options.group("Input");
+  declare_nan_as(options, to.nan_as);
   options.group("Output");
   options.choice("--type", to.type, {"u8", "i8", "u16", "i16", "f32"}, "u8|i8|u16|i16|f32",
                  "voxel type; default as stored");
@@ -60,7 +64,7 @@ nlohmann::ordered_json to_json(const Result& result) {
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
   { const AtomicFile probe(arguments.out); }  // before the volume is read
-  auto volume = volume::load_volume(arguments.volume);
+  auto volume = volume::load_volume(arguments.volume, reading(arguments.nan_as));
   const auto type = arguments.type ? type_from(*arguments.type) : volume.stored;
   volume::save_volume(volume, arguments.out, type);
   const Result result{.volume = std::move(volume), .out = arguments.out, .type = type};

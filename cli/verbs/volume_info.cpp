@@ -5,6 +5,7 @@
 
 #include "cli/common.hpp"
 #include "cli/output.hpp"
+#include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "cli/volume_json.hpp"
 #include "volume/placement.hpp"
@@ -16,10 +17,13 @@ namespace {
 struct Arguments {
   Common common;
   std::string volume;
+  std::optional<double> nan_as;
 };
 
 void declare(Options& options, Arguments& to) {
   options.positional("VOLUME", to.volume, "a file or a name");
+  options.group("Input");
+  declare_nan_as(options, to.nan_as);
   declare(options, to.common);
 }
 
@@ -58,7 +62,7 @@ std::string to_text(const volume::Volume& volume) {
 
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
-  const auto volume = volume::load_volume(arguments.volume);
+  const auto volume = volume::load_volume(arguments.volume, reading(arguments.nan_as));
   output.line(to_text(volume));
   output.remark(remarks(volume));
   output.json(volume_json(volume));

@@ -200,10 +200,10 @@ ExitCode run_animation(const RenderArguments& arguments, const Renderer& rendere
     const scene::Scene scene = scene_of(sequence, still, frame, volume);
     if (!volume) {
       output.remark(remarks(*scene.volume));
-      check_frames(sequence, still, count, scene.volume);
+      check_frames(sequence, still, count, scene.whole);
       output.line(fmt::format("{}, {}", summary(scene), counted(count, "frame")));
     }
-    volume = scene.volume;
+    volume = scene.whole;
 
     const auto files = files_of(arguments, static_cast<int>(frame), sequence.frames);
     const auto metadata = metadata_of(renderer, scene);
@@ -225,7 +225,7 @@ ExitCode run_animation(const RenderArguments& arguments, const Renderer& rendere
       }
       entry.report = report_of(renderer, scene, rendered);
       output.remark(remarks(*entry.report));
-      write_frame(rendered, files, metadata, output);
+      write_frame(rendered, scene, files, metadata, output);
       if (rendered.checked) code = rendered.checked->exit_code();
     }
     if (code != ExitCode::Pass) {

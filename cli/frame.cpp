@@ -130,15 +130,15 @@ std::vector<Remark> remarks(const FrameReport& report) {
   return device != nullptr ? remarks(*device) : std::vector<Remark>{};
 }
 
-void write_frame(const RenderedFrame& frame, const FrameFiles& files, const images::Metadata& metadata,
-                 const Output& output) {
+void write_frame(const RenderedFrame& frame, const scene::Scene& scene, const FrameFiles& files,
+                 const images::Metadata& metadata, const Output& output) {
   if (const auto* device = std::get_if<driver::DeviceRender>(&frame.picture)) {
-    write_device_images(*device, files.out, files.raw, metadata, output);
+    write_device_images(*device, files.out, files.raw, metadata, output, &scene.description);
     return;
   }
   const Image& image = std::get<Image>(frame.picture);
   warn_if_empty(image, output);
-  write_images(files.out, image, metadata, output);
+  write_images(files.out, image, scene::displayed(image, scene.description), metadata, output);
 }
 
 }  // namespace fastsplat::cli

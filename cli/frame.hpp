@@ -63,7 +63,7 @@ std::string to_text(const FrameReport& report);
 /// Keys for the JSON of a verb.
 nlohmann::ordered_json to_json(const FrameReport& report);
 std::vector<Remark> remarks(const FrameReport& report);
-void write_frame(const RenderedFrame& frame, const FrameFiles& files, const images::Metadata& metadata,
-                 const Output& output);
+void write_frame(const RenderedFrame& frame, const scene::Scene& scene, const FrameFiles& files,
+                 const images::Metadata& metadata, const Output& output);
 
 }  // namespace fastsplat::cli

@@ -57,8 +57,15 @@ class BrickMaxima {
   std::vector<float> largest_;
 };
 
-/// Of all rays those of the corners lean most.
-double largest_tilt(const SheetGeometry& geometry) { return glm::length(geometry.tilt(0.0, 0.0)); }
+/// Of all rays one of the corners' leans most: the first, unless the picture is off the view axis.
+double largest_tilt(const SheetGeometry& geometry) {
+  const scene::Camera& camera = geometry.camera();
+  double largest = 0.0;
+  for (const double x : {0.0, camera.width() - 1.0}) {
+    for (const double y : {0.0, camera.height() - 1.0}) largest = std::max(largest, glm::length(geometry.tilt(x, y)));
+  }
+  return largest;
+}
 
 /// From a voxel to the farthest voxel that shares a pixel's density or gradient with it, kernel units: a pixel's
 /// density takes voxels within R across and R + W in depth; its gradient those of the next pixel and sheet.

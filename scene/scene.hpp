@@ -9,10 +9,12 @@
 
 #include "scene/camera.hpp"
 #include "scene/culling.hpp"
+#include "scene/display.hpp"
 #include "scene/kernel.hpp"
 #include "scene/solid_texture.hpp"
 #include "scene/techniques.hpp"
 #include "scene/transfer_function.hpp"
+#include "scene/voxel_box.hpp"
 #include "volume/volume.hpp"
 
 namespace fastsplat::scene {
@@ -47,14 +49,16 @@ struct SceneDescription {
   Texture texture{};
   Bump bump{};
   Culling culling{};
+  VoxelBox crop{};                 ///< voxels outside are not there
+  Display display{};               ///< of pictures for looking
   std::optional<double> nan_as{};  ///< in the place of voxels that are not finite; without it they are refused
 };
 
 /// Ready to render: files read, names resolved, limits checked.
 struct Scene {
   SceneDescription description;
-  std::shared_ptr<const volume::Volume> volume;
-  TransferFunction transfer_function;
+  std::shared_ptr<const volume::Volume> volume;  ///< cropped
+  TransferFunction transfer_function;            ///< where cropped, with the domain of the whole volume resolved
   Kernel kernel;
   Camera camera;
   Shading shading;
@@ -65,6 +69,7 @@ struct Scene {
   /// of the box of voxel centres + 1 kernel unit)), which no ray of any view can exceed 1 with (1.05: ripple of the
   /// kernel).
   double xray_scale = 1.0;
+  std::shared_ptr<const volume::Volume> whole{};  ///< as it was read: build_scene takes it again
 };
 
 /// A scene.toml, or a built-in scene as "demo:NAME". Unknown keys and bad values are UserErrors with file:line and a
@@ -76,7 +81,7 @@ std::vector<std::string> demo_names();  ///< sorted
 std::string to_toml(const SceneDescription& description);
 
 Scene build_scene(const SceneDescription& description);
-/// The same with a volume already in memory.
+/// The same with a volume already in memory, not yet cropped.
 Scene build_scene(const SceneDescription& description, std::shared_ptr<const volume::Volume> volume);
 
 const char* to_string(Method method);

@@ -31,6 +31,10 @@ struct Triple {
   double low, high;  ///< of each component
   glm::dvec3& (*of)(SceneDescription&);
 };
+/// "A..B,C..D,E..F", voxels, both ends included; "" is everything.
+struct Box {
+  VoxelBox& (*of)(SceneDescription&);
+};
 struct Switch {
   bool& (*of)(SceneDescription&);
 };
@@ -48,7 +52,7 @@ struct Setting {
   const char* group;  ///< of the flag, in the help
   const char* unit;   ///< of the flag's value, in the help
   const char* help;
-  std::variant<Real, Integer, Triple, Switch, Choice> value;
+  std::variant<Real, Integer, Triple, Box, Switch, Choice> value;
   Capability capability;  ///< where it has a meaning
 };
 

@@ -97,7 +97,7 @@ ExitCode run_still(const RenderArguments& arguments, const Renderer& renderer, c
                 .files = {.out = arguments.out, .raw = arguments.raw}};
   output.line(to_text(result.frame));
   output.remark(remarks(result.frame));
-  write_frame(frame, result.files, metadata_of(renderer, scene), output);
+  write_frame(frame, scene, result.files, metadata_of(renderer, scene), output);
   if (!arguments.save_scene.empty()) write_text_file(arguments.save_scene, scene::to_toml(scene.description));
 
   result.seconds = output.seconds();

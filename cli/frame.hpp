@@ -51,7 +51,8 @@ struct GoldenReport {
 
 /// A frame in numbers.
 struct FrameReport {
-  std::string scene;  ///< its summary
+  std::string scene;             ///< its summary
+  double footprint_width = 0.0;  ///< of a splat at the volume's centre, pixels
   std::variant<GoldenReport, DeviceReport> engine;
   std::optional<RtlRun> checked;
 };

@@ -1,4 +1,4 @@
-// Pictures for looking and pictures for measuring.
+// Pictures for looking and pictures for measuring, and what is said of a picture too small for the device.
 #include <gtest/gtest.h>
 
 #include "tests/cli/process_helper.hpp"
@@ -56,6 +56,21 @@ TEST(ViewFlags, AreKeptBySavedScenesAndRefusedInOneLine) {
   refused({"--background", "2,0,0"}, {"--background", "0..1"});
   refused({"--xray-invert", "on"}, {"--method xray"});
   refused({"--fit", "contents"}, {"did you mean 'content'"});
+}
+
+TEST(ViewFlags, AFootprintUnderTwoPixelsIsSaid) {
+  const Words small{"render", "--volume", "shells:32", "--size", "24", "--engine", "cmodel", "--json", "-"};
+  const Result result = fastsplat(small);
+  EXPECT_EQ(result.code, 0);
+  EXPECT_NE(result.err.find("pixels wide"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("larger --size"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("snap.phases"), std::string::npos) << result.err;
+  std::printf("[figure] said: %s\n", result.err.c_str());
+  for (const Words& fine :
+       {Words{"render", "--volume", "shells:32", "--size", "96", "--engine", "cmodel", "--json", "-"},
+        {"render", "--volume", "shells:32", "--size", "24", "--json", "-"}}) {
+    EXPECT_EQ(fastsplat(fine).err.find("pixels wide"), std::string::npos);
+  }
 }
 
 }  // namespace

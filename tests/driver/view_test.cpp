@@ -82,8 +82,9 @@ TEST(View, FitContentFillsThePictureWithWhatIsNotEmpty) {
 }
 
 TEST(View, ACropIsTheVolumeOfItsVoxelsInTheColoursOfTheWhole) {
-  auto whole = std::make_shared<volume::Volume>(volume::load_volume("shells:24"));
-  SceneDescription d = view_of("shells:24", 64);
+  const auto whole = std::make_shared<const volume::Volume>(volume::make_volume(
+      glm::ivec3(24), glm::dvec3(1.0), volume::VoxelType::U8, [](int i, int j, int k) { return 7 * i + j + k; }));
+  SceneDescription d = view_of("none", 64);
   d.transfer_function = "mri-head";  // by percentile
   d.crop = {{2, 0, 5}, {13, 23, 20}};
   const scene::Scene scene = scene::build_scene(d, whole);

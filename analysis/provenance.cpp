@@ -49,6 +49,9 @@ std::uint64_t content_hash(const scene::Scene& scene) {
     hash.add(static_cast<std::uint64_t>(volume.dims[axis]));
     hash.add(volume.spacing[axis]);
   }
+  for (int axis = 0; volume.oblique && axis < 3; ++axis) {
+    for (int world = 0; world < 3; ++world) hash.add(volume.axes[axis][world]);
+  }
   for (const float voxel : volume.voxels) hash.add(static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(voxel)));
   const scene::TransferFunction& tf = scene.transfer_function;
   hash.add(static_cast<std::uint64_t>(tf.domain));

@@ -15,6 +15,7 @@
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/video.hpp"
+#include "cli/volume_json.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -199,10 +200,11 @@ ExitCode run_animation(const RenderArguments& arguments, const Renderer& rendere
   for (std::size_t frame = 0; frame < count; ++frame) {
     const scene::Scene scene = scene_of(sequence, still, frame, volume);
     if (!volume) {
-      check_frames(sequence, still, count, scene.volume);
+      output.remark(remarks(*scene.volume));
+      check_frames(sequence, still, count, scene.whole);
       output.line(fmt::format("{}, {}", summary(scene), counted(count, "frame")));
     }
-    volume = scene.volume;
+    volume = scene.whole;
 
     const auto files = files_of(arguments, static_cast<int>(frame), sequence.frames);
     const auto metadata = metadata_of(renderer, scene);
@@ -224,7 +226,7 @@ ExitCode run_animation(const RenderArguments& arguments, const Renderer& rendere
       }
       entry.report = report_of(renderer, scene, rendered);
       output.remark(remarks(*entry.report));
-      write_frame(rendered, files, metadata, output);
+      write_frame(rendered, scene, files, metadata, output);
       if (rendered.checked) code = rendered.checked->exit_code();
     }
     if (code != ExitCode::Pass) {

@@ -121,10 +121,11 @@ std::vector<Remark> remarks(const DeviceReport& report) {
 }
 
 void write_device_images(const driver::DeviceRender& result, const std::vector<std::string>& out,
-                         const std::string& raw, const images::Metadata& metadata, const Output& output) {
+                         const std::string& raw, const images::Metadata& metadata, const Output& output,
+                         const scene::SceneDescription* description) {
   const Image image = driver::to_image(result.frame);
   warn_if_empty(image, output);
-  write_images(out, image, metadata, output);
+  write_images(out, image, description ? scene::displayed(image, *description) : image, metadata, output);
   if (!raw.empty()) {
     const cmodel::Frame& frame = result.frame;
     images::write_raw(raw,

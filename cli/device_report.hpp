@@ -30,7 +30,9 @@ nlohmann::ordered_json to_json(const DeviceReport& report);
 std::vector<Remark> remarks(const driver::DriverReport& report);
 std::vector<Remark> remarks(const DeviceReport& report);
 
+/// `description`: of the scene that says how the picture is shown; absent for a replay.
 void write_device_images(const driver::DeviceRender& result, const std::vector<std::string>& out,
-                         const std::string& raw, const images::Metadata& metadata, const Output& output);
+                         const std::string& raw, const images::Metadata& metadata, const Output& output,
+                         const scene::SceneDescription* description = nullptr);
 
 }  // namespace fastsplat::cli

@@ -9,6 +9,7 @@
 #include "cli/device_report.hpp"
 #include "cli/image_output.hpp"
 #include "cli/scene_flags.hpp"
+#include "driver/splat_quantiser.hpp"
 #include "scene/sheet_plan.hpp"
 #include "scene/splats.hpp"
 
@@ -16,6 +17,8 @@ namespace fastsplat::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr double kNarrow = 2.0;  // pixels: such a footprint covers one to four of them
 
 const std::vector<std::string> kEngines{"golden", "cmodel", "rtl"};
 
@@ -104,7 +107,10 @@ RenderedFrame render_frame(const Renderer& renderer, const scene::Scene& scene, 
 }
 
 FrameReport report_of(const Renderer& renderer, const scene::Scene& scene, const RenderedFrame& frame) {
-  FrameReport report{.scene = summary(scene), .engine = {}, .checked = frame.checked};
+  FrameReport report{.scene = summary(scene),
+                     .footprint_width = 2.0 * driver::pixel_radius(scene, scene.camera.scale_at(0.0)),
+                     .engine = {},
+                     .checked = frame.checked};
   if (const auto* device = std::get_if<driver::DeviceRender>(&frame.picture)) {
     report.engine = DeviceReport{*renderer.config, device->report, device->counters, device->units,
                                  scene.description.method == scene::Method::XRay};
@@ -128,18 +134,28 @@ nlohmann::ordered_json to_json(const FrameReport& report) {
 
 std::vector<Remark> remarks(const FrameReport& report) {
   const auto* device = std::get_if<DeviceReport>(&report.engine);
-  return device != nullptr ? remarks(*device) : std::vector<Remark>{};
+  if (device == nullptr) return {};
+  auto said = remarks(*device);
+  if (report.footprint_width < kNarrow) {
+    said.push_back(
+        {Remark::Note,
+         fmt::format("footprints are {:.2g} pixels wide: below {:g} the device's rounding of their places to "
+                     "1/{} pixel shows; a larger --size or --zoom, or more phases (--set snap.phases and "
+                     "position.frac_bits) help",
+                     report.footprint_width, kNarrow, device->config.phases)});
+  }
+  return said;
 }
 
-void write_frame(const RenderedFrame& frame, const FrameFiles& files, const images::Metadata& metadata,
-                 const Output& output) {
+void write_frame(const RenderedFrame& frame, const scene::Scene& scene, const FrameFiles& files,
+                 const images::Metadata& metadata, const Output& output) {
   if (const auto* device = std::get_if<driver::DeviceRender>(&frame.picture)) {
-    write_device_images(*device, files.out, files.raw, metadata, output);
+    write_device_images(*device, files.out, files.raw, metadata, output, &scene.description);
     return;
   }
   const Image& image = std::get<Image>(frame.picture);
   warn_if_empty(image, output);
-  write_images(files.out, image, metadata, output);
+  write_images(files.out, image, scene::displayed(image, scene.description), metadata, output);
 }
 
 }  // namespace fastsplat::cli

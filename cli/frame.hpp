@@ -52,7 +52,8 @@ struct GoldenReport {
 
 /// A frame in numbers.
 struct FrameReport {
-  std::string scene;  ///< its summary
+  std::string scene;             ///< its summary
+  double footprint_width = 0.0;  ///< of a splat at the volume's centre, pixels
   std::variant<GoldenReport, DeviceReport> engine;
   std::optional<RtlRun> checked;
 };
@@ -64,7 +65,7 @@ std::string to_text(const FrameReport& report);
 /// Keys for the JSON of a verb.
 nlohmann::ordered_json to_json(const FrameReport& report);
 std::vector<Remark> remarks(const FrameReport& report);
-void write_frame(const RenderedFrame& frame, const FrameFiles& files, const images::Metadata& metadata,
-                 const Output& output);
+void write_frame(const RenderedFrame& frame, const scene::Scene& scene, const FrameFiles& files,
+                 const images::Metadata& metadata, const Output& output);
 
 }  // namespace fastsplat::cli

@@ -35,13 +35,13 @@ void declare_images(Options& options, std::vector<std::string>& out, std::string
   options.word("--raw", raw, "FILE", "the device's raw integer words as .exr (cmodel, rtl)");
 }
 
-void write_images(const std::vector<std::string>& paths, const Image& image, const images::Metadata& metadata,
-                  const Output& output) {
+void write_images(const std::vector<std::string>& paths, const Image& image, const Image& shown,
+                  const images::Metadata& metadata, const Output& output) {
   for (const auto& path : paths) {
     const auto options = options_for(path);
     auto labelled = metadata;
     if (options.display) labelled["display"] = "srgb";
-    const std::size_t clamped = images::write_image(path, image, labelled, options);
+    const std::size_t clamped = images::write_image(path, ending(path) == ".exr" ? image : shown, labelled, options);
     if (clamped > 0) {
       output.warn(fmt::format("{}: {} values lay outside 0..1 and were clamped; write .exr to keep them", path,
                               grouped(clamped)));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <vector>
 
 #include "base/error.hpp"
@@ -89,12 +90,29 @@ std::vector<scene::Given> given_by(const SceneFlags& flags) {
 
 }  // namespace
 
+void declare_nan_as(Options& options, std::optional<double>& to) {
+  options.number("--nan-as", to, "VALUE", "what voxels that are NaN or infinite are taken as; refused without it");
+}
+
+volume::ReadOptions reading(const std::optional<double>& nan_as) {
+  if (!nan_as) return {};
+  if (!(std::abs(*nan_as) <= scene::kLargestVoxel)) {
+    throw_usage({.where = "--nan-as",
+                 .what = "not a value that a voxel can have",
+                 .expected = "a finite number that a float holds",
+                 .got = fmt::format("{}", *nan_as),
+                 .fix = "for example --nan-as 0"});
+  }
+  return {.nan_as = static_cast<float>(*nan_as)};
+}
+
 void declare(Options& options, SceneFlags& to) {
   options.group("Scene");
   options.word("--scene", to.file, "FILE|demo:NAME",
                "a scene.toml or a built-in demo:NAME (`doctor` lists them); the flags below override it");
   options.word("--volume", to.volume, "NAME|PATH",
-               "NRRD or NIfTI file, a built-in like shells:128, or ch2, ch2bet, inia19-t1-brain");
+               "NRRD, NIfTI or MetaImage file, a built-in like shells:128, or ch2, ch2bet, inia19-t1-brain");
+  declare_nan_as(options, to.nan_as);
   options.word("--tf", to.transfer_function, "NAME|FILE", "transfer function: a preset or a TOML file");
   options.word("--kernel", to.kernel, "NAME", "kernel by name: gauss2 (a=2,R=2), smooth (a=1.35,R=2)");
   options.group("Camera");
@@ -118,6 +136,7 @@ scene::SceneDescription describe(const SceneFlags& flags, const scene::Sequence*
   if (const auto& tf = flags.transfer_function; tf && !tf->empty())
     as_word(*tf, [&] { scene::load_transfer_function(*tf); });
   set(to.transfer_function, flags.transfer_function);
+  if (flags.nan_as) to.nan_as = reading(flags.nan_as).nan_as;
   apply_kernel(flags, to);
   apply_camera(flags, to);
   if (flags.size) {

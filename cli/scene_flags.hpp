@@ -7,12 +7,14 @@
 
 #include "cli/options.hpp"
 #include "scene/sequence.hpp"
+#include "volume/volume_file.hpp"
 
 namespace fastsplat::cli {
 
 /// A scene: a file, single flags, or a file overridden by flags. Absent ones leave the file's or the default value.
 struct SceneFlags {
   std::optional<std::string> file, volume, transfer_function, kernel, size;
+  std::optional<double> nan_as;
   bool perspective = false, orthographic = false;
   /// The flags made from scene::settings() ("--slab-width"), with their texts, which have no problem.
   std::map<std::string, std::string> settings;
@@ -20,6 +22,10 @@ struct SceneFlags {
 };
 
 void declare(Options& options, SceneFlags& to);
+
+/// --nan-as, wherever volumes are read.
+void declare_nan_as(Options& options, std::optional<double>& to);
+volume::ReadOptions reading(const std::optional<double>& nan_as);
 
 /// UserError where a flag, or a key of the file, changes nothing: neither in the scene nor in any frame of `sequence`.
 /// A key may also have its meaning in the file's own scene, before the flags.

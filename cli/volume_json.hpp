@@ -1,12 +1,16 @@
-// A volume in the JSON of the verbs: what it is, without its voxels.
+// A volume in the words of the verbs: what it is, without its voxels, and what was odd about it.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <vector>
 
+#include "cli/output.hpp"
 #include "volume/volume.hpp"
 
 namespace fastsplat::cli {
 
 nlohmann::ordered_json volume_json(const volume::Volume& volume);
+/// Volume::remarks, each a warning that names the volume.
+std::vector<Remark> remarks(const volume::Volume& volume);
 
 }  // namespace fastsplat::cli

@@ -57,8 +57,15 @@ class BrickMaxima {
   std::vector<float> largest_;
 };
 
-/// Of all rays those of the corners lean most.
-double largest_tilt(const SheetGeometry& geometry) { return glm::length(geometry.tilt(0.0, 0.0)); }
+/// Of all rays one of the corners' leans most: the first, unless the picture is off the view axis.
+double largest_tilt(const SheetGeometry& geometry) {
+  const scene::Camera& camera = geometry.camera();
+  double largest = 0.0;
+  for (const double x : {0.0, camera.width() - 1.0}) {
+    for (const double y : {0.0, camera.height() - 1.0}) largest = std::max(largest, glm::length(geometry.tilt(x, y)));
+  }
+  return largest;
+}
 
 /// From a voxel to the farthest voxel that shares a pixel's density or gradient with it, kernel units: a pixel's
 /// density takes voxels within R across and R + W in depth; its gradient those of the next pixel and sheet.
@@ -69,6 +76,13 @@ double influence(const scene::Scene& scene, const SheetGeometry& geometry) {
   const double along = 2.0 * radius + 3.0 * geometry.width();
   // A leaning ray carries a slab's depth across.
   return std::hypot(across + largest_tilt(geometry) * along, along);
+}
+
+/// How far a ball of radius 1 reaches along each of the grid's axes: farther than 1 where they are sheared.
+glm::dvec3 reach_across(const volume::Volume& volume) {
+  if (!volume.oblique) return glm::dvec3(1.0);
+  const glm::dmat3 rows = glm::transpose(volume.across);
+  return {glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2])};
 }
 
 }  // namespace
@@ -89,7 +103,8 @@ DensityField collect_densities(const scene::Scene& scene, bool skip) {
   const volume::Volume& volume = *scene.volume;
   const SheetGeometry geometry(scene);
   const scene::Classifier classify(scene.transfer_function, volume);
-  const glm::ivec3 reach(glm::ceil(influence(scene, geometry) * geometry.unit() / volume.spacing));
+  const glm::ivec3 reach(
+      glm::ceil(influence(scene, geometry) * geometry.unit() * reach_across(volume) / volume.spacing));
   // How far grown and elliptical footprints reach, and how high textured ones add up, is not worked out here.
   const scene::FootprintSettings& footprint = scene.description.footprint;
   skip = skip && footprint.shape == scene::FootprintShape::Circle && !footprint.antialias &&

@@ -22,7 +22,7 @@ Run PostClassified::extent(const SheetWindow& window, int, Run so_far) const {
 /// Beyond the outermost voxels' cells; asked only where nothing would be seen otherwise.
 bool PostClassified::outside(const glm::dvec3& position) const {
   const glm::dvec3 half = 0.5 * glm::dvec3(scene_.volume->dims) * scene_.volume->spacing;
-  return glm::any(glm::greaterThan(glm::abs(position), half));
+  return glm::any(glm::greaterThan(glm::abs(scene_.volume->to_grid(position)), half));
 }
 
 glm::dvec3 PostClassified::gradient(const SheetWindow& window, int x, int y, double pixels_per_unit) const {

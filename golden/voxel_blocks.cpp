@@ -48,7 +48,8 @@ VoxelBlocks::VoxelBlocks(const volume::Volume& volume, const std::vector<scene::
   std::vector<std::uint32_t> place(splats.size());
   std::vector<std::uint32_t> count(static_cast<std::size_t>(grid.x) * grid.y * grid.z);
   for (std::size_t i = 0; i < splats.size(); ++i) {
-    const glm::vec3 inside = glm::clamp((splats[i].position - corner) * per_mm, glm::vec3(0.0f), glm::vec3(grid - 1u));
+    const glm::vec3 inside = glm::clamp((glm::vec3(volume.to_grid(splats[i].position)) - corner) * per_mm,
+                                        glm::vec3(0.0f), glm::vec3(grid - 1u));
     const glm::uvec3 at(inside);
     place[i] = (at.z * grid.y + at.y) * grid.x + at.x;
     ++count[place[i]];

@@ -46,7 +46,7 @@ void check_angle(const char* name, double degrees) {
 }  // namespace
 
 Camera::Camera(const CameraParams& params, const volume::Volume& volume, double kernel_radius_mm, int width, int height)
-    : projection_(params.projection), width_(width), height_(height) {
+    : projection_(params.projection), width_(width), height_(height), centre_(0.5 * (width - 1), 0.5 * (height - 1)) {
   check_angle("azimuth", params.azimuth);
   check_angle("elevation", params.elevation);
   check_angle("roll", params.roll);
@@ -66,23 +66,31 @@ Camera::Camera(const CameraParams& params, const volume::Volume& volume, double 
   right_ = roll.cos * level + roll.sin * upright;
   down_ = roll.cos * upright - roll.sin * level;
 
+  const double zoom = params.fit == Fit::Content ? 1.0 : params.zoom;
   const double radius = volume.bounding_radius() + kernel_radius_mm;
   const double half_side = 0.5 * std::min(width, height);
   if (projection_ == Projection::Orthographic) {
-    scale_ = params.zoom * half_side / radius;
+    scale_ = zoom * half_side / radius;
     eye_distance_ = std::numeric_limits<double>::infinity();
     return;
   }
   if (!(params.fov > 1.0 && params.fov < 150.0))
     bad("field of view is out of range", "1..150 degrees, exclusive", params.fov, "30 is the default");
   const double half_fov = params.fov * std::numbers::pi / 360.0;
-  eye_distance_ = radius / (std::sin(half_fov) * params.zoom);
+  eye_distance_ = radius / (std::sin(half_fov) * zoom);
   if (eye_distance_ <= radius) {
     bad("the eye is inside the volume's bounding sphere",
         fmt::format("zoom < {:.3g} at this field of view", 1.0 / std::sin(half_fov)), params.zoom,
         "lower the zoom, or the field of view together with it");
   }
   scale_ = half_side / std::tan(half_fov) / eye_distance_;
+}
+
+Camera Camera::enlarged(double factor, const glm::dvec2& middle) const {
+  Camera camera = *this;
+  camera.scale_ *= factor;
+  camera.centre_ = 0.5 * glm::dvec2(width_ - 1, height_ - 1) + factor * (centre_ - middle);
+  return camera;
 }
 
 double Camera::scale_at(double depth) const {
@@ -92,15 +100,15 @@ double Camera::scale_at(double depth) const {
 ScreenPoint Camera::project(const glm::dvec3& world) const {
   const double depth = glm::dot(world, forward_);
   const double scale = scale_at(depth);
-  return {.x = 0.5 * (width_ - 1) + scale * glm::dot(world, right_),
-          .y = 0.5 * (height_ - 1) + scale * glm::dot(world, down_),
+  return {.x = centre_.x + scale * glm::dot(world, right_),
+          .y = centre_.y + scale * glm::dot(world, down_),
           .depth = depth,
           .scale = scale};
 }
 
 Ray Camera::ray(double x, double y) const {
-  const double across = (x - 0.5 * (width_ - 1)) / scale_;
-  const double along = (y - 0.5 * (height_ - 1)) / scale_;
+  const double across = (x - centre_.x) / scale_;
+  const double along = (y - centre_.y) / scale_;
   const glm::dvec3 origin = across * right_ + along * down_;
   if (projection_ == Projection::Orthographic) return {origin, forward_, 1.0};
   const glm::dvec3 direction = glm::normalize(origin + eye_distance_ * forward_);

@@ -7,6 +7,8 @@
 
 namespace fastsplat::scene {
 
+/// What fits the picture at zoom 1: the volume's bounding sphere, whatever the view, or the voxels that are not empty.
+enum class Fit { Sphere, Content };
 enum class Projection { Orthographic, Perspective };
 
 /// How the user places the camera.
@@ -17,6 +19,7 @@ struct CameraParams {
   double elevation = 15.0;  ///< degrees, positive looks down from above
   double roll = 0.0;        ///< degrees about the view axis
   double zoom = 1.0;        ///< 1: the bounding sphere (plus the kernel's radius) fits the smaller image side
+  Fit fit = Fit::Sphere;    ///< Content: scene/content_fit; zoom then enlarges the picture, the eye stays
   double fov = 30.0;        ///< degrees across the smaller image side, perspective only
 };
 
@@ -41,6 +44,9 @@ class Camera {
   /// outside (1,150), an eye inside the bounding sphere, sizes < 1.
   Camera(const CameraParams& params, const volume::Volume& volume, double kernel_radius_mm, int width, int height);
 
+  /// The same view with picture point `middle` moved to the picture's middle and everything `factor` times as large.
+  Camera enlarged(double factor, const glm::dvec2& middle) const;
+
   /// Perspective: meant for points in front of the eye, as all of the bounding sphere is.
   ScreenPoint project(const glm::dvec3& world) const;
   double scale_at(double depth) const;  ///< ScreenPoint::scale of a point at ScreenPoint::depth
@@ -60,6 +66,7 @@ class Camera {
   double scale_ = 1.0;  ///< pixels per mm at the centre
   double eye_distance_ = 0.0;
   int width_ = 0, height_ = 0;
+  glm::dvec2 centre_{0.0};  ///< where the view axis meets the picture, pixels
 };
 
 }  // namespace fastsplat::scene

@@ -50,6 +50,14 @@ Span resolve(Domain domain, const volume::Volume& volume) {
 
 }  // namespace
 
+TransferFunction resolved(const TransferFunction& tf, const volume::Volume& volume) {
+  TransferFunction raw = tf;
+  const Span span = resolve(tf.domain, volume);
+  for (auto& point : raw.points) point.at = span.low + point.at * (span.high - span.low);
+  raw.domain = Domain::Value;
+  return raw;
+}
+
 Classifier::Classifier(const TransferFunction& tf, const volume::Volume& volume)
     : points_(tf.points), reference_length_(tf.reference_length), table_min_(volume.min) {
   assert(!points_.empty());

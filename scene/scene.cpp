@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "scene/capability.hpp"
+#include "scene/content_fit.hpp"
 #include "scene/settings.hpp"
 #include "volume/volume_file.hpp"
 
@@ -44,18 +46,23 @@ double automatic_exposure(const volume::Volume& volume, const TransferFunction& 
 Scene build_scene(const SceneDescription& description) {
   check_limits(description);
   check_capability(description, kOffersAll);
-  return build_scene(description, std::make_shared<const volume::Volume>(volume::load_volume(description.volume)));
+  volume::ReadOptions reading;
+  if (description.nan_as) reading.nan_as = static_cast<float>(*description.nan_as);
+  return build_scene(description,
+                     std::make_shared<const volume::Volume>(volume::load_volume(description.volume, reading)));
 }
 
-Scene build_scene(const SceneDescription& description, std::shared_ptr<const volume::Volume> volume) {
+Scene build_scene(const SceneDescription& description, std::shared_ptr<const volume::Volume> whole) {
   check_limits(description);
   check_capability(description, kOffersAll);
+  auto volume = cropped(whole, description.crop);
   const Kernel kernel = make_kernel(description);
   const double unit = volume->kernel_unit();
   const Camera camera(description.camera, *volume, kernel.radius() * unit, description.width, description.height);
   check_techniques(description.motion, description.lens, camera, volume->bounding_radius() + kernel.radius() * unit);
   TransferFunction tf = load_transfer_function(description.transfer_function.empty() ? preset_for(description.volume)
                                                                                      : description.transfer_function);
+  if (!description.crop.everything()) tf = resolved(tf, *whole);  // colours stay as they were
   Shading shading = tf.shading;
   if (description.shading >= 0) shading.on = description.shading == 1;
   double xray_scale = 1.0;
@@ -64,14 +71,17 @@ Scene build_scene(const SceneDescription& description, std::shared_ptr<const vol
                                                  : automatic_exposure(*volume, tf, description.opacity_scale);
   }
   const glm::dvec3 cell = volume->spacing / unit;
+  const double upright = volume->oblique ? std::abs(glm::determinant(volume->axes)) : 1.0;  // a sheared cell is smaller
   Scene scene{.description = description,
               .volume = std::move(volume),
               .transfer_function = std::move(tf),
               .kernel = kernel,
               .camera = camera,
               .shading = shading,
-              .amplitude = kernel.peak() * cell.x * cell.y * cell.z,
-              .xray_scale = xray_scale};
+              .amplitude = kernel.peak() * cell.x * cell.y * cell.z * upright,
+              .xray_scale = xray_scale,
+              .whole = std::move(whole)};
+  if (description.camera.fit == Fit::Content) scene.camera = fitted_to_content(scene, description.camera.zoom);
   check_capability(scene, kOffersAll);  // now that shading is known
   return scene;
 }

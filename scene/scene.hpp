@@ -3,15 +3,18 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "scene/camera.hpp"
 #include "scene/culling.hpp"
+#include "scene/display.hpp"
 #include "scene/kernel.hpp"
 #include "scene/solid_texture.hpp"
 #include "scene/techniques.hpp"
 #include "scene/transfer_function.hpp"
+#include "scene/voxel_box.hpp"
 #include "volume/volume.hpp"
 
 namespace fastsplat::scene {
@@ -46,23 +49,27 @@ struct SceneDescription {
   Texture texture{};
   Bump bump{};
   Culling culling{};
+  VoxelBox crop{};                 ///< voxels outside are not there
+  Display display{};               ///< of pictures for looking
+  std::optional<double> nan_as{};  ///< in the place of voxels that are not finite; without it they are refused
 };
 
 /// Ready to render: files read, names resolved, limits checked.
 struct Scene {
   SceneDescription description;
-  std::shared_ptr<const volume::Volume> volume;
-  TransferFunction transfer_function;
+  std::shared_ptr<const volume::Volume> volume;  ///< cropped
+  TransferFunction transfer_function;            ///< where cropped, with the domain of the whole volume resolved
   Kernel kernel;
   Camera camera;
   Shading shading;
-  /// Footprint amplitude per unit extinction: kernel.peak() * spacing.x*spacing.y*spacing.z / kernel_unit^3
+  /// Footprint amplitude per unit extinction: kernel.peak() * volume of a grid cell / kernel_unit^3
   /// (optical depth that one voxel of extinction 1 adds at its centre).
   double amplitude = 0.0;
   /// Method::XRay: pixel = xray_scale * summed emission. Automatic: 1 / (1.05 * densest voxel's extinction * (diameter
   /// of the box of voxel centres + 1 kernel unit)), which no ray of any view can exceed 1 with (1.05: ripple of the
   /// kernel).
   double xray_scale = 1.0;
+  std::shared_ptr<const volume::Volume> whole{};  ///< as it was read: build_scene takes it again
 };
 
 /// A scene.toml, or a built-in scene as "demo:NAME". Unknown keys and bad values are UserErrors with file:line and a
@@ -74,7 +81,7 @@ std::vector<std::string> demo_names();  ///< sorted
 std::string to_toml(const SceneDescription& description);
 
 Scene build_scene(const SceneDescription& description);
-/// The same with a volume already in memory.
+/// The same with a volume already in memory, not yet cropped.
 Scene build_scene(const SceneDescription& description, std::shared_ptr<const volume::Volume> volume);
 
 const char* to_string(Method method);

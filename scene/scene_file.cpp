@@ -1,7 +1,7 @@
 // scene.toml: every key is optional, what is absent keeps its default. The keys are those of scene/settings_list.cpp,
-// and here what is more than a plain setting: volume and transfer_function (relative to the file), image.size for width
-// and height, kernel.name in place of its a and radius. A table [sequence] (scene/sequence.cpp) must make
-// sense but changes no still.
+// and here what is more than a plain setting: volume and transfer_function (relative to the file), nan_as (or none),
+// image.size for width and height, kernel.name in place of its a and radius. A table [sequence] (scene/sequence.cpp)
+// must make sense but changes no still.
 #include "scene/scene_file.hpp"
 
 #include <fmt/format.h>
@@ -111,6 +111,7 @@ SceneFile read_scene_file(const fs::path& path) {
       root.refuse("volume", "empty", "a volume's path or name", {}, "for example volume = \"shells:64\"");
     d.volume = is_known_volume(*text) ? *text : anchored(*text, folder);
   }
+  d.nan_as = root.number("nan_as", -kLargestVoxel, kLargestVoxel);
   if (const auto text = root.text("transfer_function")) {
     d.transfer_function = text->empty() || is_preset(*text) ? *text : anchored(*text, folder);
     const bool file = fs::path(*text).has_parent_path() || fs::path(*text).extension() == ".toml";
@@ -148,6 +149,7 @@ std::string to_toml(const SceneDescription& d) {
                              ? d.transfer_function
                              : anchored(d.transfer_function, {});
   std::string text = fmt::format("volume = {}\ntransfer_function = {}\n", toml_string(volume), toml_string(tf));
+  if (d.nan_as) text += fmt::format("nan_as = {}\n", number_as_toml(*d.nan_as));
   for (const std::string& table : setting_tables()) {
     if (!table.empty()) text += fmt::format("\n[{}]\n", table);
     const bool named = table == "kernel" && !d.kernel.empty();  // a name stands for a and radius

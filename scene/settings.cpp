@@ -69,6 +69,7 @@ std::string expected_instead(const Setting& setting, const std::string& text) {
             const auto value = triple_from(text);
             return unless(value && inside(kind, *value), "X,Y,Z, each " + expected_number(kind));
           },
+          [&](const Box&) { return unless(box_from(text).has_value(), "A..B,C..D,E..F, voxels from 0"); },
           [&](const Switch&) { return unless(text == "on" || text == "off", "on or off"); },
           [&](const Choice& kind) {
             const auto& names = kind.names();
@@ -81,14 +82,13 @@ std::string expected_instead(const Setting& setting, const std::string& text) {
 
 std::string toml_string(const char* text) { return fmt::format("\"{}\"", text); }
 
-/// A number TOML reads back as a float.
-std::string toml_real(double value) {
+}  // namespace
+
+std::string number_as_toml(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find_first_of(".en") == std::string::npos) text += ".0";
   return text;
 }
-
-}  // namespace
 
 std::string dotted(const Setting& setting) {
   return *setting.table ? fmt::format("{}.{}", setting.table, setting.key) : setting.key;
@@ -124,6 +124,7 @@ void set_from_text(const Setting& setting, const std::string& text, SceneDescrip
                  [&](const Real& kind) { kind.of(description) = *number_from(text); },
                  [&](const Integer& kind) { kind.of(description) = *integer_from<int>(text); },
                  [&](const Triple& kind) { kind.of(description) = *triple_from(text); },
+                 [&](const Box& kind) { kind.of(description) = *box_from(text); },
                  [&](const Switch& kind) { kind.of(description) = text == "on"; },
                  [&](const Choice& kind) { kind.set(description, position(kind.names(), text)); },
              },
@@ -146,6 +147,16 @@ void read_settings(TomlTable& table, const std::string& name, SceneDescription& 
                      if (const auto value = table.triple(key, kind.low, kind.high))
                        kind.of(description) = {(*value)[0], (*value)[1], (*value)[2]};
                    },
+                   [&](const Box& kind) {
+                     const auto value = table.text(key);
+                     if (!value) return;
+                     const auto box = box_from(*value);
+                     if (!box) {
+                       table.refuse(key, "not a box of voxels", "\"A..B,C..D,E..F\", voxels from 0",
+                                    "\"" + *value + "\"", "both ends belong to the box; \"\" is everything");
+                     }
+                     kind.of(description) = *box;
+                   },
                    [&](const Switch& kind) {
                      if (const auto value = table.flag(key)) kind.of(description) = *value;
                    },
@@ -167,12 +178,13 @@ std::string value_as_toml(const Setting& setting, const SceneDescription& descri
   SceneDescription d = description;  // the list's accessors also write
   return std::visit(
       Each{
-          [&](const Real& kind) { return toml_real(kind.of(d)); },
+          [&](const Real& kind) { return number_as_toml(kind.of(d)); },
           [&](const Integer& kind) { return fmt::format("{}", kind.of(d)); },
           [&](const Triple& kind) {
             const glm::dvec3& v = kind.of(d);
-            return fmt::format("[{}, {}, {}]", toml_real(v.x), toml_real(v.y), toml_real(v.z));
+            return fmt::format("[{}, {}, {}]", number_as_toml(v.x), number_as_toml(v.y), number_as_toml(v.z));
           },
+          [&](const Box& kind) { return toml_string(to_string(kind.of(d)).c_str()); },
           [&](const Switch& kind) { return std::string(kind.of(d) ? "true" : "false"); },
           [&](const Choice& kind) { return toml_string(kind.names()[static_cast<std::size_t>(kind.get(d))].c_str()); },
       },
@@ -195,6 +207,7 @@ void check_limits(const SceneDescription& description) {
                    [&](const Real& kind) { check(setting, kind); },
                    [&](const Integer& kind) { check(setting, kind); },
                    [&](const Triple& kind) { check(setting, kind); },
+                   [](const Box&) {},
                    [](const Switch&) {},
                    [](const Choice&) {},
                },

@@ -15,7 +15,8 @@
 
 namespace fastsplat::scene {
 
-inline constexpr int kMaxImageSide = 16384;  ///< pixels
+inline constexpr int kMaxImageSide = 16384;      ///< pixels
+inline constexpr double kLargestVoxel = 3.4e38;  ///< a float
 
 // What a setting is. Limits are inclusive; `of` finds the value in a description.
 struct Real {
@@ -29,6 +30,10 @@ struct Integer {
 struct Triple {
   double low, high;  ///< of each component
   glm::dvec3& (*of)(SceneDescription&);
+};
+/// "A..B,C..D,E..F", voxels, both ends included; "" is everything.
+struct Box {
+  VoxelBox& (*of)(SceneDescription&);
 };
 struct Switch {
   bool& (*of)(SceneDescription&);
@@ -47,7 +52,7 @@ struct Setting {
   const char* group;  ///< of the flag, in the help
   const char* unit;   ///< of the flag's value, in the help
   const char* help;
-  std::variant<Real, Integer, Triple, Switch, Choice> value;
+  std::variant<Real, Integer, Triple, Box, Switch, Choice> value;
   Capability capability;  ///< where it has a meaning
 };
 
@@ -72,6 +77,9 @@ void set_from_text(const Setting& setting, const std::string& text, SceneDescrip
 void read_settings(TomlTable& table, const std::string& name, SceneDescription& description, std::vector<Given>& given);
 /// The setting's value as TOML.
 std::string value_as_toml(const Setting& setting, const SceneDescription& description);
+
+/// A number that TOML reads back as a float.
+std::string number_as_toml(double value);
 
 /// UserError (Usage) that names the first setting out of its limits. Camera and kernel check what depends on more.
 void check_limits(const SceneDescription& description);

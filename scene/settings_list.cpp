@@ -25,6 +25,11 @@ const std::vector<std::string>& projection_names() {
   return names;
 }
 
+const std::vector<std::string>& fit_names() {
+  static const std::vector<std::string> names = {"sphere", "content"};
+  return names;
+}
+
 const std::vector<std::string>& order_names() {
   static const std::vector<std::string> names = {"pre", "post"};
   return names;
@@ -43,6 +48,7 @@ const std::vector<std::string>& where_names() {
 // The enums that are settings, by reference.
 Method& method(D& d) { return d.method; }
 Projection& projection(D& d) { return d.camera.projection; }
+Fit& fit(D& d) { return d.camera.fit; }
 SlabOpacity& slab_opacity(D& d) { return d.slab_opacity; }
 FootprintShape& footprint_shape(D& d) { return d.footprint.shape; }
 DepthOfField& depth_of_field(D& d) { return d.lens.depth_of_field; }
@@ -69,6 +75,8 @@ const std::array kSettings{
     Setting{"", "shading", "--shading", "Scene", "on|off|auto", "auto: as the transfer function suggests",
             Choice{shading_names, [](const D& d) { return d.shading + 1; }, [](D& d, int at) { d.shading = at - 1; }},
             Capability::everywhere("off")},
+    Setting{"", "crop", "--crop", "Scene", "A..B,C..D,E..F", "only these voxels, both ends included",
+            Box{[](D& d) -> VoxelBox& { return d.crop; }}, Capability::everywhere("1..7,0..9,2..8")},
     Setting{"", "opacity_scale", "--opacity-scale", "Scene", "NUMBER", "multiplies every extinction",
             Real{1e-6, 1e6, [](D& d) -> double& { return d.opacity_scale; }},
             Capability::everywhere("3").and_with(Technique::Exposure)},
@@ -85,6 +93,9 @@ const std::array kSettings{
             Real{-kDegrees, kDegrees, [](D& d) -> double& { return d.camera.roll; }}, Capability::everywhere("25")},
     Setting{"camera", "zoom", "--zoom", "Camera", "NUMBER", "1 fits the volume's bounding sphere",
             Real{1e-6, 1e6, [](D& d) -> double& { return d.camera.zoom; }}, Capability::everywhere("1.5")},
+    Setting{"camera", "fit", "--fit", "Camera", "sphere|content",
+            "what zoom 1 fits: the bounding sphere, or the voxels that are not empty", choice<fit>(fit_names),
+            Capability::everywhere("content")},
     Setting{"camera", "fov", "--fov", "Camera", "DEGREES", "degrees across the smaller side (perspective)",
             Real{1.0, 150.0, [](D& d) -> double& { return d.camera.fov; }},
             Capability::of(Technique::Perspective, "60")},
@@ -111,6 +122,11 @@ const std::array kSettings{
             Real{0.0, 0.99, [](D& d) -> double& { return d.culling.theta; }},
             Capability::of(Technique::AverageTest, "0.05").and_with(Technique::Culling)},
 
+    Setting{"display", "background", "--background", "Output", "R,G,B",
+            "behind the picture in .png and .tif, linear, 0..1 each",
+            Triple{0.0, 1.0, [](D& d) -> glm::dvec3& { return d.display.background; }},
+            Capability::everywhere("0.2,0.5,0.9")},
+
     Setting{"image", "width", "", "", "", "", Integer{1, kMaxImageSide, [](D& d) -> int& { return d.width; }},
             Capability::everywhere("17")},
     Setting{"image", "height", "", "", "", "", Integer{1, kMaxImageSide, [](D& d) -> int& { return d.height; }},
@@ -133,6 +149,9 @@ const std::array kSettings{
             "X-ray: pixel = exposure * integral; 0 automatic",
             Real{0.0, 1e9, [](D& d) -> double& { return d.xray_exposure; }},
             Capability::with_methods(only(Method::XRay), "has no exposure", "use --method xray", "0.07")},
+    Setting{"xray", "invert", "--xray-invert", "Method", "on|off", "X-ray: dark on bright in .png and .tif, as a film",
+            Switch{[](D& d) -> bool& { return d.display.invert; }},
+            Capability::with_methods(only(Method::XRay), "has no film to invert", "use --method xray", "on")},
     Setting{
         "xray", "sheets", "--xray-sheets", "Method", "N", "X-ray: sheets it is summed in",
         Integer{1, 65535, [](D& d) -> int& { return d.xray_sheets; }},

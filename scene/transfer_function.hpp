@@ -35,6 +35,9 @@ struct TransferFunction {
   Shading shading;                   ///< preset's suggestion; scene.toml and flags override
 };
 
+/// The same in raw values of this volume.
+TransferFunction resolved(const TransferFunction& tf, const volume::Volume& volume);
+
 /// Colour and extinction per kernel unit, at a raw value.
 struct Material {
   glm::vec3 colour{0};

@@ -17,13 +17,16 @@ struct Walk {
   int index(int step) const { return ascending ? step : extent - 1 - step; }
 };
 
+/// The view's direction in the grid's own axes: slices of one index lie one behind the other along it.
+glm::dvec3 direction_in_grid(const Scene& scene) { return scene.volume->to_grid(scene.camera.direction()); }
+
 Walk walk_along(int axis, const Scene& scene) {
-  return {axis, scene.volume->dims[axis], scene.camera.direction()[axis] >= 0.0};
+  return {axis, scene.volume->dims[axis], direction_in_grid(scene)[axis] >= 0.0};
 }
 
 /// The axis most parallel to the view; of equal ones the last, which costs the fewest cache misses.
 int dominant_axis(const Scene& scene) {
-  const glm::dvec3 along = glm::abs(scene.camera.direction());
+  const glm::dvec3 along = glm::abs(direction_in_grid(scene));
   int axis = 2;
   if (along.y > along[axis]) axis = 1;
   if (along.x > along[axis]) axis = 0;

@@ -1,36 +1,42 @@
-// Sequential bytes of a file, plain or gzip, with every failure told.
+// Sequential bytes of a file, as they are, compressed or in hexadecimal digits, with every failure told.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <memory>
 
 namespace fastsplat::volume {
 
-enum class Packing { Plain, Gzip };
+/// How the voxels lie on disk. Text: decimal numbers between blanks, which are voxel_data's business.
+enum class Packing { Plain, Gzip, Zlib, Bzip2, Hex, Text };
 
-/// Gzip when the file starts with gzip's two magic bytes.
+/// Gzip when the file starts with gzip's two magic bytes, else Plain.
 Packing packing_of(const std::filesystem::path& path);
 
 class ByteReader {
  public:
-  /// Starts at byte `offset` of the file as it is on disk.
+  /// Starts at byte `offset` of the file as it is on disk. Text is read as it is.
   ByteReader(const std::filesystem::path& path, std::uint64_t offset, Packing packing);
   ~ByteReader();
 
-  /// Fills `out` with up to `size` bytes; fewer only at the end of the data. Corrupt or truncated gzip data is a
-  /// UserError (Input).
+  /// Fills `out` with up to `size` bytes; fewer only at the end of the data. Corrupt or truncated compressed data, or
+  /// what is no hexadecimal digit, is a UserError (Input).
   std::size_t read(void* out, std::size_t size);
-  /// Reads to the end so that gzip's checksum is verified; gives up quietly after a few MiB of surplus data.
+  /// Reads to the end so that a checksum is verified; gives up quietly after a few MiB of surplus data.
   void verify_rest();
 
+  /// One way to unpack (byte_reader.cpp).
+  class Unpacker;
+
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<Unpacker> unpacker_;
+  Packing packing_;
 };
 
-/// `data` as one gzip member.
+/// `data` as one gzip member, or as one zlib stream.
 void write_gzip(std::ostream& out, const void* data, std::size_t size);
+void write_zlib(std::ostream& out, const void* data, std::size_t size);
 
 }  // namespace fastsplat::volume

@@ -65,6 +65,7 @@ RawHeader read_raw(const fs::path& path) {
 struct Checked {
   std::array<std::int64_t, 8> dim{};
   int datatype = 0;
+  std::array<double, 3> pixdim{};
   bool pair = false;
   double offset = 0.0;
 };
@@ -90,6 +91,11 @@ Checked check(const fs::path& path, const RawHeader& header) {
   for (std::size_t i = 0; i < 8; ++i) {
     checked.dim[i] = one ? field_at<std::int16_t>(header, offsetof(nifti_1_header, dim) + 2 * i)
                          : field_at<std::int64_t>(header, offsetof(nifti_2_header, dim) + 8 * i);
+  }
+  for (std::size_t a = 0; a < 3; ++a) {
+    checked.pixdim[a] =
+        one ? static_cast<double>(field_at<float>(header, offsetof(nifti_1_header, pixdim) + 4 * (a + 1)))
+            : field_at<double>(header, offsetof(nifti_2_header, pixdim) + 8 * (a + 1));
   }
   checked.datatype =
       field_at<std::int16_t>(header, one ? offsetof(nifti_1_header, datatype) : offsetof(nifti_2_header, datatype));
@@ -170,28 +176,20 @@ double mm_per_unit(int units) {
   return 1.0;
 }
 
-/// How the grid's axes lie in the head, from sform, else qform; as they are where the header says nothing usable.
-Orientation orientation_of(const nifti_image& image) {
-  if (image.sform_code <= 0 && image.qform_code <= 0) return {};
+/// How the grid's axes lie in the head, from sform, else qform; nothing where the header says nothing usable.
+std::optional<Placement> placement_of(const nifti_image& image, double mm) {
+  if (image.sform_code <= 0 && image.qform_code <= 0) return std::nullopt;
   const nifti_dmat44& matrix = image.sform_code > 0 ? image.sto_xyz : image.qto_xyz;
-  for (const auto& row : matrix.m) {
-    for (const double value : row) {
-      if (!(std::abs(value) < 1e9)) return {};
+  Placement placement;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      const double value = matrix.m[row][column];
+      if (!(std::abs(value) < 1e9)) return std::nullopt;
+      (column < 3 ? placement.direction[static_cast<std::size_t>(column)] : placement.origin)[row] = value * mm;
     }
   }
-  std::array<int, 3> codes{};
-  nifti_dmat44_to_orientation(matrix, &codes[0], &codes[1], &codes[2]);
-  Orientation orientation;
-  std::array<bool, 3> taken{};
-  for (std::size_t grid = 0; grid < 3; ++grid) {
-    if (codes[grid] < NIFTI_L2R || codes[grid] > NIFTI_S2I) return {};
-    const auto world = static_cast<std::size_t>((codes[grid] - NIFTI_L2R) / 2);
-    if (taken[world]) return {};
-    taken[world] = true;
-    orientation.axis[world] = static_cast<int>(grid);
-    orientation.flipped[world] = codes[grid] == NIFTI_R2L || codes[grid] == NIFTI_A2P || codes[grid] == NIFTI_S2I;
-  }
-  return orientation;
+  if (!spans_space(placement.direction)) return std::nullopt;
+  return placement;
 }
 
 /// NAME.hdr's voxels are in NAME.img or NAME.img.gz beside it, not behind a link to elsewhere.
@@ -235,13 +233,28 @@ VoxelSource read_nifti_header(const fs::path& path) {
   const double mm = mm_per_unit(image->xyz_units);
   for (std::size_t a = 0; a < 3; ++a) {
     source.extents[a] = static_cast<std::uint64_t>(checked.dim[a + 1]);
-    source.spacing[a] = std::abs(image->pixdim[a + 1]) * mm;
+    const double length = std::abs(image->pixdim[a + 1]);
+    source.spacing[a] = (length > 0.0 && std::isfinite(length) ? length : 1.0) * mm;
   }
   if (image->scl_slope != 0.0) {  // 0 means: as stored
     source.slope = image->scl_slope;
     source.intercept = image->scl_inter;
   }
-  source.orientation = orientation_of(*image);
+  source.placement = placement_of(*image, mm);
+  if (source.placement) {
+    // The matrix says where voxels are; pixdim is kept where it says the same but for rounding.
+    constexpr double kRounding = 1e-3;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double step = glm::length(source.placement->direction[a]);
+      if (!(std::abs(step - source.spacing[a]) <= kRounding * step)) source.spacing[a] = step;
+    }
+  }
+  // libnifti takes 1 for what is no length, and we a length for what is negative; neither is passed over in silence.
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (checked.pixdim[a] > 0.0 && std::isfinite(checked.pixdim[a])) continue;
+    source.remarks.push_back(fmt::format("the header's pixdim[{}] is {}, no length: {} mm are taken", a + 1,
+                                         checked.pixdim[a], source.spacing[a]));
+  }
   return source;
 }
 

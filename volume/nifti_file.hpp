@@ -10,8 +10,8 @@ namespace fastsplat::volume {
 /// Does the file, unpacked, start with a NIfTI header of either byte order?
 bool is_nifti(const std::filesystem::path& path);
 
-/// Three dimensions (further ones must be 1 long). Axes are turned to +x right, +y anterior, +z superior where the
-/// header's sform or qform says how they lie. Everything else is a UserError (Input).
+/// Three dimensions (further ones must be 1 long). Placed where the header's sform, else its qform, says how the
+/// axes lie. Everything else is a UserError (Input).
 VoxelSource read_nifti_header(const std::filesystem::path& path);
 
 }  // namespace fastsplat::volume

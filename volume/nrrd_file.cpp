@@ -17,6 +17,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "volume/detached_file.hpp"
 
 namespace fastsplat::volume {
 namespace {
@@ -176,7 +177,8 @@ std::string header_for_teem(const Header& header) {
                                       {"spacedimension", "space dimension"},
                                       {"sizes", "sizes"},
                                       {"spacings", "spacings"},
-                                      {"spacedirections", "space directions"}}) {
+                                      {"spacedirections", "space directions"},
+                                      {"spaceorigin", "space origin"}}) {
     const Field* field = header.find(name);
     if (field == nullptr) continue;
     if (field->value.size() > kMaxField)
@@ -253,39 +255,11 @@ Packing packing_from(const Header& header) {
   const std::string value = lower(field.value);
   if (value == "raw") return Packing::Plain;
   if (value == "gzip" || value == "gz") return Packing::Gzip;
-  refuse(header.path, field.line, "an encoding that cannot be read", "raw or gzip", field.value.substr(0, 40),
-         "convert it (unu save -f nrrd -e gzip)");
-}
-
-/// Where a detached header's data lie: below its own folder, whatever links are in between.
-fs::path detached_data(const Header& header, const Field& field) {
-  const fs::path name = field.value;
-  const std::string fix = "keep the data file beside its header";
-  const std::string shown = field.value.substr(0, 120);
-  if (lower(field.value).starts_with("list") || field.value.find('%') != std::string::npos ||
-      field.value.find(' ') != std::string::npos) {
-    std::error_code ignored;
-    if (!fs::exists(header.path.parent_path() / name, ignored)) {
-      refuse(header.path, field.line, "data spread over several files cannot be read", "one data file", shown,
-             "join them (unu save -f nrrd)");
-    }
-  }
-  const bool upwards = std::any_of(name.begin(), name.end(), [](const fs::path& part) { return part == ".."; });
-  if (name.empty() || name.is_absolute() || upwards) {
-    refuse(header.path, field.line, "the data file must lie in the header's own folder", "a relative name without '..'",
-           shown, fix);
-  }
-  std::error_code error;
-  const fs::path folder =
-      fs::canonical(header.path.has_parent_path() ? header.path.parent_path() : fs::path("."), error);
-  const fs::path data = error ? fs::path() : fs::weakly_canonical(folder / name, error);
-  if (error) refuse(header.path, field.line, "cannot find the data file: " + error.message(), {}, shown, fix);
-  const auto [end, ignored] = std::mismatch(folder.begin(), folder.end(), data.begin(), data.end());
-  if (end != folder.end()) {
-    refuse(header.path, field.line, "the data file is a link out of the header's own folder", {},
-           shown + " -> " + data.string(), fix);
-  }
-  return data;
+  if (value == "bzip2" || value == "bz2") return Packing::Bzip2;
+  if (value == "hex") return Packing::Hex;
+  if (value == "text" || value == "txt" || value == "ascii") return Packing::Text;
+  refuse(header.path, field.line, "an encoding that cannot be read", "raw, gzip, bzip2, hex or ascii",
+         field.value.substr(0, 40), "convert it (unu save -f nrrd -e gzip)");
 }
 
 /// Resolves `byte skip` and refuses what would need more than that.
@@ -296,8 +270,8 @@ std::uint64_t byte_skip(const Header& header, const VoxelSource& source) {
   }
   const Field* field = header.find("byteskip");
   if (field == nullptr || field->value == "0") return 0;
-  if (source.packing == Packing::Gzip) {
-    refuse(header.path, field->line, "byte skip with gzip encoding is not supported", "byte skip: 0",
+  if (source.packing != Packing::Plain) {
+    refuse(header.path, field->line, "byte skip with an encoding other than raw is not supported", "byte skip: 0",
            field->value.substr(0, 40), "convert it (unu save -f nrrd -e gzip)");
   }
   std::error_code error;
@@ -338,35 +312,40 @@ std::optional<std::array<double, 3>> towards_ras(int space) {
 
 struct Geometry {
   std::array<double, 3> spacing{1, 1, 1};
-  Orientation orientation;
+  std::optional<Placement> placement;
+  std::vector<std::string> remarks;
 };
 
-Geometry geometry_of(const Nrrd& nrrd, const std::array<unsigned, 3>& axes) {
+/// `says_spacings`: the header has the field; without it 1 mm is what everyone takes.
+Geometry geometry_of(const Nrrd& nrrd, const std::array<unsigned, 3>& axes, bool says_spacings) {
   Geometry geometry;
   std::array<std::array<double, NRRD_SPACE_DIM_MAX>, 3> directions{};
   bool all_directed = nrrd.spaceDim == 3;
   for (std::size_t a = 0; a < 3; ++a) {
     double spacing = 1.0;
     const int status = nrrdSpacingCalculate(&nrrd, axes[a], &spacing, directions[a].data());
-    if (status == nrrdSpacingStatusNone || status == nrrdSpacingStatusUnknown || std::isnan(spacing)) spacing = 1.0;
+    const bool known = status != nrrdSpacingStatusNone && status != nrrdSpacingStatusUnknown && !std::isnan(spacing);
+    if (!known) spacing = 1.0;
+    if (!known && says_spacings)
+      geometry.remarks.push_back(fmt::format("the header's spacing of axis {} is no number: 1 mm is taken", a + 1));
+    if (spacing < 0.0)
+      geometry.remarks.push_back(
+          fmt::format("the header's spacing of axis {} is {}: {} mm are taken", a + 1, spacing, -spacing));
     all_directed = all_directed && status == nrrdSpacingStatusDirection;
     geometry.spacing[a] = std::abs(spacing);
   }
   const auto signs = towards_ras(nrrd.space);
   if (!all_directed || !signs) return geometry;
-  // Each world axis takes the grid axis that runs most along it.
-  Orientation turned;
-  std::array<bool, 3> taken{};
-  for (std::size_t world = 0; world < 3; ++world) {
-    std::size_t best = 3;
-    for (std::size_t a = 0; a < 3; ++a) {
-      if (!taken[a] && (best == 3 || std::abs(directions[a][world]) > std::abs(directions[best][world]))) best = a;
-    }
-    taken[best] = true;
-    turned.axis[world] = static_cast<int>(best);
-    turned.flipped[world] = directions[best][world] * (*signs)[world] < 0.0;
+  Placement placement;
+  for (int world = 0; world < 3; ++world) {
+    const double sign = (*signs)[static_cast<std::size_t>(world)];
+    for (std::size_t a = 0; a < 3; ++a)
+      placement.direction[a][world] = sign * directions[a][static_cast<std::size_t>(world)];
+    const double origin = sign * nrrd.spaceOrigin[world];
+    placement.has_origin = placement.has_origin && std::abs(origin) < 1e9;
+    placement.origin[world] = origin;
   }
-  geometry.orientation = turned;
+  if (spans_space(placement.direction)) geometry.placement = placement;
   return geometry;
 }
 
@@ -384,22 +363,25 @@ VoxelSource read_nrrd_header(const fs::path& path) {
   const auto axes = volume_axes(header, sizes);
   header.need("type");
   const NrrdPointer nrrd = parse_with_teem(header);
-  const Geometry geometry = geometry_of(*nrrd, axes);
+  const Geometry geometry = geometry_of(*nrrd, axes, header.find("spacings") != nullptr);
 
   VoxelSource source;
   source.header = path;
   source.extents = {sizes[axes[0]], sizes[axes[1]], sizes[axes[2]]};
   source.spacing = geometry.spacing;
-  source.orientation = geometry.orientation;
+  source.placement = geometry.placement;
+  source.remarks = geometry.remarks;
   source.component = component_of(header, nrrd->type);
-  source.order = endian_of(header, source.component);
   source.packing = packing_from(header);
+  source.order = source.packing == Packing::Text ? std::endian::native : endian_of(header, source.component);
   const Field* detached = header.find("datafile");
   if (detached == nullptr && !header.blank_line) {
     refuse(path, 0, "the NRRD header does not end", "a blank line, then the data", {},
            "the file is truncated: copy it again");
   }
-  source.data = detached != nullptr ? detached_data(header, *detached) : path;
+  source.data = detached == nullptr
+                    ? path
+                    : detached_file(path, fmt::format("{}:{}", path.string(), detached->line), detached->value);
   source.file_offset = detached != nullptr ? 0 : header.end;
   source.file_offset += byte_skip(header, source);
   return source;

@@ -10,8 +10,8 @@ namespace fastsplat::volume {
 /// Does the file start with NRRD's magic?
 bool is_nrrd(const std::filesystem::path& path);
 
-/// Three axes (further ones must be 1 long), raw or gzip. A detached header's data file must lie in the header's folder
-/// or below, links followed. Everything else is a UserError (Input).
+/// Three axes (further ones must be 1 long), raw, gzip, bzip2, hex or ascii. A detached header's data file must lie in
+/// the header's folder or below, links followed. Everything else is a UserError (Input).
 VoxelSource read_nrrd_header(const std::filesystem::path& path);
 
 }  // namespace fastsplat::volume

@@ -1,5 +1,7 @@
 #include "volume/volume.hpp"
 
+#include <algorithm>
+
 namespace fastsplat::volume {
 namespace {
 
@@ -16,12 +18,22 @@ float difference(const float* here, std::size_t stride, int position, int extent
 
 }  // namespace
 
+double Volume::bounding_radius() const {
+  const glm::dvec3 diagonal = glm::dvec3(dims - 1) * spacing;
+  if (!oblique) return 0.5 * glm::length(diagonal);
+  double longest = 0.0;  // of a sheared box not all are alike
+  for (const glm::dvec3 sign : {glm::dvec3(1, 1, 1), {-1, 1, 1}, {1, -1, 1}, {1, 1, -1}})
+    longest = std::max(longest, glm::length(axes * (sign * diagonal)));
+  return 0.5 * longest;
+}
+
 glm::vec3 gradient(const Volume& volume, int i, int j, int k) {
   const float* here = &volume.voxels[volume.index(i, j, k)];
   const std::size_t row = static_cast<std::size_t>(volume.dims.x);
-  return {difference(here, 1, i, volume.dims.x, volume.spacing.x),
-          difference(here, row, j, volume.dims.y, volume.spacing.y),
-          difference(here, row * volume.dims.y, k, volume.dims.z, volume.spacing.z)};
+  const glm::vec3 along(difference(here, 1, i, volume.dims.x, volume.spacing.x),
+                        difference(here, row, j, volume.dims.y, volume.spacing.y),
+                        difference(here, row * volume.dims.y, k, volume.dims.z, volume.spacing.z));
+  return volume.oblique ? glm::vec3(glm::transpose(volume.across) * glm::dvec3(along)) : along;
 }
 
 }  // namespace fastsplat::volume

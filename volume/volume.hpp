@@ -1,4 +1,4 @@
-// A scalar volume on a rectilinear grid, whatever file or generator it came from.
+// A scalar volume on a regular grid, whatever file or generator it came from.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,8 @@ namespace fastsplat::volume {
 enum class VoxelType { U8, I8, U16, I16, F32 };
 
 /// Voxels as float (exact for 8 and 16 bit), x fastest. World space is millimetres with the volume's centre at the
-/// origin and the axes along the grid; voxel (i,j,k) sits at (index - (dims-1)/2) * spacing.
+/// origin. Its axes run along the grid's, voxel (i,j,k) sits at (index - (dims-1)/2) * spacing, unless the volume is
+/// oblique: a file says how its axes lie in a body, and they are not those of the body. Then the world is the body's.
 struct Volume {
   std::string name;    ///< as the user said it: a path or "shells:128"
   std::string source;  ///< provenance for image metadata: resolved path or generator, one line
@@ -21,21 +22,31 @@ struct Volume {
   float min = 0.0f;  ///< over all voxels (finite; NaN and Inf in a file are refused)
   float max = 0.0f;
   std::vector<float> voxels;
+  bool oblique = false;    ///< `axes` is not the unit matrix
+  glm::dmat3 axes{1.0};    ///< columns: unit vectors in the world along the grid's x, y, z; mostly at right angles
+  glm::dmat3 across{1.0};  ///< inverse of `axes`
+  bool placed = false;     ///< the file says where the volume lies in a body: +x right, +y anterior, +z superior
+  glm::dvec3 centre{0.0};  ///< of the volume there, mm; files only, the world has it at its origin
+  std::vector<std::string> remarks{};  ///< what reading it had to assume or found odd, a sentence each
 
   std::size_t index(int i, int j, int k) const {
     return (static_cast<std::size_t>(k) * dims.y + static_cast<std::size_t>(j)) * dims.x + static_cast<std::size_t>(i);
   }
   float at(int i, int j, int k) const { return voxels[index(i, j, k)]; }
   glm::dvec3 position(int i, int j, int k) const {
-    return (glm::dvec3(i, j, k) - 0.5 * glm::dvec3(dims - 1)) * spacing;
+    return to_world((glm::dvec3(i, j, k) - 0.5 * glm::dvec3(dims - 1)) * spacing);
   }
+  /// From mm along the grid's axes, from the centre, to the world and back.
+  glm::dvec3 to_world(const glm::dvec3& along) const { return oblique ? axes * along : along; }
+  glm::dvec3 to_grid(const glm::dvec3& world) const { return oblique ? across * world : world; }
+  void turn(const glm::dmat3& to) { oblique = true, axes = to, across = glm::inverse(to); }
   /// Edge of the cubic cell that the kernel is scaled to: the largest spacing (docs/decisions.md, "Anisotropic grids").
   double kernel_unit() const { return glm::max(spacing.x, glm::max(spacing.y, spacing.z)); }
   /// Half the diagonal of the box of voxel centres, mm. Independent of the view.
-  double bounding_radius() const { return 0.5 * glm::length(glm::dvec3(dims - 1) * spacing); }
+  double bounding_radius() const;
 };
 
-/// Central differences at a voxel (one-sided at the border), in value per mm.
+/// Central differences at a voxel (one-sided at the border), in value per mm of the world.
 glm::vec3 gradient(const Volume& volume, int i, int j, int k);
 
 }  // namespace fastsplat::volume

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/read_file.hpp"
 #include "base/suggest.hpp"
+#include "volume/metaimage_file.hpp"
 #include "volume/nifti_file.hpp"
 #include "volume/nrrd_file.hpp"
 #include "volume/synthetic.hpp"
@@ -88,10 +89,11 @@ fs::path find_file(const std::string& text) {
 VoxelSource read_header(const fs::path& path) {
   require_readable_file(path);
   if (is_nrrd(path)) return read_nrrd_header(path);
+  if (is_metaimage(path)) return read_metaimage_header(path);
   if (is_nifti(path)) return read_nifti_header(path);
   throw_input({.where = path.string(),
                .what = "not a volume file that can be read",
-               .expected = "NRRD or NIfTI",
+               .expected = "NRRD, NIfTI or MetaImage",
                .got = {},
                .fix = "convert it, for example to .nrrd (unu) or .nii.gz"});
 }
@@ -106,13 +108,13 @@ Volume named(Volume volume, const std::string& name, const fs::path& path) {
 
 }  // namespace
 
-Volume load_volume(const std::string& name_or_path) {
+Volume load_volume(const std::string& name_or_path, const ReadOptions& options) {
   std::error_code ignored;
   if (!fs::is_regular_file(name_or_path, ignored)) {
     if (const auto synthetic = as_synthetic(name_or_path)) return make_synthetic(synthetic->name, synthetic->size);
   }
   const fs::path path = find_file(name_or_path);
-  return named(read_source(read_header(path)), name_or_path, path);
+  return named(read_source(read_header(path), options.nan_as), name_or_path, path);
 }
 
 Volume read_volume_header(const std::string& name_or_path) {

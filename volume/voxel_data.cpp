@@ -16,7 +16,8 @@ namespace {
 constexpr std::uint64_t kMaxExtent = 65535;                   // sheet numbers have 16 bits
 constexpr std::uint64_t kMaxVoxels = std::uint64_t{1} << 31;  // 8 GiB of voxels in memory
 constexpr std::uint64_t kGzipLimit = 1032;                    // deflate cannot shrink more
-constexpr std::uint64_t kGzipOverhead = 4096;                 // generous, for the few bytes of a tiny file
+constexpr std::uint64_t kOverhead = 4096;                     // generous, for the few bytes of a tiny file
+constexpr std::uint64_t kBzip2Limit = 2'000'000;              // a block of 900,000 runs of 255 takes some 40 bytes
 
 [[noreturn]] void refuse(const VoxelSource& source, std::string what, std::string expected, std::string got,
                          std::string fix) {
@@ -33,36 +34,6 @@ std::uint64_t voxel_count(const VoxelSource& source) {
 
 std::string extents_text(const VoxelSource& source) {
   return fmt::format("{} x {} x {}", source.extents[0], source.extents[1], source.extents[2]);
-}
-
-template <typename T>
-T load(const unsigned char* bytes, bool swap) {
-  std::array<unsigned char, sizeof(T)> ordered;
-  std::copy_n(bytes, sizeof(T), ordered.begin());
-  if (swap) std::reverse(ordered.begin(), ordered.end());
-  return std::bit_cast<T>(ordered);
-}
-
-double load_component(const unsigned char* bytes, Component component, bool swap) {
-  switch (component) {
-    case Component::U8:
-      return load<std::uint8_t>(bytes, swap);
-    case Component::I8:
-      return load<std::int8_t>(bytes, swap);
-    case Component::U16:
-      return load<std::uint16_t>(bytes, swap);
-    case Component::I16:
-      return load<std::int16_t>(bytes, swap);
-    case Component::U32:
-      return load<std::uint32_t>(bytes, swap);
-    case Component::I32:
-      return load<std::int32_t>(bytes, swap);
-    case Component::F32:
-      return static_cast<double>(load<float>(bytes, swap));
-    case Component::F64:
-      return load<double>(bytes, swap);
-  }
-  return 0.0;
 }
 
 bool is_wide_integer(Component component) { return component == Component::U32 || component == Component::I32; }
@@ -113,21 +84,37 @@ void refuse_trouble(const VoxelSource& source, const Trouble& trouble, const cha
          fix);
 }
 
-std::vector<float> read_voxels(const VoxelSource& source) {
-  const std::uint64_t count = voxel_count(source);
-  const std::size_t width = size_of(source.component);
-  const bool swap = source.order != std::endian::native;
-  ByteReader reader(source.data, source.file_offset, source.packing);
-  std::vector<unsigned char> chunk(std::size_t{1} << 16);
+[[noreturn]] void refuse_end(const VoxelSource& source, std::uint64_t found, std::size_t rest) {
+  const std::uint64_t width = source.packing == Packing::Text ? 1 : size_of(source.component);
+  const char* unit = source.packing == Packing::Text ? "numbers" : "bytes";
+  refuse(source, "the data ends early: the file is truncated, or its header wrong",
+         fmt::format("{} {} for {} voxels", voxel_count(source) * width, unit, extents_text(source)),
+         fmt::format("{} {}", found * width + rest, unit), "download or copy the file again");
+}
 
-  std::uint64_t skipped = 0;
-  while (skipped < source.stream_offset) {
-    const auto want = static_cast<std::size_t>(std::min<std::uint64_t>(chunk.size(), source.stream_offset - skipped));
-    const std::size_t got = reader.read(chunk.data(), want);
-    if (got == 0) refuse(source, "the data ends before the first voxel", {}, {}, "download or copy the file again");
-    skipped += got;
+/// How many bytes `on_disk` can at most become.
+std::uint64_t most_unpacked(const VoxelSource& source, std::uint64_t on_disk) {
+  switch (source.packing) {
+    case Packing::Plain:
+      break;
+    case Packing::Gzip:
+    case Packing::Zlib:
+      return on_disk > 0 ? (on_disk + 8) * kGzipLimit + kOverhead : 0;
+    case Packing::Bzip2:
+      return std::min(on_disk, std::uint64_t{1} << 40) * kBzip2Limit;
+    case Packing::Hex:
+      return on_disk / 2;
+    case Packing::Text:  // a digit and a blank each
+      return (on_disk + 1) / 2 * size_of(source.component);
   }
+  return on_disk;
+}
 
+/// `replaced`: how many voxels became `nan_as`.
+std::vector<float> read_voxels(const VoxelSource& source, std::optional<float> nan_as, std::uint64_t& replaced) {
+  const std::uint64_t count = voxel_count(source);
+  StoredValues stored(source.data, source.file_offset, source.stream_offset, source.packing, source.component,
+                      source.order);
   std::vector<float> voxels;
   try {
     voxels.reserve(count);  // not touched until data arrives, so that a lying gzip header costs nothing
@@ -138,55 +125,28 @@ std::vector<float> read_voxels(const VoxelSource& source) {
   Trouble infinite;
   Trouble inexact;
   while (voxels.size() < count) {
-    const auto want = static_cast<std::size_t>(std::min<std::uint64_t>(chunk.size(), (count - voxels.size()) * width));
-    const std::size_t got = reader.read(chunk.data(), want);
-    for (std::size_t at = 0; at + width <= got; at += width) {
-      const double stored = load_component(&chunk[at], source.component, swap);
-      const double value = is_scaled(source) ? source.slope * stored + source.intercept : stored;
+    const auto numbers = stored.next(count - voxels.size());
+    for (const double number : numbers) {
+      const double value = is_scaled(source) ? source.slope * number + source.intercept : number;
       const auto voxel = std::abs(value) <= 3.4028234663852886e38 ? static_cast<float>(value)
                                                                   : static_cast<float>(std::copysign(INFINITY, value));
+      if (nan_as && !std::isfinite(number)) {
+        voxels.push_back(*nan_as);
+        ++replaced;
+        continue;
+      }
       if (!std::isfinite(value) || std::isinf(voxel)) infinite.note(voxels.size(), value);
-      if (is_wide_integer(source.component) && static_cast<double>(static_cast<float>(stored)) != stored)
-        inexact.note(voxels.size(), stored);
+      if (is_wide_integer(source.component) && static_cast<double>(static_cast<float>(number)) != number)
+        inexact.note(voxels.size(), number);
       voxels.push_back(voxel);
     }
-    if (got < want) {
-      refuse(source, "the data ends early: the file is truncated, or its header wrong",
-             fmt::format("{} bytes for {} voxels", count * width, extents_text(source)),
-             fmt::format("{} bytes", (voxels.size() * width) + got % width), "download or copy the file again");
-    }
+    if (numbers.empty()) refuse_end(source, voxels.size(), stored.rest());
   }
-  reader.verify_rest();
-  refuse_trouble(source, infinite, "are not finite numbers", "replace them, for example by 0, and save again");
+  stored.verify_rest();
+  refuse_trouble(source, infinite, "are not finite numbers",
+                 "add --nan-as 0 (or another value) to put that in their place");
   refuse_trouble(source, inexact, "do not fit a 24-bit mantissa", "rescale to 16 bits (unu quantize -b 16)");
   return voxels;
-}
-
-/// Turns whole axes so that the volume's run the way `orientation` says.
-void reorient(Volume& volume, const Orientation& orientation) {
-  if (orientation == Orientation{}) return;
-  Volume turned = volume;
-  for (int a = 0; a < 3; ++a) {
-    turned.dims[a] = volume.dims[orientation.axis[static_cast<std::size_t>(a)]];
-    turned.spacing[a] = volume.spacing[orientation.axis[static_cast<std::size_t>(a)]];
-  }
-  if (!volume.voxels.empty()) {
-    auto out = turned.voxels.begin();
-    glm::ivec3 from;
-    for (int k = 0; k < turned.dims.z; ++k) {
-      for (int j = 0; j < turned.dims.y; ++j) {
-        for (int i = 0; i < turned.dims.x; ++i) {
-          const glm::ivec3 to(i, j, k);
-          for (int a = 0; a < 3; ++a) {
-            const auto slot = static_cast<std::size_t>(a);
-            from[orientation.axis[slot]] = orientation.flipped[slot] ? turned.dims[a] - 1 - to[a] : to[a];
-          }
-          *out++ = volume.at(from.x, from.y, from.z);
-        }
-      }
-    }
-  }
-  volume = std::move(turned);
 }
 
 Volume empty_volume(const VoxelSource& source) {
@@ -196,28 +156,19 @@ Volume empty_volume(const VoxelSource& source) {
     volume.spacing[a] = source.spacing[static_cast<std::size_t>(a)];
   }
   volume.stored = announced_type(source);
+  volume.remarks = source.remarks;
   return volume;
 }
 
-}  // namespace
-
-std::size_t size_of(Component component) {
-  switch (component) {
-    case Component::U8:
-    case Component::I8:
-      return 1;
-    case Component::U16:
-    case Component::I16:
-      return 2;
-    case Component::U32:
-    case Component::I32:
-    case Component::F32:
-      return 4;
-    case Component::F64:
-      return 8;
-  }
-  return 0;
+void note_shear(Volume& volume) {
+  constexpr double kWorthAWord = 0.1;  // degrees
+  const double shear = turn_of(volume).shear;
+  if (!(shear > kWorthAWord)) return;
+  volume.remarks.push_back(
+      fmt::format("the grid is sheared: two of its axes are {:.1f} degrees off a right angle; it is drawn so", shear));
 }
+
+}  // namespace
 
 void check_source(const VoxelSource& source) {
   std::uint64_t count = 1;
@@ -249,12 +200,11 @@ void check_source(const VoxelSource& source) {
   if (error) refuse(source, "cannot read: " + error.message(), {}, {}, "check the path");
   const std::uint64_t on_disk = file_size > source.file_offset ? file_size - source.file_offset : 0;
   const std::uint64_t need = count * size_of(source.component) + std::min(source.stream_offset, std::uint64_t{1} << 62);
-  const bool gzip = source.packing == Packing::Gzip;
-  const std::uint64_t can_hold = gzip ? (on_disk + 8) * kGzipLimit + (on_disk > 0 ? kGzipOverhead : 0) : on_disk;
+  const std::uint64_t can_hold = most_unpacked(source, on_disk);
   if (need > can_hold) {
     refuse(source, "the header promises more than the file holds",
            fmt::format("{} bytes for {} voxels", need, extents_text(source)),
-           fmt::format("{}{} bytes", gzip ? "at most " : "", can_hold),
+           fmt::format("{}{} bytes", source.packing == Packing::Plain ? "" : "at most ", can_hold),
            "download or copy the file again, or correct the header's sizes");
   }
 }
@@ -262,19 +212,28 @@ void check_source(const VoxelSource& source) {
 Volume describe_source(const VoxelSource& source) {
   check_source(source);
   Volume volume = empty_volume(source);
-  reorient(volume, source.orientation);
+  if (source.placement) place(volume, *source.placement);
   return volume;
 }
 
-Volume read_source(const VoxelSource& source) {
+Volume read_source(const VoxelSource& source, std::optional<float> nan_as) {
   check_source(source);
   Volume volume = empty_volume(source);
-  volume.voxels = read_voxels(source);
+  std::uint64_t replaced = 0;
+  volume.voxels = read_voxels(source, nan_as, replaced);
   const auto [low, high] = std::minmax_element(volume.voxels.begin(), volume.voxels.end());
   volume.min = *low;
   volume.max = *high;
+  if (replaced > 0) {
+    volume.remarks.push_back(fmt::format("{} of {} voxels are not finite numbers and were taken as {}", replaced,
+                                         volume.voxels.size(), *nan_as));
+  }
+  if (volume.min == volume.max && volume.voxels.size() > 1)
+    volume.remarks.push_back(
+        fmt::format("a constant volume, every voxel is {}: it shows as a block, or not at all", volume.min));
   if (is_wide_integer(source.component) && !is_scaled(source)) volume.stored = integer_type(volume.min, volume.max);
-  reorient(volume, source.orientation);
+  if (source.placement) place(volume, *source.placement);
+  if (volume.oblique) note_shear(volume);
   return volume;
 }
 

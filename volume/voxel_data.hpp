@@ -1,25 +1,19 @@
-// From the bytes of a volume file to voxels: bounds, byte order, scaling, orientation. Shared by all formats.
+// From the bytes of a volume file to voxels: bounds, byte order, scaling, placement. Shared by all formats.
 #pragma once
 
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
-#include "volume/byte_reader.hpp"
+#include "volume/placement.hpp"
+#include "volume/stored_values.hpp"
 #include "volume/volume.hpp"
 
 namespace fastsplat::volume {
-
-enum class Component { U8, I8, U16, I16, U32, I32, F32, F64 };
-std::size_t size_of(Component component);
-
-/// Which grid axis of the file runs along x, y and z of the volume, and whether backwards.
-struct Orientation {
-  std::array<int, 3> axis{0, 1, 2};
-  std::array<bool, 3> flipped{false, false, false};
-  bool operator==(const Orientation&) const = default;
-};
 
 /// What a header says, checked against nothing yet.
 struct VoxelSource {
@@ -33,18 +27,20 @@ struct VoxelSource {
   std::array<std::uint64_t, 3> extents{};  ///< in the file's axes, x fastest
   std::array<double, 3> spacing{1, 1, 1};  ///< mm, in the file's axes
   double slope = 1.0, intercept = 0.0;     ///< value = slope * stored + intercept
-  Orientation orientation;
+  std::optional<Placement> placement;      ///< absent: the header does not say
+  std::vector<std::string> remarks;        ///< for Volume::remarks
 };
 
 /// Throws UserError (Input) unless extents and spacing make sense and the data file can hold that many voxels (gzip
-/// cannot shrink below 1/1032). Allocates nothing.
+/// cannot shrink below 1/1032, bzip2 below a two-millionth). Allocates nothing.
 void check_source(const VoxelSource& source);
 
 /// dims, spacing, stored type; no voxels. 32-bit integers and doubles are announced as F32.
 Volume describe_source(const VoxelSource& source);
 
 /// Reads the voxels. Stored types: 8/16-bit as they are; float, double and whatever is scaled as F32; 32-bit integers
-/// as the smallest of the others that holds them exactly, else refused. NaN and Inf are refused with count and place.
-Volume read_source(const VoxelSource& source);
+/// as the smallest of the others that holds them exactly, else refused. NaN and Inf become `nan_as`, or are refused
+/// with count and place. What is odd is in Volume::remarks.
+Volume read_source(const VoxelSource& source, std::optional<float> nan_as = {});
 
 }  // namespace fastsplat::volume

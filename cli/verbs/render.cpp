@@ -13,6 +13,7 @@
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
+#include "cli/volume_json.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -104,6 +105,7 @@ ExitCode run_still(const RenderArguments& arguments, const Renderer& renderer, c
   const scene::SceneDescription description = describe(arguments.scene);
   if (!arguments.save_scene.empty()) require_saveable(description);
   const scene::Scene scene = scene::build_scene(description);
+  output.remark(remarks(*scene.volume));
   RenderedFrame frame;
   {
     ProgressBar bar(arguments.engine, watching(arguments.common));
@@ -115,7 +117,7 @@ ExitCode run_still(const RenderArguments& arguments, const Renderer& renderer, c
                 .files = {.out = arguments.out, .raw = arguments.raw}};
   output.line(to_text(result.frame));
   output.remark(remarks(result.frame));
-  write_frame(frame, result.files, metadata_of(renderer, scene), output);
+  write_frame(frame, scene, result.files, metadata_of(renderer, scene), output);
   if (!arguments.save_scene.empty()) write_text_file(arguments.save_scene, scene::to_toml(scene.description));
 
   result.seconds = output.seconds();

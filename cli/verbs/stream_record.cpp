@@ -10,6 +10,7 @@
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
+#include "cli/volume_json.hpp"
 #include "driver/stream_file.hpp"
 
 namespace fastsplat::cli {
@@ -72,6 +73,7 @@ ExitCode run(const Arguments& arguments) {
   const auto description = describe(arguments.scene);
   driver::check_image_size(description.width, description.height);
   const auto scene = scene::build_scene(description);
+  output.remark(remarks(*scene.volume));
 
   Result result{.scene = summary(scene), .stream = arguments.out, .config = config, .driver = {}};
   {

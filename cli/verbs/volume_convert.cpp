@@ -8,6 +8,7 @@
 #include "cli/names.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
+#include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "cli/volume_json.hpp"
 #include "volume/volume_file.hpp"
@@ -19,11 +20,14 @@ struct Arguments {
   Common common;
   std::string volume, out;
   std::optional<std::string> type;
+  std::optional<double> nan_as;
 };
 
 void declare(Options& options, Arguments& to) {
   options.positional("VOLUME", to.volume, "a file or a name");
   options.positional("OUT", to.out, "the file to write");
+  options.group("Input");
+  declare_nan_as(options, to.nan_as);
   options.group("Output");
   options.choice("--type", to.type, {"u8", "i8", "u16", "i16", "f32"}, "u8|i8|u16|i16|f32",
                  "voxel type; default as stored");
@@ -61,21 +65,22 @@ nlohmann::ordered_json to_json(const Result& result) {
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
   check_volume_name(arguments.volume);
-  const bool detached = std::filesystem::path(arguments.out).extension() == ".nhdr";
   check_outputs(
-      {.others = {arguments.out, detached ? volume::data_file_of(arguments.out).string() : "", arguments.common.json},
+      {.others = {arguments.out, volume::data_file_of(arguments.out).string(), arguments.common.json},
        .inputs = inputs_of_volume(arguments.volume)});
-  auto volume = volume::load_volume(arguments.volume);
+  auto volume = volume::load_volume(arguments.volume, reading(arguments.nan_as));
   const auto type = arguments.type ? type_from(*arguments.type) : volume.stored;
   volume::save_volume(volume, arguments.out, type);
   const Result result{.volume = std::move(volume), .out = arguments.out, .type = type};
   output.line(to_text(result));
+  output.remark(remarks(result.volume));
   output.json(to_json(result));
   return ExitCode::Pass;
 }
 
 }  // namespace
 
-const Verb verbs::volume_convert{"volume convert", "to .nrrd, .nhdr, .nii or .nii.gz", verb<Arguments, declare, run>};
+const Verb verbs::volume_convert{"volume convert", "to .nrrd, .nhdr, .nii, .nii.gz, .mha or .mhd",
+                                 verb<Arguments, declare, run>};
 
 }  // namespace fastsplat::cli

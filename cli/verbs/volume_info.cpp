@@ -1,4 +1,4 @@
-// fastsplat volume info: size, spacing, type, range.
+// fastsplat volume info: size, spacing, type, range, place.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -7,8 +7,10 @@
 #include "cli/names.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
+#include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "cli/volume_json.hpp"
+#include "volume/placement.hpp"
 #include "volume/volume_file.hpp"
 
 namespace fastsplat::cli {
@@ -17,11 +19,30 @@ namespace {
 struct Arguments {
   Common common;
   std::string volume;
+  std::optional<double> nan_as;
 };
 
 void declare(Options& options, Arguments& to) {
   options.positional("VOLUME", to.volume, "a file or a name");
+  options.group("Input");
+  declare_nan_as(options, to.nan_as);
   declare(options, to.common);
+}
+
+std::string angle(double degrees) { return fmt::format("{:.1f} degrees", degrees); }
+
+/// How the volume lies in the body, where its file says so.
+std::string place_text(const volume::Volume& volume) {
+  if (!volume.placed) return {};
+  // Not -0, which nobody wants to read.
+  const auto vector = [](const glm::dvec3& v) {
+    return fmt::format("({:.4g}, {:.4g}, {:.4g})", v.x + 0.0, v.y + 0.0, v.z + 0.0);
+  };
+  std::string text = fmt::format("centre   {} mm, right anterior superior\n", vector(volume.centre));
+  if (!volume.oblique) return text + "axes     straight\n";
+  const auto turn = volume::turn_of(volume);
+  text += fmt::format("axes     turned by {} about {}", angle(turn.degrees), vector(turn.about));
+  return text + (turn.shear > 0.05 ? fmt::format(", sheared by {}\n", angle(turn.shear)) : "\n");
 }
 
 std::string to_text(const volume::Volume& volume) {
@@ -35,18 +56,19 @@ std::string to_text(const volume::Volume& volume) {
       "type     {}\n"
       "spacing  {:g} x {:g} x {:g} mm\n"
       "extent   {:g} x {:g} x {:g} mm\n"
-      "values   {:g} to {:g}\n",
+      "values   {:g} to {:g}\n{}",
       volume.name, volume.source, dims.x, dims.y, dims.z, grouped(volume.voxels.size()),
       volume::to_string(volume.stored), spacing.x, spacing.y, spacing.z, extent.x, extent.y, extent.z, volume.min,
-      volume.max);
+      volume.max, place_text(volume));
 }
 
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
   check_volume_name(arguments.volume);
   check_outputs({.others = {arguments.common.json}, .inputs = inputs_of_volume(arguments.volume)});
-  const auto volume = volume::load_volume(arguments.volume);
+  const auto volume = volume::load_volume(arguments.volume, reading(arguments.nan_as));
   output.line(to_text(volume));
+  output.remark(remarks(volume));
   output.json(volume_json(volume));
   return ExitCode::Pass;
 }

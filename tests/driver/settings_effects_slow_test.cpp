@@ -19,7 +19,7 @@ using scene::Followed;
 using scene::SceneDescription;
 using scene::Setting;
 
-/// A picture, and what it took.
+/// A picture as it is shown, and what it took.
 struct Made {
   Image image;
   std::vector<std::uint64_t> work;
@@ -38,7 +38,9 @@ class Golden : public Engine {
   Golden() : Engine("golden", scene::kOffersAll) {}
   Made make(const scene::Scene& scene) const override {
     golden::RenderReport report;
-    Made made{golden::render(scene, {.threads = 1, .progress = {}, .report = &report}), {}};
+    Made made{
+        scene::displayed(golden::render(scene, {.threads = 1, .progress = {}, .report = &report}), scene.description),
+        {}};
     if (const auto& culling = report.culling)
       made.work = {culling->splatted, culling->splat_tests, culling->block_tests, culling->blocks};
     return made;
@@ -50,7 +52,8 @@ class CModel : public Engine {
   CModel() : Engine("cmodel base", driver::offers(load_config("base"))), config_(load_config("base")) {}
   Made make(const scene::Scene& scene) const override {
     const DeviceRender render = driver::render(scene, config_, {.threads = 1, .progress = {}});
-    return {to_image(render.frame), {render.report.sheets, render.report.splat_records}};
+    return {scene::displayed(to_image(render.frame), scene.description),
+            {render.report.sheets, render.report.splat_records}};
   }
 
  private:

@@ -116,6 +116,20 @@ TEST(Camera, ZoomBringsTheEyeNearerAndKeepsTheFieldOfView) {
   EXPECT_NEAR(corner(one), corner(two), 1e-14);
 }
 
+// The formulas that docs/guide.md gives to those who know VTK.
+TEST(Camera, IsWhatTheGuideSaysToAVtkCamera) {
+  const double a = 37.0 * M_PI / 180.0, e = -21.0 * M_PI / 180.0, zoom = 1.7;
+  const Camera camera = make({.azimuth = 37.0, .elevation = -21.0, .zoom = zoom});
+  const glm::dvec3 d = -glm::dvec3(std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), std::sin(e));
+  const glm::dvec3 up(-std::sin(a) * std::sin(e), -std::cos(a) * std::sin(e), std::cos(e));
+  const double off = glm::distance(camera.direction(), d) + glm::distance(-camera.down(), up);
+  const double s = zoom * 100.0 / (box().bounding_radius() + kKernelRadius);
+  std::printf("[figure] vtk_camera: axes off by %.2g, scale off by %.2g (limit 1e-12)\n", off,
+              std::abs(camera.scale_at(0.0) - s));
+  EXPECT_LT(off, 1e-12);
+  EXPECT_NEAR(camera.scale_at(0.0), s, 1e-12);
+}
+
 TEST(Camera, RefusesWhatMakesNoPicture) {
   const auto message = [](CameraParams params, int width = 10, int height = 10) {
     return refusal([&] { make(params, width, height); }, ExitCode::Usage);

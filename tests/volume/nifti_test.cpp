@@ -215,7 +215,7 @@ TEST_F(Nifti, DamageIsNamed) {
   flipped[whole.size() - 5] = static_cast<char>(flipped[whole.size() - 5] ^ 4);
   EXPECT_THAT(message(flipped), HasSubstr("corrupt"));
   EXPECT_THAT(message(Header{}.bytes().substr(0, 200)), HasSubstr("header is truncated"));
-  EXPECT_THAT(message("not a volume"), HasSubstr("NRRD or NIfTI"));
+  EXPECT_THAT(message("not a volume"), HasSubstr("NRRD, NIfTI or MetaImage"));
   const std::string nan("\0\0\xc0\x7f", 4);
   EXPECT_THAT(refused({.datatype = 16}, nan + nan + std::string(24, '\0')),
               HasSubstr("2 of 8 voxels are not finite numbers (got nan first, at voxel (0, 0, 0))"));

@@ -1,4 +1,5 @@
 // NRRD files written by hand: byte orders, geometry, detached data, and everything that must be refused.
+#include <bzlib.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -22,6 +23,26 @@ std::string gzip(const std::string& text) {
   std::ostringstream out;
   write_gzip(out, text.data(), text.size());
   return out.str();
+}
+
+std::string bzip2(std::string text) {
+  std::string out(text.size() + text.size() / 100 + 600, '\0');
+  auto size = static_cast<unsigned>(out.size());
+  EXPECT_EQ(BZ2_bzBuffToBuffCompress(out.data(), &size, text.data(), static_cast<unsigned>(text.size()), 9, 0, 0),
+            BZ_OK);
+  out.resize(size);
+  return out;
+}
+
+std::string hex(const std::string& bytes) {
+  std::string out;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    char two[3];
+    std::snprintf(two, sizeof(two), i % 2 ? "%02X" : "%02x", static_cast<unsigned char>(bytes[i]));
+    out += two;
+    if (i % 5 == 4) out += i % 10 == 4 ? "\n" : " ";
+  }
+  return out;
 }
 
 template <typename T>
@@ -83,6 +104,60 @@ TEST_F(Nrrd, ReadsBothByteOrdersRawAndGzip) {
   EXPECT_THAT(load("", "\x01\x02\x03\x04\x05\x06\x07\xff").voxels, ElementsAre(1, 2, 3, 4, 5, 6, 7, 255));
   EXPECT_THAT(load("type: signed char\n", "\x01\x02\x03\x04\x05\x06\x07\xff").voxels,
               ElementsAre(1, 2, 3, 4, 5, 6, 7, -1));
+}
+
+TEST_F(Nrrd, ReadsBzip2HexAndAsciiLikeRaw) {
+  int read = 0;
+  const auto same = [&](const std::string& type, const std::string& raw, const std::string& text) {
+    const auto expected = load("type: " + type + "\nendian: big\n", raw).voxels;
+    const auto got = [&](const std::string& encoding, const std::string& data) {
+      ++read;
+      EXPECT_EQ(load("type: " + type + "\nendian: big\nencoding: " + encoding + "\n", data).voxels, expected)
+          << encoding;
+    };
+    got("bzip2", bzip2(raw));
+    got("bz2", bzip2(raw.substr(0, 8)) + bzip2(raw.substr(8)));  // two members
+    got("hex", hex(raw));
+    got("ascii", text);
+    got("text", text + "\n\n");
+    got("txt", " \n" + text);
+    EXPECT_EQ(load("type: " + type + "\nencoding: ascii\n", text).voxels, expected);  // text needs no byte order
+  };
+  same("int16", bytes_of<std::int16_t>({-2, 1, 258, 3, -32768, 32767, 6, 7}, true),
+       "-2 1\n258 3\t-32768\r\n32767 +6 7");
+  same("float", bytes_of<float>({0, 1, 0.1f, 3, -4, 5e20f, 6, 7}, true), "0 1 0.1 3e0\n-4 5e20 6.0 7");
+  same("double", bytes_of<double>({0, 1, 0.1, 3, -4, 5e20, 6, 7}, true), "0 1 0.1 3e0\n-4 5e20 6.0 7");
+  std::printf("[figure] encodings read like raw = %d\n", read);
+  EXPECT_EQ(read, 18);
+  // More than one chunk of text, numbers across its ends.
+  std::string numbers;
+  for (int i = 0; i < 60000; ++i) numbers += std::to_string(i % 251) + (i % 7 ? " " : "\n");
+  const auto many = load("sizes: 60 50 20\nencoding: ascii\n", numbers).voxels;
+  ASSERT_EQ(many.size(), 60000u);
+  int wrong = 0;
+  for (int i = 0; i < 60000; ++i) wrong += many[static_cast<std::size_t>(i)] != static_cast<float>(i % 251);
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST_F(Nrrd, DamagedBzip2HexAndAsciiAreNamed) {
+  const std::string packed = bzip2("12345678");
+  EXPECT_THAT(refused("encoding: bzip2\n", packed.substr(0, packed.size() - 3)), HasSubstr("truncated"));
+  std::string flipped = packed;
+  flipped[packed.size() / 2] = static_cast<char>(flipped[packed.size() / 2] ^ 16);
+  EXPECT_THAT(refused("encoding: bzip2\n", flipped), HasSubstr("corrupt"));
+  EXPECT_THAT(refused("encoding: bzip2\n", "not bzip2 at all"), HasSubstr("not bzip2 data"));
+  EXPECT_THAT(refused("encoding: bzip2\n", bzip2("1234567")), HasSubstr("expected 8 bytes for 2 x 2 x 2"));
+  EXPECT_THAT(refused("encoding: hex\n", "3132333435363g38"), HasSubstr("'g' is no digit"));
+  EXPECT_THAT(refused("encoding: hex\n", "31323334353637   8"), HasSubstr("ends within a byte"));
+  EXPECT_THAT(refused("encoding: hex\n", "31323334353637"), HasSubstr("promises more"));
+  EXPECT_THAT(refused("encoding: ascii\n", "1 2 3 4 5 6 banana 8"), HasSubstr("voxel 6 of the text is not a number"));
+  EXPECT_THAT(refused("encoding: ascii\n", "1 2 3 4 5 6 7 256"), HasSubstr("no value of the header's type"));
+  EXPECT_THAT(refused("encoding: ascii\n", "1 2 3 4 5 6 7 7.5"), HasSubstr("no value of the header's type"));
+  EXPECT_THAT(refused("encoding: ascii\n", "1 2 3 4 5 6 77777"), HasSubstr("voxel 6"));
+  EXPECT_THAT(refused("encoding: ascii\n", "1 2 3 4 5 6 7        "), HasSubstr("expected 8 numbers"));
+  EXPECT_THAT(refused("encoding: ascii\n", std::string(100000, '1')), HasSubstr("voxel 0"));
+  EXPECT_THAT(refused("type: float\nencoding: ascii\n", "1 2 3 nan 5 6 7 8"), HasSubstr("1 of 8 voxels"));
+  EXPECT_THAT(refused("encoding: hex\nbyte skip: 1\n", hex("x12345678")), HasSubstr("byte skip"));
 }
 
 TEST_F(Nrrd, WideIntegersBecomeTheSmallestTypeThatHoldsThem) {
@@ -202,7 +277,7 @@ TEST_F(Nrrd, NotFiniteIsRefusedWithCountAndPlace) {
 }
 
 TEST_F(Nrrd, DamagedHeadersAreNamed) {
-  EXPECT_THAT(refused("encoding: bzip2\n"), HasSubstr("raw or gzip"));
+  EXPECT_THAT(refused("encoding: lzma\n"), HasSubstr("raw, gzip, bzip2, hex or ascii"));
   EXPECT_THAT(refused("type: block\nblock size: 1\n"), HasSubstr("v.nrrd"));
   EXPECT_THAT(refused("type: longlong\nendian: little\n"), HasSubstr("voxel type"));
   EXPECT_THAT(refused("type: banana\n"), HasSubstr("banana"));

@@ -62,11 +62,26 @@ TEST_F(VolumeFuzz, LoadsOrRefuses) {
       "(0,1,0) (0,0,2)\n"
       "kinds: domain domain domain\nendian: little\nencoding: raw\nspace origin: (0,0,0)\n\n" +
       std::string(240, 'a');
+  const std::string metaimage =
+      "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = True\nTransformMatrix = 1 0 0 0 0.8 "
+      "0.6 0 -0.6 0.8\nOffset = 1 2 3\nElementSpacing = 1 1 2\nDimSize = 6 5 4\nElementType = MET_SHORT\n"
+      "ElementDataFile = LOCAL\n" +
+      std::string(240, 'a');
+  std::string text = "NRRD0004\ntype: short\ndimension: 3\nsizes: 6 5 4\nencoding: ascii\n\n", numbers;
+  for (int i = 0; i < 120; ++i) numbers += std::to_string(37 * i % 100 - 50) + (i % 10 == 9 ? "\n" : " ");
+  text += numbers;
+  const std::string hex =
+      "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 6 5 4\nencoding: hex\n\n" + std::string(240, '7');
   const std::vector<std::pair<const char*, std::string>> originals = {{"a.nrrd", saved("a.nrrd", VoxelType::U16)},
                                                                       {"b.nii", saved("b.nii", VoxelType::F32)},
                                                                       {"c.nii.gz", saved("c.nii.gz", VoxelType::I16)},
                                                                       {"d.nhdr", saved("d.nhdr", VoxelType::U8)},
-                                                                      {"e.nrrd", header}};
+                                                                      {"e.nrrd", header},
+                                                                      {"f.mha", saved("f.mha", VoxelType::I16)},
+                                                                      {"g.mhd", saved("g.mhd", VoxelType::U8)},
+                                                                      {"h.mha", metaimage},
+                                                                      {"i.nrrd", text},
+                                                                      {"j.nrrd", hex}};
   std::mt19937 random(kSeed);
   int loaded = 0;
   int refused = 0;

@@ -38,7 +38,7 @@ TEST_F(VolumeName, FilesAndFolders) {
   EXPECT_THAT(message(folder_.string()), HasSubstr("directory"));
   EXPECT_THAT(message((folder_ / "none.nrrd").string()), HasSubstr("no such file"));
   EXPECT_THAT(message(write("empty.nii", "").string()), HasSubstr("empty"));
-  EXPECT_THAT(message(write("text.nii", "hello").string()), HasSubstr("NRRD or NIfTI"));
+  EXPECT_THAT(message(write("text.nii", "hello").string()), HasSubstr("NRRD, NIfTI or MetaImage"));
   if (::geteuid() == 0) {
     std::printf("[figure] permission denied: not tried, root may read everything\n");
   } else {

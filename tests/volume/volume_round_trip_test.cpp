@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Combine(::testing::Values(Case{VoxelType::U8, 0, 255}, Case{VoxelType::I8, -128, 127},
                                          Case{VoxelType::U16, 0, 65535}, Case{VoxelType::I16, -32768, 32767},
                                          Case{VoxelType::F32, -1e30f, 2e30f}),
-                       ::testing::Values(".nrrd", ".nhdr", ".nii", ".nii.gz")),
+                       ::testing::Values(".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd")),
     [](const auto& test) {
       std::string name = std::string(to_string(std::get<0>(test.param).type)) + std::get<1>(test.param);
       std::replace(name.begin(), name.end(), '.', '_');
@@ -90,7 +90,7 @@ TEST_F(SaveVolume, RefusesValuesThatDoNotFit) {
 
 TEST_F(SaveVolume, RefusesUnknownEndingsAndBadPlaces) {
   EXPECT_THAT(refusal([&] { save_volume(with(1, VoxelType::U8), folder_ / "out.raw", VoxelType::U8); }),
-              HasSubstr(".nrrd, .nhdr, .nii or .nii.gz"));
+              HasSubstr(".nrrd, .nhdr, .nii, .nii.gz, .mha or .mhd"));
   EXPECT_THAT(refusal([&] { save_volume(with(1, VoxelType::U8), folder_ / ".nrrd", VoxelType::U8); }),
               HasSubstr("unknown kind"));
   EXPECT_THAT(refusal([&] { save_volume(with(1, VoxelType::U8), folder_ / "no" / "out.nrrd", VoxelType::U8); }),
@@ -110,7 +110,7 @@ TEST_F(SaveVolume, AFullDiskLeavesNothingBehind) {
   const rlimit small{.rlim_cur = 8192, .rlim_max = before.rlim_max};
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
   std::vector<std::string> told;
-  for (const char* name : {"v.nrrd", "v.nhdr", "v.nii", "v.nii.gz"}) {
+  for (const char* name : {"v.nrrd", "v.nhdr", "v.nii", "v.nii.gz", "v.mha", "v.mhd"}) {
     told.push_back(refusal([&] { save_volume(noise, folder_ / name, VoxelType::U8); }));
   }
   ::setrlimit(RLIMIT_FSIZE, &before);

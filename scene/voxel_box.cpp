@@ -1,0 +1,60 @@
+#include "scene/voxel_box.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "base/error.hpp"
+#include "base/number_text.hpp"
+
+namespace fastsplat::scene {
+
+std::optional<VoxelBox> box_from(const std::string& text) {
+  VoxelBox box;
+  if (text.empty()) return box;
+  std::string_view rest = text;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto comma = rest.find(',');
+    if ((comma == std::string_view::npos) != (axis == 2)) return std::nullopt;
+    const std::string_view range = rest.substr(0, comma);
+    const auto dots = range.find("..");
+    if (dots == std::string_view::npos) return std::nullopt;
+    const auto low = integer_from<int>(range.substr(0, dots)), high = integer_from<int>(range.substr(dots + 2));
+    if (!low || !high || *low < 0 || *high < *low) return std::nullopt;
+    box.low[axis] = *low;
+    box.high[axis] = *high;
+    if (axis < 2) rest.remove_prefix(comma + 1);
+  }
+  return box;
+}
+
+std::string to_string(const VoxelBox& box) {
+  if (box.everything()) return {};
+  return fmt::format("{}..{},{}..{},{}..{}", box.low.x, box.high.x, box.low.y, box.high.y, box.low.z, box.high.z);
+}
+
+std::shared_ptr<const volume::Volume> cropped(std::shared_ptr<const volume::Volume> volume, const VoxelBox& box) {
+  if (box.everything()) return volume;
+  if (glm::any(glm::greaterThanEqual(box.high, volume->dims))) {
+    throw_usage({.where = "crop",
+                 .what = "the box leaves the volume",
+                 .expected = "a box in " + to_string({glm::ivec3(0), volume->dims - 1}),
+                 .got = to_string(box),
+                 .fix = "`fastsplat volume info` says how many voxels there are"});
+  }
+  volume::Volume part = *volume;
+  part.voxels.clear();
+  part.dims = box.high - box.low + 1;
+  part.voxels.reserve(static_cast<std::size_t>(part.dims.x) * part.dims.y * part.dims.z);
+  for (int k = box.low.z; k <= box.high.z; ++k) {
+    for (int j = box.low.y; j <= box.high.y; ++j) {
+      const auto row = volume->voxels.begin() + static_cast<std::ptrdiff_t>(volume->index(box.low.x, j, k));
+      part.voxels.insert(part.voxels.end(), row, row + part.dims.x);
+    }
+  }
+  part.centre +=
+      0.5 * (volume->position(box.low.x, box.low.y, box.low.z) + volume->position(box.high.x, box.high.y, box.high.z));
+  return std::make_shared<const volume::Volume>(std::move(part));
+}
+
+}  // namespace fastsplat::scene

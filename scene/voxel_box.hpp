@@ -1,0 +1,28 @@
+// A box of voxels, as a user names it: "10..90,0..216,0..180".
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "volume/volume.hpp"
+
+namespace fastsplat::scene {
+
+/// From `low` to `high`, both included; without an axis to it, everything.
+struct VoxelBox {
+  glm::ivec3 low{0}, high{-1};
+  bool everything() const { return high.x < low.x; }
+  bool operator==(const VoxelBox&) const = default;
+};
+
+/// Nothing where the text is no box; "" is everything.
+std::optional<VoxelBox> box_from(const std::string& text);
+std::string to_string(const VoxelBox& box);
+
+/// The voxels inside as a volume of their own, its world centred on them; minimum and maximum stay those of the whole.
+/// UserError (Usage) where the box leaves the volume.
+std::shared_ptr<const volume::Volume> cropped(std::shared_ptr<const volume::Volume> volume, const VoxelBox& box);
+
+}  // namespace fastsplat::scene

@@ -1,0 +1,168 @@
+// MetaImage files written by hand: types, byte orders, compressed, text, separate data, axes, and what must be refused.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstring>
+#include <sstream>
+
+#include "tests/volume/volume_testing.hpp"
+#include "volume/byte_reader.hpp"
+#include "volume/volume_file.hpp"
+
+namespace fastsplat::volume {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::string zlib(const std::string& text) {
+  std::ostringstream out;
+  write_zlib(out, text.data(), text.size());
+  return out.str();
+}
+
+template <typename T>
+std::string bytes_of(std::initializer_list<T> values, bool big_endian) {
+  std::string out;
+  for (const T value : values) {
+    std::string one(sizeof(T), '\0');
+    std::memcpy(one.data(), &value, sizeof(T));
+    if (big_endian) std::reverse(one.begin(), one.end());
+    out += one;
+  }
+  return out;
+}
+
+class MetaImage : public TemporaryFolder {
+ protected:
+  /// A header of these lines with what is missing filled in for 2 x 2 x 2 MET_UCHAR, local.
+  static std::string header(const std::string& lines) {
+    std::string text = "ObjectType = Image\n";
+    for (const std::string line : {"NDims = 3", "DimSize = 2 2 2", "ElementType = MET_UCHAR"}) {
+      const std::string field = "\n" + line.substr(0, line.find('=') + 1);
+      if (("\n" + lines).find(field) == std::string::npos) text += line + "\n";
+    }
+    const bool ends = lines.find("ElementDataFile") != std::string::npos;
+    return text + lines + (ends ? "" : "ElementDataFile = LOCAL\n");
+  }
+  Volume load(const std::string& lines, const std::string& data = "12345678") const {
+    return load_volume(write("v.mha", header(lines) + data).string());
+  }
+  std::string refused(const std::string& lines, const std::string& data = "12345678") const {
+    const auto path = write("v.mha", header(lines) + data);
+    const std::string message = refusal([&] { load_volume(path.string()); });
+    EXPECT_THAT(message, HasSubstr("v.mha"));
+    return message;
+  }
+};
+
+TEST_F(MetaImage, ReadsTypesByteOrdersPlainAndCompressed) {
+  int read = 0;
+  for (const bool big : {false, true}) {
+    for (const bool packed : {false, true}) {
+      const auto values = [&](const std::string& type, const std::string& raw) {
+        ++read;
+        const std::string size = "CompressedDataSize = " + std::to_string(zlib(raw).size()) + "\n";
+        return load("ElementType = MET_" + type + "\nBinaryData = True\nBinaryDataByteOrderMSB = " +
+                        (big ? "True" : "False") + "\nCompressedData = " + (packed ? "True\n" + size : "False\n"),
+                    packed ? zlib(raw) : raw)
+            .voxels;
+      };
+      EXPECT_THAT(values("SHORT", bytes_of<std::int16_t>({-2, 1, 258, 3, -32768, 32767, 6, 7}, big)),
+                  ElementsAre(-2, 1, 258, 3, -32768, 32767, 6, 7));
+      EXPECT_THAT(values("USHORT", bytes_of<std::uint16_t>({0, 1, 258, 3, 4, 65535, 6, 7}, big)),
+                  ElementsAre(0, 1, 258, 3, 4, 65535, 6, 7));
+      EXPECT_THAT(values("CHAR", bytes_of<std::int8_t>({-128, 1, 2, 3, 4, 5, 6, 127}, big)),
+                  ElementsAre(-128, 1, 2, 3, 4, 5, 6, 127));
+      EXPECT_THAT(values("UCHAR", bytes_of<std::uint8_t>({0, 1, 2, 3, 4, 5, 6, 255}, big)),
+                  ElementsAre(0, 1, 2, 3, 4, 5, 6, 255));
+      for (const char* type : {"INT", "LONG"}) {
+        EXPECT_THAT(values(type, bytes_of<std::int32_t>({-1, 1, 2, 3, 4, 5, 6, 70000}, big)),
+                    ElementsAre(-1, 1, 2, 3, 4, 5, 6, 70000));
+      }
+      EXPECT_THAT(values("FLOAT", bytes_of<float>({0, 1, 0.1f, 3, -4, 5, 6, 7}, big)),
+                  ElementsAre(0, 1, 0.1f, 3, -4, 5, 6, 7));
+      EXPECT_THAT(values("DOUBLE", bytes_of<double>({0, 1, 0.1, 3, -4, 5, 6, 7}, big)),
+                  ElementsAre(0, 1, 0.1f, 3, -4, 5, 6, 7));
+    }
+  }
+  EXPECT_THAT(load("BinaryData = False\nElementType = MET_SHORT\n", "-1 2 3\n4 5 6 7 800").voxels,
+              ElementsAre(-1, 2, 3, 4, 5, 6, 7, 800));
+  std::printf("[figure] MetaImage types x byte orders x packings read = %d\n", read);
+  EXPECT_EQ(read, 32);
+}
+
+TEST_F(MetaImage, SpacingAndPlace) {
+  EXPECT_EQ(load("ElementSpacing = 0.5 1 2.5\n").spacing, glm::dvec3(0.5, 1, 2.5));
+  EXPECT_EQ(load("ElementSize = 3 2 1\n").spacing, glm::dvec3(3, 2, 1));
+  EXPECT_EQ(load("").spacing, glm::dvec3(1.0));
+  EXPECT_FALSE(load("").placed);
+  // ITK's +x is left, +y posterior: both are turned round, and the centre is the body's.
+  const Volume plain = load("TransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = 10 20 30\nElementSpacing = 1 2 4\n");
+  EXPECT_THAT(plain.voxels, ElementsAre('4', '3', '2', '1', '8', '7', '6', '5'));
+  EXPECT_EQ(plain.centre, glm::dvec3(-10.5, -21, 32));
+  EXPECT_FALSE(plain.oblique);
+  EXPECT_THAT(load("Rotation = -1 0 0 0 -1 0 0 0 1\nPosition = 0 0 0\n").voxels,
+              ElementsAre('1', '2', '3', '4', '5', '6', '7', '8'));
+  // The matrix lists the direction of one grid axis after the other: the first axis runs upwards, the last to the left.
+  EXPECT_THAT(load("TransformMatrix = 0 0 1 0 1 0 1 0 0\n").voxels,
+              ElementsAre('7', '3', '5', '1', '8', '4', '6', '2'));
+}
+
+TEST_F(MetaImage, SeparateData) {
+  const auto mhd = [&](const std::string& lines) { return write("v.mhd", header(lines)).string(); };
+  write("v.raw", "xx12345678");
+  EXPECT_EQ(load_volume(mhd("HeaderSize = 2\nElementDataFile = v.raw\n")).at(0, 0, 0), '1');
+  EXPECT_EQ(load_volume(mhd("HeaderSize = -1\nElementDataFile = v.raw\n")).at(0, 0, 0), '1');
+  write("v.zraw", zlib("12345678"));
+  EXPECT_EQ(load_volume(mhd("CompressedData = True\nElementDataFile = v.zraw\n")).at(1, 1, 1), '8');
+  const auto message = [&](const std::string& name) {
+    return refusal([&] { load_volume(mhd("ElementDataFile = " + name + "\n")); });
+  };
+  EXPECT_THAT(message("../v.raw"), HasSubstr("must lie in the header's own folder"));
+  EXPECT_THAT(message("/etc/passwd"), HasSubstr("must lie in the header's own folder"));
+  EXPECT_THAT(message("LIST"), HasSubstr("several files"));
+  EXPECT_THAT(message("slice%03d.raw 1 9 1"), HasSubstr("several files"));
+  EXPECT_THAT(message("missing.raw"), HasSubstr("no such file"));
+  EXPECT_THAT(refusal([&] { load_volume(mhd("HeaderSize = 99\nElementDataFile = v.raw\n")); }),
+              HasSubstr("promises more"));
+}
+
+TEST_F(MetaImage, RefusesWhatIsNoVolume) {
+  EXPECT_THAT(refused("ElementNumberOfChannels = 3\n"), HasSubstr("one scalar per voxel"));
+  EXPECT_THAT(refused("NDims = 2\nDimSize = 4 2\n"), HasSubstr("3 dimensions"));
+  EXPECT_THAT(refused("NDims = 4\nDimSize = 2 2 1 2\n"), HasSubstr("one scalar per voxel"));
+  EXPECT_EQ(load("NDims = 4\nDimSize = 2 2 2 1\nElementSpacing = 1 2 3 4\n").spacing, glm::dvec3(1, 2, 3));
+  EXPECT_THAT(refused("ElementType = MET_LONG_LONG\n"), HasSubstr("voxel type"));
+  EXPECT_THAT(refused("ElementType = MET_UCHAR_ARRAY\n"), HasSubstr("voxel type"));
+  EXPECT_THAT(refused("DimSize = 2 2\n"), HasSubstr("disagree"));
+  EXPECT_THAT(refused("DimSize = 2 -2 2\n"), HasSubstr("not a size"));
+  EXPECT_THAT(refused("DimSize = 2 0 2\n"), HasSubstr("impossible"));
+  EXPECT_THAT(refused("DimSize = 65535 65535 65535\n"), HasSubstr("more voxels than can be handled"));
+  EXPECT_THAT(refused("DimSize = 2 2 3\n"), HasSubstr("expected 12 bytes for 2 x 2 x 3 voxels, got 8 bytes"));
+  EXPECT_THAT(refused("CompressedData = True\nDimSize = 1000 1000 1000\n", zlib("12345678")),
+              HasSubstr("promises more than the file holds"));
+  EXPECT_THAT(refused("NDims = 99\n"), HasSubstr("number of dimensions"));
+  EXPECT_THAT(refused("ElementSpacing = 1 0 1\n"), HasSubstr("spacing"));
+  EXPECT_THAT(refused("ElementSpacing = 1 1\n"), HasSubstr("NDims"));
+  EXPECT_THAT(refused("ElementSpacing = 1 nan 1\n"), HasSubstr("finite number"));
+  EXPECT_THAT(refused("TransformMatrix = 1 0 0 1 0 0 0 0 1\n"), HasSubstr("do not span space"));
+  EXPECT_THAT(refused("BinaryData = Perhaps\n"), HasSubstr("True or False"));
+  EXPECT_THAT(refused("ElementToIntensityFunctionSlope = 2\n"), HasSubstr("not applied"));
+  EXPECT_NO_THROW(
+      load("ElementToIntensityFunctionSlope = 1\nElementToIntensityFunctionOffset = 0\nModality = MET_MOD_CT\n"));
+  EXPECT_THAT(refused("DimSize = 2 2 2\nDimSize = 2 2 2\n"), HasSubstr("given twice"));
+  EXPECT_THAT(refused("no equals sign\n"), HasSubstr("v.mha:5"));
+  EXPECT_THAT(refused("CompressedData = True\n", zlib("12345678").substr(0, 12)), HasSubstr("truncated"));
+  EXPECT_THAT(refused("CompressedData = True\n", "this is not zlib data"), HasSubstr("corrupt"));
+  EXPECT_THAT(refused("BinaryData = False\n", "1 2 3 x 5 6 7 8"), HasSubstr("not a number"));
+  EXPECT_THAT(refusal([&] { load_volume(write("c.mha", "ObjectType = Image\nNDims = 3\n").string()); }),
+              HasSubstr("does not end"));
+  EXPECT_THAT(
+      refusal([&] { load_volume(write("t.mha", "ObjectType = Tube\nNDims = 3\nElementDataFile = LOCAL\n").string()); }),
+      HasSubstr("not an image"));
+}
+
+}  // namespace
+}  // namespace fastsplat::volume

@@ -39,7 +39,7 @@ class TileBins {
   TileBins(const TileGrid& grid, int sheets, std::size_t splats, int threads, ExtentOf extent, SheetOf first_sheet)
       : sheets_(static_cast<std::size_t>(sheets)), start_(static_cast<std::size_t>(grid.count()) * sheets_ + 1, 0) {
     std::vector<Place> places(splats);
-    const Columns across(grid.image_width, grid.tile_width), down(grid.image_height, grid.tile_height);
+    const Columns across(grid.columns(), grid.tile_width), down(grid.rows(), grid.tile_height);
     constexpr std::size_t kPiece = 1 << 16;
     parallel_for((splats + kPiece - 1) / kPiece, threads, [&](std::size_t piece) {
       for (std::size_t i = piece * kPiece; i < std::min(splats, (piece + 1) * kPiece); ++i) {
@@ -74,8 +74,9 @@ class TileBins {
   /// Tiles along one axis, looked up by pixel: a division each is what most of the binning would cost.
   class Columns {
    public:
-    Columns(int pixels, int tile) {
-      for (int at = 0; at < pixels; ++at) tile_.push_back(static_cast<std::int16_t>(at / tile));
+    /// The last tile counts as a whole one, even where the image ends within it.
+    Columns(int tiles, int tile) {
+      for (int at = 0; at < tiles * tile; ++at) tile_.push_back(static_cast<std::int16_t>(at / tile));
     }
     /// Of the interval's first pixel; behind the last one if it begins there.
     std::int16_t first(std::int32_t begin) const {

@@ -88,7 +88,7 @@ TEST_P(Rtl, ResetFillsAndPatternsNeverChangeAPixel) {
     run.ready = run.input = pattern;
     EXPECT_TRUE(same(run)) << pattern;
   }
-  for (const std::uint64_t beats : {1u, 50u, 500u}) {
+  for (const std::uint64_t beats : {1u, 50u, 300u}) {
     VerifyOptions run = options();
     run.reset_after = beats;
     EXPECT_TRUE(same(run)) << "reset after " << beats;

@@ -7,6 +7,8 @@
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
 #include <vector>
 
 namespace {
@@ -78,7 +80,10 @@ void print_lines(const std::map<std::string, Line>& lines) {
 
 int main(int count, char** arguments) try {
   if (count != 2) throw std::runtime_error("expected the JSON of bench_frame");
-  const Json json = Json::parse(std::ifstream(arguments[1]));
+  // Google Benchmark writes the spread of a counter that is 0 as NaN, which is no JSON.
+  std::ostringstream text;
+  text << std::ifstream(arguments[1]).rdbuf();
+  const Json json = Json::parse(std::regex_replace(text.str(), std::regex(": -?(NaN|nan|inf)"), ": null"));
   std::map<std::string, Line> lines;
   for (const Json& run : json.at("benchmarks")) {
     if (run.at("run_type") != "iteration" || run.contains("error_occurred")) continue;

@@ -45,7 +45,8 @@ void device_frame(benchmark::State& state, const std::string& volume, int size, 
 
 void golden_frame(benchmark::State& state, const std::string& volume, int size) {
   const scene::Scene& scene = scene_of(volume, size);
-  for (auto _ : state) benchmark::DoNotOptimize(golden::render(scene, {.threads = 1, .progress = {}, .report = nullptr}).data.data());
+  for (auto _ : state)
+    benchmark::DoNotOptimize(golden::render(scene, {.threads = 1, .progress = {}, .report = nullptr}).data.data());
 }
 
 /// One tile of splats `extent` pixels wide, anywhere on it.
@@ -134,7 +135,9 @@ const bool kRegistered = [] {
     frame("wall1/head512/base", kHead, 512, "base", Unit::Fast);
     frame("wall2/head512/base", kHead, 512, "base", Unit::Fast, 2);
     benchmark::RegisterBenchmark("golden/head512", golden_frame, kHead, 512)
-        ->Unit(benchmark::kMillisecond)->Iterations(1)->MeasureProcessCPUTime();
+        ->Unit(benchmark::kMillisecond)
+        ->Iterations(1)
+        ->MeasureProcessCPUTime();
   }
   for (const char* config : {"base", "compact"})
     frame(std::string("fast/shells256/") + config, "shells:256", 512, config, Unit::Fast);

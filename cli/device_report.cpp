@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-
 #include <nlohmann/json.hpp>
 
 #include "base/hash_text.hpp"
@@ -36,7 +35,13 @@ bool only_opaque(const DeviceReport& report) {
 }
 
 std::string to_text(const driver::UnitReport& units, const cmodel::Counters& counters) {
-  if (units.fast == 0) return units.plain == 0 ? "" : fmt::format("unit: plain, {}\n", counted(units.plain, "tile"));
+  if (units.fast == 0) {
+    return units.plain == 0 ? ""
+                            : fmt::format("unit: plain, {}{}\n", counted(units.plain, "tile"),
+                                          units.redone > 0 ? ": in each a sum may have been cut, which the fast one "
+                                                             "cannot count"
+                                                           : "");
+  }
   return fmt::format("unit: fast ({}), {}{}; {:.1f} % of the splats lay on frozen blocks and were only counted\n",
                      units.vectors, counted(units.fast, "tile"),
                      units.plain > 0 ? fmt::format(", {} again by the plain one", grouped(units.plain)) : "",
@@ -82,10 +87,10 @@ std::vector<Remark> remarks(const driver::DriverReport& report) {
 }
 
 std::string to_text(const DeviceReport& report) {
-  return to_text(report.driver) + fmt::format("device: configuration {} {}, {}, {} composited\n", report.config.name,
-                                              hash_text(cmodel::config_hash(report.config)),
-                                              counted(report.counters.windows, "window"),
-                                              counted(report.counters.pixels_composited, "pixel")) +
+  return to_text(report.driver) +
+         fmt::format("device: configuration {} {}, {}, {} composited\n", report.config.name,
+                     hash_text(cmodel::config_hash(report.config)), counted(report.counters.windows, "window"),
+                     counted(report.counters.pixels_composited, "pixel")) +
          to_text(report.units, report.counters);
 }
 
@@ -111,8 +116,9 @@ std::vector<Remark> remarks(const DeviceReport& report) {
     if (!is_loss(name) || value == 0) return;
     if (name == "pixel_saturated" && only_opaque(report)) {
       const std::int64_t largest = report.config.pixel_format().max;
-      remarks.push_back({Remark::Note, fmt::format("{} output words of 1.0 are {}/{} in this configuration's pixel format",
-                                                   grouped(value), largest, largest + 1)});
+      remarks.push_back(
+          {Remark::Note, fmt::format("{} output words of 1.0 are {}/{} in this configuration's pixel format",
+                                     grouped(value), largest, largest + 1)});
       return;
     }
     remarks.push_back({Remark::Warning, fmt::format("{} {}; {}", grouped(value), meaning, fix_for(name))});

@@ -3,22 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <set>
 
-#include "base/atomic_file.hpp"
-#include "base/error.hpp"
+#include "cli/output_names.hpp"
 
 namespace fastsplat::cli {
 namespace {
-
-namespace fs = std::filesystem;
-
-std::string ending(const std::string& path) {
-  std::string text = fs::path(path).extension().string();
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 images::WriteOptions options_for(const std::string& path) {
   if (ending(path) == ".exr") return {.kind = images::PixelKind::Float, .display = false};

@@ -2,15 +2,11 @@
 
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
+#include "cmodel/stream_advice.hpp"
 #include "cmodel/window_geometry.hpp"
 
 namespace fastsplat::cmodel {
 namespace {
-
-// What to do about it, by what is wrong: the file, who wrote it, or the configuration it is given to.
-constexpr const char* kDamaged = "the stream is damaged or cut: copy or record it again";
-constexpr const char* kMiswritten = "docs/stream.md has the rule: correct what wrote the stream, or record it again";
-constexpr const char* kForeign = "give the configuration it was recorded with, or record it again with this one";
 
 std::string at_least(std::int64_t bound) { return "at least " + std::to_string(bound); }
 std::string at_most(std::int64_t bound) { return "at most " + std::to_string(bound); }
@@ -27,11 +23,11 @@ StreamDecode::StreamDecode(const Config& config, StreamScope scope)
 
 void StreamDecode::refuse(const char* what, const std::string& expected, const std::string& got,
                           const char* fix) const {
-  throw_input({.where = "beat " + std::to_string(beats_) + " (byte offset " + std::to_string(beats_ * kBeatBytes) + ")",
+  throw_input({.where = beat_place(beats_),
                .what = what,
                .expected = expected,
                .got = got,
-               .fix = fix == nullptr ? kMiswritten : fix});
+               .fix = fix == nullptr ? kMiswrittenStream : fix});
 }
 
 void StreamDecode::expect(bool holds, const char* what, std::int64_t expected, std::int64_t got) const {
@@ -108,7 +104,7 @@ void StreamDecode::check(const BeginFrame& record, const Beat& beat) {
          get(beat, layout::kFrameVersion));
   if (record.config_hash != config_hash_) {
     refuse("stream was made for another configuration", hash_text(config_hash_) + " (" + config_.name + ")",
-           hash_text(record.config_hash), kForeign);
+           hash_text(record.config_hash), kForeignStream);
   }
   expect_least(record.width, 1, "empty image width");
   expect_least(record.height, 1, "empty image height");
@@ -250,13 +246,13 @@ void StreamDecode::check(const EndTile& record) {
 void StreamDecode::check(const EndFrame& record) {
   if (scope_ == StreamScope::Whole) {
     if (tiles_seen_ != frame_.tiles)
-      refuse("tiles missing", std::to_string(frame_.tiles), std::to_string(tiles_seen_), kDamaged);
+      refuse("tiles missing", std::to_string(frame_.tiles), std::to_string(tiles_seen_), kDamagedStream);
     if (record.beats != beats_) {
       refuse("end_frame counts other beats than came before it", std::to_string(beats_), std::to_string(record.beats),
-             kDamaged);
+             kDamagedStream);
     }
     if (record.crc != crc_.value())
-      refuse("corrupt: not the checksum of the beats before", hex(crc_.value()), hex(record.crc), kDamaged);
+      refuse("corrupt: not the checksum of the beats before", hex(crc_.value()), hex(record.crc), kDamagedStream);
   }
   state_ = State::Ended;
 }
@@ -276,7 +272,7 @@ const Record* StreamDecode::feed(const Beat& beat) {
     const RecordLayout* found = find_layout(opcode);
     if (found == nullptr)
       refuse("unknown opcode", state_ == State::Start ? "a FastSplat stream (begin_frame, 70)" : "a known opcode",
-             std::to_string(opcode), state_ == State::Start ? "name a stream file (.fss)" : kDamaged);
+             std::to_string(opcode), state_ == State::Start ? "name a stream file (.fss)" : kDamagedStream);
     check_order(found->opcode, found->name);
     check_reserved(beat, *found);
     record_ = from_beat(beat);
@@ -302,9 +298,9 @@ const Record* StreamDecode::feed(const Beat& beat) {
 
 void StreamDecode::finish() const {
   if (scope_ == StreamScope::Whole && state_ != State::Ended)
-    refuse("stream ends too early", wanted(), "end of data", kDamaged);
+    refuse("stream ends too early", wanted(), "end of data", kDamagedStream);
   if (scope_ == StreamScope::Subset && state_ != State::Tables && state_ != State::Start && state_ != State::Ended)
-    refuse("stream ends inside a tile or table", wanted(), "end of data", kDamaged);
+    refuse("stream ends inside a tile or table", wanted(), "end of data", kDamagedStream);
 }
 
 }  // namespace fastsplat::cmodel

@@ -99,7 +99,7 @@ void CompiledFrame::State::make_preamble(const scene::Scene& scene) {
 }
 
 std::uint32_t CompiledFrame::State::emit_sheet(int tile, int sheet, std::uint32_t& tag, cmodel::RecordSink& out,
-                                             TileReport& report) const {
+                                               TileReport& report) const {
   const std::int32_t x0 = grid.x(tile) * (1 << config.position_frac_bits),
                      y0 = grid.y(tile) * (1 << config.position_frac_bits);
   std::array<cmodel::SplatRecord, 256> some;
@@ -112,8 +112,7 @@ std::uint32_t CompiledFrame::State::emit_sheet(int tile, int sheet, std::uint32_
       if (part.empty()) continue;
       if (records == 0) out.begin_sheet({static_cast<std::uint32_t>(sheet)});
       report.saturated_records += part.saturated ? 1 : 0;
-      some[waiting++] = {
-          .set = splat.set, .tag = tag++, .x = splat.x - x0, .y = splat.y - y0, .colour = part.words};
+      some[waiting++] = {.set = splat.set, .tag = tag++, .x = splat.x - x0, .y = splat.y - y0, .colour = part.words};
       ++records;
       if (waiting < some.size()) continue;
       out.splats(some);

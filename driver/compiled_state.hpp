@@ -63,8 +63,7 @@ struct CompiledFrame::State {
     return sliced() ? slices.share(words, depth, sheet) : slices.whole(words);
   }
   cmodel::BeginTile begin_tile(int tile) const {
-    return {mode,         static_cast<std::uint32_t>(tile), grid.x(tile),
-            grid.y(tile), grid.width(tile),                 grid.height(tile)};
+    return {mode, static_cast<std::uint32_t>(tile), grid.x(tile), grid.y(tile), grid.width(tile), grid.height(tile)};
   }
   /// Records of one sheet of one tile; begin_sheet only when there is something to say.
   std::uint32_t emit_sheet(int tile, int sheet, std::uint32_t& tag, cmodel::RecordSink& out, TileReport& report) const;

@@ -57,9 +57,8 @@ inline Quantised quantise(double value, const Target& target) {
   const auto least = static_cast<double>(target.to.min), largest = static_cast<double>(target.to.max);
   const bool outside = word < least || word > largest;
   assert(!outside || target.overflow == Target::Overflow::Saturates);
-  return {.word = static_cast<std::int64_t>(outside && target.overflow == Target::Overflow::Saturates
-                                                ? std::clamp(word, least, largest)
-                                                : word),
+  return {.word = static_cast<std::int64_t>(
+              outside && target.overflow == Target::Overflow::Saturates ? std::clamp(word, least, largest) : word),
           .saturated = outside};
 }
 

@@ -70,9 +70,9 @@ DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, con
   // Tiles are independent: each has a device of its own, as several chips would.
   parallel_for(compiled.work(), options.threads, [&](std::size_t number) {
     const int tile = static_cast<int>(number);
-    results[number] = !tables              ? draw_plain(compiled, tile, frame)
+    results[number] = !tables                    ? draw_plain(compiled, tile, frame)
                       : tables->jobs.plan.narrow ? draw_fast<std::uint16_t>(compiled, *tables, tile, frame)
-                                            : draw_fast<std::uint32_t>(compiled, *tables, tile, frame);
+                                                 : draw_fast<std::uint32_t>(compiled, *tables, tile, frame);
     if (options.progress) options.progress(done.fetch_add(1) + 1, tiles);
   });
 

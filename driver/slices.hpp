@@ -62,8 +62,8 @@ class Slices {
     const std::int32_t at = cut_[static_cast<std::size_t>(boundary)] - depth + middle_;
     return phi_[static_cast<std::size_t>(std::clamp(at, 0, 2 * middle_))];
   }
-  /// Last slab whose near boundary is `before` the depth, else the first one. Boundaries lie nearly evenly: a guess, then
-  /// a step or two.
+  /// Last slab whose near boundary is `before` the depth, else the first one. Boundaries lie nearly evenly: a guess,
+  /// then a step or two.
   template <class Before>
   int last_that(std::int32_t depth, Before before) const {
     int s = std::clamp(static_cast<int>(depth * per_step_), 0, count() - 1);

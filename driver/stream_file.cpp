@@ -15,6 +15,7 @@
 #include "base/read_file.hpp"
 #include "cmodel/crc32.hpp"
 #include "cmodel/model.hpp"
+#include "cmodel/stream_advice.hpp"
 #include "driver/compile.hpp"
 #include "driver/frame_sink.hpp"
 #include "driver/tile_cover.hpp"
@@ -69,10 +70,6 @@ class Writer {
   cmodel::Crc32 crc_;
 };
 
-std::string beat_place(std::uint64_t beat) { return fmt::format("beat {} (byte offset {})", beat, beat * kBeatBytes); }
-
-constexpr const char* kDamaged = "the stream is damaged or cut: copy or record it again";
-
 /// Beats of a file in blocks.
 class Reader {
  public:
@@ -98,11 +95,11 @@ class Reader {
     }
     if (in_.bad()) refuse(fmt::format("cannot read: {}", std::strerror(errno)), {}, {}, "check the disk");
     if (const auto rest = bytes_ % kBeatBytes; rest != 0) {
-      throw_input({.where = beat_place(bytes_ / kBeatBytes),
+      throw_input({.where = cmodel::beat_place(bytes_ / kBeatBytes),
                    .what = "stream ends within this beat",
                    .expected = fmt::format("{} bytes", kBeatBytes),
                    .got = fmt::format("{} byte{}", rest, rest == 1 ? "" : "s"),
-                   .fix = kDamaged});
+                   .fix = cmodel::kDamagedStream});
     }
   }
   std::uintmax_t bytes() const { return bytes_; }
@@ -126,25 +123,25 @@ std::string hex(std::uint32_t word) { return fmt::format("0x{:08x}", word); }
 /// Refuses a beat that dump_stream cannot tell; `layout` is null for an unknown opcode.
 void check_dumped(std::uint64_t number, const Beat& beat, const cmodel::RecordLayout* layout, bool ended) {
   if (number == 0 && (layout == nullptr || layout->opcode != cmodel::Opcode::BeginFrame)) {
-    throw_input({.where = beat_place(number),
+    throw_input({.where = cmodel::beat_place(number),
                  .what = "not a FastSplat stream",
                  .expected = "begin_frame first",
                  .got = layout == nullptr ? fmt::format("opcode {}", beat[0] & 0xff) : layout->name,
                  .fix = "name a .fss file"});
   }
   if (layout == nullptr) {
-    throw_input({.where = beat_place(number),
+    throw_input({.where = cmodel::beat_place(number),
                  .what = "unknown opcode",
                  .expected = "a known opcode",
                  .got = fmt::format("0x{:02x}", beat[0] & 0xff),
-                 .fix = kDamaged});
+                 .fix = cmodel::kDamagedStream});
   }
   if (ended) {
-    throw_input({.where = beat_place(number),
+    throw_input({.where = cmodel::beat_place(number),
                  .what = "record out of order",
                  .expected = "nothing after end_frame",
                  .got = layout->name,
-                 .fix = kDamaged});
+                 .fix = cmodel::kDamagedStream});
   }
 }
 
@@ -172,18 +169,18 @@ std::string fields_of(const Beat& beat, const cmodel::RecordLayout& layout) {
 void check_end(std::uint64_t number, const Beat& beat, const cmodel::Crc32& crc) {
   const auto end = std::get<cmodel::EndFrame>(cmodel::from_beat(beat));
   if (end.beats != number) {
-    throw_input({.where = beat_place(number),
+    throw_input({.where = cmodel::beat_place(number),
                  .what = "end_frame counts other beats than came before it",
                  .expected = std::to_string(number),
                  .got = std::to_string(end.beats),
-                 .fix = kDamaged});
+                 .fix = cmodel::kDamagedStream});
   }
   if (end.crc != crc.value()) {
-    throw_input({.where = beat_place(number),
+    throw_input({.where = cmodel::beat_place(number),
                  .what = "corrupt: not the checksum of the beats before",
                  .expected = hex(crc.value()),
                  .got = hex(end.crc),
-                 .fix = kDamaged});
+                 .fix = cmodel::kDamagedStream});
   }
 }
 
@@ -342,11 +339,11 @@ void dump_stream(const std::filesystem::path& path, const std::function<bool(con
       return true;
     });
     if (all && !ended) {
-      throw_input({.where = beat_place(number),
+      throw_input({.where = cmodel::beat_place(number),
                    .what = "stream ends too early",
                    .expected = payload_left > 0 ? "a beat of table words" : "end_frame",
                    .got = "end of data",
-                   .fix = kDamaged});
+                   .fix = cmodel::kDamagedStream});
     }
   });
 }

@@ -96,7 +96,8 @@ class TileBins {
   void visit(const TileGrid& grid, const Place& place, Visit visit) const {
     for (int ty = place.ty0; ty <= place.ty1; ++ty) {
       for (int tx = place.tx0; tx <= place.tx1; ++tx) {
-        const std::size_t tile = static_cast<std::size_t>(ty) * static_cast<std::size_t>(grid.columns()) + static_cast<std::size_t>(tx);
+        const std::size_t tile =
+            static_cast<std::size_t>(ty) * static_cast<std::size_t>(grid.columns()) + static_cast<std::size_t>(tx);
         visit(tile * sheets_ + static_cast<std::size_t>(place.sheet));
       }
     }

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "cmodel/records.hpp"
+#include "cmodel/stream_advice.hpp"
 
 namespace fastsplat::driver {
 namespace {
@@ -92,12 +93,11 @@ void CoverRule::see(const cmodel::Beat& beat) {
       break;
     case cmodel::Opcode::EndFrame:
       if (const std::int64_t missing = image_ - cover_.pixels(); missing != 0) {
-        throw_input({.where = "beat " + std::to_string(number) + " (byte offset " +
-                              std::to_string(number * cmodel::kBeatBytes) + ")",
+        throw_input({.where = cmodel::beat_place(number),
                      .what = "tiles do not cover the image",
                      .expected = "every pixel in a tile",
                      .got = std::to_string(missing) + (missing == 1 ? " pixel in none" : " pixels in none"),
-                     .fix = "docs/stream.md has the rule: correct what wrote the stream, or record it again"});
+                     .fix = cmodel::kMiswrittenStream});
       }
       break;
     default:

@@ -59,10 +59,8 @@ TransferFunction resolved(const TransferFunction& tf, const volume::Volume& volu
 }
 
 Classifier::Classifier(const TransferFunction& tf, const volume::Volume& volume)
-    : points_(tf.points), reference_length_(tf.reference_length), table_min_(volume.min) {
+    : points_(resolved(tf, volume).points), reference_length_(tf.reference_length), table_min_(volume.min) {
   assert(!points_.empty());
-  const Span span = resolve(tf.domain, volume);
-  for (auto& point : points_) point.at = span.low + point.at * (span.high - span.low);
   if (!is_integer(volume.stored)) return;
   const auto entries = static_cast<std::size_t>(volume.max - volume.min) + 1;
   table_.reserve(entries);

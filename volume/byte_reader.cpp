@@ -245,6 +245,14 @@ Packing packing_of(const std::filesystem::path& path) {
   return file.get() == 0x1f && file.get() == 0x8b ? Packing::Gzip : Packing::Plain;
 }
 
+std::string start_of(const std::filesystem::path& path, std::size_t most) {
+  std::ifstream file(path, std::ios::binary);
+  std::string start(most, '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  return start;
+}
+
 ByteReader::ByteReader(const std::filesystem::path& path, std::uint64_t offset, Packing packing)
     : unpacker_(unpacker_for(PlainFile(path, offset), packing)), packing_(packing) {}
 

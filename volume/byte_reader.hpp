@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <memory>
+#include <string>
 
 namespace fastsplat::volume {
 
@@ -14,6 +15,9 @@ enum class Packing { Plain, Gzip, Zlib, Bzip2, Hex, Text };
 
 /// Gzip when the file starts with gzip's two magic bytes, else Plain.
 Packing packing_of(const std::filesystem::path& path);
+
+/// The file's first bytes as they are on disk, at most `most`.
+std::string start_of(const std::filesystem::path& path, std::size_t most);
 
 class ByteReader {
  public:

@@ -7,12 +7,12 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <sstream>
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "volume/byte_reader.hpp"
 #include "volume/detached_file.hpp"
 
 namespace fastsplat::volume {
@@ -67,10 +67,7 @@ std::string trimmed(const std::string& text) {
 Header split_header(const fs::path& path) {
   Header header;
   header.path = path;
-  std::ifstream file(path, std::ios::binary);
-  std::string head(kMaxHeader, '\0');
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(file.gcount()));
+  const std::string head = start_of(path, kMaxHeader);
   for (int line = 1; header.end < head.size(); ++line) {
     const std::size_t end = std::min(head.find('\n', header.end), head.size());
     const std::string text = head.substr(header.end, end - header.end);
@@ -250,10 +247,7 @@ std::uint64_t bytes_before(const Header& header, const VoxelSource& source) {
 }  // namespace
 
 bool is_metaimage(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string start(64, '\0');
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(file.gcount()));
+  const std::string start = start_of(path, 64);
   const auto end = start.find_first_of("= \t\r\n");
   if (end == std::string::npos) return false;
   const auto equals = start.find_first_not_of(" \t", end);

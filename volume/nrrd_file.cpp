@@ -17,6 +17,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "volume/byte_reader.hpp"
 #include "volume/detached_file.hpp"
 
 namespace fastsplat::volume {
@@ -83,10 +84,7 @@ std::string lower(std::string text) {
 Header split_header(const fs::path& path) {
   Header header;
   header.path = path;
-  std::ifstream file(path, std::ios::binary);
-  std::string head(kMaxHeader, '\0');
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(file.gcount()));
+  const std::string head = start_of(path, kMaxHeader);
   std::size_t at = 0;
   for (int line = 1; at < head.size(); ++line) {
     const std::size_t end = std::min(head.find('\n', at), head.size());

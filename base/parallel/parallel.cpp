@@ -28,7 +28,12 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
     tbb::parallel_for(
         std::size_t{0}, workers,
         [&](std::size_t) {
-          for (std::size_t i = next++; i < count; i = next++) job(i);
+          try {
+            for (std::size_t i = next++; i < count; i = next++) job(i);
+          } catch (...) {
+            next = count;  // the others finish what they have begun
+            throw;
+          }
         },
         tbb::simple_partitioner());
   });

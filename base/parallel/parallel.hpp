@@ -10,7 +10,7 @@
 namespace fastsplat {
 
 /// job(i) for every i in [0, count), each exactly once, on at most `threads` threads (0: all cores).
-/// An exception of a job reaches the caller.
+/// An exception of a job reaches the caller; jobs that have not begun then never do.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& job);
 
 /// The same for every i in [0, work.size()), those with the most work first: so that nobody ends with a long one alone.

@@ -47,27 +47,32 @@ constexpr Goal kGoals[] = {
 };
 
 void print_goals(const std::map<std::string, Line>& lines) {
-  std::cout << "| ratio of medians, CPU time | measured | least, greatest of its repetitions | goal | |\n|---|---|---|---|---|\n";
+  std::cout << "| ratio of medians, CPU time | measured | least, greatest of its repetitions | goal | "
+               "|\n|---|---|---|---|---|\n";
   for (const Goal& goal : kGoals) {
     const auto slow = lines.find(goal.slow), fast = lines.find(goal.fast);
     if (slow == lines.end() || fast == lines.end()) continue;
     const double ratio = median(slow->second.cpu) / median(fast->second.cpu);
     const double least = *std::ranges::min_element(slow->second.cpu) / *std::ranges::max_element(fast->second.cpu);
     const double most = *std::ranges::max_element(slow->second.cpu) / *std::ranges::min_element(fast->second.cpu);
-    std::cout << fmt::format("| {} | {:.1f} | {:.1f}, {:.1f} | {} | {} |\n", goal.what, ratio, least, most, goal.goal,
-                             ratio >= goal.goal ? "met" : fmt::format("missed by {:.0f} %", 100 * (1 - ratio / goal.goal)));
+    std::cout << fmt::format(
+        "| {} | {:.1f} | {:.1f}, {:.1f} | {} | {} |\n", goal.what, ratio, least, most, goal.goal,
+        ratio >= goal.goal ? "met" : fmt::format("missed by {:.0f} %", 100 * (1 - ratio / goal.goal)));
   }
-  const auto one = lines.find("wall1/head512/base/process_time"), two = lines.find("wall2/head512/base/process_time/real_time");
+  const auto one = lines.find("wall1/head512/base/process_time"),
+             two = lines.find("wall2/head512/base/process_time/real_time");
   if (one == lines.end() || two == lines.end()) return;
   const double ratio = median(one->second.wall) / median(two->second.wall);
-  std::cout << fmt::format("| head 512², `base`, fast: 1 / 2 threads, wall | {:.2f} | {:.2f}, {:.2f} | 1.8 | {} |\n", ratio,
+  std::cout << fmt::format("| head 512², `base`, fast: 1 / 2 threads, wall | {:.2f} | {:.2f}, {:.2f} | 1.8 | {} |\n",
+                           ratio,
                            *std::ranges::min_element(one->second.wall) / *std::ranges::max_element(two->second.wall),
                            *std::ranges::max_element(one->second.wall) / *std::ranges::min_element(two->second.wall),
                            ratio >= 1.8 ? "met" : fmt::format("missed by {:.0f} %", 100 * (1 - ratio / 1.8)));
 }
 
 void print_lines(const std::map<std::string, Line>& lines) {
-  std::cout << "\n| line | CPU ms, median | least | greatest | of splats, only counted | tiles redone |\n|---|---|---|---|---|---|\n";
+  std::cout << "\n| line | CPU ms, median | least | greatest | of splats, only counted | tiles redone "
+               "|\n|---|---|---|---|---|---|\n";
   for (const auto& [name, line] : lines) {
     std::cout << fmt::format("| {} | {:.3g} | {:.3g} | {:.3g} | {} | {} |\n", name, median(line.cpu),
                              *std::ranges::min_element(line.cpu), *std::ranges::max_element(line.cpu),
@@ -106,7 +111,9 @@ int main(int count, char** arguments) try {
             << std::ifstream(FASTSPLAT_SOURCE_DIR "/bench/table/preface.md").rdbuf() << "\n## Measured\n\n"
             << fmt::format("{} cores at {} MHz, load {}, {}; {}; {} repetitions, interleaved at random.\n\n",
                            context.at("num_cpus").get<int>(), context.at("mhz_per_cpu").get<int>(),
-                           context.contains("load_avg") && !context.at("load_avg").empty() ? context.at("load_avg")[0].dump() : "unknown",
+                           context.contains("load_avg") && !context.at("load_avg").empty()
+                               ? context.at("load_avg")[0].dump()
+                               : "unknown",
                            context.at("date").get<std::string>().substr(0, 10), FASTSPLAT_COMPILER,
                            lines.begin()->second.cpu.size());
   print_goals(lines);

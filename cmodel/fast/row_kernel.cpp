@@ -52,10 +52,10 @@ struct Lanes16 {
   using D = hn::ScalableTag<std::uint16_t>;
   static hn::Vec<D> colour(const SplatJob& job) {
     return hn::BitCast(D{}, hn::Set(hn::Repartition<std::uint64_t, D>{}, [&] {
-      std::uint64_t all = 0;
-      for (std::size_t c = 4; c-- > 0;) all = (all << 16) | job.colour[c];
-      return all;
-    }()));
+                         std::uint64_t all = 0;
+                         for (std::size_t c = 4; c-- > 0;) all = (all << 16) | job.colour[c];
+                         return all;
+                       }()));
   }
   explicit Lanes16(const FastPlan&) {}
   hn::Vec<D> sum(hn::Vec<D> before, hn::Vec<D> colour, hn::Vec<D> weight) const {
@@ -104,7 +104,8 @@ void add_rows(const SplatJob& job, const JobShape& shape, T* sheet, std::size_t 
   for (std::size_t j = 0; j < shape.extent; ++j, out += row * 4, weights += shape.pitch) {
     for (std::size_t v = 0; v < kVectors; ++v) {
       const std::size_t block = v / Spread<typename Lanes::D>::kVectors;
-      const auto eight = hn::BitCast(d, hn::LoadDup128(hn::Repartition<std::uint16_t, typename Lanes::D>{}, weights + 8 * block));
+      const auto eight =
+          hn::BitCast(d, hn::LoadDup128(hn::Repartition<std::uint16_t, typename Lanes::D>{}, weights + 8 * block));
       T* at = out + v * kLanes;
       const auto weight = spread(eight, v % Spread<typename Lanes::D>::kVectors);
       hn::StoreU(lanes.sum(hn::LoadU(d, at), colour, weight), d, at);
@@ -122,7 +123,8 @@ void add_wide(const SplatJob& job, const JobShape& shape, T* sheet, std::size_t 
     T* out = sheet + (job.at + j * row) * 4;
     const std::uint16_t* weights = job.weights + j * shape.pitch;
     for (std::size_t v = 0; v < vectors; ++v) {
-      const auto eight = hn::BitCast(d, hn::LoadDup128(hn::Repartition<std::uint16_t, typename Lanes::D>{}, weights + 8 * (v / kEach)));
+      const auto eight = hn::BitCast(
+          d, hn::LoadDup128(hn::Repartition<std::uint16_t, typename Lanes::D>{}, weights + 8 * (v / kEach)));
       T* at = out + v * kLanes;
       hn::StoreU(lanes.sum(hn::LoadU(d, at), colour, spread(eight, v % kEach)), d, at);
     }
@@ -138,14 +140,29 @@ bool add_all(const JobFrame& frame, std::span<const SplatJob> jobs, T* sheet, st
     const JobShape& shape = frame.shapes[job.set];
     const std::size_t vectors = (shape.extent + kPixels - 1) / kPixels;
     switch (vectors) {
-      case 0: break;
-      case 1: add_rows<Lanes, 1>(job, shape, sheet, row, lanes, spread); break;
-      case 2: add_rows<Lanes, 2>(job, shape, sheet, row, lanes, spread); break;
-      case 3: add_rows<Lanes, 3>(job, shape, sheet, row, lanes, spread); break;
-      case 4: add_rows<Lanes, 4>(job, shape, sheet, row, lanes, spread); break;
-      case 5: add_rows<Lanes, 5>(job, shape, sheet, row, lanes, spread); break;
-      case 6: add_rows<Lanes, 6>(job, shape, sheet, row, lanes, spread); break;
-      default: add_wide<Lanes>(job, shape, sheet, row, lanes, spread, vectors); break;
+      case 0:
+        break;
+      case 1:
+        add_rows<Lanes, 1>(job, shape, sheet, row, lanes, spread);
+        break;
+      case 2:
+        add_rows<Lanes, 2>(job, shape, sheet, row, lanes, spread);
+        break;
+      case 3:
+        add_rows<Lanes, 3>(job, shape, sheet, row, lanes, spread);
+        break;
+      case 4:
+        add_rows<Lanes, 4>(job, shape, sheet, row, lanes, spread);
+        break;
+      case 5:
+        add_rows<Lanes, 5>(job, shape, sheet, row, lanes, spread);
+        break;
+      case 6:
+        add_rows<Lanes, 6>(job, shape, sheet, row, lanes, spread);
+        break;
+      default:
+        add_wide<Lanes>(job, shape, sheet, row, lanes, spread, vectors);
+        break;
     }
   }
   return lanes.sound();

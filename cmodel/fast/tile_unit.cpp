@@ -133,7 +133,8 @@ void TileUnit<T>::end_sheet(const EndSheet&) {
   draw();
   if (!sound_) return;
   for (std::size_t by = 0; by < dirty_.size(); ++by) {
-    for (std::uint64_t left = dirty_[by]; left != 0; left &= left - 1) composite(std::countr_zero(left), static_cast<int>(by));
+    for (std::uint64_t left = dirty_[by]; left != 0; left &= left - 1)
+      composite(std::countr_zero(left), static_cast<int>(by));
     dirty_[by] = 0;
   }
   if (tables_.jobs.plan.carries) {

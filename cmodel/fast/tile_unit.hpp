@@ -23,9 +23,9 @@ namespace fastsplat::cmodel::fast {
 struct Placed {
   std::uint64_t columns = 0;  ///< of blocks its windows touch, a bit each
   const std::uint16_t* weights = nullptr;
-  std::uint32_t at = 0;      ///< first pixel, of the sheet's memory
-  std::uint16_t inside = 0;  ///< pixels of its windows inside the tile
-  std::uint16_t weighted = 0;  ///< of those, with a weight above 0
+  std::uint32_t at = 0;               ///< first pixel, of the sheet's memory
+  std::uint16_t inside = 0;           ///< pixels of its windows inside the tile
+  std::uint16_t weighted = 0;         ///< of those, with a weight above 0
   std::uint16_t first = 1, last = 0;  ///< rows of blocks, both included
   std::uint16_t set = 0;
 };

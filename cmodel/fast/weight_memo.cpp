@@ -33,7 +33,8 @@ std::size_t WeightMemo::bytes(const Config& config, std::uint32_t rho) {
          ((padded + 7) / 8 * 8) * sizeof(std::uint16_t);
 }
 
-void WeightMemo::fill(const Config& config, const Rlut& rlut, const RadialTable& radial, std::uint32_t set, int weight_shift) {
+void WeightMemo::fill(const Config& config, const Rlut& rlut, const RadialTable& radial, std::uint32_t set,
+                      int weight_shift) {
   Shape& shape = shapes_[set];
   shape.rho = rlut.rho(set);
   shape.padded = static_cast<int>(rlut.extent(set));
@@ -43,7 +44,8 @@ void WeightMemo::fill(const Config& config, const Rlut& rlut, const RadialTable&
   std::vector<std::uint32_t> nearest(static_cast<std::size_t>(shape.padded), ~std::uint32_t{0});
   for (int i = 0; i < shape.padded; ++i) {
     for (std::uint32_t m = 0; m < phases; ++m)
-      nearest[static_cast<std::size_t>(i)] = std::min(nearest[static_cast<std::size_t>(i)], word(rlut, set, m, i, lanes_));
+      nearest[static_cast<std::size_t>(i)] =
+          std::min(nearest[static_cast<std::size_t>(i)], word(rlut, set, m, i, lanes_));
   }
   for (int i = 0; i < shape.padded; ++i) {
     for (int j = 0; j < shape.padded; ++j) {

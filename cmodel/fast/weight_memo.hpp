@@ -14,11 +14,11 @@ namespace fastsplat::cmodel::fast {
 
 /// Footprints of one radius set.
 struct Shape {
-  std::uint32_t rho = 0;      ///< support radius, 1/k pixel
-  int padded = 0;             ///< Ea, pixels: what the windows cover
-  int extent = 0;             ///< pixels from the origin that any phase weights; <= Ea
-  int pitch = 0;              ///< words from row to row, a multiple of 8
-  std::uint32_t windows = 0;  ///< of one splat
+  std::uint32_t rho = 0;       ///< support radius, 1/k pixel
+  int padded = 0;              ///< Ea, pixels: what the windows cover
+  int extent = 0;              ///< pixels from the origin that any phase weights; <= Ea
+  int pitch = 0;               ///< words from row to row, a multiple of 8
+  std::uint32_t windows = 0;   ///< of one splat
   std::uint32_t heaviest = 0;  ///< largest weight, unshifted
   std::size_t first = 0;       ///< of words(), phases (0,0)
 };

@@ -253,6 +253,18 @@ TEST(MicroarchitecturePage, NamesEveryPort) {
   EXPECT_GT(ports, 40);
 }
 
+// docs/performance.md is made by ./run performance: its words are those of bench/table/preface.md, whole.
+TEST(Documents, ThePerformancePageHasItsPreface) {
+  const auto text = [](const std::string& name) {
+    std::ostringstream all;
+    all << std::ifstream(std::string(FASTSPLAT_SOURCE_DIR) + "/" + name).rdbuf();
+    return all.str();
+  };
+  const std::string preface = text("bench/table/preface.md");
+  ASSERT_GT(preface.size(), 1000u);
+  EXPECT_NE(text("docs/performance.md").find(preface), std::string::npos) << "./run performance makes the page";
+}
+
 TEST(Crc, KnownAnswer) {
   // The check value of CRC-32/ISO-HDLC (zlib's): the nine digits.
   const std::string digits = "123456789";

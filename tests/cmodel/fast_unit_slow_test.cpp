@@ -82,7 +82,8 @@ TEST(FastUnit, RandomStreams) {
   Random random(20261122);
   std::uint64_t mismatches = 0, tiles = 0, redone = 0, planned = 0;
   for (int round = 0; round < 60; ++round) {
-    const cmodel::Config config = round < 21 ? named_config(config_names()[static_cast<std::size_t>(round % 7)]) : random_config(random);
+    const cmodel::Config config =
+        round < 21 ? named_config(config_names()[static_cast<std::size_t>(round % 7)]) : random_config(random);
     const RandomStream stream = random_stream(symbols_of(config), random, 300);
     const auto beats = to_beats(stream.bytes);
     const std::size_t first = first_tile_beat(stream.bytes);
@@ -90,15 +91,18 @@ TEST(FastUnit, RandomStreams) {
     Tally tally;
     if (tables) {
       ++planned;
-      if (tables->jobs.plan.narrow) compare<std::uint16_t>(config, *tables, beats, first, tally);
-      else compare<std::uint32_t>(config, *tables, beats, first, tally);
+      if (tables->jobs.plan.narrow)
+        compare<std::uint16_t>(config, *tables, beats, first, tally);
+      else
+        compare<std::uint32_t>(config, *tables, beats, first, tally);
     }
     mismatches += tally.mismatches, tiles += tally.tiles, redone += tally.redone;
     EXPECT_EQ(tally.mismatches, 0u) << "round " << round << " " << config.name;
   }
-  std::printf("[figure] random streams the fast unit takes = %llu of 60; tiles %llu, given up %llu, different %llu (limit 0)\n",
-              static_cast<unsigned long long>(planned), static_cast<unsigned long long>(tiles),
-              static_cast<unsigned long long>(redone), static_cast<unsigned long long>(mismatches));
+  std::printf(
+      "[figure] random streams the fast unit takes = %llu of 60; tiles %llu, given up %llu, different %llu (limit 0)\n",
+      static_cast<unsigned long long>(planned), static_cast<unsigned long long>(tiles),
+      static_cast<unsigned long long>(redone), static_cast<unsigned long long>(mismatches));
   EXPECT_GT(planned, 20u);
   EXPECT_GT(tiles, redone) << "all given up: nothing was compared";
 }
@@ -110,7 +114,8 @@ std::vector<std::uint8_t> hidden_stream(const cmodel::Config& config, int mode, 
   const auto extent = static_cast<std::uint32_t>(config.lanes), phases = static_cast<std::uint32_t>(config.phases);
   stream.begin_frame(config.tile_width, config.tile_height, 1);
   stream.load_table(0, 0, extent * phases / 2, 0, std::vector<std::uint32_t>(size(phases) * extent, 0));
-  const auto weight = static_cast<std::uint32_t>(std::min(config.weight_format().max, std::int64_t{1} << config.radial_frac_bits));
+  const auto weight =
+      static_cast<std::uint32_t>(std::min(config.weight_format().max, std::int64_t{1} << config.radial_frac_bits));
   stream.load_table(1, 0, 0, 0, std::vector<std::uint32_t>(size(config.radial_entries), weight));
   std::vector<std::uint32_t> factor;
   for (int i = 0; i <= config.opacity_segments; ++i) {
@@ -153,8 +158,10 @@ TEST(FastUnit, WhatIsHiddenIsStillCounted) {
         const auto tables = frame_tables(config, std::span(beats).first(first));
         ASSERT_TRUE(tables);
         Tally tally;
-        if (tables->jobs.plan.narrow) compare<std::uint16_t>(config, *tables, beats, first, tally);
-        else compare<std::uint32_t>(config, *tables, beats, first, tally);
+        if (tables->jobs.plan.narrow)
+          compare<std::uint16_t>(config, *tables, beats, first, tally);
+        else
+          compare<std::uint32_t>(config, *tables, beats, first, tally);
         EXPECT_EQ(tally.mismatches, 0u) << name << ", mode " << mode << ", " << splats << " splats";
         EXPECT_GT(tally.hidden, 0u) << name << ", mode " << mode << ": nothing froze";
         all.tiles += tally.tiles, all.redone += tally.redone, all.mismatches += tally.mismatches;

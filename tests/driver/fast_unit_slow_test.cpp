@@ -107,8 +107,10 @@ TEST(FastUnit, DrawsThePlainUnitsWordsAndCounters) {
       }
     }
   }
-  std::printf("[figure] combinations of configuration, method, view and volume = %zu, frames %zu, words %zu, "
-              "different %zu (limit 0)\n", combinations, frames, words, different);
+  std::printf(
+      "[figure] combinations of configuration, method, view and volume = %zu, frames %zu, words %zu, "
+      "different %zu (limit 0)\n",
+      combinations, frames, words, different);
   for (const auto& [name, unit] : units) {
     std::printf("[figure] %s: tiles drawn fast %llu, redone by the plain unit %llu, splats hidden %llu\n", name.c_str(),
                 static_cast<unsigned long long>(unit.fast), static_cast<unsigned long long>(unit.redone),

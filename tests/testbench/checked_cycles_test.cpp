@@ -6,34 +6,23 @@
 #include "driver/config_file.hpp"
 #include "testbench/check/verify.hpp"
 #include "testbench/stimulus/stimulus.hpp"
+#include "tests/testbench/passing_device.hpp"
 
 namespace fastsplat::testbench {
 namespace {
 
 /// A device that tells one stall counter wrong.
-class Miscounting final : public RtlDevice {
+class Miscounting final : public PassingDevice {
  public:
   Miscounting(std::unique_ptr<RtlDevice> device, std::uint64_t cmodel::StallCounters::*field)
-      : device_(std::move(device)), field_(field) {}
-  void consume(std::span<const cmodel::Beat> beats) override { device_->consume(beats); }
-  void finish() override { device_->finish(); }
-  const cmodel::Counters& counters() const override { return device_->counters(); }
-  std::uint64_t cycles() const override { return device_->cycles(); }
+      : PassingDevice(std::move(device)), field_(field) {}
   cmodel::StallCounters cycle_counters() override {
-    cmodel::StallCounters cycles = device_->cycle_counters();
+    cmodel::StallCounters cycles = PassingDevice::cycle_counters();
     ++(cycles.*field_);
     return cycles;
   }
-  RegisterAnswer read_register(std::uint32_t address, int wait) override {
-    return device_->read_register(address, wait);
-  }
-  RegisterAnswer write_register(std::uint32_t address, std::uint32_t word, int wait) override {
-    return device_->write_register(address, word, wait);
-  }
-  void warm_reset() override { device_->warm_reset(); }
 
  private:
-  std::unique_ptr<RtlDevice> device_;
   std::uint64_t cmodel::StallCounters::*field_;
 };
 

@@ -45,18 +45,6 @@ std::string hex(const std::string& bytes) {
   return out;
 }
 
-template <typename T>
-std::string bytes_of(std::initializer_list<T> values, bool big_endian = false) {
-  std::string out;
-  for (const T value : values) {
-    std::string one(sizeof(T), '\0');
-    std::memcpy(one.data(), &value, sizeof(T));
-    if (big_endian) std::reverse(one.begin(), one.end());
-    out += one;
-  }
-  return out;
-}
-
 class Nrrd : public TemporaryFolder {
  protected:
   /// A header of these lines with what is missing filled in for 2 x 2 x 2 uint8, raw.

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -33,6 +34,19 @@ class TemporaryFolder : public ::testing::Test {
 
   std::filesystem::path folder_;
 };
+
+/// Values as they lie in a file.
+template <typename T>
+std::string bytes_of(std::initializer_list<T> values, bool big_endian = false) {
+  std::string out;
+  for (const T value : values) {
+    std::string one(sizeof(T), '\0');
+    std::memcpy(one.data(), &value, sizeof(T));
+    if (big_endian) std::reverse(one.begin(), one.end());
+    out += one;
+  }
+  return out;
+}
 
 /// The message of the UserError that `call` must throw, with this exit code, on one line.
 template <typename Call>

@@ -1,6 +1,7 @@
 // The RTL of tiny with a lie at one tap: of every seventh splat of a tile the sheet's words come out inverted.
 #include "driver/config_file.hpp"
 #include "testbench/device/rtl_registry.hpp"
+#include "tests/testbench/passing_device.hpp"
 
 namespace fastsplat::testbench {
 
@@ -25,30 +26,19 @@ class LyingTaps final : public RawTapSink {
   RawTapSink* to_;
 };
 
-class WrongDevice final : public RtlDevice {
- public:
-  WrongDevice(const cmodel::Config& config, cmodel::PixelSink& pixels, const RtlOptions& given)
-      : taps_(given.taps), device_(make_tiny(config, pixels, with_lies(given))) {}
-  void consume(std::span<const cmodel::Beat> beats) override { device_->consume(beats); }
-  void finish() override { device_->finish(); }
-  const cmodel::Counters& counters() const override { return device_->counters(); }
-  std::uint64_t cycles() const override { return device_->cycles(); }
-  cmodel::StallCounters cycle_counters() override { return device_->cycle_counters(); }
-  RegisterAnswer read_register(std::uint32_t address, int wait) override {
-    return device_->read_register(address, wait);
-  }
-  RegisterAnswer write_register(std::uint32_t address, std::uint32_t word, int wait) override {
-    return device_->write_register(address, word, wait);
-  }
-  void warm_reset() override { device_->warm_reset(); }
-
- private:
-  RtlOptions with_lies(RtlOptions options) {
-    if (options.taps != nullptr) options.taps = &taps_;
+/// Holds the taps for as long as the device lives: a base of the device's own base class.
+struct Lies {
+  LyingTaps taps;
+  RtlOptions told(RtlOptions options) {
+    if (options.taps != nullptr) options.taps = &taps;
     return options;
   }
-  LyingTaps taps_;
-  std::unique_ptr<RtlDevice> device_;
+};
+
+class WrongDevice final : private Lies, public PassingDevice {
+ public:
+  WrongDevice(const cmodel::Config& config, cmodel::PixelSink& pixels, const RtlOptions& given)
+      : Lies{LyingTaps(given.taps)}, PassingDevice(make_tiny(config, pixels, told(given))) {}
 };
 
 std::unique_ptr<RtlDevice> make_wrong(const cmodel::Config& config, cmodel::PixelSink& pixels,

@@ -1,0 +1,54 @@
+// The loop over threads: each job once, the most work first, and an exception that ends it soon.
+#include "base/parallel/parallel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdio>
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
+namespace fastsplat {
+namespace {
+
+TEST(Parallel, EveryJobOnceOnAnyNumberOfThreads) {
+  std::size_t jobs = 0;
+  for (const std::size_t count : {0u, 1u, 7u, 1000u}) {
+    for (const int threads : {0, 1, 2, 8}) {
+      std::vector<std::atomic<int>> runs(count);
+      parallel_for(count, threads, [&](std::size_t i) { ++runs[i]; });
+      for (const auto& run : runs) EXPECT_EQ(run, 1) << count << " jobs, " << threads << " threads";
+      jobs += count;
+    }
+  }
+  std::printf("[figure] jobs run once each = %zu\n", jobs);
+}
+
+TEST(Parallel, TheMostWorkFirstAndEqualOnesInOrder) {
+  const std::vector<std::uint64_t> work{3, 9, 0, 9, 4};
+  std::vector<std::size_t> order;
+  parallel_for(work, 1, [&](std::size_t i) { order.push_back(i); });
+  EXPECT_EQ(order, (std::vector<std::size_t>{1, 3, 4, 0, 2}));
+}
+
+TEST(Parallel, AnExceptionReachesTheCallerAndNoFurtherJobBegins) {
+  for (const int threads : {1, 2}) {
+    std::atomic<int> begun{0};
+    EXPECT_THROW(parallel_for(100000, threads,
+                              [&](std::size_t i) {
+                                ++begun;
+                                if (i == 10) throw std::runtime_error("job 10");
+                              }),
+                 std::runtime_error);
+    std::printf("[figure] jobs begun of 100000 on %d thread(s), the eleventh of which throws = %d\n", threads,
+                begun.load());
+    if (threads == 1) {
+      EXPECT_EQ(begun, 11);
+    }
+    EXPECT_LT(begun, 100000);
+  }
+}
+
+}  // namespace
+}  // namespace fastsplat

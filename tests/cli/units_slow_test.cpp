@@ -1,0 +1,69 @@
+// The two units of the integer model as a user meets them, and what is said of words that were cut.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/process_helper.hpp"
+
+namespace fastsplat::cli_test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+Result render(const TempFolder& folder, const std::string& name, const Words& more) {
+  Words words{"render", "--volume", "shells:24", "--size", "48", "-o", folder / name};
+  words.insert(words.end(), more.begin(), more.end());
+  return fastsplat(words);
+}
+
+TEST(Units, PlainAndFastAreOnePictureAndSayWhichTheyAre) {
+  const TempFolder folder;
+  int compared = 0;
+  for (const std::string config : {"base", "compact", "tiny"}) {
+    const auto run = [&](const std::string& name, Words more) {
+      more.insert(more.end(), {"--engine", "cmodel", "--config", config, "--json", folder / (name + ".json")});
+      const Result result = render(folder, name + ".exr", more);
+      expect_success(result);
+      return result;
+    };
+    const Result fast = run("fast", {}), plain = run("plain", {"--plain"});
+    EXPECT_NE(fast.out.find("unit: fast ("), std::string::npos) << fast.out;
+    EXPECT_NE(plain.out.find("unit: plain, "), std::string::npos) << plain.out;
+    EXPECT_EQ(fastsplat({"compare", folder / "fast.exr", folder / "plain.exr", "--max-lsb", "0", "--quiet"}).code, 0);
+    const auto with = nlohmann::json::parse(read_bytes(folder / "fast.json"));
+    const auto without = nlohmann::json::parse(read_bytes(folder / "plain.json"));
+    EXPECT_GT(with["units"]["fast_tiles"], 0);
+    EXPECT_EQ(without["units"]["fast_tiles"], 0);
+    EXPECT_EQ(with["counters"], without["counters"]);
+    compared += static_cast<int>(with["counters"].size());
+  }
+  std::printf("[figure] counters equal in both units = %d\n", compared);
+  EXPECT_GT(compared, 0);
+  expect_error(render(folder, "g.exr", {"--plain"}), 2, {"--plain", "golden", "one unit only"});
+  expect_error(render(folder, "r.exr", {"--plain", "--engine", "rtl", "--config", "tiny"}), 2, {"--plain", "rtl"});
+}
+
+TEST(Units, ASumThatWasCutIsSaid) {
+  const TempFolder folder;
+  // Every pixel with something in it is far above what the sheet holds: all tiles are the plain unit's.
+  const Result cut = render(folder, "cut.exr",
+                            {"--engine", "cmodel", "--config", "compact", "--method", "xray", "--xray-exposure", "50"});
+  expect_success(cut);
+  EXPECT_NE(cut.out.find("unit: plain, 1 tile: in each a sum may have been cut"), std::string::npos) << cut.out;
+}
+
+TEST(Units, OpaqueIsNoLossWhereTheFormatEndsBelowOne) {
+  const TempFolder folder;
+  const Words opaque{"--engine", "cmodel", "--config", "tiny", "--opacity-scale", "30"};
+  const Result still = render(folder, "opaque.exr", opaque);
+  expect_success(still);
+  EXPECT_NE(still.err.find("output words of 1.0 are 255/256"), std::string::npos) << still.err;
+  EXPECT_EQ(still.err.find("output words cut"), std::string::npos) << still.err;
+  const Result xray = render(folder, "xray.exr",
+                             {"--engine", "cmodel", "--config", "tiny", "--method", "xray", "--xray-exposure", "50"});
+  expect_success(xray);
+  EXPECT_NE(xray.err.find("output words cut to the largest word"), std::string::npos) << xray.err;
+}
+
+}  // namespace
+}  // namespace fastsplat::cli_test

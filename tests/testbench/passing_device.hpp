@@ -1,0 +1,31 @@
+// A device that hands everything on to another: for tests that change one thing on the way.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "testbench/device/rtl_device.hpp"
+
+namespace fastsplat::testbench {
+
+class PassingDevice : public RtlDevice {
+ public:
+  explicit PassingDevice(std::unique_ptr<RtlDevice> device) : device_(std::move(device)) {}
+  void consume(std::span<const cmodel::Beat> beats) override { device_->consume(beats); }
+  void finish() override { device_->finish(); }
+  const cmodel::Counters& counters() const override { return device_->counters(); }
+  std::uint64_t cycles() const override { return device_->cycles(); }
+  cmodel::StallCounters cycle_counters() override { return device_->cycle_counters(); }
+  RegisterAnswer read_register(std::uint32_t address, int wait) override {
+    return device_->read_register(address, wait);
+  }
+  RegisterAnswer write_register(std::uint32_t address, std::uint32_t word, int wait) override {
+    return device_->write_register(address, word, wait);
+  }
+  void warm_reset() override { device_->warm_reset(); }
+
+ private:
+  std::unique_ptr<RtlDevice> device_;
+};
+
+}  // namespace fastsplat::testbench

@@ -133,7 +133,7 @@ void TileUnit<T>::end_sheet(const EndSheet&) {
   draw();
   if (!sound_) return;
   for (std::size_t by = 0; by < dirty_.size(); ++by) {
-    for (std::uint64_t left = dirty_[by]; left != 0; left &= left - 1)
+    for (std::uint64_t left = dirty_[by]; left != 0 && sound_; left &= left - 1)
       composite(std::countr_zero(left), static_cast<int>(by));
     dirty_[by] = 0;
   }
@@ -171,7 +171,11 @@ void TileUnit<T>::composite(int bx, int by) {
         all_frozen = all_frozen && frozen;
         continue;
       }
-      if (std::max({sums[0], sums[1], sums[2], sums[3]}) > largest_whole()) sound_ = false;
+      if (std::max({sums[0], sums[1], sums[2], sums[3]}) > largest_whole()) {
+        // No word of the sheet's format: the opacity's table has nothing for it.
+        sound_ = false;
+        return;
+      }
       if (tile_.mode == Mode::Sum) {
         for (std::size_t c = 0; c < 4; ++c) (*pixel)[c] = lane_.add((*pixel)[c], sums[c], counting);
         continue;
@@ -198,7 +202,10 @@ void TileUnit<T>::count_frozen(int x0, int y0, int x1, int y1) {
     for (int x = x0; x < x1; ++x, ++unseen) {
       SheetWord sums = sheet_.sums(x, y);
       const std::uint32_t colour = std::max({sums[0], sums[1], sums[2]});
-      if (std::uint64_t{std::max(colour, sums[3])} + *unseen > largest_whole()) sound_ = false;
+      if (std::uint64_t{std::max(colour, sums[3])} + *unseen > largest_whole()) {
+        sound_ = false;
+        return;
+      }
       // Hidden colours are at most the hidden tau, so that these are the largest sums there can have been.
       for (std::uint32_t& sum : sums) sum += *unseen;
       if (tile_.mode == Mode::Exponential && tables_.opacity_holds && colour + *unseen <= sums[3]) continue;

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "analysis/bitmap_font.hpp"
-#include "images/srgb.hpp"
+#include "base/srgb.hpp"
 
 namespace fastsplat::analysis {
 
@@ -43,7 +43,7 @@ void Canvas::text(int x, int y, const std::string& text, int scale, Colour colou
 Image Canvas::image() const {
   std::array<float, 256> linear{};
   for (int code = 0; code < 256; ++code) {
-    linear[static_cast<std::size_t>(code)] = static_cast<float>(images::srgb_decode(code / 255.0));
+    linear[static_cast<std::size_t>(code)] = static_cast<float>(srgb_decode(code / 255.0));
   }
   Image image(width_, height_, 4);
   float* out = image.data.data();

@@ -6,10 +6,10 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
+#include "base/srgb.hpp"
 #include "base/version.hpp"
 #include "images/codec.hpp"
 #include "images/image_file.hpp"
-#include "images/srgb.hpp"
 
 namespace fastsplat::images {
 namespace {

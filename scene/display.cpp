@@ -2,22 +2,16 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
+#include "base/srgb.hpp"
 #include "scene/scene.hpp"
 
 namespace fastsplat::scene {
 namespace {
 
-/// The curve of sRGB, there and back.
-double to_srgb(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
-double from_srgb(double shown) { return shown <= 0.04045 ? shown / 12.92 : std::pow((shown + 0.055) / 1.055, 2.4); }
-
 /// Of linear light what a film's negative shows: a grey as far from white as this is from black, to the eye.
 float negative(float linear) {
-  return static_cast<float>(from_srgb(1.0 - to_srgb(std::clamp(static_cast<double>(linear), 0.0, 1.0))));
+  return static_cast<float>(srgb_decode(1.0 - srgb_encode(std::clamp(static_cast<double>(linear), 0.0, 1.0))));
 }
 
 }  // namespace

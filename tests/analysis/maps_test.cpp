@@ -8,8 +8,8 @@
 #include "analysis/bitmap_font.hpp"
 #include "analysis/colour_map.hpp"
 #include "analysis/compare.hpp"
+#include "base/srgb.hpp"
 #include "images/image_file.hpp"
-#include "images/srgb.hpp"
 #include "tests/images/image_helper.hpp"
 
 namespace fastsplat::analysis {
@@ -18,7 +18,7 @@ namespace {
 std::array<int, 3> drawn(const Image& map, int x, int y) {
   std::array<int, 3> codes{};
   for (std::size_t c = 0; c < 3; ++c) {
-    codes[c] = static_cast<int>(std::lround(images::srgb_encode(map.pixel(x, y)[c]) * 255));
+    codes[c] = static_cast<int>(std::lround(srgb_encode(map.pixel(x, y)[c]) * 255));
   }
   return codes;
 }

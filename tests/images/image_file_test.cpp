@@ -11,8 +11,8 @@
 #include <limits>
 #include <random>
 
+#include "base/srgb.hpp"
 #include "base/version.hpp"
-#include "images/srgb.hpp"
 #include "tests/images/image_helper.hpp"
 
 namespace fastsplat::images {

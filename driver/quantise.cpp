@@ -12,12 +12,20 @@ using Overflow = Target::Overflow;
 cmodel::Format signed_word(int frac_bits) { return cmodel::signed_format(32 - frac_bits, frac_bits); }
 cmodel::Format unsigned_word(int frac_bits) { return cmodel::unsigned_format(32 - frac_bits, frac_bits); }
 
+/// The snap still has bits to round half up: floor(x 2^pf) and the snap together round x once, half up. Rounded here as
+/// well, a splat would move by 2^-(pf+1) pixel on average.
+bool rounded_by_the_snap(const cmodel::Config& config) {
+  return config.phase_bits() < config.position_frac_bits &&
+         config.rounding_snap == static_cast<int>(cmodel::Rounding::RND);
+}
+
 }  // namespace
 
 Target target(Site site, const cmodel::Config& config) {
   switch (site) {
     case Site::Position:
-      return {Rounding::Nearest, Overflow::Impossible, signed_word(config.position_frac_bits)};
+      return {rounded_by_the_snap(config) ? Rounding::Down : Rounding::Nearest, Overflow::Impossible,
+              signed_word(config.position_frac_bits)};
     case Site::Depth:
     case Site::Boundary:
       return {Rounding::Nearest, Overflow::Impossible, signed_word(config.slice_phase_bits)};

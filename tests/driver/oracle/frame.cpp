@@ -144,8 +144,9 @@ class Page {
     const double one = std::ldexp(1.0, symbols_.pf);
     Splat splat;
     splat.order = met_.voxels;
-    splat.x = nearest(real.x * one);
-    splat.y = nearest(real.y * one);
+    const bool rounded_later = symbols_.k < one && symbols_.Rs == Rounding::Rnd;
+    splat.x = rounded_later ? to_int(static_cast<Wide>(std::floor(real.x * one))) : nearest(real.x * one);
+    splat.y = rounded_later ? to_int(static_cast<Wide>(std::floor(real.y * one))) : nearest(real.y * one);
     const double r = given_.R * given_.u * real.s;
     splat.set = set_of(r);
     const double r_set = sets_.all[splat.set].r;

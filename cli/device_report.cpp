@@ -66,7 +66,9 @@ nlohmann::ordered_json to_json(const driver::DriverReport& report) {
            {{"splat_records", report.splat_records},
             {"saturated_voxels", report.saturated_voxels},
             {"saturated_records", report.saturated_records},
-            {"vanished_voxels", report.vanished_voxels}}}};
+            {"vanished_voxels", report.vanished_voxels},
+            {"vanished_share", report.vanished_share},
+            {"carried", report.carried}}}};
 }
 
 std::vector<Remark> remarks(const driver::DriverReport& report) {
@@ -78,10 +80,15 @@ std::vector<Remark> remarks(const driver::DriverReport& report) {
                      "cut; lower --opacity-scale or --xray-exposure, or use a smaller --slab-width",
                      grouped(report.saturated_voxels), grouped(report.saturated_records))});
   }
-  if (report.vanished_voxels > 0) {
+  if (report.vanished_voxels > 0 && !report.carried) {
+    // What is lost of a picture whose brightest pixel is 1.0 shows from half a step of an 8-bit display on.
+    const bool shows = report.vanished_share >= 0.5 / 255.0;
     remarks.push_back(
-        {Remark::Note, fmt::format("{} of {} voxels are too transparent for the input format and vanished",
-                                   grouped(report.vanished_voxels), grouped(report.voxels))});
+        {shows ? Remark::Warning : Remark::Note,
+         fmt::format("{} of {} voxels are too transparent for the input format and vanished, with {:.2g} % of all "
+                     "colour and opacity{}",
+                     grouped(report.vanished_voxels), grouped(report.voxels), 100.0 * report.vanished_share,
+                     shows ? "; use a configuration with more colour.frac_bits, or --set rounding.carry=on" : "")});
   }
   return remarks;
 }

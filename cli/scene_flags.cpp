@@ -161,9 +161,14 @@ scene::Scene build(const SceneFlags& flags) { return scene::build_scene(describe
 
 std::string summary(const scene::Scene& scene) {
   const auto& dims = scene.volume->dims;
-  return fmt::format("{} {}x{}x{}, {}, {}, {}x{} pixels", scene.volume->name, dims.x, dims.y, dims.z,
+  const bool xray = scene.description.method == scene::Method::XRay;
+  const std::string exposure =
+      !xray ? ""
+            : fmt::format(", exposure {:.6g}{}", scene.xray_scale,
+                          scene.description.xray_exposure > 0.0 ? "" : " (automatic: --xray-exposure sets another)");
+  return fmt::format("{} {}x{}x{}, {}, {}, {}x{} pixels{}", scene.volume->name, dims.x, dims.y, dims.z,
                      scene.transfer_function.name, scene::to_string(scene.description.method), scene.camera.width(),
-                     scene.camera.height());
+                     scene.camera.height(), exposure);
 }
 
 }  // namespace fastsplat::cli

@@ -13,6 +13,8 @@ namespace {
 
 constexpr const char* kRoundings[] = {"trn", "rnd", "rnd_conv"};  // in the order of Rounding
 
+constexpr const char* kCarries[] = {"off", "xray", "on"};  // in the order of Carry
+
 constexpr ConfigKey rounding(const char* name, int Config::*member, const char* meaning) {
   return {.name = name,
           .member = member,
@@ -61,6 +63,14 @@ constexpr std::array kKeys{
     rounding("rounding.slab", &Config::rounding_slab, "R_a: of slab colour and opacity"),
     rounding("rounding.light", &Config::rounding_light, "R_l: of transmittance times slab colour and opacity"),
     rounding("rounding.pixel", &Config::rounding_pixel, "R_o: of output words"),
+    ConfigKey{.name = "rounding.carry",
+              .member = &Config::rounding_carry,
+              .min = 0,
+              .max = 2,
+              .power_of_two = false,
+              .meaning = "where what a splat's rounding leaves is carried to the next one (driver)",
+              .names = kCarries,
+              .neutral = static_cast<int>(Carry::XRay)},
 };
 
 ErrorParts violation(const char* key, std::string what, std::string expected, int got, std::string fix) {

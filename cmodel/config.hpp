@@ -12,6 +12,9 @@
 
 namespace fastsplat::cmodel {
 
+/// Where the driver carries what a splat's rounding leaves to the next one.
+enum class Carry { Off, XRay, On };
+
 struct Config {
   std::string name;         ///< not hashed
   std::string description;  ///< not hashed
@@ -48,6 +51,8 @@ struct Config {
   int rounding_slab = static_cast<int>(Rounding::RND);     ///< R_a
   int rounding_light = static_cast<int>(Rounding::RND);    ///< R_l
   int rounding_pixel = static_cast<int>(Rounding::RND);    ///< R_o
+
+  int rounding_carry = static_cast<int>(Carry::XRay);  ///< the driver's, as the slices' keys
 
   bool operator==(const Config&) const = default;
 

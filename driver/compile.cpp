@@ -183,7 +183,9 @@ DriverReport CompiledFrame::report() const {
   return {.voxels = state_->projected.voxels,
           .tiles = static_cast<std::uint64_t>(state_->grid.count()),
           .saturated_voxels = state_->projected.saturated,
-          .vanished_voxels = state_->projected.vanished};
+          .vanished_voxels = state_->projected.vanished,
+          .vanished_share = state_->projected.vanished_share,
+          .carried = state_->projected.carried};
 }
 
 }  // namespace fastsplat::driver

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "base/parallel/parallel.hpp"
 
@@ -28,6 +30,49 @@ RadiusRange radius_range(const scene::Scene& scene) {
   return range;
 }
 
+/// The splats of a part of the grid.
+struct Piece {
+  scene::GridPart part;
+  std::vector<QuantisedSplat> splats;
+  std::vector<std::size_t> ends;  ///< per slice of the part, of its splats
+  std::uint64_t voxels = 0, saturated = 0, vanished = 0;
+  double asked = 0.0, lost = 0.0;
+
+  void add(const SplatQuantiser::Result& one, int slice) {
+    while (part.first_slice + static_cast<int>(ends.size()) < slice) ends.push_back(splats.size());
+    ++voxels;
+    asked += one.asked;
+    if (one.splat.words == SplatWords{}) {
+      ++vanished;
+      lost += one.asked;
+      return;
+    }
+    saturated += one.saturated ? 1 : 0;
+    splats.push_back(one.splat);
+  }
+  void end() { ends.resize(static_cast<std::size_t>(part.end_slice - part.first_slice), splats.size()); }
+  std::span<const QuantisedSplat> slice(int slice) const {
+    if (slice < part.first_slice || slice >= part.end_slice) return {};
+    const auto i = static_cast<std::size_t>(slice - part.first_slice);
+    const std::size_t begin = i == 0 ? 0 : ends[i - 1];
+    return std::span(splats).subspan(begin, ends[i] - begin);
+  }
+};
+
+/// Parts that do not depend on each other: slabs of slices, or, where a splat needs to know what those before it in its
+/// line left, bands of rows. Their number is not that of the threads: no sum depends on that.
+std::vector<Piece> pieces_of(const scene::Traversal& traversal, bool bands) {
+  constexpr int kPieces = 32;
+  const int extent = bands ? traversal.rows() : traversal.slices(), count = std::min(extent, kPieces);
+  std::vector<Piece> pieces(static_cast<std::size_t>(count));
+  for (int n = 0; n < count; ++n) {
+    scene::GridPart& part = pieces[static_cast<std::size_t>(n)].part = traversal.all();
+    (bands ? part.first_row : part.first_slice) = n * extent / count;
+    (bands ? part.end_row : part.end_slice) = (n + 1) * extent / count;
+  }
+  return pieces;
+}
+
 }  // namespace
 
 Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices,
@@ -36,39 +81,42 @@ Projected project(const scene::Scene& scene, const cmodel::Config& config, const
   Projected out{.splats = {}, .sets = RadiusSets(config, range.smallest, range.largest)};
   const SplatQuantiser quantised(scene, config, out.sets, slices, plan);
   const scene::Traversal traversal(scene);
+  out.carried = quantised.carries();
 
-  // Slabs of the grid, each on its own, put together in their order.
-  struct Piece {
-    std::vector<QuantisedSplat> splats;
-    std::uint64_t voxels = 0, saturated = 0, vanished = 0;
-  };
-  std::vector<Piece> pieces(static_cast<std::size_t>(std::min(traversal.slices(), 32)));
+  std::vector<Piece> pieces = pieces_of(traversal, out.carried);
   parallel_for(pieces.size(), threads, [&](std::size_t number) {
     Piece& piece = pieces[number];
-    const auto cut = [&](std::size_t n) {
-      return static_cast<int>(n * static_cast<std::size_t>(traversal.slices()) / pieces.size());
-    };
-    traversal.visit(cut(number), cut(number + 1), [&](const scene::Splat& splat) {
-      ++piece.voxels;
-      bool saturated = false;
-      const QuantisedSplat words = quantised(scene::real_splat(scene, splat), saturated);
-      if (words.words == SplatWords{}) {
-        ++piece.vanished;
-        return;
-      }
-      piece.saturated += saturated ? 1 : 0;
-      piece.splats.push_back(words);
-    });
+    if (out.carried) {
+      RoundingCarry carry = quantised.carry(piece.part.first_row, piece.part.end_row, traversal.columns());
+      traversal.visit(piece.part, [&](const scene::Splat& splat, std::uint32_t line) {
+        piece.add(quantised(scene::real_splat(scene, splat), line, carry), splat.sheet);
+      });
+    } else {
+      traversal.visit(piece.part, [&](const scene::Splat& splat, std::uint32_t) {
+        piece.add(quantised(scene::real_splat(scene, splat)), splat.sheet);
+      });
+    }
+    piece.end();
   });
+
   std::size_t total = 0;
-  for (const Piece& piece : pieces) total += piece.splats.size();
-  out.splats.reserve(total);
-  for (Piece& piece : pieces) {
+  double asked = 0.0, lost = 0.0;
+  for (const Piece& piece : pieces) {
+    total += piece.splats.size();
     out.voxels += piece.voxels;
     out.saturated += piece.saturated;
     out.vanished += piece.vanished;
-    out.splats.insert(out.splats.end(), piece.splats.begin(), piece.splats.end());
-    piece.splats = {};
+    asked += piece.asked;
+    lost += piece.lost;
+  }
+  out.vanished_share = out.carried || asked == 0.0 ? 0.0 : lost / asked;
+  out.splats.reserve(total);
+  for (int slice = 0; slice < traversal.slices(); ++slice) {
+    for (Piece& piece : pieces) {
+      const auto part = piece.slice(slice);
+      out.splats.insert(out.splats.end(), part.begin(), part.end());
+      if (slice + 1 == piece.part.end_slice) piece.splats = {};  // so that a frame is in memory once, not twice
+    }
   }
   return out;
 }

@@ -13,7 +13,9 @@ struct Projected {
   RadiusSets sets;
   std::uint64_t voxels = 0;     ///< non-empty voxels
   std::uint64_t saturated = 0;  ///< voxels whose colour or optical depth left U 4.cf
-  std::uint64_t vanished = 0;   ///< voxels whose words all rounded to 0
+  std::uint64_t vanished = 0;   ///< voxels whose words are all 0
+  double vanished_share = 0.0;  ///< of all colour and opacity, what they had; 0 where it is carried to the next voxel
+  bool carried = false;
 };
 
 /// Every real splat of the scene, quantised. `threads` (0: all cores) never change the result.

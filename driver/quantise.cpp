@@ -12,6 +12,9 @@ using Overflow = Target::Overflow;
 cmodel::Format signed_word(int frac_bits) { return cmodel::signed_format(32 - frac_bits, frac_bits); }
 cmodel::Format unsigned_word(int frac_bits) { return cmodel::unsigned_format(32 - frac_bits, frac_bits); }
 
+/// U 4.cf
+cmodel::Format whole_word(const cmodel::Config& config) { return cmodel::unsigned_format(4, config.colour_frac_bits); }
+
 /// The snap still has bits to round half up: floor(x 2^pf) and the snap together round x once, half up. Rounded here as
 /// well, a splat would move by 2^-(pf+1) pixel on average.
 bool rounded_by_the_snap(const cmodel::Config& config) {
@@ -30,7 +33,9 @@ Target target(Site site, const cmodel::Config& config) {
     case Site::Boundary:
       return {Rounding::Nearest, Overflow::Impossible, signed_word(config.slice_phase_bits)};
     case Site::Whole:
-      return {Rounding::Nearest, Overflow::Saturates, cmodel::unsigned_format(4, config.colour_frac_bits)};
+      return {Rounding::Nearest, Overflow::Saturates, whole_word(config)};
+    case Site::Carried:  // what is cut off goes to the next splat
+      return {Rounding::Down, Overflow::Saturates, whole_word(config)};
     case Site::Phi:
       return {Rounding::Nearest, Overflow::Impossible, cmodel::unit_format(config.slice_frac_bits)};
     case Site::Rho:

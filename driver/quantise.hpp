@@ -16,6 +16,7 @@ enum class Site {
   Depth,      ///< of a centre behind the first slab boundary, kernel units
   Boundary,   ///< between two slabs, behind the first one, kernel units
   Whole,      ///< a channel of a whole splat
+  Carried,    ///< a channel of a whole splat and what the splat before left
   Phi,        ///< cumulative slice weight
   Rho,        ///< support radius, pixels
   Rlut,       ///< scaled squared distance, in words already

@@ -34,7 +34,9 @@ struct DriverReport {
   std::uint64_t sheets = 0;             ///< non-empty sheets over all tiles
   std::uint64_t saturated_voxels = 0;   ///< voxels whose whole splat left U 4.cf
   std::uint64_t saturated_records = 0;  ///< records whose share left the input format U 0.cf
-  std::uint64_t vanished_voxels = 0;    ///< voxels whose colour and opacity rounded to 0
+  std::uint64_t vanished_voxels = 0;    ///< voxels whose words are all 0
+  double vanished_share = 0.0;          ///< of all colour and opacity, what they had; 0 where it was carried on
+  bool carried = false;                 ///< roundings were carried from voxel to voxel (rounding.carry)
 };
 
 /// Which unit drew the tiles of a frame.

@@ -1,6 +1,23 @@
 #include "driver/splat_quantiser.hpp"
 
 namespace fastsplat::driver {
+namespace {
+
+bool is_xray(const scene::Scene& scene) { return scene.description.method == scene::Method::XRay; }
+
+bool carries_here(const scene::Scene& scene, const cmodel::Config& config) {
+  switch (static_cast<cmodel::Carry>(config.rounding_carry)) {
+    case cmodel::Carry::Off:
+      return false;
+    case cmodel::Carry::XRay:
+      return is_xray(scene);
+    case cmodel::Carry::On:
+      break;
+  }
+  return true;
+}
+
+}  // namespace
 
 SplatQuantiser::SplatQuantiser(const scene::Scene& scene, const cmodel::Config& config, const RadiusSets& sets,
                                const Slices& slices, const scene::SheetPlan& plan)
@@ -10,7 +27,11 @@ SplatQuantiser::SplatQuantiser(const scene::Scene& scene, const cmodel::Config& 
       plan_(plan),
       position_(target(Site::Position, config)),
       whole_(target(Site::Whole, config)),
-      exposed_(scene.amplitude * (scene.description.method == scene::Method::XRay ? scene.xray_scale : 1.0)) {}
+      carried_(target(Site::Carried, config)),
+      carries_(carries_here(scene, config)),
+      exposed_(scene.amplitude * (is_xray(scene) ? scene.xray_scale : 1.0)) {
+  if (carries_) shown_.emplace(config, scene.kernel);
+}
 
 std::int32_t SplatQuantiser::depth(const scene::RealSplat& splat) const {
   switch (plan_.use) {
@@ -23,24 +44,6 @@ std::int32_t SplatQuantiser::depth(const scene::RealSplat& splat) const {
       break;
   }
   return 0;
-}
-
-QuantisedSplat SplatQuantiser::operator()(const scene::RealSplat& splat, bool& saturated) const {
-  const double radius = pixel_radius(scene_, splat.at.scale);
-  QuantisedSplat out{.x = quantise_to<std::int32_t>(splat.at.x, position_),
-                     .y = quantise_to<std::int32_t>(splat.at.y, position_),
-                     .depth = depth(splat),
-                     .set = sets_.nearest(radius),
-                     .words = {}};
-  // The set's footprint is a little wider or narrower than the splat's own: as much is added in all.
-  const double width_ratio = radius / sets_.radius(out.set);
-  const double amplitude = exposed_ * width_ratio * width_ratio;
-  for (std::size_t c = 0; c < 4; ++c) {
-    const Quantised channel = quantise(splat.material[c] * amplitude, whole_);
-    saturated = saturated || channel.saturated;
-    out.words[c] = static_cast<std::uint32_t>(channel.word);
-  }
-  return out;
 }
 
 }  // namespace fastsplat::driver

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "cmodel/config.hpp"
 #include "driver/quantise.hpp"
 #include "driver/radius_sets.hpp"
+#include "driver/rounding_carry.hpp"
 #include "driver/slices.hpp"
 #include "scene/real_splat.hpp"
 #include "scene/sheet_plan.hpp"
@@ -31,18 +33,55 @@ class SplatQuantiser {
   SplatQuantiser(const scene::Scene& scene, const cmodel::Config& config, const RadiusSets& sets, const Slices& slices,
                  const scene::SheetPlan& plan);
 
-  /// `saturated` is set when a channel left U 4.cf, and left alone otherwise.
-  QuantisedSplat operator()(const scene::RealSplat& splat, bool& saturated) const;
+  struct Result {
+    QuantisedSplat splat;
+    bool saturated = false;  ///< a channel left U 4.cf
+    double asked = 0.0;      ///< sum of the four channels before rounding
+  };
+  Result operator()(const scene::RealSplat& splat) const {
+    return quantised(splat, [this](double value, std::size_t) { return quantise(value, whole_); });
+  }
+  /// `line`: of the grid (scene::Traversal). The splats of a line come front to back.
+  Result operator()(const scene::RealSplat& splat, std::uint32_t line, RoundingCarry& carry) const {
+    return quantised(splat, [&](double value, std::size_t channel) { return carry(value, line, channel); });
+  }
+  /// Whether roundings are carried on: then no splat is lost by being too thin.
+  bool carries() const { return carries_; }
+  RoundingCarry carry(int first_row, int end_row, int columns) const {
+    return {carried_, *shown_, first_row, end_row, columns};
+  }
 
  private:
   std::int32_t depth(const scene::RealSplat& splat) const;
+  template <class Round>
+  Result quantised(const scene::RealSplat& splat, const Round& round) const {
+    const double radius = pixel_radius(scene_, splat.at.scale);
+    Result out{.splat = {.x = quantise_to<std::int32_t>(splat.at.x, position_),
+                         .y = quantise_to<std::int32_t>(splat.at.y, position_),
+                         .depth = depth(splat),
+                         .set = sets_.nearest(radius),
+                         .words = {}}};
+    // The set's footprint is a little wider or narrower than the splat's own: as much is added in all.
+    const double width_ratio = radius / sets_.radius(out.splat.set);
+    const double amplitude = exposed_ * width_ratio * width_ratio;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const double value = splat.material[c] * amplitude;
+      const Quantised channel = round(value, c);
+      out.saturated = out.saturated || channel.saturated;
+      out.splat.words[c] = static_cast<std::uint32_t>(channel.word);
+      out.asked += value;
+    }
+    return out;
+  }
 
   const scene::Scene& scene_;
   const RadiusSets& sets_;
   const Slices& slices_;
   scene::SheetPlan plan_;
-  Target position_, whole_;
-  double exposed_;  ///< amplitude times exposure
+  Target position_, whole_, carried_;
+  bool carries_;
+  std::optional<ShownWords> shown_;  ///< where roundings are carried
+  double exposed_;                   ///< amplitude times exposure
 };
 
 }  // namespace fastsplat::driver

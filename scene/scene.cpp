@@ -9,6 +9,7 @@
 #include "scene/capability.hpp"
 #include "scene/content_fit.hpp"
 #include "scene/settings.hpp"
+#include "scene/xray_exposure.hpp"
 #include "volume/volume_file.hpp"
 
 namespace fastsplat::scene {
@@ -29,16 +30,6 @@ std::string preset_for(const std::string& volume) {
 Kernel make_kernel(const SceneDescription& description) {
   return description.kernel.empty() ? Kernel(description.kernel_a, description.kernel_radius)
                                     : kernel_by_name(description.kernel);
-}
-
-/// 1 / (densest voxel's extinction x the longest straight way through the volume, ripple of the kernel included).
-double automatic_exposure(const volume::Volume& volume, const TransferFunction& tf, double opacity_scale) {
-  constexpr double kRipple = 1.05;  // the named kernels stay below: splatting.md 2, 4.38 % at a = 2
-  const Classifier classify(tf, volume);
-  float densest = 0.0f;
-  for (const float value : volume.voxels) densest = std::max(densest, classify(value).extinction);
-  const double longest = 2.0 * volume.bounding_radius() / volume.kernel_unit() + 1.0;
-  return densest > 0.0f ? 1.0 / (kRipple * densest * opacity_scale * longest) : 1.0;
 }
 
 }  // namespace
@@ -67,8 +58,9 @@ Scene build_scene(const SceneDescription& description, std::shared_ptr<const vol
   if (description.shading >= 0) shading.on = description.shading == 1;
   double xray_scale = 1.0;
   if (description.method == Method::XRay) {
-    xray_scale = description.xray_exposure > 0.0 ? description.xray_exposure
-                                                 : automatic_exposure(*volume, tf, description.opacity_scale);
+    xray_scale = description.xray_exposure > 0.0
+                     ? description.xray_exposure
+                     : automatic_exposure(*volume, Classifier(tf, *volume), description.opacity_scale);
   }
   const glm::dvec3 cell = volume->spacing / unit;
   const double upright = volume->oblique ? std::abs(glm::determinant(volume->axes)) : 1.0;  // a sheared cell is smaller

@@ -24,16 +24,26 @@ struct Splat {
 /// only. For Method::XRay the order is the same (it does not matter there).
 void for_each_splat(const Scene& scene, const std::function<void(const Splat&)>& visit);
 
-/// The same in pieces, which may be visited by several threads at once: one after the other they are the whole order.
+/// A part of the grid as it is traversed: slices first_slice..end_slice-1, 0 nearest to the eye, and of each the rows
+/// first_row..end_row-1 of its outer loop.
+struct GridPart {
+  int first_slice = 0, end_slice = 0;
+  int first_row = 0, end_row = 0;
+};
+
+/// The same in parts, which may be visited by several threads at once.
 class Traversal {
  public:
   /// The scene outlives it.
   explicit Traversal(const Scene& scene);
   ~Traversal();
-  /// Pieces; sheets of the grid, for those who want Splat::sheet.
+  /// Sheets of the grid, for those who want Splat::sheet.
   int slices() const;
-  /// Slices first..last-1, 0 nearest to the eye.
-  void visit(int first, int last, const std::function<void(const Splat&)>& visit) const;
+  int rows() const;     ///< of a slice: its outer loop
+  int columns() const;  ///< of a row: its inner loop
+  GridPart all() const { return {0, slices(), 0, rows()}; }
+  /// `line` is the number of the voxel's line across the slices: row times columns() plus column.
+  void visit(const GridPart& part, const std::function<void(const Splat&, std::uint32_t line)>& visit) const;
 
  private:
   struct State;

@@ -59,8 +59,10 @@ Traversal::Traversal(const Scene& scene) : state_(std::make_unique<const State>(
 Traversal::~Traversal() = default;
 
 int Traversal::slices() const { return state_->order[0].extent; }
+int Traversal::rows() const { return state_->order[1].extent; }
+int Traversal::columns() const { return state_->order[2].extent; }
 
-void Traversal::visit(int first, int last, const std::function<void(const Splat&)>& visit) const {
+void Traversal::visit(const GridPart& part, const std::function<void(const Splat&, std::uint32_t line)>& visit) const {
   const Scene& scene = state_->scene;
   // Copies of one's own: what other code might write to is read again for every voxel.
   const Classifier classify = state_->classify;
@@ -72,9 +74,9 @@ void Traversal::visit(int first, int last, const std::function<void(const Splat&
   const bool textured = texture.kind != SolidKind::None && texture.where == TextureWhere::Voxel;
 
   glm::ivec3 at;
-  for (int slice = first; slice < last; ++slice) {
+  for (int slice = part.first_slice; slice < part.end_slice; ++slice) {
     at[order[0].axis] = order[0].index(slice);
-    for (int row = 0; row < order[1].extent; ++row) {
+    for (int row = part.first_row; row < part.end_row; ++row) {
       at[order[1].axis] = order[1].index(row);
       for (int step = 0; step < order[2].extent; ++step) {
         at[order[2].axis] = order[2].index(step);
@@ -88,7 +90,8 @@ void Traversal::visit(int first, int last, const std::function<void(const Splat&
         visit({.position = glm::vec3(position),
                .emission = glm::min(colour * extinction, glm::vec3(extinction)),
                .extinction = extinction,
-               .sheet = static_cast<std::uint16_t>(slice)});
+               .sheet = static_cast<std::uint16_t>(slice)},
+              static_cast<std::uint32_t>(row * order[2].extent + step));
       }
     }
   }
@@ -96,7 +99,7 @@ void Traversal::visit(int first, int last, const std::function<void(const Splat&
 
 void for_each_splat(const Scene& scene, const std::function<void(const Splat&)>& visit) {
   const Traversal traversal(scene);
-  traversal.visit(0, traversal.slices(), visit);
+  traversal.visit(traversal.all(), [&visit](const Splat& splat, std::uint32_t) { visit(splat); });
 }
 
 std::vector<Splat> collect_splats(const Scene& scene) {

@@ -71,14 +71,19 @@ struct Result {
 Json to_json(const scene::Scene& scene) {
   const auto& description = scene.description;
   const auto& volume = *scene.volume;
-  return {{"volume", volume.name},
-          {"source", volume.source},
-          {"dims", {volume.dims.x, volume.dims.y, volume.dims.z}},
-          {"transfer_function", scene.transfer_function.name},
-          {"method", scene::to_string(description.method)},
-          {"width", scene.camera.width()},
-          {"height", scene.camera.height()},
-          {"toml", scene::to_toml(description)}};
+  Json json{{"volume", volume.name},
+            {"source", volume.source},
+            {"dims", {volume.dims.x, volume.dims.y, volume.dims.z}},
+            {"transfer_function", scene.transfer_function.name},
+            {"method", scene::to_string(description.method)},
+            {"width", scene.camera.width()},
+            {"height", scene.camera.height()},
+            {"toml", scene::to_toml(description)}};
+  if (description.method == scene::Method::XRay) {
+    json["xray_exposure"] = scene.xray_scale;
+    json["xray_exposure_automatic"] = !(description.xray_exposure > 0.0);
+  }
+  return json;
 }
 
 Json to_json(const Result& result) {

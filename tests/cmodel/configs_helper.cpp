@@ -43,6 +43,8 @@ cmodel::Config named_config(const std::string& name) {
     for (const auto rounding : {oracle::Rounding::Trn, oracle::Rounding::Rnd, oracle::Rounding::RndConv})
       if (read.at(key.name) == '"' + std::string(oracle::word_of(rounding)) + '"') symbols.*key.member = rounding;
   }
+  if (read.contains("rounding.carry"))
+    symbols.carry = read.at("rounding.carry").substr(1, read.at("rounding.carry").size() - 2);
   return config_of(symbols, name);
 }
 
@@ -63,6 +65,7 @@ oracle::Symbols symbols_of(const cmodel::Config& config) {
     for (const auto rounding : {oracle::Rounding::Trn, oracle::Rounding::Rnd, oracle::Rounding::RndConv})
       if (cmodel::text_of(config, *cmodel::find_key(ours.name)) == oracle::word_of(rounding))
         symbols.*ours.member = rounding;
+  symbols.carry = cmodel::text_of(config, *cmodel::find_key("rounding.carry"));
   return symbols;
 }
 
@@ -75,6 +78,8 @@ cmodel::Config config_of(const oracle::Symbols& symbols, const std::string& name
   for (const oracle::RoundingKey& ours : oracle::rounding_keys())
     if (const auto wrong = cmodel::set(config, ours.name, oracle::word_of(symbols.*ours.member)))
       throw std::runtime_error(one_line(*wrong));
+  if (const auto wrong = cmodel::set(config, "rounding.carry", symbols.carry))
+    throw std::runtime_error(one_line(*wrong));
   return config;
 }
 

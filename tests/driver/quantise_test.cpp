@@ -13,7 +13,7 @@
 namespace fastsplat::driver {
 namespace {
 
-constexpr Site kSites[] = {Site::Position, Site::Depth, Site::Boundary, Site::Whole,     Site::Phi,
+constexpr Site kSites[] = {Site::Position, Site::Depth, Site::Boundary, Site::Whole,     Site::Carried, Site::Phi,
                            Site::Rho,      Site::Rlut,  Site::Radial,   Site::RadialSum, Site::Factor};
 
 /// The site's word of a value `parts`/4 of a unit above the word 3.
@@ -22,7 +22,7 @@ std::int64_t word_near_3(Site site, int parts, const cmodel::Config& config) {
   return quantise(std::ldexp(3.0 + parts / 4.0, -to.to.frac_bits), to).word;
 }
 
-TEST(Quantise, halves_go_up_but_for_radius_and_radial_weights) {
+TEST(Quantise, halves_go_up_but_for_radius_radial_weights_and_what_is_carried) {
   int compared = 0;
   for (const auto& name : config_names()) {
     const auto config = load_config(name);
@@ -30,7 +30,7 @@ TEST(Quantise, halves_go_up_but_for_radius_and_radial_weights) {
       for (int parts = 0; parts <= 4; ++parts, ++compared) {
         std::int64_t expected = parts < 2 ? 3 : 4;
         if (site == Site::Rho) expected = parts == 0 ? 3 : 4;
-        if (site == Site::Radial) expected = parts < 4 ? 3 : 4;
+        if (site == Site::Radial || site == Site::Carried) expected = parts < 4 ? 3 : 4;
         EXPECT_EQ(word_near_3(site, parts, config), expected)
             << name << ", site " << static_cast<int>(site) << ", 3 + " << parts << "/4";
       }

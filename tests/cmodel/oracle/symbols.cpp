@@ -55,6 +55,7 @@ std::uint64_t hash(const Symbols& symbols) {
   for (const Key& key : kKeys) line(key.name, std::to_string(symbols.*key.member));
   for (const RoundingKey& key : kRoundingKeys)
     if (symbols.*key.member != Rounding::Rnd) line(key.name, word_of(symbols.*key.member));
+  if (symbols.carry != "xray") line("rounding.carry", symbols.carry);
   return state;
 }
 

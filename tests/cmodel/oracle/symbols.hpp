@@ -24,6 +24,7 @@ struct Symbols {
   int xi = 0, xf = 0;
   Rounding Rs = Rounding::Rnd, Rp = Rounding::Rnd, Rf = Rounding::Rnd;
   Rounding Ra = Rounding::Rnd, Rl = Rounding::Rnd, Ro = Rounding::Rnd;
+  std::string carry = "xray";
 };
 
 struct Key {
@@ -41,7 +42,8 @@ struct RoundingKey {
 std::span<const RoundingKey> rounding_keys();
 const char* word_of(Rounding rounding);
 
-/// 64-bit FNV-1a over the lines "key=value\n", those that may be absent only where they are not rnd.
+/// 64-bit FNV-1a over the lines "key=value\n", those that may be absent only where they are not rnd, or the carry not
+/// xray.
 std::uint64_t hash(const Symbols& symbols);
 
 /// CRC-32 of IEEE 802.3, bit by bit.

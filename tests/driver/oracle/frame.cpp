@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <span>
 
@@ -79,7 +80,7 @@ Sheets sheets_of(const Given& given) {
 double exposure(const Given& given) {
   if (given.method != Method::XRay) return 1.0;
   if (given.xray_exposure != 0.0) return given.xray_exposure;
-  return 1 / (1.05 * given.kappa * given.o * (2 * given.D / given.u + 1));
+  return given.L > 0.0 ? 1 / (1.05 * given.L * given.o) : 1.0;
 }
 
 using Words = std::array<std::int64_t, 4>;  // R, G, B, tau
@@ -103,7 +104,12 @@ struct Splat {
 class Page {
  public:
   explicit Page(const Given& given)
-      : given_(given), symbols_(given.symbols), sets_(radius_sets(given)), sheets_(sheets_of(given)), phi_(phi(given)) {
+      : given_(given),
+        symbols_(given.symbols),
+        sets_(radius_sets(given)),
+        sheets_(sheets_of(given)),
+        phi_(phi(given)),
+        radial_(radial(given)) {
     for (std::int64_t s = 0; sheets_.sliced && s <= sheets_.S; ++s) {
       B_.push_back(nearest(static_cast<double>(s) * sheets_.width * std::ldexp(1.0, symbols_.zf)));
       if (s > 0 && B_[static_cast<std::size_t>(s)] == B_[static_cast<std::size_t>(s - 1)])
@@ -157,10 +163,18 @@ class Page {
     const Wide most = power_of_two(symbols_.cf + 4) - 1;
     std::array<Wide, 4> V{};
     bool cut = false, visible = false;
+    const bool carried = symbols_.carry == "on" || (symbols_.carry == "xray" && given_.method == Method::XRay);
+    auto& rest = rest_.try_emplace({real.i, real.j}).first->second;
+    if (rest.empty())
+      rest.assign(4, (32768 + std::int64_t{49472} * real.i + std::int64_t{37345} * real.j) % 65536 / 65536.0);
     for (std::size_t c = 0; c < 4; ++c) {
-      const double word = std::floor(real.e[c] * f * std::ldexp(1.0, symbols_.cf) + 0.5);
+      const double real_word = real.e[c] * f * std::ldexp(1.0, symbols_.cf);
+      const double t = carried ? std::max(real_word + rest[c], 0.0) : real_word + 0.5;
+      const double word = std::floor(t);
       const bool beyond = word > static_cast<double>(most);
       V[c] = beyond ? most : static_cast<Wide>(word);
+      met_.carried_words += carried && word != std::floor(real_word + 0.5) ? 1 : 0;
+      if (carried) rest[c] = beyond ? 0.0 : t - shown(V[c]);
       met_.saturated_words += beyond ? 1 : 0;
       cut = cut || beyond;
       visible = visible || V[c] != 0;
@@ -175,6 +189,23 @@ class Page {
     else
       whole(splat, V, given_.method == Method::AxisAligned ? real.g : 0);
     splats_.push_back(splat);
+  }
+
+  /// What the sheets show of a word on average.
+  double shown(Wide V) {
+    Wide all = 0;
+    for (const std::uint32_t weight : radial_) all += weight;
+    if (V >= 256 || all == 0) return static_cast<double>(V);
+    const auto [at, is_new] = shown_.try_emplace(to_int(V));
+    if (is_new) {
+      Wide sum = 0;
+      const oracle::Words sheet = oracle::u(symbols_.si, symbols_.sf);
+      for (const std::uint32_t weight : radial_)
+        sum += narrow(symbols_.Rp, Overflow::Sat, V * weight, symbols_.cf + symbols_.wf, sheet).word;
+      at->second = static_cast<double>(sum) * std::ldexp(1.0, symbols_.cf + symbols_.wf - symbols_.sf) /
+                   static_cast<double>(all);
+    }
+    return at->second;
   }
 
   /// One channel of what a record carries of a splat.
@@ -290,7 +321,10 @@ class Page {
   Sets sets_;
   Sheets sheets_;
   std::vector<std::int64_t> phi_, B_;
+  std::vector<std::uint32_t> radial_;
+  std::map<std::int64_t, double> shown_;
   std::vector<Splat> splats_;
+  std::map<std::pair<int, int>, std::vector<double>> rest_;  ///< per line of voxels, what its channels left
   Met met_;
 };
 
@@ -313,6 +347,7 @@ constexpr MetName kMet[] = {
     {"records in further tiles", &Met::other_tiles},
     {"records out of traversal order", &Met::reordered},
     {"empty tiles", &Met::empty_tiles},
+    {"words that the carry changed", &Met::carried_words},
 };
 
 }  // namespace

@@ -37,6 +37,7 @@ struct Met {
   std::uint64_t other_tiles = 0;      ///< records of splats that have some in an earlier tile too
   std::uint64_t reordered = 0;        ///< neighbours in a sheet that are not in traversal order
   std::uint64_t empty_tiles = 0;
+  std::uint64_t carried_words = 0;  ///< words that are others than without the carry
 };
 struct MetName {
   const char* name;

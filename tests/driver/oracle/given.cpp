@@ -32,6 +32,33 @@ std::array<Walk, 3> walks(const scene::Scene& scene) {
   return all;
 }
 
+/// Every line of voxels, walked from its first voxel.
+double densest_line(const volume::Volume& volume, const scene::Classifier& classify) {
+  double densest = 0.0;
+  const auto inside = [&](const glm::ivec3& v) {
+    return glm::all(glm::greaterThanEqual(v, glm::ivec3(0))) && glm::all(glm::lessThan(v, volume.dims));
+  };
+  const auto number = [&](const glm::ivec3& v) {
+    return (static_cast<std::size_t>(v.z) * static_cast<std::size_t>(volume.dims.y) + static_cast<std::size_t>(v.y)) *
+               static_cast<std::size_t>(volume.dims.x) +
+           static_cast<std::size_t>(v.x);
+  };
+  for (int n = 14; n < 27; ++n) {  // the neighbours that come later in memory
+    const glm::ivec3 d(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+    const double step = glm::length(volume.position(d.x, d.y, d.z) - volume.position(0, 0, 0)) / volume.kernel_unit();
+    for (glm::ivec3 v(0); v.z < volume.dims.z; ++v.z)
+      for (v.y = 0; v.y < volume.dims.y; ++v.y)
+        for (v.x = 0; v.x < volume.dims.x; ++v.x) {
+          if (inside(v - d)) continue;
+          double sum = 0.0;
+          for (glm::ivec3 at = v; inside(at); at += d)
+            sum += static_cast<double>(classify(volume.voxels[number(at)]).extinction);
+          densest = std::max(densest, sum * step);
+        }
+  }
+  return densest;
+}
+
 }  // namespace
 
 Given given_by(const scene::Scene& scene, const cmodel::Config& config) {
@@ -67,8 +94,7 @@ Given given_by(const scene::Scene& scene, const cmodel::Config& config) {
   given.w = description.slab_width;
   given.o = description.opacity_scale;
   const scene::Classifier classify(scene.transfer_function, volume);
-  for (const float value : volume.voxels)
-    given.kappa = std::max(given.kappa, static_cast<double>(classify(value).extinction));
+  given.L = densest_line(volume, classify);
   for (std::size_t corner = 0; corner < 8; ++corner) {
     const glm::ivec3 last = volume.dims - 1;
     given.scale_at_corner[corner] =
@@ -93,7 +119,7 @@ Given given_by(const scene::Scene& scene, const cmodel::Config& config) {
         if (next.position != glm::vec3(volume.position(voxel.x, voxel.y, voxel.z))) continue;  // an empty voxel
         const scene::ScreenPoint at = scene.camera.project(glm::dvec3(next.position));
         const auto e = glm::dvec3(next.emission);
-        given.splats.push_back({at.x, at.y, at.depth, at.scale, {e.r, e.g, e.b, next.extinction}, g});
+        given.splats.push_back({at.x, at.y, at.depth, at.scale, {e.r, e.g, e.b, next.extinction}, g, i, j});
       }
   if (given.splats.size() != found.size()) throw std::runtime_error("the scene's splats come in another order");
   return given;

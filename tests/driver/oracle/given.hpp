@@ -16,6 +16,7 @@ struct RealSplat {
   double s = 0.0;             ///< pixels per mm at that depth
   std::array<double, 4> e{};  ///< emission R, G, B and extinction
   int g = 0;                  ///< grid sheet, 0 nearest
+  int i = 0, j = 0;           ///< steps of the outer and the inner loop in it
 };
 
 enum class Method { ImageAligned, AxisAligned, XRay };
@@ -32,7 +33,7 @@ struct Given {
   double cx = 0.0, cy = 0.0, cz = 0.0;      ///< spacings divided by u
   double w = 0.0;                           ///< slab width, kernel units
   double o = 0.0;                           ///< opacity_scale
-  double kappa = 0.0;                       ///< largest extinction that the transfer function gives any voxel
+  double L = 0.0;                           ///< densest line of voxels
   std::array<double, 8> scale_at_corner{};  ///< pixels per mm at the corners of the box of voxel centres
   int grid_sheets = 0;                      ///< voxels along the axis of the slices
   std::vector<RealSplat> splats;            ///< in traversal order

@@ -1,0 +1,132 @@
+// Thin splats: what rounding takes of one goes to the next behind it (docs/numerics.md, section 8, "carry").
+#include "driver/rounding_carry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "driver/compile.hpp"
+#include "driver/config_file.hpp"
+#include "driver/projection.hpp"
+#include "driver/render.hpp"
+#include "golden/render.hpp"
+#include "scene/sheet_plan.hpp"
+#include "tests/driver/scenes_helper.hpp"
+
+namespace fastsplat::driver {
+namespace {
+
+using scene::Method;
+
+cmodel::Config with_carry(const std::string& name, const char* carry) {
+  auto config = load_config(name);
+  EXPECT_FALSE(cmodel::set(config, "rounding.carry", carry));
+  return config;
+}
+
+scene::SceneDescription view_by(Method method, const std::string& volume = "shells:32") {
+  auto description = view_of(volume, 96);
+  description.method = method;
+  description.camera.azimuth = 20;
+  return description;
+}
+
+std::vector<std::uint32_t> words_of(const scene::Scene& scene, const cmodel::Config& config, int threads = 1) {
+  return render(scene, config, {.threads = threads, .progress = {}}).frame.words;
+}
+
+// A line's words as the sheets show them sum to what was asked, but for what is left at its end: less than a word, or
+// what the sheets never show of words below the first that they do show.
+TEST(RoundingCarry, ALineShowsWhatWasAskedOfIt) {
+  int lines = 0;
+  double worst = 0.0;
+  for (const auto& name : config_names()) {
+    const auto config = load_config(name);
+    const ShownWords shown(config, scene::kernel_by_name("gauss2"));
+    double unshown = 0.0;  // most that a word is short of itself
+    for (int word = 0; word < 256; ++word) unshown = std::max(unshown, word - shown(word));
+    const Target to = target(Site::Carried, config);
+    for (const double step : {0.001, 0.3, 0.5, 0.99, 1.7, 20.25, 300.0}) {
+      RoundingCarry carry(to, shown, 3, 7, 11);
+      for (const std::uint32_t line : {33U, 40U, 76U}) {
+        double asked = 0.0, got = 0.0;
+        for (int i = 0; i < 500; ++i) {
+          const double value = step * (1.0 + 0.5 * std::sin(i));
+          asked += value;
+          const Quantised word = carry(value / to.scale, line, 2);
+          ASSERT_FALSE(word.saturated) << name << " " << step;
+          got += shown(word.word);
+        }
+        const double off = std::abs(got - asked) / (1.0 + unshown);
+        worst = std::max(worst, off);
+        EXPECT_LE(off, 1.0) << name << ", " << step << " words a splat: asked " << asked << ", shown " << got;
+        ++lines;
+      }
+    }
+  }
+  figure("lines of 500 splats", lines);
+  figure("largest difference, of what is allowed", worst);
+}
+
+TEST(RoundingCarry, IsWhereItsKeySays) {
+  for (const Method method : {Method::XRay, Method::ImageAligned}) {
+    const auto scene = scene::build_scene(view_by(method));
+    const auto off = words_of(scene, with_carry("tiny", "off")), usual = words_of(scene, load_config("tiny")),
+               on = words_of(scene, with_carry("tiny", "on"));
+    EXPECT_NE(off, on) << scene::to_string(method);
+    EXPECT_EQ(usual, method == Method::XRay ? on : off) << scene::to_string(method);
+  }
+}
+
+TEST(RoundingCarry, DoesNotDependOnThreads) {
+  int compared = 0;
+  for (const Method method : {Method::XRay, Method::ImageAligned, Method::AxisAligned}) {
+    auto description = view_by(method, "marschner-lobb:40");
+    description.camera.projection = scene::Projection::Perspective;
+    const auto scene = scene::build_scene(description);
+    const auto config = with_carry("compact", "on");
+    const auto one = words_of(scene, config, 1);
+    for (const int threads : {2, 3, 8}) {
+      EXPECT_EQ(words_of(scene, config, threads), one) << threads;
+      ++compared;
+    }
+  }
+  figure("frames compared", compared);
+}
+
+// The report says what vanished by what it had; carried, nothing is lost.
+TEST(RoundingCarry, TheReportSaysWhatVanished) {
+  auto description = view_by(Method::XRay);
+  description.xray_exposure = 0.0005;
+  const auto scene = scene::build_scene(description);
+  const auto lost = render(scene, with_carry("tiny", "off")).report, kept = render(scene, load_config("tiny")).report;
+  figure("vanished", static_cast<double>(lost.vanished_voxels));
+  figure("of all colour and opacity", 100 * lost.vanished_share, "%");
+  EXPECT_FALSE(lost.carried);
+  EXPECT_GT(lost.vanished_share, 0.9);
+  EXPECT_LE(lost.vanished_share, 1.0);
+  EXPECT_TRUE(kept.carried);
+  EXPECT_EQ(kept.vanished_share, 0.0);
+  EXPECT_LT(kept.vanished_voxels, lost.vanished_voxels);
+}
+
+// A synthetic X-ray on short words, thousands of thin splats behind each other. 3 dB is half the error's power.
+TEST(RoundingCarry, AnXrayOfThinSplatsComesNearTheTrueOne) {
+  struct Case {
+    const char *config, *volume;
+    double least_db, least_gain_db;
+  };
+  for (const Case& one : {Case{"tiny", "shells:64", 44.0, 3.0}, Case{"small", "shells:64", 60.0, 3.0}}) {
+    const auto scene = scene::build_scene(view_by(Method::XRay, one.volume));
+    const Image truth = golden::render(scene);
+    const Lsb8 with = distance(truth, to_image(render(scene, load_config(one.config)).frame)),
+               without = distance(truth, to_image(render(scene, with_carry(one.config, "off")).frame));
+    figure(std::string(one.config) + ": X-ray, carried", with.psnr_db, "dB");
+    figure(std::string(one.config) + ": X-ray, each splat rounded", without.psnr_db, "dB");
+    EXPECT_GE(with.psnr_db, one.least_db);
+    EXPECT_GE(with.psnr_db - without.psnr_db, one.least_gain_db);
+  }
+}
+
+}  // namespace
+}  // namespace fastsplat::driver

@@ -12,6 +12,7 @@ std::string at_least(std::int64_t bound) { return "at least " + std::to_string(b
 std::string at_most(std::int64_t bound) { return "at most " + std::to_string(bound); }
 
 std::string hex(std::uint32_t word) { return "0x" + hash_text(word).substr(8); }
+std::string hex_byte(std::uint32_t byte) { return "0x" + hash_text(byte).substr(14); }
 
 }  // namespace
 
@@ -271,8 +272,8 @@ const Record* StreamDecode::feed(const Beat& beat) {
     const auto opcode = static_cast<std::uint32_t>(get(beat, layout::kOpcode));
     const RecordLayout* found = find_layout(opcode);
     if (found == nullptr)
-      refuse("unknown opcode", state_ == State::Start ? "a FastSplat stream (begin_frame, 70)" : "a known opcode",
-             std::to_string(opcode), state_ == State::Start ? "name a stream file (.fss)" : kDamagedStream);
+      refuse("unknown opcode", state_ == State::Start ? "a FastSplat stream (begin_frame, 0x46)" : "a known opcode",
+             hex_byte(opcode), state_ == State::Start ? "name a stream file (.fss)" : kDamagedStream);
     check_order(found->opcode, found->name);
     check_reserved(beat, *found);
     record_ = from_beat(beat);

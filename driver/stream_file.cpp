@@ -70,6 +70,22 @@ class Writer {
   cmodel::Crc32 crc_;
 };
 
+std::string hex(std::uint32_t word) { return fmt::format("0x{:08x}", word); }
+
+/// Before anything else is said of a file: whether it is a stream at all.
+void require_stream(const Beat& first) {
+  const auto opcode = static_cast<std::uint32_t>(get(first, cmodel::layout::kOpcode));
+  const auto magic = static_cast<std::uint32_t>(get(first, cmodel::layout::kFrameMagic));
+  if (opcode == static_cast<std::uint32_t>(cmodel::Opcode::BeginFrame) && magic == cmodel::kStreamMagic) return;
+  throw_input(
+      {.where = cmodel::beat_place(0),
+       .what = "not a FastSplat stream",
+       .expected = fmt::format("begin_frame, opcode 0x{:02x} and magic {}",
+                               static_cast<std::uint32_t>(cmodel::Opcode::BeginFrame), hex(cmodel::kStreamMagic)),
+       .got = fmt::format("opcode 0x{:02x} and {}", opcode, hex(magic)),
+       .fix = "name a stream file (.fss)"});
+}
+
 /// Beats of a file in blocks.
 class Reader {
  public:
@@ -82,14 +98,18 @@ class Reader {
     if (error) refuse("cannot read: " + error.message(), {}, {}, "check the file");
   }
 
-  /// visit(beat) for every whole beat; stops when it returns false. A last beat that is cut is refused where it lies.
+  /// visit(beat) for every whole beat, the first of which begins a stream; stops when it returns false. A last beat
+  /// that is cut is refused where it lies.
   template <class Visit>
   void each(Visit visit) {
     std::vector<Beat> block(4096);
+    bool first = true;
     while (in_) {
       in_.read(reinterpret_cast<char*>(block.data()), static_cast<std::streamsize>(block.size() * kBeatBytes));
       const auto got = static_cast<std::size_t>(in_.gcount()) / kBeatBytes;
       for (std::size_t i = 0; i < got; ++i) {
+        if (first) require_stream(block[i]);
+        first = false;
         if (!visit(block[i])) return;
       }
     }
@@ -118,17 +138,8 @@ class Reader {
   std::uintmax_t bytes_ = 0;
 };
 
-std::string hex(std::uint32_t word) { return fmt::format("0x{:08x}", word); }
-
 /// Refuses a beat that dump_stream cannot tell; `layout` is null for an unknown opcode.
 void check_dumped(std::uint64_t number, const Beat& beat, const cmodel::RecordLayout* layout, bool ended) {
-  if (number == 0 && (layout == nullptr || layout->opcode != cmodel::Opcode::BeginFrame)) {
-    throw_input({.where = cmodel::beat_place(number),
-                 .what = "not a FastSplat stream",
-                 .expected = "begin_frame first",
-                 .got = layout == nullptr ? fmt::format("opcode {}", beat[0] & 0xff) : layout->name,
-                 .fix = "name a .fss file"});
-  }
   if (layout == nullptr) {
     throw_input({.where = cmodel::beat_place(number),
                  .what = "unknown opcode",

@@ -38,7 +38,10 @@ module composite_lane (
   assign sum_mode = mode_i == 2'd2;
   assign transmittance = state_i[3*DB+:TB];
   always_ff @(posedge clk_i) begin
+    // freeze_below 0: nothing ever freezes
+    // verilator lint_off UNSIGNED
     if (valid_i[4]) frozen_k5_q <= !sum_mode && transmittance < TB'(fastsplat_pkg::FREEZE_BELOW) && !`FASTSPLAT_FAULT(UNFROZEN);
+    // verilator lint_on UNSIGNED
     if (valid_i[5]) frozen_o <= frozen_k5_q;
   end
 

@@ -63,6 +63,8 @@ module compositor (
   localparam int SIDE = fastsplat_pkg::SIDE_BITS;
 
   // ---- dirty maps, row by row of blocks: a window marks at most two block columns and two block rows
+  localparam int XB = BX > 1 ? $clog2(BX) : 1;
+  localparam int YB = BY > 1 ? $clog2(BY) : 1;
   logic [BX-1:0] dirty[0:2*BY-1];  // of buffer 0, then of buffer 1
   logic [BX-1:0] mark_x;
   logic [BY-1:0] mark_y;
@@ -71,8 +73,8 @@ module compositor (
     mark_y = '0;
     if (dirty_valid_i) begin
       for (int g = 0; g < P; g++) begin
-        if (dirty_inside_x_i[g]) mark_x[dirty_column_i[g*BLK+:BLK]] = 1'b1;
-        if (dirty_inside_y_i[g]) mark_y[dirty_row_i[g*BLK+:BLK]] = 1'b1;
+        if (dirty_inside_x_i[g]) mark_x[dirty_column_i[g*BLK+:XB]] = 1'b1;
+        if (dirty_inside_y_i[g]) mark_y[dirty_row_i[g*BLK+:YB]] = 1'b1;
       end
       if (`FASTSPLAT_FAULT(MISSED_DIRTY)) for (int r = 2; r < BY; r += 4) mark_y[r] = 1'b0;
     end

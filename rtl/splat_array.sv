@@ -250,8 +250,10 @@ module splat_array (
   assign tap_sheet_valid_o = valid_q[9];
   assign tap_sheet_tag_o = tag_q[9];
   always_comb begin
-    tap_weights_o = '0;  // verilator lint_off WIDTHCONCAT
-    tap_sums_o = '0;  // verilator lint_on WIDTHCONCAT
+    // verilator lint_off WIDTHCONCAT
+    tap_weights_o = '0;
+    tap_sums_o = '0;
+    // verilator lint_on WIDTHCONCAT
     for (int b = 0; b < P * P; b++) begin
       if (valid_q[6]) tap_weights_o[b*WB+:WB] = weights[b];
       if (valid_q[9]) tap_sums_o[b*4*SB+:4*SB] = sums[b];

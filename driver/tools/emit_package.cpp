@@ -9,8 +9,17 @@
 
 int main(int argc, char** argv) {
   const bool hash_only = argc == 3 && std::strcmp(argv[1], "--hash") == 0;
+  constexpr const char* kUsage =
+      "usage: fastsplat_emit_package [--hash] CONFIG\n"
+      "The SystemVerilog package of a configuration (a name or a .toml file), to standard output; with --hash its "
+      "hash.\n"
+      "Exit codes: 0, 2 usage, 3 no such configuration, or no RTL can be built of it.\n";
+  if (argc == 2 && std::strcmp(argv[1], "--help") == 0) {
+    std::fputs(kUsage, stdout);
+    return 0;
+  }
   if (argc != 2 && !hash_only) {
-    std::fprintf(stderr, "usage: fastsplat_emit_package [--hash] CONFIG\n");
+    std::fputs(kUsage, stderr);
     return 2;
   }
   try {
@@ -22,7 +31,7 @@ int main(int argc, char** argv) {
       std::fputs(fastsplat::cmodel::sv_package(config).c_str(), stdout);
     }
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    std::fprintf(stderr, "fastsplat_emit_package: error: %s\n", error.what());
     return 3;
   }
   return 0;

@@ -82,6 +82,28 @@ TEST_F(StreamVerbs, ADumpTellsWhatIsThereAndThenWhatIsWrong) {
   expect_success(fastsplat({"stream", "dump", folder_ / "d.fss", "--limit", "4"}));
 }
 
+// Whatever is wrong with it besides: a text file is no stream that was cut.
+TEST_F(StreamVerbs, WhatIsNoStreamIsToldSo) {
+  const auto whole = read_bytes(stream_);
+  std::string other_magic = whole;
+  other_magic[4] = 'X';
+  int refused = 0;
+  for (const auto& path :
+       {folder_.write("short.txt", "a text of more than one beat, then"),
+        folder_.write("long.txt", std::string(100000, 'x')), folder_.write("magic.fss", other_magic)}) {
+    for (const std::vector<std::string>& command : {std::vector<std::string>{"stream", "dump", path},
+                                                    {"stream", "replay", path, "--config", "tiny"},
+                                                    {"cycles", "--stream", path, "--config", "tiny"},
+                                                    {"verify", "--stream", path, "--config", "tiny"}}) {
+      const auto run = fastsplat(command);
+      EXPECT_EQ(run.code, 3) << command[0] << " " << path;
+      EXPECT_NE(run.err.find(path + ": beat 0 (byte offset 0): not a FastSplat stream"), std::string::npos) << run.err;
+      ++refused;
+    }
+  }
+  std::printf("[figure] times told that it is no stream = %d\n", refused);
+}
+
 TEST_F(StreamVerbs, VerifyNamesTheFile) {
   auto bytes = read_bytes(stream_);
   const auto cut = folder_.write("cut.fss", bytes.substr(0, bytes.size() - 24));

@@ -40,7 +40,7 @@ const Told kTold[] = {
     {"splats counted", 12, 2, 1, "2", "1", kWriter},
     {"sheets counted", 15, 2, 3, "2", "3", kWriter},
     {"cull block", 10, 4, 0x50000, "at least 1", "0", kWriter},
-    {"unknown opcode", 8, 0, 0x52, "a known opcode", "82", kDamaged},
+    {"unknown opcode", 8, 0, 0x52, "a known opcode", "0x52", kDamaged},
 };
 
 std::vector<std::uint8_t> with(std::size_t beat, std::size_t word, std::uint32_t value) {

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Usage: lint_edges.sh EMIT SOURCE_ROOT SCRATCH
+# Configurations at the ends of what the RTL allows: Verilator reads each with all its warnings on and has none.
+# (array.lanes = 32 has none either, but takes Verilator 100 s.)
+set -euo pipefail
+emit=$1 root=$2 scratch=$3
+mkdir -p "$scratch"
+read_count=0
+
+# lint BASE KEY=VALUE...
+lint() {
+  local base=$1 change table key value toml="$scratch/edge.toml"
+  shift
+  cp "$root/configs/$base.toml" "$toml"
+  for change in "$@"; do
+    table=${change%%.*} key=${change#*.} value=${key#*=} key=${key%%=*}
+    sed -i "/^\[$table\]/,/^\[/s/^$key = .*/$key = $value/" "$toml"
+    sed -n "/^\[$table\]/,/^\[/p" "$toml" | grep -q "^$key = $value$" || { echo "no key $table.$key in $base"; exit 1; }
+  done
+  "$emit" "$toml" > "$scratch/fastsplat_pkg.sv"
+  if ! verilator --lint-only -Wall --assert --top-module fastsplat_core -I"$root/rtl" "$scratch/fastsplat_pkg.sv" \
+      "$root"/rtl/*.sv > "$scratch/log" 2>&1; then
+    echo "$base $*:"
+    cat "$scratch/log"
+    exit 1
+  fi
+  read_count=$((read_count + 1))
+}
+
+lint tiny tile.width=16
+lint tiny tile.height=16
+lint tiny tile.width=4 tile.height=36
+lint tiny tile.width=2 tile.height=8
+lint tiny tile.width=2 tile.height=2
+lint tiny composite.freeze_below=0
+lint tiny sheet.frac_bits=31
+lint tiny rlut.sets=64
+lint tiny radial.entries=2 opacity.segments=2
+lint tiny pixel.int_bits=8 pixel.frac_bits=24
+lint base tile.width=512
+echo "[figure] configurations at the ends of the limits, without a warning = $read_count"
+(( read_count == 11 ))

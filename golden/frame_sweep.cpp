@@ -41,7 +41,7 @@ class FrameSweep {
       layers_ = {width_, std::vector<Layer>(pixels_.size()), std::vector<Run>(height_)};
     }
     if (!stages.occlusion) {
-      index_.emplace(scene, splats, bands_, assignment.sheets(),
+      index_.emplace(scene, splats, bands_, assignment.sheets(), options.threads,
                      [&assignment](const ProjectedSplat& splat) { return assignment.first(splat); });
     }
     // Live at once: the sheets that the splats at hand reach, and where neighbours are read the two in front of these.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "golden/bands.hpp"
+#include "golden/collect_splats.hpp"
 #include "golden/render.hpp"
 #include "golden/splat/composite.hpp"
 #include "golden/splat/projection.hpp"
@@ -99,7 +100,7 @@ Image ray_cast(const scene::Scene& scene, const RenderOptions& options) {
   const double half_depth = scene.volume->bounding_radius() / unit + radius + 1.0;
   const double density = cell_density(scene);
   const glm::dvec3 forward = scene.camera.direction();
-  const std::vector<scene::Splat> splats = scene::collect_splats(scene);
+  const std::vector<scene::Splat> splats = collect_splats(scene, options.threads);
   const SplatTree tree(splats);
 
   Image image(scene.camera.width(), scene.camera.height());

@@ -74,10 +74,10 @@ Image sweep_sheets(const scene::Scene& scene, const std::vector<scene::Splat>& s
   const Projector project(scene);
   const int reach = assignment.reach();
   const Bands bands{height, rows_for_ring(reach, width)};
-  const BandIndex index(scene, splats, bands, assignment.sheets(),
+  const BandIndex index(scene, splats, bands, assignment.sheets(), options.threads,
                         [&](const ProjectedSplat& splat) { return assignment.first(splat); });
 
-  for_each_band(bands, options.threads, options.progress, [&](int band) {
+  for_each_band(index.splats_per_band(), options.threads, options.progress, [&](int band) {
     const Rows rows = bands.rows(band);
     std::vector<Sheet> ring(reach, Sheet(rows, width));
     std::vector<Sums> pixels(static_cast<std::size_t>(rows.end - rows.first) * width, initial);

@@ -15,9 +15,9 @@ Image westover(const scene::Scene& scene, const std::vector<scene::Splat>& splat
   Image image(width, height);
   const Projector project(scene);
   const Bands bands{height};
-  const BandIndex index(scene, splats, bands, 1, [](const ProjectedSplat&) { return 0; });
+  const BandIndex index(scene, splats, bands, 1, options.threads, [](const ProjectedSplat&) { return 0; });
 
-  for_each_band(bands, options.threads, options.progress, [&](int band) {
+  for_each_band(index.splats_per_band(), options.threads, options.progress, [&](int band) {
     const Rows rows = bands.rows(band);
     std::vector<FrontToBack> pixels(static_cast<std::size_t>(rows.end - rows.first) * width);
     Footprint footprint;

@@ -1,6 +1,7 @@
 // Voxel traversal: the non-empty voxels of a scene as classified, shaded splats, front to back.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
@@ -32,6 +33,8 @@ class Traversal {
   ~Traversal();
   /// Pieces; sheets of the grid, for those who want Splat::sheet.
   int slices() const;
+  /// How many splats visit() would visit: classifies, but shades nothing.
+  std::size_t count(int first, int last) const;
   /// Slices first..last-1, 0 nearest to the eye.
   void visit(int first, int last, const std::function<void(const Splat&)>& visit) const;
 

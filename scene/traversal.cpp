@@ -53,6 +53,9 @@ struct Traversal::State {
         classify(of.transfer_function, *of.volume),
         shade(of.shading, of.camera, *of.volume),
         order(walk_order(of)) {}
+
+  template <class Each>
+  void walk(int first, int last, Each each) const;
 };
 
 Traversal::Traversal(const Scene& scene) : state_(std::make_unique<const State>(scene)) {}
@@ -60,38 +63,52 @@ Traversal::~Traversal() = default;
 
 int Traversal::slices() const { return state_->order[0].extent; }
 
-void Traversal::visit(int first, int last, const std::function<void(const Splat&)>& visit) const {
-  const Scene& scene = state_->scene;
+/// Every voxel of slices first..last-1 that is not empty: each(at, slice, material, extinction).
+template <class Each>
+void Traversal::State::walk(int first, int last, Each each) const {
   // Copies of one's own: what other code might write to is read again for every voxel.
-  const Classifier classify = state_->classify;
-  const Shader shade = state_->shade;
-  const std::array<Walk, 3> order = state_->order;
+  const Classifier classifier = classify;
+  const std::array<Walk, 3> axes = order;
   const volume::Volume& volume = *scene.volume;
   const float opacity_scale = static_cast<float>(scene.description.opacity_scale);
-  const Texture& texture = scene.description.texture;
-  const bool textured = texture.kind != SolidKind::None && texture.where == TextureWhere::Voxel;
-
   glm::ivec3 at;
   for (int slice = first; slice < last; ++slice) {
-    at[order[0].axis] = order[0].index(slice);
-    for (int row = 0; row < order[1].extent; ++row) {
-      at[order[1].axis] = order[1].index(row);
-      for (int step = 0; step < order[2].extent; ++step) {
-        at[order[2].axis] = order[2].index(step);
-        const Material material = classify(volume.at(at.x, at.y, at.z));
+    at[axes[0].axis] = axes[0].index(slice);
+    for (int row = 0; row < axes[1].extent; ++row) {
+      at[axes[1].axis] = axes[1].index(row);
+      for (int step = 0; step < axes[2].extent; ++step) {
+        at[axes[2].axis] = axes[2].index(step);
+        const Material material = classifier(volume.at(at.x, at.y, at.z));
         const float extinction = material.extinction * opacity_scale;
-        if (!(extinction > 0.0f)) continue;
-        const glm::dvec3 position = volume.position(at.x, at.y, at.z);
-        glm::vec3 colour = material.colour;
-        if (textured) colour *= glm::vec3(tint(texture, position));
-        if (scene.shading.on) colour = shade(colour, at.x, at.y, at.z);
-        visit({.position = glm::vec3(position),
-               .emission = glm::min(colour * extinction, glm::vec3(extinction)),
-               .extinction = extinction,
-               .sheet = static_cast<std::uint16_t>(slice)});
+        if (extinction > 0.0f) each(at, slice, material, extinction);
       }
     }
   }
+}
+
+std::size_t Traversal::count(int first, int last) const {
+  std::size_t splats = 0;
+  state_->walk(first, last, [&splats](const glm::ivec3&, int, const Material&, float) { ++splats; });
+  return splats;
+}
+
+void Traversal::visit(int first, int last, const std::function<void(const Splat&)>& visit) const {
+  const Scene& scene = state_->scene;
+  const Shader shade = state_->shade;
+  const volume::Volume& volume = *scene.volume;
+  const Texture& texture = scene.description.texture;
+  const bool textured = texture.kind != SolidKind::None && texture.where == TextureWhere::Voxel;
+  const bool shaded = scene.shading.on;
+  state_->walk(first, last, [&](const glm::ivec3& at, int slice, const Material& material, float extinction) {
+    const glm::dvec3 position = volume.position(at.x, at.y, at.z);
+    glm::vec3 colour = material.colour;
+    if (textured) colour *= glm::vec3(tint(texture, position));
+    if (shaded) colour = shade(colour, at.x, at.y, at.z);
+    visit({.position = glm::vec3(position),
+           .emission = glm::min(colour * extinction, glm::vec3(extinction)),
+           .extinction = extinction,
+           .sheet = static_cast<std::uint16_t>(slice)});
+  });
 }
 
 void for_each_splat(const Scene& scene, const std::function<void(const Splat&)>& visit) {

@@ -51,6 +51,7 @@ class BandIndex {
     const std::size_t cell = static_cast<std::size_t>(band) * keys_ + key;
     return std::span(indices_).subspan(start_[cell], start_[cell + 1] - start_[cell]);
   }
+  std::size_t size() const { return indices_.size(); }  ///< of all bands
   /// How many splats reach into each band.
   std::vector<std::uint64_t> splats_per_band() const;
 

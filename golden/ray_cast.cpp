@@ -12,7 +12,6 @@
 // them side by side, and stops where nothing behind can change the pixel any more (settled_pixels.hpp).
 #include <algorithm>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "golden/bands.hpp"
@@ -28,6 +27,22 @@ namespace fastsplat::golden {
 
 namespace {
 
+/// splats[k] becomes what splats[order[k]] was. Round by round, since a copy would be the most memory of all.
+void sort_in_place(std::vector<scene::Splat>& splats, const std::vector<std::uint32_t>& order) {
+  std::vector<bool> placed(splats.size());
+  for (std::size_t first = 0; first < order.size(); ++first) {
+    if (placed[first]) continue;
+    const scene::Splat held = splats[first];
+    std::size_t at = first;
+    for (; order[at] != first; at = order[at]) {
+      splats[at] = splats[order[at]];
+      placed[at] = true;
+    }
+    splats[at] = held;
+    placed[at] = true;
+  }
+}
+
 /// What the kernels of a scene are to a ray.
 struct RayScene {
   RayScene(const scene::Scene& scene, int threads)
@@ -41,10 +56,7 @@ struct RayScene {
         splats(collect_splats(scene, threads)),
         tree(splats),
         bounded(never_brighter_than_opaque(splats)) {
-    std::vector<scene::Splat> sorted;
-    sorted.reserve(splats.size());
-    for (const std::uint32_t i : tree.order()) sorted.push_back(splats[i]);
-    splats = std::move(sorted);
+    sort_in_place(splats, tree.order());
   }
 
   /// Calls take(RayHit) if the ray passes through the splat's kernel.

@@ -51,7 +51,8 @@ TEST(SettledPixels, NothingBehindChangesWhatIsStored) {
     });
     if (i % 100 == 0) {
       behind([](FrontToBack& p) {
-        for (int layer = 0; layer < 20000; ++layer) p.add(make_layer({1e-3, 1e-3, 0.5e-3, 1e-3}, scene::SlabOpacity::Exponential));
+        for (int layer = 0; layer < 20000; ++layer)
+          p.add(make_layer({1e-3, 1e-3, 0.5e-3, 1e-3}, scene::SlabOpacity::Exponential));
       });
     }
     if (settled(pixel)) {

@@ -43,10 +43,16 @@ void device_frame(benchmark::State& state, const std::string& volume, int size, 
   state.counters["redone"] = static_cast<double>(frame.units.redone);
 }
 
-void golden_frame(benchmark::State& state, const std::string& volume, int size) {
-  const scene::Scene& scene = scene_of(volume, size);
-  for (auto _ : state)
-    benchmark::DoNotOptimize(golden::render(scene, {.threads = 1, .progress = {}, .report = nullptr}).data.data());
+void golden_frame(benchmark::State& state, int size, scene::Method method, bool plain, int threads) {
+  scene::Scene scene = scene_of(kHead, size);
+  scene.description.method = method;
+  golden::RenderReport report;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        golden::render(scene, {.threads = threads, .progress = {}, .report = &report, .plain = plain}).data.data());
+  }
+  state.counters["splats"] = static_cast<double>(report.footprints);
+  state.counters["hidden"] = static_cast<double>(report.hidden_footprints);
 }
 
 /// One tile of splats `extent` pixels wide, anywhere on it.
@@ -134,10 +140,18 @@ const bool kRegistered = [] {
       frame("fast/head" + std::to_string(size) + "/base", kHead, size, "base", Unit::Fast);
     frame("wall1/head512/base", kHead, 512, "base", Unit::Fast);
     frame("wall2/head512/base", kHead, 512, "base", Unit::Fast, 2);
-    benchmark::RegisterBenchmark("golden/head512", golden_frame, kHead, 512)
-        ->Unit(benchmark::kMillisecond)
-        ->Iterations(1)
-        ->MeasureProcessCPUTime();
+    const auto golden = [](const char* name, int size, scene::Method method, bool plain, int threads = 1) {
+      auto* line = benchmark::RegisterBenchmark(name, golden_frame, size, method, plain, threads);
+      line->Unit(benchmark::kMillisecond)->Iterations(1)->MeasureProcessCPUTime();
+      if (threads > 1) line->UseRealTime();
+    };
+    using scene::Method;
+    golden("plain/head512/golden", 512, Method::ImageAligned, true);
+    golden("fast/head512/golden", 512, Method::ImageAligned, false);
+    golden("plain/rays128/golden", 128, Method::RayCast, true);
+    golden("fast/rays128/golden", 128, Method::RayCast, false);
+    golden("wall1/head512/golden", 512, Method::ImageAligned, false);
+    golden("wall2/head512/golden", 512, Method::ImageAligned, false, 2);
   }
   for (const char* config : {"base", "compact"})
     frame(std::string("fast/shells256/") + config, "shells:256", 512, config, Unit::Fast);

@@ -96,7 +96,10 @@ images::Metadata metadata_of(const Renderer& renderer, const scene::Scene& scene
 RenderedFrame render_frame(const Renderer& renderer, const scene::Scene& scene, const Progress& progress) {
   RenderedFrame frame;
   if (renderer.engine == Engine::Golden) {
-    frame.picture = golden::render(scene, {.threads = renderer.threads, .progress = progress, .report = &frame.golden});
+    frame.picture = golden::render(scene, {.threads = renderer.threads,
+                                           .progress = progress,
+                                           .report = &frame.golden,
+                                           .plain = renderer.unit == driver::Unit::Plain});
     return frame;
   }
   const driver::RenderOptions options{.threads = renderer.threads, .unit = renderer.unit, .progress = progress};

@@ -27,7 +27,7 @@ struct Renderer {
   Engine engine = Engine::Golden;
   std::optional<cmodel::Config> config;  ///< present for a device
   Checking checking = Checking::Off;
-  driver::Unit unit = driver::Unit::Fast;  ///< of the integer model
+  driver::Unit unit = driver::Unit::Fast;  ///< of the integer model, and of the golden renderer
   int threads = 0;
 };
 

@@ -12,8 +12,10 @@ void declare(Options& options, RenderArguments& to) {
                "golden (floating point), cmodel (the integer device) or rtl (its Verilated RTL)");
   declare(options, to.config, "cmodel, rtl: hardware configuration, a name or a TOML file (default base)");
   options.flag("--check", to.check, "rtl: compares every tap, pixel and counter with the model (exit 1)");
-  options.flag("--plain", to.plain,
-               "cmodel: the plain unit, which the RTL is held to, not the fast one; the same picture");
+  options.flag(
+      "--plain", to.plain,
+      "golden, cmodel: drawn as it is written down (cmodel: by the unit that the RTL is held to), not the fast way; "
+      "the same picture");
   options.group("Animation");
   options.word("--orbit", to.orbit, "A..B", "azimuth from A to B degrees, both included; 0..360 is a whole turn");
   options.flag("--sequence", to.sequence, "what the scene's [sequence] says");

@@ -20,7 +20,7 @@ struct RenderArguments {
   std::string raw;         ///< raw device words as EXR; empty for none
   std::string save_scene;  ///< where to write the scene as TOML; empty for none
   bool check = false;      ///< rtl: compares every tap with the model
-  bool plain = false;      ///< cmodel: the unit that the RTL is held to, not the fast one
+  bool plain = false;      ///< golden, cmodel: drawn as it is written down, not the fast way
   // An animation; its names in `out` and `raw` hold a run of '#' for the frame's number.
   std::optional<std::string> orbit;  ///< "A..B", degrees
   bool sequence = false;             ///< as the scene's [sequence] says

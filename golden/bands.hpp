@@ -29,6 +29,9 @@ struct Bands {
 /// Runs work(band) for every band on `threads` threads (0: all cores; more than cores are honoured), in any order.
 void for_each_band(const Bands& bands, int threads, const Progress& progress,
                    const std::function<void(int band)>& work);
+/// The same, the bands of the largest `cost` first: so that no thread ends with a long one alone.
+void for_each_band(std::span<const std::uint64_t> cost, int threads, const Progress& progress,
+                   const std::function<void(int band)>& work);
 
 struct BandRange {
   int first = 0;
@@ -40,17 +43,20 @@ BandRange bands_of(const ProjectedSplat& splat, const Bands& bands, int width);
 /// For every band the indices of the splats that reach into it, sorted by key; equal keys stay in the order given.
 class BandIndex {
  public:
-  /// key(splat) in [0, keys). At most 2^32 - 1 splats.
+  /// key(splat) in [0, keys), asked for by several threads. At most 2^32 - 1 splats.
   BandIndex(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const Bands& bands, int keys,
-            const std::function<int(const ProjectedSplat&)>& key);
+            int threads, const std::function<int(const ProjectedSplat&)>& key);
 
   std::span<const std::uint32_t> bucket(int band, int key) const {
     const std::size_t cell = static_cast<std::size_t>(band) * keys_ + key;
     return std::span(indices_).subspan(start_[cell], start_[cell + 1] - start_[cell]);
   }
+  std::size_t size() const { return indices_.size(); }  ///< of all bands
+  /// How many splats reach into each band.
+  std::vector<std::uint64_t> splats_per_band() const;
 
  private:
-  std::size_t keys_;
+  std::size_t bands_, keys_;
   std::vector<std::size_t> start_;
   std::vector<std::uint32_t> indices_;
 };

@@ -10,6 +10,7 @@
 #include "base/parallel/parallel.hpp"
 #include "golden/bands.hpp"
 #include "golden/splat/projection.hpp"
+#include "golden/splat_sums.hpp"
 
 namespace fastsplat::golden {
 namespace {
@@ -30,6 +31,7 @@ class FrameSweep {
         pixels_(static_cast<std::size_t>(width_) * height_),
         footprints_(bands_.count()),
         shares_(bands_.count()),
+        sums_(bands_.count()),
         visible_in_(bands_.count()),
         changed_(height_) {
     for (const SheetStage* stage : stages.sheet_stages) {
@@ -41,7 +43,7 @@ class FrameSweep {
       layers_ = {width_, std::vector<Layer>(pixels_.size()), std::vector<Run>(height_)};
     }
     if (!stages.occlusion) {
-      index_.emplace(scene, splats, bands_, assignment.sheets(),
+      index_.emplace(scene, splats, bands_, assignment.sheets(), options.threads,
                      [&assignment](const ProjectedSplat& splat) { return assignment.first(splat); });
     }
     // Live at once: the sheets that the splats at hand reach, and where neighbours are read the two in front of these.
@@ -123,6 +125,7 @@ class FrameSweep {
     footprint.rasterise(scene_.kernel, splat, rows, width_);
     assignment_.shares(splat, shares);
     assert(static_cast<int>(shares.size()) <= assignment_.reach());
+    if (!stages_.deposit && !options_.plain) return add_to_sheets(sheet, splat, band);
     for (int s = 0; s < static_cast<int>(shares.size()); ++s) {
       if (stages_.deposit) {
         stages_.deposit->add(at(sheet + s), sheet + s, footprint, splat, shares[s]);
@@ -130,6 +133,19 @@ class FrameSweep {
         at(sheet + s).add(footprint, scaled(splat.value, shares[s]));
       }
     }
+  }
+
+  /// Sheet::add of all sheets at once.
+  void add_to_sheets(int sheet, const ProjectedSplat& splat, int band) {
+    SplatSums& sums = sums_[band];
+    sums.clear();
+    for (int s = 0; s < static_cast<int>(shares_[band].size()); ++s) {
+      sums.add(at(sheet + s), 0, scaled(splat.value, shares_[band][s]));
+      for (const Footprint::Span& span : footprints_[band].spans()) {
+        at(sheet + s).touch(span.y, {span.x, span.x + span.width});
+      }
+    }
+    sums.add_footprint(footprints_[band]);
   }
 
   void clear(int sheet) {
@@ -231,6 +247,7 @@ class FrameSweep {
   std::vector<FrontToBack> pixels_;
   std::vector<Footprint> footprints_;        ///< one per band
   std::vector<std::vector<double>> shares_;  ///< one per band
+  std::vector<SplatSums> sums_;              ///< one per band
   bool needs_neighbours_ = false;
   int margin_ = 0;
   std::vector<Sheet> ring_;

@@ -6,12 +6,19 @@
 //
 // Depth runs along the view axis, and the distance of a kernel from the ray is measured in the plane of constant depth
 // through the kernel's centre: the same cylinder support and, in perspective, the same circular footprint as splatting.
+//
+// Two ways to the same bits. The plain one walks every kernel near a ray, sample by sample, and integrates at the end.
+// The other goes along the ray part by part, takes from the tree only the kernels that reach the part, walks four of
+// them side by side, and stops where nothing behind can change the pixel any more (settled_pixels.hpp).
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "golden/bands.hpp"
+#include "golden/collect_splats.hpp"
+#include "golden/ray_profile.hpp"
 #include "golden/render.hpp"
+#include "golden/settled_pixels.hpp"
 #include "golden/splat/composite.hpp"
 #include "golden/splat/projection.hpp"
 #include "golden/splat_tree.hpp"
@@ -20,109 +27,122 @@ namespace fastsplat::golden {
 
 namespace {
 
-/// Samples per kernel unit. Errors at this step (measured: at most 2.4e-6 of full scale for a=2, docs/golden.md):
-/// - a step's own self-dimming is exact for a constant field: error of second order, < 1e-5 at optical depth 2 per
-/// unit;
-/// - the sum of a Gaussian's samples is its integral to 2 exp(-(pi/step)^2/a), nothing; the cut at R leaves at most
-///   exp(-a R^2) / samples of the peak, 1e-5 for a=2, R=2.
-constexpr int kSamplesPerUnit = 32;
-
-/// Fields along one ray: per sample emission (RGB) and extinction, times the step.
-class RayProfile {
- public:
-  RayProfile(const scene::Kernel& kernel, double half_depth)
-      : kernel_(kernel),
-        first_(-std::ceil(half_depth * kSamplesPerUnit)),
-        samples_(static_cast<std::size_t>(-2.0 * first_)),
-        begin_(samples_.size()),
-        end_(0),
-        shrink_(std::exp(-2.0 * kernel.a() * kStep * kStep)) {}
-
-  /// Adds value * h at squared distance rho2 (kernel units) from a kernel centred at depth z.
-  void add(const Sums& value, double rho2, double z) {
-    // Sample j lies at depth (first_ + j + 1/2) steps; `nearest` is the last one not behind the centre.
-    const double position = z * kSamplesPerUnit - first_ - 0.5;
-    const double nearest = std::floor(position);
-    const double offset = (nearest - position) * kStep;  // depth of that sample relative to the centre, in (-step, 0]
-    const double radius = kernel_.radius();
-    const double peak = kernel_.value(rho2, 0.0) * kStep;
-    const Sums amount = {value[0] * peak, value[1] * peak, value[2] * peak, value[3] * peak};
-
-    // Outwards from the centre, towards the eye and away from it, with a recurrence for exp(-a d^2):
-    // the ratio of neighbours shrinks by the constant factor exp(-2 a step^2).
-    const auto nearer = static_cast<std::ptrdiff_t>(nearest);
-    walk(amount, nearer, -1, -offset, radius);
-    walk(amount, nearer + 1, +1, kStep + offset, radius);
-  }
-
-  /// Integrates front to back and forgets the fields.
-  FrontToBack integrate() {
-    FrontToBack pixel;
-    for (std::size_t j = begin_; j < end_; ++j) {
-      pixel.add(make_layer(samples_[j], scene::SlabOpacity::Exponential));
-      samples_[j] = {};
+/// splats[k] becomes what splats[order[k]] was. Round by round, since a copy would be the most memory of all.
+void sort_in_place(std::vector<scene::Splat>& splats, const std::vector<std::uint32_t>& order) {
+  std::vector<bool> placed(splats.size());
+  for (std::size_t first = 0; first < order.size(); ++first) {
+    if (placed[first]) continue;
+    const scene::Splat held = splats[first];
+    std::size_t at = first;
+    for (; order[at] != first; at = order[at]) {
+      splats[at] = splats[order[at]];
+      placed[at] = true;
     }
-    begin_ = samples_.size();
-    end_ = 0;
-    return pixel;
+    splats[at] = held;
+    placed[at] = true;
+  }
+}
+
+/// What the kernels of a scene are to a ray.
+struct RayScene {
+  RayScene(const scene::Scene& scene, int threads)
+      : kernel(scene.kernel),
+        unit(scene.volume->kernel_unit()),
+        radius(scene.kernel.radius()),
+        samples(scene.volume->bounding_radius() / unit + radius + 1.0),
+        forward(scene.camera.direction()),
+        density(cell_density(scene)),
+        ray_end(scene.description.ray_end),
+        splats(collect_splats(scene, threads)),
+        tree(splats),
+        bounded(never_brighter_than_opaque(splats)) {
+    sort_in_place(splats, tree.order());
   }
 
- private:
-  static constexpr double kStep = 1.0 / kSamplesPerUnit;
-
-  void walk(const Sums& amount, std::ptrdiff_t sample, std::ptrdiff_t direction, double distance, double radius) {
-    double value = std::exp(-kernel_.a() * distance * distance);
-    double ratio = std::exp(-kernel_.a() * kStep * (2.0 * distance + kStep));
-    for (; distance < radius; distance += kStep, sample += direction) {
-      if (sample < 0 || sample >= static_cast<std::ptrdiff_t>(samples_.size())) return;
-      Sums& sums = samples_[static_cast<std::size_t>(sample)];
-      for (int c = 0; c < 4; ++c) sums[c] += amount[c] * value;
-      begin_ = std::min(begin_, static_cast<std::size_t>(sample));
-      end_ = std::max(end_, static_cast<std::size_t>(sample) + 1);
-      value *= ratio;
-      ratio *= shrink_;
-    }
+  /// Calls take(RayHit) if the ray passes through the splat's kernel.
+  template <class Take>
+  void hit(const scene::Ray& ray, const scene::Splat& splat, Take&& take) const {
+    const glm::dvec3 centre(splat.position);
+    const double depth = glm::dot(centre, forward);
+    // The distance in the plane of constant depth is never shorter than the distance to the line.
+    const glm::dvec3 across = ray.origin + ray.direction * (depth / ray.depth_per_mm) - centre;
+    const double rho2 = glm::dot(across, across) / (unit * unit);
+    if (rho2 >= radius * radius) return;
+    const double peak = kernel.value(rho2, 0.0) * kSampleStep;
+    take(RayHit{.amount = {density * splat.emission.x * peak, density * splat.emission.y * peak,
+                           density * splat.emission.z * peak, density * splat.extinction * peak},
+                .position = samples.position(depth / unit)});
   }
 
-  const scene::Kernel& kernel_;
-  double first_;  ///< depth of the first sample's near end, in steps
-  std::vector<Sums> samples_;
-  std::size_t begin_, end_;  ///< the samples touched
-  double shrink_;
+  const scene::Kernel& kernel;
+  double unit, radius;  ///< mm; kernel units
+  RaySamples samples;
+  glm::dvec3 forward;
+  double density;
+  double ray_end;                    ///< a ray ends where its transmittance is below this
+  std::vector<scene::Splat> splats;  ///< in the tree's order: next to each other in memory as they are there
+  SplatTree tree;
+  bool bounded;  ///< settled() may be asked
 };
+
+/// Whether a ray goes on.
+bool goes_on(const FrontToBack& pixel, const RayScene& of) { return !(pixel.transmittance < of.ray_end); }
+
+FrontToBack plain_ray(const RayScene& of, const scene::Ray& ray, RayProfile& profile) {
+  const double everywhere = std::numeric_limits<double>::infinity();
+  of.tree.near_line_between(
+      ray.origin, ray.direction, of.radius * of.unit, of.forward, -everywhere, everywhere,
+      [&](std::uint32_t place) { of.hit(ray, of.splats[place], [&](const RayHit& hit) { profile.add(hit); }); });
+  FrontToBack pixel;
+  for (std::size_t j = profile.touched_begin(); j < profile.touched_end() && goes_on(pixel, of); ++j) {
+    pixel.add(make_layer(profile[j], scene::SlabOpacity::Exponential));
+  }
+  profile.clear();
+  return pixel;
+}
+
+FrontToBack fast_ray(const RayScene& of, const scene::Ray& ray, RayProfile& profile) {
+  // Long against a kernel, most of which lie in one part then; short against what a ray may pass in the dark.
+  constexpr std::size_t kPart = 8 * kSamplesPerUnit;
+  // A kernel within R of a part's samples reaches it; a step more for rounding.
+  const double reach = of.radius * kSamplesPerUnit + 2.0;
+  FrontToBack pixel;
+  bool open = true;
+  for (std::size_t begin = 0; begin < of.samples.count && open; begin += kPart) {
+    const std::size_t end = std::min(begin + kPart, of.samples.count);
+    profile.begin_part(begin, end);
+    const double low = of.samples.depth(static_cast<double>(begin) - reach) * of.unit;
+    const double high = of.samples.depth(static_cast<double>(end) + reach) * of.unit;
+    of.tree.near_line_between(ray.origin, ray.direction, of.radius * of.unit, of.forward, low, high,
+                              [&](std::uint32_t place) {
+                                const scene::Splat& splat = of.splats[place];
+                                const double depth = glm::dot(glm::dvec3(splat.position), of.forward);
+                                if (depth < low || depth > high) return;
+                                of.hit(ray, splat, [&](const RayHit& hit) { profile.add_to_part(hit); });
+                              });
+    profile.flush();
+    for (std::size_t j = profile.touched_begin(); j < profile.touched_end() && open; ++j) {
+      pixel.add(make_layer(profile[j], scene::SlabOpacity::Exponential));
+      open = goes_on(pixel, of) && !(of.bounded && settled(pixel));
+    }
+    profile.clear();
+  }
+  return pixel;
+}
 
 }  // namespace
 
 Image ray_cast(const scene::Scene& scene, const RenderOptions& options) {
-  const double unit = scene.volume->kernel_unit();
-  const double radius = scene.kernel.radius();
-  const double half_depth = scene.volume->bounding_radius() / unit + radius + 1.0;
-  const double density = cell_density(scene);
-  const glm::dvec3 forward = scene.camera.direction();
-  const std::vector<scene::Splat> splats = scene::collect_splats(scene);
-  const SplatTree tree(splats);
-
+  const RayScene of(scene, options.threads);
+  const auto cast = options.plain ? plain_ray : fast_ray;
   Image image(scene.camera.width(), scene.camera.height());
   const Bands bands{image.height};
   for_each_band(bands, options.threads, options.progress, [&](int band) {
-    RayProfile profile(scene.kernel, half_depth);
+    RayProfile profile(scene.kernel, of.samples);
     const Rows rows = bands.rows(band);
     for (int y = rows.first; y < rows.end; ++y) {
       for (int x = 0; x < image.width; ++x) {
-        const scene::Ray ray = scene.camera.ray(x, y);
-        // The distance in the plane of constant depth is never shorter than the distance to the line.
-        tree.near_line(ray.origin, ray.direction, radius * unit, [&](std::uint32_t i) {
-          const scene::Splat& splat = splats[i];
-          const glm::dvec3 centre(splat.position);
-          const double depth = glm::dot(centre, forward);
-          const glm::dvec3 across = ray.origin + ray.direction * (depth / ray.depth_per_mm) - centre;
-          const double rho2 = glm::dot(across, across) / (unit * unit);
-          if (rho2 >= radius * radius) return;
-          const Sums value = {density * splat.emission.x, density * splat.emission.y, density * splat.emission.z,
-                              density * splat.extinction};
-          profile.add(value, rho2, depth / unit);
-        });
-        profile.integrate().store(image.pixel(x, y));
+        cast(of, scene.camera.ray(x, y), profile).store(image.pixel(x, y));
       }
     }
   });

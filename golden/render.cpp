@@ -3,6 +3,7 @@
 #include <cassert>
 #include <chrono>
 
+#include "golden/collect_splats.hpp"
 #include "scene/capability.hpp"
 
 namespace fastsplat::golden {
@@ -16,7 +17,7 @@ using Technique = Image (*)(const scene::Scene&, const std::vector<scene::Splat>
 
 Image render_splats(Technique technique, const scene::Scene& scene, const RenderOptions& options) {
   const auto start = Clock::now();
-  const std::vector<scene::Splat> splats = scene::collect_splats(scene);
+  const std::vector<scene::Splat> splats = collect_splats(scene, options.threads);
   const auto collected = Clock::now();
   Image image = technique(scene, splats, options);
   if (options.report) {

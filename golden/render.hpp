@@ -18,12 +18,16 @@ struct RenderReport {
   double splatting_seconds = 0.0;       ///< all else: sorting, culling, splatting, compositing
   std::optional<std::uint64_t> splats;  ///< classified voxels that are not empty, where the technique collects them
   std::optional<CullingReport> culling;
+  /// Of sheets in bands of rows, and westover: footprints, one per band that they reach into, and how many of them were
+  /// not drawn, since every pixel that they reach was settled.
+  std::uint64_t footprints = 0, hidden_footprints = 0;
 };
 
 struct RenderOptions {
   int threads = 0;  ///< 0: all cores. Never changes the result.
   Progress progress;
   RenderReport* report = nullptr;  ///< filled when given
+  bool plain = false;              ///< as the formulas say it: nothing left out, no vectors. Never changes the result.
 };
 
 /// Renders scene.description.method. RGBA, premultiplied, linear; A is the opacity (X-ray: the exposed line integral of

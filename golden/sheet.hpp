@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <new>
 #include <vector>
 
 #include "golden/splat/footprint.hpp"
@@ -18,13 +20,27 @@ struct Run {
   int size() const { return empty() ? 0 : end - begin; }
 };
 
+/// Memory for sums of which each lies in one cache line.
+template <class T>
+struct LineAllocator {
+  using value_type = T;
+  static constexpr std::align_val_t kLine{64};
+  LineAllocator() = default;
+  template <class U>
+  LineAllocator(const LineAllocator<U>&) {}
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), kLine)); }
+  void deallocate(T* at, std::size_t) { ::operator delete(at, kLine); }
+  bool operator==(const LineAllocator&) const { return true; }
+};
+
 /// Rows are independent: threads may add to different rows of one sheet.
 class Sheet {
  public:
   Sheet(Rows rows, int width)
       : rows_(rows),
         width_(width),
-        sums_(static_cast<std::size_t>(rows.end - rows.first) * width),
+        pitch_(pitch_for(width)),
+        sums_(static_cast<std::size_t>(rows.end - rows.first) * pitch_),
         touched_(rows.end - rows.first, Run{width, 0}) {}
 
   /// Adds value * weight on every pixel of a footprint that was rasterised for rows of this sheet.
@@ -48,8 +64,9 @@ class Sheet {
   Rows rows() const { return rows_; }
   /// Outside this run of row y all sums are 0.
   Run touched(int y) const { return touched_[y - rows_.first]; }
-  Sums* row(int y) { return &sums_[static_cast<std::size_t>(y - rows_.first) * width_]; }
-  const Sums* row(int y) const { return &sums_[static_cast<std::size_t>(y - rows_.first) * width_]; }
+  std::size_t pitch() const { return pitch_; }  ///< pixels from row to row
+  Sums* row(int y) { return &sums_[static_cast<std::size_t>(y - rows_.first) * pitch_]; }
+  const Sums* row(int y) const { return &sums_[static_cast<std::size_t>(y - rows_.first) * pitch_]; }
 
   void clear_row(int y) {
     Run& touched = touched_[y - rows_.first];
@@ -58,9 +75,18 @@ class Sheet {
   }
 
  private:
+  /// Rows that lie a multiple of 4 KiB apart would push each other out of the cache: a footprint has several, in
+  /// several sheets. So they lie an odd number of cache lines apart.
+  static std::size_t pitch_for(int width) {
+    constexpr std::size_t kPixelsInLine = 64 / sizeof(Sums);
+    const std::size_t lines = (static_cast<std::size_t>(width) + kPixelsInLine - 1) / kPixelsInLine;
+    return (lines | 1) * kPixelsInLine;
+  }
+
   Rows rows_;
   int width_;
-  std::vector<Sums> sums_;
+  std::size_t pitch_;
+  std::vector<Sums, LineAllocator<Sums>> sums_;
   std::vector<Run> touched_;
 };
 

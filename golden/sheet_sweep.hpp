@@ -61,16 +61,22 @@ class KernelSlices final : public SheetAssignment {
 /// The sheets of image_aligned.
 KernelSlices image_slabs(const scene::Scene& scene);
 
-/// Takes a run of pixels of a finished sheet into the picture. `pixels` start as given to sweep_sheets.
-using TakeSheet = std::function<void(std::span<Sums> pixels, std::span<const Sums> sheet)>;
-/// One finished pixel to RGBA.
-using StorePixel = std::function<void(const Sums& pixel, float* rgba)>;
+/// What becomes of finished sheets.
+struct SheetSink {
+  Sums initial{};  ///< every pixel, to begin with
+  /// Takes a run of pixels of a finished sheet into the picture.
+  std::function<void(std::span<Sums> pixels, std::span<const Sums> sheet)> take;
+  /// One finished pixel to RGBA.
+  std::function<void(const Sums& pixel, float* rgba)> store;
+  /// Whether no further sheet can change what will be stored of the pixel. Empty: never.
+  std::function<bool(const Sums& pixel)> settled{};
+};
 
 /// Adds every splat into its sheets, in the order given, and hands each sheet over when no later splat can reach it.
-/// Pixels that no splat of a sheet touches are not handed over.
+/// Pixels that no splat of a sheet touches need not be handed over; nor, unless options.plain, settled ones. Splats
+/// that reach only settled pixels are then not drawn.
 Image sweep_sheets(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options,
-                   const SheetAssignment& assignment, const Sums& initial, const TakeSheet& take,
-                   const StorePixel& store);
+                   const SheetAssignment& assignment, const SheetSink& sink);
 
 /// sweep_sheets with the sheets composited front to back by the scene's slab opacity; a pixel whose transmittance is
 /// below culling.freeze no longer changes.

@@ -1,21 +1,30 @@
 #include "golden/splat_tree.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
-#include <utility>
 
 namespace fastsplat::golden {
 
 namespace {
 constexpr std::uint32_t kLeafSplats = 32;
+
+/// A word that is ordered as (place, index) is; indices break ties, and -0 is 0.
+std::uint64_t ordered(float place, std::uint32_t index) {
+  const auto bits = std::bit_cast<std::uint32_t>(place + 0.0f);
+  const std::uint32_t rising = bits >> 31 != 0 ? ~bits : bits | 0x80000000u;
+  return std::uint64_t{rising} << 32 | index;
 }
+}  // namespace
 
 SplatTree::SplatTree(const std::vector<scene::Splat>& splats) : order_(splats.size()) {
   std::iota(order_.begin(), order_.end(), 0u);
-  if (!splats.empty()) build(splats, 0, static_cast<std::uint32_t>(splats.size()));
+  std::vector<std::uint64_t> words(splats.size());
+  if (!splats.empty()) build(splats, words, 0, static_cast<std::uint32_t>(splats.size()));
 }
 
-void SplatTree::build(const std::vector<scene::Splat>& splats, std::uint32_t begin, std::uint32_t end) {
+void SplatTree::build(const std::vector<scene::Splat>& splats, std::vector<std::uint64_t>& words, std::uint32_t begin,
+                      std::uint32_t end) {
   glm::vec3 low = splats[order_[begin]].position;
   glm::vec3 high = low;
   for (std::uint32_t i = begin; i < end; ++i) {
@@ -34,15 +43,15 @@ void SplatTree::build(const std::vector<scene::Splat>& splats, std::uint32_t beg
     std::sort(order_.begin() + begin, order_.begin() + end);
   } else {
     // Halve along the longest side. Ties in position are broken by index: the tree must not depend on the library.
+    // Sorted are words that hold both, one after the other in memory.
     const glm::vec3 size = high - low;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
     const std::uint32_t middle = begin + (end - begin) / 2;
-    const auto before = [&](std::uint32_t a, std::uint32_t b) {
-      return std::pair(splats[a].position[axis], a) < std::pair(splats[b].position[axis], b);
-    };
-    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end, before);
-    build(splats, begin, middle);
-    build(splats, middle, end);
+    for (std::uint32_t i = begin; i < end; ++i) words[i] = ordered(splats[order_[i]].position[axis], order_[i]);
+    std::nth_element(words.begin() + begin, words.begin() + middle, words.begin() + end);
+    for (std::uint32_t i = begin; i < end; ++i) order_[i] = static_cast<std::uint32_t>(words[i]);
+    build(splats, words, begin, middle);
+    build(splats, words, middle, end);
   }
   nodes_[self].skip = static_cast<std::uint32_t>(nodes_.size());
 }

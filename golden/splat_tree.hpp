@@ -13,20 +13,34 @@ class SplatTree {
  public:
   explicit SplatTree(const std::vector<scene::Splat>& splats);
 
+  /// Indices in the order in which the splats are visited.
+  const std::vector<std::uint32_t>& order() const { return order_; }
+
   /// Calls visit(index) for every splat whose centre is within `distance` of the line, and for some beyond; always in
   /// the same order.
   template <class Visit>
   void near_line(const glm::dvec3& origin, const glm::dvec3& unit_direction, double distance, Visit&& visit) const {
+    near_line_between(origin, unit_direction, distance, glm::dvec3(0.0), 0.0, 0.0,
+                      [&](std::uint32_t place) { visit(order_[place]); });
+  }
+
+  /// Of these only such as may lie between two planes, low <= dot(centre, axis) <= high; `axis` is a unit vector. Calls
+  /// visit(place) with the splat's place in order().
+  template <class Visit>
+  void near_line_between(const glm::dvec3& origin, const glm::dvec3& unit_direction, double distance,
+                         const glm::dvec3& axis, double low, double high, Visit&& visit) const {
     for (std::size_t n = 0; n < nodes_.size();) {
       const Node& node = nodes_[n];
       const glm::dvec3 to_centre = node.centre - origin;
       const double along = glm::dot(to_centre, unit_direction);
       const double reach = node.radius + distance;
-      if (glm::dot(to_centre, to_centre) - along * along > reach * reach) {
+      const double depth = glm::dot(node.centre, axis);
+      if (glm::dot(to_centre, to_centre) - along * along > reach * reach || depth + node.radius < low ||
+          depth - node.radius > high) {
         n = node.skip;
         continue;
       }
-      for (std::uint32_t i = node.begin; i < node.end; ++i) visit(order_[i]);
+      for (std::uint32_t i = node.begin; i < node.end; ++i) visit(i);
       ++n;
     }
   }
@@ -39,7 +53,9 @@ class SplatTree {
     std::uint32_t skip = 0;
     std::uint32_t begin = 0, end = 0;
   };
-  void build(const std::vector<scene::Splat>& splats, std::uint32_t begin, std::uint32_t end);
+  /// `words`: room for one a splat.
+  void build(const std::vector<scene::Splat>& splats, std::vector<std::uint64_t>& words, std::uint32_t begin,
+             std::uint32_t end);
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;

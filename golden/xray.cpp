@@ -17,7 +17,7 @@ Image xray(const scene::Scene& scene, const std::vector<scene::Splat>& splats, c
   };
   const KernelSlices slices(scene.kernel, scene::sheet_plan(scene, scene::Method::XRay).slabs,
                             scene::largest_growth(scene));
-  return sweep_sheets(scene, splats, options, slices, Sums{}, add, expose);
+  return sweep_sheets(scene, splats, options, slices, {.initial = {}, .take = add, .store = expose});
 }
 
 }  // namespace fastsplat::golden

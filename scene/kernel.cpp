@@ -35,8 +35,6 @@ double Kernel::value(double rho2, double z) const {
   return norm_ * std::exp(-a_ * (rho2 + z * z));
 }
 
-double Kernel::footprint(double rho2) const { return rho2 < radius_ * radius_ ? peak_ * std::exp(-a_ * rho2) : 0.0; }
-
 // Half of the mean squared radius, Int rho^2 exp(-a rho^2) over the disc by parts.
 double Kernel::variance() const {
   const double edge = a_ * radius_ * radius_;

@@ -1,6 +1,7 @@
 // The reconstruction kernel h(x) = N exp(-a |x|^2) and its integrals (splatting.md 1.6, 2).
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,7 @@ class Kernel {
   /// h at squared distance `rho2` from the view-axis line and offset z along it; 0 outside the support.
   double value(double rho2, double z) const;
   /// Integral of h over all z: F(rho) = peak() exp(-a rho^2), strict support rho < R.
-  double footprint(double rho2) const;
+  double footprint(double rho2) const { return rho2 < radius_ * radius_ ? peak_ * std::exp(-a_ * rho2) : 0.0; }
   double peak() const { return peak_; }
   /// Second moment of the footprint along x (or y): the footprint integrates to 1. Kernel units squared; a little less
   /// than the endless Gaussian's 1/(2a), since the footprint ends at R.

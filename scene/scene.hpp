@@ -37,6 +37,7 @@ struct SceneDescription {
   Method method = Method::ImageAligned;
   double slab_width = 1.0;  ///< kernel units
   SlabOpacity slab_opacity = SlabOpacity::Exponential;
+  double ray_end = 0.0;        ///< ray caster: a ray ends where less transmittance is left; 0 where nothing can change
   int xray_sheets = 1;         ///< sheets an X-ray is summed in (the image must not depend on it)
   double xray_exposure = 0.0;  ///< pixel = exposure * integral; 0: automatic, see Scene::xray_scale
   int shading = -1;            ///< -1 as the transfer function suggests, 0 off, 1 on

@@ -145,6 +145,11 @@ const std::array kSettings{
             Real{0.01, 64.0, [](D& d) -> double& { return d.slab_width; }},
             Capability::with_methods(only(Method::ImageAligned), "has no slabs", "use --method image_aligned", "2.3")},
 
+    Setting{"raycast", "end", "--ray-end", "Method", "NUMBER",
+            "ray caster: a ray ends where less transmittance is left; 0: exact",
+            Real{0.0, 0.999, [](D& d) -> double& { return d.ray_end; }},
+            Capability::with_methods(only(Method::RayCast), "casts no rays", "use --method raycast", "0.4")},
+
     Setting{"xray", "exposure", "--xray-exposure", "Method", "NUMBER",
             "X-ray: pixel = exposure * integral; 0 automatic",
             Real{0.0, 1e9, [](D& d) -> double& { return d.xray_exposure; }},

@@ -1,6 +1,7 @@
 // Voxel traversal: the non-empty voxels of a scene as classified, shaded splats, front to back.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
@@ -41,7 +42,10 @@ class Traversal {
   int slices() const;
   int rows() const;     ///< of a slice: its outer loop
   int columns() const;  ///< of a row: its inner loop
-  GridPart all() const { return {0, slices(), 0, rows()}; }
+  GridPart all() const { return slab(0, slices()); }
+  GridPart slab(int first_slice, int end_slice) const { return {first_slice, end_slice, 0, rows()}; }
+  /// How many splats visit() would visit: classifies, but shades nothing.
+  std::size_t count(const GridPart& part) const;
   /// `line` is the number of the voxel's line across the slices: row times columns() plus column.
   void visit(const GridPart& part, const std::function<void(const Splat&, std::uint32_t line)>& visit) const;
 

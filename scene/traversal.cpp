@@ -53,6 +53,9 @@ struct Traversal::State {
         classify(of.transfer_function, *of.volume),
         shade(of.shading, of.camera, *of.volume),
         order(walk_order(of)) {}
+
+  template <class Each>
+  void walk(const GridPart& part, Each each) const;
 };
 
 Traversal::Traversal(const Scene& scene) : state_(std::make_unique<const State>(scene)) {}
@@ -62,39 +65,55 @@ int Traversal::slices() const { return state_->order[0].extent; }
 int Traversal::rows() const { return state_->order[1].extent; }
 int Traversal::columns() const { return state_->order[2].extent; }
 
-void Traversal::visit(const GridPart& part, const std::function<void(const Splat&, std::uint32_t line)>& visit) const {
-  const Scene& scene = state_->scene;
+/// Every voxel of the part that is not empty: each(at, slice, line, material, extinction).
+template <class Each>
+void Traversal::State::walk(const GridPart& part, Each each) const {
   // Copies of one's own: what other code might write to is read again for every voxel.
-  const Classifier classify = state_->classify;
-  const Shader shade = state_->shade;
-  const std::array<Walk, 3> order = state_->order;
+  const Classifier classifier = classify;
+  const std::array<Walk, 3> axes = order;
   const volume::Volume& volume = *scene.volume;
   const float opacity_scale = static_cast<float>(scene.description.opacity_scale);
-  const Texture& texture = scene.description.texture;
-  const bool textured = texture.kind != SolidKind::None && texture.where == TextureWhere::Voxel;
-
   glm::ivec3 at;
   for (int slice = part.first_slice; slice < part.end_slice; ++slice) {
-    at[order[0].axis] = order[0].index(slice);
+    at[axes[0].axis] = axes[0].index(slice);
     for (int row = part.first_row; row < part.end_row; ++row) {
-      at[order[1].axis] = order[1].index(row);
-      for (int step = 0; step < order[2].extent; ++step) {
-        at[order[2].axis] = order[2].index(step);
-        const Material material = classify(volume.at(at.x, at.y, at.z));
+      at[axes[1].axis] = axes[1].index(row);
+      for (int step = 0; step < axes[2].extent; ++step) {
+        at[axes[2].axis] = axes[2].index(step);
+        const Material material = classifier(volume.at(at.x, at.y, at.z));
         const float extinction = material.extinction * opacity_scale;
-        if (!(extinction > 0.0f)) continue;
-        const glm::dvec3 position = volume.position(at.x, at.y, at.z);
-        glm::vec3 colour = material.colour;
-        if (textured) colour *= glm::vec3(tint(texture, position));
-        if (scene.shading.on) colour = shade(colour, at.x, at.y, at.z);
-        visit({.position = glm::vec3(position),
-               .emission = glm::min(colour * extinction, glm::vec3(extinction)),
-               .extinction = extinction,
-               .sheet = static_cast<std::uint16_t>(slice)},
-              static_cast<std::uint32_t>(row * order[2].extent + step));
+        if (extinction > 0.0f)
+          each(at, slice, static_cast<std::uint32_t>(row * axes[2].extent + step), material, extinction);
       }
     }
   }
+}
+
+std::size_t Traversal::count(const GridPart& part) const {
+  std::size_t splats = 0;
+  state_->walk(part, [&splats](const glm::ivec3&, int, std::uint32_t, const Material&, float) { ++splats; });
+  return splats;
+}
+
+void Traversal::visit(const GridPart& part, const std::function<void(const Splat&, std::uint32_t line)>& visit) const {
+  const Scene& scene = state_->scene;
+  const Shader shade = state_->shade;
+  const volume::Volume& volume = *scene.volume;
+  const Texture& texture = scene.description.texture;
+  const bool textured = texture.kind != SolidKind::None && texture.where == TextureWhere::Voxel;
+  const bool shaded = scene.shading.on;
+  state_->walk(part,
+               [&](const glm::ivec3& at, int slice, std::uint32_t line, const Material& material, float extinction) {
+                 const glm::dvec3 position = volume.position(at.x, at.y, at.z);
+                 glm::vec3 colour = material.colour;
+                 if (textured) colour *= glm::vec3(tint(texture, position));
+                 if (shaded) colour = shade(colour, at.x, at.y, at.z);
+                 visit({.position = glm::vec3(position),
+                        .emission = glm::min(colour * extinction, glm::vec3(extinction)),
+                        .extinction = extinction,
+                        .sheet = static_cast<std::uint16_t>(slice)},
+                       line);
+               });
 }
 
 void for_each_splat(const Scene& scene, const std::function<void(const Splat&)>& visit) {

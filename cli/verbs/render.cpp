@@ -50,9 +50,9 @@ void check(const RenderArguments& arguments, Engine engine) {
                  .got = {},
                  .fix = "add --engine rtl; `fastsplat compare` compares two images"});
   }
-  if (engine != Engine::CModel && arguments.plain) {
+  if (engine == Engine::Rtl && arguments.plain) {
     throw_usage({.where = "--plain",
-                 .what = "the " + arguments.engine + " engine has one unit only",
+                 .what = "the rtl engine has one unit only",
                  .expected = {},
                  .got = {},
                  .fix = "add --engine cmodel, or leave it out"});

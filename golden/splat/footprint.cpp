@@ -14,7 +14,7 @@ namespace fastsplat::golden {
 // q = (dx^2 + dy^2) / radius^2, bit for bit.
 void Footprint::rasterise(const scene::Kernel& kernel, const ProjectedSplat& splat, Rows rows, int image_width) {
   spans_.clear();
-  weights_.clear();
+  std::size_t used = 0;
   const ScreenShape& shape = splat.shape;
   const double slope = shape.xy / shape.yy;
   const double aspect = shape.yy / (shape.xx - slope * shape.xy);
@@ -32,12 +32,15 @@ void Footprint::rasterise(const scene::Kernel& kernel, const ProjectedSplat& spl
     if (left > right) continue;
 
     // The rim's own pixels are decided by the kernel's strict test, which returns 0 there.
-    spans_.push_back(
-        {static_cast<int>(y), static_cast<int>(left), static_cast<int>(right - left) + 1, weights_.size()});
+    const int width = static_cast<int>(right - left) + 1;
+    spans_.push_back({static_cast<int>(y), static_cast<int>(left), width, used});
+    if (weights_.size() < used + static_cast<std::size_t>(width)) weights_.resize(2 * (used + width));
+    double* weights = weights_.data() + used;
     for (double x = left; x <= right; x += 1.0) {
       const double dx = x - middle;
-      weights_.push_back(kernel.footprint((aspect * (dx * dx) + dy * dy) * to_units2));
+      *weights++ = kernel.footprint((aspect * (dx * dx) + dy * dy) * to_units2);
     }
+    used += static_cast<std::size_t>(width);
   }
   if (splat.texture != nullptr) modulate(splat);
 }

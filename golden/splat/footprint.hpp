@@ -38,7 +38,7 @@ class Footprint {
   void modulate(const ProjectedSplat& splat);
 
   std::vector<Span> spans_;
-  std::vector<double> weights_;
+  std::vector<double> weights_;  ///< longer than what is used of it
 };
 
 }  // namespace fastsplat::golden

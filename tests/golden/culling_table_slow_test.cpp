@@ -23,14 +23,15 @@ struct Row {
   double gain() const { return without / with; }
 };
 
-/// Splatting alone, the voxels classified already.
+/// Splatting alone, the voxels classified already. Drawn the plain way: the other leaves out what frozen pixels hide
+/// whether culling is on or not, and there would be no "without".
 Image splat(const scene::Scene& scene, const std::vector<scene::Splat>& splats, CullingMode mode, double& seconds,
             CullingReport& culling) {
   scene::Scene as = scene;
   as.description.culling.mode = mode;
   RenderReport report;
   const std::clock_t start = std::clock();
-  Image image = image_aligned(as, splats, {.threads = 1, .progress = {}, .report = &report});
+  Image image = image_aligned(as, splats, {.threads = 1, .progress = {}, .report = &report, .plain = true});
   seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   culling = report.culling.value_or(CullingReport{});
   return image;

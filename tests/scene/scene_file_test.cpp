@@ -37,6 +37,8 @@ SceneDescription unusual(Method method) {
   if (method == Method::ImageAligned) {
     d.slab_width = 1.0 / 3.0;
     d.slab_opacity = SlabOpacity::Additive;
+  } else if (method == Method::RayCast) {
+    d.ray_end = 1e-6;
   } else {
     d.xray_sheets = 9;
     d.xray_exposure = 0.7;
@@ -47,7 +49,8 @@ SceneDescription unusual(Method method) {
 }
 
 TEST_F(SceneFile, RoundTripsEveryField) {
-  for (const SceneDescription& d : {SceneDescription{}, unusual(Method::ImageAligned), unusual(Method::XRay)}) {
+  for (const SceneDescription& d :
+       {SceneDescription{}, unusual(Method::ImageAligned), unusual(Method::XRay), unusual(Method::RayCast)}) {
     const std::string text = to_toml(d);
     const SceneDescription back = load(text);
     EXPECT_EQ(to_toml(back), text);
@@ -71,6 +74,7 @@ TEST_F(SceneFile, RoundTripsEveryField) {
     EXPECT_EQ(back.slab_opacity, d.slab_opacity);
     EXPECT_EQ(back.xray_sheets, d.xray_sheets);
     EXPECT_EQ(back.xray_exposure, d.xray_exposure);
+    EXPECT_EQ(back.ray_end, d.ray_end);
     EXPECT_EQ(back.shading, d.shading);
     EXPECT_EQ(back.opacity_scale, d.opacity_scale);
   }

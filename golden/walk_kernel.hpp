@@ -1,0 +1,23 @@
+// Walking kernels along a ray with vector instructions, chosen for the processor at run time (Highway).
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "golden/ray_profile.hpp"
+
+namespace fastsplat::golden {
+
+/// So many hits at most in one call.
+inline constexpr std::size_t kWalkedTogether = 4;
+
+struct WalkShape {
+  double a = 0.0, radius = 0.0;  ///< the kernel's
+  double shrink = 0.0;           ///< exp(-2 a step^2)
+};
+
+/// Adds hits to samples[begin..end), to each sample in the order given, each value and sum rounded as in
+/// RayProfile::add: the same bits. Vectors run over hits for the values, over a sample's four sums for the sums.
+void walk_hits(const WalkShape& shape, std::span<const RayHit> hits, Sums* samples, std::size_t begin, std::size_t end);
+
+}  // namespace fastsplat::golden

@@ -1,0 +1,21 @@
+#include "targets_helper.hpp"
+
+#include <hwy/highway.h>
+#include <hwy/targets.h>
+
+namespace fastsplat::golden::testing {
+
+Targets::Targets() {
+  // Of all bits of the processor's kinds those that code was made for.
+  for (auto left = static_cast<std::uint64_t>(hwy::SupportedTargets()) & static_cast<std::uint64_t>(HWY_TARGETS);
+       left != 0; left &= left - 1) {
+    all_.push_back(left & -left);
+  }
+}
+
+void Targets::choose(std::uint64_t target) {
+  hwy::SetSupportedTargetsForTest(static_cast<std::int64_t>(target));
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+}  // namespace fastsplat::golden::testing

@@ -36,8 +36,8 @@ class RoundingCarry {
   /// The channel's word, cut to U 4.cf.
   Quantised operator()(double value, std::uint32_t line, std::size_t channel) {
     double& rest = rest_[line - first_][channel];
-    const double sum = std::max(value * carried_.scale + rest, 0.0);
-    const Quantised word = quantise(sum / carried_.scale, carried_);
+    const double sum = value * carried_.scale + rest;  // below 0 where more was shown than was asked
+    const Quantised word = quantise(std::max(sum, 0.0) / carried_.scale, carried_);
     rest = word.saturated ? 0.0 : sum - shown_(word.word);
     return word;
   }

@@ -129,6 +129,26 @@ TEST(DriverOracle, WordsVanishAndSaturateAtTheSameDouble) {
   print_and_expect_equal(figures);
 }
 
+// A flat kernel in coarse sheets shows words longer than they are: what is owed is taken from the splats behind.
+TEST(DriverOracle, WhatIsShownTooLongIsOwed) {
+  OracleFigures figures;
+  for (const auto& name : config_names()) {
+    auto config = load_config(name);
+    config.sheet_frac_bits = std::max(4, config.colour_frac_bits - 3);
+    auto description = row_from_the_left();
+    description.method = scene::Method::XRay;
+    description.kernel = "";
+    description.kernel_a = 0.1;
+    description.kernel_radius = 1.0;
+    for (const double words : {0.7, 2.3, 5.1, 9.9, 40.0}) {
+      description.xray_exposure = std::ldexp(words, -config.colour_frac_bits);
+      compare_with_oracle(name, row_of(12, description), config, figures);
+    }
+  }
+  print_and_expect_equal(figures);
+  EXPECT_GT(figures.met.carried_words, 100U);
+}
+
 // The largest radius that the RLUT holds, to the last double of the zoom.
 TEST(DriverOracle, TheSameRadiusIsTheFirstRefused) {
   OracleFigures figures;

@@ -169,8 +169,8 @@ class Page {
       rest.assign(4, (32768 + std::int64_t{49472} * real.i + std::int64_t{37345} * real.j) % 65536 / 65536.0);
     for (std::size_t c = 0; c < 4; ++c) {
       const double real_word = real.e[c] * f * std::ldexp(1.0, symbols_.cf);
-      const double t = carried ? std::max(real_word + rest[c], 0.0) : real_word + 0.5;
-      const double word = std::floor(t);
+      const double t = carried ? real_word + rest[c] : real_word + 0.5;
+      const double word = std::floor(std::max(t, 0.0));
       const bool beyond = word > static_cast<double>(most);
       V[c] = beyond ? most : static_cast<Wide>(word);
       met_.carried_words += carried && word != std::floor(real_word + 0.5) ? 1 : 0;

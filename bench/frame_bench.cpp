@@ -4,9 +4,9 @@
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
-#include <map>
 #include <string>
 
+#include "bench/scenes.hpp"
 #include "cmodel/fast/tile_unit.hpp"
 #include "cmodel/model.hpp"
 #include "driver/config_file.hpp"
@@ -18,19 +18,8 @@
 namespace fastsplat {
 namespace {
 
-constexpr const char* kHead = "/usr/share/mricron/templates/ch2bet.nii.gz";
-
-/// Scenes are read once; frames are what is measured.
-const scene::Scene& scene_of(const std::string& volume, int size) {
-  static std::map<std::pair<std::string, int>, scene::Scene> scenes;
-  const auto found = scenes.find({volume, size});
-  if (found != scenes.end()) return found->second;
-  scene::SceneDescription description;
-  description.volume = volume;
-  description.transfer_function = volume == kHead ? "mri-head" : "default";
-  description.width = description.height = size;
-  return scenes.emplace(std::pair{volume, size}, scene::build_scene(description)).first->second;
-}
+using bench::kHead;
+using bench::scene_of;
 
 void device_frame(benchmark::State& state, const std::string& volume, int size, const std::string& config,
                   driver::Unit unit, int threads) {

@@ -47,6 +47,11 @@ void vtk_frame(benchmark::State& state, const Subject& subject) {
   for (auto _ : state) caster.draw();
 }
 
+/// A single picture: gradients and tables are part of it.
+void vtk_first_frame(benchmark::State& state, const Subject& subject) {
+  for (auto _ : state) VtkRayCaster(scene(subject)).draw();
+}
+
 void golden_frame(benchmark::State& state, const Subject& subject) {
   for (auto _ : state) benchmark::DoNotOptimize(golden_of(scene(subject)).data.data());
 }
@@ -107,6 +112,7 @@ void register_frames(const Subject& subject) {
         ->MeasureProcessCPUTime();
   };
   line("vtk", [subject](benchmark::State& state) { vtk_frame(state, subject); });
+  line("vtk-first", [subject](benchmark::State& state) { vtk_first_frame(state, subject); });
   line("golden", [subject](benchmark::State& state) { golden_frame(state, subject); });
   for (const char* config : {"base", "compact"})
     line(config, [subject, config](benchmark::State& state) { device_frame(state, subject, config); });

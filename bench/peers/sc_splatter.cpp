@@ -1,6 +1,7 @@
 #include "bench/peers/sc_splatter.hpp"
 
 #define SC_INCLUDE_FX
+#include <cmath>
 #include <systemc>
 #include <vector>
 

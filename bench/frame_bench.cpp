@@ -4,33 +4,24 @@
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
-#include <map>
 #include <string>
 
+#include "bench/rows.hpp"
+#include "bench/scenes.hpp"
 #include "cmodel/fast/tile_unit.hpp"
 #include "cmodel/model.hpp"
 #include "driver/config_file.hpp"
 #include "driver/render.hpp"
-#include "driver/tables.hpp"
 #include "golden/render.hpp"
 #include "scene/scene.hpp"
 
 namespace fastsplat {
 namespace {
 
-constexpr const char* kHead = "/usr/share/mricron/templates/ch2bet.nii.gz";
-
-/// Scenes are read once; frames are what is measured.
-const scene::Scene& scene_of(const std::string& volume, int size) {
-  static std::map<std::pair<std::string, int>, scene::Scene> scenes;
-  const auto found = scenes.find({volume, size});
-  if (found != scenes.end()) return found->second;
-  scene::SceneDescription description;
-  description.volume = volume;
-  description.transfer_function = volume == kHead ? "mri-head" : "default";
-  description.width = description.height = size;
-  return scenes.emplace(std::pair{volume, size}, scene::build_scene(description)).first->second;
-}
+using bench::kHead;
+using bench::kRowsSplats;
+using bench::Rows;
+using bench::scene_of;
 
 void device_frame(benchmark::State& state, const std::string& volume, int size, const std::string& config,
                   driver::Unit unit, int threads) {
@@ -55,38 +46,6 @@ void golden_frame(benchmark::State& state, int size, scene::Method method, bool 
   state.counters["hidden"] = static_cast<double>(report.hidden_footprints);
 }
 
-/// One tile of splats `extent` pixels wide, anywhere on it.
-struct Rows {
-  cmodel::Config config;
-  std::vector<cmodel::Beat> preamble, tile;
-  std::vector<cmodel::SplatRecord> records;
-
-  Rows(const std::string& name, int extent) : config(driver::load_config(name)) {
-    append(preamble, cmodel::BeginFrame{config_hash(config), config.tile_width, config.tile_height, 1});
-    append(preamble, driver::rlut_table(config, 0, extent / 2.0, 0));
-    append(preamble, driver::radial_table(config, scene::kernel_by_name("smooth")));
-    append(preamble, driver::factor_table(config));
-    std::uint64_t state = 1;
-    const auto below = [&state](std::uint32_t n) {
-      state = state * 6364136223846793005U + 1442695040888963407U;
-      return static_cast<std::uint32_t>((state >> 33) % n);
-    };
-    append(tile, cmodel::BeginTile{.width = config.tile_width, .height = config.tile_height});
-    append(tile, cmodel::BeginSheet{0});
-    // Inside the tile, and so dim that no sum is cut.
-    const auto side = static_cast<std::uint32_t>(config.tile_width - extent) << config.position_frac_bits;
-    const std::int32_t first = (extent / 2) << config.position_frac_bits;
-    for (std::uint32_t i = 0; i < 20000; ++i) {
-      cmodel::SplatRecord splat{.tag = i};
-      splat.x = first + static_cast<std::int32_t>(below(side));
-      splat.y = first + static_cast<std::int32_t>(below(side));
-      splat.colour.fill(1 + below((1U << config.colour_frac_bits) / 512 + 1));
-      records.push_back(splat);
-      tile.push_back(to_beat(splat));
-    }
-  }
-};
-
 void plain_rows(benchmark::State& state, const std::string& config, int extent) {
   const Rows rows(config, extent);
   for (auto _ : state) {
@@ -96,7 +55,7 @@ void plain_rows(benchmark::State& state, const std::string& config, int extent) 
     model.consume(rows.tile);
   }
   state.counters["splats/s"] =
-      benchmark::Counter(20000.0 * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+      benchmark::Counter(double{kRowsSplats} * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
 template <class Word>
@@ -109,7 +68,7 @@ void fast_rows_of(benchmark::State& state, const Rows& rows, const cmodel::fast:
     if (!unit.sound()) state.SkipWithError("a sum was cut: the benchmark measures something else");
   }
   state.counters["splats/s"] =
-      benchmark::Counter(20000.0 * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+      benchmark::Counter(double{kRowsSplats} * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
 void fast_rows(benchmark::State& state, const std::string& config, int extent) {

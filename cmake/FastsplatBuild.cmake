@@ -10,6 +10,7 @@ if(NOT CMAKE_BUILD_TYPE)
 endif()
 
 option(FASTSPLAT_WERROR "Warnings are errors (set by the ci preset only: a newer compiler must not break a user's build)" OFF)
+option(FASTSPLAT_PEERS "Programs that race other renderers (bench/peers; packaging/peers.txt): ./run peers" OFF)
 option(FASTSPLAT_ASAN "AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
 
 find_program(FASTSPLAT_CCACHE ccache)

@@ -250,16 +250,19 @@ TEST(MicroarchitecturePage, NamesEveryPort) {
   EXPECT_GT(ports, 40);
 }
 
-// docs/performance.md is made by ./run performance: its words are those of bench/table/preface.md, whole.
-TEST(Documents, ThePerformancePageHasItsPreface) {
+// Pages that ./run performance and ./run peers make: their words are those of a file in bench/table, whole.
+TEST(Documents, PagesOfFiguresHaveTheirPrefaces) {
   const auto text = [](const std::string& name) {
     std::ostringstream all;
     all << std::ifstream(std::string(FASTSPLAT_SOURCE_DIR) + "/" + name).rdbuf();
     return all.str();
   };
-  const std::string preface = text("bench/table/preface.md");
-  ASSERT_GT(preface.size(), 1000u);
-  EXPECT_NE(text("docs/performance.md").find(preface), std::string::npos) << "./run performance makes the page";
+  for (const auto& [page, words] : {std::pair{"performance", "preface"}, {"peers", "peers_preface"}}) {
+    const std::string preface = text(std::string("bench/table/") + words + ".md");
+    ASSERT_GT(preface.size(), 1000u) << words;
+    EXPECT_NE(text(std::string("docs/") + page + ".md").find(preface), std::string::npos)
+        << "./run " << page << " makes the page";
+  }
 }
 
 TEST(Crc, KnownAnswer) {

@@ -1,0 +1,30 @@
+// What the benchmarks draw: a head that Debian has (mricron-data), and volumes made here. Scenes are read once.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "scene/scene.hpp"
+
+namespace fastsplat::bench {
+
+inline constexpr const char* kHead = "/usr/share/mricron/templates/ch2bet.nii.gz";
+
+inline scene::SceneDescription description_of(const std::string& volume, int size) {
+  scene::SceneDescription description;
+  description.volume = volume;
+  description.transfer_function = volume == kHead ? "mri-head" : "default";
+  description.width = description.height = size;
+  return description;
+}
+
+/// Kept until the program ends: frames are what is measured.
+inline const scene::Scene& scene_of(const std::string& volume, int size) {
+  static std::map<std::pair<std::string, int>, scene::Scene> scenes;
+  const auto found = scenes.find({volume, size});
+  if (found != scenes.end()) return found->second;
+  return scenes.emplace(std::pair{volume, size}, scene::build_scene(description_of(volume, size))).first->second;
+}
+
+}  // namespace fastsplat::bench

@@ -34,6 +34,8 @@ Named largest(const Table& table, std::string_view but = {}) {
 /// docs/scaling.md, "Where the frame goes".
 Named limit(const FrameScaling& scaling) {
   if (10 * scaling.shares.work >= 9 * scaling.device_cycles()) return {"work", scaling.shares.work};
+  // Then nothing but a faster link helps, whichever devices it is that wait.
+  if (10 * scaling.roofline.stream >= 9 * scaling.frame) return {"bandwidth", scaling.shares.bandwidth};
   return largest(scaling.shares, "work");
 }
 
@@ -79,8 +81,10 @@ std::string help_against_tail(const FrameScaling& scaling) {
 std::string help_against_bandwidth(const FrameScaling& scaling) {
   if (scaling.bytes_per_cycle == 0)
     return "the source of --input is late: the devices would take a beat whenever there is one";
-  // Without the waiting the same bytes go in so many cycles.
-  const std::uint64_t waited = scaling.shares.bandwidth / scaling.devices;
+  // Had the device that ended last not waited, the same bytes would have gone in so many cycles less.
+  const auto last = std::max_element(scaling.each.begin(), scaling.each.end(),
+                                     [](const auto& x, const auto& y) { return x.end < y.end; });
+  const std::uint64_t waited = last->account.input + last->idle - scaling.wipe / scaling.devices;
   return fmt::format(
       "the link is too slow for {}: about {:.0f} bytes a cycle would keep them at work, {} are as good as no limit",
       counted(scaling.devices, "device"), ratio(scaling.bytes_in, scaling.frame - waited), 24 * scaling.devices);

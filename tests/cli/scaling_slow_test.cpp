@@ -124,6 +124,8 @@ TEST(Scaling, NamesTheLimit) {
     EXPECT_NE(limit["help"].get<std::string>().find(said), std::string::npos) << limit;
   };
   expect_limit(kScene + Words{"--devices", "4", "--bytes-per-cycle", "8"}, "bandwidth", "96 are as good as no limit");
+  // Most devices have no tile at all, but no tile would come faster if they had.
+  expect_limit(kScene + Words{"--devices", "40", "--bytes-per-cycle", "2"}, "bandwidth", "bytes a cycle");
   expect_limit(kScene + Words{"--devices", "1", "--input", "every-20"}, "bandwidth", "--input");
   expect_limit(kScene + Words{"--devices", "40"}, "tail", "16 tiles for 40 devices");
   expect_limit(Words{"--volume", "point:2", "--size", "500", "--zoom", "0.02", "--config", "small", "--devices", "1"},

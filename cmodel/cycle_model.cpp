@@ -9,15 +9,14 @@
 namespace fastsplat::cmodel {
 namespace {
 
-/// Words of memory wiped after reset, one a cycle: the blocks of a whole tile.
+constexpr std::uint64_t kWordsPerBeat = std::tuple_size_v<Beat>;
+
+}  // namespace
+
 std::uint64_t wipe_cycles(const Config& config) {
   return static_cast<std::uint64_t>(config.tile_width / config.lanes) *
          static_cast<std::uint64_t>(config.tile_height / config.lanes);
 }
-
-constexpr std::uint64_t kWordsPerBeat = std::tuple_size_v<Beat>;
-
-}  // namespace
 
 CycleModel::CycleModel(const Config& config, StreamScope scope, const CycleOptions& options)
     : config_(config),

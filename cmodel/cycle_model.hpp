@@ -16,6 +16,9 @@
 
 namespace fastsplat::cmodel {
 
+/// Cycles after reset in which memories are wiped, a word each: the blocks of a whole tile. No beat is taken in them.
+std::uint64_t wipe_cycles(const Config& config);
+
 /// A sheet's way through the device. Half-open spans of cycles.
 struct SheetCycles {
   std::uint32_t tile = 0, sheet = 0;

@@ -21,6 +21,12 @@ struct StallCounters {
   FASTSPLAT_STALL_COUNTERS(X)
 #undef X
 
+  StallCounters& operator+=(const StallCounters& other) {
+#define X(name, counter, meaning) name += other.name;
+    FASTSPLAT_STALL_COUNTERS(X)
+#undef X
+    return *this;
+  }
   bool operator==(const StallCounters&) const = default;
 
   /// visit(name, value, meaning) in the order above.

@@ -10,6 +10,7 @@
 #include "cli/config_flags.hpp"
 #include "cli/config_json.hpp"
 #include "cli/cycle_trace.hpp"
+#include "cli/frame_scaling.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
@@ -28,6 +29,7 @@ struct Arguments {
   SceneFlags scene;
   std::string stream;  ///< a recorded stream instead of a scene
   ConfigFlags config;
+  ScalingFlags scaling;
   std::string input = "always", ready = "always", trace;
   int seed = 1;
 };
@@ -48,6 +50,16 @@ struct Counts {
     idle = model.idle_cycles();
     end = model.end_cycle();
   }
+  /// Of all devices together; the end is that of the last.
+  void take(const ScalingRun& run, const FrameScaling& scaling) {
+    counters = run.counters();
+    for (const auto& device : scaling.each) {
+      account += device.account;
+      stalls += device.stalls;
+      idle += device.idle;
+    }
+    end = scaling.frame;
+  }
 };
 
 struct Result {
@@ -56,7 +68,8 @@ struct Result {
   std::string input, ready;  ///< patterns
   int seed = 1;
   Counts counts;
-  std::string trace;  ///< empty for none
+  std::optional<FrameScaling> scaling;  ///< if asked for
+  std::string trace;                    ///< empty for none
   double seconds = 0.0;
 };
 
@@ -93,7 +106,8 @@ std::string to_text(const Result& result) {
          fmt::format("configuration {} {}, {} splats, {} windows, {} sheets, {} tiles\n", result.config.name,
                      hash_text(cmodel::config_hash(result.config)), grouped(counters.splats), grouped(counters.windows),
                      grouped(counters.sheets), grouped(counters.tiles)) +
-         to_text(result.counts) + (result.trace.empty() ? "" : result.trace + "\n");
+         to_text(result.counts) + (result.scaling ? to_text(*result.scaling) : "") +
+         (result.trace.empty() ? "" : result.trace + "\n");
 }
 
 Json to_json(const Counts& counts) {
@@ -126,6 +140,7 @@ Json to_json(const Result& result) {
             {"actual_to_ideal", ratio(stalls.busy, account.ideal)},
             {"utilisation", ratio(counters.windows, stalls.busy)},
             {"splats_per_cycle", ratio(counters.splats, stalls.busy)}};
+  if (result.scaling) json["scaling"] = to_json(*result.scaling);
   if (!result.trace.empty()) json["trace"] = result.trace;
   json["seconds"] = result.seconds;
   return json;
@@ -140,6 +155,7 @@ ExitCode run(const Arguments& arguments) {
                  .got = {},
                  .fix = "give either --stream or a scene's flags"});
   }
+  check(arguments.scaling, arguments.trace);
   check_outputs({.images = {},
                  .maps = {},
                  .raws = {},
@@ -161,22 +177,30 @@ ExitCode run(const Arguments& arguments) {
                 .ready = arguments.ready,
                 .seed = arguments.seed,
                 .counts = {},
+                .scaling = {},
                 .trace = arguments.trace};
+  const auto make = [&](cmodel::StreamScope scope) -> std::unique_ptr<cmodel::Device> {
+    if (arguments.scaling.any()) return std::make_unique<ScalingRun>(config, scope, arguments.scaling, options);
+    return std::make_unique<cmodel::CycleModel>(config, scope, options);
+  };
+  const auto take = [&](const cmodel::Device& device) {
+    if (const auto* model = dynamic_cast<const cmodel::CycleModel*>(&device)) return result.counts.take(*model);
+    const auto& several = dynamic_cast<const ScalingRun&>(device);
+    result.scaling = several.scaling();
+    result.counts.take(several, *result.scaling);
+  };
   if (!arguments.stream.empty()) {
     ProgressBar bar("cycles", watching(arguments.common));
-    cmodel::CycleModel model(config, cmodel::StreamScope::Whole, options);
-    driver::feed_stream(arguments.stream, model, {.threads = 1, .progress = bar.callback()});
-    result.counts.take(model);
+    const auto device = make(cmodel::StreamScope::Whole);
+    driver::feed_stream(arguments.stream, *device, {.threads = 1, .progress = bar.callback()});
+    take(*device);
   } else {
     const auto scene = build(arguments.scene);
     result.scene = summary(scene);
     ProgressBar bar("cycles", watching(arguments.common));
-    const auto make = [&](cmodel::PixelSink&) {
-      return std::make_unique<cmodel::CycleModel>(config, cmodel::StreamScope::Subset, options);
-    };
     driver::run_device(
-        scene, config, make, {.threads = arguments.common.threads, .progress = bar.callback()},
-        [&](cmodel::Device& device) { result.counts.take(dynamic_cast<const cmodel::CycleModel&>(device)); });
+        scene, config, [&](cmodel::PixelSink&) { return make(cmodel::StreamScope::Subset); },
+        {.threads = arguments.common.threads, .progress = bar.callback()}, take);
   }
   if (!arguments.trace.empty()) write_text_file(arguments.trace, trace.text());
   output.line(to_text(result));
@@ -196,6 +220,8 @@ void declare(Options& options, Arguments& to) {
                "when the source has a beat: always, every-N, alternate-N, random-PERCENT, burst-N");
   options.word("--ready", to.ready, "PATTERN", "when the sink takes pixels: as --input");
   options.integer("--seed", to.seed, 0, 2'000'000'000, "N", "of the patterns");
+  options.group("Several devices");
+  declare(options, to.scaling);
   options.group("Output");
   options.word("--trace", to.trace, "FILE", "a timeline as JSON that ui.perfetto.dev opens; 1 us stands for a cycle");
   declare(options, to.common);

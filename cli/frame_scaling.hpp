@@ -1,0 +1,72 @@
+// `cycles --devices N --bytes-per-cycle B --clock MHZ`: a frame on several devices, and what limits it
+// (docs/scaling.md).
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/options.hpp"
+#include "cmodel/cluster_account.hpp"
+#include "cmodel/cycle_cluster.hpp"
+
+namespace fastsplat::cli {
+
+struct ScalingFlags {
+  std::optional<int> devices, bytes_per_cycle;
+  std::optional<double> clock;  ///< MHz
+
+  /// Whether any was given: only then scaling is told.
+  bool any() const { return devices || bytes_per_cycle || clock; }
+};
+
+void declare(Options& options, ScalingFlags& to);
+/// UserError (Usage) for flags that have no meaning together; `trace` is the text of --trace.
+void check(const ScalingFlags& flags, const std::string& trace);
+
+/// The figures of one frame. Cycles count from reset; shares are summed over the devices.
+struct FrameScaling {
+  std::uint64_t devices = 1, bytes_per_cycle = 0;  ///< 0: no limit
+  std::optional<double> clock;                     ///< MHz
+  std::uint64_t frame = 0, one_device = 0;         ///< cycles; of one device on the same link
+  std::uint64_t bytes_in = 0, bytes_out = 0;
+  std::uint64_t splats = 0, windows = 0;
+  cmodel::FrameShares shares;
+  cmodel::Roofline roofline;
+  cmodel::CycleAccount account;  ///< summed over the devices
+  std::uint64_t wipe = 0;        ///< of fill: after reset, until the first beat lies in decode; summed
+  std::vector<cmodel::DeviceCycles> each;
+
+  std::uint64_t device_cycles() const { return devices * frame; }
+  double efficiency() const;
+  double speed_up() const;
+  std::uint64_t longest_tile() const;
+};
+
+std::string to_text(const FrameScaling& scaling);
+nlohmann::ordered_json to_json(const FrameScaling& scaling);
+
+/// A frame's devices, and a single one beside them to compare with; both take the same stream.
+class ScalingRun final : public cmodel::Device {
+ public:
+  ScalingRun(const cmodel::Config& config, cmodel::StreamScope scope, const ScalingFlags& flags,
+             const cmodel::CycleOptions& options);
+
+  void consume(std::span<const cmodel::Beat> beats) override;
+  void finish() override;
+  const cmodel::Counters& counters() const override { return cluster_.counters(); }
+
+  /// After finish().
+  FrameScaling scaling() const;
+
+ private:
+  cmodel::Config config_;
+  std::optional<double> clock_;
+  std::uint64_t bytes_per_cycle_;
+  cmodel::CycleCluster cluster_;
+  std::optional<cmodel::CycleCluster> single_;  ///< none where the cluster is one itself
+};
+
+}  // namespace fastsplat::cli

@@ -1,0 +1,39 @@
+// docs/scaling.md once more, clocked: every part looks at every cycle. Knows the cost of a beat, nothing of cmodel's
+// cluster, link or queue.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cmodel/beat.hpp"
+#include "cmodel/config.hpp"
+#include "cmodel/stall_counters.hpp"
+#include "cmodel/stream_layout.hpp"
+
+namespace fastsplat::test {
+
+/// What a beat asks of a device.
+struct PlainBeat {
+  cmodel::Opcode opcode{};
+  bool payload = false;      ///< table words
+  std::uint64_t cycles = 1;  ///< of a splat or payload beat in decode
+  std::uint64_t blocks = 0;  ///< dirty ones; of an end_sheet
+  std::uint64_t pixels = 0;  ///< beats of the picture; of an end_tile
+  std::uint32_t tile = 0;
+};
+
+/// Of each beat of a whole stream, from a run on one device.
+std::vector<PlainBeat> plain_beats(const cmodel::Config& config, std::span<const cmodel::Beat> beats);
+
+struct PlainDeviceCycles {
+  std::vector<std::uint32_t> tiles;
+  cmodel::StallCounters stalls;
+  std::uint64_t end = 0;
+};
+
+/// `rate` bytes a cycle, 0 for no limit.
+std::vector<PlainDeviceCycles> plain_cluster(const cmodel::Config& config, std::span<const PlainBeat> beats,
+                                             std::size_t devices, std::uint64_t rate, std::size_t queue);
+
+}  // namespace fastsplat::test

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "analysis/provenance.hpp"
 #include "base/atomic_file.hpp"
@@ -16,7 +17,9 @@
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
+#include "cli/volume_json.hpp"
 #include "cmodel/cycle_model.hpp"
+#include "driver/render.hpp"
 #include "driver/run_device.hpp"
 #include "driver/stream_file.hpp"
 #include "testbench/device/pattern.hpp"
@@ -63,7 +66,8 @@ struct Counts {
 };
 
 struct Result {
-  std::string scene;  ///< its summary; empty for a stream
+  std::string scene;                   ///< its summary; empty for a stream
+  std::optional<double> hidden_share;  ///< of a scene's splats, see hidden_share()
   cmodel::Config config;
   std::string input, ready;  ///< patterns
   int seed = 1;
@@ -72,6 +76,14 @@ struct Result {
   std::string trace;                    ///< empty for none
   double seconds = 0.0;
 };
+
+/// Of the splats, those all of whose blocks were frozen when they came: the device computes them for nothing. The fast
+/// unit counts them; none where the configuration is drawn by the plain one.
+std::optional<double> hidden_share(const scene::Scene& scene, const cmodel::Config& config, int threads) {
+  const auto drawn = driver::render(scene, config, {.threads = threads, .progress = {}});
+  if (drawn.units.fast == 0 || drawn.units.plain > 0 || drawn.counters.splats == 0) return std::nullopt;
+  return static_cast<double>(drawn.units.hidden_splats) / static_cast<double>(drawn.counters.splats);
+}
 
 double ratio(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
@@ -106,8 +118,11 @@ std::string to_text(const Result& result) {
          fmt::format("configuration {} {}, {} splats, {} windows, {} sheets, {} tiles\n", result.config.name,
                      hash_text(cmodel::config_hash(result.config)), grouped(counters.splats), grouped(counters.windows),
                      grouped(counters.sheets), grouped(counters.tiles)) +
-         to_text(result.counts) + (result.scaling ? to_text(*result.scaling) : "") +
-         (result.trace.empty() ? "" : result.trace + "\n");
+         to_text(result.counts) +
+         (result.hidden_share ? fmt::format("{:.1f} % of the splats lay wholly on frozen blocks and changed nothing\n",
+                                            100.0 * *result.hidden_share)
+                              : "") +
+         (result.scaling ? to_text(*result.scaling) : "") + (result.trace.empty() ? "" : result.trace + "\n");
 }
 
 Json to_json(const Counts& counts) {
@@ -140,6 +155,7 @@ Json to_json(const Result& result) {
             {"actual_to_ideal", ratio(stalls.busy, account.ideal)},
             {"utilisation", ratio(counters.windows, stalls.busy)},
             {"splats_per_cycle", ratio(counters.splats, stalls.busy)}};
+  if (result.hidden_share) json["hidden_share"] = *result.hidden_share;
   if (result.scaling) json["scaling"] = to_json(*result.scaling);
   if (!result.trace.empty()) json["trace"] = result.trace;
   json["seconds"] = result.seconds;
@@ -172,6 +188,7 @@ ExitCode run(const Arguments& arguments) {
   if (!arguments.trace.empty()) options.spans = &trace;
 
   Result result{.scene = {},
+                .hidden_share = {},
                 .config = config,
                 .input = arguments.input,
                 .ready = arguments.ready,
@@ -196,7 +213,9 @@ ExitCode run(const Arguments& arguments) {
     take(*device);
   } else {
     const auto scene = build(arguments.scene);
+    output.remark(remarks(*scene.volume));
     result.scene = summary(scene);
+    result.hidden_share = hidden_share(scene, config, arguments.common.threads);
     ProgressBar bar("cycles", watching(arguments.common));
     driver::run_device(
         scene, config, [&](cmodel::PixelSink&) { return make(cmodel::StreamScope::Subset); },

@@ -17,6 +17,7 @@
 #include "cli/rtl_run.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
+#include "cli/volume_json.hpp"
 #include "driver/compile.hpp"
 #include "driver/stream_file.hpp"
 #include "testbench/coverage/coverage_book.hpp"
@@ -167,9 +168,11 @@ Checked verify_random(const Arguments& arguments, const testbench::VerifyOptions
   return out;
 }
 
-Checked verify_scene(const Arguments& arguments, testbench::VerifyOptions options, const Progress& progress) {
+Checked verify_scene(const Arguments& arguments, testbench::VerifyOptions options, const Progress& progress,
+                     const Output& output) {
   options.scope = cmodel::StreamScope::Subset;
   const auto scene = build(arguments.scene);
+  output.remark(remarks(*scene.volume));
   const auto compiled = std::make_shared<const driver::CompiledFrame>(scene, options.config);
   const cmodel::BeatSource source = [compiled, progress](const cmodel::BeatSink& sink) {
     compiled->emit(sink, progress);
@@ -336,7 +339,7 @@ ExitCode run(const Arguments& arguments) {
     ProgressBar bar("verifying", watching(arguments.common));
     switch (source) {
       case Source::Scene:
-        checked = verify_scene(arguments, options, bar.callback());
+        checked = verify_scene(arguments, options, bar.callback(), output);
         break;
       case Source::Stream:
         checked = verify_stream(arguments, options);

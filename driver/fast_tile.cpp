@@ -8,7 +8,7 @@ namespace {
 /// A splat of a tile, ready for any of its sheets.
 struct Ready {
   cmodel::fast::Placed placed;
-  SplatWords words{};
+  SplatWords words{}, before{};  ///< whole; of it, what lies in front of the next sheet
   std::int32_t depth = 0;
   std::int32_t last_sheet = 0;  ///< beyond it, its shares are empty
 };
@@ -26,6 +26,7 @@ std::vector<Ready> ready_splats(const CompiledFrame::State& s, int tile, const c
     y.origin -= s.grid.y(tile);
     out.push_back({.placed = unit.place(splat.set, x, y),
                    .words = splat.words,
+                   .before = {},
                    .depth = splat.depth,
                    .last_sheet = s.sliced() ? s.slices.last(splat.depth) : splat.depth});
   }
@@ -39,15 +40,16 @@ TileReport CompiledFrame::draw_tile(int tile, cmodel::fast::TileUnit<Word>& unit
   const State& s = *state_;
   TileReport report;
   unit.begin_tile(s.begin_tile(tile));
-  const std::vector<Ready> splats = ready_splats(s, tile, unit);
+  std::vector<Ready> splats = ready_splats(s, tile, unit);
   const auto* const first = s.bins.tile(tile).data();
   for (int sheet = 0; sheet < s.plan.slabs.count; ++sheet) {
     std::uint32_t records = 0;
     for (int from = std::max(0, sheet - s.reach); from <= sheet; ++from) {
       const auto bin = s.bins.bin(tile, from);
-      for (const Ready& splat : std::span(splats).subspan(static_cast<std::size_t>(bin.data() - first), bin.size())) {
+      for (Ready& splat : std::span(splats).subspan(static_cast<std::size_t>(bin.data() - first), bin.size())) {
         if (splat.last_sheet < sheet) continue;
-        const Share share = s.share(splat.words, splat.depth, sheet);
+        const Share share = s.sliced() ? s.slices.next_share(splat.words, splat.depth, sheet, splat.before)
+                                       : s.slices.whole(splat.words);
         if (share.empty()) continue;
         report.saturated_records += share.saturated ? 1 : 0;
         unit.add(splat.placed, share.words);

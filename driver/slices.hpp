@@ -46,6 +46,18 @@ class Slices {
     for (std::size_t c = 0; c < 4; ++c) difference[c] = part(whole[c], far) - part(whole[c], near);
     return this->whole(difference);
   }
+  /// The same for slabs one after the other, from the first that the splat reaches on: `before` is what lies in front
+  /// of slab s, 0 at first, and becomes what lies in front of the next.
+  Share next_share(const SplatWords& whole, std::int32_t depth, int s, SplatWords& before) const {
+    const std::uint64_t far = cumulative(depth, s + 1);
+    SplatWords difference;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const std::uint32_t end = part(whole[c], far);
+      difference[c] = end - before[c];
+      before[c] = end;
+    }
+    return this->whole(difference);
+  }
   /// The whole splat in one sheet.
   Share whole(const SplatWords& whole) const {
     Share out;

@@ -19,20 +19,42 @@ Span non_empty(Span span) {
   return span.high > 0.0 ? Span{0.0, span.high} : Span{span.high - 1.0, span.high};
 }
 
+constexpr double kLowRank = 0.005, kHighRank = 0.998;
+
+/// The rank that a share of `count` voxels has among them.
+std::size_t rank_of(double share, std::size_t count) {
+  return static_cast<std::size_t>(share * static_cast<double>(count - 1));
+}
+
+/// percentile_span() of whole numbers, by counting them.
+Span counted_percentile_span(const volume::Volume& volume) {
+  std::vector<std::size_t> of_value(static_cast<std::size_t>(volume.max - volume.min) + 1, 0);
+  for (const float v : volume.voxels) ++of_value[static_cast<std::size_t>(v - volume.min)];
+  const std::size_t above = volume.voxels.size() - of_value[0];
+  if (above == 0) return {volume.min, volume.max};
+  const auto at_rank = [&](double share) {
+    std::size_t left = rank_of(share, above), value = 1;
+    while (left >= of_value[value]) left -= of_value[value++];
+    return static_cast<double>(volume.min) + static_cast<double>(value);
+  };
+  return {at_rank(kLowRank), at_rank(kHighRank)};
+}
+
 /// Values at the 0.5 and 99.8 percent ranks of the voxels above the minimum.
 Span percentile_span(const volume::Volume& volume) {
+  if (is_integer(volume.stored)) return counted_percentile_span(volume);
   std::vector<float> values;
   values.reserve(volume.voxels.size());
   std::copy_if(volume.voxels.begin(), volume.voxels.end(), std::back_inserter(values),
                [&](float v) { return v > volume.min; });
   if (values.empty()) return {volume.min, volume.max};
   const auto at_rank = [&values](double share) {
-    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    const auto rank = static_cast<std::ptrdiff_t>(rank_of(share, values.size()));
     std::nth_element(values.begin(), values.begin() + rank, values.end());
     return static_cast<double>(values[static_cast<std::size_t>(rank)]);
   };
-  const double low = at_rank(0.005);
-  return {low, at_rank(0.998)};
+  const double low = at_rank(kLowRank);
+  return {low, at_rank(kHighRank)};
 }
 
 Span resolve(Domain domain, const volume::Volume& volume) {

@@ -6,10 +6,8 @@
 #include <filesystem>
 #include <string>
 
-#include "bench/rows.hpp"
+#include "bench/row_units.hpp"
 #include "bench/scenes.hpp"
-#include "cmodel/fast/tile_unit.hpp"
-#include "cmodel/model.hpp"
 #include "driver/config_file.hpp"
 #include "driver/render.hpp"
 #include "golden/render.hpp"
@@ -19,8 +17,8 @@ namespace fastsplat {
 namespace {
 
 using bench::kHead;
-using bench::kRowsSplats;
-using bench::Rows;
+using bench::fast_rows;
+using bench::plain_rows;
 using bench::scene_of;
 
 void device_frame(benchmark::State& state, const std::string& volume, int size, const std::string& config,
@@ -44,41 +42,6 @@ void golden_frame(benchmark::State& state, int size, scene::Method method, bool 
   }
   state.counters["splats"] = static_cast<double>(report.footprints);
   state.counters["hidden"] = static_cast<double>(report.hidden_footprints);
-}
-
-void plain_rows(benchmark::State& state, const std::string& config, int extent) {
-  const Rows rows(config, extent);
-  for (auto _ : state) {
-    cmodel::NullPixels pixels;
-    cmodel::Model model(rows.config, cmodel::StreamScope::Subset, pixels);
-    model.consume(rows.preamble);
-    model.consume(rows.tile);
-  }
-  state.counters["splats/s"] =
-      benchmark::Counter(double{kRowsSplats} * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
-}
-
-template <class Word>
-void fast_rows_of(benchmark::State& state, const Rows& rows, const cmodel::fast::FrameTables& tables) {
-  cmodel::NullPixels pixels;
-  cmodel::fast::TileUnit<Word> unit(tables, pixels);
-  for (auto _ : state) {
-    unit.begin_tile({.width = rows.config.tile_width, .height = rows.config.tile_height});
-    unit.splats(rows.records);
-    if (!unit.sound()) state.SkipWithError("a sum was cut: the benchmark measures something else");
-  }
-  state.counters["splats/s"] =
-      benchmark::Counter(double{kRowsSplats} * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
-}
-
-void fast_rows(benchmark::State& state, const std::string& config, int extent) {
-  const Rows rows(config, extent);
-  const auto tables = cmodel::fast::frame_tables(rows.config, rows.preamble);
-  if (!tables) return state.SkipWithError("no fast unit for it here");
-  if (tables->jobs.plan.narrow)
-    fast_rows_of<std::uint16_t>(state, rows, *tables);
-  else
-    fast_rows_of<std::uint32_t>(state, rows, *tables);
 }
 
 /// Before main. Names are unit/what/configuration: the table looks for them.

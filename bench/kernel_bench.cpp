@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "bench/rmw_loop.hpp"
-#include "bench/rows.hpp"
-#include "cmodel/fast/tile_unit.hpp"
+#include "bench/row_units.hpp"
 #include "cmodel/snap.hpp"
 
 namespace fastsplat {
@@ -17,11 +16,6 @@ using bench::Order;
 
 constexpr int kExtent = 7;
 constexpr std::size_t kJobs = 256;  ///< handed on at once, as the fast unit does
-
-void count(benchmark::State& state, std::size_t splats) {
-  state.counters["splats/s"] = benchmark::Counter(static_cast<double>(splats) * static_cast<double>(state.iterations()),
-                                                  benchmark::Counter::kIsRate);
-}
 
 std::vector<cmodel::fast::SplatJob> jobs_of(const bench::Rows& rows, const cmodel::fast::FrameTables& tables) {
   cmodel::NullPixels nowhere;
@@ -53,7 +47,7 @@ void kernel(benchmark::State& state, Order order) {
       benchmark::DoNotOptimize(add_splats(tables->jobs, some, sheet.words(), sheet.row()));
     }
   }
-  count(state, jobs.size());
+  bench::count_splats(state, jobs.size());
 }
 
 /// As many rows, beginning at the same places within a line of the cache, but so that none waits for another: the next
@@ -73,7 +67,7 @@ void bound(benchmark::State& state) {
     bench::rmw(places, kExtent, first);
     benchmark::ClobberMemory();
   }
-  count(state, places.size());
+  bench::count_splats(state, places.size());
 }
 
 BENCHMARK(bound)->Name("bound/slice7/compact")->Unit(benchmark::kMillisecond);

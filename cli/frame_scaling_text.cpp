@@ -87,7 +87,8 @@ std::string help_against_bandwidth(const FrameScaling& scaling) {
   const std::uint64_t waited = last->account.input + last->idle - scaling.wipe / scaling.devices;
   return fmt::format(
       "the link is too slow for {}: about {:.0f} bytes a cycle would keep them at work, {} are as good as no limit",
-      counted(scaling.devices, "device"), ratio(scaling.bytes_in, scaling.frame - waited), 24 * scaling.devices);
+      counted(scaling.devices, "device"), ratio(scaling.bytes_in, scaling.frame - waited),
+      cmodel::kBeatBytes * scaling.devices);
 }
 
 std::string help_against_pixel_out(const FrameScaling& scaling) {

@@ -272,7 +272,10 @@ const Record* StreamDecode::feed(const Beat& beat) {
     const auto opcode = static_cast<std::uint32_t>(get(beat, layout::kOpcode));
     const RecordLayout* found = find_layout(opcode);
     if (found == nullptr)
-      refuse("unknown opcode", state_ == State::Start ? "a FastSplat stream (begin_frame, 0x46)" : "a known opcode",
+      refuse("unknown opcode",
+             state_ == State::Start
+                 ? "a FastSplat stream (begin_frame, " + hex_byte(static_cast<std::uint32_t>(Opcode::BeginFrame)) + ")"
+                 : "a known opcode",
              hex_byte(opcode), state_ == State::Start ? "name a stream file (.fss)" : kDamagedStream);
     check_order(found->opcode, found->name);
     check_reserved(beat, *found);

@@ -115,7 +115,7 @@ Projected project(const scene::Scene& scene, const cmodel::Config& config, const
     for (Piece& piece : pieces) {
       const auto part = piece.slice(slice);
       out.splats.insert(out.splats.end(), part.begin(), part.end());
-      if (slice + 1 == piece.part.end_slice) piece.splats = {};  // so that a frame is in memory once, not twice
+      if (slice + 1 == piece.part.end_slice) piece.splats = {};  // of slabs: a frame is in memory once, not twice
     }
   }
   return out;

@@ -2,6 +2,7 @@
 // a line of voxels is rounded once, and not each of its many thin splats to nothing.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>

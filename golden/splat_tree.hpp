@@ -16,16 +16,9 @@ class SplatTree {
   /// Indices in the order in which the splats are visited.
   const std::vector<std::uint32_t>& order() const { return order_; }
 
-  /// Calls visit(index) for every splat whose centre is within `distance` of the line, and for some beyond; always in
-  /// the same order.
-  template <class Visit>
-  void near_line(const glm::dvec3& origin, const glm::dvec3& unit_direction, double distance, Visit&& visit) const {
-    near_line_between(origin, unit_direction, distance, glm::dvec3(0.0), 0.0, 0.0,
-                      [&](std::uint32_t place) { visit(order_[place]); });
-  }
-
-  /// Of these only such as may lie between two planes, low <= dot(centre, axis) <= high; `axis` is a unit vector. Calls
-  /// visit(place) with the splat's place in order().
+  /// Calls visit(place) for every splat whose centre is within `distance` of the line and between two planes, low <=
+  /// dot(centre, axis) <= high, and for some beyond; always in the same order. `axis` is a unit vector, `place` the
+  /// splat's place in order().
   template <class Visit>
   void near_line_between(const glm::dvec3& origin, const glm::dvec3& unit_direction, double distance,
                          const glm::dvec3& axis, double low, double high, Visit&& visit) const {

@@ -66,9 +66,7 @@ struct Scene {
   /// Footprint amplitude per unit extinction: kernel.peak() * volume of a grid cell / kernel_unit^3
   /// (optical depth that one voxel of extinction 1 adds at its centre).
   double amplitude = 0.0;
-  /// Method::XRay: pixel = xray_scale * summed emission. Automatic: 1 / (1.05 * densest voxel's extinction * (diameter
-  /// of the box of voxel centres + 1 kernel unit)), which no ray of any view can exceed 1 with (1.05: ripple of the
-  /// kernel).
+  /// Method::XRay: pixel = xray_scale * summed emission. Given, or automatic_exposure() (xray_exposure.hpp).
   double xray_scale = 1.0;
   std::shared_ptr<const volume::Volume> whole{};  ///< as it was read: build_scene takes it again
 };

@@ -2,12 +2,12 @@
 // its drawing alone; ours is timed whole, and from the compiled frame on, which is as much as GL does.
 #include <benchmark/benchmark.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 
 #include "bench/peers/gl_splatter.hpp"
+#include "bench/peers/peer_main.hpp"
 #include "bench/peers/same_picture.hpp"
 #include "bench/scenes.hpp"
 #include "driver/compile.hpp"
@@ -105,19 +105,13 @@ void register_all() {
 }  // namespace
 }  // namespace fastsplat::bench
 
-int main(int count, char** arguments) try {
+int main(int count, char** arguments) {
   // No hardware, and no threads but this one. (All that there might be are counted.)
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
   setenv("GALLIUM_DRIVER", "llvmpipe", 1);
   setenv("LP_NUM_THREADS", "0", 1);
-  if (!std::filesystem::exists(fastsplat::bench::kHead)) throw std::runtime_error("no mricron-data here");
-  fastsplat::bench::register_all();
-  benchmark::Initialize(&count, arguments);
-  if (benchmark::ReportUnrecognizedArguments(count, arguments)) return 2;
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-  return 0;
-} catch (const std::exception& problem) {
-  std::fprintf(stderr, "peers: %s\n", problem.what());
-  return 1;
+  return fastsplat::bench::run_peer(count, arguments, [] {
+    if (!std::filesystem::exists(fastsplat::bench::kHead)) throw std::runtime_error("no mricron-data here");
+    fastsplat::bench::register_all();
+  });
 }

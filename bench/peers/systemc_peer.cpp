@@ -2,12 +2,11 @@
 // time. First every sum of a stream that also saturates is compared with the plain unit's, window by window.
 #include <benchmark/benchmark.h>
 
-#include <cstdio>
 #include <stdexcept>
 
+#include "bench/peers/peer_main.hpp"
 #include "bench/peers/sc_splatter.hpp"
-#include "bench/rows.hpp"
-#include "cmodel/fast/tile_unit.hpp"
+#include "bench/row_units.hpp"
 #include "cmodel/model.hpp"
 
 namespace fastsplat::bench {
@@ -75,37 +74,6 @@ void systemc(benchmark::State& state, const std::string& config) {
   }
 }
 
-void plain(benchmark::State& state, const std::string& config) {
-  const Rows rows(config, kExtent);
-  for (auto _ : state) {
-    cmodel::NullPixels pixels;
-    cmodel::Model model(rows.config, cmodel::StreamScope::Subset, pixels);
-    model.consume(rows.preamble);
-    model.consume(rows.tile);
-  }
-}
-
-template <class Word>
-void fast_of(benchmark::State& state, const Rows& rows, const cmodel::fast::FrameTables& tables) {
-  cmodel::NullPixels pixels;
-  cmodel::fast::TileUnit<Word> unit(tables, pixels);
-  for (auto _ : state) {
-    unit.begin_tile({.width = rows.config.tile_width, .height = rows.config.tile_height});
-    unit.splats(rows.records);
-    if (!unit.sound()) throw std::runtime_error("a sum was cut: another thing would be measured");
-  }
-}
-
-void fast(benchmark::State& state, const std::string& config) {
-  const Rows rows(config, kExtent);
-  const auto tables = cmodel::fast::frame_tables(rows.config, rows.preamble);
-  if (!tables) throw std::runtime_error("no fast unit for " + config + " here");
-  if (tables->jobs.plan.narrow)
-    fast_of<std::uint16_t>(state, rows, *tables);
-  else
-    fast_of<std::uint32_t>(state, rows, *tables);
-}
-
 void register_all() {
   for (const char* config : {"base", "compact"}) {
     benchmark::RegisterBenchmark((std::string("words/") + config).c_str(), same_words, config)
@@ -116,22 +84,14 @@ void register_all() {
           ->Unit(benchmark::kMillisecond);
     };
     line("systemc", systemc);
-    line("plain", plain);
-    line("fast", fast);
+    line("plain", [](benchmark::State& state, const std::string& name) { plain_rows(state, name, kExtent); });
+    line("fast", [](benchmark::State& state, const std::string& name) { fast_rows(state, name, kExtent); });
   }
 }
 
 }  // namespace
 }  // namespace fastsplat::bench
 
-int main(int count, char** arguments) try {
-  fastsplat::bench::register_all();
-  benchmark::Initialize(&count, arguments);
-  if (benchmark::ReportUnrecognizedArguments(count, arguments)) return 2;
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-  return 0;
-} catch (const std::exception& problem) {
-  std::fprintf(stderr, "peers: %s\n", problem.what());
-  return 1;
+int main(int count, char** arguments) {
+  return fastsplat::bench::run_peer(count, arguments, fastsplat::bench::register_all);
 }

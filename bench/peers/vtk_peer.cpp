@@ -3,10 +3,10 @@
 // timed.
 #include <benchmark/benchmark.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 
+#include "bench/peers/peer_main.hpp"
 #include "bench/peers/same_picture.hpp"
 #include "bench/peers/vtk_ray_caster.hpp"
 #include "bench/scenes.hpp"
@@ -121,20 +121,14 @@ void register_frames(const Subject& subject) {
 }  // namespace
 }  // namespace fastsplat::bench
 
-int main(int count, char** arguments) try {
+int main(int count, char** arguments) {
   using namespace fastsplat::bench;
-  if (std::filesystem::exists(kHead)) {
-    register_pictures({"head512", kHead});
-    register_frames({"head512", kHead});
-  }
-  register_pictures({"shells256", "shells:256"});
-  register_frames({"shells256", "shells:256"});
-  benchmark::Initialize(&count, arguments);
-  if (benchmark::ReportUnrecognizedArguments(count, arguments)) return 2;
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-  return 0;
-} catch (const std::exception& problem) {
-  std::fprintf(stderr, "peers: %s\n", problem.what());
-  return 1;
+  return run_peer(count, arguments, [] {
+    if (std::filesystem::exists(kHead)) {
+      register_pictures({"head512", kHead});
+      register_frames({"head512", kHead});
+    }
+    register_pictures({"shells256", "shells:256"});
+    register_frames({"shells256", "shells:256"});
+  });
 }

@@ -57,6 +57,34 @@ TEST(Units, GoldenDrawsTheSamePictureEitherWay) {
   std::printf("[figure] golden methods equal with and without --plain = %d\n", compared);
 }
 
+// cycles counts hidden splats as render does, and says what is odd about a volume, as verify does.
+TEST(Units, CyclesSaysWhatLayOnFrozenBlocks) {
+  const TempFolder folder;
+  const Words scene{"--volume", "binary-cube:32", "--tf", "ct-head", "--size", "64", "--config", "base"};
+  const auto with = [&](Words words, const Words& more) {
+    words.insert(words.end(), scene.begin(), scene.end());
+    words.insert(words.end(), more.begin(), more.end());
+    return fastsplat(words);
+  };
+  expect_success(with({"cycles"}, {"--json", folder / "cycles.json"}));
+  expect_success(with({"render", "--engine", "cmodel"}, {"-o", folder / "a.exr", "--json", folder / "render.json"}));
+  const auto cycles = nlohmann::json::parse(read_bytes(folder / "cycles.json"));
+  const auto render = nlohmann::json::parse(read_bytes(folder / "render.json"));
+  const double share = cycles.at("hidden_share");
+  std::printf("[figure] share of hidden splats = %.4f\n", share);
+  EXPECT_GT(share, 0.05);
+  EXPECT_DOUBLE_EQ(share, render["units"]["hidden_splats"].get<double>() / render["counters"]["splats"].get<double>());
+
+  const auto odd = folder.write(
+      "odd.nrrd",
+      "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: ascii\nspacings: 1 nan 2\n\n1 2 3 4 5 6 7 8\n");
+  for (const char* verb : {"cycles", "verify"}) {
+    const auto run = fastsplat({verb, "--volume", odd, "--size", "16", "--config", "tiny"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.err.find("odd.nrrd: "), std::string::npos) << verb << ": " << run.err;
+  }
+}
+
 TEST(Units, ASumThatWasCutIsSaid) {
   const TempFolder folder;
   // Every pixel with something in it is far above what the sheet holds: all tiles are the plain unit's.

@@ -31,11 +31,6 @@ scene::SheetPlan plan_for_device(const scene::Scene& scene) {
   return plan;
 }
 
-Slices make_slices(const cmodel::Config& config, const scene::Scene& scene, const scene::SheetPlan& plan) {
-  const bool sliced = plan.use == scene::SheetUse::Sliced;
-  return Slices(config, scene.kernel, sliced ? plan.slabs.width : 1.0, sliced ? plan.slabs.count : 1);
-}
-
 /// Records as beats, handed on in blocks.
 class BeatWriter final : public cmodel::RecordSink {
  public:
@@ -69,7 +64,7 @@ CompiledFrame::State::State(const scene::Scene& scene, const cmodel::Config& dev
     : config(checked(scene, device)),
       mode(mode_of(scene.description)),
       plan(plan_for_device(scene)),
-      slices(make_slices(device, scene, plan)),
+      slices(frame_slices(device, scene, plan)),
       projected(project(scene, device, slices, plan, threads)),
       grid(device, scene.description.width, scene.description.height),
       windows(device, projected.sets),

@@ -75,10 +75,14 @@ std::vector<Piece> pieces_of(const scene::Traversal& traversal, bool bands) {
 
 }  // namespace
 
+RadiusSets radius_sets(const scene::Scene& scene, const cmodel::Config& config) {
+  const RadiusRange range = radius_range(scene);
+  return RadiusSets(config, range.smallest, range.largest);
+}
+
 Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices,
                   const scene::SheetPlan& plan, int threads) {
-  const RadiusRange range = radius_range(scene);
-  Projected out{.splats = {}, .sets = RadiusSets(config, range.smallest, range.largest)};
+  Projected out{.splats = {}, .sets = radius_sets(scene, config)};
   const SplatQuantiser quantised(scene, config, out.sets, slices, plan);
   const scene::Traversal traversal(scene);
   out.carried = quantised.carries();

@@ -18,6 +18,9 @@ struct Projected {
   bool carried = false;
 };
 
+/// Those that the scene's splats need.
+RadiusSets radius_sets(const scene::Scene& scene, const cmodel::Config& config);
+
 /// Every real splat of the scene, quantised. `threads` (0: all cores) never change the result.
 Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices,
                   const scene::SheetPlan& plan, int threads);

@@ -36,4 +36,9 @@ Slices::Slices(const cmodel::Config& config, const scene::Kernel& kernel, double
 
 std::int32_t Slices::quantise_depth(double depth) const { return quantise_to<std::int32_t>(depth, depth_); }
 
+Slices frame_slices(const cmodel::Config& config, const scene::Scene& scene, const scene::SheetPlan& plan) {
+  const bool sliced = plan.use == scene::SheetUse::Sliced;
+  return Slices(config, scene.kernel, sliced ? plan.slabs.width : 1.0, sliced ? plan.slabs.count : 1);
+}
+
 }  // namespace fastsplat::driver

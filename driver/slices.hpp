@@ -9,6 +9,8 @@
 #include "cmodel/config.hpp"
 #include "driver/quantise.hpp"
 #include "scene/kernel.hpp"
+#include "scene/scene.hpp"
+#include "scene/sheet_plan.hpp"
 
 namespace fastsplat::driver {
 
@@ -28,6 +30,8 @@ class Slices {
   Slices(const cmodel::Config& config, const scene::Kernel& kernel, double width, int count);
 
   int count() const { return static_cast<int>(boundary_.size()) - 1; }
+  /// B_s, s = 0..count(): in depth steps from the first boundary.
+  std::int32_t boundary(int s) const { return boundary_[static_cast<std::size_t>(s)]; }
   /// Depth (kernel units from the first boundary) as a word: 2^zf steps per kernel unit.
   std::int32_t quantise_depth(double depth) const;
   /// First and last slab that a kernel centred at `depth` reaches.
@@ -97,5 +101,8 @@ class Slices {
   std::vector<std::int32_t> boundary_;  ///< B_s
   std::vector<std::int32_t> cut_;       ///< B_s, but the first and the last one out of every kernel's reach
 };
+
+/// Of a frame; where its splats are not sliced, one that is never asked.
+Slices frame_slices(const cmodel::Config& config, const scene::Scene& scene, const scene::SheetPlan& plan);
 
 }  // namespace fastsplat::driver

@@ -42,31 +42,33 @@ cmodel::LoadTable rlut_table(const cmodel::Config& config, std::uint32_t set, do
   const double rim_distance = radius * k;  // 1/k pixel
   const std::uint32_t rho = support_radius(radius, config);
   const cmodel::WindowGeometry geometry = cmodel::window_geometry(config, rho);
-  const auto extent = static_cast<int>(geometry.extent), padded = static_cast<int>(geometry.padded);
+  const auto padded = static_cast<int>(geometry.padded);
   const Target scaled = target(Site::Rlut, config);
-  const auto rim = static_cast<double>(scaled.to.max);
 
   cmodel::LoadTable table{.table = cmodel::Table::Rlut, .radius = {.set = set, .rho = rho, .base = base}, .words = {}};
   table.words.reserve(static_cast<std::size_t>(k) * padded);
   for (int m = 0; m < k; ++m) {
     for (int i = 0; i < padded; ++i) {
       const double d = static_cast<double>(std::int64_t{i + 1} * k - m) - rho;
-      const bool outside = i >= extent || std::abs(d) >= rim_distance;
-      const double value = outside ? rim : d * d * rim / (rim_distance * rim_distance);
-      table.words.push_back(quantise_to<std::uint32_t>(value, scaled));
+      table.words.push_back(rlut_word(d, rim_distance, scaled));
     }
   }
   return table;
 }
 
-cmodel::LoadTable radial_table(const cmodel::Config& config, const scene::Kernel& kernel) {
+std::vector<double> radial_samples(const cmodel::Config& config, const scene::Kernel& kernel) {
   std::vector<double> samples(static_cast<std::size_t>(config.radial_entries));
   for (std::size_t t = 0; t < samples.size(); ++t) {
     const double u = (static_cast<double>(t) + 0.5) / static_cast<double>(samples.size());
     samples[t] = std::exp(-kernel.a() * kernel.radius() * kernel.radius() * u);
   }
-  cmodel::LoadTable table{
-      .table = cmodel::Table::Radial, .radius = {}, .words = quantise_preserving_sum(samples, config)};
+  return samples;
+}
+
+cmodel::LoadTable radial_table(const cmodel::Config& config, const scene::Kernel& kernel) {
+  cmodel::LoadTable table{.table = cmodel::Table::Radial,
+                          .radius = {},
+                          .words = quantise_preserving_sum(radial_samples(config, kernel), config)};
   const auto largest = static_cast<std::uint32_t>(config.weight_format().max);
   for (auto& word : table.words) word = std::min(word, largest);
   return table;

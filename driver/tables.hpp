@@ -1,17 +1,31 @@
 // The device's tables from the kernel: doubles in, loaded words out (docs/numerics.md, sections 4, 6 and 8).
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "cmodel/config.hpp"
 #include "cmodel/records.hpp"
+#include "driver/quantise.hpp"
 #include "scene/kernel.hpp"
 
 namespace fastsplat::driver {
 
+/// The RLUT's word at `distance` along an axis, of a footprint whose rim lies at `rim_distance`: both in 1/k pixel.
+/// `scaled` is the target of Site::Rlut.
+inline std::uint32_t rlut_word(double distance, double rim_distance, const Target& scaled) {
+  const auto rim = static_cast<double>(scaled.to.max);
+  const bool outside = std::abs(distance) >= rim_distance;
+  const double value = outside ? rim : distance * distance * rim / (rim_distance * rim_distance);
+  return quantise_to<std::uint32_t>(value, scaled);
+}
+
 /// RLUT of one radius set: `radius` in pixels, `base` its first column. Words in load_table order.
 cmodel::LoadTable rlut_table(const cmodel::Config& config, std::uint32_t set, double radius, std::uint32_t base);
+
+/// F in the middle of each of the N steps of the radial table.
+std::vector<double> radial_samples(const cmodel::Config& config, const scene::Kernel& kernel);
 
 /// Radial table, U wi.wf, quantised with its sum preserved: the largest remainders are rounded up.
 cmodel::LoadTable radial_table(const cmodel::Config& config, const scene::Kernel& kernel);

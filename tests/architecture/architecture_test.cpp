@@ -26,6 +26,7 @@ const Arrows kDrawn{
     {"cmodel", {"base"}},
     {"cmodel/fast", {"cmodel"}},
     {"driver", {"scene", "cmodel/fast", "base/parallel"}},
+    {"stages", {"golden", "driver"}},
     {"testbench/device", {"cmodel"}},
     {"testbench/coverage", {"testbench/device"}},
     {"testbench/check", {"testbench/coverage"}},

@@ -1,0 +1,161 @@
+#include "stages/chain.hpp"
+
+#include <cmath>
+
+#include "base/parallel/parallel.hpp"
+#include "driver/compile.hpp"
+#include "driver/tile_bins.hpp"
+#include "golden/settled_pixels.hpp"
+#include "golden/sheet.hpp"
+#include "scene/capability.hpp"
+#include "stages/add_products.hpp"
+#include "stages/pixel_steps.hpp"
+#include "stages/weight_steps.hpp"
+
+namespace fastsplat::stages {
+namespace {
+
+constexpr int kRows = 16;  ///< of a band: its sheets stay in the cache
+
+const scene::Scene& drawable(const scene::Scene& scene, const cmodel::Config& config) {
+  scene::check_capability(scene, driver::offers(config));
+  return scene;
+}
+
+ProductRule product_rule(const cmodel::Config& config, const Mixture& mixture) {
+  if (!mixture.device(Step::Product)) return {};
+  const cmodel::Narrowing site = cmodel::narrowing(config, cmodel::Site::Product);
+  const auto kind = [&] {
+    switch (site.rounding()) {
+      case cmodel::Rounding::TRN:
+        return ProductRule::Kind::Down;
+      case cmodel::Rounding::RND:
+        return ProductRule::Kind::HalfUp;
+      case cmodel::Rounding::RND_CONV:
+        break;
+    }
+    return ProductRule::Kind::HalfEven;
+  };
+  return {kind(), std::ldexp(1.0, site.to().frac_bits), static_cast<double>(site.to().max)};
+}
+
+/// As the bins know a tile: the whole width.
+driver::TileGrid bands_of(const cmodel::Config& config, int width, int height) {
+  driver::TileGrid grid(config, width, height);
+  grid.tile_width = width;
+  grid.tile_height = kRows;
+  return grid;
+}
+
+driver::Extent extent_of(const StagedSplat& splat) {
+  const auto from = [&](double at) { return static_cast<std::int32_t>(std::ceil(at - splat.radius)); };
+  const auto to = [&](double at) { return static_cast<std::int32_t>(std::floor(at + splat.radius)) + 1; };
+  return {from(splat.x), to(splat.x), from(splat.y), to(splat.y)};
+}
+
+}  // namespace
+
+/// Rows of the picture, sheet by sheet.
+class Chain::Band {
+ public:
+  Band(const Chain& chain, const Mixture& mixture, const std::vector<StagedSplat>& splats, bool golden_units,
+       golden::Rows rows, int width)
+      : chain_(chain),
+        mixture_(mixture),
+        splats_(splats),
+        golden_units_(golden_units),
+        rows_(rows),
+        width_(width),
+        weights_(chain.scene_.kernel, chain.config_),
+        pixels_(chain.scene_, chain.config_, mixture, golden_units),
+        product_(product_rule(chain.config_, mixture)),
+        settled_(rows, width),
+        ring_(static_cast<std::size_t>(chain.steps_.reach()), golden::Sheet(rows, width)),
+        picture_(static_cast<std::size_t>(rows.end - rows.first) * width, pixels_.initial()) {}
+
+  void run(const driver::TileBins& bins, int band) {
+    for (int sheet = 0; sheet < chain_.steps_.sheets(); ++sheet) {
+      for (const std::uint32_t i : bins.bin(band, sheet)) add(splats_[i]);
+      drain(at(sheet));
+    }
+  }
+  void store(golden::Sums* out) const {
+    for (const golden::Sums& pixel : picture_) *out++ = pixels_.out(pixel);
+  }
+
+ private:
+  golden::Sheet& at(int sheet) { return ring_[static_cast<std::size_t>(sheet) % ring_.size()]; }
+
+  void add(const StagedSplat& splat) {
+    golden::ProjectedSplat reach;
+    reach.x = splat.x;
+    reach.y = splat.y;
+    reach.reach_x = reach.reach_y = splat.radius;
+    const golden::Rows open = settled_.open_rows(reach, rows_);
+    if (open.first >= open.end) return;
+    weights_.rasterise(splat, mixture_, golden_units_, open, width_);
+    chain_.steps_.shares(splat, mixture_, shares_);
+    for (std::size_t s = 0; s < shares_.size(); ++s) {
+      if (shares_[s] == golden::Sums{}) continue;
+      golden::Sheet& sheet = at(splat.first + static_cast<int>(s));
+      for (const auto& span : weights_.spans()) {
+        add_products(weights_.weights(span), shares_[s], product_, sheet.row(span.y) + span.x);
+        sheet.touch(span.y, {span.x, span.x + span.width});
+      }
+    }
+  }
+
+  void drain(golden::Sheet& sheet) {
+    for (int y = rows_.first; y < rows_.end; ++y) {
+      const golden::Run touched = sheet.touched(y);
+      if (touched.empty()) continue;
+      golden::Sums* const row = &picture_[static_cast<std::size_t>(y - rows_.first) * width_];
+      for (int x = touched.begin; x < touched.end; ++x) {
+        if (pixels_.take(sheet.row(y)[x], row[x])) settled_.settle(x, y);
+      }
+      sheet.clear_row(y);
+    }
+  }
+
+  const Chain& chain_;
+  const Mixture& mixture_;
+  const std::vector<StagedSplat>& splats_;
+  bool golden_units_;
+  golden::Rows rows_;
+  int width_;
+  WeightSteps weights_;
+  PixelSteps pixels_;
+  ProductRule product_;
+  golden::SettledPixels settled_;
+  std::vector<golden::Sheet> ring_;
+  std::vector<golden::Sums> picture_;
+  std::vector<golden::Sums> shares_;
+};
+
+Chain::Chain(const scene::Scene& scene, const cmodel::Config& config)
+    : scene_(drawable(scene, config)), config_(config), steps_(scene, config), list_(scene) {}
+
+Picture Chain::operator()(const Mixture& mixture, int threads) const {
+  // Where nothing is rounded before the sheets are full, the order of the factors is free, and golden's is taken.
+  const bool golden_units = mixture.real(Step::Position, Step::Sheet);
+  const int width = scene_.description.width, height = scene_.description.height;
+  const std::vector<StagedSplat> splats = steps_.staged(list_, mixture, golden_units, threads);
+  const driver::TileGrid bands = bands_of(config_, width, height);
+  const driver::TileBins bins(
+      bands, steps_.sheets(), splats.size(), threads, [&](std::size_t i) { return extent_of(splats[i]); },
+      [&](std::size_t i) { return splats[i].first; });
+
+  Picture picture{width, height, std::vector<golden::Sums>(static_cast<std::size_t>(width) * height)};
+  std::vector<std::uint64_t> work;
+  for (int band = 0; band < bands.count(); ++band) work.push_back(bins.tile(band).size());
+  parallel_for(work, threads, [&](std::size_t number) {
+    const int band = static_cast<int>(number);
+    const golden::Rows rows{bands.y(band), bands.y(band) + bands.height(band)};
+    Band sweep(*this, mixture, splats, golden_units, rows, width);
+    sweep.run(bins, band);
+    sweep.store(&picture.pixels[static_cast<std::size_t>(rows.first) * width]);
+  });
+  return picture;
+}
+
+}  // namespace fastsplat::stages

@@ -1,0 +1,43 @@
+// A frame by any mixture of the device's steps and golden's. All real is golden's picture, all device the integer
+// model's, bit for bit: words are exact in a double, so one chain serves both (docs/errors.md).
+#pragma once
+
+#include <vector>
+
+#include "cmodel/config.hpp"
+#include "scene/scene.hpp"
+#include "stages/splat_steps.hpp"
+#include "stages/step.hpp"
+
+namespace fastsplat::stages {
+
+/// Premultiplied R, G, B, A of each pixel, row by row.
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<golden::Sums> pixels;
+  bool operator==(const Picture&) const = default;
+};
+
+/// Every sheet adds its splats in the order of their first sheet, those of one first sheet in traversal order: golden's
+/// own order. The device's sums do not depend on it.
+class Chain {
+ public:
+  /// Throws UserError (Usage) where the device cannot draw the scene. Keeps references to both.
+  Chain(const scene::Scene& scene, const cmodel::Config& config);
+
+  /// `threads` (0: all cores) never change the result.
+  Picture operator()(const Mixture& mixture, int threads = 1) const;
+
+  const SplatSteps& steps() const { return steps_; }
+  std::size_t splats() const { return list_.splats.size(); }
+
+ private:
+  class Band;
+
+  const scene::Scene& scene_;
+  const cmodel::Config& config_;
+  SplatSteps steps_;
+  SplatList list_;
+};
+
+}  // namespace fastsplat::stages

@@ -1,0 +1,103 @@
+// The steps from a real splat to an output word. Each has two sides: `device`, as docs/numerics.md rounds it, and
+// `real`, as golden computes it; a mixture says which side each step takes (docs/errors.md).
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cmodel/config.hpp"
+
+namespace fastsplat::stages {
+
+/// In the order of the pipeline: a step works on what those before it made.
+enum class Step : std::uint8_t {
+  Position,   ///< a centre as a word S pi.pf (driver)
+  Snap,       ///< that onto the 1/k grid
+  Radius,     ///< the nearest radius set instead of the splat's own radius (driver)
+  Emission,   ///< colour and optical depth of a whole splat as words U 4.cf, with the carry (driver)
+  Depth,      ///< depths and slab boundaries in steps of 2^-zf kernel unit (driver)
+  Phi,        ///< cumulative slice weight as One.hf (driver)
+  Share,      ///< a slab's part of a splat as words U 0.cf (driver)
+  Distance,   ///< q: squared distance along an axis as an RLUT word (driver)
+  Index,      ///< t: of the radial table, whose entry stands for the middle of its step
+  Weight,     ///< an entry as a word U wi.wf (driver)
+  Product,    ///< colour times weight as U si.sf
+  Sheet,      ///< sums are cut at the largest word U si.sf
+  Factor,     ///< slab factor from a table, interpolated, One.of
+  Slab,       ///< slab colour and opacity as One.tf
+  Composite,  ///< transmittance times slab as One.tf
+  Freeze,     ///< below eps nothing changes any more
+  Pixel,      ///< output words U xi.xf
+};
+inline constexpr std::size_t kStepCount = 17;
+
+/// Steps that are exchanged together where their number has to be small.
+enum class Group : std::uint8_t { Place, Material, Footprint, Sheets, Picture };
+inline constexpr std::size_t kGroupCount = 5;
+
+struct StepFacts {
+  const char* name;  ///< "emission"
+  Group group;
+  bool driver;          ///< made by the driver and loaded; else the device's own
+  const char* meaning;  ///< "colour and optical depth as words"
+  const char* keys;     ///< of the configuration that decide it
+};
+const StepFacts& facts(Step step);
+const char* to_string(Group group);
+inline constexpr std::array<Step, kStepCount> all_steps() {
+  std::array<Step, kStepCount> steps{};
+  for (std::size_t i = 0; i < kStepCount; ++i) steps[i] = static_cast<Step>(i);
+  return steps;
+}
+
+/// Which steps are the device's; the others are real.
+class Mixture {
+ public:
+  constexpr Mixture() = default;
+  Mixture(std::initializer_list<Step> device) {
+    for (const Step step : device) set(step);
+  }
+  static Mixture all_device() {
+    Mixture all;
+    all.device_.set();
+    return all;
+  }
+  bool device(Step step) const { return device_[static_cast<std::size_t>(step)]; }
+  void set(Step step, bool device = true) { device_.set(static_cast<std::size_t>(step), device); }
+  Mixture with(std::span<const Step> steps, bool device = true) const {
+    Mixture out = *this;
+    for (const Step step : steps) out.set(step, device);
+    return out;
+  }
+  /// None of the steps first..last is the device's.
+  bool real(Step first, Step last) const {
+    for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i) {
+      if (device_[i]) return false;
+    }
+    return true;
+  }
+  bool operator==(const Mixture&) const = default;
+  std::string text() const;  ///< "position, snap"; "none"; "all"
+
+ private:
+  std::bitset<kStepCount> device_;
+};
+
+/// Steps whose errors are told as one.
+struct StepSet {
+  std::string name;  ///< of its steps, with '+'
+  std::vector<Step> steps;
+};
+/// Every step by itself, in order, but position and snap as one where together they round once: where k = 2^pf the snap
+/// of a position is the position, and where the driver leaves the rounding to the snap each alone would move every
+/// splat.
+std::vector<StepSet> step_sets(const cmodel::Config& config);
+std::vector<StepSet> group_sets();
+
+}  // namespace fastsplat::stages

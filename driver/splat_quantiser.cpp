@@ -5,19 +5,19 @@ namespace {
 
 bool is_xray(const scene::Scene& scene) { return scene.description.method == scene::Method::XRay; }
 
-bool carries_here(const scene::Scene& scene, const cmodel::Config& config) {
+}  // namespace
+
+bool carries(scene::Method method, const cmodel::Config& config) {
   switch (static_cast<cmodel::Carry>(config.rounding_carry)) {
     case cmodel::Carry::Off:
       return false;
     case cmodel::Carry::XRay:
-      return is_xray(scene);
+      return method == scene::Method::XRay;
     case cmodel::Carry::On:
       break;
   }
   return true;
 }
-
-}  // namespace
 
 SplatQuantiser::SplatQuantiser(const scene::Scene& scene, const cmodel::Config& config, const RadiusSets& sets,
                                const Slices& slices, const scene::SheetPlan& plan)
@@ -28,7 +28,7 @@ SplatQuantiser::SplatQuantiser(const scene::Scene& scene, const cmodel::Config& 
       position_(target(Site::Position, config)),
       whole_(target(Site::Whole, config)),
       carried_(target(Site::Carried, config)),
-      carries_(carries_here(scene, config)),
+      carries_(driver::carries(scene.description.method, config)),
       exposed_(scene.amplitude * (is_xray(scene) ? scene.xray_scale : 1.0)) {
   if (carries_) shown_.emplace(config, scene.kernel);
 }

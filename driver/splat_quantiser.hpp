@@ -19,6 +19,9 @@ inline double pixel_radius(const scene::Scene& scene, double pixels_per_mm) {
   return scene.kernel.radius() * scene.volume->kernel_unit() * pixels_per_mm;
 }
 
+/// Whether what rounding takes of a splat goes to the next one behind it (rounding.carry).
+bool carries(scene::Method method, const cmodel::Config& config);
+
 /// 32 bytes a voxel: what a frame keeps in memory.
 struct QuantisedSplat {
   std::int32_t x = 0, y = 0;  ///< image pixels, pf fraction bits

@@ -28,6 +28,8 @@ class Chain {
   /// `threads` (0: all cores) never change the result.
   Picture operator()(const Mixture& mixture, int threads = 1) const;
 
+  /// The frame's steps as they are told.
+  std::vector<StepSet> sets() const { return step_sets(config_, steps_.carries()); }
   const SplatSteps& steps() const { return steps_; }
   std::size_t splats() const { return list_.splats.size(); }
 

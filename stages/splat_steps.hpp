@@ -45,6 +45,7 @@ class SplatSteps {
   /// What each sheet gets, from splat.first on.
   void shares(const StagedSplat& splat, const Mixture& mixture, std::vector<golden::Sums>& out) const;
 
+  bool carries() const { return quantiser_.carries(); }  ///< what rounding takes of a splat, to the next
   int sheets() const { return plan_.slabs.count; }
   int reach() const;  ///< the most sheets that one splat reaches
   const driver::RadiusSets& sets() const { return sets_; }

@@ -45,16 +45,21 @@ std::string Mixture::text() const {
   return text;
 }
 
-std::vector<StepSet> step_sets(const cmodel::Config& config) {
+std::vector<StepSet> step_sets(const cmodel::Config& config, bool carried) {
   const bool once = config.phase_bits() == config.position_frac_bits ||
                     driver::target(driver::Site::Position, config).rounding == driver::Target::Rounding::Down;
+  const auto by = [](Step step) { return facts(step).driver ? "driver" : "device"; };
   std::vector<StepSet> sets;
   for (const Step step : all_steps()) {
     if (step == Step::Snap && once) {
+      if (config.phase_bits() < config.position_frac_bits) sets.back().by = "both";
       sets.back().name += std::string("+") + facts(step).name;
       sets.back().steps.push_back(step);
-    } else {
-      sets.push_back({facts(step).name, {step}});
+    } else if (step == Step::Product && carried) {
+      sets.push_back(
+          {std::string(facts(Step::Emission).name) + "+" + facts(step).name, {Step::Emission, step}, "both"});
+    } else if (step != Step::Emission || !carried) {
+      sets.push_back({facts(step).name, {step}, by(step)});
     }
   }
   return sets;
@@ -63,7 +68,7 @@ std::vector<StepSet> step_sets(const cmodel::Config& config) {
 std::vector<StepSet> group_sets() {
   std::vector<StepSet> sets;
   for (std::size_t group = 0; group < kGroupCount; ++group) {
-    sets.push_back({to_string(static_cast<Group>(group)), {}});
+    sets.push_back({to_string(static_cast<Group>(group)), {}, ""});
     for (const Step step : all_steps()) {
       if (facts(step).group == static_cast<Group>(group)) sets.back().steps.push_back(step);
     }

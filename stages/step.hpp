@@ -93,11 +93,14 @@ class Mixture {
 struct StepSet {
   std::string name;  ///< of its steps, with '+'
   std::vector<Step> steps;
+  const char* by = "";  ///< who rounds: "driver", "device" or "both"
 };
 /// Every step by itself, in order, but position and snap as one where together they round once: where k = 2^pf the snap
 /// of a position is the position, and where the driver leaves the rounding to the snap each alone would move every
 /// splat.
-std::vector<StepSet> step_sets(const cmodel::Config& config);
+/// Where the words of splats carry what rounding takes, they make up for what products lose: `carried` has emission and
+/// product as one, in the product's place.
+std::vector<StepSet> step_sets(const cmodel::Config& config, bool carried);
 std::vector<StepSet> group_sets();
 
 }  // namespace fastsplat::stages

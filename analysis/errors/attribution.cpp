@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
+#include <string_view>
 
 namespace fastsplat::analysis {
 namespace {
@@ -112,9 +112,8 @@ std::vector<PixelStory> stories_of(const Attribution& a, const Picture& error) {
     if (size > 0.0) wrong.emplace_back(size, i);
   }
   if (wrong.empty()) return {};
-  std::ranges::sort(wrong, [](const auto& x, const auto& y) {
-    return x.first != y.first ? x.first < y.first : x.second > y.second;
-  });
+  std::ranges::sort(
+      wrong, [](const auto& x, const auto& y) { return x.first != y.first ? x.first < y.first : x.second > y.second; });
   const auto rank = [&](double p) {
     return static_cast<std::size_t>(std::ceil(p * static_cast<double>(wrong.size()))) - 1;
   };
@@ -154,9 +153,9 @@ Amount amount_of(const Picture& error) {
   return out;
 }
 
-Attribution attribute(const stages::Chain& chain, const cmodel::Config& config, const AttributionOptions& options) {
+Attribution attribute(const stages::Chain& chain, const AttributionOptions& options) {
   Attribution out;
-  const std::vector<stages::StepSet> sets = stages::step_sets(config);
+  const std::vector<stages::StepSet> sets = chain.sets();
   const auto n = static_cast<int>(sets.size());
   // Both ends, what lies between them one after the other, each alone (the first is the first increment), each left
   // out (the last is the last but one of the chain).
@@ -178,7 +177,6 @@ Attribution attribute(const stages::Chain& chain, const cmodel::Config& config, 
     const bool last = k + 1 == n;
     StepError step;
     step.set = set;
-    step.driver = stages::facts(set.steps.front()).driver;
     Picture left_out;
     if (last) left_out = before;
     so_far = so_far.with(set.steps);
@@ -187,13 +185,13 @@ Attribution attribute(const stages::Chain& chain, const cmodel::Config& config, 
     before = std::move(after);
     step.share = share(out.increments.back());
     step.increment = amount_of(out.increments.back());
-    const Picture only =
-        k == 0 ? out.increments.back() : difference(frames(Mixture{}.with(set.steps)), out.real);
+    const Picture only = k == 0 ? out.increments.back() : difference(frames(Mixture{}.with(set.steps)), out.real);
     step.only_share = share(only);
     step.only = amount_of(only);
     if (!last) left_out = frames(Mixture::all_device().with(set.steps, false));
     step.without = amount_of(difference(left_out, out.real));
-    (step.driver ? out.driver_share : out.device_share) += step.share;
+    const std::string_view by = set.by;
+    (by == "driver" ? out.driver_share : by == "device" ? out.device_share : out.both_share) += step.share;
     out.only_remainder -= step.only_share;
     out.steps.push_back(std::move(step));
   }

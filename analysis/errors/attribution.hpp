@@ -24,10 +24,9 @@ constexpr double lsb(int bits) { return static_cast<double>((1ULL << bits) - 1);
 /// Of the whole error e, a part d has the share E[d e] / E[e^2]: not centred, since bias is error too.
 struct StepError {
   stages::StepSet set;
-  bool driver = false;        ///< made by the driver, not by the device
-  double share = 0.0;         ///< of its increment, see Attribution::increments
+  double share = 0.0;  ///< of its increment, see Attribution::increments
   Amount increment;
-  double only_share = 0.0;    ///< of the error where this step alone is the device's
+  double only_share = 0.0;  ///< of the error where this step alone is the device's
   Amount only;
   Amount without;             ///< the error that is left where this step alone is real
   double pixels_ruled = 0.0;  ///< share of the pixels with an error, see Attribution::blame
@@ -50,14 +49,14 @@ struct Attribution {
   Amount total;
   Amount floor8, floor16;        ///< of rounding the real picture once to 8 and to 16 bits
   std::vector<StepError> steps;  ///< in pipeline order; their shares add up to 1, or are all 0 where there is no error
-  double driver_share = 0.0, device_share = 0.0;
+  double driver_share = 0.0, device_share = 0.0, both_share = 0.0;
   double only_remainder = 0.0;  ///< 1 less the sum of only_share
   std::vector<GroupShare> groups;
   /// Step by step, what it changes when it becomes the device's after all before it: they add up to the error.
   std::vector<stages::Picture> increments;
   std::vector<int> blame;  ///< per pixel the step with the largest part of its error, -1 where there is none
   std::vector<PixelStory> stories;
-  int chains = 0;          ///< frames computed
+  int chains = 0;  ///< frames computed
 };
 
 struct AttributionOptions {
@@ -66,6 +65,6 @@ struct AttributionOptions {
   Progress progress{};   ///< counts frames
 };
 
-Attribution attribute(const stages::Chain& chain, const cmodel::Config& config, const AttributionOptions& options = {});
+Attribution attribute(const stages::Chain& chain, const AttributionOptions& options = {});
 
 }  // namespace fastsplat::analysis

@@ -14,6 +14,7 @@ const std::vector<Verb>& all_verbs() {
       verbs::stream_dump,
       verbs::stream_replay,
       verbs::cycles,
+      verbs::errors,
       {"config", "list, show, check and compare hardware configurations", nullptr},
       verbs::config_list,
       verbs::config_show,

@@ -1,0 +1,177 @@
+#include "analysis/errors/attribution_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace fastsplat::analysis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Steps by share, the largest first.
+std::vector<const StepError*> ranked(const Attribution& a) {
+  std::vector<const StepError*> steps;
+  for (const StepError& step : a.steps) steps.push_back(&step);
+  std::ranges::stable_sort(steps, [](const auto* x, const auto* y) { return x->share > y->share; });
+  return steps;
+}
+
+std::string answer(const Attribution& a, const std::optional<TriedRemedy>& tried, int bits) {
+  if (!(a.total.rms > 0.0)) return "no error: every step leaves what it is given\n";
+  const auto steps = ranked(a);
+  std::string text = fmt::format("{}: {:.0f} % of the error", steps[0]->set.name, 100.0 * steps[0]->share);
+  for (std::size_t i = 1; i < steps.size() && steps[i]->share >= 0.1; ++i)
+    text += fmt::format("; {}: {:.0f} %", steps[i]->set.name, 100.0 * steps[i]->share);
+  text += "\n";
+  if (!tried) return text;
+  const double kbit = (tried->after.storage_bits - tried->before.storage_bits) / 1000.0;
+  return text + fmt::format("{} would {} it: RMS {:.4f} -> {:.4f} LSB{}, storage {:+.1f} kbit, cost {:+.1f} %\n",
+                            tried->remedy.changes, tried->error.rms < 0.999 * a.total.rms ? "lessen" : "not lessen",
+                            a.total.rms * lsb(bits), tried->error.rms * lsb(bits), bits, kbit,
+                            100.0 * (tried->after.total() / tried->before.total() - 1.0));
+}
+
+/// In percent, without a minus before nothing.
+double percent(double share) { return std::abs(share) < 0.5e-4 ? 0.0 : 100.0 * share; }
+
+std::string story(const PixelStory& s, int bits) {
+  constexpr const char* kChannels[] = {"R", "G", "B", "A"};
+  std::string text = fmt::format("{:<6} pixel ({}, {}) {}: {:+.3f} LSB{}, of it", s.which, s.x, s.y,
+                                 kChannels[s.channel], s.error * lsb(bits), bits);
+  double told = 0.0;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, s.parts.size()); ++i) {
+    text += fmt::format("{} {} {:+.3f}", i == 0 ? "" : ",", s.parts[i].first, s.parts[i].second * lsb(bits));
+    told += s.parts[i].second;
+  }
+  return text + fmt::format(", all others {:+.3f}\n", (s.error - told) * lsb(bits));
+}
+
+Json amount_json(const Amount& amount) {
+  return {{"rms_lsb8", amount.rms * lsb(8)},        {"max_lsb8", amount.greatest * lsb(8)},
+          {"bias_lsb8", amount.bias * lsb(8)},      {"rms_lsb16", amount.rms * lsb(16)},
+          {"max_lsb16", amount.greatest * lsb(16)}, {"bias_lsb16", amount.bias * lsb(16)}};
+}
+
+Json cost_json(const Cost& cost) {
+  return {{"storage_bits", cost.storage_bits},
+          {"adder_bits", cost.adder_bits},
+          {"multiplier_bits", cost.multiplier_bits},
+          {"total", cost.total()}};
+}
+
+}  // namespace
+
+std::optional<TriedRemedy> try_remedy(const scene::Scene& scene, const cmodel::Config& config,
+                                      const Attribution& attribution, int threads) {
+  for (const StepError* step : ranked(attribution)) {
+    if (step->share <= 0.0) break;
+    std::optional<Remedy> found = remedy(step->set.steps.back(), config);
+    if (!found) continue;
+    TriedRemedy out{step->set.name, std::move(*found), {}, cost(config), {}};
+    out.after = cost(out.remedy.config);
+    stages::Picture picture = stages::Chain(scene, out.remedy.config)(stages::Mixture::all_device(), threads);
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+      for (std::size_t c = 0; c < 4; ++c) picture.pixels[i][c] -= attribution.real.pixels[i][c];
+    }
+    out.error = amount_of(picture);
+    return out;
+  }
+  return std::nullopt;
+}
+
+std::string to_text(const Attribution& a, const std::optional<TriedRemedy>& tried, int bits) {
+  const double unit = lsb(bits);
+  std::string text = answer(a, tried, bits);
+  text +=
+      fmt::format("error of the device: RMS {:.4f}, max {:.3f}, bias {:+.4f} LSB{}; floor of {} bits: RMS {:.4f}\n\n",
+                  a.total.rms * unit, a.total.greatest * unit, a.total.bias * unit, bits, bits,
+                  (bits == 16 ? a.floor16 : a.floor8).rms * unit);
+  text += fmt::format("{:<15} {:<6} {:>8} {:>9} {:>9} {:>9} | {:>8} {:>9} | {:>9} | {:>7}\n", "step", "by", "share",
+                      "RMS", "max", "bias", "alone", "RMS", "left out", "pixels");
+  double sum = 0.0;
+  for (const StepError& s : a.steps) {
+    text += fmt::format(
+        "{:<15} {:<6} {:>6.2f} % {:>9.4f} {:>9.3f} {:>+9.4f} | {:>6.2f} % {:>9.4f} | {:>9.4f} | {:>5.1f} %\n",
+        s.set.name, s.set.by, percent(s.share), s.increment.rms * unit, s.increment.greatest * unit,
+        s.increment.bias * unit, percent(s.only_share), s.only.rms * unit, s.without.rms * unit,
+        100.0 * s.pixels_ruled);
+    sum += s.share;
+  }
+  text += fmt::format("{:<15} {:<6} {:>6.2f} % {:>9} {:>9} {:>9} | {:>6.2f} %\n", "remainder", "",
+                      percent(a.total.rms > 0.0 ? 1.0 - sum : 0.0), "", "", "", percent(a.only_remainder));
+  text += fmt::format("sum {:.1f} %: driver {:.1f} %, device {:.1f} %{}\n",
+                      100.0 * (a.driver_share + a.device_share + a.both_share), 100.0 * a.driver_share,
+                      100.0 * a.device_share,
+                      a.both_share != 0.0 ? fmt::format(", both together {:.1f} %", 100.0 * a.both_share) : "");
+  if (!a.groups.empty()) {
+    text += "groups (Shapley)";
+    for (const GroupShare& group : a.groups) text += fmt::format("  {} {:.2f} %", group.name, 100.0 * group.share);
+    text += "\n";
+  }
+  for (const PixelStory& s : a.stories) text += story(s, bits);
+  return text;
+}
+
+Json to_json(const Attribution& a, const std::optional<TriedRemedy>& tried) {
+  Json json{{"schema", "fastsplat.errors/1"},
+            {"frames", a.chains},
+            {"total", amount_json(a.total)},
+            {"floor_8", amount_json(a.floor8)},
+            {"floor_16", amount_json(a.floor16)}};
+  for (const StepError& s : a.steps) {
+    Json steps = Json::array();
+    for (const stages::Step step : s.set.steps) steps.push_back(stages::facts(step).name);
+    json["steps"].push_back({{"name", s.set.name},
+                             {"steps", steps},
+                             {"by", s.set.by},
+                             {"meaning", stages::facts(s.set.steps.back()).meaning},
+                             {"keys", stages::facts(s.set.steps.back()).keys},
+                             {"share", s.share},
+                             {"increment", amount_json(s.increment)},
+                             {"alone_share", s.only_share},
+                             {"alone", amount_json(s.only)},
+                             {"left_out", amount_json(s.without)},
+                             {"pixels_ruled", s.pixels_ruled}});
+  }
+  json["driver_share"] = a.driver_share;
+  json["device_share"] = a.device_share;
+  json["both_share"] = a.both_share;
+  json["alone_remainder"] = a.only_remainder;
+  for (const GroupShare& group : a.groups) json["groups"][group.name] = group.share;
+  json["pixels"] = Json::array();
+  for (const PixelStory& s : a.stories) {
+    Json parts;
+    for (const auto& [name, part] : s.parts) parts[name] = part * lsb(8);
+    json["pixels"].push_back({{"which", s.which},
+                              {"x", s.x},
+                              {"y", s.y},
+                              {"channel", s.channel},
+                              {"error_lsb8", s.error * lsb(8)},
+                              {"parts_lsb8", parts}});
+  }
+  if (tried) {
+    json["remedy"] = {{"step", tried->step},
+                      {"changes", tried->remedy.changes},
+                      {"error", amount_json(tried->error)},
+                      {"cost_before", cost_json(tried->before)},
+                      {"cost_after", cost_json(tried->after)}};
+  }
+  return json;
+}
+
+Image to_image(const stages::Picture& picture) {
+  Image image(picture.width, picture.height, 4);
+  for (std::size_t i = 0; i < image.data.size(); ++i) image.data[i] = static_cast<float>(picture.pixels[i / 4][i % 4]);
+  return image;
+}
+
+std::string file_word(const std::string& name) {
+  std::string word = name;
+  std::ranges::replace(word, '+', '-');
+  return word;
+}
+
+}  // namespace fastsplat::analysis

@@ -1,0 +1,27 @@
+#include "analysis/errors/cost.hpp"
+
+namespace fastsplat::analysis {
+
+Cost cost(const cmodel::Config& c) {
+  const double pixels = static_cast<double>(c.tile_width) * c.tile_height,
+               lanes = static_cast<double>(c.lanes) * c.lanes;
+  const double distance = c.radial_index_bits() + c.rlut_guard_bits + 1.0,
+               weight = c.radial_int_bits + c.radial_frac_bits, colour = c.colour_frac_bits,
+               sheet = c.sheet_int_bits + c.sheet_frac_bits, factor = c.opacity_frac_bits + 1.0,
+               unit = c.composite_frac_bits + 1.0, rest = c.opacity_remainder_bits(),
+               position = c.position_int_bits + c.phase_bits();
+  Cost out;
+  out.storage_bits = static_cast<double>(c.rlut_columns) * c.phases * distance  // RLUT
+                     + c.radial_entries * weight                                // radial table
+                     + (c.opacity_segments + 1.0) * factor                      // factor table
+                     + 2.0 * pixels * 4.0 * sheet                               // two sheet buffers
+                     + pixels * 4.0 * unit;                                     // picture
+  // A splat: its place on the two axes. A lane: q; four products and sums; then a pixel of a block: the factor's fall
+  // and its subtraction, four products with it, four with T, three sums and a difference.
+  out.adder_bits = 2.0 * position + lanes * (distance + 4.0 * sheet) + lanes * (2.0 * factor + 4.0 * unit);
+  out.multiplier_bits =
+      lanes * 4.0 * colour * weight + lanes * (factor * rest + 4.0 * sheet * factor + 4.0 * unit * unit);
+  return out;
+}
+
+}  // namespace fastsplat::analysis

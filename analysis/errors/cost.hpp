@@ -1,0 +1,18 @@
+// What a configuration costs to build, from the configuration alone (docs/errors.md, "cost").
+#pragma once
+
+#include "cmodel/config.hpp"
+
+namespace fastsplat::analysis {
+
+struct Cost {
+  double storage_bits = 0.0;     ///< of tables, sheets and picture, each counted once
+  double adder_bits = 0.0;       ///< full adders
+  double multiplier_bits = 0.0;  ///< cells of array multipliers: the product of both widths
+  /// One number to choose by: full adders, a multiplier's cell being one and a bit of memory a sixth of one.
+  double total() const { return storage_bits / 6.0 + adder_bits + multiplier_bits; }
+};
+
+Cost cost(const cmodel::Config& config);
+
+}  // namespace fastsplat::analysis

@@ -1,0 +1,24 @@
+// What would make a step's error smaller: the nearest finer configuration.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cmodel/config.hpp"
+#include "stages/step.hpp"
+
+namespace fastsplat::analysis {
+
+struct Remedy {
+  cmodel::Config config;
+  std::string changes;  ///< "snap.phases 64 -> 256, position.frac_bits 6 -> 8"
+};
+
+/// Two more bits for the step's words (a quarter of its step size), or for a range one. None where the limits of the
+/// configuration allow no more.
+std::optional<Remedy> remedy(stages::Step step, const cmodel::Config& config);
+
+/// Keys that differ, in the order of the table: "snap.phases 64 -> 256".
+std::string changes(const cmodel::Config& from, const cmodel::Config& to);
+
+}  // namespace fastsplat::analysis

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "analysis/errors/bound_band.hpp"
-#include "base/error.hpp"
 #include "base/parallel/parallel.hpp"
 
 namespace fastsplat::analysis {
@@ -20,15 +19,6 @@ constexpr double kBandBytes = 48e6;
 int rows_of_band(int sheets, int width) {
   return static_cast<int>(
       std::clamp(kBandBytes / (static_cast<double>(sizeof(SheetCell)) * sheets * width), 1.0, 16.0));
-}
-
-void require_unfrozen(const scene::Scene& scene) {
-  if (scene.description.culling.freeze == 0.0) return;
-  throw_usage({.where = "culling.freeze",
-               .what = "the bound is on the distance to golden as it never freezes a pixel",
-               .expected = "0",
-               .got = std::to_string(scene.description.culling.freeze),
-               .fix = "leave it out"});
 }
 
 }  // namespace
@@ -61,10 +51,13 @@ stages::Mixture known_steps(Known known) {
 Term Bound::dominant() const { return static_cast<Term>(std::ranges::max_element(mean) - mean.begin()); }
 
 Bound bound(const stages::Chain& chain, const stages::Picture& real, Known known, int threads) {
+  return bound(chain, real, known_steps(known), stages::Mixture::all_device(), threads);
+}
+
+Bound bound(const stages::Chain& chain, const stages::Picture& real, const stages::Mixture& mixture,
+            const stages::Mixture& device, int threads) {
   const scene::Scene& scene = chain.scene();
-  require_unfrozen(scene);
-  const stages::Mixture mixture = known_steps(known);
-  const Roundings roundings(scene, chain.config(), chain.steps(), mixture);
+  const Roundings roundings(scene, chain.config(), chain.steps(), mixture, device);
   const auto splats = chain.steps().staged(chain.list(), mixture, false, threads);
   const int width = real.width, height = real.height;
   const double more = roundings.place + [&] {
@@ -83,7 +76,7 @@ Bound bound(const stages::Chain& chain, const stages::Picture& real, Known known
       [&](std::size_t i) { return stages::extent_of(splats[i], more); },
       [&](std::size_t i) { return std::max(0, splats[i].first - lead); });
 
-  Bound out{known, {width, height, std::vector<Sums>(static_cast<std::size_t>(width) * height)}, {}};
+  Bound out{{width, height, std::vector<Sums>(static_cast<std::size_t>(width) * height)}, {}};
   std::vector<std::array<double, kTermCount>> terms(static_cast<std::size_t>(bands.count()));
   std::vector<std::uint64_t> work;
   for (int band = 0; band < bands.count(); ++band) work.push_back(bins.tile(band).size());

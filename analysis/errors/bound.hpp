@@ -46,14 +46,18 @@ inline constexpr std::size_t kTermCount = 17;
 const char* to_string(Term term);
 
 struct Bound {
-  Known known = Known::Scene;
   stages::Picture greatest;               ///< |device - golden| is at most this, value by value
   std::array<double, kTermCount> mean{};  ///< of all values, by term; they add up to about the mean of `greatest`
   Term dominant() const;
 };
 
-/// `threads` (0: all cores) never change the result. UserError (Usage) where the scene freezes golden's pixels.
+/// `threads` (0: all cores) never change the result.
 Bound bound(const stages::Chain& chain, const stages::Picture& real, Known known, int threads = 0);
+/// The same on the distance to the picture of which only the steps of `device` are the device's, `known` among them:
+/// what some steps can do alone. (Position and snap go together, and numbers that are no words are rounded where words
+/// would not be: not every step can stand alone.)
+Bound bound(const stages::Chain& chain, const stages::Picture& real, const stages::Mixture& known,
+            const stages::Mixture& device, int threads = 0);
 
 /// How near the measured error comes.
 struct BoundCheck {

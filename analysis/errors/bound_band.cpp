@@ -7,8 +7,16 @@
 namespace fastsplat::analysis {
 namespace {
 
-/// exp(x) - 1 - x for x >= 0: most that 1 - exp(-y) differs from y, |y| <= x.
-double beyond_linear(double x) { return std::expm1(x) - x; }
+/// Most that the opacity 1 - exp(-tau) changes where tau does by at most `error`, and stays at 0 or above.
+double opacity_change(double tau, double dims, double error) {
+  return dims * std::max(std::expm1(std::min(error, tau)), -std::expm1(-error));
+}
+
+/// Most that this change differs from dims times that of tau.
+double beyond_linear(double tau, double dims, double error) {
+  const double less = std::min(error, tau);
+  return dims * std::max(std::expm1(less) - less, error + std::expm1(-error));
+}
 
 }  // namespace
 
@@ -144,7 +152,7 @@ void BoundBand::slice(const stages::StagedSplat& splat) {
   steps.shares(splat, known_, s.value);
   s.first = splat.first;
   for (std::size_t c = 0; c < 4; ++c) s.whole_error[c] = r_.emission + std::max(0.0, splat.value[c] - r_.largest_whole);
-  if (!steps.sliced() || r_.share == 0.0) {  // whole splats, or shares that are known
+  if (!steps.sliced() || r_.shares_known) {  // whole splats, or shares that are known
     s.part.assign(s.size(), steps.sliced() ? 0.0 : 1.0);
     s.cut.assign(s.size() + 1, 0.0);
     s.word.assign(s.size() + 1, 0.0);
@@ -165,7 +173,7 @@ void BoundBand::slice(const stages::StagedSplat& splat) {
       const bool inside = !end && near < radius;
       // The kernel falls off to both sides, so its profile is greatest where the boundary comes nearest to the centre.
       s.cut.push_back(inside ? r_.depth * chain_.scene().kernel.profile(near) + r_.phi : 0.0);
-      s.word.push_back(inside ? r_.share : 0.0);
+      s.word.push_back(inside ? r_.share : i == s.size() ? r_.last_share : 0.0);
     }
   }
   s.share_error.assign(s.size(), Sums{});
@@ -344,7 +352,7 @@ void BoundBand::finish_pixel(int sheet, SheetCell& here, std::size_t at, int x, 
     if (additive_) {
       if (most > 1.0 || sum_most > 1.0) second = sum_error + here.behind[c] * tau_error;
     } else {
-      second = contrast * here.dims * beyond_linear(tau_error) + 0.5 * spread * tau_error;
+      second = contrast * beyond_linear(tau, here.dims, tau_error) + spread * std::min(0.5 * tau_error, 1.0);
     }
     const double sheet_cut = spread - spread_known + contrast * cut;
     const double behind = alpha ? 1.0 - here.behind[3] : here.behind[c];  // what a rounding of opacity uncovers
@@ -361,7 +369,8 @@ void BoundBand::finish_pixel(int sheet, SheetCell& here, std::size_t at, int x, 
     term(Term::Slab, upper * slab);
     term(Term::Composite, composite);
   }
-  const double opacity_error = (additive_ ? tau_error : here.dims * std::expm1(tau_error)) + r_.factor * most + r_.slab;
+  const double opacity_error =
+      (additive_ ? tau_error : opacity_change(tau, here.dims, tau_error)) + r_.factor * most + r_.slab;
   upper_[at] = std::min(upper, upper * std::min(1.0, 1.0 - here.opacity + opacity_error) + r_.composite);
   lower_[at] = std::max(0.0, lower * std::max(0.0, 1.0 - here.opacity - opacity_error) - r_.composite);
 }

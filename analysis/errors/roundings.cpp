@@ -61,35 +61,43 @@ double factor_of(const cmodel::Config& c) {
 }  // namespace
 
 Roundings::Roundings(const scene::Scene& scene, const cmodel::Config& c, const stages::SplatSteps& steps,
-                     const stages::Mixture& known) {
-  const auto open = [&](Step step) { return !known.device(step); };
+                     const stages::Mixture& known, const stages::Mixture& device) {
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  const auto open = [&](Step step) { return device.device(step) && !known.device(step); };
+  const auto greatest = [](const cmodel::Format& format) {
+    return std::ldexp(static_cast<double>(format.max), -format.frac_bits);
+  };
   if (open(Step::Snap)) place = place_of(c);
   radius = open(Step::Radius);
   // Two words, each half a guard step off; an entry stands for the middle of its step.
   if (open(Step::Distance)) lookup += std::ldexp(1.0, -c.rlut_guard_bits);
   if (open(Step::Index)) lookup += 0.5;
   if (open(Step::Weight)) weight = weight_of(c, scene.kernel);
-  largest_whole = largest_share = std::numeric_limits<double>::infinity();
+  largest_whole = largest_share = largest_sum = largest_pixel = kEndless;
   if (open(Step::Emission)) {
     emission = emission_of(c, scene.kernel, steps.carries());
     largest_whole = 16.0 - std::ldexp(1.0, -c.colour_frac_bits);  // U 4.cf
   }
   if (open(Step::Depth)) depth = std::ldexp(1.0, -c.slice_phase_bits);
   if (open(Step::Phi)) phi = std::ldexp(0.5, -c.slice_frac_bits);
+  shares_known = known.device(Step::Share);
   if (open(Step::Share)) {
     share = std::ldexp(0.5, -c.colour_frac_bits);
-    largest_share = std::ldexp(static_cast<double>(c.colour_format().max), -c.colour_frac_bits);
+    last_share = device.device(Step::Emission) ? 0.0 : share;
+    largest_share = greatest(c.colour_format());
   }
-  product = step_of(c, cmodel::Site::Product);
-  largest_sum = std::ldexp(static_cast<double>(c.sheet_format().max), -c.sheet_frac_bits);
+  if (open(Step::Product)) product = step_of(c, cmodel::Site::Product);
+  if (open(Step::Sheet)) largest_sum = greatest(c.sheet_format());
   const bool additive = scene.description.slab_opacity == scene::SlabOpacity::Additive;
-  factor = additive ? 0.0 : factor_of(c);
-  slab = step_of(c, additive ? cmodel::Site::AddedColour : cmodel::Site::SlabColour);
-  composite = step_of(c, cmodel::Site::Light);
-  freeze = std::ldexp(c.freeze_below, -c.composite_frac_bits);
-  const bool xray = scene.description.method == scene::Method::XRay;
-  pixel = step_of(c, xray ? cmodel::Site::PixelSum : cmodel::Site::PixelOut);
-  largest_pixel = std::ldexp(static_cast<double>(c.pixel_format().max), -c.pixel_frac_bits);
+  if (open(Step::Factor) && !additive) factor = factor_of(c);
+  if (open(Step::Slab)) slab = step_of(c, additive ? cmodel::Site::AddedColour : cmodel::Site::SlabColour);
+  if (open(Step::Composite)) composite = step_of(c, cmodel::Site::Light);
+  if (open(Step::Freeze)) freeze = std::ldexp(c.freeze_below, -c.composite_frac_bits);
+  if (open(Step::Pixel)) {
+    const bool xray = scene.description.method == scene::Method::XRay;
+    pixel = step_of(c, xray ? cmodel::Site::PixelSum : cmodel::Site::PixelOut);
+    largest_pixel = greatest(c.pixel_format());
+  }
 }
 
 }  // namespace fastsplat::analysis

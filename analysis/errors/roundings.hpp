@@ -8,10 +8,10 @@
 
 namespace fastsplat::analysis {
 
-/// Each 0 where the step is known. Values, not words.
+/// Each 0 where the step is known, or not the device's. Values, not words.
 struct Roundings {
   Roundings(const scene::Scene& scene, const cmodel::Config& config, const stages::SplatSteps& steps,
-            const stages::Mixture& known);
+            const stages::Mixture& known, const stages::Mixture& device);
 
   double place = 0.0;          ///< of a centre along an axis, pixels
   bool radius = false;         ///< the radius set is still to be taken
@@ -21,11 +21,13 @@ struct Roundings {
   double largest_whole = 0.0;  ///< splats are cut here; infinite where they are known
   double depth = 0.0;          ///< of a centre and a boundary together, kernel units
   double phi = 0.0;            ///< of a cumulative weight
+  bool shares_known = false;   ///< word by word
   double share = 0.0;          ///< of what lies in front of a boundary, per channel
+  double last_share = 0.0;     ///< the same behind the splat: 0 where the whole splat is a word
   double largest_share = 0.0;  ///< shares are cut here; infinite where they are known
   double product = 0.0;        ///< half or all of an ulp
-  double largest_sum = 0.0;
-  double factor = 0.0;  ///< of the slab factor: interpolation, table and rounding
+  double largest_sum = 0.0;    ///< infinite where sums are not cut
+  double factor = 0.0;         ///< of the slab factor: interpolation, table and rounding
   double slab = 0.0, composite = 0.0;
   double freeze = 0.0;  ///< eps
   double pixel = 0.0;

@@ -1,5 +1,6 @@
 #include "tests/stages/oracle/render.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/stages/oracle/rounding.hpp"
@@ -18,11 +19,10 @@ struct Pixel {
 
 class Frame {
  public:
-  Frame(const scene::Scene& scene, const cmodel::Config& config, const Mixture& mixture, BelowZero below)
+  Frame(const scene::Scene& scene, const cmodel::Config& config, const Mixture& mixture)
       : scene_(scene),
         config_(config),
         mixture_(mixture),
-        below_(below),
         xray_(scene.description.method == scene::Method::XRay),
         additive_(scene.description.slab_opacity == scene::SlabOpacity::Additive),
         radial_(radial_table(scene.kernel.a(), scene.kernel.radius(), config)),
@@ -39,14 +39,13 @@ class Frame {
     const double at = mixture_.device(Step::Index) ? t + 0.5 : q;
     if (!mixture_.device(Step::Weight)) return footprint(at / n);
     // In this order: where `at` is the entry's own place, nothing but the entry is left.
-    return footprint(at / n) - footprint((t + 0.5) / n) + radial_[static_cast<std::size_t>(t)];
+    return std::max(0.0, footprint(at / n) - footprint((t + 0.5) / n) + radial_[static_cast<std::size_t>(t)]);
   }
 
   double product(double v, double w, Closeness& closeness) const {
     if (!mixture_.device(Step::Product)) return v * w;
     const double rounded = round_by(config_.rounding_product, v * w, config_.sheet_frac_bits, closeness);
-    const double least = below_ == BelowZero::AsPage ? 0.0 : -HUGE_VAL;
-    return cut(rounded, least, largest(config_.sheet_int_bits, config_.sheet_frac_bits));
+    return cut(rounded, 0.0, largest(config_.sheet_int_bits, config_.sheet_frac_bits));
   }
 
   /// Steps sheet to freeze, at the end of a sheet.
@@ -108,11 +107,10 @@ class Frame {
   Values slab_of(const Values& s, Closeness& closeness) const {
     const double tau = s[3];
     const bool real_factor = !mixture_.device(Step::Factor), device_slab = mixture_.device(Step::Slab);
-    const bool chains_own = below_ == BelowZero::AsChain && tau < 0.0;
     double f = 1.0;
     if (!additive_ && !real_factor) {
       f = interpolated(factor_, tau, config_, closeness);
-    } else if (!additive_ && tau != 0.0 && !chains_own) {
+    } else if (!additive_ && tau != 0.0) {
       f = -std::expm1(-tau) / tau;
     }
     Values slab{};
@@ -124,14 +122,13 @@ class Frame {
         slab[c] = std::min(1.0, slab[c]);
       }
     }
-    if (!device_slab && !additive_ && real_factor) slab[3] = chains_own ? 0.0 : -std::expm1(-tau);
+    if (!device_slab && !additive_ && real_factor) slab[3] = -std::expm1(-tau);
     return slab;
   }
 
   const scene::Scene& scene_;
   const cmodel::Config& config_;
   const Mixture& mixture_;
-  BelowZero below_;
   bool xray_, additive_;
   std::vector<double> radial_, factor_;
 };
@@ -139,9 +136,9 @@ class Frame {
 }  // namespace
 
 std::vector<std::array<double, 4>> render(const scene::Scene& scene, const cmodel::Config& config,
-                                          const Mixture& mixture, BelowZero below, std::vector<bool>* close) {
+                                          const Mixture& mixture, std::vector<bool>* close) {
   const int width = scene.description.width, height = scene.description.height;
-  const Frame frame(scene, config, mixture, below);
+  const Frame frame(scene, config, mixture);
   const std::vector<Splat> splats = splats_of(scene, config, mixture);
   const std::size_t sheets = splats.empty() ? 0 : splats.front().shares.size();
   std::vector<std::array<double, 4>> picture;

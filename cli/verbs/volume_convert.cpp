@@ -65,9 +65,8 @@ nlohmann::ordered_json to_json(const Result& result) {
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
   check_volume_name(arguments.volume);
-  check_outputs(
-      {.others = {arguments.out, volume::data_file_of(arguments.out).string(), arguments.common.json},
-       .inputs = inputs_of_volume(arguments.volume)});
+  check_outputs({.others = {arguments.out, volume::data_file_of(arguments.out).string(), arguments.common.json},
+                 .inputs = inputs_of_volume(arguments.volume)});
   auto volume = volume::load_volume(arguments.volume, reading(arguments.nan_as));
   const auto type = arguments.type ? type_from(*arguments.type) : volume.stored;
   volume::save_volume(volume, arguments.out, type);

@@ -1,0 +1,122 @@
+// fastsplat errors bound: a proved worst case of every pixel's error, beside the error itself.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/compare.hpp"
+#include "analysis/errors/attribution_report.hpp"
+#include "analysis/errors/bound_report.hpp"
+#include "analysis/provenance.hpp"
+#include "base/hash_text.hpp"
+#include "base/version.hpp"
+#include "cli/config_flags.hpp"
+#include "cli/config_json.hpp"
+#include "cli/output.hpp"
+#include "cli/output_names.hpp"
+#include "cli/progress_bar.hpp"
+#include "cli/scene_flags.hpp"
+#include "cli/verbs/verbs.hpp"
+#include "cli/volume_json.hpp"
+#include "images/image_file.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+struct Arguments {
+  Common common;
+  SceneFlags scene;
+  ConfigFlags config;
+  int lsb_bits = 8;
+  std::string maps;  ///< prefix, empty for none
+};
+
+using Json = nlohmann::ordered_json;
+
+struct Result {
+  std::string scene;  ///< its summary
+  cmodel::Config config;
+  analysis::BoundReport report;
+  int lsb_bits = 8;
+};
+
+std::string to_text(const Result& result) {
+  return fmt::format("{}; configuration {} {}\n", result.scene, result.config.name,
+                     hash_text(cmodel::config_hash(result.config))) +
+         analysis::to_text(result.report, result.lsb_bits);
+}
+
+Json to_json(const Result& result) {
+  Json json{{"verb", "errors bound"},
+            {"version", program_version()},
+            {"scene", result.scene},
+            {"config", config_identity_json(result.config)}};
+  json.update(analysis::to_json(result.report));
+  return json;
+}
+
+std::vector<std::string> map_names(const std::string& prefix, const char* ending) {
+  std::vector<std::string> names;
+  for (const analysis::Known known : analysis::kLevels) {
+    if (!prefix.empty()) names.push_back(prefix + "." + analysis::to_string(known) + ending);
+  }
+  return names;
+}
+
+void write_maps(const Arguments& arguments, const Result& result, const images::Metadata& metadata) {
+  const auto pngs = map_names(arguments.maps, ".png"), exrs = map_names(arguments.maps, ".exr");
+  const Image real = analysis::to_image(result.report.real);
+  for (std::size_t i = 0; i < pngs.size(); ++i) {
+    const Image most = analysis::to_image(result.report.levels[i].bound.greatest);
+    Image above = real;
+    for (std::size_t v = 0; v < above.data.size(); ++v) above.data[v] += most.data[v];
+    images::write_image(pngs[i], analysis::heat_map(real, above, {.lsb_bits = arguments.lsb_bits}),
+                        {{"display", "srgb"}}, {.display = true});
+    images::write_image(exrs[i], most, metadata);
+  }
+}
+
+ExitCode run(const Arguments& arguments) {
+  const Output output(arguments.common);
+  check_outputs({.images = map_names(arguments.maps, ".exr"),
+                 .maps = map_names(arguments.maps, ".png"),
+                 .raws = {},
+                 .others = {arguments.common.json},
+                 .inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")))});
+  const cmodel::Config config = load(arguments.config);
+  const scene::Scene scene = build(arguments.scene);
+  output.remark(remarks(*scene.volume));
+  Result result{.scene = summary(scene), .config = config, .report = {}, .lsb_bits = arguments.lsb_bits};
+  {
+    const stages::Chain chain(scene, config);
+    ProgressBar bar("bound", watching(arguments.common));
+    result.report = analysis::bounds(chain, arguments.common.threads, bar.callback());
+  }
+  if (!arguments.maps.empty())
+    write_maps(
+        arguments, result,
+        analysis::render_metadata("bound", scene, analysis::HardwareConfig{config.name, cmodel::config_hash(config)}));
+  output.line(to_text(result));
+  output.json(to_json(result));
+  output.note_time("bounded");
+  return result.report.holds() ? ExitCode::Pass : ExitCode::Failed;
+}
+
+void declare(Options& options, Arguments& to) {
+  declare(options, to.scene);
+  options.group("Device");
+  declare(options, to.config, "hardware configuration, a name or a TOML file");
+  options.group("Output");
+  options.integer("--lsb-bits", to.lsb_bits, 1, 24, "N", "one LSB is 1/(2^N - 1)");
+  options.word("--maps", to.maps, "PREFIX",
+               "the bound of every pixel: PREFIX.LEVEL.png, with legend, and PREFIX.LEVEL.exr, its values");
+  declare(options, to.common);
+  options.example("fastsplat errors bound --volume shells:64 --size 256 --config base --maps bound");
+}
+
+}  // namespace
+
+const Verb verbs::errors_bound{"errors bound",
+                               "a proved worst case of every pixel's error (exit 1 if it does not hold)",
+                               verb<Arguments, declare, run>};
+
+}  // namespace fastsplat::cli

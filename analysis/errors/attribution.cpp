@@ -155,11 +155,12 @@ Amount amount_of(const Picture& error) {
 
 Attribution attribute(const stages::Chain& chain, const AttributionOptions& options) {
   Attribution out;
+  out.quick = options.quick;
   const std::vector<stages::StepSet> sets = chain.sets();
   const auto n = static_cast<int>(sets.size());
   // Both ends, what lies between them one after the other, each alone (the first is the first increment), each left
   // out (the last is the last but one of the chain).
-  Frames frames(chain, 2 + (n - 1) + (n - 1) + (n - 1) + (options.shapley ? 30 : 0), options);
+  Frames frames(chain, 2 + (n - 1) + (options.quick ? 0 : 2 * (n - 1)) + (options.shapley ? 30 : 0), options);
   out.real = frames(Mixture{});
   out.device = frames(Mixture::all_device());
   const Picture error = difference(out.device, out.real);
@@ -185,11 +186,13 @@ Attribution attribute(const stages::Chain& chain, const AttributionOptions& opti
     before = std::move(after);
     step.share = share(out.increments.back());
     step.increment = amount_of(out.increments.back());
-    const Picture only = k == 0 ? out.increments.back() : difference(frames(Mixture{}.with(set.steps)), out.real);
-    step.only_share = share(only);
-    step.only = amount_of(only);
-    if (!last) left_out = frames(Mixture::all_device().with(set.steps, false));
-    step.without = amount_of(difference(left_out, out.real));
+    if (!options.quick) {
+      const Picture only = k == 0 ? out.increments.back() : difference(frames(Mixture{}.with(set.steps)), out.real);
+      step.only_share = share(only);
+      step.only = amount_of(only);
+      if (!last) left_out = frames(Mixture::all_device().with(set.steps, false));
+      step.without = amount_of(difference(left_out, out.real));
+    }
     const std::string_view by = set.by;
     (by == "driver" ? out.driver_share : by == "device" ? out.device_share : out.both_share) += step.share;
     out.only_remainder -= step.only_share;

@@ -45,6 +45,7 @@ struct GroupShare {
 };
 
 struct Attribution {
+  bool quick = false;  ///< no step alone, none left out
   stages::Picture real, device;
   Amount total;
   Amount floor8, floor16;        ///< of rounding the real picture once to 8 and to 16 bits
@@ -60,6 +61,7 @@ struct Attribution {
 };
 
 struct AttributionOptions {
+  bool quick = false;    ///< increments only: a third of the frames
   bool shapley = false;  ///< over the five groups: 30 frames more
   int threads = 0;       ///< 0: all cores; never changes the result
   Progress progress{};   ///< counts frames

@@ -89,19 +89,20 @@ std::string to_text(const Attribution& a, const std::optional<TriedRemedy>& trie
       fmt::format("error of the device: RMS {:.4f}, max {:.3f}, bias {:+.4f} LSB{}; floor of {} bits: RMS {:.4f}\n\n",
                   a.total.rms * unit, a.total.greatest * unit, a.total.bias * unit, bits, bits,
                   (bits == 16 ? a.floor16 : a.floor8).rms * unit);
-  text += fmt::format("{:<15} {:<6} {:>8} {:>9} {:>9} {:>9} | {:>8} {:>9} | {:>9} | {:>7}\n", "step", "by", "share",
-                      "RMS", "max", "bias", "alone", "RMS", "left out", "pixels");
+  const auto alone = [&](const std::string& columns) { return a.quick ? std::string{} : columns; };
+  text += fmt::format("{:<15} {:<6} {:>8} {:>9} {:>9} {:>9} |{} {:>7}\n", "step", "by", "share", "RMS", "max", "bias",
+                      alone(fmt::format(" {:>8} {:>9} | {:>9} |", "alone", "RMS", "left out")), "pixels");
   double sum = 0.0;
   for (const StepError& s : a.steps) {
-    text += fmt::format(
-        "{:<15} {:<6} {:>6.2f} % {:>9.4f} {:>9.3f} {:>+9.4f} | {:>6.2f} % {:>9.4f} | {:>9.4f} | {:>5.1f} %\n",
-        s.set.name, s.set.by, percent(s.share), s.increment.rms * unit, s.increment.greatest * unit,
-        s.increment.bias * unit, percent(s.only_share), s.only.rms * unit, s.without.rms * unit,
-        100.0 * s.pixels_ruled);
+    text += fmt::format("{:<15} {:<6} {:>6.2f} % {:>9.4f} {:>9.3f} {:>+9.4f} |{} {:>5.1f} %\n", s.set.name, s.set.by,
+                        percent(s.share), s.increment.rms * unit, s.increment.greatest * unit, s.increment.bias * unit,
+                        alone(fmt::format(" {:>6.2f} % {:>9.4f} | {:>9.4f} |", percent(s.only_share), s.only.rms * unit,
+                                          s.without.rms * unit)),
+                        100.0 * s.pixels_ruled);
     sum += s.share;
   }
-  text += fmt::format("{:<15} {:<6} {:>6.2f} % {:>9} {:>9} {:>9} | {:>6.2f} %\n", "remainder", "",
-                      percent(a.total.rms > 0.0 ? 1.0 - sum : 0.0), "", "", "", percent(a.only_remainder));
+  text += fmt::format("{:<15} {:<6} {:>6.2f} %{}\n", "remainder", "", percent(a.total.rms > 0.0 ? 1.0 - sum : 0.0),
+                      alone(fmt::format("{:>30} | {:>6.2f} %", "", percent(a.only_remainder))));
   text += fmt::format("sum {:.1f} %: driver {:.1f} %, device {:.1f} %{}\n",
                       100.0 * (a.driver_share + a.device_share + a.both_share), 100.0 * a.driver_share,
                       100.0 * a.device_share,
@@ -131,15 +132,16 @@ Json to_json(const Attribution& a, const std::optional<TriedRemedy>& tried) {
                              {"keys", stages::facts(s.set.steps.back()).keys},
                              {"share", s.share},
                              {"increment", amount_json(s.increment)},
-                             {"alone_share", s.only_share},
-                             {"alone", amount_json(s.only)},
-                             {"left_out", amount_json(s.without)},
                              {"pixels_ruled", s.pixels_ruled}});
+    if (a.quick) continue;
+    json["steps"].back()["alone_share"] = s.only_share;
+    json["steps"].back()["alone"] = amount_json(s.only);
+    json["steps"].back()["left_out"] = amount_json(s.without);
   }
   json["driver_share"] = a.driver_share;
   json["device_share"] = a.device_share;
   json["both_share"] = a.both_share;
-  json["alone_remainder"] = a.only_remainder;
+  if (!a.quick) json["alone_remainder"] = a.only_remainder;
   for (const GroupShare& group : a.groups) json["groups"][group.name] = group.share;
   json["pixels"] = Json::array();
   for (const PixelStory& s : a.stories) {

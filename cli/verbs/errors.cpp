@@ -26,7 +26,7 @@ struct Arguments {
   SceneFlags scene;
   ConfigFlags config;
   int lsb_bits = 8;
-  bool shapley = false;
+  bool quick = false, shapley = false;
   std::string blame, maps;  ///< empty for none
 };
 
@@ -102,8 +102,10 @@ ExitCode run(const Arguments& arguments) {
   {
     const stages::Chain chain(scene, config);
     ProgressBar bar("errors", watching(arguments.common));
-    result.attribution = analysis::attribute(
-        chain, {.shapley = arguments.shapley, .threads = arguments.common.threads, .progress = bar.callback()});
+    result.attribution = analysis::attribute(chain, {.quick = arguments.quick,
+                                                     .shapley = arguments.shapley,
+                                                     .threads = arguments.common.threads,
+                                                     .progress = bar.callback()});
   }
   result.tried = analysis::try_remedy(scene, config, result.attribution, arguments.common.threads);
   if (!arguments.blame.empty())
@@ -125,6 +127,7 @@ void declare(Options& options, Arguments& to) {
   declare(options, to.config, "hardware configuration, a name or a TOML file");
   options.group("Analysis");
   options.integer("--lsb-bits", to.lsb_bits, 1, 24, "N", "one LSB is 1/(2^N - 1)");
+  options.flag("--quick", to.quick, "no step alone, none left out: a third of the frames");
   options.flag("--shapley", to.shapley, "shares of the five groups of steps, whatever the order: 30 frames more");
   options.group("Output");
   options.word("--blame", to.blame, "FILE", "which step rules each pixel, with legend, .png");

@@ -26,6 +26,9 @@ class RlutUnit {
     footprint(radial_, rlut_.read(set_, x_, column), rlut_.read(set_, y_, row), weights);
   }
 
+  const Rlut& rlut() const { return rlut_; }
+  const RadialTable& radial() const { return radial_; }
+
  private:
   Rlut rlut_;
   RadialTable radial_;

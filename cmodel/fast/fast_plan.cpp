@@ -11,7 +11,6 @@ std::optional<FastPlan> fast_plan(const Config& config) {
   const int dropped = product.dropped_bits();
   const std::int64_t largest_product = ((std::int64_t{1} << colour_bits) - 1) * ((std::int64_t{1} << weight_bits) - 1);
   const bool nearest = product.rounding() == Rounding::RND;
-  if (config.index() != IndexKind::Rlut) return {};
   if (!nearest && product.rounding() != Rounding::TRN && dropped > 0) return {};
   if (colour_bits > 16 || weight_bits > 16 || sheet_bits > 32) return {};
   if (product.from_frac() < product.to().frac_bits) return {};

@@ -19,7 +19,7 @@ struct FastPlan {
   std::uint32_t largest_sum = 0;  ///< of the sheet's format; sums above it were cut
 };
 
-/// Empty where only the plain unit is exact: another index than the RLUT, products wider than 32 bits or above the sheet's format, ties to even, or
+/// Empty where only the plain unit is exact: products wider than 32 bits or above the sheet's format, ties to even, or
 /// more than 64 blocks in a tile's row.
 std::optional<FastPlan> fast_plan(const Config& config);
 

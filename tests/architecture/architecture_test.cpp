@@ -33,7 +33,8 @@ const Arrows kDrawn{
     {"testbench/triage", {"testbench/stimulus"}},
     {"testbench/closure", {"testbench/stimulus"}},
     {"analysis", {"images", "scene", "base/parallel"}},
-    {"cli", {"golden", "driver", "testbench/triage", "testbench/closure", "analysis"}},
+    {"analysis/family", {"driver"}},
+    {"cli", {"golden", "driver", "testbench/triage", "testbench/closure", "analysis", "analysis/family"}},
 };
 
 /// `drawn` with everything that is reached by going on; a room on a circle reaches itself.

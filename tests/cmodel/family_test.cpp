@@ -162,6 +162,7 @@ TEST(FamilySteps, WindowsInAnyOrderAreTheSame) {
           const auto P = static_cast<std::uint32_t>(config.lanes), Ea = u.extent(0);
           const cmodel::SnappedAxis x{.origin = 0, .phase = 3}, y{.origin = 0, .phase = 5};
           std::vector<std::uint32_t> there(P * P), back(P * P);
+          std::vector<std::vector<std::uint32_t>> diagonal;
           for (std::uint32_t row = 0; row < Ea; row += P) {
             u.place(0, x, y);
             std::vector<std::vector<std::uint32_t>> line;
@@ -174,6 +175,13 @@ TEST(FamilySteps, WindowsInAnyOrderAreTheSame) {
               EXPECT_EQ(back, line[(column - P) / P]) << name_of(kind) << ", row " << row << ", column " << column;
               compared += back.size();
             }
+            diagonal.push_back(line[row / P]);
+          }
+          u.place(0, x, y);
+          for (std::uint32_t at = 0; at < Ea; at += P) {
+            u.window(at, at, back, nobody);
+            EXPECT_EQ(back, diagonal[at / P]) << name_of(kind) << ", on the diagonal, " << at;
+            compared += back.size();
           }
         },
         unit);

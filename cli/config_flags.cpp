@@ -55,6 +55,9 @@ void declare(Options& options, ConfigFlags& to, const char* help) {
 
 void declare_changes(Options& options, std::vector<std::string>& to) {
   options.words("--set", to, "KEY=VALUE", "changes a key of the configuration, radial.entries=256; repeatable");
+  options.value(
+      "--index", {}, [&to](const std::string& kind) { to.push_back("index.kind=" + kind); }, "KIND",
+      "how weights are found: short for --set index.kind=KIND");
 }
 
 cmodel::Config load(const std::string& name_or_path, const std::vector<std::string>& changes) {

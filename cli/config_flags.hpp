@@ -12,7 +12,7 @@ namespace fastsplat::cli {
 
 struct ConfigFlags {
   std::optional<std::string> config;  ///< a name or a file; absent: base
-  std::vector<std::string> changes;   ///< "radial.entries=256"
+  std::vector<std::string> changes;   ///< "radial.entries=256"; of --index KIND "index.kind=KIND"
 };
 
 /// `help` of --config.

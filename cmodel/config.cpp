@@ -15,6 +15,11 @@ constexpr const char* kRoundings[] = {"trn", "rnd", "rnd_conv"};  // in the orde
 
 constexpr const char* kCarries[] = {"off", "xray", "on"};  // in the order of Carry
 
+constexpr const char* kIndexKinds[] = {"linear", "squared", "squared_elliptic",
+                                       "blit2d", "rlut",    "separable"};  // in the order of IndexKind
+
+constexpr const char* kIndexSymmetries[] = {"off", "eightfold"};  // in the order of IndexSymmetry
+
 constexpr ConfigKey rounding(const char* name, int Config::*member, const char* meaning) {
   return {.name = name,
           .member = member,
@@ -71,6 +76,22 @@ constexpr std::array kKeys{
               .meaning = "where what a splat's rounding leaves is carried to the next one (driver)",
               .names = kCarries,
               .neutral = static_cast<int>(Carry::XRay)},
+    ConfigKey{.name = "index.kind",
+              .member = &Config::index_kind,
+              .min = 0,
+              .max = 5,
+              .power_of_two = false,
+              .meaning = "how a pixel's weight is found",
+              .names = kIndexKinds,
+              .neutral = static_cast<int>(IndexKind::Rlut)},
+    ConfigKey{.name = "index.symmetry",
+              .member = &Config::index_symmetry,
+              .min = 0,
+              .max = 1,
+              .power_of_two = false,
+              .meaning = "which footprints of a blit2d set are stored",
+              .names = kIndexSymmetries,
+              .neutral = static_cast<int>(IndexSymmetry::Off)},
 };
 
 ErrorParts violation(const char* key, std::string what, std::string expected, int got, std::string fix) {
@@ -94,6 +115,53 @@ std::optional<ErrorParts> key_violation(const ConfigKey& key, int value) {
     return violation(key.name, "is not a power of two", "a power of two", value,
                      "use " + std::to_string(std::bit_floor(static_cast<unsigned>(value))) + " or " +
                          std::to_string(std::bit_ceil(static_cast<unsigned>(value))));
+  }
+  return std::nullopt;
+}
+
+/// Words of blit2d's widest footprint: as many as one load_table record should bring.
+constexpr std::int64_t kMostBlitWords = std::int64_t{1} << 24;
+
+/// Limits of index.kind (docs/numerics.md, section 4: widths of each kind).
+std::optional<ErrorParts> index_violation(const Config& config) {
+  const int side_bits = std::bit_width(static_cast<unsigned>(config.rlut_columns - 1)) + config.position_frac_bits;
+  if (config.index_symmetry != static_cast<int>(IndexSymmetry::Off) && config.index() != IndexKind::Blit2d) {
+    return ErrorParts{.where = "index.symmetry",
+                      .what = "is of stored footprints, which only blit2d has",
+                      .expected = "index.kind = blit2d",
+                      .got = kIndexKinds[config.index_kind],
+                      .fix = "use index.symmetry = off"};
+  }
+  switch (config.index()) {
+    case IndexKind::Linear:
+      if (side_bits + config.rlut_guard_bits > 31) {
+        return violation("rlut.guard_bits", "makes squared distances of more than 63 bits (index.kind = linear)",
+                         "log2(rlut.columns) + position.frac_bits + guard_bits <= 31",
+                         side_bits + config.rlut_guard_bits, "lower rlut.guard_bits or position.frac_bits");
+      }
+      break;
+    case IndexKind::Squared:
+    case IndexKind::SquaredElliptic:
+      if (side_bits > 17) {
+        return violation("position.frac_bits", "makes squared distances of more than 62 bits (index.kind = squared)",
+                         "log2(rlut.columns) + position.frac_bits <= 17", side_bits,
+                         "lower position.frac_bits or rlut.columns");
+      }
+      break;
+    case IndexKind::Blit2d: {
+      const std::int64_t side = std::int64_t{config.phases} * config.rlut_columns;
+      if (side * side > kMostBlitWords) {
+        return ErrorParts{.where = "snap.phases",
+                          .what = "makes more footprints than load_table brings (index.kind = blit2d)",
+                          .expected = "(snap.phases x rlut.columns)^2 at most " + std::to_string(kMostBlitWords),
+                          .got = std::to_string(side * side),
+                          .fix = "lower snap.phases or rlut.columns"};
+      }
+      break;
+    }
+    case IndexKind::Rlut:
+    case IndexKind::Separable:
+      break;
   }
   return std::nullopt;
 }
@@ -207,7 +275,7 @@ std::optional<ErrorParts> first_violation(const Config& config) {
                      config.freeze_below,
                      "use a small number such as " + std::to_string((1 << config.composite_frac_bits) / 1024));
   }
-  return std::nullopt;
+  return index_violation(config);
 }
 
 std::uint64_t config_hash(const Config& config) {

@@ -12,6 +12,11 @@
 
 namespace fastsplat::cmodel {
 
+/// How a pixel's weight is found (docs/numerics.md, section 4).
+enum class IndexKind { Linear, Squared, SquaredElliptic, Blit2d, Rlut, Separable };
+/// What of a blit2d set's footprints is stored: each, or each once that is no mirror image of another.
+enum class IndexSymmetry { Off, Eightfold };
+
 /// Where the driver carries what a splat's rounding leaves to the next one.
 enum class Carry { Off, XRay, On };
 
@@ -54,10 +59,23 @@ struct Config {
 
   int rounding_carry = static_cast<int>(Carry::XRay);  ///< the driver's, as the slices' keys
 
+  int index_kind = static_cast<int>(IndexKind::Rlut);
+  int index_symmetry = static_cast<int>(IndexSymmetry::Off);
+
   bool operator==(const Config&) const = default;
 
   // Derived; exact for a configuration that passed first_violation().
-  int phase_bits() const { return log2_exact(phases); }                 ///< kl
+  int phase_bits() const { return log2_exact(phases); }  ///< kl
+  IndexKind index() const { return static_cast<IndexKind>(index_kind); }
+  /// Centres lie on a grid of K = 2^Kl steps a pixel: that of the snap, or where no table has phases that of positions.
+  int grid_bits() const { return has_phases() ? phase_bits() : position_frac_bits; }  ///< Kl
+  int grid() const { return 1 << grid_bits(); }                                       ///< K
+  /// Weights are read by window phase; otherwise they are computed from the centre as it is.
+  bool has_phases() const {
+    return index() == IndexKind::Blit2d || index() == IndexKind::Rlut || index() == IndexKind::Separable;
+  }
+  /// A radius set has columns of one memory, from its `base` on.
+  bool has_columns() const { return index() == IndexKind::Rlut || index() == IndexKind::Separable; }
   int radial_index_bits() const { return log2_exact(radial_entries); }  ///< nl
   /// The rim: RLUT words saturate here, and sums at or above it lie outside the footprint.
   std::int64_t rlut_rim() const { return std::int64_t{1} << (radial_index_bits() + rlut_guard_bits); }
@@ -67,8 +85,13 @@ struct Config {
   int max_extent() const { return rlut_columns; }
 
   Format position_format() const { return signed_format(position_int_bits, position_frac_bits); }
-  Format snapped_format() const { return signed_format(position_int_bits, phase_bits()); }
+  Format snapped_format() const { return signed_format(position_int_bits, grid_bits()); }
   Format weight_format() const { return unsigned_format(radial_int_bits, radial_frac_bits); }
+  /// separable: weight along one axis, at most 1 and the largest weight, with g bits more than a weight.
+  Format axis_weight_format() const {
+    const std::int64_t one = std::int64_t{1} << radial_frac_bits, most = weight_format().max;
+    return {0, (most < one ? most : one) << rlut_guard_bits, radial_frac_bits + rlut_guard_bits, 0};
+  }
   Format colour_format() const { return unsigned_format(0, colour_frac_bits); }
   Format sheet_format() const { return unsigned_format(sheet_int_bits, sheet_frac_bits); }
   Format factor_format() const { return unit_format(opacity_frac_bits); }

@@ -18,6 +18,15 @@ std::uint64_t wipe_cycles(const Config& config) {
          static_cast<std::uint64_t>(config.tile_height / config.lanes);
 }
 
+std::optional<ErrorParts> cycle_violation(const Config& config) {
+  if (config.has_phases()) return std::nullopt;  // a window a cycle, like the RLUT's
+  return ErrorParts{.where = "index.kind",
+                    .what = "goes along scan lines, and cycles are counted for all P x P pixels at once",
+                    .expected = "rlut, blit2d or separable",
+                    .got = text_of(config, *find_key("index.kind")),
+                    .fix = "use one of these kinds; docs/numerics.md, section 4, says what each does"};
+}
+
 CycleModel::CycleModel(const Config& config, StreamScope scope, const CycleOptions& options)
     : config_(config),
       options_(options),

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "cmodel/config.hpp"
@@ -59,6 +60,9 @@ struct CycleOptions {
   TapSink* taps = nullptr;          ///< every event with its cycle; payloads are empty
   CycleSink* spans = nullptr;
 };
+
+/// What of a configuration has another timing than the RTL's, which this model has; empty where the timing holds.
+std::optional<ErrorParts> cycle_violation(const Config& config);
 
 class CycleModel final : public Device {
  public:

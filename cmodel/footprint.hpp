@@ -20,10 +20,9 @@ class RadialTable {
   void load(std::span<const std::uint32_t> words) { weights_.assign(words.begin(), words.end()); }
 
   /// Weight (U wi.wf) at q = sum of two RLUT words; 0 at and beyond the rim.
-  std::uint32_t weight(std::uint32_t q) const {
-    const std::uint32_t index = radial_index(q, guard_bits_);
-    return index < weights_.size() ? weights_[index] : 0;
-  }
+  std::uint32_t weight(std::uint32_t q) const { return at(radial_index(q, guard_bits_)); }
+  /// Weight at index t; 0 past the table's end.
+  std::uint32_t at(std::uint64_t index) const { return index < weights_.size() ? weights_[index] : 0; }
 
  private:
   int guard_bits_;

@@ -8,8 +8,7 @@ Model::Model(const Config& config, StreamScope scope, PixelSink& pixels, TapSink
     : config_(config),
       decode_(config, scope),
       snap_(config),
-      rlut_(config),
-      radial_(config),
+      unit_(weight_unit(config)),
       sheet_(config),
       compositor_(config),
       pixel_out_(config),
@@ -54,10 +53,10 @@ void Model::take(const Record& record, Observer& observer) {
 void Model::load(const LoadTable& table) {
   switch (table.table) {
     case Table::Rlut:
-      rlut_.load(table);
+      std::visit([&](auto& unit) { unit.load(table); }, unit_);
       break;
     case Table::Radial:
-      radial_.load(table.words);
+      std::visit([&](auto& unit) { unit.load_radial(table.words); }, unit_);
       break;
     case Table::Factor:
       compositor_.opacity().load(table.words);
@@ -74,7 +73,12 @@ void Model::begin_tile(const BeginTile& tile) {
 
 template <class Observer>
 void Model::splat(const SplatRecord& record, Observer& observer) {
-  const std::uint32_t rho = rlut_.rho(record.set);
+  std::visit([&](auto& unit) { splat(record, unit, observer); }, unit_);
+}
+
+template <class Unit, class Observer>
+void Model::splat(const SplatRecord& record, Unit& unit, Observer& observer) {
+  const std::uint32_t rho = unit.rho(record.set);
   const SnappedAxis x = snap_(record.x, rho, observer);
   const SnappedAxis y = snap_(record.y, rho, observer);
   ++counters_.splats;
@@ -83,12 +87,12 @@ void Model::splat(const SplatRecord& record, Observer& observer) {
                                                static_cast<std::uint32_t>(y.origin), x.phase, y.phase};
     tap(Tap::Snap, record.tag, x.origin, y.origin, payload);
   }
-  const std::uint32_t extent = rlut_.extent(record.set);
+  unit.place(record.set, x, y);
+  const std::uint32_t extent = unit.extent(record.set);
   const auto lanes = static_cast<std::uint32_t>(config_.lanes);
   for (std::uint32_t row = 0; row < extent; row += lanes) {
-    const auto rows = rlut_.read(record.set, y.phase, row);
     for (std::uint32_t column = 0; column < extent; column += lanes) {
-      footprint(radial_, rlut_.read(record.set, x.phase, column), rows, weights_);
+      unit.window(column, row, weights_, observer);
       window(record, x.origin + static_cast<std::int32_t>(column), y.origin + static_cast<std::int32_t>(row), observer);
     }
   }

@@ -1,4 +1,4 @@
-// The device model: decode -> snap -> RLUT and radial table -> sheet buffer -> compositor -> pixel out.
+// The device model: decode -> snap -> weights by the kind of index -> sheet buffer -> compositor -> pixel out.
 #pragma once
 
 #include <cstdint>
@@ -7,13 +7,12 @@
 #include "cmodel/compositor.hpp"
 #include "cmodel/config.hpp"
 #include "cmodel/device.hpp"
-#include "cmodel/footprint.hpp"
 #include "cmodel/observers.hpp"
 #include "cmodel/pixel_out.hpp"
-#include "cmodel/rlut.hpp"
 #include "cmodel/sheet_buffer.hpp"
 #include "cmodel/snap.hpp"
 #include "cmodel/stream_decode.hpp"
+#include "cmodel/weight_unit.hpp"
 
 namespace fastsplat::cmodel {
 
@@ -35,6 +34,8 @@ class Model final : public Device {
   void begin_tile(const BeginTile& tile);
   template <class Observer>
   void splat(const SplatRecord& record, Observer& observer);
+  template <class Unit, class Observer>
+  void splat(const SplatRecord& record, Unit& unit, Observer& observer);
   template <class Observer>
   void window(const SplatRecord& record, std::int32_t x, std::int32_t y, Observer& observer);
   template <class Observer>
@@ -48,8 +49,7 @@ class Model final : public Device {
   Config config_;
   StreamDecode decode_;
   Snap snap_;
-  Rlut rlut_;
-  RadialTable radial_;
+  WeightUnit unit_;
   SheetBuffer sheet_;
   Compositor compositor_;
   PixelOut pixel_out_;

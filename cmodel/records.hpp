@@ -18,7 +18,7 @@ struct BeginFrame {
 /// A radius set's place in the RLUT; zero for the other tables.
 struct RadiusSet {
   std::uint32_t set = 0;
-  std::uint32_t rho = 0;   ///< support radius, 1/k pixel
+  std::uint32_t rho = 0;   ///< support radius, 1/K pixel
   std::uint32_t base = 0;  ///< first RLUT column
 };
 struct LoadTable {

@@ -1,4 +1,4 @@
-// Unit "snap": a splat's centre onto the 1/k grid, its window's origin and phase (docs/numerics.md, section 3).
+// Unit "snap": a splat's centre onto the 1/K grid, its window's origin and phase (docs/numerics.md, section 3).
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@ namespace fastsplat::cmodel {
 /// One axis of a snapped splat.
 struct SnappedAxis {
   std::int32_t origin = 0;  ///< first pixel strictly inside the support, tile-relative
-  std::uint32_t phase = 0;  ///< window phase m, 0..k-1: the RLUT row
+  std::uint32_t phase = 0;  ///< window phase m, 0..K-1: the RLUT row
 };
 
 class Snap {
  public:
-  explicit Snap(const Config& config) : phase_bits_(config.phase_bits()), narrow_(config) {}
+  explicit Snap(const Config& config) : phase_bits_(config.grid_bits()), narrow_(config) {}
 
-  /// `centre` is a word of S pi.pf, `rho` the support radius in 1/k pixel.
+  /// `centre` is a word of S pi.pf, `rho` the support radius in 1/K pixel.
   template <class Observer>
   SnappedAxis operator()(std::int32_t centre, std::uint32_t rho, Observer& observer) const {
     const std::int64_t rim = narrow_(centre, observer) - static_cast<std::int64_t>(rho);

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
+#include "cmodel/index_set.hpp"
 #include "cmodel/stream_advice.hpp"
 #include "cmodel/window_geometry.hpp"
 
@@ -126,9 +127,11 @@ void StreamDecode::check(const LoadTable& header, std::uint32_t words) {
     case Table::Rlut: {
       expect_most(header.radius.set, config_.rlut_sets - 1, "radius set above the last");
       expect_least(header.radius.rho, 1, "radius of nothing");
-      // As many columns as there are hold a radius of half of them; k steps to the pixel.
-      expect_most(header.radius.rho, std::int64_t{config_.rlut_columns} * config_.phases / 2,
+      // As many columns as there are hold a radius of half of them; K steps to the pixel.
+      expect_most(header.radius.rho, std::int64_t{config_.rlut_columns} * config_.grid() / 2,
                   "radius above what the RLUT holds");
+      if (!config_.has_columns())
+        expect(header.radius.base == 0, "base of a set without columns", 0, header.radius.base);
       if (header.radius.base % static_cast<std::uint32_t>(config_.lanes) != 0) {
         refuse("first RLUT column is no multiple of the lanes", "a multiple of " + std::to_string(config_.lanes),
                std::to_string(header.radius.base));
@@ -136,7 +139,7 @@ void StreamDecode::check(const LoadTable& header, std::uint32_t words) {
       const std::uint32_t columns = window_geometry(config_, header.radius.rho).padded;
       const std::int64_t end = std::int64_t{header.radius.base} + columns;
       expect_most(end, config_.rlut_columns, "RLUT columns past the end");
-      expected_words = std::int64_t{columns} * config_.phases;
+      expected_words = set_words(config_, header.radius.rho);
       break;
     }
     case Table::Radial:
@@ -153,16 +156,15 @@ void StreamDecode::check(const LoadTable& header, std::uint32_t words) {
 
 const Record* StreamDecode::payload(const Beat& beat) {
   auto& table = std::get<LoadTable>(record_);
-  std::int64_t limit = 0;
+  WordRange range;
   switch (table.table) {
     case Table::Rlut:
-      limit = config_.rlut_rim();
-      break;
+      break;  // of each word its own
     case Table::Radial:
-      limit = config_.weight_format().max;
+      range.most = config_.weight_format().max;
       break;
     case Table::Factor:
-      limit = config_.factor_format().max;
+      range.most = config_.factor_format().max;
       break;
   }
   for (const std::uint32_t word : beat) {
@@ -170,13 +172,22 @@ const Record* StreamDecode::payload(const Beat& beat) {
       expect(word == 0, "padding is not zero", 0, word);
       continue;
     }
-    expect_most(word, limit, "table word too large");
+    if (table.table == Table::Rlut) range = set_word_range(config_, table.words.size());
+    if (range.least < 0) {
+      expect_within(static_cast<std::int32_t>(word), range.least, range.most, "table word out of range");
+    } else {
+      expect_most(word, range.most, "table word too large");
+    }
     if (table.table == Table::Factor && !table.words.empty())
       expect_most(word, table.words.back(), "slab factor table rises");
     table.words.push_back(word);
     --words_left_;
   }
   if (words_left_ > 0) return nullptr;
+  if (table.table == Table::Rlut) {
+    if (const auto wrong = set_violation(config_, table.words))
+      refuse(wrong->what.c_str(), wrong->expected, wrong->got);
+  }
   state_ = State::Tables;
   if (table.table == Table::Rlut) sets_loaded_[table.radius.set] = true;
   if (table.table == Table::Radial) radial_loaded_ = true;

@@ -52,6 +52,13 @@ std::optional<ErrorParts> rtl_violation(const Config& config) {
                       .got = std::to_string(got),
                       .fix = "use the model for this configuration"};
   };
+  if (config.index() != IndexKind::Rlut) {
+    return ErrorParts{.where = "index.kind",
+                      .what = "the RTL has the RLUT and no other index",
+                      .expected = "rlut",
+                      .got = text_of(config, *find_key("index.kind")),
+                      .fix = "use the model for this configuration"};
+  }
   if (config.phases < 2) return refuse("snap.phases", "the RTL needs a phase bit", "at least 2", config.phases);
   if (config.lanes < 2) return refuse("array.lanes", "the RTL needs a lane bit", "at least 2", config.lanes);
   if (config.opacity_segments < 2)
@@ -127,6 +134,7 @@ std::string sv_package(const Config& config) {
 
   p.section("narrowing sites: fraction bits dropped, 0 TRN 1 RND 2 RND_CONV, 1 where the word is One.f");
   for (std::size_t i = 0; i < kSiteCount; ++i) {
+    if (static_cast<Site>(i) == Site::AxisProduct) continue;  // of an index.kind that the RTL has not
     const Narrowing site = narrowing(config, static_cast<Site>(i));
     const std::string name = upper(kSiteFacts[i].name);
     p.number("SHIFT_" + name, site.from_frac() - site.to().frac_bits);

@@ -6,6 +6,7 @@
 
 #include "cmodel/records.hpp"
 #include "driver/compiled_state.hpp"
+#include "driver/index_tables.hpp"
 #include "driver/tables.hpp"
 #include "scene/capability.hpp"
 #include "scene/sheet_plan.hpp"
@@ -89,7 +90,8 @@ void CompiledFrame::State::make_preamble(const scene::Scene& scene) {
   cmodel::append(preamble, radial_table(config, scene.kernel));
   cmodel::append(preamble, factor_table(config));
   for (std::uint32_t set = 0; set < projected.sets.size(); ++set) {
-    cmodel::append(preamble, rlut_table(config, set, projected.sets.radius(set), projected.sets.base(set)));
+    cmodel::append(preamble,
+                   set_table(config, scene.kernel, set, projected.sets.radius(set), projected.sets.base(set)));
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "cmodel/index_set.hpp"
+
 namespace fastsplat::driver {
 namespace {
 
@@ -18,7 +20,7 @@ cmodel::Format whole_word(const cmodel::Config& config) { return cmodel::unsigne
 /// The snap still has bits to round half up: floor(x 2^pf) and the snap together round x once, half up. Rounded here as
 /// well, a splat would move by 2^-(pf+1) pixel on average.
 bool rounded_by_the_snap(const cmodel::Config& config) {
-  return config.phase_bits() < config.position_frac_bits &&
+  return config.grid_bits() < config.position_frac_bits &&
          config.rounding_snap == static_cast<int>(cmodel::Rounding::RND);
 }
 
@@ -39,9 +41,15 @@ Target target(Site site, const cmodel::Config& config) {
     case Site::Phi:
       return {Rounding::Nearest, Overflow::Impossible, cmodel::unit_format(config.slice_frac_bits)};
     case Site::Rho:
-      return {Rounding::Up, Overflow::Impossible, unsigned_word(config.phase_bits())};
+      return {Rounding::Up, Overflow::Impossible, unsigned_word(config.grid_bits())};
     case Site::Rlut:
       return {Rounding::Nearest, Overflow::Impossible, cmodel::Format{.min = 0, .max = config.rlut_rim()}};
+    case Site::Scale:  // up: no pixel beyond the rim is weighted
+      return {Rounding::Up, Overflow::Saturates, cmodel::Format{.min = 0, .max = cmodel::kLargestScale}};
+    case Site::Axis:
+      return {Rounding::Nearest, Overflow::Saturates, config.axis_weight_format()};
+    case Site::Footprint:
+      return {Rounding::Nearest, Overflow::Saturates, config.weight_format()};
     case Site::Radial:  // a word may be raised out of U wi.wf: it is saturated after that
       return {Rounding::Down, Overflow::Impossible, unsigned_word(config.radial_frac_bits)};
     case Site::RadialSum:

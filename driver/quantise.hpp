@@ -20,6 +20,9 @@ enum class Site {
   Phi,        ///< cumulative slice weight
   Rho,        ///< support radius, pixels
   Rlut,       ///< scaled squared distance, in words already
+  Scale,      ///< index.kind linear, squared, squared_elliptic: radial table steps per distance, in words already
+  Axis,       ///< separable: weight along one axis
+  Footprint,  ///< blit2d: weight of a pixel
   Radial,     ///< radial weight, before the largest remainders are raised
   RadialSum,  ///< of all radial weights, in words already
   Factor,     ///< slab factor

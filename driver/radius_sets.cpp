@@ -25,11 +25,12 @@ RadiusSets::RadiusSets(const cmodel::Config& config, double smallest, double lar
          .got = fmt::format("{:.2f} pixels", largest),
          .fix = "use a smaller --size or --zoom, or a configuration with more rlut.columns"});
   }
-  columns_ = cmodel::window_geometry(config, support_radius(largest, config)).padded;
-  const auto room = static_cast<std::uint32_t>(config.rlut_columns) / columns_;
+  const std::uint32_t widest_set = cmodel::window_geometry(config, support_radius(largest, config)).padded;
+  columns_ = config.has_columns() ? widest_set : 0;
+  const auto most = static_cast<std::uint32_t>(config.rlut_sets);
+  const std::uint32_t room = config.has_phases() ? static_cast<std::uint32_t>(config.rlut_columns) / widest_set : most;
   const bool one_radius = largest <= smallest * (1.0 + 1e-9);
-  const std::uint32_t count =
-      one_radius ? 1 : std::min<std::uint32_t>(room, static_cast<std::uint32_t>(config.rlut_sets));
+  const std::uint32_t count = one_radius ? 1 : std::min(room, most);
   if (one_radius) {
     radii_ = {largest};
   } else {

@@ -8,7 +8,7 @@
 
 namespace fastsplat::driver {
 
-/// rho = ceil(r k): the radius in pixels as the device takes it, 1/k pixel.
+/// rho = ceil(r K): the radius in pixels as the device takes it, 1/K pixel.
 std::uint32_t support_radius(double radius, const cmodel::Config& config);
 
 /// Radii in pixels, geometric between the smallest and the largest a frame needs; one for orthographic views.
@@ -19,14 +19,14 @@ class RadiusSets {
 
   std::uint32_t nearest(double radius) const;
   double radius(std::uint32_t set) const { return radii_[set]; }
-  std::uint32_t rho(std::uint32_t set) const { return rho_[set]; }  ///< support_radius()
-  std::uint32_t base(std::uint32_t set) const { return set * columns_; }
+  std::uint32_t rho(std::uint32_t set) const { return rho_[set]; }        ///< support_radius()
+  std::uint32_t base(std::uint32_t set) const { return set * columns_; }  ///< 0 where sets have no columns
   std::size_t size() const { return radii_.size(); }
 
  private:
   std::vector<double> radii_;
   std::vector<std::uint32_t> rho_;
-  std::uint32_t columns_ = 0;  ///< RLUT columns of the largest set; every set gets as many
+  std::uint32_t columns_ = 0;  ///< RLUT columns of the largest set, as many as every set gets; or none
   double smallest_ = 0.0, bins_per_log_ = 0.0;
 };
 

@@ -23,11 +23,12 @@ ShownWords::ShownWords(const cmodel::Config& config, const scene::Kernel& kernel
   const double unit =
       std::ldexp(1.0, config.colour_frac_bits + config.radial_frac_bits - config.sheet_frac_bits);  // of a product
   double all = 0.0;
-  for (const std::uint32_t weight : radial.words) all += weight;
+  for (std::size_t t = 0; t < radial.words.size(); ++t) all += radial.words[t] * radial_area(config, t);
   for (std::size_t word = 0; word < shown_.size(); ++word) {
     double sum = 0.0;
-    for (const std::uint32_t weight : radial.words)
-      sum += static_cast<double>(product(static_cast<std::int64_t>(word) * weight).word);
+    for (std::size_t t = 0; t < radial.words.size(); ++t)
+      sum +=
+          static_cast<double>(product(static_cast<std::int64_t>(word) * radial.words[t]).word) * radial_area(config, t);
     shown_[word] = all > 0.0 ? sum * unit / all : static_cast<double>(word);  // short weights may all be 0
   }
 }

@@ -11,6 +11,15 @@
 namespace fastsplat::driver {
 namespace {
 
+/// Numbers of the remainders, the largest first, the first of equal ones first.
+std::vector<std::size_t> by_remainder(const std::vector<double>& remainder) {
+  std::vector<std::size_t> order(remainder.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return remainder[a] > remainder[b]; });
+  return order;
+}
+
 /// Each value rounded down or up such that the words' sum is the rounded sum of the values; the largest remainders go
 /// up, the first of equal ones first.
 std::vector<std::uint32_t> quantise_preserving_sum(const std::vector<double>& values, const cmodel::Config& config) {
@@ -26,14 +35,35 @@ std::vector<std::uint32_t> quantise_preserving_sum(const std::vector<double>& va
     sum += scaled;
     floor_sum += words[i];
   }
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return remainder[a] > remainder[b]; });
+  const auto order = by_remainder(remainder);
   const auto raise = static_cast<std::size_t>(quantise(sum, total).word - floor_sum);
   for (std::size_t i = 0; i < raise && i < order.size(); ++i) ++words[order[i]];
   return words;
 }
+
+/// The same where word t stands for a ring of area 2t+1: the words' sum by area is that of the values to within half of
+/// the last ring.
+std::vector<std::uint32_t> quantise_preserving_area(const std::vector<double>& values, const cmodel::Config& config) {
+  const Target each = target(Site::Radial, config);
+  const auto area = [](std::size_t t) { return 2.0 * static_cast<double>(t) + 1.0; };
+  std::vector<std::uint32_t> words(values.size());
+  std::vector<double> remainder(values.size());
+  double missing = 0.0;
+  for (std::size_t t = 0; t < values.size(); ++t) {
+    words[t] = quantise_to<std::uint32_t>(values[t], each);
+    remainder[t] = std::ldexp(values[t], each.to.frac_bits) - words[t];
+    missing += remainder[t] * area(t);
+  }
+  for (const std::size_t t : by_remainder(remainder)) {
+    if (missing < area(t) / 2.0) continue;
+    ++words[t];
+    missing -= area(t);
+  }
+  return words;
+}
+
+/// The radial table's samples lie even in distance, not in its square.
+bool even_in_distance(const cmodel::Config& config) { return config.index() == cmodel::IndexKind::Linear; }
 
 }  // namespace
 
@@ -59,16 +89,19 @@ cmodel::LoadTable rlut_table(const cmodel::Config& config, std::uint32_t set, do
 std::vector<double> radial_samples(const cmodel::Config& config, const scene::Kernel& kernel) {
   std::vector<double> samples(static_cast<std::size_t>(config.radial_entries));
   for (std::size_t t = 0; t < samples.size(); ++t) {
-    const double u = (static_cast<double>(t) + 0.5) / static_cast<double>(samples.size());
+    const double middle = (static_cast<double>(t) + 0.5) / static_cast<double>(samples.size());
+    const double u = even_in_distance(config) ? middle * middle : middle;
     samples[t] = std::exp(-kernel.a() * kernel.radius() * kernel.radius() * u);
   }
   return samples;
 }
 
 cmodel::LoadTable radial_table(const cmodel::Config& config, const scene::Kernel& kernel) {
+  const std::vector<double> samples = radial_samples(config, kernel);
   cmodel::LoadTable table{.table = cmodel::Table::Radial,
                           .radius = {},
-                          .words = quantise_preserving_sum(radial_samples(config, kernel), config)};
+                          .words = even_in_distance(config) ? quantise_preserving_area(samples, config)
+                                                            : quantise_preserving_sum(samples, config)};
   const auto largest = static_cast<std::uint32_t>(config.weight_format().max);
   for (auto& word : table.words) word = std::min(word, largest);
   return table;
@@ -83,6 +116,10 @@ cmodel::LoadTable factor_table(const cmodel::Config& config) {
     table.words.push_back(quantise_to<std::uint32_t>(factor, words));
   }
   return table;
+}
+
+double radial_area(const cmodel::Config& config, std::size_t t) {
+  return even_in_distance(config) ? 2.0 * static_cast<double>(t) + 1.0 : 1.0;
 }
 
 std::vector<std::uint32_t> slice_table(const cmodel::Config& config, const scene::Kernel& kernel) {

@@ -24,11 +24,14 @@ inline std::uint32_t rlut_word(double distance, double rim_distance, const Targe
 /// RLUT of one radius set: `radius` in pixels, `base` its first column. Words in load_table order.
 cmodel::LoadTable rlut_table(const cmodel::Config& config, std::uint32_t set, double radius, std::uint32_t base);
 
-/// F in the middle of each of the N steps of the radial table.
+/// F in the middle of each of the N steps of the radial table: of squared distance, of index.kind linear of distance.
 std::vector<double> radial_samples(const cmodel::Config& config, const scene::Kernel& kernel);
 
-/// Radial table, U wi.wf, quantised with its sum preserved: the largest remainders are rounded up.
+/// Radial table, U wi.wf, quantised with its sum preserved: the largest remainders are rounded up. Of index.kind linear
+/// even in distance, its sum by area preserved.
 cmodel::LoadTable radial_table(const cmodel::Config& config, const scene::Kernel& kernel);
+/// The share of the footprint's area that entry t stands for, up to a factor that all have.
+double radial_area(const cmodel::Config& config, std::size_t t);
 
 /// (1-exp(-tau))/tau at the G+1 segment ends, One.of.
 cmodel::LoadTable factor_table(const cmodel::Config& config);

@@ -179,6 +179,10 @@ ExitCode run(const Arguments& arguments) {
                  .inputs = joined(arguments.stream.empty() ? inputs_of(arguments.scene) : std::vector{arguments.stream},
                                   inputs_of_config(arguments.config.config.value_or("")))});
   const auto config = load(arguments.config);
+  if (auto wrong = cmodel::cycle_violation(config)) {
+    wrong->where = "configuration " + config.name + ": " + wrong->where;
+    throw_usage(*wrong);
+  }
   const auto [input, ready] =
       testbench::patterns_of(arguments.input, arguments.ready, static_cast<std::uint64_t>(arguments.seed));
   CycleTrace trace;

@@ -21,6 +21,7 @@ const std::vector<Verb>& all_verbs() {
       verbs::config_show,
       verbs::config_check,
       verbs::config_diff,
+      verbs::family,
       verbs::verify,
       verbs::doctor,
   };

@@ -6,6 +6,6 @@
 namespace fastsplat::cli::verbs {
 
 extern const Verb compare, config_check, config_diff, config_list, config_show, cycles, doctor, errors, errors_bound,
-    render, stream_dump, stream_record, stream_replay, verify, volume_convert, volume_info;
+    family, render, stream_dump, stream_record, stream_replay, verify, volume_convert, volume_info;
 
 }  // namespace fastsplat::cli::verbs

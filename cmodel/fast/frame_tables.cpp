@@ -4,11 +4,14 @@
 
 #include "cmodel/fast/row_kernel.hpp"
 #include "cmodel/stream_decode.hpp"
+#include "cmodel/window_geometry.hpp"
 
 namespace fastsplat::cmodel::fast {
 namespace {
 
 constexpr std::size_t kMemoBytes = std::size_t{1} << 28;
+/// Of kinds of index other than rlut, whose footprints take longer to fill in than to draw a few splats with.
+constexpr std::size_t kOtherMemoBytes = std::size_t{1} << 25;
 constexpr int kWidest = 128;      ///< pixels of a footprint
 constexpr int kVectorPixels = 8;  ///< what the widest vector writes
 
@@ -27,8 +30,7 @@ bool opacity_holds(const Config& config, std::span<const std::uint32_t> factor) 
 std::optional<FrameTables> frame_tables(const Config& config, std::span<const Beat> preamble) {
   const auto plan = fast_plan(config);
   if (!plan || !has_vectors()) return {};
-  Rlut rlut(config);
-  RadialTable radial(config);
+  WeightUnit unit = weight_unit(config);
   SlabOpacity opacity(config);
   std::uint32_t sets = 0;
   std::size_t bytes = 0;
@@ -40,13 +42,15 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
     if (table == nullptr) continue;
     switch (table->table) {
       case Table::Rlut:
-        rlut.load(*table);
+        std::visit([&](auto& kind) { kind.load(*table); }, unit);
         sets = std::max(sets, table->radius.set + 1);
         bytes += WeightMemo::bytes(config, table->radius.rho);
-        if (static_cast<int>(rlut.extent(table->radius.set)) > kWidest || bytes > kMemoBytes) return {};
+        if (static_cast<int>(window_geometry(config, table->radius.rho).padded) > kWidest ||
+            bytes > (config.index() == IndexKind::Rlut ? kMemoBytes : kOtherMemoBytes))
+          return {};
         break;
       case Table::Radial:
-        radial.load(table->words);
+        std::visit([&](auto& kind) { kind.load_radial(table->words); }, unit);
         break;
       case Table::Factor:
         opacity.load(table->words);
@@ -56,7 +60,7 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
   }
   FrameTables out{.config = config,
                   .jobs = {.plan = *plan, .shapes = {}},
-                  .memo = WeightMemo(config, rlut, radial, sets, plan->weight_shift),
+                  .memo = WeightMemo(config, unit, sets, plan->weight_shift),
                   .opacity = opacity,
                   .opacity_holds = holds};
   for (std::uint32_t set = 0; set < sets; ++set) {

@@ -17,24 +17,62 @@ std::uint32_t word(const Rlut& rlut, std::uint32_t set, std::uint32_t phase, int
 
 }  // namespace
 
-WeightMemo::WeightMemo(const Config& config, const Rlut& rlut, const RadialTable& radial, std::uint32_t sets,
-                       int weight_shift)
-    : phases_(config.phases),
-      phase_bits_(config.phase_bits()),
+WeightMemo::WeightMemo(const Config& config, WeightUnit& unit, std::uint32_t sets, int weight_shift)
+    : phases_(config.grid()),
+      phase_bits_(config.grid_bits()),
       lanes_(config.lanes),
       shapes_(sets),
       weighted_((static_cast<std::size_t>(sets) << (2 * phase_bits_)), 0) {
-  for (std::uint32_t set = 0; set < sets; ++set) fill(config, rlut, radial, set, weight_shift);
+  for (std::uint32_t set = 0; set < sets; ++set)
+    std::visit([&](auto& kind) { fill(config, kind, set, weight_shift); }, unit);
 }
 
 std::size_t WeightMemo::bytes(const Config& config, std::uint32_t rho) {
   const std::size_t padded = window_geometry(config, rho).padded;
-  return static_cast<std::size_t>(config.phases) * static_cast<std::size_t>(config.phases) * padded *
+  return static_cast<std::size_t>(config.grid()) * static_cast<std::size_t>(config.grid()) * padded *
          ((padded + 7) / 8 * 8) * sizeof(std::uint16_t);
 }
 
-void WeightMemo::fill(const Config& config, const Rlut& rlut, const RadialTable& radial, std::uint32_t set,
-                      int weight_shift) {
+/// Any unit: window by window, and no column is left out.
+template <class Unit>
+void WeightMemo::fill(const Config& config, Unit& unit, std::uint32_t set, int weight_shift) {
+  Shape& shape = shapes_[set];
+  shape.rho = unit.rho(set);
+  const auto side = unit.extent(set), lanes = static_cast<std::uint32_t>(config.lanes);
+  shape.padded = shape.extent = static_cast<int>(side);
+  shape.windows = (side / lanes) * (side / lanes);
+  shape.pitch = rounded_up(std::max(shape.extent, 1), 8);
+  shape.first = words_.size();
+  const auto phases = static_cast<std::uint32_t>(phases_);
+  const std::size_t pitch = static_cast<std::size_t>(shape.pitch), footprint = side * pitch;
+  words_.resize(shape.first + static_cast<std::size_t>(phases) * phases * footprint, 0);
+  std::vector<std::uint32_t> weights(static_cast<std::size_t>(lanes) * lanes);
+  Nothing nobody;
+  for (std::uint32_t my = 0; my < phases; ++my) {
+    for (std::uint32_t mx = 0; mx < phases; ++mx) {
+      std::uint16_t* out = words_.data() + shape.first + number(mx, my) * footprint;
+      std::uint32_t weighted = 0;
+      unit.place(set, {.origin = 0, .phase = mx}, {.origin = 0, .phase = my});
+      for (std::uint32_t row = 0; row < side; row += lanes) {
+        for (std::uint32_t column = 0; column < side; column += lanes) {
+          unit.window(column, row, weights, nobody);
+          for (std::size_t lane = 0; lane < weights.size(); ++lane) {
+            weighted += weights[lane] != 0 ? 1 : 0;
+            shape.heaviest = std::max(shape.heaviest, weights[lane]);
+            out[(row + lane / lanes) * pitch + column + lane % lanes] =
+                static_cast<std::uint16_t>(weights[lane] << weight_shift);
+          }
+        }
+      }
+      weighted_[(static_cast<std::size_t>(set) << (2 * phase_bits_)) + number(mx, my)] =
+          static_cast<std::uint16_t>(weighted);
+    }
+  }
+}
+
+void WeightMemo::fill(const Config& config, RlutUnit& unit, std::uint32_t set, int weight_shift) {
+  const Rlut& rlut = unit.rlut();
+  const RadialTable& radial = unit.radial();
   Shape& shape = shapes_[set];
   shape.rho = rlut.rho(set);
   shape.padded = static_cast<int>(rlut.extent(set));

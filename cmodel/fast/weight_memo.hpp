@@ -1,5 +1,5 @@
-// The weights of every footprint a device's tables can give, by radius set and phases: what RLUT, adder and radial
-// table say of a whole splat, looked up once per frame instead of once per pixel.
+// The weights of every footprint a device's tables can give, by radius set and phases: what the unit of
+// the configuration's index.kind says of a whole splat, asked once per frame instead of once per pixel.
 #pragma once
 
 #include <cstddef>
@@ -7,14 +7,13 @@
 #include <vector>
 
 #include "cmodel/config.hpp"
-#include "cmodel/footprint.hpp"
-#include "cmodel/rlut.hpp"
+#include "cmodel/weight_unit.hpp"
 
 namespace fastsplat::cmodel::fast {
 
 /// Footprints of one radius set.
 struct Shape {
-  std::uint32_t rho = 0;       ///< support radius, 1/k pixel
+  std::uint32_t rho = 0;       ///< support radius, 1/K pixel
   int padded = 0;              ///< Ea, pixels: what the windows cover
   int extent = 0;              ///< pixels from the origin that any phase weights; <= Ea
   int pitch = 0;               ///< words from row to row, a multiple of 8
@@ -26,7 +25,7 @@ struct Shape {
 class WeightMemo {
  public:
   /// Weights are kept shifted left by `weight_shift`, as words of 16 bits.
-  WeightMemo(const Config& config, const Rlut& rlut, const RadialTable& radial, std::uint32_t sets, int weight_shift);
+  WeightMemo(const Config& config, WeightUnit& unit, std::uint32_t sets, int weight_shift);
 
   /// Bytes the footprints of one set take.
   static std::size_t bytes(const Config& config, std::uint32_t rho);
@@ -46,7 +45,9 @@ class WeightMemo {
   }
 
  private:
-  void fill(const Config& config, const Rlut& rlut, const RadialTable& radial, std::uint32_t set, int weight_shift);
+  void fill(const Config& config, RlutUnit& unit, std::uint32_t set, int weight_shift);
+  template <class Unit>
+  void fill(const Config& config, Unit& unit, std::uint32_t set, int weight_shift);
 
   int phases_, phase_bits_, lanes_;
   std::vector<Shape> shapes_;

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
+#include "cmodel/sv_package.hpp"
 #include "testbench/device/rtl_registry.hpp"
 
 namespace fastsplat::testbench {
@@ -13,6 +14,11 @@ const RtlEntry& entry_of(const cmodel::Config& config, const std::string& otherw
   for (const auto& entry : rtl_registry()) {
     if (entry.hash == hash) return entry;
     known += (known.empty() ? "" : ", ") + std::string(entry.config) + " (" + hash_text(entry.hash) + ")";
+  }
+  if (auto never = cmodel::rtl_violation(config)) {
+    never->where = "configuration " + config.name + ": " + never->where;
+    if (!otherwise.empty()) never->fix = otherwise;
+    throw_usage(*never);
   }
   throw_usage({.where = "configuration " + config.name,
                .what = "has no RTL in this build",

@@ -35,7 +35,8 @@ const Arrows kDrawn{
     {"testbench/closure", {"testbench/stimulus"}},
     {"analysis", {"images", "scene", "base/parallel"}},
     {"analysis/errors", {"analysis", "stages"}},
-    {"cli", {"golden", "driver", "testbench/triage", "testbench/closure", "analysis/errors"}},
+    {"analysis/family", {"driver"}},
+    {"cli", {"golden", "driver", "testbench/triage", "testbench/closure", "analysis/errors", "analysis/family"}},
 };
 
 /// `drawn` with everything that is reached by going on; a room on a circle reaches itself.

@@ -27,8 +27,13 @@ Said said(const std::vector<std::string>& words) {
   all.push_back(nullptr);
   const auto action = parse(static_cast<int>(all.size()) - 1, all.data());
   ::testing::internal::CaptureStdout();
-  const auto code = action();
-  return {code, ::testing::internal::GetCapturedStdout()};
+  try {
+    const auto code = action();
+    return {code, ::testing::internal::GetCapturedStdout()};
+  } catch (...) {
+    ::testing::internal::GetCapturedStdout();
+    throw;
+  }
 }
 
 TEST(ConfigDiff, EqualIsAPass) {
@@ -92,12 +97,72 @@ TEST(Set, IsWhereverAConfigurationIsNamed) {
     for (std::string word; names >> word;) words.push_back(word);
     const auto help = said(words).out;
     const std::string name = verb.name;
-    const bool named = help.find("--config NAME") != std::string::npos || name == "config show" || name == "config check";
+    const bool named =
+        help.find("--config NAME") != std::string::npos || name == "config show" || name == "config check";
     EXPECT_EQ(help.find("--set KEY=VALUE") != std::string::npos, named) << name;
     verbs += named ? 1 : 0;
   }
   std::printf("[figure] verbs with --set = %d (limit >= 7)\n", verbs);
   EXPECT_GE(verbs, 7);
+}
+
+TEST(Index, IsShortForSetWhereverThatIs) {
+  int verbs = 0;
+  for (const Verb& verb : all_verbs()) {
+    std::vector<std::string> words{"help"};
+    std::istringstream names(verb.name);
+    for (std::string word; names >> word;) words.push_back(word);
+    const auto help = said(words).out;
+    const bool set = help.find("--set KEY=VALUE") != std::string::npos;
+    EXPECT_EQ(help.find("--index KIND") != std::string::npos, set) << verb.name;
+    verbs += set ? 1 : 0;
+  }
+  std::printf("[figure] verbs with --index = %d (limit >= 7)\n", verbs);
+  EXPECT_GE(verbs, 7);
+  const auto config = [](const std::string& text) {
+    const cli_test::TempFolder folder;
+    return driver::load_config(folder.write("changed.toml", text));
+  };
+  const auto index = said({"config", "show", "tiny", "--index", "linear"});
+  const auto set = said({"config", "show", "tiny", "--set", "index.kind=linear"});
+  EXPECT_EQ(index.code, ExitCode::Pass);
+  EXPECT_EQ(config(index.out), config(set.out));
+  EXPECT_EQ(config(index.out).name, "tiny+index.kind=linear");
+}
+
+TEST(Index, IsRefusedInOneLineWhereItCannotBe) {
+  struct Case {
+    std::vector<std::string> words, said;
+  };
+  const std::vector<std::string> view{"--volume", "shells:8", "--size", "16"};
+  const auto with = [&](std::vector<std::string> words) {
+    words.insert(words.end(), view.begin(), view.end());
+    return words;
+  };
+  int refused = 0;
+  for (const auto& [words, parts] :
+       {Case{{"config", "show", "tiny", "--index", "rlutt"}, {"index.kind=rlutt", "squared_elliptic"}},
+        Case{{"config", "show", "base", "--index", "blit2d"}, {"snap.phases", "16777216", "67108864"}},
+        Case{{"config", "show", "tiny", "--set", "index.symmetry=eightfold"}, {"blit2d", "got rlut"}},
+        Case{{"config", "show", "tiny", "--index", "linear", "--set", "index.kind=squared"}, {"set twice"}},
+        Case{with({"cycles", "--index", "squared"}), {"index.kind", "rlut, blit2d or separable", "got squared"}},
+        Case{with({"render", "--engine", "rtl", "--index", "separable", "-o", "a.exr"}),
+             {"index.kind", "got separable", "--engine cmodel"}},
+        Case{{"verify", "--random", "1", "--index", "blit2d", "--set", "snap.phases=4"},
+             {"index.kind", "got blit2d"}}}) {
+    std::string line;
+    try {
+      said(words);
+    } catch (const UserError& error) {
+      line = error.what();
+    }
+    EXPECT_FALSE(line.empty()) << words.front() << " is taken";
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    for (const std::string& part : parts)
+      EXPECT_NE(line.find(part), std::string::npos) << part << " is not in: " << line;
+    ++refused;
+  }
+  std::printf("[figure] refusals read = %d\n", refused);
 }
 
 TEST(Set, NamesTheConfigurationOfAPicture) {

@@ -88,6 +88,27 @@ const Between kBetween[] = {
        c.opacity_segments = 128;
      }},
     {"composite.freeze_below", "65536", "65537", [](cmodel::Config& c) { c.freeze_below = 65537; }},
+    {"index.symmetry", "blit2d", "rlut",
+     [](cmodel::Config& c) { c.index_symmetry = static_cast<int>(cmodel::IndexSymmetry::Eightfold); }},
+    {"snap.phases", "16777216", "67108864",
+     [](cmodel::Config& c) { c.index_kind = static_cast<int>(cmodel::IndexKind::Blit2d); }},
+    {"rlut.guard_bits", "31", "32",
+     [](cmodel::Config& c) {
+       c.index_kind = static_cast<int>(cmodel::IndexKind::Linear);
+       c.position_frac_bits = 12;
+       c.rlut_columns = 512;
+       c.rlut_guard_bits = 11;
+     }},
+    {"position.frac_bits", "17", "18",
+     [](cmodel::Config& c) {
+       c.index_kind = static_cast<int>(cmodel::IndexKind::Squared);
+       c.position_frac_bits = 11;
+     }},
+    {"position.frac_bits", "17", "18",
+     [](cmodel::Config& c) {
+       c.index_kind = static_cast<int>(cmodel::IndexKind::SquaredElliptic);
+       c.position_frac_bits = 11;
+     }},
 };
 
 TEST(ConfigLimits, EveryLimitBetweenKeys) {
@@ -110,6 +131,16 @@ TEST(ConfigLimits, EdgesAreTaken) {
   EXPECT_FALSE(cmodel::first_violation(config));
   config.position_int_bits = 9;  // 256 = 128 + 128
   EXPECT_FALSE(cmodel::first_violation(config));
+  config.index_kind = static_cast<int>(cmodel::IndexKind::Blit2d);
+  config.phases = 32;  // 4096^2 = 2^24 words
+  EXPECT_FALSE(cmodel::first_violation(config));
+  config.index_kind = static_cast<int>(cmodel::IndexKind::Squared);
+  config.position_frac_bits = 10;
+  EXPECT_FALSE(cmodel::first_violation(config));
+  config.index_kind = static_cast<int>(cmodel::IndexKind::Linear);
+  config.position_frac_bits = 12;
+  config.rlut_guard_bits = 12;
+  EXPECT_FALSE(cmodel::first_violation(config));
 }
 
 TEST(ConfigSet, EveryKeyTakesItsTextAndGivesItBack) {
@@ -129,7 +160,7 @@ TEST(ConfigSet, EveryKeyTakesItsTextAndGivesItBack) {
     }
   }
   std::printf("[figure] texts set and read back = %d\n", compared);
-  EXPECT_EQ(compared, 23 * 2 + 7 * 3);
+  EXPECT_EQ(compared, 23 * 2 + 7 * 3 + 6 + 2);
 }
 
 TEST(ConfigSet, WhatIsWrongIsToldAndNothingChanges) {
@@ -170,8 +201,8 @@ TEST(ConfigHash, ANeutralKeyDoesNotEnterItAndAnyOtherValueDoes) {
     }
   }
   std::printf("[figure] neutral keys = %d, hashes = %zu\n", neutral, hashes.size());
-  EXPECT_EQ(neutral, 7);
-  EXPECT_EQ(hashes.size(), 15U);
+  EXPECT_EQ(neutral, 9);
+  EXPECT_EQ(hashes.size(), 21U);
 }
 
 }  // namespace

@@ -45,6 +45,9 @@ cmodel::Config named_config(const std::string& name) {
   }
   if (read.contains("rounding.carry"))
     symbols.carry = read.at("rounding.carry").substr(1, read.at("rounding.carry").size() - 2);
+  for (const auto& [key, member] :
+       {std::pair{"index.kind", &oracle::Symbols::index}, {"index.symmetry", &oracle::Symbols::symmetry}})
+    if (read.contains(key)) symbols.*member = read.at(key).substr(1, read.at(key).size() - 2);
   return config_of(symbols, name);
 }
 
@@ -66,6 +69,8 @@ oracle::Symbols symbols_of(const cmodel::Config& config) {
       if (cmodel::text_of(config, *cmodel::find_key(ours.name)) == oracle::word_of(rounding))
         symbols.*ours.member = rounding;
   symbols.carry = cmodel::text_of(config, *cmodel::find_key("rounding.carry"));
+  symbols.index = cmodel::text_of(config, *cmodel::find_key("index.kind"));
+  symbols.symmetry = cmodel::text_of(config, *cmodel::find_key("index.symmetry"));
   return symbols;
 }
 
@@ -78,16 +83,19 @@ cmodel::Config config_of(const oracle::Symbols& symbols, const std::string& name
   for (const oracle::RoundingKey& ours : oracle::rounding_keys())
     if (const auto wrong = cmodel::set(config, ours.name, oracle::word_of(symbols.*ours.member)))
       throw std::runtime_error(one_line(*wrong));
-  if (const auto wrong = cmodel::set(config, "rounding.carry", symbols.carry))
-    throw std::runtime_error(one_line(*wrong));
+  for (const auto& [key, word] : {std::pair{"rounding.carry", symbols.carry},
+                                  {"index.kind", symbols.index},
+                                  {"index.symmetry", symbols.symmetry}})
+    if (const auto wrong = cmodel::set(config, key, word)) throw std::runtime_error(one_line(*wrong));
   return config;
 }
 
-cmodel::Config random_config(Random& random) {
+cmodel::Config random_config(Random& random, cmodel::IndexKind kind) {
   while (true) {
     cmodel::Config config;
     config.name = "random";
     for (const cmodel::ConfigKey& key : cmodel::config_keys()) {
+      if (std::string(key.name).starts_with("index.")) continue;
       const bool at_an_end = random.once_in(3);
       std::int64_t value = at_an_end ? random.one_of({key.min, key.max}) : random.between(key.min, key.max);
       if (key.power_of_two) {
@@ -103,6 +111,12 @@ cmodel::Config random_config(Random& random) {
     config.rlut_columns = config.lanes * static_cast<int>(random.between(1, 64 / config.lanes));
     config.phases = std::min(config.phases, 1 << config.position_frac_bits);
     if (config.phases > 256) config.phases = 256;
+    config.index_kind = static_cast<int>(kind);
+    if (kind == cmodel::IndexKind::Blit2d) {
+      config.index_symmetry = static_cast<int>(random.between(0, 1));
+      config.phases = std::min(config.phases, 16);  // streams of less than a million words
+      config.rlut_columns = std::min(config.rlut_columns, 32 / config.lanes * config.lanes);
+    }
     if (!cmodel::first_violation(config)) return config;
   }
 }

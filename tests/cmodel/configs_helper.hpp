@@ -23,7 +23,7 @@ oracle::Symbols symbols_of(const cmodel::Config& config);
 cmodel::Config config_of(const oracle::Symbols& symbols, const std::string& name);
 
 /// Legal, small enough to render quickly (tiles up to 40 pixels, up to 64 columns), otherwise anything; one key in
-/// three sits at an end of its range.
-cmodel::Config random_config(Random& random);
+/// three sits at an end of its range. Of another index.kind only if asked for, blit2d with or without symmetry.
+cmodel::Config random_config(Random& random, cmodel::IndexKind kind = cmodel::IndexKind::Rlut);
 
 }  // namespace fastsplat::test

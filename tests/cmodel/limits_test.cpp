@@ -57,6 +57,7 @@ TEST(Limits, WidestAndNarrowestDevice) {
   for (const cmodel::ConfigKey& key : cmodel::config_keys()) {
     widest.*key.member = key.max;
     narrowest.*key.member = key.min;
+    if (std::string(key.name).starts_with("index.")) widest.*key.member = narrowest.*key.member = *key.neutral;
   }
   widest.name = "widest";
   widest.tile_width = widest.tile_height = 64;  // the keys' 4096 would only cost time

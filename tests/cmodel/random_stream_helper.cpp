@@ -66,21 +66,13 @@ class Generator {
     const std::int64_t most_windows = c.columns / c.P;
     const std::int64_t windows = std::min(most_windows, r.once_in(4) ? r.between(1, 4) : r.between(1, 2));
     // E = ceil(2 rho / k) in (windows-1) P + 1 .. windows P; the widest and the narrowest rho of it are boundary cases.
-    const std::int64_t widest = windows * c.P * c.k / 2, narrowest = (windows - 1) * c.P * c.k / 2 + 1;
+    const std::int64_t widest = windows * c.P * c.K() / 2, narrowest = (windows - 1) * c.P * c.K() / 2 + 1;
     if (widest < narrowest) return;
     const std::int64_t rho = r.once_in(2) ? r.between(narrowest, widest) : r.one_of({narrowest, widest});
-    const std::int64_t base = r.between(0, most_windows - windows) * c.P, Ea = windows * c.P;
+    const bool columns = c.index == "rlut" || c.index == "separable";
+    const std::int64_t base = columns ? r.between(0, most_windows - windows) * c.P : 0, Ea = windows * c.P;
     const auto set = static_cast<std::uint32_t>(r.between(0, c.sets - 1));
-    const std::int64_t rim = std::int64_t{c.N} << c.g;
-    std::vector<std::uint32_t> words;
-    const std::int64_t style = r.between(0, 2);
-    for (std::int64_t i = 0; i < c.k * Ea; ++i) {
-      if (style == 0) words.push_back(word(rim));
-      if (style == 1) words.push_back(static_cast<std::uint32_t>(r.between(0, rim / 2)));  // sums mostly inside
-      if (style == 2)
-        words.push_back(static_cast<std::uint32_t>(std::max<std::int64_t>(0, rim / 2 - r.between(-2, 2))));
-      words.back() = std::min(words.back(), static_cast<std::uint32_t>(rim));
-    }
+    const std::vector<std::uint32_t> words = c.index == "rlut" ? rlut_words(c.k * Ea) : set_words(rho, Ea);
     w.load_table(0, set, static_cast<std::uint32_t>(rho), static_cast<std::uint32_t>(base), words);
     const auto known = std::find(numbers.begin(), numbers.end(), set);
     if (known == numbers.end()) {
@@ -89,6 +81,61 @@ class Generator {
     } else {
       sets[static_cast<std::size_t>(known - numbers.begin())] = {rho, Ea};
     }
+  }
+
+  /// Of the other kinds of index. Rims mostly lie within the footprint or just outside.
+  std::vector<std::uint32_t> set_words(std::int64_t rho, std::int64_t Ea) {
+    const std::int64_t most = std::int64_t{1} << 24, weight = (std::int64_t{1} << (c.wi + c.wf)) - 1;
+    std::vector<std::uint32_t> words;
+    if (c.index == "blit2d") {
+      const std::int64_t n = c.symmetry == "off" ? c.k : c.k == 1 ? 1 : c.k / 2 + 1;
+      const std::int64_t pairs = c.symmetry == "off" ? n * n : n * (n + 1) / 2;
+      for (std::int64_t i = 0; i < pairs * Ea * Ea; ++i) words.push_back(word(weight));
+      return words;
+    }
+    if (c.index == "separable") {
+      const std::int64_t largest = std::min(weight, std::int64_t{1} << c.wf) << c.g;
+      for (std::int64_t i = 0; i < c.k * Ea; ++i) words.push_back(word(largest));
+      return words;
+    }
+    // The scale that puts the rim at rho, with 24 bits; then up to four times wider or narrower.
+    std::int64_t h = 0;
+    oracle::Wide scale = 0;
+    const oracle::Wide rim = c.index == "linear" ? oracle::Wide{rho} << c.g : oracle::Wide{rho} * rho;
+    do scale = (oracle::Wide{c.N} << h) / rim;
+    while (scale < most / 2 && h++ < 62);
+    h = std::clamp<std::int64_t>(h + r.between(-2, 2), 0, 62);
+    const auto c0 = static_cast<std::int64_t>(std::min<oracle::Wide>(scale, most));
+    const auto near = [&] {
+      return r.once_in(6) ? std::int64_t{word(most)} : std::clamp<std::int64_t>(c0 + r.between(-2, 2), 0, most);
+    };
+    words.push_back(static_cast<std::uint32_t>(near()));
+    if (c.index == "squared_elliptic") {
+      const std::int64_t A = words[0], C = r.once_in(3) ? A : near() / r.between(1, 16);
+      std::int64_t B = 0;  // the thinnest ellipse
+      for (std::int64_t bit = std::int64_t{1} << 25; bit > 0; bit /= 2)
+        if ((B + bit) * (B + bit) <= 4 * A * C) B += bit;
+      if (!r.once_in(4)) B = r.between(0, B);
+      if (r.once_in(2)) B = -B;
+      words.push_back(static_cast<std::uint32_t>(static_cast<std::int32_t>(B)));
+      words.push_back(static_cast<std::uint32_t>(C));
+    }
+    words.push_back(static_cast<std::uint32_t>(h));
+    return words;
+  }
+
+  std::vector<std::uint32_t> rlut_words(std::int64_t count) {
+    const std::int64_t rim = std::int64_t{c.N} << c.g;
+    std::vector<std::uint32_t> words;
+    const std::int64_t style = r.between(0, 2);
+    for (std::int64_t i = 0; i < count; ++i) {
+      if (style == 0) words.push_back(word(rim));
+      if (style == 1) words.push_back(static_cast<std::uint32_t>(r.between(0, rim / 2)));  // sums mostly inside
+      if (style == 2)
+        words.push_back(static_cast<std::uint32_t>(std::max<std::int64_t>(0, rim / 2 - r.between(-2, 2))));
+      words.back() = std::min(words.back(), static_cast<std::uint32_t>(rim));
+    }
+    return words;
   }
 
   void table(int id, std::int64_t count, std::int64_t largest) {
@@ -161,8 +208,8 @@ class Generator {
         p = (side + r.between(-reach, reach)) * one + r.between(-2, 2);
         break;
       case 4: {  // ties between two grid positions
-        const std::int64_t step = std::max<std::int64_t>(one / c.k, 1);
-        p = r.between(-reach, side + reach) * one + r.between(0, c.k - 1) * step + step / 2 - r.between(0, 1);
+        const std::int64_t step = std::max<std::int64_t>(one / c.K(), 1);
+        p = r.between(-reach, side + reach) * one + r.between(0, c.K() - 1) * step + step / 2 - r.between(0, 1);
         break;
       }
       default:

@@ -40,8 +40,14 @@ TEST_F(ConfigFile, keys_off_their_neutral_value_are_read_back) {
     for (int value = key.min; value <= key.max; ++value) {
       auto config = load_config("base");
       config.*key.member = value;
+      if (cmodel::first_violation(config)) {  // footprints that base has too many of
+        config.index_kind = static_cast<int>(cmodel::IndexKind::Blit2d);
+        config.phases = 32;
+      }
       EXPECT_EQ(read_back(config), config) << key.name << " = " << value;
-      EXPECT_EQ(cmodel::config_hash(config) == cmodel::config_hash(load_config("base")), value == *key.neutral);
+      auto neutral = config;
+      neutral.*key.member = *key.neutral;
+      EXPECT_EQ(cmodel::config_hash(config) == cmodel::config_hash(neutral), value == *key.neutral);
       ++read;
     }
   }

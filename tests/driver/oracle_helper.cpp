@@ -260,6 +260,30 @@ void compare_random_frames(test::Random& random, int rounds, int random_configs,
   }
 }
 
+void compare_random_frames_of(cmodel::IndexKind kind, test::Random& random, int rounds, int random_configs,
+                              OracleFigures& figures) {
+  constexpr scene::Projection kProjections[] = {scene::Projection::Orthographic, scene::Projection::Perspective};
+  int number = 0;
+  const auto compare = [&](cmodel::Config config, const OracleMethod& method, scene::Projection projection) {
+    config.index_kind = static_cast<int>(kind);
+    if (kind == cmodel::IndexKind::Blit2d) {
+      config.phases = std::min(config.phases, 8);
+      config.rlut_columns = std::min(config.rlut_columns, 32);
+      config.index_symmetry = number % 2;
+    }
+    ASSERT_FALSE(cmodel::first_violation(config)) << one_line(*cmodel::first_violation(config));
+    compare_with_oracle(config.name + ", " + method.name + ", number " + std::to_string(number++),
+                        random_scene(random, config, method, projection), config, figures);
+  };
+  for (int round = 0; round < rounds; ++round)
+    for (const auto& name : config_names())
+      for (const OracleMethod& method : kMethods)
+        for (const auto projection : kProjections) compare(load_config(name), method, projection);
+  for (int i = 0; i < random_configs; ++i)
+    compare(test::random_config(random, kind), kMethods[static_cast<std::size_t>(i) % std::size(kMethods)],
+            kProjections[i % 2]);
+}
+
 void print_and_expect_equal(const OracleFigures& figures) {
   const auto print = [](const char* name, std::uint64_t value, const char* limit) {
     std::printf("[figure] %s = %llu%s\n", name, static_cast<unsigned long long>(value), limit);

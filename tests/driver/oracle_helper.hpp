@@ -27,6 +27,9 @@ void compare_with_oracle(const std::string& name, const scene::Scene& scene, con
                          OracleFigures& figures);
 /// `rounds` over all configurations, methods and both projections, then random configurations.
 void compare_random_frames(test::Random& random, int rounds, int random_configs, OracleFigures& figures);
+/// The same with another index.kind, blit2d with and without symmetry; its configurations have few phases and columns.
+void compare_random_frames_of(cmodel::IndexKind kind, test::Random& random, int rounds, int random_configs,
+                              OracleFigures& figures);
 /// One figure per line; expects no mismatch.
 void print_and_expect_equal(const OracleFigures& figures);
 /// Expects that every case of the page was met but the rims of the first and last slab, which need scenes of their own.

@@ -1,7 +1,8 @@
 #include "tests/cmodel/oracle/oracle.hpp"
 
 #include <array>
-#include <set>
+#include <stdexcept>
+#include <utility>
 
 #include "tests/cmodel/oracle/number.hpp"
 #include "tests/cmodel/oracle/stream.hpp"
@@ -19,6 +20,7 @@ struct Pixel {
 
 struct RadiusSet {
   std::int64_t rho = 0, base = 0, Ea = 0;
+  std::vector<std::uint32_t> words;  // of the kinds that have no columns
 };
 
 class Renderer {
@@ -46,7 +48,8 @@ class Renderer {
     if (load.table == 1) radial = load.words;
     if (load.table == 2) factor = load.words;
     if (load.table != 0) return;
-    sets[load.set] = {load.rho, load.base, load.Ea};
+    sets[load.set] = {load.rho, load.base, load.Ea, load.words};
+    if (c.index != "rlut" && c.index != "separable") return;
     // One memory of k x columns words for all sets: what was loaded last is what a column holds.
     rlut.resize(static_cast<std::size_t>(c.k) * static_cast<std::size_t>(c.columns));
     for (std::int64_t m = 0; m < c.k; ++m)
@@ -75,12 +78,12 @@ class Renderer {
 
   void take(const Splat& splat) {
     ++out.counts["splats"];
-    const RadiusSet set = sets.at(splat.set);
-    const Words grid = s(c.pi, log2_of(c.k));
+    const RadiusSet& set = sets.at(splat.set);
+    const Words grid = s(c.pi, log2_of(c.K()));
     const Wide xs = sat(c.Rs, splat.x, c.pf, grid, "snap_saturated");
     const Wide ys = sat(c.Rs, splat.y, c.pf, grid, "snap_saturated");
-    const Wide x0 = floor_divide(xs - set.rho, c.k) + 1, y0 = floor_divide(ys - set.rho, c.k) + 1;
-    const Wide mx = remainder(xs - set.rho, c.k), my = remainder(ys - set.rho, c.k);
+    const Wide x0 = floor_divide(xs - set.rho, c.K()) + 1, y0 = floor_divide(ys - set.rho, c.K()) + 1;
+    const Wide mx = remainder(xs - set.rho, c.K()), my = remainder(ys - set.rho, c.K());
     emit(Kind::Snap, splat.tag, x0, y0, {word(x0), word(y0), word(mx), word(my)});
     for (std::int64_t j = 0; j < set.Ea; j += c.P)
       for (std::int64_t i = 0; i < set.Ea; i += c.P) window(splat, set, x0, y0, mx, my, i, j);
@@ -92,9 +95,7 @@ class Renderer {
     std::vector<std::uint32_t> weights, sums;
     for (std::int64_t j = j0; j < j0 + c.P; ++j)
       for (std::int64_t i = i0; i < i0 + c.P; ++i) {
-        const Wide q = column(set, mx, i) + column(set, my, j);
-        const Wide t = floor_divide(q, power_of_two(c.g));
-        const Wide w = t < c.N ? Wide{radial[static_cast<std::size_t>(t)]} : 0;
+        const Wide w = weight(set, mx, my, i, j);
         weights.push_back(word(w));
         if (!inside(x0 + i, y0 + j)) {
           sums.insert(sums.end(), 4, 0);
@@ -113,6 +114,63 @@ class Renderer {
       }
     emit(Kind::Footprint, splat.tag, x0 + i0, y0 + j0, std::move(weights));
     emit(Kind::Sheet, splat.tag, x0 + i0, y0 + j0, std::move(sums));
+  }
+
+  /// Of pixel (i, j) of the footprint, by the page's formula of the kind.
+  Wide weight(const RadiusSet& set, Wide mx, Wide my, std::int64_t i, std::int64_t j) const {
+    if (c.index == "rlut") return entry(floor_divide(column(set, mx, i) + column(set, my, j), power_of_two(c.g)));
+    if (c.index == "separable")
+      return narrow(Rounding::Rnd, Overflow::Sat, column(set, mx, i) * column(set, my, j), 2 * (c.wf + c.g),
+                    u(c.wi, c.wf))
+          .word;
+    if (c.index == "blit2d") return stored(set, mx, my, i, j);
+    const Wide dx = (i + 1) * Wide{c.K()} - mx - set.rho, dy = (j + 1) * Wide{c.K()} - my - set.rho;
+    if (c.index == "squared")
+      return entry(floor_divide(set.words[0] * (dx * dx + dy * dy), power_of_two(int_of(set, 1))));
+    if (c.index == "squared_elliptic") {
+      const Wide B = static_cast<std::int32_t>(set.words[1]);
+      const Wide q = set.words[0] * dx * dx + B * dx * dy + set.words[2] * dy * dy;
+      return entry(floor_divide(q, power_of_two(int_of(set, 3))));
+    }
+    // linear: the largest s whose square does not exceed the squared distance in 2^-g steps.
+    const Wide square = (dx * dx + dy * dy) * power_of_two(2 * c.g);
+    Wide low = 0, high = power_of_two(33);
+    while (high - low > 1) {
+      const Wide middle = (low + high) / 2;
+      (middle * middle <= square ? low : high) = middle;
+    }
+    return entry(floor_divide(low * set.words[0], power_of_two(int_of(set, 1))));
+  }
+  static int int_of(const RadiusSet& set, std::size_t word) { return static_cast<int>(set.words[word]); }
+  Wide entry(Wide t) const { return t < c.N ? Wide{radial[static_cast<std::size_t>(t)]} : 0; }
+
+  /// blit2d. With eightfold symmetry the footprint is looked for: the phases, their mirror images and both exchanged,
+  /// until a pair is met that is stored.
+  Wide stored(const RadiusSet& set, Wide mx, Wide my, Wide i, Wide j) const {
+    const auto word_of_footprint = [&](Wide number, Wide column, Wide row) {
+      if (column < 0 || row < 0 || column >= set.Ea || row >= set.Ea) return Wide{0};
+      return Wide{set.words[static_cast<std::size_t>((number * set.Ea + row) * set.Ea + column)]};
+    };
+    if (c.symmetry == "off") return word_of_footprint(my * c.k + mx, i, j);
+    const auto image = [&](Wide m) { return remainder(-m - 2 * set.rho, c.k); };
+    const auto mirror = [&](Wide& m, Wide& at) {
+      if (m <= image(m)) return;
+      // d(m, i) = (i+1) k - m - rho, of the other sign.
+      const Wide d = -((at + 1) * c.k - m - set.rho);
+      m = image(m);
+      at = (d + m + set.rho) / c.k - 1;
+      if ((at + 1) * c.k - m - set.rho != d) throw std::logic_error("the mirror image of a pixel is a pixel");
+    };
+    mirror(mx, i);
+    mirror(my, j);
+    if (mx > my) std::swap(mx, my), std::swap(i, j);
+    Wide number = 0;  // of the stored pairs before this one
+    for (Wide b = 0; b < c.k; ++b)
+      for (Wide a = 0; a <= b; ++a) {
+        if (b == my && a == mx) return word_of_footprint(number, i, j);
+        if (a <= image(a) && b <= image(b)) ++number;
+      }
+    throw std::logic_error("no such footprint");
   }
 
   Wide column(const RadiusSet& set, Wide m, std::int64_t i) const {

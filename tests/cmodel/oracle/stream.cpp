@@ -1,5 +1,6 @@
 #include "tests/cmodel/oracle/stream.hpp"
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
@@ -44,6 +45,25 @@ struct Reader {
   void only_opcode() const { rule(w[0] < 256, "an unnamed bit of w0 is not zero"); }
 };
 
+/// Words of a radius set, and the largest that each may be.
+std::int64_t set_words(const Symbols& c, std::int64_t Ea) {
+  if (c.index == "linear" || c.index == "squared") return 2;
+  if (c.index == "squared_elliptic") return 4;
+  if (c.index != "blit2d") return c.k * Ea;
+  if (c.symmetry == "off") return std::int64_t{c.k} * c.k * Ea * Ea;
+  const std::int64_t n = c.k == 1 ? 1 : c.k / 2 + 1;
+  return n * (n + 1) / 2 * Ea * Ea;
+}
+std::int64_t largest_set_word(const Symbols& c, std::size_t i) {
+  const std::int64_t scale = 16777216;
+  if (c.index == "linear" || c.index == "squared") return i == 0 ? scale : 62;
+  if (c.index == "squared_elliptic") return i == 3 ? 62 : scale;  // but B, see below
+  const auto weight = static_cast<std::int64_t>(u(c.wi, c.wf).largest);
+  if (c.index == "blit2d") return weight;
+  if (c.index == "separable") return std::min(weight, std::int64_t{1} << c.wf) << c.g;
+  return static_cast<std::int64_t>(c.N) * static_cast<std::int64_t>(power_of_two(c.g));
+}
+
 TableLoad table_load(Reader& r) {
   const Symbols& c = r.c;
   TableLoad load;
@@ -60,11 +80,11 @@ TableLoad table_load(Reader& r) {
     r.rule(load.set < c.sets, "radius set");
     r.rule(load.rho >= 1, "rho");
     r.rule(load.base % c.P == 0, "base");
-    const Wide E = ceil_divide(2 * Wide{load.rho}, c.k);
+    if (c.index != "rlut" && c.index != "separable") r.rule(load.base == 0, "base of a set without columns");
+    const Wide E = ceil_divide(2 * Wide{load.rho}, c.K());
     load.Ea = static_cast<std::int64_t>(ceil_divide(E, c.P)) * c.P;
     r.rule(load.base + load.Ea <= c.columns, "columns");
-    r.rule(count == c.k * load.Ea, "words");
-    largest = static_cast<std::int64_t>(c.N) * static_cast<std::int64_t>(power_of_two(c.g));
+    r.rule(count == set_words(c, load.Ea), "words");
   } else {
     r.rule(load.set == 0 && load.rho == 0 && load.base == 0, "a radius set in a table without");
     r.rule(count == (load.table == 1 ? c.N : c.G + 1), "words");
@@ -77,10 +97,20 @@ TableLoad table_load(Reader& r) {
         r.rule(r.w[i] == 0, "padding");
         continue;
       }
-      r.rule(r.w[i] <= largest, "table word");
+      if (load.table == 0) largest = largest_set_word(c, load.words.size());
+      if (load.table == 0 && c.index == "squared_elliptic" && load.words.size() == 1) {
+        const auto B = static_cast<std::int32_t>(r.w[i]);
+        r.rule(B >= -33554432 && B <= 33554432, "table word");
+      } else {
+        r.rule(r.w[i] <= largest, "table word");
+      }
       if (load.table == 2 && !load.words.empty()) r.rule(r.w[i] <= load.words.back(), "FACTOR rises");
       load.words.push_back(r.w[i]);
     }
+  }
+  if (load.table == 0 && c.index == "squared_elliptic") {
+    const Wide B = static_cast<std::int32_t>(load.words[1]);
+    r.rule(4 * Wide{load.words[0]} * Wide{load.words[2]} >= B * B, "no ellipse");
   }
   return load;
 }

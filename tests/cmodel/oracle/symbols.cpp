@@ -56,6 +56,8 @@ std::uint64_t hash(const Symbols& symbols) {
   for (const RoundingKey& key : kRoundingKeys)
     if (symbols.*key.member != Rounding::Rnd) line(key.name, word_of(symbols.*key.member));
   if (symbols.carry != "xray") line("rounding.carry", symbols.carry);
+  if (symbols.index != "rlut") line("index.kind", symbols.index);
+  if (symbols.symmetry != "off") line("index.symmetry", symbols.symmetry);
   return state;
 }
 

@@ -25,6 +25,12 @@ struct Symbols {
   Rounding Rs = Rounding::Rnd, Rp = Rounding::Rnd, Rf = Rounding::Rnd;
   Rounding Ra = Rounding::Rnd, Rl = Rounding::Rnd, Ro = Rounding::Rnd;
   std::string carry = "xray";
+  std::string index = "rlut", symmetry = "off";
+
+  /// Weights depend on window phases: centres lie on the snap's grid.
+  bool has_phases() const { return index == "rlut" || index == "blit2d" || index == "separable"; }
+  /// Steps of the centres' grid a pixel.
+  int K() const { return has_phases() ? k : 1 << pf; }
 };
 
 struct Key {
@@ -42,8 +48,7 @@ struct RoundingKey {
 std::span<const RoundingKey> rounding_keys();
 const char* word_of(Rounding rounding);
 
-/// 64-bit FNV-1a over the lines "key=value\n", those that may be absent only where they are not rnd, or the carry not
-/// xray.
+/// 64-bit FNV-1a over the lines "key=value\n", those that may be absent only where they are not neutral.
 std::uint64_t hash(const Symbols& symbols);
 
 /// CRC-32 of IEEE 802.3, bit by bit.

@@ -45,11 +45,13 @@ Sets radius_sets(const Given& given) {
     sets.all = {largest};
     return sets;
   }
-  const std::int64_t n = std::min<std::int64_t>(symbols.columns / largest.Ea, symbols.sets);
+  const bool columns = symbols.index == "rlut" || symbols.index == "separable";
+  const std::int64_t room = symbols.has_phases() ? symbols.columns / largest.Ea : symbols.sets;
+  const std::int64_t n = std::min<std::int64_t>(room, symbols.sets);
   sets.b = static_cast<double>(n) / std::log(r_max / sets.r_min);
   for (std::int64_t i = 0; i < n; ++i) {
     sets.all.push_back(radius_set(symbols, sets.r_min * std::exp((static_cast<double>(i) + 0.5) / sets.b)));
-    sets.all.back().base = i * largest.Ea;
+    sets.all.back().base = columns ? i * largest.Ea : 0;
   }
   return sets;
 }
@@ -150,7 +152,7 @@ class Page {
     const double one = std::ldexp(1.0, symbols_.pf);
     Splat splat;
     splat.order = met_.voxels;
-    const bool rounded_later = symbols_.k < one && symbols_.Rs == Rounding::Rnd;
+    const bool rounded_later = symbols_.K() < one && symbols_.Rs == Rounding::Rnd;
     splat.x = rounded_later ? to_int(static_cast<Wide>(std::floor(real.x * one))) : nearest(real.x * one);
     splat.y = rounded_later ? to_int(static_cast<Wide>(std::floor(real.y * one))) : nearest(real.y * one);
     const double r = given_.R * given_.u * real.s;
@@ -194,14 +196,17 @@ class Page {
   /// What the sheets show of a word on average.
   double shown(Wide V) {
     Wide all = 0;
-    for (const std::uint32_t weight : radial_) all += weight;
+    const auto area = [&](std::size_t t) {
+      return symbols_.index == "linear" ? 2 * static_cast<Wide>(t) + 1 : Wide{1};
+    };
+    for (std::size_t t = 0; t < radial_.size(); ++t) all += radial_[t] * area(t);
     if (V >= 256 || all == 0) return static_cast<double>(V);
     const auto [at, is_new] = shown_.try_emplace(to_int(V));
     if (is_new) {
       Wide sum = 0;
       const oracle::Words sheet = oracle::u(symbols_.si, symbols_.sf);
-      for (const std::uint32_t weight : radial_)
-        sum += narrow(symbols_.Rp, Overflow::Sat, V * weight, symbols_.cf + symbols_.wf, sheet).word;
+      for (std::size_t t = 0; t < radial_.size(); ++t)
+        sum += narrow(symbols_.Rp, Overflow::Sat, V * radial_[t], symbols_.cf + symbols_.wf, sheet).word * area(t);
       at->second = static_cast<double>(sum) * std::ldexp(1.0, symbols_.cf + symbols_.wf - symbols_.sf) /
                    static_cast<double>(all);
     }
@@ -255,7 +260,7 @@ class Page {
     load_table(beats, 1, 0, {}, radial(given_));
     load_table(beats, 2, 0, {}, factor(symbols_));
     for (std::size_t n = 0; n < sets_.all.size(); ++n)
-      load_table(beats, 0, n, sets_.all[n], rlut(symbols_, sets_.all[n]));
+      load_table(beats, 0, n, sets_.all[n], set_words(given_, sets_.all[n]));
   }
 
   static void load_table(std::vector<Beat>& beats, std::uint32_t table, std::size_t n, const RadiusSet& set,
@@ -269,9 +274,9 @@ class Page {
 
   /// Whether `extent` pixels from the window's first one on meet a whole tile's `side` pixels, along one axis.
   bool meets(std::int64_t q, const RadiusSet& set, std::int64_t extent, std::int64_t first, std::int64_t side) const {
-    const int kl = log2_of(symbols_.k);
+    const int kl = log2_of(symbols_.K());
     const Wide xs = narrow(symbols_.Rs, Overflow::Sat, q, symbols_.pf, oracle::s(60, kl)).word;  // no end is near
-    const Wide x0 = floor_divide(xs - set.rho, symbols_.k) + 1;
+    const Wide x0 = floor_divide(xs - set.rho, symbols_.K()) + 1;
     return x0 < first + side && x0 + extent > first;
   }
 

@@ -17,8 +17,8 @@ std::int64_t nearest(double real) { return static_cast<std::int64_t>(std::floor(
 RadiusSet radius_set(const oracle::Symbols& symbols, double r) {
   RadiusSet set;
   set.r = r;
-  set.rho = static_cast<std::int64_t>(std::ceil(r * symbols.k));
-  set.E = static_cast<std::int64_t>(ceil_divide(2 * set.rho, symbols.k));
+  set.rho = static_cast<std::int64_t>(std::ceil(r * symbols.K()));
+  set.E = static_cast<std::int64_t>(ceil_divide(2 * set.rho, symbols.K()));
   set.Ea = static_cast<std::int64_t>(ceil_divide(set.E, symbols.P)) * symbols.P;
   return set;
 }
@@ -37,6 +37,60 @@ std::vector<std::uint32_t> rlut(const oracle::Symbols& symbols, const RadiusSet&
   return words;
 }
 
+namespace {
+
+/// v as c / 2^h: 24 bits, rounded up.
+std::vector<std::uint32_t> scale(double v) {
+  int log = 0;  // floor(log2 v)
+  while (std::ldexp(v, -log) >= 2.0) ++log;
+  while (std::ldexp(v, -log) < 1.0) --log;
+  const int h = std::clamp(23 - log, 0, 62);
+  return {static_cast<std::uint32_t>(std::min(16777216.0, std::ceil(std::ldexp(v, h)))), static_cast<std::uint32_t>(h)};
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> set_words(const Given& given, const RadiusSet& set) {
+  const oracle::Symbols& symbols = given.symbols;
+  if (symbols.index == "rlut") return rlut(symbols, set);
+  const std::int64_t K = symbols.K();
+  const double rK = set.r * static_cast<double>(K);
+  if (symbols.index == "linear") return scale(symbols.N / (rK * std::ldexp(1.0, symbols.g)));
+  if (symbols.index == "squared") return scale(symbols.N / (rK * rK));
+  if (symbols.index == "squared_elliptic") {
+    const auto c = scale(symbols.N / (rK * rK));
+    return {c[0], 0, c[0], c[1]};
+  }
+  const auto d = [&](std::int64_t m, std::int64_t i) { return static_cast<double>((i + 1) * K - m - set.rho); };
+  const double aRR = given.a * given.R * given.R;
+  const auto most = static_cast<std::int64_t>(oracle::u(symbols.wi, symbols.wf).largest);
+  std::vector<std::uint32_t> words;
+  if (symbols.index == "separable") {
+    const std::int64_t largest = std::min(std::int64_t{1} << symbols.wf, most) << symbols.g;
+    for (std::int64_t m = 0; m < K; ++m)
+      for (std::int64_t i = 0; i < set.Ea; ++i) {
+        const bool inside = std::abs(d(m, i)) < rK && i < set.E;
+        const double value = std::exp(-aRR * (d(m, i) * d(m, i) / (rK * rK)));
+        const std::int64_t word = nearest(std::ldexp(value, symbols.wf + symbols.g));
+        words.push_back(inside ? static_cast<std::uint32_t>(std::min(largest, word)) : 0);
+      }
+    return words;
+  }
+  const auto image = [&](std::int64_t m) { return static_cast<std::int64_t>(oracle::remainder(-m - 2 * set.rho, K)); };
+  for (std::int64_t my = 0; my < K; ++my)
+    for (std::int64_t mx = 0; mx < K; ++mx) {
+      if (symbols.symmetry == "eightfold" && (mx > image(mx) || my > image(my) || mx > my)) continue;
+      for (std::int64_t j = 0; j < set.Ea; ++j)
+        for (std::int64_t i = 0; i < set.Ea; ++i) {
+          const double square = d(mx, i) * d(mx, i) + d(my, j) * d(my, j);
+          const bool inside = square < rK * rK && i < set.E && j < set.E;
+          const std::int64_t word = nearest(std::ldexp(std::exp(-aRR * (square / (rK * rK))), symbols.wf));
+          words.push_back(inside ? static_cast<std::uint32_t>(std::min(most, word)) : 0);
+        }
+    }
+  return words;
+}
+
 std::vector<std::uint32_t> radial(const Given& given) {
   const oracle::Symbols& symbols = given.symbols;
   const double one = std::ldexp(1.0, symbols.wf);
@@ -49,7 +103,9 @@ std::vector<std::uint32_t> radial(const Given& given) {
   double sum = 0.0;
   std::int64_t floors = 0;
   for (int t = 0; t < symbols.N; ++t) {
-    const double F = std::exp(-given.a * given.R * given.R * ((t + 0.5) / symbols.N)) * one;
+    const double middle = (t + 0.5) / symbols.N;
+    const double F =
+        std::exp(-given.a * given.R * given.R * (symbols.index == "linear" ? middle * middle : middle)) * one;
     entries.push_back({t, static_cast<std::int64_t>(std::floor(F)), F - std::floor(F)});
     sum += F;
     floors += entries.back().word;
@@ -57,7 +113,16 @@ std::vector<std::uint32_t> radial(const Given& given) {
   std::vector<Entry> by_remainder = entries;
   std::stable_sort(by_remainder.begin(), by_remainder.end(),
                    [](const Entry& x, const Entry& y) { return x.remainder > y.remainder; });
-  const std::int64_t missing = nearest(sum) - floors;
+  if (symbols.index == "linear") {
+    double lost = 0.0;
+    for (const Entry& entry : entries) lost += entry.remainder * (2 * entry.t + 1);
+    for (const Entry& entry : by_remainder) {
+      if (lost < (2 * entry.t + 1) / 2.0) continue;
+      ++entries[static_cast<std::size_t>(entry.t)].word;
+      lost -= 2 * entry.t + 1;
+    }
+  }
+  const std::int64_t missing = symbols.index == "linear" ? 0 : nearest(sum) - floors;
   for (std::int64_t i = 0; i < missing; ++i) ++entries[static_cast<std::size_t>(by_remainder[i].t)].word;
   std::vector<std::uint32_t> words;
   const auto largest = static_cast<std::int64_t>(oracle::u(symbols.wi, symbols.wf).largest);

@@ -17,6 +17,8 @@ struct RadiusSet {
 RadiusSet radius_set(const oracle::Symbols& symbols, double r);
 
 std::vector<std::uint32_t> rlut(const oracle::Symbols& symbols, const RadiusSet& set);
+/// What the set loads, whatever the kind of index.
+std::vector<std::uint32_t> set_words(const Given& given, const RadiusSet& set);
 std::vector<std::uint32_t> radial(const Given& given);
 std::vector<std::uint32_t> factor(const oracle::Symbols& symbols);
 

@@ -1,0 +1,23 @@
+// What a radius set loads, by the kind of index: doubles in, words out (docs/numerics.md, section 4).
+#pragma once
+
+#include <cstdint>
+
+#include "cmodel/config.hpp"
+#include "cmodel/records.hpp"
+#include "scene/kernel.hpp"
+
+namespace fastsplat::driver {
+
+/// The set's load_table record for the configuration's index.kind: `radius` in pixels, `base` its first column (0 for
+/// the kinds without columns).
+cmodel::LoadTable set_table(const cmodel::Config& config, const scene::Kernel& kernel, std::uint32_t set, double radius,
+                            std::uint32_t base);
+
+/// v as c / 2^h with c of 24 bits, rounded up.
+struct Scale {
+  std::uint32_t c = 0, h = 0;
+};
+Scale scale_of(double v, const cmodel::Config& config);
+
+}  // namespace fastsplat::driver

@@ -40,9 +40,7 @@ std::vector<std::uint32_t> axis_words(const cmodel::Config& config, const scene:
   std::vector<std::uint32_t> words;
   for (int m = 0; m < f.grid; ++m) {
     for (int i = 0; i < f.padded; ++i) {
-      const double d = f.distance(m, i);
-      const bool outside = i >= f.extent || std::abs(d) >= f.rim;
-      words.push_back(quantise_to<std::uint32_t>(outside ? 0.0 : gaussian(kernel, d * d / (f.rim * f.rim)), word));
+      words.push_back(i >= f.extent ? 0 : axis_word(kernel, f.distance(m, i), f.rim, word));
     }
   }
   return words;
@@ -61,7 +59,6 @@ std::vector<int> stored(const cmodel::Config& config, std::uint32_t rho) {
 std::vector<std::uint32_t> footprint_words(const cmodel::Config& config, const scene::Kernel& kernel,
                                            const Footprint& f) {
   const Target word = target(Site::Footprint, config);
-  const double rim2 = f.rim * f.rim;
   const bool all = config.index_symmetry == static_cast<int>(cmodel::IndexSymmetry::Off);
   const auto phases = stored(config, static_cast<std::uint32_t>(f.rho));
   std::vector<std::uint32_t> words;
@@ -71,9 +68,9 @@ std::vector<std::uint32_t> footprint_words(const cmodel::Config& config, const s
       if (!all && mx > my) break;
       for (int j = 0; j < f.padded; ++j) {
         for (int i = 0; i < f.padded; ++i) {
-          const double dx = f.distance(mx, i), dy = f.distance(my, j), d2 = dx * dx + dy * dy;
-          const bool outside = i >= f.extent || j >= f.extent || d2 >= rim2;
-          words.push_back(quantise_to<std::uint32_t>(outside ? 0.0 : gaussian(kernel, d2 / rim2), word));
+          const double dx = f.distance(mx, i), dy = f.distance(my, j);
+          const bool outside = i >= f.extent || j >= f.extent;
+          words.push_back(outside ? 0 : footprint_word(kernel, dx * dx + dy * dy, f.rim, word));
         }
       }
     }
@@ -82,6 +79,16 @@ std::vector<std::uint32_t> footprint_words(const cmodel::Config& config, const s
 }
 
 }  // namespace
+
+std::uint32_t axis_word(const scene::Kernel& kernel, double distance, double rim, const Target& word) {
+  const bool outside = std::abs(distance) >= rim;
+  return quantise_to<std::uint32_t>(outside ? 0.0 : gaussian(kernel, distance * distance / (rim * rim)), word);
+}
+
+std::uint32_t footprint_word(const scene::Kernel& kernel, double squared, double rim, const Target& word) {
+  const bool outside = squared >= rim * rim;
+  return quantise_to<std::uint32_t>(outside ? 0.0 : gaussian(kernel, squared / (rim * rim)), word);
+}
 
 Scale scale_of(double v, const cmodel::Config& config) {
   const int h = std::clamp(23 - std::ilogb(v), 0, static_cast<int>(cmodel::kLargestShift));

@@ -5,6 +5,7 @@
 
 #include "cmodel/config.hpp"
 #include "cmodel/records.hpp"
+#include "driver/quantise.hpp"
 #include "scene/kernel.hpp"
 
 namespace fastsplat::driver {
@@ -13,6 +14,12 @@ namespace fastsplat::driver {
 /// the kinds without columns).
 cmodel::LoadTable set_table(const cmodel::Config& config, const scene::Kernel& kernel, std::uint32_t set, double radius,
                             std::uint32_t base);
+
+/// Weight along one axis at `distance`, of a footprint whose rim lies at `rim`: both in 1/K pixel. `word` is the target
+/// of Site::Axis.
+std::uint32_t axis_word(const scene::Kernel& kernel, double distance, double rim, const Target& word);
+/// Weight at the squared distance `squared`; `word` is the target of Site::Footprint.
+std::uint32_t footprint_word(const scene::Kernel& kernel, double squared, double rim, const Target& word);
 
 /// v as c / 2^h with c of 24 bits, rounded up.
 struct Scale {

@@ -76,7 +76,7 @@ class Chain::Band {
     golden::ProjectedSplat reach;
     reach.x = splat.x;
     reach.y = splat.y;
-    reach.reach_x = reach.reach_y = splat.radius;
+    reach.reach_x = reach.reach_y = splat.radius + more_reach(chain_.config_);
     const golden::Rows open = settled_.open_rows(reach, rows_);
     if (open.first >= open.end) return;
     weights_.rasterise(splat, mixture_, golden_units_, open, width_);
@@ -128,7 +128,8 @@ Picture Chain::operator()(const Mixture& mixture, int threads) const {
   const std::vector<StagedSplat> splats = steps_.staged(list_, mixture, golden_units, threads);
   const driver::TileGrid bands = band_grid(config_, width, height, kRows);
   const driver::TileBins bins(
-      bands, steps_.sheets(), splats.size(), threads, [&](std::size_t i) { return extent_of(splats[i]); },
+      bands, steps_.sheets(), splats.size(), threads,
+      [&](std::size_t i) { return extent_of(splats[i], more_reach(config_)); },
       [&](std::size_t i) { return splats[i].first; });
 
   Picture picture{width, height, std::vector<golden::Sums>(static_cast<std::size_t>(width) * height)};

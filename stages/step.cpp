@@ -46,13 +46,13 @@ std::string Mixture::text() const {
 }
 
 std::vector<StepSet> step_sets(const cmodel::Config& config, bool carried) {
-  const bool once = config.phase_bits() == config.position_frac_bits ||
+  const bool once = config.grid_bits() == config.position_frac_bits ||
                     driver::target(driver::Site::Position, config).rounding == driver::Target::Rounding::Down;
   const auto by = [](Step step) { return facts(step).driver ? "driver" : "device"; };
   std::vector<StepSet> sets;
   for (const Step step : all_steps()) {
     if (step == Step::Snap && once) {
-      if (config.phase_bits() < config.position_frac_bits) sets.back().by = "both";
+      if (config.grid_bits() < config.position_frac_bits) sets.back().by = "both";
       sets.back().name += std::string("+") + facts(step).name;
       sets.back().steps.push_back(step);
     } else if (step == Step::Product && carried) {

@@ -4,28 +4,48 @@
 #include <cmath>
 #include <span>
 
+#include "cmodel/linear_unit.hpp"
 #include "driver/tables.hpp"
 
 namespace fastsplat::stages {
+namespace {
+
+using cmodel::IndexKind;
+
+/// p / 2^shift, whose whole part is exact.
+double shifted(std::uint64_t product, std::uint32_t shift) {
+  const auto whole = static_cast<double>(product >> shift);
+  const double rest =
+      std::ldexp(static_cast<double>(product & ((std::uint64_t{1} << shift) - 1)), -static_cast<int>(shift));
+  return std::min(whole + rest, std::nextafter(whole + 1.0, 0.0));
+}
+
+bool is_whole(double value) { return std::floor(value) == value; }
+
+}  // namespace
 
 WeightSteps::WeightSteps(const scene::Kernel& kernel, const cmodel::Config& config)
     : kernel_(kernel),
+      config_(config),
       rlut_(driver::target(driver::Site::Rlut, config)),
-      phases_(config.phases),
+      axis_(driver::target(driver::Site::Axis, config)),
+      footprint_(driver::target(driver::Site::Footprint, config)),
+      axis_product_(cmodel::narrowing(config, cmodel::Site::AxisProduct)),
+      grid_(config.grid()),
       entries_(config.radial_entries),
       per_entry_(std::ldexp(1.0, -config.rlut_guard_bits)),
-      fall_(kernel.a() * kernel.radius() * kernel.radius() / entries_),
+      fall_(kernel.a() * kernel.radius() * kernel.radius()),
       real_(driver::radial_samples(config, kernel)) {
   for (const std::uint32_t word : driver::radial_table(config, kernel).words)
     words_.push_back(std::ldexp(static_cast<double>(word), -config.radial_frac_bits));
 }
 
-void WeightSteps::distances(double centre, double radius, int first, int pixels, bool words,
+void WeightSteps::distances(double centre, double radius, int first, int end, bool words,
                             std::vector<double>& out) const {
   out.clear();
-  for (int i = 0; i < pixels; ++i) {
-    const double d = first + i - centre;
-    out.push_back(words ? driver::rlut_word(d * phases_, radius * phases_, rlut_) * per_entry_
+  for (int i = first; i < end; ++i) {
+    const double d = i - centre;
+    out.push_back(words ? driver::rlut_word(d * grid_, radius * grid_, rlut_) * per_entry_
                         : d * d * entries_ / (radius * radius));
   }
 }
@@ -34,46 +54,124 @@ double WeightSteps::weight(double entries, const Mixture& mixture) const {
   const auto t = static_cast<std::size_t>(entries);
   if (mixture.device(Step::Index)) return mixture.device(Step::Weight) ? words_[t] : real_[t];
   // The word's own error, at the place where the real weight is read.
-  const double real = std::exp(-fall_ * entries);
+  const double part = entries / entries_, u = config_.index() == IndexKind::Linear ? part * part : part;
+  const double real = std::exp(-fall_ * u);
   return mixture.device(Step::Weight) ? std::max(0.0, real + (words_[t] - real_[t])) : real;
+}
+
+double WeightSteps::computed(double dx, double dy, const Rim& rim, bool device) const {
+  const double squared = dx * dx + dy * dy;
+  const bool linear = config_.index() == IndexKind::Linear;
+  if (!device)
+    return linear ? std::sqrt(squared) * entries_ / rim.radius : squared * entries_ / (rim.radius * rim.radius);
+  const double steps = squared * grid_ * grid_, c = rim.scale.c;  // D, 1/K pixel squared
+  const auto h = rim.scale.h;
+  if (!linear) {
+    return is_whole(steps) ? shifted(static_cast<std::uint64_t>(steps) * rim.scale.c, h)
+                           : std::ldexp(c * steps, -static_cast<int>(h));
+  }
+  const int g = config_.rlut_guard_bits;
+  return shifted((is_whole(steps) ? cmodel::linear_distance(static_cast<std::int64_t>(steps), g)
+                                  : static_cast<std::uint64_t>(std::sqrt(std::ldexp(steps, 2 * g)))) *
+                     rim.scale.c,
+                 h);
+}
+
+double WeightSteps::other_weight(double dx, double dy, const Rim& rim, const Mixture& mixture) const {
+  const bool word = mixture.device(Step::Weight);
+  switch (config_.index()) {
+    case IndexKind::Linear:
+    case IndexKind::Squared:
+    case IndexKind::SquaredElliptic: {
+      const double entries = computed(dx, dy, rim, mixture.device(Step::Distance));
+      return entries < entries_ ? weight(entries, mixture) : 0.0;
+    }
+    case IndexKind::Blit2d:
+      if (word) {
+        const double squared = (dx * grid_) * (dx * grid_) + (dy * grid_) * (dy * grid_);
+        return driver::footprint_word(kernel_, squared, rim.radius * grid_, footprint_) / footprint_.scale;
+      }
+      break;
+    case IndexKind::Separable:
+      if (word) {
+        const auto along = [&](double d) {
+          return std::int64_t{driver::axis_word(kernel_, d * grid_, rim.radius * grid_, axis_)};
+        };
+        return std::ldexp(static_cast<double>(axis_product_(along(dx) * along(dy)).word), -config_.radial_frac_bits);
+      }
+      break;
+    case IndexKind::Rlut:
+      break;
+  }
+  const double u = (dx * dx + dy * dy) / (rim.radius * rim.radius);
+  return u < 1.0 ? std::exp(-fall_ * u) : 0.0;
+}
+
+void WeightSteps::rasterise_golden(const StagedSplat& splat, golden::Rows rows, int width) {
+  golden::ProjectedSplat p;
+  const double per_unit = splat.radius / kernel_.radius();
+  p.x = splat.x;
+  p.y = splat.y;
+  p.shape = {per_unit * per_unit, 0.0, per_unit * per_unit};
+  p.reach_x = p.reach_y = kernel_.radius() * std::sqrt(p.shape.xx);
+  golden_.rasterise(kernel_, p, rows, width);
+  spans_ = golden_.spans();
+  if (!spans_.empty()) weights_ = golden_.weights(spans_.front()) - spans_.front().weights;
+}
+
+void WeightSteps::rasterise_rlut(const StagedSplat& splat, const Mixture& mixture, const driver::Extent& box) {
+  const bool words = mixture.device(Step::Distance);
+  distances(splat.x, splat.radius, box.x0, box.x1, words, across_);
+  distances(splat.y, splat.radius, box.y0, box.y1, words, down_);
+  for (int y = box.y0; y < box.y1; ++y) {
+    const double row = down_[static_cast<std::size_t>(y - box.y0)];
+    const auto at = [&](int x) { return row + across_[static_cast<std::size_t>(x - box.x0)]; };
+    int begin = box.x0, end = box.x1;
+    while (begin < end && !(at(begin) < entries_)) ++begin;
+    while (begin < end && !(at(end - 1) < entries_)) --end;
+    if (begin == end) continue;
+    spans_.push_back({y, begin, end - begin, own_.size()});
+    for (int x = begin; x < end; ++x) own_.push_back(weight(at(x), mixture));
+  }
+}
+
+void WeightSteps::rasterise_other(const StagedSplat& splat, const Mixture& mixture, const driver::Extent& box) {
+  if (rim_.radius != splat.radius) {
+    rim_.radius = splat.radius;
+    const double rim = splat.radius * grid_;
+    rim_.scale =
+        driver::scale_of(config_.index() == IndexKind::Linear ? entries_ / std::ldexp(rim, config_.rlut_guard_bits)
+                                                              : entries_ / (rim * rim),
+                         config_);
+  }
+  for (int y = box.y0; y < box.y1; ++y) {
+    const std::size_t first = own_.size();
+    int begin = box.x1, end = box.x0;
+    for (int x = box.x0; x < box.x1; ++x) {
+      own_.push_back(other_weight(x - splat.x, y - splat.y, rim_, mixture));
+      if (own_.back() > 0.0) begin = std::min(begin, x), end = x + 1;
+    }
+    if (begin < end) spans_.push_back({y, begin, end - begin, first + static_cast<std::size_t>(begin - box.x0)});
+  }
 }
 
 void WeightSteps::rasterise(const StagedSplat& splat, const Mixture& mixture, bool golden_units, golden::Rows rows,
                             int width) {
-  if (golden_units) {
-    golden::ProjectedSplat p;
-    const double per_unit = splat.radius / kernel_.radius();
-    p.x = splat.x;
-    p.y = splat.y;
-    p.shape = {per_unit * per_unit, 0.0, per_unit * per_unit};
-    p.reach_x = p.reach_y = kernel_.radius() * std::sqrt(p.shape.xx);
-    golden_.rasterise(kernel_, p, rows, width);
-    spans_ = golden_.spans();
-    if (!spans_.empty()) weights_ = golden_.weights(spans_.front()) - spans_.front().weights;
-    return;
-  }
+  if (golden_units) return rasterise_golden(splat, rows, width);
   const auto clip = [](double at, int low, int high) {
     return static_cast<int>(std::clamp(at, static_cast<double>(low), static_cast<double>(high)));
   };
-  const int left = clip(std::ceil(splat.x - splat.radius), 0, width),
-            right = clip(std::floor(splat.x + splat.radius) + 1.0, 0, width),
-            top = clip(std::ceil(splat.y - splat.radius), rows.first, rows.end),
-            bottom = clip(std::floor(splat.y + splat.radius) + 1.0, rows.first, rows.end);
-  const bool words = mixture.device(Step::Distance);
-  distances(splat.x, splat.radius, left, right - left, words, across_);
-  distances(splat.y, splat.radius, top, bottom - top, words, down_);
+  const double reach = splat.radius + more_reach(config_);
+  const driver::Extent box{clip(std::ceil(splat.x - reach), 0, width),
+                           clip(std::floor(splat.x + reach) + 1.0, 0, width),
+                           clip(std::ceil(splat.y - reach), rows.first, rows.end),
+                           clip(std::floor(splat.y + reach) + 1.0, rows.first, rows.end)};
   spans_.clear();
   own_.clear();
-  for (int y = top; y < bottom; ++y) {
-    const double row = down_[static_cast<std::size_t>(y - top)];
-    const auto inside = [&](int x) { return row + across_[static_cast<std::size_t>(x - left)] < entries_; };
-    int begin = left, end = right;
-    while (begin < end && !inside(begin)) ++begin;
-    while (begin < end && !inside(end - 1)) --end;
-    if (begin == end) continue;
-    spans_.push_back({y, begin, end - begin, own_.size()});
-    for (int x = begin; x < end; ++x)
-      own_.push_back(weight(row + across_[static_cast<std::size_t>(x - left)], mixture));
+  if (config_.index() == IndexKind::Rlut) {
+    rasterise_rlut(splat, mixture, box);
+  } else {
+    rasterise_other(splat, mixture, box);
   }
   weights_ = own_.data();
 }

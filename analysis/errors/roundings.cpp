@@ -22,9 +22,9 @@ double step_of(const cmodel::Config& config, cmodel::Site site) {
 /// Positions and snap together: where they round once, half a step of the 1/k grid.
 double place_of(const cmodel::Config& c) {
   const bool once = driver::target(driver::Site::Position, c).rounding == driver::Target::Rounding::Down;
-  if (once) return std::ldexp(0.5, -c.phase_bits());
+  if (once) return std::ldexp(0.5, -c.grid_bits());
   const double position = std::ldexp(0.5, -c.position_frac_bits);
-  return c.phase_bits() == c.position_frac_bits ? position : position + step_of(c, cmodel::Site::Snap);
+  return c.grid_bits() == c.position_frac_bits ? position : position + step_of(c, cmodel::Site::Snap);
 }
 
 double weight_of(const cmodel::Config& config, const scene::Kernel& kernel) {

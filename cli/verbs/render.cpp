@@ -30,7 +30,9 @@ void check(const RenderArguments& arguments, Engine engine) {
                  .fix = "add --out FILE.exr or --out FILE.png"});
   }
   if (engine == Engine::Golden && (arguments.config.config || !arguments.config.changes.empty())) {
-    throw_usage({.where = arguments.config.config ? "--config" : "--set",
+    throw_usage({.where = arguments.config.config                                       ? "--config"
+                          : arguments.config.changes.front().starts_with("index.kind=") ? "--index, or --set"
+                                                                                        : "--set",
                  .what = "the golden renderer has no hardware configuration",
                  .expected = {},
                  .got = {},

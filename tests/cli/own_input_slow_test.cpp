@@ -104,7 +104,8 @@ TEST_F(OwnInput, EveryVerbThatReadsFilesIsAmongThem) {
   }
   for (const auto& verb : cli::all_verbs()) {
     const std::string name = verb.name;
-    if (verb.declare == nullptr || name == "doctor" || name == "config list") continue;  // these read none
+    if (verb.declare == nullptr || name == "doctor" || name == "config list" || name == "family")
+      continue;  // these read none
     EXPECT_TRUE(tried.contains(name)) << name << " reads files: what does it do to them?";
   }
 }

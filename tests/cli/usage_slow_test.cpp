@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{"method_unknown", {"render", "--method", "xrai", "-o", "a.exr"}, {"xray"}},
         Misuse{"slab_opacity_unknown", {"render", "--slab-opacity", "aditive", "-o", "a.exr"}, {"additive"}},
         Misuse{"shading_maybe", {"render", "--shading", "maybe", "-o", "a.exr"}, {"--shading", "off or on"}},
-        Misuse{"index_is_no_flag", {"render", "--index", "rlut", "-o", "a.exr"}, {"unknown flag --index"}},
+        Misuse{"golden_index", {"render", "--index", "rlut", "-o", "a.exr"}, {"--index", "--engine cmodel"}},
         Misuse{"kernel_both_ways", {"render", "--kernel", "smooth", "--kernel-a", "2", "-o", "a.exr"}, {"--kernel"}},
         Misuse{"kernel_radius_out_of_range", {"render", "--kernel-radius", "99", "-o", "a.exr"}, {"8"}},
         Misuse{"projection_both_ways",

@@ -51,6 +51,18 @@ TEST(FamilyTables, ScalesAreRoundedUp) {
   EXPECT_LT(most, 0x1p-23);
 }
 
+// A whole radius: the pixel that lies on the rim itself has no weight.
+TEST(FamilyTables, TheRimOfAnAxisIsOutside) {
+  auto config = load_config("base");
+  config.index_kind = static_cast<int>(IndexKind::Separable);
+  const auto table = set_table(config, scene::kernel_by_name("gauss2"), 0, 4.0, 0);
+  ASSERT_EQ(table.radius.rho, 4U * 64U);
+  ASSERT_EQ(table.words.size(), 64U * 8U);
+  EXPECT_EQ(table.words[7], 0U) << "phase 0, column 7: d = 8 K - 4 K";
+  EXPECT_GT(table.words[6], 0U);
+  figure("word next to the rim", table.words[6]);
+}
+
 // linear: by area, the words' sum is that of the samples to within half of the last ring.
 TEST(FamilyTables, LinearPreservesTheSumByArea) {
   int compared = 0;

@@ -15,6 +15,7 @@ const std::vector<Verb>& all_verbs() {
       verbs::stream_replay,
       verbs::cycles,
       verbs::errors,
+      verbs::errors_ranges,
       {"config", "list, show, check and compare hardware configurations", nullptr},
       verbs::config_list,
       verbs::config_show,

@@ -5,7 +5,7 @@
 
 namespace fastsplat::cli::verbs {
 
-extern const Verb compare, config_check, config_diff, config_list, config_show, cycles, doctor, errors, errors_ranges,
-    render, stream_dump, stream_record, stream_replay, verify, volume_convert, volume_info;
+extern const Verb compare, config_check, config_diff, config_list, config_show, cycles, doctor, errors, errors_propose,
+    errors_ranges, render, stream_dump, stream_record, stream_replay, verify, volume_convert, volume_info;
 
 }  // namespace fastsplat::cli::verbs

@@ -193,6 +193,14 @@ std::optional<ErrorParts> first_violation(const Config& config) {
                          std::to_string(config.sheet_int_bits + config.sheet_frac_bits),
                      config.opacity_segments, "lower opacity.segments");
   }
+  if (config.phases == 1 && config.rounding_snap == static_cast<int>(Rounding::RND_CONV) &&
+      (config.tile_width % 2 != 0 || config.tile_height % 2 != 0)) {
+    // An even pixel of the tile may be an odd one of the image: a splat would lie elsewhere in every other tile.
+    return violation("rounding.snap", "rounds ties to even pixels, which are not the image's in a tile of odd sides",
+                     "snap.phases of 2 or more, or tile sides that are even",
+                     config.tile_width % 2 != 0 ? config.tile_width : config.tile_height,
+                     "use an even tile.width and tile.height, or rounding.snap = rnd");
+  }
   if (config.freeze_below > (1 << config.composite_frac_bits)) {
     return violation("composite.freeze_below", "would freeze a pixel that nothing has reached",
                      "at most 2^composite.frac_bits = " + std::to_string(1 << config.composite_frac_bits),

@@ -4,11 +4,11 @@
 
 #include "base/parallel/parallel.hpp"
 #include "driver/compile.hpp"
-#include "driver/tile_bins.hpp"
 #include "golden/settled_pixels.hpp"
 #include "golden/sheet.hpp"
 #include "scene/capability.hpp"
 #include "stages/add_products.hpp"
+#include "stages/band_bins.hpp"
 #include "stages/pixel_steps.hpp"
 #include "stages/weight_steps.hpp"
 
@@ -37,20 +37,6 @@ ProductRule product_rule(const cmodel::Config& config, const Mixture& mixture) {
     return ProductRule::Kind::HalfEven;
   };
   return {kind(), std::ldexp(1.0, site.to().frac_bits), static_cast<double>(site.to().max)};
-}
-
-/// As the bins know a tile: the whole width.
-driver::TileGrid bands_of(const cmodel::Config& config, int width, int height) {
-  driver::TileGrid grid(config, width, height);
-  grid.tile_width = width;
-  grid.tile_height = kRows;
-  return grid;
-}
-
-driver::Extent extent_of(const StagedSplat& splat) {
-  const auto from = [&](double at) { return static_cast<std::int32_t>(std::ceil(at - splat.radius)); };
-  const auto to = [&](double at) { return static_cast<std::int32_t>(std::floor(at + splat.radius)) + 1; };
-  return {from(splat.x), to(splat.x), from(splat.y), to(splat.y)};
 }
 
 }  // namespace
@@ -140,7 +126,7 @@ Picture Chain::operator()(const Mixture& mixture, int threads) const {
   const bool golden_units = mixture.real(Step::Position, Step::Sheet);
   const int width = scene_.description.width, height = scene_.description.height;
   const std::vector<StagedSplat> splats = steps_.staged(list_, mixture, golden_units, threads);
-  const driver::TileGrid bands = bands_of(config_, width, height);
+  const driver::TileGrid bands = band_grid(config_, width, height, kRows);
   const driver::TileBins bins(
       bands, steps_.sheets(), splats.size(), threads, [&](std::size_t i) { return extent_of(splats[i]); },
       [&](std::size_t i) { return splats[i].first; });

@@ -31,6 +31,9 @@ class Chain {
   /// The frame's steps as they are told.
   std::vector<StepSet> sets() const { return step_sets(config_, steps_.carries()); }
   const SplatSteps& steps() const { return steps_; }
+  const SplatList& list() const { return list_; }
+  const scene::Scene& scene() const { return scene_; }
+  const cmodel::Config& config() const { return config_; }
   std::size_t splats() const { return list_.splats.size(); }
 
  private:

@@ -119,16 +119,23 @@ std::vector<StagedSplat> SplatSteps::staged(const SplatList& list, const Mixture
   return out;
 }
 
+double SplatSteps::behind(const StagedSplat& splat, int boundary, const Mixture& mixture) const {
+  return (mixture.device(Step::Depth) ? boundary_[static_cast<std::size_t>(boundary)]
+                                      : plan_.slabs.first + boundary * plan_.slabs.width) -
+         splat.z;
+}
+
 double SplatSteps::phi(const StagedSplat& splat, int boundary, const Mixture& mixture) const {
+  if (boundary == 0) return 0.0;
   if (boundary == plan_.slabs.count) return 1.0;
   const bool word = mixture.device(Step::Phi);
   if (mixture.device(Step::Depth)) {
     const auto middle = static_cast<double>(phi_table_.size() / 2);
-    const double at = (boundary_[static_cast<std::size_t>(boundary)] - splat.z) * depth_.scale + middle;
+    const double at = behind(splat, boundary, mixture) * depth_.scale + middle;
     const auto i = static_cast<std::size_t>(std::clamp(at, 0.0, 2.0 * middle));
     return word ? phi_table_[i] : phi_real_[i];
   }
-  const double share = scene_.kernel.cumulative(plan_.slabs.first + boundary * plan_.slabs.width - splat.z);
+  const double share = scene_.kernel.cumulative(behind(splat, boundary, mixture));
   return word ? static_cast<double>(driver::quantise(share, phi_word_).word) / phi_word_.scale : share;
 }
 

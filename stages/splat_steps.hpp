@@ -50,9 +50,13 @@ class SplatSteps {
   int reach() const;  ///< the most sheets that one splat reaches
   const driver::RadiusSets& sets() const { return sets_; }
 
- private:
   /// Of the kernel in front of boundary `boundary`: 0 before the first one, 1 behind the last.
   double phi(const StagedSplat& splat, int boundary, const Mixture& mixture) const;
+  /// Where boundary `boundary` lies behind the splat's centre, kernel units.
+  double behind(const StagedSplat& splat, int boundary, const Mixture& mixture) const;
+  bool sliced() const { return plan_.use == scene::SheetUse::Sliced; }
+
+ private:
   int first_sheet(const scene::RealSplat& splat, double z, const Mixture& mixture) const;
 
   const scene::Scene& scene_;

@@ -35,7 +35,7 @@ double WeightSteps::weight(double entries, const Mixture& mixture) const {
   if (mixture.device(Step::Index)) return mixture.device(Step::Weight) ? words_[t] : real_[t];
   // The word's own error, at the place where the real weight is read.
   const double real = std::exp(-fall_ * entries);
-  return mixture.device(Step::Weight) ? real + (words_[t] - real_[t]) : real;
+  return mixture.device(Step::Weight) ? std::max(0.0, real + (words_[t] - real_[t])) : real;
 }
 
 void WeightSteps::rasterise(const StagedSplat& splat, const Mixture& mixture, bool golden_units, golden::Rows rows,

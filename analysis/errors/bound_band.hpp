@@ -1,0 +1,107 @@
+// The bound on a band of image rows: forward for what each sheet shows, backward for what lies behind it, then splat by
+// splat what each rounding can do (docs/errors.md, section 3).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "analysis/errors/bound.hpp"
+#include "analysis/errors/roundings.hpp"
+#include "golden/splat/footprint.hpp"
+#include "stages/band_bins.hpp"
+#include "stages/weight_steps.hpp"
+
+namespace fastsplat::analysis {
+
+using golden::Sums;
+
+/// What is known of a sheet at a pixel, and what gathers there. Channels: R, G, B, and alpha or tau.
+struct SheetCell {
+  Sums sums{};                 ///< of the known mixture
+  double transmittance = 1.0;  ///< in front of the sheet
+  double dims = 1.0;           ///< exp(-tau), the derivative of opacity; 1 where sums are added
+  double factor = 1.0;         ///< (1-exp(-tau))/tau
+  double opacity = 0.0;
+  Sums colour{};                   ///< sums over tau; of alpha 1
+  Sums behind{};                   ///< what lies behind the sheet, by itself
+  double tau_error = 0.0;          ///< most that tau can be off
+  std::array<double, 3> spread{};  ///< most that sums less colour times tau can be off
+  Sums moved{};                    ///< most that the sheet's layer can be off, of first order, T not applied
+  Sums straddling{};  ///< of splats whose last sheet this is: what they add where a pixel freezes amid them
+};
+
+class BoundBand {
+ public:
+  /// Keeps references. `splats` are of the known mixture, binned by the sheet before their first one where depths are
+  /// open ("lead" 1).
+  BoundBand(const stages::Chain& chain, const stages::Mixture& known, const Roundings& roundings,
+            const std::vector<stages::StagedSplat>& splats, golden::Rows rows, int width);
+
+  void run(const driver::TileBins& bins, int band);
+  const std::vector<Sums>& greatest() const { return greatest_; }         ///< row by row
+  const std::array<double, kTermCount>& terms() const { return terms_; }  ///< sums over values
+
+ private:
+  /// One splat, one pixel.
+  struct Touch {
+    double weight = 0.0, error = 0.0;  ///< known; most that the device's differs
+    double by_place = 0.0, by_radius = 0.0, by_lookup = 0.0, by_weight = 0.0;  ///< parts of the error
+  };
+  /// What a splat gives to sheets first .. first + size - 1, and most that each part of it can be off.
+  struct Sliced {
+    int first = 0;
+    std::vector<Sums> value;        ///< known share
+    std::vector<double> part;       ///< of the kernel
+    std::vector<double> cut;        ///< of the kernel at boundary i, in front of sheet i; one more than sheets
+    std::vector<double> word;       ///< of a channel's word there
+    Sums whole_error{};             ///< of the whole splat
+    std::vector<Sums> share_error;  ///< of a share, all in all
+    std::vector<Sums> over;         ///< of it, what is cut at the largest word
+    std::size_t size() const { return value.size(); }
+  };
+  /// What a sum of the sheet that is off by 1 does to the pixel behind T = 1: a colour's own, and tau's.
+  struct Effect {
+    double colour = 0.0, tau = 0.0;
+    double of(const Sums& value, std::size_t c) const { return colour * value[c] + tau * value[3]; }
+  };
+
+  SheetCell& cell(int sheet, int x, int y) {
+    return cells_[(static_cast<std::size_t>(sheet) * static_cast<std::size_t>(rows_.end - rows_.first) +
+                   static_cast<std::size_t>(y - rows_.first)) *
+                      static_cast<std::size_t>(width_) +
+                  static_cast<std::size_t>(x)];
+  }
+  std::size_t pixel(int x, int y) const {
+    return static_cast<std::size_t>(y - rows_.first) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+
+  void fill_sheets(const driver::TileBins& bins, int band);
+  void look_through();
+  void add(const stages::StagedSplat& splat);
+  void slice(const stages::StagedSplat& splat);
+  Effect effect(const SheetCell& at, std::size_t c) const;
+  Touch touch(const stages::StagedSplat& splat, double dx, double dy) const;
+  void add_pixel(const stages::StagedSplat& splat, const Touch& touch, int x, int y);
+  void finish(int sheet);
+  void finish_pixel(int sheet, SheetCell& cell, std::size_t at, int x, int y);
+  void term(Term which, double amount) { terms_[static_cast<std::size_t>(which)] += amount; }
+
+  const stages::Chain& chain_;
+  const stages::Mixture& known_;
+  const Roundings& r_;
+  const std::vector<stages::StagedSplat>& splats_;
+  golden::Rows rows_;
+  int width_, sheets_;
+  bool xray_, additive_;
+  double entries_;  ///< N
+  stages::WeightSteps weights_;
+  std::vector<SheetCell> cells_;
+  std::vector<double> upper_, lower_;  ///< of the device's transmittance in front of the sheet at hand
+  std::vector<char> closed_;           ///< frozen for certain
+  std::vector<Sums> total_, greatest_;
+  std::array<double, kTermCount> terms_{};
+  Sliced sliced_;
+  std::vector<Sums> shares_;
+};
+
+}  // namespace fastsplat::analysis

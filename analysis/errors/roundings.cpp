@@ -1,0 +1,103 @@
+#include "analysis/errors/roundings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "driver/rounding_carry.hpp"
+#include "driver/tables.hpp"
+
+namespace fastsplat::analysis {
+namespace {
+
+using stages::Step;
+
+/// The most that a site moves a number: half an ulp, all of one that is cut off, nothing where no bit is dropped.
+double step_of(const cmodel::Config& config, cmodel::Site site) {
+  const cmodel::Narrowing narrowing = cmodel::narrowing(config, site);
+  if (narrowing.dropped_bits() == 0) return 0.0;
+  return std::ldexp(narrowing.rounding() == cmodel::Rounding::TRN ? 1.0 : 0.5, -narrowing.to().frac_bits);
+}
+
+/// Positions and snap together: where they round once, half a step of the 1/k grid.
+double place_of(const cmodel::Config& c) {
+  const bool once = driver::target(driver::Site::Position, c).rounding == driver::Target::Rounding::Down;
+  if (once) return std::ldexp(0.5, -c.phase_bits());
+  const double position = std::ldexp(0.5, -c.position_frac_bits);
+  return c.phase_bits() == c.position_frac_bits ? position : position + step_of(c, cmodel::Site::Snap);
+}
+
+double weight_of(const cmodel::Config& config, const scene::Kernel& kernel) {
+  const std::vector<double> real = driver::radial_samples(config, kernel);
+  const std::vector<std::uint32_t> words = driver::radial_table(config, kernel).words;
+  double most = 0.0;
+  for (std::size_t t = 0; t < real.size(); ++t)
+    most = std::max(most, std::abs(std::ldexp(static_cast<double>(words[t]), -config.radial_frac_bits) - real[t]));
+  return most;
+}
+
+/// With the carry a word differs from its own value by what the splat before left: rest = t - shown(floor(t)) lies
+/// between the least and the largest of V - shown(V), and up to 1 above; the word between rest - 1 and rest more.
+double emission_of(const cmodel::Config& config, const scene::Kernel& kernel, bool carries) {
+  const double ulp = std::ldexp(1.0, -config.colour_frac_bits);
+  if (!carries) return 0.5 * ulp;
+  const driver::ShownWords shown(config, kernel);
+  double least = 0.0, most = 0.0;
+  for (std::int64_t word = 0; word < 256; ++word) {
+    const double hidden = static_cast<double>(word) - shown(word);
+    least = std::min(least, hidden);
+    most = std::max(most, hidden);
+  }
+  return std::max(1.0 - least, 1.0 + most) * ulp;
+}
+
+/// A chord of a convex function lies above it by at most h^2/8 of its second derivative, for (1-exp(-t))/t at most 1/3;
+/// both ends and the fall are rounded.
+double factor_of(const cmodel::Config& c) {
+  const double segment = std::ldexp(1.0, c.sheet_int_bits) / c.opacity_segments;
+  return segment * segment / 24.0 + std::ldexp(0.5, -c.opacity_frac_bits) + step_of(c, cmodel::Site::Fall);
+}
+
+}  // namespace
+
+Roundings::Roundings(const scene::Scene& scene, const cmodel::Config& c, const stages::SplatSteps& steps,
+                     const stages::Mixture& known, const stages::Mixture& device) {
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  const auto open = [&](Step step) { return device.device(step) && !known.device(step); };
+  const auto greatest = [](const cmodel::Format& format) {
+    return std::ldexp(static_cast<double>(format.max), -format.frac_bits);
+  };
+  if (open(Step::Snap)) place = place_of(c);
+  radius = open(Step::Radius);
+  // Two words, each half a guard step off; an entry stands for the middle of its step.
+  if (open(Step::Distance)) lookup += std::ldexp(1.0, -c.rlut_guard_bits);
+  if (open(Step::Index)) lookup += 0.5;
+  if (open(Step::Weight)) weight = weight_of(c, scene.kernel);
+  largest_whole = largest_share = largest_sum = largest_pixel = kEndless;
+  if (open(Step::Emission)) {
+    emission = emission_of(c, scene.kernel, steps.carries());
+    largest_whole = 16.0 - std::ldexp(1.0, -c.colour_frac_bits);  // U 4.cf
+  }
+  if (open(Step::Depth)) depth = std::ldexp(1.0, -c.slice_phase_bits);
+  if (open(Step::Phi)) phi = std::ldexp(0.5, -c.slice_frac_bits);
+  shares_known = known.device(Step::Share);
+  if (open(Step::Share)) {
+    share = std::ldexp(0.5, -c.colour_frac_bits);
+    last_share = device.device(Step::Emission) ? 0.0 : share;
+    largest_share = greatest(c.colour_format());
+  }
+  if (open(Step::Product)) product = step_of(c, cmodel::Site::Product);
+  if (open(Step::Sheet)) largest_sum = greatest(c.sheet_format());
+  const bool additive = scene.description.slab_opacity == scene::SlabOpacity::Additive;
+  if (open(Step::Factor) && !additive) factor = factor_of(c);
+  if (open(Step::Slab)) slab = step_of(c, additive ? cmodel::Site::AddedColour : cmodel::Site::SlabColour);
+  if (open(Step::Composite)) composite = step_of(c, cmodel::Site::Light);
+  if (open(Step::Freeze)) freeze = std::ldexp(c.freeze_below, -c.composite_frac_bits);
+  if (open(Step::Pixel)) {
+    const bool xray = scene.description.method == scene::Method::XRay;
+    pixel = step_of(c, xray ? cmodel::Site::PixelSum : cmodel::Site::PixelOut);
+    largest_pixel = greatest(c.pixel_format());
+  }
+}
+
+}  // namespace fastsplat::analysis

@@ -1,0 +1,116 @@
+// The proved worst case: no pixel of any picture errs by more, and no step alone does.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "analysis/errors/bound.hpp"
+#include "base/error.hpp"
+#include "tests/cmodel/configs_helper.hpp"
+#include "tests/stages/mixtures_helper.hpp"
+
+namespace fastsplat::analysis {
+namespace {
+
+using stages::Chain, stages::Mixture, stages::Picture, stages::Step;
+
+struct Totals {
+  std::uint64_t frames = 0, values = 0, over = 0;
+  double worst = 0.0;
+  void add(const BoundCheck& one) {
+    ++frames;
+    values += one.values;
+    over += one.over;
+    worst = std::max(worst, one.worst);
+  }
+  void print(const char* what) const {
+    std::printf("[figure] %s: %llu bounds, %llu values, %llu over, worst measured / bound %.4f\n", what,
+                static_cast<unsigned long long>(frames), static_cast<unsigned long long>(values),
+                static_cast<unsigned long long>(over), worst);
+  }
+};
+
+void hold(const scene::Scene& scene, const cmodel::Config& config, Totals& totals) {
+  const Chain chain(scene, config);
+  const Picture real = chain(Mixture{}), device = chain(Mixture::all_device());
+  for (const Known known : kLevels) {
+    const BoundCheck one = check(bound(chain, real, known, 2), real, device);
+    totals.add(one);
+    EXPECT_EQ(one.over, 0u) << to_string(known) << " " << stages::test::text_of(config) << "\n"
+                            << scene::to_toml(scene.description);
+  }
+}
+
+TEST(Bound, HoldsOnEveryPixelOfNamedConfigurations) {
+  Totals totals;
+  for (const std::string& name : test::config_names()) {
+    for (const auto& description : stages::test::small_scenes())
+      hold(scene::build_scene(description), test::named_config(name), totals);
+  }
+  totals.print("named configurations");
+  EXPECT_GT(totals.worst, 0.5);  // it is a worst case, not a mile above
+}
+
+TEST(Bound, HoldsOnEveryPixelAtRandom) {
+  test::Random random(test::seed_or(3100));
+  Totals totals;
+  while (totals.frames < 300) {
+    const cmodel::Config config = test::random_config(random);
+    const scene::Scene scene = scene::build_scene(stages::test::random_scene(random));
+    try {
+      hold(scene, config, totals);
+    } catch (const UserError&) {
+      continue;  // the configuration cannot hold the scene
+    }
+  }
+  totals.print("at random");
+}
+
+/// What the page says of each step, where it can stand alone: one step's (or two that go together) device, all others
+/// real.
+TEST(Bound, HoldsForEachStepAlone) {
+  const std::vector<std::vector<Step>> alone{{Step::Position, Step::Snap},
+                                             {Step::Radius},
+                                             {Step::Distance},
+                                             {Step::Index},
+                                             {Step::Weight},
+                                             {Step::Emission},
+                                             {Step::Depth},
+                                             {Step::Phi},
+                                             {Step::Share},
+                                             {Step::Product},
+                                             {Step::Factor},
+                                             {Step::Slab},
+                                             {Step::Composite},
+                                             {Step::Freeze}};
+  test::Random random(test::seed_or(3101));
+  std::vector<scene::SceneDescription> scenes = stages::test::small_scenes();
+  while (scenes.size() < 12) scenes.push_back(stages::test::random_scene(random));
+  for (const auto& steps : alone) {
+    Totals totals;
+    for (const char* name : {"base", "compact", "tiny", "year2000"}) {
+      cmodel::Config config = test::named_config(name);
+      config.rounding_carry = static_cast<int>(cmodel::Carry::Off);
+      for (const auto& description : scenes) {
+        // Sums that are added need no rounding to be opacities where they have few enough bits: alone they are no
+        // words.
+        if (steps.front() == Step::Slab && description.slab_opacity == scene::SlabOpacity::Additive) continue;
+        try {
+          const scene::Scene scene = scene::build_scene(description);
+          const Chain chain(scene, config);
+          const Mixture device = Mixture{}.with(steps);
+          const Picture real = chain(Mixture{});
+          const BoundCheck one = check(bound(chain, real, Mixture{}, device, 2), real, chain(device));
+          totals.add(one);
+          EXPECT_EQ(one.over, 0u) << stages::facts(steps.front()).name << " in " << name << "\n"
+                                  << scene::to_toml(description);
+        } catch (const UserError&) {
+          continue;
+        }
+      }
+    }
+    totals.print(stages::facts(steps.front()).name);
+  }
+}
+
+}  // namespace
+}  // namespace fastsplat::analysis

@@ -1,0 +1,169 @@
+#include "tests/stages/oracle/render.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/stages/oracle/rounding.hpp"
+#include "tests/stages/oracle/splats.hpp"
+#include "tests/stages/oracle/tables.hpp"
+
+namespace fastsplat::stages::oracle {
+
+namespace {
+
+struct Pixel {
+  Values colour{};  ///< R, G, B; an X-ray's sums
+  double t = 1.0;
+  Closeness closeness;
+};
+
+class Frame {
+ public:
+  Frame(const scene::Scene& scene, const cmodel::Config& config, const Mixture& mixture)
+      : scene_(scene),
+        config_(config),
+        mixture_(mixture),
+        xray_(scene.description.method == scene::Method::XRay),
+        additive_(scene.description.slab_opacity == scene::SlabOpacity::Additive),
+        radial_(radial_table(scene.kernel.a(), scene.kernel.radius(), config)),
+        factor_(factor_table(config)) {}
+
+  /// Steps distance, index and weight: `dx`, `dy` pixels from the centre, both less than the radius.
+  double weight(double dx, double dy, double radius, Closeness& closeness) const {
+    const int n = config_.radial_entries, g = config_.rlut_guard_bits;
+    const double q = distance(dx, radius, closeness) + distance(dy, radius, closeness);
+    compare(q, n, g, closeness);
+    if (q >= n) return 0.0;
+    if (!mixture_.device(Step::Index) && !mixture_.device(Step::Weight)) return footprint(q / n);
+    const double t = trn(q, 0, closeness);
+    const double at = mixture_.device(Step::Index) ? t + 0.5 : q;
+    if (!mixture_.device(Step::Weight)) return footprint(at / n);
+    // In this order: where `at` is the entry's own place, nothing but the entry is left.
+    return std::max(0.0, footprint(at / n) - footprint((t + 0.5) / n) + radial_[static_cast<std::size_t>(t)]);
+  }
+
+  double product(double v, double w, Closeness& closeness) const {
+    if (!mixture_.device(Step::Product)) return v * w;
+    const double rounded = round_by(config_.rounding_product, v * w, config_.sheet_frac_bits, closeness);
+    return cut(rounded, 0.0, largest(config_.sheet_int_bits, config_.sheet_frac_bits));
+  }
+
+  /// Steps sheet to freeze, at the end of a sheet.
+  void composite(Values s, Pixel& pixel) const {
+    cut_sum(s);
+    if (s == Values{}) return;
+    if (xray_) {
+      for (std::size_t c = 0; c < 4; ++c) pixel.colour[c] += s[c];
+      cut_sum(pixel.colour);
+      return;
+    }
+    const Values slab = slab_of(s, pixel.closeness);
+    const double least = mixture_.device(Step::Freeze) ? std::ldexp(config_.freeze_below, -config_.composite_frac_bits)
+                                                       : scene_.description.culling.freeze;
+    compare(pixel.t, least, config_.composite_frac_bits, pixel.closeness);
+    if (pixel.t < least || pixel.t < 1e-20) return;
+    const double before = pixel.t;
+    if (!mixture_.device(Step::Composite)) {
+      for (std::size_t c = 0; c < 3; ++c) pixel.colour[c] += before * slab[c];
+      pixel.t = before * (1.0 - slab[3]);
+      return;
+    }
+    const int tf = config_.composite_frac_bits;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double light = to_unit(config_.rounding_light, before * slab[c], tf, pixel.closeness);
+      pixel.colour[c] = std::min(pixel.colour[c] + light, largest(1, tf));
+    }
+    pixel.t = before - to_unit(config_.rounding_light, before * slab[3], tf, pixel.closeness);
+  }
+
+  Values out(Pixel& pixel) const {
+    Values values = pixel.colour;
+    if (!xray_) values[3] = 1.0 - pixel.t;
+    if (!mixture_.device(Step::Pixel)) return values;
+    for (double& value : values) {
+      value =
+          to_unsigned(config_.rounding_pixel, value, config_.pixel_int_bits, config_.pixel_frac_bits, pixel.closeness);
+    }
+    return values;
+  }
+
+ private:
+  double footprint(double u) const {
+    return std::exp(-scene_.kernel.a() * scene_.kernel.radius() * scene_.kernel.radius() * u);
+  }
+
+  double distance(double d, double radius, Closeness& closeness) const {
+    const int n = config_.radial_entries, g = config_.rlut_guard_bits;
+    const double q = d * d * n / (radius * radius);
+    return mixture_.device(Step::Distance) ? rnd(q, g, closeness) : q;
+  }
+
+  void cut_sum(Values& sums) const {
+    if (!mixture_.device(Step::Sheet)) return;
+    for (double& sum : sums) sum = cut(sum, 0.0, largest(config_.sheet_int_bits, config_.sheet_frac_bits));
+  }
+
+  /// Steps factor and slab: colour, and last the opacity.
+  Values slab_of(const Values& s, Closeness& closeness) const {
+    const double tau = s[3];
+    const bool real_factor = !mixture_.device(Step::Factor), device_slab = mixture_.device(Step::Slab);
+    double f = 1.0;
+    if (!additive_ && !real_factor) {
+      f = interpolated(factor_, tau, config_, closeness);
+    } else if (!additive_ && tau != 0.0) {
+      f = -std::expm1(-tau) / tau;
+    }
+    Values slab{};
+    for (std::size_t c = 0; c < 4; ++c) {
+      slab[c] = s[c] * f;
+      if (device_slab) {
+        slab[c] = to_unit(config_.rounding_slab, slab[c], config_.composite_frac_bits, closeness);
+      } else if (additive_) {
+        slab[c] = std::min(1.0, slab[c]);
+      }
+    }
+    if (!device_slab && !additive_ && real_factor) slab[3] = -std::expm1(-tau);
+    return slab;
+  }
+
+  const scene::Scene& scene_;
+  const cmodel::Config& config_;
+  const Mixture& mixture_;
+  bool xray_, additive_;
+  std::vector<double> radial_, factor_;
+};
+
+}  // namespace
+
+std::vector<std::array<double, 4>> render(const scene::Scene& scene, const cmodel::Config& config,
+                                          const Mixture& mixture, std::vector<bool>* close) {
+  const int width = scene.description.width, height = scene.description.height;
+  const Frame frame(scene, config, mixture);
+  const std::vector<Splat> splats = splats_of(scene, config, mixture);
+  const std::size_t sheets = splats.empty() ? 0 : splats.front().shares.size();
+  std::vector<std::array<double, 4>> picture;
+  if (close != nullptr) close->clear();
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      Pixel pixel;
+      std::vector<Values> sums(sheets, Values{});
+      for (const Splat& splat : splats) {
+        const double dx = x - splat.x, dy = y - splat.y;
+        if (std::abs(dx) >= splat.radius || std::abs(dy) >= splat.radius) continue;
+        pixel.closeness |= splat.closeness;
+        const double w = frame.weight(dx, dy, splat.radius, pixel.closeness);
+        for (std::size_t s = 0; s < sheets; ++s) {
+          for (std::size_t c = 0; c < 4; ++c) {
+            if (splat.shares[s][c] != 0.0) sums[s][c] += frame.product(splat.shares[s][c], w, pixel.closeness);
+          }
+        }
+      }
+      for (std::size_t s = 0; s < sheets; ++s) frame.composite(sums[s], pixel);
+      picture.push_back(frame.out(pixel));
+      if (close != nullptr) close->push_back(pixel.closeness.close);
+    }
+  }
+  return picture;
+}
+
+}  // namespace fastsplat::stages::oracle

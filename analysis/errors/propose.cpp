@@ -47,7 +47,8 @@ std::vector<Journal::Entry> Simulator::operator()(const cmodel::Config& config, 
     } else {
       Journal::Entry entry;
       try {
-        const Image image = driver::to_image(driver::render(scenes_[i], config, {.threads = threads_, .progress = {}}).frame);
+        const Image image =
+            driver::to_image(driver::render(scenes_[i], config, {.threads = threads_, .progress = {}}).frame);
         if (golden_[i].data.empty())
           golden_[i] = golden::render(scenes_[i], {.threads = threads_, .progress = {}, .report = nullptr});
         entry = fidelity(golden_[i], image, threads_);

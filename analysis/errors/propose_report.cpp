@@ -68,6 +68,7 @@ std::string to_text(const Proposal& p) {
   for (const KeyOutcome& key : s.keys) {
     text += fmt::format("{:<24}{:>9}{:>9}{:>10}   {}\n", key.key, key.from, key.alone, key.proposed,
                         key.lower.empty() ? "(no less)"
+                        : key.dearer      ? fmt::format("{}: costs more", key.lower)
                         : std::isfinite(key.lowered.excess)
                             ? fmt::format("{}: {:.3f} of the error allowed", key.lower, key.lowered.excess)
                             : fmt::format("{}: cannot draw it", key.lower));

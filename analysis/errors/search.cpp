@@ -185,7 +185,8 @@ Steps Search::descend(Steps steps) {
     for (std::size_t k = 0; k < steps.size(); ++k) {
       Steps lower = steps;
       --lower[k];
-      if (!hopeless[k] && turned(from_, lower)) order.emplace_back(price(lower) - now, k);
+      // Fewer segments leave longer remainders to multiply: what is dearer is not lower.
+      if (!hopeless[k] && turned(from_, lower) && price(lower) <= now) order.emplace_back(price(lower) - now, k);
     }
     std::ranges::stable_sort(order, {}, [](const auto& entry) { return entry.first; });
     bool moved = false;
@@ -261,8 +262,12 @@ SearchOutcome Search::told(const Steps& steps) {
     Steps alone = begin_, lower = steps;
     alone[k] = lowest_[k];
     --lower[k];
-    KeyOutcome key{knob.key, text(from_, knob), text(*turned(from_, alone), knob), text(out.best, knob), {}, {}};
-    if (const auto config = turned(from_, lower)) key.lower = text(*config, knob), key.lowered = *judge(lower);
+    KeyOutcome key{knob.key, text(from_, knob), text(*turned(from_, alone), knob), text(out.best, knob), {}, false, {}};
+    if (const auto config = turned(from_, lower)) {
+      key.lower = text(*config, knob);
+      key.dearer = price(lower) > price(steps);
+      if (!key.dearer) key.lowered = *judge(lower);
+    }
     out.keys.push_back(std::move(key));
   }
   out.judged = static_cast<int>(known_.size());

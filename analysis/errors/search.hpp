@@ -29,7 +29,8 @@ struct KeyOutcome {
   const char* key = "";
   std::string from, alone, proposed;  ///< alone: the least that met the target with all other keys as they began
   std::string lower;                  ///< what it would be one step lower; empty where nothing is lower
-  Verdict lowered;                    ///< of that, alone: it does not meet the target
+  bool dearer = false;                ///< that would cost more
+  Verdict lowered;                    ///< else of that, alone: it does not meet the target
 };
 
 struct SearchOutcome {

@@ -46,11 +46,11 @@ TEST(ErrorsRanges, SaysWhatWouldDoAndAgreesWithTheDevicesCounters) {
 
 TEST(ErrorsRanges, MergesScenes) {
   const TempFolder folder;
-  const auto a = folder.write("a.toml", "[volume]\nname = \"shells:12\"\n[image]\nwidth = 24\nheight = 24\n");
-  const auto one = fastsplat(with(kRanges, {"--scenes", a, "--json", "-", "--quiet"}));
+  const auto a = folder.write("a.toml", "volume = \"shells:12\"\n");
+  const auto one = fastsplat(with(kRanges, {"--scenes", a, "--size", "24", "--json", "-", "--quiet"}));
   expect_success(one);
   const auto b = folder.write("b.toml", read_bytes(a));
-  const auto two = fastsplat(with(kRanges, {"--scenes", a + "," + b, "--json", "-", "--quiet"}));
+  const auto two = fastsplat(with(kRanges, {"--scenes", a + "," + b, "--size", "24", "--json", "-", "--quiet"}));
   expect_success(two);
   const Json single = Json::parse(one.out), both = Json::parse(two.out);
   ASSERT_EQ(both.at("scenes").size(), 2u);
@@ -126,7 +126,7 @@ TEST(ErrorsPropose, BadInputIsOneLine) {
   refused(with(propose, {"--target", "good"}), 2, {"--target", "is no target", "'good'", "psnr>="});
   refused(with(propose, {"--target", "psnr>=high"}), 2, {"--target", "no number"});
   refused(with(propose, {"--target", "max<=-1"}), 2, {"--target", "above 0"});
-  refused(with(kPropose, {"--scenes", "demo:nonsuch"}), 2, {"demo:nonsuch"});
+  refused(with(kPropose, {"--scenes", "demo:nonsuch"}), 2, {"nonsuch", "fire"});
   refused(with(kPropose, {"--scenes", folder / "none.toml"}), 3, {"none.toml"});
   refused(with(kPropose, {"--scenes", "demo:fire,,demo:fire"}), 2, {"--scenes", "empty"});
   refused(with(kPropose, {"--scenes", "demo:fire,demo:fire"}), 2, {"--scenes", "twice"});
@@ -137,7 +137,7 @@ TEST(ErrorsPropose, BadInputIsOneLine) {
   refused(with(kPropose, with(kSmall, {"--journal", no_journal})), 3, {"j.jsonl:1", "journal"});
   refused(with(kPropose, with(kSmall, {"-o", folder / "no/p.toml"})), 3, {"no/p.toml"});
   refused(with(kPropose, with(kSmall, {"-o", folder / "x", "--journal", folder / "x"})), 2, {"one name for two files"});
-  refused(with(kRanges, {"--scenes", "demo:nonsuch"}), 2, {"demo:nonsuch"});
+  refused(with(kRanges, {"--scenes", "demo:nonsuch"}), 2, {"nonsuch", "fire"});
   refused(with(kRanges, with(kSmall, {"--method", "raycast"})), 2, {"raycast"});
   refused(with(kRanges, with(kSmall, {"--config", "bose"})), 2, {"bose", "base"});
 }

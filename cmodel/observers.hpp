@@ -10,6 +10,7 @@
 
 #include "cmodel/counters.hpp"
 #include "cmodel/sites.hpp"
+#include "cmodel/wide_sum.hpp"
 
 namespace fastsplat::cmodel {
 
@@ -33,7 +34,32 @@ struct Range {
   std::int64_t least = std::numeric_limits<std::int64_t>::max();     ///< before narrowing, from_frac() fraction bits
   std::int64_t greatest = std::numeric_limits<std::int64_t>::min();  ///< likewise
   std::int64_t dropped = 0;                                          ///< which of the dropped bits were ever 1
+  std::int64_t ones = 0;                                             ///< which bits of the words were ever 1
+  /// Of words that stayed in the format: word less value, in steps of 2^-from_frac().
+  WideSum error{}, error_squares{};
+  /// Magnitudes before narrowing by their leading bit: of `leading[n]` it is bit n-1, `leading[0]` are zeros.
+  std::array<std::uint64_t, 64> leading{};
 
+  Range& operator+=(const Range& other) {
+    count += other.count;
+    inexact += other.inexact;
+    overflow += other.overflow;
+    least = std::min(least, other.least);
+    greatest = std::max(greatest, other.greatest);
+    dropped |= other.dropped;
+    ones |= other.ones;
+    error += other.error;
+    error_squares += other.error_squares;
+    for (std::size_t bit = 0; bit < leading.size(); ++bit) leading[bit] += other.leading[bit];
+    return *this;
+  }
+  bool operator==(const Range&) const = default;
+
+  /// Low bits that are 0 in every word; all of the word's where no word has a bit.
+  int idle_tail(const Narrowing& narrowing) const {
+    const int bits = std::bit_width(static_cast<std::uint64_t>(narrowing.to().max));
+    return ones == 0 ? bits : std::countr_zero(static_cast<std::uint64_t>(ones));
+  }
   /// Fraction bits more than the word has that would have lost nothing.
   int missing_bits(const Narrowing& narrowing) const {
     return dropped == 0 ? 0 : narrowing.dropped_bits() - std::countr_zero(static_cast<std::uint64_t>(dropped));
@@ -70,7 +96,19 @@ class Ranges {
     range.least = std::min(range.least, value);
     range.greatest = std::max(range.greatest, value);
     range.dropped |= narrowing.dropped(value);
+    range.ones |= narrowed.word;
+    ++range.leading[static_cast<std::size_t>(std::bit_width(static_cast<std::uint64_t>(value < 0 ? -value : value)))];
+    if (!narrowed.inexact || narrowed.overflow) return;
+    const std::int64_t error = narrowed.word * (std::int64_t{1} << narrowing.dropped_bits()) - value;
+    range.error.add(error);
+    range.error_squares.add_square(error);
   }
+  /// What both have seen.
+  Ranges& operator+=(const Ranges& other) {
+    for (std::size_t site = 0; site < ranges_.size(); ++site) ranges_[site] += other.ranges_[site];
+    return *this;
+  }
+  bool operator==(const Ranges&) const = default;
 
  private:
   std::array<Range, kSiteCount> ranges_;

@@ -1,5 +1,7 @@
 #include "analysis/errors/cost.hpp"
 
+#include <algorithm>
+
 namespace fastsplat::analysis {
 
 Cost cost(const cmodel::Config& c) {
@@ -9,16 +11,18 @@ Cost cost(const cmodel::Config& c) {
                weight = c.radial_int_bits + c.radial_frac_bits, colour = c.colour_frac_bits,
                sheet = c.sheet_int_bits + c.sheet_frac_bits, factor = c.opacity_frac_bits + 1.0,
                unit = c.composite_frac_bits + 1.0, rest = c.opacity_remainder_bits(),
-               position = c.position_int_bits + c.phase_bits();
+               position = c.position_int_bits + c.position_frac_bits, out_word = c.pixel_int_bits + c.pixel_frac_bits;
   Cost out;
-  out.storage_bits = static_cast<double>(c.rlut_columns) * c.phases * distance  // RLUT
-                     + c.radial_entries * weight                                // radial table
-                     + (c.opacity_segments + 1.0) * factor                      // factor table
-                     + 2.0 * pixels * 4.0 * sheet                               // two sheet buffers
-                     + pixels * 4.0 * unit;                                     // picture
+  // A table that all lanes read in the same cycle is there once a lane.
+  out.storage_bits = 2.0 * c.rlut_columns * c.phases * distance   // RLUT: x and y
+                     + lanes * c.radial_entries * weight          // radial table
+                     + lanes * c.opacity_segments * 2.0 * factor  // factor table: start and fall of a segment
+                     + 2.0 * pixels * 4.0 * sheet                 // two sheet buffers
+                     + pixels * 4.0 * std::max(unit, sheet);      // picture, or an X-ray's sums
   // A splat: its place on the two axes. A lane: q; four products and sums; then a pixel of a block: the factor's fall
-  // and its subtraction, four products with it, four with T, three sums and a difference.
-  out.adder_bits = 2.0 * position + lanes * (distance + 4.0 * sheet) + lanes * (2.0 * factor + 4.0 * unit);
+  // and its subtraction, four products with it, four with T, three sums and a difference. A row's pixels going out.
+  out.adder_bits = 2.0 * position + lanes * (distance + 4.0 * sheet) + lanes * (2.0 * factor + 4.0 * unit) +
+                   c.lanes * 4.0 * out_word;
   out.multiplier_bits =
       lanes * 4.0 * colour * weight + lanes * (factor * rest + 4.0 * sheet * factor + 4.0 * unit * unit);
   return out;

@@ -1,4 +1,4 @@
-// What a configuration costs to build, from the configuration alone (docs/errors.md, "cost").
+// What a configuration costs to build, from the configuration alone (docs/errors.md, "Cost").
 #pragma once
 
 #include "cmodel/config.hpp"
@@ -6,7 +6,7 @@
 namespace fastsplat::analysis {
 
 struct Cost {
-  double storage_bits = 0.0;     ///< of tables, sheets and picture, each counted once
+  double storage_bits = 0.0;     ///< of tables, sheets and picture, as often as the RTL has each
   double adder_bits = 0.0;       ///< full adders
   double multiplier_bits = 0.0;  ///< cells of array multipliers: the product of both widths
   /// One number to choose by: full adders, a multiplier's cell being one and a bit of memory a sixth of one.

@@ -16,6 +16,8 @@ const std::vector<Verb>& all_verbs() {
       verbs::cycles,
       verbs::errors,
       verbs::errors_bound,
+      verbs::errors_ranges,
+      verbs::errors_propose,
       {"config", "list, show, check and compare hardware configurations", nullptr},
       verbs::config_list,
       verbs::config_show,

@@ -1,0 +1,61 @@
+// The cheapest configuration that meets a target on all of some scenes, when simulated (docs/errors.md, "Propose").
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "analysis/errors/cost.hpp"
+#include "analysis/errors/journal.hpp"
+#include "analysis/errors/search.hpp"
+#include "analysis/errors/target.hpp"
+#include "base/image.hpp"
+#include "base/progress.hpp"
+#include "scene/scene.hpp"
+
+namespace fastsplat::analysis {
+
+/// Device against golden, over some scenes. Golden is drawn once a scene, and only if anything has to be simulated.
+class Simulator {
+ public:
+  /// Keeps references to both.
+  Simulator(const std::vector<scene::Scene>& scenes, Journal& journal, int threads);
+
+  /// Per scene; stops after the first that fails the target or, empty, cannot be drawn. `must`: then throws.
+  std::vector<Journal::Entry> operator()(const cmodel::Config& config, const Target& target, bool must = false);
+
+  int simulated() const { return simulated_; }  ///< frames drawn
+  int recalled() const { return recalled_; }    ///< frames the journal knew
+
+ private:
+  const std::vector<scene::Scene>& scenes_;
+  Journal& journal_;
+  int threads_;
+  std::vector<std::uint64_t> hashes_;
+  std::vector<Image> golden_;  ///< empty ones are not drawn yet
+  int simulated_ = 0, recalled_ = 0;
+};
+
+/// Of everything that decides a scene's picture.
+std::uint64_t scene_hash(const scene::Scene& scene);
+
+struct Proposal {
+  Target target;
+  cmodel::Config from;
+  SearchOutcome search;
+  std::vector<std::string> scenes;
+  /// The worst of the scenes by the target's figure; of `from`, maybe only of those up to the first that failed.
+  Journal::Entry error_from, error;
+  Cost cost_from, cost;
+  int simulated = 0, recalled = 0;
+};
+
+/// Throws UserError where `from` cannot draw a scene. `names`: of the scenes.
+Proposal propose(const std::vector<scene::Scene>& scenes, std::vector<std::string> names, const cmodel::Config& from,
+                 const Target& target, Journal& journal, int threads, const Progress& progress = {});
+
+std::string to_text(const Proposal& proposal);
+nlohmann::ordered_json to_json(const Proposal& proposal);
+
+}  // namespace fastsplat::analysis

@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "analysis/errors/ranges.hpp"
+#include "base/hash_text.hpp"
+
+namespace fastsplat::analysis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* name(const SiteRange& site) { return cmodel::facts(site.site).name; }
+
+std::string words(const Need& need) {
+  std::string text = fmt::format("{} {} -> {} would {}: {}", need.key, need.has, need.needs,
+                                 need.needs > need.has ? "saturate nothing" : "do", need.why);
+  if (need.possible != need.needs) {
+    text += need.possible == need.has ? fmt::format("; but then {}", need.limit)
+                                      : fmt::format("; {} at most, for then {}", need.possible, need.limit);
+  }
+  return text + "\n";
+}
+
+/// Shares by leading bit, tenths of the most frequent one: '.' for none.
+std::string bars(const SiteRange& site) {
+  if (site.histogram.empty()) return "only zeros";
+  std::uint64_t most = 0;
+  for (const auto& [weight, count] : site.histogram) most = std::max(most, count);
+  const int top = site.histogram.front().first, last = site.histogram.back().first;
+  std::string text(static_cast<std::size_t>(top - last) + 1, '.');
+  for (const auto& [weight, count] : site.histogram)
+    text[static_cast<std::size_t>(top - weight)] =
+        static_cast<char>('0' + static_cast<int>(9.0 * static_cast<double>(count) / static_cast<double>(most)));
+  return fmt::format("2^{} {} 2^{}", top, text, last);
+}
+
+double share(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+Json lost_json(const Lost& lost) { return {{"mean_ulp", lost.mean}, {"rms_ulp", lost.rms}}; }
+
+Json site_json(const SiteRange& site) {
+  Json histogram = Json::array();
+  for (const auto& [weight, count] : site.histogram) histogram.push_back({{"weight", weight}, {"values", count}});
+  return {{"site", name(site)},
+          {"format", site.format},
+          {"rounding", site.rounding},
+          {"dropped_bits", site.dropped_bits},
+          {"values", site.values},
+          {"zeros", site.zeros},
+          {"least", site.least},
+          {"greatest", site.greatest},
+          {"inexact", site.inexact},
+          {"saturated", site.saturated},
+          {"lost", lost_json(site.lost)},
+          {"theory", lost_json(site.theory)},
+          {"unused_head_bits", site.head},
+          {"idle_tail_bits", site.tail},
+          {"missing_bits", site.missing},
+          {"histogram", histogram}};
+}
+
+}  // namespace
+
+std::string to_text(const RangesReport& report) {
+  std::string text;
+  for (const Need& need : report.needs) {
+    if (need.needs != need.has) text += words(need);
+  }
+  if (text.empty()) text = "every signal is as wide as these scenes need it\n";
+  for (std::size_t i = 0; i < report.scenes.size(); ++i) {
+    const driver::DriverReport& scene = report.scenes[i];
+    if (scene.vanished_voxels + scene.saturated_voxels + scene.saturated_records == 0) continue;
+    text += fmt::format("{}: of {} voxels {} vanished ({:.3g} % of colour and opacity), {} and {} records saturated\n",
+                        report.names[i], scene.voxels, scene.vanished_voxels, 100.0 * scene.vanished_share,
+                        scene.saturated_voxels, scene.saturated_records);
+  }
+  text +=
+      fmt::format("{:<14}{:<8}{:>5}{:>14}{:>9}{:>13}{:>10}{:>10}{:>9}{:>9}{:>10}{:>6}{:>6}\n", "site", "word", "drops",
+                  "values", "inexact", "greatest", "mean lost", "theory", "RMS", "theory", "saturated", "head", "tail");
+  for (const SiteRange& site : report.sites) {
+    text += fmt::format(
+        "{:<14}{:<8}{:>5}{:>14}{:>7.1f} %{:>13.6g}{:>+10.4f}{:>+10.4f}{:>9.4f}{:>9.4f}{:>10}{:>6}{:>6}\n", name(site),
+        site.format, site.dropped_bits, site.values, 100.0 * share(site.inexact, site.values), site.greatest,
+        site.lost.mean, site.theory.mean, site.lost.rms, site.theory.rms, site.saturated, site.head, site.tail);
+  }
+  text +=
+      "(lost: word less value, in the word's last place; head, tail: its first bits never needed, its last always 0)\n";
+  text += "magnitudes by leading bit, in tenths of the most frequent:\n";
+  for (const SiteRange& site : report.sites)
+    text += fmt::format("{:<14}{}, {:.1f} % are 0\n", name(site), bars(site), 100.0 * share(site.zeros, site.values));
+  return text;
+}
+
+Json to_json(const RangesReport& report) {
+  Json json{{"schema", "fastsplat.ranges/1"},
+            {"config", {{"name", report.config.name}, {"hash", hash_text(cmodel::config_hash(report.config))}}}};
+  for (std::size_t i = 0; i < report.scenes.size(); ++i) {
+    const driver::DriverReport& scene = report.scenes[i];
+    json["scenes"].push_back({{"scene", report.names[i]},
+                              {"voxels", scene.voxels},
+                              {"vanished_voxels", scene.vanished_voxels},
+                              {"vanished_share", scene.vanished_share},
+                              {"saturated_voxels", scene.saturated_voxels},
+                              {"saturated_records", scene.saturated_records}});
+  }
+  json["needs"] = Json::array();
+  for (const Need& need : report.needs) {
+    json["needs"].push_back({{"key", need.key},
+                             {"has", need.has},
+                             {"needs", need.needs},
+                             {"possible", need.possible},
+                             {"why", need.why},
+                             {"limit", need.limit}});
+  }
+  json["sites"] = Json::array();
+  for (const SiteRange& site : report.sites) json["sites"].push_back(site_json(site));
+  report.counters.for_each(
+      [&](const char* counter, std::uint64_t value, const char*) { json["counters"][counter] = value; });
+  return json;
+}
+
+}  // namespace fastsplat::analysis

@@ -1,0 +1,304 @@
+#include "analysis/errors/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace fastsplat::analysis {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+/// Finer than anything is told apart from noise: after so many steps of all keys, nothing will.
+constexpr int kMostRaised = 6;
+constexpr int kMostExchanges = 5;
+/// What a search with these keys takes, about; for the progress shown.
+constexpr std::size_t kUsual = 200;
+
+double square(double x) { return x * x; }
+
+std::string text(const cmodel::Config& config, const Knob& knob) {
+  return cmodel::text_of(config, *cmodel::find_key(knob.key));
+}
+
+}  // namespace
+
+Search::Search(const cmodel::Config& from, Judge judge, Price price, Progress progress)
+    : from_(from), judge_(std::move(judge)), price_(std::move(price)), progress_(std::move(progress)) {}
+
+std::optional<Verdict> Search::judge(const Steps& steps) {
+  const auto config = turned(from_, steps);
+  if (!config) return std::nullopt;
+  const auto [found, fresh] = known_.try_emplace(cmodel::config_hash(*config));
+  if (fresh) {
+    found->second = judge_(*config);
+    if (progress_) progress_(known_.size(), std::max(kUsual, known_.size() + 1));
+  }
+  if (found->second.excess < nearest_excess_) nearest_ = steps, nearest_excess_ = found->second.excess;
+  return found->second;
+}
+
+bool Search::meets(const Steps& steps) {
+  const auto verdict = judge(steps);
+  return verdict && verdict->meets;
+}
+
+double Search::price(const Steps& steps) const {
+  const auto config = turned(from_, steps);
+  return config ? price_(*config) : kInfinite;
+}
+
+/// `from`, or all keys finer by as little as it takes; pixels freeze as they did unless nothing else helps.
+std::optional<Steps> Search::start() {
+  Steps steps(knobs().size(), 0);
+  nearest_ = steps;
+  if (meets(steps)) return steps;
+  for (const int freeze : {0, 2, 20}) {
+    if (freeze > 0 && from_.freeze_below == 0) break;
+    steps.assign(knobs().size(), 0);
+    steps[freeze_knob()] = freeze;
+    double before = kInfinite;
+    int idle = 0;
+    for (int raised = 0; raised < kMostRaised && idle < 2; ++raised) {
+      bool moved = freeze > 0 && raised == 0;
+      for (std::size_t k = 0; k < freeze_knob(); ++k) {
+        ++steps[k];
+        if (turned(from_, steps)) {
+          moved = true;
+        } else {
+          --steps[k];
+        }
+      }
+      if (!moved) break;
+      const auto verdict = judge(steps);
+      if (verdict && verdict->meets) return steps;
+      const double excess = verdict ? verdict->excess : kInfinite;
+      idle = excess < 0.99 * before ? 0 : idle + 1;
+      before = std::min(before, excess);
+    }
+  }
+  return std::nullopt;
+}
+
+/// Each knob alone from the start: by halving, for errors grow as bits go.
+void Search::lowest_alone(const Steps& start) {
+  begin_ = start;
+  lowest_ = start;
+  begin_square_ = square(judge(start)->excess);
+  added_.assign(knobs().size(), {});
+  for (std::size_t k = 0; k < knobs().size(); ++k) {
+    Steps steps = start;
+    const auto possible = [&](int step) {
+      steps[k] = step;
+      return turned(from_, steps).has_value();
+    };
+    int good = start[k], bad = start[k] - 1;
+    while (possible(bad)) --bad;
+    for (int stride = 1; good - bad > 1;) {
+      // Near the start first, in growing strides: few keys can go far down.
+      const int middle = std::max(good - stride, bad + 1);
+      steps[k] = middle;
+      const auto verdict = judge(steps);
+      added_[k][middle] = std::max(0.0, square(verdict->excess) - begin_square_);
+      if (verdict->meets) {
+        good = middle;
+        stride = std::min(2 * stride, std::max(1, (good - bad) / 2));
+      } else {
+        bad = middle;
+        stride = std::max(1, (good - bad) / 2);
+      }
+    }
+    lowest_[k] = good;
+  }
+}
+
+/// Noise of one knob: measured, or four times less for each step back from the nearest lower one that was.
+double Search::model(std::size_t knob, int step) const {
+  if (step >= begin_[knob] || added_[knob].empty()) return 0.0;
+  auto above = added_[knob].upper_bound(step);
+  if (above == added_[knob].begin()) return above->second * std::pow(4.0, above->first - step);
+  --above;
+  return std::isfinite(above->second) ? above->second * std::pow(4.0, above->first - step) : 0.0;
+}
+
+double Search::model(const Steps& steps) const {
+  double sum = begin_square_;
+  for (std::size_t k = 0; k < steps.size(); ++k) sum += model(k, steps[k]);
+  return sum;
+}
+
+/// As if noises added: from the least of each knob up, where a step takes most noise for its price.
+Steps Search::cheapest_by_model(double budget) const {
+  Steps steps = lowest_;
+  while (model(steps) > budget) {
+    const double now = price(steps);
+    double best = -1.0;
+    std::size_t which = steps.size();
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+      if (steps[k] >= begin_[k]) continue;
+      Steps finer = steps;
+      ++finer[k];
+      const double gain = model(k, steps[k]) - model(k, finer[k]);
+      // The least of all together may be no configuration: out of there first.
+      const double more = std::isfinite(now) ? price(finer) - now : 1.0;
+      if (!std::isfinite(more)) continue;
+      const double worth = gain / std::max(more, 1e-3);
+      if (worth > best) best = worth, which = k;
+    }
+    if (which == steps.size()) return begin_;
+    ++steps[which];
+  }
+  return steps;
+}
+
+/// The model's proposals, with the budget turned until they just meet the target when they are tried.
+Steps Search::combine(const Steps& start) {
+  Steps best = start;
+  double price_of_best = price(start), passes = 0.0, fails = 0.0, budget = 1.0;
+  for (int attempt = 0; attempt < 8; ++attempt) {
+    const Steps steps = cheapest_by_model(budget);
+    const auto verdict = judge(steps);
+    if (verdict && verdict->meets) {
+      passes = budget;
+      if (price(steps) < price_of_best) best = steps, price_of_best = price(steps);
+    } else {
+      fails = budget;
+    }
+    const double excess = verdict ? verdict->excess : 2.0;
+    if (passes > 0.0 && fails > 0.0) {
+      if (fails - passes < 0.03 * fails) break;
+      budget = 0.5 * (passes + fails);
+    } else {
+      budget /= std::clamp(square(excess), passes > 0.0 ? 0.5 : 1.1, passes > 0.0 ? 0.9 : 10.0);
+    }
+  }
+  return best;
+}
+
+/// Lowers single knobs, what saves most first, as long as the target is met. What failed once is not tried again
+/// before the end: with less of the others it would not do better. At the end all are tried: none can be lowered alone.
+Steps Search::descend(Steps steps) {
+  std::vector<bool> hopeless(steps.size(), false);
+  for (bool last = false;;) {
+    const double now = price(steps);
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+      Steps lower = steps;
+      --lower[k];
+      // Fewer segments leave longer remainders to multiply: what is dearer is not lower.
+      if (!hopeless[k] && turned(from_, lower) && price(lower) <= now) order.emplace_back(price(lower) - now, k);
+    }
+    std::ranges::stable_sort(order, {}, [](const auto& entry) { return entry.first; });
+    bool moved = false;
+    for (const auto& [saved, k] : order) {
+      Steps lower = steps;
+      --lower[k];
+      if (meets(lower)) {
+        steps = lower;
+        moved = true;
+        last = false;
+        break;
+      }
+      hopeless[k] = true;
+    }
+    if (moved) continue;
+    if (last) return steps;
+    hopeless.assign(steps.size(), false);
+    last = true;
+  }
+}
+
+/// One knob down and another up, where that is cheaper and the noises, added, say that it may do. Only what is tried
+/// counts.
+std::optional<Steps> Search::exchange(const Steps& steps) {
+  constexpr double kMayDo = 1.05;
+  constexpr std::size_t kMostTried = 10;
+  const double now = price(steps), square_now = square(judge(steps)->excess);
+  struct Candidate {
+    double price;
+    Steps steps;
+  };
+  std::vector<Candidate> candidates;
+  std::vector<std::pair<std::size_t, double>> raised;  // knob, what it takes from the squared excess
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    Steps finer = steps;
+    ++finer[k];
+    if (k == freeze_knob() || !turned(from_, finer)) continue;
+    raised.emplace_back(k, square_now - square(judge(finer)->excess));
+  }
+  for (std::size_t down = 0; down < steps.size(); ++down) {
+    for (const int depth : {1, 2}) {
+      Steps lower = steps;
+      lower[down] -= depth;
+      if (!turned(from_, lower) || price(lower) >= now) continue;
+      // Two steps down are not tried alone: four times what one adds.
+      Steps one = steps;
+      --one[down];
+      const double adds = (square(judge(one)->excess) - square_now) * (depth == 2 ? 5.0 : 1.0);
+      for (const auto& [up, takes] : raised) {
+        Steps both = lower;
+        ++both[up];
+        if (up == down || !turned(from_, both)) continue;
+        const double cost = price(both);
+        if (cost < 0.999 * now && square_now + adds - takes <= square(kMayDo)) candidates.push_back({cost, both});
+      }
+    }
+  }
+  std::ranges::stable_sort(candidates, {}, &Candidate::price);
+  for (std::size_t i = 0; i < std::min(kMostTried, candidates.size()); ++i) {
+    if (meets(candidates[i].steps)) return candidates[i].steps;
+  }
+  return std::nullopt;
+}
+
+SearchOutcome Search::told(const Steps& steps) {
+  SearchOutcome out;
+  out.met = true;
+  out.best = *turned(from_, steps);
+  out.verdict = *judge(steps);
+  out.start = *turned(from_, begin_);
+  for (std::size_t k = 0; k < knobs().size(); ++k) {
+    const Knob& knob = knobs()[k];
+    Steps alone = begin_, lower = steps;
+    alone[k] = lowest_[k];
+    --lower[k];
+    KeyOutcome key{knob.key, text(from_, knob), text(*turned(from_, alone), knob), text(out.best, knob), {}, false, {}};
+    if (const auto config = turned(from_, lower)) {
+      key.lower = text(*config, knob);
+      key.dearer = price(lower) > price(steps);
+      if (!key.dearer) key.lowered = *judge(lower);
+    }
+    out.keys.push_back(std::move(key));
+  }
+  out.judged = static_cast<int>(known_.size());
+  return out;
+}
+
+SearchOutcome Search::run() {
+  const auto start = this->start();
+  if (!start) {
+    SearchOutcome out;
+    out.best = *turned(from_, nearest_);
+    out.verdict = {false, nearest_excess_};
+    cmodel::Config wider = out.best;
+    wider.rlut_sets = std::min(64, 2 * wider.rlut_sets);
+    wider.rlut_columns = std::min(1024, 2 * wider.rlut_columns);
+    wider.position_int_bits = std::min(16, wider.position_int_bits + 1);
+    if (!cmodel::first_violation(wider)) {
+      out.geometry_verdict = judge_(wider);
+      if (out.geometry_verdict.excess < 0.98 * nearest_excess_) out.geometry = wider;
+    }
+    out.judged = static_cast<int>(known_.size());
+    return out;
+  }
+  lowest_alone(*start);
+  Steps steps = descend(combine(*start));
+  for (int round = 0; round < kMostExchanges; ++round) {
+    const auto cheaper = exchange(steps);
+    if (!cheaper) break;
+    steps = descend(*cheaper);
+  }
+  return told(steps);
+}
+
+}  // namespace fastsplat::analysis

@@ -1,0 +1,35 @@
+// How good a picture has to be: "psnr>=50", "max<=1", "rms<=0.1"; in LSB of 8 bits, as compare counts
+// (docs/compare.md).
+#pragma once
+
+#include <string>
+
+#include "base/image.hpp"
+
+namespace fastsplat::analysis {
+
+/// Over all values of all channels alike, alpha too: compare's figures of the same name.
+struct Fidelity {
+  double rms_lsb = 0.0, max_lsb = 0.0;
+  double psnr_db() const;  ///< +inf where rms_lsb is 0
+  bool operator==(const Fidelity&) const = default;
+};
+/// Throws UserError (NotComparable) where sizes differ.
+Fidelity fidelity(const Image& ref, const Image& test, int threads);
+
+struct Target {
+  enum class Figure { Psnr, Max, Rms } figure = Figure::Psnr;
+  double limit = 0.0;
+  std::string text;  ///< as it was given
+
+  bool met(const Fidelity& of) const;
+  /// Error over the error that is allowed: at most 1 where the target is met, but for the last bit of a double.
+  double excess(const Fidelity& of) const;
+  /// "PSNR 50.32 dB", "max 0.83 LSB8", "RMS 0.0921 LSB8"
+  std::string told(const Fidelity& of) const;
+};
+
+/// Throws UserError (Usage) in the name of --target.
+Target parse_target(const std::string& text);
+
+}  // namespace fastsplat::analysis

@@ -1,0 +1,146 @@
+// fastsplat errors ranges and errors propose, as a user meets them: what they print, write and refuse.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "tests/cli/process_helper.hpp"
+
+namespace fastsplat::cli_test {
+namespace {
+
+using Json = nlohmann::json;
+using Words = std::vector<std::string>;
+
+Words with(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+const Words kRanges{"errors", "ranges"}, kPropose{"errors", "propose", "--target", "psnr>=40"};
+const Words kSmall{"--volume", "shells:12", "--size", "24"};
+
+TEST(ErrorsRanges, SaysWhatWouldDoAndAgreesWithTheDevicesCounters) {
+  const TempFolder folder;
+  const auto result = fastsplat(with(kRanges, with(kSmall, {"--config", "tiny", "--json", folder / "r.json"})));
+  expect_success(result);
+  EXPECT_NE(result.out.find("would do: "), std::string::npos) << result.out;
+  const Json json = Json::parse(read_bytes(folder / "r.json"));
+  EXPECT_EQ(json.at("schema"), "fastsplat.ranges/1");
+  const auto rendered = fastsplat(with({"render", "--engine", "cmodel", "--config", "tiny", "-o", folder / "a.exr",
+                                        "--quiet", "--json", folder / "a.json"},
+                                       kSmall));
+  expect_success(rendered);
+  EXPECT_EQ(json.at("counters"), Json::parse(read_bytes(folder / "a.json")).at("counters"));
+  int sites = 0;
+  for (const Json& site : json.at("sites")) {
+    std::uint64_t values = site.at("zeros").get<std::uint64_t>();
+    for (const Json& bin : site.at("histogram")) values += bin.at("values").get<std::uint64_t>();
+    EXPECT_EQ(values, site.at("values").get<std::uint64_t>()) << site.at("site");
+    ++sites;
+  }
+  std::printf("[figure] sites told = %d (limit >= 9)\n", sites);
+  EXPECT_GE(sites, 9);
+}
+
+TEST(ErrorsRanges, MergesScenes) {
+  const TempFolder folder;
+  const auto a = folder.write("a.toml", "volume = \"shells:12\"\n");
+  const auto one = fastsplat(with(kRanges, {"--scenes", a, "--size", "24", "--json", "-", "--quiet"}));
+  expect_success(one);
+  const auto b = folder.write("b.toml", read_bytes(a));
+  const auto two = fastsplat(with(kRanges, {"--scenes", a + "," + b, "--size", "24", "--json", "-", "--quiet"}));
+  expect_success(two);
+  const Json single = Json::parse(one.out), both = Json::parse(two.out);
+  ASSERT_EQ(both.at("scenes").size(), 2u);
+  for (std::size_t i = 0; i < single.at("sites").size(); ++i) {
+    EXPECT_EQ(2 * single.at("sites")[i].at("values").get<std::uint64_t>(),
+              both.at("sites")[i].at("values").get<std::uint64_t>());
+    EXPECT_EQ(single.at("sites")[i].at("lost"), both.at("sites")[i].at("lost"));
+  }
+  EXPECT_EQ(single.at("needs"), both.at("needs"));
+}
+
+TEST(ErrorsPropose, WritesAConfigurationThatIsSoundAndResumes) {
+  const TempFolder folder;
+  const Words words = with(kPropose, with(kSmall, {"-o", folder / "p.toml", "--journal", folder / "j.jsonl"}));
+  const auto first = fastsplat(with(words, {"--json", folder / "p.json"}));
+  expect_success(first);
+  expect_success(fastsplat({"config", "check", folder / "p.toml"}));
+  const std::string bytes = read_bytes(folder / "p.toml"), journal = read_bytes(folder / "j.jsonl");
+  const Json json = Json::parse(read_bytes(folder / "p.json"));
+  EXPECT_TRUE(json.at("met").get<bool>());
+  EXPECT_GE(json.at("error").at("psnr_db").get<double>(), 40.0);
+  const auto again = fastsplat(words);
+  expect_success(again);
+  EXPECT_NE(again.out.find(" 0 frames simulated"), std::string::npos) << again.out;
+  EXPECT_EQ(read_bytes(folder / "p.toml"), bytes);
+  EXPECT_EQ(read_bytes(folder / "j.jsonl"), journal);
+  // The device that it is, by the program's own compare.
+  expect_success(fastsplat(with({"render", "-o", folder / "g.exr", "--quiet"}, kSmall)));
+  expect_success(fastsplat(with(
+      {"render", "--engine", "cmodel", "--config", folder / "p.toml", "-o", folder / "d.exr", "--quiet"}, kSmall)));
+  expect_success(fastsplat({"compare", folder / "g.exr", folder / "d.exr", "--min-psnr", "40"}));
+}
+
+TEST(ErrorsPropose, CtrlCLeavesAJournalThatIsGoneOnWith) {
+  const TempFolder folder;
+  const Words words{"errors", "propose", "--target", "psnr>=45",        "--volume",  "shells:24",
+                    "--size", "48",      "-o",       folder / "p.toml", "--journal", folder / "j.jsonl"};
+  Surroundings interrupted;
+  interrupted.signal = SIGINT;
+  interrupted.when = [&](pid_t) {
+    return std::filesystem::exists(folder / "j.jsonl") && read_bytes(folder / "j.jsonl").size() > 1000;
+  };
+  const auto result = fastsplat(words, interrupted);
+  EXPECT_EQ(result.code, 130) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "p.toml"));
+  const std::string journal = read_bytes(folder / "j.jsonl");
+  ASSERT_GT(journal.size(), 1000u);
+  expect_success(fastsplat(words));
+  EXPECT_TRUE(read_bytes(folder / "j.jsonl").starts_with(journal.substr(0, journal.rfind('\n') + 1)));
+  std::printf("[figure] journal at Ctrl-C = %zu bytes\n", journal.size());
+}
+
+TEST(ErrorsPropose, AnUnreachableTargetIsExit1AndWritesNothing) {
+  const TempFolder folder;
+  const auto result = fastsplat(with({"errors", "propose", "--target", "psnr>=250", "-o", folder / "p.toml"}, kSmall));
+  EXPECT_EQ(result.code, 1) << result.err;
+  EXPECT_NE(result.out.find("psnr>=250 is not met: PSNR "), std::string::npos) << result.out;
+  EXPECT_TRUE(folder.entries().empty());
+}
+
+TEST(ErrorsPropose, BadInputIsOneLine) {
+  const TempFolder folder;
+  const auto no_config = folder.write("c.toml", "name = 3\n"), no_journal = folder.write("j.jsonl", "hello\n");
+  const auto refused = [&](const Words& words, int code, const Words& said) {
+    SCOPED_TRACE(
+        std::accumulate(words.begin(), words.end(), std::string{}, [](auto a, auto& b) { return a + " " + b; }));
+    const auto before = folder.entries();
+    expect_error(fastsplat(words), code, said);
+    EXPECT_EQ(folder.entries(), before);
+  };
+  const Words propose{"errors", "propose"};
+  refused(with(propose, kSmall), 2, {"--target"});
+  refused(with(propose, {"--target", "good"}), 2, {"--target", "is no target", "'good'", "psnr>="});
+  refused(with(propose, {"--target", "psnr>=high"}), 2, {"--target", "no number"});
+  refused(with(propose, {"--target", "max<=-1"}), 2, {"--target", "above 0"});
+  refused(with(kPropose, {"--scenes", "demo:nonsuch"}), 2, {"nonsuch", "fire"});
+  refused(with(kPropose, {"--scenes", folder / "none.toml"}), 3, {"none.toml"});
+  refused(with(kPropose, {"--scenes", "demo:fire,,demo:fire"}), 2, {"--scenes", "empty"});
+  refused(with(kPropose, {"--scenes", "demo:fire,demo:fire"}), 2, {"--scenes", "twice"});
+  refused(with(kPropose, {"--scene", "demo:fire", "--scenes", "demo:fire"}), 2, {"--scenes"});
+  refused(with(kPropose, with(kSmall, {"--method", "raycast"})), 2, {"raycast"});
+  refused(with(kPropose, with(kSmall, {"--from", "bose"})), 2, {"bose", "base"});
+  refused(with(kPropose, with(kSmall, {"--from", no_config})), 3, {"c.toml"});
+  refused(with(kPropose, with(kSmall, {"--journal", no_journal})), 3, {"j.jsonl:1", "journal"});
+  refused(with(kPropose, with(kSmall, {"-o", folder / "no/p.toml"})), 3, {"no/p.toml"});
+  refused(with(kPropose, with(kSmall, {"-o", folder / "x", "--journal", folder / "x"})), 2, {"one name for two files"});
+  refused(with(kRanges, {"--scenes", "demo:nonsuch"}), 2, {"nonsuch", "fire"});
+  refused(with(kRanges, with(kSmall, {"--method", "raycast"})), 2, {"raycast"});
+  refused(with(kRanges, with(kSmall, {"--config", "bose"})), 2, {"bose", "base"});
+}
+
+}  // namespace
+}  // namespace fastsplat::cli_test

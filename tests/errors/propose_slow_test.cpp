@@ -1,0 +1,119 @@
+// A proposal on a real case: it meets its target, no key of it can be lowered, and its journal replaces simulation.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "analysis/compare.hpp"
+#include "analysis/errors/propose.hpp"
+#include "driver/config_file.hpp"
+#include "driver/render.hpp"
+#include "golden/render.hpp"
+
+namespace fastsplat::analysis {
+namespace {
+
+scene::Scene shells(scene::Method method = scene::Method::ImageAligned) {
+  scene::SceneDescription description;
+  description.volume = "shells:24";
+  description.width = description.height = 48;
+  description.method = method;
+  return scene::build_scene(description);
+}
+
+/// By render and compare, not by the search's own eyes.
+double psnr(const scene::Scene& scene, const cmodel::Config& config) {
+  return compare(golden::render(scene), driver::to_image(driver::render(scene, config).frame)).figures.psnr_db;
+}
+
+class Propose : public ::testing::Test {
+ protected:
+  ~Propose() override { std::filesystem::remove(path_); }
+  const std::filesystem::path path_ =
+      std::filesystem::temp_directory_path() / ("fastsplat_propose_" + std::to_string(::getpid()) + ".jsonl");
+  const std::vector<scene::Scene> scenes_{shells()};
+  const cmodel::Config base_ = driver::load_config("base");
+};
+
+TEST_F(Propose, MeetsTheTargetAndNoKeyCanBeLoweredAlone) {
+  Journal journal;
+  const Proposal p = propose(scenes_, {"shells"}, base_, parse_target("psnr>=50"), journal, 0);
+  ASSERT_TRUE(p.search.met);
+  const double reached = psnr(scenes_[0], p.search.best);
+  EXPECT_GE(reached, 50.0);
+  EXPECT_EQ(reached, p.error->psnr_db());
+  EXPECT_LT(p.cost.total(), p.cost_from.total());
+  int tried = 0;
+  double nearest = 0.0;
+  for (std::size_t k = 0; k < freeze_knob(); ++k) {
+    Steps lower(knobs().size(), 0);
+    lower[k] = -1;
+    const auto config = turned(p.search.best, lower);
+    if (!config || cost(*config).total() > p.cost.total()) continue;
+    const double one_less = psnr(scenes_[0], *config);
+    EXPECT_LT(one_less, 50.0) << knobs()[k].key << " can be lowered";
+    nearest = std::max(nearest, one_less);
+    ++tried;
+  }
+  EXPECT_GE(tried, 7);
+  std::printf(
+      "[figure] base %.2f dB at cost %.0f -> %.2f dB at cost %.0f; %d keys one lower, nearest %.2f dB; %d frames\n",
+      p.error_from->psnr_db(), p.cost_from.total(), reached, p.cost.total(), tried, nearest, p.simulated);
+  EXPECT_EQ(p.simulated, p.search.judged);
+}
+
+TEST_F(Propose, ItsJournalResumesWithoutSimulating) {
+  const Target target = parse_target("rms<=0.5");
+  Proposal first, again, halfway;
+  {
+    Journal journal(path_);
+    first = propose(scenes_, {"shells"}, base_, target, journal, 0);
+  }
+  {
+    Journal journal(path_);
+    again = propose(scenes_, {"shells"}, base_, target, journal, 1);
+  }
+  EXPECT_GT(first.simulated, 0);
+  EXPECT_EQ(again.simulated, 0);
+  EXPECT_EQ(driver::to_toml(again.search.best), driver::to_toml(first.search.best));
+  // Interrupted halfway: what is missing is simulated, no more.
+  std::ostringstream all;
+  all << std::ifstream(path_, std::ios::binary).rdbuf();
+  std::filesystem::resize_file(path_, all.str().size() / 2);
+  {
+    Journal journal(path_);
+    halfway = propose(scenes_, {"shells"}, base_, target, journal, 2);
+  }
+  EXPECT_GT(halfway.simulated, 0);
+  EXPECT_LT(halfway.simulated, first.simulated);
+  EXPECT_EQ(driver::to_toml(halfway.search.best), driver::to_toml(first.search.best));
+  std::ostringstream whole;
+  whole << std::ifstream(path_, std::ios::binary).rdbuf();
+  EXPECT_EQ(whole.str(), all.str()) << "the journal of an interrupted search is that of one that was not";
+  std::printf("[figure] frames: %d at first, %d resumed, %d from half a journal\n", first.simulated, again.simulated,
+              halfway.simulated);
+}
+
+TEST_F(Propose, HoldsOnEveryScene) {
+  const std::vector<scene::Scene> both{shells(), shells(scene::Method::XRay)};
+  Journal journal;
+  const Proposal p = propose(both, {"slabs", "x-ray"}, base_, parse_target("psnr>=45"), journal, 0);
+  ASSERT_TRUE(p.search.met);
+  for (const scene::Scene& scene : both) EXPECT_GE(psnr(scene, p.search.best), 45.0);
+  std::printf("[figure] two scenes: %.2f and %.2f dB at cost %.0f, %d frames\n", psnr(both[0], p.search.best),
+              psnr(both[1], p.search.best), p.cost.total(), p.simulated);
+}
+
+TEST_F(Propose, ScenesThatDifferAreNotTheSameInAJournal) {
+  auto other = scenes_[0].description;
+  other.camera.azimuth += 1.0;
+  EXPECT_NE(scene_hash(scenes_[0]), scene_hash(scene::build_scene(other)));
+  EXPECT_EQ(scene_hash(scenes_[0]), scene_hash(shells()));
+}
+
+}  // namespace
+}  // namespace fastsplat::analysis

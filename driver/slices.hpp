@@ -39,6 +39,8 @@ class Slices {
     const std::int32_t back = depth + middle_;
     return last_that(back, [back](std::int32_t boundary) { return boundary < back; });
   }
+  /// The most slabs that a kernel reaches beyond its first.
+  int reach() const;
   /// What falls into slab s.
   Share share(const SplatWords& whole, std::int32_t depth, int s) const {
     const std::uint64_t near = cumulative(depth, s), far = cumulative(depth, s + 1);

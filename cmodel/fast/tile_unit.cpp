@@ -34,8 +34,9 @@ TileUnit<T>::TileUnit(const FrameTables& tables, PixelSink& pixels)
 }
 
 template <class T>
-void TileUnit<T>::begin_tile(const BeginTile& tile) {
+void TileUnit<T>::begin_band(const BeginTile& tile, bool first) {
   tile_ = tile;
+  first_band_ = first;
   sheet_.resize(tile.width, tile.height, tables_.reach);
   const std::uint32_t one = std::uint32_t{1} << tables_.config.composite_frac_bits;
   picture_.assign(static_cast<std::size_t>(tile.width) * tile.height,
@@ -67,9 +68,9 @@ std::uint32_t TileUnit<T>::clipped_weighted(const Shape& shape, const std::uint1
 
 template <class T>
 Placed TileUnit<T>::place(std::uint32_t set, const SnappedAxis& sx, const SnappedAxis& sy) const {
-  Placed out{.set = static_cast<std::uint16_t>(set)};
-  const Shape& shape = tables_.memo.shape(set);
   const int x = sx.origin, y = sy.origin;
+  Placed out{.set = static_cast<std::uint16_t>(set), .counted = first_band_ || y >= 0};
+  const Shape& shape = tables_.memo.shape(set);
   const int x0 = std::max(x, 0), x1 = std::min(x + shape.padded, tile_.width);
   const int y0 = std::max(y, 0), y1 = std::min(y + shape.padded, tile_.height);
   if (x0 >= x1 || y0 >= y1) return out;

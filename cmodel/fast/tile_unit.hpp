@@ -28,6 +28,7 @@ struct Placed {
   std::uint16_t weighted = 0;         ///< of those, with a weight above 0
   std::uint16_t first = 1, last = 0;  ///< rows of blocks, both included
   std::uint16_t set = 0;
+  bool counted = true;  ///< here; false in a band of a tile that the footprint only reaches down into
 };
 
 /// Takes tiles one after the other, in records that are known to obey docs/stream.md (the driver's own). T is the
@@ -38,7 +39,11 @@ class TileUnit final : public RecordSink {
   /// Both outlive the unit.
   TileUnit(const FrameTables& tables, PixelSink& pixels);
 
-  void begin_tile(const BeginTile& tile) override;
+  void begin_tile(const BeginTile& tile) override { begin_band(tile, true); }
+  /// A band of a tile's rows of blocks as if it were a tile: for end_tile() as well. Counters of the bands of a tile
+  /// add up to those of the tile, but for `tiles` and `sheets`. A splat goes to all bands its windows touch and is
+  /// counted where they begin: `first` is the band that has those that begin above it, too.
+  void begin_band(const BeginTile& band, bool first);
   void begin_sheet(const BeginSheet& sheet) override;
   void splats(std::span<const SplatRecord> records) override;
   void end_sheet(const EndSheet& sheet) override;
@@ -48,8 +53,10 @@ class TileUnit final : public RecordSink {
   /// relative to the tile.
   Placed place(std::uint32_t set, const SnappedAxis& x, const SnappedAxis& y) const;
   void add(const Placed& placed, const std::array<std::uint32_t, 4>& colour) {
-    ++counters_.splats;
-    counters_.windows += windows_[placed.set];
+    if (placed.counted) {
+      ++counters_.splats;
+      counters_.windows += windows_[placed.set];
+    }
     counters_.lanes_inside += placed.inside;
     counters_.lanes_weighted += placed.weighted;
     bool frozen = any_frozen_;
@@ -61,7 +68,7 @@ class TileUnit final : public RecordSink {
     const std::uint32_t brightest = std::max({colour[0], colour[1], colour[2]});
     if (frozen && brightest <= colour[3]) {
       // Nothing it does can be seen, and only its tau can be counted.
-      ++hidden_splats_;
+      hidden_splats_ += placed.counted ? 1 : 0;
       put(hidden_jobs_, placed, colour);
     } else {
       put(jobs_, placed, colour);
@@ -72,7 +79,7 @@ class TileUnit final : public RecordSink {
   /// nothing; only the plain unit can tell how often. Then `counters()` are those of the tiles before.
   bool sound() const { return sound_; }
   const Counters& counters() const { return counters_; }
-  /// Splats all of whose blocks were frozen: only their tau was added up, for the counters.
+  /// Splats all of whose blocks, in the band they begin in, were frozen: only their tau was added up, for the counters.
   std::uint64_t hidden_splats() const { return hidden_splats_; }
 
  private:
@@ -119,6 +126,7 @@ class TileUnit final : public RecordSink {
   std::vector<PixelState> picture_;            ///< row by row
   std::vector<std::uint64_t> dirty_, frozen_;  ///< a word per row of blocks
   std::vector<T> hidden_tau_;                  ///< sums of tau of hidden splats, laid out as the sheet
+  bool first_band_ = true;
   bool any_frozen_ = false, any_hidden_ = false, sound_ = true;
   std::uint64_t bound_ = 0;    ///< no word of the sheet is above
   std::uint64_t waiting_ = 0;  ///< no word grows by more when the jobs are drawn

@@ -32,7 +32,7 @@ struct TileReport {
 /// What one band's splats add to its tile's.
 struct BandReport {
   std::uint64_t splat_records = 0, saturated_records = 0;
-  std::vector<bool> sheets;  ///< those with a record, of all the frame's
+  std::vector<std::uint8_t> sheets;  ///< of all the frame's: 1 with a record, else 0
 };
 
 DriverReport& operator+=(DriverReport& report, const TileReport& tile);

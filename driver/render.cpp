@@ -62,18 +62,17 @@ BandResult draw_fast(const CompiledFrame& compiled, const cmodel::fast::FrameTab
 /// The tile that its bands make; none if one of them is not sound.
 std::optional<TileResult> whole_tile(std::span<const BandResult> bands) {
   TileResult out;
-  std::vector<bool> sheets(bands.front().report.sheets.size());
+  std::vector<std::uint8_t> sheets(bands.front().report.sheets.size());
   for (const BandResult& band : bands) {
     if (!band.sound) return std::nullopt;
     out.counters += band.counters;
     out.report.splat_records += band.report.splat_records;
     out.report.saturated_records += band.report.saturated_records;
     out.units.hidden_splats += band.hidden_splats;
-    for (std::size_t sheet = 0; sheet < sheets.size(); ++sheet)
-      if (band.report.sheets[sheet]) sheets[sheet] = true;
+    for (std::size_t sheet = 0; sheet < sheets.size(); ++sheet) sheets[sheet] |= band.report.sheets[sheet];
   }
   out.counters.tiles = out.units.fast = 1;
-  out.counters.sheets = out.report.sheets = static_cast<std::uint64_t>(std::ranges::count(sheets, true));
+  out.counters.sheets = out.report.sheets = static_cast<std::uint64_t>(std::ranges::count(sheets, 1));
   return out;
 }
 

@@ -19,8 +19,8 @@ inline double pixel_radius(const scene::Scene& scene, double pixels_per_mm) {
   return scene.kernel.radius() * scene.volume->kernel_unit() * pixels_per_mm;
 }
 
-/// 32 bytes a voxel: what a frame keeps in memory.
-struct QuantisedSplat {
+/// 32 bytes a voxel, never in two lines of a cache: what a frame keeps in memory.
+struct alignas(32) QuantisedSplat {
   std::int32_t x = 0, y = 0;  ///< image pixels, pf fraction bits
   std::int32_t depth = 0;     ///< Slices::quantise_depth, or the sheet number where splats are not sliced
   std::uint32_t set = 0;      ///< radius set

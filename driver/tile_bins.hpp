@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/parallel/parallel.hpp"
+#include "base/uninitialised.hpp"
 #include "cmodel/config.hpp"
 
 namespace fastsplat::driver {
@@ -67,7 +68,7 @@ class TileBins {
       : columns_(static_cast<std::size_t>(grid.columns())),
         bands_(static_cast<std::size_t>(bands.of_tile())),
         sheets_(static_cast<std::size_t>(sheets)) {
-    std::vector<Place> places(splats);
+    Uninitialised<Place> places(splats);
     const Intervals across(grid.columns() * grid.tile_width, [&](int x) { return x / grid.tile_width; });
     const Intervals down(grid.rows() * grid.tile_height, [&](int y) { return y / grid.tile_height; });
     const Intervals rows(grid.rows() * grid.tile_height, [&](int y) { return bands.number(y); });
@@ -179,8 +180,8 @@ class TileBins {
   }
 
   std::size_t columns_, bands_, sheets_;
-  std::vector<std::uint64_t> start_;  ///< per (band, column of tiles, sheet)
-  std::vector<std::uint32_t> order_;  ///< splat numbers
+  std::vector<std::uint64_t> start_;    ///< per (band, column of tiles, sheet)
+  Uninitialised<std::uint32_t> order_;  ///< splat numbers
 };
 
 }  // namespace fastsplat::driver

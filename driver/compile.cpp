@@ -61,26 +61,24 @@ class BeatWriter final : public cmodel::RecordSink {
 
 }  // namespace
 
-CompiledFrame::State::State(const scene::Scene& scene, const cmodel::Config& device, int threads)
+CompiledFrame::State::State(const scene::Scene& scene, const cmodel::Config& device, int threads, int band_rows)
     : config(checked(scene, device)),
       mode(mode_of(scene.description)),
       plan(plan_for_device(scene)),
       slices(frame_slices(device, scene, plan)),
       projected(project(scene, device, slices, plan, threads)),
       grid(device, scene.description.width, scene.description.height),
+      bands(grid, band_rows > 0 ? (band_rows + device.lanes - 1) / device.lanes * device.lanes : device.tile_height),
       windows(device, projected.sets),
       bins(make_bins(threads)) {
-  if (plan.use == scene::SheetUse::Sliced) {
-    for (const auto& splat : projected.splats)
-      reach = std::max(reach, slices.last(splat.depth) - slices.first(splat.depth));
-  }
+  if (sliced()) reach = slices.reach();
   make_preamble(scene);
 }
 
 TileBins CompiledFrame::State::make_bins(int threads) const {
   const auto& splats = projected.splats;
   return TileBins(
-      grid, plan.slabs.count, splats.size(), threads, [&](std::size_t i) { return windows(splats[i]); },
+      grid, bands, plan.slabs.count, splats.size(), threads, [&](std::size_t i) { return windows(splats[i]); },
       [&](std::size_t i) { return first_sheet(splats[i]); });
 }
 
@@ -102,8 +100,9 @@ std::uint32_t CompiledFrame::State::emit_sheet(int tile, int sheet, std::uint32_
   std::array<cmodel::SplatRecord, 256> some;
   std::size_t waiting = 0;
   std::uint32_t records = 0;
+  std::vector<std::uint32_t> merged;
   for (int from = std::max(0, sheet - reach); from <= sheet; ++from) {
-    for (const std::uint32_t number : bins.bin(tile, from)) {
+    for (const std::uint32_t number : bins.bin(tile, from, merged)) {
       const QuantisedSplat& splat = projected.splats[number];
       const Share part = share(splat.words, splat.depth, sheet);
       if (part.empty()) continue;
@@ -126,12 +125,13 @@ scene::Offers offers(const cmodel::Config&) {
   return {"device", only(Method::ImageAligned) | only(Method::AxisAligned) | only(Method::XRay), 0u};
 }
 
-CompiledFrame::CompiledFrame(const scene::Scene& scene, const cmodel::Config& config, int threads)
-    : state_(std::make_unique<const State>(scene, config, threads)) {}
+CompiledFrame::CompiledFrame(const scene::Scene& scene, const cmodel::Config& config, int threads, int band_rows)
+    : state_(std::make_unique<const State>(scene, config, threads, band_rows)) {}
 CompiledFrame::~CompiledFrame() = default;
 
 const cmodel::Config& CompiledFrame::config() const { return state_->config; }
 const TileGrid& CompiledFrame::grid() const { return state_->grid; }
+int CompiledFrame::bands() const { return state_->bands.of_tile(); }
 std::span<const cmodel::Beat> CompiledFrame::preamble() const { return state_->preamble; }
 
 TileReport CompiledFrame::emit_tile(int tile, cmodel::RecordSink& sink) const {
@@ -165,7 +165,9 @@ DriverReport CompiledFrame::emit(const cmodel::BeatSink& sink, const Progress& p
 
 std::vector<std::uint64_t> CompiledFrame::work() const {
   std::vector<std::uint64_t> out;
-  for (int tile = 0; tile < grid().count(); ++tile) out.push_back(state_->bins.tile(tile).size());
+  for (int tile = 0; tile < grid().count(); ++tile) {
+    for (int band = 0; band < bands(); ++band) out.push_back(state_->bins.count(tile, band));
+  }
   return out;
 }
 

@@ -29,34 +29,42 @@ struct TileReport {
   std::uint64_t splat_records = 0, saturated_records = 0, sheets = 0;
 };
 
+/// What one band's splats add to its tile's.
+struct BandReport {
+  std::uint64_t splat_records = 0, saturated_records = 0;
+  std::vector<std::uint8_t> sheets;  ///< of all the frame's: 1 with a record, else 0
+};
+
 DriverReport& operator+=(DriverReport& report, const TileReport& tile);
 
 class CompiledFrame {
  public:
   struct State;
 
-  /// Throws UserError (Usage) where the scene does not fit the configuration. `threads` (0: all cores) never change
-  /// the result.
-  CompiledFrame(const scene::Scene& scene, const cmodel::Config& config, int threads = 1);
+  /// Throws UserError (Usage) where the scene does not fit the configuration. `threads` (0: all cores) and `band_rows`,
+  /// the height of what draw_band() draws (rounded up to blocks, 0: a tile), never change the result.
+  CompiledFrame(const scene::Scene& scene, const cmodel::Config& config, int threads = 1, int band_rows = 0);
   ~CompiledFrame();
 
   const cmodel::Config& config() const;
   const TileGrid& grid() const;
+  /// Of each tile.
+  int bands() const;
   /// begin_frame and the tables.
   std::span<const cmodel::Beat> preamble() const;
   /// begin_tile .. end_tile. Const and without shared state: tiles may be emitted in parallel.
   TileReport emit_tile(int tile, cmodel::RecordSink& sink) const;
   /// The same as beats.
   TileReport emit_tile(int tile, const cmodel::BeatSink& sink) const;
-  /// The same into the fast unit, which then has the tile's words and counters: no records, and what a splat's place in
-  /// the tile says is worked out once, not once a sheet.
+  /// The same of a band of the tile, into the fast unit, which then has its words and counters: no records, and what a
+  /// splat's place in the band says is worked out once, not once a sheet.
   template <class Word>
-  TileReport draw_tile(int tile, cmodel::fast::TileUnit<Word>& unit) const;
+  BandReport draw_band(int tile, int band, cmodel::fast::TileUnit<Word>& unit) const;
   /// Preamble and all tiles in order: a subset stream, without end_frame. Progress counts tiles.
   DriverReport emit(const cmodel::BeatSink& sink, const Progress& progress = {}) const;
   /// Voxels and tiles; what the tiles hold is in what emit() returns, or added to it by those who emit them singly.
   DriverReport report() const;
-  /// Splats that touch each tile: a measure of the work it makes.
+  /// Splats that touch each band, tile by tile: a measure of the work it makes.
   std::vector<std::uint64_t> work() const;
 
  private:

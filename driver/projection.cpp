@@ -34,7 +34,8 @@ RadiusRange radius_range(const scene::Scene& scene) {
 struct Piece {
   scene::GridPart part;
   std::vector<QuantisedSplat> splats;
-  std::vector<std::size_t> ends;  ///< per slice of the part, of its splats
+  std::vector<std::size_t> ends;    ///< per slice of the part, of its splats
+  std::vector<std::size_t> places;  ///< likewise, of the frame's splats: where the slice's begin
   std::uint64_t voxels = 0, saturated = 0, vanished = 0;
   double asked = 0.0, lost = 0.0;
 
@@ -73,6 +74,28 @@ std::vector<Piece> pieces_of(const scene::Traversal& traversal, bool bands) {
   return pieces;
 }
 
+/// In traversal order: slice by slice, of each one piece after the other.
+Uninitialised<QuantisedSplat> joined(std::vector<Piece>& pieces, int slices, int threads) {
+  std::size_t total = 0;
+  for (int slice = 0; slice < slices; ++slice) {
+    for (Piece& piece : pieces) {
+      if (slice < piece.part.first_slice || slice >= piece.part.end_slice) continue;
+      piece.places.push_back(total);
+      total += piece.slice(slice).size();
+    }
+  }
+  Uninitialised<QuantisedSplat> out(total);
+  parallel_for(pieces.size(), threads, [&](std::size_t number) {
+    Piece& piece = pieces[number];
+    for (int slice = piece.part.first_slice; slice < piece.part.end_slice; ++slice) {
+      const std::size_t place = piece.places[static_cast<std::size_t>(slice - piece.part.first_slice)];
+      std::ranges::copy(piece.slice(slice), out.begin() + static_cast<std::ptrdiff_t>(place));
+    }
+    piece.splats = {};  // a frame is in memory once, not twice
+  });
+  return out;
+}
+
 }  // namespace
 
 RadiusSets radius_sets(const scene::Scene& scene, const cmodel::Config& config) {
@@ -103,10 +126,8 @@ Projected project(const scene::Scene& scene, const cmodel::Config& config, const
     piece.end();
   });
 
-  std::size_t total = 0;
   double asked = 0.0, lost = 0.0;
   for (const Piece& piece : pieces) {
-    total += piece.splats.size();
     out.voxels += piece.voxels;
     out.saturated += piece.saturated;
     out.vanished += piece.vanished;
@@ -114,14 +135,7 @@ Projected project(const scene::Scene& scene, const cmodel::Config& config, const
     lost += piece.lost;
   }
   out.vanished_share = out.carried || asked == 0.0 ? 0.0 : lost / asked;
-  out.splats.reserve(total);
-  for (int slice = 0; slice < traversal.slices(); ++slice) {
-    for (Piece& piece : pieces) {
-      const auto part = piece.slice(slice);
-      out.splats.insert(out.splats.end(), part.begin(), part.end());
-      if (slice + 1 == piece.part.end_slice) piece.splats = {};  // of slabs: a frame is in memory once, not twice
-    }
-  }
+  out.splats = joined(pieces, traversal.slices(), threads);
   return out;
 }
 

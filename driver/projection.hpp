@@ -2,14 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "base/uninitialised.hpp"
 #include "driver/splat_quantiser.hpp"
 
 namespace fastsplat::driver {
 
 struct Projected {
-  std::vector<QuantisedSplat> splats;  ///< in traversal order, without those that vanished
+  Uninitialised<QuantisedSplat> splats;  ///< in traversal order, without those that vanished
   RadiusSets sets;
   std::uint64_t voxels = 0;     ///< non-empty voxels
   std::uint64_t saturated = 0;  ///< voxels whose colour or optical depth left U 4.cf

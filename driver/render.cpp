@@ -1,8 +1,13 @@
 #include "driver/render.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "base/parallel/parallel.hpp"
 #include "cmodel/fast/tile_unit.hpp"
@@ -13,6 +18,12 @@
 namespace fastsplat::driver {
 
 namespace {
+
+/// What a thread draws at once, so that few busy tiles keep several threads busy. Taller bands share fewer splats.
+constexpr int kBandRows = 64;
+
+/// A tile is done.
+using Told = std::function<void()>;
 
 /// One tile's result besides its pixels.
 struct TileResult {
@@ -32,20 +43,73 @@ TileResult draw_plain(const CompiledFrame& compiled, int tile, cmodel::PixelSink
   return out;
 }
 
+/// The same of one band, and whether it can be believed.
+struct BandResult {
+  cmodel::Counters counters;
+  BandReport report;
+  std::uint64_t hidden_splats = 0;
+  bool sound = true;
+};
+
 template <class Word>
-TileResult draw_fast(const CompiledFrame& compiled, const cmodel::fast::FrameTables& tables, int tile,
+BandResult draw_fast(const CompiledFrame& compiled, const cmodel::fast::FrameTables& tables, int tile, int band,
                      cmodel::PixelSink& pixels) {
   cmodel::fast::TileUnit<Word> unit(tables, pixels);
+  BandReport report = compiled.draw_band(tile, band, unit);
+  return {unit.counters(), std::move(report), unit.hidden_splats(), unit.sound()};
+}
+
+/// The tile that its bands make; none if one of them is not sound.
+std::optional<TileResult> whole_tile(std::span<const BandResult> bands) {
   TileResult out;
-  out.report = compiled.draw_tile(tile, unit);
-  if (!unit.sound()) {
-    out = draw_plain(compiled, tile, pixels);
-    out.units.redone = 1;
-    return out;
+  std::vector<std::uint8_t> sheets(bands.front().report.sheets.size());
+  for (const BandResult& band : bands) {
+    if (!band.sound) return std::nullopt;
+    out.counters += band.counters;
+    out.report.splat_records += band.report.splat_records;
+    out.report.saturated_records += band.report.saturated_records;
+    out.units.hidden_splats += band.hidden_splats;
+    for (std::size_t sheet = 0; sheet < sheets.size(); ++sheet) sheets[sheet] |= band.report.sheets[sheet];
   }
-  out.counters = unit.counters();
-  out.units = {.fast = 1, .hidden_splats = unit.hidden_splats()};
+  out.counters.tiles = out.units.fast = 1;
+  out.counters.sheets = out.report.sheets = static_cast<std::uint64_t>(std::ranges::count(sheets, 1));
   return out;
+}
+
+/// Tiles are independent: each has a device of its own, as several chips would.
+std::vector<TileResult> draw_all_plain(const CompiledFrame& compiled, int threads, cmodel::PixelSink& pixels,
+                                       const Told& told) {
+  std::vector<TileResult> results(static_cast<std::size_t>(compiled.grid().count()));
+  const std::vector<std::uint64_t> bands = compiled.work();
+  std::vector<std::uint64_t> work(results.size());
+  for (std::size_t i = 0; i < bands.size(); ++i) work[i / static_cast<std::size_t>(compiled.bands())] += bands[i];
+  parallel_for(work, threads, [&](std::size_t tile) {
+    results[tile] = draw_plain(compiled, static_cast<int>(tile), pixels);
+    told();
+  });
+  return results;
+}
+
+/// Bands are, too. Whoever ends a tile's last one puts them together, or draws the tile again.
+std::vector<TileResult> draw_all_fast(const CompiledFrame& compiled, const cmodel::fast::FrameTables& tables,
+                                      int threads, cmodel::PixelSink& pixels, const Told& told) {
+  const auto tiles = static_cast<std::size_t>(compiled.grid().count());
+  const auto each = static_cast<std::size_t>(compiled.bands());
+  std::vector<TileResult> results(tiles);
+  std::vector<BandResult> bands(tiles * each);
+  std::vector<std::atomic<std::size_t>> ended(tiles);
+  parallel_for(compiled.work(), threads, [&](std::size_t number) {
+    const std::size_t tile = number / each;
+    const int t = static_cast<int>(tile), band = static_cast<int>(number % each);
+    bands[number] = tables.jobs.plan.narrow ? draw_fast<std::uint16_t>(compiled, tables, t, band, pixels)
+                                            : draw_fast<std::uint32_t>(compiled, tables, t, band, pixels);
+    if (++ended[tile] < each) return;
+    const auto whole = whole_tile(std::span(bands).subspan(tile * each, each));
+    results[tile] = whole ? *whole : draw_plain(compiled, t, pixels);
+    if (!whole) results[tile].units.redone = 1;
+    told();
+  });
+  return results;
 }
 
 UnitReport& operator+=(UnitReport& report, const UnitReport& tile) {
@@ -59,22 +123,18 @@ UnitReport& operator+=(UnitReport& report, const UnitReport& tile) {
 }  // namespace
 
 DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, const RenderOptions& options) {
-  const CompiledFrame compiled(scene, config, options.threads);
-  const auto tables = options.unit == Unit::Fast ? cmodel::fast::frame_tables(config, compiled.preamble())
-                                                 : std::optional<cmodel::fast::FrameTables>{};
-  const auto tiles = static_cast<std::size_t>(compiled.grid().count());
+  const bool fast = options.unit == Unit::Fast && cmodel::fast::fast_plan(config);
+  const int band_rows = !fast ? 0 : options.band_rows > 0 ? options.band_rows : kBandRows;
+  const CompiledFrame compiled(scene, config, options.threads, band_rows);
+  const auto tables =
+      fast ? cmodel::fast::frame_tables(config, compiled.preamble()) : std::optional<cmodel::fast::FrameTables>{};
   FrameSink frame(config, compiled.grid().image_width, compiled.grid().image_height);
-  std::vector<TileResult> results(tiles);
   std::atomic<std::size_t> done{0};
-
-  // Tiles are independent: each has a device of its own, as several chips would.
-  parallel_for(compiled.work(), options.threads, [&](std::size_t number) {
-    const int tile = static_cast<int>(number);
-    results[number] = !tables                    ? draw_plain(compiled, tile, frame)
-                      : tables->jobs.plan.narrow ? draw_fast<std::uint16_t>(compiled, *tables, tile, frame)
-                                                 : draw_fast<std::uint32_t>(compiled, *tables, tile, frame);
-    if (options.progress) options.progress(done.fetch_add(1) + 1, tiles);
-  });
+  const Told told = [&] {
+    if (options.progress) options.progress(done.fetch_add(1) + 1, static_cast<std::size_t>(compiled.grid().count()));
+  };
+  const std::vector<TileResult> results = tables ? draw_all_fast(compiled, *tables, options.threads, frame, told)
+                                                 : draw_all_plain(compiled, options.threads, frame, told);
 
   DeviceRender out;
   out.report = compiled.report();

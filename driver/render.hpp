@@ -21,8 +21,9 @@ enum class Unit {
 };
 
 struct RenderOptions {
-  int threads = 0;  ///< tiles in parallel; 0: all cores. Never changes the result.
+  int threads = 0;  ///< bands of tiles in parallel; 0: all cores. Never changes the result.
   Unit unit = Unit::Fast;
+  int band_rows = 0;  ///< of the fast unit, rounded up to whole blocks; 0: as is best. Changes only hidden_splats.
   Progress progress = {};
 };
 
@@ -43,8 +44,9 @@ struct DriverReport {
 struct UnitReport {
   std::uint64_t fast = 0, plain = 0;  ///< tiles; all plain where the fast unit cannot be
   std::uint64_t redone = 0;           ///< of the plain ones, those the fast unit gave up: a sum may have been cut
-  std::uint64_t hidden_splats = 0;    ///< records the fast unit counted without drawing: nothing there could change
-  const char* vectors = nullptr;      ///< the fast unit's instructions, "AVX2" and the like
+  /// Records the fast unit counted without drawing: nothing could change in the band of the tile they begin in.
+  std::uint64_t hidden_splats = 0;
+  const char* vectors = nullptr;  ///< the fast unit's instructions, "AVX2" and the like
 };
 
 struct DeviceRender {

@@ -34,6 +34,14 @@ Slices::Slices(const cmodel::Config& config, const scene::Kernel& kernel, double
   per_step_ = count / static_cast<double>(boundary_.back());
 }
 
+int Slices::reach() const {
+  int most = 0;
+  // The deepest of the kernels whose first slab is s.
+  for (int s = 0; s < count(); ++s)
+    most = std::max(most, last(boundary_[static_cast<std::size_t>(s) + 1] - 1 + middle_) - s);
+  return most;
+}
+
 std::int32_t Slices::quantise_depth(double depth) const { return quantise_to<std::int32_t>(depth, depth_); }
 
 Slices frame_slices(const cmodel::Config& config, const scene::Scene& scene, const scene::SheetPlan& plan) {

@@ -43,6 +43,8 @@ class Slices {
     const std::int32_t back = depth + middle_;
     return last_that(back, [back](std::int32_t boundary) { return boundary < back; });
   }
+  /// The most slabs that a kernel reaches beyond its first.
+  int reach() const;
   /// What falls into slab s.
   Share share(const SplatWords& whole, std::int32_t depth, int s) const {
     const std::uint64_t near = cumulative(depth, s), far = cumulative(depth, s + 1);
@@ -61,6 +63,38 @@ class Slices {
       before[c] = end;
     }
     return this->whole(difference);
+  }
+  /// Of a share, what counts where nobody sees it.
+  struct Outline {
+    std::uint32_t largest = 0;  ///< of the four words; 0: the share is empty
+    std::uint32_t excess = 0;   ///< what that is above tau
+    bool saturated = false;
+  };
+  static Outline outline(const Share& share) {
+    const auto& words = share.words;
+    const std::uint32_t largest = std::max({words[0], words[1], words[2], words[3]});
+    return {largest, largest - words[3], share.saturated};
+  }
+  /// visit(outline) of slabs first to last.
+  template <class Visit>
+  void outlines(const SplatWords& whole, std::int32_t depth, int first, int last, Visit visit) const {
+    const std::uint32_t tau = whole[3], colour = std::max({whole[0], whole[1], whole[2]});
+    const std::uint64_t above = tau > colour ? tau - colour : 0;
+    std::uint64_t near = cumulative(depth, first);
+    std::uint32_t before = part(tau, near);
+    for (int s = first; s <= last; ++s) {
+      const std::uint64_t far = cumulative(depth, s + 1);
+      const std::uint32_t end = part(tau, far), word = end - before;
+      // Where tau's exact share is a word or more above the colours', no rounding brings them above it: each of the two
+      // differences is less than a word from the exact one.
+      if (above * (far - near) >> 32 != 0) {
+        visit(Outline{std::min(word, largest_), 0, word > largest_});
+      } else {
+        visit(outline(share(whole, depth, s)));
+      }
+      near = far;
+      before = end;
+    }
   }
   /// The whole splat in one sheet.
   Share whole(const SplatWords& whole) const {

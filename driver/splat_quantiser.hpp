@@ -22,8 +22,8 @@ inline double pixel_radius(const scene::Scene& scene, double pixels_per_mm) {
 /// Whether what rounding takes of a splat goes to the next one behind it (rounding.carry).
 bool carries(scene::Method method, const cmodel::Config& config);
 
-/// 32 bytes a voxel: what a frame keeps in memory.
-struct QuantisedSplat {
+/// 32 bytes a voxel, never in two lines of a cache: what a frame keeps in memory.
+struct alignas(32) QuantisedSplat {
   std::int32_t x = 0, y = 0;  ///< image pixels, pf fraction bits
   std::int32_t depth = 0;     ///< Slices::quantise_depth, or the sheet number where splats are not sliced
   std::uint32_t set = 0;      ///< radius set

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/parallel/parallel.hpp"
+#include "base/uninitialised.hpp"
 #include "cmodel/config.hpp"
 
 namespace fastsplat::driver {
@@ -26,86 +27,161 @@ struct TileGrid {
   int height(int tile) const { return y(tile) + tile_height <= image_height ? tile_height : image_height - y(tile); }
 };
 
-/// Pixels that a splat may touch: [x0,x1) x [y0,y1) of the image, unclipped.
-struct Extent {
-  std::int32_t x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+/// Tiles cut into bands: whole rows of blocks, drawn by themselves, so that a tile can keep several threads busy. Bands
+/// of all tiles are counted from the top of the image; what lies below the image belongs to the last band that has a
+/// pixel.
+class Bands {
+ public:
+  /// `rows`: pixels, a multiple of P; a tile's height or more: every tile is one band.
+  Bands(const TileGrid& grid, int rows)
+      : tile_height_(grid.tile_height),
+        image_height_(grid.image_height),
+        rows_(std::min(rows, grid.tile_height)),
+        of_tile_((tile_height_ + rows_ - 1) / rows_) {}
+  int of_tile() const { return of_tile_; }
+  /// Of a pixel's row.
+  int number(int y) const {
+    y = std::min(y, image_height_ - 1);
+    return y / tile_height_ * of_tile_ + y % tile_height_ / rows_;
+  }
+  /// First row and height of band b of a tile `height` pixels high; no height: no pixel of the image.
+  int first_row(int band) const { return band * rows_; }
+  int height(int band, int height) const { return std::clamp(height - first_row(band), 0, rows_); }
+
+ private:
+  int tile_height_, image_height_, rows_, of_tile_;
 };
 
-/// Counting sort of splat numbers by (tile, first sheet); stable, so traversal order stays within a bin.
+/// Pixels that a splat may touch: [x0,x1) x [y0,y1) of the image, unclipped. In a tile that these meet, its windows
+/// reach down to window_end, on pixels without a weight.
+struct Extent {
+  std::int32_t x0 = 0, x1 = 0, y0 = 0, y1 = 0, window_end = 0;
+};
+
+/// Counting sort of splat numbers by (band of a tile, first sheet); stable, so traversal order stays within a bin.
 class TileBins {
  public:
   /// extent(i) and first_sheet(i) for i in [0, splats): each asked for once, by several threads.
   template <class ExtentOf, class SheetOf>
-  TileBins(const TileGrid& grid, int sheets, std::size_t splats, int threads, ExtentOf extent, SheetOf first_sheet)
-      : sheets_(static_cast<std::size_t>(sheets)), start_(static_cast<std::size_t>(grid.count()) * sheets_ + 1, 0) {
-    std::vector<Place> places(splats);
-    const Columns across(grid.columns(), grid.tile_width), down(grid.rows(), grid.tile_height);
-    constexpr std::size_t kPiece = 1 << 16;
-    parallel_for((splats + kPiece - 1) / kPiece, threads, [&](std::size_t piece) {
-      for (std::size_t i = piece * kPiece; i < std::min(splats, (piece + 1) * kPiece); ++i) {
-        const Extent e = extent(i);
-        places[i] = {across.first(e.x0), across.last(e.x1), down.first(e.y0), down.last(e.y1), first_sheet(i)};
+  TileBins(const TileGrid& grid, const Bands& bands, int sheets, std::size_t splats, int threads, ExtentOf extent,
+           SheetOf first_sheet)
+      : columns_(static_cast<std::size_t>(grid.columns())),
+        bands_(static_cast<std::size_t>(bands.of_tile())),
+        sheets_(static_cast<std::size_t>(sheets)) {
+    Uninitialised<Place> places(splats);
+    const Intervals across(grid.columns() * grid.tile_width, [&](int x) { return x / grid.tile_width; });
+    const Intervals down(grid.rows() * grid.tile_height, [&](int y) { return y / grid.tile_height; });
+    const Intervals rows(grid.rows() * grid.tile_height, [&](int y) { return bands.number(y); });
+    const auto place = [&](std::size_t i) -> Place {
+      const Extent e = extent(i);
+      const int tiles_end = (down.last(e.y1) + 1) * bands.of_tile() - 1;
+      return {across.first(e.x0), across.last(e.x1), rows.first(e.y0),
+              static_cast<std::int16_t>(std::min<int>(rows.last(e.window_end), tiles_end)), first_sheet(i)};
+    };
+    // Every part of the splats counts for itself, and then knows where in each bin its own begin.
+    const std::size_t bins = static_cast<std::size_t>(grid.count()) * bands_ * sheets_;
+    const std::size_t parts = parts_of(splats, bins, threads);
+    const auto begin = [&](std::size_t part) { return splats * part / parts; };
+    std::vector<std::vector<std::uint32_t>> next(parts);
+    parallel_for(parts, threads, [&](std::size_t part) {
+      next[part].assign(bins, 0);
+      for (std::size_t i = begin(part); i < begin(part + 1); ++i) {
+        places[i] = place(i);
+        visit(places[i], [&](std::size_t bin) { ++next[part][bin]; });
       }
     });
-    for (const Place& place : places) visit(grid, place, [this](std::size_t bin) { ++start_[bin + 1]; });
-    for (std::size_t bin = 1; bin < start_.size(); ++bin) start_[bin] += start_[bin - 1];
-    order_.resize(start_.back());
-    std::vector<std::uint64_t> next(start_.begin(), start_.end() - 1);
-    for (std::size_t i = 0; i < splats; ++i)
-      visit(grid, places[i], [&](std::size_t bin) { order_[next[bin]++] = static_cast<std::uint32_t>(i); });
+    start_.resize(bins + 1);
+    std::uint64_t total = 0;
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+      start_[bin] = total;
+      for (auto& part : next) {
+        const std::uint32_t count = part[bin];
+        part[bin] = static_cast<std::uint32_t>(total - start_[bin]);
+        total += count;
+      }
+    }
+    start_[bins] = total;
+    order_.resize(total);
+    parallel_for(parts, threads, [&](std::size_t part) {
+      for (std::size_t i = begin(part); i < begin(part + 1); ++i)
+        visit(places[i],
+              [&](std::size_t bin) { order_[start_[bin] + next[part][bin]++] = static_cast<std::uint32_t>(i); });
+    });
   }
 
-  std::span<const std::uint32_t> bin(int tile, int sheet) const {
-    const std::size_t at = static_cast<std::size_t>(tile) * sheets_ + static_cast<std::size_t>(sheet);
+  std::span<const std::uint32_t> bin(int tile, int band, int sheet) const {
+    const std::size_t at = first_bin(tile, band) + static_cast<std::size_t>(sheet);
     return {order_.data() + start_[at], order_.data() + start_[at + 1]};
   }
-  /// All bins of a tile, one after the other.
-  std::span<const std::uint32_t> tile(int tile) const {
-    const std::size_t at = static_cast<std::size_t>(tile) * sheets_;
-    return {order_.data() + start_[at], order_.data() + start_[at + sheets_]};
+  /// Splats of a band, over all sheets.
+  std::uint64_t count(int tile, int band) const {
+    const std::size_t at = first_bin(tile, band);
+    return start_[at + sheets_] - start_[at];
+  }
+  /// What the bands of a tile hold, each splat once. `merged` is where it lies if there are several.
+  std::span<const std::uint32_t> bin(int tile, int sheet, std::vector<std::uint32_t>& merged) const {
+    if (bands_ == 1) return bin(tile, 0, sheet);
+    merged.clear();
+    for (std::size_t band = 0; band < bands_; ++band) {
+      const auto more = bin(tile, static_cast<int>(band), sheet);
+      const auto middle = static_cast<std::ptrdiff_t>(merged.size());
+      merged.insert(merged.end(), more.begin(), more.end());
+      std::inplace_merge(merged.begin(), merged.begin() + middle, merged.end());
+    }
+    merged.erase(std::unique(merged.begin(), merged.end()), merged.end());
+    return merged;
   }
 
  private:
-  /// The tiles a splat touches, and its first sheet.
+  /// The columns of tiles and the bands a splat touches, and its first sheet.
   struct Place {
-    std::int16_t tx0, tx1, ty0, ty1;  ///< the last ones included
+    std::int16_t x0, x1, y0, y1;  ///< the last ones included
     std::int32_t sheet;
   };
-  /// Tiles along one axis, looked up by pixel: a division each is what most of the binning would cost.
-  class Columns {
+  /// What of the image's columns or rows belongs together, looked up by pixel: a division each is what most of the
+  /// binning would cost.
+  class Intervals {
    public:
     /// The last tile counts as a whole one, even where the image ends within it.
-    Columns(int tiles, int tile) {
-      for (int at = 0; at < tiles * tile; ++at) tile_.push_back(static_cast<std::int16_t>(at / tile));
+    template <class NumberOf>
+    Intervals(int pixels, NumberOf number) {
+      for (int at = 0; at < pixels; ++at) number_.push_back(static_cast<std::int16_t>(number(at)));
     }
-    /// Of the interval's first pixel; behind the last one if it begins there.
+    /// Of the pixels' first; behind the last one if they begin there.
     std::int16_t first(std::int32_t begin) const {
       if (begin < 0) return 0;
-      return begin < size() ? tile_[static_cast<std::size_t>(begin)] : static_cast<std::int16_t>(tile_.back() + 1);
+      return begin < size() ? number_[static_cast<std::size_t>(begin)] : static_cast<std::int16_t>(number_.back() + 1);
     }
-    /// Of the interval's last pixel; -1 if it ends before the first one.
+    /// Of the pixels' last; -1 if they end before the first one.
     std::int16_t last(std::int32_t end) const {
-      return end <= 0 ? static_cast<std::int16_t>(-1) : tile_[static_cast<std::size_t>(std::min(end, size()) - 1)];
+      return end <= 0 ? static_cast<std::int16_t>(-1) : number_[static_cast<std::size_t>(std::min(end, size()) - 1)];
     }
 
    private:
-    std::int32_t size() const { return static_cast<std::int32_t>(tile_.size()); }
-    std::vector<std::int16_t> tile_;
+    std::int32_t size() const { return static_cast<std::int32_t>(number_.size()); }
+    std::vector<std::int16_t> number_;
   };
+  /// As many as there are threads, unless their counts would be larger than what they count.
+  static std::size_t parts_of(std::size_t splats, std::size_t bins, int threads) {
+    return std::clamp<std::size_t>(splats / std::max<std::size_t>(bins, 1), 1, thread_count(threads));
+  }
+  std::size_t first_bin(int tile, int band) const {
+    const auto t = static_cast<std::size_t>(tile);
+    return ((t / columns_ * bands_ + static_cast<std::size_t>(band)) * columns_ + t % columns_) * sheets_;
+  }
   template <class Visit>
-  void visit(const TileGrid& grid, const Place& place, Visit visit) const {
-    for (int ty = place.ty0; ty <= place.ty1; ++ty) {
-      for (int tx = place.tx0; tx <= place.tx1; ++tx) {
-        const std::size_t tile =
-            static_cast<std::size_t>(ty) * static_cast<std::size_t>(grid.columns()) + static_cast<std::size_t>(tx);
-        visit(tile * sheets_ + static_cast<std::size_t>(place.sheet));
+  void visit(const Place& place, Visit visit) const {
+    for (int y = place.y0; y <= place.y1; ++y) {
+      for (int x = place.x0; x <= place.x1; ++x) {
+        const std::size_t unit = static_cast<std::size_t>(y) * columns_ + static_cast<std::size_t>(x);
+        visit(unit * sheets_ + static_cast<std::size_t>(place.sheet));
       }
     }
   }
 
-  std::size_t sheets_;
-  std::vector<std::uint64_t> start_;  ///< per (tile, sheet)
-  std::vector<std::uint32_t> order_;  ///< splat numbers
+  std::size_t columns_, bands_, sheets_;
+  std::vector<std::uint64_t> start_;    ///< per (band, column of tiles, sheet)
+  Uninitialised<std::uint32_t> order_;  ///< splat numbers
 };
 
 }  // namespace fastsplat::driver

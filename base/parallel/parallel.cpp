@@ -13,8 +13,12 @@
 
 namespace fastsplat {
 
+std::size_t thread_count(int threads) {
+  return static_cast<std::size_t>(threads > 0 ? threads : tbb::info::default_concurrency());
+}
+
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& job) {
-  const std::size_t wanted = static_cast<std::size_t>(threads > 0 ? threads : tbb::info::default_concurrency());
+  const std::size_t wanted = thread_count(threads);
   const std::size_t workers = std::min(wanted, count);
   // oneTBB warns on stderr when asked for more workers than cores unless this allows them.
   std::optional<tbb::global_control> allow;

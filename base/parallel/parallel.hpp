@@ -9,6 +9,9 @@
 
 namespace fastsplat {
 
+/// What `threads` means: itself, or all cores if it is 0.
+std::size_t thread_count(int threads);
+
 /// job(i) for every i in [0, count), each exactly once, on at most `threads` threads (0: all cores).
 /// An exception of a job reaches the caller; jobs that have not begun then never do.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& job);

@@ -1,5 +1,7 @@
 #include "cmodel/fast/fast_plan.hpp"
 
+#include <algorithm>
+
 #include "cmodel/sites.hpp"
 
 namespace fastsplat::cmodel::fast {
@@ -25,12 +27,18 @@ std::optional<FastPlan> fast_plan(const Config& config) {
     plan.narrow = true;
     plan.colour_shift = grow < colour_room ? grow : colour_room;
     plan.weight_shift = grow - plan.colour_shift;
+    plan.hides = true;
+    plan.hidden_shift = -plan.colour_shift;
     return plan;
   }
   plan.dropped_bits = dropped;
   plan.bias = nearest && dropped > 0 ? std::uint32_t{1} << (dropped - 1) : 0;
   if (largest_product + plan.bias > std::int64_t{0xFFFFFFFF}) return {};
   plan.carries = plan.largest_sum > std::uint32_t{1} << 24;
+  // Both factors are positive words of 16 bits, and the largest whole sum is below half of the lane's end.
+  plan.hides = weight_bits <= 15;
+  plan.hidden_unit = std::max({0, sheet_bits - 15, colour_bits + 1 - dropped});
+  plan.hidden_shift = dropped + plan.hidden_unit - 15;
   return plan;
 }
 

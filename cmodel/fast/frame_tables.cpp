@@ -15,14 +15,19 @@ constexpr std::size_t kOtherMemoBytes = std::size_t{1} << 25;
 constexpr int kWidest = 128;      ///< pixels of a footprint
 constexpr int kVectorPixels = 8;  ///< what the widest vector writes
 
-/// Whether tau * factor(tau) stays within 1.0 for every tau: within a segment the factor is at most its first word.
-bool opacity_holds(const Config& config, std::span<const std::uint32_t> factor) {
-  const int shift = config.opacity_remainder_bits(), one = config.sheet_frac_bits + config.opacity_frac_bits;
+/// The most that (tau + excess) * factor(tau) stays within 1.0 with, for every tau: within a segment the factor is at
+/// most its first word. Nothing if it is not so even without an excess.
+std::optional<std::uint64_t> opacity_excess(const Config& config, std::span<const std::uint32_t> factor) {
+  const int shift = config.opacity_remainder_bits();
+  const std::uint64_t one = std::uint64_t{1} << (config.sheet_frac_bits + config.opacity_frac_bits);
+  std::uint64_t excess = one;
   for (std::size_t i = 0; i + 1 < factor.size(); ++i) {
     const std::uint64_t largest = ((static_cast<std::uint64_t>(i) + 1) << shift) - 1;
-    if (factor[i] < factor[i + 1] || ((largest * factor[i]) >> one) != 0) return false;
+    const std::uint64_t most = factor[i] == 0 ? 2 * one : (one - 1) / factor[i];
+    if (factor[i] < factor[i + 1] || most < largest) return std::nullopt;
+    excess = std::min(excess, most - largest);
   }
-  return true;
+  return excess;
 }
 
 }  // namespace
@@ -34,7 +39,7 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
   SlabOpacity opacity(config);
   std::uint32_t sets = 0;
   std::size_t bytes = 0;
-  bool holds = false;
+  std::optional<std::uint64_t> excess;
   StreamDecode decode(config, StreamScope::Subset);
   for (const Beat& beat : preamble) {
     const Record* record = decode.feed(beat);
@@ -54,7 +59,7 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
         break;
       case Table::Factor:
         opacity.load(table->words);
-        holds = opacity_holds(config, table->words);
+        excess = opacity_excess(config, table->words);
         break;
     }
   }
@@ -62,7 +67,8 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
                   .jobs = {.plan = *plan, .shapes = {}},
                   .memo = WeightMemo(config, unit, sets, plan->weight_shift),
                   .opacity = opacity,
-                  .opacity_holds = holds};
+                  .opacity_holds = excess.has_value(),
+                  .opacity_excess = excess.value_or(0)};
   for (std::uint32_t set = 0; set < sets; ++set) {
     const Shape& shape = out.memo.shape(set);
     out.jobs.shapes.push_back({static_cast<std::uint32_t>(shape.extent), static_cast<std::uint32_t>(shape.pitch)});

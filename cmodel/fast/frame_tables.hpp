@@ -19,8 +19,10 @@ struct FrameTables {
   JobFrame jobs;
   WeightMemo memo;
   SlabOpacity opacity;
-  /// No sum of tau makes an opacity above 1.0 in mode Exponential, so no colour that is not above tau does.
+  /// No sum of tau makes an opacity above 1.0 in mode Exponential, so no colour that is not above tau does, nor one
+  /// that is above by no more than opacity_excess.
   bool opacity_holds = false;
+  std::uint64_t opacity_excess = 0;
   int reach = 0;  ///< largest extent of a footprint with what vectors write beyond it, pixels
 };
 

@@ -1,5 +1,7 @@
 #include "cmodel/fast/row_kernel.hpp"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cmodel/fast/row_kernel.cpp"
 #include <hwy/foreach_target.h>
@@ -14,8 +16,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 bool add16(const JobFrame&, std::span<const SplatJob>, std::uint16_t*, std::size_t) { return false; }
 bool add32(const JobFrame&, std::span<const SplatJob>, std::uint32_t*, std::size_t) { return false; }
-bool tau16(const JobFrame&, std::span<const SplatJob>, std::uint16_t*, std::size_t) { return false; }
-bool tau32(const JobFrame&, std::span<const SplatJob>, std::uint32_t*, std::size_t) { return false; }
+void hidden(const JobFrame&, const HiddenJob&, std::span<const HiddenShare>, const Planes&) {}
 const char* target() { return nullptr; }
 
 #else
@@ -175,44 +176,29 @@ bool add32(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint32_t*
   return frame.plan.carries ? add_all<Carries32>(frame, jobs, sheet, row) : add_all<Lanes32>(frame, jobs, sheet, row);
 }
 // Rows of weights are padded to 8 words, so no vector is wider than 8 pixels here.
-bool tau16(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint16_t* plane, std::size_t row) {
+void hidden(const JobFrame& frame, const HiddenJob& job, std::span<const HiddenShare> shares, const Planes& planes) {
   const hn::CappedTag<std::uint16_t, 8> d;
   const hn::RebindToSigned<decltype(d)> s;
-  for (const SplatJob& job : jobs) {
-    const JobShape& shape = frame.shapes[job.set];
-    const auto colour = hn::BitCast(s, hn::Set(d, job.colour[3]));
-    for (std::size_t j = 0; j < shape.extent; ++j) {
-      std::uint16_t* out = plane + job.at + j * row;
-      const std::uint16_t* weights = job.weights + j * shape.pitch;
+  const JobShape& shape = frame.shapes[job.set];
+  const int down = std::max(0, frame.plan.hidden_shift), up = std::max(0, -frame.plan.hidden_shift);
+  // Where products are exact, so are these; else this is what rounding may have taken off, and a little more.
+  const auto lost = hn::Set(d, static_cast<std::uint16_t>(frame.plan.narrow ? 0 : 1));
+  std::size_t plane = planes.first;
+  for (const HiddenShare& share : shares) {
+    std::uint16_t* out = planes.words + plane * planes.pixels + job.at;
+    if (++plane == planes.count) plane = 0;
+    if (share.word == 0) continue;
+    const std::uint32_t word = ((share.word + (1U << down) - 1) >> down) << up;
+    const auto colour = hn::BitCast(s, hn::Set(d, static_cast<std::uint16_t>(word)));
+    const std::uint16_t* weights = job.weights;
+    for (std::size_t j = 0; j < shape.extent; ++j, out += planes.row, weights += shape.pitch) {
       for (std::size_t i = 0; i < shape.extent; i += hn::Lanes(d)) {
         const auto product = hn::MulFixedPoint15(colour, hn::BitCast(s, hn::LoadU(d, weights + i)));
-        hn::StoreU(hn::SaturatedAdd(hn::LoadU(d, out + i), hn::BitCast(d, product)), d, out + i);
+        const auto most = hn::Add(hn::BitCast(d, product), lost);
+        hn::StoreU(hn::SaturatedAdd(hn::LoadU(d, out + i), most), d, out + i);
       }
     }
   }
-  return true;
-}
-bool tau32(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint32_t* plane, std::size_t row) {
-  const hn::CappedTag<std::uint32_t, 8> d;
-  const hn::Rebind<std::uint16_t, decltype(d)> narrow;
-  const auto bias = hn::Set(d, frame.plan.bias);
-  auto lost = hn::Zero(d);
-  for (const SplatJob& job : jobs) {
-    const JobShape& shape = frame.shapes[job.set];
-    const auto colour = hn::Set(d, std::uint32_t{job.colour[3]});
-    for (std::size_t j = 0; j < shape.extent; ++j) {
-      std::uint32_t* out = plane + job.at + j * row;
-      const std::uint16_t* weights = job.weights + j * shape.pitch;
-      for (std::size_t i = 0; i < shape.extent; i += hn::Lanes(d)) {
-        const auto weight = hn::PromoteTo(d, hn::LoadU(narrow, weights + i));
-        const auto product = hn::ShiftRightSame(hn::Add(hn::Mul(colour, weight), bias), frame.plan.dropped_bits);
-        const auto before = hn::LoadU(d, out + i), after = hn::Add(before, product);
-        lost = hn::Or(lost, hn::Xor(hn::Max(after, before), after));
-        hn::StoreU(after, d, out + i);
-      }
-    }
-  }
-  return hn::AllTrue(d, hn::Eq(lost, hn::Zero(d)));
 }
 const char* target() { return hwy::TargetName(HWY_TARGET); }
 
@@ -226,8 +212,7 @@ HWY_AFTER_NAMESPACE();
 namespace fastsplat::cmodel::fast {
 HWY_EXPORT(add16);
 HWY_EXPORT(add32);
-HWY_EXPORT(tau16);
-HWY_EXPORT(tau32);
+HWY_EXPORT(hidden);
 HWY_EXPORT(target);
 
 bool add_splats(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint16_t* sheet, std::size_t row) {
@@ -236,11 +221,9 @@ bool add_splats(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint
 bool add_splats(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint32_t* sheet, std::size_t row) {
   return HWY_DYNAMIC_DISPATCH(add32)(frame, jobs, sheet, row);
 }
-bool add_tau(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint16_t* plane, std::size_t row) {
-  return HWY_DYNAMIC_DISPATCH(tau16)(frame, jobs, plane, row);
-}
-bool add_tau(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint32_t* plane, std::size_t row) {
-  return HWY_DYNAMIC_DISPATCH(tau32)(frame, jobs, plane, row);
+void add_hidden(const JobFrame& frame, const HiddenJob& job, std::span<const HiddenShare> shares,
+                const Planes& planes) {
+  HWY_DYNAMIC_DISPATCH(hidden)(frame, job, shares, planes);
 }
 bool has_vectors() { return vector_target() != nullptr; }
 const char* vector_target() { return HWY_DYNAMIC_DISPATCH(target)(); }

@@ -36,9 +36,27 @@ struct JobFrame {
 bool add_splats(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint16_t* sheet, std::size_t row);
 bool add_splats(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint32_t* sheet, std::size_t row);
 
-/// Adds the fourth channel only, to a plane of one word a pixel.
-bool add_tau(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint16_t* plane, std::size_t row);
-bool add_tau(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint32_t* plane, std::size_t row);
+/// What of a splat falls into one sheet, for a splat that cannot be seen. No word: nothing falls there.
+struct HiddenShare {
+  std::uint32_t word = 0;    ///< the largest of R, G, B and tau
+  std::uint32_t excess = 0;  ///< what that is above tau
+};
+
+/// A footprint that cannot be seen, with its shares of several sheets.
+struct HiddenJob {
+  const std::uint16_t* weights = nullptr;
+  std::uint32_t at = 0, set = 0;  ///< as of SplatJob
+};
+
+/// Bounds of sums, a word a pixel, laid out as the sheet (FastPlan::hides): a plane for the sheet at hand, `first`, and
+/// one for each that follows, coming round behind the last.
+struct Planes {
+  std::uint16_t* words;
+  std::size_t pixels, row, count, first;
+};
+
+/// Adds to each share's plane at least its word times the footprint; a word at its end says nothing any more.
+void add_hidden(const JobFrame& frame, const HiddenJob& job, std::span<const HiddenShare> shares, const Planes& planes);
 
 /// Whether this processor has vector instructions for it; without them the plain unit is meant.
 bool has_vectors();

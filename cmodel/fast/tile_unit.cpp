@@ -22,20 +22,23 @@ TileUnit<T>::TileUnit(const FrameTables& tables, PixelSink& pixels)
       pixel_out_(tables.config),
       lanes_(tables.config.lanes),
       lane_bits_(Config::log2_exact(tables.config.lanes)),
-      colour_shift_(tables.jobs.plan.colour_shift) {
+      colour_shift_(tables.jobs.plan.colour_shift),
+      dropped_(narrowing(tables.config, Site::Product).dropped_bits()),
+      slots_(1) {
   const std::uint64_t brightest = (std::uint64_t{1} << tables.config.colour_frac_bits) - 1;
-  const int dropped = narrowing(tables.config, Site::Product).dropped_bits();
   for (std::uint32_t set = 0; set < tables.jobs.shapes.size(); ++set) {
     const Shape& shape = tables.memo.shape(set);
     windows_.push_back(shape.windows);
+    heaviest_.push_back(shape.heaviest);
     // Rounding adds less than one to what the bits kept say.
-    largest_product_.push_back(static_cast<std::uint32_t>((brightest * shape.heaviest) >> dropped) + 1);
+    largest_product_.push_back(static_cast<std::uint32_t>((brightest * shape.heaviest) >> dropped_) + 1);
   }
 }
 
 template <class T>
-void TileUnit<T>::begin_tile(const BeginTile& tile) {
+void TileUnit<T>::begin_band(const BeginTile& tile, bool first, int ahead) {
   tile_ = tile;
+  first_band_ = first;
   sheet_.resize(tile.width, tile.height, tables_.reach);
   const std::uint32_t one = std::uint32_t{1} << tables_.config.composite_frac_bits;
   picture_.assign(static_cast<std::size_t>(tile.width) * tile.height,
@@ -43,15 +46,15 @@ void TileUnit<T>::begin_tile(const BeginTile& tile) {
   const auto rows = static_cast<std::size_t>((tile.height + lanes_ - 1) >> lane_bits_);
   dirty_.assign(rows, 0);
   frozen_.assign(rows, 0);
-  hidden_tau_.assign(sheet_.pixels(), 0);
-  any_frozen_ = any_hidden_ = false;
+  slots_.assign(static_cast<std::size_t>(ahead) + 1, {.dirty = std::vector<std::uint64_t>(rows)});
+  hidden_sums_.assign(slots_.size() * sheet_.pixels(), 0);
+  most_excess_ = 0;
+  now_ = waiting_jobs_ = 0;
+  any_frozen_ = false;
   sound_ = true;
   bound_ = waiting_ = 0;
   before_ = counters_;
 }
-
-template <class T>
-void TileUnit<T>::begin_sheet(const BeginSheet&) {}
 
 template <class T>
 std::uint32_t TileUnit<T>::clipped_weighted(const Shape& shape, const std::uint16_t* weights, int x, int y) const {
@@ -67,9 +70,9 @@ std::uint32_t TileUnit<T>::clipped_weighted(const Shape& shape, const std::uint1
 
 template <class T>
 Placed TileUnit<T>::place(std::uint32_t set, const SnappedAxis& sx, const SnappedAxis& sy) const {
-  Placed out{.set = static_cast<std::uint16_t>(set)};
-  const Shape& shape = tables_.memo.shape(set);
   const int x = sx.origin, y = sy.origin;
+  Placed out{.set = static_cast<std::uint16_t>(set), .counted = first_band_ || y >= 0};
+  const Shape& shape = tables_.memo.shape(set);
   const int x0 = std::max(x, 0), x1 = std::min(x + shape.padded, tile_.width);
   const int y0 = std::max(y, 0), y1 = std::min(y + shape.padded, tile_.height);
   if (x0 >= x1 || y0 >= y1) return out;
@@ -93,8 +96,45 @@ void TileUnit<T>::splats(std::span<const SplatRecord> records) {
   for (const SplatRecord& record : records) {
     const std::uint32_t rho = tables_.memo.shape(record.set).rho;
     const SnappedAxis x = snap_(record.x, rho, counting), y = snap_(record.y, rho, counting);
-    add(place(record.set, x, y), record.colour);
+    const Placed placed = place(record.set, x, y);
+    const auto& words = record.colour;
+    const std::uint32_t largest = std::max({words[0], words[1], words[2], words[3]});
+    const HiddenShare share{largest, largest - words[3]};
+    if (largest != 0 && hidden(placed) && can_hide(placed, {&share, 1}))
+      hide(placed, {&share, 1});
+    else
+      add(placed, words);
   }
+}
+
+template <class T>
+bool TileUnit<T>::can_hide(const Placed& placed, std::span<const HiddenShare> shares) const {
+  std::uint32_t excess = 0;
+  for (const HiddenShare& share : shares) excess = std::max(excess, share.excess);
+  return excess == 0 || most_excess_ + product(placed, excess) <= tables_.opacity_excess;
+}
+
+template <class T>
+std::uint64_t TileUnit<T>::hide(const Placed& placed, std::span<const HiddenShare> shares) {
+  std::uint64_t records = 0;
+  std::size_t at = now_;
+  for (const HiddenShare& share : shares) {
+    Slot& slot = slots_[at];
+    if (++at == slots_.size()) at = 0;
+    if (share.word == 0) continue;
+    ++records;
+    touch(placed, slot.dirty);
+    slot.hidden = true;
+    if (share.excess == 0) continue;
+    slot.excess += product(placed, share.excess);
+    most_excess_ = std::max(most_excess_, slot.excess);
+  }
+  count(placed, records);
+  if (placed.weighted == 0) return records;
+  if (placed.counted) hidden_splats_ += records;
+  add_hidden(tables_.jobs, {placed.weights, placed.at, placed.set}, shares,
+             {hidden_sums_.data(), sheet_.pixels(), sheet_.row(), slots_.size(), now_});
+  return records;
 }
 
 template <class T>
@@ -104,15 +144,10 @@ void TileUnit<T>::draw() {
     bound_ = largest_word();
     if (bound_ > tables_.jobs.plan.largest_sum || bound_ + waiting_ > 0xFFFFFFFFU) sound_ = false;
   }
-  if (sound_) {
-    const bool seen = add_splats(tables_.jobs, jobs_.all(), sheet_.words(), sheet_.row());
-    const bool unseen = add_tau(tables_.jobs, hidden_jobs_.all(), hidden_tau_.data(), sheet_.row());
-    sound_ = seen && unseen;
-  }
-  any_hidden_ = any_hidden_ || hidden_jobs_.size > 0;
+  if (sound_) sound_ = add_splats(tables_.jobs, std::span(jobs_).first(waiting_jobs_), sheet_.words(), sheet_.row());
   bound_ += waiting_;
   waiting_ = 0;
-  jobs_.size = hidden_jobs_.size = 0;
+  waiting_jobs_ = 0;
 }
 
 template <class T>
@@ -121,7 +156,7 @@ std::uint32_t TileUnit<T>::largest_word() const {
   for (int y = 0; y < tile_.height; ++y) {
     for (int x = 0; x < tile_.width; ++x) {
       const SheetWord sums = sheet_.sums(x, y);
-      largest = std::max({largest, sums[0], sums[1], sums[2], sums[3], std::uint32_t{hidden_tau_[sheet_.at(x, y)]}});
+      largest = std::max({largest, sums[0], sums[1], sums[2], sums[3]});
     }
   }
   return largest;
@@ -131,18 +166,22 @@ template <class T>
 void TileUnit<T>::end_sheet(const EndSheet&) {
   ++counters_.sheets;
   draw();
+  Slot& slot = slots_[now_];
   if (!sound_) return;
   for (std::size_t by = 0; by < dirty_.size(); ++by) {
-    for (std::uint64_t left = dirty_[by]; left != 0 && sound_; left &= left - 1)
+    for (std::uint64_t left = dirty_[by] | slot.dirty[by]; left != 0 && sound_; left &= left - 1)
       composite(std::countr_zero(left), static_cast<int>(by));
-    dirty_[by] = 0;
+    dirty_[by] = slot.dirty[by] = 0;
   }
   if (tables_.jobs.plan.carries) {
     // What lies in the guard band would come round in the end.
     sheet_.clear();
-    std::ranges::fill(hidden_tau_, T{0});
   }
-  any_hidden_ = false;
+  if (slot.hidden)
+    std::fill_n(hidden_sums_.begin() + static_cast<std::ptrdiff_t>(now_ * sheet_.pixels()), sheet_.pixels(), 0);
+  slot.hidden = false;
+  slot.excess = most_excess_ = 0;
+  for (const Slot& other : slots_) most_excess_ = std::max(most_excess_, other.excess);
   bound_ = 0;
 }
 
@@ -198,27 +237,36 @@ template <class T>
 void TileUnit<T>::count_frozen(int x0, int y0, int x1, int y1) {
   Counting counting{counters_};
   for (int y = y0; y < y1; ++y) {
-    T* unseen = &hidden_tau_[sheet_.at(x0, y)];
-    for (int x = x0; x < x1; ++x, ++unseen) {
-      SheetWord sums = sheet_.sums(x, y);
+    const std::uint16_t* bound = &hidden_sums_[now_ * sheet_.pixels() + sheet_.at(x0, y)];
+    for (int x = x0; x < x1; ++x, ++bound) {
+      const SheetWord sums = sheet_.sums(x, y);
       const std::uint32_t colour = std::max({sums[0], sums[1], sums[2]});
-      if (std::uint64_t{std::max(colour, sums[3])} + *unseen > largest_whole()) {
+      const std::uint64_t hidden = std::uint64_t{*bound} << tables_.jobs.plan.hidden_unit;
+      if (std::max(colour, sums[3]) + hidden > largest_whole()) {
         sound_ = false;
         return;
       }
-      // Hidden colours are at most the hidden tau, so that these are the largest sums there can have been.
-      for (std::uint32_t& sum : sums) sum += *unseen;
-      if (tile_.mode == Mode::Exponential && tables_.opacity_holds && colour + *unseen <= sums[3]) continue;
-      const std::uint64_t before = counters_.opacity_saturated;
-      if (tile_.mode == Mode::Exponential) {
-        (void)tables_.opacity.exponential(sums, counting);
-      } else {
+      if (hidden != 0) {
+        sound_ = sound_ && hidden_slab_fits(sums, hidden);
+      } else if (tile_.mode == Mode::Additive) {
         (void)tables_.opacity.additive(sums, counting);
+      } else if (colour > sums[3] || !tables_.opacity_holds) {
+        (void)tables_.opacity.exponential(sums, counting);
       }
-      if (*unseen != 0 && counters_.opacity_saturated != before) sound_ = false;
     }
-    if (any_hidden_) std::fill(unseen - (x1 - x0), unseen, T{0});
   }
+}
+
+template <class T>
+bool TileUnit<T>::hidden_slab_fits(const SheetWord& seen, std::uint64_t hidden) const {
+  // The factor is at most 1.0, so that what is at most 1.0 before it is so behind it.
+  const std::uint32_t colour = std::max({seen[0], seen[1], seen[2]});
+  const std::uint64_t one = std::uint64_t{1} << tables_.config.sheet_frac_bits;
+  if (std::max(colour, seen[3]) + hidden <= one) return true;
+  if (tile_.mode == Mode::Additive) return false;
+  // Colours are above tau by no more than this.
+  const std::uint64_t above = slots_[now_].excess + (colour > seen[3] ? colour - seen[3] : 0);
+  return above <= tables_.opacity_excess;
 }
 
 template <class T>

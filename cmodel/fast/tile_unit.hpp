@@ -28,6 +28,7 @@ struct Placed {
   std::uint16_t weighted = 0;         ///< of those, with a weight above 0
   std::uint16_t first = 1, last = 0;  ///< rows of blocks, both included
   std::uint16_t set = 0;
+  bool counted = true;  ///< here; false in a band of a tile that the footprint only reaches down into
 };
 
 /// Takes tiles one after the other, in records that are known to obey docs/stream.md (the driver's own). T is the
@@ -38,8 +39,13 @@ class TileUnit final : public RecordSink {
   /// Both outlive the unit.
   TileUnit(const FrameTables& tables, PixelSink& pixels);
 
-  void begin_tile(const BeginTile& tile) override;
-  void begin_sheet(const BeginSheet& sheet) override;
+  void begin_tile(const BeginTile& tile) override { begin_band(tile, true, 0); }
+  /// A band of a tile's rows of blocks as if it were a tile: for end_tile() as well. Counters of the bands of a tile
+  /// add up to those of the tile, but for `tiles` and `sheets`. A splat goes to all bands its windows touch and is
+  /// counted where they begin: `first` is the band that has those that begin above it, too. hide() knows up to `ahead`
+  /// sheets beyond the one begun.
+  void begin_band(const BeginTile& band, bool first, int ahead);
+  void begin_sheet(const BeginSheet& sheet) override { now_ = sheet.sheet % slots_.size(); }
   void splats(std::span<const SplatRecord> records) override;
   void end_sheet(const EndSheet& sheet) override;
   void end_tile(const EndTile& tile) override;
@@ -48,43 +54,57 @@ class TileUnit final : public RecordSink {
   /// relative to the tile.
   Placed place(std::uint32_t set, const SnappedAxis& x, const SnappedAxis& y) const;
   void add(const Placed& placed, const std::array<std::uint32_t, 4>& colour) {
-    ++counters_.splats;
-    counters_.windows += windows_[placed.set];
-    counters_.lanes_inside += placed.inside;
-    counters_.lanes_weighted += placed.weighted;
-    bool frozen = any_frozen_;
-    for (std::size_t by = placed.first; by <= placed.last; ++by) {
-      dirty_[by] |= placed.columns;
-      frozen = frozen && (placed.columns & ~frozen_[by]) == 0;
-    }
-    if (placed.weighted == 0) return;
-    const std::uint32_t brightest = std::max({colour[0], colour[1], colour[2]});
-    if (frozen && brightest <= colour[3]) {
-      // Nothing it does can be seen, and only its tau can be counted.
-      ++hidden_splats_;
-      put(hidden_jobs_, placed, colour);
-    } else {
-      put(jobs_, placed, colour);
-    }
+    count(placed, 1);
+    touch(placed, dirty_);
+    if (placed.weighted != 0) put(placed, colour);
   }
+  /// No picture depends on what the splat adds to this sheet or to any later one: hide() will do instead of add().
+  bool hidden(const Placed& placed) const {
+    if (placed.weighted == 0) return true;
+    bool frozen = any_frozen_ && tables_.jobs.plan.hides;
+    for (std::size_t by = placed.first; by <= placed.last; ++by)
+      frozen = frozen && (placed.columns & ~frozen_[by]) == 0;
+    return frozen;
+  }
+  /// A hidden splat's shares of this sheet and those that follow: they are only counted. Returns how many there are.
+  std::uint64_t hide(const Placed& placed, std::span<const HiddenShare> shares);
+  /// False if that could not be exact: then add() them, each in its turn. True where no share has an excess.
+  bool can_hide(const Placed& placed, std::span<const HiddenShare> shares) const;
 
   /// False if a sum may have left the sheet's format in the last tile: it was not delivered and its counters mean
   /// nothing; only the plain unit can tell how often. Then `counters()` are those of the tiles before.
   bool sound() const { return sound_; }
   const Counters& counters() const { return counters_; }
-  /// Splats all of whose blocks were frozen: only their tau was added up, for the counters.
+  /// Records of splats all of whose blocks, in the band they begin in, were frozen.
   std::uint64_t hidden_splats() const { return hidden_splats_; }
 
  private:
   static constexpr std::size_t kJobs = 256;  ///< drawn at once
 
-  struct Jobs {
-    std::array<SplatJob, kJobs> list;
-    std::size_t size = 0;
-    std::span<const SplatJob> all() const { return std::span(list).first(size); }
+  /// What is known of a sheet that may be still to come.
+  struct Slot {
+    std::vector<std::uint64_t> dirty;  ///< a word per row of blocks, of hidden splats
+    std::uint64_t excess = 0;          ///< none of their colours is above their tau by more
+    bool hidden = false;               ///< some there are
   };
-  void put(Jobs& jobs, const Placed& placed, const std::array<std::uint32_t, 4>& colour) {
-    SplatJob& job = jobs.list[jobs.size];
+
+  /// No word adds more to a pixel.
+  std::uint64_t product(const Placed& placed, std::uint32_t word) const {
+    return placed.weighted == 0 ? 0 : ((std::uint64_t{word} * heaviest_[placed.set]) >> dropped_) + 1;
+  }
+  void count(const Placed& placed, std::uint64_t records) {
+    if (placed.counted) {
+      counters_.splats += records;
+      counters_.windows += records * windows_[placed.set];
+    }
+    counters_.lanes_inside += records * placed.inside;
+    counters_.lanes_weighted += records * placed.weighted;
+  }
+  static void touch(const Placed& placed, std::vector<std::uint64_t>& dirty) {
+    for (std::size_t by = placed.first; by <= placed.last; ++by) dirty[by] |= placed.columns;
+  }
+  void put(const Placed& placed, const std::array<std::uint32_t, 4>& colour) {
+    SplatJob& job = jobs_[waiting_jobs_];
     job.weights = placed.weights;
     job.at = placed.at;
     job.set = placed.set;
@@ -92,7 +112,7 @@ class TileUnit final : public RecordSink {
     __builtin_prefetch(placed.weights);
     __builtin_prefetch(placed.weights + 32);
     waiting_ += largest_product_[placed.set];
-    if (++jobs.size == kJobs) draw();
+    if (++waiting_jobs_ == kJobs) draw();
   }
   std::uint32_t clipped_weighted(const Shape& shape, const std::uint16_t* weights, int x, int y) const;
   void draw();
@@ -100,6 +120,8 @@ class TileUnit final : public RecordSink {
   void composite(int bx, int by);
   /// Range checks of a frozen block's sums, seen and unseen.
   void count_frozen(int x0, int y0, int x1, int y1);
+  /// No sum of a slab's tau and no colour beside it is cut to 1.0, if some of it is hidden.
+  bool hidden_slab_fits(const SheetWord& seen, std::uint64_t hidden) const;
   /// Above it a sum may have been cut: words of 16 bits stop at their end.
   std::uint32_t largest_whole() const {
     const std::uint32_t largest = tables_.jobs.plan.largest_sum;
@@ -111,18 +133,24 @@ class TileUnit final : public RecordSink {
   Snap snap_;
   CompositeLane lane_;
   PixelOut pixel_out_;
-  int lanes_, lane_bits_, colour_shift_;
+  int lanes_, lane_bits_, colour_shift_, dropped_;
   std::vector<std::uint32_t> windows_;          ///< of a splat, per set
+  std::vector<std::uint32_t> heaviest_;         ///< weight, per set
   std::vector<std::uint32_t> largest_product_;  ///< per set
   BeginTile tile_;
   Sheet<T> sheet_;
   std::vector<PixelState> picture_;            ///< row by row
   std::vector<std::uint64_t> dirty_, frozen_;  ///< a word per row of blocks
-  std::vector<T> hidden_tau_;                  ///< sums of tau of hidden splats, laid out as the sheet
-  bool any_frozen_ = false, any_hidden_ = false, sound_ = true;
+  std::vector<std::uint16_t> hidden_sums_;     ///< bounds of hidden splats' largest words, a plane per slot
+  std::vector<Slot> slots_;                    ///< of sheet s: s modulo their number
+  std::size_t now_ = 0;                        ///< the slot of the sheet begun
+  std::uint64_t most_excess_ = 0;              ///< of the slots
+  bool first_band_ = true;
+  bool any_frozen_ = false, sound_ = true;
   std::uint64_t bound_ = 0;    ///< no word of the sheet is above
   std::uint64_t waiting_ = 0;  ///< no word grows by more when the jobs are drawn
-  Jobs jobs_, hidden_jobs_;
+  std::array<SplatJob, kJobs> jobs_;
+  std::size_t waiting_jobs_ = 0;
   Counters counters_, before_;
   std::uint64_t hidden_splats_ = 0;
 };

@@ -107,8 +107,9 @@ TEST(FastUnit, RandomStreams) {
   EXPECT_GT(tiles, redone) << "all given up: nothing was compared";
 }
 
-/// A tile that freezes whole, and then `splats` on one place behind it, of two fifths of the largest tau each.
-std::vector<std::uint8_t> hidden_stream(const cmodel::Config& config, int mode, int splats) {
+/// A tile that freezes whole, and then `splats` on one place behind it, each of two fifths of the largest red and of
+/// `above` sixteenths less tau.
+std::vector<std::uint8_t> hidden_stream(const cmodel::Config& config, int mode, int splats, std::uint32_t above) {
   StreamWriter stream(symbols_of(config));
   const auto size = [](std::int64_t n) { return static_cast<std::size_t>(n); };
   const auto extent = static_cast<std::uint32_t>(config.lanes), phases = static_cast<std::uint32_t>(config.phases);
@@ -138,7 +139,8 @@ std::vector<std::uint8_t> hidden_stream(const cmodel::Config& config, int mode, 
   stream.begin_sheet(sheet);
   const std::uint32_t some = largest * 2 / 5;
   for (int i = 0; i < splats; ++i)
-    stream.splat(0, word(config.tile_width / 2), word(config.tile_height / 2), {some, some / 3, 0, some});
+    stream.splat(0, word(config.tile_width / 2), word(config.tile_height / 2),
+                 {some, some / 3, 0, some - some * above / 16});
   stream.end_sheet();
   stream.end_tile();
   stream.end_frame();
@@ -151,20 +153,23 @@ TEST(FastUnit, WhatIsHiddenIsStillCounted) {
   for (const char* name : {"base", "compact", "exact", "small", "tiny"}) {
     const cmodel::Config config = named_config(name);
     for (const int mode : {0, 1}) {
-      for (int splats = 1; splats <= 16; ++splats) {
-        const auto bytes = hidden_stream(config, mode, splats);
-        const auto beats = to_beats(bytes);
-        const std::size_t first = first_tile_beat(bytes);
-        const auto tables = frame_tables(config, std::span(beats).first(first));
-        ASSERT_TRUE(tables);
-        Tally tally;
-        if (tables->jobs.plan.narrow)
-          compare<std::uint16_t>(config, *tables, beats, first, tally);
-        else
-          compare<std::uint32_t>(config, *tables, beats, first, tally);
-        EXPECT_EQ(tally.mismatches, 0u) << name << ", mode " << mode << ", " << splats << " splats";
-        EXPECT_GT(tally.hidden, 0u) << name << ", mode " << mode << ": nothing froze";
-        all.tiles += tally.tiles, all.redone += tally.redone, all.mismatches += tally.mismatches;
+      // Colours above tau by nothing, by little, and by more than any opacity bears.
+      for (const std::uint32_t above : {0, 1, 9}) {
+        for (int splats = 1; splats <= 16; ++splats) {
+          const auto bytes = hidden_stream(config, mode, splats, above);
+          const auto beats = to_beats(bytes);
+          const std::size_t first = first_tile_beat(bytes);
+          const auto tables = frame_tables(config, std::span(beats).first(first));
+          ASSERT_TRUE(tables);
+          Tally tally;
+          if (tables->jobs.plan.narrow)
+            compare<std::uint16_t>(config, *tables, beats, first, tally);
+          else
+            compare<std::uint32_t>(config, *tables, beats, first, tally);
+          EXPECT_EQ(tally.mismatches, 0u) << name << ", mode " << mode << ", " << splats << " splats, above " << above;
+          EXPECT_GT(tally.hidden, 0u) << name << ", mode " << mode << ": nothing froze";
+          all.tiles += tally.tiles, all.redone += tally.redone, all.mismatches += tally.mismatches;
+        }
       }
     }
   }

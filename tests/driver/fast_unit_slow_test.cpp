@@ -1,5 +1,5 @@
-// The fast unit draws what the plain unit draws: words and counters of whole frames, over configurations, methods,
-// views, threads and every kind of vector instruction this processor has.
+// The fast unit draws what the plain unit draws: words, counters and report of whole frames, over configurations,
+// methods, views, threads, heights of bands and every kind of vector instruction this processor has.
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
@@ -59,6 +59,11 @@ class Targets {
   std::vector<std::uint64_t> all_;
 };
 
+bool same_report(const DriverReport& a, const DriverReport& b) {
+  return a.splat_records == b.splat_records && a.saturated_records == b.saturated_records && a.sheets == b.sheets &&
+         a.tiles == b.tiles;
+}
+
 TEST(FastUnit, DrawsThePlainUnitsWordsAndCounters) {
   Targets targets;
   ASSERT_FALSE(targets.all().empty()) << "no vector instructions here: nothing could be compared";
@@ -66,6 +71,7 @@ TEST(FastUnit, DrawsThePlainUnitsWordsAndCounters) {
   std::map<std::string, UnitReport> units;
   std::map<std::string, int> drawn_with;
   const int threads[] = {1, 2, 3, 8};
+  const int band_rows[] = {0, 1, 1000, 2, 64, 7, 12};  // rounded up to blocks of 2 to 16 pixels; tiles of 32 to 128
   for (const auto& name : config_names()) {
     const auto config = load_config(name);
     for (const Setting& method : kMethods) {
@@ -88,7 +94,9 @@ TEST(FastUnit, DrawsThePlainUnitsWordsAndCounters) {
           EXPECT_EQ(plain.units.fast, 0u) << what;
           for (const std::uint64_t target : targets.all()) {
             targets.choose(target);
-            const DeviceRender fast = render(scene, config, {.threads = threads[frames % 4], .unit = Unit::Fast});
+            // Every target and configuration meets every number of threads and every height.
+            const int some = threads[(frames + combinations) % 4], rows = band_rows[frames % 7];
+            const DeviceRender fast = render(scene, config, {.threads = some, .unit = Unit::Fast, .band_rows = rows});
             ++frames;
             ++drawn_with[cmodel::fast::vector_target()];
             words += fast.frame.words.size();
@@ -96,10 +104,13 @@ TEST(FastUnit, DrawsThePlainUnitsWordsAndCounters) {
             sum.fast += fast.units.fast, sum.plain += fast.units.plain, sum.redone += fast.units.redone;
             sum.hidden_splats += fast.units.hidden_splats;
             EXPECT_EQ(fast.units.plain, fast.units.redone) << what << ": the fast unit was not chosen";
-            if (fast.frame.words != plain.frame.words || !(fast.counters == plain.counters)) {
-              if (++different > 5) continue;
-              ADD_FAILURE() << what << " on " << cmodel::fast::vector_target()
-                            << (fast.frame.words != plain.frame.words ? ": words differ" : ": counters differ");
+            const char* difference = fast.frame.words != plain.frame.words     ? "words"
+                                     : !(fast.counters == plain.counters)      ? "counters"
+                                     : !same_report(fast.report, plain.report) ? "reports"
+                                                                               : nullptr;
+            if (difference != nullptr && ++different <= 5) {
+              ADD_FAILURE() << what << " on " << cmodel::fast::vector_target() << ", " << some << " threads, bands of "
+                            << rows << " rows: " << difference << " differ";
             }
           }
           ++combinations;

@@ -38,6 +38,47 @@ TEST(Slices, telescope_for_every_phase_width_and_configuration) {
   EXPECT_EQ(wrong, 0u);
 }
 
+TEST(Slices, outlines_are_those_of_the_shares) {
+  std::uint64_t compared = 0, empty = 0, above = 0, saturated = 0, wrong = 0;
+  for (const auto& name : config_names()) {
+    const auto config = load_config(name);
+    const auto one = static_cast<std::uint32_t>(config.colour_format().max);
+    const Slices slices(config, scene::kernel_by_name("smooth"), 0.7, 40);
+    const SplatWords splats[] = {{one, one / 2 + 1, 1, one - 3},
+                                 {9, 20, 11, 21},
+                                 {40, 39, 40, 40},
+                                 {0, 0, 3, 0},
+                                 {2, 1, 0, 1},
+                                 {0, 0, 0, one},
+                                 {one, 1, 1, one},
+                                 {one, 7, 1, 3 * one}};
+    for (const SplatWords& words : splats) {
+      for (std::int32_t depth = 0; depth <= slices.quantise_depth(28.0); ++depth) {
+        int s = slices.first(depth);
+        slices.outlines(words, depth, s, slices.last(depth), [&](const Slices::Outline& outline) {
+          const Slices::Outline expected = Slices::outline(slices.share(words, depth, s++));
+          ++compared;
+          empty += outline.largest == 0 ? 1 : 0;
+          above += outline.excess != 0 ? 1 : 0;
+          saturated += outline.saturated ? 1 : 0;
+          wrong += outline.largest != expected.largest || outline.excess != expected.excess ||
+                           outline.saturated != expected.saturated
+                       ? 1
+                       : 0;
+        });
+        wrong += s != slices.last(depth) + 1 ? 1 : 0;
+      }
+    }
+  }
+  figure("outlines compared", static_cast<double>(compared));
+  figure("outlines that are not their share's", static_cast<double>(wrong));
+  EXPECT_GT(empty, 0u);
+  EXPECT_GT(above, 0u);
+  EXPECT_GT(saturated, 0u);
+  EXPECT_GT(compared, empty + above + saturated);
+  EXPECT_EQ(wrong, 0u);
+}
+
 TEST(Slices, nothing_lies_outside_first_and_last) {
   const auto config = load_config("base");
   const Slices slices(config, scene::kernel_by_name("gauss2"), 0.5, 60);

@@ -65,6 +65,27 @@ TEST(Bound, HoldsOnEveryPixelAtRandom) {
   totals.print("at random");
 }
 
+TEST(Bound, HoldsForEveryKindOfIndexWhereItsGeometryIsKnown) {
+  Totals totals;
+  for (const int kind : {0, 1, 2, 5}) {
+    for (const char* name : {"base", "compact", "tiny"}) {
+      cmodel::Config config = test::named_config(name);
+      config.index_kind = kind;
+      for (const auto& description : stages::test::small_scenes()) {
+        const scene::Scene scene = scene::build_scene(description);
+        const Chain chain(scene, config);
+        const Picture real = chain(Mixture{}), device = chain(Mixture::all_device());
+        for (const Known known : {Known::Geometry, Known::Words}) {
+          const BoundCheck one = check(bound(chain, real, known, 2), real, device);
+          totals.add(one);
+          EXPECT_EQ(one.over, 0u) << kind << " " << name;
+        }
+      }
+    }
+  }
+  totals.print("other kinds of index");
+}
+
 /// What the page says of each step, where it can stand alone: one step's (or two that go together) device, all others
 /// real.
 TEST(Bound, HoldsForEachStepAlone) {

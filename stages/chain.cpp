@@ -59,7 +59,7 @@ class Chain::Band {
         ring_(static_cast<std::size_t>(chain.steps_.reach()), golden::Sheet(rows, width)),
         picture_(static_cast<std::size_t>(rows.end - rows.first) * width, pixels_.initial()) {}
 
-  void run(const driver::TileBins& bins, int band) {
+  void run(const BandBins& bins, int band) {
     for (int sheet = 0; sheet < chain_.steps_.sheets(); ++sheet) {
       for (const std::uint32_t i : bins.bin(band, sheet)) add(splats_[i]);
       drain(at(sheet));
@@ -127,15 +127,13 @@ Picture Chain::operator()(const Mixture& mixture, int threads) const {
   const int width = scene_.description.width, height = scene_.description.height;
   const std::vector<StagedSplat> splats = steps_.staged(list_, mixture, golden_units, threads);
   const driver::TileGrid bands = band_grid(config_, width, height, kRows);
-  const driver::TileBins bins(
+  const BandBins bins(
       bands, steps_.sheets(), splats.size(), threads,
       [&](std::size_t i) { return extent_of(splats[i], more_reach(config_)); },
       [&](std::size_t i) { return splats[i].first; });
 
   Picture picture{width, height, std::vector<golden::Sums>(static_cast<std::size_t>(width) * height)};
-  std::vector<std::uint64_t> work;
-  for (int band = 0; band < bands.count(); ++band) work.push_back(bins.tile(band).size());
-  parallel_for(work, threads, [&](std::size_t number) {
+  parallel_for(bins.work(), threads, [&](std::size_t number) {
     const int band = static_cast<int>(number);
     const golden::Rows rows{bands.y(band), bands.y(band) + bands.height(band)};
     Band sweep(*this, mixture, splats, golden_units, rows, width);

@@ -162,10 +162,11 @@ void WeightSteps::rasterise(const StagedSplat& splat, const Mixture& mixture, bo
     return static_cast<int>(std::clamp(at, static_cast<double>(low), static_cast<double>(high)));
   };
   const double reach = splat.radius + more_reach(config_);
-  const driver::Extent box{clip(std::ceil(splat.x - reach), 0, width),
-                           clip(std::floor(splat.x + reach) + 1.0, 0, width),
-                           clip(std::ceil(splat.y - reach), rows.first, rows.end),
-                           clip(std::floor(splat.y + reach) + 1.0, rows.first, rows.end)};
+  const int left = clip(std::ceil(splat.x - reach), 0, width),
+            right = clip(std::floor(splat.x + reach) + 1.0, 0, width),
+            top = clip(std::ceil(splat.y - reach), rows.first, rows.end),
+            bottom = clip(std::floor(splat.y + reach) + 1.0, rows.first, rows.end);
+  const driver::Extent box{left, right, top, bottom, bottom};
   spans_.clear();
   own_.clear();
   if (config_.index() == IndexKind::Rlut) {

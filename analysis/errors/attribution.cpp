@@ -11,14 +11,6 @@ namespace {
 using stages::Mixture;
 using stages::Picture;
 
-Picture difference(const Picture& a, const Picture& b) {
-  Picture out = a;
-  for (std::size_t i = 0; i < out.pixels.size(); ++i) {
-    for (std::size_t c = 0; c < 4; ++c) out.pixels[i][c] -= b.pixels[i][c];
-  }
-  return out;
-}
-
 double product(const golden::Sums& a, const golden::Sums& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
@@ -136,6 +128,14 @@ std::vector<PixelStory> stories_of(const Attribution& a, const Picture& error) {
 }
 
 }  // namespace
+
+Picture difference(const Picture& a, const Picture& b) {
+  Picture out = a;
+  for (std::size_t i = 0; i < out.pixels.size(); ++i) {
+    for (std::size_t c = 0; c < 4; ++c) out.pixels[i][c] -= b.pixels[i][c];
+  }
+  return out;
+}
 
 Amount amount_of(const Picture& error) {
   Amount out;

@@ -17,6 +17,8 @@ struct Amount {
   double rms = 0.0, greatest = 0.0, bias = 0.0;  ///< greatest: of magnitudes
 };
 Amount amount_of(const stages::Picture& error);
+/// a - b, value by value.
+stages::Picture difference(const stages::Picture& a, const stages::Picture& b);
 
 /// LSB of n bits per 1.0: 2^n - 1.
 constexpr double lsb(int bits) { return static_cast<double>((1ULL << bits) - 1); }

@@ -72,11 +72,8 @@ std::optional<TriedRemedy> try_remedy(const scene::Scene& scene, const cmodel::C
     if (!found) continue;
     TriedRemedy out{step->set.name, std::move(*found), {}, cost(config), {}};
     out.after = cost(out.remedy.config);
-    stages::Picture picture = stages::Chain(scene, out.remedy.config)(stages::Mixture::all_device(), threads);
-    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
-      for (std::size_t c = 0; c < 4; ++c) picture.pixels[i][c] -= attribution.real.pixels[i][c];
-    }
-    out.error = amount_of(picture);
+    const stages::Chain chain(scene, out.remedy.config);
+    out.error = amount_of(difference(chain(stages::Mixture::all_device(), threads), attribution.real));
     return out;
   }
   return std::nullopt;

@@ -71,16 +71,14 @@ Bound bound(const stages::Chain& chain, const stages::Picture& real, const stage
   const int lead = roundings.depth > 0.0 && chain.steps().sliced() ? 1 : 0;
   const driver::TileGrid bands =
       stages::band_grid(chain.config(), width, height, rows_of_band(chain.steps().sheets(), width));
-  const driver::TileBins bins(
+  const stages::BandBins bins(
       bands, chain.steps().sheets(), splats.size(), threads,
       [&](std::size_t i) { return stages::extent_of(splats[i], more); },
       [&](std::size_t i) { return std::max(0, splats[i].first - lead); });
 
   Bound out{{width, height, std::vector<Sums>(static_cast<std::size_t>(width) * height)}, {}};
   std::vector<std::array<double, kTermCount>> terms(static_cast<std::size_t>(bands.count()));
-  std::vector<std::uint64_t> work;
-  for (int band = 0; band < bands.count(); ++band) work.push_back(bins.tile(band).size());
-  parallel_for(work, threads, [&](std::size_t number) {
+  parallel_for(bins.work(), threads, [&](std::size_t number) {
     const int band = static_cast<int>(number);
     const golden::Rows rows{bands.y(band), bands.y(band) + bands.height(band)};
     BoundBand sweep(chain, mixture, roundings, splats, rows, width);

@@ -43,7 +43,7 @@ BoundBand::BoundBand(const stages::Chain& chain, const stages::Mixture& known, c
   greatest_.assign(pixels, Sums{});
 }
 
-void BoundBand::run(const driver::TileBins& bins, int band) {
+void BoundBand::run(const stages::BandBins& bins, int band) {
   fill_sheets(bins, band);
   look_through();
   for (int sheet = 0; sheet < sheets_; ++sheet) {
@@ -57,18 +57,21 @@ void BoundBand::run(const driver::TileBins& bins, int band) {
   }
 }
 
-void BoundBand::fill_sheets(const driver::TileBins& bins, int band) {
-  for (const std::uint32_t i : bins.tile(band)) {
-    const stages::StagedSplat& splat = splats_[i];
-    weights_.rasterise(splat, known_, false, rows_, width_);
-    chain_.steps().shares(splat, known_, shares_);
-    for (const auto& span : weights_.spans()) {
-      const auto weights = weights_.weights(span);
-      for (std::size_t s = 0; s < shares_.size(); ++s) {
-        SheetCell* at = &cell(splat.first + static_cast<int>(s), span.x, span.y);
-        for (std::size_t p = 0; p < weights.size(); ++p) {
-          for (std::size_t c = 0; c < 4; ++c) at[p].sums[c] += weights[p] * shares_[s][c];
-        }
+void BoundBand::fill_sheets(const stages::BandBins& bins, int band) {
+  for (int sheet = 0; sheet < bins.sheets(); ++sheet) {
+    for (const std::uint32_t i : bins.bin(band, sheet)) fill(splats_[i]);
+  }
+}
+
+void BoundBand::fill(const stages::StagedSplat& splat) {
+  weights_.rasterise(splat, known_, false, rows_, width_);
+  chain_.steps().shares(splat, known_, shares_);
+  for (const auto& span : weights_.spans()) {
+    const auto weights = weights_.weights(span);
+    for (std::size_t s = 0; s < shares_.size(); ++s) {
+      SheetCell* at = &cell(splat.first + static_cast<int>(s), span.x, span.y);
+      for (std::size_t p = 0; p < weights.size(); ++p) {
+        for (std::size_t c = 0; c < 4; ++c) at[p].sums[c] += weights[p] * shares_[s][c];
       }
     }
   }

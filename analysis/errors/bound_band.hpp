@@ -37,7 +37,7 @@ class BoundBand {
   BoundBand(const stages::Chain& chain, const stages::Mixture& known, const Roundings& roundings,
             const std::vector<stages::StagedSplat>& splats, golden::Rows rows, int width);
 
-  void run(const driver::TileBins& bins, int band);
+  void run(const stages::BandBins& bins, int band);
   const std::vector<Sums>& greatest() const { return greatest_; }         ///< row by row
   const std::array<double, kTermCount>& terms() const { return terms_; }  ///< sums over values
 
@@ -75,7 +75,8 @@ class BoundBand {
     return static_cast<std::size_t>(y - rows_.first) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }
 
-  void fill_sheets(const driver::TileBins& bins, int band);
+  void fill_sheets(const stages::BandBins& bins, int band);
+  void fill(const stages::StagedSplat& splat);
   void look_through();
   void add(const stages::StagedSplat& splat);
   void slice(const stages::StagedSplat& splat);

@@ -1,22 +1,17 @@
 // fastsplat errors: because of which step is the device's picture not the true one.
-#include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
 
 #include "analysis/compare.hpp"
 #include "analysis/errors/attribution_report.hpp"
-#include "analysis/provenance.hpp"
-#include "base/hash_text.hpp"
-#include "base/version.hpp"
 #include "cli/config_flags.hpp"
-#include "cli/config_json.hpp"
+#include "cli/errors_output.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "cli/volume_json.hpp"
-#include "images/image_file.hpp"
+#include "driver/splat_quantiser.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -27,35 +22,23 @@ struct Arguments {
   ConfigFlags config;
   int lsb_bits = 8;
   bool quick = false, shapley = false;
-  std::string blame, maps;  ///< empty for none
+  std::string blame, maps;  ///< a file and a prefix; empty for none
 };
-
-using Json = nlohmann::ordered_json;
 
 struct Result {
   std::string scene;  ///< its summary
   cmodel::Config config;
   analysis::Attribution attribution;
   std::optional<analysis::TriedRemedy> tried;
-  int lsb_bits = 8;
 };
 
-std::string to_text(const Result& result) {
-  return fmt::format("{}; configuration {} {}\n", result.scene, result.config.name,
-                     hash_text(cmodel::config_hash(result.config))) +
-         analysis::to_text(result.attribution, result.tried, result.lsb_bits);
-}
-
-Json to_json(const Result& result) {
-  Json json{{"verb", "errors"},
-            {"version", program_version()},
-            {"scene", result.scene},
-            {"config", config_identity_json(result.config)}};
+nlohmann::ordered_json to_json(const Result& result) {
+  auto json = errors_identity("errors", result.scene, result.config);
   json.update(analysis::to_json(result.attribution, result.tried));
   return json;
 }
 
-/// "PREFIX.STEP.png" and ".exr" of every step, and of the whole error.
+/// "PREFIX.STEP.png" (or .exr) of the whole error and of every step.
 std::vector<std::string> map_names(const std::string& prefix, const std::vector<stages::StepSet>& sets,
                                    const char* ending) {
   if (prefix.empty()) return {};
@@ -64,25 +47,19 @@ std::vector<std::string> map_names(const std::string& prefix, const std::vector<
   return names;
 }
 
-void write_maps(const Arguments& arguments, const Result& result, const images::Metadata& metadata) {
+void write_maps(const Arguments& arguments, const scene::Scene& scene, const Result& result,
+                const std::vector<stages::StepSet>& sets) {
   const analysis::Attribution& a = result.attribution;
-  std::vector<stages::StepSet> sets;
-  for (const analysis::StepError& step : a.steps) sets.push_back(step.set);
+  const auto pngs = map_names(arguments.maps, sets, ".png"), exrs = map_names(arguments.maps, sets, ".exr");
   const Image real = analysis::to_image(a.real);
   const auto write = [&](std::size_t at, const stages::Picture& error) {
-    const auto pngs = map_names(arguments.maps, sets, ".png"), exrs = map_names(arguments.maps, sets, ".exr");
     const Image signed_error = analysis::to_image(error);
     Image test = real;
     for (std::size_t i = 0; i < test.data.size(); ++i) test.data[i] += signed_error.data[i];
-    images::write_image(pngs[at], analysis::lsb_map(real, test, {.lsb_bits = arguments.lsb_bits}),
-                        {{"display", "srgb"}}, {.display = true});
-    images::write_image(exrs[at], signed_error, metadata);
+    write_map(pngs[at], analysis::lsb_map(real, test, {.lsb_bits = arguments.lsb_bits}));
+    write_values(exrs[at], signed_error, "errors", scene, result.config);
   };
-  stages::Picture error = a.device;
-  for (std::size_t i = 0; i < error.pixels.size(); ++i) {
-    for (std::size_t c = 0; c < 4; ++c) error.pixels[i][c] -= a.real.pixels[i][c];
-  }
-  write(0, error);
+  write(0, analysis::difference(a.device, a.real));
   for (std::size_t k = 0; k < a.increments.size(); ++k) write(k + 1, a.increments[k]);
 }
 
@@ -97,8 +74,7 @@ ExitCode run(const Arguments& arguments) {
                  .inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")))});
   const scene::Scene scene = build(arguments.scene);
   output.remark(remarks(*scene.volume));
-  Result result{
-      .scene = summary(scene), .config = config, .attribution = {}, .tried = {}, .lsb_bits = arguments.lsb_bits};
+  Result result{.scene = summary(scene), .config = config, .attribution = {}, .tried = {}};
   {
     const stages::Chain chain(scene, config);
     ProgressBar bar("errors", watching(arguments.common));
@@ -108,14 +84,10 @@ ExitCode run(const Arguments& arguments) {
                                                      .progress = bar.callback()});
   }
   result.tried = analysis::try_remedy(scene, config, result.attribution, arguments.common.threads);
-  if (!arguments.blame.empty())
-    images::write_image(arguments.blame, analysis::blame_map(result.attribution), {{"display", "srgb"}},
-                        {.display = true});
-  if (!arguments.maps.empty())
-    write_maps(
-        arguments, result,
-        analysis::render_metadata("errors", scene, analysis::HardwareConfig{config.name, cmodel::config_hash(config)}));
-  output.line(to_text(result));
+  if (!arguments.blame.empty()) write_map(arguments.blame, analysis::blame_map(result.attribution));
+  if (!arguments.maps.empty()) write_maps(arguments, scene, result, sets);
+  output.line(errors_heading(result.scene, config) +
+              analysis::to_text(result.attribution, result.tried, arguments.lsb_bits));
   output.json(to_json(result));
   output.note_time("attributed");
   return ExitCode::Pass;

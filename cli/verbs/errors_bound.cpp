@@ -1,23 +1,17 @@
 // fastsplat errors bound: a proved worst case of every pixel's error, beside the error itself.
-#include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
 
 #include "analysis/compare.hpp"
 #include "analysis/errors/attribution_report.hpp"
 #include "analysis/errors/bound_report.hpp"
-#include "analysis/provenance.hpp"
-#include "base/hash_text.hpp"
-#include "base/version.hpp"
 #include "cli/config_flags.hpp"
-#include "cli/config_json.hpp"
+#include "cli/errors_output.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "cli/volume_json.hpp"
-#include "images/image_file.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -30,26 +24,14 @@ struct Arguments {
   std::string maps;  ///< prefix, empty for none
 };
 
-using Json = nlohmann::ordered_json;
-
 struct Result {
   std::string scene;  ///< its summary
   cmodel::Config config;
   analysis::BoundReport report;
-  int lsb_bits = 8;
 };
 
-std::string to_text(const Result& result) {
-  return fmt::format("{}; configuration {} {}\n", result.scene, result.config.name,
-                     hash_text(cmodel::config_hash(result.config))) +
-         analysis::to_text(result.report, result.lsb_bits);
-}
-
-Json to_json(const Result& result) {
-  Json json{{"verb", "errors bound"},
-            {"version", program_version()},
-            {"scene", result.scene},
-            {"config", config_identity_json(result.config)}};
+nlohmann::ordered_json to_json(const Result& result) {
+  auto json = errors_identity("errors bound", result.scene, result.config);
   json.update(analysis::to_json(result.report));
   return json;
 }
@@ -62,16 +44,15 @@ std::vector<std::string> map_names(const std::string& prefix, const char* ending
   return names;
 }
 
-void write_maps(const Arguments& arguments, const Result& result, const images::Metadata& metadata) {
-  const auto pngs = map_names(arguments.maps, ".png"), exrs = map_names(arguments.maps, ".exr");
+void write_maps(const Arguments& arguments, const scene::Scene& scene, const Result& result) {
   const Image real = analysis::to_image(result.report.real);
-  for (std::size_t i = 0; i < pngs.size(); ++i) {
-    const Image most = analysis::to_image(result.report.levels[i].bound.greatest);
+  for (const analysis::BoundResult& level : result.report.levels) {
+    const std::string name = arguments.maps + "." + analysis::to_string(level.known);
+    const Image most = analysis::to_image(level.bound.greatest);
     Image above = real;
     for (std::size_t v = 0; v < above.data.size(); ++v) above.data[v] += most.data[v];
-    images::write_image(pngs[i], analysis::heat_map(real, above, {.lsb_bits = arguments.lsb_bits}),
-                        {{"display", "srgb"}}, {.display = true});
-    images::write_image(exrs[i], most, metadata);
+    write_map(name + ".png", analysis::heat_map(real, above, {.lsb_bits = arguments.lsb_bits}));
+    write_values(name + ".exr", most, "bound", scene, result.config);
   }
 }
 
@@ -85,17 +66,14 @@ ExitCode run(const Arguments& arguments) {
   const cmodel::Config config = load(arguments.config);
   const scene::Scene scene = build(arguments.scene);
   output.remark(remarks(*scene.volume));
-  Result result{.scene = summary(scene), .config = config, .report = {}, .lsb_bits = arguments.lsb_bits};
+  Result result{.scene = summary(scene), .config = config, .report = {}};
   {
     const stages::Chain chain(scene, config);
     ProgressBar bar("bound", watching(arguments.common));
     result.report = analysis::bounds(chain, arguments.common.threads, bar.callback());
   }
-  if (!arguments.maps.empty())
-    write_maps(
-        arguments, result,
-        analysis::render_metadata("bound", scene, analysis::HardwareConfig{config.name, cmodel::config_hash(config)}));
-  output.line(to_text(result));
+  if (!arguments.maps.empty()) write_maps(arguments, scene, result);
+  output.line(errors_heading(result.scene, config) + analysis::to_text(result.report, arguments.lsb_bits));
   output.json(to_json(result));
   output.note_time("bounded");
   return result.report.holds() ? ExitCode::Pass : ExitCode::Failed;

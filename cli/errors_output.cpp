@@ -1,0 +1,33 @@
+#include "cli/errors_output.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/provenance.hpp"
+#include "base/hash_text.hpp"
+#include "base/version.hpp"
+#include "cli/config_json.hpp"
+
+namespace fastsplat::cli {
+
+std::string errors_heading(const std::string& scene, const cmodel::Config& config) {
+  return fmt::format("{}; configuration {} {}\n", scene, config.name, hash_text(cmodel::config_hash(config)));
+}
+
+nlohmann::ordered_json errors_identity(const char* verb, const std::string& scene, const cmodel::Config& config) {
+  return {{"verb", verb}, {"version", program_version()}, {"scene", scene}, {"config", config_identity_json(config)}};
+}
+
+void write_map(const std::string& path, const Image& map) {
+  images::write_image(path, map, {{"display", "srgb"}}, {.display = true});
+}
+
+void write_values(const std::string& path, const Image& values, const char* what, const scene::Scene& scene,
+                  const cmodel::Config& config) {
+  images::write_image(
+      path, values,
+      analysis::render_metadata(what, scene, analysis::HardwareConfig{config.name, cmodel::config_hash(config)}));
+}
+
+}  // namespace fastsplat::cli

@@ -1,0 +1,25 @@
+// What the verbs of `errors` say and write alike.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "base/image.hpp"
+#include "cmodel/config.hpp"
+#include "images/image_file.hpp"
+#include "scene/scene.hpp"
+
+namespace fastsplat::cli {
+
+/// "ch2bet 181x217x181, ...; configuration base 025c7da2cf5f77b2\n"; `scene` is its summary.
+std::string errors_heading(const std::string& scene, const cmodel::Config& config);
+/// {"verb", "version", "scene", "config"}
+nlohmann::ordered_json errors_identity(const char* verb, const std::string& scene, const cmodel::Config& config);
+
+/// A map with its legend, to be looked at.
+void write_map(const std::string& path, const Image& map);
+/// Numbers of a scene on a configuration, with what made them ("errors", "bound").
+void write_values(const std::string& path, const Image& values, const char* what, const scene::Scene& scene,
+                  const cmodel::Config& config);
+
+}  // namespace fastsplat::cli

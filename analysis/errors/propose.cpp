@@ -80,6 +80,7 @@ Proposal propose(const std::vector<scene::Scene>& scenes, std::vector<std::strin
       from, judge, [](const cmodel::Config& config) { return cost(config).total(); }, progress);
   out.search = search.run();
   out.error = worst(simulate(out.search.best, target), target);
+  if (out.search.geometry) out.error_geometry = worst(simulate(*out.search.geometry, target), target);
   out.cost_from = cost(from);
   out.cost = cost(out.search.best);
   out.simulated = simulate.simulated();

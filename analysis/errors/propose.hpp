@@ -47,6 +47,7 @@ struct Proposal {
   std::vector<std::string> scenes;
   /// The worst of the scenes by the target's figure; of `from`, maybe only of those up to the first that failed.
   Journal::Entry error_from, error;
+  Journal::Entry error_geometry;  ///< of search.geometry, where there is one
   Cost cost_from, cost;
   int simulated = 0, recalled = 0;
 };

@@ -51,8 +51,7 @@ std::string to_text(const Proposal& p) {
     text = fmt::format("{} is not met: {} is the best that was reached ({} has {})", p.target.text, told(p, p.error),
                        p.from.name, told(p, p.error_from));
     if (s.geometry) {
-      text += fmt::format("; {} would bring the error to {:.2f} of the target's", changes(s.best, *s.geometry),
-                          s.geometry_verdict.excess);
+      text += fmt::format("; {} would bring it to {}", changes(s.best, *s.geometry), told(p, p.error_geometry));
     } else {
       text +=
           "; finer words do not help: look at what saturates (`fastsplat errors ranges`) and which step it is "
@@ -100,6 +99,8 @@ Json to_json(const Proposal& p) {
                             {"lower", key.lower},
                             {"excess_if_lower", number(key.lowered.excess)}});
   }
+  if (s.geometry)
+    json["would_help"] = {{"changes", changes(s.best, *s.geometry)}, {"error", entry_json(p.error_geometry)}};
   json["judged"] = s.judged;
   json["simulated"] = p.simulated;
   json["recalled"] = p.recalled;

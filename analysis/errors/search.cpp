@@ -84,8 +84,7 @@ std::optional<Steps> Search::start() {
 void Search::lowest_alone(const Steps& start) {
   begin_ = start;
   lowest_ = start;
-  begin_square_ = square(judge(start)->excess);
-  added_.assign(knobs().size(), {});
+  noises_ = NoiseModel(start, judge(start)->excess);
   for (std::size_t k = 0; k < knobs().size(); ++k) {
     Steps steps = start;
     const auto possible = [&](int step) {
@@ -99,7 +98,7 @@ void Search::lowest_alone(const Steps& start) {
       const int middle = std::max(good - stride, bad + 1);
       steps[k] = middle;
       const auto verdict = judge(steps);
-      added_[k][middle] = std::max(0.0, square(verdict->excess) - begin_square_);
+      noises_.learn(k, middle, verdict->excess);
       if (verdict->meets) {
         good = middle;
         stride = std::min(2 * stride, std::max(1, (good - bad) / 2));
@@ -112,25 +111,10 @@ void Search::lowest_alone(const Steps& start) {
   }
 }
 
-/// Noise of one knob: measured, or four times less for each step back from the nearest lower one that was.
-double Search::model(std::size_t knob, int step) const {
-  if (step >= begin_[knob] || added_[knob].empty()) return 0.0;
-  auto above = added_[knob].upper_bound(step);
-  if (above == added_[knob].begin()) return above->second * std::pow(4.0, above->first - step);
-  --above;
-  return std::isfinite(above->second) ? above->second * std::pow(4.0, above->first - step) : 0.0;
-}
-
-double Search::model(const Steps& steps) const {
-  double sum = begin_square_;
-  for (std::size_t k = 0; k < steps.size(); ++k) sum += model(k, steps[k]);
-  return sum;
-}
-
 /// As if noises added: from the least of each knob up, where a step takes most noise for its price.
 Steps Search::cheapest_by_model(double budget) const {
   Steps steps = lowest_;
-  while (model(steps) > budget) {
+  while (noises_.square(steps) > budget) {
     const double now = price(steps);
     double best = -1.0;
     std::size_t which = steps.size();
@@ -138,7 +122,7 @@ Steps Search::cheapest_by_model(double budget) const {
       if (steps[k] >= begin_[k]) continue;
       Steps finer = steps;
       ++finer[k];
-      const double gain = model(k, steps[k]) - model(k, finer[k]);
+      const double gain = noises_.added(k, steps[k]) - noises_.added(k, finer[k]);
       // The least of all together may be no configuration: out of there first.
       const double more = std::isfinite(now) ? price(finer) - now : 1.0;
       if (!std::isfinite(more)) continue;

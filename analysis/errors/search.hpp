@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/errors/knobs.hpp"
+#include "analysis/errors/noise_model.hpp"
 #include "base/progress.hpp"
 #include "cmodel/config.hpp"
 
@@ -58,8 +59,6 @@ class Search {
 
   std::optional<Steps> start();
   void lowest_alone(const Steps& start);
-  double model(std::size_t knob, int step) const;
-  double model(const Steps& steps) const;
   Steps cheapest_by_model(double budget) const;
   Steps combine(const Steps& start);
   Steps descend(Steps steps);
@@ -73,8 +72,7 @@ class Search {
   std::map<std::uint64_t, Verdict> known_;  ///< by configuration hash
   Steps begin_, lowest_, nearest_;          ///< the start; per knob the least that meets alone; least excess so far
   double nearest_excess_ = std::numeric_limits<double>::infinity();
-  double begin_square_ = 0.0;
-  std::vector<std::map<int, double>> added_;  ///< per knob and step: squared excess that it adds to the start's
+  NoiseModel noises_;
 };
 
 }  // namespace fastsplat::analysis

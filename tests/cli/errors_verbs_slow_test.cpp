@@ -98,7 +98,11 @@ TEST(ErrorsPropose, CtrlCLeavesAJournalThatIsGoneOnWith) {
   EXPECT_FALSE(std::filesystem::exists(folder / "p.toml"));
   const std::string journal = read_bytes(folder / "j.jsonl");
   ASSERT_GT(journal.size(), 1000u);
-  expect_success(fastsplat(words));
+  EXPECT_EQ(journal.back(), '\n') << "lines are written whole";
+  const auto resumed = fastsplat(with(words, {"--quiet", "--json", "-"}));
+  expect_success(resumed);
+  const auto kept = std::count(journal.begin(), journal.end(), '\n') - 1;
+  EXPECT_GE(Json::parse(resumed.out).at("recalled").get<long>(), kept);
   EXPECT_TRUE(read_bytes(folder / "j.jsonl").starts_with(journal.substr(0, journal.rfind('\n') + 1)));
   std::printf("[figure] journal at Ctrl-C = %zu bytes\n", journal.size());
 }

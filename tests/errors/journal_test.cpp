@@ -77,6 +77,7 @@ TEST_F(JournalFile, KeepsWhatItWasToldToTheLastBit) {
   {
     Journal journal(path_);
     journal.add(1, 2, awkward);
+    EXPECT_EQ(std::ranges::count(bytes(), '\n'), 2) << "not on disk before it went on";
     journal.add(0xffffffffffffffffULL, 2, std::nullopt);
   }
   const std::string before = bytes();

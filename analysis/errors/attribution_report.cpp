@@ -27,11 +27,15 @@ std::string answer(const Attribution& a, const std::optional<TriedRemedy>& tried
     text += fmt::format("; {}: {:.0f} %", steps[i]->set.name, 100.0 * steps[i]->share);
   text += "\n";
   if (!tried) return text;
-  const double kbit = (tried->after.storage_bits - tried->before.storage_bits) / 1000.0;
-  return text + fmt::format("{} would {} it: RMS {:.4f} -> {:.4f} LSB{}, storage {:+.1f} kbit, cost {:+.1f} %\n",
-                            tried->remedy.changes, tried->error.rms < 0.999 * a.total.rms ? "lessen" : "not lessen",
-                            a.total.rms * lsb(bits), tried->error.rms * lsb(bits), bits, kbit,
-                            100.0 * (tried->after.total() / tried->before.total() - 1.0));
+  text += fmt::format("{} would {} it: RMS {:.4f} -> {:.4f} LSB{}", tried->remedy.changes,
+                      tried->error.rms < 0.999 * a.total.rms ? "lessen" : "not lessen", a.total.rms * lsb(bits),
+                      tried->error.rms * lsb(bits), bits);
+  if (tried->costs) {
+    const auto& [before, after] = *tried->costs;
+    text += fmt::format(", storage {:+.1f} kbit, cost {:+.1f} %", (after.storage_bits - before.storage_bits) / 1000.0,
+                        100.0 * (after.total() / before.total() - 1.0));
+  }
+  return text + "\n";
 }
 
 /// In percent, without a minus before nothing.
@@ -70,8 +74,8 @@ std::optional<TriedRemedy> try_remedy(const scene::Scene& scene, const cmodel::C
     if (step->share <= 0.0) break;
     std::optional<Remedy> found = remedy(step->set.steps.back(), config);
     if (!found) continue;
-    TriedRemedy out{step->set.name, std::move(*found), {}, cost(config), {}};
-    out.after = cost(out.remedy.config);
+    TriedRemedy out{step->set.name, std::move(*found), {}, {}};
+    if (config.index() == cmodel::IndexKind::Rlut) out.costs = {cost(config), cost(out.remedy.config)};
     const stages::Chain chain(scene, out.remedy.config);
     out.error = amount_of(difference(chain(stages::Mixture::all_device(), threads), attribution.real));
     return out;
@@ -152,11 +156,11 @@ Json to_json(const Attribution& a, const std::optional<TriedRemedy>& tried) {
                               {"parts_lsb8", parts}});
   }
   if (tried) {
-    json["remedy"] = {{"step", tried->step},
-                      {"changes", tried->remedy.changes},
-                      {"error", amount_json(tried->error)},
-                      {"cost_before", cost_json(tried->before)},
-                      {"cost_after", cost_json(tried->after)}};
+    json["remedy"] = {{"step", tried->step}, {"changes", tried->remedy.changes}, {"error", amount_json(tried->error)}};
+    if (tried->costs) {
+      json["remedy"]["cost_before"] = cost_json(tried->costs->first);
+      json["remedy"]["cost_after"] = cost_json(tried->costs->second);
+    }
   }
   return json;
 }

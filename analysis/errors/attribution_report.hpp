@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "analysis/errors/attribution.hpp"
 #include "analysis/errors/cost.hpp"
@@ -16,8 +17,8 @@ namespace fastsplat::analysis {
 struct TriedRemedy {
   std::string step;  ///< name of the set
   Remedy remedy;
-  Amount error;  ///< that is left with it
-  Cost before, after;
+  Amount error;                                ///< that is left with it
+  std::optional<std::pair<Cost, Cost>> costs;  ///< before and after; of the device of rtl/, whose index is the RLUT
 };
 
 /// Of the step with the largest share for which there is one. `real` is the attribution's.

@@ -13,6 +13,7 @@ struct Cost {
   double total() const { return storage_bits / 6.0 + adder_bits + multiplier_bits; }
 };
 
+/// Of the device of rtl/: index.kind rlut.
 Cost cost(const cmodel::Config& config);
 
 }  // namespace fastsplat::analysis

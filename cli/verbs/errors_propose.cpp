@@ -37,6 +37,13 @@ ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
   const analysis::Target target = analysis::parse_target(arguments.target);
   const cmodel::Config from = load(arguments.from, {});
+  if (from.index() != cmodel::IndexKind::Rlut) {
+    throw_usage({.where = "--from",
+                 .what = "what is weighed is the cost of the device of rtl/, whose index is the RLUT",
+                 .expected = "index.kind = rlut",
+                 .got = cmodel::text_of(from, *cmodel::find_key("index.kind")),
+                 .fix = "`fastsplat family` compares the kinds"});
+  }
   const auto flags = scenes_of(arguments.scenes);
   check_outputs({.others = {arguments.out, arguments.journal, arguments.common.json},
                  .inputs = joined(inputs_of(arguments.scenes), inputs_of_config(arguments.from))});

@@ -7,19 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/process_helper.hpp"
+#include "tests/cli/words_helper.hpp"
 
 namespace fastsplat::cli_test {
 namespace {
 
 using Json = nlohmann::json;
-using Words = std::vector<std::string>;
-
-Words with(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
-const Words kSmall{"--volume", "shells:12", "--size", "24"};
 
 TEST(Errors, SharesAddUpAndTheWholeErrorIsThatOfCompare) {
   const TempFolder folder;

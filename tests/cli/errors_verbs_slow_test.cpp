@@ -6,20 +6,14 @@
 #include <numeric>
 
 #include "tests/cli/process_helper.hpp"
+#include "tests/cli/words_helper.hpp"
 
 namespace fastsplat::cli_test {
 namespace {
 
 using Json = nlohmann::json;
-using Words = std::vector<std::string>;
-
-Words with(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
 
 const Words kRanges{"errors", "ranges"}, kPropose{"errors", "propose", "--target", "psnr>=40"};
-const Words kSmall{"--volume", "shells:12", "--size", "24"};
 
 TEST(ErrorsRanges, SaysWhatWouldDoAndAgreesWithTheDevicesCounters) {
   const TempFolder folder;
@@ -138,6 +132,9 @@ TEST(ErrorsPropose, BadInputIsOneLine) {
   refused(with(kPropose, with(kSmall, {"--method", "raycast"})), 2, {"raycast"});
   refused(with(kPropose, with(kSmall, {"--from", "bose"})), 2, {"bose", "base"});
   refused(with(kPropose, with(kSmall, {"--from", no_config})), 3, {"c.toml"});
+  const auto linear = folder.write("linear.toml", read_bytes(std::string(FASTSPLAT_SOURCE_DIR) + "/configs/base.toml") +
+                                                      "[index]\nkind = \"linear\"\n");
+  refused(with(kPropose, with(kSmall, {"--from", linear})), 2, {"index.kind = rlut", "linear", "family"});
   refused(with(kPropose, with(kSmall, {"--journal", no_journal})), 3, {"j.jsonl:1", "journal"});
   refused(with(kPropose, with(kSmall, {"-o", folder / "no/p.toml"})), 3, {"no/p.toml"});
   refused(with(kPropose, with(kSmall, {"-o", folder / "x", "--journal", folder / "x"})), 2, {"one name for two files"});

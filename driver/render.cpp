@@ -60,7 +60,8 @@ UnitReport& operator+=(UnitReport& report, const UnitReport& tile) {
 
 DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, const RenderOptions& options) {
   const CompiledFrame compiled(scene, config, options.threads);
-  const auto tables = options.unit == Unit::Fast ? cmodel::fast::frame_tables(config, compiled.preamble())
+  const char* why_plain = nullptr;
+  const auto tables = options.unit == Unit::Fast ? cmodel::fast::frame_tables(config, compiled.preamble(), &why_plain)
                                                  : std::optional<cmodel::fast::FrameTables>{};
   const auto tiles = static_cast<std::size_t>(compiled.grid().count());
   FrameSink frame(config, compiled.grid().image_width, compiled.grid().image_height);
@@ -79,6 +80,7 @@ DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, con
   DeviceRender out;
   out.report = compiled.report();
   out.units.vectors = tables ? cmodel::fast::vector_target() : nullptr;
+  out.units.why_plain = why_plain;
   for (const TileResult& result : results) {
     out.counters += result.counters;
     out.report += result.report;

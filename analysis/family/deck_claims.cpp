@@ -68,8 +68,8 @@ Claim ellipse_cost(const Cells& at, const EllipseErrors& ellipses) {
           "For elliptical kernels, if we define a canonical radius, the incremental scan-conversion still "
           "works at the same low cost",
       .figures = fmt::format("a pixel: {} adds and {} multiply for circles, {} and {} for ellipses; {} and {} cycles "
-                             "a splat (r = 4); {} bits more. Ellipses to 1 : {:.0f}: max {:.2f}, {:.2f} is one "
-                             "table step's half",
+                             "a splat (r = 4); {} bits more. Weights of ellipses to 1 : {:.0f} are off by {:.2f} "
+                             "at most; half a step of the table is {:.2f}",
                              a.adds, a.multiplies, b.adds, b.multiplies, circle.cycles, ellipse.cycles,
                              ellipse.bits - circle.bits, ellipses.aspect, ellipses.ellipse.largest, circle.index_max),
       .verdict = judged({a.adds == b.adds && a.multiplies == b.multiplies, circle.cycles == ellipse.cycles,
@@ -155,7 +155,7 @@ Claim rlut(const Cells& at) {
   const auto &own = at(IndexKind::Rlut), &squared_cell = at(IndexKind::Squared), &blit = at(IndexKind::Blit2d);
   return {.slide = 80,
           .sentence = "1D RLUT accurate, compact, intended for hardware",
-          .figures = fmt::format("rms {:.2f} (turned), squared has {:.2f}; {} bits, {:.1f} times squared's, a {}th of "
+          .figures = fmt::format("rms {:.2f} (turned), squared has {:.2f}; {} bits, {:.1f} times squared's, 1/{} of "
                                  "blit2d's; {} cycle a splat, {} adds and {} multiply a pixel (r = 4)",
                                  own.turned.rms, squared_cell.turned.rms, own.bits,
                                  static_cast<double>(own.bits) / static_cast<double>(squared_cell.bits),

@@ -36,11 +36,11 @@ bool only_opaque(const DeviceReport& report) {
 
 std::string to_text(const driver::UnitReport& units, const cmodel::Counters& counters) {
   if (units.fast == 0) {
-    return units.plain == 0 ? ""
-                            : fmt::format("unit: plain, {}{}\n", counted(units.plain, "tile"),
-                                          units.redone > 0 ? ": in each a sum may have been cut, which the fast one "
-                                                             "cannot count"
-                                                           : "");
+    if (units.plain == 0) return "";
+    const std::string why = units.redone > 0 ? ": in each a sum may have been cut, which the fast one cannot count"
+                            : units.why_plain != nullptr ? fmt::format("; not the fast one: {}", units.why_plain)
+                                                         : "";
+    return fmt::format("unit: plain, {}{}\n", counted(units.plain, "tile"), why);
   }
   return fmt::format("unit: fast ({}), {}{}; {:.1f} % of the splats lay on frozen blocks and were only counted\n",
                      units.vectors, counted(units.fast, "tile"),
@@ -110,6 +110,7 @@ nlohmann::ordered_json to_json(const DeviceReport& report) {
                      {"redone_tiles", report.units.redone},
                      {"hidden_splats", report.units.hidden_splats}};
     if (report.units.vectors != nullptr) json["units"]["vectors"] = report.units.vectors;
+    if (report.units.why_plain != nullptr) json["units"]["why_plain"] = report.units.why_plain;
   }
   auto& counts = json["counters"];
   report.counters.for_each(

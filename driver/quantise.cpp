@@ -46,6 +46,8 @@ Target target(Site site, const cmodel::Config& config) {
       return {Rounding::Nearest, Overflow::Impossible, cmodel::Format{.min = 0, .max = config.rlut_rim()}};
     case Site::Scale:  // up: no pixel beyond the rim is weighted
       return {Rounding::Up, Overflow::Saturates, cmodel::Format{.min = 0, .max = cmodel::kLargestScale}};
+    case Site::Cross:  // towards 0: 4 A C >= B^2 stays true
+      return {Rounding::Down, Overflow::Saturates, cmodel::Format{.min = 0, .max = 2 * cmodel::kLargestScale}};
     case Site::Axis:
       return {Rounding::Nearest, Overflow::Saturates, config.axis_weight_format()};
     case Site::Footprint:

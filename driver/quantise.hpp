@@ -21,6 +21,7 @@ enum class Site {
   Rho,        ///< support radius, pixels
   Rlut,       ///< scaled squared distance, in words already
   Scale,      ///< index.kind linear, squared, squared_elliptic: radial table steps per distance, in words already
+  Cross,      ///< squared_elliptic: B without its sign, in words already
   Axis,       ///< separable: weight along one axis
   Footprint,  ///< blit2d: weight of a pixel
   Radial,     ///< radial weight, before the largest remainders are raised

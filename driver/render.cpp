@@ -123,11 +123,12 @@ UnitReport& operator+=(UnitReport& report, const UnitReport& tile) {
 }  // namespace
 
 DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, const RenderOptions& options) {
-  const bool fast = options.unit == Unit::Fast && cmodel::fast::fast_plan(config);
+  const char* why_plain = nullptr;
+  const bool fast = options.unit == Unit::Fast && cmodel::fast::fast_plan(config, &why_plain);
   const int band_rows = !fast ? 0 : options.band_rows > 0 ? options.band_rows : kBandRows;
   const CompiledFrame compiled(scene, config, options.threads, band_rows);
-  const auto tables =
-      fast ? cmodel::fast::frame_tables(config, compiled.preamble()) : std::optional<cmodel::fast::FrameTables>{};
+  const auto tables = fast ? cmodel::fast::frame_tables(config, compiled.preamble(), &why_plain)
+                           : std::optional<cmodel::fast::FrameTables>{};
   FrameSink frame(config, compiled.grid().image_width, compiled.grid().image_height);
   std::atomic<std::size_t> done{0};
   const Told told = [&] {
@@ -139,6 +140,7 @@ DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, con
   DeviceRender out;
   out.report = compiled.report();
   out.units.vectors = tables ? cmodel::fast::vector_target() : nullptr;
+  out.units.why_plain = why_plain;
   for (const TileResult& result : results) {
     out.counters += result.counters;
     out.report += result.report;

@@ -46,7 +46,8 @@ struct UnitReport {
   std::uint64_t redone = 0;           ///< of the plain ones, those the fast unit gave up: a sum may have been cut
   /// Records the fast unit counted without drawing: nothing could change in the band of the tile they begin in.
   std::uint64_t hidden_splats = 0;
-  const char* vectors = nullptr;  ///< the fast unit's instructions, "AVX2" and the like
+  const char* vectors = nullptr;    ///< the fast unit's instructions, "AVX2" and the like
+  const char* why_plain = nullptr;  ///< why the fast unit, which was asked for, could not draw any
 };
 
 struct DeviceRender {

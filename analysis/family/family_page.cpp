@@ -2,7 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
+#include <tuple>
+
+#include "analysis/family/deck_claims.hpp"
+#include "analysis/family/ellipses.hpp"
 
 namespace fastsplat::analysis {
 namespace {
@@ -21,7 +26,8 @@ constexpr const char* kPreface = R"(# The family of FastSplats
 
 A splat's weight at a pixel can be found in six ways ([numerics.md](numerics.md), section 4). What each costs and what it gets
 wrong, by the weights of the model's units and the driver's tables against golden's exact footprint; kernel gauss2 (a = R = 2), words U 1.14, g = 6,
-8 x 8 lanes. `fastsplat family --page` makes this page; `fastsplat family` has every cell, also with nanoseconds, `--json` for programs.
+8 x 8 lanes. `fastsplat family --page` makes this page (in some minutes, for the head's sake) and `--plots FOLDER` its pictures; `fastsplat family` has every cell, also
+with nanoseconds, `--json` for programs.
 
 A field of constant value is splatted: on a lattice along the pixels at 61 x 61 offsets (**aligned**: all splats lie alike on the grid, so what shows are the table's
 steps), and on one turned by 0.4 radians (**turned**: each splat lies elsewhere on the grid). Errors are of the field's mean, in 1/255: the largest, the root mean
@@ -50,9 +56,50 @@ std::string cost_table() {
   return text + fmt::format("\nblit2d with index.symmetry eightfold holds {} bits.\n\n", storage_bits(once, 8));
 }
 
-std::string errors(const char* title, FamilyRange range) {
-  range.timed = false;
-  return std::string("## ") + title + "\n\n" + family_text(family_table(range)) + "\n";
+std::string errors(const char* title, const std::vector<FamilyCell>& cells, bool (*wanted)(const FamilyCell&)) {
+  std::vector<FamilyCell> some;
+  for (const FamilyCell& cell : cells) {
+    if (wanted(cell)) some.push_back(cell);
+  }
+  return std::string("## ") + title + "\n\n" + family_text(some) + "\n";
+}
+
+constexpr int kEntries = 1024, kRadius = 4, kGrid = 64;
+
+bool of_the_grids(const FamilyCell& cell) { return !cell.has_table || cell.config.radial_entries == kEntries; }
+bool of_the_lengths(const FamilyCell& cell) {
+  return cell.has_table && cell.radius == kRadius && cell.config.grid() == kGrid &&
+         cell.config.index() != IndexKind::SquaredElliptic;
+}
+
+constexpr const char* kPictures = R"(## Pictures
+
+![The least error that each kind has with so many bits or fewer](images/family-bits.svg)
+
+![The error of each kind over the grid of the centres](images/family-grid.svg)
+
+)";
+
+std::string ellipse_row(const std::string& what, const EllipseErrors& e, bool circles) {
+  return fmt::format("| {} | {} | {:.2f} | {:.1f} | {} | {} | {:.4f} | {:.4f} |\n", what, e.splats, e.aspect, e.longest,
+                     error(e.ellipse), circles ? error(e.circle) : "- | - | -", e.entries_off, e.entries_bound);
+}
+
+std::string ellipse_section(const EllipseErrors& flat) {
+  std::string text =
+      R"(## Ellipses
+
+squared_elliptic with golden's elliptical footprints as words ([numerics.md](numerics.md), section 4.3), by the model's own unit, each splat elsewhere on the 1/64 pixel
+grid; every weight against golden's, N = 1024, in 1/255 of the splat's peak. Beside it what a circle of the nearest of 16 radius sets makes of the same splats, with
+their energy. Voxels of shells:32 at 128 x 128 in perspective (about 500 of them), and 500 ellipses spread over long half axes of 2 to 32 pixels, ratios to 16 and all
+angles. Off: furthest that the words take q from the ellipse's own, in table entries; law: what section 4.3 allows. q is nowhere negative.
+
+| ellipses | splats | aspect to | half axes to | ellipse max | rms | bias | circle max | rms | bias | off | law |
+|---|---|---|---|---|---|---|---|---|---|---|---|
+)";
+  for (const double fov : {30.0, 60.0, 90.0, 120.0})
+    text += ellipse_row(fmt::format("perspective, {:.0f} degrees", fov), perspective_ellipses(fov), true);
+  return text + ellipse_row("spread", flat, false) + "\n";
 }
 
 }  // namespace
@@ -82,13 +129,28 @@ std::string family_text(const std::vector<FamilyCell>& cells) {
   return text;
 }
 
-std::string family_page() {
+std::vector<FamilyCell> page_cells() {
   FamilyRange grids = whole_family(), lengths = grids;
-  grids.entries = {1024};
-  lengths.kinds = {IndexKind::Linear, IndexKind::Squared, IndexKind::Rlut};
-  lengths.radii = {4};
-  lengths.grids = {64};
-  return kPreface + cost_table() + errors("Grids and radii", grids) + errors("Lengths of the table", lengths) +
+  grids.entries = {kEntries};
+  std::erase(lengths.entries, kEntries);
+  lengths.kinds = {IndexKind::Linear, IndexKind::Squared, IndexKind::SquaredElliptic, IndexKind::Rlut};
+  lengths.radii = {kRadius};
+  auto cells = family_table(grids);
+  const auto more = family_table(lengths);
+  cells.insert(cells.end(), more.begin(), more.end());
+  // By kind, radius, grid and length, as one table would be.
+  std::ranges::stable_sort(cells, [](const FamilyCell& a, const FamilyCell& b) {
+    return std::tuple(a.config.index_kind, a.radius, a.config.grid(), a.config.radial_entries) <
+           std::tuple(b.config.index_kind, b.radius, b.config.grid(), b.config.radial_entries);
+  });
+  return cells;
+}
+
+std::string family_page(const std::vector<FamilyCell>& cells, const std::string& head) {
+  const EllipseErrors flat = spread_ellipses(16.0);
+  return kPreface + cost_table() + kPictures + claims_section(deck_claims(cells, flat)) +
+         errors("Grids and radii", cells, of_the_grids) + errors("Lengths of the table", cells, of_the_lengths) +
+         ellipse_section(flat) + head +
          R"(## What follows
 
 - Where centres lie matters before anything else: for less than 1/255 rms, s K of about 70, whatever the kind.
@@ -99,6 +161,9 @@ std::string family_page() {
   biased, by up to 4/N.
 - blit2d has the least error, for it has no index, and at r = 8 and K = 64 holds 480 times what rlut holds, 66 times with symmetry. separable has
   nearly that error for less than rlut holds, as long as kernels are Gaussians; its bias is the square's corners.
+- Of the head's error, too, the places have nearly all up to K = 64: all kinds' pictures err alike, and no table is too short at 256 entries.
+- Ellipses cost squared two words a set more than circles, and no accuracy: their weights are wrong by the table's steps. Circles in their place are wrong by
+  more the wider the view.
 )";
 }
 

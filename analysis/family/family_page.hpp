@@ -10,7 +10,10 @@ namespace fastsplat::analysis {
 
 /// A Markdown table, a row a cell; nanoseconds where they were taken. Remarks are letters, explained below it.
 std::string family_text(const std::vector<FamilyCell>& cells);
-/// docs/family.md: all that is the same on every machine.
-std::string family_page();
+/// What docs/family.md and its pictures are made of: all kinds over grids and radii with N = 1024, and at r = 4 with
+/// all lengths of the table.
+std::vector<FamilyCell> page_cells();
+/// docs/family.md: all that is the same on every machine. `head` is head_section(), which takes minutes.
+std::string family_page(const std::vector<FamilyCell>& cells, const std::string& head);
 
 }  // namespace fastsplat::analysis

@@ -4,10 +4,14 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/family/family_page.hpp"
+#include "analysis/family/family_plots.hpp"
+#include "analysis/family/head.hpp"
+#include "base/atomic_file.hpp"
 #include "base/hash_text.hpp"
 #include "cli/common.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
+#include "cli/progress_bar.hpp"
 #include "cli/verbs/verbs.hpp"
 
 namespace fastsplat::cli {
@@ -17,7 +21,8 @@ struct Arguments {
   Common common;
   std::string kind;
   std::optional<int> entries;
-  bool page = false;
+  bool page = false, head = false;
+  std::string plots;  ///< a folder, empty for none
 };
 
 using Json = nlohmann::ordered_json;
@@ -57,18 +62,46 @@ Json to_json(const std::vector<analysis::FamilyCell>& cells) {
   return json;
 }
 
+/// --page, --head and --plots each stand alone: what they make is one thing.
+void check(const Arguments& arguments) {
+  const bool part = !arguments.kind.empty() || arguments.entries || !arguments.common.json.empty();
+  const int things = (arguments.page ? 1 : 0) + (arguments.head ? 1 : 0) + (arguments.plots.empty() ? 0 : 1);
+  if (things == 0 || (things == 1 && !part)) return;
+  const char* which = arguments.page ? "--page" : arguments.head ? "--head" : "--plots";
+  throw_usage({.where = which,
+               .what = "is made whole and alone",
+               .expected = {},
+               .got = {},
+               .fix = "leave out --kind, --entries, --json and the others of --page, --head and --plots"});
+}
+
+std::string head_section(const Arguments& arguments) {
+  const auto head = analysis::head_scene();
+  ProgressBar bar("head", watching(arguments.common));
+  return analysis::head_section(
+      head, analysis::head_table(head, analysis::whole_head(), arguments.common.threads, bar.callback()));
+}
+
+ExitCode write_plots(const Arguments& arguments, const Output& output) {
+  std::vector<std::string> names;
+  for (const char* file : analysis::kFamilyPictures) names.push_back(arguments.plots + "/" + file);
+  check_outputs({.others = names});
+  const auto pictures = analysis::family_plots(analysis::page_cells());
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    write_text_file(names[i], pictures[i].svg);
+    output.line(names[i]);
+  }
+  return ExitCode::Pass;
+}
+
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
+  check(arguments);
   check_outputs({.others = {arguments.common.json}});
-  if (arguments.page) {
-    if (!arguments.common.json.empty() || !arguments.kind.empty() || arguments.entries) {
-      throw_usage({.where = "--page",
-                   .what = "is the whole page, as text",
-                   .expected = {},
-                   .got = {},
-                   .fix = "leave out --kind, --entries and --json"});
-    }
-    output.line(analysis::family_page());
+  if (!arguments.plots.empty()) return write_plots(arguments, output);
+  if (arguments.page || arguments.head) {
+    const std::string head = head_section(arguments);
+    output.line(arguments.page ? analysis::family_page(analysis::page_cells(), head) : head);
     return ExitCode::Pass;
   }
   auto range = analysis::whole_family();
@@ -87,7 +120,9 @@ void declare(Options& options, Arguments& to) {
   options.word("--kind", to.kind, "KIND",
                "one kind of index only: linear, squared, squared_elliptic, blit2d, rlut, separable");
   options.integer("--entries", to.entries, 2, 65536, "N", "of the radial table, a power of two; else 64 to 2048");
-  options.flag("--page", to.page, "docs/family.md, which has nothing that depends on the machine");
+  options.flag("--page", to.page, "docs/family.md, which has nothing that depends on the machine; takes minutes");
+  options.flag("--head", to.head, "its part on the head scan alone: every kind's picture against golden's");
+  options.word("--plots", to.plots, "FOLDER", "the page's pictures, family-*.svg, into a folder that is there");
   declare(options, to.common);
   options.example("fastsplat family --kind rlut --entries 1024");
 }

@@ -6,18 +6,23 @@
 
 namespace fastsplat::cmodel::fast {
 
-std::optional<FastPlan> fast_plan(const Config& config) {
+std::optional<FastPlan> fast_plan(const Config& config, const char** why_not) {
+  const auto none = [why_not](const char* reason) {
+    if (why_not != nullptr) *why_not = reason;
+    return std::optional<FastPlan>{};
+  };
   const Narrowing product = narrowing(config, Site::Product);
   const int colour_bits = config.colour_frac_bits, weight_bits = config.radial_int_bits + config.radial_frac_bits;
   const int sheet_bits = config.sheet_int_bits + config.sheet_frac_bits;
   const int dropped = product.dropped_bits();
   const std::int64_t largest_product = ((std::int64_t{1} << colour_bits) - 1) * ((std::int64_t{1} << weight_bits) - 1);
   const bool nearest = product.rounding() == Rounding::RND;
-  if (!nearest && product.rounding() != Rounding::TRN && dropped > 0) return {};
-  if (colour_bits > 16 || weight_bits > 16 || sheet_bits > 32) return {};
-  if (product.from_frac() < product.to().frac_bits) return {};
-  if (product(largest_product).overflow) return {};
-  if ((config.tile_width + config.lanes - 1) / config.lanes > 64) return {};
+  if (!nearest && product.rounding() != Rounding::TRN && dropped > 0) return none("products are rounded to even");
+  if (colour_bits > 16 || weight_bits > 16 || sheet_bits > 32)
+    return none("words of colour, weight or sheet are too wide for its lanes");
+  if (product.from_frac() < product.to().frac_bits) return none("sheets have more fraction bits than products");
+  if (product(largest_product).overflow) return none("a product can be larger than a sheet's word");
+  if ((config.tile_width + config.lanes - 1) / config.lanes > 64) return none("a tile's row has more than 64 blocks");
 
   FastPlan plan{.largest_sum = static_cast<std::uint32_t>(config.sheet_format().max)};
   // The factors together shifted left so far that 15 bits are dropped, each still a positive word of 16 bits.
@@ -33,7 +38,7 @@ std::optional<FastPlan> fast_plan(const Config& config) {
   }
   plan.dropped_bits = dropped;
   plan.bias = nearest && dropped > 0 ? std::uint32_t{1} << (dropped - 1) : 0;
-  if (largest_product + plan.bias > std::int64_t{0xFFFFFFFF}) return {};
+  if (largest_product + plan.bias > std::int64_t{0xFFFFFFFF}) return none("products are wider than 32 bits");
   plan.carries = plan.largest_sum > std::uint32_t{1} << 24;
   // Both factors are positive words of 16 bits, and the largest whole sum is below half of the lane's end.
   plan.hides = weight_bits <= 15;

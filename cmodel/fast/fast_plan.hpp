@@ -25,7 +25,7 @@ struct FastPlan {
 };
 
 /// Empty where only the plain unit is exact: products wider than 32 bits or above the sheet's format, ties to even, or
-/// more than 64 blocks in a tile's row.
-std::optional<FastPlan> fast_plan(const Config& config);
+/// more than 64 blocks in a tile's row. `why_not`, where given, is then set to words that say which.
+std::optional<FastPlan> fast_plan(const Config& config, const char** why_not = nullptr);
 
 }  // namespace fastsplat::cmodel::fast

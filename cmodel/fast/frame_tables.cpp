@@ -32,9 +32,14 @@ std::optional<std::uint64_t> opacity_excess(const Config& config, std::span<cons
 
 }  // namespace
 
-std::optional<FrameTables> frame_tables(const Config& config, std::span<const Beat> preamble) {
-  const auto plan = fast_plan(config);
-  if (!plan || !has_vectors()) return {};
+std::optional<FrameTables> frame_tables(const Config& config, std::span<const Beat> preamble, const char** why_not) {
+  const auto none = [why_not](const char* reason) {
+    if (why_not != nullptr) *why_not = reason;
+    return std::optional<FrameTables>{};
+  };
+  const auto plan = fast_plan(config, why_not);
+  if (!plan) return {};
+  if (!has_vectors()) return none("this processor has none of its vectors");
   WeightUnit unit = weight_unit(config);
   SlabOpacity opacity(config);
   std::uint32_t sets = 0;
@@ -50,9 +55,10 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
         std::visit([&](auto& kind) { kind.load(*table); }, unit);
         sets = std::max(sets, table->radius.set + 1);
         bytes += WeightMemo::bytes(config, table->radius.rho);
-        if (static_cast<int>(window_geometry(config, table->radius.rho).padded) > kWidest ||
-            bytes > (config.index() == IndexKind::Rlut ? kMemoBytes : kOtherMemoBytes))
-          return {};
+        if (static_cast<int>(window_geometry(config, table->radius.rho).padded) > kWidest)
+          return none("a footprint is wider than 128 pixels");
+        if (bytes > (config.index() == IndexKind::Rlut ? kMemoBytes : kOtherMemoBytes))
+          return none("the footprints at all places of their grid are more than it keeps");
         break;
       case Table::Radial:
         std::visit([&](auto& kind) { kind.load_radial(table->words); }, unit);

@@ -26,7 +26,9 @@ struct FrameTables {
   int reach = 0;  ///< largest extent of a footprint with what vectors write beyond it, pixels
 };
 
-/// From the beats before the first tile: begin_frame and the tables. Empty where only the plain unit will do.
-std::optional<FrameTables> frame_tables(const Config& config, std::span<const Beat> preamble);
+/// From the beats before the first tile: begin_frame and the tables. Empty where only the plain unit will do;
+/// `why_not`, where given, is then set to words that say why.
+std::optional<FrameTables> frame_tables(const Config& config, std::span<const Beat> preamble,
+                                        const char** why_not = nullptr);
 
 }  // namespace fastsplat::cmodel::fast

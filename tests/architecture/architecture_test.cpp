@@ -35,7 +35,7 @@ const Arrows kDrawn{
     {"testbench/closure", {"testbench/stimulus"}},
     {"analysis", {"images", "scene", "base/parallel"}},
     {"analysis/errors", {"analysis", "stages"}},
-    {"analysis/family", {"driver"}},
+    {"analysis/family", {"analysis/errors"}},
     {"cli", {"golden", "driver", "testbench/triage", "testbench/closure", "analysis/errors", "analysis/family"}},
 };
 

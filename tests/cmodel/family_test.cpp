@@ -92,6 +92,11 @@ TEST(FamilySteps, TheRootIsTheLargestWhoseSquareFits) {
   check(~std::uint64_t{0});
   Random random(seed_or(63));
   for (int i = 0; i < 100000; ++i) check(random.next() >> random.between(0, 63));
+  // The words on both sides of a square, where a root that is off by one shows.
+  for (int i = 0; i < 100000; ++i) {
+    const std::uint64_t s = (random.next() >> 32 >> random.between(0, 30)) + 1;
+    for (const std::uint64_t v : {s * s - 1, s * s, s * s + 2 * s}) check(v);
+  }
   std::printf("[figure] roots checked = %llu\n", static_cast<unsigned long long>(checked));
 }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Breaks the driver in each way of mutants.txt, builds it and expects the oracle (DriverOracle*, DriverFamily*) red: about ten seconds a
+# Breaks the driver in each way of mutants.txt, builds it and expects the oracle (DriverOracle*, DriverFamily*, EllipseSets*) red: about ten seconds a
 # fault, and not part of ./run test. The sources are edited in place and put back. `mutants.sh WORD` takes those whose
 # name has the word. Exit code 1 where one lives, or its text is not there exactly once.
 set -euo pipefail
@@ -25,7 +25,7 @@ while IFS= read -r line; do
     printf '%s\n' "${text/"$old"/"$new"}" >"$file"
     if ! ./run build test_driver_fast >build/mutant.log 2>&1; then
       verdict="LIVES: it does not build (build/mutant.log)"
-    elif timeout 300 build/bin/test_driver_fast --gtest_filter='DriverOracle*:*DriverFamily*:FamilyTables*' >build/mutant.log 2>&1; then
+    elif timeout 300 build/bin/test_driver_fast --gtest_filter='DriverOracle*:*DriverFamily*:FamilyTables*:EllipseSets*' >build/mutant.log 2>&1; then
       verdict="LIVES"
     fi
     git checkout -q HEAD -- "$file"
@@ -34,7 +34,7 @@ while IFS= read -r line; do
     lived=$((lived + 1))
   else
     killed=$((killed + 1))
-    verdict="killed by $(sed -n 's/^\[  FAILED  \] \(DriverOracle\.\|Kinds\/DriverFamily\.\|FamilyTables\.\)\([A-Za-z_/]*\).* (.*/\2/p' build/mutant.log | paste -sd' ')"
+    verdict="killed by $(sed -n 's/^\[  FAILED  \] \(DriverOracle\.\|Kinds\/DriverFamily\.\|FamilyTables\.\|EllipseSets\.\)\([A-Za-z_/]*\).* (.*/\2/p' build/mutant.log | paste -sd' ')"
   fi
   printf '%-45s %s\n' "$name" "$verdict"
 done <tests/driver/mutants.txt

@@ -1,4 +1,4 @@
-// fastsplat family: its page, and what the table must show.
+// The page of the family, and what its table must show.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -6,19 +6,40 @@
 #include <sstream>
 
 #include "analysis/family/family_page.hpp"
+#include "analysis/family/family_plots.hpp"
 
 namespace fastsplat::analysis {
 namespace {
 
 using cmodel::IndexKind;
 
+std::string text_of(const std::string& file) {
+  std::ostringstream text;
+  text << std::ifstream(FASTSPLAT_SOURCE_DIR "/docs/" + file).rdbuf();
+  return text.str();
+}
+
+/// The page's section on the head, which takes minutes to make: one cell of it is in head_slow_test.cpp.
+std::string head_of(const std::string& page) {
+  const auto from = page.find("## The head\n");
+  if (from == std::string::npos) return "";
+  return page.substr(from, page.find("\n## ", from) + 1 - from);
+}
+
 TEST(FamilyPage, IsWhatTheProgramSays) {
-  std::ostringstream page;
-  page << std::ifstream(FASTSPLAT_SOURCE_DIR "/docs/family.md").rdbuf();
-  const std::string made = family_page();
+  const std::string page = text_of("family.md"), head = head_of(page);
+  EXPECT_GT(head.size(), 1000U);
+  const auto cells = page_cells();
+  const std::string made = family_page(cells, head);
   std::printf("[figure] characters of the page compared = %zu (limit > 5000)\n", made.size());
   EXPECT_GT(made.size(), 5000U);
-  EXPECT_EQ(page.str(), made) << "fastsplat family --page > docs/family.md";
+  EXPECT_EQ(page, made) << "fastsplat family --page > docs/family.md";
+  const auto pictures = family_plots(cells);
+  EXPECT_EQ(pictures.size(), std::size(kFamilyPictures));
+  for (const auto& picture : pictures) {
+    EXPECT_EQ(text_of("images/" + picture.file), picture.svg) << "fastsplat family --plots docs/images";
+    EXPECT_NE(page.find("(images/" + picture.file + ")"), std::string::npos) << "no link to it";
+  }
 }
 
 TEST(FamilyTable, EveryFigureThatIsOffIsExplained) {

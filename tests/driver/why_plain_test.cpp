@@ -1,0 +1,45 @@
+// Where the fast unit was asked for and could not draw, the report says why; else it says nothing.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "driver/config_file.hpp"
+#include "driver/render.hpp"
+#include "tests/driver/scenes_helper.hpp"
+
+namespace fastsplat::driver {
+namespace {
+
+/// "" for nothing.
+std::string why_plain(const cmodel::Config& config, Unit unit = Unit::Fast) {
+  const auto scene = scene::build_scene(view_of("shells:12", 24));
+  const auto units = render(scene, config, {.threads = 1, .unit = unit, .progress = {}}).units;
+  EXPECT_EQ(units.why_plain != nullptr, unit == Unit::Fast && units.fast == 0 && units.redone == 0);
+  return units.why_plain == nullptr ? "" : units.why_plain;
+}
+
+TEST(WhyPlain, SaysWhichNumbersOfTheConfiguration) {
+  const auto base = load_config("base");
+  if (!why_plain(base).empty()) GTEST_SKIP() << "no vectors here: " << why_plain(base);
+  EXPECT_EQ(why_plain(base, Unit::Plain), "");
+
+  auto even = base;
+  even.rounding_product = 2;
+  EXPECT_EQ(cmodel::find_key("rounding.product")->names[2], std::string("rnd_conv"));
+  EXPECT_NE(why_plain(even).find("rounded to even"), std::string::npos) << why_plain(even);
+
+  auto wide = base;
+  wide.colour_frac_bits = 20;
+  EXPECT_NE(why_plain(wide).find("too wide for its lanes"), std::string::npos) << why_plain(wide);
+
+  // A footprint of 8 x 8 pixels at 1024 x 1024 places is 128 MB.
+  auto fine = base;
+  fine.index_kind = static_cast<int>(cmodel::IndexKind::Squared);
+  fine.phases = 1;
+  fine.position_frac_bits = 10;
+  EXPECT_NE(why_plain(fine).find("more than it keeps"), std::string::npos) << why_plain(fine);
+  figure("reasons told", 3);
+}
+
+}  // namespace
+}  // namespace fastsplat::driver

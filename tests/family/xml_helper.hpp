@@ -1,0 +1,23 @@
+// As much of XML as our pictures have, read strictly: elements, attributes, text, the entities lt, gt and amp.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace fastsplat::analysis {
+
+struct XmlElement {
+  std::string name;
+  std::map<std::string, std::string> attributes;
+  std::string text;  ///< between the children
+  std::vector<XmlElement> children;
+
+  /// All of that name, at any depth.
+  std::vector<const XmlElement*> all(const std::string& wanted) const;
+};
+
+/// Throws std::runtime_error with the place of what is wrong.
+XmlElement parse_xml(const std::string& text);
+
+}  // namespace fastsplat::analysis

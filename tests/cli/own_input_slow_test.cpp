@@ -79,7 +79,6 @@ class OwnInput : public ::testing::Test {
         {config_, {"verify", "--random", "10", "--config", config_, "--coverage", config_}},
         {volume_, {"verify", "--volume", volume_, "--size", "8", "--config", config_, "--json", volume_}},
         {volume_, {"errors", "--volume", volume_, "--size", "8", "--json", volume_}},
-        {config_, {"errors", "bound", "--volume", "shells:8", "--size", "8", "--config", config_, "--json", config_}},
         {config_, {"config", "show", config_, "--json", config_}},
         {config_, {"config", "check", config_, "--json", config_}},
         {config_, {"config", "diff", "base", config_, "--json", config_}},

@@ -62,8 +62,8 @@ Image blame_map(const Attribution& a) {
     top += line;
   };
   for (const StepError* step : ruling)
-    entry(colour_of(*step), fmt::format("{}: {:.0f} % of pixels, {:.0f} % of error", step->set.name,
-                                        100.0 * step->pixels_ruled, std::abs(100.0 * step->share)));
+    entry(colour_of(*step), fmt::format("{}: {:.0f} % px, {:.0f} % error", step->set.name, 100.0 * step->pixels_ruled,
+                                        std::abs(100.0 * step->share)));
   entry(kNoError, "no error");
   return canvas.image();
 }

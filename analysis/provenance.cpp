@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "base/fnv1a.hpp"
 #include "base/hash_text.hpp"
 #include "base/version.hpp"
 
@@ -11,12 +12,12 @@ namespace {
 /// FNV-1a, eight bytes at a time.
 class Hash {
  public:
-  void add(std::uint64_t word) { value_ = (value_ ^ word) * 0x100000001b3u; }
+  void add(std::uint64_t word) { value_ = fnv1a(value_, word); }
   void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
   std::uint64_t value() const { return value_; }
 
  private:
-  std::uint64_t value_ = 0xcbf29ce484222325u;
+  std::uint64_t value_ = kFnv1aStart;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <vector>
 
+#include "base/fnv1a.hpp"
 #include "base/suggest.hpp"
 
 namespace fastsplat::cmodel {
@@ -279,12 +280,10 @@ std::optional<ErrorParts> first_violation(const Config& config) {
 }
 
 std::uint64_t config_hash(const Config& config) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  std::uint64_t hash = kFnv1aStart;
   for (const auto& key : kKeys) {
     if (key.neutral == config.*key.member) continue;
-    for (const char c : std::string(key.name) + "=" + text_of(config, key) + "\n") {
-      hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-    }
+    hash = fnv1a(hash, std::string(key.name) + "=" + text_of(config, key) + "\n");
   }
   return hash;
 }

@@ -3,17 +3,11 @@
 #include <mutex>
 
 #include "base/parallel/parallel.hpp"
+#include "cmodel/device.hpp"
 #include "cmodel/model.hpp"
 #include "driver/compile.hpp"
 
 namespace fastsplat::driver {
-namespace {
-
-struct NoPixels final : cmodel::PixelSink {
-  void on_tile(cmodel::TilePixels&& /*tile*/) override {}
-};
-
-}  // namespace
 
 FrameRanges frame_ranges(const scene::Scene& scene, const cmodel::Config& config, const RenderOptions& options) {
   const CompiledFrame compiled(scene, config, options.threads);
@@ -24,7 +18,7 @@ FrameRanges frame_ranges(const scene::Scene& scene, const cmodel::Config& config
   std::size_t done = 0;
   // All that is merged are counts, sums of integers, ends and ones: in which order does not matter.
   parallel_for(compiled.work(), options.threads, [&](std::size_t number) {
-    NoPixels nowhere;
+    cmodel::NullPixels nowhere;
     cmodel::Ranges ranges;
     cmodel::Model device(config, cmodel::StreamScope::Subset, nowhere, nullptr, &ranges);
     device.consume(compiled.preamble());

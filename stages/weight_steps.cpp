@@ -137,12 +137,11 @@ void WeightSteps::rasterise_rlut(const StagedSplat& splat, const Mixture& mixtur
 
 void WeightSteps::rasterise_other(const StagedSplat& splat, const Mixture& mixture, const driver::Extent& box) {
   if (rim_.radius != splat.radius) {
-    rim_.radius = splat.radius;
-    const double rim = splat.radius * grid_;
-    rim_.scale =
-        driver::scale_of(config_.index() == IndexKind::Linear ? entries_ / std::ldexp(rim, config_.rlut_guard_bits)
-                                                              : entries_ / (rim * rim),
-                         config_);
+    rim_ = {splat.radius, {}};
+    if (!config_.has_phases()) {  // linear: c, h; the others: A, .., h, and A is the circle's c
+      const auto words = driver::set_table(config_, kernel_, 0, splat.radius, 0).words;
+      rim_.scale = {words.front(), words.back()};
+    }
   }
   for (int y = box.y0; y < box.y1; ++y) {
     const std::size_t first = own_.size();

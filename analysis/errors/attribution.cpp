@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "analysis/error_values.hpp"
+
 namespace fastsplat::analysis {
 namespace {
 
@@ -24,7 +26,7 @@ double product(const Picture& a, const Picture& b) {
 Amount floor_of(const Picture& real, int bits) {
   Picture error = real;
   for (golden::Sums& pixel : error.pixels) {
-    for (double& value : pixel) value = std::floor(value * lsb(bits) + 0.5) / lsb(bits) - value;
+    for (double& value : pixel) value = std::floor(value * lsb_per_unit(bits) + 0.5) / lsb_per_unit(bits) - value;
   }
   return amount_of(error);
 }
@@ -49,7 +51,7 @@ class Frames {
 };
 
 /// Shapley values of the groups, of v(S) = E[(S's error) e] / E[e^2]: v of all is 1.
-std::vector<GroupShare> shapley(const Picture& real, const Picture& error, double squared, Frames& frames) {
+std::vector<GroupShare> shapley(const Picture& real, const Picture& error, Frames& frames) {
   const std::vector<stages::StepSet> groups = stages::group_sets();
   const std::size_t n = groups.size(), all = (std::size_t{1} << n) - 1;
   std::vector<double> worth(all + 1, 0.0);
@@ -58,7 +60,7 @@ std::vector<GroupShare> shapley(const Picture& real, const Picture& error, doubl
     for (std::size_t g = 0; g < n; ++g) {
       if ((coalition >> g & 1) != 0) mixture = mixture.with(groups[g].steps);
     }
-    worth[coalition] = product(difference(frames(mixture), real), error) / squared;
+    worth[coalition] = share_of(difference(frames(mixture), real), error);
   }
   worth[all] = 1.0;
   std::vector<double> factorial(n + 1, 1.0);
@@ -137,6 +139,11 @@ Picture difference(const Picture& a, const Picture& b) {
   return out;
 }
 
+double share_of(const Picture& part, const Picture& error) {
+  const double squared = product(error, error);
+  return squared > 0.0 ? product(part, error) / squared : 0.0;
+}
+
 Amount amount_of(const Picture& error) {
   Amount out;
   double squares = 0.0, sum = 0.0;
@@ -164,8 +171,7 @@ Attribution attribute(const stages::Chain& chain, const AttributionOptions& opti
   out.real = frames(Mixture{});
   out.device = frames(Mixture::all_device());
   const Picture error = difference(out.device, out.real);
-  const double squared = product(error, error);
-  const auto share = [&](const Picture& part) { return squared > 0.0 ? product(part, error) / squared : 0.0; };
+  const auto share = [&](const Picture& part) { return share_of(part, error); };
   out.total = amount_of(error);
   out.floor8 = floor_of(out.real, 8);
   out.floor16 = floor_of(out.real, 16);
@@ -204,7 +210,7 @@ Attribution attribute(const stages::Chain& chain, const AttributionOptions& opti
     if (step >= 0) out.steps[static_cast<std::size_t>(step)].pixels_ruled += 1.0 / static_cast<double>(wrong);
   }
   out.stories = stories_of(out, error);
-  if (options.shapley && squared > 0.0) out.groups = shapley(out.real, error, squared, frames);
+  if (options.shapley && out.total.rms > 0.0) out.groups = shapley(out.real, error, frames);
   out.chains = frames.done();
   return out;
 }

@@ -19,11 +19,11 @@ struct Amount {
 Amount amount_of(const stages::Picture& error);
 /// a - b, value by value.
 stages::Picture difference(const stages::Picture& a, const stages::Picture& b);
+/// Of the whole error e, a part d has the share E[d e] / E[e^2]: not centred, since bias is error too. 0 where there is
+/// no error.
+double share_of(const stages::Picture& part, const stages::Picture& error);
 
-/// LSB of n bits per 1.0: 2^n - 1.
-constexpr double lsb(int bits) { return static_cast<double>((1ULL << bits) - 1); }
-
-/// Of the whole error e, a part d has the share E[d e] / E[e^2]: not centred, since bias is error too.
+/// Shares are share_of() the whole error.
 struct StepError {
   stages::StepSet set;
   double share = 0.0;  ///< of its increment, see Attribution::increments

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/error_values.hpp"
+
 namespace fastsplat::analysis {
 namespace {
 
@@ -28,8 +30,8 @@ std::string answer(const Attribution& a, const std::optional<TriedRemedy>& tried
   text += "\n";
   if (!tried) return text;
   text += fmt::format("{} would {} it: RMS {:.4f} -> {:.4f} LSB{}", tried->remedy.changes,
-                      tried->error.rms < 0.999 * a.total.rms ? "lessen" : "not lessen", a.total.rms * lsb(bits),
-                      tried->error.rms * lsb(bits), bits);
+                      tried->error.rms < 0.999 * a.total.rms ? "lessen" : "not lessen",
+                      a.total.rms * lsb_per_unit(bits), tried->error.rms * lsb_per_unit(bits), bits);
   if (tried->costs) {
     const auto& [before, after] = *tried->costs;
     text += fmt::format(", storage {:+.1f} kbit, cost {:+.1f} %", (after.storage_bits - before.storage_bits) / 1000.0,
@@ -44,26 +46,19 @@ double percent(double share) { return std::abs(share) < 0.5e-4 ? 0.0 : 100.0 * s
 std::string story(const PixelStory& s, int bits) {
   constexpr const char* kChannels[] = {"R", "G", "B", "A"};
   std::string text = fmt::format("{:<6} pixel ({}, {}) {}: {:+.3f} LSB{}, of it", s.which, s.x, s.y,
-                                 kChannels[s.channel], s.error * lsb(bits), bits);
+                                 kChannels[s.channel], s.error * lsb_per_unit(bits), bits);
   double told = 0.0;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, s.parts.size()); ++i) {
-    text += fmt::format("{} {} {:+.3f}", i == 0 ? "" : ",", s.parts[i].first, s.parts[i].second * lsb(bits));
+    text += fmt::format("{} {} {:+.3f}", i == 0 ? "" : ",", s.parts[i].first, s.parts[i].second * lsb_per_unit(bits));
     told += s.parts[i].second;
   }
-  return text + fmt::format(", all others {:+.3f}\n", (s.error - told) * lsb(bits));
+  return text + fmt::format(", all others {:+.3f}\n", (s.error - told) * lsb_per_unit(bits));
 }
 
 Json amount_json(const Amount& amount) {
-  return {{"rms_lsb8", amount.rms * lsb(8)},        {"max_lsb8", amount.greatest * lsb(8)},
-          {"bias_lsb8", amount.bias * lsb(8)},      {"rms_lsb16", amount.rms * lsb(16)},
-          {"max_lsb16", amount.greatest * lsb(16)}, {"bias_lsb16", amount.bias * lsb(16)}};
-}
-
-Json cost_json(const Cost& cost) {
-  return {{"storage_bits", cost.storage_bits},
-          {"adder_bits", cost.adder_bits},
-          {"multiplier_bits", cost.multiplier_bits},
-          {"total", cost.total()}};
+  return {{"rms_lsb8", amount.rms * lsb_per_unit(8)},        {"max_lsb8", amount.greatest * lsb_per_unit(8)},
+          {"bias_lsb8", amount.bias * lsb_per_unit(8)},      {"rms_lsb16", amount.rms * lsb_per_unit(16)},
+          {"max_lsb16", amount.greatest * lsb_per_unit(16)}, {"bias_lsb16", amount.bias * lsb_per_unit(16)}};
 }
 
 }  // namespace
@@ -84,7 +79,7 @@ std::optional<TriedRemedy> try_remedy(const scene::Scene& scene, const cmodel::C
 }
 
 std::string to_text(const Attribution& a, const std::optional<TriedRemedy>& tried, int bits) {
-  const double unit = lsb(bits);
+  const double unit = lsb_per_unit(bits);
   std::string text = answer(a, tried, bits);
   text +=
       fmt::format("error of the device: RMS {:.4f}, max {:.3f}, bias {:+.4f} LSB{}; floor of {} bits: RMS {:.4f}\n\n",
@@ -147,19 +142,19 @@ Json to_json(const Attribution& a, const std::optional<TriedRemedy>& tried) {
   json["pixels"] = Json::array();
   for (const PixelStory& s : a.stories) {
     Json parts;
-    for (const auto& [name, part] : s.parts) parts[name] = part * lsb(8);
+    for (const auto& [name, part] : s.parts) parts[name] = part * lsb_per_unit(8);
     json["pixels"].push_back({{"which", s.which},
                               {"x", s.x},
                               {"y", s.y},
                               {"channel", s.channel},
-                              {"error_lsb8", s.error * lsb(8)},
+                              {"error_lsb8", s.error * lsb_per_unit(8)},
                               {"parts_lsb8", parts}});
   }
   if (tried) {
     json["remedy"] = {{"step", tried->step}, {"changes", tried->remedy.changes}, {"error", amount_json(tried->error)}};
     if (tried->costs) {
-      json["remedy"]["cost_before"] = cost_json(tried->costs->first);
-      json["remedy"]["cost_after"] = cost_json(tried->costs->second);
+      json["remedy"]["cost_before"] = to_json(tried->costs->first);
+      json["remedy"]["cost_after"] = to_json(tried->costs->second);
     }
   }
   return json;

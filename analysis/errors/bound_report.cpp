@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "analysis/error_values.hpp"
 #include "analysis/errors/attribution.hpp"
 
 namespace fastsplat::analysis {
@@ -48,7 +49,7 @@ BoundReport bounds(const stages::Chain& chain, int threads, const Progress& prog
 }
 
 std::string to_text(const BoundReport& report, int bits) {
-  const double unit = lsb(bits);
+  const double unit = lsb_per_unit(bits);
   const BoundCheck& first = report.levels.front().check;
   std::string text =
       report.holds()
@@ -83,11 +84,11 @@ Json to_json(const BoundReport& report) {
                {"greatest_error_to_bound", check.worst},
                {"pixels_with_error", check.pixels},
                {"bound_to_error", {{"median", check.median}, {"p90", check.p90}, {"p99", check.p99}}},
-               {"greatest_bound_lsb8", check.greatest_bound * lsb(8)},
-               {"greatest_error_lsb8", check.greatest_error * lsb(8)},
+               {"greatest_bound_lsb8", check.greatest_bound * lsb_per_unit(8)},
+               {"greatest_error_lsb8", check.greatest_error * lsb_per_unit(8)},
                {"dominant", to_string(bound.dominant())}};
     for (std::size_t t = 0; t < kTermCount; ++t)
-      level["mean_lsb8"][to_string(static_cast<Term>(t))] = bound.mean[t] * lsb(8);
+      level["mean_lsb8"][to_string(static_cast<Term>(t))] = bound.mean[t] * lsb_per_unit(8);
     json["levels"].push_back(level);
   }
   return json;

@@ -1,6 +1,7 @@
 #include "analysis/errors/cost.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 namespace fastsplat::analysis {
 
@@ -26,6 +27,13 @@ Cost cost(const cmodel::Config& c) {
   out.multiplier_bits =
       lanes * 4.0 * colour * weight + lanes * (factor * rest + 4.0 * sheet * factor + 4.0 * unit * unit);
   return out;
+}
+
+nlohmann::ordered_json to_json(const Cost& cost) {
+  return {{"storage_bits", cost.storage_bits},
+          {"adder_bits", cost.adder_bits},
+          {"multiplier_bits", cost.multiplier_bits},
+          {"total", cost.total()}};
 }
 
 }  // namespace fastsplat::analysis

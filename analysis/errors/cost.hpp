@@ -1,6 +1,8 @@
 // What a configuration costs to build, from the configuration alone (docs/errors.md, "Cost").
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "cmodel/config.hpp"
 
 namespace fastsplat::analysis {
@@ -15,5 +17,7 @@ struct Cost {
 
 /// Of the device of rtl/: index.kind rlut.
 Cost cost(const cmodel::Config& config);
+
+nlohmann::ordered_json to_json(const Cost& cost);
 
 }  // namespace fastsplat::analysis

@@ -5,6 +5,7 @@
 
 #include "analysis/provenance.hpp"
 #include "base/error.hpp"
+#include "base/fnv1a.hpp"
 #include "driver/render.hpp"
 #include "golden/render.hpp"
 
@@ -24,11 +25,7 @@ Journal::Entry worst(const std::vector<Journal::Entry>& entries, const Target& t
 }  // namespace
 
 std::uint64_t scene_hash(const scene::Scene& scene) {
-  std::uint64_t hash = content_hash(scene);
-  for (const char c : scene::to_toml(scene.description)) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;  // FNV-1a, on
-  }
-  return hash;
+  return fnv1a(content_hash(scene), scene::to_toml(scene.description));
 }
 
 Simulator::Simulator(const std::vector<scene::Scene>& scenes, Journal& journal, int threads)

@@ -26,13 +26,6 @@ std::string costs(const Cost& before, const Cost& after) {
          part("cost", before.total(), after.total());
 }
 
-Json cost_json(const Cost& cost) {
-  return {{"storage_bits", cost.storage_bits},
-          {"adder_bits", cost.adder_bits},
-          {"multiplier_bits", cost.multiplier_bits},
-          {"total", cost.total()}};
-}
-
 Json entry_json(const Journal::Entry& entry) {
   if (!entry) return nullptr;
   Json json{{"psnr_db", nullptr}, {"rms_lsb8", entry->rms_lsb}, {"max_lsb8", entry->max_lsb}};
@@ -86,8 +79,8 @@ Json to_json(const Proposal& p) {
             {"from", {{"name", p.from.name}, {"hash", hash_text(cmodel::config_hash(p.from))}}},
             {"error_from", entry_json(p.error_from)},
             {"error", entry_json(p.error)},
-            {"cost_from", cost_json(p.cost_from)},
-            {"cost", cost_json(p.cost)},
+            {"cost_from", to_json(p.cost_from)},
+            {"cost", to_json(p.cost)},
             {"hash", hash_text(cmodel::config_hash(s.best))},
             {"changes", changes(p.from, s.best)},
             {"keys", Json::array()}};

@@ -135,8 +135,8 @@ Claim linear(const Cells& at) {
                              "and rlut {} (r = 4), with {} root steps a pixel",
                              own.aligned.largest, squared.aligned.largest, kEntries, own.turned.rms, squared.turned.rms,
                              own.bits, own.cycles, squared.cycles, rlut.cycles, own.operations.root_steps),
-      .verdict = judged(
-          {own.aligned.largest<0.75 * squared.aligned.largest, own.bits <= rlut.bits, own.cycles> 4 * squared.cycles})};
+      .verdict = judged({(own.aligned.largest < 0.75 * squared.aligned.largest), own.bits <= rlut.bits,
+                         (own.cycles > 4 * squared.cycles)})};
 }
 
 Claim squared(const Cells& at) {

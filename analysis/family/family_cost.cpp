@@ -18,15 +18,13 @@ std::uint32_t rho_of(const cmodel::Config& config, int radius) {
 /// Bits of a word 0..most.
 int bits_of(std::int64_t most) { return std::bit_width(static_cast<std::uint64_t>(most)); }
 
-bool has_radial_table(const cmodel::Config& config) {
-  return config.index() != IndexKind::Blit2d && config.index() != IndexKind::Separable;
-}
-
 std::uint64_t weight_bits(const cmodel::Config& config) {
   return static_cast<std::uint64_t>(config.radial_int_bits + config.radial_frac_bits);
 }
 
 }  // namespace
+
+bool has_radial_table(IndexKind kind) { return kind != IndexKind::Blit2d && kind != IndexKind::Separable; }
 
 Operations operations(const cmodel::Config& config, int radius) {
   // One multiply and one add are the product's and the sheet's, whatever the kind.
@@ -57,7 +55,7 @@ std::uint64_t storage_bits(const cmodel::Config& config, int radius) {
     const auto width = static_cast<std::uint64_t>(bits_of(range.most) + (range.least < 0 ? 1 : 0));
     bits += width * (config.has_phases() ? words : 1);  // words by phase are all alike
   }
-  if (has_radial_table(config)) bits += static_cast<std::uint64_t>(config.radial_entries) * weight_bits(config);
+  if (has_radial_table(config.index())) bits += static_cast<std::uint64_t>(config.radial_entries) * weight_bits(config);
   return bits;
 }
 
@@ -89,7 +87,7 @@ std::uint64_t cycles_per_splat(const cmodel::Config& config, int radius) {
 double predicted_snap_rms(const cmodel::Config& config, double voxel) { return 255.0 * 0.27 / (voxel * config.grid()); }
 
 double predicted_index_max(const cmodel::Config& config) {
-  if (!has_radial_table(config)) return 0.0;
+  if (!has_radial_table(config.index())) return 0.0;
   return 255.0 * (config.index() == IndexKind::Linear ? 1.213 : 4.0) / config.radial_entries;
 }
 

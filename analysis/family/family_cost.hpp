@@ -8,6 +8,9 @@
 
 namespace fastsplat::analysis {
 
+/// Whether the kind looks weights up in the radial table.
+bool has_radial_table(cmodel::IndexKind kind);
+
 /// On the way to one pixel's weight, and to multiply it by a colour and add that; along a scan line's second
 /// difference.
 struct Operations {

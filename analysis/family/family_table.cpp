@@ -83,7 +83,7 @@ std::vector<FamilyCell> family_table(const FamilyRange& range) {
     lattices.try_emplace(radius, aligned_lattice(kernel, radius), turned_lattice(kernel, radius));
   std::vector<FamilyCell> cells;
   for (const IndexKind kind : range.kinds) {
-    const bool has_table = kind != IndexKind::Blit2d && kind != IndexKind::Separable;
+    const bool has_table = has_radial_table(kind);
     for (const int radius : range.radii) {
       const auto& [aligned, turned] = lattices.at(radius);
       for (const int grid : range.grids) {

@@ -7,6 +7,8 @@
 #include <map>
 #include <tuple>
 
+#include "analysis/error_values.hpp"
+#include "analysis/errors/attribution.hpp"
 #include "base/error.hpp"
 #include "driver/render.hpp"
 #include "golden/render.hpp"
@@ -23,34 +25,10 @@ using stages::Step;
 
 constexpr int kPicture = 128;  // pixels
 
-bool has_table_of(IndexKind kind) { return kind != IndexKind::Blit2d && kind != IndexKind::Separable; }
-
-/// Signed differences of two pictures' values.
-std::vector<double> apart(const Picture& a, const Picture& b) {
-  std::vector<double> out;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-    for (std::size_t c = 0; c < 4; ++c) out.push_back(a.pixels[i][c] - b.pixels[i][c]);
-  }
-  return out;
-}
-
-double share(const std::vector<double>& part, const std::vector<double>& error) {
-  double both = 0.0, squares = 0.0;
-  for (std::size_t i = 0; i < error.size(); ++i) {
-    both += part[i] * error[i];
-    squares += error[i] * error[i];
-  }
-  return squares > 0.0 ? both / squares : 0.0;
-}
-
-FieldError error_of(const std::vector<double>& error) {
-  FieldError out;
-  for (const double value : error) {
-    out.largest = std::max(out.largest, 255.0 * std::abs(value));
-    out.rms += value * value;
-    out.bias += 255.0 * value / static_cast<double>(error.size());
-  }
-  out.rms = 255.0 * std::sqrt(out.rms / static_cast<double>(error.size()));
+/// A device's or golden's floats as a picture.
+Picture picture_of(const Image& image) {
+  Picture out{image.width, image.height, std::vector<golden::Sums>(image.data.size() / 4)};
+  for (std::size_t i = 0; i < image.data.size(); ++i) out.pixels[i / 4][i % 4] = image.data[i];
   return out;
 }
 
@@ -63,38 +41,37 @@ class Parts {
  public:
   Parts(const scene::Scene& scene, int threads) : scene_(scene), threads_(threads) {}
 
-  const std::vector<double>& place(const cmodel::Config& config) {
+  const Picture& place(const cmodel::Config& config) {
     const auto [at, is_new] = places_.try_emplace(config.grid());
     if (is_new) {
       const stages::Chain chain(scene_, config);
       if (real_.pixels.empty()) real_ = chain(Mixture{}, threads_);
       at->second.picture = chain(Mixture{Step::Position, Step::Snap}, threads_);
-      at->second.change = apart(at->second.picture, real_);
+      at->second.change = difference(at->second.picture, real_);
     }
     return at->second.change;
   }
-  const std::vector<double>& index(const cmodel::Config& config) {
+  const Picture& index(const cmodel::Config& config) {
     place(config);
     const auto [at, is_new] =
         indices_.try_emplace({config.grid(), config.radial_entries, config.index() == IndexKind::Linear});
     if (is_new) {
       const stages::Chain chain(scene_, config);
-      at->second =
-          apart(chain(Mixture{Step::Position, Step::Snap, Step::Index}, threads_), places_.at(config.grid()).picture);
+      at->second = difference(chain(Mixture{Step::Position, Step::Snap, Step::Index}, threads_),
+                              places_.at(config.grid()).picture);
     }
     return at->second;
   }
 
  private:
   struct Place {
-    Picture picture;
-    std::vector<double> change;
+    Picture picture, change;
   };
   const scene::Scene& scene_;
   int threads_;
   Picture real_;
   std::map<int, Place> places_;
-  std::map<std::tuple<int, int, bool>, std::vector<double>> indices_;
+  std::map<std::tuple<int, int, bool>, Picture> indices_;
 };
 
 }  // namespace
@@ -124,15 +101,15 @@ HeadRange whole_head() {
 }
 
 std::vector<HeadCell> head_table(const HeadScene& head, const HeadRange& range, int threads, const Progress& progress) {
-  const Image reference = golden::render(head.scene, {.threads = threads, .progress = {}});
+  const Picture reference = picture_of(golden::render(head.scene, {.threads = threads, .progress = {}}));
   std::vector<HeadCell> cells;
   const int radius = std::max(1, static_cast<int>(std::ceil(head.radius)));
   for (const IndexKind kind : range.kinds) {
     for (const int grid : range.grids) {
-      for (const int entries : has_table_of(kind) ? range.entries : std::vector{range.entries.back()}) {
+      for (const int entries : has_radial_table(kind) ? range.entries : std::vector{range.entries.back()}) {
         HeadCell cell;
         cell.config = family_config(kind, grid, radius, entries);
-        cell.has_table = has_table_of(kind);
+        cell.has_table = has_radial_table(kind);
         cells.push_back(cell);
       }
     }
@@ -140,14 +117,13 @@ std::vector<HeadCell> head_table(const HeadScene& head, const HeadRange& range, 
   Parts parts(head.scene, threads);
   std::size_t done = 0;
   for (HeadCell& cell : cells) {
-    const Image image =
-        driver::to_image(driver::render(head.scene, cell.config, {.threads = threads, .progress = {}}).frame);
-    std::vector<double> error;
-    for (std::size_t i = 0; i < image.data.size(); ++i)
-      error.push_back(static_cast<double>(image.data[i]) - static_cast<double>(reference.data[i]));
-    cell.error = error_of(error);
-    cell.place_share = share(parts.place(cell.config), error);
-    if (cell.has_table) cell.index_share = share(parts.index(cell.config), error);
+    const auto drawn = driver::render(head.scene, cell.config, {.threads = threads, .progress = {}});
+    const Picture error = difference(picture_of(driver::to_image(drawn.frame)), reference);
+    const Amount amount = amount_of(error);
+    const double unit = lsb_per_unit(8);
+    cell.error = {.largest = unit * amount.greatest, .rms = unit * amount.rms, .bias = unit * amount.bias};
+    cell.place_share = share_of(parts.place(cell.config), error);
+    if (cell.has_table) cell.index_share = share_of(parts.index(cell.config), error);
     if (progress) progress(++done, cells.size());
   }
   return cells;

@@ -89,13 +89,17 @@ TEST(ConfigShow, PrintsAChangedConfigurationThatIsReadBack) {
   EXPECT_EQ(config.name, "tiny+rlut.sets=2+radial.entries=128");
 }
 
+std::string help_of(const Verb& verb) {
+  std::vector<std::string> words{"help"};
+  std::istringstream names(verb.name);
+  for (std::string word; names >> word;) words.push_back(word);
+  return said(words).out;
+}
+
 TEST(Set, IsWhereverAConfigurationIsNamed) {
   int verbs = 0;
   for (const Verb& verb : all_verbs()) {
-    std::vector<std::string> words{"help"};
-    std::istringstream names(verb.name);
-    for (std::string word; names >> word;) words.push_back(word);
-    const auto help = said(words).out;
+    const auto help = help_of(verb);
     const std::string name = verb.name;
     const bool named =
         help.find("--config NAME") != std::string::npos || name == "config show" || name == "config check";
@@ -109,10 +113,7 @@ TEST(Set, IsWhereverAConfigurationIsNamed) {
 TEST(Index, IsShortForSetWhereverThatIs) {
   int verbs = 0;
   for (const Verb& verb : all_verbs()) {
-    std::vector<std::string> words{"help"};
-    std::istringstream names(verb.name);
-    for (std::string word; names >> word;) words.push_back(word);
-    const auto help = said(words).out;
+    const auto help = help_of(verb);
     const bool set = help.find("--set KEY=VALUE") != std::string::npos;
     EXPECT_EQ(help.find("--index KIND") != std::string::npos, set) << verb.name;
     verbs += set ? 1 : 0;

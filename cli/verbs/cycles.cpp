@@ -77,10 +77,11 @@ struct Result {
   double seconds = 0.0;
 };
 
-/// Of the splats, those all of whose blocks (in the band of their tile they begin in) were frozen when they came: the
-/// device computes them for nothing. The fast unit counts them; none where the configuration is drawn by the plain one.
+/// Of the splats, those all of whose blocks were frozen when they came: the device computes them for nothing. The fast
+/// unit counts them, by whole tiles; none where the configuration is drawn by the plain one.
 std::optional<double> hidden_share(const scene::Scene& scene, const cmodel::Config& config, int threads) {
-  const auto drawn = driver::render(scene, config, {.threads = threads, .progress = {}});
+  const auto drawn =
+      driver::render(scene, config, {.threads = threads, .band_rows = config.tile_height, .progress = {}});
   if (drawn.units.fast == 0 || drawn.units.plain > 0 || drawn.counters.splats == 0) return std::nullopt;
   return static_cast<double>(drawn.units.hidden_splats) / static_cast<double>(drawn.counters.splats);
 }

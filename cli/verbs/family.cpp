@@ -117,8 +117,7 @@ ExitCode run(const Arguments& arguments) {
 
 void declare(Options& options, Arguments& to) {
   options.group("What");
-  options.word("--kind", to.kind, "KIND",
-               "one kind of index only: linear, squared, squared_elliptic, blit2d, rlut, separable");
+  options.word("--kind", to.kind, "KIND", "one kind of index only: what `config show` says of index.kind");
   options.integer("--entries", to.entries, 2, 65536, "N", "of the radial table, a power of two; else 64 to 2048");
   options.flag("--page", to.page, "docs/family.md, which has nothing that depends on the machine; takes minutes");
   options.flag("--head", to.head, "its part on the head scan alone: every kind's picture against golden's");

@@ -75,6 +75,20 @@ TEST(Units, CyclesSaysWhatLayOnFrozenBlocks) {
   EXPECT_GT(share, 0.05);
   EXPECT_DOUBLE_EQ(share, render["units"]["hidden_splats"].get<double>() / render["counters"]["splats"].get<double>());
 
+  // render counts by bands of a tile, and of a splat that reaches two only what becomes of it in the first.
+  const Words tall{"--volume", "binary-cube:32", "--tf",   "ct-head", "--size", "128",
+                   "--config", "base",           "--json", "-",       "--quiet"};
+  const auto of = [&](Words words) {
+    words.insert(words.end(), tall.begin(), tall.end());
+    return nlohmann::json::parse(fastsplat(words).out);
+  };
+  const double by_tile = of({"cycles"}).at("hidden_share");
+  const auto bands = of({"render", "--engine", "cmodel", "-o", folder / "b.exr"});
+  const double by_band = bands["units"]["hidden_splats"].get<double>() / bands["counters"]["splats"].get<double>();
+  std::printf("[figure] by tiles %.4f, by bands %.4f\n", by_tile, by_band);
+  EXPECT_GT(by_tile, 0.05);
+  EXPECT_LT(by_tile, by_band);
+
   const auto odd = folder.write(
       "odd.nrrd",
       "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: ascii\nspacings: 1 nan 2\n\n1 2 3 4 5 6 7 8\n");

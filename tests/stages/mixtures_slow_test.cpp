@@ -98,12 +98,25 @@ struct Met {
   }
 };
 
-TEST(Mixtures, AtRandomTheChainIsItsPage) {
+class OfAKind : public ::testing::TestWithParam<cmodel::IndexKind> {};
+
+INSTANTIATE_TEST_SUITE_P(Mixtures, OfAKind,
+                         ::testing::Values(cmodel::IndexKind::Linear, cmodel::IndexKind::Squared,
+                                           cmodel::IndexKind::SquaredElliptic, cmodel::IndexKind::Blit2d,
+                                           cmodel::IndexKind::Rlut, cmodel::IndexKind::Separable),
+                         [](const auto& param_info) {
+                           return std::string(
+                               cmodel::find_key("index.kind")->names[static_cast<std::size_t>(param_info.param)]);
+                         });
+
+TEST_P(OfAKind, AtRandomTheChainIsItsPage) {
+  const cmodel::IndexKind kind = GetParam();
+  const std::uint64_t wanted = kind == cmodel::IndexKind::Rlut ? 200 : 40;
   Random random(seed_or(2100));
   Figures figures;
   Met met;
-  while (figures.mixtures < 200) {
-    const cmodel::Config config = random_config(random);
+  while (figures.mixtures < wanted) {
+    const cmodel::Config config = random_config(random, kind);
     const scene::Scene scene = scene::build_scene(random_scene(random));
     const Mixture mixture = random_mixture(random);
     ++met.drawn;

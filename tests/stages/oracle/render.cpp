@@ -30,8 +30,14 @@ class Frame {
 
   /// Steps distance, index and weight: `dx`, `dy` pixels from the centre, both less than the radius.
   double weight(double dx, double dy, double radius, Closeness& closeness) const {
+    using cmodel::IndexKind;
+    const IndexKind kind = config_.index();
+    if (kind == IndexKind::Blit2d || kind == IndexKind::Separable) return read(dx, dy, radius, closeness);
     const int n = config_.radial_entries, g = config_.rlut_guard_bits;
-    const double q = distance(dx, radius, closeness) + distance(dy, radius, closeness);
+    const bool linear = kind == IndexKind::Linear;
+    const double q = kind == IndexKind::Rlut ? distance(dx, radius, closeness) + distance(dy, radius, closeness)
+                                             : computed(dx, dy, radius, closeness);
+    const auto footprint = [&](double part) { return this->footprint(linear ? part * part : part); };
     compare(q, n, g, closeness);
     if (q >= n) return 0.0;
     if (!mixture_.device(Step::Index) && !mixture_.device(Step::Weight)) return footprint(q / n);
@@ -40,6 +46,11 @@ class Frame {
     if (!mixture_.device(Step::Weight)) return footprint(at / n);
     // In this order: where `at` is the entry's own place, nothing but the entry is left.
     return std::max(0.0, footprint(at / n) - footprint((t + 0.5) / n) + radial_[static_cast<std::size_t>(t)]);
+  }
+
+  /// How far beyond the radius, along an axis, a pixel can have weight.
+  double beyond() const {
+    return config_.index() == cmodel::IndexKind::Linear ? std::ldexp(1.0, -grid_bits(config_)) : 0.0;
   }
 
   double product(double v, double w, Closeness& closeness) const {
@@ -98,6 +109,46 @@ class Frame {
     return mixture_.device(Step::Distance) ? rnd(q, g, closeness) : q;
   }
 
+  /// Step distance of linear, squared and squared_elliptic.
+  double computed(double dx, double dy, double radius, Closeness& closeness) const {
+    const int n = config_.radial_entries, g = config_.rlut_guard_bits;
+    const bool linear = config_.index() == cmodel::IndexKind::Linear;
+    const double squared = dx * dx + dy * dy;
+    if (!mixture_.device(Step::Distance))
+      return linear ? std::sqrt(squared) * n / radius : squared * n / (radius * radius);
+    const double grid = std::ldexp(1.0, grid_bits(config_)), rim = radius * grid;
+    const long double d = static_cast<long double>(squared * grid * grid);
+    const Scale scale = scale_of(linear ? n / std::ldexp(rim, g) : n / (rim * rim));
+    long double steps = d;
+    if (linear) {
+      const long double root = std::sqrt(d * std::pow(4.0L, g));
+      steps = std::floor(root);
+      compare(static_cast<double>(root), std::round(static_cast<double>(root)), 0, closeness);
+      // The largest s with s^2 <= D 4^g, whatever the root's own last bit.
+      while (steps * steps > d * std::pow(4.0L, g)) steps -= 1.0L;
+      while ((steps + 1.0L) * (steps + 1.0L) <= d * std::pow(4.0L, g)) steps += 1.0L;
+    }
+    const long double q = steps * static_cast<long double>(scale.c) * std::pow(2.0L, -scale.h);
+    const auto near = static_cast<double>(q);
+    return near >= std::floor(static_cast<double>(std::floor(q))) + 1.0 ? std::nextafter(near, 0.0) : near;
+  }
+
+  /// Steps distance to weight of blit2d and separable: only the last does anything.
+  double read(double dx, double dy, double radius, Closeness& closeness) const {
+    const double u = (dx * dx + dy * dy) / (radius * radius);
+    compare(u, 1.0, 0, closeness);
+    if (!mixture_.device(Step::Weight)) return u < 1.0 ? footprint(u) : 0.0;
+    const int wi = config_.radial_int_bits, wf = config_.radial_frac_bits, g = config_.rlut_guard_bits;
+    if (config_.index() == cmodel::IndexKind::Blit2d)
+      return u < 1.0 ? std::min(rnd(footprint(u), wf, closeness), largest(wi, wf)) : 0.0;
+    const double most = std::min(1.0, largest(wi, wf));
+    const auto along = [&](double d) {
+      return std::min(rnd(footprint(d * d / (radius * radius)), wf + g, closeness), most);
+    };
+    return static_cast<double>(std::floor(static_cast<long double>(along(dx)) * along(dy) * std::pow(2.0L, wf) + 0.5L) *
+                               std::pow(2.0L, -wf));
+  }
+
   void cut_sum(Values& sums) const {
     if (!mixture_.device(Step::Sheet)) return;
     for (double& sum : sums) sum = cut(sum, 0.0, largest(config_.sheet_int_bits, config_.sheet_frac_bits));
@@ -149,7 +200,8 @@ std::vector<std::array<double, 4>> render(const scene::Scene& scene, const cmode
       std::vector<Values> sums(sheets, Values{});
       for (const Splat& splat : splats) {
         const double dx = x - splat.x, dy = y - splat.y;
-        if (std::abs(dx) >= splat.radius || std::abs(dy) >= splat.radius) continue;
+        const double reach = splat.radius + frame.beyond();
+        if (std::abs(dx) >= reach || std::abs(dy) >= reach) continue;
         pixel.closeness |= splat.closeness;
         const double w = frame.weight(dx, dy, splat.radius, pixel.closeness);
         for (std::size_t s = 0; s < sheets; ++s) {

@@ -90,10 +90,10 @@ class Steps {
 
  private:
   double place(double x, Closeness& closeness) const {
-    const int pf = config_.position_frac_bits, k = config_.phases;
-    const bool snap_rounds = k < (1 << pf) && config_.rounding_snap == static_cast<int>(cmodel::Rounding::RND);
+    const int pf = config_.position_frac_bits, kl = grid_bits(config_);
+    const bool snap_rounds = kl < pf && config_.rounding_snap == static_cast<int>(cmodel::Rounding::RND);
     if (mixture_.device(Step::Position)) x = snap_rounds ? trn(x, pf, closeness) : rnd(x, pf, closeness);
-    if (mixture_.device(Step::Snap)) x = round_by(config_.rounding_snap, x, config_.phase_bits(), closeness);
+    if (mixture_.device(Step::Snap)) x = round_by(config_.rounding_snap, x, kl, closeness);
     return x;
   }
 

@@ -6,7 +6,54 @@
 
 namespace fastsplat::stages::oracle {
 
+int grid_bits(const cmodel::Config& config) {
+  using cmodel::IndexKind;
+  const bool computed = config.index() == IndexKind::Linear || config.index() == IndexKind::Squared ||
+                        config.index() == IndexKind::SquaredElliptic;
+  return computed ? config.position_frac_bits : static_cast<int>(std::lround(std::log2(config.phases)));
+}
+
+Scale scale_of(double v) {
+  const int h = std::min(62, std::max(0, 23 - static_cast<int>(std::floor(std::log2(v)))));
+  return {std::min(16777216.0, std::ceil(std::ldexp(v, h))), h};
+}
+
+namespace {
+
+/// Section 4.1: even in distance, the sum by area preserved.
+std::vector<double> linear_table(double a, double kernel_radius, const cmodel::Config& config) {
+  const int entries = config.radial_entries;
+  std::vector<double> words, remainders;
+  double missing = 0.0;
+  for (int t = 0; t < entries; ++t) {
+    const double middle = (t + 0.5) / entries;
+    const double f =
+        std::ldexp(std::exp(-a * kernel_radius * kernel_radius * (middle * middle)), config.radial_frac_bits);
+    words.push_back(std::floor(f));
+    remainders.push_back(f - std::floor(f));
+    missing += (f - std::floor(f)) * (2.0 * t + 1.0);
+  }
+  std::vector<std::size_t> order(words.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t left, std::size_t right) { return remainders[left] > remainders[right]; });
+  for (const std::size_t t : order) {
+    const double area = 2.0 * static_cast<double>(t) + 1.0;
+    if (missing < area / 2.0) continue;
+    words[t] += 1.0;
+    missing -= area;
+  }
+  for (double& word : words) {
+    word =
+        std::min(std::ldexp(word, -config.radial_frac_bits), largest(config.radial_int_bits, config.radial_frac_bits));
+  }
+  return words;
+}
+
+}  // namespace
+
 std::vector<double> radial_table(double a, double kernel_radius, const cmodel::Config& config) {
+  if (config.index() == cmodel::IndexKind::Linear) return linear_table(a, kernel_radius, config);
   const int entries = config.radial_entries;
   std::vector<double> words, remainders;
   double sum = 0.0;
@@ -56,10 +103,11 @@ double Shown::operator()(double word) {
   if (found != known_.end()) return found->second;
   Closeness unused;
   double shown = 0.0, all = 0.0;
-  for (const double entry : radial_) {
-    shown += to_unsigned(config_.rounding_product, std::ldexp(word, -config_.colour_frac_bits) * entry,
-                         config_.sheet_int_bits, config_.sheet_frac_bits, unused);
-    all += entry;
+  for (std::size_t t = 0; t < radial_.size(); ++t) {
+    const double area = config_.index() == cmodel::IndexKind::Linear ? 2.0 * static_cast<double>(t) + 1.0 : 1.0;
+    shown += area * to_unsigned(config_.rounding_product, std::ldexp(word, -config_.colour_frac_bits) * radial_[t],
+                                config_.sheet_int_bits, config_.sheet_frac_bits, unused);
+    all += area * radial_[t];
   }
   // Sums of words: both are exact.
   const double value = all == 0.0 ? word : std::ldexp(shown, config_.colour_frac_bits) / all;
@@ -83,9 +131,14 @@ RadiusSets::RadiusSets(const scene::Scene& scene, const cmodel::Config& config) 
     radii_ = {most};
     return;
   }
-  const double extent = std::ceil(2.0 * std::ceil(most * config.phases) / config.phases);
+  const double grid = std::ldexp(1.0, grid_bits(config));
+  const double extent = std::ceil(2.0 * std::ceil(most * grid) / grid);
   const double columns = std::ceil(extent / config.lanes) * config.lanes;
-  const double n = std::min(std::floor(config.rlut_columns / columns), static_cast<double>(config.rlut_sets));
+  const bool by_phase = grid_bits(config) == static_cast<int>(std::lround(std::log2(config.phases))) &&
+                        config.index() != cmodel::IndexKind::Linear && config.index() != cmodel::IndexKind::Squared &&
+                        config.index() != cmodel::IndexKind::SquaredElliptic;
+  const double room = by_phase ? std::floor(config.rlut_columns / columns) : HUGE_VAL;
+  const double n = std::min(room, static_cast<double>(config.rlut_sets));
   b_ = n / std::log(most / least_);
   for (int i = 0; i < static_cast<int>(n); ++i) radii_.push_back(least_ * std::exp((i + 0.5) / b_));
 }

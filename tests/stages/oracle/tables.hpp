@@ -10,6 +10,16 @@
 
 namespace fastsplat::stages::oracle {
 
+/// The fraction bits Kl of the grid that centres lie on, section 3.
+int grid_bits(const cmodel::Config& config);
+
+/// v as c / 2^h, sections 4.1 and 4.2.
+struct Scale {
+  double c = 0.0;
+  int h = 0;
+};
+Scale scale_of(double v);
+
 /// RADIAL[t], as values.
 std::vector<double> radial_table(double a, double kernel_radius, const cmodel::Config& config);
 
@@ -25,7 +35,7 @@ class Shown {
   double operator()(double word);
 
  private:
-  std::vector<double> radial_;
+  std::vector<double> radial_;  ///< the table's entries, and with linear each an area of 2t+1
   const cmodel::Config& config_;
   std::map<double, double> known_;
 };

@@ -1,8 +1,10 @@
 #include "cli/frame_scaling.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "base/error.hpp"
 
@@ -10,6 +12,19 @@ namespace fastsplat::cli {
 namespace {
 
 constexpr double kMostMhz = 100'000.0;
+constexpr int kMostDevices = 64;
+
+/// "1,2,8"; nothing where it is no list of that kind.
+std::optional<std::vector<int>> devices_from(const std::string& text) {
+  std::vector<int> out;
+  std::istringstream words(text + ",");
+  for (std::string word; std::getline(words, word, ',');) {
+    const auto number = integer_from<int>(word);
+    if (!number || *number > kMostDevices || *number <= (out.empty() ? 0 : out.back())) return std::nullopt;
+    out.push_back(*number);
+  }
+  return out;
+}
 
 cmodel::ClusterOptions cluster_options(int devices, const ScalingFlags& flags, const cmodel::CycleOptions& options) {
   cmodel::ClusterOptions out;
@@ -22,7 +37,15 @@ cmodel::ClusterOptions cluster_options(int devices, const ScalingFlags& flags, c
 }  // namespace
 
 void declare(Options& options, ScalingFlags& to) {
-  options.integer("--devices", to.devices, 1, 64, "N", "equal devices that the tiles are dealt to");
+  options.value(
+      "--devices",
+      [](std::string& text) -> std::string {
+        if (devices_from(text)) return {};
+        return fmt::format("expected an integer from 1 to {}, or several that increase, as 1,2,4, got '{}'",
+                           kMostDevices, text);
+      },
+      [&to](const std::string& text) { to.devices = *devices_from(text); }, "N[,N...]",
+      "equal devices that the tiles are dealt to; of several numbers a table, and all about the last");
   options.integer("--bytes-per-cycle", to.bytes_per_cycle, 0, 65536, "B",
                   "of the stream, to all devices together; a beat has 24; 0: no limit");
   options.value(
@@ -37,11 +60,11 @@ void declare(Options& options, ScalingFlags& to) {
 }
 
 void check(const ScalingFlags& flags, const std::string& trace) {
-  if (flags.devices.value_or(1) == 1 || trace.empty()) return;
+  if (flags.devices.empty() || flags.devices.back() == 1 || trace.empty()) return;
   throw_usage({.where = "--trace",
                .what = "a timeline is drawn of one device",
                .expected = "--devices 1",
-               .got = fmt::format("--devices {}", *flags.devices),
+               .got = fmt::format("--devices {}", fmt::join(flags.devices, ",")),
                .fix = "leave out --devices or --trace"});
 }
 
@@ -62,34 +85,43 @@ ScalingRun::ScalingRun(const cmodel::Config& config, cmodel::StreamScope scope, 
     : config_(config),
       clock_(flags.clock),
       bytes_per_cycle_(static_cast<std::uint64_t>(flags.bytes_per_cycle.value_or(0))),
-      cluster_(config, scope, cluster_options(flags.devices.value_or(1), flags, options)) {
-  if (flags.devices.value_or(1) > 1) single_.emplace(config, scope, cluster_options(1, flags, options));
+      single_asked_for_(flags.devices.empty() || flags.devices.front() == 1) {
+  clusters_.emplace_back(config, scope, cluster_options(1, flags, options));
+  for (const int devices : flags.devices) {
+    if (devices > 1) clusters_.emplace_back(config, scope, cluster_options(devices, flags, options));
+  }
 }
 
 void ScalingRun::consume(std::span<const cmodel::Beat> beats) {
-  cluster_.consume(beats);
-  if (single_) single_->consume(beats);
+  for (auto& cluster : clusters_) cluster.consume(beats);
 }
 
 void ScalingRun::finish() {
-  cluster_.finish();
-  if (single_) single_->finish();
+  for (auto& cluster : clusters_) cluster.finish();
 }
 
-FrameScaling ScalingRun::scaling() const {
+std::vector<FrameScaling> ScalingRun::scalings() const {
+  std::vector<FrameScaling> out;
+  for (const auto& cluster : clusters_) {
+    if (single_asked_for_ || &cluster != &clusters_.front()) out.push_back(scaling(cluster));
+  }
+  return out;
+}
+
+FrameScaling ScalingRun::scaling(const cmodel::CycleCluster& cluster) const {
   FrameScaling out;
-  out.each = cluster_.devices();
+  out.each = cluster.devices();
   out.devices = out.each.size();
   out.bytes_per_cycle = bytes_per_cycle_;
   out.clock = clock_;
-  out.frame = cluster_.frame_cycles();
-  out.one_device = single_ ? single_->frame_cycles() : out.frame;
-  out.bytes_in = cluster_.beats_in() * cmodel::kBeatBytes;
-  out.bytes_out = cluster_.pixel_beats() * static_cast<std::uint64_t>(config_.lanes) * 16;
-  out.splats = cluster_.counters().splats;
-  out.windows = cluster_.counters().windows;
-  out.shares = cmodel::frame_shares(config_, cluster_);
-  out.roofline = cmodel::roofline(cluster_, bytes_per_cycle_);
+  out.frame = cluster.frame_cycles();
+  out.one_device = clusters_.front().frame_cycles();
+  out.bytes_in = cluster.beats_in() * cmodel::kBeatBytes;
+  out.bytes_out = cluster.pixel_beats() * static_cast<std::uint64_t>(config_.lanes) * 16;
+  out.splats = cluster.counters().splats;
+  out.windows = cluster.counters().windows;
+  out.shares = cmodel::frame_shares(config_, cluster);
+  out.roofline = cmodel::roofline(cluster, bytes_per_cycle_);
   for (const auto& device : out.each) out.account += device.account;
   out.wipe = out.devices * (cmodel::wipe_cycles(config_) + 1);
   return out;

@@ -1,8 +1,9 @@
-// `cycles --devices N --bytes-per-cycle B --clock MHZ`: a frame on several devices, and what limits it
+// `cycles --devices N,.. --bytes-per-cycle B --clock MHZ`: a frame on several devices, and what limits it
 // (docs/scaling.md).
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -15,11 +16,12 @@
 namespace fastsplat::cli {
 
 struct ScalingFlags {
-  std::optional<int> devices, bytes_per_cycle;
+  std::vector<int> devices;  ///< how many, increasing; empty: not given, which is one
+  std::optional<int> bytes_per_cycle;
   std::optional<double> clock;  ///< MHz
 
   /// Whether any was given: only then scaling is told.
-  bool any() const { return devices || bytes_per_cycle || clock; }
+  bool any() const { return !devices.empty() || bytes_per_cycle || clock; }
 };
 
 void declare(Options& options, ScalingFlags& to);
@@ -46,9 +48,11 @@ struct FrameScaling {
 };
 
 std::string to_text(const FrameScaling& scaling);
+/// A row for each number of devices.
+std::string to_table(const std::vector<FrameScaling>& scalings);
 nlohmann::ordered_json to_json(const FrameScaling& scaling);
 
-/// A frame's devices, and a single one beside them to compare with; both take the same stream.
+/// A frame on each number of devices that was asked for, and on a single one to compare with; all take the same stream.
 class ScalingRun final : public cmodel::Device {
  public:
   ScalingRun(const cmodel::Config& config, cmodel::StreamScope scope, const ScalingFlags& flags,
@@ -56,17 +60,19 @@ class ScalingRun final : public cmodel::Device {
 
   void consume(std::span<const cmodel::Beat> beats) override;
   void finish() override;
-  const cmodel::Counters& counters() const override { return cluster_.counters(); }
+  const cmodel::Counters& counters() const override { return clusters_.front().counters(); }
 
-  /// After finish().
-  FrameScaling scaling() const;
+  /// After finish(): of each number of devices asked for, in that order.
+  std::vector<FrameScaling> scalings() const;
 
  private:
+  FrameScaling scaling(const cmodel::CycleCluster& cluster) const;
+
   cmodel::Config config_;
   std::optional<double> clock_;
   std::uint64_t bytes_per_cycle_;
-  cmodel::CycleCluster cluster_;
-  std::optional<cmodel::CycleCluster> single_;  ///< none where the cluster is one itself
+  bool single_asked_for_;
+  std::deque<cmodel::CycleCluster> clusters_;  ///< the first of one device
 };
 
 }  // namespace fastsplat::cli

@@ -157,6 +157,18 @@ std::string to_text(const FrameScaling& scaling) {
   return text;
 }
 
+std::string to_table(const std::vector<FrameScaling>& scalings) {
+  std::string text =
+      fmt::format("{:>7}{:>18}{:>11}{:>13}  {}\n", "devices", "frame", "speed-up", "efficiency", "limit");
+  for (const auto& scaling : scalings) {
+    const auto [name, cycles] = limit(scaling);
+    text += fmt::format("{:>7}{:>18}{:>11.3f}{:>11.1f} %  {}, {:.1f} %\n", scaling.devices, grouped(scaling.frame),
+                        scaling.speed_up(), 100.0 * scaling.efficiency(), name,
+                        100.0 * ratio(cycles, scaling.device_cycles()));
+  }
+  return text;
+}
+
 Json to_json(const FrameScaling& scaling) {
   Json json{{"devices", scaling.devices},     {"bytes_per_cycle", scaling.bytes_per_cycle},
             {"frame_cycles", scaling.frame},  {"one_device_cycles", scaling.one_device},

@@ -72,8 +72,8 @@ struct Result {
   std::string input, ready;  ///< patterns
   int seed = 1;
   Counts counts;
-  std::optional<FrameScaling> scaling;  ///< if asked for
-  std::string trace;                    ///< empty for none
+  std::vector<FrameScaling> scalings;  ///< if asked for, by devices; the counts are those of the last
+  std::string trace;                   ///< empty for none
   double seconds = 0.0;
 };
 
@@ -123,7 +123,9 @@ std::string to_text(const Result& result) {
          (result.hidden_share ? fmt::format("{:.1f} % of the splats lay wholly on frozen blocks and changed nothing\n",
                                             100.0 * *result.hidden_share)
                               : "") +
-         (result.scaling ? to_text(*result.scaling) : "") + (result.trace.empty() ? "" : result.trace + "\n");
+         (result.scalings.size() > 1 ? to_table(result.scalings) : "") +
+         (result.scalings.empty() ? "" : to_text(result.scalings.back())) +
+         (result.trace.empty() ? "" : result.trace + "\n");
 }
 
 Json to_json(const Counts& counts) {
@@ -157,7 +159,10 @@ Json to_json(const Result& result) {
             {"utilisation", ratio(counters.windows, stalls.busy)},
             {"splats_per_cycle", ratio(counters.splats, stalls.busy)}};
   if (result.hidden_share) json["hidden_share"] = *result.hidden_share;
-  if (result.scaling) json["scaling"] = to_json(*result.scaling);
+  if (!result.scalings.empty()) json["scaling"] = to_json(result.scalings.back());
+  if (result.scalings.size() > 1) {
+    for (const auto& scaling : result.scalings) json["by_devices"].push_back(to_json(scaling));
+  }
   if (!result.trace.empty()) json["trace"] = result.trace;
   json["seconds"] = result.seconds;
   return json;
@@ -199,7 +204,7 @@ ExitCode run(const Arguments& arguments) {
                 .ready = arguments.ready,
                 .seed = arguments.seed,
                 .counts = {},
-                .scaling = {},
+                .scalings = {},
                 .trace = arguments.trace};
   const auto make = [&](cmodel::StreamScope scope) -> std::unique_ptr<cmodel::Device> {
     if (arguments.scaling.any()) return std::make_unique<ScalingRun>(config, scope, arguments.scaling, options);
@@ -208,8 +213,8 @@ ExitCode run(const Arguments& arguments) {
   const auto take = [&](const cmodel::Device& device) {
     if (const auto* model = dynamic_cast<const cmodel::CycleModel*>(&device)) return result.counts.take(*model);
     const auto& several = dynamic_cast<const ScalingRun&>(device);
-    result.scaling = several.scaling();
-    result.counts.take(several, *result.scaling);
+    result.scalings = several.scalings();
+    result.counts.take(several, result.scalings.back());
   };
   if (!arguments.stream.empty()) {
     ProgressBar bar("cycles", watching(arguments.common));

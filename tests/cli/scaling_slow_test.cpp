@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/cli/process_helper.hpp"
 
@@ -116,6 +117,34 @@ TEST(Scaling, FiguresAgreeWithEachOther) {
   std::printf("[figure] frames whose figures agree = %d\n", frames);
 }
 
+/// A list of numbers is each of them.
+TEST(Scaling, SeveralNumbersAreEachByItself) {
+  int alike = 0;
+  for (const std::string list : {"1,2,4,8", "3,5"}) {
+    const Words flags{"--bytes-per-cycle", "40", "--clock", "200", "--devices"};
+    const auto all = told(kScene + flags + Words{list});
+    std::istringstream numbers(list);
+    json last;
+    std::size_t at = 0;
+    for (std::string number; std::getline(numbers, number, ','); ++at) {
+      last = told(kScene + flags + Words{number});
+      EXPECT_EQ(all["by_devices"][at], last["scaling"]) << number;
+      EXPECT_FALSE(last.contains("by_devices"));
+      ++alike;
+    }
+    EXPECT_EQ(all["by_devices"].size(), at);
+    EXPECT_EQ(all["scaling"], last["scaling"]);
+    EXPECT_EQ(all["cycles"], last["cycles"]);
+  }
+  std::printf("[figure] numbers of devices alike = %d (limit >= 6)\n", alike);
+  EXPECT_GE(alike, 6);
+
+  const auto run = fastsplat(Words{"cycles"} + kScene + Words{"--devices", "1,4"});
+  expect_success(run);
+  for (const std::string word : {"devices             frame", "\n      1 ", "\n      4 ", "4 devices on one link"})
+    EXPECT_NE(run.out.find(word), std::string::npos) << word << run.out;
+}
+
 /// What is built to be the limit is named, with what would help.
 TEST(Scaling, NamesTheLimit) {
   const auto expect_limit = [](const Words& words, const std::string& name, const std::string& said) {
@@ -153,12 +182,17 @@ TEST(Scaling, MisuseIsToldBeforeAnyWork) {
   const Words scene{"cycles", "--volume", "shells:8"};
   expect_error(fastsplat(scene + Words{"--devices", "0"}), 2, {"--devices", "1 to 64", "'0'"});
   expect_error(fastsplat(scene + Words{"--devices", "65"}), 2, {"--devices", "1 to 64", "'65'"});
+  for (const std::string list : {"1,2,65", "2,2", "4,2", "1,,2", "1,2,", ",", "1,two"})
+    expect_error(fastsplat(scene + Words{"--devices", list}), 2,
+                 {"--devices", "1 to 64", "increase", "'" + list + "'"});
   expect_error(fastsplat(scene + Words{"--bytes-per-cycle", "-1"}), 2, {"--bytes-per-cycle", "0 to 65536", "'-1'"});
   expect_error(fastsplat(scene + Words{"--bytes-per-cycle", "1.5"}), 2, {"--bytes-per-cycle", "'1.5'"});
   for (const std::string clock : {"0", "-5", "nan", "1e9", "fast"})
     expect_error(fastsplat(scene + Words{"--clock", clock}), 2, {"--clock", "above 0", "'" + clock + "'"});
   expect_error(fastsplat(scene + Words{"--devices", "2", "--trace", folder / "t.json"}), 2,
                {"--trace", "--devices 2", "leave out"});
+  expect_error(fastsplat(scene + Words{"--devices", "1,2", "--trace", folder / "t.json"}), 2,
+               {"--trace", "--devices 1,2", "leave out"});
   expect_success(fastsplat(scene + Words{"--size", "16", "--bytes-per-cycle", "9", "--trace", folder / "t.json"}));
   EXPECT_TRUE(std::filesystem::exists(folder / "t.json"));
 }

@@ -1,0 +1,92 @@
+// What a report holds and what a panel is given: the contract between C++, the page and its panels.
+
+/** Any JSON value. */
+export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
+// A verb's result is drawn as it is: panels read it by name, and what is missing is left out.
+// eslint-disable-next-line @typescript-eslint/no-explicit-any
+export type Result = any;
+
+/** A picture in the page: its words lie as base64 in <script type="text/plain" id=ID>. */
+export interface Picture {
+  id: string;
+  role: string;
+  title: string;
+  width: number;
+  height: number;
+  channels: number;
+  codec: string;
+  scale: number;
+  frac_bits: number;
+  sha256: string;
+  from: string;
+}
+
+/** <script type="application/json" id="data">. */
+export interface PageData {
+  program: string | Json;
+  made: string[];
+  verdict: { status: "pass" | "fail" | "error" | "none"; sentence: string };
+  results: Result[];
+  pictures: Picture[];
+}
+
+/** One result and its place in PageData.results. */
+export interface Item {
+  index: number;
+  result: Result;
+}
+
+export interface Context {
+  /** Place of the result among all; first part of every data-figure. */
+  index: number;
+  page: PageData;
+  /** All results of this panel, in order; of a panel with `once` all that it draws. */
+  items: Item[];
+  pictures: Picture[];
+  /** The base64 text of a picture's block; throws, and names it, when it is not there. */
+  block(id: string): string;
+  /** Says something to the user and to a screen reader. */
+  say(text: string): void;
+}
+
+export interface Panel {
+  /** Short and stable: part of the section's id, `#compare-0`. */
+  name: string;
+  /** The verbs it draws; [] of a panel that `wants` something else. */
+  verbs: string[];
+  /** Drawn once for all its results, instead of once for each. */
+  once?: boolean;
+  /** Drawn once, without a result, when this says so: pictures. */
+  wants?: (page: PageData) => boolean;
+  title: string | ((result: Result, context: Context) => string);
+  /** May return a promise: the page is ready when all have come. Throwing fails the page, by name. */
+  render(root: HTMLElement, result: Result, context: Context): void | Promise<void>;
+}
+
+/** Verb of a result; results made before `compare` named its own have a schema only. */
+export function verb_of(result: Result): string {
+  if (typeof result?.verb === "string") return result.verb;
+  const schema = typeof result?.schema === "string" ? /^fastsplat\.([a-z]+)\//.exec(result.schema) : null;
+  return schema ? schema[1] : "";
+}
+
+/** The page's data, or an Error that says what is wrong with it. */
+export function read_page(): PageData {
+  const block = document.getElementById("data");
+  if (!block) throw new Error("this page holds no data: it is the empty template");
+  const data = JSON.parse(block.textContent ?? "") as Partial<PageData>;
+  if (!Array.isArray(data.results)) throw new Error("the page's data has no list of results");
+  return {
+    program: data.program ?? "",
+    made: data.made ?? [],
+    verdict: data.verdict ?? { status: "none", sentence: "" },
+    results: data.results,
+    pictures: data.pictures ?? [],
+  };
+}
+
+export function picture_block(id: string): string {
+  const block = document.getElementById(id);
+  if (!block) throw new Error(`picture ${id}: its block is not in the page`);
+  return block.textContent ?? "";
+}

@@ -23,6 +23,10 @@ void Options::positional(const char* name, std::string& to, const char* help) {
   verb_.add_option(name, to, help)->required();
 }
 
+void Options::positionals(const char* name, std::vector<std::string>& to, int least, const char* help) {
+  verb_.add_option(name, to, help)->expected(least, 1 << 20)->required(least > 0);
+}
+
 void Options::required(const char* name, std::string& to, const char* unit, const char* help) {
   verb_.add_option(name, to, help)->required()->type_name(unit)->group(group_);
 }

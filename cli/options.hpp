@@ -61,6 +61,8 @@ class Options {
 
   /// A word without a flag that has to be there; in the order declared.
   void positional(const char* name, std::string& to, const char* help);
+  /// One or more of them, in the user's order; none are well where `least` is 0.
+  void positionals(const char* name, std::vector<std::string>& to, int least, const char* help);
   /// A word that has to be there.
   void required(const char* name, std::string& to, const char* unit, const char* help);
 

@@ -25,6 +25,7 @@ const std::vector<Verb>& all_verbs() {
       verbs::config_diff,
       verbs::family,
       verbs::verify,
+      verbs::report,
       verbs::doctor,
   };
   return all;

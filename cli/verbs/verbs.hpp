@@ -6,7 +6,7 @@
 namespace fastsplat::cli::verbs {
 
 extern const Verb compare, config_check, config_diff, config_list, config_show, cycles, doctor, errors, errors_bound,
-    errors_propose, errors_ranges, family, render, stream_dump, stream_record, stream_replay, verify, volume_convert,
+    errors_propose, errors_ranges, family, render, report, stream_dump, stream_record, stream_replay, verify, volume_convert,
     volume_info;
 
 }  // namespace fastsplat::cli::verbs

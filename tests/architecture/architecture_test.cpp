@@ -36,7 +36,9 @@ const Arrows kDrawn{
     {"analysis", {"images", "scene", "base/parallel"}},
     {"analysis/errors", {"analysis", "stages"}},
     {"analysis/family", {"analysis/errors"}},
-    {"cli", {"golden", "driver", "testbench/triage", "testbench/closure", "analysis/errors", "analysis/family"}},
+    {"report", {"images"}},
+    {"cli",
+     {"golden", "driver", "testbench/triage", "testbench/closure", "analysis/errors", "analysis/family", "report"}},
 };
 
 /// `drawn` with everything that is reached by going on; a room on a circle reaches itself.

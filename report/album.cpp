@@ -1,0 +1,223 @@
+#include "report/album.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/error.hpp"
+#include "base/sha256.hpp"
+#include "report/codec.hpp"
+
+namespace fastsplat::report {
+namespace {
+
+/// Smaller than this nobody sees anything.
+constexpr int kLeastSide = 64;
+
+std::string metadata_of(const Picture& picture, const char* key) {
+  const auto found = picture.metadata.find(key);
+  return found == picture.metadata.end() ? std::string{} : found->second;
+}
+
+/// What can be looked at in one viewer: pictures of one scene.
+std::string scene_of(const Picture& picture) { return metadata_of(picture, "scene"); }
+
+bool is_better(const Picture& a, const Picture& b) {
+  const auto rank = [](const Picture& p) { return p.display ? 0 : p.int_bits >= 0 || p.kind == "raw words" ? 2 : 1; };
+  return rank(a) > rank(b);
+}
+
+/// The same picture of the same device, perhaps in another format.
+bool one_picture(const Picture& a, const Picture& b) {
+  return a.role == b.role && scene_of(a) == scene_of(b) &&
+         metadata_of(a, "config_hash") == metadata_of(b, "config_hash") && same_values(a, b);
+}
+
+void add(std::vector<Picture>& pictures, Picture picture) {
+  for (Picture& other : pictures) {
+    if (!one_picture(other, picture)) continue;
+    if (is_better(picture, other)) std::swap(other, picture);
+    if (picture.from != other.from) other.also.push_back(picture.from);
+    other.also.insert(other.also.end(), picture.also.begin(), picture.also.end());
+    return;
+  }
+  pictures.push_back(std::move(picture));
+}
+
+std::string title_of(const Picture& picture) {
+  static const std::map<std::string, std::string> words{
+      {"golden", "Golden"}, {"integer", "Integer"}, {"rtl", "RTL"}, {"blame", "Blame"}, {"saturation", "Saturation"}};
+  const auto found = words.find(picture.role);
+  std::string title = found != words.end() ? found->second : picture.role;
+  if (const auto config = metadata_of(picture, "config"); !config.empty()) title += " " + config;
+  return title;
+}
+
+struct Encoded {
+  std::string bytes, sha256;
+  int word_bytes = 2;
+};
+
+Encoded encoded(const Picture& picture) {
+  const Words words{.width = picture.width,
+                    .height = picture.height,
+                    .channels = picture.channels,
+                    .bytes = bytes_for(picture.words),
+                    .values = picture.words};
+  return {.bytes = encode(words), .sha256 = sha256(plain_bytes(words)), .word_bytes = words.bytes};
+}
+
+std::size_t base64_size(const std::string& bytes) { return (bytes.size() + 2) / 3 * 4; }
+
+/// Of pictures already encoded, equal ones once.
+std::size_t total_size(const std::vector<Encoded>& all) {
+  std::map<std::string, std::size_t> once;  // by what would lie in the page
+  for (const Encoded& one : all) once[one.bytes] = base64_size(one.bytes);
+  std::size_t sum = 0;
+  for (const auto& [unused, size] : once) sum += size;
+  return sum;
+}
+
+std::vector<Encoded> encoded(const std::vector<Picture>& pictures) {
+  std::vector<Encoded> all;
+  for (const Picture& picture : pictures) all.push_back(encoded(picture));
+  return all;
+}
+
+/// A window of about `share` of the sides around the focus.
+Picture window(const Picture& picture, Focus focus, double share) {
+  const auto part = [&](int full, int centre, int& start) {
+    const int side = std::clamp(static_cast<int>(full * share), std::min(kLeastSide, full), full);
+    start = std::clamp(centre - side / 2, 0, full - side);
+    return side;
+  };
+  int x0 = 0, y0 = 0;
+  const int width = part(picture.width, focus.x, x0), height = part(picture.height, focus.y, y0);
+  return cropped(picture, x0, y0, width, height);
+}
+
+Json entry(const Picture& picture, const Encoded& one, const std::string& id, std::size_t group) {
+  Json json{{"id", id},
+            {"role", picture.role},
+            {"title", title_of(picture)},
+            {"width", picture.width},
+            {"height", picture.height},
+            {"channels", picture.channels},
+            {"codec", codec_name(one.word_bytes)},
+            {"signed", std::any_of(picture.words.begin(), picture.words.end(), [](auto word) { return word < 0; })},
+            {"scale", picture.scale},
+            {"frac_bits", picture.frac_bits >= 0 ? Json(picture.frac_bits) : Json(nullptr)},
+            {"int_bits", picture.int_bits >= 0 ? Json(picture.int_bits) : Json(nullptr)},
+            {"exact", picture.exact},
+            {"display", picture.display},
+            {"sha256", one.sha256},
+            {"from", picture.from},
+            {"also", picture.also},
+            {"kind", picture.kind},
+            {"group", group}};
+  if (picture.nonfinite > 0) json["nonfinite"] = picture.nonfinite;
+  if (picture.width != picture.full_width || picture.height != picture.full_height) {
+    json["crop"] = {
+        {"x", picture.x0}, {"y", picture.y0}, {"full_width", picture.full_width}, {"full_height", picture.full_height}};
+  }
+  for (const char* key : {"config", "config_hash", "engine", "method", "volume"}) {
+    if (const auto text = metadata_of(picture, key); !text.empty()) json[key] = text;
+  }
+  return json;
+}
+
+/// By scene, in the order of the first picture of each; pictures without a scene join the first.
+std::size_t group_of(const Picture& picture, std::vector<std::string>& scenes) {
+  const std::string scene = scene_of(picture);
+  if (scene.empty()) return 0;
+  const auto found = std::find(scenes.begin(), scenes.end(), scene);
+  if (found != scenes.end()) return static_cast<std::size_t>(found - scenes.begin());
+  scenes.push_back(scene);
+  return scenes.size() - 1;
+}
+
+}  // namespace
+
+Album load_album(const std::vector<NamedPicture>& named) {
+  Album album;
+  std::vector<std::filesystem::path> seen;
+  for (const NamedPicture& one : named) {
+    if (!one.wanted && std::find(seen.begin(), seen.end(), one.file) != seen.end()) continue;
+    seen.push_back(one.file);
+    Picture picture;
+    try {
+      picture = load_picture(one.role, one.file);
+    } catch (const UserError& error) {
+      if (one.wanted) throw;
+      album.missing.push_back(error.what());
+      continue;
+    }
+    if (picture.role.empty()) picture.role = role_of_engine(metadata_of(picture, "engine"));
+    if (picture.role.empty()) picture.role = one.otherwise;
+    add(album.pictures, std::move(picture));
+  }
+  // Whatever the order of the results: as the viewer shows them.
+  static const std::vector<std::string> order{"golden", "reference", "integer", "test", "rtl", "blame", "saturation"};
+  std::stable_sort(album.pictures.begin(), album.pictures.end(), [](const Picture& a, const Picture& b) {
+    return std::find(order.begin(), order.end(), a.role) < std::find(order.begin(), order.end(), b.role);
+  });
+  return album;
+}
+
+Pages fit(const Album& album, Focus focus, std::size_t bytes) {
+  Pages pages;
+  std::vector<Picture> pictures = album.pictures;
+  auto all = encoded(pictures);
+  // Cropping leaves every pane the same window; size goes with the area, so a second or third try fits.
+  double share = 1.0;
+  for (int tries = 0; tries < 12 && total_size(all) > bytes; ++tries) {
+    share *= 0.97 * std::sqrt(static_cast<double>(bytes) / static_cast<double>(total_size(all)));
+    bool smaller = false;
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      if (album.pictures[i].display) continue;
+      Picture cut = window(album.pictures[i], focus, share);
+      smaller = smaller || cut.width < pictures[i].width || cut.height < pictures[i].height;
+      pictures[i] = std::move(cut);
+    }
+    if (!smaller) break;
+    all = encoded(pictures);
+  }
+  while (total_size(all) > bytes) {
+    std::size_t largest = pictures.size();
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      if (pictures[i].display && (largest == pictures.size() || all[i].bytes.size() > all[largest].bytes.size()))
+        largest = i;
+    }
+    if (largest == pictures.size()) break;
+    pages.remarks.push_back(fmt::format("{}: left out, its {:.1f} MB do not fit", pictures[largest].from,
+                                        static_cast<double>(base64_size(all[largest].bytes)) / 1e6));
+    pictures.erase(pictures.begin() + static_cast<std::ptrdiff_t>(largest));
+    all.erase(all.begin() + static_cast<std::ptrdiff_t>(largest));
+  }
+
+  std::vector<std::string> scenes;
+  std::map<std::string, std::string> block_of;  // by shape and hash: equal pictures lie in the page once
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const Picture& picture = pictures[i];
+    const std::string id = "picture-" + std::to_string(i);
+    Json json = entry(picture, all[i], id, group_of(picture, scenes));
+    const auto [first, is_new] = block_of.emplace(
+        fmt::format("{} {} {} {}", picture.width, picture.channels, all[i].word_bytes, all[i].sha256), id);
+    if (is_new) {
+      pages.blocks.push_back({id, all[i].bytes});
+    } else {
+      json["same_as"] = first->second;
+    }
+    if (json.contains("crop")) {
+      pages.remarks.push_back(fmt::format("{}: {} x {} pixels of {} x {} from ({}, {}), so that the report stays small",
+                                          picture.from, picture.width, picture.height, picture.full_width,
+                                          picture.full_height, picture.x0, picture.y0));
+    }
+    pages.entries.push_back(std::move(json));
+  }
+  return pages;
+}
+
+}  // namespace fastsplat::report

@@ -1,0 +1,85 @@
+#include "report/picture_names.hpp"
+
+#include <algorithm>
+#include <array>
+#include <regex>
+
+#include "base/error.hpp"
+
+namespace fastsplat::report {
+namespace {
+
+std::string text_at(const Json& json, const char* place) {
+  const Json::json_pointer pointer(place);
+  if (!json.contains(pointer) || !json.at(pointer).is_string()) return {};
+  return json.at(pointer).get<std::string>();
+}
+
+/// Results travel with their pictures: as named, or of that name in the result's own folder.
+std::filesystem::path found(const Result& result, const std::string& name) {
+  const std::filesystem::path named(name), folder = result.file.parent_path();
+  std::error_code error;
+  for (const auto& place : {named, folder / named, folder / named.filename()}) {
+    if (std::filesystem::is_regular_file(place, error)) return place;
+  }
+  return named;
+}
+
+/// The file among a render's outputs that says most; empty for none.
+std::string best_of(const Json& json) {
+  std::string best = text_at(json, "/raw");
+  const auto outputs = json.find("outputs");
+  if (!best.empty() || outputs == json.end() || !outputs->is_array()) return best;
+  static constexpr std::array kOrder{".exr", ".tif", ".tiff", ".png"};
+  std::size_t rank = kOrder.size();
+  for (const Json& output : *outputs) {
+    if (!output.is_string()) continue;
+    std::string ending = std::filesystem::path(output.get<std::string>()).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    const auto at = static_cast<std::size_t>(std::find(kOrder.begin(), kOrder.end(), ending) - kOrder.begin());
+    if (at >= rank) continue;
+    rank = at;
+    best = output.get<std::string>();
+  }
+  return best;
+}
+
+}  // namespace
+
+std::string role_of_engine(const std::string& engine) {
+  if (engine == "golden" || engine == "rtl") return engine;
+  return engine == "cmodel" ? "integer" : "";
+}
+
+std::vector<NamedPicture> pictures_of(const Result& result) {
+  std::vector<NamedPicture> pictures;
+  const auto add = [&](const std::string& name, const std::string& role, const std::string& otherwise) {
+    if (!name.empty()) pictures.push_back({.role = role, .file = found(result, name), .otherwise = otherwise});
+  };
+  if (result.verb == "compare") {
+    add(text_at(result.json, "/ref/file"), "", "reference");
+    add(text_at(result.json, "/test/file"), "", "test");
+  } else if (result.verb == "render") {
+    add(best_of(result.json), role_of_engine(text_at(result.json, "/engine")), "picture");
+  } else if (result.verb == "stream replay") {
+    add(best_of(result.json), "integer", "integer");
+  } else if (result.verb == "errors") {
+    add(text_at(result.json, "/blame"), "blame", "blame");
+  }
+  return pictures;
+}
+
+NamedPicture picture_from(const std::string& text) {
+  static const std::regex shape(R"(([a-z][a-z0-9-]*)=(.+))");
+  std::smatch match;
+  if (!std::regex_match(text, match, shape)) {
+    throw_usage({.where = "--picture",
+                 .what = "not a picture with its role",
+                 .expected = "ROLE=FILE, the role of small letters: golden, integer, rtl, blame",
+                 .got = "'" + text + "'",
+                 .fix = "for example --picture rtl=rtl.exr"});
+  }
+  return {.role = match[1], .file = match[2].str(), .otherwise = match[1], .wanted = true};
+}
+
+}  // namespace fastsplat::report

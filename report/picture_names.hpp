@@ -1,0 +1,29 @@
+// Which pictures belong to a report: those that its results name, and those of the user.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "report/results.hpp"
+
+namespace fastsplat::report {
+
+struct NamedPicture {
+  std::string role;            ///< empty: as the file's own metadata tell, else `otherwise`
+  std::filesystem::path file;  ///< where it is
+  std::string otherwise;       ///< role of a file that does not tell
+  bool wanted = false;         ///< the user asked for it: that it is missing is an error
+};
+
+/// The files a result names, one of each picture: raw words rather than .exr, .exr rather than .tif, that rather than
+/// .png. A file that is not where the result says is looked for beside the result.
+std::vector<NamedPicture> pictures_of(const Result& result);
+
+/// "ROLE=FILE". UserError (Usage) for what has another shape; a role is [a-z][a-z0-9-]*.
+NamedPicture picture_from(const std::string& text);
+
+/// The role of what an engine drew: golden, integer, rtl; empty for another.
+std::string role_of_engine(const std::string& engine);
+
+}  // namespace fastsplat::report

@@ -1,0 +1,120 @@
+#include "report/results.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "base/read_file.hpp"
+#include "base/suggest.hpp"
+#include "report/verdicts.hpp"
+
+namespace fastsplat::report {
+namespace {
+
+/// More than any merged plan has.
+constexpr std::size_t kLargest = std::size_t{256} << 20;
+
+[[noreturn]] void foreign(const std::filesystem::path& file, const std::string& what, const std::string& got) {
+  throw_input({.where = file.string(),
+               .what = what,
+               .expected = "what a verb of fastsplat wrote with --json",
+               .got = got,
+               .fix = "pictures go to --picture ROLE=FILE"});
+}
+
+Json parsed(const std::filesystem::path& file) {
+  require_readable_file(file);
+  const std::string text = read_text_file(file, kLargest);
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    // Its message quotes the file and is long; the place is what helps.
+    const bool cut = error.byte > text.size();
+    foreign(file, cut ? "is cut off, no whole JSON" : "is no JSON",
+            cut ? std::to_string(text.size()) + " bytes" : "a mistake at byte " + std::to_string(error.byte));
+  }
+}
+
+/// Results of `compare` had a schema before they had a verb.
+std::string verb_in(const Json& json) {
+  const auto text = [&](const char* key) {
+    const auto found = json.find(key);
+    return found != json.end() && found->is_string() ? found->get<std::string>() : std::string{};
+  };
+  if (json.contains("verb")) return text("verb");
+  return text("schema") == "fastsplat.compare/1" ? "compare" : "";
+}
+
+}  // namespace
+
+Result read_result(const std::filesystem::path& file) {
+  Json json = parsed(file);
+  if (!json.is_object()) foreign(file, "is JSON, but no result", std::string("a JSON ") + json.type_name());
+  Result result{.file = file, .verb = verb_in(json), .json = std::move(json)};
+  if (result.verb.empty()) foreign(file, "is JSON, but no result", "an object without a \"verb\"");
+  const auto known = reported_verbs();
+  if (std::find(known.begin(), known.end(), result.verb) == known.end()) {
+    throw_input({.where = file.string(),
+                 .what = "verb '" + result.verb + "' has no report",
+                 .expected = {},
+                 .got = {},
+                 .fix = suggestion(result.verb, known)});
+  }
+  try {
+    verdict_of(result);  // its figures are there
+  } catch (const Json::exception&) {
+    throw_input({.where = file.string(),
+                 .what = "a damaged result of `" + result.verb + "`: a figure of another type than it has",
+                 .expected = {},
+                 .got = {},
+                 .fix = "run it again with --json"});
+  }
+  return result;
+}
+
+std::vector<std::string> reported_verbs() {
+  std::vector<std::string> names;
+  for (const auto& [name, unused] : verdicts()) names.push_back(name);
+  return names;
+}
+
+const char* to_string(Status status) {
+  switch (status) {
+    case Status::Pass:
+      return "pass";
+    case Status::Fail:
+      return "fail";
+    case Status::Error:
+      return "error";
+    case Status::Measured:
+      return "none";
+  }
+  return "";
+}
+
+Verdict verdict_of(const Result& result) { return verdicts().at(result.verb)(Figures(result)); }
+
+Verdict verdict_of(const std::vector<Verdict>& all) {
+  const auto severity = [](const Verdict& verdict) {
+    switch (verdict.status) {
+      case Status::Error:
+        return 3;
+      case Status::Fail:
+        return 2;
+      case Status::Pass:
+        return 1;
+      case Status::Measured:
+        return 0;
+    }
+    return 0;
+  };
+  // max_element: the first of equals.
+  return *std::max_element(all.begin(), all.end(),
+                           [&](const Verdict& a, const Verdict& b) { return severity(a) < severity(b); });
+}
+
+std::string command_of(const Result& result) {
+  const auto found = result.json.find("command");
+  return found != result.json.end() && found->is_string() ? found->get<std::string>() : std::string{};
+}
+
+}  // namespace fastsplat::report

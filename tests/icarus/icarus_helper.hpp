@@ -1,0 +1,68 @@
+// Icarus Verilog as a second simulator: rtl/ compiled unchanged, streams played to it, what it wrote read back.
+// Four-state: a bit that nobody set is X, and stays X wherever it matters.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cmodel/beat.hpp"
+#include "cmodel/config.hpp"
+#include "testbench/device/pattern.hpp"
+
+namespace fastsplat::test {
+
+/// Reset for `reset` cycles, then `beats` beats; then until the device is at rest, or, if `linger` is not negative, for
+/// so many cycles: the next play's reset cuts it off.
+struct Play {
+  int reset = 4;
+  std::size_t beats = 0;
+  int linger = -1;
+  std::size_t input = 0, ready = 0;  ///< of `Played::patterns`
+};
+
+struct Played {
+  std::vector<cmodel::Beat> beats;
+  std::vector<testbench::Pattern> patterns;  ///< at most 16
+  std::vector<Play> plays;
+};
+
+/// A beat of pixels as it was written: a word's text holds an X where the device's word does.
+struct PixelBeat {
+  std::string last, keep, data;
+};
+
+/// What one play gave. Pixels of a play that was cut off are those taken before.
+struct PlayResult {
+  std::vector<PixelBeat> pixels;
+  std::vector<std::uint64_t> counters;  ///< all registers, in their order; of a play to rest
+  std::uint64_t cycles = 0;
+};
+
+struct Transcript {
+  std::string power_up;            ///< what the outputs were before the first reset
+  std::vector<std::string> wrong;  ///< unknown values where none may be, answers nobody asked for, hangs
+  std::map<int, PlayResult> plays;
+  bool ended = false;  ///< all plays were played
+};
+
+class Icarus {
+ public:
+  /// Empty where both iverilog and vvp can be run; otherwise what to say.
+  static std::string missing();
+  static std::string version();
+
+  /// Compiles the device of `config`. `edits`: texts of rtl/*.sv that are replaced, each found exactly once.
+  Icarus(const cmodel::Config& config, const std::string& name,
+         const std::vector<std::pair<std::string, std::string>>& edits = {});
+
+  Transcript play(const Played& played) const;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace fastsplat::test

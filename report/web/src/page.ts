@@ -6,7 +6,7 @@ export type Json = null | boolean | number | string | Json[] | { [key: string]: 
 // eslint-disable-next-line @typescript-eslint/no-explicit-any
 export type Result = any;
 
-/** A picture in the page: its words lie as base64 in <script type="text/plain" id=ID>. */
+/** A picture in the page: its words lie as base64 in <script type="text/plain" id=ID>; docs/report.md has the keys. */
 export interface Picture {
   id: string;
   role: string;
@@ -15,10 +15,31 @@ export interface Picture {
   height: number;
   channels: number;
   codec: string;
+  /** The word of 1.0. */
   scale: number;
-  frac_bits: number;
+  /** null where the scale is no power of two. */
+  frac_bits: number | null;
+  int_bits?: number | null;
+  signed?: boolean;
+  /** false: the file's values were rounded to words. */
+  exact?: boolean;
+  /** Made for looking: sRGB, over black. */
+  display?: boolean;
   sha256: string;
   from: string;
+  /** Other files with the same values. */
+  also?: string[];
+  /** Of the file's samples: "raw words", "float"... */
+  kind?: string;
+  /** Pictures of one scene have one number. */
+  group?: number;
+  /** The picture whose block holds the words, where that is another. */
+  same_as?: string;
+  nonfinite?: number;
+  /** It is a window of a larger picture. */
+  crop?: { x: number; y: number; full_width: number; full_height: number };
+  volume?: string;
+  config?: string;
 }
 
 /** <script type="application/json" id="data">. */
@@ -28,6 +49,8 @@ export interface PageData {
   verdict: { status: "pass" | "fail" | "error" | "none"; sentence: string };
   results: Result[];
   pictures: Picture[];
+  /** Pictures that are missing, cropped or left out, and why. */
+  remarks: string[];
 }
 
 /** One result and its place in PageData.results. */
@@ -82,6 +105,7 @@ export function read_page(): PageData {
     verdict: data.verdict ?? { status: "none", sentence: "" },
     results: data.results,
     pictures: data.pictures ?? [],
+    remarks: data.remarks ?? [],
   };
 }
 

@@ -1,0 +1,96 @@
+// The pictures, in the viewer; and where a compare's result says that one should look.
+import { decoded } from "../codec";
+import { h } from "../dom";
+import { figure, number_text } from "../figures";
+import { verb_of, type Context, type Panel, type Picture, type Result } from "../page";
+import { Plane } from "../viewer/plane";
+import { Viewer, type Tour } from "../viewer/viewer";
+import { Scene } from "../viewer/views";
+import "../viewer/viewer.css";
+
+function base(path: string): string {
+  return path.replace(/.*\//, "");
+}
+
+/** Whether the picture is of this file, or of one with the same values. */
+function is_of(picture: Picture, file: unknown): boolean {
+  return typeof file === "string" && [picture.from, ...(picture.also ?? [])].some((name) => name === file || base(name) === base(file));
+}
+
+/** The compare of these two pictures, and its place among the results. */
+function compared(context: Context, ref: Picture, test: Picture): { result: Result; index: number } | null {
+  const index = context.page.results.findIndex((result) => verb_of(result) === "compare" && is_of(ref, result.ref?.file) && is_of(test, result.test?.file));
+  return index < 0 ? null : { index, result: context.page.results[index] };
+}
+
+function tour_of(context: Context, scene: Scene, a: string, b: string): Tour {
+  const tour: Tour = { lsb_bits: 8, worst: null, clusters: [], none: "" };
+  const pair = scene.pair(a, b);
+  if (!pair) return tour;
+  const found = compared(context, pair[0].picture, pair[1].picture);
+  if (!found) {
+    const d = scene.difference(a, b, "colour", 8);
+    if (d && d.max > 0) tour.worst = { label: `Worst pixel (${d.worst.x}, ${d.worst.y}): ${number_text(d.max)} LSB`, ...d.worst };
+    tour.none = d && d.max > 0 ? "No `compare` of these two is in the report." : "The two hold the same values.";
+    return tour;
+  }
+  const { result, index } = found;
+  const show = (path: (string | number)[]): HTMLElement => figure(index, result, path);
+  tour.lsb_bits = result.lsb_bits ?? 8;
+  const { worst } = result;
+  if (worst) {
+    tour.worst = {
+      label: ["Worst pixel (", show(["worst", "x"]), ", ", show(["worst", "y"]), "): ", show(["worst", "error_lsb"]), " LSB"],
+      x: worst.x,
+      y: worst.y,
+    };
+  }
+  tour.clusters = (result.clusters ?? []).map((cluster: Result, i: number) => ({
+    label: [`Cluster ${i + 1}: `, show(["clusters", i, "pixels"]), " px, ", show(["clusters", i, "max_lsb"]), " LSB"],
+    x: cluster.worst.x,
+    y: cluster.worst.y,
+  }));
+  tour.none = `No cluster: no pixel errs by ${number_text(result.cluster_threshold_lsb)} LSB or more.`;
+  return tour;
+}
+
+async function scenes_of(context: Context): Promise<{ name: string; scene: Scene }[]> {
+  const planes = await Promise.all(
+    context.pictures.map(async (picture) => new Plane(picture, await decoded(picture, context.block(picture.same_as ?? picture.id)))),
+  );
+  const groups = new Map<number, Plane[]>();
+  for (const plane of planes) {
+    const group = plane.picture.group ?? 0;
+    groups.set(group, [...(groups.get(group) ?? []), plane]);
+  }
+  return [...groups.values()].map((members, i) => {
+    const first = members[0].picture;
+    const volume = base(first.volume ?? "").replace(/\..*/, "");
+    return { name: `${i + 1}: ${volume || base(first.from)}`, scene: new Scene(members) };
+  });
+}
+
+export const pictures: Panel = {
+  name: "pictures",
+  verbs: [],
+  wants: (page) => page.pictures.length + page.remarks.length > 0,
+  title: "Pictures",
+  async render(root, _result, context) {
+    for (const remark of context.page.remarks) root.append(h("p", { class: "note remark" }, remark));
+    for (const { title, nonfinite } of context.pictures) {
+      if (nonfinite) root.append(h("p", { class: "note remark" }, `${title}: ${nonfinite} values are not finite and are drawn as 0.`));
+    }
+    if (!context.pictures.length) return;
+    const scenes = await scenes_of(context);
+    const viewer = h("div");
+    root.append(
+      viewer,
+      h("p", { class: "note" }, "Click a picture, then: wheel or + \u2212 zoom, drag pans, arrows move the pixel that is read, w worst, c next cluster, m how they are shown, [ ] slider, space turns, 0 fit, Esc none."),
+      ...context.pictures.filter((p) => p.same_as).map((p) => {
+        const same = context.pictures.find((other) => other.id === p.same_as);
+        return h("p", { class: "note same" }, `${p.title} and ${same?.title ?? p.same_as}: the same words, every one.`);
+      }),
+    );
+    new Viewer(viewer, scenes, (scene, a, b) => tour_of(context, scene, a, b));
+  },
+};

@@ -1,0 +1,65 @@
+// Words and LSBs of one pixel, a row for each picture; its size does not change under the cursor.
+import { h } from "../dom";
+import { number_text } from "../figures";
+import { channel_names, type Plane } from "./plane";
+import type { Scene } from "./views";
+
+function cells(plane: Plane, at: { x: number; y: number } | null): string[] {
+  return channel_names.map((_, c) => {
+    if (!at || c >= plane.picture.channels || !plane.holds(at.x, at.y)) return "\u2013";
+    return String(plane.word(at.x, at.y, c));
+  });
+}
+
+function values(plane: Plane, at: { x: number; y: number } | null): string {
+  if (!at || !plane.holds(at.x, at.y)) return "\u2013";
+  return channel_names
+    .slice(0, plane.picture.channels)
+    .map((_, c) => (plane.word(at.x, at.y, c) / plane.picture.scale).toFixed(5))
+    .join(" ");
+}
+
+function scale_text(plane: Plane): string {
+  const { scale, exact, kind } = plane.picture;
+  const of = scale > 1 && Number.isInteger(Math.log2(scale)) ? `2^${Math.log2(scale)}` : String(scale);
+  return `${kind ?? "words"}, 1.0 = ${of}${exact === false ? ", rounded" : ""}`;
+}
+
+export function readout(root: HTMLElement, scene: Scene, a: string, b: string, lsb_bits: number, at: { x: number; y: number } | null): void {
+  const rows = scene.measured.map((plane) =>
+    h(
+      "tr",
+      { "data-words": plane.picture.id },
+      h("th", { scope: "row", title: scale_text(plane) }, plane.picture.title),
+      cells(plane, at).map((text) => h("td", { class: "num" }, text)),
+      h("td", { class: "num values" }, values(plane, at)),
+    ),
+  );
+  const pair = scene.pair(a, b);
+  if (pair) {
+    const [ref, test] = pair;
+    const per = 2 ** lsb_bits - 1;
+    const errors = channel_names.map((_, c) => {
+      if (!at || c >= ref.picture.channels || !ref.holds(at.x, at.y) || !test.holds(at.x, at.y)) return null;
+      return (test.word(at.x, at.y, c) / test.picture.scale - ref.word(at.x, at.y, c) / ref.picture.scale) * per;
+    });
+    rows.push(
+      h(
+        "tr",
+        { "data-words": "error" },
+        h("th", { scope: "row" }, `${test.picture.title} \u2212 ${ref.picture.title}`),
+        errors.map((e) => h("td", { class: "num" }, e === null ? "\u2013" : number_text(e, { digits: 3, sign: true }))),
+        h("td", { class: "num values" }, `LSB of ${lsb_bits} bits`),
+      ),
+    );
+  }
+  root.replaceChildren(
+    h(
+      "table",
+      {},
+      h("caption", { "data-at": at ? `${at.x},${at.y}` : "" }, at ? `Words at (${at.x}, ${at.y})` : "Words: point at a pixel, or click one"),
+      h("thead", {}, h("tr", {}, h("th", {}, "Picture"), channel_names.map((name) => h("th", { class: "num" }, name)), h("th", { class: "num" }, "Values"))),
+      h("tbody", {}, rows),
+    ),
+  );
+}

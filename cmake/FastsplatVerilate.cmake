@@ -20,8 +20,9 @@ target_link_libraries(verilated_runtime PUBLIC ZLIB::ZLIB Threads::Threads)
 # fastsplat_verilate(<target> <config> [ASSERT] [WAVE] [DEFINES ...] [SOURCES ...] [ARGS ...]): library <target> with class Vfs_<target>
 # and its headers. <config> names a file of configs/ or is the path of one. DEFINES and SOURCES are of the must-fail build (rtl/fault.svh); release builds have none.
 # ASSERT: checks the assertions of rtl/; WAVE: can write waveforms (half of its compile time). Without either it is fastest.
+# NETLIST <kind>: not the source but what Yosys makes of it (cmake/netlist.sh); CUT <net>: with that net tied to 0.
 function(fastsplat_verilate target config)
-  cmake_parse_arguments(arg "ASSERT;WAVE" "" "DEFINES;SOURCES;ARGS" ${ARGN})
+  cmake_parse_arguments(arg "ASSERT;WAVE" "NETLIST;CUT" "DEFINES;SOURCES;ARGS" ${ARGN})
   set(abilities "")
   if(arg_ASSERT)
     list(APPEND abilities --assert)
@@ -48,13 +49,27 @@ function(fastsplat_verilate target config)
   foreach(define ${arg_DEFINES})
     list(APPEND defines -D${define})
   endforeach()
+  set(sources ${package} ${arg_SOURCES} ${RTL_SOURCES})
+  set(warnings -Wall)
+  if(arg_NETLIST)
+    set(sources ${folder}/netlist.v)
+    # Yosys' Verilog compares and assigns across widths wherever the language lets it.
+    set(warnings -Wno-lint -Wno-fatal)
+    set(netlist_script ${PROJECT_SOURCE_DIR}/cmake/netlist.sh)
+    add_custom_command(
+      OUTPUT ${sources}
+      COMMAND ${netlist_script} ${arg_NETLIST} ${PROJECT_SOURCE_DIR}/rtl ${package} ${sources} ${arg_CUT}
+      DEPENDS ${netlist_script} ${package} ${RTL_SOURCES} ${RTL_INCLUDES}
+      VERBATIM
+      COMMENT "Netlist ${target}")
+  endif()
   set(archive ${folder}/obj/Vfs_${target}__ALL.a)
   add_custom_command(
     OUTPUT ${archive} ${folder}/obj/Vfs_${target}.h
-    COMMAND ${PROJECT_SOURCE_DIR}/cmake/verilate.sh ${folder}/verilator.log ${CMAKE_COMMAND} -E env OBJCACHE=${FASTSPLAT_CCACHE} ${VERILATOR} --cc --build -j 1 --quiet-exit -Wall -O3 --x-assign unique --x-initial unique ${abilities}
+    COMMAND ${PROJECT_SOURCE_DIR}/cmake/verilate.sh ${folder}/verilator.log ${CMAKE_COMMAND} -E env OBJCACHE=${FASTSPLAT_CCACHE} ${VERILATOR} --cc --build -j 1 --quiet-exit ${warnings} -O3 --x-assign unique --x-initial unique ${abilities}
             --prefix Vfs_${target} --top-module fastsplat_core --Mdir ${folder}/obj ${defines} ${arg_ARGS} -I${PROJECT_SOURCE_DIR}/rtl
-            -CFLAGS -std=c++20 -MAKEFLAGS OPT_FAST=-O2 -MAKEFLAGS OPT_SLOW=-O0 -MAKEFLAGS OPT_GLOBAL=-O2 ${package} ${arg_SOURCES} ${RTL_SOURCES}
-    DEPENDS ${package} ${arg_SOURCES} ${RTL_SOURCES} ${RTL_INCLUDES}
+            -CFLAGS -std=c++20 -MAKEFLAGS OPT_FAST=-O2 -MAKEFLAGS OPT_SLOW=-O0 -MAKEFLAGS OPT_GLOBAL=-O2 ${sources}
+    DEPENDS ${sources} ${RTL_INCLUDES}
     VERBATIM
     COMMENT "Verilating ${target}")
   add_custom_target(verilate_${target} DEPENDS ${archive})

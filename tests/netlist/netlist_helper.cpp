@@ -1,0 +1,40 @@
+// Which netlist a program holds is said by its CMakeLists: FASTSPLAT_NETLIST, and _CUT where there is one.
+#include "tests/netlist/netlist_helper.hpp"
+
+#include "testbench/device/rtl_registry.hpp"
+#include "testbench/device/verilated_device.hpp"
+
+#define HEADER_OF(name) <Vfs_##name.h>
+#define HEADER(name) HEADER_OF(name)
+#define CLASS_OF(name) Vfs_##name
+#define CLASS(name) CLASS_OF(name)
+#include HEADER(FASTSPLAT_NETLIST)
+#ifdef FASTSPLAT_NETLIST_CUT
+#include HEADER(FASTSPLAT_NETLIST_CUT)
+#endif
+
+namespace fastsplat::testbench {
+
+/// No source of rtl/ is in this program.
+std::span<const RtlEntry> rtl_registry() { return {}; }
+
+}  // namespace fastsplat::testbench
+
+namespace fastsplat::test {
+
+std::unique_ptr<testbench::RtlDevice> make_netlist(const cmodel::Config& config, cmodel::PixelSink& pixels,
+                                                   const testbench::RtlOptions& options) {
+  return std::make_unique<testbench::VerilatedDevice<CLASS(FASTSPLAT_NETLIST)>>(config, pixels, options);
+}
+
+std::unique_ptr<testbench::RtlDevice> make_cut_netlist([[maybe_unused]] const cmodel::Config& config,
+                                                       [[maybe_unused]] cmodel::PixelSink& pixels,
+                                                       [[maybe_unused]] const testbench::RtlOptions& options) {
+#ifdef FASTSPLAT_NETLIST_CUT
+  return std::make_unique<testbench::VerilatedDevice<CLASS(FASTSPLAT_NETLIST_CUT)>>(config, pixels, options);
+#else
+  return nullptr;
+#endif
+}
+
+}  // namespace fastsplat::test

@@ -59,13 +59,13 @@ void declare(Options& options, ScalingFlags& to) {
       "clock of the devices: time and frames per second");
 }
 
-void check(const ScalingFlags& flags, const std::string& trace) {
-  if (flags.devices.empty() || flags.devices.back() == 1 || trace.empty()) return;
-  throw_usage({.where = "--trace",
+void check(const ScalingFlags& flags, const std::string& timeline) {
+  if (flags.devices.empty() || flags.devices.back() == 1 || timeline.empty()) return;
+  throw_usage({.where = timeline,
                .what = "a timeline is drawn of one device",
                .expected = "--devices 1",
                .got = fmt::format("--devices {}", fmt::join(flags.devices, ",")),
-               .fix = "leave out --devices or --trace"});
+               .fix = "leave out --devices or " + timeline});
 }
 
 double FrameScaling::efficiency() const {

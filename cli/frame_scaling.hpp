@@ -25,8 +25,8 @@ struct ScalingFlags {
 };
 
 void declare(Options& options, ScalingFlags& to);
-/// UserError (Usage) for flags that have no meaning together; `trace` is the text of --trace.
-void check(const ScalingFlags& flags, const std::string& trace);
+/// UserError (Usage) for flags that have no meaning together; `timeline` is the flag that asks for one, empty for none.
+void check(const ScalingFlags& flags, const std::string& timeline);
 
 /// The figures of one frame. Cycles count from reset; shares are summed over the devices.
 struct FrameScaling {

@@ -10,6 +10,7 @@
 #include "base/version.hpp"
 #include "cli/config_flags.hpp"
 #include "cli/config_json.hpp"
+#include "cli/cycle_timeline.hpp"
 #include "cli/cycle_trace.hpp"
 #include "cli/frame_scaling.hpp"
 #include "cli/output.hpp"
@@ -34,6 +35,7 @@ struct Arguments {
   ConfigFlags config;
   ScalingFlags scaling;
   std::string input = "always", ready = "always", trace;
+  bool timeline = false;
   int seed = 1;
 };
 
@@ -74,6 +76,7 @@ struct Result {
   Counts counts;
   std::vector<FrameScaling> scalings;  ///< if asked for, by devices; the counts are those of the last
   std::string trace;                   ///< empty for none
+  std::optional<Json> timeline;        ///< if asked for
   double seconds = 0.0;
 };
 
@@ -164,6 +167,7 @@ Json to_json(const Result& result) {
     for (const auto& scaling : result.scalings) json["by_devices"].push_back(to_json(scaling));
   }
   if (!result.trace.empty()) json["trace"] = result.trace;
+  if (result.timeline) json["timeline"] = *result.timeline;
   json["seconds"] = result.seconds;
   return json;
 }
@@ -177,7 +181,8 @@ ExitCode run(const Arguments& arguments) {
                  .got = {},
                  .fix = "give either --stream or a scene's flags"});
   }
-  check(arguments.scaling, arguments.trace);
+  check(arguments.scaling, arguments.trace.empty() ? "" : "--trace");
+  check(arguments.scaling, arguments.timeline ? "--timeline" : "");
   check_outputs({.images = {},
                  .maps = {},
                  .raws = {},
@@ -195,7 +200,12 @@ ExitCode run(const Arguments& arguments) {
   cmodel::CycleOptions options;
   if (arguments.input != "always") options.input = &input;
   if (arguments.ready != "always") options.output = &ready;
-  if (!arguments.trace.empty()) options.spans = &trace;
+  CycleTimeline timeline(arguments.trace.empty() ? nullptr : &trace);
+  if (arguments.timeline) {
+    options.spans = &timeline;
+  } else if (!arguments.trace.empty()) {
+    options.spans = &trace;
+  }
 
   Result result{.scene = {},
                 .hidden_share = {},
@@ -205,7 +215,8 @@ ExitCode run(const Arguments& arguments) {
                 .seed = arguments.seed,
                 .counts = {},
                 .scalings = {},
-                .trace = arguments.trace};
+                .trace = arguments.trace,
+                .timeline = {}};
   const auto make = [&](cmodel::StreamScope scope) -> std::unique_ptr<cmodel::Device> {
     if (arguments.scaling.any()) return std::make_unique<ScalingRun>(config, scope, arguments.scaling, options);
     return std::make_unique<cmodel::CycleModel>(config, scope, options);
@@ -232,6 +243,7 @@ ExitCode run(const Arguments& arguments) {
         {.threads = arguments.common.threads, .progress = bar.callback()}, take);
   }
   if (!arguments.trace.empty()) write_text_file(arguments.trace, trace.text());
+  if (arguments.timeline) result.timeline = timeline.json();
   output.line(to_text(result));
   result.seconds = output.seconds();
   output.json(to_json(result));
@@ -253,6 +265,7 @@ void declare(Options& options, Arguments& to) {
   declare(options, to.scaling);
   options.group("Output");
   options.word("--trace", to.trace, "FILE", "a timeline as JSON that ui.perfetto.dev opens; 1 us stands for a cycle");
+  options.flag("--timeline", to.timeline, "each sheet's and tile's cycles in the JSON, where `report` draws them");
   declare(options, to.common);
   options.example("fastsplat cycles --volume shells:64 --size 256 --config base --trace shells.json");
 }

@@ -119,6 +119,7 @@ struct Checked {
   testbench::VerifyResult result;
   std::uint64_t streams = 1, resets_late = 0;
   testbench::VerifyResult failed;
+  std::vector<testbench::SeedResult> by_seed;           ///< of random streams
   std::map<std::string, testbench::Coverage> coverage;  ///< by campaign
   cmodel::BeatSource source;                            ///< of the failed stream
   testbench::VerifyOptions options;
@@ -158,6 +159,7 @@ Checked verify_random(const Arguments& arguments, const testbench::VerifyOptions
   out.result = result.total;
   out.streams = result.streams;
   out.resets_late = result.resets_late;
+  out.by_seed = result.by_seed;
   for (const auto& [which, coverage] : result.coverage) out.coverage[testbench::to_string(which)] = coverage;
   if (result.failed) {
     auto run = testbench::make_run(campaign, *result.failed);
@@ -274,6 +276,7 @@ struct Result {
   cmodel::Config config;
   std::uint64_t streams = 0, resets_late = 0;
   testbench::VerifyResult run;
+  std::vector<testbench::SeedResult> by_seed;
   std::optional<Failure> failure;
   std::optional<Gain> coverage;
   double seconds = 0.0;
@@ -290,8 +293,31 @@ std::string to_text(const Result& result) {
                      counted(run.check.cycles_rtl.value_or(run.last_cycle), "cycle"));
 }
 
+/// Seeds that failed and the first others: a result is to stay small.
+void add_seeds(Json& json, const std::vector<testbench::SeedResult>& by_seed) {
+  constexpr std::size_t kMost = 2000;
+  if (by_seed.empty()) return;
+  std::size_t left_out = 0;
+  Json rows = Json::array();
+  for (const auto& [seed, verdict, streams, splats, comparisons, mismatches, cycles] : by_seed) {
+    if (verdict == testbench::Verdict::Pass && rows.size() >= kMost) {
+      ++left_out;
+      continue;
+    }
+    rows.push_back({{"seed", seed},
+                    {"verdict", testbench::to_string(verdict)},
+                    {"streams", streams},
+                    {"splats", splats},
+                    {"comparisons", comparisons},
+                    {"mismatches", mismatches},
+                    {"cycles", cycles}});
+  }
+  json["by_seed"] = std::move(rows);
+  json["by_seed_left_out"] = left_out;
+}
+
 Json to_json(const Result& result) {
-  const auto& [arguments, config, streams, resets_late, run, failure, coverage, seconds] = result;
+  const auto& [arguments, config, streams, resets_late, run, by_seed, failure, coverage, seconds] = result;
   Json json{{"verb", "verify"},
             {"version", program_version()},
             {"verdict", testbench::to_string(run.verdict)},
@@ -310,6 +336,7 @@ Json to_json(const Result& result) {
             {"input", arguments.input},
             {"fill", arguments.fill},
             {"by_tap", by_tap_json(run.check)}};
+  add_seeds(json, by_seed);
   if (resets_late > 0) json["resets_late"] = resets_late;
   if (failure) json["failure"] = to_json(*failure);
   if (coverage) json["coverage"] = {{"bins", coverage->bins}, {"hit", coverage->hit}};
@@ -354,6 +381,7 @@ ExitCode run(const Arguments& arguments) {
                 .streams = checked.streams,
                 .resets_late = checked.resets_late,
                 .run = checked.result,
+                .by_seed = checked.by_seed,
                 .failure = {},
                 .coverage = {}};
   const auto verdict = result.run.verdict;

@@ -23,6 +23,17 @@ void add(VerifyResult& total, const VerifyResult& part) {
   add_to(total.check.cycles_model, part.check.cycles_model);
 }
 
+void add(std::vector<SeedResult>& seeds, std::uint64_t seed, const VerifyResult& part) {
+  if (seeds.empty() || seeds.back().seed != seed) seeds.push_back({.seed = seed});
+  SeedResult& to = seeds.back();
+  ++to.streams;
+  to.splats += part.counters.splats;
+  to.comparisons += part.check.comparisons;
+  to.mismatches += part.check.mismatches;
+  to.cycles += part.check.cycles_rtl.value_or(0);
+  if (to.verdict == Verdict::Pass) to.verdict = part.verdict;
+}
+
 constexpr const char* kClassReady = "class_ready";
 std::string with_pattern(StimulusClass which, const std::string& ready) {
   return std::string(to_string(which)) + "_" + ready;
@@ -101,6 +112,7 @@ CampaignResult run_campaign(const CampaignOptions& options) {
   // What was begun beside the failure and lies behind it does not count: another number of threads would not have it.
   for (std::size_t i = 0; i < count && i <= failed; ++i) {
     add(out.total, *results[i]);
+    add(out.by_seed, options.verify.seed + i / options.classes.size(), *results[i]);
     ++out.streams;
     out.resets_late += late[i] != 0 ? 1 : 0;
     if (results[i]->coverage) {

@@ -33,11 +33,19 @@ struct CampaignRun {
 std::size_t run_count(const CampaignOptions& options);
 CampaignRun make_run(const CampaignOptions& options, std::size_t index);
 
+/// What a seed's streams came to, all classes together.
+struct SeedResult {
+  std::uint64_t seed = 0;
+  Verdict verdict = Verdict::Pass;  ///< of the first of them that did not pass
+  std::uint64_t streams = 0, splats = 0, comparisons = 0, mismatches = 0, cycles = 0;
+};
+
 struct CampaignResult {
   VerifyResult total;                          ///< sums; first divergence and error are the first failed run's
   std::uint64_t streams = 0;                   ///< run: all, or those up to the failed one
   std::uint64_t resets_late = 0;               ///< streams too short for the reset that was asked for
   std::map<StimulusClass, Coverage> coverage;  ///< of each class's streams, if asked for
+  std::vector<SeedResult> by_seed;             ///< in their order, as far as they were run
   std::optional<std::size_t> failed;           ///< first run that did not pass
   std::optional<VerifyResult> failure;         ///< its result
 };

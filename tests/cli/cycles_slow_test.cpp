@@ -1,10 +1,12 @@
 // `fastsplat cycles`: the rows add up, a stream costs what its scene costs, the timeline can be drawn.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/process_helper.hpp"
+#include "tests/cli/words_helper.hpp"
 
 namespace fastsplat::cli_test {
 namespace {
@@ -88,6 +90,36 @@ TEST(Cycles, TraceHoldsEverySheetOnTracksThatDoNotOverlap) {
     for (std::size_t i = 1; i < slices.size(); ++i) EXPECT_LE(slices[i - 1].second, slices[i].first) << names[track];
     std::printf("[figure] slices of '%s' = %zu\n", names[track].c_str(), slices.size());
   }
+}
+
+TEST(Cycles, TimelineHasEverySheetAndTileAndTheTraceStaysAsItIs) {
+  const TempFolder folder;
+  const Words scene{"cycles", "--volume", "shells:24", "--size", "100", "--config", "small", "--json", "-"};
+  const auto run = fastsplat(with(scene, {"--timeline", "--trace", folder / "both.json"}));
+  expect_success(run);
+  expect_success(fastsplat(with(scene, {"--trace", folder / "alone.json"})));
+  EXPECT_EQ(read_bytes(folder.path() / "both.json"), read_bytes(folder.path() / "alone.json"));
+  const auto result = json::parse(run.out);
+  const auto timeline = result["timeline"];
+  const auto column = [&](const std::string& which, const std::string& name) {
+    const auto names = timeline[which + "_columns"].get<std::vector<std::string>>();
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  EXPECT_EQ(timeline["sheets"].size(), result["sheets"]);
+  EXPECT_EQ(timeline["tiles"].size(), result["tiles"]);
+  std::uint64_t windows = 0, blocks = 0, last = 0;
+  for (const auto& sheet : timeline["sheets"]) {
+    windows += sheet.at(column("sheet", "windows")).get<std::uint64_t>();
+    blocks += sheet.at(column("sheet", "blocks")).get<std::uint64_t>();
+    EXPECT_LE(sheet.at(column("sheet", "begun")), sheet.at(column("sheet", "closed")));
+  }
+  for (const auto& tile : timeline["tiles"]) last = tile.at(column("tile", "picture_to")).get<std::uint64_t>();
+  EXPECT_EQ(windows, result["windows"]);
+  EXPECT_EQ(blocks, result["dirty_blocks"]);
+  EXPECT_GT(windows, 0U);
+  EXPECT_EQ(last, result["cycles"]["end"]);
+  std::printf("[figure] windows of the timeline's sheets = %llu, last pixel before cycle %llu\n",
+              static_cast<unsigned long long>(windows), static_cast<unsigned long long>(last));
 }
 
 TEST(Cycles, MisuseIsToldBeforeAnyWork) {

@@ -193,6 +193,8 @@ TEST(Scaling, MisuseIsToldBeforeAnyWork) {
                {"--trace", "--devices 2", "leave out"});
   expect_error(fastsplat(scene + Words{"--devices", "1,2", "--trace", folder / "t.json"}), 2,
                {"--trace", "--devices 1,2", "leave out"});
+  expect_error(fastsplat(scene + Words{"--devices", "2", "--timeline"}), 2,
+               {"--timeline", "--devices 2", "leave out --devices or --timeline"});
   expect_success(fastsplat(scene + Words{"--size", "16", "--bytes-per-cycle", "9", "--trace", folder / "t.json"}));
   EXPECT_TRUE(std::filesystem::exists(folder / "t.json"));
 }

@@ -42,6 +42,27 @@ TEST(Verify, TellsTheCyclesOfRtlAndModel) {
   }
 }
 
+TEST(Verify, TellsEverySeedOfACampaign) {
+  const auto run =
+      fastsplat({"verify", "--config", "tiny", "--random", "200", "--seed", "7", "--seeds", "3", "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  const auto rows = json.at("by_seed");
+  ASSERT_EQ(rows.size(), 3u);
+  for (const std::string what : {"streams", "splats", "comparisons", "cycles"}) {
+    std::uint64_t sum = 0;
+    for (const auto& row : rows) sum += row.at(what).get<std::uint64_t>();
+    EXPECT_EQ(sum, json.at(what == "cycles" ? "cycles_rtl" : what)) << what;
+    std::printf("[figure] %s of the seeds = %llu\n", what.c_str(), static_cast<unsigned long long>(sum));
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i].at("seed"), 7 + i);
+    EXPECT_EQ(rows[i].at("verdict"), "pass");
+    EXPECT_GT(rows[i].at("comparisons"), 0);
+  }
+  EXPECT_EQ(json.at("by_seed_left_out"), 0);
+}
+
 // RTL goes by the numbers of a configuration, not by its name.
 TEST(Verify, AFileThatEqualsAConfigurationWithRtlRunsOnIt) {
   const TempFolder folder;

@@ -86,9 +86,10 @@ export interface Panel {
   render(root: HTMLElement, result: Result, context: Context): void | Promise<void>;
 }
 
-/** Verb of a result; results made before `compare` named its own have a schema only. */
+/** Verb of a result; a coverage book names its format, older results of `compare` their schema. */
 export function verb_of(result: Result): string {
   if (typeof result?.verb === "string") return result.verb;
+  if (typeof result?.format === "string" && result.format.startsWith("fastsplat coverage ")) return "coverage";
   const schema = typeof result?.schema === "string" ? /^fastsplat\.([a-z]+)\//.exec(result.schema) : null;
   return schema ? schema[1] : "";
 }

@@ -1,6 +1,16 @@
 // The panels, in the order in which they stand in the page. A new panel: its file in panels/ and its line here.
 import type { Panel } from "./page";
+import { bound } from "./panels/bound";
 import { compare } from "./panels/compare";
+import { coverage } from "./panels/coverage";
+import { cycles } from "./panels/cycles";
+import { errors } from "./panels/errors";
+import { family } from "./panels/family";
 import { pictures } from "./panels/pictures";
+import { plan } from "./panels/plan";
+import { propose } from "./panels/propose";
+import { ranges } from "./panels/ranges";
+import { runs } from "./panels/runs";
+import { verify } from "./panels/verify";
 
-export const panels: Panel[] = [pictures, compare];
+export const panels: Panel[] = [pictures, compare, errors, bound, ranges, propose, cycles, family, plan, verify, coverage, runs];

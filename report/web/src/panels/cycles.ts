@@ -1,0 +1,199 @@
+// `cycles`: how long the device takes, and where the cycles go.
+import { columns, stacks, waterfall } from "../bars";
+import { line_legend, plot, type Line } from "../charts";
+import { h } from "../dom";
+import { figures_of, number_text } from "../figures";
+import type { Context, Panel, Result } from "../page";
+import { cell, grid, lead, made_of, note, tiles } from "../parts";
+import { legend } from "../svg";
+import { table } from "../table";
+import { timeline } from "./timeline";
+
+const causes: Record<string, string> = {
+  ideal: "windows and dirty blocks, one a cycle",
+  records: "records that are no splat, one cycle each",
+  table_load: "table words, one cycle each",
+  input: "no record: the source was late",
+  sheet_buffer: "begin_sheet waits for a buffer",
+  drain: "end_tile waits for the pipes",
+  pixels: "the picture goes out",
+  output: "a pixel beat waits: the sink was not ready",
+};
+const shares: [name: string, colour: string, meaning: string][] = [
+  ["work", "c0", "windows, and dirty blocks that none hides"],
+  ["fill", "c5", "wipe, tables, records, pipes"],
+  ["bandwidth", "c1", "no beat: the link, or the input, was late"],
+  ["pixel_out", "c2", "the picture goes out"],
+  ["tail", "c3", "no tile is left for a device while others work"],
+];
+const bounds: [name: string, colour: string, meaning: string][] = [
+  ["lanes", "c0", "windows / devices"],
+  ["compositor", "c2", "dirty blocks / devices"],
+  ["stream", "c1", "bytes in / bytes a cycle"],
+  ["pixel_out", "c4", "pixel beats / devices"],
+];
+const plain = (name: string): string => name.replaceAll("_", " ");
+
+function account(root: HTMLElement, result: Result): void {
+  const parts = Object.entries(result.cycles.account as Record<string, number>);
+  const ideal = result.cycles.account.ideal as number;
+  const lost = parts.reduce((sum, [name, cycles]) => sum + (name === "ideal" ? 0 : cycles), 0);
+  // The losses of a good run are hair lines beside the ideal: then the axis begins shortly before it.
+  const from = ideal > 0 && lost < ideal * 0.25 ? Math.max(0, ideal - Math.max(lost, 1) * 0.25) : undefined;
+  waterfall(
+    root,
+    {
+      title: "Ideal + losses = actual",
+      about: from ? `cycles; the axis begins at ${number_text(Math.round(from))}` : "cycles",
+      label: `Waterfall of cycles: ${parts.map(([name, cycles]) => `${plain(name)} ${cycles}`).join(", ")}, actual ${result.cycles.actual}`,
+      unit: "cycles",
+      from,
+    },
+    [
+      ...parts.map(([name, cycles]) => ({
+        name: plain(name),
+        value: cycles,
+        shown: number_text(cycles),
+        tip: `${plain(name)}: ${number_text(cycles)} cycles, ${number_text((100 * cycles) / (ideal || 1), { digits: 3 })} % of the ideal; ${causes[name] ?? ""}`,
+        total: name === "ideal",
+        colour: name === "ideal" ? "c0" : "c3",
+      })),
+      { name: "actual", value: result.cycles.actual, shown: number_text(result.cycles.actual), tip: `actual: ${number_text(result.cycles.actual)} cycles in which the device was busy`, total: true },
+    ],
+  );
+}
+
+function roofline(root: HTMLElement, rows: Result[]): void {
+  const lines: Line[] = [
+    ...bounds.map(([name, colour, meaning], i) => ({
+      name: `${plain(name)}: ${meaning}`,
+      colour,
+      dash: [6, 3 + i],
+      size: 5,
+      points: rows.filter((row) => row.roofline[name] > 0).map((row): [number, number] => [row.devices, row.roofline[name]]),
+    })),
+    { name: "frame", colour: "ink", diamond: true, points: rows.map((row): [number, number] => [row.devices, row.frame_cycles]) },
+  ].filter((line) => line.points.length > 0);
+  root.append(
+    h(
+      "figure",
+      {},
+      h("figcaption", {}, h("strong", {}, "Roofline"), " cycles of the frame over devices, and what it takes at least because of each unit"),
+    ),
+  );
+  plot(root.lastElementChild as HTMLElement, {
+    label: `Roofline: ${rows.map((row) => `${row.devices} devices, frame ${row.frame_cycles} cycles, at least ${row.roofline[row.roofline.ruling]} because of ${row.roofline.ruling}`).join("; ")}`,
+    x: { name: "devices", log: true, ticks: rows.map((row) => row.devices) },
+    y: { name: "cycles", log: true },
+    height: 270,
+  }, lines);
+  root.append(line_legend(lines));
+}
+
+function several(root: HTMLElement, result: Result, context: Context): void {
+  const show = figures_of(context.index, result);
+  const rows: Result[] = result.by_devices ?? [result.scaling];
+  const last = rows[rows.length - 1];
+  root.append(h("h3", {}, rows.length > 1 ? "Several devices" : `${last.devices} devices`));
+  const at = result.by_devices ? ["by_devices", rows.length - 1] : ["scaling"];
+  root.append(
+    h(
+      "p",
+      {},
+      show([...at, "devices"]),
+      " devices are ",
+      show([...at, "speed_up"], { digits: 2 }),
+      " times as fast as one; ",
+      show([...at, "efficiency"], { scale: 100, digits: 1, unit: "%" }),
+      ` of all cycles are work, the limit is ${plain(last.limit.name)} (`,
+      show([...at, "limit", "share"], { scale: 100, digits: 1, unit: "%" }),
+      `): ${last.limit.help}.`,
+    ),
+  );
+  const parts = grid(root);
+  const left = cell(parts);
+  stacks(
+    left,
+    {
+      title: "Where all devices' cycles go",
+      label: rows.map((row) => `${row.devices} devices: ${shares.map(([name]) => `${plain(name)} ${row.shares[name]}`).join(", ")}`).join("; "),
+      unit: "% of devices x frame",
+      most: 100,
+    },
+    rows.map((row) => {
+      const all = row.devices * row.frame_cycles || 1;
+      return {
+        name: row.devices === 1 ? "1 device" : `${row.devices} devices`,
+        shown: `${number_text((100 * row.shares.work) / all, { digits: 1 })} % work`,
+        parts: shares.map(([name, colour, meaning]) => ({
+          name,
+          colour,
+          value: (100 * row.shares[name]) / all,
+          tip: `${row.devices} devices, ${plain(name)}: ${number_text(row.shares[name])} cycles, ${number_text((100 * row.shares[name]) / all, { digits: 1 })} %; ${meaning}`,
+        })),
+      };
+    }),
+  );
+  left.append(legend(shares.map(([name, colour]) => ({ name: plain(name), colour }))));
+  if (rows.length > 1) roofline(cell(parts), rows);
+  else if (last.each?.length > 1) {
+    columns(
+      cell(parts),
+      { title: "Busy cycles of each device", label: last.each.map((one: Result, i: number) => `device ${i}: ${one.busy}`).join(", "), unit: "cycles", x_name: "device" },
+      last.each.map((one: Result, i: number) => ({ name: String(i), value: one.busy, tip: `device ${i}: ${number_text(one.busy)} busy cycles, ${one.tiles.length} tiles` })),
+    );
+  }
+  const figure = (...path: string[]) => (row: Result) => [context.index, ...(result.by_devices ? ["by_devices", rows.indexOf(row)] : ["scaling"]), ...path].join(".");
+  table(root, {
+    label: "By devices",
+    rows,
+    columns: [
+      { name: "Devices", value: (row) => row.devices, figure: figure("devices") },
+      { name: "Frame", unit: "cycles", value: (row) => row.frame_cycles, figure: figure("frame_cycles") },
+      { name: "Speed-up", value: (row) => row.speed_up, style: { digits: 3 }, figure: figure("speed_up") },
+      { name: "Efficiency", unit: "%", value: (row) => row.efficiency, style: { scale: 100, digits: 1 }, figure: figure("efficiency") },
+      { name: "Limit", value: (row) => plain(row.limit?.name ?? "") },
+      { name: "Ruling bound", value: (row) => plain(row.roofline?.ruling ?? "") },
+      { name: "Bytes in", value: (row) => row.bytes_in, figure: figure("bytes_in") },
+      { name: "Bytes out", value: (row) => row.bytes_out, figure: figure("bytes_out") },
+    ],
+  });
+}
+
+export const cycles: Panel = {
+  name: "cycles",
+  verbs: ["cycles"],
+  title: (result) => (result.by_devices || result.scaling?.devices > 1 ? "Cycles of several devices" : "Cycles"),
+  render(root, result, context) {
+    const show = figures_of(context.index, result);
+    const losses = Object.entries(result.cycles.account as Record<string, number>).filter(([name]) => name !== "ideal");
+    const [worst, most] = losses.reduce((best, each) => (each[1] > best[1] ? each : best), ["", 0]);
+    const many = result.scaling?.devices > 1;
+    root.append(
+      lead(
+        null,
+        show(["cycles", "actual"]),
+        many ? ` busy cycles of ${result.scaling.devices} devices, ` : " busy cycles, ",
+        show(["actual_to_ideal"], { digits: 4 }),
+        " times the ideal ",
+        show(["cycles", "account", "ideal"]),
+        most > 0 ? ["; most is lost to ", h("strong", {}, plain(worst)), " (", show(["cycles", "account", worst]), `): ${causes[worst] ?? ""}.`] : "; nothing is lost.",
+      ),
+      note([made_of(result), `input ${result.input}, sink ${result.ready}`].filter(Boolean).join("; ")),
+      tiles(
+        ["Splats a cycle", show(["splats_per_cycle"], { digits: 3 })],
+        ["Splat array used", show(["utilisation"], { scale: 100, digits: 1, unit: "%" })],
+        ["Splats", show(["splats"])],
+        ["Windows", show(["windows"])],
+        ["Dirty blocks", show(["dirty_blocks"])],
+        ["Tiles", show(["tiles"])],
+        ["Sheets", show(["sheets"])],
+        typeof result.hidden_share === "number" && ["Hidden splats", show(["hidden_share"], { scale: 100, digits: 1, unit: "%" })],
+        ["Idle", show(["cycles", "idle"])],
+      ),
+    );
+    account(cell(root), result);
+    if (result.timeline?.sheets?.length) timeline(root, result, context);
+    if (result.scaling && (many || result.by_devices)) several(root, result, context);
+  },
+};

@@ -1,0 +1,140 @@
+// `errors`: because of which step the device's picture is not the true one.
+import { waterfall } from "../bars";
+import { h } from "../dom";
+import { figures_of, number_text } from "../figures";
+import type { Panel, Result } from "../page";
+import { cell, grid, lead, made_of, note, tiles } from "../parts";
+import { legend } from "../svg";
+import { table } from "../table";
+
+function steps(root: HTMLElement, result: Result): void {
+  const total = result.total.rms_lsb8 ** 2;
+  const shares = result.steps.map((step: Result) => step.share as number);
+  waterfall(
+    root,
+    {
+      title: "Steps, in the chain's order",
+      about: "share of the squared error that comes in with each; they add up to all of it",
+      label: `Waterfall of the steps' shares: ${result.steps.map((step: Result) => `${step.name} ${number_text(100 * step.share, { digits: 1 })} %`).join(", ")}`,
+      unit: "% of the squared error",
+    },
+    [
+      ...result.steps.map((step: Result) => ({
+        name: step.name,
+        value: 100 * step.share,
+        shown: `${number_text(100 * step.share, { digits: 1, sign: true })} %`,
+        tip: `${step.name} (${step.by}): ${step.meaning}; ${number_text(100 * step.share, { digits: 2 })} %, ${step.keys}`,
+        colour: step.by === "driver" ? "c0" : step.by === "device" ? "c1" : "c4",
+      })),
+      {
+        name: "all",
+        value: 100 * shares.reduce((sum: number, share: number) => sum + share, 0),
+        shown: `${number_text(100 * shares.reduce((sum: number, share: number) => sum + share, 0), { digits: 1 })} %`,
+        tip: `all steps: RMS ${number_text(Math.sqrt(total))} LSB of 8 bits`,
+        total: true,
+      },
+    ],
+  );
+}
+
+/** The parts of one pixel's error: the largest, and what is left. */
+function pixel(root: HTMLElement, entry: Result): void {
+  const parts = Object.entries(entry.parts_lsb8 as Record<string, number>).sort((a, b) => Math.abs(b[1]) - Math.abs(a[1]));
+  const large = parts.slice(0, 5);
+  const rest = parts.slice(5).reduce((sum, [, value]) => sum + value, 0);
+  const where = `pixel (${entry.x}, ${entry.y}) ${"RGBA"[entry.channel] ?? entry.channel}`;
+  const row = (name: string, value: number, total = false): Parameters<typeof waterfall>[2][number] => ({
+    name,
+    value,
+    total,
+    shown: number_text(value, { digits: 3, sign: true }),
+    tip: `${name}: ${number_text(value, { sign: true })} LSB of 8 bits`,
+  });
+  waterfall(
+    root,
+    {
+      title: `${entry.which === "p90" ? "90 %" : entry.which[0].toUpperCase() + entry.which.slice(1)} ${where}`,
+      label: `Parts of ${where}: ${large.map(([name, value]) => `${name} ${number_text(value)}`).join(", ")}`,
+      unit: "LSB of 8 bits",
+    },
+    [...large.map(([name, value]) => row(name, value)), row("others", rest), row("error", entry.error_lsb8, true)],
+  );
+}
+
+export const errors: Panel = {
+  name: "errors",
+  verbs: ["errors"],
+  title: "Error by step",
+  render(root, result, context) {
+    const show = figures_of(context.index, result);
+    const place = (row: Result): number => result.steps.indexOf(row);
+    const most = result.steps.reduce((best: Result, step: Result) => (step.share > best.share ? step : best), result.steps[0]);
+    root.append(
+      most && most.share > 0
+        ? lead(
+            null,
+            h("strong", {}, most.name),
+            ` (${most.meaning}) brings `,
+            show(["steps", place(most), "share"], { scale: 100, digits: 0, unit: "%" }),
+            " of the error; all steps together: RMS ",
+            show(["total", "rms_lsb8"]),
+            ", worst ",
+            show(["total", "max_lsb8"], { unit: "LSB of 8 bits" }),
+            ".",
+          )
+        : lead(null, "No step errs."),
+      note(made_of(result)),
+      tiles(
+        ["Driver's part", show(["driver_share"], { scale: 100, digits: 1, unit: "%" })],
+        ["Device's part", show(["device_share"], { scale: 100, digits: 1, unit: "%" })],
+        ["RMS", show(["total", "rms_lsb8"]), h("small", {}, " LSB8")],
+        ["Floor of 8 bits", show(["floor_8", "rms_lsb8"]), h("small", {}, " LSB8")],
+        ["Bias", show(["total", "bias_lsb8"], { sign: true }), h("small", {}, " LSB8")],
+        ["Frames drawn", show(["frames"])],
+      ),
+    );
+    if (result.remedy)
+      root.append(
+        h(
+          "p",
+          {},
+          "Remedy: ",
+          h("code", {}, result.remedy.changes),
+          " takes the RMS from ",
+          show(["total", "rms_lsb8"]),
+          " to ",
+          show(["remedy", "error", "rms_lsb8"]),
+          " LSB8; the cost goes from ",
+          show(["remedy", "cost_before", "total"], { digits: 0 }),
+          " to ",
+          show(["remedy", "cost_after", "total"], { digits: 0 }),
+          ".",
+        ),
+      );
+    const parts = grid(root);
+    const chain = cell(parts);
+    steps(chain, result);
+    chain.append(legend([{ name: "driver", colour: "c0" }, { name: "device", colour: "c1" }, { name: "sum", colour: "c7" }]));
+    const pixels = cell(parts);
+    for (const entry of result.pixels ?? []) pixel(pixels, entry);
+    root.append(h("h3", {}, "Each step in the chain, alone, and left out"));
+    const figure = (...path: (string | number)[]) => (row: Result) => [context.index, "steps", place(row), ...path].join(".");
+    const percent = { scale: 100, digits: 2 };
+    table(root, {
+      label: "Steps",
+      rows: result.steps as Result[],
+      columns: [
+        { name: "Step", value: (row) => row.name },
+        { name: "By", value: (row) => row.by },
+        { name: "Share", unit: "%", value: (row) => row.share, style: percent, figure: figure("share") },
+        { name: "RMS", unit: "LSB8", value: (row) => row.increment?.rms_lsb8, style: { digits: 4 }, figure: figure("increment", "rms_lsb8") },
+        { name: "Max", unit: "LSB8", value: (row) => row.increment?.max_lsb8, style: { digits: 3 }, figure: figure("increment", "max_lsb8") },
+        { name: "Bias", unit: "LSB8", value: (row) => row.increment?.bias_lsb8, style: { digits: 4, sign: true }, figure: figure("increment", "bias_lsb8") },
+        { name: "Alone", unit: "%", value: (row) => row.alone_share, style: percent, figure: figure("alone_share") },
+        { name: "Left out", unit: "LSB8", value: (row) => row.left_out?.rms_lsb8, style: { digits: 4 }, figure: figure("left_out", "rms_lsb8") },
+        { name: "Rules pixels", unit: "%", value: (row) => row.pixels_ruled, style: { scale: 100, digits: 1 }, figure: figure("pixels_ruled") },
+        { name: "Keys", value: (row) => row.keys },
+      ],
+    });
+  },
+};

@@ -1,0 +1,44 @@
+// Pieces that several panels have: verdict with the sentence that matters, key figures.
+import { h, type Child } from "./dom";
+
+const words: Record<string, string> = { pass: "\u2713 Pass", fail: "\u2717 Fail", error: "\u2717 Error", none: "Measured" };
+
+/** The sentence that matters, behind the verdict where there is one. */
+export function lead(status: string | null, ...sentence: Child[]): HTMLElement {
+  return h("p", { class: "lead" }, status !== null && h("span", { class: `mark ${status}` }, words[status] ?? status), ...sentence);
+}
+
+/** Key figures side by side. */
+export function tiles(...entries: ([name: string, ...value: Child[]] | null | false)[]): HTMLElement {
+  return h(
+    "dl",
+    { class: "tiles" },
+    entries.map((entry) => entry && h("div", {}, h("dt", {}, entry[0]), h("dd", {}, entry.slice(1) as Child[]))),
+  );
+}
+
+export function note(...what: Child[]): HTMLElement {
+  return h("p", { class: "note" }, ...what);
+}
+
+export function grid(root: HTMLElement): HTMLElement {
+  const element = h("div", { class: "grid" });
+  root.append(element);
+  return element;
+}
+
+/** A cell of `grid`. */
+export function cell(parent: HTMLElement, wide = false): HTMLElement {
+  const element = h("div", { class: wide ? "wide" : null });
+  parent.append(element);
+  return element;
+}
+
+/** Which scene and which configuration: a result's own words for it, as short as can be. */
+export function made_of(result: { scene?: unknown; config?: unknown; config_hash?: unknown }): string {
+  const scene = typeof result.scene === "string" ? result.scene : "";
+  const config = result.config as { name?: string; hash?: string } | string | undefined;
+  const name = typeof config === "string" ? config : config?.name;
+  const hash = typeof config === "string" ? result.config_hash : config?.hash;
+  return [scene, name ? `configuration ${name} ${hash ?? ""}`.trim() : ""].filter(Boolean).join("; ");
+}

@@ -27,9 +27,9 @@ export function grid(root: HTMLElement): HTMLElement {
   return element;
 }
 
-/** A cell of `grid`. */
-export function cell(parent: HTMLElement, wide = false): HTMLElement {
-  const element = h("div", { class: wide ? "wide" : null });
+/** A cell of `grid`; a part by itself elsewhere. */
+export function cell(parent: HTMLElement): HTMLElement {
+  const element = h("div", { class: parent.classList.contains("grid") ? null : "solo" });
   parent.append(element);
   return element;
 }

@@ -17,15 +17,19 @@ interface Quantity {
   of: (row: Result) => number | string | null | undefined;
 }
 
-/** Rows that no other beats in both: better in one and no worse in the other. In the order of x. */
+/** Rows that passed and that no other beats: better in one, no worse in the other; equal ones are all on the front. As
+ *  `plan pareto` has it. In the order of x. */
 export function pareto(rows: Result[], x: Quantity, y: Quantity): Result[] {
   const sign = (quantity: Quantity): number => (quantity.better === "more" ? -1 : 1);
   const points = rows
+    .filter((row) => row.status === "pass" && typeof x.of(row) === "number" && typeof y.of(row) === "number")
     .map((row) => ({ row, x: sign(x) * Number(x.of(row)), y: sign(y) * Number(y.of(row)) }))
-    .filter((point) => Number.isFinite(point.x) && Number.isFinite(point.y))
     .sort((a, b) => a.x - b.x || a.y - b.y);
-  let least = Infinity;
-  const front = points.filter((point) => point.y < least && ((least = point.y), true));
+  const front: typeof points = [];
+  for (const point of points) {
+    const last = front[front.length - 1];
+    if (!last || point.y < last.y || (point.x === last.x && point.y === last.y)) front.push(point);
+  }
   return front.map((point) => point.row).sort((a, b) => Number(x.of(a)) - Number(x.of(b)));
 }
 
@@ -38,7 +42,7 @@ function is_wide(values: number[]): boolean {
 export const plan: Panel = {
   name: "plan",
   verbs: ["plan"],
-  title: (result) => `Plan ${result.name ?? ""}`,
+  title: (result) => `Plan: ${result.title || result.name || ""}`,
   render(root, result, context) {
     const rows: Result[] = result.rows ?? [];
     const index = new Map(rows.map((row, i) => [row, i]));
@@ -57,6 +61,8 @@ export const plan: Panel = {
       note("Plan ", h("code", {}, String(result.hash ?? "")), result.program ? [", program ", h("code", {}, String(result.program))] : null),
       tiles(["Cases", number_text(rows.length)], ["Passed", number_text(count("pass"))], ["Failed", number_text(failed)], ["Broken", number_text(broken)], ["Version", show(["version"])]),
     );
+    const missing: string[] = result.missing ?? [];
+    if (missing.length) root.append(note(`${number_text(missing.length)} cases have no result yet: ${missing.slice(0, 5).join(", ")}${missing.length > 5 ? ", \u2026" : ""}`));
     if (!rows.length) return;
 
     const axes: Quantity[] = (result.axes ?? []).map((axis: Result) => ({ id: `axis ${axis.name}`, title: axis.title ?? axis.name, unit: "", better: null, axis: true, of: (row: Result) => row.axes?.[axis.name] }));

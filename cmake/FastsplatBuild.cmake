@@ -47,3 +47,9 @@ function(fastsplat_library name)
   add_library(fastsplat_${name} STATIC ${sources})
   target_link_libraries(fastsplat_${name} PUBLIC fastsplat_settings ${arg_DEPENDS} PRIVATE ${arg_PRIVATE_DEPENDS})
 endfunction()
+
+# fastsplat_shareable(<libraries...>): may be linked into libfastsplat as well (capi/). Hidden, or the compiler would not
+# inline what another library could replace.
+function(fastsplat_shareable)
+  set_target_properties(${ARGN} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+endfunction()

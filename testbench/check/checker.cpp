@@ -52,13 +52,19 @@ void Checker::accept(const cmodel::Beat& beat) {
 
 CheckReport Checker::finish(const cmodel::Counters& counters, const cmodel::StallCounters& cycles) {
   if (stopped()) return report();
+  finish();
+  check_counters(counters);
+  if (cycle_model_) check_cycles(cycles);
+  return report();
+}
+
+CheckReport Checker::finish() {
+  if (stopped()) return report();
   end_of_stream();
   board_.finish();
   for (const auto& tile : model_tiles_.tiles)
     differ(Detector::Tiles, "tile " + std::to_string(tile.tile) + " never came out");
   model_tiles_.tiles.clear();
-  check_counters(counters);
-  if (cycle_model_) check_cycles(cycles);
   return report();
 }
 

@@ -1,9 +1,8 @@
 #include "testbench/device/tap_assembly.hpp"
 
-#include <algorithm>
-
 #include "cmodel/cycle_stages.hpp"
 #include "cmodel/records.hpp"
+#include "testbench/device/port_bits.hpp"
 
 namespace fastsplat::testbench {
 namespace {
@@ -22,9 +21,9 @@ std::uint32_t field(std::span<const std::uint32_t> words, std::size_t lsb, int b
 TapAssembly::TapAssembly(const cmodel::Config& config, cmodel::PixelSink& pixels, cmodel::TapSink& taps)
     : config_(config),
       taps_(taps),
-      sheet_bits_(config.sheet_int_bits + config.sheet_frac_bits),
-      weight_bits_(config.radial_int_bits + config.radial_frac_bits),
-      state_bits_(std::max(config.sheet_int_bits + config.sheet_frac_bits, config.composite_frac_bits + 1)),
+      sheet_bits_(port_bits(config).sheet),
+      weight_bits_(port_bits(config).weight),
+      state_bits_(port_bits(config).state),
       tiles_(config, pixels) {}
 
 void TapAssembly::accept(const cmodel::Beat& beat) {

@@ -30,6 +30,7 @@ const Arrows kDrawn{
     {"testbench/device", {"cmodel"}},
     {"testbench/coverage", {"testbench/device"}},
     {"testbench/check", {"testbench/coverage"}},
+    {"capi", {"driver", "testbench/check"}},
     {"testbench/stimulus", {"testbench/check", "base/parallel"}},
     {"testbench/triage", {"testbench/stimulus"}},
     {"testbench/closure", {"testbench/stimulus"}},

@@ -1,0 +1,127 @@
+// The checker through the C interface: passes a right device, names what a wrong one does first.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "tests/capi/truth_helper.hpp"
+
+namespace fastsplat::test {
+namespace {
+
+fastsplat_report report_of(const Checker& checker) {
+  fastsplat_report report{};
+  report.struct_size = sizeof report;
+  EXPECT_EQ(fastsplat_checker_report(checker.handle, &report), FASTSPLAT_OK) << fastsplat_last_error();
+  return report;
+}
+
+fastsplat_status run(const Truth& truth, const Checker& checker) {
+  EXPECT_EQ(fastsplat_checker_start(checker.handle, kFirstBeat), FASTSPLAT_OK) << fastsplat_last_error();
+  EXPECT_EQ(tell(truth.events, checker.handle), FASTSPLAT_OK) << fastsplat_last_error();
+  return fastsplat_checker_finish(checker.handle, truth.counters.data(), truth.counters.size());
+}
+
+TEST(CapiChecker, PassesARightDevice) {
+  std::uint64_t comparisons = 0;
+  for (const char* name : {"tiny", "small", "base"}) {
+    const Config config(name);
+    const Checker checker(config);
+    EXPECT_EQ(run(truth_of(name), checker), FASTSPLAT_OK) << fastsplat_last_error();
+    const auto report = report_of(checker);
+    EXPECT_EQ(report.verdict, FASTSPLAT_VERDICT_PASS);
+    EXPECT_EQ(report.detector, -1);
+    EXPECT_EQ(report.mismatches, 0u);
+    EXPECT_EQ(report.cycles_compared, 1);
+    EXPECT_EQ(report.cycles_device, report.cycles_model);
+    for (const auto records : report.by_tap) EXPECT_GT(records, 0u);
+    EXPECT_STREQ(fastsplat_checker_first_mismatch(checker.handle), "");
+    EXPECT_TRUE(std::string(fastsplat_checker_summary(checker.handle)).starts_with("pass: configuration ")) << name;
+    comparisons += report.comparisons;
+  }
+  std::printf("[figure] capi_comparisons = %llu (limit > 1000)\n", static_cast<unsigned long long>(comparisons));
+  EXPECT_GT(comparisons, 1000u);
+}
+
+/// The first event at `port`, counted from the end of the stream's first half.
+RawEvent& event_at(Truth& truth, testbench::RawPort port) {
+  for (std::size_t i = truth.events.size() / 2; i < truth.events.size(); ++i)
+    if (!truth.events[i].beat && truth.events[i].tap.port == port) return truth.events[i];
+  throw std::runtime_error("no such event");
+}
+
+TEST(CapiChecker, NamesWhatIsWrongFirst) {
+  using testbench::RawPort;
+  struct Case {
+    const char* what;
+    std::function<void(Truth&)> spoil;
+    std::int32_t detector;
+    const char* text;
+  };
+  const Case cases[] = {
+      {"snap", [](Truth& t) { event_at(t, RawPort::Snap).tap.mx ^= 1; }, FASTSPLAT_TAP_SNAP, "stage snap"},
+      {"weight", [](Truth& t) { event_at(t, RawPort::Window).words[0] ^= 1; }, FASTSPLAT_TAP_FOOTPRINT, "footprint"},
+      {"pixel", [](Truth& t) { event_at(t, RawPort::Pixels).words[0] ^= 1; }, FASTSPLAT_TAP_PIXEL, "pixel"},
+      {"counter", [](Truth& t) { ++t.counters[2]; }, 6, "counter splats: expected"},
+      {"cycles", [](Truth& t) { ++t.counters[16]; }, 7, "cycles: expected"},
+  };
+  const Config config("tiny");
+  for (const auto& one : cases) {
+    Truth wrong = truth_of("tiny");
+    one.spoil(wrong);
+    const Checker checker(config);
+    EXPECT_EQ(run(wrong, checker), FASTSPLAT_FAILED) << one.what;
+    const auto report = report_of(checker);
+    EXPECT_EQ(report.verdict, FASTSPLAT_VERDICT_MISMATCH) << one.what;
+    EXPECT_EQ(report.detector, one.detector) << one.what;
+    const std::string first = fastsplat_checker_first_mismatch(checker.handle);
+    EXPECT_NE(first.find(one.text), std::string::npos) << one.what << ": " << first;
+    EXPECT_NE(std::string(fastsplat_last_error()).find(first), std::string::npos);
+    std::printf("[figure] seen_%s = %s (limit one line)\n", one.what, first.c_str());
+  }
+}
+
+TEST(CapiChecker, APassThatComparedNothingIsAFailure) {
+  const Config config("tiny");
+  fastsplat_checker_options options{};
+  options.struct_size = sizeof options;
+  options.scope = FASTSPLAT_SUBSET;
+  const Checker checker(config, &options);
+  const Truth& truth = truth_of("tiny");
+  ASSERT_EQ(fastsplat_checker_took(checker.handle, words_of(truth.beats), 1), FASTSPLAT_OK);
+  EXPECT_EQ(report_of(checker).verdict, FASTSPLAT_VERDICT_OPEN);
+  EXPECT_EQ(fastsplat_checker_finish(checker.handle, nullptr, 0), FASTSPLAT_FAILED);
+  EXPECT_EQ(report_of(checker).verdict, FASTSPLAT_VERDICT_NOTHING_COMPARED);
+  EXPECT_NE(std::string(fastsplat_last_error()).find("nothing compared"), std::string::npos);
+}
+
+TEST(CapiChecker, ASilentDeviceFailsAndCountersMayBeLeftOut) {
+  const Config config("tiny");
+  const Truth& truth = truth_of("tiny");
+  const Checker silent(config), quiet(config);
+  ASSERT_EQ(fastsplat_checker_took(silent.handle, words_of(truth.beats), truth.beats.size()), FASTSPLAT_OK);
+  EXPECT_EQ(fastsplat_checker_finish(silent.handle, nullptr, 0), FASTSPLAT_FAILED);
+  EXPECT_EQ(tell(truth.events, quiet.handle), FASTSPLAT_OK);
+  EXPECT_EQ(fastsplat_checker_finish(quiet.handle, nullptr, 0), FASTSPLAT_OK) << fastsplat_last_error();
+  EXPECT_EQ(report_of(quiet).cycles_compared, 0);
+}
+
+TEST(CapiChecker, StopsAfterSoManyMismatchesAndResets) {
+  const Config config("tiny");
+  fastsplat_checker_options options{};
+  options.struct_size = sizeof options;
+  options.stop_after = 3;
+  const Checker checker(config, &options);
+  Truth wrong = truth_of("tiny");
+  for (auto& event : wrong.events)
+    if (!event.beat && !event.words.empty()) event.words[0] ^= 1;
+  EXPECT_EQ(run(wrong, checker), FASTSPLAT_FAILED);
+  std::int32_t stopped = 0;
+  ASSERT_EQ(fastsplat_checker_stopped(checker.handle, &stopped), FASTSPLAT_OK);
+  EXPECT_EQ(stopped, 1);
+  EXPECT_GE(report_of(checker).mismatches, 3u);
+  ASSERT_EQ(fastsplat_checker_reset(checker.handle), FASTSPLAT_OK);
+  EXPECT_EQ(run(truth_of("tiny"), checker), FASTSPLAT_OK) << fastsplat_last_error();
+}
+
+}  // namespace
+}  // namespace fastsplat::test

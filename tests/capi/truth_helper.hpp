@@ -1,0 +1,46 @@
+// A random stream and what a right device takes, shows and counts of it, as the C interface wants it told.
+#pragma once
+
+#include <vector>
+
+#include "capi/fastsplat.h"
+#include "cmodel/config.hpp"
+#include "tests/check/raw_replay_helper.hpp"
+
+namespace fastsplat::test {
+
+struct Truth {
+  cmodel::Config config;
+  std::vector<cmodel::Beat> beats;
+  std::vector<RawEvent> events;
+  std::vector<std::uint64_t> counters;  ///< FASTSPLAT_COUNTERS_ALL
+};
+
+constexpr std::uint64_t kFirstBeat = 4;
+
+/// Of the built-in configuration `name`; 30 splats of class "mixed".
+const Truth& truth_of(const std::string& name);
+
+const std::uint32_t* words_of(const std::vector<cmodel::Beat>& beats);
+
+/// Tells the checker everything in order; the first status that is not FASTSPLAT_OK, or that.
+fastsplat_status tell(const std::vector<RawEvent>& events, fastsplat_checker* checker);
+
+/// Handles that destroy themselves; creating one that cannot be created is a failure of the test.
+struct Config {
+  explicit Config(const char* name);
+  ~Config();
+  fastsplat_config* handle = nullptr;
+};
+struct Model {
+  explicit Model(const Config& config, std::uint32_t taps = FASTSPLAT_ALL_TAPS, std::uint32_t scope = FASTSPLAT_WHOLE);
+  ~Model();
+  fastsplat_model* handle = nullptr;
+};
+struct Checker {
+  explicit Checker(const Config& config, const fastsplat_checker_options* options = nullptr);
+  ~Checker();
+  fastsplat_checker* handle = nullptr;
+};
+
+}  // namespace fastsplat::test

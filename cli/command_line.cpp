@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/suggest.hpp"
 #include "base/version.hpp"
+#include "cli/again.hpp"
 #include "cli/output.hpp"
 
 namespace fastsplat::cli {
@@ -181,6 +182,7 @@ Action parse(int argc, const char* const* argv, const std::vector<Verb>& verbs) 
   } catch (const CLI::ParseError& error) {
     misused(*verb, error.what());
   }
+  remember_command(words);
   return action;
 }
 

@@ -11,6 +11,7 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/json_text.hpp"
+#include "cli/again.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -98,7 +99,9 @@ void Output::line(const std::string& text) const {
 
 void Output::json(const nlohmann::ordered_json& json) const {
   if (common_.json.empty()) return;
-  const std::string text = json_text(json, 2);
+  auto whole = json;
+  if (whole.contains("verb") && !command_again().empty()) whole["command"] = command_again();
+  const std::string text = json_text(whole, 2);
   if (common_.json == "-") {
     write_stdout(text + "\n");
   } else {

@@ -42,7 +42,7 @@ class Output {
 
   /// The result, or a part of it, as lines to stdout; not when --quiet, nor when stdout belongs to the JSON.
   void line(const std::string& text) const;
-  /// The result as JSON, to --json's file or stdout; nothing without --json.
+  /// The result as JSON, to --json's file or stdout, with the "command" that makes it again; nothing without --json.
   void json(const nlohmann::ordered_json& json) const;
   /// A warning or a remark on stderr; not when --quiet.
   void warn(const std::string& text) const;

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/version.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
@@ -158,7 +159,8 @@ Json to_json(const Origin& origin) {
 }
 
 Json to_json(const Result& result) {
-  Json json = Json::parse(analysis::to_json(result.report));
+  Json json{{"verb", "compare"}, {"version", program_version()}};
+  json.update(Json::parse(analysis::to_json(result.report)));
   json["all_black"] = result.all_black.empty() ? Json(nullptr) : Json(result.all_black);
   json["ref"] = to_json(result.ref);
   json["test"] = to_json(result.test);

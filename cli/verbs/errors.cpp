@@ -30,11 +30,13 @@ struct Result {
   cmodel::Config config;
   analysis::Attribution attribution;
   std::optional<analysis::TriedRemedy> tried;
+  std::string blame;  ///< the map's file; empty for none
 };
 
 nlohmann::ordered_json to_json(const Result& result) {
   auto json = errors_identity("errors", result.scene, result.config);
   json.update(analysis::to_json(result.attribution, result.tried));
+  if (!result.blame.empty()) json["blame"] = result.blame;
   return json;
 }
 
@@ -74,7 +76,7 @@ ExitCode run(const Arguments& arguments) {
                  .inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")))});
   const scene::Scene scene = build(arguments.scene);
   output.remark(remarks(*scene.volume));
-  Result result{.scene = summary(scene), .config = config, .attribution = {}, .tried = {}};
+  Result result{.scene = summary(scene), .config = config, .attribution = {}, .tried = {}, .blame = arguments.blame};
   {
     const stages::Chain chain(scene, config);
     ProgressBar bar("errors", watching(arguments.common));

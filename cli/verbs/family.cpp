@@ -8,6 +8,7 @@
 #include "analysis/family/head.hpp"
 #include "base/atomic_file.hpp"
 #include "base/hash_text.hpp"
+#include "base/version.hpp"
 #include "cli/common.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
@@ -110,7 +111,8 @@ ExitCode run(const Arguments& arguments) {
   if (arguments.entries) range.entries = {*arguments.entries};
   const auto cells = analysis::family_table(range);
   output.line(analysis::family_text(cells));
-  output.json({{"verb", "family"}, {"unit", "1/255 of the mean"}, {"cells", to_json(cells)}});
+  output.json(
+      {{"verb", "family"}, {"version", program_version()}, {"unit", "1/255 of the mean"}, {"cells", to_json(cells)}});
   output.note_time("measured");
   return ExitCode::Pass;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/atomic_file.hpp"
+#include "base/version.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
@@ -55,7 +56,6 @@ ExitCode run(const Arguments& arguments) {
       .results = {}, .pictures = {}, .most_bytes = static_cast<std::size_t>(arguments.most_megabytes * 1e6)};
   for (const auto& text : arguments.pictures) request.pictures.push_back(report::picture_from(text));
   check(arguments, request.pictures);
-  std::vector<std::string> written{arguments.out};
   for (const auto& name : arguments.results) {
     request.results.push_back(report::read_result(name));
     // Neither may it take the place of a picture that a result names.
@@ -72,6 +72,7 @@ ExitCode run(const Arguments& arguments) {
                           counted(made.pictures, "picture"), static_cast<double>(made.html.size()) / 1e6));
   for (const auto& remark : made.remarks) output.warn(remark);
   output.json({{"verb", "report"},
+               {"version", program_version()},
                {"report", arguments.out},
                {"bytes", made.html.size()},
                {"verdict", {{"status", to_string(made.verdict.status)}, {"sentence", made.verdict.sentence}}},

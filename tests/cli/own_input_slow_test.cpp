@@ -15,7 +15,7 @@ class OwnInput : public ::testing::Test {
   void SetUp() override {
     expect_success(fastsplat({"volume", "convert", "shells:8", volume_}));
     expect_success(fastsplat({"volume", "convert", "shells:8", header_}));
-    expect_success(fastsplat({"render", "--volume", "shells:8", "--size", "8", "-o", picture_}));
+    expect_success(fastsplat({"render", "--volume", "shells:8", "--size", "8", "-o", picture_, "--json", result_}));
     expect_success(
         fastsplat({"stream", "record", "--volume", "shells:8", "--size", "8", "--config", "tiny", "-o", stream_}));
     const auto shown = fastsplat({"config", "show", "tiny"});
@@ -82,6 +82,8 @@ class OwnInput : public ::testing::Test {
         {config_, {"config", "show", config_, "--json", config_}},
         {config_, {"config", "check", config_, "--json", config_}},
         {config_, {"config", "diff", "base", config_, "--json", config_}},
+        {result_, {"report", result_, "-o", folder_ / "r.html", "--json", result_}},
+        {picture_, {"report", result_, "-o", folder_ / "r.html", "--json", picture_}},
     };
   }
 
@@ -97,7 +99,8 @@ class OwnInput : public ::testing::Test {
   TempFolder folder_;
   const std::string volume_ = folder_ / "in.nrrd", header_ = folder_ / "detached.nhdr",
                     data_ = folder_ / "detached.raw.gz", picture_ = folder_ / "in.exr", stream_ = folder_ / "in.fss",
-                    config_ = folder_ / "config.toml", tf_ = folder_ / "tf.toml", scene_ = folder_ / "scene.toml";
+                    config_ = folder_ / "config.toml", tf_ = folder_ / "tf.toml", scene_ = folder_ / "scene.toml",
+                    result_ = folder_ / "result.json";
 };
 
 TEST_F(OwnInput, IsReplacedByNoVerb) {

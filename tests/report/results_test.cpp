@@ -1,0 +1,122 @@
+// Results told apart: each verb's sentence, and one line for what is no result.
+#include "report/results.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "base/error.hpp"
+#include "report/report.hpp"
+#include "tests/images/image_helper.hpp"
+
+namespace fastsplat::report {
+namespace {
+
+const Json kCompare = Json::parse(R"({"schema":"fastsplat.compare/1","verdict":"fail","width":4,"height":4,"channels":4,
+  "lsb_bits":8,"psnr_db":41.25,"identical":false,"max_abs_lsb":7.5,"percentiles_lsb":{"p50":0.1},"floor":{},
+  "histogram":[],"clusters":[],"limits":[{"name":"min_psnr_db","limit":48.0,"got":41.25,"ok":false},
+  {"name":"max_abs_lsb","limit":3.0,"got":7.5,"ok":false},{"name":"min_values","limit":1.0,"got":64.0,"ok":true}]})");
+
+class Results : public ::testing::Test {
+ protected:
+  std::string write(const std::string& text) const {
+    std::ofstream(folder_ / "r.json", std::ios::binary) << text;
+    return (folder_ / "r.json").string();
+  }
+  Verdict verdict(const Json& json) const { return verdict_of(read_result(write(json.dump()))); }
+  /// One line that names the file and holds the words.
+  void expect_refused(const std::string& text, const std::vector<std::string>& words) const {
+    const std::string file = write(text);
+    try {
+      read_result(file);
+      ADD_FAILURE() << "taken: " << text;
+    } catch (const UserError& error) {
+      const std::string line = error.what();
+      EXPECT_EQ(error.code(), ExitCode::Input);
+      EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+      EXPECT_TRUE(line.starts_with(file + ": ")) << line;
+      EXPECT_LT(line.size(), file.size() + 300) << line;
+      for (const auto& word : words) EXPECT_NE(line.find(word), std::string::npos) << line;
+    }
+  }
+  images::TempFolder folder_;
+};
+
+TEST_F(Results, AFailedCompareNamesItsLimits) {
+  const Verdict told = verdict(kCompare);
+  EXPECT_EQ(told.status, Status::Fail);
+  EXPECT_EQ(told.sentence, "PSNR 41.25 dB, no less than 48 allowed, worst error 7.5 LSB, no more than 3 allowed");
+  Json passed = kCompare;
+  passed["verdict"] = "pass";
+  EXPECT_EQ(verdict(passed).sentence, "41.2 dB, worst error 7.5 LSB of 8 bits: within every limit");
+  passed["identical"] = true;
+  passed["psnr_db"] = nullptr;
+  EXPECT_EQ(verdict(passed).sentence, "the pictures are identical");
+}
+
+TEST_F(Results, VerifyTellsWhatWasComparedOrThatNothingWas) {
+  Json json{{"verb", "verify"}, {"verdict", "pass"}, {"comparisons", 1234567},
+            {"mismatches", 0},  {"splats", 1},       {"config", "tiny"}};
+  EXPECT_EQ(verdict(json).sentence,
+            "RTL and model agree bit for bit: 1,234,567 comparisons of configuration tiny, 1 splat, no difference");
+  json["verdict"] = "mismatch";
+  json["mismatches"] = 12;
+  EXPECT_EQ(verdict(json).status, Status::Fail);
+  EXPECT_EQ(verdict(json).sentence, "RTL and model differ 12 times in 1,234,567 comparisons of configuration tiny");
+  json["verdict"] = "nothing compared";
+  EXPECT_EQ(verdict(json).status, Status::Fail);
+  json["verdict"] = "simulation failed";
+  EXPECT_EQ(verdict(json).status, Status::Error);
+}
+
+TEST_F(Results, APlanIsAsGoodAsItsWorstCase) {
+  Json plan{{"verb", "plan"}, {"name", "words"}, {"rows", Json::array({{{"status", "pass"}}, {{"status", "pass"}}})}};
+  EXPECT_EQ(verdict(plan).sentence, "all 2 cases of plan words passed");
+  plan["rows"].push_back({{"status", "fail"}});
+  EXPECT_EQ(verdict(plan).sentence, "1 of 3 cases of plan words failed");
+  plan["rows"].push_back({{"status", "error"}});
+  EXPECT_EQ(verdict(plan).status, Status::Error);
+  plan["rows"] = Json::array();
+  EXPECT_EQ(verdict(plan).status, Status::Error) << "a plan that ran nothing proves nothing";
+}
+
+TEST_F(Results, TheWorstIsTheReportsVerdict) {
+  const std::vector<Verdict> all{
+      {Status::Measured, "m"}, {Status::Pass, "p"}, {Status::Fail, "first"}, {Status::Fail, "second"}};
+  EXPECT_EQ(verdict_of(all).sentence, "first");
+  EXPECT_EQ(verdict_of(std::vector<Verdict>{all[0], all[1]}).sentence, "p");
+  const Json data = page_data({read_result(write(kCompare.dump()))});
+  EXPECT_EQ(data["verdict"]["status"], "fail");
+  EXPECT_EQ(data["results"][0], kCompare) << "results go in as they are";
+}
+
+TEST_F(Results, WhatIsNoResultIsRefusedInOneLine) {
+  expect_refused("", {"empty"});
+  expect_refused("{\"verb\": \"compare\", ", {"cut off"});
+  expect_refused("not json", {"is no JSON", "byte"});
+  expect_refused("\x89PNG\r\n\x1a\n", {"is no JSON", "--picture"});
+  expect_refused("[1, 2]", {"is JSON, but no result", "array"});
+  expect_refused("{\"a\": 1}", {"without a \"verb\""});
+  expect_refused("{\"verb\": 7}", {"without a \"verb\""});
+  expect_refused("{\"verb\": \"frobnicate\"}", {"'frobnicate' has no report", "known"});
+  expect_refused("{\"verb\": \"comparee\"}", {"did you mean 'compare'"});
+  expect_refused("{\"verb\": \"line\\nbreak\"}", {"has no report"});
+}
+
+TEST_F(Results, DamageIsNamed) {
+  Json damaged = kCompare;
+  damaged.erase("limits");
+  expect_refused(damaged.dump(), {"damaged result of `compare`", "limits", "a list", "nothing"});
+  damaged = kCompare;
+  damaged["width"] = "wide";
+  expect_refused(damaged.dump(), {"width", "a count", "\"wide\""});
+  damaged = kCompare;
+  damaged["limits"] = Json::array({7});
+  expect_refused(damaged.dump(), {"damaged result of `compare`"});
+  for (const auto& verb : reported_verbs()) expect_refused(Json{{"verb", verb}}.dump(), {"damaged result of `" + verb});
+  std::printf("[figure] verbs with a report = %zu (limit >= 12)\n", reported_verbs().size());
+  EXPECT_GE(reported_verbs().size(), 12u);
+}
+
+}  // namespace
+}  // namespace fastsplat::report

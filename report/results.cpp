@@ -34,13 +34,14 @@ Json parsed(const std::filesystem::path& file) {
   }
 }
 
-/// Results of `compare` had a schema before they had a verb.
+/// Results of `compare` had a schema before they had a verb; a book of `verify --coverage` tells its format.
 std::string verb_in(const Json& json) {
   const auto text = [&](const char* key) {
     const auto found = json.find(key);
     return found != json.end() && found->is_string() ? found->get<std::string>() : std::string{};
   };
   if (json.contains("verb")) return text("verb");
+  if (text("format") == "fastsplat coverage 1") return "coverage";
   return text("schema") == "fastsplat.compare/1" ? "compare" : "";
 }
 

@@ -171,13 +171,23 @@ Verdict plan(const Figures& f) {
   return {Status::Pass, fmt::format("all {} of plan {} passed", counted(rows, "case"), name)};
 }
 
+Verdict coverage(const Figures& f) {
+  std::map<std::string, bool> hit;  // by bin: in any campaign
+  for (const auto& [campaign, bins] : f.at("campaigns").items())
+    for (const auto& [bin, hits] : bins.items()) hit[bin] |= hits.get<std::uint64_t>() > 0;
+  const auto hits = std::count_if(hit.begin(), hit.end(), [](const auto& bin) { return bin.second; });
+  return {Status::Measured, fmt::format("configuration {}: {} of {} hit", f.text("config"),
+                                        grouped(static_cast<std::uint64_t>(hits)), counted(hit.size(), "bin"))};
+}
+
 }  // namespace
 
 const std::map<std::string, SentenceOf>& verdicts() {
   static const std::map<std::string, SentenceOf> all{
-      {"compare", compare},        {"cycles", cycles},        {"errors", errors},        {"errors bound", bound},
-      {"errors propose", propose}, {"errors ranges", ranges}, {"family", family},        {"plan", plan},
-      {"render", render},          {"stream record", record}, {"stream replay", replay}, {"verify", verify}};
+      {"compare", compare},    {"coverage", coverage},      {"cycles", cycles},        {"errors", errors},
+      {"errors bound", bound}, {"errors propose", propose}, {"errors ranges", ranges}, {"family", family},
+      {"plan", plan},          {"render", render},          {"stream record", record}, {"stream replay", replay},
+      {"verify", verify}};
   return all;
 }
 

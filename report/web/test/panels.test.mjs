@@ -1,0 +1,322 @@
+// The panels in a browser: their numbers are the results', their drawings add up, tables and plots do what they say.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { compare_figures, data_of, fastsplat, figure, here, open, place, report, result, save, shown_number, start, stop } from "./browser.mjs";
+import { brute_front, sample_plan } from "./sample_plan.mjs";
+
+const scene = ["--volume", "shells:24", "--size", "64", "--azimuth", "40"];
+const mismatch = JSON.parse(readFileSync(join(here, "samples/verify-mismatch.json"), "utf8"));
+let all = ""; // a report of every verb
+
+before(async () => {
+  result("golden", ["render", ...scene, "--engine", "golden", "-o", "golden.exr"]);
+  result("cmodel", ["render", ...scene, "--engine", "cmodel", "-o", "cmodel.exr"]);
+  result("compare", ["compare", "golden.exr", "cmodel.exr"]);
+  result("strict", ["compare", "golden.exr", "cmodel.exr", "--min-psnr", "120"], [0, 1]);
+  result("same", ["compare", "golden.exr", "golden.exr"]);
+  result("errors", ["errors", ...scene]);
+  result("bound", ["errors", "bound", ...scene]);
+  result("ranges", ["errors", "ranges", ...scene]);
+  result("propose", ["errors", "propose", "--target", "psnr>=45", "--volume", "shells:12", "--size", "24"]);
+  result("cycles", ["cycles", ...scene.slice(0, 2), "--size", "128", "--config", "small", "--timeline"]);
+  result("devices", ["cycles", ...scene, "--config", "small", "--devices", "1,2,4", "--bytes-per-cycle", "8"]);
+  result("family", ["family", "--entries", "256"]);
+  result("verify", ["verify", "--random", "400", "--seeds", "5", "--config", "tiny", "--coverage", "book.json"]);
+  save("mismatch.json", mismatch);
+  save("plan.json", sample_plan(240));
+  save("long.json", sample_plan(2000));
+  const names = ["compare", "strict", "same", "errors", "bound", "ranges", "propose", "cycles", "devices", "family", "plan", "verify", "mismatch", "book", "golden", "cmodel"];
+  all = report("all", names.map((name) => `${name}.json`));
+  await start();
+});
+after(stop);
+
+test("every number of every panel is that of its result", async () => {
+  const page = await open(all);
+  const panels = await page.$$eval("section.panel", (sections) => sections.map((section) => ({ name: section.dataset.panel, id: section.id })));
+  const least = { compare: 12, errors: 90, bound: 20, ranges: 80, propose: 10, cycles: 10, family: 300, plan: 100, verify: 20, coverage: 4, runs: 8 };
+  const seen = {};
+  for (const { name, id } of panels) {
+    if (!(name in least)) continue;
+    const compared = await compare_figures(page, `#${id}`);
+    seen[name] = Math.max(seen[name] ?? 0, compared);
+  }
+  for (const [name, limit] of Object.entries(least)) {
+    figure(`numbers of ${name} compared`, seen[name] ?? 0, `>= ${limit}`);
+    assert.ok((seen[name] ?? 0) >= limit, name);
+  }
+  assert.equal(await page.locator("section[data-panel=result]").count(), 0, "a result that no panel draws");
+  await page.finish();
+});
+
+/** Rows of the waterfall in `section`: bars' ends in pixels, numbers as shown. */
+function waterfall(page, section, title) {
+  return page.$eval(
+    section,
+    (root, wanted) => {
+      const frame = [...root.querySelectorAll("figure")].find((each) => each.querySelector("strong").textContent.startsWith(wanted));
+      const bars = [...frame.querySelectorAll("rect")].map((bar) => ({ x: Number(bar.getAttribute("x")), end: Number(bar.getAttribute("x")) + Number(bar.getAttribute("width")) }));
+      const shown = [...frame.querySelectorAll("svg > text.tick")].filter((each) => each.getAttribute("text-anchor") === "end" && Number(each.getAttribute("x")) > 300).map((each) => each.textContent);
+      return { bars, shown: shown.slice(-bars.length - 1).filter((text) => /\d/.test(text)) };
+    },
+    title,
+  );
+}
+
+test("waterfalls add up, in numbers and in pixels", async () => {
+  const page = await open(all);
+  const { results } = await data_of(page);
+  const index = results.findIndex((each) => each.verb === "cycles");
+  const { bars, shown } = await waterfall(page, `#cycles-${index}`, "Ideal");
+  const numbers = shown.map((text) => shown_number(text).value);
+  const actual = numbers.pop();
+  assert.equal(numbers.reduce((sum, value) => sum + value, 0), actual);
+  assert.equal(actual, results[index].cycles.actual);
+  const last = bars.pop();
+  for (let i = 1; i < bars.length; ++i) assert.ok(Math.abs(bars[i].x - bars[i - 1].end) < 1.5, `bar ${i} begins at ${bars[i].x}, the one before ended at ${bars[i - 1].end}`);
+  assert.ok(Math.abs(last.end - bars.at(-1).end) < 1.5, "the total ends where the last part ends");
+  figure("causes of cycles that add up to", actual);
+  const errors = results.findIndex((each) => each.verb === "errors");
+  const steps = await waterfall(page, `#errors-${errors}`, "Steps");
+  const shares = steps.shown.map((text) => shown_number(text).value);
+  const total = shares.pop();
+  const sum = shares.reduce((a, b) => a + b, 0);
+  figure("sum of the steps' shares as shown", sum.toFixed(1), "100 +- 1");
+  assert.ok(Math.abs(total - 100) < 0.11 && Math.abs(sum - 100) <= 1);
+  await page.finish();
+});
+
+test("a failing result says so, with its stream and the command that shows it again", async () => {
+  const page = await open(all);
+  assert.match(await page.textContent("#top .mark"), /Error/, "a case of the plan broke");
+  const section = page.locator("section[data-panel=verify]");
+  assert.match(await section.locator(".lead .mark").textContent(), /Fail/);
+  const text = await section.textContent();
+  for (const part of [mismatch.failure.first, mismatch.failure.smallest, mismatch.failure.operands]) assert.ok(text.includes(part), part);
+  await section.locator("button.copy", { hasText: "Copy" }).first().waitFor();
+  await section.locator(`button[data-command="${mismatch.failure.replay}"]`).click();
+  assert.deepEqual(await page.evaluate(() => window.copied), [mismatch.failure.replay]);
+  assert.match(await page.textContent("#said"), /copied/);
+  assert.equal(await section.locator("svg rect[fill='var(--c3)']").count(), 1, "the failed seed's column");
+  await page.finish();
+});
+
+test("2,000 rows: sorting, filtering, the first and the last row", async () => {
+  const page = await open(report("long", ["long.json"]));
+  const rows = sample_plan(2000).rows;
+  const section = page.locator("section[data-panel=plan]");
+  const scroll = section.locator(".scroll").first();
+  const column = (name) => section.locator("thead th", { hasText: name }).first();
+  const numbers = async (name) => {
+    const place_of = await column(name).evaluate((head) => [...head.parentElement.children].indexOf(head) + 1);
+    return (await section.locator(`tbody tr[aria-rowindex] td:nth-child(${place_of})`).allTextContents()).map((text) => shown_number(text)?.value ?? null);
+  };
+  assert.ok((await section.locator("tbody tr").count()) < 120, "only rows in sight are in the page");
+  await compare_figures(page);
+  await column("Cost").locator("button").click();
+  assert.equal(await column("Cost").getAttribute("aria-sort"), "ascending");
+  const costs = rows.map((row) => row.metrics.cost ?? null).sort((a, b) => (a === null) - (b === null) || a - b);
+  const top = await numbers("Cost");
+  assert.deepEqual(top, costs.slice(0, top.length));
+  await scroll.evaluate((element) => (element.scrollTop = element.scrollHeight));
+  await page.waitForFunction((count) => document.querySelector(`tr[aria-rowindex="${count + 1}"]`), rows.length);
+  const bottom = await numbers("Cost");
+  assert.deepEqual(bottom, costs.slice(-bottom.length));
+  await compare_figures(page);
+  await column("Cost").locator("button").click();
+  const down = await numbers("Cost");
+  const falling = [...costs.filter((cost) => cost !== null)].reverse();
+  assert.deepEqual(down, falling.slice(0, down.length));
+  const limit = falling[900];
+  const begun = Date.now();
+  await section.locator("input[type=search]").first().fill(`Cost<${limit} index.kind=linear`);
+  const took = Date.now() - begun;
+  const wanted = rows.filter((row) => row.metrics.cost < limit && row.axes["index.kind"] === "linear").length;
+  const told = await section.locator(".controls .note").first().textContent();
+  assert.equal(shown_number(told).value, wanted);
+  assert.ok(wanted > 50 && wanted < 1000);
+  figure("rows left by the filter", wanted);
+  figure("milliseconds of filtering 2,000 rows", took, "< 1500");
+  assert.ok(took < 1500);
+  await page.finish();
+});
+
+test("the Pareto front is that of brute force, and a brush lists what lies in it", async () => {
+  const page = await open(report("plan", ["plan.json"]), { height: 1200 });
+  const plan = sample_plan(240);
+  const section = page.locator("section[data-panel=plan]");
+  const [x, y] = await section.locator(".controls select").evaluateAll((all) => all.slice(0, 2).map((select) => select.value));
+  const front = (await section.locator("[data-front]").getAttribute("data-front")).split(" ");
+  const wanted = brute_front(plan, x, y);
+  assert.deepEqual([...front].sort(), wanted.sort());
+  figure(`rows on the front of ${y} over ${x}`, front.length, ">= 3");
+  assert.ok(front.length >= 3);
+  const over = section.locator(".u-over");
+  await over.scrollIntoViewIfNeeded();
+  const box = await over.boundingBox();
+  await page.mouse.move(box.x + box.width * 0.3, box.y + box.height * 0.2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * 0.5, box.y + box.height * 0.5, { steps: 4 });
+  await page.mouse.move(box.x + box.width * 0.65, box.y + box.height * 0.8, { steps: 4 });
+  await page.mouse.up();
+  const rows_listed = async () => (await section.locator("tbody").first().locator("tr[aria-rowindex] code").allTextContents()).map((text) => text.trim());
+  const listed = await rows_listed();
+  const by_id = new Map(plan.rows.map((row) => [row.id.slice(0, 12), row]));
+  const inside = listed.map((id) => by_id.get(id));
+  assert.ok(inside.length > 5 && inside.length < 120, `${inside.length} rows in the rectangle`);
+  const range = (name) => [Math.min(...inside.map((row) => row.metrics[name])), Math.max(...inside.map((row) => row.metrics[name]))];
+  const [[x0, x1], [y0, y1]] = [range(x), range(y)];
+  for (const row of plan.rows) {
+    const within = row.metrics[x] >= x0 && row.metrics[x] <= x1 && row.metrics[y] >= y0 && row.metrics[y] <= y1;
+    assert.ok(!within || inside.includes(row), `${row.id} lies among the listed rows and is not listed`);
+  }
+  figure("rows in the rectangle", inside.length);
+  await section.getByRole("button", { name: "All rows" }).click();
+  assert.equal(shown_number(await section.locator(".controls .note").first().textContent()).value, plan.rows.length);
+  await page.finish();
+});
+
+test("rows are chosen with the keyboard and shown in the plot", async () => {
+  const page = await open(report("plan", ["plan.json"]), { height: 1200 });
+  const section = page.locator("section[data-panel=plan]");
+  const canvas = () => section.locator("canvas").evaluate((element) => element.toDataURL());
+  const before_choice = await canvas();
+  await section.locator("tbody tr[tabindex='0']").first().focus();
+  await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("Enter");
+  const chosen = section.locator("tr[aria-selected=true]");
+  assert.equal(await chosen.count(), 1);
+  assert.equal(await chosen.getAttribute("aria-rowindex"), "4");
+  assert.notEqual(await canvas(), before_choice);
+  await page.finish();
+});
+
+test("the timeline shows the tile that is asked for", async () => {
+  const page = await open(all);
+  const { results } = await data_of(page);
+  const index = results.findIndex((each) => each.timeline);
+  const section = page.locator(`#cycles-${index}`);
+  const tiles = results[index].timeline.tiles.length;
+  assert.ok(tiles > 1, "the scene has several tiles");
+  await section.locator("select").selectOption("1");
+  const sheets = results[index].timeline.sheets.filter((row) => row[0] === 1);
+  assert.equal(shown_number(await section.locator(".controls .note").textContent()).value, sheets.length);
+  const compared = await compare_figures(page, `#cycles-${index}`);
+  figure("sheets of tile 1", sheets.length, "> 0");
+  assert.ok(sheets.length > 0 && compared > sheets.length);
+  await page.finish();
+});
+
+test("no panel is wider than the page, and no two parts of one overlap", async () => {
+  let parts = 0;
+  for (const theme of ["light", "dark"]) {
+    for (const width of [400, 1000, 1800]) {
+      const page = await open(all, { width, theme });
+      const found = await page.evaluate(() => {
+        const wrong = [];
+        let count = 0;
+        if (document.documentElement.scrollWidth > innerWidth) wrong.push(`the page is ${document.documentElement.scrollWidth} wide`, ...[...document.querySelectorAll("main *")].filter((each) => each.getBoundingClientRect().right > innerWidth + 1 && !each.closest(".scroll, pre")).map((each) => `${each.tagName} "${each.textContent.slice(0, 40)}" ends at ${each.getBoundingClientRect().right}`).slice(0, 3));
+        const boxes = [...document.querySelectorAll("section.panel p, section.panel figure, section.panel .table, section.panel dl, section.panel .controls, section.panel ul, section.panel h3")]
+          .filter((each) => !each.closest("details, figure figure, .table .controls, [data-panel=pictures]") && !each.parentElement.closest("figure"))
+          .map((each) => ({ each, box: each.getBoundingClientRect() }))
+          .filter(({ box }) => box.width > 0 && box.height > 0);
+        for (const { each, box } of boxes) {
+          ++count;
+          if (box.right > innerWidth + 1 || box.left < -1) wrong.push(`${each.className || each.tagName} ends at ${box.right}`);
+          for (const other of boxes) {
+            if (other.each === each || other.each.contains(each) || each.contains(other.each)) continue;
+            const o = other.box;
+            if (Math.min(box.right, o.right) - Math.max(box.left, o.left) > 1 && Math.min(box.bottom, o.bottom) - Math.max(box.top, o.top) > 1)
+              wrong.push(`${each.textContent.slice(0, 40)} overlaps ${other.each.textContent.slice(0, 40)}`);
+          }
+        }
+        // Text of a drawing lies in the drawing.
+        for (const label of document.querySelectorAll("section.panel:not([data-panel=pictures]) svg text")) {
+          const box = label.getBoundingClientRect();
+          const host = label.ownerSVGElement.getBoundingClientRect();
+          if (box.width && (box.left < host.left - 14 || box.right > host.right + 14)) wrong.push(`"${label.textContent}" is cut: ${box.left} to ${box.right} in ${host.left} to ${host.right}`);
+        }
+        return { wrong, count };
+      });
+      assert.deepEqual(found.wrong, [], `${theme}, ${width} px`);
+      parts += found.count;
+      await page.finish();
+    }
+  }
+  figure("parts of panels without overlap", parts, ">= 300");
+  assert.ok(parts >= 300);
+});
+
+test("text is drawn with a font, dark is dark, and the button turns it round", async () => {
+  const page = await open(all, { theme: "dark" });
+  const session = await page.context().newCDPSession(page);
+  await session.send("DOM.enable");
+  await session.send("CSS.enable");
+  const { root } = await session.send("DOM.getDocument");
+  const { nodeId } = await session.send("DOM.querySelector", { nodeId: root.nodeId, selector: ".lead" });
+  const { fonts } = await session.send("CSS.getPlatformFontsForNode", { nodeId });
+  assert.ok(fonts.length > 0 && fonts[0].glyphCount > 10, "letters without a font are invisible");
+  const paper = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  const canvas = () => page.locator(".plot canvas").first().evaluate((element) => element.toDataURL());
+  const [dark, plot] = [await paper(), await canvas()];
+  await page.getByRole("button", { name: "Light colours" }).click();
+  assert.notEqual(await paper(), dark);
+  assert.notEqual(await canvas(), plot, "plots are drawn again in the other colours");
+  await page.finish();
+});
+
+test("printed, tables are whole and controls are gone", async () => {
+  const page = await open(report("long", ["long.json"]));
+  await page.emulateMedia({ media: "print" });
+  await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+  assert.equal(await page.locator("section[data-panel=plan] tbody tr[aria-rowindex]").count(), 2000);
+  assert.equal(await page.locator("#contents").isVisible(), false);
+  assert.equal(await page.locator(".controls").first().isVisible(), false);
+  assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), "light");
+  await page.finish();
+});
+
+test("empty results and foreign text do no harm", async () => {
+  const evil = '</script><img src=x onerror="window.hurt=1"><!-- <script>';
+  const plan = sample_plan(3);
+  plan.name = evil;
+  plan.rows[0].message = evil;
+  plan.rows[0].command = evil;
+  save("evil.json", plan);
+  const page = await open(report("evil", ["evil.json"]));
+  assert.equal(await page.evaluate(() => window.hurt), undefined);
+  assert.equal(await page.locator("img").count(), 0);
+  assert.ok((await page.locator("section h2").first().textContent()).includes(evil));
+  await page.finish();
+  save("none.json", { ...sample_plan(0), metrics: [] });
+  const family = JSON.parse(readFileSync(place("family.json"), "utf8"));
+  save("no-cells.json", { ...family, cells: [] });
+  const empty = await open(report("empty", ["none.json", "no-cells.json"]));
+  assert.match(await empty.textContent("section[data-panel=plan]"), /no case/);
+  assert.match(await empty.textContent("section[data-panel=family]"), /no cell/);
+  await empty.finish();
+});
+
+test("a result that breaks a panel fails the page by name, and the other panels stand", async () => {
+  const page_text = readFileSync(report("good", ["compare.json", "cycles.json"]), "utf8");
+  const broken = page_text.replace('"account":', '"account_is_gone":');
+  assert.notEqual(broken, page_text);
+  save("broken.html", broken);
+  const page = await open(place("broken.html"), { ready: "error" });
+  assert.match(await page.textContent(".broken"), /Cycles could not be drawn/);
+  assert.equal(await page.locator("section[data-panel=compare] svg").count() > 0, true);
+  await page.finish([/Cycles/]);
+});
+
+test("the template in the tree is what its sources build", () => {
+  const fresh = place("template.html");
+  fastsplat(["--version"]);
+  return import("node:child_process").then(({ execFileSync }) => {
+    execFileSync(process.execPath, [join(here, "../build.mjs"), fresh], { stdio: "ignore" });
+    assert.ok(readFileSync(fresh).equals(readFileSync(join(here, "../../template.html"))), "run `node build.mjs` in report/web and commit report/template.html");
+    figure("bytes of the template, equal to a fresh build", readFileSync(fresh).length);
+  });
+});

@@ -96,7 +96,7 @@ export function table<Row>(parent: HTMLElement, options: TableOptions<Row>): Tab
   });
   const scroll = h(
     "div",
-    { class: "scroll", tabindex: 0, role: "region", "aria-label": options.label },
+    { class: "scroll", tabindex: 0, role: "group", "aria-label": options.label },
     h("table", { "aria-label": options.label, "aria-rowcount": rows.length + 1 }, h("thead", {}, h("tr", {}, heads)), body),
   );
   const count = h("span", { class: "note" });

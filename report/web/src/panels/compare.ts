@@ -145,7 +145,7 @@ export const compare: Panel = {
           { name: "Limit", value: (row: Result) => row.name.replaceAll("_", " ") },
           { name: "allowed", value: (row: Result) => row.limit, figure: (row: Result) => `${context.index}.limits.${result.limits.indexOf(row)}.limit` },
           { name: "got", value: (row: Result) => row.got, figure: (row: Result) => `${context.index}.limits.${result.limits.indexOf(row)}.got` },
-          { name: "", value: (row: Result) => (row.ok ? "\u2713 met" : "\u2717 not met"), kind: (row: Result) => (row.ok ? "pass" : "fail") },
+          { name: "Verdict", value: (row: Result) => (row.ok ? "\u2713 met" : "\u2717 not met"), kind: (row: Result) => (row.ok ? "pass" : "fail") },
         ],
         rows: result.limits,
       });

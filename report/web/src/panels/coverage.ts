@@ -89,7 +89,7 @@ export function draw_books(root: HTMLElement, books: Book[], context: Context): 
         columns: [
           { name: "Bin", value: (bin) => bin.name },
           { name: "Hits", value: (bin) => bin.hits, kind: (bin) => (bin.hits === 0 ? "fail" : "") },
-          { name: "", value: (bin) => (bin.hits ? "\u2713 hit" : "\u2717 not hit"), kind: (bin) => (bin.hits ? "pass" : "fail") },
+          { name: "State", value: (bin) => (bin.hits ? "\u2713 hit" : "\u2717 not hit"), kind: (bin) => (bin.hits ? "pass" : "fail") },
           { name: "Most by", value: (bin) => bin.campaigns },
         ],
       });

@@ -205,7 +205,7 @@ export const plan: Panel = {
       })),
       ...(rows.some((row) => row.message) ? [{ name: "Message", value: (row: Result) => row.message } as Column<Result>] : []),
       { name: "Case", value: (row) => row.id, cell: (row) => h("code", {}, String(row.id ?? "").slice(0, 12)) },
-      { name: "", value: () => "", cell: (row) => (row.command ? command_button(row.command, "this case") : null) },
+      { name: "Command", value: () => "", cell: (row) => (row.command ? command_button(row.command, "this case") : null) },
     ];
     const body = h("div");
     root.append(body);

@@ -40,7 +40,7 @@ export const runs: Panel = {
         { name: "Windows", value: ({ result }) => result.counters?.windows, figure: at("counters", "windows") },
         { name: "Time", unit: "s", value: ({ result }) => result.seconds, style: { digits: 2 }, figure: at("seconds") },
         { name: "Files", value: ({ result }) => (result.outputs ?? []).join(", ") },
-        { name: "", value: () => "", cell: ({ result }) => (result.command ? command_button(result.command, "this picture") : null) },
+        { name: "Command", value: () => "", cell: ({ result }) => (result.command ? command_button(result.command, "this picture") : null) },
       ],
     });
     for (const { index, result } of items.filter((item) => item.result.counters)) {

@@ -82,7 +82,7 @@ export const verify: Panel = {
     root.append(
       bad.length === 0
         ? lead("pass", "RTL and model agree bit for bit: ", show("mismatches"), " of ", show("comparisons"), " comparisons differ, over ", show("splats"), " splats.")
-        : lead("fail", `${bad[0].result.verdict} in configuration ${bad[0].result.config}, ${number_text(bad.length)} of ${number_text(items.length)} results: `, show("mismatches"), " of ", show("comparisons"), " comparisons differ."),
+        : lead("fail", `${bad[0].result.verdict[0].toUpperCase()}${bad[0].result.verdict.slice(1)} in configuration ${bad[0].result.config}, ${number_text(bad.length)} of ${number_text(items.length)} results: `, show("mismatches"), " of ", show("comparisons"), " comparisons differ."),
       tiles(["Streams", show("streams")], ["Windows", show("windows")], ["Cycles of the RTL", show("cycles_rtl")], ["Cycles of the model", show("cycles_model")]),
     );
     for (const item of bad) if (item.result.failure) failure(root, item);
@@ -122,7 +122,7 @@ export const verify: Panel = {
         { name: "Cycles, RTL", value: ({ result }) => result.cycles_rtl, figure: figure("cycles_rtl") },
         { name: "Cycles, model", value: ({ result }) => result.cycles_model, figure: figure("cycles_model") },
         { name: "Ready / input", value: ({ result }) => `${result.ready} / ${result.input}` },
-        { name: "", value: () => "", cell: ({ result }) => (result.command ? command_button(result.command, "this result") : null) },
+        { name: "Command", value: () => "", cell: ({ result }) => (result.command ? command_button(result.command, "this result") : null) },
       ],
     });
     history(root, items);

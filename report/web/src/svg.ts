@@ -8,7 +8,7 @@ export interface Drawing {
   width: number;
   /** Sets the height; once, in `draw`. */
   height(pixels: number): void;
-  /** Shows `text` while the pointer is on `element`; where `focusable` also with the keyboard. */
+  /** Shows `text` while the pointer is on `element`; where `focusable` also with the keyboard: Tab, then arrows. */
   tip(element: SVGElement, text: string, focusable?: boolean): void;
 }
 
@@ -48,8 +48,20 @@ export function drawing(
     if (width === drawn || width <= 0) return;
     drawn = width;
     clear(place);
-    const svg = s("svg", { role: "img", "aria-label": options.label, width: "100%" });
+    const svg = s("svg", { role: "group", "aria-label": options.label, width: "100%" });
     place.append(svg, bubble);
+    // One stop of Tab a drawing; arrows go on from there.
+    const stops: SVGElement[] = [];
+    svg.addEventListener("keydown", (event) => {
+      const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
+      const from = stops.indexOf(event.target as SVGElement);
+      const next = step === undefined || from < 0 ? undefined : stops[from + step];
+      if (!next) return;
+      event.preventDefault();
+      stops[from].setAttribute("tabindex", "-1");
+      next.setAttribute("tabindex", "0");
+      next.focus();
+    });
     draw({
       svg,
       width,
@@ -62,7 +74,8 @@ export function drawing(
         element.addEventListener("pointerleave", hide);
         element.append(s("title", {}, text));
         if (!focusable) return;
-        element.setAttribute("tabindex", "0");
+        element.setAttribute("tabindex", stops.length ? "-1" : "0");
+        stops.push(element);
         element.setAttribute("role", "img");
         element.setAttribute("aria-label", text);
         element.addEventListener("focus", () => show(element, text));

@@ -1,6 +1,7 @@
 // A browser for the tests: Debian's chromium, no network, one file; whatever it complains about fails the test.
 //   FASTSPLAT   the program (build/bin/fastsplat)
 //   CHROMIUM    the browser (chromium or chromium-headless-shell of the PATH's usual places)
+//   TEMPLATE    another template than the program's: what `node build.mjs FILE` has just made
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -49,6 +50,11 @@ export function save(name, value) {
 /** `fastsplat report` of files in the test's folder: the page's path. */
 export function report(name, results, more = []) {
   fastsplat(["report", ...results, "-o", `${name}.html`, "--quiet", ...more]);
+  if (process.env.TEMPLATE) {
+    const data = /<script type="(?:application\/json|text\/plain)"[^]*?<\/script>/g;
+    const blocks = readFileSync(place(`${name}.html`), "utf8").match(data).join("");
+    save(`${name}.html`, readFileSync(process.env.TEMPLATE, "utf8").replace("<!--FASTSPLAT-DATA-->", () => blocks));
+  }
   return place(`${name}.html`);
 }
 

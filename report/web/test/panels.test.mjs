@@ -48,6 +48,13 @@ test("every number of every panel is that of its result", async () => {
     assert.ok((seen[name] ?? 0) >= limit, name);
   }
   assert.equal(await page.locator("section[data-panel=result]").count(), 0, "a result that no panel draws");
+  // Each can be made again: its command is in a button of its panel.
+  const { results } = await data_of(page);
+  const buttons = await page.$$eval("button[data-command]", (all) => all.map((each) => each.dataset.command));
+  const commands = results.map((each) => each.command).filter(Boolean);
+  for (const command of commands) assert.ok(buttons.some((button) => button.split("\n").includes(command)), `no button copies ${command}`);
+  figure("commands that a button copies", commands.length, ">= 12");
+  assert.ok(commands.length >= 12);
   await page.finish();
 });
 
@@ -194,6 +201,23 @@ test("rows are chosen with the keyboard and shown in the plot", async () => {
   await page.finish();
 });
 
+test("a drawing is one stop of Tab, and arrows tell every bar's number", async () => {
+  const page = await open(report("plain", ["cycles.json"]));
+  const { results } = await data_of(page);
+  const svg = page.locator("section[data-panel=cycles] svg").first();
+  assert.equal(await svg.locator("[tabindex='0']").count(), 1);
+  await svg.locator("[tabindex='0']").focus();
+  const told = [];
+  const count = Object.keys(results[0].cycles.account).length + 1;
+  for (let i = 0; i < count; ++i) {
+    told.push(await page.locator("section[data-panel=cycles] .tip").first().textContent());
+    await page.keyboard.press("ArrowDown");
+  }
+  for (const [i, cycles] of [...Object.values(results[0].cycles.account), results[0].cycles.actual].entries()) assert.equal(shown_number(told[i].split(": ")[1]).value, cycles, told[i]);
+  figure("bars read with the keyboard", told.length, ">= 9");
+  await page.finish();
+});
+
 test("the timeline shows the tile that is asked for", async () => {
   const page = await open(all);
   const { results } = await data_of(page);
@@ -309,14 +333,4 @@ test("a result that breaks a panel fails the page by name, and the other panels 
   assert.match(await page.textContent(".broken"), /Cycles could not be drawn/);
   assert.equal(await page.locator("section[data-panel=compare] svg").count() > 0, true);
   await page.finish([/Cycles/]);
-});
-
-test("the template in the tree is what its sources build", () => {
-  const fresh = place("template.html");
-  fastsplat(["--version"]);
-  return import("node:child_process").then(({ execFileSync }) => {
-    execFileSync(process.execPath, [join(here, "../build.mjs"), fresh], { stdio: "ignore" });
-    assert.ok(readFileSync(fresh).equals(readFileSync(join(here, "../../template.html"))), "run `node build.mjs` in report/web and commit report/template.html");
-    figure("bytes of the template, equal to a fresh build", readFileSync(fresh).length);
-  });
 });

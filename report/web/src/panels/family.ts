@@ -8,10 +8,10 @@ import { series_colours } from "../theme";
 import { table } from "../table";
 
 const metrics: [name: string, title: string, value: (row: Result) => number][] = [
-  ["aligned.rms", "RMS, splat on the grid", (row) => row.aligned?.rms],
-  ["aligned.max", "max, splat on the grid", (row) => row.aligned?.max],
-  ["turned.rms", "RMS, splat anywhere", (row) => row.turned?.rms],
-  ["turned.max", "max, splat anywhere", (row) => row.turned?.max],
+  ["aligned.rms", "RMS, aligned lattice", (row) => row.aligned?.rms],
+  ["aligned.max", "max, aligned lattice", (row) => row.aligned?.max],
+  ["turned.rms", "RMS, turned lattice", (row) => row.turned?.rms],
+  ["turned.max", "max, turned lattice", (row) => row.turned?.max],
 ];
 const dashes = [undefined, [7, 4], [2, 3], [9, 3, 2, 3], [4, 2], [12, 4], [1, 4], [6, 2, 2, 2, 2, 2]];
 
@@ -37,9 +37,9 @@ export const family: Panel = {
     const best = cells.filter((row) => typeof row.aligned?.rms === "number").sort((a, b) => a.aligned.rms - b.aligned.rms)[0];
     root.append(
       best
-        ? lead(null, `${number_text(cells.length)} cells of ${kinds.length} ${kinds.length === 1 ? "kind" : "kinds"}; least error on the grid: `, h("strong", {}, best.kind), ` with K = ${best.grid}${best.entries ? `, N = ${best.entries}` : ""}: RMS `, h("span", { class: "figure", "data-figure": `${context.index}.cells.${cells.indexOf(best)}.aligned.rms` }, number_text(best.aligned.rms)), `, ${number_text(best.bits)} bits.`)
+        ? lead(null, `${number_text(cells.length)} cells of ${kinds.length} ${kinds.length === 1 ? "kind" : "kinds"}; least error of an aligned lattice: `, h("strong", {}, best.kind), ` with K = ${best.grid}${best.entries ? `, N = ${best.entries}` : ""}: RMS `, h("span", { class: "figure", "data-figure": `${context.index}.cells.${cells.indexOf(best)}.aligned.rms` }, number_text(best.aligned.rms)), `, ${number_text(best.bits)} bits.`)
         : lead(null, "There is no cell in this result."),
-      note(`Errors in ${result.unit ?? "1/255 of the mean"}. K: places of a splat within a pixel; N: entries of a table.`),
+      note(`Errors in ${result.unit ?? "1/255 of the mean"}. K: steps of the centres' grid a pixel; N: entries of a table.`),
     );
     if (!best) return;
     const again = (): void => draw();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <span>
+#include <sstream>
 
 #include "base/error.hpp"
 #include "base/suggest.hpp"
@@ -146,6 +147,19 @@ Action print_help(CLI::App& app, CLI::App& verb) {
 }
 
 }  // namespace
+
+std::vector<std::string> flags_of(const std::string& verb, const std::vector<Verb>& verbs) {
+  CommandLine line(verbs);
+  std::vector<std::string> words;
+  std::istringstream all(verb);
+  for (std::string word; all >> word;) words.push_back(word);
+  std::size_t at = 0;
+  CLI::App* found = find_verb(line.app, words, at);
+  const Action action = line.declare(*found);
+  if (at < words.size() || !action)
+    misused(line.app, "no verb is called '" + verb + "'", "`fastsplat help` lists the verbs");
+  return flag_names(*found);
+}
 
 Action parse(int argc, const char* const* argv, const std::vector<Verb>& verbs) {
   CommandLine line(verbs);

@@ -1,9 +1,8 @@
 #include "cli/replay_line.hpp"
 
-#include "cli/again.hpp"
+#include "base/shell_word.hpp"
 
 namespace fastsplat::cli {
-
 std::string replay_line(const std::filesystem::path& stream, const ConfigFlags& config,
                         const testbench::VerifyOptions& options) {
   std::string line = "fastsplat verify --stream " + shell_word(stream.string()) + " --config " +

@@ -25,6 +25,10 @@ const std::vector<Verb>& all_verbs() {
       verbs::config_diff,
       verbs::family,
       verbs::verify,
+      {"plan", "many cases over axes: make, run in parts, merge, look", nullptr},
+      verbs::plan_make,
+      verbs::plan_run,
+      verbs::plan_merge,
       verbs::report,
       verbs::doctor,
   };

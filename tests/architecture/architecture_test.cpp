@@ -37,9 +37,11 @@ const Arrows kDrawn{
     {"analysis", {"images", "scene", "base/parallel"}},
     {"analysis/errors", {"analysis", "stages"}},
     {"analysis/family", {"analysis/errors"}},
+    {"plan", {"base"}},
     {"report", {"images"}},
     {"cli",
-     {"golden", "driver", "testbench/triage", "testbench/closure", "analysis/errors", "analysis/family", "report"}},
+     {"golden", "driver", "testbench/triage", "testbench/closure", "analysis/errors", "analysis/family", "plan",
+      "report"}},
 };
 
 /// `drawn` with everything that is reached by going on; a room on a circle reaches itself.

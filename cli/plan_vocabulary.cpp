@@ -1,0 +1,166 @@
+#include "cli/plan_vocabulary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "base/error.hpp"
+#include "base/fnv1a.hpp"
+#include "base/hash_text.hpp"
+#include "base/read_file.hpp"
+#include "cli/command_line.hpp"
+#include "cli/config_flags.hpp"
+#include "cli/output_names.hpp"
+#include "scene/scene_file.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostBytes = std::size_t{1} << 34;
+
+/// The hash of a file's bytes; the same file is read once.
+std::string hash_of_file(const fs::path& path) {
+  static std::map<fs::path, std::string> known;
+  auto& hash = known[path];
+  if (hash.empty()) hash = hash_text(fnv1a(kFnv1aStart, read_text_file(path, kMostBytes)));
+  return hash;
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+bool has(const std::vector<std::string>& flags, const std::string& flag) {
+  return std::ranges::find(flags, flag) != flags.end();
+}
+
+const std::vector<std::string>& known_flags(const std::string& verb) {
+  static std::map<std::string, std::vector<std::string>> known;
+  auto& flags = known[verb];
+  if (flags.empty()) flags = flags_of(verb);
+  return flags;
+}
+
+Action parse_words(const plan::Words& words, const std::vector<Verb>& verbs) {
+  std::vector<const char*> argv{"fastsplat"};
+  for (const auto& word : words) argv.push_back(word.c_str());
+  return parse(static_cast<int>(argv.size()), argv.data(), verbs);
+}
+
+/// Of all that a scene says and the bytes of the files it names; where those lie is none of it.
+std::string hash_of_scene(const SceneFlags& flags) {
+  scene::SceneDescription description = describe(flags);
+  std::uint64_t hash = kFnv1aStart;
+  for (const auto& path : inputs_of_volume(description.volume)) {
+    hash = fnv1a(hash, hash_of_file(path));
+    description.volume = "file";
+  }
+  if (is_file(description.transfer_function)) {
+    hash = fnv1a(hash, hash_of_file(description.transfer_function));
+    description.transfer_function = "file";
+  }
+  return hash_text(fnv1a(hash, scene::to_toml(description)));
+}
+
+/// Of the settings that are a scene's; the same ones are looked up once.
+std::string scene_hash(const plan::Settings& settings) {
+  static SceneFlags flags;
+  static const std::vector<Verb> verbs{{"scene", "", [](Options& options) {
+                                          flags = {};
+                                          declare(options, flags);
+                                          return Action([] { return ExitCode::Pass; });
+                                        }}};
+  static const auto names = flags_of("scene", verbs);
+  static std::map<std::string, std::string> known;
+  plan::Words words{"scene"};
+  for (const auto& [name, value] : settings) {
+    if (!has(names, "--" + name)) continue;
+    const auto* flag = std::get_if<bool>(&value);
+    if (flag == nullptr) {
+      words.push_back("--" + name + "=" + plan::to_text(value));
+    } else if (*flag) {
+      words.push_back("--" + name);
+    }
+  }
+  auto& hash = known[plan::shell_line(words)];
+  if (hash.empty()) {
+    parse_words(words, verbs);
+    hash = hash_of_scene(flags);
+  }
+  return hash;
+}
+
+std::string config_hash(const plan::Settings& settings) {
+  ConfigFlags flags;
+  for (const auto& [name, value] : settings) {
+    const std::string text = plan::to_text(value);
+    if (plan::is_key(name)) flags.changes.push_back(name + "=" + text);
+    if (name == "config") flags.config = text;
+    if (name == "index") flags.changes.push_back("index.kind=" + text);
+  }
+  return hash_text(cmodel::config_hash(load(flags)));
+}
+
+plan::Content content_of(const plan::Settings& settings, const std::vector<std::string>& verbs) {
+  const auto set = [&](const char* name) { return std::ranges::find(settings, name, &plan::Setting::name); };
+  plan::Content content;
+  for (const auto& verb : verbs) {
+    const auto& flags = known_flags(verb);
+    if (content.config_hash.empty() && has(flags, "--config")) content.config_hash = config_hash(settings);
+    const bool has_other = (has(flags, "--random") && set("random") != settings.end());
+    if (!content.scene_hash.empty() || has_other) continue;
+    if (const auto stream = set("stream"); has(flags, "--stream") && stream != settings.end()) {
+      const std::string path = plan::to_text(stream->value);
+      require_regular_file(path);
+      content.scene_hash = hash_of_file(path);
+    } else if (has(flags, "--volume")) {
+      content.scene_hash = scene_hash(settings);
+    }
+  }
+  return content;
+}
+
+std::vector<std::string> verbs_of(const plan::Case& one) {
+  std::vector<std::string> verbs;
+  for (const auto& step : one.steps) verbs.push_back(step.result.empty() ? step.words.front() : step.result);
+  return verbs;
+}
+
+}  // namespace
+
+plan::Vocabulary plan_vocabulary() {
+  return {.flags_of = [](const std::string& verb) { return known_flags(verb); },
+          .check = [](const plan::Words& words) { parse_words(words, all_verbs()); },
+          .content = content_of};
+}
+
+void require_content(const plan::Plan& plan, const std::string& plan_file) {
+  for (const auto& one : plan.cases) {
+    if (content_of(one.settings, verbs_of(one)) == one.content) continue;
+    throw_input(
+        {.where = plan_file,
+         .what = fmt::format("case {}: its configuration or its scene is not what the plan was made of", one.id),
+         .expected = fmt::format("configuration {}, scene {}", one.content.config_hash, one.content.scene_hash),
+         .got = {},
+         .fix = "run it in the folder where it was made, or make it again: `fastsplat plan make`"});
+  }
+}
+
+std::string program_hash() {
+  const fs::path program = fs::read_symlink("/proc/self/exe");
+  std::uint64_t hash = fnv1a(kFnv1aStart, read_text_file("/proc/self/exe", kMostBytes));
+  for (const char* folder : {".", "../lib/fastsplat"}) {
+    const fs::path module = program.parent_path() / folder / "fastsplat_openimageio.so";
+    if (!is_file(module)) continue;
+    hash = fnv1a(hash, read_text_file(module, kMostBytes));
+    break;
+  }
+  return hash_text(hash);
+}
+
+}  // namespace fastsplat::cli

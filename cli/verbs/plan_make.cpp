@@ -1,0 +1,60 @@
+// fastsplat plan make: a specification's axes expanded into cases, each named by the hash of what it is.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/atomic_file.hpp"
+#include "base/json_text.hpp"
+#include "cli/common.hpp"
+#include "cli/output.hpp"
+#include "cli/output_names.hpp"
+#include "cli/plan_vocabulary.hpp"
+#include "cli/verbs/verbs.hpp"
+#include "plan/make.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+struct Arguments {
+  Common common;
+  std::string spec, out;
+};
+
+std::string to_text(const plan::Made& made, const Arguments& arguments) {
+  std::string axes;
+  for (const auto& axis : made.plan.axes)
+    axes += fmt::format("{}{} ({})", axes.empty() ? "" : ", ", axis.name, axis.values.size());
+  return fmt::format("plan {} {}: {} of kind {}\naxes: {}\n{}", made.plan.name, made.plan.hash,
+                     counted(made.plan.cases.size(), "case"), made.plan.cases.front().kind, axes,
+                     arguments.out.empty() ? "" : arguments.out + "\n");
+}
+
+ExitCode run(const Arguments& arguments) {
+  const Output output(arguments.common);
+  check_outputs({.others = {arguments.out, arguments.common.json}, .inputs = {arguments.spec}});
+  const auto made = plan::make(plan::read_spec(arguments.spec), plan_vocabulary());
+  const auto json = plan::to_json(made.plan);
+  if (!arguments.out.empty()) write_text_file(arguments.out, json_text(json, 1) + "\n");
+  output.line(to_text(made, arguments));
+  if (!made.left_out.empty()) {
+    output.note(fmt::format("{} left out, for example {}", counted(made.left_out.size(), "combination"),
+                            made.left_out.front()));
+  }
+  output.json(json);
+  return ExitCode::Pass;
+}
+
+void declare(Options& options, Arguments& to) {
+  options.positional("SPEC", to.spec, "a specification, .toml: kind of case, axes, constants (docs/plan.md)");
+  options.group("Output");
+  options.word("-o,--out", to.out, "FILE", "the plan, .json: what the other verbs take");
+  declare(options, to.common);
+  options.example("fastsplat plan make configs/plans/word-lengths.toml -o plan.json");
+}
+
+}  // namespace
+
+const Verb verbs::plan_make{"plan make", "expand the axes of a specification into cases",
+                            verb<Arguments, declare, run>};
+
+}  // namespace fastsplat::cli

@@ -1,0 +1,60 @@
+// fastsplat plan merge: the results of a plan in one file, a row a case, in the plan's order.
+#include <fmt/format.h>
+
+#include "base/atomic_file.hpp"
+#include "base/json_text.hpp"
+#include "cli/common.hpp"
+#include "cli/output.hpp"
+#include "cli/output_names.hpp"
+#include "cli/plan_arguments.hpp"
+#include "cli/verbs/verbs.hpp"
+#include "plan/merged.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+struct Arguments {
+  Common common;
+  PlanFlags plan;
+  std::string out;
+  bool partial = false, allow_foreign = false;
+};
+
+std::string to_text(const plan::Merged& merged, const std::string& out) {
+  const auto with = [&](plan::Status status) { return std::ranges::count(merged.rows, status, &plan::Row::status); };
+  return fmt::format(
+      "{}: {}, {} passed, {} failed, {} with errors{}\n{}", merged.name, counted(merged.rows.size(), "row"),
+      with(plan::Status::Pass), with(plan::Status::Fail), with(plan::Status::Error),
+      merged.missing.empty() ? "" : fmt::format("; {} missing", merged.missing.size()), out.empty() ? "" : out + "\n");
+}
+
+ExitCode run(const Arguments& arguments) {
+  const Output output(arguments.common);
+  check_outputs({.others = {arguments.out, arguments.common.json}, .inputs = {arguments.plan.plan}});
+  const auto merged = plan::merge(plan::read_plan(arguments.plan.plan), arguments.plan.folder(),
+                                  {.partial = arguments.partial, .allow_foreign = arguments.allow_foreign});
+  const auto json = plan::to_json(merged);
+  if (!arguments.out.empty()) write_text_file(arguments.out, json_text(json, 1) + "\n");
+  output.line(to_text(merged, arguments.out));
+  if (!merged.missing.empty())
+    output.warn(fmt::format("{} missing: the rows are not the whole plan", counted(merged.missing.size(), "result")));
+  output.json(json);
+  return ExitCode::Pass;
+}
+
+void declare(Options& options, Arguments& to) {
+  declare(options, to.plan);
+  options.flag("--partial", to.partial, "merge what is there; the rest is listed as missing");
+  options.flag("--allow-foreign", to.allow_foreign, "pass over results that are no case of this plan");
+  options.group("Output");
+  options.word("-o,--out", to.out, "FILE", "the rows, .json: what table, pareto, csv and report take");
+  declare(options, to.common);
+  options.example("fastsplat plan merge plan.json -o merged.json");
+}
+
+}  // namespace
+
+const Verb verbs::plan_merge{"plan merge", "the results of a plan in one file, whatever order they came in",
+                             verb<Arguments, declare, run>};
+
+}  // namespace fastsplat::cli

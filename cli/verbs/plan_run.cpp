@@ -1,0 +1,99 @@
+// fastsplat plan run: what is left of a plan, or of a shard of it; killed anywhere, it goes on the next time.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "base/version.hpp"
+#include "cli/common.hpp"
+#include "cli/output.hpp"
+#include "cli/output_names.hpp"
+#include "cli/plan_arguments.hpp"
+#include "cli/plan_vocabulary.hpp"
+#include "cli/progress_bar.hpp"
+#include "cli/verbs/verbs.hpp"
+#include "plan/run.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+struct Arguments {
+  Common common;
+  PlanFlags plan;
+  std::string shard = "1/1";
+  int jobs = 0;
+  bool retry = false, again = false;
+};
+
+using Json = nlohmann::ordered_json;
+
+std::string to_text(const plan::RunSummary& summary, const std::string& folder) {
+  const auto done = summary.passed + summary.failed + summary.errors;
+  return fmt::format("{} of {} done in {}: {} passed, {} failed, {} with errors; {} were there before\n", done,
+                     counted(summary.cases, "case"), folder, summary.passed, summary.failed, summary.errors,
+                     summary.skipped);
+}
+
+Json to_json(const plan::RunSummary& summary, const Arguments& arguments, double seconds) {
+  return {{"verb", "plan run"},         {"version", program_version()},
+          {"shard", arguments.shard},   {"cases", summary.cases},
+          {"skipped", summary.skipped}, {"passed", summary.passed},
+          {"failed", summary.failed},   {"errors", summary.errors},
+          {"signal", summary.signal},   {"cpu_seconds", summary.cpu_seconds},
+          {"seconds", seconds}};
+}
+
+ExitCode exit_code(const plan::RunSummary& summary) {
+  if (summary.signal != 0) return static_cast<ExitCode>(128 + summary.signal);
+  return summary.failed + summary.errors > 0 ? ExitCode::Failed : ExitCode::Pass;
+}
+
+ExitCode run(const Arguments& arguments) {
+  const Output output(arguments.common);
+  const plan::Shard shard = plan::shard_from(arguments.shard);
+  check_outputs({.others = {arguments.common.json}, .inputs = {arguments.plan.plan}});
+  const auto plan = plan::read_plan(arguments.plan.plan);
+  require_content(plan, arguments.plan.plan);
+  const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int jobs = arguments.jobs > 0 ? arguments.jobs : processors;
+  const int threads = arguments.common.threads > 0 ? arguments.common.threads : std::max(1, processors / jobs);
+  ProgressBar bar("plan", watching(arguments.common));
+  const auto summary = plan::run(
+      plan, {.results = arguments.plan.folder(),
+             .program = "/proc/self/exe",
+             .program_hash = program_hash(),
+             .shard = shard,
+             .jobs = static_cast<std::size_t>(jobs),
+             .threads = threads,
+             .retry_failed = arguments.retry,
+             .replace_foreign = arguments.again,
+             .progress = bar.callback(),
+             .finished =
+                 [&](const plan::Case& one, const plan::CaseResult& result) {
+                   if (result.status != plan::Status::Pass)
+                     output.warn(fmt::format("case {}: {}\n  {}", one.id, result.message, plan::command_of(one)));
+                 },
+             .note = [&](const std::string& text) { output.note(text); }});
+  output.line(to_text(summary, arguments.plan.folder()));
+  output.json(to_json(summary, arguments, output.seconds()));
+  if (summary.signal != 0) output.note("stopped by a signal: what is done is kept, the next run goes on");
+  return exit_code(summary);
+}
+
+void declare(Options& options, Arguments& to) {
+  declare(options, to.plan);
+  options.flag("--retry", to.retry, "run cases that failed again, too");
+  options.flag("--again", to.again, "replace results of another program or of other content");
+  options.group("Work");
+  options.word("--shard", to.shard, "I/N", "every N-th case only, from the I-th on: I is 1 to N");
+  options.integer("--jobs", to.jobs, 0, 1024, "N", "cases at once; 0 as many as there are processors");
+  declare(options, to.common);
+  options.example("fastsplat plan run plan.json --jobs 2");
+}
+
+}  // namespace
+
+const Verb verbs::plan_run{"plan run", "run the cases of a plan that are not done yet", verb<Arguments, declare, run>};
+
+}  // namespace fastsplat::cli

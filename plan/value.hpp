@@ -1,0 +1,38 @@
+// A value of a setting: what SPEC.toml says of a flag or of a configuration key, and what a row of results shows.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace fastsplat::plan {
+
+using Value = std::variant<bool, std::int64_t, double, std::string>;
+
+/// As on the command line: "true", "64", "0.5", "base"; a number's shortest text that reads back as itself.
+std::string to_text(const Value& value);
+nlohmann::ordered_json to_json(const Value& value);
+/// Throws std::runtime_error for what is no single value.
+Value value_from(const nlohmann::ordered_json& json);
+
+/// A setting by its name: a flag of a verb without its dashes ("size"), or a configuration key ("snap.phases").
+struct Setting {
+  std::string name;
+  Value value;
+  bool operator==(const Setting&) const = default;
+};
+using Settings = std::vector<Setting>;
+
+/// Configuration keys have a dot in them, flags never.
+inline bool is_key(std::string_view name) { return name.find('.') != std::string_view::npos; }
+
+using Words = std::vector<std::string>;
+
+/// As a shell reads them back.
+std::string shell_line(const Words& words);
+
+}  // namespace fastsplat::plan

@@ -2,12 +2,30 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/errors/cost.hpp"
+#include "analysis/family/family_cost.hpp"
 #include "base/hash_text.hpp"
 
 namespace fastsplat::cli {
+namespace {
+
+constexpr int kPricedRadius = 2;  ///< pixels: the footprint of a voxel as large as a pixel
+
+}  // namespace
 
 nlohmann::ordered_json config_identity_json(const cmodel::Config& config) {
   return {{"name", config.name}, {"hash", hash_text(cmodel::config_hash(config))}};
+}
+
+nlohmann::ordered_json priced_config_json(const cmodel::Config& config) {
+  auto json = config_identity_json(config);
+  // What is counted is the device of rtl/.
+  const bool counted = config.index() == cmodel::IndexKind::Rlut;
+  json["cost"] = counted ? analysis::to_json(analysis::cost(config)) : nlohmann::ordered_json(nullptr);
+  json["index_cost"] = {{"radius", kPricedRadius},
+                        {"table_bits", analysis::storage_bits(config, kPricedRadius)},
+                        {"cycles_per_splat", analysis::cycles_per_splat(config, kPricedRadius)}};
+  return json;
 }
 
 nlohmann::ordered_json value_json(const cmodel::Config& config, const cmodel::ConfigKey& key) {
@@ -20,6 +38,8 @@ nlohmann::ordered_json config_json(const cmodel::Config& config) {
                               {"description", config.description},
                               {"verified", config.verified},
                               {"hash", hash_text(cmodel::config_hash(config))}};
+  const auto priced = priced_config_json(config);
+  for (const char* name : {"cost", "index_cost"}) json[name] = priced.at(name);
   for (const auto& key : cmodel::config_keys()) {
     const std::string name = key.name;
     const auto dot = name.find('.');

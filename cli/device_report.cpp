@@ -102,7 +102,7 @@ std::string to_text(const DeviceReport& report) {
 }
 
 nlohmann::ordered_json to_json(const DeviceReport& report) {
-  nlohmann::ordered_json json{{"config", config_identity_json(report.config)}};
+  nlohmann::ordered_json json{{"config", priced_config_json(report.config)}};
   json.update(to_json(report.driver));
   if (report.units.fast + report.units.plain > 0) {
     json["units"] = {{"fast_tiles", report.units.fast},

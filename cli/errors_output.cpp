@@ -16,7 +16,7 @@ std::string errors_heading(const std::string& scene, const cmodel::Config& confi
 }
 
 nlohmann::ordered_json errors_identity(const char* verb, const std::string& scene, const cmodel::Config& config) {
-  return {{"verb", verb}, {"version", program_version()}, {"scene", scene}, {"config", config_identity_json(config)}};
+  return {{"verb", verb}, {"version", program_version()}, {"scene", scene}, {"config", priced_config_json(config)}};
 }
 
 void write_map(const std::string& path, const Image& map) {

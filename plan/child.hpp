@@ -17,7 +17,7 @@ struct Ended {
   int exit_code = 0;  ///< 128 + signal where a signal ended it
   int signal = 0;     ///< that ended it, or that it says it was ended by (exit code above 128); else 0
   double cpu_seconds = 0.0;
-  std::string message;  ///< the last line it wrote to stderr, without "fastsplat: error:"
+  std::string message{};  ///< the last line it wrote to stderr, without "fastsplat: error:"
 };
 
 /// The children of this process, in process groups of their own: Ctrl-C reaches this process alone, which ends them.

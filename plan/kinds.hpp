@@ -16,7 +16,7 @@ struct StepOfKind {
   bool takes_device = true;  ///< configuration and keys are words of it, where the verb has them
   bool has_result = true;    ///< its JSON is part of the result
   bool coverage = false;
-  std::string shared;  ///< the stem of the file that cases share, "golden"; outputs and files name it "{golden.exr}"
+  std::string shared{};  ///< the stem of the file that cases share, "golden"; outputs and files name it "{golden.exr}"
 };
 
 std::vector<StepOfKind> steps_of(const std::string& kind);

@@ -13,8 +13,8 @@ inline constexpr const char* kFailure = "failure";  ///< with .fss and .fst
 struct Outcome {
   Status status = Status::Pass;
   int exit_code = 0, signal = 0;
-  std::string message;                    ///< empty for Pass
-  nlohmann::ordered_json json, coverage;  ///< null for none
+  std::string message{};                      ///< empty for Pass
+  nlohmann::ordered_json json{}, coverage{};  ///< null for none
 };
 
 /// Where its files lie: what is said of them forgets that.

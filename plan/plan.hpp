@@ -23,9 +23,9 @@ struct Content {
 
 /// A run of this program. Words in braces, "{model.exr}", are files of the case: they lie where the run puts them.
 struct Step {
-  Words words;            ///< from the verb on; neither --json nor --threads, which the run adds
-  std::string result;     ///< the verb, where its JSON is part of the case's result; else empty
-  std::string shared;     ///< the file it makes, where cases share that: "golden-HASH.exr"; else empty
+  Words words{};          ///< from the verb on; neither --json nor --threads, which the run adds
+  std::string result{};   ///< the verb, where its JSON is part of the case's result; else empty
+  std::string shared{};   ///< the file it makes, where cases share that: "golden-HASH.exr"; else empty
   bool coverage = false;  ///< it writes a book of coverage, "{coverage.json}"
   bool operator==(const Step&) const = default;
 };

@@ -148,7 +148,7 @@ Json to_json(const Result& result) {
   const auto& [account, stalls, counters, idle, end] = result.counts;
   Json json{{"verb", "cycles"},
             {"version", program_version()},
-            {"config", config_identity_json(result.config)},
+            {"config", priced_config_json(result.config)},
             {"input", result.input},
             {"ready", result.ready},
             {"seed", result.seed},

@@ -28,7 +28,11 @@ const std::vector<Verb>& all_verbs() {
       {"plan", "many cases over axes: make, run in parts, merge, look", nullptr},
       verbs::plan_make,
       verbs::plan_run,
+      verbs::plan_status,
       verbs::plan_merge,
+      verbs::plan_table,
+      verbs::plan_pareto,
+      verbs::plan_csv,
       verbs::report,
       verbs::doctor,
   };

@@ -1,0 +1,19 @@
+// The flags that choose rows and columns of merged results.
+#pragma once
+
+#include "cli/options.hpp"
+#include "plan/columns.hpp"
+
+namespace fastsplat::cli {
+
+struct RowFlags {
+  std::string merged;  ///< what `plan merge` wrote
+  std::string columns;
+  std::vector<std::string> where, sort;
+  int most = 0;
+  plan::TableOptions options() const;
+};
+
+void declare(Options& options, RowFlags& to);
+
+}  // namespace fastsplat::cli

@@ -1,0 +1,66 @@
+// fastsplat plan csv: merged results for a spreadsheet or a script.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/atomic_file.hpp"
+#include "base/version.hpp"
+#include "cli/common.hpp"
+#include "cli/output.hpp"
+#include "cli/output_names.hpp"
+#include "cli/plan_columns.hpp"
+#include "cli/verbs/verbs.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+struct Arguments {
+  Common common;
+  RowFlags rows;
+  std::string out;
+};
+
+/// Every column there is, unless some were named.
+plan::TableOptions options_from(const Arguments& arguments, const plan::Merged& merged) {
+  auto options = arguments.rows.options();
+  if (!options.columns.empty()) return options;
+  options.columns = {"id", "kind", "status", "message"};
+  for (const auto& axis : merged.axes) options.columns.push_back(axis.name);
+  for (const auto& metric : merged.metrics) options.columns.push_back(metric.name);
+  for (const char* last : {"config_hash", "scene_hash", "program_hash", "command"}) options.columns.emplace_back(last);
+  return options;
+}
+
+ExitCode run(const Arguments& arguments) {
+  const Output output(arguments.common);
+  check_outputs({.others = {arguments.out, arguments.common.json}, .inputs = {arguments.rows.merged}});
+  const auto merged = plan::read_merged(arguments.rows.merged);
+  const auto table = plan::table_of(merged, options_from(arguments, merged));
+  if (arguments.out.empty()) {
+    output.line(plan::to_csv(table));
+  } else {
+    write_text_file(arguments.out, plan::to_csv(table));
+    output.line(fmt::format("{} in {}", counted(table.rows.size(), "row"), arguments.out));
+  }
+  output.json(nlohmann::ordered_json{{"verb", "plan csv"},
+                                     {"version", program_version()},
+                                     {"columns", table.columns},
+                                     {"rows", table.rows.size()},
+                                     {"file", arguments.out}});
+  return ExitCode::Pass;
+}
+
+void declare(Options& options, Arguments& to) {
+  declare(options, to.rows);
+  options.group("Output");
+  options.word("-o,--out", to.out, "FILE", "to a file instead of stdout");
+  declare(options, to.common);
+  options.example("fastsplat plan csv merged.json -o merged.csv");
+}
+
+}  // namespace
+
+const Verb verbs::plan_csv{"plan csv", "merged results as comma-separated values, numbers in full",
+                           verb<Arguments, declare, run>};
+
+}  // namespace fastsplat::cli

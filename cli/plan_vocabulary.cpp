@@ -55,14 +55,13 @@ Action parse_words(const plan::Words& words, const std::vector<Verb>& verbs) {
 /// Of all that a scene says and the bytes of the files it names; where those lie is none of it.
 std::string hash_of_scene(const SceneFlags& flags) {
   scene::SceneDescription description = describe(flags);
+  const scene::SceneDescription plain;
   std::uint64_t hash = kFnv1aStart;
-  for (const auto& path : inputs_of_volume(description.volume)) {
-    hash = fnv1a(hash, hash_of_file(path));
-    description.volume = "file";
-  }
+  for (const auto& path : inputs_of_volume(description.volume)) hash = fnv1a(fnv1a(hash, "volume"), hash_of_file(path));
+  if (hash != kFnv1aStart) description.volume = plain.volume;
   if (is_file(description.transfer_function)) {
-    hash = fnv1a(hash, hash_of_file(description.transfer_function));
-    description.transfer_function = "file";
+    hash = fnv1a(fnv1a(hash, "transfer function"), hash_of_file(description.transfer_function));
+    description.transfer_function = plain.transfer_function;
   }
   return hash_text(fnv1a(hash, scene::to_toml(description)));
 }

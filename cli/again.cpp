@@ -1,8 +1,6 @@
 #include "cli/again.hpp"
 
-#include <algorithm>
-#include <cctype>
-#include <cstring>
+#include "base/shell_word.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -13,14 +11,6 @@ std::string& remembered() {
 }
 
 }  // namespace
-
-std::string shell_word(const std::string& word) {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("/._-+,=:@%", c) != nullptr; };
-  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
 
 std::string command_text(std::span<const std::string> words) {
   std::string text = "fastsplat";

@@ -6,9 +6,6 @@
 
 namespace fastsplat::cli {
 
-/// As a shell reads it back.
-std::string shell_word(const std::string& word);
-
 /// `fastsplat WORDS...` without what changes no result: --json, --quiet, --threads.
 std::string command_text(std::span<const std::string> words);
 

@@ -196,7 +196,7 @@ Action parse(int argc, const char* const* argv, const std::vector<Verb>& verbs) 
   } catch (const CLI::ParseError& error) {
     misused(*verb, error.what());
   }
-  remember_command(words);
+  if (command_again().empty()) remember_command(words);  // a plan has other commands understood later
   return action;
 }
 

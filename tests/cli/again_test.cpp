@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include "base/shell_word.hpp"
+
 namespace fastsplat::cli {
 namespace {
 

@@ -28,6 +28,7 @@ const std::vector<Verb>& all_verbs() {
       {"plan", "many cases over axes: make, run in parts, merge, look", nullptr},
       verbs::plan_make,
       verbs::plan_run,
+      verbs::plan_submit,
       verbs::plan_status,
       verbs::plan_merge,
       verbs::plan_table,

@@ -16,6 +16,7 @@ class OwnInput : public ::testing::Test {
     expect_success(fastsplat({"volume", "convert", "shells:8", volume_}));
     expect_success(fastsplat({"volume", "convert", "shells:8", header_}));
     expect_success(fastsplat({"render", "--volume", "shells:8", "--size", "8", "-o", picture_, "--json", result_}));
+    folder_.write("plan.json", "{}");
     expect_success(
         fastsplat({"stream", "record", "--volume", "shells:8", "--size", "8", "--config", "tiny", "-o", stream_}));
     const auto shown = fastsplat({"config", "show", "tiny"});
@@ -82,6 +83,15 @@ class OwnInput : public ::testing::Test {
         {config_, {"config", "show", config_, "--json", config_}},
         {config_, {"config", "check", config_, "--json", config_}},
         {config_, {"config", "diff", "base", config_, "--json", config_}},
+        {plan_, {"plan", "make", plan_, "-o", plan_}},
+        {plan_, {"plan", "run", plan_, "--json", plan_}},
+        {plan_, {"plan", "status", plan_, "--json", plan_}},
+        {plan_, {"plan", "merge", plan_, "-o", plan_}},
+        {plan_, {"plan", "submit", plan_, "--engine", "slurm", "-o", plan_}},
+        {plan_, {"plan", "submit", plan_, "--engine", "script", "--json", plan_}},
+        {plan_, {"plan", "table", plan_, "-o", plan_}},
+        {plan_, {"plan", "csv", plan_, "-o", plan_}},
+        {plan_, {"plan", "pareto", plan_, "--x", "a", "--y", "b", "--json", plan_}},
         {result_, {"report", result_, "-o", folder_ / "r.html", "--json", result_}},
         {picture_, {"report", result_, "-o", folder_ / "r.html", "--json", picture_}},
     };
@@ -100,7 +110,7 @@ class OwnInput : public ::testing::Test {
   const std::string volume_ = folder_ / "in.nrrd", header_ = folder_ / "detached.nhdr",
                     data_ = folder_ / "detached.raw.gz", picture_ = folder_ / "in.exr", stream_ = folder_ / "in.fss",
                     config_ = folder_ / "config.toml", tf_ = folder_ / "tf.toml", scene_ = folder_ / "scene.toml",
-                    result_ = folder_ / "result.json";
+                    result_ = folder_ / "result.json", plan_ = folder_ / "plan.json";
 };
 
 TEST_F(OwnInput, IsReplacedByNoVerb) {

@@ -136,8 +136,9 @@ void Cluster::write_settings() {
       << "SchedulerParameters=batch_sched_delay=0,sched_min_interval=100000,sched_interval=1,bf_interval=1\n"
       // Processors as written here, not as the machine has them.
       << "SlurmdParameters=config_overrides\n"
-      // 1: only state=resume brings a node back that was set down. MinJobAge: ended jobs stay known.
-      << "ReturnToService=1\nJobRequeue=1\nSlurmdTimeout=10\nKillWait=2\nMinJobAge=3600\nMailProg=/bin/true\n"
+      // JobRequeue=0: a task is requeued because its script says so. ReturnToService=1: only state=resume brings a node
+      // back that was set down. MinJobAge: ended jobs stay known.
+      << "JobRequeue=0\nReturnToService=1\nSlurmdTimeout=10\nKillWait=2\nMinJobAge=3600\nMailProg=/bin/true\n"
       << "MaxArraySize=" << array_max_ << "\n";
   for (int i = 0; i < nodes_; ++i) {
     out << "NodeName=" << node_name(i) << " NodeHostname=localhost NodeAddr=127.0.0.1 Port=" << port_ + 1 + i

@@ -243,8 +243,8 @@ test("no panel is wider than the page, and no two parts of one overlap", async (
         const wrong = [];
         let count = 0;
         if (document.documentElement.scrollWidth > innerWidth) wrong.push(`the page is ${document.documentElement.scrollWidth} wide`, ...[...document.querySelectorAll("main *")].filter((each) => each.getBoundingClientRect().right > innerWidth + 1 && !each.closest(".scroll, pre")).map((each) => `${each.tagName} "${each.textContent.slice(0, 40)}" ends at ${each.getBoundingClientRect().right}`).slice(0, 3));
-        const boxes = [...document.querySelectorAll("section.panel p, section.panel figure, section.panel .table, section.panel dl, section.panel .controls, section.panel ul, section.panel h3")]
-          .filter((each) => !each.closest("details, figure figure, .table .controls, [data-panel=pictures]") && !each.parentElement.closest("figure"))
+        const boxes = [...document.querySelectorAll("section.panel p, section.panel figure, section.panel .table, section.panel dl, section.panel .controls, section.panel ul, section.panel h3, section.panel figcaption, section.panel svg, section.panel .uplot")]
+          .filter((each) => !each.closest("details, figure figure, .table .controls, [data-panel=pictures]") && (each.matches("svg, .uplot, figcaption") || !each.parentElement.closest("figure")))
           .map((each) => ({ each, box: each.getBoundingClientRect() }))
           .filter(({ box }) => box.width > 0 && box.height > 0);
         for (const { each, box } of boxes) {

@@ -1,7 +1,7 @@
 // `compare`: how far two pictures are from each other, beside what rounding once would cost anyway (the floor).
 import { columns } from "../bars";
 import { h } from "../dom";
-import { figures_of, number_text } from "../figures";
+import { figures_of, number_text, tick_text } from "../figures";
 import type { Panel, Result } from "../page";
 import { cell, grid, lead, note, tiles } from "../parts";
 import { linear } from "../scales";
@@ -69,14 +69,14 @@ function histogram(root: HTMLElement, result: Result): void {
     root,
     {
       title: "Histogram of |error|",
-      about: "values by LSB, on a logarithmic axis",
+      about: `values by LSB, on a logarithmic axis${bins.some((bin) => bin.from_lsb >= 1) ? "; other colour: 1 LSB or more" : ""}`,
       label: `Histogram: ${bins.map((bin) => `${bin.count} values from ${bin.from_lsb} LSB`).join(", ")}`,
       unit: "values",
       x_name: "|error| in LSB, from",
       logs: true,
     },
     bins.map((bin) => ({
-      name: number_text(bin.from_lsb),
+      name: tick_text(bin.from_lsb),
       value: bin.count,
       tip: `${number_text(bin.from_lsb)} to ${bin.to_lsb === null ? "\u221e" : number_text(bin.to_lsb)} LSB: ${number_text(bin.count)} values, ${number_text((100 * bin.count) / Math.max(1, total))} %`,
       colour: bin.from_lsb >= 1 ? "c3" : "c0",

@@ -87,7 +87,7 @@ export function timeline(root: HTMLElement, result: Result, context: Context): v
           const x = scale(tile.begun);
           to.svg.append(s("line", { x1: x, x2: x, y1: 4, y2: bottom, class: "axis" }));
           const label = `tile ${tile.tile}`;
-          if (x < free) continue;
+          if (x < free || x + label.length * 7 > to.width) continue;
           to.svg.append(text(x + 3, 12, label, { class: "tick" }));
           free = x + label.length * 7 + 8;
         }

@@ -24,10 +24,14 @@ before(async () => {
   result("devices", ["cycles", ...scene, "--config", "small", "--devices", "1,2,4", "--bytes-per-cycle", "8"]);
   result("family", ["family", "--entries", "256"]);
   result("verify", ["verify", "--random", "400", "--seeds", "5", "--config", "tiny", "--coverage", "book.json"]);
+  save("spec.toml", 'name = "lanes"\nkind = ["compare", "cycles"]\n[constants]\nvolume = "shells:12"\nsize = 24\n[axes]\n"sheet.frac_bits" = [8, 12, 16]\n"snap.phases" = [8, 64]\n');
+  fastsplat(["plan", "make", "spec.toml", "-o", "cases.json", "--quiet"]);
+  fastsplat(["plan", "run", "cases.json", "--results", "cases", "--quiet"]);
+  fastsplat(["plan", "merge", "cases.json", "--results", "cases", "-o", "merged.json", "--quiet"]);
   save("mismatch.json", mismatch);
   save("plan.json", sample_plan(240));
   save("long.json", sample_plan(2000));
-  const names = ["compare", "strict", "same", "errors", "bound", "ranges", "propose", "cycles", "devices", "family", "plan", "verify", "mismatch", "book", "golden", "cmodel"];
+  const names = ["compare", "strict", "same", "errors", "bound", "ranges", "propose", "cycles", "devices", "family", "merged", "plan", "verify", "mismatch", "book", "golden", "cmodel"];
   all = report("all", names.map((name) => `${name}.json`));
   await start();
 });
@@ -182,6 +186,23 @@ test("the Pareto front is that of brute force, and a brush lists what lies in it
   figure("rows in the rectangle", inside.length);
   await section.getByRole("button", { name: "All rows" }).click();
   assert.equal(shown_number(await section.locator(".controls .note").first().textContent()).value, plan.rows.length);
+  await page.finish();
+});
+
+test("the front of a real plan is that of plan pareto", async () => {
+  const page = await open(report("merged-page", ["merged.json"]));
+  const section = page.locator("section[data-panel=plan]");
+  const { results } = await data_of(page);
+  assert.equal(results[0].rows.length, 6);
+  const [x, y] = await section.locator(".controls select").evaluateAll((all) => all.slice(0, 2).map((select) => select.value));
+  assert.equal(`${x} ${y}`, "cost psnr_db");
+  const told = result("front", ["plan", "pareto", "merged.json", "--x", x, "--y", y]);
+  const wanted = told.front.map((row) => row.id ?? row);
+  const front = (await section.locator("[data-front]").getAttribute("data-front")).split(" ");
+  assert.deepEqual([...front].sort(), [...wanted].sort());
+  const compared = await compare_figures(page, "section[data-panel=plan]");
+  figure("cases of a real plan on the front, as plan pareto has it", front.length, ">= 2");
+  assert.ok(front.length >= 2 && compared >= 6 * 5);
   await page.finish();
 });
 

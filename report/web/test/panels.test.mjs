@@ -54,7 +54,7 @@ test("every number of every panel is that of its result", async () => {
   assert.equal(await page.locator("section[data-panel=result]").count(), 0, "a result that no panel draws");
   // Each can be made again: its command is in a button of its panel.
   const { results } = await data_of(page);
-  const buttons = await page.$$eval("button[data-command]", (all) => all.map((each) => each.dataset.command));
+  const buttons = await page.$$eval("section.panel button[data-command]", (all) => all.map((each) => each.dataset.command));
   const commands = results.map((each) => each.command).filter(Boolean);
   for (const command of commands) assert.ok(buttons.some((button) => button.split("\n").includes(command)), `no button copies ${command}`);
   figure("commands that a button copies", commands.length, ">= 12");

@@ -17,6 +17,9 @@ template <class... Functions>
 struct Each : Functions... {
   using Functions::operator()...;
 };
+// Clang before 17 does not deduce it by itself.
+template <class... Functions>
+Each(Functions...) -> Each<Functions...>;
 
 int position(const std::vector<std::string>& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);

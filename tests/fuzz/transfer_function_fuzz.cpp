@@ -1,0 +1,10 @@
+// Transfer functions of one's own: understood, or refused.
+#include "scene/transfer_function.hpp"
+#include "tests/fuzz/fuzz.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace fastsplat;
+  const auto path = fuzz::file_of({data, size}, ".toml");
+  fuzz::answered([&] { scene::load_transfer_function(path); });
+  return 0;
+}

@@ -41,6 +41,7 @@ void add(std::vector<Picture>& pictures, Picture picture) {
     if (is_better(picture, other)) std::swap(other, picture);
     if (picture.from != other.from) other.also.push_back(picture.from);
     other.also.insert(other.also.end(), picture.also.begin(), picture.also.end());
+    other.ties.insert(other.ties.end(), picture.ties.begin(), picture.ties.end());
     return;
   }
   pictures.push_back(std::move(picture));
@@ -128,24 +129,72 @@ Json entry(const Picture& picture, const Encoded& one, const std::string& id, st
   return json;
 }
 
-/// By scene, in the order of the first picture of each; pictures without a scene join the first.
-std::size_t group_of(const Picture& picture, std::vector<std::string>& scenes) {
-  const std::string scene = scene_of(picture);
-  if (scene.empty()) return 0;
-  const auto found = std::find(scenes.begin(), scenes.end(), scene);
-  if (found != scenes.end()) return static_cast<std::size_t>(found - scenes.begin());
-  scenes.push_back(scene);
-  return scenes.size() - 1;
+bool seen_together(const Picture& a, const Picture& b) {
+  if (!scene_of(a).empty() && scene_of(a) == scene_of(b)) return true;
+  return std::any_of(a.ties.begin(), a.ties.end(),
+                     [&](const auto& tie) { return std::find(b.ties.begin(), b.ties.end(), tie) != b.ties.end(); });
+}
+
+/// Numbers of groups, from 0 in the order of the first picture of each: pictures of one scene, or of one compare, and
+/// what hangs together by such; pictures of which nothing is known join the first.
+std::vector<std::size_t> groups_of(const std::vector<Picture>& pictures) {
+  std::vector<std::size_t> first(pictures.size());
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    first[i] = scene_of(pictures[i]).empty() && pictures[i].ties.empty() ? 0 : i;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!seen_together(pictures[i], pictures[j]) || first[i] == first[j]) continue;
+      const std::size_t from = std::max(first[i], first[j]), to = std::min(first[i], first[j]);
+      std::replace(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(i) + 1, from, to);
+    }
+  }
+  std::vector<std::size_t> numbers(pictures.size()), starts;
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    auto found = std::find(starts.begin(), starts.end(), first[i]);
+    if (found == starts.end()) found = starts.insert(starts.end(), first[i]);
+    numbers[i] = static_cast<std::size_t>(found - starts.begin());
+  }
+  return numbers;
+}
+
+/// Titles that two pictures of a group share get their files' names.
+void tell_apart(Json& entries) {
+  std::map<std::string, int> times;
+  const auto key = [](const Json& json) { return json["group"].dump() + json["title"].get<std::string>(); };
+  for (const Json& json : entries) ++times[key(json)];
+  for (Json& json : entries) {
+    if (times[key(json)] < 2) continue;
+    const std::filesystem::path file(json["from"].get<std::string>());
+    json["title"] = json["title"].get<std::string>() + " (" + file.filename().string() + ")";
+  }
+}
+
+/// Each file once: the user's role wins.
+std::vector<std::pair<NamedPicture, std::vector<std::string>>> by_file(const std::vector<NamedPicture>& named) {
+  std::vector<std::pair<NamedPicture, std::vector<std::string>>> files;
+  const auto place = [](const std::filesystem::path& file) {
+    std::error_code error;
+    const auto real = std::filesystem::weakly_canonical(file, error);
+    return error ? file : real;
+  };
+  for (const NamedPicture& one : named) {
+    auto found = std::find_if(files.begin(), files.end(), [&](const auto& other) {
+      return place(other.first.file) == place(one.file) && !(other.first.wanted && one.wanted);
+    });
+    if (found == files.end()) {
+      found = files.insert(files.end(), {one, {}});
+    } else if (one.wanted) {
+      found->first = one;
+    }
+    if (!one.tie.empty()) found->second.push_back(one.tie);
+  }
+  return files;
 }
 
 }  // namespace
 
 Album load_album(const std::vector<NamedPicture>& named) {
   Album album;
-  std::vector<std::filesystem::path> seen;
-  for (const NamedPicture& one : named) {
-    if (!one.wanted && std::find(seen.begin(), seen.end(), one.file) != seen.end()) continue;
-    seen.push_back(one.file);
+  for (const auto& [one, ties] : by_file(named)) {
     Picture picture;
     try {
       picture = load_picture(one.role, one.file);
@@ -156,6 +205,7 @@ Album load_album(const std::vector<NamedPicture>& named) {
     }
     if (picture.role.empty()) picture.role = role_of_engine(metadata_of(picture, "engine"));
     if (picture.role.empty()) picture.role = one.otherwise;
+    picture.ties = ties;
     add(album.pictures, std::move(picture));
   }
   // Whatever the order of the results: as the viewer shows them.
@@ -197,12 +247,12 @@ Pages fit(const Album& album, Focus focus, std::size_t bytes) {
     all.erase(all.begin() + static_cast<std::ptrdiff_t>(largest));
   }
 
-  std::vector<std::string> scenes;
+  const auto groups = groups_of(pictures);
   std::map<std::string, std::string> block_of;  // by shape and hash: equal pictures lie in the page once
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     const Picture& picture = pictures[i];
     const std::string id = "picture-" + std::to_string(i);
-    Json json = entry(picture, all[i], id, group_of(picture, scenes));
+    Json json = entry(picture, all[i], id, groups[i]);
     const auto [first, is_new] = block_of.emplace(
         fmt::format("{} {} {} {}", picture.width, picture.channels, all[i].word_bytes, all[i].sha256), id);
     if (is_new) {
@@ -217,6 +267,7 @@ Pages fit(const Album& album, Focus focus, std::size_t bytes) {
     }
     pages.entries.push_back(std::move(json));
   }
+  tell_apart(pages.entries);
   return pages;
 }
 

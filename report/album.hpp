@@ -21,8 +21,8 @@ struct Album {
   std::vector<std::string> missing;  ///< what the results name and is not to be had, each with the reason
 };
 
-/// Files that hold the same values in the same role become one picture, the one with raw words. Pictures of the user's
-/// that are missing are a UserError (Input).
+/// A file is loaded once, in the user's role where the user gave one. Files that hold the same values in the same role
+/// become one picture, the one with raw words. Pictures of the user's that are missing are a UserError (Input).
 Album load_album(const std::vector<NamedPicture>& named);
 
 struct Pages {

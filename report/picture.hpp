@@ -23,6 +23,7 @@ struct Picture {
   bool display = false;             ///< made for looking: sRGB, over black
   std::uint64_t nonfinite = 0;      ///< NaN and infinity; their words are 0
   std::map<std::string, std::string> metadata;
+  std::vector<std::string> ties;                        ///< NamedPicture::tie of all that name it
   int x0 = 0, y0 = 0, full_width = 0, full_height = 0;  ///< the window that is left of a larger one
 
   bool operator==(const Picture&) const = default;

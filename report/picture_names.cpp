@@ -53,8 +53,10 @@ std::string role_of_engine(const std::string& engine) {
 
 std::vector<NamedPicture> pictures_of(const Result& result) {
   std::vector<NamedPicture> pictures;
+  const std::string tie = result.verb == "compare" ? result.file.string() : "";
   const auto add = [&](const std::string& name, const std::string& role, const std::string& otherwise) {
-    if (!name.empty()) pictures.push_back({.role = role, .file = found(result, name), .otherwise = otherwise});
+    if (!name.empty())
+      pictures.push_back({.role = role, .file = found(result, name), .otherwise = otherwise, .tie = tie});
   };
   if (result.verb == "compare") {
     add(text_at(result.json, "/ref/file"), "", "reference");

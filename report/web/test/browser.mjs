@@ -71,7 +71,7 @@ export async function stop() {
 }
 
 /** Opens a page that must be ready, quiet and alone: close() checks that it stayed so. */
-export async function open(file, { width = 1000, height = 900, theme = "light", ready = "1" } = {}) {
+export async function open(file, { width = 1000, height = 900, theme = "light", ready = "1", hash = "" } = {}) {
   const context = await started.newContext({ viewport: { width, height }, deviceScaleFactor: 1, colorScheme: theme, reducedMotion: "reduce", offline: true, locale: "en-US", timezoneId: "UTC" });
   const page = await context.newPage();
   const url = pathToFileURL(file).href;
@@ -80,7 +80,7 @@ export async function open(file, { width = 1000, height = 900, theme = "light", 
   page.on("pageerror", (error) => problems.push(`exception: ${error.message}`));
   await page.route("**", (route) => {
     const wanted = route.request().url();
-    if (wanted === url || wanted.startsWith("data:")) return route.continue();
+    if (wanted === url + hash || wanted === url || wanted.startsWith("data:")) return route.continue();
     problems.push(`request: ${wanted}`);
     return route.abort();
   });
@@ -88,7 +88,7 @@ export async function open(file, { width = 1000, height = 900, theme = "light", 
     window.copied = [];
     Object.defineProperty(navigator, "clipboard", { value: { writeText: async (text) => void window.copied.push(text) } });
   });
-  await page.goto(url);
+  await page.goto(url + hash);
   await page.waitForSelector("html[data-ready]", { timeout: 20_000 });
   const state = await page.getAttribute("html", "data-ready");
   assert.equal(state, ready, `the page's state; ${problems.join("; ")}`);
@@ -98,6 +98,22 @@ export async function open(file, { width = 1000, height = 900, theme = "light", 
     assert.deepEqual(rest, []);
   };
   return page;
+}
+
+/** Two frames: what was asked to be drawn has been. */
+export const drawn = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done()))));
+
+/** RGBA at a place of a canvas, in its own pixels. By way of another canvas: reading the page's own makes it slow. */
+export function canvas_pixel(page, selector, x, y) {
+  return page.$eval(
+    selector,
+    (canvas, [px, py]) => {
+      const context = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
+      context.drawImage(canvas, -px, -py);
+      return [...context.getImageData(0, 0, 1, 1).data];
+    },
+    [x, y],
+  );
 }
 
 /** What the page's data element holds. */

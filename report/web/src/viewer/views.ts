@@ -87,8 +87,9 @@ export class Scene {
       const note = `Orange: ${colours} pixels with a colour at the last word, ${plane.top_word}. Blue: ${opaque} opaque ones.`;
       return { ...place, title: `Saturation: ${title}`, image: canvas, note };
     }
-    // Maps for looking are enlarged by a whole factor and have a legend below.
-    const factor = plane.picture.display && width % this.width === 0 ? width / this.width : 1;
+    // Maps for looking are enlarged or coarser by a whole factor, and have a legend below.
+    const whole = width % this.width === 0 || this.width % width === 0;
+    const factor = plane.picture.display && whole ? width / this.width : 1;
     return { ...place, title, factor, rows: plane.picture.display ? this.height : height, image: plane.drawn(channel) };
   }
 }

@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# The tests of the page, for ctest. usage: run.sh template|browser PROGRAM FOLDER
+# Exit code 77, with the reason, where node, npm, chromium or the registry is not to be had. Packages go into FOLDER.
+set -euo pipefail
+
+what=$1 program=$2 folder=$3
+web="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd -P)"
+
+skip() {
+  printf '%s\n' "skipped: $1"
+  exit 77
+}
+
+command -v node >/dev/null || skip "no node (Debian: nodejs)"
+command -v npm >/dev/null || skip "no npm (Debian: npm)"
+node -e 'process.exit(Number(process.versions.node.split(".")[0]) >= 18 ? 0 : 1)' || skip "node $(node --version) is older than 18"
+chromium=
+if [[ $what == browser ]]; then
+  for name in chromium chromium-headless-shell google-chrome; do
+    chromium=$(command -v "$name") && break
+  done
+  [[ -n $chromium ]] || skip "no chromium (Debian: chromium)"
+  command -v oiiotool >/dev/null || skip "no oiiotool (Debian: openimageio-tools)"
+fi
+
+folder=$folder/web
+mkdir -p -- "$folder"
+exec 9>"$folder/.lock"
+flock 9
+stamp=$(cksum <"$web/package-lock.json")
+if [[ ! -f $folder/.installed || $(<"$folder/.installed") != "$stamp" ]]; then
+  cp -- "$web/package.json" "$web/package-lock.json" "$web/.npmrc" "$folder"
+  if ! (cd -- "$folder" && npm ci --no-update-notifier >npm.log 2>&1); then
+    grep -qE 'ENOTFOUND|ECONNREFUSED|ECONNRESET|ETIMEDOUT|EAI_AGAIN|ENETUNREACH|ENOTCACHED' "$folder/npm.log" &&
+      skip "npm cannot reach its registry: see $folder/npm.log"
+    cat -- "$folder/npm.log" >&2
+    exit 1
+  fi
+  printf '%s' "$stamp" >"$folder/.installed"
+fi
+# As the tree has it: report/template.html lies beside report/web.
+rm -rf -- "$folder/src" "$folder/LICENSES" "$folder/test"
+cp -r -- "$web/src" "$web/LICENSES" "$web/test" "$web/build.mjs" "$web/tsconfig.json" "$folder"
+cp -- "$web/../template.html" "$folder/../template.html"
+flock -u 9
+
+cd -- "$folder"
+case $what in
+  template)
+    npx --no-install tsc --noEmit
+    node build.mjs "$folder/template.html"
+    if ! cmp -- "$folder/template.html" "$web/../template.html"; then
+      echo "report/template.html is not what report/web builds: cd report/web && npm ci && node build.mjs" >&2
+      exit 1
+    fi
+    echo "[figure] bytes rebuilt and equal = $(wc -c <"$folder/template.html") (limit > 0)"
+    ;;
+  browser)
+    export FASTSPLAT="$program" CHROMIUM="$chromium"
+    status=0
+    for test in test/*.test.mjs; do node "$test" || status=1; done
+    exit "$status"
+    ;;
+  *) exit 2 ;;
+esac

@@ -1,0 +1,226 @@
+// The viewer in headless Chromium: its words are the files', its pictures their own, slider, zoom and keys move them.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFileSync } from "node:fs";
+import { after, before, test } from "node:test";
+import { canvas_pixel, compare_figures, data_of, drawn, fastsplat, figure, open, place, report, result, save, start, stop } from "./browser.mjs";
+
+const scene = ["--volume", "shells:16", "--size", "48"];
+let whole, failing, differ;
+
+before(async () => {
+  await start();
+  result("golden", ["render", ...scene, "--engine", "golden", "-o", "golden.exr"]);
+  result("cmodel", ["render", ...scene, "--engine", "cmodel", "--config", "base", "-o", "cmodel.exr", "--raw", "raw.exr"]);
+  result("compare", ["compare", "golden.exr", "cmodel.exr", "--min-psnr", "30"]);
+  result("errors", ["errors", ...scene, "--config", "base", "--quick", "--blame", "blame.png"]);
+  whole = report("whole", ["compare.json", "errors.json", "cmodel.json", "golden.json"]);
+  // Two pictures that are not alike at all: what a pane shows can be told from the other.
+  fastsplat(["render", "--volume", "binary-cube:16", "--size", "48", "--azimuth", "20", "-o", "left.exr", "--quiet"]);
+  fastsplat(["render", ...scene, "-o", "right.exr", "--quiet"]);
+  differ = result("differ", ["compare", "left.exr", "right.exr", "--max-lsb", "1"], [1]);
+  failing = report("failing", ["differ.json"], ["--picture", "left=left.exr", "--picture", "right=right.exr"]);
+});
+after(stop);
+
+const dumps = new Map();
+
+/** The channels of a pixel, by OpenImageIO's own tool. */
+function pixel_of(name, x, y) {
+  if (!dumps.has(name)) dumps.set(name, execFileSync("oiiotool", ["--dumpdata", place(name)], { encoding: "utf8", maxBuffer: 1 << 28 }));
+  const found = new RegExp(`Pixel \\(${x}, ${y}\\):([^(\\n]*)`).exec(dumps.get(name));
+  assert.ok(found, `${name} has no pixel (${x}, ${y})`);
+  return found[1].trim().split(/\s+/).map(Number);
+}
+
+/** sRGB as a screen has it, of a linear value. */
+const encoded = (linear) => {
+  const v = Math.min(1, Math.max(0, linear));
+  return Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055));
+};
+
+const under = (page) => page.getAttribute(".words caption", "data-at");
+const told_errors = (page) => page.$$eval('tr[data-words="error"] td.num:not(.values)', (cells) => cells.map((c) => Number(c.textContent.replace("\u2212", "-"))));
+
+/** Pairs of boxes that lie on each other, of panels and of what stands in the viewer; runs in the page. */
+function overlaps() {
+  const found = [];
+  const check = (elements) => {
+    const boxes = elements.map((element) => [element, element.getBoundingClientRect()]).filter(([, box]) => box.width && box.height);
+    for (let i = 0; i < boxes.length; ++i)
+      for (let j = i + 1; j < boxes.length; ++j) {
+        const [a, b] = [boxes[i][1], boxes[j][1]];
+        const wide = Math.min(a.right, b.right) - Math.max(a.left, b.left), high = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
+        if (wide > 1 && high > 1) found.push(`${boxes[i][0].id || boxes[i][0].className} and ${boxes[j][0].id || boxes[j][0].className}`);
+      }
+  };
+  check([...document.querySelectorAll("section.panel")]);
+  for (const viewer of document.querySelectorAll(".viewer")) {
+    check([...viewer.children]);
+    check([...viewer.querySelectorAll(".pane")]);
+  }
+  for (const canvas of document.querySelectorAll(".frame canvas")) {
+    const inner = canvas.getBoundingClientRect(), outer = canvas.parentElement.getBoundingClientRect();
+    if (inner.right > outer.right + 1 || inner.bottom > outer.bottom + 1) found.push("a canvas and what stands around it");
+  }
+  return found;
+}
+
+for (const [name, file] of [["whole", () => whole], ["failing", () => failing]]) {
+  test(`${name}: light and dark, narrow and wide, nothing on another thing`, async () => {
+    let checked = 0;
+    for (const theme of ["light", "dark"]) {
+      const page = await open(file(), { theme });
+      for (const width of [400, 1000, 1800]) {
+        await page.setViewportSize({ width, height: 900 });
+        await drawn(page);
+        assert.deepEqual(await page.evaluate(overlaps), [], `at ${width} ${theme}`);
+        const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+        assert.ok(wide <= 0, `at ${width} ${theme}: ${wide} pixels stick out`);
+      }
+      checked += await compare_figures(page, "[data-panel=pictures]");
+      await page.finish();
+    }
+    figure(`${name}, figures of the viewer equal to the JSON`, checked, "> 0");
+    assert.ok(checked > 0);
+  });
+}
+
+test("the words under the pixel are the file's", async () => {
+  let checked = 0;
+  for (const [x, y] of [[24, 24], [13, 30], [31, 17]]) {
+    const page = await open(whole, { hash: `#pictures?at=${x},${y}&zoom=8` });
+    await drawn(page);
+    assert.equal(await under(page), `${x},${y}`);
+    const { id } = (await data_of(page)).pictures.find((picture) => picture.role === "integer");
+    const words = await page.$$eval(`tr[data-words="${id}"] td.num:not(.values)`, (cells) => cells.map((c) => Number(c.textContent)));
+    assert.deepEqual(words, pixel_of("raw.exr", x, y));
+    const golden = pixel_of("golden.exr", x, y), test_ = words.map((word) => word / 65536);
+    const errors = await told_errors(page);
+    errors.forEach((e, c) => assert.ok(Math.abs(e - (test_[c] - golden[c]) * 255) < 0.004, `channel ${c}: ${e}`));
+    checked += words.length + errors.length;
+    await page.finish();
+  }
+  figure("words and errors equal to oiiotool's", checked, "> 0");
+  assert.ok(checked > 0);
+});
+
+/** The middle of a frame's pixel on the screen. */
+async function spot_of(page, selector, x, y) {
+  const box = await page.$eval(selector, (canvas) => {
+    const { left, top } = canvas.getBoundingClientRect();
+    return { left, top, width: canvas.clientWidth, height: canvas.clientHeight, scale: Number(canvas.dataset.scale) };
+  });
+  return { x: box.left + (x + 0.5) * box.scale, y: box.top + (y + 0.5) * box.scale, inner: [Math.floor((x + 0.5) * box.scale), Math.floor((y + 0.5) * box.scale)] };
+}
+
+/** A pixel in which the two pictures look as different as anywhere. */
+function telling() {
+  let best = null;
+  for (let y = 4; y < 44; y += 4)
+    for (let x = 4; x < 44; x += 4) {
+      const [a, b] = [pixel_of("left.exr", x, y), pixel_of("right.exr", x, y)].map((p) => p.slice(0, 3).map(encoded));
+      const apart = Math.abs(a[0] - b[0]) + Math.abs(a[1] - b[1]) + Math.abs(a[2] - b[2]);
+      if (!best || apart > best.apart) best = { x, y, a, b, apart };
+    }
+  return best;
+}
+
+const near = (got, expected, what) => got.slice(0, 3).forEach((v, c) => assert.ok(Math.abs(v - expected[c]) <= 1, `${what}: ${got} and not ${expected}`));
+
+test("panes show their own picture, the slider parts them, zoom moves all", async () => {
+  const { x, y, a, b, apart } = telling();
+  figure("how far the two pictures are apart on the screen", apart, "> 60");
+  assert.ok(apart > 60);
+  const page = await open(failing);
+  const { pictures } = await data_of(page);
+  const of = (file) => `canvas[data-view="${pictures.find((picture) => picture.from.endsWith(file)).id}"]`;
+  const [left, right] = [of("left.exr"), of("right.exr")];
+  const spot = await spot_of(page, left, x, y);
+  near(await canvas_pixel(page, left, ...spot.inner), a, "left pane");
+  near(await canvas_pixel(page, right, ...spot.inner), b, "right pane");
+
+  // The cursor reads the pixel under it.
+  await page.mouse.move(spot.x, spot.y);
+  await drawn(page);
+  assert.equal(await under(page), `${x},${y}`);
+
+  // The wheel, after a click: every pane follows, and what is under the cursor stays there.
+  await page.mouse.click(spot.x, spot.y);
+  const before_ = Number(await page.getAttribute(left, "data-scale"));
+  for (let i = 0; i < 4; ++i) await page.mouse.wheel(0, -100);
+  await drawn(page);
+  for (const pane of [left, right]) assert.ok(Math.abs(Number(await page.getAttribute(pane, "data-scale")) / before_ - 4) < 1e-6, "zoom by 4");
+  await page.mouse.move(spot.x + 0.01, spot.y);
+  await drawn(page);
+  assert.equal(await under(page), `${x},${y}`, "the pixel under the cursor stays under it");
+  await page.waitForFunction(() => /^#pictures\?.*zoom=/.test(location.hash), null, { timeout: 5000 });
+
+  // Keys: arrows move the pixel, 0 shows the whole.
+  await page.keyboard.press("ArrowRight");
+  await page.mouse.move(5, 5);
+  await drawn(page);
+  assert.equal(await under(page), `${x + 1},${y}`);
+  await page.keyboard.press("0");
+  await page.keyboard.press("Escape");
+
+  // The slider: left of it one picture, right of it the other.
+  await page.click('button[data-key="mode-slider"]');
+  await drawn(page);
+  const only = 'canvas[data-view="slider"]';
+  const there = await spot_of(page, only, x, y);
+  const split = async (value) => {
+    await page.$eval("input.split", (input, v) => ((input.value = v), input.dispatchEvent(new Event("input"))), value);
+    await drawn(page);
+  };
+  await split(1000);
+  near(await canvas_pixel(page, only, ...there.inner), a, "left of the slider");
+  await split(0);
+  near(await canvas_pixel(page, only, ...there.inner), b, "right of the slider");
+  const box = await page.$eval(only, (canvas) => canvas.getBoundingClientRect().toJSON());
+  await page.mouse.move(box.left + 1, box.top + 40);
+  await page.mouse.down();
+  await page.mouse.move(box.left + box.width - 1, box.top + 60, { steps: 4 });
+  await page.mouse.up();
+  await drawn(page);
+  near(await canvas_pixel(page, only, ...there.inner), a, "after the slider was drawn to the right");
+
+  // In turn.
+  await page.click('button[data-key="mode-flicker"]');
+  await drawn(page);
+  const turned = [];
+  await page.focus('canvas[data-view="flicker"]');
+  for (let i = 0; i < 2; ++i) {
+    turned.push(await canvas_pixel(page, 'canvas[data-view="flicker"]', ...there.inner));
+    await page.keyboard.press(" ");
+    await drawn(page);
+  }
+  near(turned[0], a, "first in turn");
+  near(turned[1], b, "second in turn");
+  await page.finish();
+});
+
+test("the worst pixel is the compare's", async () => {
+  const page = await open(failing);
+  const { worst, clusters } = differ;
+  await page.click('button[data-jump="worst"]');
+  await page.mouse.move(2, 2);
+  await drawn(page);
+  assert.equal(await under(page), `${worst.x},${worst.y}`);
+  const errors = await told_errors(page);
+  assert.ok(Math.abs(errors[worst.channel] - worst.error_lsb) < 0.01, `${errors} and not ${worst.error_lsb}`);
+  assert.ok(Math.abs(worst.error_lsb) === Math.max(...errors.map(Math.abs)) || Math.abs(Math.abs(worst.error_lsb) - Math.max(...errors.map(Math.abs))) < 0.01);
+  assert.ok(clusters.length > 0);
+  await page.click('button[data-jump="cluster-0"]');
+  await drawn(page);
+  assert.equal(await under(page), `${clusters[0].worst.x},${clusters[0].worst.y}`);
+  await page.finish();
+});
+
+test("a damaged block is named, not drawn", async () => {
+  const text = readFileSync(whole, "utf8");
+  save("damaged.html", text.replace(/(id="picture-0">)(.{40})/, (_, id, bytes) => id + [...bytes].reverse().join("")));
+  const page = await open(place("damaged.html"), { ready: "error" });
+  assert.match(await page.textContent(".broken"), /picture .*golden\.exr/);
+  await page.finish([/picture .*golden\.exr/]);
+});

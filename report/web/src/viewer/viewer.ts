@@ -176,7 +176,7 @@ export class Viewer {
       const canvas = h("canvas", { tabindex: 0, role: "img", "aria-label": `${title}. Arrow keys move the pixel that is read, plus and minus zoom`, "data-view": key });
       this.listen(canvas);
       this.surfaces.push({ canvas, views });
-      return h("figure", { class: "pane" }, h("figcaption", {}, h("strong", {}, title)), h("div", { class: "frame", style: `aspect-ratio:${scene.width}/${scene.height}` }, canvas), more);
+      return h("figure", { class: "pane" }, h("figcaption", {}, h("strong", {}, title)), h("div", { class: "frame", style: `aspect-ratio:${scene.width}/${scene.height};max-width:calc(82vh*${scene.width / scene.height})` }, canvas), more);
     };
     const one = (key: string): View[] => [this.view(key)].filter((view) => view !== null);
     const both = (): View[] => [...one(state.a), ...one(state.b)];

@@ -8,7 +8,7 @@ kind=$1 rtl=$2 package=$3 out=$4 net=${5-}
 log=$out.log
 case $kind in
   rtl) passes="proc; flatten; opt; memory -nomap; opt_clean" ;;
-  ice40) passes="synth_ice40 -top fastsplat_core" ;;
+  ice40) passes="synth_ice40 -noflatten -top fastsplat_core" ;;
   *) echo "netlist.sh: unknown kind $kind (rtl, ice40)" >&2; exit 2 ;;
 esac
 yosys -q -l "$log" -p "read_verilog -sv -I$rtl $package $rtl/*.sv; hierarchy -check -top fastsplat_core; $passes; write_verilog -noattr $out.new" >/dev/null 2>&1 ||

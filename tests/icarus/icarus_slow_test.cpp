@@ -131,6 +131,16 @@ void judge(const std::string& what, const cmodel::Config& config, const Played& 
   EXPECT_GT(comparison.counters, 0U);
   std::uint64_t cycles = 0;
   for (const auto& [number, result] : transcript.plays) cycles += result.cycles;
+  // Also into the report of --gtest_output, which docs/evidence.md is made from.
+  const auto keep = [&](const char* name, std::uint64_t value) {
+    ::testing::Test::RecordProperty(what.substr(what.find(' ') + 1) + "_" + name, std::to_string(value));
+  };
+  keep("plays", played.plays.size());
+  keep("cycles", cycles);
+  keep("pixels", comparison.pixels);
+  keep("counters", comparison.counters);
+  keep("different", comparison.differences);
+  keep("unknown", transcript.wrong.size());
   std::printf(
       "[figure] %s: plays = %zu, cycles = %llu, pixels = %llu, counters = %llu, different = %llu (limit 0), "
       "unknown = %zu (limit 0)\n",
@@ -266,6 +276,7 @@ TEST_P(UsedBeforeSet, IsSeenAsUnknown) {
   const Transcript transcript = icarus.play(played);
   const Comparison comparison = compare(config, played, transcript);
   ASSERT_FALSE(transcript.wrong.empty()) << "SURVIVED: " << GetParam().from;
+  RecordProperty("unknown_or_stray", std::to_string(transcript.wrong.size()));
   std::printf("[figure] planted %s: unknown or stray = %zu, different = %llu; first: %s\n", GetParam().name,
               transcript.wrong.size(), static_cast<unsigned long long>(comparison.differences),
               transcript.wrong.front().c_str());

@@ -1,0 +1,128 @@
+#include "bench/evidence/page.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace fastsplat::evidence {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::optional<Json> read(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  if (!in) return std::nullopt;
+  return Json::parse(in);
+}
+
+std::string missing(const char* what, const char* command) {
+  return fmt::format("Not there: {}. `{}` makes it.\n\n", what, command);
+}
+
+std::string preface() {
+  std::ifstream in(std::filesystem::path(FASTSPLAT_SOURCE_DIR) / "bench/evidence/preface.md");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A row for each test, its figures in words.
+std::string figures_table(const Json& json) {
+  std::string out = fmt::format("{}.\n\n| test | figures |\n|---|---|\n", json.at("tool").get<std::string>());
+  for (const auto& [test, figures] : json.at("tests").items()) {
+    std::string row;
+    for (const auto& [name, value] : figures.items())
+      row += (row.empty() ? "" : ", ") + name + " " + value.get<std::string>();
+    out += fmt::format("| {} | {} |\n", test, row);
+  }
+  return out + "\n";
+}
+
+std::string proofs_table(const Json& json) {
+  std::string out =
+      fmt::format("{}.\n\n| proved | how | seconds |\n|---|---|---|\n", json.at("tool").get<std::string>());
+  for (const auto& proof : json.at("proofs")) {
+    out += fmt::format("| {} | {} | {:.1f} |\n", proof.at("property").get<std::string>(),
+                       proof.at("how").get<std::string>(), proof.at("seconds").get<double>());
+  }
+  return out + "\n";
+}
+
+std::string cells(const Json& of) {
+  std::string out;
+  for (const char* kind : {"lut", "carry", "mux", "ff", "lutram", "bram", "dsp"})
+    out += fmt::format(" {} |", of.at(kind).get<std::int64_t>());
+  return out;
+}
+
+std::string tools(const Json& design) {
+  std::string out;
+  for (const auto& [name, version] : design.at("tools").items())
+    out += (out.empty() ? "" : ", ") + version.get<std::string>();
+  return out;
+}
+
+std::string placement(const Json& design) {
+  const Json& placed = design.at("placement");
+  std::string out = fmt::format("Placed ({}): **{} MHz**", tools(design), placed.at("fmax_mhz").get<double>());
+  for (const auto& [kind, used] : placed.at("used").items())
+    out += fmt::format(", {} {} of {}", kind, used.at(0).get<int>(), used.at(1).get<int>());
+  out += ".\n\n";
+  const Json& slowest = placed.at("slowest");
+  out += fmt::format(
+      "Its slowest path, {} elements from `{}` to `{}`; the ten latest arrivals:\n\n| ns | at |\n|---|---|\n",
+      slowest.at("elements").get<int>(), slowest.at("from").get<std::string>(), slowest.at("to").get<std::string>());
+  for (const auto& path : placed.at("worst_paths"))
+    out += fmt::format("| {:.1f} | `{}` |\n", path.at("ns").get<double>(), path.at("to").get<std::string>());
+  return out + "\n";
+}
+
+constexpr const char* kCells = " LUT | carry | mux | FF | LUT RAM | block RAM | DSP |";
+
+std::string synthesis(const Json& designs) {
+  std::string out =
+      fmt::format("| design | family |{} tool | CPU s |\n|---|---|---|---|---|---|---|---|---|---|---|\n", kCells);
+  for (const Json& design : designs)
+    out += fmt::format("| {} | {} |{} {} | {:.0f} |\n", design.at("design").get<std::string>(),
+                       design.at("family").get<std::string>(), cells(design.at("total")), tools(design),
+                       design.at("seconds").get<double>());
+  out += "\n";
+  for (const Json& design : designs)
+    if (design.contains("placement")) out += placement(design);
+  for (const Json& design : designs) {
+    if (!design.contains("modules")) continue;
+    out += fmt::format("### {}, {}\n\n| module | times | levels |{}\n|---|---|---|---|---|---|---|---|---|---|\n",
+                       design.at("design").get<std::string>(), design.at("family").get<std::string>(), kCells);
+    for (const auto& [name, module] : design.at("modules").items())
+      out += fmt::format("| {} | {} | {} |{}\n", name, module.at("instances").get<int>(),
+                         module.at("levels").get<int>(), cells(module));
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string page(const std::filesystem::path& folder) {
+  std::string out = preface();
+  out += "\n## Proofs\n\n";
+  const auto proofs = read(folder / "proofs.json");
+  out += proofs ? proofs_table(*proofs) : missing("the proofs", "./run evidence");
+  out += "## A second simulator\n\n";
+  const auto icarus = read(folder / "icarus.json");
+  out += icarus ? figures_table(*icarus) : missing("Icarus", "./run evidence");
+  out += "## The netlist\n\n";
+  for (const char* name : {"tiny", "small", "tiny_ice40"}) {
+    const auto netlist = read(folder / (std::string("netlist_") + name + ".json"));
+    out += fmt::format("### {}\n\n", name);
+    out += netlist ? figures_table(*netlist) : missing("this netlist", "./run netlist");
+  }
+  out += "## Synthesis\n\n";
+  const auto designs = read(folder / "synthesis.json");
+  out += designs ? synthesis(*designs) : missing("synthesis", "./run synth");
+  while (out.ends_with("\n\n")) out.pop_back();
+  return out;
+}
+
+}  // namespace fastsplat::evidence

@@ -1,0 +1,208 @@
+#include "bench/evidence/synthesis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <regex>
+#include <stdexcept>
+
+namespace fastsplat::evidence {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Cells = std::map<std::string, std::int64_t>;
+
+constexpr const char* kClasses[] = {"lut", "carry", "mux", "ff", "lutram", "bram", "dsp"};
+
+/// Of a primitive; empty for what is none of them (inverters, which LUTs take in; buffers; submodules).
+std::string class_of(const std::string& cell) {
+  static const std::pair<std::regex, const char*> table[] = {
+      {std::regex("LUT[1-6]|SB_LUT4"), "lut"},
+      {std::regex("CARRY4|CCU2C|SB_CARRY"), "carry"},
+      {std::regex("MUXF[789]|PFUMX|L6MUX21"), "mux"},
+      {std::regex("FD[RSCP]E(_1)?|TRELLIS_FF|SB_DFF.*"), "ff"},
+      {std::regex("RAM(32|64|128|256).*|TRELLIS_DPR16X4|SRL.*"), "lutram"},
+      {std::regex("RAMB(18|36)E1|DP16KD|SB_RAM40_4K.*"), "bram"},
+      {std::regex("DSP48E1|MULT18X18D|SB_MAC16"), "dsp"},
+  };
+  for (const auto& [pattern, name] : table) {
+    if (std::regex_match(cell, pattern)) return name;
+  }
+  return {};
+}
+
+std::vector<std::string> lines_of(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  if (!in) throw std::runtime_error("cannot read " + path.string());
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// "=== NAME ===" and the "TYPE N" lines below it; the hierarchy's own tree and totals are under "design hierarchy".
+std::map<std::string, Cells> read_stat(const std::filesystem::path& path) {
+  static const std::regex heading(R"(=== (.*) ===)"), entry(R"( +(\S+) +(\d+))");
+  std::map<std::string, Cells> modules;
+  Cells* current = nullptr;
+  bool cells = false;
+  std::smatch match;
+  for (const auto& line : lines_of(path)) {
+    if (std::regex_match(line, match, heading)) {
+      current = &modules[match[1]];
+      cells = false;
+    } else if (line.find("Number of cells:") != std::string::npos) {
+      cells = true;
+    } else if (cells && current != nullptr && std::regex_match(line, match, entry)) {
+      (*current)[match[1]] += std::stoll(match[2]);
+    }
+  }
+  if (modules.empty()) throw std::runtime_error(path.string() + " holds no statistics");
+  return modules;
+}
+
+bool is_memory(const std::string& module) { return module.ends_with("\\ram_1r1w") || module == "ram_1r1w"; }
+
+void add_cells(const std::map<std::string, Cells>& modules, const std::string& name, std::int64_t times, Cells& to) {
+  for (const auto& [cell, count] : modules.at(name)) {
+    if (const std::string kind = class_of(cell); !kind.empty()) to[kind] += times * count;
+    if (is_memory(cell)) add_cells(modules, cell, times * count, to);
+  }
+}
+
+void count_instances(const std::map<std::string, Cells>& modules, const std::string& name, std::int64_t times,
+                     Cells& to) {
+  to[name] += times;
+  for (const auto& [cell, count] : modules.at(name))
+    if (modules.contains(cell)) count_instances(modules, cell, times * count, to);
+}
+
+Json to_json(const Cells& cells) {
+  Json json = Json::object();
+  for (const char* kind : kClasses) json[kind] = cells.contains(kind) ? cells.at(kind) : 0;
+  return json;
+}
+
+std::map<std::string, int> read_levels(const std::filesystem::path& path) {
+  static const std::regex found(R"(Longest topological path in (\S+) \(length=(\d+)\):)");
+  std::map<std::string, int> levels;
+  std::smatch match;
+  for (const auto& line : lines_of(path))
+    if (std::regex_match(line, match, found)) levels[match[1]] = std::stoi(match[2]);
+  return levels;
+}
+
+/// "u_core.u_compositor.touched_q_SB_DFFESR_Q_95_D_SB_LUT4_O_LC": the register that a cell was named after.
+std::string short_name(const std::string& cell) { return cell.substr(0, cell.find("_SB_")); }
+
+/// The ten latest arrivals at a register, each register's cells once by how late they are.
+Json worst_paths(const Json& report) {
+  std::vector<std::pair<double, std::string>> ends;
+  for (const auto& net : report.at("detailed_net_timings"))
+    for (const auto& end : net.at("endpoints"))
+      if (end.at("event").get<std::string>().starts_with("posedge"))
+        ends.emplace_back(end.at("delay").get<double>(), end.at("cell").get<std::string>());
+  std::sort(ends.begin(), ends.end(), std::greater<>());
+  Json out = Json::array();
+  for (std::size_t i = 0; i < ends.size() && out.size() < 10; ++i)
+    out.push_back({{"ns", std::round(ends[i].first * 10) / 10}, {"to", short_name(ends[i].second)}});
+  return out;
+}
+
+/// nextpnr's report: what is used, how fast, the slowest path and the ten latest ends.
+Json read_placement(const std::filesystem::path& report) {
+  std::ifstream in(report);
+  if (!in) throw std::runtime_error("cannot read " + report.string());
+  const Json from = Json::parse(in);
+  Json to = Json::object();
+  for (const auto& [clock, speed] : from.at("fmax").items())
+    to["fmax_mhz"] = std::round(speed.at("achieved").get<double>() * 10) / 10;
+  for (const char* kind : {"ICESTORM_LC", "ICESTORM_RAM", "SB_IO", "SB_GB"}) {
+    const auto& used = from.at("utilization").at(kind);
+    to["used"][kind] = Json::array({used.at("used"), used.at("available")});
+  }
+  for (const auto& path : from.at("critical_paths")) {
+    if (path.at("from") != path.at("to")) continue;  // by a pin
+    const auto& steps = path.at("path");
+    to["slowest"] = {{"elements", steps.size()},
+                     {"from", short_name(steps.front().at("to").at("cell"))},
+                     {"to", short_name(steps.back().at("to").at("cell"))}};
+  }
+  to["worst_paths"] = worst_paths(from);
+  return to;
+}
+
+void compare(const std::string& where, const Json& then, const Json& now, double share, int& compared,
+             std::vector<std::string>& out) {
+  for (const auto& [key, value] : then.items()) {
+    if (key == "seconds" || key == "worst_paths" || key == "slowest") continue;
+    const std::string place = where + " " + key;
+    if (!now.contains(key)) {
+      out.push_back(place + ": gone");
+    } else if (value.is_object()) {
+      compare(place, value, now.at(key), share, compared, out);
+    } else if (value.is_array()) {
+      compare(place, Json{{"used", value.at(0)}}, Json{{"used", now.at(key).at(0)}}, share, compared, out);
+    } else if (value.is_number()) {
+      ++compared;
+      const double a = value.get<double>(), b = now.at(key).get<double>();
+      // Of few cells one more is more than a share.
+      if (std::abs(b - a) > std::max(share * std::abs(a), 1.0))
+        out.push_back(fmt::format("{}: {} -> {} ({:+.1f} %)", place, a, b, a == 0 ? 100.0 : 100.0 * (b - a) / a));
+    } else if (value != now.at(key)) {
+      out.push_back(fmt::format("{}: {} -> {}", place, value.dump(), now.at(key).dump()));
+    }
+  }
+  for (const auto& [key, value] : now.items())
+    if (!then.contains(key)) out.push_back(where + " " + key + ": new");
+}
+
+}  // namespace
+
+Json read_synthesis(const std::filesystem::path& work, const std::string& family, const std::string& config) {
+  const std::string base = (work / (family + "-" + config)).string();
+  const auto modules = read_stat(base + ".stat");
+  const auto levels = read_levels(base + ".levels");
+  Json json{{"design", config}, {"family", family}};
+  double seconds = 0;
+  for (const auto& line : lines_of(base + ".tools")) {
+    const auto space = line.find(' ');
+    if (line.starts_with("seconds ")) {
+      seconds = std::stod(line.substr(space));
+    } else {
+      json["tools"][line.substr(0, space)] = line.substr(space + 1);
+    }
+  }
+  const bool flat = modules.contains("ice40_wrap");
+  const std::string top = flat ? "ice40_wrap" : "fastsplat_core";
+  Cells instances, total;
+  count_instances(modules, top, 1, instances);
+  for (const auto& [name, times] : instances)
+    if (!is_memory(name)) add_cells(modules, name, times, total);
+  json["total"] = to_json(total);
+  if (!flat) {
+    for (const auto& [name, times] : instances) {
+      if (is_memory(name)) continue;
+      Cells own;
+      add_cells(modules, name, 1, own);
+      Json module{{"instances", times}, {"levels", levels.contains(name) ? levels.at(name) : 0}};
+      module.update(to_json(own));
+      json["modules"][name] = module;
+    }
+  }
+  if (family == "hx8k") json["placement"] = read_placement(base + ".report");
+  json["seconds"] = std::round(seconds);
+  return json;
+}
+
+std::vector<std::string> changes(const Json& then, const Json& now, double share, int& compared) {
+  std::vector<std::string> out;
+  compare(then.at("family").get<std::string>() + " " + then.at("design").get<std::string>(), then, now, share, compared,
+          out);
+  return out;
+}
+
+}  // namespace fastsplat::evidence

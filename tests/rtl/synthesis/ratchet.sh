@@ -1,0 +1,6 @@
+#!/bin/sh
+# ratchet.sh FAMILY CONFIG EMIT_PACKAGE SOURCE_DIR WORK_DIR EVIDENCE: synthesises and compares with the figures kept in
+# docs/evidence/synthesis.json; more than 2 % away, smaller or greater, is red.
+set -eu
+"$4/tests/rtl/synthesis/synth.sh" "$1" "$2" "$3" "$4" "$5"
+"$6" ratchet "$4/docs/evidence/synthesis.json" "$5" "$1-$2"

@@ -1,0 +1,52 @@
+#!/bin/sh
+# synth.sh FAMILY CONFIG EMIT_PACKAGE SOURCE_DIR WORK_DIR: what Yosys, and for iCE40 nextpnr, make of the device. Leaves in WORK_DIR what
+# fastsplat_evidence reads:
+#   FAMILY-CONFIG.stat    cells by module (`stat`), hierarchy kept
+#   FAMILY-CONFIG.levels  longest path of each module between registers, memories and its submodules (`ltp`)
+#   FAMILY-CONFIG.tools   versions, one a line, and the processor seconds of synthesis
+#   FAMILY-CONFIG.place   placed (FAMILY hx8k only): nextpnr's report and its log
+# FAMILY: ice40, xc7, ecp5; hx8k: tiny_hx8k.toml in ice40_wrap, flattened and placed.
+set -eu
+family=$1 config=$2 emit=$3 source=$4 work=$5
+mkdir -p "$work"
+here="$source/tests/rtl/synthesis"
+base="$work/$family-$config"
+modules=$(sed -n 's/^module \([a-z0-9_]*\).*/\1/p' "$source"/rtl/*.sv)
+top=fastsplat_core files= place=
+case $family in
+  ice40) pass="synth_ice40 -noflatten -top $top" ;;
+  xc7) pass="synth_xilinx -family xc7 -noiopad -noclkbuf -top $top" ;;
+  ecp5) pass="synth_ecp5 -noflatten -top $top" ;;
+  hx8k)
+    command -v nextpnr-ice40 >/dev/null || { echo "skipped: nextpnr-ice40 is not installed (optional package nextpnr-ice40)"; exit 77; }
+    top=ice40_wrap files="$here/ice40_wrap.sv" place=1
+    pass="synth_ice40 -top $top -json $base.json" ;;
+  *) echo "synth.sh: no family $family" >&2; exit 2 ;;
+esac
+
+if [ -n "$place" ]; then
+  "$emit" "$here/tiny_hx8k.toml" | sed -e 's/\(localparam int \(STATE_BITS\|TRANS_BITS\|SHEET_BITS\)\) = 5;/\1 = 4;/' \
+    -e 's/\(localparam int TRANS_FRAC\) = 4;/\1 = 3;/' >"$base.pkg.sv"
+else
+  "$emit" "$config" >"$base.pkg.sv"
+fi
+
+# What ends a path: registers, memories, submodules.
+ends="t:FD* t:SRL* t:RAM* t:TRELLIS_FF t:TRELLIS_DPR* t:DP16KD t:SB_DFF* t:SB_RAM* t:*ram_1r1w"
+for module in $modules; do ends="$ends t:$module"; done
+
+yosys -q -l "$base.log" -p "read_verilog -sv -I$source/rtl $base.pkg.sv $source/rtl/*.sv $files; hierarchy -check -top $top; $pass; tee -o $base.stat.new stat; delete $ends; tee -o $base.levels ltp -noff" >/dev/null 2>&1 ||
+  { tail -5 "$base.log"; echo "$family $config: Yosys fails"; exit 1; }
+{
+  sed -n 's/^\(Yosys [^ ]*\) .*/yosys \1/p' "$base.log" | tail -1
+  sed -n 's/.*CPU: user \([0-9.]*\)s.*/seconds \1/p' "$base.log" | tail -1
+} >"$base.tools"
+
+if [ -n "$place" ]; then
+  # Router and placer are seeded: the same netlist gives the same placement.
+  nextpnr-ice40 --hx8k --package ct256 --json "$base.json" --seed 1 --freq 50 --pcf-allow-unconstrained --timing-allow-fail --detailed-timing-report \
+    --report "$base.report" --log "$base.place" -q >/dev/null 2>&1 ||
+    { tail -5 "$base.place"; echo "$family $config: nextpnr fails"; exit 1; }
+  nextpnr-ice40 --version 2>&1 | sed -n 's/.*Version \([^)]*\)).*/nextpnr nextpnr-ice40 \1/p' >>"$base.tools"
+fi
+mv -- "$base.stat.new" "$base.stat"

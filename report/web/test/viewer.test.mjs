@@ -59,6 +59,12 @@ function overlaps() {
     check([...viewer.children]);
     check([...viewer.querySelectorAll(".pane")]);
   }
+  for (const cell of document.querySelectorAll(".words td")) {
+    const text = document.createRange();
+    text.selectNodeContents(cell);
+    const inner = text.getBoundingClientRect(), outer = cell.getBoundingClientRect();
+    if (inner.width > outer.width + 1) found.push(`words of ${cell.parentElement.dataset.words} and their cell`);
+  }
   for (const canvas of document.querySelectorAll(".frame canvas")) {
     const inner = canvas.getBoundingClientRect(), outer = canvas.parentElement.getBoundingClientRect();
     if (inner.right > outer.right + 1 || inner.bottom > outer.bottom + 1) found.push("a canvas and what stands around it");
@@ -70,7 +76,7 @@ for (const [name, file] of [["whole", () => whole], ["failing", () => failing]])
   test(`${name}: light and dark, narrow and wide, nothing on another thing`, async () => {
     let checked = 0;
     for (const theme of ["light", "dark"]) {
-      const page = await open(file(), { theme });
+      const page = await open(file(), { theme, hash: "#pictures?at=24,24" });
       for (const width of [400, 1000, 1800]) {
         await page.setViewportSize({ width, height: 900 });
         await drawn(page);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "base/atomic_file.hpp"
 #include "base/json_text.hpp"
@@ -29,10 +30,22 @@ std::string to_text(const plan::Made& made, const Arguments& arguments) {
                      arguments.out.empty() ? "" : arguments.out + "\n");
 }
 
+/// The specification and what its settings name; words that are no files do no harm.
+std::vector<std::string> inputs_of(const Arguments& arguments, const plan::Plan& plan) {
+  std::set<std::string> words;
+  for (const auto& one : plan.cases) {
+    for (const auto& setting : one.settings) {
+      if (const auto* text = std::get_if<std::string>(&setting.value)) words.insert(*text);
+    }
+  }
+  return joined({arguments.spec}, {words.begin(), words.end()});
+}
+
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.others = {arguments.out, arguments.common.json}, .inputs = {arguments.spec}});
   const auto made = plan::make(plan::read_spec(arguments.spec), plan_vocabulary());
+  check_outputs({.others = {arguments.out, arguments.common.json}, .inputs = inputs_of(arguments, made.plan)});
   const auto json = plan::to_json(made.plan);
   if (!arguments.out.empty()) write_text_file(arguments.out, json_text(json, 1) + "\n");
   output.line(to_text(made, arguments));

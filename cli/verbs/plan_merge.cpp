@@ -1,7 +1,11 @@
 // fastsplat plan merge: the results of a plan in one file, a row a case, in the plan's order.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+
 #include "base/atomic_file.hpp"
+#include "base/error.hpp"
 #include "base/json_text.hpp"
 #include "cli/common.hpp"
 #include "cli/output.hpp"
@@ -28,9 +32,23 @@ std::string to_text(const plan::Merged& merged, const std::string& out) {
       merged.missing.empty() ? "" : fmt::format("; {} missing", merged.missing.size()), out.empty() ? "" : out + "\n");
 }
 
+/// A file among the results that is none of them would be in the next merge's way.
+void refuse_among_results(const std::string& path, const std::string& results) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  if (path.empty() || path == "-" || !fs::is_directory(results, ignored)) return;
+  if (!fs::equivalent(fs::absolute(path).parent_path(), results, ignored)) return;
+  throw_usage({.where = path,
+               .what = "lies among the results of cases",
+               .expected = "another folder than " + results,
+               .got = {},
+               .fix = "give it another name"});
+}
+
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.others = {arguments.out, arguments.common.json}, .inputs = {arguments.plan.plan}});
+  for (const auto& path : {arguments.out, arguments.common.json}) refuse_among_results(path, arguments.plan.folder());
   const auto merged = plan::merge(plan::read_plan(arguments.plan.plan), arguments.plan.folder(),
                                   {.partial = arguments.partial, .allow_foreign = arguments.allow_foreign});
   const auto json = plan::to_json(merged);

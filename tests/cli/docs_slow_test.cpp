@@ -1,5 +1,6 @@
-// Every command that README.md, docs/guide.md and docs/errors.md show in a ```console block runs and succeeds, in the
-// order shown, in one folder per document. A trailing "# exit N" says that the command is meant to end with N.
+// Every command that README.md, docs/guide.md, docs/errors.md and docs/plan.md show in a ```console block runs and
+// succeeds, in the order shown, in one folder per document. A trailing "# exit N" says that the command is meant to end
+// with N.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -83,7 +84,8 @@ TEST_P(Documents, ShowCommandsThatRun) {
   ASSERT_GT(ran, 0) << "nothing was checked";
 }
 
-INSTANTIATE_TEST_SUITE_P(Cli, Documents, ::testing::Values("README.md", "docs/guide.md", "docs/errors.md"));
+INSTANTIATE_TEST_SUITE_P(Cli, Documents,
+                         ::testing::Values("README.md", "docs/guide.md", "docs/errors.md", "docs/plan.md"));
 
 TEST(DocumentsMustFail, FindTheCommands) {
   const auto shown = commands_in("x\n```console\n$ a b \\\n  c\noutput\n$ d  # exit 3\n```\n$ e\n```sh\n$ f\n```\n");

@@ -123,6 +123,8 @@ TEST(PlanProgram, ExamplesExpandAndEditedFilesAreSeen) {
   expect_success(fastsplat({"plan", "make", spec, "-o", plan}));
   expect_success(fastsplat({"plan", "run", plan}));
   folder.write("mine.toml", fastsplat({"config", "show", "small", "--set", "radial.entries=64"}).out);
+  expect_error(fastsplat({"plan", "make", spec, "-o", mine}), 2, {"mine.toml", "it is read"});
+  expect_error(fastsplat({"plan", "merge", plan, "-o", folder / "plan.results/m.json"}), 2, {"among the results"});
   const auto result = fastsplat({"plan", "run", plan});
   EXPECT_EQ(result.code, 3);
   EXPECT_THAT(result.err, HasSubstr("is not what the plan was made of"));

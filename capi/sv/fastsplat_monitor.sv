@@ -1,0 +1,86 @@
+// The passive checker beside a device: samples its ports at every rising edge and tells the checker. Bind it to the
+// device, or put it beside it in a bench; it drives nothing. A reset of the device begins a new stream.
+module fastsplat_monitor (
+    input logic         clk_i,
+    input logic         rst_ni,
+    input logic         s_tvalid_i,
+    input logic         s_tready_o,
+    input logic [191:0] s_tdata_i,
+    input logic         m_tvalid_o,
+    input logic         m_tready_i,
+    input logic [fastsplat_pkg::LANES*128-1:0] m_tdata_o,
+    input logic         m_tlast_o,
+    input logic         tap_snap_valid_o,
+    input logic [31:0]  tap_snap_tag_o,
+    input logic signed [fastsplat_pkg::ORG_BITS-1:0] tap_snap_x_o,
+    input logic signed [fastsplat_pkg::ORG_BITS-1:0] tap_snap_y_o,
+    input logic [fastsplat_pkg::PHASE_BITS-1:0] tap_snap_mx_o,
+    input logic [fastsplat_pkg::PHASE_BITS-1:0] tap_snap_my_o,
+    input logic         tap_window_valid_o,
+    input logic [31:0]  tap_window_tag_o,
+    input logic signed [fastsplat_pkg::ORG_BITS-1:0] tap_window_x_o,
+    input logic signed [fastsplat_pkg::ORG_BITS-1:0] tap_window_y_o,
+    input logic [fastsplat_pkg::BANKS*fastsplat_pkg::WEIGHT_BITS-1:0] tap_weights_o,
+    input logic         tap_sheet_valid_o,
+    input logic [31:0]  tap_sheet_tag_o,
+    input logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::SHEET_BITS-1:0] tap_sums_o,
+    input logic         tap_composite_valid_o,
+    input logic [fastsplat_pkg::ADDR_BITS-1:0] tap_composite_block_o,
+    input logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::STATE_BITS-1:0] tap_state_o,
+    input logic         tap_sheet_done_o
+);
+  import fastsplat_dpi_pkg::*;
+
+  chandle judge = null;            // open() gives it one; until then nothing is told
+  longint unsigned cycle = 0;        // since reset was released
+  bit told = 0;                      // something since reset
+  int unsigned refused = 0;          // calls that the checker refused: the bench or the stream is wrong
+
+  // False, with the reason printed, if there is no such checker.
+  function automatic bit open(input string config_name, input string input_pattern, input string output_pattern,
+                              input longint unsigned seed);
+    if (fastsplat_api_version() >> 16 != API_MAJOR) begin
+      $display("fastsplat_monitor: libfastsplat has another version of its interface than fastsplat_dpi_pkg");
+      return 0;
+    end
+    judge = fastsplat_dpi_checker(config_name, HASH, input_pattern, output_pattern, seed);
+    if (judge == null) $display("fastsplat_monitor: %s", fastsplat_last_error());
+    return judge != null;
+  endfunction
+
+  function automatic void tell(input int status);
+    if (status == 0) return;
+    if (refused == 0) $display("fastsplat_monitor: cycle %0d: %s", cycle, fastsplat_last_error());
+    refused = refused + 1;
+  endfunction
+
+  always @(posedge clk_i) begin
+    if (!rst_ni) begin
+      cycle = 0;
+      if (told) tell(fastsplat_checker_reset(judge));
+      told = 0;
+    end else begin
+      if (judge != null && refused == 0) begin
+        if (tap_snap_valid_o)
+          tell(fastsplat_dpi_snap(judge, cycle, tap_snap_tag_o, 32'(tap_snap_x_o), 32'(tap_snap_y_o),
+                                  32'(tap_snap_mx_o), 32'(tap_snap_my_o)));
+        if (tap_sheet_valid_o)
+          tell(fastsplat_dpi_sheet(judge, cycle, tap_sheet_tag_o, tap_sums_o, words_of($bits(tap_sums_o))));
+        if (tap_window_valid_o)
+          tell(fastsplat_dpi_window(judge, cycle, tap_window_tag_o, 32'(tap_window_x_o), 32'(tap_window_y_o),
+                                    tap_weights_o, words_of($bits(tap_weights_o))));
+        if (tap_composite_valid_o)
+          tell(fastsplat_dpi_composite(judge, cycle, 32'(tap_composite_block_o), tap_state_o,
+                                       words_of($bits(tap_state_o))));
+        if (tap_sheet_done_o) tell(fastsplat_dpi_sheet_done(judge, cycle));
+        if (m_tvalid_o && m_tready_i)
+          tell(fastsplat_dpi_pixels(judge, cycle, m_tdata_o, words_of($bits(m_tdata_o)), int'(m_tlast_o)));
+        if (s_tvalid_i && s_tready_o) begin
+          tell(fastsplat_dpi_took(judge, s_tdata_i));
+          told = 1;
+        end
+      end
+      cycle = cycle + 1;
+    end
+  end
+endmodule

@@ -99,15 +99,15 @@ module fastsplat_bench;
   endtask
 
   initial begin
-    int file, status;
+    int file;
     bit [191:0] beat;
     bit [64*fastsplat_pkg::COUNTERS-1:0] counters;
     if (!$value$plusargs("beats=%s", beats_file)) fail("no +beats=FILE");
-    status = $value$plusargs("config=%s", config_name);
-    status = $value$plusargs("input=%s", input_pattern);
-    status = $value$plusargs("output=%s", output_pattern);
-    status = $value$plusargs("seed=%d", seed);
-    status = $value$plusargs("fault=%d", fault);
+    if ($value$plusargs("config=%s", config_name)) $display("config %s", config_name);
+    if ($value$plusargs("input=%s", input_pattern)) $display("input %s", input_pattern);
+    if ($value$plusargs("output=%s", output_pattern)) $display("output %s", output_pattern);
+    if ($value$plusargs("seed=%d", seed)) $display("seed %0d", seed);
+    if ($value$plusargs("fault=%d", fault)) $display("fault %0d", fault);
 `ifdef FASTSPLAT_FAULT_SELECT
     fastsplat_fault_pkg::selected = fault;
 `else

@@ -30,6 +30,8 @@ void TapAssembly::accept(const cmodel::Beat& beat) {
   const auto opcode = tiles_.accept(beat);
   if (opcode == cmodel::Opcode::BeginTile) {
     sheets_.emplace_back();
+  } else if (sheets_.empty()) {
+    return;  // of no tile: the device ended it before its records were all taken
   } else if (opcode == cmodel::Opcode::BeginSheet) {
     sheets_.back().begun.push_back(
         {static_cast<std::uint32_t>(get(beat, cmodel::layout::kSheetNumber)), sheets_.back().tags});

@@ -64,6 +64,8 @@ class OwnInput : public ::testing::Test {
         {volume_, {"stream", "record", "--volume", volume_, "--size", "8", "-o", folder_ / "b.fss", "--json", volume_}},
         {stream_, {"stream", "dump", stream_, "--json", stream_}},
         {stream_, {"stream", "replay", stream_, "--config", config_, "--json", stream_}},
+        {stream_, {"stream", "vectors", stream_, "--config", config_, "-o", folder_ / "v", "--json", stream_}},
+        {config_, {"stream", "vectors", stream_, "--config", config_, "-o", folder_ / "v", "--json", config_}},
         {config_, {"stream", "replay", stream_, "--config", config_, "--json", config_}},
         {stream_, {"cycles", "--stream", stream_, "--config", config_, "--trace", stream_}},
         {config_, {"cycles", "--stream", stream_, "--config", config_, "--json", config_}},

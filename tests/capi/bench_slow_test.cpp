@@ -1,0 +1,66 @@
+// The example bench in its simulation: passes the device as it is, names what a fault changes first.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "tests/capi/recorded_helper.hpp"
+
+namespace fastsplat::test {
+namespace {
+
+cli_test::Result bench(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{FASTSPLAT_CAPI_BENCH, "+beats=" + recorded().vectors + "/beats.hex"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  auto result = cli_test::run_words(words);
+  std::printf("%s", result.out.c_str());
+  return result;
+}
+
+/// The number before `what` in the text; -1 for none.
+long number_before(const std::string& text, const std::string& what) {
+  const auto at = text.find(what);
+  if (at == std::string::npos) return -1;
+  const auto begin = text.find_last_not_of("0123456789", at - 1) + 1;
+  return std::stol(text.substr(begin, at - begin));
+}
+
+TEST(CapiBench, PassesTheDeviceAsItIs) {
+  const std::vector<std::vector<std::string>> runs{
+      {}, {"+input=random-60", "+output=burst-16", "+seed=5"}, {"+output=every-3", "+seed=7"}};
+  for (const auto& run : runs) {
+    const auto result = bench(run);
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_NE(result.out.find("PASS: pass: configuration tiny"), std::string::npos);
+    const long comparisons = number_before(result.out, " comparisons");
+    std::printf("[figure] bench_comparisons = %ld (limit > 10000)\n", comparisons);
+    EXPECT_GT(comparisons, 10000);
+    EXPECT_NE(result.out.find(", 0 mismatches, busy cycles"), std::string::npos);
+  }
+}
+
+TEST(CapiBench, FailsWithAFaultPlantedAndNamesItsFirstMismatch) {
+  struct Case {
+    const char *fault, *first;
+  };
+  // Lines of tests/mustfail/faults.def: ROUND_TRN, SNAP_OFF_BY_ONE, MISSED_DIRTY.
+  for (const Case one : {Case{"1", "stage sheet"}, Case{"4", "expected stage snap"}, Case{"15", "expected stage composite"}}) {
+    const auto result = bench({std::string("+fault=") + one.fault});
+    EXPECT_NE(result.code, 0) << one.fault;
+    EXPECT_NE(result.out.find("FAIL: mismatch: configuration tiny"), std::string::npos) << one.fault;
+    EXPECT_NE(result.out.find(std::string("first mismatch: ") + one.first), std::string::npos) << one.fault;
+    std::printf("[figure] bench_mismatches_%s = %ld (limit > 0)\n", one.fault,
+                number_before(result.out, " mismatches"));
+    EXPECT_GT(number_before(result.out, " mismatches"), 0);
+  }
+}
+
+TEST(CapiBench, RefusesWhatItCannotCheck) {
+  EXPECT_NE(bench({"+config=small"}).out.find("the device was built for another configuration"), std::string::npos);
+  EXPECT_NE(bench({"+output=never-3"}).out.find("unknown ready/valid pattern"), std::string::npos);
+  const auto none = cli_test::run_words({FASTSPLAT_CAPI_BENCH});
+  EXPECT_NE(none.code, 0);
+  EXPECT_NE(none.out.find("FAIL: no +beats=FILE"), std::string::npos) << none.out;
+}
+
+}  // namespace
+}  // namespace fastsplat::test

@@ -1,0 +1,24 @@
+// fastsplat.core names what is there: every module of rtl/, no file that is not, keys that FuseSoC knows; its generator
+// makes the package, and Verilator reads the files in the core's order.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "tests/capi/recorded_helper.hpp"
+
+namespace fastsplat::test {
+namespace {
+
+TEST(CapiFusesoc, TheCoreNamesWhatIsThere) {
+  const std::string python = python_with("yaml");
+  if (python.empty()) GTEST_SKIP() << "python3-yaml is not installed";
+  const cli_test::TempFolder folder;
+  const auto result = cli_test::run_words({python, FASTSPLAT_SOURCE_DIR "/tests/capi/fusesoc_core.py",
+                                           FASTSPLAT_SOURCE_DIR, FASTSPLAT_BINARY_DIR, folder.path().string()});
+  std::printf("%s", result.out.c_str());
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("[figure] core_files ="), std::string::npos);
+}
+
+}  // namespace
+}  // namespace fastsplat::test

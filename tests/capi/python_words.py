@@ -1,0 +1,55 @@
+"""python_words.py STREAM VECTORS: the words that capi/python gives of a stream are those that the program wrote down."""
+import json
+import sys
+
+import numpy as np
+
+import fastsplat
+
+stream, vectors = sys.argv[1:]
+model = fastsplat.Model(fastsplat.Config("tiny"))
+beats = fastsplat.read_stream(stream)
+records, pictures = [], []
+for part in np.array_split(beats, 7):
+    model.feed(part)
+    records += model.taps()
+    pictures += model.tiles()
+model.finish()
+
+written = {kind: [] for kind in fastsplat.TAPS}
+for kind in fastsplat.TAPS:
+    with open(f"{vectors}/{kind}.hex") as lines:
+        written[kind] = [[int(word, 16) for word in line.split()] for line in lines]
+got = {kind: [] for kind in fastsplat.TAPS}
+for tap in records:
+    assert tap.words.dtype == np.uint32
+    got[tap.kind].append([tap.tile, tap.sheet, tap.tag, tap.x % 2**32, tap.y % 2**32] + tap.words.tolist())
+assert got == written, "taps differ"
+
+with open(f"{vectors}/vectors.json") as file:
+    contents = json.load(file)
+assert model.counters == contents["counters"], "counters differ"
+assert f"{fastsplat.Config('tiny').hash:016x}" == contents["config"]["hash"]
+
+pixels = iter(written["pixel"])
+for tile in pictures:
+    expected = np.array([next(pixels)[5:] for _ in range(tile.rgba.shape[0] * tile.rgba.shape[1])], dtype=np.uint32)
+    assert np.array_equal(tile.rgba.reshape(-1, 4), expected), "a tile's pixels differ"
+assert next(pixels, None) is None and pictures
+
+# What is wrong is an Error with the library's own line, or a verdict.
+for wrong, status in ((lambda: fastsplat.Config("tinny"), fastsplat.INPUT),
+                      (lambda: model.feed(beats), fastsplat.USAGE),
+                      (lambda: fastsplat.Config("tiny")["array.lines"], fastsplat.USAGE)):
+    try:
+        wrong()
+    except fastsplat.Error as error:
+        assert error.status == status, error
+    else:
+        raise AssertionError("not refused")
+checker = fastsplat.Checker(fastsplat.Config("tiny"))
+checker.took(beats)
+assert not checker.finish() and checker.report().verdict == "mismatch" and checker.first_mismatch()
+print(f"[figure] python_records = {len(records)} (limit > 1000)")
+print(f"[figure] python_tiles = {len(pictures)} (limit > 1)")
+assert len(records) > 1000 and len(pictures) > 1

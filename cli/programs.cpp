@@ -8,16 +8,22 @@
 
 namespace fastsplat::cli {
 
-bool in_path(const std::string& program) {
+namespace fs = std::filesystem;
+
+std::string path_of(const std::string& program) {
   const char* all = std::getenv("PATH");
   std::string folders = all == nullptr ? "" : all;
+  std::error_code ignored;
   while (!folders.empty()) {
     const auto end = std::min(folders.find(':'), folders.size());
-    const std::filesystem::path candidate = std::filesystem::path(folders.substr(0, end)) / program;
-    if (end > 0 && ::access(candidate.c_str(), X_OK) == 0) return true;
+    const fs::path candidate = fs::path(folders.substr(0, end)) / program;
+    if (end > 0 && ::access(candidate.c_str(), X_OK) == 0 && fs::is_regular_file(candidate, ignored))
+      return candidate.string();
     folders.erase(0, end + 1);
   }
-  return false;
+  return {};
 }
+
+bool in_path(const std::string& program) { return !path_of(program).empty(); }
 
 }  // namespace fastsplat::cli

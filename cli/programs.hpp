@@ -5,6 +5,9 @@
 
 namespace fastsplat::cli {
 
+/// Where the shell would find it; empty: nowhere.
+std::string path_of(const std::string& program);
+
 /// Whether the shell would find it.
 bool in_path(const std::string& program);
 

@@ -8,8 +8,8 @@
 
 #include "analysis/provenance.hpp"
 #include "base/version.hpp"
+#include "cli/other_programs.hpp"
 #include "cli/output.hpp"
-#include "cli/programs.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "driver/config_file.hpp"
 #include "images/image_file.hpp"
@@ -61,13 +61,6 @@ struct Scan {
   std::string reason;                    ///< of a missing one
 };
 
-/// A program that something of this one calls.
-struct Program {
-  const char* name;
-  const char* use;
-  bool found = false;
-};
-
 struct Missing {
   std::string what, fix;
 };
@@ -77,7 +70,7 @@ struct Result {
   int processors = 0;
   double memory_gb = 0.0;
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
-  std::vector<Program> programs;
+  std::vector<OtherProgram> programs;
   std::vector<Scan> scans;
   std::vector<std::string> synthetics, transfer_functions, demos, configurations;
   std::vector<Missing> missing;
@@ -97,7 +90,7 @@ Result look() {
   Result result{.processors = usable_processors(),
                 .memory_gb = memory_gb(),
                 .libraries = {},
-                .programs = {{"ffmpeg", "render --video"}, {"verilator", "building RTL"}},
+                .programs = look_for_programs(),
                 .scans = {},
                 .synthetics = volume::synthetic_names(),
                 .transfer_functions = scene::transfer_function_presets(),
@@ -108,12 +101,10 @@ Result look() {
     const std::string text = version == nullptr ? image_library(result) : version;
     result.libraries.emplace_back(name, text.empty() ? "unknown" : text);
   }
-  for (auto& program : result.programs) {
-    program.found = in_path(program.name);
-    if (!program.found) {
-      result.missing.push_back(
-          {fmt::format("{} ({})", program.name, program.use), fmt::format("apt-get install {}", program.name)});
-    }
+  for (const auto& program : result.programs) {
+    if (program.usable()) continue;
+    result.missing.push_back({fmt::format("{} ({})", program.name, program.use),
+                              program.path.empty() ? program.get : program.path + " " + program.problem});
   }
   for (const auto& name : volume::known_volume_names()) {
     if (is_synthetic(name)) continue;
@@ -140,8 +131,12 @@ std::string to_text(const Result& result) {
   text += "libraries:\n";
   for (const auto& [name, version] : result.libraries) text += fmt::format("  {:14} {}\n", name, version);
   text += "programs:\n";
-  for (const auto& [name, use, found] : result.programs)
-    text += fmt::format("  {:14} {}, for {}\n", name, found ? "found" : "missing", use);
+  for (const auto& program : result.programs) {
+    const std::string state = program.path.empty()       ? "missing"
+                              : !program.problem.empty() ? program.path + " " + program.problem
+                                                         : program.version;
+    text += fmt::format("  {:14} {:12} for {}\n", program.name, state, program.use);
+  }
   text += "scans:\n";
   for (const auto& [name, header, reason] : result.scans) {
     text += header ? fmt::format("  {:16} found: {} ({}x{}x{})\n", name, header->source, header->dims.x, header->dims.y,
@@ -162,11 +157,19 @@ Json to_json(const Scan& scan) {
   return {{"name", scan.name}, {"found", false}, {"reason", scan.reason}};
 }
 
+Json to_json(const OtherProgram& program) {
+  Json json{{"found", !program.path.empty()}, {"for", program.use}, {"get", program.get}};
+  if (!program.path.empty()) json["path"] = program.path;
+  if (!program.version.empty()) json["version"] = program.version;
+  if (!program.problem.empty()) json["problem"] = program.problem;
+  return json;
+}
+
 Json to_json(const Result& result) {
   Json json{{"version", program_version()}, {"build", VERSION_BUILD},          {"compiler", VERSION_COMPILER},
             {"cmake", VERSION_CMAKE},       {"processors", result.processors}, {"memory_gb", result.memory_gb}};
   for (const auto& [name, version] : result.libraries) json["libraries"][name] = version;
-  for (const auto& [name, use, found] : result.programs) json["programs"][name] = found;
+  for (const auto& program : result.programs) json["programs"][program.name] = to_json(program);
   json["scans"] = Json::array();
   for (const auto& scan : result.scans) json["scans"].push_back(to_json(scan));
   json["synthetics"] = result.synthetics;
@@ -190,7 +193,7 @@ void declare(Options& options, Arguments& to) { declare(options, to.common); }
 
 }  // namespace
 
-const Verb verbs::doctor{"doctor", "versions, processors, scans; what is missing and how to get it",
+const Verb verbs::doctor{"doctor", "versions, processors, programs, scans; what is missing and how to get it",
                          verb<Arguments, declare, run>};
 
 }  // namespace fastsplat::cli

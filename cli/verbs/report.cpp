@@ -1,4 +1,4 @@
-// fastsplat report: results and their pictures as one page that opens from disk.
+// fastsplat report: results and their pictures as one page that opens from disk, and as JUnit XML, CSV and Markdown.
 #include "report/report.hpp"
 
 #include <fmt/format.h>
@@ -10,6 +10,7 @@
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
+#include "report/faces/faces.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -17,20 +18,40 @@ namespace {
 struct Arguments {
   Common common;
   std::vector<std::string> results, pictures;
-  std::string out;
+  std::string out;                   ///< empty for none
+  std::string junit, csv, markdown;  ///< files; empty for none
   double most_megabytes = 5.0;
 };
 
+std::vector<std::string> written_by(const Arguments& arguments) {
+  return {arguments.out, arguments.junit, arguments.csv, arguments.markdown, arguments.common.json};
+}
+
 void check(const Arguments& arguments, const std::vector<report::NamedPicture>& pictures) {
-  if (arguments.results.empty() && pictures.empty()) {
+  const bool faces = !(arguments.junit.empty() && arguments.csv.empty() && arguments.markdown.empty());
+  if (arguments.results.empty() && (pictures.empty() || faces)) {
     throw_usage({.where = {},
                  .what = "report of what?",
                  .expected = {},
                  .got = {},
                  .fix = "name results that verbs wrote with --json, for example compare.json"});
   }
+  if (arguments.out.empty() && !faces) {
+    throw_usage({.where = {},
+                 .what = "nothing to write",
+                 .expected = "--out, --junit, --csv or --markdown",
+                 .got = {},
+                 .fix = "for example -o report.html"});
+  }
+  if (arguments.out.empty() && !pictures.empty()) {
+    throw_usage({.where = "--picture",
+                 .what = "only the page has pictures",
+                 .expected = {},
+                 .got = {},
+                 .fix = "add -o report.html, or leave it out"});
+  }
   const auto end = ending(arguments.out);
-  if (end != ".html" && end != ".htm") {
+  if (!arguments.out.empty() && end != ".html" && end != ".htm") {
     throw_usage({.where = arguments.out,
                  .what = "a report's name ends in .html",
                  .expected = {},
@@ -46,8 +67,23 @@ void check(const Arguments& arguments, const std::vector<report::NamedPicture>& 
   }
   std::vector<std::string> inputs = arguments.results;
   for (const auto& picture : pictures) inputs.push_back(picture.file.string());
-  check_outputs(
-      {.images = {}, .maps = {}, .raws = {}, .others = {arguments.out, arguments.common.json}, .inputs = inputs});
+  check_outputs({.images = {}, .maps = {}, .raws = {}, .others = written_by(arguments), .inputs = inputs});
+}
+
+/// The faces that are asked for. All texts are there before the first file is.
+void write_faces(const Arguments& arguments, const std::vector<report::Result>& results) {
+  const std::string junit = arguments.junit.empty() ? "" : report::to_junit(results);
+  const std::string csv = arguments.csv.empty() ? "" : report::to_csv(results);
+  const std::string markdown = arguments.markdown.empty() ? "" : report::to_markdown(results);
+  if (!arguments.junit.empty()) write_text_file(arguments.junit, junit);
+  if (!arguments.csv.empty()) write_text_file(arguments.csv, csv);
+  if (!arguments.markdown.empty()) write_text_file(arguments.markdown, markdown);
+}
+
+report::Verdict verdict_of_all(const std::vector<report::Result>& results) {
+  std::vector<report::Verdict> verdicts;
+  for (const auto& result : results) verdicts.push_back(report::verdict_of(result));
+  return verdicts.empty() ? report::Verdict{} : report::verdict_of(verdicts);
 }
 
 ExitCode run(const Arguments& arguments) {
@@ -60,20 +96,33 @@ ExitCode run(const Arguments& arguments) {
     request.results.push_back(report::read_result(name));
     // Neither may it take the place of a picture that a result names.
     for (const auto& picture : report::pictures_of(request.results.back()))
-      check_outputs({.others = {arguments.out, arguments.common.json}, .inputs = {picture.file.string()}});
+      check_outputs({.others = written_by(arguments), .inputs = {picture.file.string()}});
   }
-  const report::Report made = report::make_report(request);
-  write_text_file(arguments.out, made.html);
+  report::Report made;
+  if (arguments.out.empty()) {
+    made.verdict = verdict_of_all(request.results);
+  } else {
+    made = report::make_report(request);
+  }
+  write_faces(arguments, request.results);
+  if (!arguments.out.empty()) write_text_file(arguments.out, made.html);
 
   const bool judged = made.verdict.status != report::Status::Measured;
   if (!made.verdict.sentence.empty())
     output.line((judged ? to_string(made.verdict.status) + std::string(": ") : "") + made.verdict.sentence);
-  output.line(fmt::format("{}: {}, {}, {:.2f} MB", arguments.out, counted(request.results.size(), "result"),
-                          counted(made.pictures, "picture"), static_cast<double>(made.html.size()) / 1e6));
+  for (const auto& face : {arguments.junit, arguments.csv, arguments.markdown}) {
+    if (!face.empty()) output.line(fmt::format("{}: {}", face, counted(request.results.size(), "result")));
+  }
+  if (!arguments.out.empty())
+    output.line(fmt::format("{}: {}, {}, {:.2f} MB", arguments.out, counted(request.results.size(), "result"),
+                            counted(made.pictures, "picture"), static_cast<double>(made.html.size()) / 1e6));
   for (const auto& remark : made.remarks) output.warn(remark);
   output.json({{"verb", "report"},
                {"version", program_version()},
                {"report", arguments.out},
+               {"junit", arguments.junit},
+               {"csv", arguments.csv},
+               {"markdown", arguments.markdown},
                {"bytes", made.html.size()},
                {"verdict", {{"status", to_string(made.verdict.status)}, {"sentence", made.verdict.sentence}}},
                {"pictures", made.pictures},
@@ -84,17 +133,23 @@ ExitCode run(const Arguments& arguments) {
 void declare(Options& options, Arguments& to) {
   options.positionals("RESULT", to.results, 0, "what verbs wrote with --json, of any verb, in the page's order");
   options.group("Report");
-  options.required("-o,--out", to.out, "FILE", "the page, .html: one file that opens from disk");
+  options.word("-o,--out", to.out, "FILE", "the page, .html: one file that opens from disk");
   options.words("--picture", to.pictures, "ROLE=FILE",
                 "a picture more: golden, integer, rtl, blame or a word of yours; repeatable");
   options.number("--most-megabytes", to.most_megabytes, "MB", "pictures are cropped to keep the page below");
+  options.group("Other faces of the same results");
+  options.word("--junit", to.junit, "FILE",
+               "JUnit XML: a test case per gate, failures with the command that shows them");
+  options.word("--csv", to.csv, "FILE", "the results' rows, for spreadsheets");
+  options.word("--markdown", to.markdown, "FILE", "verdicts, gates and rows as tables, for a review");
   declare(options, to.common);
-  options.example("fastsplat report compare.json cmodel.json -o report.html");
+  options.example("fastsplat report compare.json cycles.json -o report.html --junit gates.xml --markdown review.md");
 }
 
 }  // namespace
 
-const Verb verbs::report{"report", "results and their pictures as one page that opens from disk",
+const Verb verbs::report{"report",
+                         "results and their pictures as one page that opens from disk; JUnit XML, CSV, Markdown",
                          verb<Arguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -39,9 +39,10 @@ const Arrows kDrawn{
     {"analysis/family", {"analysis/errors"}},
     {"plan", {"base"}},
     {"report", {"images"}},
+    {"report/faces", {"report"}},
     {"cli",
      {"golden", "driver", "testbench/triage", "testbench/closure", "analysis/errors", "analysis/family", "plan",
-      "report"}},
+      "report/faces"}},
 };
 
 /// `drawn` with everything that is reached by going on; a room on a circle reaches itself.

@@ -72,15 +72,52 @@ TEST(Names, DoctorLooksAtEveryLibraryAndProgram) {
     EXPECT_TRUE(std::isdigit(static_cast<unsigned char>(text.empty() ? '.' : text[0]))) << name << " " << text;
   }
   EXPECT_TRUE(json.at("libraries").contains("libnifti2"));
-  EXPECT_TRUE(json.at("programs").contains("verilator"));
+  const auto& verilator = json.at("programs").at("verilator");
+  EXPECT_TRUE(verilator.at("found").get<bool>());
+  EXPECT_EQ(verilator.at("version").get<std::string>().find_first_not_of("0123456789."), std::string::npos);
+  int found = 0;
+  for (const char* name : {"ffmpeg", "verilator", "yosys", "z3", "node", "chromium", "slurm", "parallel", "ccache"}) {
+    const auto& program = json.at("programs").at(name);
+    EXPECT_FALSE(program.at("for").get<std::string>().empty()) << name;
+    EXPECT_EQ(program.at("get").get<std::string>().rfind("apt-get install ", 0), 0u) << name;
+    found += program.at("found").get<bool>() ? 1 : 0;
+  }
+  std::printf("[figure] programs = %zu, found = %d (limit > 0)\n", json.at("programs").size(), found);
+  EXPECT_GT(found, 0);
   // Where there are no programs, they are missing.
   Surroundings bare;
   bare.environment = {"PATH=/nonexistent"};
   const auto without = nlohmann::json::parse(fastsplat({"doctor", "--json", "-"}, bare).out);
-  EXPECT_FALSE(without.at("programs").at("ffmpeg").get<bool>());
+  EXPECT_FALSE(without.at("programs").at("ffmpeg").at("found").get<bool>());
   std::string missing = without.at("missing").dump();
   EXPECT_NE(missing.find("apt-get install ffmpeg"), std::string::npos) << missing;
   EXPECT_NE(missing.find("apt-get install verilator"), std::string::npos) << missing;
+}
+
+// One that hangs with a child, one that is another program of the name, one that fails, one that says its version
+// oddly.
+TEST(Names, DoctorAsksProgramsAndDoesNotWaitForThem) {
+  const TempFolder folder;
+  const auto program = [&](const std::string& name, const std::string& body) {
+    std::filesystem::permissions(folder.write(name, "#!/bin/sh\n" + body + "\n"), std::filesystem::perms::owner_all);
+  };
+  program("ffmpeg", "sleep 987.25 & wait");
+  program("parallel", "echo 'parallel: invalid option' >&2; exit 1");
+  program("z3", "exit 3");
+  program("yosys", "echo 'Yosys 9.81+7 (git sha1 1234)'");
+  Surroundings here;
+  here.environment = {"PATH=" + folder.path().string() + ":/usr/bin:/bin"};
+  const auto told = fastsplat({"doctor", "--json", "-"}, here);
+  expect_success(told);
+  const auto programs = nlohmann::json::parse(told.out).at("programs");
+  EXPECT_NE(programs.at("ffmpeg").at("problem").get<std::string>().find("within 5 s"), std::string::npos);
+  EXPECT_EQ(programs.at("ffmpeg").at("path"), folder / "ffmpeg");
+  EXPECT_TRUE(programs.at("parallel").contains("problem"));
+  EXPECT_TRUE(programs.at("z3").contains("problem"));
+  EXPECT_EQ(programs.at("yosys").at("version"), "9.81");
+  EXPECT_FALSE(programs.at("yosys").contains("problem"));
+  EXPECT_TRUE(programs.at("node").at("found").get<bool>());
+  EXPECT_NE(run_words({"pgrep", "-f", "^sleep 987[.]25$"}).code, 0) << "what hung is still there";
 }
 
 }  // namespace

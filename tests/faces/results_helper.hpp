@@ -1,0 +1,19 @@
+// Results as verbs write them, small, and of every kind.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/results.hpp"
+
+namespace fastsplat::report {
+
+/// `text` is the result's JSON.
+Result result_from(const std::string& file, const std::string& text);
+
+/// One of every verb that is reported, in the order of their names: some pass, some fail.
+std::vector<Result> all_kinds();
+/// `verb` among them.
+Result kind(const std::string& verb);
+
+}  // namespace fastsplat::report

@@ -12,23 +12,36 @@
 #include "base/suggest.hpp"
 #include "base/version.hpp"
 #include "cli/again.hpp"
+#include "cli/help/exit_codes.hpp"
 #include "cli/output.hpp"
 
 namespace fastsplat::cli {
 namespace {
 
-const char* const kDescription =
-    "fastsplat: volume splatting hardware, as an integer device model and a floating-point golden renderer";
-const char* const kFooter =
-    "Exit codes: 0 pass, 1 failed, 2 usage, 3 input or output, 4 not comparable, 5 simulation, 70 internal, 130 "
-    "interrupted.\n"
-    "`fastsplat help VERB` (or VERB --help) tells the rest; docs/guide.md is the guide.";
+const char* const kSummary =
+    "volume splatting hardware, as an integer device model and a floating-point golden renderer";
+/// "Exit codes: 0 pass, 1 failed, ...".
+std::string footer() {
+  std::string codes;
+  for (const auto& [code, word, meaning] : kExitMeanings)
+    codes += fmt::format("{}{} {}", codes.empty() ? "" : ", ", static_cast<int>(code), word);
+  return "Exit codes: " + codes +
+         ".\n`fastsplat help VERB` (or VERB --help) tells the rest; docs/guide.md is the guide.";
+}
+
+/// The help begins with what may be copied.
+std::string with_examples(const Description& verb) {
+  std::string text = verb.summary + "\n";
+  if (!verb.examples.empty()) text += "\nExamples:\n";
+  for (const Example& example : verb.examples) text += fmt::format("  # {}\n  {}\n", example.does, example.command);
+  return text;
+}
 
 /// The tree of verbs, by name and summary; a verb's flags are declared once it is known that it is meant.
 class CommandLine {
  public:
   explicit CommandLine(const std::vector<Verb>& verbs) {
-    app.footer(kFooter);
+    app.footer(footer());
     app.set_help_flag("-h,--help", "what you are reading");
     app.set_version_flag("--version", program_version(), "the version of the program");
     for (const Verb& verb : verbs) {
@@ -37,22 +50,34 @@ class CommandLine {
       CLI::App* parent = space == std::string::npos ? &app : app.get_subcommand(name.substr(0, space));
       CLI::App* sub = parent->add_subcommand(space == std::string::npos ? name : name.substr(space + 1), verb.summary);
       if (verb.declare != nullptr) declare_[sub] = verb.declare;
+      subs_.push_back(sub);
     }
-    app.add_subcommand("help", "help on a verb")->add_option("verb", "a verb");
   }
 
-  /// Declares the flags of `verb`; no action for a group's head.
-  Action declare(CLI::App& verb) const {
-    const auto found = declare_.find(&verb);
-    if (found == declare_.end()) return {};
+  struct Declared {
+    Action action;  ///< none for a group's head
+    Description description;
+  };
+
+  /// Declares the flags of `verb`, which its help begins to tell with examples.
+  Declared declare(CLI::App& verb) const {
     Options options(verb);
-    return found->second(options);
+    Declared out;
+    const auto found = declare_.find(&verb);
+    if (found != declare_.end()) out.action = found->second(options);
+    out.description = options.description();
+    out.description.group = found == declare_.end();
+    if (!out.description.examples.empty()) verb.description(with_examples(out.description));
+    return out;
   }
 
-  CLI::App app{kDescription, "fastsplat"};
+  const std::vector<CLI::App*>& subs() const { return subs_; }
+
+  CLI::App app{std::string("fastsplat: ") + kSummary, "fastsplat"};
 
  private:
   std::map<const CLI::App*, Action (*)(Options&)> declare_;
+  std::vector<CLI::App*> subs_;  ///< in the order of the verbs
 };
 
 std::string called(const CLI::App& verb) {
@@ -77,9 +102,14 @@ std::vector<std::string> flag_names(const CLI::App& verb) {
   return names;
 }
 
-[[noreturn]] void misused(const CLI::App& verb, const std::string& what, std::string fix = {}) {
-  if (fix.empty()) fix = "`" + called(verb) + " --help` lists what there is";
+/// `verb` as it is called.
+[[noreturn]] void misused(const std::string& verb, const std::string& what, std::string fix = {}) {
+  if (fix.empty()) fix = "`" + verb + " --help` lists what there is";
   throw_usage({.where = {}, .what = what, .expected = {}, .got = {}, .fix = std::move(fix)});
+}
+
+[[noreturn]] void misused(const CLI::App& verb, const std::string& what, const std::string& fix = {}) {
+  misused(called(verb), what, fix);
 }
 
 // Descends words of verbs from `app`; `at` ends on the first word that is none.
@@ -142,8 +172,8 @@ Action print(std::string text) {
   };
 }
 
-Action print_help(CLI::App& app, CLI::App& verb) {
-  return print(verb.help(&verb == &app ? "" : called(*verb.get_parent())));
+std::string help_text(CLI::App& app, CLI::App& verb) {
+  return verb.help(&verb == &app ? "" : called(*verb.get_parent()));
 }
 
 }  // namespace
@@ -155,7 +185,7 @@ std::vector<std::string> flags_of(const std::string& verb, const std::vector<Ver
   for (std::string word; all >> word;) words.push_back(word);
   std::size_t at = 0;
   CLI::App* found = find_verb(line.app, words, at);
-  const Action action = line.declare(*found);
+  const Action action = line.declare(*found).action;
   if (at < words.size() || !action)
     misused(line.app, "no verb is called '" + verb + "'", "`fastsplat help` lists the verbs");
   return flag_names(*found);
@@ -165,19 +195,11 @@ Action parse(int argc, const char* const* argv, const std::vector<Verb>& verbs) 
   CommandLine line(verbs);
   const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   std::size_t at = 0;
-  if (!words.empty() && words[0] == "help") {
-    at = 1;
-    CLI::App* verb = find_verb(line.app, words, at);
-    if (at < words.size())
-      misused(line.app, "unexpected '" + words[at] + "' after help", "`fastsplat help` lists the verbs");
-    line.declare(*verb);
-    return print_help(line.app, *verb);
-  }
   CLI::App* verb = find_verb(line.app, words, at);
-  const Action action = line.declare(*verb);
+  const Action action = line.declare(*verb).action;
   const std::span rest(words.begin() + static_cast<std::ptrdiff_t>(at), words.end());
   for (const auto& word : rest) {
-    if (word == "--help" || word == "-h") return print_help(line.app, *verb);
+    if (word == "--help" || word == "-h") return print(help_text(line.app, *verb));
     if (word == "--version" && verb == &line.app) return print("fastsplat " + program_version() + "\n");
   }
   check_words(*verb, rest);
@@ -186,18 +208,51 @@ Action parse(int argc, const char* const* argv, const std::vector<Verb>& verbs) 
             fmt::format("one of {}; `{} --help` tells what they do", fmt::join(subcommand_names(*verb), ", "),
                         called(*verb)));
   }
+  // By the verb alone, so that a word behind it that is another verb's name is just a word. It forgets its parents.
+  const std::string name = called(*verb);
+  std::vector<std::string> reversed(rest.rbegin(), rest.rend());
   try {
-    line.app.parse(argc, argv);
+    verb->parse(reversed);
   } catch (const CLI::ExtrasError&) {
-    const auto extra = line.app.remaining(true);
-    misused(*verb, fmt::format("unexpected '{}' after `{}`", extra.empty() ? "?" : extra.front(), called(*verb)));
+    const auto extra = verb->remaining(true);
+    misused(name, fmt::format("unexpected '{}' after `{}`", extra.empty() ? "?" : extra.front(), name));
   } catch (const CLI::RequiredError& error) {
-    misused(*verb, fmt::format("{}: {}", called(*verb), error.what()));
+    misused(name, fmt::format("{}: {}", name, error.what()));
   } catch (const CLI::ParseError& error) {
-    misused(*verb, error.what());
+    misused(name, error.what());
   }
   if (command_again().empty()) remember_command(words);  // a plan has other commands understood later
   return action;
+}
+
+std::string help_on(const std::vector<std::string>& words, const std::vector<Verb>& verbs) {
+  CommandLine line(verbs);
+  std::size_t at = 0;
+  CLI::App* verb = find_verb(line.app, words, at);
+  if (at < words.size())
+    misused(line.app, "unexpected '" + words[at] + "' after help", "`fastsplat help` lists the verbs");
+  line.declare(*verb);
+  return help_text(line.app, *verb);
+}
+
+std::vector<Description> describe(const std::vector<Verb>& verbs) {
+  CommandLine line(verbs);
+  Flag version{.names = {"--version"}, .unit = {}, .help = "the version of the program", .group = {}, .values = {}};
+  std::vector<Description> all{
+      {.name = {}, .summary = kSummary, .flags = {std::move(version)}, .examples = {}, .group = true}};
+  for (CLI::App* verb : line.subs()) all.push_back(line.declare(*verb).description);
+  return all;
+}
+
+const Description& described(const std::vector<std::string>& words, const std::vector<Description>& all) {
+  const std::string name = fmt::format("{}", fmt::join(words, " "));
+  std::vector<std::string> names;
+  for (const Description& verb : all) {
+    if (verb.name == name) return verb;
+    if (!verb.name.empty()) names.push_back(verb.name);
+  }
+  throw_usage(
+      {.where = {}, .what = "unknown verb '" + name + "'", .expected = {}, .got = {}, .fix = suggestion(name, names)});
 }
 
 }  // namespace fastsplat::cli

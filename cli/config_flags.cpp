@@ -46,18 +46,32 @@ std::string differences(const cmodel::Config& was, const cmodel::Config& config,
   return text;
 }
 
+/// "radial.entries=" of every key; where the values are words, each: "index.kind=rlut".
+std::vector<std::string> key_words() {
+  std::vector<std::string> words;
+  for (const auto& key : cmodel::config_keys()) {
+    const std::string begin = std::string(key.name) + "=";
+    if (key.names.empty()) words.push_back(begin);
+    for (const char* name : key.names) words.push_back(begin + name);
+  }
+  return words;
+}
+
 }  // namespace
 
 void declare(Options& options, ConfigFlags& to, const char* help) {
   options.word("--config", to.config, "NAME|FILE", help);
+  options.values(driver::config_names);
   declare_changes(options, to.changes);
 }
 
 void declare_changes(Options& options, std::vector<std::string>& to) {
   options.words("--set", to, "KEY=VALUE", "changes a key of the configuration, radial.entries=256; repeatable");
+  options.values(key_words);
   options.value(
       "--index", {}, [&to](const std::string& kind) { to.push_back("index.kind=" + kind); }, "KIND",
       "how weights are found: short for --set index.kind=KIND");
+  options.values(index_kinds);
 }
 
 cmodel::Config load(const std::string& name_or_path, const std::vector<std::string>& changes) {

@@ -4,6 +4,8 @@
 #include <filesystem>
 
 #include "base/error.hpp"
+#include "cmodel/config.hpp"
+#include "testbench/stimulus/stimulus.hpp"
 #include "volume/volume_file.hpp"
 
 namespace fastsplat::cli {
@@ -28,6 +30,25 @@ void check_volume_name(const std::string& word) {
   // A scan that is known and not installed is a file that is missing.
   const bool scan = word.find(':') == std::string::npos && std::find(known.begin(), known.end(), word) != known.end();
   if (is_name(word) && !scan) as_word(word, [&] { volume::read_volume_header(word); });
+}
+
+std::vector<std::string> index_kinds() {
+  const auto names = cmodel::find_key("index.kind")->names;
+  return {names.begin(), names.end()};
+}
+
+std::vector<std::string> pattern_words() { return {"always", "every-", "alternate-", "random-", "burst-"}; }
+
+std::vector<std::string> ready_words() {
+  auto words = pattern_words();
+  words.emplace_back("all");
+  return words;
+}
+
+std::vector<std::string> stimulus_words() {
+  std::vector<std::string> words{"all"};
+  for (const auto which : testbench::stimulus_classes()) words.emplace_back(testbench::to_string(which));
+  return words;
 }
 
 }  // namespace fastsplat::cli

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace fastsplat::cli {
 
@@ -15,5 +16,14 @@ void as_word(const std::string& word, const std::function<void()>& resolve);
 
 /// A volume of the command line: throws as loading it would where its name alone is wrong.
 void check_volume_name(const std::string& word);
+
+/// What --index may name.
+std::vector<std::string> index_kinds();
+/// Patterns of beats; those that end in "-" go on with a number.
+std::vector<std::string> pattern_words();
+/// ... and "all", of streams that are random.
+std::vector<std::string> ready_words();
+/// Classes of random streams, "all" first.
+std::vector<std::string> stimulus_words();
 
 }  // namespace fastsplat::cli

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/number_text.hpp"
+#include "cli/description.hpp"
 
 namespace CLI {
 class App;
@@ -24,7 +25,7 @@ class Options {
   using Problem = std::function<std::string(std::string&)>;
   using Take = std::function<void(const std::string&)>;
 
-  explicit Options(CLI::App& verb) : verb_(verb) {}
+  explicit Options(CLI::App& verb);
 
   /// The heading in the help over what follows.
   void group(const std::string& title) { group_ = title; }
@@ -42,6 +43,7 @@ class Options {
   void choice(const char* name, To& to, const std::vector<std::string>& names, const char* unit, const char* help) {
     value(
         name, one_of(names), [&to](const std::string& text) { to = text; }, unit, help);
+    values([names] { return names; });
   }
   /// An integer in low..high.
   template <class To>
@@ -66,8 +68,19 @@ class Options {
   /// A word that has to be there.
   void required(const char* name, std::string& to, const char* unit, const char* help);
 
-  /// The help's last line.
-  void example(const std::string& command);
+  /// Names that the value declared last may have, for shells to offer: beside files where it takes those by its unit.
+  void values(Values names) { description_.flags.back().values = std::move(names); }
+  /// ... and no file, where it is a word without a flag.
+  void only_values(Values names) {
+    values(std::move(names));
+    description_.flags.back().only_values = true;
+  }
+
+  /// A command that does something worth knowing, and what: one line. The help begins with them; a test runs each.
+  void example(const std::string& command, const std::string& does, Example::Speed speed = Example::Quick);
+
+  /// What was declared so far.
+  const Description& description() const { return description_; }
 
  private:
   template <class T>
@@ -84,9 +97,11 @@ class Options {
   static Problem one_of(const std::vector<std::string>& names);
   static Problem within(long low, long high);
   static Problem finite();
+  void describe(const char* name, const char* unit, const char* help, bool required, bool repeatable);
 
   CLI::App& verb_;
   std::string group_;
+  Description description_;
 };
 
 }  // namespace fastsplat::cli

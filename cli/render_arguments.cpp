@@ -10,6 +10,7 @@ void declare(Options& options, RenderArguments& to) {
   options.group("Engine");
   options.word("--engine", to.engine, "golden|cmodel|rtl",
                "golden (floating point), cmodel (the integer device) or rtl (its Verilated RTL)");
+  options.values([] { return std::vector<std::string>{"golden", "cmodel", "rtl"}; });
   declare(options, to.config, "cmodel, rtl: hardware configuration, a name or a TOML file (default base)");
   options.flag("--check", to.check, "rtl: compares every tap, pixel and counter with the model (exit 1)");
   options.flag(
@@ -26,7 +27,13 @@ void declare(Options& options, RenderArguments& to) {
   declare_images(options, to.out, to.raw);
   options.word("--save-scene", to.save_scene, "FILE", "writes the scene, flags applied, as TOML");
   declare(options, to.common);
-  options.example("fastsplat render --volume shells:64 --size 256 --engine cmodel --config base -o shells.png");
+  options.example("fastsplat render --volume shells:64 --size 256 -o golden.exr -o golden.png",
+                  "the true picture, to measure by and to look at");
+  options.example(
+      "fastsplat render --volume shells:64 --size 256 --engine cmodel --config base -o model.exr -o model.png",
+      "the integer device's picture of the same");
+  options.example("fastsplat render --volume shells:32 --size 96 --orbit 0..360 --frames 6 -o turn-#.png",
+                  "a turn around it, a picture a step");
 }
 
 }  // namespace fastsplat::cli

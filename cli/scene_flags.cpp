@@ -12,6 +12,7 @@
 #include "scene/scene_file.hpp"
 #include "scene/settings.hpp"
 #include "scene/transfer_function.hpp"
+#include "volume/volume_file.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -79,6 +80,12 @@ void apply_camera(const SceneFlags& flags, scene::SceneDescription& to) {
   if (flags.orthographic) to.camera.projection = scene::Projection::Orthographic;
 }
 
+std::vector<std::string> demo_words() {
+  std::vector<std::string> words;
+  for (const auto& name : scene::demo_names()) words.push_back("demo:" + name);
+  return words;
+}
+
 /// The flags that were given, of those that settings have.
 std::vector<scene::Given> given_by(const SceneFlags& flags) {
   std::vector<scene::Given> given;
@@ -110,11 +117,15 @@ void declare(Options& options, SceneFlags& to) {
   options.group("Scene");
   options.word("--scene", to.file, "FILE|demo:NAME",
                "a scene.toml or a built-in demo:NAME (`doctor` lists them); the flags below override it");
+  options.values(demo_words);
   options.word("--volume", to.volume, "NAME|PATH",
                "NRRD, NIfTI or MetaImage file, a built-in like shells:128, or ch2, ch2bet, inia19-t1-brain");
+  options.values(volume::known_volume_names);
   declare_nan_as(options, to.nan_as);
   options.word("--tf", to.transfer_function, "NAME|FILE", "transfer function: a preset or a TOML file");
+  options.values(scene::transfer_function_presets);
   options.word("--kernel", to.kernel, "NAME", "kernel by name: gauss2 (a=2,R=2), smooth (a=1.35,R=2)");
+  options.values(scene::kernel_names);
   options.group("Camera");
   options.word("--size", to.size, "N|WxH", "image size: N (square) or WxH");
   options.flag("--perspective", to.perspective, "perspective projection");
@@ -125,6 +136,9 @@ void declare(Options& options, SceneFlags& to) {
     options.value(
         setting.flag, [&setting](const std::string& text) { return scene::problem_with(setting, text); },
         [&to, &setting](const std::string& text) { to.settings[setting.flag] = text; }, setting.unit, setting.help);
+    if (const auto* choice = std::get_if<scene::Choice>(&setting.value)) options.values(choice->names);
+    if (std::holds_alternative<scene::Switch>(setting.value))
+      options.values([] { return std::vector<std::string>{"on", "off"}; });
   }
 }
 

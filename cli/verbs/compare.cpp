@@ -221,7 +221,10 @@ void declare(Options& options, Arguments& to) {
   options.word("--map", to.map, "FILE", "signed error map in LSB with legend, .png");
   options.word("--heat", to.heat, "FILE", "|error| heat map with legend, .png");
   declare(options, to.common);
-  options.example("fastsplat compare golden.exr cmodel.exr --min-psnr 48 --max-lsb 3 --map map.png");
+  options.example("fastsplat compare golden.exr model.exr --min-psnr 48 --max-lsb 3",
+                  "how far the device is from the truth; exit 1 past a limit");
+  options.example("fastsplat compare golden.exr model.exr --map map.png --heat heat.png --json compare.json",
+                  "where they differ, as pictures and for programs");
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "cmodel/sv_package.hpp"
+#include "driver/config_file.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -24,9 +25,12 @@ struct Arguments {
 
 void declare(Options& options, Arguments& to) {
   options.positional("FILE", to.file, "a TOML file (or a name)");
+  options.values(driver::config_names);
   options.group("Configuration");
   declare_changes(options, to.changes);
   declare(options, to.common);
+  options.example("fastsplat config check mine.toml", "whether it is sound, and can be RTL");
+  options.example("fastsplat config check base --set array.lanes=16", "whether a change would be");
 }
 
 ExitCode run(const Arguments& arguments) {

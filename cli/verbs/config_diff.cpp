@@ -10,6 +10,7 @@
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
+#include "driver/config_file.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -23,8 +24,12 @@ struct Arguments {
 
 void declare(Options& options, Arguments& to) {
   options.positional("A", to.a, "a name or a TOML file");
+  options.values(driver::config_names);
   options.positional("B", to.b, "a name or a TOML file");
+  options.values(driver::config_names);
   declare(options, to.common);
+  options.example("fastsplat config diff small mine.toml", "every key in which two differ; exit 1 if any does");
+  options.example("fastsplat config diff base base --json -", "for programs");
 }
 
 /// What the device would see; names and descriptions are none of that.

@@ -17,7 +17,11 @@ struct Arguments {
   Common common;
 };
 
-void declare(Options& options, Arguments& to) { declare(options, to.common); }
+void declare(Options& options, Arguments& to) {
+  declare(options, to.common);
+  options.example("fastsplat config list", "names, hashes and what each is for");
+  options.example("fastsplat config list --json configs.json", "every key of all, for programs");
+}
 
 std::string to_text(const std::vector<cmodel::Config>& configs) {
   std::string text;

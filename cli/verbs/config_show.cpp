@@ -20,9 +20,12 @@ struct Arguments {
 
 void declare(Options& options, Arguments& to) {
   options.positional("CONFIG", to.config, "a name or a TOML file");
+  options.values(driver::config_names);
   options.group("Configuration");
   declare_changes(options, to.changes);
   declare(options, to.common);
+  options.example("fastsplat config show small > mine.toml", "a configuration to change, every key with its limits");
+  options.example("fastsplat config show tiny --set radial.entries=128", "with a key changed");
 }
 
 ExitCode run(const Arguments& arguments) {

@@ -13,6 +13,7 @@
 #include "cli/cycle_timeline.hpp"
 #include "cli/cycle_trace.hpp"
 #include "cli/frame_scaling.hpp"
+#include "cli/names.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
@@ -259,7 +260,9 @@ void declare(Options& options, Arguments& to) {
   declare(options, to.config, "hardware configuration, a name or a TOML file");
   options.word("--input", to.input, "PATTERN",
                "when the source has a beat: always, every-N, alternate-N, random-PERCENT, burst-N");
+  options.values(pattern_words);
   options.word("--ready", to.ready, "PATTERN", "when the sink takes pixels: as --input");
+  options.values(pattern_words);
   options.integer("--seed", to.seed, 0, 2'000'000'000, "N", "of the patterns");
   options.group("Several devices");
   declare(options, to.scaling);
@@ -267,7 +270,12 @@ void declare(Options& options, Arguments& to) {
   options.word("--trace", to.trace, "FILE", "a timeline as JSON that ui.perfetto.dev opens; 1 us stands for a cycle");
   options.flag("--timeline", to.timeline, "each sheet's and tile's cycles in the JSON, where `report` draws them");
   declare(options, to.common);
-  options.example("fastsplat cycles --volume shells:64 --size 256 --config base --trace shells.json");
+  options.example("fastsplat cycles --volume shells:64 --size 256 --config base --trace shells.json",
+                  "cycles, where they go, and a timeline for ui.perfetto.dev");
+  options.example("fastsplat cycles --stream shells.fss --config tiny --ready random-50",
+                  "of a recorded stream, where pixels are taken half of the time");
+  options.example("fastsplat cycles --volume shells:64 --size 256 --devices 1,2,4 --clock 100 --json cycles.json",
+                  "what more devices bring, in frames per second at 100 MHz");
 }
 
 }  // namespace

@@ -189,7 +189,11 @@ ExitCode run(const Arguments& arguments) {
   return ExitCode::Pass;
 }
 
-void declare(Options& options, Arguments& to) { declare(options, to.common); }
+void declare(Options& options, Arguments& to) {
+  declare(options, to.common);
+  options.example("fastsplat doctor", "what this program is made of and what is missing");
+  options.example("fastsplat doctor --json doctor.json", "for programs");
+}
 
 }  // namespace
 

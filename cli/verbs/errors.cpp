@@ -108,7 +108,10 @@ void declare(Options& options, Arguments& to) {
   options.word("--maps", to.maps, "PREFIX",
                "each step's signed error: PREFIX.STEP.png, with legend, and PREFIX.STEP.exr, its values");
   declare(options, to.common);
-  options.example("fastsplat errors --volume shells:64 --size 256 --config base --blame blame.png");
+  options.example("fastsplat errors --volume shells:32 --size 64 --config base --blame blame.png",
+                  "which step has which share of the error, and where");
+  options.example("fastsplat errors --volume shells:32 --size 64 --config tiny --quick --json errors.json",
+                  "in a third of the time, for programs");
 }
 
 }  // namespace

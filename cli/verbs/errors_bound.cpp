@@ -88,7 +88,10 @@ void declare(Options& options, Arguments& to) {
   options.word("--maps", to.maps, "PREFIX",
                "the bound of every pixel: PREFIX.LEVEL.png, with legend, and PREFIX.LEVEL.exr, its values");
   declare(options, to.common);
-  options.example("fastsplat errors bound --volume shells:64 --size 256 --config base --maps bound");
+  options.example("fastsplat errors bound --volume shells:32 --size 64 --config base --maps bound",
+                  "a proved worst case of every pixel, as maps");
+  options.example("fastsplat errors bound --volume shells:16 --size 32 --config tiny --json bound.json",
+                  "for programs; exit 1 if it does not hold");
 }
 
 }  // namespace

@@ -81,12 +81,17 @@ void declare(Options& options, Arguments& to) {
   options.required("--target", to.target, "TARGET",
                    "psnr>=DB, max<=LSB or rms<=LSB against golden, LSB of 8 bits, over colours and alpha");
   options.word("--from", to.from, "NAME|FILE", "where to begin, and whose other keys stay; base");
+  options.values(driver::config_names);
   options.word("--journal", to.journal, "FILE",
                "what configurations did, to go on from later without simulating them again; JSON lines");
   options.group("Output");
   options.word("-o,--out", to.out, "FILE", "the configuration, .toml; not written where the target is not met");
   declare(options, to.common);
-  options.example("fastsplat errors propose --target 'psnr>=50' --volume shells:24 --size 48 -o enough.toml");
+  options.example("fastsplat errors propose --target 'psnr>=50' --volume shells:24 --size 48 -o enough.toml",
+                  "the cheapest configuration of 50 dB");
+  options.example(
+      "fastsplat errors propose --target 'max<=1' --scenes demo:layer-adding,demo:overlap-adding --from small --journal tried.jsonl",
+      "over several scenes, to go on from later", Example::Slow);
 }
 
 }  // namespace

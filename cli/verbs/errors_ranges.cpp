@@ -68,7 +68,10 @@ void declare(Options& options, Arguments& to) {
   declare(options, to.config, "hardware configuration, a name or a TOML file");
   options.group("Output");
   declare(options, to.common);
-  options.example("fastsplat errors ranges --volume shells:64 --size 256 --config base");
+  options.example("fastsplat errors ranges --volume shells:32 --size 64 --config base",
+                  "how large each signal gets, and the bits it needs");
+  options.example("fastsplat errors ranges --scenes demo:layer-adding,demo:overlap-adding --size 48 --config base",
+                  "over several scenes together");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "base/hash_text.hpp"
 #include "base/version.hpp"
 #include "cli/common.hpp"
+#include "cli/names.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
@@ -120,12 +121,15 @@ ExitCode run(const Arguments& arguments) {
 void declare(Options& options, Arguments& to) {
   options.group("What");
   options.word("--kind", to.kind, "KIND", "one kind of index only: what `config show` says of index.kind");
+  options.values(index_kinds);
   options.integer("--entries", to.entries, 2, 65536, "N", "of the radial table, a power of two; else 64 to 2048");
   options.flag("--page", to.page, "docs/family.md, which has nothing that depends on the machine; takes minutes");
   options.flag("--head", to.head, "its part on the head scan alone: every kind's picture against golden's");
   options.word("--plots", to.plots, "FOLDER", "the page's pictures, family-*.svg, into a folder that is there");
   declare(options, to.common);
-  options.example("fastsplat family --kind rlut --entries 1024");
+  options.example("fastsplat family --kind rlut --entries 1024",
+                  "one kind of index: weights, bits, operations and cycles");
+  options.example("fastsplat family --json family.json", "all of them, for programs", Example::Slow);
 }
 
 }  // namespace

@@ -55,7 +55,8 @@ void declare(Options& options, Arguments& to) {
   options.group("Output");
   options.word("-o,--out", to.out, "FILE", "to a file instead of stdout");
   declare(options, to.common);
-  options.example("fastsplat plan csv merged.json -o merged.csv");
+  options.example("fastsplat plan csv merged.json -o merged.csv", "for a spreadsheet");
+  options.example("fastsplat plan csv merged.json", "to stdout, for a pipe");
 }
 
 }  // namespace

@@ -62,7 +62,8 @@ void declare(Options& options, Arguments& to) {
   options.group("Output");
   options.word("-o,--out", to.out, "FILE", "the plan, .json: what the other verbs take");
   declare(options, to.common);
-  options.example("fastsplat plan make configs/plans/word-lengths.toml -o plan.json");
+  options.example("fastsplat plan make configs/plans/word-lengths.toml -o plan.json", "the cases of a specification");
+  options.example("fastsplat plan make configs/plans/word-lengths.toml --json -", "what they are, for programs");
 }
 
 }  // namespace

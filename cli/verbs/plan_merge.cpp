@@ -67,7 +67,9 @@ void declare(Options& options, Arguments& to) {
   options.group("Output");
   options.word("-o,--out", to.out, "FILE", "the rows, .json: what table, pareto, csv and report take");
   declare(options, to.common);
-  options.example("fastsplat plan merge plan.json -o merged.json");
+  options.example("fastsplat plan merge plan.json -o merged.json", "all results in one file");
+  options.example("fastsplat plan merge plan.json --results plan.results -o merged.json",
+                  "of results that lie elsewhere");
 }
 
 }  // namespace

@@ -138,7 +138,9 @@ void declare(Options& options, Arguments& to) {
   options.flag("--beaten", to.beaten, "the rows that are not worth having, too, and by which they are beaten");
   options.flag("--markdown", to.markdown, "Markdown tables");
   declare(options, to.common);
-  options.example("fastsplat plan pareto merged.json --x cost --y psnr_db");
+  options.example("fastsplat plan pareto merged.json --x cost --y psnr_db", "what no other case beats in both");
+  options.example("fastsplat plan pareto merged.json --x cost --y psnr_db --beaten",
+                  "... and what each of the others is beaten by");
 }
 
 }  // namespace

@@ -89,7 +89,10 @@ void declare(Options& options, Arguments& to) {
   options.word("--shard", to.shard, "I/N", "every N-th case only, from the I-th on: I is 1 to N");
   options.integer("--jobs", to.jobs, 0, 1024, "N", "cases at once; 0 as many as there are processors");
   declare(options, to.common);
-  options.example("fastsplat plan run plan.json --jobs 2");
+  options.example("fastsplat plan run plan.json --jobs 2",
+                  "all that is left to do, two cases at once; the next run goes on where one stopped");
+  options.example("fastsplat plan run plan.json --shard 1/4 --results results",
+                  "a quarter of them, for one of four machines");
 }
 
 }  // namespace

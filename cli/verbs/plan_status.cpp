@@ -74,7 +74,8 @@ void declare(Options& options, Arguments& to) {
   declare(options, to.plan);
   options.integer("--shards", to.shards, 0, 100'000, "N", "by shard, as `plan run --shard I/N` divides the cases");
   declare(options, to.common);
-  options.example("fastsplat plan status plan.json --shards 4");
+  options.example("fastsplat plan status plan.json", "how many are done, failed and left");
+  options.example("fastsplat plan status plan.json --shards 4", "by shard");
 }
 
 }  // namespace

@@ -291,7 +291,10 @@ void declare(Options& options, Arguments& to) {
   options.flag("--dry-run", to.dry_run, "print scripts and commands, write and send nothing");
   options.flag("--lost", to.lost, "name the tasks that gave no result, send nothing; with the --shards that were sent");
   declare(options, to.common);
-  options.example("fastsplat plan submit plan.json --engine slurm --partition short --time 60 --dry-run");
+  options.example("fastsplat plan submit plan.json --engine slurm --partition short --array-max 1000 --dry-run",
+                  "what would be sent to Slurm");
+  options.example("fastsplat plan submit plan.json --engine script --shards 4 --dry-run",
+                  "scripts for LSF and SGE, a command list for GNU parallel");
 }
 
 }  // namespace

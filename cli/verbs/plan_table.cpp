@@ -53,7 +53,9 @@ void declare(Options& options, Arguments& to) {
   options.flag("--markdown", to.markdown, "a Markdown table");
   options.word("-o,--out", to.out, "FILE", "to a file instead of stdout");
   declare(options, to.common);
-  options.example("fastsplat plan table merged.json --columns snap.phases,psnr_db,cost --sort -psnr_db");
+  options.example("fastsplat plan table merged.json --columns snap.phases,psnr_db,cost --sort -psnr_db",
+                  "a row per case, the best first");
+  options.example("fastsplat plan table merged.json --markdown -o table.md", "for a review");
 }
 
 }  // namespace

@@ -143,7 +143,12 @@ void declare(Options& options, Arguments& to) {
   options.word("--csv", to.csv, "FILE", "the results' rows, for spreadsheets");
   options.word("--markdown", to.markdown, "FILE", "verdicts, gates and rows as tables, for a review");
   declare(options, to.common);
-  options.example("fastsplat report compare.json cycles.json -o report.html --junit gates.xml --markdown review.md");
+  options.example("fastsplat report compare.json cycles.json -o report.html", "results of two verbs on one page");
+  options.example(
+      "fastsplat report compare.json --picture golden=golden.exr --picture integer=model.exr -o viewer.html",
+      "with pictures to look into");
+  options.example("fastsplat report compare.json cycles.json --junit gates.xml --csv rows.csv --markdown review.md",
+                  "for a build server, a spreadsheet and a review");
 }
 
 }  // namespace

@@ -23,6 +23,8 @@ void declare(Options& options, Arguments& to) {
   options.group("Output");
   options.integer("--limit", to.limit, 0, 2'000'000'000, "N", "stops after N records");
   declare(options, to.common);
+  options.example("fastsplat stream dump shells.fss --limit 20", "its first records, a line each");
+  options.example("fastsplat stream dump shells.fss | grep -c splat", "how many records of a kind there are");
 }
 
 ExitCode run(const Arguments& arguments) {

@@ -32,6 +32,10 @@ void declare(Options& options, Arguments& to) {
   options.group("Output");
   options.required("-o,--out", to.out, "FILE", "the stream file, .fss");
   declare(options, to.common);
+  options.example("fastsplat stream record --volume shells:24 --size 64 --config tiny -o shells.fss",
+                  "what the device is fed for a scene");
+  options.example("fastsplat stream record --scene demo:layer-adding --size 64 --config base -o layers.fss",
+                  "of a built-in scene");
 }
 
 /// What was recorded, in words.

@@ -31,6 +31,9 @@ void declare(Options& options, Arguments& to) {
   declare(options, to.config, "the configuration it was recorded for");
   declare_images(options, to.out, to.raw);
   declare(options, to.common);
+  options.example("fastsplat stream replay shells.fss --config tiny -o shells.png", "the picture that a stream makes");
+  options.example("fastsplat stream replay shells.fss --config tiny --raw words.exr --json -",
+                  "its words and what the device counted");
 }
 
 /// What was replayed, in words; its pixels are in the files.

@@ -30,6 +30,10 @@ void declare(Options& options, Arguments& to) {
   options.group("Output");
   options.required("-o,--out", to.out, "FOLDER", "where the files go; made if it is not there");
   declare(options, to.common);
+  options.example("fastsplat stream vectors shells.fss --config tiny -o vectors",
+                  "beats and taps for a bench of yours");
+  options.example("fastsplat stream vectors shells.fss --config tiny -o vectors --json -",
+                  "what was written, for programs");
 }
 
 /// What was written, in words.

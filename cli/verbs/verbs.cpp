@@ -37,6 +37,8 @@ const std::vector<Verb>& all_verbs() {
       verbs::plan_csv,
       verbs::report,
       verbs::doctor,
+      verbs::completion,
+      verbs::help,
   };
   return all;
 }

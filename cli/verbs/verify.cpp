@@ -10,6 +10,7 @@
 #include "base/hash_text.hpp"
 #include "base/version.hpp"
 #include "cli/config_flags.hpp"
+#include "cli/names.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
@@ -420,6 +421,7 @@ void declare(Options& options, Arguments& to) {
   options.word("--stream", to.stream, "FILE", "a recorded stream, .fss");
   options.integer("--random", to.random, 1, 1'000'000'000, "N", "random streams of about N splats per seed");
   options.word("--class", to.stimulus, "NAME", "random: stimulus class (all; an unknown one lists them)");
+  options.values(stimulus_words);
   options.integer("--seed", to.seed, 0, std::numeric_limits<long>::max(), "S",
                   "of random streams, patterns and reset fill");
   options.integer("--seeds", to.seeds, 1, 1'000'000, "N", "random: runs with seeds S, S+1, ...");
@@ -427,7 +429,9 @@ void declare(Options& options, Arguments& to) {
   declare(options, to.config, "hardware configuration with RTL");
   options.word("--ready", to.ready, "PATTERN",
                "when pixels are taken: always, every-N, alternate-N, random-PERCENT, burst-N; random: all takes turns");
+  options.values(ready_words);
   options.word("--input", to.input, "PATTERN", "when beats are offered, a pattern as above");
+  options.values(pattern_words);
   options.choice("--fill", to.fill, {"zero", "one", "random"}, "zero|one|random",
                  "what registers and memories hold before reset");
   options.integer("--reset-after", to.reset_after, 1, 2'000'000'000, "N",
@@ -437,7 +441,12 @@ void declare(Options& options, Arguments& to) {
   options.word("--failure", to.failure, "PREFIX", "a failure's small stream and waveform: PREFIX.fss and PREFIX.fst");
   declare(options, to.scene);
   declare(options, to.common);
-  options.example("fastsplat verify --random 1000 --seed 7 --config tiny --ready random-50");
+  options.example("fastsplat verify --random 1000 --seed 7 --config tiny --ready random-50",
+                  "RTL against model on random streams, every tap compared");
+  options.example("fastsplat verify --stream shells.fss --config tiny --coverage book.json",
+                  "on a recorded stream, coverage added up");
+  options.example("fastsplat verify --random 100000 --seeds 100 --config tiny --json night.json", "a night's campaign",
+                  Example::Slow);
 }
 
 }  // namespace

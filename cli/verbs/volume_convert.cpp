@@ -25,6 +25,7 @@ struct Arguments {
 
 void declare(Options& options, Arguments& to) {
   options.positional("VOLUME", to.volume, "a file or a name");
+  options.values(volume::known_volume_names);
   options.positional("OUT", to.out, "the file to write");
   options.group("Input");
   declare_nan_as(options, to.nan_as);
@@ -32,6 +33,8 @@ void declare(Options& options, Arguments& to) {
   options.choice("--type", to.type, {"u8", "i8", "u16", "i16", "f32"}, "u8|i8|u16|i16|f32",
                  "voxel type; default as stored");
   declare(options, to.common);
+  options.example("fastsplat volume convert shells:32 shells.nrrd", "a built-in volume as a file");
+  options.example("fastsplat volume convert shells.nrrd shells.nii.gz --type f32", "another format and voxel type");
 }
 
 volume::VoxelType type_from(const std::string& name) {

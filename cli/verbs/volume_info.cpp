@@ -24,9 +24,12 @@ struct Arguments {
 
 void declare(Options& options, Arguments& to) {
   options.positional("VOLUME", to.volume, "a file or a name");
+  options.values(volume::known_volume_names);
   options.group("Input");
   declare_nan_as(options, to.nan_as);
   declare(options, to.common);
+  options.example("fastsplat volume info shells:32", "size, spacing, range and place of a volume");
+  options.example("fastsplat volume info ch2bet --json -", "of a scan by name, for programs");
 }
 
 std::string angle(double degrees) { return fmt::format("{:.1f} degrees", degrees); }

@@ -52,7 +52,7 @@ class Usage : public ::testing::TestWithParam<Misuse> {};
 
 TEST_P(Usage, IsOneLineWithTheFix) {
   try {
-    parsed(GetParam().arguments);
+    parsed(GetParam().arguments)();
     FAIL() << "was accepted";
   } catch (const UserError& error) {
     EXPECT_EQ(error.code(), ExitCode::Usage);
@@ -280,12 +280,26 @@ TEST(Parse, EveryVerbHasANameASummaryAndHelp) {
     for (std::string word; names >> word;) words.push_back(word);
     const auto text = printed(words);
     EXPECT_NE(text.find(verb.summary), std::string::npos) << text;
-    if (verb.declare == nullptr) continue;
+    const std::string name = verb.name;
+    if (verb.declare == nullptr || name == "help" || name == "completion") continue;  // these two have no result
     ++leaves;
     for (const char* flag : {"--json", "--quiet", "--threads"}) EXPECT_NE(text.find(flag), std::string::npos) << flag;
   }
   std::printf("[figure] verbs = %d (limit > 0)\n", leaves);
   EXPECT_GT(leaves, 0);
+}
+
+TEST(Parse, AWordMayBeAnotherVerbsName) {
+  EXPECT_THROW(
+      {
+        try {
+          parsed({"compare", "render", "verify"})();
+        } catch (const UserError& error) {
+          EXPECT_EQ(error.code(), ExitCode::Input) << error.what();  // a file that is not there
+          throw;
+        }
+      },
+      UserError);
 }
 
 TEST(Parse, HelpAndVersionPrint) {

@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+
+#include "cli/help/offer.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+const char* const kHead = R"(# fish completion of fastsplat, made by `fastsplat completion fish`; do not edit.
+# For one session: fastsplat completion fish | source
+
+# Whether the verb typed so far is just what is given: none, "render", "stream record".
+function __fastsplat_at
+    set -l typed (commandline -opc)
+    set -l verb $typed[2]
+    if test (count $typed) -ge 3; and contains -- "$typed[2] $typed[3]" $__fastsplat_inner
+        set verb "$typed[2] $typed[3]"
+    end
+    test "$verb" = "$argv"
+end
+
+# ... and nothing else was typed behind it.
+function __fastsplat_just
+    test (count (commandline -opc)) -eq (math (count $argv) + 1); and __fastsplat_at $argv
+end
+
+)";
+
+/// In single quotes, where fish knows \\ and \' alone.
+std::string in_quotes(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) {
+    if (c == '\\' || c == '\'') out += '\\';
+    out += c;
+  }
+  return out + "'";
+}
+
+/// -a takes words apart at spaces, after expanding them: each in quotes of its own.
+std::string list(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : " ") + word;
+  return in_quotes(text);
+}
+
+std::string value(const Offer& offer) {
+  std::string text = offer.files ? " -r -F" : " -x";
+  if (offer.folders) return text + " -a '(__fish_complete_directories)'";
+  return offer.words.empty() ? text : text + " -a " + list(offer.words);
+}
+
+std::string line(const std::string& condition, const std::string& rest) {
+  return "complete -c fastsplat -n " + in_quotes(condition) + rest + "\n";
+}
+
+std::string at(const Description& verb) { return verb.name.empty() ? "__fastsplat_at" : "__fastsplat_at " + verb.name; }
+
+std::string flag_line(const Description& verb, const Flag& flag) {
+  std::string text;
+  for (const auto& name : flag.names) {
+    text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+  }
+  if (flag.takes_value()) text += value(offer_of(flag));
+  return line(at(verb), text + " -d " + in_quotes(flag.help));
+}
+
+}  // namespace
+
+std::string fish_script(const std::vector<Description>& all) {
+  std::string text = kHead;
+  text += "set -g __fastsplat_inner";
+  for (const Description& verb : all) {
+    if (verb.name.find(' ') != verb.name.npos) text += " " + in_quotes(verb.name);
+  }
+  text += "\n\n# No files but where they make sense.\ncomplete -c fastsplat -f\n";
+  for (const Description& verb : all) {
+    text += "\n";
+    for (const Description* inner : inner_of(verb, all)) {
+      text += line("__fastsplat_just" + (verb.name.empty() ? "" : " " + verb.name),
+                   " -a " + last_word(inner->name) + " -d " + in_quotes(inner->summary));
+    }
+    for (const Flag& flag : verb.flags) {
+      if (!flag.positional()) text += flag_line(verb, flag);
+    }
+    text += line(at(verb), " -s h -l help -d 'help'");
+    const Offer words = offer_of_words(verb);
+    if (words.files) text += line(at(verb), " -F");
+    if (!words.words.empty()) text += line(at(verb), " -a " + list(words.words));
+  }
+  return text;
+}
+
+}  // namespace fastsplat::cli

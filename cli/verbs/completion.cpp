@@ -1,0 +1,34 @@
+// fastsplat completion: what a shell needs to complete verbs, flags and the names of values.
+#include "cli/help/completion.hpp"
+
+#include "cli/command_line.hpp"
+#include "cli/output.hpp"
+#include "cli/verbs/verbs.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+struct Arguments {
+  std::string shell;
+};
+
+ExitCode run(const Arguments& arguments) {
+  write_stdout(completion_script(arguments.shell, describe()));
+  return ExitCode::Pass;
+}
+
+void declare(Options& options, Arguments& to) {
+  options.positional("SHELL", to.shell, "bash, zsh or fish");
+  options.only_values(completion_shells);
+  options.example("fastsplat completion bash > fastsplat.bash",
+                  "a script for bash; `source` it, or install it (docs/guide.md)");
+  options.example("fastsplat completion zsh > _fastsplat", "for zsh, in a folder of its fpath");
+  options.example("fastsplat completion fish > fastsplat.fish", "for fish, in ~/.config/fish/completions");
+}
+
+}  // namespace
+
+const Verb verbs::completion{"completion", "a script that lets bash, zsh or fish complete verbs, flags and names",
+                             verb<Arguments, declare, run>};
+
+}  // namespace fastsplat::cli

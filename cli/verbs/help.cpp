@@ -1,0 +1,69 @@
+// fastsplat help: on the program or a verb, to read here or as manual pages.
+#include <filesystem>
+
+#include "base/atomic_file.hpp"
+#include "cli/command_line.hpp"
+#include "cli/help/man_page.hpp"
+#include "cli/output.hpp"
+#include "cli/verbs/verbs.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+struct Arguments {
+  std::vector<std::string> verb;
+  bool man = false;
+  std::string pages;  ///< a folder; empty for none
+};
+
+void write_pages(const std::string& folder) {
+  const auto all = describe();
+  for (const Description& verb : all)
+    write_text_file((std::filesystem::path(folder) / (man_page_name(verb) + ".1")).string(), man_page(verb, all));
+}
+
+ExitCode run(const Arguments& arguments) {
+  if (!arguments.pages.empty()) {
+    if (arguments.man || !arguments.verb.empty()) {
+      throw_usage({.where = "--man-pages",
+                   .what = "all pages are written",
+                   .expected = {},
+                   .got = {},
+                   .fix = "leave out --man and the verb, or --man-pages"});
+    }
+    write_pages(arguments.pages);
+    return ExitCode::Pass;
+  }
+  if (arguments.man) {
+    const auto all = describe();
+    write_stdout(man_page(described(arguments.verb, all), all));
+  } else {
+    write_stdout(help_on(arguments.verb));
+  }
+  return ExitCode::Pass;
+}
+
+/// Every word that a verb's name begins with or goes on with.
+std::vector<std::string> verb_words() {
+  std::vector<std::string> words;
+  for (const Verb& verb : all_verbs()) {
+    const std::string name = verb.name;
+    if (name.find(' ') == name.npos) words.push_back(name);
+  }
+  return words;
+}
+
+void declare(Options& options, Arguments& to) {
+  options.positionals("VERB", to.verb, 0, "a verb, of two words where it has two");
+  options.only_values(verb_words);
+  options.flag("--man", to.man, "the manual page, in roff: `fastsplat help --man render | man -l -`");
+  options.word("--man-pages", to.pages, "FOLDER", "writes all manual pages into a folder that is there");
+  options.example("fastsplat help errors bound", "what a verb does, with examples and every flag");
+  options.example("fastsplat help --man compare", "its manual page, for man, groff or mandoc");
+}
+
+}  // namespace
+
+const Verb verbs::help{"help", "help on a verb, and manual pages", verb<Arguments, declare, run>};
+
+}  // namespace fastsplat::cli

@@ -1,0 +1,198 @@
+// What help, man pages and completion say of the verbs: all of it, whatever the verbs come to be.
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "cli/command_line.hpp"
+#include "cli/help/completion.hpp"
+#include "cli/help/man_page.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+using Words = std::vector<std::string>;
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
+
+/// What lies between `from` and the next `to`; empty where there is no such part.
+std::string part_of(const std::string& text, const std::string& from, const std::string& to) {
+  const auto begin = text.find(from);
+  if (begin == text.npos) return {};
+  const auto end = text.find(to, begin + from.size());
+  return text.substr(begin, end == text.npos ? end : end - begin);
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != text.npos; at += to.size()) text.replace(at, from.size(), to);
+  return text;
+}
+
+/// Goes through every flag of every verb and counts those that `is_there` finds.
+template <class IsThere>
+void every_flag(const char* where, const IsThere& is_there) {
+  int verbs = 0, flags = 0, missing = 0;
+  for (const Description& verb : describe()) {
+    ++verbs;
+    for (const Flag& flag : verb.flags) {
+      for (const auto& name : flag.names) {
+        ++flags;
+        if (is_there(verb, flag, name)) continue;
+        ++missing;
+        ADD_FAILURE() << where << ": " << name << " of '" << verb.name << "' is not there";
+      }
+    }
+  }
+  std::printf("[figure] %s: verbs = %d, flags = %d, missing = %d (limit 0)\n", where, verbs, flags, missing);
+  EXPECT_GT(verbs, 20);
+  EXPECT_GT(flags, 300) << "nothing was checked";
+}
+
+TEST(Help, DescriptionsAreWhatTheVerbsDeclare) {
+  const auto all = describe();
+  ASSERT_EQ(all.size(), all_verbs().size() + 1);
+  EXPECT_EQ(all.front().name, "");
+  for (std::size_t at = 0; at < all_verbs().size(); ++at) {
+    EXPECT_EQ(all[at + 1].name, all_verbs()[at].name);
+    EXPECT_EQ(all[at + 1].summary, all_verbs()[at].summary);
+    EXPECT_EQ(all[at + 1].group, all_verbs()[at].declare == nullptr);
+  }
+  // What CLI11 tells of a verb names every flag; so that a flag declared past the descriptions is seen.
+  for (const Description& verb : all) {
+    std::istringstream names(verb.name);
+    const Words words{std::istream_iterator<std::string>(names), {}};
+    std::istringstream lines(help_on(words));
+    for (std::string line; std::getline(lines, line);) {
+      const auto flag = line.substr(0, line.find_first_of(" ,", 3));
+      if (!line.starts_with("  -") || holds(line, "--help")) continue;
+      bool described = false;
+      for (const Flag& one : verb.flags) {
+        for (const auto& name : one.names) described = described || "  " + name == flag;
+      }
+      EXPECT_TRUE(described) << verb.name << ": " << line;
+    }
+  }
+}
+
+TEST(Help, ManPagesHaveEveryVerbAndFlag) {
+  const auto all = describe();
+  every_flag("man", [&](const Description& verb, const Flag&, const std::string& name) {
+    const std::string page = man_page(verb, all);
+    return holds(page, "\\f" + std::string(name.starts_with('-') ? "B" : "I") + replaced(name, "-", "\\-") + "\\fR");
+  });
+  for (const Description& verb : all) {
+    const std::string page = man_page(verb, all);
+    EXPECT_TRUE(holds(page, ".SH \"EXIT STATUS\"")) << verb.name;
+    EXPECT_TRUE(holds(man_page(all.front(), all), replaced(man_page_name(verb), "-", "\\-"))) << verb.name;
+    for (const unsigned char c : page) EXPECT_LT(c, 128) << verb.name << " holds what not every terminal shows";
+  }
+}
+
+TEST(Help, CompletionHasEveryVerbAndFlag) {
+  const auto all = describe();
+  const std::string bash = completion_script("bash", all), zsh = completion_script("zsh", all),
+                    fish = completion_script("fish", all);
+  every_flag("bash", [&](const Description& verb, const Flag& flag, const std::string& name) {
+    const std::string label = verb.name.empty() ? "''" : holds(verb.name, " ") ? "'" + verb.name + "'" : verb.name;
+    const std::string part = part_of(bash, "    " + label + ")\n", ";;");
+    return flag.positional() ? !part.empty() : holds(replaced(part, "'", " "), " " + name + " ");
+  });
+  every_flag("zsh", [&](const Description& verb, const Flag& flag, const std::string& name) {
+    const std::string function = "_fastsplat" + (verb.name.empty() ? "" : "_" + replaced(verb.name, " ", "_"));
+    const std::string part = part_of(zsh, "\n" + function + "() {\n", "\n}\n");
+    if (flag.positional()) return holds(part, ":" + name + ":");
+    return holds(part, name + (!flag.takes_value() ? "[" : name.starts_with("--") ? "=[" : "+["));
+  });
+  every_flag("fish", [&](const Description& verb, const Flag& flag, const std::string& name) {
+    const std::string at = "'__fastsplat_at" + (verb.name.empty() ? "" : " " + verb.name) + "' ";
+    if (flag.positional()) return holds(fish, at);
+    std::istringstream lines(fish);
+    for (std::string line; std::getline(lines, line);) {
+      if (holds(line, at) &&
+          holds(line, name.starts_with("--") ? " -l " + name.substr(2) + " " : " -s " + name.substr(1)))
+        return true;
+    }
+    return false;
+  });
+  for (const auto& verb : all_verbs()) {
+    const std::string last = std::string(verb.name).substr(std::string(verb.name).rfind(' ') + 1);
+    EXPECT_TRUE(holds(fish, " -a " + last + " -d ")) << verb.name;
+    EXPECT_TRUE(holds(zsh, "'" + last + ":")) << verb.name;
+  }
+}
+
+TEST(Help, ShellsAndVerbsThatThereAreNotAreRefused) {
+  for (const auto& call : std::vector<std::function<void()>>{[] { completion_script("tcsh", {}); },
+                                                             [] { described({"redner"}, describe()); },
+                                                             [] {
+                                                               help_on({"render", "twice"});
+                                                             }}) {
+    try {
+      call();
+      FAIL() << "was accepted";
+    } catch (const UserError& error) {
+      EXPECT_EQ(error.code(), ExitCode::Usage);
+      EXPECT_FALSE(error.parts().fix.empty()) << error.what();
+    }
+  }
+}
+
+/// The words of an example up to its pipe or redirection, as a shell takes them.
+Words words_of(const std::string& command) {
+  Words words;
+  std::string word;
+  bool quoted = false, any = false;
+  for (const char c : command + " ") {
+    if (c == '\'') {
+      quoted = !quoted;
+      any = true;
+    } else if (quoted || c != ' ') {
+      word += c;
+      any = true;
+    } else if (any) {
+      if (word == "|" || word == ">") break;
+      words.push_back(word);
+      word.clear();
+      any = false;
+    }
+  }
+  return words;
+}
+
+TEST(Help, BeginsWithExamplesThatParse) {
+  int examples = 0, fewest = 1 << 20;
+  for (const Description& verb : describe()) {
+    if (verb.group) continue;
+    SCOPED_TRACE(verb.name);
+    const int count = static_cast<int>(verb.examples.size());
+    fewest = std::min(fewest, count);
+    EXPECT_GE(count, 2);
+    EXPECT_LE(count, 3);
+    std::istringstream names(verb.name);
+    const std::string help = help_on({std::istream_iterator<std::string>(names), {}});
+    EXPECT_TRUE(help.starts_with(verb.summary + "\n\nExamples:\n")) << help;
+    for (const Example& example : verb.examples) {
+      ++examples;
+      EXPECT_TRUE(holds(help, "  # " + example.does + "\n  " + example.command + "\n"));
+      EXPECT_TRUE(example.command.starts_with("fastsplat " + verb.name));
+      const Words words = words_of(example.command);
+      std::vector<const char*> all;
+      for (const auto& word : words) all.push_back(word.c_str());
+      EXPECT_NO_THROW(parse(static_cast<int>(all.size()), all.data())) << example.command;
+    }
+  }
+  std::printf("[figure] examples = %d, fewest of a verb = %d (limit >= 2)\n", examples, fewest);
+}
+
+TEST(Help, AnExampleThatHasRottedDoesNotParse) {
+  const auto refused = [](const std::string& command) {
+    const Words words = words_of(command);
+    std::vector<const char*> all;
+    for (const auto& word : words) all.push_back(word.c_str());
+    EXPECT_THROW(parse(static_cast<int>(all.size()), all.data()), UserError) << command;
+  };
+  refused("fastsplat render --sise 9 -o a.png");
+  refused("fastsplat compare a.exr > b");
+}
+
+}  // namespace
+}  // namespace fastsplat::cli

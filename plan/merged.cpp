@@ -2,9 +2,7 @@
 
 #include <algorithm>
 
-#include "base/error.hpp"
-#include "base/json_text.hpp"
-#include "base/read_file.hpp"
+#include "base/json_file.hpp"
 #include "base/version.hpp"
 
 namespace fastsplat::plan {
@@ -114,16 +112,12 @@ Json to_json(const Merged& merged) {
 }
 
 Merged read_merged(const std::filesystem::path& path) {
-  const std::string text = read_text_file(path, kMostBytes);
-  try {
-    return merged_from(Json::parse(text));
-  } catch (const std::exception& error) {
-    throw_input({.where = path.string(),
-                 .what = "holds no merged results",
-                 .expected = "what `fastsplat plan merge` writes",
-                 .got = error.what(),
-                 .fix = {}});
-  }
+  return from_json_file<Json>(path,
+                              {.what = "holds no merged results",
+                               .expected = "what `fastsplat plan merge` writes",
+                               .fix = {},
+                               .most_bytes = kMostBytes},
+                              merged_from);
 }
 
 }  // namespace fastsplat::plan

@@ -8,9 +8,9 @@
 #include "base/error.hpp"
 #include "base/fnv1a.hpp"
 #include "base/hash_text.hpp"
+#include "base/json_file.hpp"
 #include "base/json_text.hpp"
 #include "base/number_text.hpp"
-#include "base/read_file.hpp"
 #include "base/version.hpp"
 
 namespace fastsplat::plan {
@@ -167,16 +167,12 @@ Json to_json(const Plan& plan) {
 }
 
 Plan read_plan(const std::filesystem::path& path) {
-  const std::string text = read_text_file(path, kMostBytes);
-  try {
-    return plan_from(Json::parse(text));
-  } catch (const std::exception& error) {
-    throw_input({.where = path.string(),
-                 .what = "is no plan",
-                 .expected = "what `fastsplat plan make` writes",
-                 .got = error.what(),
-                 .fix = "make it again from its specification"});
-  }
+  return from_json_file<Json>(path,
+                              {.what = "is no plan",
+                               .expected = "what `fastsplat plan make` writes",
+                               .fix = "make it again from its specification",
+                               .most_bytes = kMostBytes},
+                              plan_from);
 }
 
 Shard shard_from(const std::string& text) {

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "base/error.hpp"
 #include "base/fnv1a.hpp"
 #include "base/hash_text.hpp"
+#include "base/json_file.hpp"
 #include "base/json_text.hpp"
-#include "base/read_file.hpp"
 
 namespace fastsplat::plan {
 namespace {
@@ -14,7 +13,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "fastsplat plan result 1";
-constexpr std::size_t kMostBytes = std::size_t{1} << 28;
 
 Status status_from(const std::string& text) {
   for (const Status status : {Status::Pass, Status::Fail, Status::Error}) {
@@ -85,16 +83,11 @@ std::string to_text(const CaseResult& result) {
 }
 
 CaseResult read_result(const std::filesystem::path& path) {
-  const std::string text = read_text_file(path, kMostBytes);
-  try {
-    return result_from(Json::parse(text));
-  } catch (const std::exception& error) {
-    throw_input({.where = path.string(),
-                 .what = "is no whole result of a case",
-                 .expected = "what `fastsplat plan run` writes",
-                 .got = error.what(),
-                 .fix = "run the plan again: it makes this case anew"});
-  }
+  return from_json_file<Json>(path,
+                              {.what = "is no whole result of a case",
+                               .expected = "what `fastsplat plan run` writes",
+                               .fix = "run the plan again: it makes this case anew"},
+                              result_from);
 }
 
 std::string foreign(const CaseResult& result, const Case& one, const std::string& program) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "base/error.hpp"
 #include "report/results.hpp"
 
 namespace fastsplat::report {
@@ -28,5 +29,19 @@ class Figures {
  private:
   const Result& result_;
 };
+
+/// Runs `make`, which reads `result`: a figure of another type than it has becomes UserError (Input).
+template <class Make>
+void reading(const Result& result, const Make& make) {
+  try {
+    make();
+  } catch (const Json::exception&) {
+    throw_input({.where = result.file.string(),
+                 .what = "a damaged result of `" + result.verb + "`: a figure of another type than it has",
+                 .expected = {},
+                 .got = {},
+                 .fix = "run it again with --json"});
+  }
+}
 
 }  // namespace fastsplat::report

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/json_file.hpp"
 #include "base/read_file.hpp"
 #include "base/suggest.hpp"
 #include "report/verdicts.hpp"
@@ -13,25 +14,11 @@ namespace {
 /// More than any merged plan has.
 constexpr std::size_t kLargest = std::size_t{256} << 20;
 
-[[noreturn]] void foreign(const std::filesystem::path& file, const std::string& what, const std::string& got) {
-  throw_input({.where = file.string(),
-               .what = what,
-               .expected = "what a verb of fastsplat wrote with --json",
-               .got = got,
-               .fix = "pictures go to --picture ROLE=FILE"});
-}
-
-Json parsed(const std::filesystem::path& file) {
-  require_readable_file(file);
-  const std::string text = read_text_file(file, kLargest);
-  try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    // Its message quotes the file and is long; the place is what helps.
-    const bool cut = error.byte > text.size();
-    foreign(file, cut ? "is cut off, no whole JSON" : "is no JSON",
-            cut ? std::to_string(text.size()) + " bytes" : "a mistake at byte " + std::to_string(error.byte));
-  }
+JsonKind a_result() {
+  return {.what = "is no result",
+          .expected = "what a verb of fastsplat wrote with --json",
+          .fix = "pictures go to --picture ROLE=FILE",
+          .most_bytes = kLargest};
 }
 
 /// Results of `compare` had a schema before they had a verb; a book of `verify --coverage` tells its format.
@@ -48,10 +35,13 @@ std::string verb_in(const Json& json) {
 }  // namespace
 
 Result read_result(const std::filesystem::path& file) {
-  Json json = parsed(file);
-  if (!json.is_object()) foreign(file, "is JSON, but no result", std::string("a JSON ") + json.type_name());
-  Result result{.file = file, .verb = verb_in(json), .json = std::move(json)};
-  if (result.verb.empty()) foreign(file, "is JSON, but no result", "an object without a \"verb\"");
+  require_readable_file(file);
+  Result result = from_json_file<Json>(file, a_result(), [&](Json json) {
+    if (!json.is_object()) throw std::runtime_error(std::string("a JSON ") + json.type_name());
+    std::string verb = verb_in(json);
+    if (verb.empty()) throw std::runtime_error("an object without a \"verb\"");
+    return Result{.file = file, .verb = std::move(verb), .json = std::move(json)};
+  });
   const auto known = reported_verbs();
   if (std::find(known.begin(), known.end(), result.verb) == known.end()) {
     throw_input({.where = file.string(),
@@ -60,15 +50,7 @@ Result read_result(const std::filesystem::path& file) {
                  .got = {},
                  .fix = suggestion(result.verb, known)});
   }
-  try {
-    verdict_of(result);  // its figures are there
-  } catch (const Json::exception&) {
-    throw_input({.where = file.string(),
-                 .what = "a damaged result of `" + result.verb + "`: a figure of another type than it has",
-                 .expected = {},
-                 .got = {},
-                 .fix = "run it again with --json"});
-  }
+  reading(result, [&] { verdict_of(result); });  // its figures are there
   return result;
 }
 

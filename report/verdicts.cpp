@@ -180,14 +180,36 @@ Verdict coverage(const Figures& f) {
                                         grouped(static_cast<std::uint64_t>(hits)), counted(hit.size(), "bin"))};
 }
 
+Verdict closure(const Figures& f) {
+  const std::string verdict = f.text("verdict");
+  if (verdict != "closed" && verdict != "open") f.damaged("verdict", "closed or open");
+  std::size_t open = 0;
+  std::string first;
+  for (const char* part : {"open/campaigns", "open/testpoints", "open/lines"}) {
+    const Json& findings = f.list(part);
+    if (open == 0 && !findings.empty()) first = f.text(std::string(part) + "/0");
+    open += findings.size();
+  }
+  if (verdict == "open")
+    return {Status::Fail, fmt::format("coverage is open in {}{}", counted(open, "place"), open ? ": " + first : "")};
+  std::string sentence = fmt::format("coverage is closed: {} of {} hit", grouped(f.count("bins/hit")),
+                                     counted(f.count("bins/all"), "bin"));
+  if (const auto lines = f.count("lines/all"); lines > 0)
+    sentence += fmt::format(", {} of {} lines and branches reached, {} excused", grouped(f.count("lines/reached")),
+                            grouped(lines), grouped(f.count("lines/excused")));
+  if (const auto passed = f.count("tests/passed"); passed > 0)
+    sentence += fmt::format(", {} of the plan passed", counted(passed, "test"));
+  return {Status::Pass, sentence};
+}
+
 }  // namespace
 
 const std::map<std::string, SentenceOf>& verdicts() {
   static const std::map<std::string, SentenceOf> all{
-      {"compare", compare},    {"coverage", coverage},      {"cycles", cycles},        {"errors", errors},
-      {"errors bound", bound}, {"errors propose", propose}, {"errors ranges", ranges}, {"family", family},
-      {"plan", plan},          {"render", render},          {"stream record", record}, {"stream replay", replay},
-      {"verify", verify}};
+      {"closure", closure},      {"compare", compare},    {"coverage", coverage},      {"cycles", cycles},
+      {"errors", errors},        {"errors bound", bound}, {"errors propose", propose}, {"errors ranges", ranges},
+      {"family", family},        {"plan", plan},          {"render", render},          {"stream record", record},
+      {"stream replay", replay}, {"verify", verify}};
   return all;
 }
 

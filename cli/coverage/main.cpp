@@ -1,4 +1,5 @@
-// fastsplat_coverage: runs the campaigns, closes docs/verification_plan.toml, writes closure.md and closure.html.
+// fastsplat_coverage: runs the campaigns, closes docs/verification_plan.toml, writes closure.md, closure.json
+// and closure.html.
 //   fastsplat_coverage --tests              prints the plan's tests as a regular expression for ctest
 //   fastsplat_coverage FOLDER [RESULTS.xml] [COVERAGE.json ...]
 #include <algorithm>
@@ -10,10 +11,12 @@
 #include "analysis/provenance.hpp"
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/shell_word.hpp"
 #include "base/version.hpp"
 #include "cli/output.hpp"
 #include "driver/compile.hpp"
 #include "driver/config_file.hpp"
+#include "report/report.hpp"
 #include "scene/scene.hpp"
 #include "testbench/closure/closure_report.hpp"
 #include "testbench/closure/coverage_campaigns.hpp"
@@ -125,6 +128,13 @@ std::map<std::string, bool> tests_of(const std::string& path, std::vector<std::s
   return results;
 }
 
+/// As `fastsplat report` makes it.
+std::string page_of(const std::filesystem::path& result) {
+  report::Request request;
+  request.results.push_back(report::read_result(result));
+  return report::make_report(request).html;
+}
+
 ExitCode run(const std::vector<std::string>& arguments) {
   const auto plan = tb::read_plan(kSource / "docs" / "verification_plan.toml");
   if (arguments == std::vector<std::string>{"--tests"}) {
@@ -139,15 +149,22 @@ ExitCode run(const std::vector<std::string>& arguments) {
                  .fix = "./run coverage knows"});
   }
   const std::filesystem::path folder = arguments[0];
-  tb::ClosureReport report{
-      .version = program_version(), .plan = plan, .inputs = {}, .closure = {}, .lines = {}, .failures = {}};
+  tb::ClosureReport report{.version = program_version(),
+                           .command = "./run coverage",
+                           .plan = plan,
+                           .inputs = {},
+                           .closure = {},
+                           .lines = {},
+                           .failures = {}};
   std::map<std::string, bool> results;
   std::vector<tb::CoverageBook> more;
   for (std::size_t i = 1; i < arguments.size(); ++i) {
-    if (arguments[i].ends_with(".xml"))
+    if (arguments[i].ends_with(".xml")) {
       results = tests_of(arguments[i], report.failures);
-    else
+    } else {
       more.push_back(tb::read_book(arguments[i]));
+      report.command += " " + shell_word(arguments[i]);
+    }
   }
   tb::LineCoverage lines;
   for (const Run& one : kRuns) {
@@ -162,7 +179,8 @@ ExitCode run(const std::vector<std::string>& arguments) {
   report.lines =
       tb::close_lines(lines, kSource / "rtl", tb::read_exclusions(kSource / "docs" / "coverage_exclusions.toml"));
   write_text_file(folder / "closure.md", tb::closure_markdown(report));
-  write_text_file(folder / "closure.html", tb::closure_html(report));
+  write_text_file(folder / "closure.json", tb::closure_json(report));
+  write_text_file(folder / "closure.html", page_of(folder / "closure.json"));
   for (const auto* list : {&report.failures, &report.closure.findings, &report.lines.findings}) {
     for (const auto& line : *list) std::printf("open: %s\n", line.c_str());
   }

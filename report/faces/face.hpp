@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/error.hpp"
-#include "report/results.hpp"
+#include "report/figures.hpp"
 
 namespace fastsplat::report {
 
@@ -30,19 +29,5 @@ struct Table {
 /// The list that matters of a verb's result: a plan's rows, the steps of `errors`, the losses of `cycles`, the cells of
 /// `family`. Objects in a row become columns, "config.name"; lists stay JSON. UserError (Input) as above.
 Table table_of(const Result& result);
-
-/// Runs `make`, which reads `result`: a figure of another type than it has becomes UserError (Input).
-template <class Make>
-void reading(const Result& result, const Make& make) {
-  try {
-    make();
-  } catch (const Json::exception&) {
-    throw_input({.where = result.file.string(),
-                 .what = "a damaged result of `" + result.verb + "`: a figure of another type than it has",
-                 .expected = {},
-                 .got = {},
-                 .fix = "run it again with --json"});
-  }
-}
 
 }  // namespace fastsplat::report

@@ -171,12 +171,41 @@ std::vector<Gate> plan(const Figures& f) {
   return gates;
 }
 
+/// A gate for each testpoint that was looked at, then for what else may be open.
+std::vector<Gate> closure(const Figures& f) {
+  std::vector<Gate> gates;
+  const auto findings = [&](const std::string& name, const std::string& place, const std::string& held_text) {
+    const std::size_t open = f.list(place).size();
+    std::string text;
+    for (std::size_t at = 0; at < open; ++at)
+      text += (text.empty() ? "" : "\n") + f.text(fmt::format("{}/{}", place, at));
+    gates.push_back({.name = name, .status = held(open == 0), .message = open ? text : held_text, .command = {}});
+  };
+  const std::size_t points = f.list("testpoints").size();
+  for (std::size_t at = 0; at < points; ++at) {
+    const std::string place = fmt::format("testpoints/{}/", at);
+    const std::string status = f.text(place + "status");
+    if (status == "not run") continue;
+    gates.push_back({.name = f.text(place + "name"),
+                     .status = held(status != "open"),
+                     .message = fmt::format("{}: {} of {} bins hit, {} tests", status, f.count(place + "bins/hit"),
+                                            f.count(place + "bins/all"), f.list(place + "tests").size()),
+                     .command = {}});
+  }
+  findings("bins and tests", "open/testpoints", "none is open");
+  findings("lines and branches", "open/lines",
+           fmt::format("{} of {} reached, {} excused", f.count("lines/reached"), f.count("lines/all"),
+                       f.count("lines/excused")));
+  findings("campaigns", "open/campaigns", "all passed");
+  return gates;
+}
+
 }  // namespace
 
 std::vector<Gate> gates_of(const Result& result) {
   static const std::map<std::string, GatesOf> all{
-      {"compare", compare},    {"verify", verify},          {"cycles", cycles}, {"errors", errors},
-      {"errors bound", bound}, {"errors propose", propose}, {"plan", plan}};
+      {"closure", closure}, {"compare", compare},    {"verify", verify},          {"cycles", cycles},
+      {"errors", errors},   {"errors bound", bound}, {"errors propose", propose}, {"plan", plan}};
   const Verdict verdict = verdict_of(result);
   const auto found = all.find(result.verb);
   std::vector<Gate> gates;

@@ -112,6 +112,24 @@ Table coverage(const Figures& f) {
   return rows.take();
 }
 
+/// A row per testpoint and configuration, with its weakest bin.
+Table closure(const Figures& f) {
+  Rows rows;
+  for (const Json& point : f.list("testpoints")) {
+    for (const Json& on : point.at("configurations")) {
+      const Json& hits = on.at("hits");
+      const auto weakest = std::min_element(hits.begin(), hits.end());
+      rows.begin();
+      rows.put("testpoint", point.at("name"));
+      rows.put("configuration", on.at("config"));
+      rows.put("hit", on.at("hit"));
+      rows.put("bins", on.at("all"));
+      rows.put("fewest_hits", weakest == hits.end() ? Json(nullptr) : *weakest);
+    }
+  }
+  return rows.take();
+}
+
 /// What a device counted; nothing of engines that count nothing.
 Table counters(const Figures& f) {
   const Json* counters = f.find("counters");
@@ -122,12 +140,13 @@ Table counters(const Figures& f) {
 
 Table table_of(const Result& result) {
   using TableOf = Table (*)(const Figures&);
-  static const std::map<std::string, TableOf> all{
-      {"compare", compare},        {"coverage", coverage},      {"cycles", cycles},
-      {"errors", errors},          {"errors bound", bound},     {"errors ranges", ranges},
-      {"errors propose", propose}, {"family", family},          {"plan", plan},
-      {"verify", verify},          {"stream replay", counters}, {"render", counters},
-      {"stream record", counters}};
+  static const std::map<std::string, TableOf> all{{"closure", closure},      {"compare", compare},
+                                                  {"coverage", coverage},    {"cycles", cycles},
+                                                  {"errors", errors},        {"errors bound", bound},
+                                                  {"errors ranges", ranges}, {"errors propose", propose},
+                                                  {"family", family},        {"plan", plan},
+                                                  {"verify", verify},        {"stream replay", counters},
+                                                  {"render", counters},      {"stream record", counters}};
   const auto found = all.find(result.verb);
   return found == all.end() ? Table{} : found->second(Figures(result));
 }

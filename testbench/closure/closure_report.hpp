@@ -1,4 +1,5 @@
-// The closed (or open) coverage for people: a table in Markdown and one self-contained HTML page.
+// The closed (or open) coverage for people and programs: tables in Markdown, and a result that `fastsplat report`
+// draws.
 #pragma once
 
 #include <string>
@@ -11,6 +12,7 @@ namespace fastsplat::testbench {
 
 struct ClosureReport {
   std::string version;  ///< of the program
+  std::string command;  ///< that makes it again
   VerificationPlan plan;
   std::vector<ClosureInput> inputs;
   Closure closure;
@@ -21,7 +23,7 @@ struct ClosureReport {
 };
 
 std::string closure_markdown(const ClosureReport& report);
-/// Needs nothing but itself: no script, no font, no network.
-std::string closure_html(const ClosureReport& report);
+/// As the verbs' --json has it, with the verb "closure"; docs/verify.md has its keys.
+std::string closure_json(const ClosureReport& report);
 
 }  // namespace fastsplat::testbench

@@ -6,8 +6,8 @@
 #include "base/error.hpp"
 #include "base/folder_lock.hpp"
 #include "base/hash_text.hpp"
+#include "base/json_file.hpp"
 #include "base/json_text.hpp"
-#include "base/read_file.hpp"
 
 namespace fastsplat::testbench {
 namespace {
@@ -59,35 +59,35 @@ std::uint64_t count_of(const Json& json) {
   return json.get<std::uint64_t>();
 }
 
+CoverageBook book_from(const Json& json) {
+  if (json.at("format") != kFormat) throw std::runtime_error("another format");
+  CoverageBook book{.config = json.at("config"),
+                    .config_hash = std::stoull(json.at("config_hash").get<std::string>(), nullptr, 16),
+                    .streams = count_of(json.at("streams")),
+                    .splats = count_of(json.at("splats")),
+                    .comparisons = count_of(json.at("comparisons")),
+                    .cycles = count_of(json.at("cycles"))};
+  if (!json.at("campaigns").is_object()) throw std::runtime_error("campaigns are no table");
+  for (const auto& [name, bins] : json.at("campaigns").items()) {
+    Coverage& coverage = book.campaigns[name];
+    for (const auto& [bin, hits] : bins.items()) {
+      const auto [group, short_name] = split(bin);
+      coverage.hit(coverage.declare(group, short_name), count_of(hits));
+    }
+  }
+  return book;
+}
+
 }  // namespace
 
 CoverageBook read_book(const std::filesystem::path& path) {
-  const std::string text = read_text_file(path, kMostBytes);
-  try {
-    const Json json = Json::parse(text);
-    if (json.at("format") != kFormat) throw std::runtime_error("another format");
-    CoverageBook book{.config = json.at("config"),
-                      .config_hash = std::stoull(json.at("config_hash").get<std::string>(), nullptr, 16),
-                      .streams = count_of(json.at("streams")),
-                      .splats = count_of(json.at("splats")),
-                      .comparisons = count_of(json.at("comparisons")),
-                      .cycles = count_of(json.at("cycles"))};
-    if (!json.at("campaigns").is_object()) throw std::runtime_error("campaigns are no table");
-    for (const auto& [name, bins] : json.at("campaigns").items()) {
-      Coverage& coverage = book.campaigns[name];
-      for (const auto& [bin, hits] : bins.items()) {
-        const auto [group, short_name] = split(bin);
-        coverage.hit(coverage.declare(group, short_name), count_of(hits));
-      }
-    }
-    return book;
-  } catch (const std::exception& error) {
-    throw_input({.where = path.string(),
-                 .what = "is no coverage file",
-                 .expected = std::string("what 'fastsplat verify --coverage FILE' writes (") + kFormat + ")",
-                 .got = error.what(),
-                 .fix = {}});
-  }
+  return from_json_file<Json>(
+      path,
+      {.what = "is no coverage file",
+       .expected = std::string("what 'fastsplat verify --coverage FILE' writes (") + kFormat + ")",
+       .fix = {},
+       .most_bytes = kMostBytes},
+      book_from);
 }
 
 CoverageBook add_to_book(const std::filesystem::path& path, const CoverageBook& more) {

@@ -78,13 +78,13 @@ TEST(Faces, JunitHasACasePerGate) {
     }
   }
   std::printf("[figure] gates = %zu, failures = %zu, errors = %zu (limit > 0)\n", gates, failures, errors);
-  EXPECT_EQ(gates, 3u + 1 + 2 + 1 + 1 + 1 + 1 + 3 + 1 + 1 + 1 + 4 + 1);
-  EXPECT_EQ(failures, 1u + 1 + 1 + 3);  // compare, propose, plan, verify
+  EXPECT_EQ(gates, 3u + 1 + 2 + 1 + 1 + 1 + 1 + 3 + 1 + 1 + 1 + 4 + 1 + 5);
+  EXPECT_EQ(failures, 1u + 1 + 1 + 3 + 2);  // compare, propose, plan, verify, closure
   EXPECT_EQ(errors, 1u);                // plan
   EXPECT_EQ(count(xml, "<testcase "), gates);
   EXPECT_EQ(count(xml, "<failure "), failures);
   EXPECT_EQ(count(xml, "<error "), errors);
-  EXPECT_TRUE(holds(xml, "<testsuites name=\"fastsplat\" tests=\"21\" failures=\"6\" errors=\"1\" time=\"0.500\">"))
+  EXPECT_TRUE(holds(xml, "<testsuites name=\"fastsplat\" tests=\"26\" failures=\"8\" errors=\"1\" time=\"0.500\">"))
       << xml;
 }
 
@@ -190,6 +190,16 @@ TEST(Faces, CsvOfAPlan) {
       "a1,compare,pass,8,xray,50.5,c1,fastsplat compare a b,\r\n"
       "b2,compare,fail,4,xray,30.25,c2,\"fastsplat compare a 'c, d'\",\"max_abs_lsb is 9, no more than 3 allowed\"\r\n"
       "c3,verify,error,,,,c3,fastsplat verify --random 9,\"timeout\nafter 5 s\"\r\n");
+}
+
+TEST(Faces, ClosureIsAGatePerTestpointThatWasLookedAt) {
+  const std::string xml = to_junit({kind("closure")});
+  EXPECT_TRUE(holds(xml, "name=\"hazards\"")) << xml;
+  EXPECT_TRUE(holds(xml, "open: 2 of 3 bins hit, 0 tests")) << xml;
+  EXPECT_TRUE(holds(xml, "hazards, tiny: hazard.distance_1 was never hit&#10;reproduce: ./run coverage")) << xml;
+  EXPECT_FALSE(holds(xml, "name=\"proofs\"")) << "nobody ran its tests: neither held nor failed";
+  EXPECT_EQ(to_csv({kind("closure")}),
+            "testpoint,configuration,hit,bins,fewest_hits\r\nhazards,tiny,1,2,0\r\nhazards,base,1,1,5\r\n");
 }
 
 TEST(Faces, CsvOfSeveralResultsSaysWhichARowIsOf) {

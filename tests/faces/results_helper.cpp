@@ -5,6 +5,19 @@
 namespace fastsplat::report {
 namespace {
 
+const char* const kClosure = R"({"verb": "closure", "verdict": "open", "command": "./run coverage",
+  "bins": {"hit": 2, "all": 3}, "lines": {"reached": 8, "excused": 1, "all": 9},
+  "tests": {"passed": 1, "failed": 0, "not_run": 1},
+  "open": {"campaigns": [], "testpoints": ["hazards, tiny: hazard.distance_1 was never hit"], "lines": []},
+  "testpoints": [
+   {"name": "hazards", "status": "open", "bins": {"hit": 2, "all": 3}, "tests": [],
+    "configurations": [{"config": "tiny", "hit": 1, "all": 2, "hits": {"hazard.distance_1": 0, "hazard.distance_2": 7}},
+                       {"config": "base", "hit": 1, "all": 1, "hits": {"hazard.distance_2": 5}}]},
+   {"name": "registers", "status": "closed", "bins": {"hit": 0, "all": 0}, "configurations": [],
+    "tests": [{"test": "cmodel.A.B", "runs": 1, "outcome": "passed"}]},
+   {"name": "proofs", "status": "not run", "bins": {"hit": 0, "all": 0}, "configurations": [],
+    "tests": [{"test": "rtl.proof", "runs": 0, "outcome": "not run"}]}]})";
+
 const char* const kCompare = R"({"verb": "compare", "command": "fastsplat compare a.exr 'b c.exr' --max-lsb 1",
   "schema": "fastsplat.compare/1", "verdict": "fail", "width": 4, "height": 4, "channels": 4, "values": 64, "lsb_bits": 8,
   "psnr_db": 51.438417427108874, "identical": false, "max_abs_lsb": 8.1, "ssim": 0.99,
@@ -76,8 +89,8 @@ Result result_from(const std::string& file, const std::string& text) {
 
 std::vector<Result> all_kinds() {
   std::vector<Result> results;
-  for (const char* text : {kCompare, kCycles, kErrors, kBound, kPropose, kRanges, kFamily, kPlan, kRender, kRecord,
-                           kReplay, kVerify, kCoverage})
+  for (const char* text : {kCompare, kCycles, kErrors, kBound, kPropose, kRanges, kFamily, kPlan, kRender,
+                           kRecord, kReplay, kVerify, kCoverage, kClosure})
     results.push_back(result_from("result-" + std::to_string(results.size()) + ".json", text));
   return results;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "base/read_file.hpp"
 #include "driver/config_file.hpp"
@@ -78,13 +79,24 @@ TEST(Closure, OfTinyCloses) {
   EXPECT_EQ(close_coverage(plan(), {again}, {}).hit, closure.hit);
   EXPECT_EQ(again.book.config_hash, runs.book.config_hash);
 
-  const ClosureReport report{
-      .version = "test", .plan = plan(), .inputs = {input}, .closure = closure, .lines = {}, .failures = {}};
-  const std::string html = closure_html(report), text = closure_markdown(report);
-  for (const Testpoint& point : report.plan.testpoints)
-    EXPECT_NE(html.find(">" + point.name + "<"), std::string::npos) << point.name;
-  EXPECT_EQ(html.find("http"), std::string::npos) << "the page needs nothing but itself";
-  EXPECT_NE(text.find("| hazards | tiny | "), std::string::npos);
+  const ClosureReport report{.version = "test",
+                             .command = "./run coverage",
+                             .plan = plan(),
+                             .inputs = {input},
+                             .closure = closure,
+                             .lines = {},
+                             .failures = {}};
+  EXPECT_NE(closure_markdown(report).find("| hazards | tiny | "), std::string::npos);
+  const auto json = nlohmann::ordered_json::parse(closure_json(report));
+  ASSERT_EQ(json["testpoints"].size(), report.plan.testpoints.size());
+  std::size_t told = 0;
+  for (const ClosureRow& row : closure.rows) {
+    for (const auto& point : json["testpoints"]) {
+      if (point["name"] != row.testpoint) continue;
+      for (const ClosureBin& bin : row.bins) told += point["configurations"][0]["hits"].at(bin.name) == bin.hits;
+    }
+  }
+  EXPECT_EQ(told, closure.bins) << "bins with their hits in the JSON";
 }
 
 TEST(Closure, WithoutAClassRunIsOpen) {

@@ -1,6 +1,7 @@
 // The panels, in the order in which they stand in the page. A new panel: its file in panels/ and its line here.
 import type { Panel } from "./page";
 import { bound } from "./panels/bound";
+import { closure } from "./panels/closure";
 import { compare } from "./panels/compare";
 import { coverage } from "./panels/coverage";
 import { cycles } from "./panels/cycles";
@@ -13,4 +14,4 @@ import { ranges } from "./panels/ranges";
 import { runs } from "./panels/runs";
 import { verify } from "./panels/verify";
 
-export const panels: Panel[] = [pictures, compare, errors, bound, ranges, propose, cycles, family, plan, verify, coverage, runs];
+export const panels: Panel[] = [pictures, compare, errors, bound, ranges, propose, cycles, family, plan, verify, closure, coverage, runs];

@@ -11,8 +11,8 @@ export interface Column<Row> {
   /** What is shown; without it the value, a number in `style`. */
   cell?: (row: Row) => Child;
   style?: Style;
-  /** Where in the JSON the shown number lies, for data-figure. */
-  figure?: (row: Row) => string;
+  /** Where in the JSON the shown number lies, for data-figure; undefined where there is none. */
+  figure?: (row: Row) => string | undefined;
   /** Class of the cell: "pass", "fail", "wrap". */
   kind?: (row: Row) => string;
 }

@@ -8,6 +8,7 @@ import { brute_front, sample_plan } from "./sample_plan.mjs";
 
 const scene = ["--volume", "shells:24", "--size", "64", "--azimuth", "40"];
 const mismatch = JSON.parse(readFileSync(join(here, "samples/verify-mismatch.json"), "utf8"));
+const closure = JSON.parse(readFileSync(join(here, "samples/closure.json"), "utf8"));
 let all = ""; // a report of every verb
 
 before(async () => {
@@ -29,9 +30,10 @@ before(async () => {
   fastsplat(["plan", "run", "cases.json", "--results", "cases", "--quiet"]);
   fastsplat(["plan", "merge", "cases.json", "--results", "cases", "-o", "merged.json", "--quiet"]);
   save("mismatch.json", mismatch);
+  save("closure.json", closure);
   save("plan.json", sample_plan(240));
   save("long.json", sample_plan(2000));
-  const names = ["compare", "strict", "same", "errors", "bound", "ranges", "propose", "cycles", "devices", "family", "merged", "plan", "verify", "mismatch", "book", "golden", "cmodel"];
+  const names = ["compare", "strict", "same", "errors", "bound", "ranges", "propose", "cycles", "devices", "family", "merged", "plan", "verify", "mismatch", "closure", "book", "golden", "cmodel"];
   all = report("all", names.map((name) => `${name}.json`));
   await start();
 });
@@ -40,7 +42,7 @@ after(stop);
 test("every number of every panel is that of its result", async () => {
   const page = await open(all);
   const panels = await page.$$eval("section.panel", (sections) => sections.map((section) => ({ name: section.dataset.panel, id: section.id })));
-  const least = { compare: 12, errors: 90, bound: 20, ranges: 80, propose: 10, cycles: 10, family: 300, plan: 100, verify: 20, coverage: 4, runs: 8 };
+  const least = { compare: 12, errors: 90, bound: 20, ranges: 80, propose: 10, cycles: 10, family: 300, plan: 100, verify: 20, closure: 50, coverage: 4, runs: 8 };
   const seen = {};
   for (const { name, id } of panels) {
     if (!(name in least)) continue;
@@ -111,6 +113,64 @@ test("a failing result says so, with its stream and the command that shows it ag
   assert.deepEqual(await page.evaluate(() => window.copied), [mismatch.failure.replay]);
   assert.match(await page.textContent("#said"), /copied/);
   assert.equal(await section.locator("svg rect[fill='var(--c3)']").count(), 1, "the failed seed's column");
+  await page.finish();
+});
+
+test("an open closure: what is open, each testpoint's bins and tests, the source", async () => {
+  const page = await open(report("closure", ["closure.json"]));
+  assert.match(await page.textContent("#top .verdict"), /open in 5 places/);
+  const section = page.locator("section[data-panel=closure]");
+  const rows = (label) => section.locator(`table[aria-label="${label}"] tbody tr`);
+  const findings = [...closure.open.campaigns, ...closure.open.testpoints, ...closure.open.lines];
+  assert.deepEqual(await rows("What is open").locator("td:nth-child(2)").allTextContents(), findings);
+  const bins = closure.testpoints.flatMap((point) => point.configurations.flatMap((on) => Object.entries(on.hits).map(([name, hits]) => ({ point: point.name, text: `${on.config} ${name}`, hits }))));
+  const listed = async () => (await rows("Bins").evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)))).map(([point, config, name, hits]) => ({ point, text: `${config} ${name}`, hits: shown_number(hits).value }));
+  const same = (a, b) => assert.deepEqual([...a].sort((x, y) => (x.point + x.text < y.point + y.text ? -1 : 1)), [...b].sort((x, y) => (x.point + x.text < y.point + y.text ? -1 : 1)));
+  const first = await listed();
+  same(first, bins);
+  assert.equal(first[0].hits, 0, "bins that were never hit come first");
+  assert.deepEqual(await rows("Testpoints").locator("td:nth-child(1)").allTextContents(), closure.testpoints.map((point) => point.name));
+  // With the keyboard: the second testpoint, its bins and tests only.
+  await rows("Testpoints").first().focus();
+  await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("Enter");
+  const point = closure.testpoints[1];
+  same(await listed(), bins.filter((bin) => bin.point === point.name));
+  assert.deepEqual(await rows("Tests").locator("code").allTextContents(), point.tests.map((test) => test.test));
+  assert.match(await rows("Tests").first().textContent(), /\u2717 failed/);
+  assert.ok((await section.textContent()).includes(point.assertions[0]));
+  await section.getByRole("button", { name: "All testpoints" }).click();
+  same(await listed(), bins);
+  // The file with an open line is shown by itself; its lines, marks and counts are the JSON's.
+  const file = closure.files.find((each) => each.count.reached + each.count.excused < each.count.all);
+  const lines = await section.locator("table.source tr").evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  assert.deepEqual(lines.map((line) => line[3]), file.source);
+  const mark = (number) => {
+    const here = file.points.filter((each) => each.line === number || each.lines.includes(number));
+    return here.some((each) => !each.hits && !each.excused) ? "\u2717" : here.some((each) => !each.hits) ? "\u2013" : here.length ? "\u2713" : "";
+  };
+  assert.deepEqual(lines.map((line) => line[1]), file.source.map((_, i) => mark(i + 1)));
+  assert.equal(new Set(lines.map((line) => line[1])).size, 4, "reached, excused, open and none of them");
+  const compared = await compare_figures(page, "section[data-panel=closure]");
+  figure("bins, findings and lines of a closure compared", bins.length + findings.length + lines.length, ">= 18");
+  assert.ok(bins.length + findings.length + lines.length >= 18 && compared >= 50);
+  await page.finish();
+});
+
+test("a closed closure passes, without lines too, and of thousands of bins those in sight are in the page", async () => {
+  const many = Object.fromEntries(Array.from({ length: 3000 }, (_, i) => [`group.bin_${i}`, i + 1]));
+  const point = { ...closure.testpoints[0], status: "closed", bins: { hit: 3000, all: 3000 }, configurations: [{ config: "tiny", hit: 3000, all: 3000, hits: many }], tests: [] };
+  const none = { reached: 0, excused: 0, all: 0 };
+  save("closed.json", { ...closure, verdict: "closed", bins: { hit: 3000, all: 3000 }, lines: none, tests: { passed: 0, failed: 0, not_run: 0 }, open: { campaigns: [], testpoints: [], lines: [] }, testpoints: [point], files: [] });
+  const page = await open(report("closed", ["closed.json"]));
+  assert.match(await page.textContent("#top .mark"), /Pass/);
+  const section = page.locator("section[data-panel=closure]");
+  assert.match(await section.locator(".lead").textContent(), /Closed: 3\u202f000 of 3\u202f000 bins are hit\./);
+  assert.equal(await section.locator("table.source, table[aria-label='What is open'], table[aria-label='Tests']").count(), 0);
+  assert.ok((await section.locator("table[aria-label=Bins] tbody tr").count()) < 120);
+  await section.getByLabel("Filter Bins: words").fill("hits<4");
+  assert.equal(await section.locator("table[aria-label=Bins] tbody tr").count(), 3);
+  await compare_figures(page);
   await page.finish();
 });
 

@@ -1,0 +1,40 @@
+// A file that holds JSON, read and refused in the one place where every such file is.
+#pragma once
+
+#include <cstddef>
+#include <exception>
+#include <filesystem>
+#include <string>
+
+#include "base/error.hpp"
+#include "base/read_file.hpp"
+
+namespace fastsplat {
+
+/// What a file ought to be, for the line that refuses it.
+struct JsonKind {
+  std::string what;      ///< "is no plan"
+  std::string expected;  ///< "what `fastsplat plan make` writes"
+  std::string fix;
+  std::size_t most_bytes = std::size_t{1} << 28;
+};
+
+/// What `make` makes of the JSON in `path` (a `Json`, some nlohmann::json). UserError (Input) in one line that names
+/// the file: it cannot be read, is too large, is cut off or no JSON, or `make` threw, whatever that was.
+template <class Json, class Make>
+auto from_json_file(const std::filesystem::path& path, const JsonKind& kind, const Make& make) {
+  const std::string text = read_text_file(path, kind.most_bytes);
+  std::string got;
+  try {
+    return make(Json::parse(text));
+  } catch (const typename Json::parse_error& error) {
+    // Its message quotes the file and is long; the place is what helps.
+    got = error.byte > text.size() ? "JSON that is cut off, " + std::to_string(text.size()) + " bytes"
+                                   : "no JSON, a mistake at byte " + std::to_string(error.byte);
+  } catch (const std::exception& error) {
+    got = error.what();
+  }
+  throw_input({.where = path.string(), .what = kind.what, .expected = kind.expected, .got = got, .fix = kind.fix});
+}
+
+}  // namespace fastsplat

@@ -126,9 +126,7 @@ function testpoints(root: HTMLElement, result: Result, context: Context): void {
       { name: "Bins", value: (point) => point.bins.all, figure: (point) => path("testpoints", place.get(point) ?? 0, "bins", "all") },
       { name: "Hit", value: (point) => point.bins.hit, figure: (point) => path("testpoints", place.get(point) ?? 0, "bins", "hit") },
       { name: "Fewest hits", value: (point) => weakest.get(point.name)?.hits, figure: (point) => weakest.has(point.name) ? path(...(weakest.get(point.name) as Bin).path) : undefined },
-      { name: "Tests passed", value: (point) => count(point, "passed") },
-      { name: "of", value: (point) => point.tests.length },
-      { name: "Configurations", value: (point) => point.configurations.map((on: Result) => on.config).join(", ") },
+      { name: "Tests", value: (point) => `${count(point, "passed")} of ${point.tests.length}` },
       { name: "Proves", value: (point) => point.proves, kind: () => "wrap" },
     ],
   });

@@ -14,7 +14,8 @@ std::unique_ptr<RtlDevice> make_device(const VerifyOptions& options, cmodel::Pix
 }
 
 /// Feeds the first beats, then resets in the middle of whatever they started.
-void interrupt(CheckedDevice& checked, const BeatSource& source, std::uint64_t after, CoverageCollector* coverage) {
+void interrupt(CheckedDevice& checked, const BeatSource& source, std::uint64_t after, int cycles,
+               CoverageCollector* coverage) {
   checked.unchecked([&](RtlDevice& device) {
     const std::uint64_t first_beat = device.cycles();
     std::uint64_t left = after;
@@ -33,7 +34,7 @@ void interrupt(CheckedDevice& checked, const BeatSource& source, std::uint64_t a
                    .got = std::to_string(after),
                    .fix = "lower --reset-after"});
     }
-    device.warm_reset();
+    device.warm_reset(cycles);
   });
 }
 
@@ -75,7 +76,8 @@ VerifyResult verify(const BeatSource& source, const VerifyOptions& options, cmod
   }
   VerifyResult out;
   try {
-    if (options.reset_after > 0) interrupt(checked, source, options.reset_after, coverage ? &*coverage : nullptr);
+    if (options.reset_after > 0)
+      interrupt(checked, source, options.reset_after, options.reset_cycles, coverage ? &*coverage : nullptr);
     if (coverage) coverage->start(checked.device().cycles());
     source([&](std::span<const cmodel::Beat> beats) {
       checked.consume(beats);

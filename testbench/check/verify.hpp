@@ -24,9 +24,10 @@ struct VerifyOptions {
   std::string ready = "always";  ///< pattern of the pixel output
   std::string input = "always";  ///< pattern of the stream input
   ResetFill fill = ResetFill::Random;
-  std::uint64_t seed = 1;         ///< of patterns and fill
-  std::uint64_t reset_after = 0;  ///< beats before a warm reset, after which the whole stream is fed; 0: none; more
-                                  ///< than the stream has: UserError (Usage)
+  std::uint64_t seed = 1;           ///< of patterns and fill
+  std::uint64_t reset_after = 0;    ///< beats before a warm reset, after which the whole stream is fed; 0: none; more
+                                    ///< than the stream has: UserError (Usage)
+  int reset_cycles = kResetCycles;  ///< of that reset
   std::uint64_t timeout = 1u << 20;
   std::uint64_t stop_after = 1000;  ///< mismatches
   std::filesystem::path wave;       ///< waveform of the cycles [wave_from, wave_to)

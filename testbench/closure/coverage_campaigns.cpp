@@ -76,8 +76,8 @@ class Runner {
           return make_rtl_device(order_.config, pixels, options);
         };
     begin("registers and refusals");
-    for (const auto& [name, check] :
-         {std::pair{"registers", &check_registers}, std::pair{"refusals", &check_refusals}}) {
+    for (const auto& [name, check] : {std::pair{"registers", &check_registers}, std::pair{"refusals", &check_refusals},
+                                      std::pair{"short resets", &check_short_resets}}) {
       const DirectedResult result = check(order_.config, make);
       for (const auto& failure : result.failures) runs_.failures.push_back(std::string(name) + ": " + failure);
       runs_.book.comparisons += result.comparisons;

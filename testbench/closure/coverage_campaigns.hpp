@@ -30,7 +30,7 @@ struct CoverageOrder {
 };
 
 /// Names that a testpoint may give as campaigns, besides the stimulus classes.
-inline constexpr const char* kOtherCampaigns[] = {"scene", "resets", "registers", "refusals"};
+inline constexpr const char* kOtherCampaigns[] = {"scene", "resets", "registers", "refusals", "short resets"};
 /// Stands for the sum of all, in a plan.
 inline constexpr const char* kAllCampaigns = "all";
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "cmodel/beat.hpp"
@@ -27,6 +28,9 @@ struct RawTap {
   std::uint32_t mx = 0, my = 0;
   std::uint32_t block = 0;  ///< number in the tile, row by row
   bool last = false;        ///< ends the tile
+  /// Of a pixel beat: which of its pixels lie in the tile, the first in bit 0. Absent where a bench does not show it.
+  std::optional<std::uint32_t> keep = std::nullopt;
+  std::optional<std::uint32_t> tile = std::nullopt;  ///< number of the tile at hand; absent where it is not shown
   /// A vector port in words of 32 bits, the least significant first; valid during the call.
   std::span<const std::uint32_t> words;
 };

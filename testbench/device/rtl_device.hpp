@@ -17,6 +17,9 @@
 
 namespace fastsplat::testbench {
 
+/// Length of a reset, unless somebody asks for another.
+constexpr int kResetCycles = 4;
+
 /// Which simulation of the RTL runs. Both behave the same; a plain one neither checks assertions nor writes waveforms.
 enum class RtlBuild { Checked, Plain };
 
@@ -39,6 +42,9 @@ struct RegisterAnswer {
   bool okay = false;       ///< false: SLVERR
 };
 
+/// Half of a write's offer.
+enum class WriteHalf { Address, Data };
+
 /// Of a stream that the device refuses, consume() throws UserError (Simulation) once; what follows is swallowed until a
 /// reset.
 class RtlDevice : public cmodel::Device {
@@ -47,11 +53,17 @@ class RtlDevice : public cmodel::Device {
   virtual std::uint64_t cycles() const = 0;
   /// Read through AXI4-Lite.
   virtual cmodel::StallCounters cycle_counters() = 0;
-  /// One AXI4-Lite access; the answer is taken `wait` cycles after it came. The stream side goes on by its patterns.
+  /// One AXI4-Lite access; the answer is taken `wait` cycles after it came. The stream side goes on by its patterns. No
+  /// answer in the cycle after the access was taken is UserError (Simulation).
   virtual RegisterAnswer read_register(std::uint32_t address, int wait = 0) = 0;
   virtual RegisterAnswer write_register(std::uint32_t address, std::uint32_t word, int wait = 0) = 0;
-  /// Resets again in the middle of whatever is going on; memories keep what they hold, counters restart.
-  virtual void warm_reset() = 0;
+  /// Offers one half of a write for so many cycles, then withdraws it: true if the device took it or answered.
+  virtual bool takes_half_write(WriteHalf half, std::uint32_t address, std::uint32_t word, int cycles) = 0;
+  /// Has a read and a write taken and their answers left waiting: what follows is a reset.
+  virtual void leave_answers_waiting() = 0;
+  /// Resets again in the middle of whatever is going on, for so many cycles; memories keep what they hold, counters
+  /// restart. Nobody takes answers or pixels meanwhile; one that is still there afterwards is UserError (Simulation).
+  virtual void warm_reset(int cycles = kResetCycles) = 0;
 };
 
 /// Built-in configurations with RTL in this build; files of the user's are not among them.

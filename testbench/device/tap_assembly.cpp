@@ -62,7 +62,7 @@ std::uint32_t TapAssembly::sheet_of(std::uint32_t tag) const {
 void TapAssembly::emit(cmodel::Tap tap, std::uint64_t cycle, std::uint32_t sheet, std::uint32_t tag, std::int32_t x,
                        std::int32_t y) {
   taps_.on_tap({.tap = tap,
-                .tile = tile().tile,
+                .tile = tiles_.complete() ? kNoTile : shown_tile_.value_or(tile().tile),
                 .sheet = sheet,
                 .tag = tag,
                 .cycle = cycle,
@@ -72,6 +72,7 @@ void TapAssembly::emit(cmodel::Tap tap, std::uint64_t cycle, std::uint32_t sheet
 }
 
 void TapAssembly::on_raw(const RawTap& tap) {
+  shown_tile_ = tap.tile;
   switch (tap.port) {
     case RawPort::Snap:
       return snap(tap);
@@ -163,7 +164,9 @@ std::uint32_t TapAssembly::composited_sheet() const {
 void TapAssembly::pixels(const RawTap& tap) {
   const auto place =
       tiles_.complete() ? TileAssembly::Place{.x = 0, .y = 0, .count = config_.lanes} : tiles_.next_place();
-  for (int i = 0; i < place.count; ++i) {
+  const std::uint32_t keep = tap.keep.value_or(static_cast<std::uint32_t>((std::uint64_t{1} << place.count) - 1));
+  for (int i = 0; i < config_.lanes; ++i) {
+    if ((keep >> i & 1) == 0) continue;
     const auto pixel = tap.words.subspan(4 * static_cast<std::size_t>(i), 4);
     payload_.assign(pixel.begin(), pixel.end());
     emit(cmodel::Tap::Pixel, tap.cycle, 0, 0, place.x + i, place.y);

@@ -58,8 +58,9 @@ class TapAssembly final : public RawTapSink {
   int sheet_bits_, weight_bits_, state_bits_;
   TileAssembly tiles_;
   std::deque<Sheets> sheets_;
-  std::deque<Place> windows_;           ///< between the footprint and the sheet tap
-  std::deque<std::uint64_t> finished_;  ///< cycles of sheet_done whose blocks are still in the pipe
+  std::optional<std::uint32_t> shown_tile_;  ///< by the event at hand
+  std::deque<Place> windows_;                ///< between the footprint and the sheet tap
+  std::deque<std::uint64_t> finished_;       ///< cycles of sheet_done whose blocks are still in the pipe
   std::vector<std::uint32_t> payload_;
 };
 

@@ -61,7 +61,7 @@ class VerilatedDevice : public RtlDevice {
         }
       }
     }
-    pulse_reset();
+    pulse_reset(kResetCycles);
     const std::uint64_t hash =
         read(cmodel::kRegHashLow.address) | static_cast<std::uint64_t>(read(cmodel::kRegHashHigh.address)) << 32;
     if (hash != config_hash(config)) {
@@ -126,12 +126,22 @@ class VerilatedDevice : public RtlDevice {
   RegisterAnswer read_register(std::uint32_t address, int wait) override {
     top_->araddr_i = address;
     top_->arvalid_i = 1;
+    reading_ = true;
     wait_for("no register read taken", [this] { return top_->arready_o != 0; });
     top_->arvalid_i = 0;
+    if (!top_->rvalid_o) unanswered("read");
+    if (top_->rresp_o != kOkay && top_->rresp_o != kSlverr) unknown_response(top_->rresp_o);
     top_->rready_i = wait == 0 ? 1 : 0;
-    for (int i = 0; i < wait; ++i) cycle();
-    const RegisterAnswer answer{top_->rdata_o, top_->rvalid_o != 0 && top_->rresp_o == 0};
+    for (int i = 0; i < wait; ++i) {
+      top_->arvalid_i = 1;
+      top_->eval();
+      if (top_->arready_o) taken_too_early("read");
+      top_->arvalid_i = 0;
+      cycle();
+    }
+    const RegisterAnswer answer{top_->rdata_o, top_->rresp_o == kOkay};
     top_->rready_i = 1;
+    reading_ = false;
     cycle();
     return answer;
   }
@@ -140,21 +150,58 @@ class VerilatedDevice : public RtlDevice {
     top_->awaddr_i = address;
     top_->wdata_i = word;
     top_->awvalid_i = top_->wvalid_i = 1;
+    writing_ = true;
     wait_for("no register write taken", [this] {
       top_->eval();  // ready answers valid within the cycle
       return top_->awready_o != 0;
     });
     top_->awvalid_i = top_->wvalid_i = 0;
+    if (!top_->bvalid_o) unanswered("write");
+    if (top_->bresp_o != kOkay && top_->bresp_o != kSlverr) unknown_response(top_->bresp_o);
     top_->bready_i = wait == 0 ? 1 : 0;
-    for (int i = 0; i < wait; ++i) cycle();
-    const RegisterAnswer answer{0, top_->bvalid_o != 0 && top_->bresp_o == 0};
+    for (int i = 0; i < wait; ++i) {
+      top_->awvalid_i = top_->wvalid_i = 1;
+      top_->eval();
+      if (top_->awready_o || top_->wready_o) taken_too_early("write");
+      top_->awvalid_i = top_->wvalid_i = 0;
+      cycle();
+    }
+    const RegisterAnswer answer{0, top_->bresp_o == kOkay};
     top_->bready_i = 1;
+    writing_ = false;
     cycle();
     return answer;
   }
 
-  void warm_reset() override {
-    pulse_reset();
+  bool takes_half_write(WriteHalf half, std::uint32_t address, std::uint32_t word, int cycles) override {
+    top_->awaddr_i = address;
+    top_->wdata_i = word;
+    (half == WriteHalf::Address ? top_->awvalid_i : top_->wvalid_i) = 1;
+    writing_ = true;  // whether it is one shows here
+    bool taken = false;
+    for (int i = 0; i < cycles; ++i) {
+      top_->eval();  // ready answers valid within the cycle
+      taken = taken || (half == WriteHalf::Address ? top_->awready_o : top_->wready_o) != 0;
+      cycle();
+      taken = taken || top_->bvalid_o != 0;
+    }
+    top_->awvalid_i = top_->wvalid_i = 0;
+    writing_ = false;
+    return taken;
+  }
+
+  void leave_answers_waiting() override {
+    top_->rready_i = top_->bready_i = 0;
+    reading_ = writing_ = true;
+    top_->arvalid_i = top_->awvalid_i = top_->wvalid_i = 1;
+    cycle();
+    top_->arvalid_i = top_->awvalid_i = top_->wvalid_i = 0;
+    if (!top_->rvalid_o) unanswered("read");
+    if (!top_->bvalid_o) unanswered("write");
+  }
+
+  void warm_reset(int cycles) override {
+    pulse_reset(cycles);
     tiles_.reset();
   }
 
@@ -162,6 +209,8 @@ class VerilatedDevice : public RtlDevice {
   VerilatedContext& context() { return context_; }
 
  private:
+  static constexpr int kOkay = 0, kSlverr = 2;  ///< of AXI4-Lite
+
   /// Clocks up to and with the first cycle in which `taken` holds.
   template <class Taken>
   void wait_for(const char* missing, Taken taken) {
@@ -197,14 +246,25 @@ class VerilatedDevice : public RtlDevice {
     wave_->dump(2 * cycle_ + static_cast<std::uint64_t>(half));
   }
 
-  void pulse_reset() {
+  void pulse_reset(int cycles) {
     quiet();
+    // What only drains away while it is taken has not been reset.
+    top_->rready_i = top_->bready_i = 0;
     top_->rst_ni = 0;
-    for (int i = 0; i < 4; ++i) edge();
+    for (int i = 0; i < cycles; ++i) edge();
     top_->rst_ni = 1;
     top_->eval();
     cycle_ = 0;
-    offering_ = pending_ = refused_ = false;
+    offering_ = pending_ = refused_ = reading_ = writing_ = false;
+    if (top_->rvalid_o || top_->bvalid_o || top_->m_tvalid_o) {
+      throw UserError(ExitCode::Simulation, {.where = "after a reset of " + std::to_string(cycles) + " cycles",
+                                             .what = top_->m_tvalid_o ? "a pixel beat is offered"
+                                                                      : "an answer of the register bus is offered",
+                                             .expected = {},
+                                             .got = {},
+                                             .fix = "look at what the reset leaves out"});
+    }
+    top_->rready_i = top_->bready_i = 1;
   }
 
   void offer(const cmodel::Beat& beat) {
@@ -229,6 +289,14 @@ class VerilatedDevice : public RtlDevice {
     edge();
     ++cycle_;
     if (context_.errorCount() != 0) assertion_failed();
+    if ((top_->rvalid_o && !reading_) || (top_->bvalid_o && !writing_)) {
+      throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_),
+                                             .what = std::string("the register bus answers a ") +
+                                                     (top_->rvalid_o ? "read" : "write") + " that nobody began",
+                                             .expected = {},
+                                             .got = {},
+                                             .fix = "look at the waveform of the last cycles"});
+    }
     if (top_->error_o && !refused_) {
       refused_ = true;
       top_->arvalid_i = top_->awvalid_i = top_->wvalid_i = 0;
@@ -249,7 +317,12 @@ class VerilatedDevice : public RtlDevice {
     const auto words = port_words(top_->m_tdata_o, small);
     const bool last = top_->m_tlast_o != 0;
     if (options_.taps != nullptr)
-      options_.taps->on_raw({.port = RawPort::Pixels, .cycle = cycle_, .last = last, .words = words});
+      options_.taps->on_raw({.port = RawPort::Pixels,
+                             .cycle = cycle_,
+                             .last = last,
+                             .keep = top_->m_tkeep_o,
+                             .tile = top_->tap_tile_o,
+                             .words = words});
     tiles_.pixels(words, last);
   }
 
@@ -263,12 +336,14 @@ class VerilatedDevice : public RtlDevice {
                    .y = top_->tap_snap_y_o,
                    .mx = top_->tap_snap_mx_o,
                    .my = top_->tap_snap_my_o,
+                   .tile = top_->tap_tile_o,
                    .words = {}});
     }
     if (top_->tap_sheet_valid_o) {
       taps.on_raw({.port = RawPort::Sheet,
                    .cycle = cycle_,
                    .tag = top_->tap_sheet_tag_o,
+                   .tile = top_->tap_tile_o,
                    .words = port_words(top_->tap_sums_o, small)});
     }
     if (top_->tap_window_valid_o) {
@@ -277,18 +352,30 @@ class VerilatedDevice : public RtlDevice {
                    .tag = top_->tap_window_tag_o,
                    .x = top_->tap_window_x_o,
                    .y = top_->tap_window_y_o,
+                   .tile = top_->tap_tile_o,
                    .words = port_words(top_->tap_weights_o, small)});
     }
     if (top_->tap_composite_valid_o) {
       taps.on_raw({.port = RawPort::Composite,
                    .cycle = cycle_,
                    .block = top_->tap_composite_block_o,
+                   .tile = top_->tap_tile_o,
                    .words = port_words(top_->tap_state_o, small)});
     }
     if (top_->tap_sheet_done_o) taps.on_raw({.port = RawPort::SheetDone, .cycle = cycle_, .words = {}});
   }
 
-  std::uint32_t read(std::uint32_t address) { return read_register(address, 0).word; }
+  std::uint32_t read(std::uint32_t address) {
+    const RegisterAnswer answer = read_register(address, 0);
+    if (!answer.okay) {
+      throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_),
+                                             .what = "the device refuses to tell a register",
+                                             .expected = "OKAY",
+                                             .got = "SLVERR of address " + std::to_string(address),
+                                             .fix = "look at the waveform of the last cycles"});
+    }
+    return answer.word;
+  }
   std::uint32_t read_status() { return read(cmodel::kRegStatus.address); }
   std::uint64_t counter(int number) {
     const auto address = cmodel::kRegCounters.address + 8 * static_cast<std::uint32_t>(number);
@@ -296,6 +383,28 @@ class VerilatedDevice : public RtlDevice {
     return low | static_cast<std::uint64_t>(read(address + 4)) << 32;
   }
 
+  [[noreturn]] void unanswered(const char* access) const {
+    throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_),
+                                           .what = std::string("no answer to a register ") + access,
+                                           .expected = "one in the cycle after it was taken",
+                                           .got = {},
+                                           .fix = "look at the waveform of the last cycles"});
+  }
+  [[noreturn]] void taken_too_early(const char* access) const {
+    throw UserError(ExitCode::Simulation,
+                    {.where = "cycle " + std::to_string(cycle_),
+                     .what = std::string("a second register ") + access + " is taken before the first was answered",
+                     .expected = {},
+                     .got = {},
+                     .fix = "look at the waveform of the last cycles"});
+  }
+  [[noreturn]] void unknown_response(int got) const {
+    throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_),
+                                           .what = "a register access is answered with what the page does not know",
+                                           .expected = "OKAY (0) or SLVERR (2)",
+                                           .got = std::to_string(got),
+                                           .fix = "look at the waveform of the last cycles"});
+  }
   [[noreturn]] void assertion_failed() const {
     const FailedAssertion failed = first_failed_assertion(take_simulator_output());
     throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_ - 1),
@@ -322,9 +431,10 @@ class VerilatedDevice : public RtlDevice {
   std::unique_ptr<VerilatedFstC> wave_;
   std::uint64_t cycle_ = 0;
   cmodel::Beat beat_{};
-  bool pending_ = false;   ///< a beat waits to be offered
-  bool offering_ = false;  ///< and has been: valid stays up until taken
-  bool refused_ = false;   ///< the device said so since reset
+  bool pending_ = false;                    ///< a beat waits to be offered
+  bool offering_ = false;                   ///< and has been: valid stays up until taken
+  bool refused_ = false;                    ///< the device said so since reset
+  bool reading_ = false, writing_ = false;  ///< an access was begun whose answer was not taken
   cmodel::Counters counters_;
 };
 

@@ -1,5 +1,8 @@
 #include "testbench/stimulus/directed.hpp"
 
+#include <map>
+#include <set>
+
 #include "base/error.hpp"
 #include "cmodel/model.hpp"
 #include "cmodel/register_map.hpp"
@@ -13,11 +16,15 @@ namespace {
 /// Cycles for which an answer is left waiting.
 constexpr int kWait = 3;
 constexpr std::uint32_t kErrorBit = 1 << 1;
+/// Cycles beyond any wait within a small stream.
+constexpr std::uint64_t kTimeout = 20000;
 
 constexpr const char* kRegisterBins[] = {
-    "identity",          "counters",          "counters_cleared",     "control_without_clear",
-    "status_busy",       "status_idle",       "unknown_read_refused", "unknown_write_refused",
-    "read_answer_waits", "write_answer_waits"};
+    "identity",          "counters",           "counters_cleared",     "control_without_clear",
+    "status_busy",       "status_idle",        "unknown_read_refused", "unknown_write_refused",
+    "read_answer_waits", "write_answer_waits", "half_write_waits",     "reset_drops_answers"};
+constexpr const char* kResetBins[] = {"after_load_table", "after_begin_tile", "after_begin_sheet", "after_splat",
+                                      "after_cull_block", "after_end_sheet",  "after_end_tile",    "after_end_frame"};
 struct Refusal {
   const char* name;
   cmodel::Field field;
@@ -59,6 +66,7 @@ Coverage directed_bins() {
   for (const char* name : kRegisterBins) bins.declare("register", name);
   for (const Refusal& refusal : kRefusals) bins.declare("refusal", refusal.name);
   for (const char* name : kAfterRefusal) bins.declare("refusal", name);
+  for (const char* name : kResetBins) bins.declare("short_reset", name);
   return bins;
 }
 
@@ -70,10 +78,15 @@ DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& m
              unknown_read = check.bin("register", "unknown_read_refused"),
              unknown_write = check.bin("register", "unknown_write_refused"),
              read_waits = check.bin("register", "read_answer_waits"),
-             write_waits = check.bin("register", "write_answer_waits");
+             write_waits = check.bin("register", "write_answer_waits"),
+             half = check.bin("register", "half_write_waits"), dropped = check.bin("register", "reset_drops_answers");
   cmodel::NullPixels pixels;
   const auto device = make(pixels, {});
-  const auto read = [&](const cmodel::Register& which) { return device->read_register(which.address); };
+  const auto read = [&](const cmodel::Register& which) {
+    const auto answer = device->read_register(which.address);
+    check.equal(std::string(which.name) + " answers OKAY", 1, answer.okay ? 1 : 0, identity);
+    return answer;
+  };
   const std::uint64_t hash = config_hash(config);
   check.equal("MAGIC", cmodel::kStreamMagic, read(cmodel::kRegMagic).word, identity);
   check.equal("VERSION", cmodel::kStreamVersion, read(cmodel::kRegVersion).word, identity);
@@ -99,18 +112,14 @@ DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& m
     });
   };
   all_counters(false, counters);
-  check.equal("CONTROL takes 0", 1, device->write_register(cmodel::kRegControl.address, 0).okay ? 1 : 0, kept);
-  all_counters(false, kept);
-  check.equal("CONTROL takes 1", 1, device->write_register(cmodel::kRegControl.address, 1, kWait).okay ? 1 : 0,
-              write_waits);
-  all_counters(true, cleared);
-
-  // Below the counters, between two of them, and above the last.
+  // Below the counters, between two of them, and above the last; while there is something to tell and to clear.
   int number = 0;
   model.counters().for_each([&](const char*, std::uint64_t, const char*) { ++number; });
   const auto beyond = cmodel::kRegCounters.address + 8 * (static_cast<std::uint32_t>(number) + 5);
   for (const std::uint32_t address :
-       {cmodel::kRegControl.address + 4, cmodel::kRegCounters.address + 2, beyond, 0xffcU}) {
+       {cmodel::kRegControl.address + 4, cmodel::kRegCounters.address + 1, cmodel::kRegCounters.address + 2,
+        cmodel::kRegCounters.address + 3, beyond, 0xffcU}) {
+    read(cmodel::kRegMagic);  // whose word is not to be told again
     const auto answer = device->read_register(address);
     check.equal("unknown read answers SLVERR", 0, answer.okay ? 1 : 0, unknown_read);
     check.equal("unknown read gives", 0, answer.word, unknown_read);
@@ -119,8 +128,34 @@ DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& m
               unknown_write);
   check.equal("MAGIC is not written", 0, device->write_register(cmodel::kRegMagic.address, 1).okay ? 1 : 0,
               unknown_write);
+  check.equal("CONTROL takes 0", 1, device->write_register(cmodel::kRegControl.address, 0).okay ? 1 : 0, kept);
+  all_counters(false, kept);
+  check.equal("CONTROL takes 1", 1, device->write_register(cmodel::kRegControl.address, 1, kWait).okay ? 1 : 0,
+              write_waits);
+  all_counters(true, cleared);
+
   check.equal("a waiting answer holds", cmodel::kStreamMagic,
               device->read_register(cmodel::kRegMagic.address, kWait).word, read_waits);
+
+  // A write is both its halves: one alone is neither taken nor answered, and clears nothing.
+  device->consume(beats);
+  device->finish();
+  for (const auto which : {WriteHalf::Address, WriteHalf::Data}) {
+    check.equal("half a write is taken", 0,
+                device->takes_half_write(which, cmodel::kRegControl.address, 1, kWait) ? 1 : 0, half);
+  }
+  check.equal("half a write clears the counters", 0, read_counter(*device, 0) == 0 ? 1 : 0, half);
+  for (const int cycles : {1, kResetCycles}) {
+    device->leave_answers_waiting();
+    bool gone = true;
+    try {
+      device->warm_reset(cycles);
+    } catch (const UserError&) {
+      gone = false;
+    }
+    check.equal("answers are gone after a reset", 1, gone ? 1 : 0, dropped);
+  }
+  check.equal("MAGIC after a reset", cmodel::kStreamMagic, read(cmodel::kRegMagic).word, dropped);
   return check.result;
 }
 
@@ -162,6 +197,59 @@ DirectedResult check_refusals(const cmodel::Config& config, const MakeDevice& ma
   cmodel::Model model(config, cmodel::StreamScope::Whole, pixels);
   model.consume(beats);
   check.equal("counters after a refusal and a reset", 1, device->counters() == model.counters() ? 1 : 0, recovers);
+  return check.result;
+}
+
+DirectedResult check_short_resets(const cmodel::Config& config, const MakeDevice& make) {
+  Check check;
+  const auto beats = small_stream(config);
+  VerifyOptions options;
+  options.config = config;
+  options.reset_cycles = 1;
+  for (const char* name : kResetBins) check.bin("short_reset", name);
+  options.device = make;
+  options.timeout = kTimeout;
+  const auto name_of = [&](std::size_t at) -> const char* {
+    switch (static_cast<cmodel::Opcode>(get(beats[at], cmodel::layout::kOpcode))) {
+      case cmodel::Opcode::LoadTable:
+        return kResetBins[0];
+      case cmodel::Opcode::BeginTile:
+        return kResetBins[1];
+      case cmodel::Opcode::BeginSheet:
+        return kResetBins[2];
+      case cmodel::Opcode::Splat:
+        return kResetBins[3];
+      case cmodel::Opcode::CullBlock:
+        return kResetBins[4];
+      case cmodel::Opcode::EndSheet:
+        return kResetBins[5];
+      case cmodel::Opcode::EndTile:
+        return kResetBins[6];
+      case cmodel::Opcode::EndFrame:
+        return kResetBins[7];
+      default:
+        return nullptr;
+    }
+  };
+  constexpr std::size_t kWords = std::tuple_size_v<cmodel::Beat>;
+  // The first of each kind, its last, and one between: more of the same are more of the same.
+  std::map<const char*, std::vector<std::size_t>> places;
+  for (std::size_t at = 0; at < beats.size(); ++at) {
+    const char* name = name_of(at);
+    if (name != nullptr) places[name].push_back(at);
+    if (name == kResetBins[0]) at += (cmodel::announced_words(beats[at]) + kWords - 1) / kWords;
+  }
+  for (const auto& [name, all] : places) {
+    for (const std::size_t at : std::set{all.front(), all[all.size() / 2], all.back()}) {
+      options.reset_after = at + 1;
+      options.ready = at % 2 == 0 ? "always" : "every-3";
+      const auto result = verify(source_of(beats), options);
+      check.result.comparisons += result.check.comparisons;
+      check.equal(std::string("a reset of one cycle ") + name + ", beat " + std::to_string(at) + ": passes" +
+                      (result.error.empty() ? "" : " (" + result.error + ")"),
+                  1, result.verdict == Verdict::Pass ? 1 : 0, check.bin("short_reset", name));
+    }
+  }
   return check.result;
 }
 

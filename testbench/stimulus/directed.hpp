@@ -1,4 +1,5 @@
-// Directed checks of what no legal stream reaches: the registers, and streams that the device has to refuse
+// Directed checks of what no legal stream reaches: the registers, streams that the device has to refuse, the
+// shortest resets
 // (docs/microarchitecture.md, "Registers"). Each samples its own bins.
 #pragma once
 
@@ -17,17 +18,22 @@ using MakeDevice = std::function<std::unique_ptr<RtlDevice>(cmodel::PixelSink&, 
 struct DirectedResult {
   std::uint64_t comparisons = 0;
   std::vector<std::string> failures;  ///< what, expected, got
-  Coverage coverage;                  ///< register.* or refusal.*
+  Coverage coverage;                  ///< register.*, refusal.* or short_reset.*
 };
 
-/// Every bin of the two.
+/// Every bin of the three.
 Coverage directed_bins();
 
-/// Identity, status, counters (against the model, cleared by CONTROL), answers to unknown addresses, answers that wait.
+/// Identity, status, counters (against the model, cleared by CONTROL), answers to unknown addresses, answers that wait,
+/// halves of writes, resets that drop answers.
 DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& make);
 
 /// begin_frame with a wrong magic, version or hash and records of unknown opcode: refused at once, opcode in STATUS,
 /// the rest swallowed; after a reset the device works again.
 DirectedResult check_refusals(const cmodel::Config& config, const MakeDevice& make);
+
+/// A reset of one cycle with each record of a stream but begin_frame in the device's register, then the whole stream
+/// under the checker.
+DirectedResult check_short_resets(const cmodel::Config& config, const MakeDevice& make);
 
 }  // namespace fastsplat::testbench

@@ -22,7 +22,11 @@ class PassingDevice : public RtlDevice {
   RegisterAnswer write_register(std::uint32_t address, std::uint32_t word, int wait) override {
     return device_->write_register(address, word, wait);
   }
-  void warm_reset() override { device_->warm_reset(); }
+  bool takes_half_write(WriteHalf half, std::uint32_t address, std::uint32_t word, int cycles) override {
+    return device_->takes_half_write(half, address, word, cycles);
+  }
+  void leave_answers_waiting() override { device_->leave_answers_waiting(); }
+  void warm_reset(int cycles) override { device_->warm_reset(cycles); }
 
  private:
   std::unique_ptr<RtlDevice> device_;

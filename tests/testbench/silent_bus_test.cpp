@@ -13,12 +13,14 @@ struct SilentTop {
   void eval() {
     arready_o = reads_answered ? 1 : 0;
     awready_o = 0;
-    rvalid_o = 1;
+    if (clk_i != 0 && !was_high) rvalid_o = rst_ni & arvalid_i & arready_o;
+    was_high = clk_i != 0;
     const auto hash = config_hash(driver::load_config("tiny"));
     rdata_o = static_cast<std::uint32_t>(araddr_i == cmodel::kRegHashHigh.address ? hash >> 32 : hash);
   }
   void final() {}
   static inline bool reads_answered = false;
+  bool was_high = false;
 
   std::uint8_t clk_i = 0, rst_ni = 0, s_tvalid_i = 0, s_tready_o = 0, m_tready_i = 0, m_tvalid_o = 0, m_tlast_o = 0;
   std::uint8_t awvalid_i = 0, awready_o = 0, wvalid_i = 0, bready_i = 0, bvalid_o = 0, bresp_o = 0;
@@ -26,6 +28,8 @@ struct SilentTop {
   std::uint32_t awaddr_i = 0, wdata_i = 0, araddr_i = 0, rdata_o = 0;
   std::array<std::uint32_t, 6> s_tdata_i{};
   std::uint64_t m_tdata_o = 0;
+  std::uint8_t wready_o = 0, m_tkeep_o = 0;
+  std::uint32_t tap_tile_o = 0;
   std::uint8_t tap_snap_valid_o = 0, tap_sheet_valid_o = 0, tap_window_valid_o = 0, tap_composite_valid_o = 0,
                tap_sheet_done_o = 0;
   std::uint32_t tap_snap_tag_o = 0, tap_snap_x_o = 0, tap_snap_y_o = 0, tap_snap_mx_o = 0, tap_snap_my_o = 0;

@@ -20,9 +20,10 @@ target_link_libraries(verilated_runtime PUBLIC ZLIB::ZLIB Threads::Threads)
 # fastsplat_verilate(<target> <config> [ASSERT] [WAVE] [DEFINES ...] [SOURCES ...] [ARGS ...]): library <target> with class Vfs_<target>
 # and its headers. <config> names a file of configs/ or is the path of one. DEFINES and SOURCES are of the must-fail build (rtl/fault.svh); release builds have none.
 # ASSERT: checks the assertions of rtl/; WAVE: can write waveforms (half of its compile time). Without either it is fastest.
+# RTL <folder>: the source is there, generated from rtl/ (tests/mutants); QUICK: compiled rather than run quickly.
 # NETLIST <kind>: not the source but what Yosys makes of it (cmake/netlist.sh); CUT <net>: with that net tied to 0.
 function(fastsplat_verilate target config)
-  cmake_parse_arguments(arg "ASSERT;WAVE" "NETLIST;CUT" "DEFINES;SOURCES;ARGS" ${ARGN})
+  cmake_parse_arguments(arg "ASSERT;WAVE;QUICK" "NETLIST;CUT;RTL" "DEFINES;SOURCES;ARGS" ${ARGN})
   set(abilities "")
   if(arg_ASSERT)
     list(APPEND abilities --assert)
@@ -32,6 +33,19 @@ function(fastsplat_verilate target config)
   endif()
   file(GLOB RTL_SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.sv)
   file(GLOB RTL_INCLUDES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.svh)
+  set(rtl_folder ${PROJECT_SOURCE_DIR}/rtl)
+  set(warnings -Wall)
+  if(arg_RTL)
+    list(TRANSFORM RTL_SOURCES REPLACE "^.*/" "${arg_RTL}/")
+    set(RTL_INCLUDES ${arg_RTL}/mutants.json)
+    set(rtl_folder ${arg_RTL})
+    # What is wrong on purpose is not what a warning is for.
+    set(warnings -Wno-lint -Wno-fatal)
+  endif()
+  set(speed -O2)
+  if(arg_QUICK)
+    set(speed -O1)
+  endif()
   set(folder ${PROJECT_BINARY_DIR}/verilated/${target})
   set(file ${config})
   if(NOT file MATCHES "\\.toml$")
@@ -50,7 +64,6 @@ function(fastsplat_verilate target config)
     list(APPEND defines -D${define})
   endforeach()
   set(sources ${package} ${arg_SOURCES} ${RTL_SOURCES})
-  set(warnings -Wall)
   if(arg_NETLIST)
     set(sources ${folder}/netlist.v)
     # Yosys' Verilog compares and assigns across widths wherever the language lets it.
@@ -67,8 +80,8 @@ function(fastsplat_verilate target config)
   add_custom_command(
     OUTPUT ${archive} ${folder}/obj/Vfs_${target}.h
     COMMAND ${PROJECT_SOURCE_DIR}/cmake/verilate.sh ${folder}/verilator.log ${CMAKE_COMMAND} -E env OBJCACHE=${FASTSPLAT_CCACHE} ${VERILATOR} --cc --build -j 1 --quiet-exit ${warnings} -O3 --x-assign unique --x-initial unique ${abilities}
-            --prefix Vfs_${target} --top-module fastsplat_core --Mdir ${folder}/obj ${defines} ${arg_ARGS} -I${PROJECT_SOURCE_DIR}/rtl
-            -CFLAGS -std=c++20 -MAKEFLAGS OPT_FAST=-O2 -MAKEFLAGS OPT_SLOW=-O0 -MAKEFLAGS OPT_GLOBAL=-O2 ${sources}
+            --prefix Vfs_${target} --top-module fastsplat_core --Mdir ${folder}/obj ${defines} ${arg_ARGS} -I${rtl_folder}
+            -CFLAGS -std=c++20 -MAKEFLAGS OPT_FAST=${speed} -MAKEFLAGS OPT_SLOW=-O0 -MAKEFLAGS OPT_GLOBAL=${speed} ${sources}
     DEPENDS ${sources} ${RTL_INCLUDES}
     VERBATIM
     COMMENT "Verilating ${target}")

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace fastsplat::evidence {
 namespace {
@@ -102,6 +105,48 @@ std::string synthesis(const Json& designs) {
   return out;
 }
 
+/// {name: count} in words, the largest first.
+std::string counts(const Json& of) {
+  std::vector<std::pair<int, std::string>> sorted;
+  for (const auto& [name, count] : of.items()) sorted.emplace_back(-count.get<int>(), name);
+  std::sort(sorted.begin(), sorted.end());
+  std::string out;
+  for (const auto& [count, name] : sorted) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", name, -count);
+  return out;
+}
+
+int sum(const Json& of) {
+  int all = 0;
+  for (const auto& [name, count] : of.items()) all += count.get<int>();
+  return all;
+}
+
+std::string mutants(const Json& json) {
+  std::string out = fmt::format(
+      "{}.\n\n| module | mutants | killed | excluded | living | killed by | excluded because |\n"
+      "|---|---|---|---|---|---|---|\n",
+      json.at("tool").get<std::string>());
+  int all = 0, killed = 0, excluded = 0, living = 0;
+  for (const auto& [name, module] : json.at("modules").items()) {
+    const int by = sum(module.at("killed")), not_seen = sum(module.at("excluded")),
+              lives = module.at("living").get<int>();
+    out += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", name, module.at("mutants").get<int>(), by, not_seen,
+                       lives, counts(module.at("killed")), counts(module.at("excluded")));
+    all += module.at("mutants").get<int>();
+    killed += by;
+    excluded += not_seen;
+    living += lives;
+  }
+  out += fmt::format("| **all** | {} | {} | {} | {} | | |\n\n", all, killed, excluded, living);
+  out += fmt::format("Of those that can be seen, **{:.2f} %** are killed.\n\n",
+                     100.0 * killed / std::max(killed + living, 1));
+  for (const Json& one : json.at("survivors"))
+    out += fmt::format("- lives: {}, `{}`: {}, of `{}`\n", one.at("module").get<std::string>(),
+                       one.at("source").get<std::string>(), one.at("what").get<std::string>(),
+                       one.at("original").get<std::string>());
+  return out + (json.at("survivors").empty() ? "" : "\n");
+}
+
 }  // namespace
 
 std::string page(const std::filesystem::path& folder) {
@@ -118,6 +163,9 @@ std::string page(const std::filesystem::path& folder) {
     out += fmt::format("### {}\n\n", name);
     out += netlist ? figures_table(*netlist) : missing("this netlist", "./run netlist");
   }
+  out += "## Mutants\n\n";
+  const auto mutated = read(folder / "mutants.json");
+  out += mutated ? mutants(*mutated) : missing("mutants", "./run mutate --all");
   out += "## Synthesis\n\n";
   const auto designs = read(folder / "synthesis.json");
   out += designs ? synthesis(*designs) : missing("synthesis", "./run synth");

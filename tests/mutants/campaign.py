@@ -1,0 +1,86 @@
+"""Mutants through a check_mutants program, several at a time."""
+import os
+import subprocess
+import sys
+import threading
+import time
+
+
+def usage(text: str):
+    print(f"mutate: error: {text}", file=sys.stderr)
+    sys.exit(2)
+
+
+def write(path: str, text: str):
+    """Whole or not at all; nothing where it is the same already."""
+    if os.path.exists(path):
+        with open(path) as file:
+            if file.read() == text:
+                return
+    with open(path + ".new", "w") as file:
+        file.write(text)
+    os.replace(path + ".new", path)
+
+
+def name_of(mutant) -> str:
+    """As exclusions.toml has it: alone on its line, nearly always."""
+    return mutant["what"] if mutant["what"] == "dropped" else f"{mutant['what']} of {mutant['original']}"
+
+
+class Server:
+    """One process of the program; it says first that the device without a mutant lives."""
+
+    def __init__(self, binary: str, config: str):
+        self.process = subprocess.Popen(["nice", "-n", "5", binary, config], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        healthy = self.process.stdout.readline().strip()
+        if not healthy.startswith("0 lives "):
+            raise RuntimeError(f"{os.path.basename(binary)}: the device without a mutant fails: {healthy or 'nothing said'}")
+        self.comparisons = int(healthy.split()[2])
+
+    def judge(self, number: int) -> tuple[str, str]:
+        self.process.stdin.write(f"{number}\n")
+        self.process.stdin.flush()
+        line = self.process.stdout.readline().rstrip("\n").split(" ", 2)
+        if len(line) < 3 or line[0] != str(number) or line[1] not in ("killed", "lives"):
+            raise RuntimeError(f"mutant {number}: no verdict but {line}")
+        return line[1], line[2]
+
+    def close(self):
+        self.process.stdin.close()
+        self.process.wait()
+
+
+def run(binary: str, config: str, numbers: list[int], jobs: int, until=None) -> dict[int, tuple[str, str]]:
+    """{number: (killed or lives, what was said)}, without those not begun when the time was over."""
+    results, errors, left, lock = {}, [], list(numbers), threading.Lock()
+    began, shown = time.monotonic(), [0.0]
+
+    def work():
+        try:
+            server = Server(binary, config)
+            while not errors:
+                with lock:
+                    if not left or (until is not None and time.monotonic() > until):
+                        break
+                    number = left.pop(0)
+                verdict = server.judge(number)
+                with lock:
+                    results[number] = verdict
+                    if sys.stderr.isatty() and time.monotonic() - shown[0] > 0.2:
+                        shown[0] = time.monotonic()
+                        print(f"\rmutate: {len(results)} of {len(numbers)}, {time.monotonic() - began:.0f} s ", end="", file=sys.stderr, flush=True)
+            server.close()
+        except Exception as error:  # told by the thread that asked
+            errors.append(error)
+
+    threads = [threading.Thread(target=work) for _ in range(max(1, min(jobs, len(numbers))))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    if sys.stderr.isatty():
+        print("\r\033[K", end="", file=sys.stderr)
+    if errors:
+        print(f"mutate: error: {errors[0]}", file=sys.stderr)
+        sys.exit(1)
+    return dict(sorted(results.items()))

@@ -1,0 +1,224 @@
+"""mutate.py ROOT BUILD [FLAGS]: what `./run mutate` does; its flags are told by --help.
+
+Every mutant of rtl/ runs on the smallest device there can be (corners.toml) through the checks of check_mutants.cpp, cheapest
+first. What lives goes on to the must-fail configuration, to `tiny`, and to the proof of its module where there is one. A mutant that lives
+through all of it is in exclusions.toml with the reason why nobody can see it, or the campaign is red."""
+import argparse
+import collections
+import json
+import os
+import random
+import subprocess
+import sys
+import time
+
+import campaign
+import cpp_campaign
+import proofs
+from exclusions import Exclusions
+
+SAMPLE = 300
+CPP = ("cmodel", "driver")
+
+
+def say(text: str):
+    print(f"mutate: {text}", file=sys.stderr, flush=True)
+
+
+def parse(words):
+    parser = argparse.ArgumentParser(prog="./run mutate", allow_abbrev=False, description="Mutants of rtl/ against the checks: each is killed, or "
+                                     "tests/mutants/exclusions.toml says why it cannot be. Exit code 1: one lives that is not explained there, or one "
+                                     "that is explained was killed.")
+    parser.add_argument("--module", action="append", metavar="M", help="all mutants of this module (more than once: of these)")
+    parser.add_argument("--all", action="store_true", help="all mutants; what they come to is kept in docs/evidence/mutants.json")
+    parser.add_argument("--seed", type=int, default=1, metavar="S", help=f"which {SAMPLE}, without --all or --module (1)")
+    parser.add_argument("--budget", type=float, metavar="MIN", help="begin no mutant after so many minutes; what was not tried is told")
+    parser.add_argument("--jobs", type=int, default=2, metavar="N", help="mutants at the same time (2)")
+    parser.add_argument("--one", type=int, metavar="N", help="this mutant alone: what it is, and what every check says of it")
+    return parser.parse_args(words)
+
+
+def chosen(arguments, mutants):
+    if arguments.one is not None:
+        found = [m for m in mutants if m["number"] == arguments.one]
+        if not found:
+            campaign.usage(f"--one {arguments.one}: mutants have the numbers 1 to {len(mutants)}")
+        return found
+    if arguments.module:
+        known = sorted({m["module"] for m in mutants}) + ["cmodel and driver (without others)"]
+        for module in arguments.module:
+            if module not in known:
+                campaign.usage(f"--module {module}: no such module; there are {', '.join(known)}")
+        return [m for m in mutants if m["module"] in arguments.module]
+    if arguments.all:
+        return mutants
+    return sorted(random.Random(arguments.seed).sample(mutants, min(SAMPLE, len(mutants))), key=lambda m: m["number"])
+
+
+def program(root, build, name, kind="check_mutants_"):
+    say(f"building {kind}{name}")
+    if subprocess.run([f"{root}/run", "build", f"{kind}{name}"], stdout=sys.stderr).returncode != 0:
+        sys.exit(1)
+    return f"{build}/bin/{kind}{name}"
+
+
+def run_all(arguments, root, build):
+    """{number: (where, what was said)} of the killed, those that live, those not tried."""
+    until = time.monotonic() + 60 * arguments.budget if arguments.budget else None
+    if arguments.module and set(arguments.module) <= set(CPP):
+        return run_cpp(arguments, root, build, until)
+    binary = program(root, build, "corners")
+    with open(f"{build}/mutants/corners/mutants.json") as file:
+        mutants = chosen(arguments, json.load(file))
+    killed, untried = {}, []
+    living = [m["number"] for m in mutants]
+    for name, config in (("corners", "tests/mutants/corners.toml"), ("mustfail", "tests/mustfail/mustfail.toml"),
+                         ("tiny", "configs/tiny.toml")):
+        if name != "corners":
+            campaign.write(f"{build}/mutants/living.txt", "".join(f"{number}\n" for number in living))
+            binary = program(root, build, name)
+        results = campaign.run(binary, f"{root}/{config}", living, arguments.jobs, until)
+        untried += [number for number in living if number not in results]
+        for number, (verdict, said) in results.items():
+            if verdict == "killed":
+                killed[number] = (said if name == "corners" else f"{name}, {said}")
+        living = [number for number, (verdict, _) in results.items() if verdict == "lives"]
+        say(f"{name}: {len(results)} tried, {len(living)} live")
+        if not living:
+            break
+    return mutants, killed, living, untried
+
+
+def run_cpp(arguments, root, build, until):
+    """The same of C++, whose mutants are a sample that is built."""
+    mutants, killed, living, untried = [], {}, [], []
+    for n, module in enumerate(arguments.module):
+        binary = program(root, build, f"mutants_{module}", "")
+        with open(f"{build}/mutants/{module}/mutants.json") as file:
+            listed = json.load(file)
+        results = cpp_campaign.run(binary, [m["number"] for m in listed], arguments.jobs, until)
+        say(f"{module}: {len(results)} tried")
+        for mutant in listed:
+            number = mutant["number"]
+            mutant["number"] += n * 1000000  # numbers of two folders are not each other's
+            if number not in results:
+                untried.append(mutant["number"])
+            elif results[number][0] == "killed":
+                killed[mutant["number"]] = results[number][1]
+            else:
+                living.append(mutant["number"])
+        mutants += listed
+    return mutants, killed, living, untried
+
+
+def hand_to_proofs(root, build, mutants, living, exclusions):
+    """What the proofs say of those that nobody has explained."""
+    killed = {}
+    for mutant in mutants:
+        if mutant["number"] not in living or exclusions.of(mutant) or not proofs.has(mutant["module"]):
+            continue
+        say(f"{mutant['number']} goes to the proof of {mutant['module']}")
+        said = proofs.refutes(root, build, mutant)
+        if said:
+            killed[mutant["number"]] = f"proof: {said}"
+    return killed
+
+
+def told(mutant):
+    return f"{mutant['number']} {mutant.get('file', mutant['module'])}:{mutant['line']} {campaign.name_of(mutant)}\n      {mutant['source']}"
+
+
+def table(mutants, killed, living, exclusions):
+    rows = {}
+    for mutant in mutants:
+        row = rows.setdefault(mutant["module"], {"mutants": 0, "killed": collections.Counter(), "excluded": collections.Counter(), "living": 0})
+        row["mutants"] += 1
+        number = mutant["number"]
+        if number in killed:
+            row["killed"][killed[number].split(":")[0]] += 1
+        elif number in living:
+            excluded = exclusions.of(mutant)
+            if excluded:
+                row["excluded"][excluded["class"]] += 1
+            else:
+                row["living"] += 1
+    return rows
+
+
+def print_table(rows):
+    print(f"{'module':15} {'mutants':>7} {'killed':>7} {'excluded':>8} {'living':>6}  killed by")
+    total = collections.Counter()
+    for module, row in rows.items():
+        killed, excluded = sum(row["killed"].values()), sum(row["excluded"].values())
+        by = ", ".join(f"{name} {count}" for name, count in row["killed"].most_common())
+        print(f"{module:15} {row['mutants']:7} {killed:7} {excluded:8} {row['living']:6}  {by}")
+        total.update(mutants=row["mutants"], killed=killed, excluded=excluded, living=row["living"])
+    could = total["killed"] + total["living"]
+    print(f"[figure] mutants = {total['mutants']}, killed = {total['killed']}, excluded with a reason = {total['excluded']}, "
+          f"living = {total['living']} (limit 0): {100 * total['killed'] / max(could, 1):.2f} % of those that can be seen")
+
+
+def judged(mutants, killed, living, exclusions) -> bool:
+    """Says what is red: a mutant that lives unexplained, one that is explained and was killed, nothing killed at all."""
+    red = not killed
+    for mutant in mutants:
+        explained = exclusions.of(mutant)
+        if mutant["number"] in living and not explained:
+            print("LIVES: " + told(mutant))
+            red = True
+        if mutant["number"] in killed and explained:
+            print(f"EXCLUDED BUT KILLED by {killed[mutant['number']]}: " + told(mutant))
+            red = True
+    if not killed:
+        print("nothing was killed")
+    return red
+
+
+def keep(root, arguments, rows, mutants, living, exclusions):
+    path = f"{root}/docs/evidence/mutants.json"
+    kept = {"modules": {}}
+    if os.path.exists(path):
+        with open(path) as file:
+            kept = json.load(file)
+    versions = subprocess.run(["verilator", "--version"], capture_output=True, text=True).stdout.split()[:2]
+    kept["tool"] = " ".join(versions)
+    kept["modules"].update(rows)
+    kept["modules"] = dict(sorted(kept["modules"].items()))
+    gone = set(rows)
+    survivors = [s for s in kept.get("survivors", []) if s["module"] not in gone]
+    for mutant in mutants:
+        if mutant["number"] in living and not exclusions.of(mutant):
+            survivors.append({key: mutant[key] for key in ("module", "line", "source", "what", "original")})
+    kept["survivors"] = survivors
+    campaign.write(path, json.dumps(kept, indent=1) + "\n")
+    say(f"{path}; `./run evidence` makes docs/evidence.md of it")
+
+
+def main(words) -> int:
+    root, build, *rest = words
+    arguments = parse(rest)
+    exclusions = Exclusions(f"{root}/tests/mutants/exclusions.toml")
+    mutants, killed, living, untried = run_all(arguments, root, build)
+    proved = hand_to_proofs(root, build, mutants, living, exclusions)
+    killed.update(proved)
+    living = [number for number in living if number not in proved]
+    if arguments.one is not None:
+        print(told(mutants[0]))
+        print("killed by " + killed[arguments.one] if arguments.one in killed else "lives")
+        return 0
+    rows = table(mutants, killed, set(living), exclusions)
+    print_table(rows)
+    red = judged(mutants, killed, set(living), exclusions)
+    for entry in exclusions.unused(mutants) if arguments.all else []:
+        print(f"EXCLUDES NOTHING: {entry['module']}: {entry['line']}")
+        red = True
+    if untried:
+        print(f"not tried: {len(untried)} (the budget is over)")
+    campaign.write(f"{build}/mutants/killed.json", json.dumps({str(n): k for n, k in sorted(killed.items())}, indent=0))
+    if (arguments.all or arguments.module) and not untried:
+        keep(root, arguments, rows, mutants, set(living), exclusions)
+    return 1 if red else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,42 @@
+"""A mutant put to the proof of its module: rtl/ with that one mistake in it, nothing chosen at run time."""
+import os
+import re
+import shutil
+import subprocess
+
+import generate
+import systemverilog
+
+_SCRIPTS = {"sheet_bank": "prove.sh", "csr": "proofs/prove_units.sh", "pixel_out": "proofs/prove_units.sh", "narrow": "proofs/prove_units.sh"}
+
+
+def has(module: str) -> bool:
+    return module in _SCRIPTS
+
+
+def plant(rtl: str, out: str, mutant):
+    """OUT becomes RTL with the mutant in it for good."""
+    shutil.copytree(rtl, out, dirs_exist_ok=True)
+    name = f"{mutant['module']}.sv" if mutant["module"] != "narrow" else "narrow.svh"
+    mutated, _ = generate.mutate(rtl, lambda module, number: number == mutant["number"])
+    text = next(text for file, text, _ in mutated if file == name)
+    with open(f"{out}/{name}", "w") as file:
+        file.write(text.replace(systemverilog.SELECTED, str(mutant["number"])))
+
+
+def refutes(root: str, build: str, mutant):
+    """What the proof says of it, if that is no; None if it holds. A tree of links with an rtl/ of its own is what it proves."""
+    tree = f"{build}/mutants/proof_{mutant['number']}"
+    shutil.rmtree(tree, ignore_errors=True)
+    os.makedirs(f"{tree}/source")
+    for name in ("configs", "tests", "docs"):
+        os.symlink(f"{root}/{name}", f"{tree}/source/{name}")
+    plant(f"{root}/rtl", f"{tree}/source/rtl", mutant)
+    script = _SCRIPTS[mutant["module"]]
+    words = [f"{root}/tests/rtl/{script}", f"{build}/bin/fastsplat_emit_package", f"{tree}/source", f"{tree}/work"]
+    if script == "prove.sh":
+        words.append(f"{build}/generated/mustfail/fastsplat_fault_pkg.sv")
+    ran = subprocess.run(words, capture_output=True, text=True)
+    said = re.search(rf"^{mutant['module']}: not (proved.*|its definition.*)$", ran.stdout, re.M)
+    shutil.rmtree(tree, ignore_errors=True)
+    return f"{mutant['module']} is not {said.group(1)}" if said else None

@@ -1,0 +1,62 @@
+"""sample.py SOURCE BUILD: the machinery of ./run mutate, in seconds. Fixed mutants of the registers are killed, each by the check that is
+there for it; one that changes nothing lives and is red; the generator finds its mutants, and each exclusion one of them."""
+import json
+import sys
+
+import campaign
+import generate
+import mutate
+from exclusions import Exclusions
+
+FEWEST = 1400
+# (line, name, check): what once lived, and a few that anything sees.
+FIXED = [
+    ("rvalid_o <= 1'b1;", "1'b1 becomes 0 of 1'b1", "random"),
+    ("rresp_o <= OKAY;", "dropped", "random"),
+    ("rdata_o <= '0;", "dropped", "registers"),
+    ("if (!is_counter) rresp_o <= SLVERR;", "always of !is_counter", "random"),
+    ("assign write = awvalid_i && wvalid_i && !bvalid_o;", "&& becomes || of awvalid_i && wvalid_i", "registers"),
+    ("else counter_q[n] <= counter_q[n] + 64'(increments_i[16*n+:16]);", "dropped", "random"),
+]
+
+source, build = sys.argv[1:]
+failures = []
+found, after = generate.mutate(f"{source}/rtl")
+mutants = [vars(m) for _, _, listed in found for m in listed]
+print(f"[figure] mutants of rtl = {len(mutants)} (limit >= {FEWEST})")
+if len(mutants) < FEWEST or [m["number"] for m in mutants] != list(range(1, after)):
+    failures.append("too few mutants, or numbers left out")
+exclusions = Exclusions(f"{source}/tests/mutants/exclusions.toml")
+for entry in exclusions.unused(mutants):
+    failures.append(f"excludes nothing: {entry['module']}: {entry['line']}: {entry['mutants']}")
+print(f"[figure] entries of exclusions.toml = {len(exclusions.entries)}, each with a mutant")
+
+with open(f"{build}/mutants/sample/mutants.json") as file:
+    sample = json.load(file)
+planted = next(m for m in sample if m["source"] == "planted")
+chosen = {}
+for line, name, check in FIXED:
+    of = [m for m in sample if m["source"] == line and campaign.name_of(m) == name]
+    if not of:
+        failures.append(f"there is no mutant '{name}' of: {line}")
+    else:
+        chosen[of[0]["number"]] = (line, name, check)
+results = campaign.run(f"{build}/bin/check_mutants_sample", f"{source}/tests/mutants/corners.toml", [*chosen, planted["number"]], 1)
+for number, (line, name, check) in chosen.items():
+    verdict, said = results[number]
+    print(f"[figure] {name}: {verdict} {said}")
+    if verdict != "killed" or not said.startswith(check + ":"):
+        failures.append(f"{name} of '{line}': expected killed by {check}, got {verdict} {said}")
+verdict, said = results[planted["number"]]
+print(f"[figure] a mutant that changes nothing: {verdict} {said}")
+if verdict != "lives":
+    failures.append("the mutant that changes nothing is killed")
+killed = {number: said for number, (verdict, said) in results.items() if verdict == "killed"}
+print("the verdict on it:")
+if not mutate.judged([planted, *[m for m in sample if m["number"] in chosen]], killed, {planted["number"]}, exclusions):
+    failures.append("a mutant lives unexplained, and the campaign is not red")
+if mutate.judged([m for m in sample if m["number"] in chosen], killed, set(), exclusions):
+    failures.append("all are killed, and the campaign is red")
+for failure in failures:
+    print("FAILED: " + failure)
+sys.exit(1 if failures else 0)

@@ -2,16 +2,18 @@
 // the saturated sum of all products that went to it since it was last cleared, whatever the order of addresses, the gaps
 // between them and the word that a colliding read returns.
 
-// What the array promises: memories are wiped first, and the compositor touches a memory no window is on its way to.
-logic started = 1'b0, known = 1'b0, in_reset = 1'b1;
+// What the array promises (proved of the whole: proofs/core_proof.svh): memories are wiped first, each word once, before anything
+// moves, and the compositor touches a memory no window is on its way to.
+logic started = 1'b0, known = 1'b0, moved = 1'b0, in_reset = 1'b1;
 always @(posedge clk_i) begin
   started <= 1'b1;
   in_reset <= !rst_ni;
   if (!started) assume (!rst_ni);
   if (!rst_ni) known <= 1'b0;
   else if (wipe_i && wipe_addr_i == any_addr) known <= 1'b1;
-  if (!known || wipe_i) assume (!valid_i && !comp_re_i);
-  if (wipe_i) assume (!known && !comp_clear_q);
+  if (rst_ni && (!known || wipe_i)) assume (!valid_i && !comp_re_i);
+  moved <= rst_ni && (moved || valid_i || comp_re_i);
+  if (rst_ni && wipe_i) assume (!moved && !comp_clear_q && !(known && wipe_addr_i == any_addr));
 end
 always @* begin
   if (comp_re_i) begin

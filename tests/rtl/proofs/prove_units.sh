@@ -9,43 +9,16 @@ here="$source/tests/rtl/proofs"
 : >"$work/proofs.txt"
 "$emit" "$source/configs/tiny.toml" >"$work/tiny.sv"
 
-seconds() { awk -v from="$1" -v to="$(date +%s.%N)" 'BEGIN { printf "%.1f", to - from }'; }
+. "$here/common.sh"
 
-# (z3 sits still over pixel_payload_held, which compares all 256 bits; the specification says more.)
 # smt NAME MODULE PACKAGE [EDIT]: NAME.smt2 of MODULE with its specification inside; EDIT, a sed command, breaks a line of it.
 smt() {
   name=$1 module=$2 package=$3 edit=${4-}
-  awk -v spec="$here/${module}_proof.svh" '/pixel_payload_held/ { next } /^endmodule/ { while ((getline line < spec) > 0) print line } { print }' \
-    "$source/rtl/$module.sv" >"$work/$name.sv"
-  if [ -n "$edit" ]; then
-    sed "$edit" "$work/$name.sv" >"$work/$name.edited"
-    cmp -s "$work/$name.sv" "$work/$name.edited" && { echo "$name: nothing to break by $edit"; exit 1; }
-    mv "$work/$name.edited" "$work/$name.sv"
-  fi
+  with_spec "$module" "$here/${module}_proof.svh" >"$work/$name.sv"
+  [ -z "$edit" ] || broken "$work/$name.sv" "$edit"
   yosys -q -l "$work/$name.log" -p "read_verilog -sv -formal -DFORMAL -I$source/rtl $package $work/$name.sv; hierarchy -check -top $module; proc; flatten; memory_map; opt -full; async2sync; dffunmap; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2" >/dev/null 2>&1 ||
     { tail -5 "$work/$name.log"; echo "$name: Yosys fails"; exit 1; }
   grep -q 'yosys-smt2-assert' "$work/$name.smt2" || { echo "$name: nothing to prove"; exit 1; }
-}
-bmc() { # NAME MODE DEPTH
-  timeout 900 yosys-smtbmc -s z3 --unroll $2 -t "$3" --noprogress "$work/$1.smt2" >"$work/$1$2.out" 2>&1
-}
-holds() { # NAME DEPTH PROPERTY: from reset on for DEPTH cycles and, given those, for ever
-  from=$(date +%s.%N)
-  for mode in "" -i; do
-    bmc "$1" "$mode" "$2" || { tail -20 "$work/$1$mode.out"; echo "$1: not proved (${mode:-bounded}, $2)"; exit 1; }
-  done
-  echo "$3 | induction over $2 cycles | $(seconds "$from")" >>"$work/proofs.txt"
-  echo "[figure] $3: for ever, by induction over $2 cycles, $(seconds "$from") s"
-}
-happens() { # NAME DEPTH: each cover is reached
-  bmc "$1" -c "$2" || { tail -5 "$work/$1-c.out"; echo "$1: a cover is not reached within $2 cycles"; exit 1; }
-  echo "[figure] $1: covers reached = $(grep -c 'Reached cover' "$work/$1-c.out") (limit > 0)"
-  grep -q 'Reached cover' "$work/$1-c.out" || exit 1
-}
-refuted() { # NAME DEPTH
-  if bmc "$1" "" "$2"; then echo "$1: the planted fault is not found within $2 cycles"; exit 1; fi
-  grep -q 'Assert failed' "$work/$1.out" || { tail -5 "$work/$1.out"; echo "$1: fails for another reason"; exit 1; }
-  echo "[figure] planted $1: $(grep -m1 'Assert failed' "$work/$1.out" | sed 's/.*Assert failed in/assertion failed in/')"
 }
 
 # --- registers

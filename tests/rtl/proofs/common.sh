@@ -1,0 +1,73 @@
+# common.sh: what the proof scripts share; sourced by them with `source` (the repository), `work` (a folder) and `here` (this
+# one) set. A proof is a module with its specification inside, SMT of it by Yosys, and z3 (yosys-smtbmc).
+
+seconds() { awk -v from="$1" -v to="$(date +%s.%N)" 'BEGIN { printf "%.1f", to - from }'; }
+
+# with_spec MODULE SPECIFICATION: the module with the text before its end. (z3 sits still over pixel_payload_held, which
+# compares all 256 bits; pixel out's specification says more.)
+with_spec() {
+  awk -v spec="$2" '/pixel_payload_held/ { next } /^endmodule/ { while ((getline line < spec) > 0) print line } { print }' "$source/rtl/$1.sv"
+}
+# broken FILE EDIT: FILE with the sed command EDIT done, which must change it.
+broken() {
+  sed "$2" "$1" >"$1.edited"
+  cmp -s "$1" "$1.edited" && { echo "$1: nothing to break by $2"; exit 1; }
+  mv "$1.edited" "$1"
+}
+
+# package NAME=VALUE...: the package of tiny, with these values instead.
+package() {
+  cp "$work/tiny.sv" "$work/package.new"
+  for value in "$@"; do
+    grep -q "localparam int ${value%=*} =" "$work/package.new" || { echo "package: no ${value%=*}"; exit 1; }
+    sed -i "s/\(localparam int ${value%=*}\) = .*;/\1 = ${value#*=};/" "$work/package.new"
+  done
+  cat "$work/package.new"
+}
+
+# unit NAME MODULE BESIDE CUT [FILE EDIT]: NAME.smt2 of MODULE (with its specification inside) and the modules BESIDE it, the
+# modules CUT with free outputs: whatever they say. $connects ties undriven names of a specification to registers below. EDIT breaks
+# a line of the module FILE; lines of the specification with $without in them are left out.
+unit() {
+  name=$1 module=$2 beside=$3 cut=$4 file=${5-} edit=${6-}
+  free="" read=""
+  with_spec "$module" "$here/${specification:-$module}_proof.svh" | grep -v "pixel_beat_not_empty${without:+\\|$without}" >"$work/$name.sv"
+  [ "$file" != "$module" ] || broken "$work/$name.sv" "$edit"
+  for other in $beside; do
+    cp "$source/rtl/$other.sv" "$work/$name.$other.sv"
+    [ "$file" != "$other" ] || broken "$work/$name.$other.sv" "$edit"
+    read="$read $work/$name.$other.sv"
+  done
+  quiet=""
+  for other in $cut; do
+    quiet="$quiet $source/rtl/$other.sv"
+    free="$free t:$other t:*\\$other"
+  done
+  # pixel_out is proved by itself (prove_units.sh): neither its assertions nor its assumptions are read here.
+  case $beside in *pixel_out*) quiet="$quiet $work/$name.pixel_out.sv" read=$(echo "$read" | sed "s| [^ ]*\.pixel_out\.sv||") ;; esac
+  yosys -q -l "$work/$name.log" -p "read_verilog -sv -I$source/rtl $package_file $quiet; read_verilog -sv -formal -I$source/rtl $read $work/$name.sv; hierarchy -check -top $module; proc; ${free:+cutpoint $free;} flatten; ${connects-} delete -output o:*; memory_map; opt -full -purge; async2sync; dffunmap; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2" >/dev/null 2>&1 ||
+    { tail -5 "$work/$name.log"; echo "$name: Yosys fails"; exit 1; }
+  grep -q 'yosys-smt2-assert' "$work/$name.smt2" || { echo "$name: nothing to prove"; exit 1; }
+}
+
+bmc() { # NAME MODE DEPTH
+  timeout 900 yosys-smtbmc -s z3 --unroll $2 -t "$3" --noprogress "$work/$1.smt2" >"$work/$1$2.out" 2>&1
+}
+holds() { # NAME DEPTH PROPERTY: from reset on for DEPTH cycles and, given those, for ever
+  from=$(date +%s.%N)
+  for mode in "" -i; do
+    bmc "$1" "$mode" "$2" || { tail -20 "$work/$1$mode.out"; echo "$1: not proved (${mode:-bounded}, $2)"; exit 1; }
+  done
+  echo "$3 | induction over $2 cycles | $(seconds "$from")" >>"$work/proofs.txt"
+  echo "[figure] $3: for ever, by induction over $2 cycles, $(seconds "$from") s"
+}
+happens() { # NAME DEPTH: each cover is reached
+  bmc "$1" -c "$2" || { tail -5 "$work/$1-c.out"; echo "$1: a cover is not reached within $2 cycles"; exit 1; }
+  echo "[figure] $1: covers reached = $(grep -c 'Reached cover' "$work/$1-c.out") (limit > 0)"
+  grep -q 'Reached cover' "$work/$1-c.out" || exit 1
+}
+refuted() { # NAME DEPTH, or FROM:DEPTH, which looks at none of the cycles before FROM
+  if bmc "$1" "" "$2"; then echo "$1: the planted fault is not found within $2 cycles"; exit 1; fi
+  grep -q 'Assert failed' "$work/$1.out" || { tail -5 "$work/$1.out"; echo "$1: fails for another reason"; exit 1; }
+  echo "[figure] planted $1: $(grep -m1 'Assert failed' "$work/$1.out" | sed 's/.*Assert failed in/assertion failed in/')"
+}

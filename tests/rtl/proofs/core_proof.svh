@@ -1,0 +1,127 @@
+// How decode, splat path, compositor and pixel out share the sheet buffers (docs/microarchitecture.md), put inside fastsplat_core
+// by prove_control.sh: a memory has one owner at a time, which sheet_bank_proof.svh assumes; what compositor_proof.svh and
+// stream_decode_proof.svh assume of each other; and no deadlock. Data is cut off: any block may be marked, any pixel lie inside.
+// Names that nothing drives are tied to registers below by the script; stage 0 of the pipe is decode's output.
+logic f_started = 1'b0;
+always @(posedge clk_i) f_started <= 1'b1;
+always @* if (!f_started) assume (!rst_ni);
+
+logic f_beat, f_payload, f_take, f_splat, f_table, f_idle_pixel;  // of decode and pixel out
+logic [7:0] f_opcode;
+logic [31:0] f_words;
+logic [1:0] f_busy, f_full, f_state;
+logic f_buffer, f_walk;
+logic [8:0] f_valid_below, f_last_below, f_buffer_below;
+logic [5:0] f_blocks;  // in the compositor's pipe
+logic [9:0] f_valid, f_last, f_of;
+assign f_valid = {f_valid_below, window_valid};
+assign f_last = {f_last_below, window_last};
+assign f_of = {f_buffer_below, window_buffer};
+
+// The stream's grammar, over the record in decode's register: 0 in the frame, 1 in a tile, 2 in a sheet.
+logic [1:0] f_place_q;
+logic f_record, f_out;
+assign f_record = f_beat && !f_payload && !error_o;
+assign f_out = f_record && f_take;
+always @* begin
+  if (f_record) begin
+    if (f_opcode == 8'h46 || f_opcode == 8'h4C || f_opcode == 8'h54 || f_opcode == 8'h66) assume (f_place_q == 2'd0);
+    if (f_opcode == 8'h53 || f_opcode == 8'h74) assume (f_place_q == 2'd1);
+    if (f_opcode == 8'h50 || f_opcode == 8'h43 || f_opcode == 8'h73) assume (f_place_q == 2'd2);
+    if (f_opcode == 8'h4C) assume (f_words != '0);
+  end
+end
+always @(posedge clk_i) begin
+  if (f_out && f_opcode == 8'h54) f_place_q <= 2'd1;
+  if (f_out && f_opcode == 8'h53) f_place_q <= 2'd2;
+  if (f_out && f_opcode == 8'h73) f_place_q <= 2'd1;
+  if (f_out && f_opcode == 8'h74) f_place_q <= 2'd0;
+  if (!rst_ni) f_place_q <= 2'd0;
+end
+
+// Any word of the memories: wiped once, before anything moves.
+(* anyconst *) logic [fastsplat_pkg::ADDR_BITS-1:0] f_word;
+logic f_wiped_q, f_moved_q, f_cleared_q, f_cleared_of_q;
+always @* assume (32'(f_word) < fastsplat_pkg::BLOCKS);
+always @(posedge clk_i) begin
+  if (wiping_q && wipe_addr_q == f_word) f_wiped_q <= 1'b1;
+  f_cleared_q <= rst_ni && sheet_re;  // the compositor's words are cleared a cycle after the read
+  f_cleared_of_q <= sheet_buffer;
+  f_moved_q <= rst_ni && (f_moved_q || f_valid[6] || sheet_re);
+  if (!rst_ni) f_wiped_q <= 1'b0;
+end
+
+// Something moves: a beat, a window, a table word, a block, a sheet given back, pixels, the wipe.
+logic f_moves, f_fair;
+logic [4:0] f_still_q;
+localparam int F_LONGEST = 11;  // cycles between end_sheet and the first pick of its walk
+assign f_moves = wiping_q || (s_tvalid_i && s_tready_o) || f_splat || f_table || sheet_re || free || (m_tvalid_o && m_tready_i);
+assign f_fair = s_tvalid_i && m_tready_i;
+always @(posedge clk_i) f_still_q <= (!rst_ni || f_moves || !f_fair) ? '0 : f_still_q + 5'(f_still_q != '1);
+
+// Where buffer m is: open (begun), token (ended, on its way), full (with the compositor). Whose walk is next: f_turn.
+logic f_turn;
+logic [1:0] f_open, f_token, f_ended;
+assign f_turn = f_state == 2'd2 ? !f_walk : f_walk;
+always @* begin
+  for (int m = 0; m < 2; m++) begin
+    f_open[m] = f_place_q == 2'd2 && f_buffer == 1'(m);
+    f_token[m] = 1'b0;
+    for (int s = 0; s <= 9; s++) if (f_last[s] && f_of[s] == 1'(m)) f_token[m] = 1'b1;
+    f_ended[m] = f_token[m] || f_full[m];
+  end
+end
+
+always @(posedge clk_i) begin
+  if (f_started && rst_ni) begin
+    // sheet_bank_proof.svh: a memory has one owner at a time, and is wiped first.
+    for (int s = 6; s <= 9; s++) assert (!(sheet_re && f_valid[s] && f_of[s] == sheet_buffer));
+    assert (!(f_cleared_q && f_valid[6] && f_of[6] == f_cleared_of_q));
+    assert (f_wiped_q || !(f_valid[6] || sheet_re));
+    assert (!wiping_q || !(f_valid[6] || sheet_re || f_cleared_q));
+    assert (!(wiping_q && (f_moved_q || (wipe_addr_q == f_word && f_wiped_q))));
+    // compositor_proof.svh.
+    assert (!(dirty_valid && (f_full[dirty_buffer] || (done && done_buffer == dirty_buffer))));
+    assert (!done || (!f_full[done_buffer] && done_buffer == (f_full == '0 ? f_turn : !f_turn)));
+    assert (!(tile_begin || picture_re) || compositor_idle);
+    // pixel_out_proof.svh.
+    assert (!tile_end || pixel_idle);
+    // stream_decode_proof.svh.
+    assert (!free || (f_busy[free_buffer] && !f_open[free_buffer]));
+    assert (f_still_q <= 5'(F_LONGEST));  // No deadlock: while source and sink are willing something moves
+
+    // For induction. Nothing moves before all is wiped.
+    assert (wiping_q || f_wiped_q);
+    assert (32'(wipe_addr_q) < fastsplat_pkg::BLOCKS);
+    assert (!wiping_q || f_wiped_q == (wipe_addr_q > f_word));
+    assert (!wiping_q || !(f_beat || f_payload || f_busy != '0 || f_valid != '0 || f_last != '0 || f_full != '0 || f_state != '0 || f_blocks != '0 || !f_idle_pixel || f_cleared_q || f_place_q != '0));
+    // A buffer is in one place, its windows before its token.
+    assert (f_busy == (f_open | f_ended));
+    assert ((f_open & f_ended) == '0 && (f_token & f_full) == '0);
+    for (int s = 0; s <= 9; s++) begin
+      assert (!(f_valid[s] && f_last[s]));
+      for (int t = 0; t < s; t++) begin
+        assert (!(f_last[s] && f_last[t] && f_of[s] == f_of[t]));
+        assert (!(f_last[s] && f_valid[t] && f_of[s] == f_of[t]));
+        // Sheets end in turn.
+        assert (!(f_last[s] && f_last[t]) || f_of[s] == f_turn);
+      end
+      assert (!f_valid[s] || (f_busy[f_of[s]] && !f_full[f_of[s]]));
+    end
+    assert (f_ended != '0 || f_buffer == f_turn);
+    assert (f_ended == '0 || f_ended[f_turn]);
+    assert (f_ended == '0 || f_ended == 2'b11 || f_buffer != f_turn);
+    assert (f_ended != 2'b11 || f_buffer == f_turn);
+    assert (f_full == '0 || f_full[f_turn]);
+    // The compositor.
+    assert (f_state != 2'd3 && (f_state != 2'd1 || f_full[f_walk]));
+    assert (!(f_cleared_q && f_valid[0] && f_of[0] == f_cleared_of_q && !f_full[f_cleared_of_q]));
+    // Tiles.
+    assert (tile_open == (f_place_q != '0));
+    assert (f_place_q != 2'd3 && (f_place_q != '0 || f_busy == '0));
+    assert (!!f_idle_pixel || (f_place_q == '0 && f_busy == '0 && f_state == '0 && f_blocks == '0));
+    assert (!f_payload || f_place_q == '0);
+    cover (f_still_q == 5'(F_LONGEST));
+    cover (sheet_re && f_valid[9]);
+  end
+end

@@ -1,0 +1,35 @@
+#!/bin/sh
+# prove_bounds.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR: what slab opacity and compositing make of any word stays within its bounds
+# (NAME_proof.svh), in every mode and for ever, by induction, with Yosys and z3; planted faults are noticed. Leaves
+# WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS, one a line.
+set -eu
+emit=$1 source=$2 work=$3
+mkdir -p "$work"
+here="$source/tests/rtl/proofs"
+. "$here/common.sh"
+: >"$work/proofs.txt"
+"$emit" "$source/configs/tiny.toml" >"$work/tiny.sv"
+
+# --- slab opacity: tiny's own words, of 11 bits; the factor table may hold what a stream may load
+package_file="$work/tiny.sv"
+slab() { unit "$1" slab_opacity "" ram_1r1w "${2:+slab_opacity}" "${2-}"; }
+slab slab_opacity
+holds slab_opacity 2 "slab_opacity: factor between its segment's ends, colour and opacity in 0..1 and half a unit off at most, sums as they are; words of 11 bits"
+happens slab_opacity 6
+slab_broken() { slab "slab_opacity_$1" "$2"; refuted "slab_opacity_$1" 6; }
+slab_broken factor_rises 's/factor_k3_q <= segment_k2\[2\*FB-1:FB\] - FB/factor_k3_q <= segment_k2[2*FB-1:FB] + FB/'
+slab_broken sums_counted_as_cut "s/slab_o\[c\*DB+:DB\]} <= {1'b0, DB'(sum_k3_q)};/slab_o[c*DB+:DB]} <= {1'b1, DB'(sum_k3_q)};/"
+slab_broken opacity_not_scaled 's/(c == 3) ? narrow_added_opacity(sum_k3_q) :/(c == 3) ? {1'"'"'b0, TB'"'"'(sum_k3_q)} :/'
+
+# --- compositing: words of 7 bits, for z3 has to reason about products
+package_file="$work/composite_pkg.sv"
+package STATE_BITS=7 TRANS_BITS=7 SHEET_BITS=7 TRANS_FRAC=6 SHIFT_LIGHT=6 SHIFT_ABSORBED=6 >"$package_file"
+composite() { unit "$1" composite_lane "" "" "${2:+composite_lane}" "${2-}"; }
+composite composite_lane
+holds composite_lane 2 "composite_lane: transmittance in 0..1, never rises or wraps; colour never falls, gains T at most; frozen pixels stay; sums saturate; words of 7 bits"
+happens composite_lane 6
+composite_broken() { composite "composite_lane_$1" "$2"; refuted "composite_lane_$1" 6; }
+composite_broken transmittance_rises "s/{1'b0, state_k5_q - light_k5_q}/{1'b0, state_k5_q + light_k5_q}/"
+composite_broken frozen_too_late "s/transmittance < TB'(fastsplat_pkg::FREEZE_BELOW)/transmittance <= TB'(fastsplat_pkg::FREEZE_BELOW)/"
+composite_broken light_of_the_state 's/narrow_light((2 \* TB).(transmittance) \* (2 \* TB).(slab_i\[c\*DB+:TB\]))/narrow_light((2 * TB)'"'"'(state_i[c*DB+:TB]) * (2 * TB)'"'"'(slab_i[c*DB+:TB]))/'
+composite_broken frozen_moves "s/else if (frozen_k5_q) {saturated_o\[c\], state_o/else if (frozen_k5_q \&\& c != 3) {saturated_o[c], state_o/"

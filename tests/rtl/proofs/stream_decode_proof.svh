@@ -1,0 +1,234 @@
+// What decode makes of a stream (docs/microarchitecture.md, "Stream side"; docs/stream.md), written again from the pages and put
+// inside stream_decode by prove_control.sh: no beat lost, doubled or out of order, each record's time in the register, every
+// window of a splat once, every word of a table where it belongs.
+logic f_started = 1'b0;
+always @(posedge clk_i) f_started <= 1'b1;
+always @* if (!f_started) assume (!rst_ni);
+
+// The beat in the register.
+logic f_have_q;
+logic [191:0] f_beat_q;
+logic f_done;
+always @(posedge clk_i) begin
+  if (valid_i && ready_o) begin
+    f_have_q <= 1'b1;
+    f_beat_q <= data_i;
+  end else if (f_done) f_have_q <= 1'b0;
+  if (!rst_ni) f_have_q <= 1'b0;
+end
+logic [7:0] f_opcode;
+assign f_opcode = f_beat_q[7:0];
+
+// The stream's grammar: 0 in the frame, 1 in a tile, 2 in a sheet. A table's words are payload.
+logic [1:0] f_place_q;
+logic [31:0] f_left_q;      // words of the table to come
+logic [31:0] f_index_q;     // of the next one
+logic [7:0] f_table_q;
+logic [COL-1:0] f_base_q, f_padded_q;
+logic f_error_q, f_begin_right, f_known;
+assign f_begin_right = f_beat_q[63:32] == 32'h31535346 && f_beat_q[31:16] == 16'd1 &&
+                       f_beat_q[127:64] == {fastsplat_pkg::HASH_HIGH, fastsplat_pkg::HASH_LOW};
+assign f_known = f_opcode == 8'h46 ? f_begin_right :
+                 f_opcode == 8'h4C || f_opcode == 8'h54 || f_opcode == 8'h53 || f_opcode == 8'h50 || f_opcode == 8'h43 ||
+                 f_opcode == 8'h73 || f_opcode == 8'h74 || f_opcode == 8'h66;
+// Ea of a radius set with the radius rho, in words of COL bits: 2 rho / K rounded up to pixels, then to windows.
+function automatic logic [COL-1:0] f_padded(input logic [fastsplat_pkg::RHO_BITS-1:0] rho);
+  f_padded = COL'(((32'(rho) * 32'd2 + 32'(fastsplat_pkg::PHASES - 1)) / 32'(fastsplat_pkg::PHASES) + 32'(P - 1)) / 32'(P) * 32'(P));
+endfunction
+// A set's columns lie in the RLUT.
+localparam logic [fastsplat_pkg::RHO_BITS-1:0] F_RHO = fastsplat_pkg::RHO_BITS'(fastsplat_pkg::RLUT_COLUMNS * fastsplat_pkg::PHASES / 2);
+always @* begin
+  if (f_have_q && !f_error_q && f_left_q == '0) begin
+    if (f_opcode == 8'h46 || f_opcode == 8'h4C || f_opcode == 8'h54 || f_opcode == 8'h66) assume (f_place_q == 2'd0);
+    if (f_opcode == 8'h53 || f_opcode == 8'h74) assume (f_place_q == 2'd1);
+    if (f_opcode == 8'h50 || f_opcode == 8'h43 || f_opcode == 8'h73) assume (f_place_q == 2'd2);
+    if (f_opcode == 8'h4C) begin
+      assume (f_beat_q[127:96] != '0 && f_beat_q[15:8] <= 8'd2);
+      if (f_beat_q[15:8] == 8'd0) begin
+        assume (f_beat_q[63:32] < fastsplat_pkg::RLUT_SETS && f_beat_q[64+:fastsplat_pkg::RHO_BITS] != '0);
+        assume (f_beat_q[64+:fastsplat_pkg::RHO_BITS] <= F_RHO);
+        assume (f_beat_q[127:96] == 32'(f_padded(f_beat_q[64+:fastsplat_pkg::RHO_BITS])) * 32'(fastsplat_pkg::PHASES));
+      end
+    end
+    if (f_opcode == 8'h50) assume (f_beat_q[15:8] < fastsplat_pkg::RLUT_SETS && f_loaded_q[f_beat_q[8+:fastsplat_pkg::SET_BITS]]);
+  end
+end
+
+// Radius sets.
+logic [fastsplat_pkg::RLUT_SETS-1:0] f_loaded_q;
+logic [fastsplat_pkg::RHO_BITS-1:0] f_rho_q[0:fastsplat_pkg::RLUT_SETS-1];
+logic [COL-1:0] f_first_q[0:fastsplat_pkg::RLUT_SETS-1];
+
+// Time in the register: what a beat still needs, this cycle included.
+logic f_payload, f_splat, f_waits;
+logic [2:0] f_word_q;  // of the beat
+logic [COL-1:0] f_x_q, f_y_q, f_ea;  // the window that is due
+logic f_last_x, f_last_y;
+assign f_ea = f_padded(f_rho_q[f_beat_q[8+:fastsplat_pkg::SET_BITS]]);
+assign f_payload = f_left_q != '0;
+assign f_splat = f_have_q && !f_error_q && !f_payload && f_opcode == 8'h50;
+assign f_last_x = f_x_q + COL'(P) == f_ea;
+assign f_last_y = f_y_q + COL'(P) == f_ea;
+logic [1:0] f_busy_q;
+logic f_buffer_q;
+assign f_waits = f_opcode == 8'h53 ? f_busy_q[f_buffer_q] :
+                 (f_opcode == 8'h54 || f_opcode == 8'h74) && !(tile_idle_i && f_busy_q == 2'd0);
+assign f_done = f_have_q && (f_error_q || (f_payload ? f_left_q == 32'd1 || f_word_q == 3'd5 :
+                                           f_splat ? f_last_x && f_last_y : !f_waits));
+
+// Any window of the splat: how often it was issued.
+(* anyconst *) logic [COL-1:0] f_any_x, f_any_y;
+logic [1:0] f_seen_q, f_seen;
+assign f_seen = f_seen_q + 2'(f_splat && f_x_q == f_any_x && f_y_q == f_any_y);
+
+always @(posedge clk_i) begin
+  if (f_have_q && !f_error_q) begin
+    if (f_payload) begin
+      f_left_q <= f_left_q - 32'd1;
+      f_index_q <= f_index_q + 32'd1;
+      f_word_q <= f_word_q == 3'd5 || f_left_q == 32'd1 ? 3'd0 : f_word_q + 3'd1;
+    end else if (f_done) begin
+      if (!f_known) f_error_q <= 1'b1;
+      case (f_opcode)
+        8'h4C: begin
+          f_left_q <= f_beat_q[127:96];
+          f_index_q <= '0;
+          f_word_q <= '0;
+          f_table_q <= f_beat_q[15:8];
+          f_base_q <= f_beat_q[128+:COL];
+          f_padded_q <= f_padded(f_beat_q[64+:fastsplat_pkg::RHO_BITS]);
+          if (f_beat_q[15:8] == 8'd0) begin
+            f_loaded_q[f_beat_q[32+:fastsplat_pkg::SET_BITS]] <= 1'b1;
+            f_rho_q[f_beat_q[32+:fastsplat_pkg::SET_BITS]] <= f_beat_q[64+:fastsplat_pkg::RHO_BITS];
+            f_first_q[f_beat_q[32+:fastsplat_pkg::SET_BITS]] <= f_beat_q[128+:COL];
+          end
+        end
+        8'h54: f_place_q <= 2'd1;
+        8'h53: f_place_q <= 2'd2;
+        8'h73: f_place_q <= 2'd1;
+        8'h74: f_place_q <= 2'd0;
+        default: ;
+      endcase
+    end
+    if (f_splat) begin
+      f_x_q <= f_last_x ? '0 : f_x_q + COL'(P);
+      if (f_last_x) f_y_q <= f_last_y ? '0 : f_y_q + COL'(P);
+      f_seen_q <= f_done ? 2'd0 : f_seen;
+    end
+  end
+  // Buffers: taken in turn, given back by the compositor.
+  if (free_i) f_busy_q[free_buffer_i] <= 1'b0;
+  if (f_done && !f_error_q && !f_payload && f_opcode == 8'h53) f_busy_q[f_buffer_q] <= 1'b1;
+  if (f_done && !f_error_q && !f_payload && f_opcode == 8'h73) f_buffer_q <= !f_buffer_q;
+  if (!rst_ni) begin
+    f_place_q <= '0;
+    f_left_q <= '0;
+    f_error_q <= 1'b0;
+    f_x_q <= '0;
+    f_y_q <= '0;
+    f_seen_q <= '0;
+    f_busy_q <= '0;
+    f_buffer_q <= 1'b0;
+    f_loaded_q <= '0;
+  end
+end
+// Once memories are wiped they stay so until reset; and what comes back was out, and the open sheet's buffer does not: prove_control.sh, core.
+logic f_wiped_q;
+always @(posedge clk_i) f_wiped_q <= rst_ni && enable_i;
+always @* begin
+  if (f_wiped_q && rst_ni) assume (enable_i);
+  if (free_i) assume (f_busy_q[free_buffer_i] && !(f_place_q == 2'd2 && free_buffer_i == f_buffer_q));
+end
+
+// A window a cycle after its issue.
+logic f_was_splat_q, f_was_end_q, f_was_buffer_q;
+logic [COL-1:0] f_was_x_q, f_was_y_q, f_was_first_q;
+logic [fastsplat_pkg::RHO_BITS-1:0] f_was_rho_q;
+logic [191:0] f_was_q;
+always @(posedge clk_i) begin
+  f_was_splat_q <= f_splat && rst_ni;
+  f_was_end_q <= f_done && !f_error_q && !f_payload && f_opcode == 8'h73 && rst_ni;
+  f_was_buffer_q <= f_buffer_q;
+  f_was_rho_q <= f_rho_q[f_beat_q[8+:fastsplat_pkg::SET_BITS]];
+  f_was_first_q <= f_first_q[f_beat_q[8+:fastsplat_pkg::SET_BITS]];
+  f_was_x_q <= f_x_q;
+  f_was_y_q <= f_y_q;
+  f_was_q <= f_beat_q;
+end
+
+logic f_now;  // outside reset
+assign f_now = f_started && rst_ni;
+always @(posedge clk_i) begin
+  if (f_now) begin
+    // Beats: taken in order, each carried out once, after its time.
+    assert (ready_o == (enable_i && (!f_have_q || f_done)));
+    assert (beat_valid_q == f_have_q);
+    assert (!f_have_q || beat_q == f_beat_q);
+    assert (tile_begin_o == (f_done && !f_error_q && !f_payload && f_opcode == 8'h54));
+    assert (tile_end_o == (f_done && !f_error_q && !f_payload && f_opcode == 8'h74));
+    assert (event_splat_o == (f_done && f_splat));
+    assert (event_cull_o == (f_done && !f_error_q && !f_payload && f_opcode == 8'h43));
+    assert (error_o == f_error_q);
+    assert (tile_open_o == (f_place_q != 2'd0));
+    // Windows.
+    assert (window_valid_o == f_was_splat_q);
+    assert (window_last_o == f_was_end_q);
+    if (window_valid_o || window_last_o) assert (window_buffer_o == f_was_buffer_q);
+    if (window_valid_o) begin
+      assert (window_column_o == f_was_x_q && window_row_o == f_was_y_q);
+      assert (window_first_o == (f_was_x_q == '0 && f_was_y_q == '0));
+      assert (window_tag_o == f_was_q[63:32]);
+      assert (window_x_o == f_was_q[64+:fastsplat_pkg::POS_BITS] && window_y_o == f_was_q[96+:fastsplat_pkg::POS_BITS]);
+      assert (window_colour_o == {f_was_q[176+:CB], f_was_q[160+:CB], f_was_q[144+:CB], f_was_q[128+:CB]});
+      assert (window_rho_o == f_was_rho_q && window_base_o == f_was_first_q);
+    end
+    // Each window of a splat once.
+    if (f_done && f_splat && f_any_x < f_ea && f_any_y < f_ea && f_any_x % COL'(P) == '0 && f_any_y % COL'(P) == '0)
+      assert (f_seen == 2'd1);
+    // Table words.
+    assert (rlut_we_o == (f_have_q && f_payload && !f_error_q && f_table_q == 8'd0));
+    assert (radial_we_o == (f_have_q && f_payload && !f_error_q && f_table_q == 8'd1));
+    assert (factor_we_o == (f_have_q && f_payload && !f_error_q && f_table_q == 8'd2));
+    if (rlut_we_o || radial_we_o || factor_we_o) begin
+      assert (table_index_o == f_index_q);
+      assert (table_word_o == f_beat_q[32*f_word_q+:32]);
+    end
+    if (rlut_we_o) begin
+      assert (32'(rlut_wphase_o) * 32'(f_padded_q) + 32'(table_column_q) == f_index_q && table_column_q < f_padded_q);
+      assert (rlut_wcolumn_o == f_base_q + table_column_q);
+    end
+
+    // For induction: the registers of decode and of the specification say the same.
+    assert (payload_q == f_payload);
+    if (f_payload) begin
+      assert (!f_error_q && f_place_q == 2'd0);
+      assert (index_q == f_index_q && words_q - index_q == f_left_q && word_in_beat_q == f_word_q);
+      assert (table_q == f_table_q && f_table_q <= 8'd2 && f_word_q <= 3'd5);
+      assert (table_base_q == f_base_q && table_extent_q == f_padded_q);
+      if (f_table_q == 8'd0) begin
+        assert (f_padded_q != '0 && f_padded_q <= COL'(fastsplat_pkg::RLUT_COLUMNS) && table_column_q < f_padded_q);
+        assert (32'(table_phase_q) * 32'(f_padded_q) + 32'(table_column_q) == f_index_q);
+        assert (f_left_q + f_index_q == 32'(f_padded_q) * 32'(fastsplat_pkg::PHASES));
+      end
+    end
+    if (!enable_i) assert (!f_have_q);
+    assert (busy_q == f_busy_q && buffer_q == f_buffer_q);
+    assert (column_q == f_x_q && row_q == f_y_q);
+    if (f_place_q == 2'd2) assert (f_busy_q[f_buffer_q]);
+    for (int n = 0; n < fastsplat_pkg::RLUT_SETS; n++)
+      if (f_loaded_q[n]) begin
+        assert (rho_q[n] == f_rho_q[n] && base_q[n] == f_first_q[n] && extent_q[n] == f_padded(f_rho_q[n]));
+        assert (f_rho_q[n] != '0 && f_rho_q[n] <= F_RHO);
+      end
+    if (f_x_q != '0 || f_y_q != '0) assert (f_splat);
+    if (f_splat) begin
+      assert (f_x_q < f_ea && f_y_q < f_ea && f_x_q % COL'(P) == '0 && f_y_q % COL'(P) == '0);
+      if (f_any_x < f_ea && f_any_y < f_ea && f_any_x % COL'(P) == '0 && f_any_y % COL'(P) == '0)
+        assert (f_seen_q == 2'(f_any_y < f_y_q || (f_any_y == f_y_q && f_any_x < f_x_q)));
+    end
+    if (!f_splat) assert (f_seen_q == '0);
+    cover (f_done && f_splat && f_x_q == COL'(P) && f_y_q == COL'(P));
+    cover (f_have_q && f_opcode == 8'h53 && !f_payload && f_waits && f_busy_q == 2'b11);
+    cover (f_done && f_payload && f_index_q == 32'd7);
+  end
+end

@@ -69,3 +69,4 @@ holds core 15 "$core_shares; something moves within 12 cycles"
 happens core 24
 core_broken() { core "core_$1" "$2" "$3"; refuted "core_$1" "$4"; }
 core_broken early_swap splat_array 's/: last_q\[9\];/: last_q[6];/; s/: buffer_q\[9\];/: buffer_q[6];/' 15:20
+core_broken waits_for_both compositor "s/StIdle: if (full_q\[walk_buffer_q\]) state_q <= StWalk;/StIdle: if (full_q == 2'b11) state_q <= StWalk;/" 21:23

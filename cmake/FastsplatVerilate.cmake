@@ -35,12 +35,17 @@ function(fastsplat_verilate target config)
   file(GLOB RTL_INCLUDES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.svh)
   set(rtl_folder ${PROJECT_SOURCE_DIR}/rtl)
   set(warnings -Wall)
+  set(optimise -O2)
   if(arg_RTL)
     list(TRANSFORM RTL_SOURCES REPLACE "^.*/" "${arg_RTL}/")
     set(RTL_INCLUDES ${arg_RTL}/mutants.json)
     set(rtl_folder ${arg_RTL})
     # What is wrong on purpose is not what a warning is for.
     set(warnings -Wno-lint -Wno-fatal)
+    # Cells are half a million lines of C++, simulated for seconds.
+    if(arg_NETLIST STREQUAL "ice40")
+      set(optimise -O0)
+    endif()
   endif()
   set(speed -O2)
   if(arg_QUICK)
@@ -68,6 +73,10 @@ function(fastsplat_verilate target config)
     set(sources ${folder}/netlist.v)
     # Yosys' Verilog compares and assigns across widths wherever the language lets it.
     set(warnings -Wno-lint -Wno-fatal)
+    # Cells are half a million lines of C++, simulated for seconds.
+    if(arg_NETLIST STREQUAL "ice40")
+      set(optimise -O0)
+    endif()
     set(netlist_script ${PROJECT_SOURCE_DIR}/cmake/netlist.sh)
     add_custom_command(
       OUTPUT ${sources}

@@ -1,14 +1,29 @@
 #!/bin/sh
-# netlist.sh KIND RTL_DIR PACKAGE OUT [NET]: the device as Yosys understands it, as one Verilog module with the same ports.
+# netlist.sh KIND RTL_DIR PACKAGE OUT [NET]: the device as Yosys understands it, as one Verilog file with the same ports.
 #   rtl    read, elaborated, flattened, optimised; memories stay memories
-#   ice40  mapped to iCE40 cells, with Yosys' own models of them behind
+#   ice40  mapped to iCE40 cells (hierarchy kept), each cell then written as what Yosys' own model of it says: the table of a LUT, a
+#          carry, a register; block RAMs stay modules. Registers hold anything at power-up, as in rtl/.
 # NET (of kind rtl) is tied to 0: a netlist that is wrong.
 set -eu
 kind=$1 rtl=$2 package=$3 out=$4 net=${5-}
 log=$out.log
+map=$out.map
+cells="$(dirname "$(command -v yosys)")/../share/yosys/ice40/cells_sim.v"
+# The models of the modules that PATTERN names; without ports' defaults and first values of registers.
+models() {
+  for value in 0 1 'V(v)'; do printf '`define ICE40_DEFAULT_ASSIGNMENT_%s\n' "$value"; done
+  awk -v pattern="^module $1" '/^\(\*/ { next } $0 ~ pattern { on = 1 } /`SB_DFF_INIT/ { next } on { print } /^endmodule/ { on = 0 }' "$cells"
+}
 case $kind in
   rtl) passes="proc; flatten; opt; memory -nomap; opt_clean" ;;
-  ice40) passes="synth_ice40 -noflatten -top fastsplat_core" ;;
+  ice40)
+    {
+      printf 'module SB_LUT4 (output O, input I0, I1, I2, I3);\n  parameter [15:0] LUT_INIT = 0;\n'
+      printf '  \\$lut #(.WIDTH(4), .LUT(LUT_INIT)) lut (.A({I3, I2, I1, I0}), .Y(O));\nendmodule\n'
+      models 'SB_(CARRY|DFF)'
+    } >"$map"
+    # A net is a bit of its own: a carry chain along a vector would be a circle to Verilator.
+    passes="synth_ice40 -noflatten -top fastsplat_core; techmap -autoproc -map $map; opt_clean; splitnets; opt_clean" ;;
   *) echo "netlist.sh: unknown kind $kind (rtl, ice40)" >&2; exit 2 ;;
 esac
 yosys -q -l "$log" -p "read_verilog -sv -I$rtl $package $rtl/*.sv; hierarchy -check -top fastsplat_core; $passes; write_verilog -noattr $out.new" >/dev/null 2>&1 ||
@@ -20,6 +35,6 @@ if [ -n "$net" ]; then
   mv -- "$out.cut" "$out.new"
 fi
 if [ "$kind" = ice40 ]; then
-  { echo '`define NO_ICE40_DEFAULT_ASSIGNMENTS'; cat "$(dirname "$(command -v yosys)")/../share/yosys/ice40/cells_sim.v"; } >>"$out.new"
+  models 'SB_RAM40_4K \(' >>"$out.new"
 fi
 mv -- "$out.new" "$out"

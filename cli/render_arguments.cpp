@@ -13,6 +13,7 @@ void declare(Options& options, RenderArguments& to) {
   options.values([] { return std::vector<std::string>{"golden", "cmodel", "rtl"}; });
   declare(options, to.config, "cmodel, rtl: hardware configuration, a name or a TOML file (default base)");
   options.flag("--check", to.check, "rtl: compares every tap, pixel and counter with the model (exit 1)");
+  declare(options, to.wave);
   options.flag(
       "--plain", to.plain,
       "golden, cmodel: drawn as it is written down (cmodel: by the unit that the RTL is held to), not the fast way; "

@@ -8,6 +8,7 @@
 #include "cli/common.hpp"
 #include "cli/config_flags.hpp"
 #include "cli/scene_flags.hpp"
+#include "cli/wave_flags.hpp"
 
 namespace fastsplat::cli {
 
@@ -19,6 +20,7 @@ struct RenderArguments {
   std::vector<std::string> out;
   std::string raw;         ///< raw device words as EXR; empty for none
   std::string save_scene;  ///< where to write the scene as TOML; empty for none
+  WaveFlags wave;          ///< rtl
   bool check = false;      ///< rtl: compares every tap with the model
   bool plain = false;      ///< golden, cmodel: drawn as it is written down, not the fast way
   // An animation; its names in `out` and `raw` hold a run of '#' for the frame's number.

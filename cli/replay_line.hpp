@@ -9,8 +9,9 @@
 
 namespace fastsplat::cli {
 
-/// `fastsplat verify --stream ... --config ... [--set ...] --ready ... --seed ...`, quoted as a shell reads it back.
+/// `fastsplat verify --stream ... --config ... [--set ...] --ready ... --seed ... [--fault ...]`, quoted as a shell
+/// reads it back.
 std::string replay_line(const std::filesystem::path& stream, const ConfigFlags& config,
-                        const testbench::VerifyOptions& options);
+                        const testbench::VerifyOptions& options, const std::string& fault = {});
 
 }  // namespace fastsplat::cli

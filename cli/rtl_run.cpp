@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "driver/compile.hpp"
 #include "driver/run_device.hpp"
 
 namespace fastsplat::cli {
@@ -36,6 +37,7 @@ driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config&
   run.emplace();
   return driver::run_device(scene, config, device, options, [&](cmodel::Device& finished) {
     run->stalls = rtl->cycle_counters();
+    run->last_cycle = rtl->cycles();
     if (checking == Checking::Off) return;
     run->check = dynamic_cast<const testbench::CheckedDevice&>(finished).report();
     if (run->check->first) {
@@ -55,6 +57,15 @@ nlohmann::ordered_json by_tap_json(const testbench::CheckReport& check) {
   for (int tap = 0; tap < cmodel::kTapCount; ++tap)
     json[cmodel::to_string(static_cast<cmodel::Tap>(tap))] = check.by_tap[static_cast<std::size_t>(tap)];
   return json;
+}
+
+Wave write_wave(const WaveFlags& flags, const scene::Scene& scene, const cmodel::Config& config, const RtlRun& run) {
+  if (flags.file.empty()) return {};
+  const driver::CompiledFrame compiled(scene, config);
+  testbench::VerifyOptions options;
+  options.config = config;
+  return write_wave(
+      flags, [&](const cmodel::BeatSink& sink) { compiled.emit(sink); }, std::move(options), run.last_cycle);
 }
 
 std::string to_text(const RtlRun& run) {

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "cli/output.hpp"
+#include "cli/wave_flags.hpp"
 #include "driver/render.hpp"
 #include "testbench/check/verify.hpp"
 
@@ -18,13 +19,17 @@ enum class Checking { Off, EveryTap };
 struct RtlRun {
   cmodel::StallCounters stalls;
   std::optional<testbench::CheckReport> check;
-  std::string difference;  ///< first one, in words
+  std::string difference;        ///< first one, in words
+  std::uint64_t last_cycle = 0;  ///< after reset, at the end of the run
 
   ExitCode exit_code() const;
 };
 
 driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config& config,
                                 const driver::RenderOptions& options, Checking checking, std::optional<RtlRun>& run);
+
+/// The waveform of such a frame.
+Wave write_wave(const WaveFlags& flags, const scene::Scene& scene, const cmodel::Config& config, const RtlRun& run);
 
 std::string to_text(const RtlRun& run);
 /// Keys for the JSON of a verb.

@@ -7,10 +7,11 @@ namespace fastsplat::driver {
 
 struct BuiltinConfig {
   const char* name;
+  bool listed;  ///< no: for tests and faults only (configs/faults)
   const char* text;
 };
 
-/// `base` first, then by name.
+/// `base` first, then by name; those that are not listed last.
 std::span<const BuiltinConfig> builtin_configs();
 
 }  // namespace fastsplat::driver

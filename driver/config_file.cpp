@@ -54,13 +54,16 @@ std::string to_toml(const cmodel::Config& config) {
 
 std::vector<std::string> config_names() {
   std::vector<std::string> names;
-  for (const auto& builtin : builtin_configs()) names.emplace_back(builtin.name);
+  for (const auto& builtin : builtin_configs())
+    if (builtin.listed) names.emplace_back(builtin.name);
   return names;
 }
 
 cmodel::Config load_config(const std::string& name_or_path) {
   for (const auto& builtin : builtin_configs()) {
-    if (name_or_path == builtin.name) return parse_config(fmt::format("configs/{}.toml", builtin.name), builtin.text);
+    if (name_or_path == builtin.name)
+      return parse_config(fmt::format("configs/{}{}.toml", builtin.listed ? "" : "faults/", builtin.name),
+                          builtin.text);
   }
   const std::filesystem::path path(name_or_path);
   const auto names = config_names();

@@ -26,7 +26,8 @@ std::vector<StepOfKind> steps_of(const std::string& kind) {
 }
 
 bool is_given_by_run(const std::string& flag) {
-  constexpr const char* kGiven[] = {"json", "quiet", "threads", "out", "coverage", "failure", "set"};
+  constexpr const char* kGiven[] = {"json",    "quiet", "threads", "jobs",        "out", "coverage",
+                                    "failure", "junit", "wave",    "save-stream", "set"};
   return std::ranges::find(kGiven, flag) != std::end(kGiven);
 }
 

@@ -60,7 +60,7 @@ Verdict compare(const Figures& f) {
   return {Status::Fail, failed.empty() ? "a limit failed" : failed};
 }
 
-Verdict verify(const Figures& f) {
+Verdict verify_unplanted(const Figures& f) {
   const std::string verdict = f.text("verdict");
   const std::string of =
       fmt::format("{} of configuration {}", counted(f.count("comparisons"), "comparison"), f.text("config"));
@@ -70,7 +70,17 @@ Verdict verify(const Figures& f) {
   if (verdict == "mismatch")
     return {Status::Fail, fmt::format("RTL and model differ {} times in {}", grouped(f.count("mismatches")), of)};
   if (verdict == "nothing compared") return {Status::Fail, "nothing was compared, which proves nothing: " + of};
+  if (verdict == "fault not seen") return {Status::Fail, "the planted fault was not seen: " + of + ", no difference"};
   return {Status::Error, fmt::format("the simulated device failed ({}) after {}", verdict, of)};
+}
+
+/// Of a device that was broken on purpose, that it was.
+Verdict verify(const Figures& f) {
+  Verdict verdict = verify_unplanted(f);
+  if (f.find("planted_fault") != nullptr)
+    verdict.sentence = fmt::format("planted fault {} ({}): {}", f.text("planted_fault/name"),
+                                   f.text("planted_fault/meaning"), verdict.sentence);
+  return verdict;
 }
 
 Verdict render(const Figures& f) {

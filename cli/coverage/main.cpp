@@ -41,7 +41,7 @@ constexpr Run kRuns[] = {{"tiny", {.splats = 36000, .seeds = 18, .resets = 480},
                          {"base", {.splats = 7200, .seeds = 24, .resets = 180}, true}};
 
 cmodel::Config load(const std::string& name) {
-  const auto own = kSource / "tests" / "mustfail" / (name + ".toml");
+  const auto own = kSource / "configs" / "faults" / (name + ".toml");
   return driver::load_config(std::filesystem::exists(own) ? own.string() : name);
 }
 

@@ -22,7 +22,8 @@ using Json = nlohmann::ordered_json;
 
 // Everything about the flags that can be wrong without reading a file.
 void check(const RenderArguments& arguments, Engine engine) {
-  if (arguments.out.empty() && arguments.raw.empty() && arguments.common.json.empty() && arguments.save_scene.empty()) {
+  if (arguments.out.empty() && arguments.raw.empty() && arguments.common.json.empty() && arguments.save_scene.empty() &&
+      arguments.wave.file.empty()) {
     throw_usage({.where = {},
                  .what = "nothing to write",
                  .expected = {},
@@ -52,6 +53,14 @@ void check(const RenderArguments& arguments, Engine engine) {
                  .got = {},
                  .fix = "add --engine rtl; `fastsplat compare` compares two images"});
   }
+  range_of(arguments.wave);
+  if (engine != Engine::Rtl && !arguments.wave.file.empty()) {
+    throw_usage({.where = "--wave",
+                 .what = "the " + arguments.engine + " engine has no signals",
+                 .expected = {},
+                 .got = {},
+                 .fix = "add --engine rtl"});
+  }
   if (engine == Engine::Rtl && arguments.plain) {
     throw_usage({.where = "--plain",
                  .what = "the rtl engine has one unit only",
@@ -67,6 +76,7 @@ struct Result {
   scene::Scene scene;
   FrameReport frame;
   FrameFiles files;
+  Wave wave;
   double seconds = 0.0;
 };
 
@@ -94,6 +104,7 @@ Json to_json(const Result& result) {
   json.update(to_json(result.frame));
   json["outputs"] = result.files.out;
   if (!result.files.raw.empty()) json["raw"] = result.files.raw;
+  if (!result.wave.file.empty()) json["wave"] = to_json(result.wave);
   json["seconds"] = result.seconds;
   return json;
 }
@@ -121,16 +132,22 @@ ExitCode run_still(const RenderArguments& arguments, const Renderer& renderer, c
   Result result{.engine = arguments.engine,
                 .scene = scene,
                 .frame = report_of(renderer, scene, frame),
-                .files = {.out = arguments.out, .raw = arguments.raw}};
+                .files = {.out = arguments.out, .raw = arguments.raw},
+                .wave = {}};
   output.line(to_text(result.frame));
   output.remark(remarks(result.frame));
   write_frame(frame, scene, result.files, metadata_of(renderer, scene), output);
   if (!arguments.save_scene.empty()) write_text_file(arguments.save_scene, scene::to_toml(scene.description));
 
+  ExitCode code = ExitCode::Pass;
+  if (frame.checked) {
+    result.wave = write_wave(arguments.wave, scene, *renderer.config, *frame.checked);
+    code = tell(result.wave, frame.checked->exit_code(), output);
+  }
   result.seconds = output.seconds();
   output.json(to_json(result));
   output.note_time("rendered");
-  return frame.checked ? frame.checked->exit_code() : ExitCode::Pass;
+  return code;
 }
 
 ExitCode run(const RenderArguments& arguments) {
@@ -143,13 +160,20 @@ ExitCode run(const RenderArguments& arguments) {
   check(arguments, renderer.engine);
   const auto sequence = sequence_of(arguments);
   if (sequence) {
+    if (!arguments.wave.file.empty()) {
+      throw_usage({.where = "--wave",
+                   .what = "an animation is many runs",
+                   .expected = {},
+                   .got = {},
+                   .fix = "render the frame that you want alone"});
+    }
     check_animation(arguments, *sequence);
   } else {
     check_outputs(
         {.images = arguments.out,
          .maps = {},
          .raws = {arguments.raw},
-         .others = {arguments.save_scene, arguments.common.json},
+         .others = {arguments.save_scene, arguments.common.json, arguments.wave.file},
          .inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")))});
   }
   if (renderer.engine != Engine::Golden) renderer.config = load(arguments.config);

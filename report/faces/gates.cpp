@@ -46,7 +46,8 @@ std::vector<Gate> compare(const Figures& f) {
 
 Status status_of(const std::string& verdict) {
   if (verdict == "pass") return Status::Pass;
-  return verdict == "mismatch" || verdict == "nothing compared" ? Status::Fail : Status::Error;
+  return verdict == "mismatch" || verdict == "nothing compared" || verdict == "fault not seen" ? Status::Fail
+                                                                                               : Status::Error;
 }
 
 std::string compared(const Figures& f, const std::string& place) {
@@ -54,14 +55,16 @@ std::string compared(const Figures& f, const std::string& place) {
                      f.count(place + "mismatches"));
 }
 
-/// A gate for each seed of a campaign, for the whole of what has no seeds; then the cycles. The first that failed is
-/// the one that was looked into.
+/// A gate for each stream of a campaign (for each seed, of results that tell no streams), for the whole of what has no
+/// seeds; then the cycles. The first that failed is the one that was looked into.
 std::vector<Gate> verify(const Figures& f) {
   std::vector<Gate> gates;
-  if (const Json* seeds = f.find("by_seed")) {
-    for (std::size_t at = 0; at < seeds->size(); ++at) {
-      const std::string place = fmt::format("by_seed/{}/", at);
-      gates.push_back({.name = fmt::format("{} seed {}", f.text("config"), f.count(place + "seed")),
+  const std::string list = f.find("by_stream") != nullptr ? "by_stream" : "by_seed";
+  if (const Json* rows = f.find(list)) {
+    for (std::size_t at = 0; at < rows->size(); ++at) {
+      const std::string place = fmt::format("{}/{}/", list, at);
+      const std::string stimulus = list == "by_stream" ? " " + f.text(place + "class") : "";
+      gates.push_back({.name = fmt::format("{} seed {}{}", f.text("config"), f.count(place + "seed"), stimulus),
                        .status = status_of(f.text(place + "verdict")),
                        .message = compared(f, place),
                        .command = {}});
@@ -80,6 +83,10 @@ std::vector<Gate> verify(const Figures& f) {
       if (const std::string text = f.text(part); !text.empty()) failed->message += "\n" + text;
     }
     failed->command = f.text("failure/replay");
+  }
+  if (failed != gates.end() && f.find("planted_fault") != nullptr) {
+    failed->message = fmt::format("planted fault {} ({}): {}", f.text("planted_fault/name"),
+                                  f.text("planted_fault/meaning"), failed->message);
   }
   const Json &rtl = f.at("cycles_rtl"), &model = f.at("cycles_model");
   if (!rtl.is_null() && !model.is_null()) {

@@ -29,7 +29,9 @@ Checker::Checker(const cmodel::Config& config, cmodel::StreamScope scope, cmodel
       options_(options),
       pixels_(pixels),
       assembly_(config, device_tiles_, board_.rtl()),
-      model_(config, scope, model_tiles_, &board_.model()) {}
+      model_(config, scope, model_tiles_, &board_.model()) {
+  board_.keep(options.keep);
+}
 
 void Checker::start(std::uint64_t first_beat) {
   cycle_model_.emplace(
@@ -117,7 +119,7 @@ std::optional<Detector> Checker::first_detector(std::optional<Detector> next) co
 void Checker::differ(Detector detector, std::string text) {
   detector_ = first_detector(detector);
   ++mismatches_;
-  if (differences_.size() < kDifferencesTold) differences_.push_back(std::move(text));
+  if (differences_.size() < std::max(kDifferencesTold, options_.keep)) differences_.push_back(std::move(text));
 }
 
 CheckReport Checker::report() const {
@@ -125,7 +127,9 @@ CheckReport Checker::report() const {
           .mismatches = board_.mismatches() + mismatches_,
           .detector = first_detector(std::nullopt),
           .by_tap = board_.by_tap(),
-          .first = board_.first(),
+          .first = board_.first() != nullptr ? std::optional(*board_.first()) : std::nullopt,
+          .kept = options_.keep > 0 ? board_.kept() : std::vector<Divergence>{},
+          .mismatches_by_tap = board_.mismatches_by_tap(),
           .differences = differences_,
           .cycles_rtl = cycles_rtl_,
           .cycles_model = cycles_model_};

@@ -37,13 +37,16 @@ struct CheckReport {
   std::optional<Detector> detector;                       ///< that saw the first of them
   std::array<std::uint64_t, cmodel::kTapCount> by_tap{};  ///< records compared
   std::optional<Divergence> first;                        ///< of the taps
-  std::vector<std::string> differences;                   ///< tiles, counters and cycles that differ, in words
+  std::vector<Divergence> kept;                           ///< of the taps, in their order, as many as were asked for
+  std::array<std::uint64_t, cmodel::kTapCount> mismatches_by_tap{};  ///< records; all that were seen
+  std::vector<std::string> differences;  ///< tiles, counters and cycles that differ, in words
   /// Busy cycles of the device and of the cycle model; absent of a run that did not reach its end.
   std::optional<std::uint64_t> cycles_rtl, cycles_model;
 };
 
 struct CheckOptions {
   std::uint64_t stop_after = 1000;          ///< mismatches; then no more beats are taken
+  std::size_t keep = 0;                     ///< divergences told in CheckReport::kept
   const cmodel::Willing* source = nullptr;  ///< when beats are offered to the device; null: always
   const cmodel::Willing* sink = nullptr;    ///< when its pixels are taken; null: always
 };

@@ -91,6 +91,29 @@ std::string describe(const cmodel::Config& config, const Divergence& divergence)
          " (differs in " + hex(a ^ b) + ", cycle " + std::to_string(rtl.cycle) + ")";
 }
 
+DivergenceRow row_of(const cmodel::Config& config, const Divergence& divergence) {
+  const TapCopy& at = divergence.model ? *divergence.model : *divergence.rtl;
+  DivergenceRow row{.tap = cmodel::to_string(at.tap),
+                    .tile = std::nullopt,
+                    .sheet = std::nullopt,
+                    .splat = std::nullopt,
+                    .x = at.x,
+                    .y = at.y,
+                    .cycle = std::nullopt,
+                    .what = "record",
+                    .expected = divergence.model ? place(*divergence.model) : "nothing",
+                    .got = divergence.rtl ? place(*divergence.rtl) : "nothing"};
+  if (at.tile != kNoTile) row.tile = at.tile;
+  if (at.tap != cmodel::Tap::Pixel) row.sheet = at.sheet;
+  if (at.tap <= cmodel::Tap::Sheet) row.splat = at.tag;
+  if (divergence.rtl) row.cycle = divergence.rtl->cycle;
+  if (!divergence.model || !divergence.rtl || divergence.header) return row;
+  row.what = word_name(config, at, divergence.word);
+  row.expected = hex(divergence.model->payload[divergence.word]);
+  row.got = hex(divergence.rtl->payload[divergence.word]);
+  return row;
+}
+
 void Scoreboard::Side::on_tap(const cmodel::TapRecord& record) {
   is_model ? board->expect(record) : board->check(record);
 }
@@ -139,15 +162,16 @@ std::size_t Scoreboard::backlog() const {
   return words;
 }
 
-void Scoreboard::mismatch(Divergence divergence) {
+void Scoreboard::mismatch(cmodel::Tap tap, Divergence divergence) {
   ++mismatches_;
-  if (!first_) first_ = std::move(divergence);
+  ++mismatches_by_tap_[static_cast<std::size_t>(tap)];
+  if (kept_.size() < most_kept_) kept_.push_back(std::move(divergence));
 }
 
 void Scoreboard::check(const cmodel::TapRecord& record) {
   auto& queue = expected_[static_cast<std::size_t>(record.tap)];
   if (queue.empty()) {
-    mismatch({.model = std::nullopt, .rtl = copy(record), .word = 0, .header = false});
+    mismatch(record.tap, {.model = std::nullopt, .rtl = copy(record), .word = 0, .header = false});
     return;
   }
   const auto header = queue.front();
@@ -157,15 +181,16 @@ void Scoreboard::check(const cmodel::TapRecord& record) {
   const bool same_header = header.tile == record.tile && header.sheet == record.sheet && header.tag == record.tag &&
                            header.x == record.x && header.y == record.y && payload.size() == record.payload.size();
   const bool same = same_header && std::memcmp(payload.data(), record.payload.data(), payload.size_bytes()) == 0;
-  if (!same && first_) {
+  if (!same && kept_.size() >= most_kept_) {
     ++mismatches_;
+    ++mismatches_by_tap_[static_cast<std::size_t>(record.tap)];
   } else if (!same) {
     const auto at =
         same_header ? std::mismatch(payload.begin(), payload.end(), record.payload.begin()).first : payload.begin();
-    mismatch({.model = owned(record.tap, header, payload),
-              .rtl = copy(record),
-              .word = static_cast<std::size_t>(at - payload.begin()),
-              .header = !same_header});
+    mismatch(record.tap, {.model = owned(record.tap, header, payload),
+                          .rtl = copy(record),
+                          .word = static_cast<std::size_t>(at - payload.begin()),
+                          .header = !same_header});
   }
   queue.pop();
 }
@@ -173,10 +198,10 @@ void Scoreboard::check(const cmodel::TapRecord& record) {
 void Scoreboard::finish() {
   for (std::size_t tap = 0; tap < expected_.size(); ++tap) {
     for (auto& queue = expected_[tap]; !queue.empty(); queue.pop()) {
-      mismatch({.model = owned(static_cast<cmodel::Tap>(tap), queue.front(), queue.payload()),
-                .rtl = std::nullopt,
-                .word = 0,
-                .header = false});
+      const auto which = static_cast<cmodel::Tap>(tap);
+      mismatch(
+          which,
+          {.model = owned(which, queue.front(), queue.payload()), .rtl = std::nullopt, .word = 0, .header = false});
     }
   }
 }

@@ -2,6 +2,7 @@
 // divergence. Knows no simulator type.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -34,6 +35,17 @@ struct Divergence {
 /// In the domain's words: stage, tile, sheet, splat, pixel, both values, their bit difference.
 std::string describe(const cmodel::Config& config, const Divergence& divergence);
 
+/// The same for a row of a table: the place that the model expected, or where there is none that of the RTL.
+struct DivergenceRow {
+  const char* tap = "";
+  std::optional<std::uint32_t> tile, sheet, splat;  ///< absent outside of tiles, or where the tap knows none
+  std::int32_t x = 0, y = 0;                        ///< of the window, block or pixel
+  std::optional<std::uint64_t> cycle;               ///< of the RTL; absent of what never came
+  std::string what;           ///< which word: "pixel (5,1): sheet R"; or that the record itself differs
+  std::string expected, got;  ///< in hexadecimal; a record's place where `what` is that; "nothing"
+};
+DivergenceRow row_of(const cmodel::Config& config, const Divergence& divergence);
+
 /// Records in order, headers and payloads in one flat array: no allocation per record.
 class TapQueue {
  public:
@@ -64,7 +76,11 @@ class Scoreboard {
   std::uint64_t comparisons() const { return comparisons_; }  ///< records compared
   std::uint64_t mismatches() const { return mismatches_; }
   const std::array<std::uint64_t, cmodel::kTapCount>& by_tap() const { return by_tap_; }
-  const std::optional<Divergence>& first() const { return first_; }
+  const std::array<std::uint64_t, cmodel::kTapCount>& mismatches_by_tap() const { return mismatches_by_tap_; }
+  /// How many divergences are kept, the first of them at least; before any record.
+  void keep(std::size_t most) { most_kept_ = std::max<std::size_t>(most, 1); }
+  const std::vector<Divergence>& kept() const { return kept_; }
+  const Divergence* first() const { return kept_.empty() ? nullptr : &kept_.front(); }
   /// Words of records that the model made and the RTL has not: bounded by the device's depth while it works.
   std::size_t backlog() const;
 
@@ -77,13 +93,15 @@ class Scoreboard {
   };
   void expect(const cmodel::TapRecord& record);
   void check(const cmodel::TapRecord& record);
-  void mismatch(Divergence divergence);
+  void mismatch(cmodel::Tap tap, Divergence divergence);
 
   Side model_side_{this, true}, rtl_side_{this, false};
   std::array<TapQueue, cmodel::kTapCount> expected_;
   std::uint64_t comparisons_ = 0, mismatches_ = 0;
   std::array<std::uint64_t, cmodel::kTapCount> by_tap_{};
-  std::optional<Divergence> first_;
+  std::array<std::uint64_t, cmodel::kTapCount> mismatches_by_tap_{};
+  std::size_t most_kept_ = 1;
+  std::vector<Divergence> kept_;
 
  public:
   Scoreboard() = default;

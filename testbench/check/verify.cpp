@@ -56,15 +56,17 @@ RtlOptions rtl_options(const VerifyOptions& options) {
           .taps = nullptr,
           .wave = options.wave,
           .wave_from = options.wave_from,
-          .wave_to = options.wave_to};
+          .wave_to = options.wave_to,
+          .wave_after_reset = options.reset_after > 0};
 }
 
 VerifyResult verify(const BeatSource& source, const VerifyOptions& options, cmodel::PixelSink* pixels) {
   cmodel::NullPixels none;
   const RtlOptions driven = rtl_options(options);
-  CheckedDevice checked(options.config, options.scope, pixels == nullptr ? none : *pixels,
-                        [&](cmodel::PixelSink& tiles, RawTapSink& taps) { return make_device(options, tiles, taps); },
-                        {.stop_after = options.stop_after, .source = &driven.input, .sink = &driven.output});
+  CheckedDevice checked(
+      options.config, options.scope, pixels == nullptr ? none : *pixels,
+      [&](cmodel::PixelSink& tiles, RawTapSink& taps) { return make_device(options, tiles, taps); },
+      {.stop_after = options.stop_after, .keep = options.keep, .source = &driven.input, .sink = &driven.output});
   std::optional<CoverageCollector> coverage;
   if (options.coverage) {
     coverage.emplace(options.config, options.scope,
@@ -116,6 +118,8 @@ const char* to_string(Verdict verdict) {
       return "nothing compared";
     case Verdict::Simulation:
       return "simulation";
+    case Verdict::FaultUnseen:
+      return "fault not seen";
   }
   return "?";
 }

@@ -29,15 +29,22 @@ struct VerifyOptions {
                                     ///< than the stream has: UserError (Usage)
   int reset_cycles = kResetCycles;  ///< of that reset
   std::uint64_t timeout = 1u << 20;
-  std::uint64_t stop_after = 1000;  ///< mismatches
-  std::filesystem::path wave;       ///< waveform of the cycles [wave_from, wave_to)
-  std::uint64_t wave_from = 0, wave_to = 0;
+  std::uint64_t stop_after = 1000;           ///< mismatches
+  std::size_t keep = 0;                      ///< divergences told in CheckReport::kept
+  std::filesystem::path wave;                ///< waveform of the cycles [wave_from, wave_to)
+  std::uint64_t wave_from = 0, wave_to = 0;  ///< after the warm reset, if there is one
   bool coverage = false;  ///< samples functional coverage (testbench/coverage/coverage_collector.hpp)
   /// Takes the RTL's place, to test the checker with a device that is wrong; empty: the Verilated device of `config`.
   std::function<std::unique_ptr<RtlDevice>(cmodel::PixelSink&, const RtlOptions&)> device;
 };
 
-enum class Verdict { Pass, Mismatch, NothingCompared, Simulation };
+enum class Verdict {
+  Pass,
+  Mismatch,
+  NothingCompared,
+  Simulation,
+  FaultUnseen,  ///< nothing differs although a fault was planted; never verify()'s own
+};
 const char* to_string(Verdict verdict);
 ExitCode exit_code(Verdict verdict);
 

@@ -19,7 +19,7 @@ struct Testpoint {
   std::vector<std::string> bins;        ///< `group.name`; `*` stands for anything
   std::vector<std::string> configs;     ///< empty: every configuration that has such bins
   std::vector<std::string> assertions;  ///< names in rtl/
-  std::vector<std::string> faults;      ///< names in tests/mustfail/faults.def
+  std::vector<std::string> faults;      ///< names in testbench/faults/faults.def
 };
 
 struct VerificationPlan {

@@ -33,6 +33,7 @@ struct RtlOptions {
   /// A waveform of the cycles [wave_from, wave_to); none while the path is empty.
   std::filesystem::path wave;
   std::uint64_t wave_from = 0, wave_to = 0;
+  bool wave_after_reset = false;  ///< only behind the first warm_reset(), with which the cycles begin again
   RtlBuild build = RtlBuild::Checked;
 };
 

@@ -202,6 +202,7 @@ class VerilatedDevice : public RtlDevice {
 
   void warm_reset(int cycles) override {
     pulse_reset(cycles);
+    was_reset_ = true;
     tiles_.reset();
   }
 
@@ -242,7 +243,8 @@ class VerilatedDevice : public RtlDevice {
   }
 
   void dump(int half) {
-    if (!wave_ || cycle_ < options_.wave_from || cycle_ >= options_.wave_to) return;
+    if (!wave_ || (options_.wave_after_reset && !was_reset_)) return;
+    if (cycle_ < options_.wave_from || cycle_ >= options_.wave_to) return;
     wave_->dump(2 * cycle_ + static_cast<std::uint64_t>(half));
   }
 
@@ -435,6 +437,7 @@ class VerilatedDevice : public RtlDevice {
   bool offering_ = false;                   ///< and has been: valid stays up until taken
   bool refused_ = false;                    ///< the device said so since reset
   bool reading_ = false, writing_ = false;  ///< an access was begun whose answer was not taken
+  bool was_reset_ = false;                  ///< warm
   cmodel::Counters counters_;
 };
 

@@ -13,7 +13,10 @@ namespace {
 void add(VerifyResult& total, const VerifyResult& part) {
   total.check.comparisons += part.check.comparisons;
   total.check.mismatches += part.check.mismatches;
-  for (std::size_t i = 0; i < part.check.by_tap.size(); ++i) total.check.by_tap[i] += part.check.by_tap[i];
+  for (std::size_t i = 0; i < part.check.by_tap.size(); ++i) {
+    total.check.by_tap[i] += part.check.by_tap[i];
+    total.check.mismatches_by_tap[i] += part.check.mismatches_by_tap[i];
+  }
   total.counters += part.counters;
   total.last_cycle += part.last_cycle;
   const auto add_to = [](std::optional<std::uint64_t>& sum, const std::optional<std::uint64_t>& more) {
@@ -34,6 +37,18 @@ void add(std::vector<SeedResult>& seeds, std::uint64_t seed, const VerifyResult&
   if (to.verdict == Verdict::Pass) to.verdict = part.verdict;
 }
 
+StreamDocument as_file(const StreamDocument& document) {
+  StreamDocument out = arranged(document);
+  std::int64_t pixels = 0;
+  for (const auto& tile : out.tiles) pixels += std::int64_t{tile.begin.width} * std::int64_t{tile.begin.height};
+  if (pixels == std::int64_t{out.width} * out.height) return out;
+  throw_usage({.where = "a random stream",
+               .what = "has more tiles than the image of a file holds",
+               .expected = {},
+               .got = std::to_string(out.tiles.size()) + " tiles",
+               .fix = "fewer splats with --random, or another --class"});
+}
+
 constexpr const char* kClassReady = "class_ready";
 std::string with_pattern(StimulusClass which, const std::string& ready) {
   return std::string(to_string(which)) + "_" + ready;
@@ -50,7 +65,8 @@ CampaignRun make_run(const CampaignOptions& options, std::size_t index) {
   CampaignRun run{.which = options.classes[which], .options = options.verify, .beats = {}};
   run.options.seed += index / classes;
   const std::uint64_t share = options.splats / classes + (which < options.splats % classes ? 1 : 0);
-  const Stimulus stimulus = make_stimulus(options.verify.config, run.which, run.options.seed, share);
+  Stimulus stimulus = make_stimulus(options.verify.config, run.which, run.options.seed, share);
+  if (options.as_files) stimulus.document = as_file(stimulus.document);
   if (run.options.ready == "all") {
     // Over the seeds each class meets each pattern.
     const auto patterns = Pattern::examples();
@@ -83,7 +99,7 @@ Coverage class_bins(const cmodel::Config& config, StimulusClass which) {
 CampaignResult run_campaign(const CampaignOptions& options) {
   const std::size_t count = run_count(options);
   std::vector<std::optional<VerifyResult>> results(count);
-  std::vector<std::string> ready(count);
+  std::vector<StreamResult> streams(count);
   std::vector<char> late(count, 0);
   std::atomic<std::size_t> next = 0, done = 0;
   std::atomic<std::size_t> failed = count;  ///< the first run that did not pass
@@ -93,10 +109,10 @@ CampaignResult run_campaign(const CampaignOptions& options) {
     const std::size_t i = next++;
     if (i > failed) return;
     CampaignRun run = make_run(options, i);
-    ready[i] = run.options.ready;
+    streams[i] = {.seed = run.options.seed, .which = run.which, .ready = run.options.ready, .input = run.options.input};
     late[i] = run.reset_late;
     results[i] = verify(source_of(std::move(run.beats)), run.options);
-    if (results[i]->verdict != Verdict::Pass) {
+    if (results[i]->verdict != Verdict::Pass && !options.keep_going) {
       for (std::size_t first = failed; i < first && !failed.compare_exchange_weak(first, i);) {
       }
     }
@@ -113,6 +129,13 @@ CampaignResult run_campaign(const CampaignOptions& options) {
   for (std::size_t i = 0; i < count && i <= failed; ++i) {
     add(out.total, *results[i]);
     add(out.by_seed, options.verify.seed + i / options.classes.size(), *results[i]);
+    streams[i].verdict = results[i]->verdict;
+    streams[i].splats = results[i]->counters.splats;
+    streams[i].comparisons = results[i]->check.comparisons;
+    streams[i].mismatches = results[i]->check.mismatches;
+    streams[i].cycles = results[i]->check.cycles_rtl.value_or(0);
+    for (const auto& divergence : results[i]->check.kept)
+      if (out.kept.size() < options.verify.keep) out.kept.push_back({.run = i, .divergence = divergence});
     ++out.streams;
     out.resets_late += late[i] != 0 ? 1 : 0;
     if (results[i]->coverage) {
@@ -120,11 +143,11 @@ CampaignResult run_campaign(const CampaignOptions& options) {
       const auto [at, added] = out.coverage.try_emplace(which);
       if (added) at->second = class_bins(options.verify.config, which);
       at->second.merge(*results[i]->coverage);
-      const std::string pattern = with_pattern(which, ready[i]);
+      const std::string pattern = with_pattern(which, streams[i].ready);
       if (at->second.declared(std::string(kClassReady) + "." + pattern))
         at->second.hit(at->second.declare(kClassReady, pattern));
     }
-    if (results[i]->verdict == Verdict::Pass) continue;
+    if (results[i]->verdict == Verdict::Pass || out.failed) continue;
     out.failed = i;
     out.failure = results[i];
     out.total.verdict = results[i]->verdict;
@@ -133,6 +156,8 @@ CampaignResult run_campaign(const CampaignOptions& options) {
     out.total.check.differences = results[i]->check.differences;
     out.total.error = results[i]->error;
   }
+  streams.resize(out.streams);
+  out.by_stream = std::move(streams);
   if (out.streams == 0) out.total.verdict = Verdict::NothingCompared;
   return out;
 }

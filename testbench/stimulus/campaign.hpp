@@ -19,7 +19,9 @@ struct CampaignOptions {
   std::uint64_t splats = 1000;  ///< per seed, shared by the classes
   std::uint64_t seeds = 1;      ///< seed, seed+1, ...
   std::vector<StimulusClass> classes = stimulus_classes();
-  int threads = 0;  ///< streams in parallel; 0: all cores. Never changes a result.
+  bool keep_going = false;  ///< runs all, whatever fails
+  bool as_files = false;    ///< the streams lie as files have to (arranged()); what no image holds: UserError (Usage)
+  int threads = 0;          ///< streams in parallel; 0: all cores. Never changes a result.
   std::function<void(std::size_t done, std::size_t of)> progress;
 };
 
@@ -40,12 +42,29 @@ struct SeedResult {
   std::uint64_t streams = 0, splats = 0, comparisons = 0, mismatches = 0, cycles = 0;
 };
 
+/// What one stream came to.
+struct StreamResult {
+  std::uint64_t seed = 0;
+  StimulusClass which{};
+  std::string ready, input;  ///< the patterns it met
+  Verdict verdict = Verdict::Pass;
+  std::uint64_t splats = 0, comparisons = 0, mismatches = 0, cycles = 0;
+};
+
+/// A divergence and whose.
+struct StreamDivergence {
+  std::size_t run = 0;  ///< index into CampaignResult::by_stream
+  Divergence divergence;
+};
+
 struct CampaignResult {
   VerifyResult total;                          ///< sums; first divergence and error are the first failed run's
   std::uint64_t streams = 0;                   ///< run: all, or those up to the failed one
   std::uint64_t resets_late = 0;               ///< streams too short for the reset that was asked for
   std::map<StimulusClass, Coverage> coverage;  ///< of each class's streams, if asked for
   std::vector<SeedResult> by_seed;             ///< in their order, as far as they were run
+  std::vector<StreamResult> by_stream;         ///< likewise
+  std::vector<StreamDivergence> kept;          ///< the first VerifyOptions::keep of all streams, in their order
   std::optional<std::size_t> failed;           ///< first run that did not pass
   std::optional<VerifyResult> failure;         ///< its result
 };
@@ -53,7 +72,8 @@ struct CampaignResult {
 /// The bins of a class: those of the configuration, and that it met each ready pattern.
 Coverage class_bins(const cmodel::Config& config, StimulusClass which);
 
-/// Runs all, or up to the first that fails: its result and the sums up to it are the same for any number of threads.
+/// Runs all, or without keep_going up to the first that fails: its result and the sums up to it are the same for any
+/// number of threads.
 CampaignResult run_campaign(const CampaignOptions& options);
 
 }  // namespace fastsplat::testbench

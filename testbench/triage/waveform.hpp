@@ -7,9 +7,10 @@
 
 namespace fastsplat::testbench {
 
-/// Runs `source` once more and keeps the cycles [wave_from, wave_to) of `options` in its `wave`, which appears whole or
-/// not at all. Returns why there is none; empty where there is. A process of its own writes it: the simulator's writer
-/// maps the file into memory, so that a full disk would end the process that has the failure to tell.
+/// Drives the device with `source` once more, as verify() does and without a checker, up to the last cycle that is
+/// wanted, and keeps the cycles [wave_from, wave_to) of `options` in its `wave`, which appears whole or not at all.
+/// Returns why there is none; empty where there is. A process of its own writes it: the simulator's writer maps the
+/// file into memory, so that a full disk would end the process that has the result to tell.
 std::string write_waveform(const BeatSource& source, const VerifyOptions& options);
 
 }  // namespace fastsplat::testbench

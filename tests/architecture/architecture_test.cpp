@@ -31,6 +31,7 @@ const Arrows kDrawn{
     {"testbench/coverage", {"testbench/device"}},
     {"testbench/check", {"testbench/coverage"}},
     {"capi", {"driver", "testbench/check"}},
+    {"testbench/faults", {"testbench/device"}},
     {"testbench/stimulus", {"testbench/check", "base/parallel"}},
     {"testbench/triage", {"testbench/stimulus"}},
     {"testbench/closure", {"testbench/stimulus"}},
@@ -41,8 +42,8 @@ const Arrows kDrawn{
     {"report", {"images"}},
     {"report/faces", {"report"}},
     {"cli",
-     {"golden", "driver", "testbench/triage", "testbench/closure", "analysis/errors", "analysis/family", "plan",
-      "report/faces"}},
+     {"golden", "driver", "testbench/triage", "testbench/closure", "testbench/faults", "analysis/errors",
+      "analysis/family", "plan", "report/faces"}},
 };
 
 /// `drawn` with everything that is reached by going on; a room on a circle reaches itself.

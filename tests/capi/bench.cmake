@@ -1,4 +1,4 @@
-# The example bench of capi/example under Verilator, with the faults of tests/mustfail to choose from: tiny alone, as
+# The example bench of capi/example under Verilator, with the faults of testbench/faults to choose from: tiny alone, as
 # another simulator's user would build it.
 set(folder ${PROJECT_BINARY_DIR}/verilated/capi_bench)
 set(FASTSPLAT_CAPI_BENCH ${folder}/obj/Vfastsplat_bench)

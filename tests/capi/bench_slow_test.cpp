@@ -42,7 +42,7 @@ TEST(CapiBench, FailsWithAFaultPlantedAndNamesItsFirstMismatch) {
   struct Case {
     const char *fault, *first;
   };
-  // Lines of tests/mustfail/faults.def: ROUND_TRN, SNAP_OFF_BY_ONE, MISSED_DIRTY.
+  // Lines of testbench/faults/faults.def: ROUND_TRN, SNAP_OFF_BY_ONE, MISSED_DIRTY.
   for (const Case one : {Case{"1", "stage sheet"}, Case{"4", "expected stage snap"}, Case{"15", "expected stage composite"}}) {
     const auto result = bench({std::string("+fault=") + one.fault});
     EXPECT_NE(result.code, 0) << one.fault;

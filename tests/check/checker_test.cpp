@@ -355,7 +355,7 @@ TEST_P(Checked, RefusesAnIllegalStream) {
   EXPECT_THROW(illegal.accept(right.beats.back()), UserError);
 }
 
-INSTANTIATE_TEST_SUITE_P(Configurations, Checked, ::testing::Values("tiny", "../tests/mustfail/mustfail", "base"),
+INSTANTIATE_TEST_SUITE_P(Configurations, Checked, ::testing::Values("tiny", "faults/mustfail", "base"),
                          [](const auto& param) {
                            const std::string path = param.param;
                            return path.substr(path.rfind('/') + 1);

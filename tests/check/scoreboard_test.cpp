@@ -68,7 +68,7 @@ TEST(Scoreboard, SeesEveryDifferenceAndTellsIt) {
     show(board.rtl(), wrong);
     board.finish();
     EXPECT_EQ(board.mismatches(), 1u) << difference.what;
-    ASSERT_TRUE(board.first()) << difference.what;
+    ASSERT_TRUE(board.first() != nullptr) << difference.what;
     const std::string text = describe(config, *board.first());
     EXPECT_NE(text.find(difference.told), std::string::npos) << difference.what << ": " << text;
   }

@@ -55,7 +55,7 @@ TEST(TableFill, IsDeclaredWhereATableOfTheConfigurationHasIt) {
   const auto tiny = testbench::CoverageCollector::declare(named_config("tiny"));
   EXPECT_EQ(fills(tiny, false), (std::set<int>{2, 4, 5, 6}));
   // 16 words, 9, and 4 rows of 4, 8, 12, 16 columns.
-  const auto mustfail = testbench::CoverageCollector::declare(named_config("../tests/mustfail/mustfail"));
+  const auto mustfail = testbench::CoverageCollector::declare(named_config("faults/mustfail"));
   EXPECT_EQ(fills(mustfail, false), (std::set<int>{2, 3, 4, 6}));
   std::printf("[figure] fills of tiny = %zu of 6, of mustfail = %zu of 6\n", fills(tiny, false).size(),
               fills(mustfail, false).size());

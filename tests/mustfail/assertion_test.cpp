@@ -17,7 +17,7 @@ namespace {
 
 testbench::VerifyOptions broken(Fault fault, Assertions assertions) {
   testbench::VerifyOptions options;
-  options.config = named_config("../tests/mustfail/mustfail");
+  options.config = named_config("faults/mustfail");
   options.device = [=, config = options.config](cmodel::PixelSink& pixels, const testbench::RtlOptions& rtl) {
     return faulty(fault, assertions)(config, pixels, rtl);
   };

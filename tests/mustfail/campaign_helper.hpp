@@ -12,16 +12,12 @@
 #include "cmodel/config.hpp"
 #include "testbench/check/checker.hpp"
 #include "testbench/device/rtl_device.hpp"
+#include "testbench/faults/breakable_device.hpp"
 
 namespace fastsplat::test {
 
-/// Numbers of the faults, as in the generated fastsplat_fault_pkg.sv; 0 is the healthy device.
-enum class Fault : std::uint32_t {
-  None = 0,
-#define FAULT(name, detector, stimulus, assertion, meaning) name,
-#include "tests/mustfail/faults.def"
-#undef FAULT
-};
+using Fault = testbench::RtlFault;
+using testbench::Assertions;
 
 /// Those of testbench::Detector, in its order, then how a simulation may end.
 enum class Detector { Snap, Footprint, Sheet, Composite, Pixel, Tiles, Counters, Cycles, Timeout, Assertion, Other };
@@ -51,7 +47,6 @@ using MakeDevice = std::function<std::unique_ptr<testbench::RtlDevice>(const cmo
 /// Until the first detector speaks or the stimulus ends.
 Outcome run(const cmodel::Config& config, Stimulus stimulus, const MakeDevice& make);
 
-enum class Assertions { Off, On };
 /// The device that can be broken. With assertions on, one that fires ends the run with Detector::Assertion.
 MakeDevice faulty(Fault fault, Assertions assertions);
 

@@ -13,7 +13,7 @@ namespace fastsplat::test {
 namespace {
 
 /// Beside configs/, which holds the products only.
-constexpr const char* kConfig = "../tests/mustfail/mustfail";
+constexpr const char* kConfig = "faults/mustfail";
 
 constexpr const char* kNone = nullptr;
 
@@ -29,7 +29,7 @@ void PrintTo(const Row& row, std::ostream* out) { *out << row.meaning; }
 constexpr Row kRows[] = {
 #define FAULT(name, detector, stimulus, assertion, meaning) \
   {Fault::name, #name, Detector::detector, Stimulus::stimulus, assertion, meaning},
-#include "tests/mustfail/faults.def"
+#include "testbench/faults/faults.def"
 #undef FAULT
 };
 /// The least that a suite of injected faults is worth having for.

@@ -72,7 +72,7 @@ def run_all(arguments, root, build):
         mutants = chosen(arguments, json.load(file))
     killed, untried = {}, []
     living = [m["number"] for m in mutants]
-    for name, config in (("corners", "tests/mutants/corners.toml"), ("mustfail", "tests/mustfail/mustfail.toml"),
+    for name, config in (("corners", "tests/mutants/corners.toml"), ("mustfail", "configs/faults/mustfail.toml"),
                          ("tiny", "configs/tiny.toml")):
         if name != "corners":
             campaign.write(f"{build}/mutants/living.txt", "".join(f"{number}\n" for number in living))

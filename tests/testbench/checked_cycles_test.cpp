@@ -6,7 +6,7 @@
 #include "driver/config_file.hpp"
 #include "testbench/check/verify.hpp"
 #include "testbench/stimulus/stimulus.hpp"
-#include "tests/testbench/passing_device.hpp"
+#include "testbench/device/passing_device.hpp"
 
 namespace fastsplat::testbench {
 namespace {

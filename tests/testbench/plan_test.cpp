@@ -82,7 +82,7 @@ TEST(Plan, NamesEveryAssertionAndEveryFault) {
   }
   EXPECT_EQ(assertions, names_in_rtl(R"(`FASTSPLAT_ASS(?:ERT|UME)(?:_NEXT)?\((\w+),)"));
   std::set<std::string> defined;
-  const std::string text = read_text_file(kSource / "tests" / "mustfail" / "faults.def");
+  const std::string text = read_text_file(kSource / "testbench" / "faults" / "faults.def");
   static const std::regex fault(R"((?:^|\n)FAULT\((\w+),)");
   for (std::sregex_iterator match(text.begin(), text.end(), fault), end; match != end; ++match)
     defined.insert((*match)[1]);
@@ -107,7 +107,7 @@ TEST(Plan, NamesEveryCoverPoint) {
 
 ClosureInput nothing_run(const std::string& config) {
   const auto loaded =
-      driver::load_config(config == "mustfail" ? (kSource / "tests/mustfail/mustfail.toml").string() : config);
+      driver::load_config(config == "mustfail" ? (kSource / "configs/faults/mustfail.toml").string() : config);
   ClosureInput input{CoverageBook::of(loaded), planned_bins(loaded)};
   input.book.campaigns["mixed"];
   return input;

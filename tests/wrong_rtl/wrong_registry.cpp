@@ -1,7 +1,7 @@
 // The RTL of tiny with a lie at one tap: of every seventh splat of a tile the sheet's words come out inverted.
 #include "driver/config_file.hpp"
 #include "testbench/device/rtl_registry.hpp"
-#include "tests/testbench/passing_device.hpp"
+#include "testbench/device/passing_device.hpp"
 
 namespace fastsplat::testbench {
 

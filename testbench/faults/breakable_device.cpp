@@ -1,15 +1,16 @@
+#include "testbench/faults/breakable_device.hpp"
+
 #include "Vfs_rtl_faulty.h"
 #include "Vfs_rtl_faulty___024root.h"
 #include "Vfs_rtl_faulty_fastsplat_fault_pkg.h"
 #include "testbench/device/verilated_device.hpp"
-#include "tests/mustfail/campaign_helper.hpp"
 
-namespace fastsplat::test {
+namespace fastsplat::testbench {
 namespace {
 
 // Of the device made next; VerilatedDevice makes its own top.
-Fault next_fault = Fault::None;
-Assertions next_assertions = Assertions::Off;
+thread_local RtlFault next_fault = RtlFault::None;
+thread_local Assertions next_assertions = Assertions::Off;
 
 class FaultyTop : public Vfs_rtl_faulty {
  public:
@@ -23,17 +24,16 @@ class FaultyTop : public Vfs_rtl_faulty {
   }
 
  private:
-  Fault fault_;
+  RtlFault fault_;
 };
 
 }  // namespace
 
-MakeDevice faulty(Fault fault, Assertions assertions) {
-  return [=](const cmodel::Config& config, cmodel::PixelSink& pixels, const testbench::RtlOptions& options) {
-    next_fault = fault;
-    next_assertions = assertions;
-    return std::make_unique<testbench::VerilatedDevice<FaultyTop>>(config, pixels, options);
-  };
+std::unique_ptr<RtlDevice> make_breakable_device(const cmodel::Config& config, cmodel::PixelSink& pixels,
+                                                 const RtlOptions& options, RtlFault fault, Assertions assertions) {
+  next_fault = fault;
+  next_assertions = assertions;
+  return std::make_unique<VerilatedDevice<FaultyTop>>(config, pixels, options);
 }
 
-}  // namespace fastsplat::test
+}  // namespace fastsplat::testbench

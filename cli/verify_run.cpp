@@ -1,0 +1,231 @@
+#include "cli/verify_run.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "base/error.hpp"
+#include "base/hash_text.hpp"
+#include "cli/names.hpp"
+#include "cli/volume_json.hpp"
+#include "driver/compile.hpp"
+#include "driver/config_file.hpp"
+#include "driver/stream_file.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+/// UserError (Usage) where the fault is not in this configuration's RTL.
+const testbench::PlantedFault& fault_of(const VerifyArguments& arguments, const cmodel::Config& config) {
+  const auto& fault = testbench::planted_fault_from(arguments.fault);
+  const auto breakable = cmodel::config_hash(driver::load_config(testbench::kBreakableConfig));
+  if (fault.where == testbench::PlantedFault::Where::Rtl && cmodel::config_hash(config) != breakable) {
+    throw_usage(
+        {.where = "--fault " + arguments.fault,
+         .what = "is only in the RTL of configuration " + std::string(testbench::kBreakableConfig),
+         .expected = hash_text(breakable),
+         .got = config.name + " " + hash_text(cmodel::config_hash(config)),
+         .fix = "leave out --config, or plant a fault at the ports, which any configuration takes: --fault list"});
+  }
+  return fault;
+}
+
+Checked verify_one(cmodel::BeatSource source, const testbench::VerifyOptions& options, const char* campaign) {
+  Checked out;
+  out.result = out.failed = testbench::verify(source, options);
+  if (out.result.coverage) out.coverage[campaign] = *out.result.coverage;
+  for (const auto& divergence : out.result.check.kept) out.kept.push_back({.run = 0, .divergence = divergence});
+  out.source = std::move(source);
+  out.options = options;
+  return out;
+}
+
+}  // namespace
+
+void declare(Options& options, VerifyArguments& to) {
+  options.group("Stimulus");
+  options.word("--stream", to.stream, "FILE", "a recorded stream, .fss");
+  options.integer("--random", to.random, 1, 1'000'000'000, "N", "random streams of about N splats per seed");
+  options.word("--class", to.stimulus, "NAME", "random: stimulus class (all; an unknown one lists them)");
+  options.values(stimulus_words);
+  options.integer("--seed", to.seed, 0, std::numeric_limits<long>::max(), "S",
+                  "of random streams, patterns and reset fill");
+  options.integer("--seeds", to.seeds, 1, 1'000'000, "N", "random: runs with seeds S, S+1, ...");
+  options.integer("--jobs", to.jobs, 0, 1024, "N", "random: streams in parallel, as --threads; never changes a result");
+  options.group("Device");
+  declare(options, to.config, "hardware configuration with RTL");
+  options.word("--ready", to.ready, "PATTERN",
+               "when pixels are taken: always, every-N, alternate-N, random-PERCENT, burst-N; random: all takes turns");
+  options.values(ready_words);
+  options.word("--input", to.input, "PATTERN", "when beats are offered, a pattern as above");
+  options.values(pattern_words);
+  options.choice("--fill", to.fill, {"zero", "one", "random"}, "zero|one|random",
+                 "what registers and memories hold before reset");
+  options.integer("--reset-after", to.reset_after, 1, 2'000'000'000, "N",
+                  "warm reset after N beats, then the whole stream");
+  options.word("--fault", to.fault, "NAME", "plants a fault on purpose, to see a failure; list: tells which there are");
+  options.values([] {
+    auto names = testbench::planted_fault_names();
+    names.emplace_back("list");
+    return names;
+  });
+  options.group("Output");
+  options.word("--coverage", to.coverage, "FILE", "functional coverage as JSON, added to what FILE holds");
+  options.word("--failure", to.failure, "PREFIX", "a failure's small stream and waveform: PREFIX.fss and PREFIX.fst");
+  options.integer("--all-mismatches", to.all_mismatches, 1, 100'000, "N",
+                  "goes on to the end, and tells the first N mismatches in one table");
+  options.word("--save-stream", to.save_stream, "FILE",
+               "random: the stream as a file, .fss; of several, # in its name becomes their numbers");
+  options.word("--junit", to.junit, "FILE", "the result as JUnit XML, a case for each stream");
+  declare(options, to.wave);
+  declare(options, to.scene);
+  declare(options, to.common);
+  options.example("fastsplat verify --random 1000 --seed 7 --config tiny --ready random-50",
+                  "RTL against model on random streams, every tap compared");
+  options.example("fastsplat verify --stream shells.fss --config tiny --coverage book.json",
+                  "on a recorded stream, coverage added up");
+  options.example("fastsplat verify --random 100000 --seeds 100 --jobs 2 --config tiny --json night.json",
+                  "a night's campaign", Example::Slow);
+}
+
+Source source_from(const VerifyArguments& arguments) {
+  const auto& scene = arguments.scene;
+  const bool has_scene = scene.file || scene.volume;
+  const int given = (has_scene ? 1 : 0) + (arguments.stream.empty() ? 0 : 1) + (arguments.random ? 1 : 0);
+  if (given != 1) {
+    throw_usage({.where = {},
+                 .what = given == 0 ? "verify what?" : "more than one thing to verify",
+                 .expected = "one of --random N, --stream FILE, --volume NAME or --scene FILE",
+                 .got = {},
+                 .fix = "for example --random 1000"});
+  }
+  if (!has_scene && !(scene == SceneFlags{})) {
+    throw_usage({.where = arguments.random ? "--random" : "--stream",
+                 .what = "a scene's flags mean nothing here",
+                 .expected = {},
+                 .got = {},
+                 .fix = "leave them out, or verify a scene with --volume NAME or --scene FILE"});
+  }
+  if (!arguments.random && (arguments.seeds != 1 || arguments.stimulus != "all" || arguments.ready == "all")) {
+    throw_usage({.where = {},
+                 .what = "--seeds, --class and --ready all belong to --random",
+                 .expected = {},
+                 .got = {},
+                 .fix = "add --random N, or leave them out"});
+  }
+  if (!arguments.random && !arguments.save_stream.empty()) {
+    throw_usage({.where = "--save-stream",
+                 .what = "only random streams are not in a file yet",
+                 .expected = {},
+                 .got = {},
+                 .fix = "add --random N; `fastsplat stream record` writes the stream of a scene"});
+  }
+  if (!arguments.fault.empty() && !arguments.coverage.empty()) {
+    throw_usage({.where = "--coverage",
+                 .what = "a device that is wrong on purpose covers nothing",
+                 .expected = {},
+                 .got = {},
+                 .fix = "leave out --fault or --coverage"});
+  }
+  if (arguments.jobs && arguments.common.threads != 0 && *arguments.jobs != arguments.common.threads) {
+    throw_usage({.where = "--jobs",
+                 .what = "is the same as --threads, and they differ",
+                 .expected = std::to_string(arguments.common.threads),
+                 .got = std::to_string(*arguments.jobs),
+                 .fix = "give one of them"});
+  }
+  return has_scene ? Source::Scene : arguments.random ? Source::Random : Source::Stream;
+}
+
+std::uint64_t stream_count(const VerifyArguments& arguments, Source source) {
+  if (source != Source::Random) return 1;
+  return static_cast<std::uint64_t>(arguments.seeds) *
+         (arguments.stimulus == "all" ? testbench::stimulus_classes().size() : 1);
+}
+
+testbench::VerifyOptions options_from(const VerifyArguments& arguments, const cmodel::Config& config) {
+  testbench::VerifyOptions options{.config = config,
+                                   .ready = arguments.ready,
+                                   .input = arguments.input,
+                                   .fill = testbench::reset_fill_from(arguments.fill),
+                                   .seed = arguments.seed,
+                                   .reset_after = static_cast<std::uint64_t>(arguments.reset_after.value_or(0)),
+                                   .wave = {},
+                                   .coverage = !arguments.coverage.empty(),
+                                   .device = {}};
+  if (!arguments.fault.empty()) options.device = testbench::with_fault(fault_of(arguments, config), config);
+  if (arguments.all_mismatches) {
+    options.stop_after = std::numeric_limits<std::uint64_t>::max();
+    options.keep = static_cast<std::size_t>(*arguments.all_mismatches);
+  }
+  if (!options.device) testbench::require_rtl(config);
+  if (options.ready != "all") testbench::Pattern(options.ready, 0);  // an unknown pattern is told before any work
+  testbench::Pattern(options.input, 0);
+  if (arguments.stimulus != "all") testbench::stimulus_class_from(arguments.stimulus);
+  return options;
+}
+
+testbench::CampaignOptions campaign_from(const VerifyArguments& arguments, const testbench::VerifyOptions& options) {
+  testbench::CampaignOptions campaign{.verify = options,
+                                      .splats = static_cast<std::uint64_t>(*arguments.random),
+                                      .seeds = static_cast<std::uint64_t>(arguments.seeds),
+                                      .keep_going = arguments.all_mismatches.has_value(),
+                                      .as_files = !arguments.save_stream.empty(),
+                                      .threads = arguments.jobs.value_or(arguments.common.threads),
+                                      .progress = {}};
+  if (arguments.stimulus != "all") campaign.classes = {testbench::stimulus_class_from(arguments.stimulus)};
+  return campaign;
+}
+
+Checked verify_stream(const VerifyArguments& arguments, const testbench::VerifyOptions& options) {
+  const std::string path = arguments.stream;
+  Checked out;
+  driver::naming(path, [&] {
+    out = verify_one([path](const cmodel::BeatSink& sink) { driver::read_beats(path, sink); }, options, "stream");
+  });
+  // As replay and cycles have it; a device that is wrong is told first.
+  const auto verdict = out.result.verdict;
+  if (verdict == testbench::Verdict::Pass || verdict == testbench::Verdict::NothingCompared)
+    driver::require_covered(path);
+  return out;
+}
+
+Checked verify_random(const VerifyArguments& arguments, const testbench::VerifyOptions& options,
+                      const Progress& progress) {
+  auto campaign = campaign_from(arguments, options);
+  campaign.progress = progress;
+  const auto result = testbench::run_campaign(campaign);
+  Checked out;
+  out.result = result.total;
+  out.streams = result.streams;
+  out.resets_late = result.resets_late;
+  out.by_seed = result.by_seed;
+  out.by_stream = result.by_stream;
+  out.kept = result.kept;
+  for (const auto& [which, coverage] : result.coverage) out.coverage[testbench::to_string(which)] = coverage;
+  if (result.failed || result.streams == 1) {
+    auto run = testbench::make_run(campaign, result.failed.value_or(0));
+    if (result.failure) out.failed = *result.failure;
+    out.source = testbench::source_of(std::move(run.beats));
+    out.options = run.options;
+  }
+  return out;
+}
+
+Checked verify_scene(const VerifyArguments& arguments, testbench::VerifyOptions options, const Progress& progress,
+                     const Output& output) {
+  options.scope = cmodel::StreamScope::Subset;
+  const auto scene = build(arguments.scene);
+  output.remark(remarks(*scene.volume));
+  const auto compiled = std::make_shared<const driver::CompiledFrame>(scene, options.config);
+  const cmodel::BeatSource source = [compiled, progress](const cmodel::BeatSink& sink) {
+    compiled->emit(sink, progress);
+  };
+  Checked out = verify_one(source, options, "scene");
+  // Pixels of a device that was given no splat are equal whatever is wrong with it.
+  if (out.result.verdict == testbench::Verdict::Pass && out.result.counters.splats == 0)
+    out.result.verdict = testbench::Verdict::NothingCompared;
+  return out;
+}
+
+}  // namespace fastsplat::cli

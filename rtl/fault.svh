@@ -1,6 +1,6 @@
-// Places where the must-fail suite breaks the device (tests/mustfail/faults.def). In every other build the macro is the
+// Places where the must-fail suite breaks the device (testbench/faults/faults.def). In every other build the macro is the
 // constant 0 and leaves nothing behind: only a build that defines FASTSPLAT_FAULT_SELECT can set a fault, and it also
-// needs tests/mustfail/fastsplat_fault_pkg.sv, which is not part of the device.
+// needs fastsplat_fault_pkg.sv (testbench/faults), which is not part of the device.
 //   FASTSPLAT_FAULT_SELECT=fastsplat_fault_pkg::selected      one simulation, fault chosen at run time
 //   FASTSPLAT_FAULT_SELECT=fastsplat_fault_pkg::FORWARD_2     that fault always
 `ifndef FASTSPLAT_FAULT_SVH

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cmodel/register_map.hpp"
 #include "testbench/coverage/coverage_collector.hpp"
 
 namespace fastsplat::testbench {
@@ -14,7 +15,7 @@ std::unique_ptr<RtlDevice> make_device(const VerifyOptions& options, cmodel::Pix
 }
 
 /// Feeds the first beats, then resets in the middle of whatever they started.
-void interrupt(CheckedDevice& checked, const BeatSource& source, std::uint64_t after, int cycles,
+void interrupt(CheckedDevice& checked, const BeatSource& source, std::uint64_t after, int wait, int cycles,
                CoverageCollector* coverage) {
   checked.unchecked([&](RtlDevice& device) {
     const std::uint64_t first_beat = device.cycles();
@@ -34,6 +35,7 @@ void interrupt(CheckedDevice& checked, const BeatSource& source, std::uint64_t a
                    .got = std::to_string(after),
                    .fix = "lower --reset-after"});
     }
+    if (wait > 0) device.read_register(cmodel::kRegStatus.address, wait);
     device.warm_reset(cycles);
   });
 }
@@ -79,7 +81,8 @@ VerifyResult verify(const BeatSource& source, const VerifyOptions& options, cmod
   VerifyResult out;
   try {
     if (options.reset_after > 0)
-      interrupt(checked, source, options.reset_after, options.reset_cycles, coverage ? &*coverage : nullptr);
+      interrupt(checked, source, options.reset_after, options.reset_wait, options.reset_cycles,
+                coverage ? &*coverage : nullptr);
     if (coverage) coverage->start(checked.device().cycles());
     source([&](std::span<const cmodel::Beat> beats) {
       checked.consume(beats);

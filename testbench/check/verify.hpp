@@ -27,6 +27,7 @@ struct VerifyOptions {
   std::uint64_t seed = 1;           ///< of patterns and fill
   std::uint64_t reset_after = 0;    ///< beats before a warm reset, after which the whole stream is fed; 0: none; more
                                     ///< than the stream has: UserError (Usage)
+  int reset_wait = 0;               ///< cycles, about, between those beats and that reset, without another beat
   int reset_cycles = kResetCycles;  ///< of that reset
   std::uint64_t timeout = 1u << 20;
   std::uint64_t stop_after = 1000;           ///< mismatches

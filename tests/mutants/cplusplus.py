@@ -127,6 +127,8 @@ class CppMutator:
         if node.kind == "binary":
             op = node.parser.tokens[node.op].text
             found += [v for v in variants.binary_variants(node) if not (op in ("==", "!=") and v[0].split()[-1] not in ("==", "!="))]
+            if op in ("&&", "||"):  # a side alone may be anything that can be asked for its truth
+                found = [(what, f"static_cast<bool>({text})" if what.startswith("without its") else text) for what, text in found]
         elif node.kind == "unary" and node.parser.tokens[node.op].text in ("!", "-"):
             found += variants.unary_variants(node)
         elif node.kind == "ternary":

@@ -4,6 +4,7 @@ import tomllib
 import campaign
 
 CLASSES = {
+    "assertion-only": "only an assertion reads it, which says the same of the device without it",
     "equivalent": "the device does the same, whatever it is fed",
     "unseen": "what differs is seen by nobody: a value beside a valid that is low, or one that is overwritten before it is used",
     "power": "only work is saved: a register that could hold is loaded",

@@ -21,12 +21,12 @@ def files_of(rtl: str) -> list[str]:
     return sorted(name for name in os.listdir(rtl) if name.endswith(".sv")) + ["narrow.svh"]
 
 
-def mutate(rtl: str, wanted=lambda module, number: True):
+def mutate(rtl: str, wanted=lambda module, number: True, planted=False):
     """[(file, text, mutants)] of all files that have any, and the number after the last."""
     out, number = [], 1
     for name in files_of(rtl):
         with open(f"{rtl}/{name}") as file:
-            mutator = Mutator(name.split(".")[0], file.read(), number, wanted)
+            mutator = Mutator(name.split(".")[0], file.read(), number, wanted, planted)
         text = mutator.result()
         number = mutator.number
         out.append((name, text, mutator.mutants))

@@ -5,7 +5,6 @@ import shutil
 import subprocess
 
 import generate
-import systemverilog
 
 _SCRIPTS = {"sheet_bank": "prove.sh", "csr": "proofs/prove_units.sh", "pixel_out": "proofs/prove_units.sh", "narrow": "proofs/prove_units.sh"}
 
@@ -18,10 +17,10 @@ def plant(rtl: str, out: str, mutant):
     """OUT becomes RTL with the mutant in it for good."""
     shutil.copytree(rtl, out, dirs_exist_ok=True)
     name = f"{mutant['module']}.sv" if mutant["module"] != "narrow" else "narrow.svh"
-    mutated, _ = generate.mutate(rtl, lambda module, number: number == mutant["number"])
+    mutated, _ = generate.mutate(rtl, lambda module, number: number == mutant["number"], planted=True)
     text = next(text for file, text, _ in mutated if file == name)
     with open(f"{out}/{name}", "w") as file:
-        file.write(text.replace(systemverilog.SELECTED, str(mutant["number"])))
+        file.write(text)
 
 
 def refutes(root: str, build: str, mutant):
@@ -37,6 +36,8 @@ def refutes(root: str, build: str, mutant):
     if script == "prove.sh":
         words.append(f"{build}/generated/mustfail/fastsplat_fault_pkg.sv")
     ran = subprocess.run(words, capture_output=True, text=True)
-    said = re.search(rf"^{mutant['module']}: not (proved.*|its definition.*)$", ran.stdout, re.M)
+    said = re.search(r"^(\w+: not (?:proved|its definition).*)$", ran.stdout, re.M)
+    if not said and ran.returncode != 0:
+        raise RuntimeError(f"{script} fails on mutant {mutant['number']} without a word on the proof: {ran.stdout[-300:]}{ran.stderr[-300:]}")
     shutil.rmtree(tree, ignore_errors=True)
-    return f"{mutant['module']} is not {said.group(1)}" if said else None
+    return said.group(1) if said else None

@@ -22,9 +22,11 @@ class Mutant:
 
 
 class Mutator:
-    """`number`: of its first mutant. Of those whose number is not `wanted` nothing is left but the number."""
+    """`number`: of its first mutant. Of those whose number is not `wanted` nothing is left but the number. `planted`: what is wanted is
+    there for good, with nothing to choose."""
 
-    def __init__(self, module: str, source: str, number: int, wanted=lambda module, number: True):
+    def __init__(self, module: str, source: str, number: int, wanted=lambda module, number: True, planted=False):
+        self.planted = planted
         self.module, self.source, self.number, self.wanted = module, source, number, wanted
         self.lines = source.split("\n")
         self.tokens = tokens_of(source, "systemverilog")
@@ -35,6 +37,7 @@ class Mutator:
         self.constants: set[str] = set()
         self.at = 0
         self.clocked = False
+        self.same: dict = {}
 
     def result(self) -> str:
         self._declarations()
@@ -50,8 +53,10 @@ class Mutator:
     # ---- mutants
 
     def _add(self, node_line: int, what: str, original: str, text: str) -> int | None:
-        """Its number if it is wanted."""
+        """Its number if it is wanted. The second of the same on a line says so: (2)."""
         self.number += 1
+        same = self.same[(node_line, what, original)] = self.same.get((node_line, what, original), 0) + 1
+        what += f" ({same})" if same > 1 else ""
         if not self.wanted(self.module, self.number - 1):
             return None
         line = " ".join(self.lines[node_line - 1].strip(" \\").split())
@@ -66,6 +71,8 @@ class Mutator:
                 continue
             seen.add(text)
             number = self._add(node.line, what, node.text, text)
+            if number is not None and self.planted:
+                return f"({text})"
             if number is not None:
                 out += f"{SELECTED} == {number} ? ({text}) : "
         return f"({out}({original}))" if out else original
@@ -271,7 +278,8 @@ class Mutator:
             parser = Parser(self.tokens, self.at, self._until(",", ";"))
             node = parser.ternary()
             self.at = parser.at
-            out += f"{kind} {name}; assign {name} = {self._mutate(node)}; "
+            value = self._mutate(node)
+            out += f"localparam {kind} {name} = {value}; " if self.planted else f"{kind} {name}; assign {name} = {value}; "
             if self._text() == ";":
                 break
             self.at += 1
@@ -378,7 +386,7 @@ class Mutator:
                 number = self._add(self.tokens[first].line, f"label {label} becomes {other}", label, other)
                 if number is None:
                     continue
-                self.edits.append((self.tokens[first].start, self.tokens[last - 1].end,
+                self.edits.append((self.tokens[first].start, self.tokens[last - 1].end, other if self.planted else
                                    f"({SELECTED} == {number} ? {other} : {label})"))
 
     def _assignment(self, drop: bool):
@@ -398,6 +406,9 @@ class Mutator:
             if number is None:
                 return
             at, close = self.tokens[start].start, self.tokens[end].end
+            if self.planted:
+                self.edits.append((at, close, ";"))
+                return
             self.edits.append((at, at, f"begin if ({SELECTED} != {number}) "))
             self.edits.append((close, close, " end"))
 

@@ -81,7 +81,7 @@ def run_all(arguments, root, build):
         untried += [number for number in living if number not in results]
         for number, (verdict, said) in results.items():
             if verdict == "killed":
-                killed[number] = (said if name == "corners" else f"{name}, {said}")
+                killed[number] = (said if name == "corners" else f"{name}/{said}")
         living = [number for number, (verdict, _) in results.items() if verdict == "lives"]
         say(f"{name}: {len(results)} tried, {len(living)} live")
         if not living:

@@ -15,7 +15,8 @@ Model::Model(const Config& config, StreamScope scope, PixelSink& pixels, TapSink
       pixels_(pixels),
       taps_(taps),
       ranges_(ranges),
-      weights_(static_cast<std::size_t>(config.lanes) * config.lanes) {}
+      weights_(static_cast<std::size_t>(config.lanes) * config.lanes),
+      scratch_(weights_.size() * 4) {}
 
 void Model::consume(std::span<const Beat> beats) {
   Counting counting{counters_};
@@ -104,7 +105,7 @@ void Model::window(const SplatRecord& record, std::int32_t x, std::int32_t y, Ob
   sheet_.accumulate(x, y, weights_, record.colour, counters_, observer);
   if (taps_ != nullptr) {
     tap(Tap::Footprint, record.tag, x, y, weights_);
-    tap_sheet(record, x, y);
+    tap(Tap::Sheet, record.tag, x, y, gather(x, y, [&](int i, int j) { return sheet_.at(i, j).data(); }));
   }
 }
 
@@ -118,7 +119,8 @@ void Model::end_sheet(Observer& observer) {
     for (int y = y0; y < y1; ++y) {
       for (int x = x0; x < x1; ++x) compositor_.step(sheet_.at(x, y), x, y, counters_, observer);
     }
-    if (taps_ != nullptr) tap_composite(x0, y0);
+    if (taps_ != nullptr)
+      tap(Tap::Composite, 0, x0, y0, gather(x0, y0, [&](int i, int j) { return compositor_.at(i, j).data(); }));
   });
 }
 
@@ -145,26 +147,17 @@ void Model::tap(Tap kind, std::uint32_t tag, std::int32_t x, std::int32_t y,
       {.tap = kind, .tile = tile_.tile, .sheet = sheet_number_, .tag = tag, .x = x, .y = y, .payload = payload});
 }
 
-void Model::tap_sheet(const SplatRecord& record, std::int32_t x, std::int32_t y) {
-  scratch_.assign(weights_.size() * 4, 0);
-  auto out = scratch_.begin();
-  for (std::int32_t j = 0; j < config_.lanes; ++j) {
-    for (std::int32_t i = 0; i < config_.lanes; ++i, out += 4) {
-      if (sheet_.inside(x + i, y + j)) std::ranges::copy(sheet_.at(x + i, y + j), out);
-    }
+template <class At>
+std::span<const std::uint32_t> Model::gather(std::int32_t x, std::int32_t y, At at) {
+  const int lanes = config_.lanes;
+  const int left = std::clamp(-x, 0, lanes), right = std::clamp(tile_.width - x, 0, lanes);
+  const int top = std::clamp(-y, 0, lanes), bottom = std::clamp(tile_.height - y, 0, lanes);
+  if (right - left < lanes || bottom - top < lanes) std::ranges::fill(scratch_, 0);
+  for (int j = top; j < bottom; ++j) {
+    std::uint32_t* out = &scratch_[static_cast<std::size_t>(j) * lanes * 4];
+    for (int i = left; i < right; ++i) std::copy_n(at(x + i, y + j), 4, out + 4 * i);
   }
-  tap(Tap::Sheet, record.tag, x, y, scratch_);
-}
-
-void Model::tap_composite(int x0, int y0) {
-  scratch_.assign(weights_.size() * 4, 0);
-  auto out = scratch_.begin();
-  for (int y = y0; y < y0 + config_.lanes; ++y) {
-    for (int x = x0; x < x0 + config_.lanes; ++x, out += 4) {
-      if (sheet_.inside(x, y)) std::ranges::copy(compositor_.at(x, y), out);
-    }
-  }
-  tap(Tap::Composite, 0, x0, y0, scratch_);
+  return scratch_;
 }
 
 }  // namespace fastsplat::cmodel

@@ -43,8 +43,9 @@ class Model final : public Device {
   template <class Observer>
   void end_tile(Observer& observer);
   void tap(Tap kind, std::uint32_t tag, std::int32_t x, std::int32_t y, std::span<const std::uint32_t> payload) const;
-  void tap_sheet(const SplatRecord& record, std::int32_t x, std::int32_t y);
-  void tap_composite(int x, int y);
+  /// The four words `at` each pixel of the window whose first pixel is (x,y), in their order; 0 outside of the tile.
+  template <class At>
+  std::span<const std::uint32_t> gather(std::int32_t x, std::int32_t y, At at);
 
   Config config_;
   StreamDecode decode_;
@@ -60,7 +61,7 @@ class Model final : public Device {
   BeginTile tile_;
   std::uint32_t sheet_number_ = 0;
   std::vector<std::uint32_t> weights_;  ///< of the window in flight, P*P
-  std::vector<std::uint32_t> scratch_;  ///< tap payloads
+  std::vector<std::uint32_t> scratch_;  ///< a tap's payload, P*P*4
 };
 
 }  // namespace fastsplat::cmodel

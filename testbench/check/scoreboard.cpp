@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstring>
 
 #include "testbench/device/tap_assembly.hpp"
@@ -12,7 +11,30 @@ namespace fastsplat::testbench {
 namespace {
 
 constexpr std::size_t kHeaderWords = sizeof(TapQueue::Header) / sizeof(std::uint32_t);
-constexpr std::size_t kCompactWords = std::size_t{1} << 16;
+/// Of a queue: a device's depth in small records. What stays short stays in the first-level cache.
+constexpr std::size_t kFirstWords = 512;
+constexpr std::size_t kWordsAtOnce = 4;
+
+/// Most payloads are a few words in fours: a call of the library's would cost more than they do.
+void copy_words(const std::uint32_t* from, std::size_t count, std::uint32_t* to) {
+  std::size_t i = 0;
+  for (; i + kWordsAtOnce <= count; i += kWordsAtOnce) std::memcpy(to + i, from + i, kWordsAtOnce * sizeof *to);
+  for (; i < count; ++i) to[i] = from[i];
+}
+
+bool equal_words(const std::uint32_t* a, const std::uint32_t* b, std::size_t count) {
+  std::size_t i = 0;
+  for (; i + kWordsAtOnce <= count; i += kWordsAtOnce) {
+    std::array<std::uint64_t, 2> left, right;
+    std::memcpy(left.data(), a + i, sizeof left);
+    std::memcpy(right.data(), b + i, sizeof right);
+    if (left != right) return false;
+  }
+  for (; i < count; ++i) {
+    if (a[i] != b[i]) return false;
+  }
+  return true;
+}
 
 TapCopy owned(cmodel::Tap tap, const TapQueue::Header& header, std::span<const std::uint32_t> payload) {
   return {.tap = tap,
@@ -118,16 +140,29 @@ void Scoreboard::Side::on_tap(const cmodel::TapRecord& record) {
   is_model ? board->expect(record) : board->check(record);
 }
 
+void TapQueue::make_room(std::size_t words) {
+  // What is moved is less than what was popped since the last move: constant time per record.
+  const std::size_t held = tail_ - head_;
+  std::vector<std::uint32_t> longer;
+  if (head_ < data_.size() / 2 || data_.size() - held < words) {
+    longer.resize(std::max({kFirstWords, 2 * data_.size(), held + words}));
+    std::copy_n(data_.data() + head_, held, longer.data());
+    data_ = std::move(longer);
+  } else {
+    std::copy_n(data_.data() + head_, held, data_.data());
+  }
+  head_ = 0;
+  tail_ = held;
+}
+
 void TapQueue::push(const cmodel::TapRecord& record) {
-  const Header header{.tile = record.tile,
-                      .sheet = record.sheet,
-                      .tag = record.tag,
-                      .x = record.x,
-                      .y = record.y,
-                      .words = static_cast<std::uint32_t>(record.payload.size())};
-  const auto words = std::bit_cast<std::array<std::uint32_t, kHeaderWords>>(header);
-  data_.insert(data_.end(), words.begin(), words.end());
-  data_.insert(data_.end(), record.payload.begin(), record.payload.end());
+  const Header header = TapQueue::header(record);
+  const std::size_t words = kHeaderWords + header.words;
+  if (data_.size() - tail_ < words) make_room(words);
+  std::uint32_t* out = data_.data() + tail_;
+  std::memcpy(out, &header, sizeof header);
+  copy_words(record.payload.data(), header.words, out + kHeaderWords);
+  tail_ += words;
 }
 
 TapQueue::Header TapQueue::front() const {
@@ -142,14 +177,7 @@ std::span<const std::uint32_t> TapQueue::payload() const {
 
 void TapQueue::pop() {
   head_ += kHeaderWords + front().words;
-  if (head_ == data_.size()) {
-    data_.clear();
-    head_ = 0;
-  } else if (head_ > kCompactWords && head_ > data_.size() / 2) {
-    // What is moved is less than what was popped since the last move: constant time per record.
-    data_.erase(data_.begin(), data_.begin() + static_cast<std::ptrdiff_t>(head_));
-    head_ = 0;
-  }
+  if (empty()) head_ = tail_ = 0;
 }
 
 void Scoreboard::expect(const cmodel::TapRecord& record) {
@@ -178,9 +206,8 @@ void Scoreboard::check(const cmodel::TapRecord& record) {
   const auto payload = queue.payload();
   ++comparisons_;
   ++by_tap_[static_cast<std::size_t>(record.tap)];
-  const bool same_header = header.tile == record.tile && header.sheet == record.sheet && header.tag == record.tag &&
-                           header.x == record.x && header.y == record.y && payload.size() == record.payload.size();
-  const bool same = same_header && std::memcmp(payload.data(), record.payload.data(), payload.size_bytes()) == 0;
+  const bool same_header = header == TapQueue::header(record);
+  const bool same = same_header && equal_words(payload.data(), record.payload.data(), payload.size());
   if (!same && kept_.size() >= most_kept_) {
     ++mismatches_;
     ++mismatches_by_tap_[static_cast<std::size_t>(record.tap)];

@@ -46,24 +46,37 @@ struct DivergenceRow {
 };
 DivergenceRow row_of(const cmodel::Config& config, const Divergence& divergence);
 
-/// Records in order, headers and payloads in one flat array: no allocation per record.
+/// Records in order, headers and payloads in one flat array that is used again from its beginning: no allocation per
+/// record once it is as long as the device is deep.
 class TapQueue {
  public:
+  /// Everything but the payload: what two records are joined and held to.
   struct Header {
     std::uint32_t tile, sheet, tag;
     std::int32_t x, y;
     std::uint32_t words;
+    bool operator==(const Header&) const = default;
   };
+  static Header header(const cmodel::TapRecord& record) {
+    return {.tile = record.tile,
+            .sheet = record.sheet,
+            .tag = record.tag,
+            .x = record.x,
+            .y = record.y,
+            .words = static_cast<std::uint32_t>(record.payload.size())};
+  }
   void push(const cmodel::TapRecord& record);
-  bool empty() const { return head_ == data_.size(); }
+  bool empty() const { return head_ == tail_; }
   Header front() const;
   std::span<const std::uint32_t> payload() const;  ///< of the front
   void pop();
-  std::size_t words() const { return data_.size() - head_; }
+  std::size_t words() const { return tail_ - head_; }
 
  private:
-  std::vector<std::uint32_t> data_;
-  std::size_t head_ = 0;
+  void make_room(std::size_t words);
+
+  std::vector<std::uint32_t> data_;  ///< [head_, tail_) are in the queue
+  std::size_t head_ = 0, tail_ = 0;
 };
 
 class Scoreboard {

@@ -1,5 +1,8 @@
 #include "testbench/device/tap_assembly.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "cmodel/cycle_stages.hpp"
 #include "cmodel/records.hpp"
 #include "testbench/device/port_bits.hpp"
@@ -7,24 +10,23 @@
 namespace fastsplat::testbench {
 namespace {
 
-/// Bits lsb .. lsb+bits-1 of a vector of 32-bit words.
-std::uint32_t field(std::span<const std::uint32_t> words, std::size_t lsb, int bits) {
-  const std::size_t word = lsb / 32;
-  const int shift = static_cast<int>(lsb % 32);
-  std::uint64_t value = words[word] >> shift;
-  if (shift + bits > 32) value |= static_cast<std::uint64_t>(words[word + 1]) << (32 - shift);
-  return static_cast<std::uint32_t>(value & ((std::uint64_t{1} << bits) - 1));
-}
+constexpr cmodel::BeginTile kNone{.mode = {}, .tile = kNoTile, .x = 0, .y = 0, .width = 0, .height = 0};
+constexpr std::size_t kWords = 4;  ///< of a pixel
 
 }  // namespace
 
 TapAssembly::TapAssembly(const cmodel::Config& config, cmodel::PixelSink& pixels, cmodel::TapSink& taps)
-    : config_(config),
-      taps_(taps),
-      sheet_bits_(port_bits(config).sheet),
-      weight_bits_(port_bits(config).weight),
-      state_bits_(port_bits(config).state),
-      tiles_(config, pixels) {}
+    : taps_(taps),
+      lanes_(config.lanes),
+      origin_bits_(config.position_int_bits + 2),
+      columns_(static_cast<std::uint32_t>(config.tile_width / config.lanes)),
+      banks_(static_cast<std::size_t>(config.lanes) * config.lanes),
+      sheet_fields_(port_bits(config).sheet),
+      weight_fields_(port_bits(config).weight),
+      state_fields_(port_bits(config).state),
+      tiles_(config, pixels),
+      banked_(kWords * banks_),
+      payload_(kWords * banks_) {}
 
 void TapAssembly::accept(const cmodel::Beat& beat) {
   const auto opcode = tiles_.accept(beat);
@@ -41,14 +43,10 @@ void TapAssembly::accept(const cmodel::Beat& beat) {
 }
 
 std::int32_t TapAssembly::origin(std::uint32_t port) const {
-  const int bits = config_.position_int_bits + 2;
-  return static_cast<std::int32_t>(port << (32 - bits)) >> (32 - bits);
+  return static_cast<std::int32_t>(port << (32 - origin_bits_)) >> (32 - origin_bits_);
 }
 
-cmodel::BeginTile TapAssembly::tile() const {
-  if (tiles_.complete()) return {.mode = {}, .tile = kNoTile, .x = 0, .y = 0, .width = 0, .height = 0};
-  return tiles_.front().begin;
-}
+const cmodel::BeginTile& TapAssembly::tile() const { return tiles_.complete() ? kNone : tiles_.front().begin; }
 
 std::uint32_t TapAssembly::sheet_of(std::uint32_t tag) const {
   if (tiles_.complete()) return 0;
@@ -59,16 +57,16 @@ std::uint32_t TapAssembly::sheet_of(std::uint32_t tag) const {
   return 0;
 }
 
-void TapAssembly::emit(cmodel::Tap tap, std::uint64_t cycle, std::uint32_t sheet, std::uint32_t tag, std::int32_t x,
-                       std::int32_t y) {
+void TapAssembly::emit(cmodel::Tap tap, std::uint64_t cycle, std::uint32_t sheet, std::uint32_t tag, Place at,
+                       std::span<const std::uint32_t> payload) {
   taps_.on_tap({.tap = tap,
                 .tile = tiles_.complete() ? kNoTile : shown_tile_.value_or(tile().tile),
                 .sheet = sheet,
                 .tag = tag,
                 .cycle = cycle,
-                .x = x,
-                .y = y,
-                .payload = payload_});
+                .x = at.x,
+                .y = at.y,
+                .payload = payload});
 }
 
 void TapAssembly::on_raw(const RawTap& tap) {
@@ -90,24 +88,37 @@ void TapAssembly::on_raw(const RawTap& tap) {
 }
 
 void TapAssembly::snap(const RawTap& tap) {
-  const std::int32_t x = origin(tap.x), y = origin(tap.y);
-  payload_ = {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), tap.mx, tap.my};
-  emit(cmodel::Tap::Snap, tap.cycle, sheet_of(tap.tag), tap.tag, x, y);
+  const Place at{.x = origin(tap.x), .y = origin(tap.y)};
+  const std::array<std::uint32_t, 4> payload{static_cast<std::uint32_t>(at.x), static_cast<std::uint32_t>(at.y), tap.mx,
+                                             tap.my};
+  emit(cmodel::Tap::Snap, tap.cycle, sheet_of(tap.tag), tap.tag, at, payload);
 }
 
 void TapAssembly::window(const RawTap& tap) {
-  const std::int32_t x = origin(tap.x), y = origin(tap.y);
-  windows_.push_back({x, y});
-  const int lanes = config_.lanes, mask = lanes - 1;
-  payload_.resize(static_cast<std::size_t>(lanes) * lanes);
+  const Place at{.x = origin(tap.x), .y = origin(tap.y)};
+  windows_.push_back(at);
+  weight_fields_.unpack(tap.words.data(), banks_, banked_.data());
+  const int mask = lanes_ - 1;
   std::uint32_t* out = payload_.data();
-  for (int j = 0; j < lanes; ++j) {
-    for (int i = 0; i < lanes; ++i) {
-      const auto bank = static_cast<std::size_t>(((y + j) & mask) * lanes + ((x + i) & mask));
-      *out++ = field(tap.words, bank * weight_bits_, weight_bits_);
-    }
+  for (int j = 0; j < lanes_; ++j) {
+    const std::uint32_t* row = &banked_[static_cast<std::size_t>((at.y + j) & mask) * lanes_];
+    for (int i = 0; i < lanes_; ++i) *out++ = row[(at.x + i) & mask];
   }
-  emit(cmodel::Tap::Footprint, tap.cycle, sheet_of(tap.tag), tap.tag, x, y);
+  emit(cmodel::Tap::Footprint, tap.cycle, sheet_of(tap.tag), tap.tag, at, {payload_.data(), banks_});
+}
+
+void TapAssembly::arrange(Place at, const cmodel::BeginTile& begin) {
+  const int mask = lanes_ - 1;
+  // A window that crosses the tile's edge keeps 0 where nothing is copied.
+  const int left = std::clamp(-at.x, 0, lanes_), right = std::clamp(begin.width - at.x, 0, lanes_);
+  const int top = std::clamp(-at.y, 0, lanes_), bottom = std::clamp(begin.height - at.y, 0, lanes_);
+  if (right - left < lanes_ || bottom - top < lanes_) std::ranges::fill(payload_, 0);
+  for (int j = top; j < bottom; ++j) {
+    const std::uint32_t* row = &banked_[kWords * static_cast<std::size_t>((at.y + j) & mask) * lanes_];
+    std::uint32_t* out = &payload_[kWords * static_cast<std::size_t>(j) * lanes_];
+    for (int i = left; i < right; ++i)
+      std::copy_n(row + kWords * ((at.x + i) & mask), kWords, out + kWords * static_cast<std::size_t>(i));
+  }
 }
 
 void TapAssembly::sheet(const RawTap& tap) {
@@ -116,38 +127,18 @@ void TapAssembly::sheet(const RawTap& tap) {
     at = windows_.front();
     windows_.pop_front();
   }
-  const cmodel::BeginTile begin = tile();
-  const int lanes = config_.lanes, mask = lanes - 1;
-  payload_.assign(static_cast<std::size_t>(lanes) * lanes * 4, 0);
-  std::uint32_t* out = payload_.data();
-  for (int j = 0; j < lanes; ++j) {
-    for (int i = 0; i < lanes; ++i, out += 4) {
-      const std::int32_t x = at.x + i, y = at.y + j;
-      if (x < 0 || y < 0 || x >= begin.width || y >= begin.height) continue;
-      const auto bank = static_cast<std::size_t>((y & mask) * lanes + (x & mask));
-      for (std::size_t c = 0; c < 4; ++c) out[c] = field(tap.words, (bank * 4 + c) * sheet_bits_, sheet_bits_);
-    }
-  }
-  emit(cmodel::Tap::Sheet, tap.cycle, sheet_of(tap.tag), tap.tag, at.x, at.y);
+  sheet_fields_.unpack(tap.words.data(), kWords * banks_, banked_.data());
+  arrange(at, tile());
+  emit(cmodel::Tap::Sheet, tap.cycle, sheet_of(tap.tag), tap.tag, at, payload_);
 }
 
 void TapAssembly::composite(const RawTap& tap) {
   pass_sheets(tap.cycle);
-  const cmodel::BeginTile begin = tile();
-  const int lanes = config_.lanes;
-  const auto columns = static_cast<std::uint32_t>(config_.tile_width / lanes);
-  const auto x0 = static_cast<std::int32_t>(tap.block % columns) * lanes,
-             y0 = static_cast<std::int32_t>(tap.block / columns) * lanes;
-  payload_.assign(static_cast<std::size_t>(lanes) * lanes * 4, 0);
-  std::uint32_t* out = payload_.data();
-  for (int j = 0; j < lanes; ++j) {
-    for (int i = 0; i < lanes; ++i, out += 4) {
-      if (x0 + i >= begin.width || y0 + j >= begin.height) continue;
-      const auto bank = static_cast<std::size_t>(j * lanes + i);
-      for (std::size_t c = 0; c < 4; ++c) out[c] = field(tap.words, (bank * 4 + c) * state_bits_, state_bits_);
-    }
-  }
-  emit(cmodel::Tap::Composite, tap.cycle, composited_sheet(), 0, x0, y0);
+  const Place at{.x = static_cast<std::int32_t>(tap.block % columns_) * lanes_,
+                 .y = static_cast<std::int32_t>(tap.block / columns_) * lanes_};
+  state_fields_.unpack(tap.words.data(), kWords * banks_, banked_.data());
+  arrange(at, tile());
+  emit(cmodel::Tap::Composite, tap.cycle, composited_sheet(), 0, at, payload_);
 }
 
 void TapAssembly::pass_sheets(std::uint64_t cycle) {
@@ -162,14 +153,12 @@ std::uint32_t TapAssembly::composited_sheet() const {
 }
 
 void TapAssembly::pixels(const RawTap& tap) {
-  const auto place =
-      tiles_.complete() ? TileAssembly::Place{.x = 0, .y = 0, .count = config_.lanes} : tiles_.next_place();
+  const auto place = tiles_.complete() ? TileAssembly::Place{.x = 0, .y = 0, .count = lanes_} : tiles_.next_place();
   const std::uint32_t keep = tap.keep.value_or(static_cast<std::uint32_t>((std::uint64_t{1} << place.count) - 1));
-  for (int i = 0; i < config_.lanes; ++i) {
+  for (int i = 0; i < lanes_; ++i) {
     if ((keep >> i & 1) == 0) continue;
-    const auto pixel = tap.words.subspan(4 * static_cast<std::size_t>(i), 4);
-    payload_.assign(pixel.begin(), pixel.end());
-    emit(cmodel::Tap::Pixel, tap.cycle, 0, 0, place.x + i, place.y);
+    emit(cmodel::Tap::Pixel, tap.cycle, 0, 0, {.x = place.x + i, .y = place.y},
+         tap.words.subspan(kWords * static_cast<std::size_t>(i), kWords));
   }
   if (tap.last && !sheets_.empty()) {
     // A tile of one beat may end in the very cycle that counts its last, empty sheet.

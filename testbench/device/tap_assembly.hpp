@@ -9,6 +9,7 @@
 #include "cmodel/config.hpp"
 #include "cmodel/device.hpp"
 #include "cmodel/taps.hpp"
+#include "testbench/device/port_fields.hpp"
 #include "testbench/device/raw_taps.hpp"
 #include "testbench/device/tile_assembly.hpp"
 
@@ -39,7 +40,7 @@ class TapAssembly final : public RawTapSink {
     std::int32_t x = 0, y = 0;
   };
   /// The tile whose events come now; an empty one if there is none.
-  cmodel::BeginTile tile() const;
+  const cmodel::BeginTile& tile() const;
   void snap(const RawTap& tap);
   void window(const RawTap& tap);
   void sheet(const RawTap& tap);
@@ -50,18 +51,23 @@ class TapAssembly final : public RawTapSink {
   /// Counts the sheets whose blocks have all been shown before the cycle.
   void pass_sheets(std::uint64_t cycle);
   std::uint32_t composited_sheet() const;
-  void emit(cmodel::Tap tap, std::uint64_t cycle, std::uint32_t sheet, std::uint32_t tag, std::int32_t x,
-            std::int32_t y);
+  /// The banks of a window at `at`, their four words each, in the order of its pixels; 0 for those outside of the tile.
+  void arrange(Place at, const cmodel::BeginTile& begin);
+  void emit(cmodel::Tap tap, std::uint64_t cycle, std::uint32_t sheet, std::uint32_t tag, Place at,
+            std::span<const std::uint32_t> payload);
 
-  cmodel::Config config_;
   cmodel::TapSink& taps_;
-  int sheet_bits_, weight_bits_, state_bits_;
+  int lanes_, origin_bits_;
+  std::uint32_t columns_;  ///< of blocks, in a tile of full width
+  std::size_t banks_;
+  PortFields sheet_fields_, weight_fields_, state_fields_;
   TileAssembly tiles_;
   std::deque<Sheets> sheets_;
   std::optional<std::uint32_t> shown_tile_;  ///< by the event at hand
   std::deque<Place> windows_;                ///< between the footprint and the sheet tap
   std::deque<std::uint64_t> finished_;       ///< cycles of sheet_done whose blocks are still in the pipe
-  std::vector<std::uint32_t> payload_;
+  std::vector<std::uint32_t> banked_;        ///< of a port, by bank: one word or four of each
+  std::vector<std::uint32_t> payload_;       ///< the same by pixel
 };
 
 }  // namespace fastsplat::testbench

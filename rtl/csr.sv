@@ -89,6 +89,6 @@ module csr (
       bvalid_o <= 1'b0;
     end
   end
-  `FASTSPLAT_ASSERT_NEXT(read_held, rvalid_o && !rready_i, rvalid_o && $stable(rdata_o) && $stable(rresp_o))
-  `FASTSPLAT_ASSERT_NEXT(write_answer_held, bvalid_o && !bready_i, bvalid_o && $stable(bresp_o))
+  `FASTSPLAT_ASSERT_HELD(read_held, rvalid_o && !rready_i, rvalid_o, {rdata_o, rresp_o})
+  `FASTSPLAT_ASSERT_HELD(write_answer_held, bvalid_o && !bready_i, bvalid_o, bresp_o)
 endmodule

@@ -107,7 +107,7 @@ module pixel_out (
   assign valid_o = valid_r2_q;
   assign last_o = last_r2_q;
   `FASTSPLAT_ASSERT_NEXT(pixel_valid_held, valid_o && !ready_i, valid_o)
-  `FASTSPLAT_ASSERT_NEXT(pixel_payload_held, valid_o && !ready_i, $stable(data_o) && $stable(keep_o) && $stable(last_o))
+  `FASTSPLAT_ASSERT_HELD(pixel_payload_held, valid_o && !ready_i, 1'b1, {data_o, keep_o, last_o})
   `FASTSPLAT_ASSUME(pixel_start_when_idle, !start_i || idle_o)
   `FASTSPLAT_COVER(pixel_back_pressure, valid_o && !ready_i)
 endmodule

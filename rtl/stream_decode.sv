@@ -244,9 +244,9 @@ module stream_decode (
       error_opcode_o <= '0;
     end
   end
-  `FASTSPLAT_ASSUME_NEXT(input_held, valid_i && !ready_o, valid_i && $stable(data_i))
+  `FASTSPLAT_ASSUME_HELD(input_held, valid_i && !ready_o, valid_i, data_i)
   `FASTSPLAT_ASSERT_NEXT(accepted_beat_arrives, valid_i && ready_o, beat_valid_q)
-  `FASTSPLAT_ASSERT_NEXT(waiting_beat_stays, beat_valid_q && !take, beat_valid_q && $stable(beat_q))
+  `FASTSPLAT_ASSERT_HELD(waiting_beat_stays, beat_valid_q && !take, beat_valid_q, beat_q)
   `FASTSPLAT_ASSERT(one_thing_at_a_time,
                     $onehot0({tile_begin_o, tile_end_o, event_splat_o, event_cull_o, rlut_we_o, radial_we_o, factor_we_o}))
   `FASTSPLAT_ASSERT(window_in_open_sheet, !window_valid_o || busy_q[window_buffer_o])

@@ -20,7 +20,9 @@ namespace fastsplat::testbench {
 /// Length of a reset, unless somebody asks for another.
 constexpr int kResetCycles = 4;
 
-/// Which simulation of the RTL runs. Both behave the same; a plain one neither checks assertions nor writes waveforms.
+/// Which simulation of the RTL runs. All behave the same; a plain one neither checks assertions nor writes waveforms. A
+/// device that is to write one (RtlOptions::wave) is a third simulation, which is slow: of ResetFill::Random it draws
+/// other words than the others.
 enum class RtlBuild { Checked, Plain };
 
 struct RtlOptions {

@@ -16,8 +16,10 @@
 namespace fastsplat::testbench {
 namespace {
 
+constexpr int kUnwanted = 2;  ///< exit code of a child whose run was another one
+
 /// No cycle takes more than one beat, so no more of them come before the last cycle that is wanted.
-std::vector<cmodel::Beat> wanted(const BeatSource& source, const VerifyOptions& options) {
+std::vector<cmodel::Beat> wanted_beats(const BeatSource& source, const VerifyOptions& options) {
   const std::uint64_t most = std::max(options.wave_to, options.reset_after);
   std::vector<cmodel::Beat> taken;
   source([&](std::span<const cmodel::Beat> beats) {
@@ -47,12 +49,13 @@ void drive(std::span<const cmodel::Beat> beats, const VerifyOptions& options) {
 }
 
 /// In the child: neither the parent's buffers nor its handlers are its business.
-[[noreturn]] void write_and_leave(std::span<const cmodel::Beat> beats, const VerifyOptions& options) {
+[[noreturn]] void write_and_leave(const BeatSource& source, std::span<const cmodel::Beat> beats,
+                                  const VerifyOptions& options, const WantedRun& wanted_run) {
   for (const int signal : {SIGBUS, SIGSEGV, SIGABRT, SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
   int code = 1;
   try {
-    drive(beats, options);
-    code = 0;
+    if (!wanted_run) drive(beats, options);
+    code = !wanted_run || wanted_run(verify(source, options)) ? 0 : kUnwanted;
   } catch (...) {
   }
   ::_exit(code);
@@ -68,17 +71,25 @@ std::string cannot_write(const std::filesystem::path& path, const std::string& r
 
 }  // namespace
 
-std::string write_waveform(const BeatSource& source, const VerifyOptions& options) {
+std::string write_waveform(const BeatSource& source, const VerifyOptions& options, const WantedRun& wanted_run) {
   try {
     AtomicFile file(options.wave);
     VerifyOptions run = options;
     run.wave = file.temporary();
-    const std::vector<cmodel::Beat> beats = wanted(source, options);
+    const std::vector<cmodel::Beat> beats = wanted_run ? std::vector<cmodel::Beat>{} : wanted_beats(source, options);
     const pid_t child = ::fork();
     if (child < 0) return cannot_write(options.wave, std::strerror(errno));
-    if (child == 0) write_and_leave(beats, run);
+    if (child == 0) write_and_leave(source, beats, run, wanted_run);
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    if (WIFEXITED(status) && WEXITSTATUS(status) == kUnwanted) {
+      return one_line({.where = options.wave.string(),
+                       .what = "no waveform: the simulation that writes it does not fail so",
+                       .expected = {},
+                       .got = {},
+                       .fix = "registers hold other words there before reset: look for what is never reset, and try "
+                              "--fill zero or one"});
     }
     if (status != 0) {
       std::error_code ignored;

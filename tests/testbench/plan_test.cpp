@@ -80,7 +80,7 @@ TEST(Plan, NamesEveryAssertionAndEveryFault) {
     assertions.insert(point.assertions.begin(), point.assertions.end());
     faults.insert(point.faults.begin(), point.faults.end());
   }
-  EXPECT_EQ(assertions, names_in_rtl(R"(`FASTSPLAT_ASS(?:ERT|UME)(?:_NEXT)?\((\w+),)"));
+  EXPECT_EQ(assertions, names_in_rtl(R"(`FASTSPLAT_ASS(?:ERT|UME)(?:_NEXT|_HELD)?\((\w+),)"));
   std::set<std::string> defined;
   const std::string text = read_text_file(kSource / "testbench" / "faults" / "faults.def");
   static const std::regex fault(R"((?:^|\n)FAULT\((\w+),)");
@@ -94,7 +94,7 @@ TEST(Plan, NamesEveryAssertionAndEveryFault) {
 
 TEST(Plan, NamesEveryCoverPoint) {
   auto points = names_in_rtl(R"(`FASTSPLAT_COVER\((\w+),)");
-  for (const auto& name : names_in_rtl(R"(`FASTSPLAT_ASS(?:ERT|UME)_NEXT\((\w+),)")) points.insert(name + "_met");
+  for (const auto& name : names_in_rtl(R"(`FASTSPLAT_ASS(?:ERT|UME)_(?:NEXT|HELD)\((\w+),)")) points.insert(name + "_met");
   EXPECT_GT(points.size(), 0u);
   const auto testpoints = plan().testpoints;
   for (const auto& name : points) {

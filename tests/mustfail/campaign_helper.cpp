@@ -145,10 +145,4 @@ Outcome run(const cmodel::Config& config, Stimulus stimulus, const MakeDevice& m
   return total;
 }
 
-MakeDevice faulty(Fault fault, Assertions assertions) {
-  return [=](const cmodel::Config& config, cmodel::PixelSink& pixels, const testbench::RtlOptions& options) {
-    return testbench::make_breakable_device(config, pixels, options, fault, assertions);
-  };
-}
-
 }  // namespace fastsplat::test

@@ -48,6 +48,10 @@ using MakeDevice = std::function<std::unique_ptr<testbench::RtlDevice>(const cmo
 Outcome run(const cmodel::Config& config, Stimulus stimulus, const MakeDevice& make);
 
 /// The device that can be broken. With assertions on, one that fires ends the run with Detector::Assertion.
-MakeDevice faulty(Fault fault, Assertions assertions);
+inline MakeDevice faulty(Fault fault, Assertions assertions) {
+  return [=](const cmodel::Config& config, cmodel::PixelSink& pixels, const testbench::RtlOptions& options) {
+    return testbench::make_breakable_device(config, pixels, options, fault, assertions);
+  };
+}
 
 }  // namespace fastsplat::test

@@ -121,9 +121,9 @@ module stream_decode (
 
   logic is_splat, wait_buffer, wait_tile, known;
   assign is_splat = beat_valid_q && !payload_q && opcode == fastsplat_pkg::OP_SPLAT && !error_o;
-  assign wait_buffer = beat_valid_q && !payload_q && opcode == fastsplat_pkg::OP_BEGIN_SHEET && busy_q[buffer_q];
+  assign wait_buffer = beat_valid_q && !payload_q && !error_o && opcode == fastsplat_pkg::OP_BEGIN_SHEET && busy_q[buffer_q];
   // A sheet on its way through the splat path keeps its buffer busy, so "all buffers free" covers the pipe as well.
-  assign wait_tile = beat_valid_q && !payload_q && (opcode == fastsplat_pkg::OP_BEGIN_TILE || opcode == fastsplat_pkg::OP_END_TILE) &&
+  assign wait_tile = beat_valid_q && !payload_q && !error_o && (opcode == fastsplat_pkg::OP_BEGIN_TILE || opcode == fastsplat_pkg::OP_END_TILE) &&
                      (!tile_idle_i || busy_q != '0);
   always_comb begin
     known = 1'b1;
@@ -137,9 +137,8 @@ module stream_decode (
     endcase
   end
   always_comb begin
-    take = beat_valid_q;
-    if (error_o) take = beat_valid_q;  // after an error everything is swallowed
-    else if (payload_q) take = beat_valid_q && (last_word || word_in_beat_q == 3'd5);
+    take = beat_valid_q;  // after an error everything is swallowed
+    if (payload_q) take = beat_valid_q && (last_word || word_in_beat_q == 3'd5);
     else if (is_splat) take = last_window;
     else if (wait_buffer || wait_tile) take = 1'b0;
   end

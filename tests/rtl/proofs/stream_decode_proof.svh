@@ -170,6 +170,11 @@ always @(posedge clk_i) begin
     assert (event_cull_o == (f_done && !f_error_q && !f_payload && f_opcode == 8'h43));
     assert (error_o == f_error_q);
     assert (tile_open_o == (f_place_q != 2'd0));
+    // Who waits, and for what; what is swallowed after an error never does.
+    assert (stall_input_o == !f_have_q);
+    assert (stall_table_o == (f_have_q && !f_error_q && f_payload));
+    assert (stall_buffer_o == (f_have_q && !f_error_q && !f_payload && f_opcode == 8'h53 && f_waits));
+    assert (stall_tile_o == (f_have_q && !f_error_q && !f_payload && f_opcode != 8'h53 && f_waits));
     // Windows.
     assert (window_valid_o == f_was_splat_q);
     assert (window_last_o == f_was_end_q);

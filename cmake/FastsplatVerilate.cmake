@@ -74,7 +74,7 @@ function(fastsplat_verilate target config)
     set(warnings -Wno-lint -Wno-fatal)
     # Cells are half a million lines of C++, simulated for seconds.
     if(arg_NETLIST STREQUAL "ice40")
-      set(speed -O0)
+      set(optimise -O0)
     endif()
     set(netlist_script ${PROJECT_SOURCE_DIR}/cmake/netlist.sh)
     add_custom_command(

@@ -10,6 +10,8 @@
 #include <iostream>
 #include <span>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "bench/evidence/page.hpp"
 #include "bench/evidence/synthesis.hpp"
@@ -72,11 +74,17 @@ Json proofs(const std::string& tool, std::span<const std::string> files) {
     std::ifstream in(file);
     if (!in) throw std::runtime_error("cannot read " + file);
     for (std::string line; std::getline(in, line);) {
-      const auto first = line.find(" | "), second = line.rfind(" | ");
-      if (first == std::string::npos || second == first) throw std::runtime_error(file + " is no list of proofs");
-      all.push_back({{"property", line.substr(0, first)},
-                     {"how", line.substr(first + 3, second - first - 3)},
-                     {"seconds", std::stod(line.substr(second + 3))}});
+      std::vector<std::string> fields;
+      for (std::size_t at = 0; at != std::string::npos;) {
+        const auto bar = line.find(" | ", at);
+        fields.push_back(line.substr(at, bar == std::string::npos ? bar : bar - at));
+        at = bar == std::string::npos ? bar : bar + 3;
+      }
+      if (fields.size() != 4) throw std::runtime_error(file + " is no list of proofs");
+      all.push_back({{"property", fields[0]},
+                     {"how", fields[1]},
+                     {"seconds", std::stod(fields[2])},
+                     {"refuted", std::stoi(fields[3])}});
     }
   }
   return {{"tool", tool}, {"proofs", all}};

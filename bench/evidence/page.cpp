@@ -43,11 +43,12 @@ std::string figures_table(const Json& json) {
 }
 
 std::string proofs_table(const Json& json) {
-  std::string out =
-      fmt::format("{}.\n\n| proved | how | seconds |\n|---|---|---|\n", json.at("tool").get<std::string>());
+  std::string out = fmt::format("{}.\n\n| proved | how | seconds | planted faults refuted |\n|---|---|---|---|\n",
+                                json.at("tool").get<std::string>());
   for (const auto& proof : json.at("proofs")) {
-    out += fmt::format("| {} | {} | {:.1f} |\n", proof.at("property").get<std::string>(),
-                       proof.at("how").get<std::string>(), proof.at("seconds").get<double>());
+    out += fmt::format("| {} | {} | {:.1f} | {} |\n", proof.at("property").get<std::string>(),
+                       proof.at("how").get<std::string>(), proof.at("seconds").get<double>(),
+                       proof.at("refuted").get<int>());
   }
   return out + "\n";
 }

@@ -58,16 +58,21 @@ holds() { # NAME DEPTH PROPERTY: from reset on for DEPTH cycles and, given those
   for mode in "" -i; do
     bmc "$1" "$mode" "$2" || { tail -20 "$work/$1$mode.out"; echo "$1: not proved (${mode:-bounded}, $2)"; exit 1; }
   done
-  echo "$3 | induction over $2 cycles | $(seconds "$from")" >>"$work/proofs.txt"
+  proved "$3" "induction over $2 cycles" "$from"
   echo "[figure] $3: for ever, by induction over $2 cycles, $(seconds "$from") s"
+}
+proved() { # PROPERTY HOW BEGAN: a line of proofs.txt, of which no planted fault has been refuted yet
+  echo "$1 | $2 | $(seconds "$3") | 0" >>"$work/proofs.txt"
 }
 happens() { # NAME DEPTH: each cover is reached
   bmc "$1" -c "$2" || { tail -5 "$work/$1-c.out"; echo "$1: a cover is not reached within $2 cycles"; exit 1; }
   echo "[figure] $1: covers reached = $(grep -c 'Reached cover' "$work/$1-c.out") (limit > 0)"
   grep -q 'Reached cover' "$work/$1-c.out" || exit 1
 }
-refuted() { # NAME DEPTH, or FROM:DEPTH, which looks at none of the cycles before FROM
+refuted() { # NAME DEPTH, or FROM:DEPTH, which looks at none of the cycles before FROM: one fault more of the property proved last
   if bmc "$1" "" "$2"; then echo "$1: the planted fault is not found within $2 cycles"; exit 1; fi
   grep -q 'Assert failed' "$work/$1.out" || { tail -5 "$work/$1.out"; echo "$1: fails for another reason"; exit 1; }
   echo "[figure] planted $1: $(grep -m1 'Assert failed' "$work/$1.out" | sed 's/.*Assert failed in/assertion failed in/')"
+  awk -F ' [|] ' -v OFS=' | ' 'NR > 1 { print line } { line = $0; $4 += 1; more = $0 } END { print more }' "$work/proofs.txt" >"$work/proofs.new"
+  mv "$work/proofs.new" "$work/proofs.txt"
 }

@@ -1,7 +1,7 @@
 #!/bin/sh
 # prove_bounds.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR: what slab opacity and compositing make of any word stays within its bounds
 # (NAME_proof.svh), in every mode and for ever, by induction, with Yosys and z3; planted faults are noticed. Leaves
-# WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS, one a line.
+# WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS | FAULTS REFUTED, one a line.
 set -eu
 emit=$1 source=$2 work=$3
 mkdir -p "$work"

@@ -2,7 +2,7 @@
 # prove_control.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR [short]: the device's control for ever, by induction, with Yosys and z3, each part
 # against its specification written again (NAME_proof.svh): decode, the compositor's walk, and how the parts share the sheet
 # buffers (core), with what each assumes of the others proved there. What is asked about happens; planted faults are noticed.
-# Leaves WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS, one a line. short: without the deadlock's proof, what takes minutes to reach
+# Leaves WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS | FAULTS REFUTED, one a line. short: without the deadlock's proof, what takes minutes to reach
 # or to refute, and most of the faults.
 set -eu
 emit=$1 source=$2 work=$3 short=${4-}

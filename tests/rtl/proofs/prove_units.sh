@@ -1,7 +1,7 @@
 #!/bin/sh
 # prove_units.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR: each unit against its specification written again (NAME_proof.svh, put inside
 # a copy of the module before its end), for ever, by induction, with Yosys and z3; that what is asked about happens; and that each
-# proof notices planted faults. Leaves WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS, one a line.
+# proof notices planted faults. Leaves WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS | FAULTS REFUTED, one a line.
 set -eu
 emit=$1 source=$2 work=$3
 mkdir -p "$work"
@@ -120,7 +120,7 @@ narrow narrow
 from=$(date +%s.%N)
 # Nothing is remembered: one step is all.
 bmc narrow "" 1 || { tail -5 "$work/narrow.out"; echo "narrow: not its definition"; exit 1; }
-echo "narrow: word and overflow are their definition, $(grep -c '  localparam int SHIFT_' "$work/narrow_generated.sv") sites | all inputs | $(seconds "$from")" >>"$work/proofs.txt"
+proved "narrow: word and overflow are their definition, $(grep -c '  localparam int SHIFT_' "$work/narrow_generated.sv") sites" "all inputs" "$from"
 echo "[figure] $(tail -1 "$work/proofs.txt")"
 happens narrow 1
 narrow_broken() { narrow "narrow_$1" "$2"; refuted "narrow_$1" 1; }

@@ -75,6 +75,14 @@ void print_limits(const Results& results) {
       print_goal(fmt::format("cycle model, `{}`: Verilated RTL / cycle model", name),
                  ratio(line->each.at("plain/cycle_model"), {1.0}), Goal::AtLeast, goal);
   }
+  for (const char* name : {"tiny", "small", "base"}) {
+    if (const Line* line = results.line(std::string("rtl/") + name); line != nullptr)
+      print_goal(fmt::format("simulation of `{}`: whole checker and assertions / plain", name),
+                 ratio(line->each.at("checked/plain"), {1.0}), Goal::AtMost, 1.5);
+  }
+  if (const Line* line = results.line("rtl/tiny"); line != nullptr)
+    print_goal("simulation of `tiny`, plain: million clock cycles a second", ratio(line->each.at("cycles/s"), {1e6}),
+               Goal::AtLeast, 5.0);
 }
 
 using Points = std::vector<std::pair<double, std::vector<double>>>;

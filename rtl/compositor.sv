@@ -1,4 +1,4 @@
-// Unit "compositor": walks the dirty blocks of a finished sheet, one P x P block a cycle, lowest number first, clears them
+// Unit "compositor": takes the dirty blocks of a finished sheet, one P x P block a cycle, lowest number first, clears them
 // behind itself and composites them over the picture (docs/numerics.md, section 6; docs/microarchitecture.md).
 // k0 pick -> k1 sums -> k2 factor -> k3 slope -> k4 slab, state -> k5 products -> k6 new state, written.
 `include "assertions.svh"
@@ -23,7 +23,9 @@ module compositor (
     input  logic [fastsplat_pkg::LANES*fastsplat_pkg::BLK_BITS-1:0] dirty_row_i,
     input  logic [fastsplat_pkg::LANES-1:0]        dirty_inside_x_i,
     input  logic [fastsplat_pkg::LANES-1:0]        dirty_inside_y_i,
-    // sheets: done hands a buffer over, free gives it back
+    // sheets: marked says that all of its windows have marked, done hands a buffer over, free gives it back
+    input  logic                                   marked_i,
+    input  logic                                   marked_buffer_i,
     input  logic                                   done_i,
     input  logic                                   done_buffer_i,
     output logic                                   free_o,
@@ -62,132 +64,56 @@ module compositor (
   localparam int FB = fastsplat_pkg::FACTOR_BITS;
   localparam int SIDE = fastsplat_pkg::SIDE_BITS;
 
-  // ---- dirty maps, row by row of blocks: a window marks at most two block columns and two block rows
-  localparam int XB = BX > 1 ? $clog2(BX) : 1;
-  localparam int YB = BY > 1 ? $clog2(BY) : 1;
-  logic [BX-1:0] dirty[0:2*BY-1];  // of buffer 0, then of buffer 1
-  logic [BX-1:0] mark_x;
-  logic [BY-1:0] mark_y;
-  always_comb begin
-    mark_x = '0;
-    mark_y = '0;
-    if (dirty_valid_i) begin
-      for (int g = 0; g < P; g++) begin
-        if (dirty_inside_x_i[g]) mark_x[dirty_column_i[g*BLK+:XB]] = 1'b1;
-        if (dirty_inside_y_i[g]) mark_y[dirty_row_i[g*BLK+:YB]] = 1'b1;
-      end
-      if (`FASTSPLAT_FAULT(MISSED_DIRTY)) for (int r = 2; r < BY; r += 4) mark_y[r] = 1'b0;
-    end
-  end
-
-  // ---- walk: the lowest dirty block is the lowest of the lowest dirty row
-  typedef enum logic [1:0] {StIdle, StWalk, StGap} state_e;
-  state_e state_q;
-  logic [1:0] gap_q;
-  logic walk_buffer_q;
-  logic [1:0] full_q;
-  logic [BY-1:0] dirty_rows, pick_y;
-  logic [BX-1:0] row, pick_x;
+  // ---- k0: a dirty block a cycle
+  logic issue, finish, walk_idle;
   logic [AB-1:0] pick;
-  logic any, issue, finish, touched;
-  logic [NB-1:0] touched_q;
-  always_comb begin
-    dirty_rows = '0;
-    pick_y = '0;
-    row = '0;
-    pick_x = '0;
-    pick = '0;
-    touched = 1'b0;
-    if (state_q == StWalk) begin
-      for (int r = 0; r < BY; r++) dirty_rows[r] = |(walk_buffer_q ? dirty[BY+r] : dirty[r]);
-      pick_y = dirty_rows & (~dirty_rows + BY'(1));
-      for (int r = 0; r < BY; r++) begin
-        if (pick_y[r]) begin
-          row = walk_buffer_q ? dirty[BY+r] : dirty[r];
-          pick = AB'(r * BX);
-        end
-      end
-      pick_x = row & (~row + BX'(1));
-      for (int b = 0; b < BX; b++) if (pick_x[b]) pick = pick | AB'(b);
-      touched = touched_q[pick];
-    end
-  end
-  assign any = |pick_y;
-  assign issue = any;
-  assign finish = state_q == StWalk && dirty_rows == pick_y && row == pick_x;
+  dirty_map u_dirty (
+      .clk_i,
+      .rst_ni,
+      .mark_i(dirty_valid_i),
+      .mark_buffer_i(dirty_buffer_i),
+      .mark_column_i(dirty_column_i),
+      .mark_row_i(dirty_row_i),
+      .mark_inside_x_i(dirty_inside_x_i),
+      .mark_inside_y_i(dirty_inside_y_i),
+      .marked_i,
+      .marked_buffer_i,
+      .done_i,
+      .done_buffer_i,
+      .valid_o(issue),
+      .buffer_o(sheet_buffer_o),
+      .block_o(pick),
+      .finish_o(finish),
+      .idle_o(walk_idle)
+  );
   assign sheet_re_o = issue;
-  assign sheet_buffer_o = walk_buffer_q;
   assign sheet_addr_o = pick;
   assign free_o = finish;
-  assign free_buffer_o = walk_buffer_q;
+  assign free_buffer_o = sheet_buffer_o;
   assign tap_sheet_o = finish;
-
-  // A row changes where a window marks it or the walk clears its pick.
-  logic [BX-1:0] mark_x_of[0:1], pick_x_of[0:1];
-  logic [BY-1:0] changed_y, left_y;
-  for (genvar m = 0; m < 2; m++) begin : gen_buffer
-    assign mark_x_of[m] = dirty_buffer_i == 1'(m) ? mark_x : '0;
-    assign pick_x_of[m] = walk_buffer_q == 1'(m) ? pick_x : '0;
-  end
-  assign changed_y = mark_y | pick_y;
-  for (genvar r = 0; r < BY; r++) begin : gen_dirty
-    logic [BX-1:0] row_q[0:1];
-    always_ff @(posedge clk_i) begin
-      if (changed_y[r]) begin
-        for (int m = 0; m < 2; m++) row_q[m] <= (row_q[m] | (mark_y[r] ? mark_x_of[m] : '0)) & ~(pick_y[r] ? pick_x_of[m] : '0);
-      end
-      if (!rst_ni) begin
-        row_q[0] <= '0;
-        row_q[1] <= '0;
-      end
-    end
-    assign dirty[r] = row_q[0];
-    assign dirty[BY+r] = row_q[1];
-    assign left_y[r] = row_q[walk_buffer_q] != '0;
-  end
-
-  always_ff @(posedge clk_i) begin
-    if (issue) touched_q[pick] <= 1'b1;
-    if (tile_begin_i && !`FASTSPLAT_FAULT(STALE_PICTURE)) touched_q <= '0;
-    case (state_q)
-      StIdle: if (full_q[walk_buffer_q]) state_q <= StWalk;
-      StWalk:
-      if (finish) begin
-        full_q[walk_buffer_q] <= 1'b0;
-        state_q <= StGap;
-        gap_q <= 2'd1;
-      end
-      StGap: begin
-        gap_q <= gap_q - 2'd1;
-        if (gap_q == 2'd0) begin
-          state_q <= StIdle;
-          walk_buffer_q <= !walk_buffer_q;
-        end
-      end
-      default: state_q <= StIdle;
-    endcase
-    if (done_i) full_q[done_buffer_i] <= 1'b1;
-    if (!rst_ni) begin
-      state_q <= StIdle;
-      gap_q <= '0;
-      walk_buffer_q <= 1'b0;
-      full_q <= '0;
-      touched_q <= '0;
-    end
-  end
 
   // ---- pipe control
   logic [6:1] valid_q;
   logic [AB-1:0] addr_q[1:6];
-  logic [4:1] touched_k_q;
+  logic [4:2] touched_k_q;
   always_ff @(posedge clk_i) begin
     valid_q <= {valid_q[5:1], issue};
     if (!rst_ni) valid_q <= '0;
-    touched_k_q <= {touched_k_q[3:1], touched};
+    touched_k_q <= {touched_k_q[3:2], touched};
     addr_q[1] <= pick;
     for (int s = 2; s <= 6; s++) addr_q[s] <= addr_q[s-1];
   end
-  assign idle_o = state_q == StIdle && full_q == '0 && valid_q == '0;
+  assign idle_o = walk_idle && valid_q == '0;
+
+  // ---- blocks that any sheet of the tile reached: looked up in k1, for k4. A sheet has a block once.
+  logic touched;
+  logic [NB-1:0] touched_q;
+  assign touched = touched_q[addr_q[1]];
+  always_ff @(posedge clk_i) begin
+    if (valid_q[1]) touched_q[addr_q[1]] <= 1'b1;
+    if (tile_begin_i && !`FASTSPLAT_FAULT(STALE_PICTURE)) touched_q <= '0;
+    if (!rst_ni) touched_q <= '0;
+  end
 
   // ---- factor table: word j closes segment j-1
   logic [FB-1:0] previous_q;
@@ -281,12 +207,5 @@ module compositor (
 
   // Which blocks hold a picture: pixel out asks by address.
   assign blocks_touched_o = touched_q;
-  `FASTSPLAT_ASSERT(pick_is_one_block, $onehot0(pick_x) && $onehot0(pick_y))
-  `FASTSPLAT_ASSERT(pick_is_dirty, !sheet_re_o || (pick_x & row) != '0)
-  `FASTSPLAT_ASSERT_NEXT(walk_leaves_no_dirt, finish, left_y == '0)
-  `FASTSPLAT_ASSERT(walk_owns_its_sheet, state_q != StWalk || full_q[walk_buffer_q])
-  `FASTSPLAT_ASSERT(handed_over_once, !done_i || !full_q[done_buffer_i])
-  `FASTSPLAT_ASSERT(no_mark_behind_the_walk, !(dirty_valid_i && full_q[dirty_buffer_i]))
   `FASTSPLAT_ASSERT(picture_sent_when_still, !picture_re_i || idle_o)
-  `FASTSPLAT_COVER(empty_sheet_walked, finish && !any)
 endmodule

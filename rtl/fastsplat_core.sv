@@ -137,7 +137,7 @@ module fastsplat_core (
       .stall_tile_o(stall_tile)
   );
 
-  logic dirty_valid, dirty_buffer, done, done_buffer;
+  logic dirty_valid, dirty_buffer, marked, marked_buffer, done, done_buffer;
   logic [fastsplat_pkg::LANES*fastsplat_pkg::BLK_BITS-1:0] dirty_column, dirty_row;
   logic [fastsplat_pkg::LANES-1:0] dirty_inside_x, dirty_inside_y;
   logic sheet_re, sheet_buffer;
@@ -176,6 +176,8 @@ module fastsplat_core (
       .dirty_row_o(dirty_row),
       .dirty_inside_x_o(dirty_inside_x),
       .dirty_inside_y_o(dirty_inside_y),
+      .marked_o(marked),
+      .marked_buffer_o(marked_buffer),
       .done_o(done),
       .done_buffer_o(done_buffer),
       .wipe_i(wiping_q),
@@ -230,6 +232,8 @@ module fastsplat_core (
       .dirty_row_i(dirty_row),
       .dirty_inside_x_i(dirty_inside_x),
       .dirty_inside_y_i(dirty_inside_y),
+      .marked_i(marked),
+      .marked_buffer_i(marked_buffer),
       .done_i(done),
       .done_buffer_i(done_buffer),
       .free_o(free),

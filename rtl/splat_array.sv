@@ -36,6 +36,9 @@ module splat_array (
     output logic [fastsplat_pkg::LANES*fastsplat_pkg::BLK_BITS-1:0] dirty_row_o,
     output logic [fastsplat_pkg::LANES-1:0]                 dirty_inside_x_o,
     output logic [fastsplat_pkg::LANES-1:0]                 dirty_inside_y_o,
+    // c4: the last window of the sheet in this buffer has marked
+    output logic                                            marked_o,
+    output logic                                            marked_buffer_o,
     // W: the sheet of buffer done_buffer_o is complete
     output logic                                            done_o,
     output logic                                            done_buffer_o,
@@ -233,6 +236,8 @@ module splat_array (
     end
   end
 
+  assign marked_o = last_q[4];
+  assign marked_buffer_o = buffer_q[4];
   assign done_o = `FASTSPLAT_FAULT(EARLY_SWAP) ? last_q[4] : last_q[9];
   assign done_buffer_o = `FASTSPLAT_FAULT(EARLY_SWAP) ? buffer_q[4] : buffer_q[9];
 

@@ -11,8 +11,10 @@ module compositor (
     input  logic                                   factor_we_i,
     input  logic [fastsplat_pkg::SEG_LOG2:0]       factor_index_i,  // 0..G
     input  logic [fastsplat_pkg::FACTOR_BITS-1:0]  table_word_i,
+    // picture memory after reset: a word a cycle to blank
+    input  logic                                   wipe_i,
+    input  logic [fastsplat_pkg::ADDR_BITS-1:0]    wipe_addr_i,
     // tile
-    input  logic                                   tile_begin_i,    // pulse: forget the picture
     input  logic [1:0]                             mode_i,
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]    width_i,
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]    height_i,
@@ -36,12 +38,11 @@ module compositor (
     output logic                                   sheet_buffer_o,
     output logic [fastsplat_pkg::ADDR_BITS-1:0]    sheet_addr_o,
     input  logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::SHEET_BITS-1:0] sheet_data_i,  // k1
-    // pixel out reads the picture when idle
+    // pixel out reads the picture when idle, and leaves it blank
     input  logic                                   picture_re_i,
     input  logic [fastsplat_pkg::ADDR_BITS-1:0]    picture_addr_i,
     input  logic [fastsplat_pkg::LANES-1:0]        picture_row_i,     // of the block, one bit each; a cycle later
     output logic [fastsplat_pkg::LANES*4*fastsplat_pkg::STATE_BITS-1:0] picture_o,     // with it
-    output logic [fastsplat_pkg::BLOCKS-1:0]       blocks_touched_o,  // blocks that any sheet of the tile reached
     // taps and events, k6
     output logic                                   tap_valid_o,
     output logic [fastsplat_pkg::ADDR_BITS-1:0]    tap_block_o,
@@ -56,9 +57,7 @@ module compositor (
   localparam int P = fastsplat_pkg::LANES;
   localparam int NB = fastsplat_pkg::BLOCKS;
   localparam int AB = fastsplat_pkg::ADDR_BITS;
-  localparam int BLK = fastsplat_pkg::BLK_BITS;
   localparam int BX = fastsplat_pkg::BLOCKS_X;
-  localparam int BY = fastsplat_pkg::BLOCKS_Y;
   localparam int SB = fastsplat_pkg::SHEET_BITS;
   localparam int DB = fastsplat_pkg::STATE_BITS;
   localparam int FB = fastsplat_pkg::FACTOR_BITS;
@@ -95,25 +94,13 @@ module compositor (
   // ---- pipe control
   logic [6:1] valid_q;
   logic [AB-1:0] addr_q[1:6];
-  logic [4:2] touched_k_q;
   always_ff @(posedge clk_i) begin
     valid_q <= {valid_q[5:1], issue};
     if (!rst_ni) valid_q <= '0;
-    touched_k_q <= {touched_k_q[3:2], touched};
     addr_q[1] <= pick;
     for (int s = 2; s <= 6; s++) addr_q[s] <= addr_q[s-1];
   end
   assign idle_o = walk_idle && valid_q == '0;
-
-  // ---- blocks that any sheet of the tile reached: looked up in k1, for k4. A sheet has a block once.
-  logic touched;
-  logic [NB-1:0] touched_q;
-  assign touched = touched_q[addr_q[1]];
-  always_ff @(posedge clk_i) begin
-    if (valid_q[1]) touched_q[addr_q[1]] <= 1'b1;
-    if (tile_begin_i && !`FASTSPLAT_FAULT(STALE_PICTURE)) touched_q <= '0;
-    if (!rst_ni) touched_q <= '0;
-  end
 
   // ---- factor table: word j closes segment j-1
   logic [FB-1:0] previous_q;
@@ -143,14 +130,25 @@ module compositor (
     end
   end
 
-  logic [AB-1:0] picture_raddr;
+  // ---- picture: blank is 0, so the top bit of a transmittance is kept inverted (1.0 is that bit alone). Written rows lie in
+  // the tile: pixel out reads each of them once, and what was read is blanked in the next cycle.
+  logic [AB-1:0] picture_raddr, picture_waddr, sent_addr_q;
+  logic sent_q;
+  logic [4*DB-1:0] transparent;
   assign picture_raddr = picture_re_i ? picture_addr_i : addr_q[3];
+  assign picture_waddr = wipe_i ? wipe_addr_i : sent_q ? sent_addr_q : addr_q[6];
+  assign transparent = (mode_i == 2'd2) ? '0 : {DB'(1) << fastsplat_pkg::TRANS_FRAC, {(3 * DB) {1'b0}}};
+  always_ff @(posedge clk_i) begin
+    sent_q <= picture_re_i && !`FASTSPLAT_FAULT(STALE_PICTURE);
+    sent_addr_q <= picture_addr_i;
+    if (!rst_ni) sent_q <= 1'b0;
+  end
 
   logic [4*DB-1:0] picture[0:P*P-1], states[0:P*P-1];
   for (genvar h = 0; h < P; h++) begin : gen_row
     for (genvar g = 0; g < P; g++) begin : gen_lane
       localparam int B = h * P + g;
-      logic [4*DB-1:0] slab, state_k4, blank;
+      logic [4*DB-1:0] slab;
       logic [3:0] opacity_saturated_k4, opacity_saturated_k5_q, opacity_saturated_k6_q;
       slab_opacity u_opacity (
           .clk_i,
@@ -168,19 +166,17 @@ module compositor (
           .re_i(valid_q[3] || picture_re_i),
           .raddr_i(picture_raddr),
           .rdata_o(picture[B]),
-          .we_i(valid_q[6]),
-          .waddr_i(addr_q[6]),
-          .wdata_i(states[B])
+          .we_i(wipe_i || (sent_q && picture_row_i[h]) || (valid_q[6] && tap_inside_y_o[h])),
+          .waddr_i(picture_waddr),
+          .wdata_i((wipe_i || sent_q) ? '0 : states[B] ^ transparent)
       );
-      assign blank = (mode_i == 2'd2) ? '0 : {DB'(1) << fastsplat_pkg::TRANS_FRAC, {(3 * DB) {1'b0}}};
-      assign state_k4 = touched_k_q[4] ? picture[B] : blank;
       composite_lane u_composite (
           .clk_i,
           .rst_ni,
           .valid_i(valid_q[5:4]),
           .mode_i,
           .slab_i(slab),
-          .state_i(state_k4),
+          .state_i(picture[B] ^ transparent),
           .state_o(states[B]),
           .frozen_o(tap_frozen_o[B]),
           .saturated_o(tap_saturated_o[4*B+:4])
@@ -197,7 +193,7 @@ module compositor (
     tap_state_o = '0;  // verilator lint_on WIDTHCONCAT
     for (int h = 0; h < P; h++) begin
       for (int g = 0; g < P; g++) begin
-        if (picture_row_i[h]) picture_o[g*4*DB+:4*DB] = picture[h*P+g];
+        if (picture_row_i[h]) picture_o[g*4*DB+:4*DB] = picture[h*P+g] ^ transparent;
         if (valid_q[6]) tap_state_o[(h*P+g)*4*DB+:4*DB] = states[h*P+g];
       end
     end
@@ -205,7 +201,6 @@ module compositor (
   assign tap_valid_o = valid_q[6];
   assign tap_block_o = addr_q[6];
 
-  // Which blocks hold a picture: pixel out asks by address.
-  assign blocks_touched_o = touched_q;
   `FASTSPLAT_ASSERT(picture_sent_when_still, !picture_re_i || idle_o)
+  `FASTSPLAT_ASSERT(picture_has_one_writer, $onehot0({wipe_i, sent_q, valid_q[6]}))
 endmodule

@@ -56,16 +56,16 @@ module dirty_map (
   logic buffer_q;  // walked, or next to be
   logic [1:0] marked_q, full_q;
   logic f1_valid_q, f2_valid_q;
-  logic [BX-1:0] f3_row_q, lowest;
-  logic start, advance, go, one_left, finish;
+  logic [BX-1:0] f2_row_q, f3_row_q, lowest, others;
+  logic start, advance, go, one_left_q, finish;
   logic [2:0] finish_q;
   assign start = state_q == StIdle && marked_q[buffer_q];
   assign go = state_q == StWalk && full_q[buffer_q];
   assign lowest = f3_row_q & (~f3_row_q + BX'(1));
-  assign one_left = f3_row_q == lowest;  // or none
+  assign others = f3_row_q & ~lowest;
   // Rows follow one another without a gap: where f2 is empty there are no more.
-  assign finish = go && one_left && !f2_valid_q;
-  assign advance = start || state_q == StRow || state_q == StBlocks || (go && one_left);
+  assign finish = go && one_left_q && !f2_valid_q;
+  assign advance = start || state_q == StRow || state_q == StBlocks || (go && one_left_q);
 
   // ---- the maps, of buffer 0 and 1: which rows hold dirt, and which blocks of a row. What is fetched is forgotten.
   logic [BY-1:0] rows_q[0:1], f1_row, f1_row_q;
@@ -87,7 +87,6 @@ module dirty_map (
   end
 
   logic [YB-1:0] f2_number, f2_number_q, f3_number_q;
-  logic [BX-1:0] f2_row_q;
   logic [XB-1:0] column;
   always_comb begin
     f2_row = '0;
@@ -111,8 +110,14 @@ module dirty_map (
       f2_valid_q <= f1_valid_q;
       f3_number_q <= f2_number_q;
     end
-    if (advance) f3_row_q <= f2_valid_q ? f2_row_q : '0;
-    else if (go) f3_row_q <= f3_row_q & ~lowest;
+    // One block left in the row, or none: known a cycle ahead, for all of the fetch waits for it.
+    if (advance) begin
+      f3_row_q <= f2_row_q;
+      one_left_q <= (f2_row_q & (f2_row_q - BX'(1))) == '0;
+    end else if (go) begin
+      f3_row_q <= others;
+      one_left_q <= (others & (others - BX'(1))) == '0;
+    end
 
     case (state_q)
       StIdle: if (start) state_q <= StRow;
@@ -137,7 +142,9 @@ module dirty_map (
       buffer_q <= 1'b0;
       marked_q <= '0;
       full_q <= '0;
+      f1_row_q <= '0;
       f1_valid_q <= 1'b0;
+      f2_row_q <= '0;
       f2_valid_q <= 1'b0;
       f3_row_q <= '0;
       finish_q <= '0;
@@ -152,6 +159,7 @@ module dirty_map (
     assign left[r] = (buffer_q ? dirty[BY+r] : dirty[r]) != '0;
   end
   `FASTSPLAT_ASSERT(walk_leaves_no_dirt, !finish || (left == '0 && rows_q[buffer_q] == '0))
+  `FASTSPLAT_ASSERT(last_of_row_foretold, !go || one_left_q == (f3_row_q == lowest))
   `FASTSPLAT_ASSERT(rows_without_gap, !(state_q == StWalk && f3_row_q == '0) || (!f1_valid_q && !f2_valid_q))
   `FASTSPLAT_ASSERT(walk_owns_its_sheet, !valid_o || finish_o || full_q[buffer_o])
   `FASTSPLAT_ASSERT(handed_over_once, !done_i || !full_q[done_buffer_i])

@@ -60,7 +60,7 @@ module fastsplat_core (
 );
   localparam int BANKS = fastsplat_pkg::BANKS;
 
-  // Wipe after reset: both memories of every bank, one word a cycle.
+  // Wipe after reset: both memories of every bank and the picture, one word a cycle.
   logic wiping_q;
   logic [fastsplat_pkg::ADDR_BITS-1:0] wipe_addr_q;
   always_ff @(posedge clk_i) begin
@@ -77,7 +77,7 @@ module fastsplat_core (
   logic [fastsplat_pkg::PHASE_BITS-1:0] rlut_wphase;
   logic [fastsplat_pkg::COL_BITS-1:0] rlut_wcolumn;
   logic [31:0] table_index, table_word;
-  logic tile_begin, tile_end, tile_open, compositor_idle, pixel_idle;
+  logic tile_end, tile_open, compositor_idle, pixel_idle;
   logic [1:0] mode;
   logic [31:0] sheet_number;
   logic [fastsplat_pkg::SIDE_BITS-1:0] width, height;
@@ -104,7 +104,6 @@ module fastsplat_core (
       .factor_we_o(factor_we),
       .table_index_o(table_index),
       .table_word_o(table_word),
-      .tile_begin_o(tile_begin),
       .tile_end_o(tile_end),
       .tile_open_o(tile_open),
       .tile_idle_i(compositor_idle && pixel_idle),
@@ -212,7 +211,6 @@ module fastsplat_core (
   logic [fastsplat_pkg::ADDR_BITS-1:0] picture_addr;
   logic [fastsplat_pkg::LANES-1:0] picture_row;
   logic [fastsplat_pkg::LANES*4*fastsplat_pkg::STATE_BITS-1:0] picture;
-  logic [fastsplat_pkg::BLOCKS-1:0] blocks_touched;
   logic [fastsplat_pkg::LANES-1:0] composite_inside_x, composite_inside_y;
   logic [BANKS-1:0] composite_inside, composite_frozen;
   logic [4*BANKS-1:0] opacity_saturated, composite_saturated;
@@ -222,7 +220,8 @@ module fastsplat_core (
       .factor_we_i(factor_we),
       .factor_index_i(table_index[fastsplat_pkg::SEG_LOG2:0]),
       .table_word_i(table_word[fastsplat_pkg::FACTOR_BITS-1:0]),
-      .tile_begin_i(tile_begin),
+      .wipe_i(wiping_q),
+      .wipe_addr_i(wipe_addr_q),
       .mode_i(mode),
       .width_i(width),
       .height_i(height),
@@ -247,7 +246,6 @@ module fastsplat_core (
       .picture_addr_i(picture_addr),
       .picture_row_i(picture_row),
       .picture_o(picture),
-      .blocks_touched_o(blocks_touched),
       .tap_valid_o(tap_composite_valid_o),
       .tap_block_o(tap_composite_block_o),
       .tap_state_o(tap_state_o),
@@ -272,7 +270,6 @@ module fastsplat_core (
       .picture_addr_o(picture_addr),
       .picture_row_o(picture_row),
       .picture_i(picture),
-      .blocks_touched_i(blocks_touched),
       .valid_o(m_tvalid_o),
       .ready_i(m_tready_i),
       .last_o(m_tlast_o),

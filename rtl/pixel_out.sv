@@ -16,7 +16,6 @@ module pixel_out (
     output logic [fastsplat_pkg::ADDR_BITS-1:0]  picture_addr_o,
     output logic [fastsplat_pkg::LANES-1:0]      picture_row_o,   // r1: the row of the block, one bit each
     input  logic [fastsplat_pkg::LANES*4*fastsplat_pkg::STATE_BITS-1:0] picture_i,  // r1
-    input  logic [fastsplat_pkg::BLOCKS-1:0]     blocks_touched_i,
     // stream out: P pixels of R, G, B, A, 32 bits each
     output logic                                 valid_o,
     input  logic                                 ready_i,
@@ -36,7 +35,7 @@ module pixel_out (
   localparam int LOG2 = fastsplat_pkg::LANE_LOG2;
   localparam int LB = (LOG2 > 0) ? LOG2 : 1;
 
-  logic running_q, valid_r1_q, valid_r2_q, last_r1_q, last_r2_q, touched_r1_q;
+  logic running_q, valid_r1_q, valid_r2_q, last_r1_q, last_r2_q;
   logic [SIDE-1:0] x_q, y_q, x_r1_q;
   logic [LB-1:0] row_r1_q;
   logic enable, last;
@@ -69,7 +68,6 @@ module pixel_out (
       last_r1_q <= last;
       x_r1_q <= x_q;
       row_r1_q <= y_q[LB-1:0];
-      touched_r1_q <= blocks_touched_i[address];
       valid_r2_q <= valid_r1_q;
       last_r2_q <= last_r1_q;
     end
@@ -95,8 +93,7 @@ module pixel_out (
       assign composited = (c == 3) ? (TB'(1) << TF) - word[TB-1:0] : word[TB-1:0];
       always_ff @(posedge clk_i) begin
         if ((enable && valid_r1_q) || (`FASTSPLAT_FAULT(HELD_PAYLOAD) && running_q)) begin
-          if (!touched_r1_q) pixel_q <= '0;
-          else pixel_q <= (mode_i == 2'd2) ? narrow_sum(word[SB-1:0]) : narrow_composited(composited);
+          pixel_q <= (mode_i == 2'd2) ? narrow_sum(word[SB-1:0]) : narrow_composited(composited);
         end
       end
       assign data_o[g*128+c*32+:32] = 32'(pixel_q[PB-1:0]);

@@ -21,7 +21,6 @@ module stream_decode (
     output logic [31:0]                                table_index_o,
     output logic [31:0]                                table_word_o,
     // tile
-    output logic                                       tile_begin_o,  // pulse
     output logic                                       tile_end_o,    // pulse: send the picture
     output logic                                       tile_open_o,   // between begin_tile and end_tile
     input  logic                                       tile_idle_i,   // compositor and pixel out have nothing to do
@@ -144,8 +143,9 @@ module stream_decode (
   end
 
   logic accepted;  // the record in the register is carried out in this cycle
+  logic tile_begin;
   assign accepted = take && !payload_q && !error_o;
-  assign tile_begin_o = accepted && opcode == fastsplat_pkg::OP_BEGIN_TILE;
+  assign tile_begin = accepted && opcode == fastsplat_pkg::OP_BEGIN_TILE;
   assign tile_end_o = accepted && opcode == fastsplat_pkg::OP_END_TILE;
   assign event_splat_o = accepted && opcode == fastsplat_pkg::OP_SPLAT;
   assign event_cull_o = accepted && opcode == fastsplat_pkg::OP_CULL_BLOCK;
@@ -192,7 +192,7 @@ module stream_decode (
 
     // tile and sheet
     if (tile_end_o) tile_open_o <= 1'b0;
-    if (tile_begin_o) begin
+    if (tile_begin) begin
       tile_open_o <= 1'b1;
       mode_o <= w0[9:8];
       tile_number_o <= w1;
@@ -247,7 +247,7 @@ module stream_decode (
   `FASTSPLAT_ASSERT_NEXT(accepted_beat_arrives, valid_i && ready_o, beat_valid_q)
   `FASTSPLAT_ASSERT_HELD(waiting_beat_stays, beat_valid_q && !take, beat_valid_q, beat_q)
   `FASTSPLAT_ASSERT(one_thing_at_a_time,
-                    $onehot0({tile_begin_o, tile_end_o, event_splat_o, event_cull_o, rlut_we_o, radial_we_o, factor_we_o}))
+                    $onehot0({tile_begin, tile_end_o, event_splat_o, event_cull_o, rlut_we_o, radial_we_o, factor_we_o}))
   `FASTSPLAT_ASSERT(window_in_open_sheet, !window_valid_o || busy_q[window_buffer_o])
   `FASTSPLAT_ASSERT(only_busy_buffers_come_back, !free_i || busy_q[free_buffer_i])
   `FASTSPLAT_COVER(sheet_waits_for_buffer, wait_buffer)

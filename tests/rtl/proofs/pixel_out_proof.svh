@@ -7,14 +7,13 @@ always @* if (!f_started) assume (!rst_ni);
 // The tile holds still; so does the picture. One block of it, any, is looked at.
 (* anyconst *) logic [SIDE-1:0] f_width, f_height;
 (* anyconst *) logic [1:0] f_mode;
-(* anyconst *) logic [fastsplat_pkg::BLOCKS-1:0] f_touched;
 (* anyconst *) logic [AB-1:0] f_block;
 (* anyconst *) logic [P*4*DB-1:0] f_upper, f_lower;  // its rows
 localparam int F_SIDE = P * fastsplat_pkg::BLOCKS_X;
 logic [AB-1:0] f_read_q;  // what the picture memories show
 always @* begin
   assume (f_width >= 1 && f_width <= SIDE'(F_SIDE) && f_height >= 1 && f_height <= SIDE'(F_SIDE));
-  assume (width_i == f_width && height_i == f_height && mode_i == f_mode && blocks_touched_i == f_touched);
+  assume (width_i == f_width && height_i == f_height && mode_i == f_mode);
   if (f_read_q == f_block)
     assume (picture_i == ((picture_row_o[0] ? f_upper : '0) | (picture_row_o[1] ? f_lower : '0)));
 end
@@ -85,10 +84,9 @@ always @(posedge clk_i) begin
       assert (x_r1_q == (valid_r2_q ? f_next_x : f_x_q) && row_r1_q == (valid_r2_q ? f_next_y[0] : f_y_q[0]));
       assert (last_r1_q == (valid_r2_q ? f_next_last : f_last));
       assert (f_read_q == (valid_r2_q ? f_block_of(f_next_x, f_next_y) : f_block_of(f_x_q, f_y_q)));
-      assert (touched_r1_q == f_touched[f_read_q]);
     end
     cover (valid_o && last_o && f_y_q == SIDE'(2) && f_width == SIDE'(3) && ready_i);
-    cover (valid_o && !ready_i && f_block_of(f_x_q, f_y_q) == f_block && f_touched[f_block] && data_o != '0);
+    cover (valid_o && !ready_i && f_block_of(f_x_q, f_y_q) == f_block && data_o != '0);
   end
 end
 // Words of the block that is looked at; each narrowed as proved of `narrow`.
@@ -99,7 +97,7 @@ for (genvar g = 0; g < P; g++) begin : gen_f_pixel
     logic [PB:0] f_pixel;
     assign f_word = f_row[(4*g+c)*DB+:DB];
     assign f_shown = (c == 3) ? (TB'(1) << TF) - f_word[TB-1:0] : f_word[TB-1:0];
-    assign f_pixel = !f_touched[f_block] ? '0 : f_mode == 2'd2 ? narrow_sum(f_word[SB-1:0]) : narrow_composited(f_shown);
+    assign f_pixel = f_mode == 2'd2 ? narrow_sum(f_word[SB-1:0]) : narrow_composited(f_shown);
     always @(posedge clk_i) begin
       if (f_started && rst_ni && valid_o && f_block_of(f_x_q, f_y_q) == f_block) begin
         assert (data_o[g*128+c*32+:32] == 32'(f_pixel[PB-1:0]));

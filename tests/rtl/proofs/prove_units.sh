@@ -47,7 +47,7 @@ pixel_broken keep_one_more "s/x_r1_q + SIDE'(g) < width_i;/x_r1_q + SIDE'(g) <= 
 pixel_broken stray_after_reset "/^    if (!rst_ni) begin/,/^    end/s/valid_r1_q <= 1'b0;//"
 pixel_broken moves_while_waiting 's/assign enable = !valid_r2_q || ready_i;/assign enable = 1'"'"'b1;/'
 pixel_broken last_early "s/y_q + SIDE'(1) >= height_i;/y_q + SIDE'(2) >= height_i;/"
-pixel_broken stale_picture "s/if (!touched_r1_q) pixel_q <= '0;/if (1'b0) pixel_q <= '0;/"
+pixel_broken alpha_upside_down "s/(c == 3) ? (TB'(1) << TF) - word/(c == 3) ? word/"
 
 # --- narrow: every shift from 2 to the left to 6 to the right, every rounding, both kinds of word, more bits lost, kept or added; and
 # the widest of the device. The definition (docs/numerics.md, section 1) knows no shift: a word is right by the values next to it.

@@ -1,6 +1,6 @@
 // Configuration and status registers behind AXI4-Lite (docs/microarchitecture.md, "Registers").
 // Reads answer one cycle after the address is taken; writes take address and data together. Counters count an event in
-// the second cycle after it.
+// the third cycle after it.
 `include "assertions.svh"
 
 module csr (
@@ -27,17 +27,18 @@ module csr (
     input  logic        busy_i,
     input  logic        error_i,
     input  logic [7:0]  error_opcode_i,
-    // increments, one 16-bit field a counter
+    // increments, one 16-bit field a counter; clear: those on their way are forgotten, too
+    output logic        clear_o,
     input  logic [16*fastsplat_pkg::COUNTERS-1:0] increments_i
 );
   localparam int N = fastsplat_pkg::COUNTERS;
   localparam logic [1:0] OKAY = 2'b00, SLVERR = 2'b10;
 
-  logic write, clear;
+  logic write;
   assign write = awvalid_i && wvalid_i && !bvalid_o;
   assign awready_o = write;
   assign wready_o = write;
-  assign clear = write && awaddr_i == fastsplat_pkg::REG_CONTROL && wdata_i[0];
+  assign clear_o = write && awaddr_i == fastsplat_pkg::REG_CONTROL && wdata_i[0];
 
   logic unused;
   assign unused = &{1'b0, wdata_i};
@@ -45,7 +46,7 @@ module csr (
   logic [63:0] counter_q[0:N-1];
   for (genvar n = 0; n < N; n++) begin : gen_counter
     always_ff @(posedge clk_i) begin
-      if (!rst_ni || clear) counter_q[n] <= '0;
+      if (!rst_ni || clear_o) counter_q[n] <= '0;
       else counter_q[n] <= counter_q[n] + 64'(increments_i[16*n+:16]);
     end
   end

@@ -212,7 +212,7 @@ module fastsplat_core (
   logic [fastsplat_pkg::LANES-1:0] picture_row;
   logic [fastsplat_pkg::LANES*4*fastsplat_pkg::STATE_BITS-1:0] picture;
   logic [fastsplat_pkg::LANES-1:0] composite_inside_x, composite_inside_y;
-  logic [BANKS-1:0] composite_inside, composite_frozen;
+  logic [BANKS-1:0] composite_frozen;
   logic [4*BANKS-1:0] opacity_saturated, composite_saturated;
   compositor u_compositor (
       .clk_i,
@@ -278,53 +278,71 @@ module fastsplat_core (
       .saturated_o(pixel_saturated)
   );
 
-  // ---- events, counted a cycle after they happened
+  // ---- events: counted in two cycles, in the counters a cycle later
+  logic [BANKS-1:0] window_inside, composite_inside;
   logic [4*BANKS-1:0] composite_inside4;
   for (genvar b = 0; b < BANKS; b++) begin : gen_inside
+    assign window_inside[b] = window_inside_x[b%fastsplat_pkg::LANES] && window_inside_y[b/fastsplat_pkg::LANES];
     assign composite_inside[b] = composite_inside_x[b%fastsplat_pkg::LANES] && composite_inside_y[b/fastsplat_pkg::LANES];
     assign composite_inside4[4*b+:4] = {4{composite_inside[b]}};
   end
-  logic pixel_taken, running;
+  logic pixel_taken, running, clear_counters;
   assign pixel_taken = m_tvalid_o && m_tready_i;
   // An open tile counts even while nothing moves: its input is late. The compositor only works in one.
   assign running = !stall_input || tile_open || !pixel_idle;
 
-  logic [15:0] events_q[0:fastsplat_pkg::COUNTERS-1];
-  logic [16*fastsplat_pkg::COUNTERS-1:0] increments;
-  always_ff @(posedge clk_i) begin
-    for (int n = 0; n < fastsplat_pkg::COUNTERS; n++) events_q[n] <= '0;
-    events_q[fastsplat_pkg::CNT_SHEETS] <= 16'(tap_sheet_done_o);
-    events_q[fastsplat_pkg::CNT_SPLATS] <= 16'(event_splat);
-    events_q[fastsplat_pkg::CNT_CULL_BLOCKS] <= 16'(event_cull);
-    if (tap_snap_valid_o) events_q[fastsplat_pkg::CNT_SNAP_SATURATED] <= 16'($countones(snap_saturated));
+  // What a counter counts: bits set in a cycle.
+  logic [4*BANKS-1:0] events[0:fastsplat_pkg::COUNTERS-1];
+  always_comb begin
+    for (int n = 0; n < fastsplat_pkg::COUNTERS; n++) events[n] = '0;
+    events[fastsplat_pkg::CNT_SHEETS][0] = tap_sheet_done_o;
+    events[fastsplat_pkg::CNT_SPLATS][0] = event_splat;
+    events[fastsplat_pkg::CNT_CULL_BLOCKS][0] = event_cull;
+    if (tap_snap_valid_o) events[fastsplat_pkg::CNT_SNAP_SATURATED][1:0] = snap_saturated;
+    events[fastsplat_pkg::CNT_WINDOWS][0] = tap_window_valid_o;
     if (tap_window_valid_o) begin
-      events_q[fastsplat_pkg::CNT_WINDOWS] <= 16'd1;
-      events_q[fastsplat_pkg::CNT_LANES_INSIDE] <= 16'($countones(window_inside_x)) * 16'($countones(window_inside_y));
-      events_q[fastsplat_pkg::CNT_LANES_WEIGHTED] <= 16'($countones(weighted));
-      events_q[fastsplat_pkg::CNT_PRODUCT_SATURATED] <= 16'($countones(product_saturated));
+      events[fastsplat_pkg::CNT_LANES_INSIDE][BANKS-1:0] = window_inside;
+      events[fastsplat_pkg::CNT_LANES_WEIGHTED][BANKS-1:0] = weighted;
+      events[fastsplat_pkg::CNT_PRODUCT_SATURATED] = product_saturated;
     end
-    if (tap_sheet_valid_o && !`FASTSPLAT_FAULT(LOST_COUNT))
-      events_q[fastsplat_pkg::CNT_SHEET_SATURATED] <= 16'($countones(sheet_saturated));
+    if (tap_sheet_valid_o && !`FASTSPLAT_FAULT(LOST_COUNT)) events[fastsplat_pkg::CNT_SHEET_SATURATED] = sheet_saturated;
+    events[fastsplat_pkg::CNT_DIRTY_BLOCKS][0] = tap_composite_valid_o;
     if (tap_composite_valid_o) begin
-      events_q[fastsplat_pkg::CNT_DIRTY_BLOCKS] <= 16'd1;
-      events_q[fastsplat_pkg::CNT_PIXELS_COMPOSITED] <= 16'($countones(composite_inside_x)) * 16'($countones(composite_inside_y));
-      events_q[fastsplat_pkg::CNT_FROZEN_PIXELS] <= 16'($countones(composite_inside & composite_frozen));
-      events_q[fastsplat_pkg::CNT_OPACITY_SATURATED] <= 16'($countones(composite_inside4 & opacity_saturated));
-      events_q[fastsplat_pkg::CNT_COMPOSITE_SATURATED] <= 16'($countones(composite_inside4 & composite_saturated));
+      events[fastsplat_pkg::CNT_PIXELS_COMPOSITED][BANKS-1:0] = composite_inside;
+      events[fastsplat_pkg::CNT_FROZEN_PIXELS][BANKS-1:0] = composite_inside & composite_frozen;
+      events[fastsplat_pkg::CNT_OPACITY_SATURATED] = composite_inside4 & opacity_saturated;
+      events[fastsplat_pkg::CNT_COMPOSITE_SATURATED] = composite_inside4 & composite_saturated;
     end
     if (pixel_taken) begin
-      events_q[fastsplat_pkg::CNT_TILES] <= 16'(m_tlast_o);
-      events_q[fastsplat_pkg::CNT_PIXEL_SATURATED] <= 16'($countones(pixel_saturated));
+      events[fastsplat_pkg::CNT_TILES][0] = m_tlast_o;
+      events[fastsplat_pkg::CNT_PIXEL_SATURATED][4*fastsplat_pkg::LANES-1:0] = pixel_saturated;
     end
-    events_q[fastsplat_pkg::CNT_CYCLES] <= 16'(running);
-    events_q[fastsplat_pkg::CNT_STALL_INPUT] <= 16'(running && stall_input);
-    events_q[fastsplat_pkg::CNT_STALL_TABLE] <= 16'(stall_table);
-    events_q[fastsplat_pkg::CNT_STALL_BUFFER] <= 16'(stall_buffer);
-    events_q[fastsplat_pkg::CNT_STALL_TILE] <= 16'(stall_tile);
-    if (!rst_ni) for (int n = 0; n < fastsplat_pkg::COUNTERS; n++) events_q[n] <= '0;
+    events[fastsplat_pkg::CNT_CYCLES][0] = running;
+    events[fastsplat_pkg::CNT_STALL_INPUT][0] = running && stall_input;
+    events[fastsplat_pkg::CNT_STALL_TABLE][0] = stall_table;
+    events[fastsplat_pkg::CNT_STALL_BUFFER][0] = stall_buffer;
+    events[fastsplat_pkg::CNT_STALL_TILE][0] = stall_tile;
   end
-  for (genvar n = 0; n < fastsplat_pkg::COUNTERS; n++) begin : gen_increment
-    assign increments[16*n+:16] = events_q[n];
+  function automatic int bits_of(input int n);
+    case (n)
+      fastsplat_pkg::CNT_LANES_INSIDE, fastsplat_pkg::CNT_LANES_WEIGHTED, fastsplat_pkg::CNT_PIXELS_COMPOSITED,
+      fastsplat_pkg::CNT_FROZEN_PIXELS: bits_of = BANKS;
+      fastsplat_pkg::CNT_PRODUCT_SATURATED, fastsplat_pkg::CNT_SHEET_SATURATED, fastsplat_pkg::CNT_OPACITY_SATURATED,
+      fastsplat_pkg::CNT_COMPOSITE_SATURATED: bits_of = 4 * BANKS;
+      fastsplat_pkg::CNT_PIXEL_SATURATED: bits_of = 4 * fastsplat_pkg::LANES;
+      fastsplat_pkg::CNT_SNAP_SATURATED: bits_of = 2;
+      default: bits_of = 1;
+    endcase
+  endfunction
+  logic [16*fastsplat_pkg::COUNTERS-1:0] increments;
+  for (genvar n = 0; n < fastsplat_pkg::COUNTERS; n++) begin : gen_count
+    popcount #(.BITS(bits_of(n))) u_count (
+        .clk_i,
+        .rst_ni,
+        .clear_i(clear_counters),
+        .bits_i(events[n][bits_of(n)-1:0]),
+        .count_o(increments[16*n+:16])
+    );
   end
 
   csr u_csr (
@@ -349,6 +367,7 @@ module fastsplat_core (
       .busy_i(running),
       .error_i(error_o),
       .error_opcode_i(error_opcode),
+      .clear_o(clear_counters),
       .increments_i(increments)
   );
   logic unused;

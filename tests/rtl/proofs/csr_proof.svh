@@ -65,6 +65,6 @@ always @(posedge clk_i) begin
     cover (rvalid_o && bvalid_o && !rready_i && !bready_i);
     cover (rvalid_o && rdata_o == 32'd70000 && rresp_o == 2'd0);
     cover (rvalid_o && rresp_o == 2'd2);
-    cover (clear && counter_q[0] != '0 && increments_i[15:0] != '0);
+    cover (clear_o && counter_q[0] != '0 && increments_i[15:0] != '0);
   end
 end

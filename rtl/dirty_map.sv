@@ -163,7 +163,7 @@ module dirty_map (
   `FASTSPLAT_ASSERT(rows_without_gap, !(state_q == StWalk && f3_row_q == '0) || (!f1_valid_q && !f2_valid_q))
   `FASTSPLAT_ASSERT(walk_owns_its_sheet, !valid_o || finish_o || full_q[buffer_o])
   `FASTSPLAT_ASSERT(handed_over_once, !done_i || !full_q[done_buffer_i])
-  `FASTSPLAT_ASSERT(marked_before_done, !done_i || marked_q[done_buffer_i])
+  `FASTSPLAT_ASSERT(marked_before_done, !done_i || marked_q[done_buffer_i] || (marked_i && marked_buffer_i == done_buffer_i))
   `FASTSPLAT_ASSERT(no_mark_behind_the_walk, !(mark_i && marked_q[mark_buffer_i]))
   `FASTSPLAT_COVER(empty_sheet_walked, finish_o && !valid_o)
 endmodule

@@ -236,10 +236,10 @@ module splat_array (
     end
   end
 
-  assign marked_o = last_q[4];
-  assign marked_buffer_o = buffer_q[4];
-  assign done_o = `FASTSPLAT_FAULT(EARLY_SWAP) ? last_q[4] : last_q[9];
-  assign done_buffer_o = `FASTSPLAT_FAULT(EARLY_SWAP) ? buffer_q[4] : buffer_q[9];
+  assign marked_o = `FASTSPLAT_FAULT(EARLY_SWAP) ? last_q[3] : last_q[4];
+  assign marked_buffer_o = `FASTSPLAT_FAULT(EARLY_SWAP) ? buffer_q[3] : buffer_q[4];
+  assign done_o = `FASTSPLAT_FAULT(EARLY_SWAP) ? last_q[3] : last_q[9];
+  assign done_buffer_o = `FASTSPLAT_FAULT(EARLY_SWAP) ? buffer_q[3] : buffer_q[9];
 
   assign tap_snap_valid_o = valid_q[1] && first_c1_q;
   assign tap_snap_tag_o = tag_q[1];

@@ -77,7 +77,9 @@ module stream_decode (
   // Table payload
   logic payload_q;
   logic [7:0] table_q;
-  logic [31:0] words_q, index_q;
+  logic [31:0] left_q;  // words after this one
+  logic last_word_q;
+  logic [31:0] index_q;
   logic [2:0] word_in_beat_q;
   logic [COL-1:0] table_base_q, table_extent_q, table_column_q;
   logic [fastsplat_pkg::PHASE_BITS-1:0] table_phase_q;
@@ -86,8 +88,6 @@ module stream_decode (
   logic [RHO2-1:0] header_pixels;
   assign header_pixels = (RHO2'({w2[fastsplat_pkg::RHO_BITS-1:0], 1'b0}) + RHO2'(fastsplat_pkg::PHASES - 1)) >> fastsplat_pkg::PHASE_LOG2;
   assign header_extent = COL'((header_pixels + RHO2'(P - 1)) >> fastsplat_pkg::LANE_LOG2) << fastsplat_pkg::LANE_LOG2;
-  logic last_word;
-  assign last_word = index_q + 32'd1 == words_q;
   always_comb begin
     case (word_in_beat_q)
       3'd0: table_word_o = w0;
@@ -137,7 +137,7 @@ module stream_decode (
   end
   always_comb begin
     take = beat_valid_q;  // after an error everything is swallowed
-    if (payload_q) take = beat_valid_q && (last_word || word_in_beat_q == 3'd5);
+    if (payload_q) take = beat_valid_q && (last_word_q || word_in_beat_q == 3'd5);
     else if (is_splat) take = last_window;
     else if (wait_buffer || wait_tile) take = 1'b0;
   end
@@ -166,7 +166,8 @@ module stream_decode (
     if (accepted && opcode == fastsplat_pkg::OP_LOAD_TABLE) begin
       payload_q <= 1'b1;
       table_q <= w0[15:8];
-      words_q <= w3;
+      left_q <= w3 - 32'd1;
+      last_word_q <= w3 == 32'd1;
       index_q <= '0;
       word_in_beat_q <= '0;
       table_base_q <= w4[COL-1:0];
@@ -181,13 +182,15 @@ module stream_decode (
     end
     if (table_write) begin
       index_q <= index_q + 32'd1;
+      left_q <= left_q - 32'd1;
+      last_word_q <= left_q == 32'd1;
       word_in_beat_q <= (word_in_beat_q == 3'd5) ? 3'd0 : word_in_beat_q + 3'd1;
       table_column_q <= table_column_q + COL'(1);
       if (table_column_q + COL'(1) == table_extent_q) begin
         table_column_q <= '0;
         table_phase_q <= table_phase_q + fastsplat_pkg::PHASE_BITS'(1);
       end
-      if (last_word) payload_q <= 1'b0;
+      if (last_word_q) payload_q <= 1'b0;
     end
 
     // tile and sheet

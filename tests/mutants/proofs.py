@@ -7,8 +7,8 @@ import subprocess
 import generate
 
 _SCRIPTS = {"sheet_bank": "prove.sh", "csr": "proofs/prove_units.sh", "pixel_out": "proofs/prove_units.sh", "narrow": "proofs/prove_units.sh",
-            "stream_decode": "proofs/prove_control.sh", "compositor": "proofs/prove_control.sh", "slab_opacity": "proofs/prove_bounds.sh",
-            "composite_lane": "proofs/prove_bounds.sh"}
+            "stream_decode": "proofs/prove_control.sh", "dirty_map": "proofs/prove_control.sh", "compositor": "proofs/prove_control.sh",
+            "slab_opacity": "proofs/prove_bounds.sh", "composite_lane": "proofs/prove_bounds.sh"}
 _MORE = {"prove.sh": ["generated/mustfail/fastsplat_fault_pkg.sv"], "proofs/prove_control.sh": ["short"]}
 
 

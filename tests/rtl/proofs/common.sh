@@ -45,7 +45,7 @@ unit() {
   done
   # pixel_out is proved by itself (prove_units.sh): neither its assertions nor its assumptions are read here.
   case $beside in *pixel_out*) quiet="$quiet $work/$name.pixel_out.sv" read=$(echo "$read" | sed "s| [^ ]*\.pixel_out\.sv||") ;; esac
-  yosys -q -l "$work/$name.log" -p "read_verilog -sv -I$source/rtl $package_file $quiet; read_verilog -sv -formal -I$source/rtl $read $work/$name.sv; hierarchy -check -top $module; proc; ${free:+cutpoint $free;} flatten; ${connects-} delete -output o:*; memory_map; opt -full -purge; async2sync; dffunmap; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2" >/dev/null 2>&1 ||
+  yosys -q -l "$work/$name.log" -p "read_verilog -sv -I$source/rtl $package_file $quiet; read_verilog -sv -formal ${defines-} -I$source/rtl $read $work/$name.sv; hierarchy -check -top $module; proc; ${free:+cutpoint $free;} flatten; ${connects-} delete -output o:*; memory_map; opt -full -purge; async2sync; dffunmap; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2" >/dev/null 2>&1 ||
     { tail -5 "$work/$name.log"; echo "$name: Yosys fails"; exit 1; }
   grep -q 'yosys-smt2-assert' "$work/$name.smt2" || { echo "$name: nothing to prove"; exit 1; }
 }

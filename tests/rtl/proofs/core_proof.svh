@@ -1,16 +1,17 @@
 // How decode, splat path, compositor and pixel out share the sheet buffers (docs/microarchitecture.md), put inside fastsplat_core
-// by prove_control.sh: a memory has one owner at a time, which sheet_bank_proof.svh assumes; what compositor_proof.svh and
-// stream_decode_proof.svh assume of each other; and no deadlock. Data is cut off: any block may be marked, any pixel lie inside.
+// by prove_control.sh: a memory has one owner at a time, which sheet_bank_proof.svh assumes; what dirty_map_proof.svh,
+// compositor_proof.svh and stream_decode_proof.svh assume of each other; and no deadlock. Data is cut off: any pixel may lie inside;
+// the walk picks what it will, in the cycles that dirty_map_proof.svh has.
 // Names that nothing drives are tied to registers below by the script; stage 0 of the pipe is decode's output.
 logic f_started = 1'b0;
 always @(posedge clk_i) f_started <= 1'b1;
 always @* if (!f_started) assume (!rst_ni);
 
-logic f_beat, f_payload, f_take, f_splat, f_table, f_idle_pixel;  // of decode and pixel out
+logic f_beat, f_payload, f_take, f_splat, f_table, f_begin, f_idle_pixel;  // of decode and pixel out
 logic [7:0] f_opcode;
 logic [31:0] f_words;
-logic [1:0] f_busy, f_full, f_state;
-logic f_buffer, f_walk;
+logic [1:0] f_busy;
+logic f_buffer, f_idle_walk;
 logic [8:0] f_valid_below, f_last_below, f_buffer_below;
 logic [5:0] f_blocks;  // in the compositor's pipe
 logic [9:0] f_valid, f_last, f_of;
@@ -59,15 +60,52 @@ assign f_moves = wiping_q || (s_tvalid_i && s_tready_o) || f_splat || f_table ||
 assign f_fair = s_tvalid_i && m_tready_i;
 always @(posedge clk_i) f_still_q <= (!rst_ni || f_moves || !f_fair) ? '0 : f_still_q + 5'(f_still_q != '1);
 
-// Where buffer m is: open (begun), token (ended, on its way), full (with the compositor). Whose walk is next: f_turn.
-logic f_turn;
-logic [1:0] f_open, f_token, f_ended;
-assign f_turn = f_state == 2'd2 ? !f_walk : f_walk;
+// The walk: when it picks, as in dirty_map_proof.svh, from which these are. Whose walk is next or under way: f_turn.
+logic [1:0] f_full;        // handed over and not walked to its end
+logic [1:0] f_age_q[0:1];  // cycles since the hand-over
+logic [1:0] f_since_q;     // and since the last pick
+logic f_turn, f_walking, f_begun_q;
+assign f_walking = f_full[f_turn] && (f_begun_q || ((f_turn ? f_age_q[1] : f_age_q[0]) >= 2'd2 && f_since_q == 2'd3));
+always @(posedge clk_i) begin
+  for (int m = 0; m < 2; m++) if (f_age_q[m] != 2'd3) f_age_q[m] <= f_age_q[m] + 2'd1;
+  if (f_since_q != 2'd3) f_since_q <= f_since_q + 2'd1;
+  f_begun_q <= f_walking && !free;
+  if (free) begin
+    f_full[free_buffer] <= 1'b0;
+    f_since_q <= '0;
+    f_turn <= !f_turn;
+  end
+  if (done) begin
+    f_full[done_buffer] <= 1'b1;
+    f_age_q[done_buffer] <= 2'd1;
+  end
+  if (!rst_ni) begin
+    f_full <= '0;
+    f_since_q <= 2'd3;
+    f_turn <= 1'b0;
+    f_begun_q <= 1'b0;
+  end
+end
+always @* begin
+  if (rst_ni) begin
+    assume ((sheet_re || free) == f_walking);
+    assume (!f_begun_q || sheet_re);
+    assume (!(sheet_re || free) || sheet_buffer == f_turn);
+    assume (f_idle_walk == (f_full == '0 && f_since_q >= 2'd2));
+  end
+end
+
+// Where buffer m is: open (begun), token (ended, on its way), marked (the same, behind c4), full (with the compositor).
+logic [1:0] f_open, f_token, f_marked, f_ended;
+logic [5:1] f_marked_way_q;
+always @(posedge clk_i) f_marked_way_q <= rst_ni ? {f_marked_way_q[4:1], marked} : '0;
 always @* begin
   for (int m = 0; m < 2; m++) begin
     f_open[m] = f_place_q == 2'd2 && f_buffer == 1'(m);
     f_token[m] = 1'b0;
+    f_marked[m] = f_full[m];
     for (int s = 0; s <= 9; s++) if (f_last[s] && f_of[s] == 1'(m)) f_token[m] = 1'b1;
+    for (int s = 5; s <= 9; s++) if (f_last[s] && f_of[s] == 1'(m)) f_marked[m] = 1'b1;
     f_ended[m] = f_token[m] || f_full[m];
   end
 end
@@ -80,10 +118,14 @@ always @(posedge clk_i) begin
     assert (f_wiped_q || !(f_valid[6] || sheet_re));
     assert (!wiping_q || !(f_valid[6] || sheet_re || f_cleared_q));
     assert (!(wiping_q && (f_moved_q || (wipe_addr_q == f_word && f_wiped_q))));
-    // compositor_proof.svh.
-    assert (!(dirty_valid && (f_full[dirty_buffer] || (done && done_buffer == dirty_buffer))));
+    // dirty_map_proof.svh.
+    assert (done == f_marked_way_q[5]);
     assert (!done || (!f_full[done_buffer] && done_buffer == (f_full == '0 ? f_turn : !f_turn)));
-    assert (!(tile_begin || picture_re) || compositor_idle);
+    assert (!(dirty_valid && (f_marked[dirty_buffer] || (marked && marked_buffer == dirty_buffer))));
+    assert (!marked || (!f_marked[marked_buffer] && marked_buffer == (f_marked == '0 ? f_turn : !f_turn)));
+    // compositor_proof.svh.
+    assert (!(f_begin || picture_re) || compositor_idle);
+    assert (!f_begin || pixel_idle);
     // pixel_out_proof.svh.
     assert (!tile_end || pixel_idle);
     // stream_decode_proof.svh.
@@ -94,7 +136,7 @@ always @(posedge clk_i) begin
     assert (wiping_q || f_wiped_q);
     assert (32'(wipe_addr_q) < fastsplat_pkg::BLOCKS);
     assert (!wiping_q || f_wiped_q == (wipe_addr_q > f_word));
-    assert (!wiping_q || !(f_beat || f_payload || f_busy != '0 || f_valid != '0 || f_last != '0 || f_full != '0 || f_state != '0 || f_blocks != '0 || !f_idle_pixel || f_cleared_q || f_place_q != '0));
+    assert (!wiping_q || !(f_beat || f_payload || f_busy != '0 || f_valid != '0 || f_last != '0 || f_full != '0 || f_since_q != 2'd3 || f_blocks != '0 || !f_idle_pixel || f_cleared_q || f_place_q != '0));
     // A buffer is in one place, its windows before its token.
     assert (f_busy == (f_open | f_ended));
     assert ((f_open & f_ended) == '0 && (f_token & f_full) == '0);
@@ -113,13 +155,15 @@ always @(posedge clk_i) begin
     assert (f_ended == '0 || f_ended == 2'b11 || f_buffer != f_turn);
     assert (f_ended != 2'b11 || f_buffer == f_turn);
     assert (f_full == '0 || f_full[f_turn]);
-    // The compositor.
-    assert (f_state != 2'd3 && (f_state != 2'd1 || f_full[f_walk]));
+    // The walk.
+    assert (!f_begun_q || (f_full[f_turn] && f_since_q == 2'd3));
+    for (int m = 0; m < 2; m++) assert (!f_full[m] || f_age_q[m] != '0);
+    for (int s = 1; s <= 5; s++) assert (f_marked_way_q[s] == f_last[s+4]);
     assert (!(f_cleared_q && f_valid[0] && f_of[0] == f_cleared_of_q && !f_full[f_cleared_of_q]));
     // Tiles.
     assert (tile_open == (f_place_q != '0));
     assert (f_place_q != 2'd3 && (f_place_q != '0 || f_busy == '0));
-    assert (!!f_idle_pixel || (f_place_q == '0 && f_busy == '0 && f_state == '0 && f_blocks == '0));
+    assert (!!f_idle_pixel || (f_place_q == '0 && f_busy == '0 && compositor_idle));
     assert (!f_payload || f_place_q == '0);
     cover (f_still_q == 5'(F_LONGEST));
     cover (sheet_re && f_valid[9]);

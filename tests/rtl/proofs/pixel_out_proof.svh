@@ -1,5 +1,6 @@
 // What pixel out sends (docs/microarchitecture.md, "Pixel out"), put inside pixel_out by prove_units.sh: every pixel of a tile of
-// any size once, in order, with the right keep, last and words, in the cycles that the page says, whatever the sink does.
+// any size once, in order, with the right keep, last and words, in the cycles that the page says, whatever the sink does; and each
+// row of the picture is asked for once.
 logic f_started = 1'b0;
 always @(posedge clk_i) f_started <= 1'b1;
 always @* if (!f_started) assume (!rst_ni);
@@ -52,6 +53,23 @@ always @(posedge clk_i) begin
   if (!rst_ni) f_active_q <= 1'b0;
 end
 
+// Any row of the block: each that lies in the tile is sent once, so that the compositor leaves a blank picture.
+(* anyconst *) logic [LB-1:0] f_h;
+logic f_fresh_q, f_sent_q, f_any_q, f_sending, f_inside;
+logic [SIDE-1:0] f_row_x, f_row_y, f_r1_x, f_r1_y;
+assign f_row_x = SIDE'(f_block % fastsplat_pkg::BLOCKS_X) * SIDE'(P);
+assign f_row_y = SIDE'(f_block / fastsplat_pkg::BLOCKS_X) * SIDE'(P) + SIDE'(f_h);
+assign f_inside = f_row_x < f_width && f_row_y < f_height;
+assign f_r1_x = valid_r2_q ? f_next_x : f_x_q;
+assign f_r1_y = valid_r2_q ? f_next_y : f_y_q;
+assign f_sending = f_fresh_q && f_read_q == f_block && picture_row_o[f_h];
+always @(posedge clk_i) begin
+  f_fresh_q <= rst_ni && picture_re_o;
+  if (f_sending) f_sent_q <= 1'b1;
+  if (start_i) f_sent_q <= 1'b0;
+  f_any_q <= rst_ni && (f_any_q || start_i);
+end
+
 logic [P*4*DB-1:0] f_row;
 assign f_row = f_y_q[0] ? f_lower : f_upper;
 logic f_keep_right;
@@ -67,7 +85,15 @@ always @(posedge clk_i) begin
     assert (valid_o == (f_active_q && f_age_q == 2'd2));
     assert (!valid_o || last_o == f_last);
     assert (!valid_o || f_keep_right);
+    assert (!(f_sending && f_sent_q));
+    assert (!(idle_o && f_any_q) || f_sent_q == f_inside);
     // Where the stages stand, for induction.
+    assert (f_any_q || !f_active_q);
+    assert (!f_fresh_q || valid_r1_q);
+    if (f_active_q && f_age_q == 2'd0) assert (!f_sent_q);
+    if (f_active_q && f_age_q != 2'd0 && !valid_r1_q) assert (f_sent_q == f_inside);
+    if (valid_r1_q)
+      assert (f_sent_q == (f_inside && (f_row_y < f_r1_y || (f_row_y == f_r1_y && (f_row_x < f_r1_x || (f_row_x == f_r1_x && !f_fresh_q))))));
     assert (f_age_q != 2'd3 || !f_active_q);
     assert (!f_active_q || (f_x_q < f_width && f_y_q < f_height && f_x_q[0] == 1'b0));
     assert (f_active_q || !(running_q || valid_r1_q || valid_r2_q));

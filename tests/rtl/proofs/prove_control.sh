@@ -1,6 +1,6 @@
 #!/bin/sh
 # prove_control.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR [short]: the device's control for ever, by induction, with Yosys and z3, each part
-# against its specification written again (NAME_proof.svh): decode, the compositor's walk, and how the parts share the sheet
+# against its specification written again (NAME_proof.svh): decode, the dirty walk, the compositor's pipe, and how the parts share the sheet
 # buffers (core), with what each assumes of the others proved there. What is asked about happens; planted faults are noticed.
 # Leaves WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS | FAULTS REFUTED, one a line. short: without the deadlock's proof, what takes minutes to reach
 # or to refute, and most of the faults.
@@ -30,20 +30,44 @@ if [ -z "$short" ]; then
   decode_broken wrong_buffer 's/window_buffer_o <= buffer_q;/window_buffer_o <= !buffer_q;/'
 fi
 
-# --- the walk: 4 x 2 blocks; any block of any buffer is looked at, data is cut off
-package_file="$work/compositor_pkg.sv"
-package STATE_BITS=3 TRANS_BITS=3 SHEET_BITS=2 TRANS_FRAC=2 PIXEL_BITS=2 ADDR_BITS=3 BLOCKS_X=4 BLOCKS_Y=2 BLOCKS=8 BLK_BITS=2 >"$package_file"
-walk() { unit "$1" compositor "" "slab_opacity composite_lane ram_1r1w" "${2:+compositor}" "${2-}"; }
-walk compositor
-holds compositor 2 "compositor: each marked block once, rising, one a cycle, in its cycle, clean afterwards; no other"
-happens compositor 14
-walk_broken() { walk "compositor_$1" "$2"; refuted "compositor_$1" "${3:-9}"; }
-walk_broken stays_dirty "s/\& ~(pick_y\[r\] ? pick_x_of\[m\] : '0);/;/"
+# --- the walk: 4 x 4 blocks; any block of any buffer is looked at
+package_file="$work/dirty_map_pkg.sv"
+package ADDR_BITS=4 BLOCKS_X=4 BLOCKS_Y=4 BLOCKS=16 BLK_BITS=2 >"$package_file"
+walk() { unit "$1" dirty_map "" "" "${2:+dirty_map}" "${2-}"; }
+walk dirty_map
+holds dirty_map 2 "dirty_map: each marked block once, rising, one a cycle, in its cycle, clean afterwards; no other"
+happens dirty_map 16
+walk_broken() { walk "dirty_map_$1" "$2"; refuted "dirty_map_$1" "${3:-16}"; }
+walk_broken stays_dirty "s/ || (f1_valid_q \&\& f1_row_q\[r\] \&\& advance \&\& buffer_q == 1'(m))//"
+walk_broken gap_between_rows "s/one_left_q <= (others \& (others - BX'(1))) == '0;/one_left_q <= others == '0;/"
 if [ -z "$short" ]; then
-  walk_broken other_buffer_cleared "s/assign pick_x_of\[m\] = walk_buffer_q == 1'(m) ? pick_x : '0;/assign pick_x_of[m] = pick_x;/"
-  walk_broken row_end_is_the_end 's/assign finish = state_q == StWalk \&\& dirty_rows == pick_y \&\& row == pick_x;/assign finish = state_q == StWalk \&\& row == pick_x;/'
-  walk_broken marks_missed 's/(row_q\[m\] | (mark_y\[r\] ? mark_x_of\[m\] : .0))/(pick_y[r] ? row_q[m] : row_q[m] | (mark_y[r] ? mark_x_of[m] : '"'"'0))/'
-  walk_broken picture_forgotten 's/if (issue) touched_q\[pick\] <= 1.b1;/if (issue \&\& !any) touched_q[pick] <= 1'"'"'b1;/'
+  walk_broken other_buffer_cleared "s/(advance \&\& buffer_q == 1'(m)) ? f1_row/advance ? f1_row/"
+  walk_broken row_end_is_the_end 's/assign finish = go \&\& one_left_q \&\& !f2_valid_q;/assign finish = go \&\& one_left_q;/'
+  walk_broken marks_missed 's/if (mark_y\[r\] \&\& mark_buffer_i/if (mark_y[r] \&\& !f1_row_q[r] \&\& mark_buffer_i/'
+  walk_broken waits_for_the_sums 's/assign start = state_q == StIdle \&\& marked_q\[buffer_q\];/assign start = state_q == StIdle \&\& full_q[buffer_q];/'
+  walk_broken early_row "s/assign go = state_q == StWalk \&\& full_q/assign go = (state_q == StWalk || state_q == StBlocks) \&\& full_q/"
+fi
+
+# --- the compositor's pipe and picture: 2 x 2 blocks of words of a few bits, and memories that give anything when they read what
+# is written
+package_file="$work/compositor_pkg.sv"
+package STATE_BITS=3 TRANS_BITS=3 SHEET_BITS=2 TRANS_FRAC=2 PIXEL_BITS=2 SIDE_BITS=4 ADDR_BITS=2 BLOCKS_X=2 BLOCKS_Y=2 BLOCKS=4 BLK_BITS=1 >"$package_file"
+probes=""
+for lane in 0 1 2 3; do
+  memory="gen_row[$((lane / 2))].gen_lane[$((lane % 2))].u_picture"
+  probes="$probes connect -nounset -set $memory.probe_addr_i f_block; connect -nounset -set f_memory$lane $memory.probe_o;"
+done
+pipe() { connects=$probes defines=-DFASTSPLAT_PROOF unit "$1" compositor "ram_1r1w" "dirty_map slab_opacity composite_lane" "${2:+compositor}" "${2-}"; }
+pipe compositor
+holds compositor 2 "compositor: picked in k0, written in k6; a picture word has one writer, is read as written last, and blank behind pixel out"
+happens compositor 16
+pipe_broken() { pipe "compositor_$1" "$2"; refuted "compositor_$1" "${3:-16}"; }
+pipe_broken not_blanked "s/(wipe_i || sent_q) ? '0 : states/wipe_i ? '0 : states/"
+if [ -z "$short" ]; then
+  pipe_broken all_rows_blanked 's/(sent_q \&\& picture_row_i\[h\])/sent_q/'
+  pipe_broken blanked_next_door 's/sent_addr_q <= picture_addr_i;/sent_addr_q <= picture_addr_i + AB'"'"'(1);/'
+  pipe_broken rows_outside_written 's/(valid_q\[6\] \&\& tap_inside_y_o\[h\])/valid_q[6]/'
+  pipe_broken read_late "s/picture_re_i ? picture_addr_i : addr_q\[3\];/picture_re_i ? picture_addr_i : addr_q[4];/"
 fi
 
 # --- the whole: 2 x 2 blocks, the data path cut off
@@ -51,13 +75,13 @@ package_file="$work/core_pkg.sv"
 package STATE_BITS=3 TRANS_BITS=3 SHEET_BITS=2 TRANS_FRAC=2 PIXEL_BITS=2 SIDE_BITS=3 RLUT_SETS=2 ADDR_BITS=2 BLOCKS_X=2 BLOCKS_Y=2 BLOCKS=4 BLK_BITS=1 >"$package_file"
 connects=""
 for pair in f_beat=u_decode.beat_valid_q f_payload=u_decode.payload_q f_take=u_decode.take f_splat=u_decode.is_splat f_table=u_decode.table_write \
-  f_opcode=u_decode.opcode f_words=u_decode.w3 f_busy=u_decode.busy_q f_buffer=u_decode.buffer_q f_full=u_compositor.full_q \
-  f_state=u_compositor.state_q f_walk=u_compositor.walk_buffer_q f_blocks=u_compositor.valid_q f_valid_below=u_splat.valid_q \
+  f_begin=u_decode.tile_begin f_opcode=u_decode.opcode f_words=u_decode.w3 f_busy=u_decode.busy_q f_buffer=u_decode.buffer_q \
+  f_idle_walk=u_compositor.walk_idle f_blocks=u_compositor.valid_q f_valid_below=u_splat.valid_q \
   f_last_below=u_splat.last_q f_buffer_below=u_splat.buffer_q f_idle_pixel=u_pixel_out.idle_o; do
   connects="$connects connect -nounset -set ${pair%=*} ${pair#*=};"
 done
 specification=core
-core() { unit "$1" fastsplat_core "stream_decode splat_array compositor pixel_out" "snap rlut axis lane sheet_bank slab_opacity composite_lane csr ram_1r1w" "${2-}" "${3-}"; }
+core() { unit "$1" fastsplat_core "stream_decode splat_array compositor pixel_out" "snap rlut axis lane sheet_bank dirty_map slab_opacity composite_lane csr popcount ram_1r1w" "${2-}" "${3-}"; }
 core_shares="core: one owner of a memory at a time, and what the parts' proofs assume of each other"
 if [ -n "$short" ]; then
   without="No deadlock" core core
@@ -69,4 +93,5 @@ holds core 15 "$core_shares; something moves within 12 cycles"
 happens core 24
 core_broken() { core "core_$1" "$2" "$3"; refuted "core_$1" "$4"; }
 core_broken early_swap splat_array 's/: last_q\[9\];/: last_q[6];/; s/: buffer_q\[9\];/: buffer_q[6];/' 15:20
-core_broken waits_for_both compositor "s/StIdle: if (full_q\[walk_buffer_q\]) state_q <= StWalk;/StIdle: if (full_q == 2'b11) state_q <= StWalk;/" 21:23
+core_broken marked_late splat_array 's/: last_q\[4\];/: last_q[5];/; s/: buffer_q\[4\];/: buffer_q[5];/' 15:20
+core_broken waits_for_its_own_buffer stream_decode "s/(!tile_idle_i || busy_q != '0)/(!tile_idle_i || busy_q == '0)/" 18:23

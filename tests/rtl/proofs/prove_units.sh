@@ -40,13 +40,14 @@ sed -e 's/\(localparam int \(STATE_BITS\|TRANS_BITS\)\) = .*;/\1 = 3;/' -e 's/\(
   -e 's/\(localparam int SHIFT_PIXEL_\(OUT\|SUM\)\) = .*;/\1 = 1;/' \
   -e 's/\(localparam int BLOCKS\) = .*;/\1 = 4;/' -e 's/\(localparam int BLK_BITS\) = .*;/\1 = 1;/' "$work/tiny.sv" >"$work/pixel_pkg.sv"
 smt pixel_out pixel_out "$work/pixel_pkg.sv"
-holds pixel_out 2 "pixel_out: each pixel once, in order and in time, with its keep, last and words"
+holds pixel_out 2 "pixel_out: each pixel once, in order and in time, with its keep, last and words; each row of the picture read once"
 happens pixel_out 16
 pixel_broken() { smt "pixel_out_$1" pixel_out "$work/pixel_pkg.sv" "$2"; refuted "pixel_out_$1" 12; }
 pixel_broken keep_one_more "s/x_r1_q + SIDE'(g) < width_i;/x_r1_q + SIDE'(g) <= width_i;/"
 pixel_broken stray_after_reset "/^    if (!rst_ni) begin/,/^    end/s/valid_r1_q <= 1'b0;//"
 pixel_broken moves_while_waiting 's/assign enable = !valid_r2_q || ready_i;/assign enable = 1'"'"'b1;/'
 pixel_broken last_early "s/y_q + SIDE'(1) >= height_i;/y_q + SIDE'(2) >= height_i;/"
+pixel_broken row_read_twice "s/assign picture_re_o = running_q \&\& enable;/assign picture_re_o = running_q || valid_r1_q;/"
 pixel_broken alpha_upside_down "s/(c == 3) ? (TB'(1) << TF) - word/(c == 3) ? word/"
 
 # --- narrow: every shift from 2 to the left to 6 to the right, every rounding, both kinds of word, more bits lost, kept or added; and

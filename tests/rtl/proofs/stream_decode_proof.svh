@@ -164,7 +164,7 @@ always @(posedge clk_i) begin
     assert (ready_o == (enable_i && (!f_have_q || f_done)));
     assert (beat_valid_q == f_have_q);
     assert (!f_have_q || beat_q == f_beat_q);
-    assert (tile_begin_o == (f_done && !f_error_q && !f_payload && f_opcode == 8'h54));
+    assert (tile_begin == (f_done && !f_error_q && !f_payload && f_opcode == 8'h54));
     assert (tile_end_o == (f_done && !f_error_q && !f_payload && f_opcode == 8'h74));
     assert (event_splat_o == (f_done && f_splat));
     assert (event_cull_o == (f_done && !f_error_q && !f_payload && f_opcode == 8'h43));
@@ -207,7 +207,7 @@ always @(posedge clk_i) begin
     assert (payload_q == f_payload);
     if (f_payload) begin
       assert (!f_error_q && f_place_q == 2'd0);
-      assert (index_q == f_index_q && words_q - index_q == f_left_q && word_in_beat_q == f_word_q);
+      assert (index_q == f_index_q && left_q + 32'd1 == f_left_q && last_word_q == (f_left_q == 32'd1) && word_in_beat_q == f_word_q);
       assert (table_q == f_table_q && f_table_q <= 8'd2 && f_word_q <= 3'd5);
       assert (table_base_q == f_base_q && table_extent_q == f_padded_q);
       if (f_table_q == 8'd0) begin

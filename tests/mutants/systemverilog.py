@@ -219,6 +219,8 @@ class Mutator:
             self._statement(drop=self.clocked)
             self.clocked = False
             return None
+        if text == "function" and self._text(2) == "int":  # a width
+            return self._skip_to("endfunction")
         if text == "function":
             self._skip_to(";")
             while self._text() != "endfunction":
@@ -226,6 +228,8 @@ class Mutator:
             self.at += 1
             return None
         if text in ("logic", "wire", "int"):
+            return self._skip_to(";")
+        if token.kind == "name" and self._text(2) in (";", ","):  # of a type with a name
             return self._skip_to(";")
         if token.kind == "name":
             return self._instance()

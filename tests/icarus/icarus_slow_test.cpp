@@ -288,9 +288,8 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"buffers_not_reset", "busy_q <= '0;", ""},
         Planted{"sheets_not_wiped", "assign we = (wipe_i && !`FASTSPLAT_FAULT(MISSED_WIPE)) || clear || mine;",
                 "assign we = clear || mine;"},
-        Planted{"picture_never_blank", "assign state_k4 = touched_k_q[4] ? picture[B] : blank;",
-                "assign state_k4 = picture[B];"},
-        Planted{"counter_not_reset", "if (!rst_ni || clear) counter_q[n] <= '0;", "if (clear) counter_q[n] <= '0;"}),
+        Planted{"picture_not_wiped", ".we_i(wipe_i || (sent_q", ".we_i((sent_q"},
+        Planted{"counter_not_reset", "if (!rst_ni || clear_o) counter_q[n] <= '0;", "if (clear_o) counter_q[n] <= '0;"}),
     [](const auto& param) { return std::string(param.param.name); });
 
 }  // namespace

@@ -1,6 +1,6 @@
 // Unit "compositor": takes the dirty blocks of a finished sheet, one P x P block a cycle, lowest number first, clears them
 // behind itself and composites them over the picture (docs/numerics.md, section 6; docs/microarchitecture.md).
-// k0 pick -> k1 sums -> k2 factor -> k3 slope -> k4 slab, state -> k5 products -> k6 new state, written.
+// k0 pick -> k1 sums -> k2 factor -> k3 slope, picture -> k4 slab, state -> k5 products -> k6 new state, written.
 `include "assertions.svh"
 `include "fault.svh"
 
@@ -135,7 +135,7 @@ module compositor (
   logic [AB-1:0] picture_raddr, picture_waddr, sent_addr_q;
   logic sent_q;
   logic [4*DB-1:0] transparent;
-  assign picture_raddr = picture_re_i ? picture_addr_i : addr_q[3];
+  assign picture_raddr = picture_re_i ? picture_addr_i : addr_q[2];
   assign picture_waddr = wipe_i ? wipe_addr_i : sent_q ? sent_addr_q : addr_q[6];
   assign transparent = (mode_i == 2'd2) ? '0 : {DB'(1) << fastsplat_pkg::TRANS_FRAC, {(3 * DB) {1'b0}}};
   always_ff @(posedge clk_i) begin
@@ -144,7 +144,12 @@ module compositor (
     if (!rst_ni) sent_q <= 1'b0;
   end
 
-  logic [4*DB-1:0] picture[0:P*P-1], states[0:P*P-1];
+  // k2 reads. The first block of a sheet may be the last of the one before, at the least four cycles ago: then it is written in
+  // this cycle, and the lane holds it in the next.
+  logic forward_q;
+  always_ff @(posedge clk_i) forward_q <= valid_q[6] && addr_q[6] == addr_q[2];
+
+  logic [4*DB-1:0] picture[0:P*P-1], state_k4_q[0:P*P-1], states[0:P*P-1];
   for (genvar h = 0; h < P; h++) begin : gen_row
     for (genvar g = 0; g < P; g++) begin : gen_lane
       localparam int B = h * P + g;
@@ -163,7 +168,7 @@ module compositor (
       );
       ram_1r1w #(.BITS(4 * DB), .WORDS(NB), .ADDR(AB)) u_picture (
           .clk_i,
-          .re_i(valid_q[3] || picture_re_i),
+          .re_i(valid_q[2] || picture_re_i),
           .raddr_i(picture_raddr),
           .rdata_o(picture[B]),
           .we_i(wipe_i || (sent_q && picture_row_i[h]) || (valid_q[6] && tap_inside_y_o[h])),
@@ -176,12 +181,13 @@ module compositor (
           .valid_i(valid_q[5:4]),
           .mode_i,
           .slab_i(slab),
-          .state_i(picture[B] ^ transparent),
+          .state_i(state_k4_q[B]),
           .state_o(states[B]),
           .frozen_o(tap_frozen_o[B]),
           .saturated_o(tap_saturated_o[4*B+:4])
       );
       always_ff @(posedge clk_i) begin
+        if (valid_q[3]) state_k4_q[B] <= (forward_q && tap_inside_y_o[h]) ? states[B] : picture[B] ^ transparent;
         if (valid_q[4]) opacity_saturated_k5_q <= opacity_saturated_k4;
         if (valid_q[5]) opacity_saturated_k6_q <= opacity_saturated_k5_q;
       end

@@ -36,6 +36,14 @@ always @(posedge clk_i) begin
     f_k6_q <= f_k5_q;
   end
 end
+// A lane without a block holds what it has.
+logic f_holds_q = 1'b0;
+logic [4*DB-1:0] f_held_q;
+always @(posedge clk_i) begin
+  f_holds_q <= !valid_i[5];
+  f_held_q <= state_o;
+  if (f_started && f_holds_q) assert (state_o == f_held_q);
+end
 logic f_frozen;
 assign f_frozen = f_mode != 2'd2 && 32'(f_trans) < fastsplat_pkg::FREEZE_BELOW;
 always @(posedge clk_i) begin

@@ -51,6 +51,7 @@ logic f_turn_q;             // whose walk is next or under way
 logic f_walking, f_begun_q;
 assign f_walking = f_full_q[f_turn_q] && (f_begun_q || (f_age_q[f_turn_q] >= 2'd2 && f_since_q == 2'd3));
 logic [AB-1:0] f_last_q;
+logic [2:0] f_recent_q;      // picks of the three cycles before
 logic [5:0] f_token_q[0:1];  // of each buffer, behind c4: 5 is W
 always @(posedge clk_i) begin
   for (int m = 0; m < 2; m++) begin
@@ -60,6 +61,7 @@ always @(posedge clk_i) begin
   end
   if (f_since_q != 2'd3) f_since_q <= f_since_q + 2'd1;
   f_begun_q <= f_walking && !finish_o;
+  f_recent_q <= {f_recent_q[1:0], valid_o};
   if (valid_o) f_last_q <= block_o;
   if (finish_o) begin
     f_full_q[buffer_o] <= 1'b0;
@@ -72,6 +74,7 @@ always @(posedge clk_i) begin
   end
   if (!rst_ni) begin
     f_full_q <= '0;
+    f_recent_q <= '0;
     f_since_q <= 2'd3;
     f_turn_q <= 1'b0;
     f_begun_q <= 1'b0;
@@ -111,6 +114,7 @@ always @(posedge clk_i) begin
     assert (!(valid_o || finish_o) || f_walking);
     assert (!f_begun_q || valid_o);
     assert (!(valid_o || finish_o) || buffer_o == f_turn_q);
+    assert (!valid_o || f_begun_q || f_recent_q == '0);
     assert (idle_o == (f_full_q == '0 && f_since_q >= 2'd2));
 
     // For induction. The hand-over.
@@ -119,6 +123,7 @@ always @(posedge clk_i) begin
     assert (f_since_q == 2'd3 || !(f_begun_q || finish_o));
     assert (finish_q[2:1] == {f_since_q == 2'd1, f_since_q == 2'd0});
     assert (!f_begun_q || f_full_q[f_turn_q]);
+    for (int n = 0; n < 3; n++) assert (f_begun_q || !f_recent_q[n] || f_since_q <= 2'(n));
     assert (f_ended == '0 || f_ended[f_turn_q]);
     for (int m = 0; m < 2; m++) begin
       assert (full_q[m] == (f_full_q[m] && !(finish_o && buffer_o == 1'(m))));

@@ -67,7 +67,7 @@ if [ -z "$short" ]; then
   pipe_broken all_rows_blanked 's/(sent_q \&\& picture_row_i\[h\])/sent_q/'
   pipe_broken blanked_next_door 's/sent_addr_q <= picture_addr_i;/sent_addr_q <= picture_addr_i + AB'"'"'(1);/'
   pipe_broken rows_outside_written 's/(valid_q\[6\] \&\& tap_inside_y_o\[h\])/valid_q[6]/'
-  pipe_broken read_late "s/picture_re_i ? picture_addr_i : addr_q\[3\];/picture_re_i ? picture_addr_i : addr_q[4];/"
+  pipe_broken not_forwarded 's/(forward_q \&\& tap_inside_y_o\[h\]) ? states/1'"'"'b0 ? states/'
 fi
 
 # --- the whole: 2 x 2 blocks, the data path cut off

@@ -1,5 +1,7 @@
 #include "cmodel/cluster_account.hpp"
 
+#include "cmodel/cycle_stages.hpp"
+
 namespace fastsplat::cmodel {
 namespace {
 
@@ -8,8 +10,8 @@ constexpr std::uint64_t up(std::uint64_t whole, std::uint64_t by) { return (whol
 }  // namespace
 
 FrameShares frame_shares(const Config& config, const CycleCluster& cluster) {
-  // The first beat is taken in the cycle after the wipe at the earliest, and lies in decode one later.
-  const std::uint64_t start = wipe_cycles(config) + 1;
+  // The first beat is taken in the cycle after the wipe at the earliest, judged, and lies in decode one later.
+  const std::uint64_t start = wipe_cycles(config) + stages::kCheck + 1;
   const std::uint64_t frame = cluster.frame_cycles();
   FrameShares shares;
   for (const DeviceCycles& device : cluster.devices()) {

@@ -34,8 +34,8 @@ CycleModel::CycleModel(const Config& config, StreamScope scope, const CycleOptio
       sets_(static_cast<std::size_t>(config.rlut_sets)),
       dirty_(config.lanes),
       next_offer_(options.first_beat),
-      ready_(wipe_cycles(config)),
-      end_(ready_) {}
+      check_free_(wipe_cycles(config)),
+      end_(check_free_) {}
 
 void CycleModel::empty(std::uint64_t from, std::uint64_t to) {
   if (from >= to) return;
@@ -54,13 +54,16 @@ void CycleModel::empty(std::uint64_t from, std::uint64_t to) {
 
 std::uint64_t CycleModel::enter() {
   const std::uint64_t offered = options_.input == nullptr ? next_offer_ : options_.input->next(next_offer_);
-  const std::uint64_t taken = std::max(offered, ready_);
-  beat_.wanted = std::max(next_offer_, ready_);
+  const std::uint64_t taken = std::max(offered, check_free_);
+  const std::uint64_t checked = std::max(taken + stages::kCheck, ready_);
+  beat_.wanted = std::max(next_offer_, check_free_);
   beat_.offered = offered;
-  beat_.entered = taken + 1;
+  beat_.taken = taken;
+  beat_.entered = checked + 1;
   next_offer_ = taken + 1;
-  empty(register_free_, taken + 1);
-  return taken + 1;
+  check_free_ = checked;
+  empty(register_free_, checked + 1);
+  return checked + 1;
 }
 
 void CycleModel::leave(std::uint64_t since, std::uint64_t at) {

@@ -36,13 +36,14 @@ struct TileCycles {
   std::uint64_t picture_from = 0, picture_to = 0;
 };
 
-/// A beat's way through decode.
+/// A beat's way through check and decode.
 struct BeatCycles {
-  Opcode opcode{};                         ///< of its record; of a table's payload, load_table
-  bool payload = false;                    ///< table words
-  std::uint64_t wanted = 0;                ///< first cycle in which decode could have taken it
-  std::uint64_t offered = 0, entered = 0;  ///< the source has it; it lies in the register
-  std::uint64_t left = 0;                  ///< its last cycle there
+  Opcode opcode{};                       ///< of its record; of a table's payload, load_table
+  bool payload = false;                  ///< table words
+  std::uint64_t wanted = 0;              ///< first cycle in which the device could have taken it
+  std::uint64_t offered = 0, taken = 0;  ///< the source has it; the device takes it
+  std::uint64_t entered = 0;             ///< it lies in decode's register
+  std::uint64_t left = 0;                ///< its last cycle there
 };
 
 class CycleSink {
@@ -118,7 +119,8 @@ class CycleModel final : public Device {
 
   std::uint64_t payload_words_ = 0;  ///< of the open table
   std::uint64_t next_offer_ = 0;     ///< earliest cycle in which the next beat can be offered
-  std::uint64_t ready_ = 0;          ///< earliest cycle in which decode takes the next beat
+  std::uint64_t check_free_ = 0;     ///< earliest cycle in which the check takes the next beat
+  std::uint64_t ready_ = 0;          ///< earliest cycle in which decode takes the next beat from it
   std::uint64_t register_free_ = 0;  ///< first cycle after the last beat left
   std::uint64_t end_ = 0;
   BeatCycles beat_;  ///< in the register

@@ -5,6 +5,8 @@
 
 namespace fastsplat::cmodel::stages {
 
+inline constexpr std::uint64_t kCheck = 1;  ///< from the cycle in which a beat is taken to that in which it was judged
+
 // From the cycle in which decode issues a window.
 inline constexpr std::uint64_t kSnap = 2;       ///< c1: the snapped origin
 inline constexpr std::uint64_t kFootprint = 7;  ///< c6: weights and products

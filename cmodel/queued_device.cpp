@@ -34,8 +34,7 @@ void QueuedDevice::arrive(const Beat& beat, std::uint64_t cycle) {
 }
 
 void QueuedDevice::on_beat(const BeatCycles& beat) {
-  // It was taken in the cycle before it lies in the register; its place is free from the cycle after.
-  asks_ = free_[place_] = beat.entered;
+  asks_ = free_[place_] = beat.taken + 1;
   place_ = place_ + 1 == free_.size() ? 0 : place_ + 1;
   if (listener_ != nullptr) listener_->on_beat(beat);
 }

@@ -25,11 +25,12 @@ StreamDecode::StreamDecode(const Config& config, StreamScope scope)
 
 void StreamDecode::refuse(const char* what, const std::string& expected, const std::string& got,
                           const char* fix) const {
-  throw_input({.where = beat_place(beats_),
-               .what = what,
-               .expected = expected,
-               .got = got,
-               .fix = fix == nullptr ? kMiswrittenStream : fix});
+  throw StreamRefusal(rule_, beats_,
+                      {.where = beat_place(beats_),
+                       .what = what,
+                       .expected = expected,
+                       .got = got,
+                       .fix = fix == nullptr ? kMiswrittenStream : fix});
 }
 
 void StreamDecode::expect(bool holds, const char* what, std::int64_t expected, std::int64_t got) const {
@@ -49,9 +50,8 @@ void StreamDecode::expect_within(std::int64_t got, std::int64_t least, std::int6
 }
 
 void StreamDecode::check_reserved(const Beat& beat, const RecordLayout& record) const {
-  Beat used{};
-  used[0] = field_mask(layout::kOpcode);
-  for (const auto& named : record.fields) used[static_cast<std::size_t>(named.field.word)] |= field_mask(named.field);
+  rule_ = StreamRule::Reserved;
+  const Beat used = used_bits(record);
   for (std::size_t i = 0; i < beat.size(); ++i) {
     const std::uint32_t stray = beat[i] & ~used[i];
     if (stray != 0) refuse("reserved bits are set", "0 in w" + std::to_string(i), hex(stray));
@@ -77,6 +77,7 @@ const char* StreamDecode::wanted() const {
 }
 
 void StreamDecode::check_order(Opcode opcode, const char* name) const {
+  rule_ = StreamRule::Order;
   bool ok = false;
   switch (state_) {
     case State::Start:
@@ -100,14 +101,17 @@ void StreamDecode::check_order(Opcode opcode, const char* name) const {
 }
 
 void StreamDecode::check(const BeginFrame& record, const Beat& beat) {
+  rule_ = StreamRule::Format;
   if (const auto magic = static_cast<std::uint32_t>(get(beat, layout::kFrameMagic)); magic != kStreamMagic)
     refuse("not a FastSplat stream: wrong magic", hex(kStreamMagic), hex(magic), "name a stream file (.fss)");
   expect(get(beat, layout::kFrameVersion) == kStreamVersion, "unknown stream version", kStreamVersion,
          get(beat, layout::kFrameVersion));
+  rule_ = StreamRule::Configuration;
   if (record.config_hash != config_hash_) {
     refuse("stream was made for another configuration", hash_text(config_hash_) + " (" + config_.name + ")",
            hash_text(record.config_hash), kForeignStream);
   }
+  rule_ = StreamRule::Image;
   expect_least(record.width, 1, "empty image width");
   expect_least(record.height, 1, "empty image height");
   frame_ = record;
@@ -115,6 +119,7 @@ void StreamDecode::check(const BeginFrame& record, const Beat& beat) {
 }
 
 void StreamDecode::check(const LoadTable& header, std::uint32_t words) {
+  rule_ = StreamRule::Table;
   std::int64_t expected_words = 0;
   if (header.table > Table::Factor)
     refuse("unknown table", "0, 1 or 2", std::to_string(static_cast<int>(header.table)));
@@ -155,6 +160,7 @@ void StreamDecode::check(const LoadTable& header, std::uint32_t words) {
 }
 
 const Record* StreamDecode::payload(const Beat& beat) {
+  rule_ = StreamRule::Words;
   auto& table = std::get<LoadTable>(record_);
   WordRange range;
   switch (table.table) {
@@ -196,10 +202,11 @@ const Record* StreamDecode::payload(const Beat& beat) {
 }
 
 void StreamDecode::check(const BeginTile& record) {
+  rule_ = StreamRule::Loaded;
   if (!radial_loaded_) refuse("no radial table before the first tile", "load_table 1", "begin_tile");
   if (!factor_loaded_) refuse("no slab factor table before the first tile", "load_table 2", "begin_tile");
+  rule_ = StreamRule::Tile;
   if (record.mode > Mode::Sum) refuse("unknown mode", "0, 1 or 2", std::to_string(static_cast<int>(record.mode)));
-  if (scope_ == StreamScope::Whole) expect(record.tile == tiles_seen_, "tiles out of order", tiles_seen_, record.tile);
   expect_most(std::int64_t{record.tile} + 1, frame_.tiles, "more tiles than announced");
   expect_within(record.width, 1, config_.tile_width, "tile width");
   expect_within(record.height, 1, config_.tile_height, "tile height");
@@ -208,6 +215,8 @@ void StreamDecode::check(const BeginTile& record) {
   const std::int64_t end_x = std::int64_t{record.x} + record.width, end_y = std::int64_t{record.y} + record.height;
   expect_most(end_x, frame_.width, "tile ends outside the image in x");
   expect_most(end_y, frame_.height, "tile ends outside the image in y");
+  rule_ = StreamRule::Whole;
+  if (scope_ == StreamScope::Whole) expect(record.tile == tiles_seen_, "tiles out of order", tiles_seen_, record.tile);
   tile_ = record.tile;
   ++tiles_seen_;
   sheets_seen_ = 0;
@@ -216,6 +225,7 @@ void StreamDecode::check(const BeginTile& record) {
 }
 
 void StreamDecode::check(const BeginSheet& record) {
+  rule_ = StreamRule::Sheet;
   if (sheets_seen_ > 0 && record.sheet <= sheet_)
     refuse("sheet numbers must rise", "more than " + std::to_string(sheet_), std::to_string(record.sheet));
   sheet_ = record.sheet;
@@ -226,37 +236,46 @@ void StreamDecode::check(const BeginSheet& record) {
 
 void StreamDecode::check(const SplatRecord& record) {
   const Format position = config_.position_format();
+  rule_ = StreamRule::Set;
   if (record.set >= sets_loaded_.size() || !sets_loaded_[record.set])
     refuse("radius set not loaded", "a loaded radius set", std::to_string(record.set));
+  rule_ = StreamRule::Range;
   expect_within(record.x, position.min, position.max, "x does not fit the position format");
   expect_within(record.y, position.min, position.max, "y does not fit the position format");
   for (const std::uint32_t colour : record.colour)
     expect_most(colour, config_.colour_format().max, "colour does not fit its format");
+  rule_ = StreamRule::Tag;
   expect(record.tag == next_tag_, "tags out of order", next_tag_, record.tag);
   ++next_tag_;
   ++splats_seen_;
 }
 
 void StreamDecode::check(const CullBlock& record) {
+  rule_ = StreamRule::Cull;
   expect_least(record.width, 1, "empty cull block");
   expect_least(record.height, 1, "empty cull block");
 }
 
 void StreamDecode::check(const EndSheet& record) {
+  rule_ = StreamRule::EndNumber;
   expect(record.sheet == sheet_, "end of another sheet", sheet_, record.sheet);
+  rule_ = StreamRule::EndCount;
   expect(record.splats == splats_seen_, "end_sheet counts other splats than the sheet has", splats_seen_,
          record.splats);
   state_ = State::Tile;
 }
 
 void StreamDecode::check(const EndTile& record) {
+  rule_ = StreamRule::EndNumber;
   expect(record.tile == tile_, "end of another tile", tile_, record.tile);
+  rule_ = StreamRule::EndCount;
   expect(record.sheets == sheets_seen_, "end_tile counts other sheets than the tile has", sheets_seen_, record.sheets);
   state_ = State::Tables;
 }
 
 void StreamDecode::check(const EndFrame& record) {
   if (scope_ == StreamScope::Whole) {
+    rule_ = StreamRule::Whole;
     if (tiles_seen_ != frame_.tiles)
       refuse("tiles missing", std::to_string(frame_.tiles), std::to_string(tiles_seen_), kDamagedStream);
     if (record.beats != beats_) {
@@ -275,6 +294,7 @@ const Record* StreamDecode::feed(const Beat& beat) {
     done = payload(beat);
   } else if (state_ == State::Sheet && get(beat, layout::kOpcode) == static_cast<std::int64_t>(Opcode::Splat)) {
     // All bits of a splat but w0[31:16] are fields: the common case skips the general check.
+    rule_ = StreamRule::Reserved;
     if ((beat[0] >> 16) != 0) refuse("reserved bits are set", "0 in w0", hex(beat[0] & 0xffff0000U));
     record_ = to_splat(beat);
     check(std::get<SplatRecord>(record_));
@@ -282,6 +302,7 @@ const Record* StreamDecode::feed(const Beat& beat) {
   } else {
     const auto opcode = static_cast<std::uint32_t>(get(beat, layout::kOpcode));
     const RecordLayout* found = find_layout(opcode);
+    rule_ = StreamRule::Opcode;
     if (found == nullptr)
       refuse("unknown opcode",
              state_ == State::Start
@@ -312,6 +333,7 @@ const Record* StreamDecode::feed(const Beat& beat) {
 }
 
 void StreamDecode::finish() const {
+  rule_ = StreamRule::Whole;
   if (scope_ == StreamScope::Whole && state_ != State::Ended)
     refuse("stream ends too early", wanted(), "end of data", kDamagedStream);
   if (scope_ == StreamScope::Subset && state_ != State::Tables && state_ != State::Start && state_ != State::Ended)

@@ -7,6 +7,7 @@
 #include "cmodel/config.hpp"
 #include "cmodel/crc32.hpp"
 #include "cmodel/records.hpp"
+#include "cmodel/stream_rules.hpp"
 
 namespace fastsplat::cmodel {
 
@@ -18,7 +19,8 @@ class StreamDecode {
   StreamDecode(const Config& config, StreamScope scope);
 
   /// The record this beat completes, or nullptr inside a table. The pointer lives until the next call.
-  /// Throws UserError (Input): where = "beat N (byte offset M)".
+  /// Throws StreamRefusal, a UserError (Input): where = "beat N (byte offset M)". Of a record that breaks several
+  /// rules, the first in the order of StreamRule.
   const Record* feed(const Beat& beat);
 
   /// Throws unless the stream ended properly: end_frame seen (Whole), no tile or table left open (both).
@@ -29,7 +31,7 @@ class StreamDecode {
  private:
   enum class State { Start, Tables, Payload, Tile, Sheet, Ended };
 
-  /// `fix`: what to do about it; null where who wrote the stream broke a rule.
+  /// For breaking rule_. `fix`: what to do about it; null where who wrote the stream broke a rule.
   [[noreturn]] void refuse(const char* what, const std::string& expected, const std::string& got,
                            const char* fix = nullptr) const;
   void expect(bool holds, const char* what, std::int64_t expected, std::int64_t got) const;
@@ -56,8 +58,9 @@ class StreamDecode {
   std::uint64_t config_hash_;
   State state_ = State::Start;
   Record record_;
-  std::uint64_t beats_ = 0;  ///< complete beats taken
-  Crc32 crc_;                ///< of them; kept for whole streams only
+  mutable StreamRule rule_ = StreamRule::None;  ///< that is being judged
+  std::uint64_t beats_ = 0;                     ///< complete beats taken
+  Crc32 crc_;                                   ///< of them; kept for whole streams only
   BeginFrame frame_;
   std::uint32_t words_left_ = 0;
   std::vector<bool> sets_loaded_;

@@ -45,6 +45,13 @@ constexpr std::array kRecords{
 
 std::span<const RecordLayout> record_layouts() { return kRecords; }
 
+Beat used_bits(const RecordLayout& record) {
+  Beat used{};
+  used[0] = field_mask(kOpcode);
+  for (const auto& named : record.fields) used[static_cast<std::size_t>(named.field.word)] |= field_mask(named.field);
+  return used;
+}
+
 const RecordLayout* find_layout(std::uint32_t opcode) {
   for (const auto& record : kRecords) {
     if (static_cast<std::uint32_t>(record.opcode) == opcode) return &record;

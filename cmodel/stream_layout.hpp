@@ -58,6 +58,8 @@ struct RecordLayout {
 
 /// All records, in the order of docs/stream.md.
 std::span<const RecordLayout> record_layouts();
+/// The bits of a beat of this record that have a name; the others are 0.
+Beat used_bits(const RecordLayout& record);
 /// nullptr for an unknown opcode.
 const RecordLayout* find_layout(std::uint32_t opcode);
 

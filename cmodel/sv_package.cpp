@@ -11,6 +11,7 @@
 #include "cmodel/stall_counters.hpp"
 #include "cmodel/stream_decode.hpp"
 #include "cmodel/stream_layout.hpp"
+#include "cmodel/stream_rules.hpp"
 
 namespace fastsplat::cmodel {
 namespace {
@@ -29,6 +30,11 @@ class Package {
   void vector(const std::string& name, int bits, std::uint64_t value) {
     text_ += "  localparam logic [" + std::to_string(bits - 1) + ":0] " + name + " = " + std::to_string(bits) + "'h" +
              hash_text(value).substr(16 - static_cast<std::size_t>((bits + 3) / 4)) + ";\n";
+  }
+  /// All 192 bits of a beat.
+  void beat(const std::string& name, const Beat& value) {
+    text_ += "  localparam logic [191:0] " + name + " = 192'h";
+    for (std::size_t i = value.size(); i-- > 0;) text_ += hash_text(value[i]).substr(8) + (i > 0 ? "_" : ";\n");
   }
   void section(const std::string& title) { text_ += "\n  // " + title + "\n"; }
   std::string take() { return std::move(text_); }
@@ -91,6 +97,8 @@ std::string sv_package(const Config& config) {
   p.number("LANE_LOG2", Config::log2_exact(config.lanes));
   p.number("BANKS", std::int64_t{config.lanes} * config.lanes);
   p.number("SIDE_BITS", bits_for(largest_side + config.lanes));
+  p.number("TILE_WIDTH", config.tile_width);
+  p.number("TILE_HEIGHT", config.tile_height);
   p.number("BLOCKS_X", blocks_x);
   p.number("BLOCKS_Y", blocks_y);
   p.number("BLOCKS", std::int64_t{blocks_x} * blocks_y);
@@ -152,6 +160,20 @@ std::string sv_package(const Config& config) {
   for (const auto& record : record_layouts())
     p.vector("OP_" + upper(record.name), 8, static_cast<std::uint64_t>(record.opcode));
 
+  p.section("what a beat may hold: bits with a name, w5 to w0; rules in the order in which a record is judged");
+  for (const auto& record : record_layouts()) p.beat("USED_" + upper(record.name), used_bits(record));
+#define X(name, number, register_name, meaning) \
+  if (StreamRule::name != StreamRule::Whole) p.vector("RULE_" #register_name, 8, number);
+  FASTSPLAT_STREAM_RULES(X)
+#undef X
+  p.number("RHO_MOST", std::int64_t{config.rlut_columns} * config.grid() / 2);
+  p.vector("RLUT_WORD_MOST", 32, static_cast<std::uint64_t>(config.rlut_rim()));
+  p.vector("RADIAL_WORD_MOST", 32, static_cast<std::uint64_t>(config.weight_format().max));
+  p.vector("FACTOR_WORD_MOST", 32, static_cast<std::uint64_t>(config.factor_format().max));
+  p.number("WORDS_BITS",
+           bits_for(std::max({std::int64_t{config.rlut_columns} * config.phases, std::int64_t{config.radial_entries},
+                              std::int64_t{config.opacity_segments} + 1})));
+
   p.section("counters, in the model's order, then cycles");
   int counters = 0;
   Counters{}.for_each(
@@ -163,6 +185,10 @@ std::string sv_package(const Config& config) {
 
   p.section("registers");
   for (const auto& reg : kRegisters) p.vector(std::string("REG_") + reg.name, 12, reg.address);
+  for (const auto& [reg, word] : capabilities(config)) {
+    p.vector(std::string("REG_") + reg.name, 12, reg.address);
+    p.vector(reg.name, 32, word);
+  }
 
   return "// Generated for configuration '" + config.name + "' (hash " + hash_text(hash) +
          "); do not edit.\npackage fastsplat_pkg;" + p.take() + "endpackage\n";

@@ -26,7 +26,14 @@ module csr (
     // status
     input  logic        busy_i,
     input  logic        error_i,
+    input  logic [7:0]  error_rule_i,
     input  logic [7:0]  error_opcode_i,
+    input  logic [31:0] error_beat_i,
+    // soft reset, a pulse; interrupt: a frame or a tile has left, a beat was refused
+    output logic        reset_o,
+    input  logic        frame_i,
+    input  logic        tile_i,
+    output logic        irq_o,
     // increments, one 16-bit field a counter; clear: those on their way are forgotten, too
     output logic        clear_o,
     input  logic [16*fastsplat_pkg::COUNTERS-1:0] increments_i
@@ -39,6 +46,7 @@ module csr (
   assign awready_o = write;
   assign wready_o = write;
   assign clear_o = write && awaddr_i == fastsplat_pkg::REG_CONTROL && wdata_i[0];
+  assign reset_o = write && awaddr_i == fastsplat_pkg::REG_CONTROL && wdata_i[1];
 
   logic unused;
   assign unused = &{1'b0, wdata_i};
@@ -51,7 +59,33 @@ module csr (
     end
   end
 
+  // Interrupts: error, tile, frame. What happens while it is cleared stays.
+  logic [2:0] irq_q, irq_mask_q;
+  logic error_q;
+  always_ff @(posedge clk_i) begin
+    error_q <= error_i;
+    irq_q <= (irq_q & ~((write && awaddr_i == fastsplat_pkg::REG_IRQ) ? wdata_i[2:0] : 3'd0)) | {error_i && !error_q, tile_i, frame_i};
+    if (write && awaddr_i == fastsplat_pkg::REG_IRQ_MASK) irq_mask_q <= wdata_i[2:0];
+    irq_o <= (irq_q & irq_mask_q) != '0;
+    if (!rst_ni) begin
+      error_q <= 1'b0;
+      irq_q <= '0;
+      irq_mask_q <= '0;
+      irq_o <= 1'b0;
+    end
+  end
+  logic writable;
+  assign writable = awaddr_i == fastsplat_pkg::REG_CONTROL || awaddr_i == fastsplat_pkg::REG_IRQ || awaddr_i == fastsplat_pkg::REG_IRQ_MASK;
+
   logic [11:0] number;
+  // The two words of a counter are of one moment: reading the low one keeps the high one.
+  logic [63:0] counter;
+  logic [31:0] high_q;
+  always_comb begin
+    counter = '0;
+    for (int n = 0; n < N; n++) if (number == 12'(n)) counter = counter | counter_q[n];
+  end
+
   logic is_counter;
   assign number = (araddr_i - fastsplat_pkg::REG_COUNTERS) >> 3;
   assign is_counter = araddr_i >= fastsplat_pkg::REG_COUNTERS && number < 12'(N) && araddr_i[1:0] == 2'b00;
@@ -67,12 +101,26 @@ module csr (
         fastsplat_pkg::REG_VERSION: rdata_o <= 32'(fastsplat_pkg::STREAM_VERSION);
         fastsplat_pkg::REG_HASH_LOW: rdata_o <= fastsplat_pkg::HASH_LOW;
         fastsplat_pkg::REG_HASH_HIGH: rdata_o <= fastsplat_pkg::HASH_HIGH;
-        fastsplat_pkg::REG_STATUS: rdata_o <= {16'd0, error_opcode_i, 6'd0, error_i, busy_i};
+        fastsplat_pkg::REG_STATUS: rdata_o <= {30'd0, error_i, busy_i};
         fastsplat_pkg::REG_CONTROL: rdata_o <= '0;
+        fastsplat_pkg::REG_ERROR: rdata_o <= {16'd0, error_opcode_i, error_rule_i};
+        fastsplat_pkg::REG_ERROR_BEAT: rdata_o <= error_beat_i;
+        fastsplat_pkg::REG_IRQ: rdata_o <= 32'(irq_q);
+        fastsplat_pkg::REG_IRQ_MASK: rdata_o <= 32'(irq_mask_q);
+        fastsplat_pkg::REG_CAP_TILE: rdata_o <= fastsplat_pkg::CAP_TILE;
+        fastsplat_pkg::REG_CAP_LANES: rdata_o <= fastsplat_pkg::CAP_LANES;
+        fastsplat_pkg::REG_CAP_RLUT: rdata_o <= fastsplat_pkg::CAP_RLUT;
+        fastsplat_pkg::REG_CAP_TABLES: rdata_o <= fastsplat_pkg::CAP_TABLES;
+        fastsplat_pkg::REG_CAP_SPLAT: rdata_o <= fastsplat_pkg::CAP_SPLAT;
+        fastsplat_pkg::REG_CAP_WEIGHT: rdata_o <= fastsplat_pkg::CAP_WEIGHT;
+        fastsplat_pkg::REG_CAP_SHEET: rdata_o <= fastsplat_pkg::CAP_SHEET;
+        fastsplat_pkg::REG_CAP_PIXEL: rdata_o <= fastsplat_pkg::CAP_PIXEL;
         default: begin
-          if (!is_counter) rresp_o <= SLVERR;
-          for (int n = 0; n < N; n++) begin
-            if (is_counter && number == 12'(n)) rdata_o <= araddr_i[2] ? counter_q[n][63:32] : counter_q[n][31:0];
+          if (!is_counter) begin
+            rresp_o <= SLVERR;
+          end else begin
+            rdata_o <= araddr_i[2] ? high_q : counter[31:0];
+            if (!araddr_i[2]) high_q <= counter[63:32];
           end
         end
       endcase
@@ -81,13 +129,14 @@ module csr (
     end
     if (write) begin
       bvalid_o <= 1'b1;
-      bresp_o <= (awaddr_i == fastsplat_pkg::REG_CONTROL) ? OKAY : SLVERR;
+      bresp_o <= writable ? OKAY : SLVERR;
     end else if (bready_i) begin
       bvalid_o <= 1'b0;
     end
     if (!rst_ni) begin
       rvalid_o <= 1'b0;
       bvalid_o <= 1'b0;
+      high_q <= '0;
     end
   end
   `FASTSPLAT_ASSERT_HELD(read_held, rvalid_o && !rready_i, rvalid_o, {rdata_o, rresp_o})

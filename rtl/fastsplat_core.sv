@@ -1,6 +1,6 @@
 // The FastSplat device: stream in, pixels out, registers beside (docs/microarchitecture.md).
 //
-//   stream -> decode -> splat array (snap, RLUT, lanes, sheet banks) -> compositor -> pixel out -> pixels
+//   stream -> check -> decode -> splat array (snap, RLUT, lanes, sheet banks) -> compositor -> pixel out -> pixels
 //
 // Synchronous reset, active low. After reset the sheet memories are wiped (BLOCKS cycles) before the first beat is taken.
 `include "assertions.svh"
@@ -19,6 +19,7 @@ module fastsplat_core (
     output logic [fastsplat_pkg::LANES*128-1:0] m_tdata_o,
     output logic [fastsplat_pkg::LANES-1:0] m_tkeep_o,
     output logic         m_tlast_o,
+    output logic         m_tuser_o,  // the tile was cut short: on all of its beats
     // AXI4-Lite
     input  logic         awvalid_i,
     output logic         awready_o,
@@ -56,7 +57,8 @@ module fastsplat_core (
     output logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::STATE_BITS-1:0] tap_state_o,
     output logic [31:0]  tap_tile_o,
     output logic         tap_sheet_done_o,
-    output logic         error_o
+    output logic         error_o,
+    output logic         irq_o
 );
   localparam int BANKS = fastsplat_pkg::BANKS;
 
@@ -79,7 +81,6 @@ module fastsplat_core (
   logic [31:0] table_index, table_word;
   logic tile_end, tile_open, compositor_idle, pixel_idle;
   logic [1:0] mode;
-  logic [31:0] sheet_number;
   logic [fastsplat_pkg::SIDE_BITS-1:0] width, height;
   logic free, free_buffer;
   logic window_valid, window_last, window_first, window_buffer;
@@ -88,15 +89,44 @@ module fastsplat_core (
   logic [fastsplat_pkg::RHO_BITS-1:0] window_rho;
   logic [fastsplat_pkg::COL_BITS-1:0] window_base, window_column, window_row;
   logic [4*fastsplat_pkg::COLOUR_BITS-1:0] window_colour;
-  logic [7:0] error_opcode;
   logic event_splat, event_cull, stall_input, stall_table, stall_buffer, stall_tile;
-  stream_decode u_decode (
+  logic beat_valid, beat_ready, beat_payload, beat_aborted, check_busy, soft_reset, at_rest;
+  logic [191:0] beat;
+  logic [fastsplat_pkg::COL_BITS-1:0] set_extent;
+  logic [7:0] error_rule, error_opcode;
+  logic [31:0] error_beat;
+  assign at_rest = stall_input && compositor_idle && pixel_idle;
+  stream_check u_check (
       .clk_i,
       .rst_ni,
       .enable_i(!wiping_q),
       .valid_i(s_tvalid_i),
       .ready_o(s_tready_o),
       .data_i(s_tdata_i),
+      .valid_o(beat_valid),
+      .ready_i(beat_ready),
+      .data_o(beat),
+      .payload_o(beat_payload),
+      .aborted_o(beat_aborted),
+      .extent_o(set_extent),
+      .reset_i(soft_reset),
+      .idle_i(at_rest),
+      .busy_o(check_busy),
+      .error_o(error_o),
+      .error_rule_o(error_rule),
+      .error_opcode_o(error_opcode),
+      .error_beat_o(error_beat)
+  );
+  logic tile_aborted, frame_end;
+  stream_decode u_decode (
+      .clk_i,
+      .rst_ni,
+      .valid_i(beat_valid),
+      .ready_o(beat_ready),
+      .data_i(beat),
+      .payload_i(beat_payload),
+      .aborted_i(beat_aborted),
+      .extent_i(set_extent),
       .rlut_we_o(rlut_we),
       .rlut_wphase_o(rlut_wphase),
       .rlut_wcolumn_o(rlut_wcolumn),
@@ -105,11 +135,12 @@ module fastsplat_core (
       .table_index_o(table_index),
       .table_word_o(table_word),
       .tile_end_o(tile_end),
+      .tile_aborted_o(tile_aborted),
+      .frame_end_o(frame_end),
       .tile_open_o(tile_open),
       .tile_idle_i(compositor_idle && pixel_idle),
       .mode_o(mode),
       .tile_number_o(tap_tile_o),
-      .sheet_number_o(sheet_number),
       .width_o(width),
       .height_o(height),
       .free_i(free),
@@ -126,8 +157,6 @@ module fastsplat_core (
       .window_column_o(window_column),
       .window_row_o(window_row),
       .window_colour_o(window_colour),
-      .error_o(error_o),
-      .error_opcode_o(error_opcode),
       .event_splat_o(event_splat),
       .event_cull_o(event_cull),
       .stall_input_o(stall_input),
@@ -262,6 +291,7 @@ module fastsplat_core (
       .clk_i,
       .rst_ni,
       .start_i(tile_end),
+      .aborted_i(tile_aborted),
       .idle_o(pixel_idle),
       .mode_i(mode),
       .width_i(width),
@@ -273,6 +303,7 @@ module fastsplat_core (
       .valid_o(m_tvalid_o),
       .ready_i(m_tready_i),
       .last_o(m_tlast_o),
+      .aborted_o(m_tuser_o),
       .data_o(m_tdata_o),
       .keep_o(m_tkeep_o),
       .saturated_o(pixel_saturated)
@@ -345,6 +376,11 @@ module fastsplat_core (
     );
   end
 
+  // A frame has left when its end_frame was carried out and its last picture is gone.
+  logic frame_ending_q, frame_left;
+  assign frame_left = frame_ending_q && pixel_idle;
+  always_ff @(posedge clk_i) frame_ending_q <= rst_ni && (frame_end || (frame_ending_q && !frame_left));
+
   csr u_csr (
       .clk_i,
       .rst_ni,
@@ -364,14 +400,20 @@ module fastsplat_core (
       .rready_i,
       .rdata_o,
       .rresp_o,
-      .busy_i(running),
+      .busy_i(running || check_busy),
       .error_i(error_o),
+      .error_rule_i(error_rule),
       .error_opcode_i(error_opcode),
+      .error_beat_i(error_beat),
+      .reset_o(soft_reset),
+      .frame_i(frame_left),
+      .tile_i(pixel_taken && m_tlast_o),
+      .irq_o,
       .clear_o(clear_counters),
       .increments_i(increments)
   );
   logic unused;
-  assign unused = &{1'b0, sheet_number, table_index, table_word};
+  assign unused = &{1'b0, table_index, table_word};
   `FASTSPLAT_ASSERT(no_beat_while_wiping, !(wiping_q && s_tready_o))
   `FASTSPLAT_ASSERT(pixel_beat_not_empty, !m_tvalid_o || m_tkeep_o[0])
 

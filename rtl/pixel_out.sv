@@ -7,6 +7,7 @@ module pixel_out (
     input  logic                                 clk_i,
     input  logic                                 rst_ni,
     input  logic                                 start_i,   // pulse; tile registers hold until idle
+    input  logic                                 aborted_i, // with it: the tile was cut short
     output logic                                 idle_o,
     input  logic [1:0]                           mode_i,
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]  width_i,
@@ -20,6 +21,7 @@ module pixel_out (
     output logic                                 valid_o,
     input  logic                                 ready_i,
     output logic                                 last_o,    // of the tile
+    output logic                                 aborted_o, // the tile was cut short: on all of its beats
     output logic [fastsplat_pkg::LANES*128-1:0]  data_o,
     output logic [fastsplat_pkg::LANES-1:0]      keep_o,    // pixels inside the tile
     output logic [4*fastsplat_pkg::LANES-1:0]    saturated_o
@@ -51,6 +53,7 @@ module pixel_out (
   always_ff @(posedge clk_i) begin
     if (start_i) begin
       running_q <= 1'b1;
+      aborted_o <= aborted_i;
       x_q <= '0;
       y_q <= '0;
     end else if (enable) begin
@@ -104,7 +107,7 @@ module pixel_out (
   assign valid_o = valid_r2_q;
   assign last_o = last_r2_q;
   `FASTSPLAT_ASSERT_NEXT(pixel_valid_held, valid_o && !ready_i, valid_o)
-  `FASTSPLAT_ASSERT_HELD(pixel_payload_held, valid_o && !ready_i, 1'b1, {data_o, keep_o, last_o})
+  `FASTSPLAT_ASSERT_HELD(pixel_payload_held, valid_o && !ready_i, 1'b1, {data_o, keep_o, last_o, aborted_o})
   `FASTSPLAT_ASSUME(pixel_start_when_idle, !start_i || idle_o)
   `FASTSPLAT_COVER(pixel_back_pressure, valid_o && !ready_i)
 endmodule

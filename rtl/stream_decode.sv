@@ -1,4 +1,5 @@
-// Unit "decode": beats in, table words, windows and sheet tokens out (docs/stream.md; cmodel/stream_decode.hpp).
+// Unit "decode": judged beats in (stream_check.sv), table words, windows and sheet tokens out (docs/stream.md;
+// cmodel/cycle_model.hpp).
 // One beat register; a beat is done in one cycle but for table payload (a cycle per word), splats (a cycle per window),
 // and begin_tile, begin_sheet and end_tile, which wait for the compositor and pixel out.
 `include "assertions.svh"
@@ -7,11 +8,13 @@
 module stream_decode (
     input  logic                                       clk_i,
     input  logic                                       rst_ni,
-    input  logic                                       enable_i,    // 0 while memories are wiped after reset
-    // stream in
+    // beats that keep the rules
     input  logic                                       valid_i,
     output logic                                       ready_o,
     input  logic [191:0]                               data_i,
+    input  logic                                       payload_i,   // words of the table announced last
+    input  logic                                       aborted_i,   // an end_tile that nobody sent
+    input  logic [fastsplat_pkg::COL_BITS-1:0]         extent_i,    // padded extent of the set announced last
     // table load
     output logic                                       rlut_we_o,
     output logic [fastsplat_pkg::PHASE_BITS-1:0]       rlut_wphase_o,
@@ -22,11 +25,12 @@ module stream_decode (
     output logic [31:0]                                table_word_o,
     // tile
     output logic                                       tile_end_o,    // pulse: send the picture
+    output logic                                       tile_aborted_o,  // with it: of a tile that was cut short
+    output logic                                       frame_end_o,   // pulse: end_frame carried out
     output logic                                       tile_open_o,   // between begin_tile and end_tile
     input  logic                                       tile_idle_i,   // compositor and pixel out have nothing to do
     output logic [1:0]                                 mode_o,
     output logic [31:0]                                tile_number_o,
-    output logic [31:0]                                sheet_number_o,
     output logic [fastsplat_pkg::SIDE_BITS-1:0]        width_o,
     output logic [fastsplat_pkg::SIDE_BITS-1:0]        height_o,
     // sheet buffers given back by the compositor
@@ -46,8 +50,6 @@ module stream_decode (
     output logic [fastsplat_pkg::COL_BITS-1:0]         window_row_o,
     output logic [4*fastsplat_pkg::COLOUR_BITS-1:0]    window_colour_o,
     // status
-    output logic                                       error_o,       // sticky: unknown opcode, wrong magic, version or hash
-    output logic [7:0]                                 error_opcode_o,
     output logic                                       event_splat_o,
     output logic                                       event_cull_o,
     output logic                                       stall_input_o,   // nothing to decode
@@ -59,13 +61,13 @@ module stream_decode (
   localparam int COL = fastsplat_pkg::COL_BITS;
   localparam int P = fastsplat_pkg::LANES;
 
-  logic beat_valid_q, take;
+  logic beat_valid_q, payload_q, aborted_q, take;
   logic [191:0] beat_q;
   logic [31:0] w0, w1, w2, w3, w4, w5;
   assign {w5, w4, w3, w2, w1, w0} = beat_q;
   logic [7:0] opcode;
   assign opcode = w0[7:0];
-  assign ready_o = enable_i && (!beat_valid_q || take);
+  assign ready_o = !beat_valid_q || take;
 
   // Radius sets
   logic [fastsplat_pkg::RHO_BITS-1:0] rho_q[0:fastsplat_pkg::RLUT_SETS-1];
@@ -75,7 +77,6 @@ module stream_decode (
   assign set = w0[8+:fastsplat_pkg::SET_BITS];
 
   // Table payload
-  logic payload_q;
   logic [7:0] table_q;
   logic [31:0] left_q;  // words after this one
   logic last_word_q;
@@ -83,11 +84,6 @@ module stream_decode (
   logic [2:0] word_in_beat_q;
   logic [COL-1:0] table_base_q, table_extent_q, table_column_q;
   logic [fastsplat_pkg::PHASE_BITS-1:0] table_phase_q;
-  logic [COL-1:0] header_extent;
-  localparam int RHO2 = fastsplat_pkg::RHO_BITS + 2;
-  logic [RHO2-1:0] header_pixels;
-  assign header_pixels = (RHO2'({w2[fastsplat_pkg::RHO_BITS-1:0], 1'b0}) + RHO2'(fastsplat_pkg::PHASES - 1)) >> fastsplat_pkg::PHASE_LOG2;
-  assign header_extent = COL'((header_pixels + RHO2'(P - 1)) >> fastsplat_pkg::LANE_LOG2) << fastsplat_pkg::LANE_LOG2;
   always_comb begin
     case (word_in_beat_q)
       3'd0: table_word_o = w0;
@@ -118,25 +114,14 @@ module stream_decode (
   logic [1:0] busy_q;
   logic buffer_q;
 
-  logic is_splat, wait_buffer, wait_tile, known;
-  assign is_splat = beat_valid_q && !payload_q && opcode == fastsplat_pkg::OP_SPLAT && !error_o;
-  assign wait_buffer = beat_valid_q && !payload_q && !error_o && opcode == fastsplat_pkg::OP_BEGIN_SHEET && busy_q[buffer_q];
+  logic is_splat, wait_buffer, wait_tile;
+  assign is_splat = beat_valid_q && !payload_q && opcode == fastsplat_pkg::OP_SPLAT;
+  assign wait_buffer = beat_valid_q && !payload_q && opcode == fastsplat_pkg::OP_BEGIN_SHEET && busy_q[buffer_q];
   // A sheet on its way through the splat path keeps its buffer busy, so "all buffers free" covers the pipe as well.
-  assign wait_tile = beat_valid_q && !payload_q && !error_o && (opcode == fastsplat_pkg::OP_BEGIN_TILE || opcode == fastsplat_pkg::OP_END_TILE) &&
+  assign wait_tile = beat_valid_q && !payload_q && (opcode == fastsplat_pkg::OP_BEGIN_TILE || opcode == fastsplat_pkg::OP_END_TILE) &&
                      (!tile_idle_i || busy_q != '0);
   always_comb begin
-    known = 1'b1;
-    case (opcode)
-      fastsplat_pkg::OP_BEGIN_FRAME:
-      known = w1 == fastsplat_pkg::STREAM_MAGIC && w0[31:16] == fastsplat_pkg::STREAM_VERSION && w2 == fastsplat_pkg::HASH_LOW &&
-              w3 == fastsplat_pkg::HASH_HIGH;
-      fastsplat_pkg::OP_LOAD_TABLE, fastsplat_pkg::OP_BEGIN_TILE, fastsplat_pkg::OP_BEGIN_SHEET, fastsplat_pkg::OP_SPLAT,
-      fastsplat_pkg::OP_CULL_BLOCK, fastsplat_pkg::OP_END_SHEET, fastsplat_pkg::OP_END_TILE, fastsplat_pkg::OP_END_FRAME: known = 1'b1;
-      default: known = 1'b0;
-    endcase
-  end
-  always_comb begin
-    take = beat_valid_q;  // after an error everything is swallowed
+    take = beat_valid_q;
     if (payload_q) take = beat_valid_q && (last_word_q || word_in_beat_q == 3'd5);
     else if (is_splat) take = last_window;
     else if (wait_buffer || wait_tile) take = 1'b0;
@@ -144,9 +129,11 @@ module stream_decode (
 
   logic accepted;  // the record in the register is carried out in this cycle
   logic tile_begin;
-  assign accepted = take && !payload_q && !error_o;
+  assign accepted = take && !payload_q;
   assign tile_begin = accepted && opcode == fastsplat_pkg::OP_BEGIN_TILE;
   assign tile_end_o = accepted && opcode == fastsplat_pkg::OP_END_TILE;
+  assign tile_aborted_o = aborted_q;
+  assign frame_end_o = accepted && opcode == fastsplat_pkg::OP_END_FRAME;
   assign event_splat_o = accepted && opcode == fastsplat_pkg::OP_SPLAT;
   assign event_cull_o = accepted && opcode == fastsplat_pkg::OP_CULL_BLOCK;
   assign stall_input_o = !beat_valid_q;
@@ -158,26 +145,27 @@ module stream_decode (
     if (ready_o) begin
       beat_valid_q <= valid_i;
       beat_q <= data_i;
+      payload_q <= payload_i;
+      aborted_q <= aborted_i;
     end
     if (`FASTSPLAT_FAULT(LOST_BEAT) && ready_o && valid_i && is_splat && data_i[7:0] == fastsplat_pkg::OP_SPLAT && w1[2:0] == 3'd5)
       beat_valid_q <= 1'b0;
 
     // tables
     if (accepted && opcode == fastsplat_pkg::OP_LOAD_TABLE) begin
-      payload_q <= 1'b1;
       table_q <= w0[15:8];
       left_q <= w3 - 32'd1;
       last_word_q <= w3 == 32'd1;
       index_q <= '0;
       word_in_beat_q <= '0;
       table_base_q <= w4[COL-1:0];
-      table_extent_q <= header_extent;
+      table_extent_q <= extent_i;
       table_column_q <= '0;
       table_phase_q <= '0;
       if (w0[15:8] == 8'd0) begin
         rho_q[w1[fastsplat_pkg::SET_BITS-1:0]] <= w2[fastsplat_pkg::RHO_BITS-1:0];
         base_q[w1[fastsplat_pkg::SET_BITS-1:0]] <= w4[COL-1:0];
-        extent_q[w1[fastsplat_pkg::SET_BITS-1:0]] <= header_extent;
+        extent_q[w1[fastsplat_pkg::SET_BITS-1:0]] <= extent_i;
       end
     end
     if (table_write) begin
@@ -190,7 +178,6 @@ module stream_decode (
         table_column_q <= '0;
         table_phase_q <= table_phase_q + fastsplat_pkg::PHASE_BITS'(1);
       end
-      if (last_word_q) payload_q <= 1'b0;
     end
 
     // tile and sheet
@@ -203,10 +190,7 @@ module stream_decode (
       height_o <= w4[16+:fastsplat_pkg::SIDE_BITS];
     end
     if (free_i && !(`FASTSPLAT_FAULT(LOST_FREE) && free_buffer_i)) busy_q[free_buffer_i] <= 1'b0;
-    if (accepted && opcode == fastsplat_pkg::OP_BEGIN_SHEET) begin
-      busy_q[buffer_q] <= 1'b1;
-      sheet_number_o <= w1;
-    end
+    if (accepted && opcode == fastsplat_pkg::OP_BEGIN_SHEET) busy_q[buffer_q] <= 1'b1;
     if (accepted && opcode == fastsplat_pkg::OP_END_SHEET) buffer_q <= !buffer_q;
 
     // windows
@@ -227,14 +211,8 @@ module stream_decode (
       if (last_column) row_q <= last_window ? '0 : row_q + COL'(P);
     end
 
-    if (beat_valid_q && !payload_q && !known && !error_o) begin
-      error_o <= 1'b1;
-      error_opcode_o <= opcode;
-    end
-
     if (!rst_ni) begin
       beat_valid_q <= 1'b0;
-      payload_q <= 1'b0;
       tile_open_o <= 1'b0;
       busy_q <= '0;
       buffer_q <= 1'b0;
@@ -242,8 +220,6 @@ module stream_decode (
       row_q <= '0;
       window_valid_o <= 1'b0;
       window_last_o <= 1'b0;
-      error_o <= 1'b0;
-      error_opcode_o <= '0;
     end
   end
   `FASTSPLAT_ASSUME_HELD(input_held, valid_i && !ready_o, valid_i, data_i)

@@ -100,7 +100,7 @@ void CycleCoverage::on_beat(const cmodel::BeatCycles& beat) {
     coverage_.hit(bubble_ + kind_of(beat));
     coverage_.hit(bubble_length_ + length(beat.offered - beat.wanted));
   }
-  if (beat.entered > beat.offered + 1) coverage_.hit(held_ + length(beat.entered - 1 - beat.offered));
+  if (beat.taken > beat.offered) coverage_.hit(held_ + length(beat.taken - beat.offered));
   if (beat.payload || beat.left == beat.entered) return;
   if (beat.opcode == cmodel::Opcode::BeginTile) coverage_.hit(wait_begin_tile_ + length(beat.left - beat.entered));
   if (beat.opcode == cmodel::Opcode::EndTile) coverage_.hit(wait_end_tile_ + length(beat.left - beat.entered));

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,7 +50,7 @@ struct RegisterAnswer {
 enum class WriteHalf { Address, Data };
 
 /// Of a stream that the device refuses, consume() throws UserError (Simulation) once; what follows is swallowed until a
-/// reset.
+/// reset. Who expects a refusal asks for it (refuse()).
 class RtlDevice : public cmodel::Device {
  public:
   /// Cycles since reset was released.
@@ -67,6 +68,15 @@ class RtlDevice : public cmodel::Device {
   /// Resets again in the middle of whatever is going on, for so many cycles; memories keep what they hold, counters
   /// restart. Nobody takes answers or pixels meanwhile; one that is still there afterwards is UserError (Simulation).
   virtual void warm_reset(int cycles = kResetCycles) = 0;
+  /// Offers a beat that breaks a rule: the cycle in which it was taken, or nothing if the device does not refuse it at
+  /// once. Neither it nor what is taken after it is told to anybody, until a reset.
+  virtual std::optional<std::uint64_t> refuse(const cmodel::Beat& beat) = 0;
+  /// Asks CONTROL for a soft reset, and waits until the device is at rest.
+  virtual void soft_reset() = 0;
+  virtual bool interrupt() const = 0;
+  /// Tiles whose pixels came out marked as cut short, since reset was released. While no refusal and no soft reset was
+  /// asked for, one is UserError (Simulation).
+  virtual std::uint64_t aborted_tiles() const = 0;
 };
 
 /// Built-in configurations with RTL in this build; files of the user's are not among them.

@@ -93,12 +93,33 @@ class VerilatedDevice : public RtlDevice {
     top_->s_tvalid_i = 0;
     offering_ = false;
     pending_ = false;
-    for (std::uint64_t waited = 0; (read_status() & 1) != 0 || !tiles_.complete(); ++waited) {
-      if (waited > options_.timeout) time_out("the device does not come to rest");
-    }
+    come_to_rest();
     // A few cycles more: pipelines behind the last busy cycle deliver their taps.
     for (int i = 0; i < 16; ++i) cycle();
   }
+
+  std::optional<std::uint64_t> refuse(const cmodel::Beat& beat) override {
+    expecting_ = true;
+    offer(beat);
+    for (std::uint64_t waited = 0; !cycle(); ++waited) {
+      if (waited > options_.timeout) time_out("no beat taken");
+    }
+    const std::uint64_t taken = cycle_ - 1;
+    for (int i = 0; i < kJudged && !top_->error_o; ++i) cycle();
+    if (!top_->error_o) return std::nullopt;
+    return taken;
+  }
+
+  void soft_reset() override {
+    expecting_ = true;  // of an open tile
+    write_register(cmodel::kRegControl.address, cmodel::kControlReset, 0);
+    come_to_rest();
+    tiles_.reset();  // of a table that was cut short
+    expecting_ = refused_ = false;
+  }
+
+  bool interrupt() const override { return top_->irq_o != 0; }
+  std::uint64_t aborted_tiles() const override { return aborted_tiles_; }
 
   const cmodel::Counters& counters() const override {
     auto* self = const_cast<VerilatedDevice*>(this);
@@ -211,6 +232,13 @@ class VerilatedDevice : public RtlDevice {
 
  private:
   static constexpr int kOkay = 0, kSlverr = 2;  ///< of AXI4-Lite
+  static constexpr int kJudged = 2;             ///< cycles from a beat's transfer to the error it causes
+
+  void come_to_rest() {
+    for (std::uint64_t waited = 0; (read_status() & cmodel::kStatusBusy) != 0 || !tiles_.complete(); ++waited) {
+      if (waited > options_.timeout) time_out("the device does not come to rest");
+    }
+  }
 
   /// Clocks up to and with the first cycle in which `taken` holds.
   template <class Taken>
@@ -257,7 +285,8 @@ class VerilatedDevice : public RtlDevice {
     top_->rst_ni = 1;
     top_->eval();
     cycle_ = 0;
-    offering_ = pending_ = refused_ = reading_ = writing_ = false;
+    offering_ = pending_ = refused_ = reading_ = writing_ = expecting_ = false;
+    aborted_tiles_ = 0;
     if (top_->rvalid_o || top_->bvalid_o || top_->m_tvalid_o) {
       throw UserError(ExitCode::Simulation, {.where = "after a reset of " + std::to_string(cycles) + " cycles",
                                              .what = top_->m_tvalid_o ? "a pixel beat is offered"
@@ -284,8 +313,10 @@ class VerilatedDevice : public RtlDevice {
     const bool taken = offering_ && top_->s_tready_o != 0;
     sample();
     if (taken) {
-      tiles_.accept(beat_);
-      if (options_.taps != nullptr) options_.taps->accept(beat_);
+      if (!expecting_) {
+        tiles_.accept(beat_);
+        if (options_.taps != nullptr) options_.taps->accept(beat_);
+      }
       pending_ = offering_ = false;
     }
     edge();
@@ -299,13 +330,13 @@ class VerilatedDevice : public RtlDevice {
                                              .got = {},
                                              .fix = "look at the waveform of the last cycles"});
     }
-    if (top_->error_o && !refused_) {
+    if (top_->error_o && !refused_ && !expecting_) {
       refused_ = true;
       top_->arvalid_i = top_->awvalid_i = top_->wvalid_i = 0;
       throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_),
                                              .what = "the device refused the stream",
-                                             .expected = "a known record and this configuration's hash",
-                                             .got = "error status",
+                                             .expected = "beats that keep the rules of docs/stream.md",
+                                             .got = "error status; ERROR and ERROR_BEAT say more",
                                              .fix = "check the stream with 'fastsplat stream dump'"});
     }
     return taken;
@@ -317,7 +348,9 @@ class VerilatedDevice : public RtlDevice {
     if (!top_->m_tvalid_o || !top_->m_tready_i) return;
     std::array<std::uint32_t, 2> small;
     const auto words = port_words(top_->m_tdata_o, small);
-    const bool last = top_->m_tlast_o != 0;
+    const bool last = top_->m_tlast_o != 0, aborted = top_->m_tuser_o != 0;
+    if (aborted && !expecting_) cut_short();
+    if (last && aborted) ++aborted_tiles_;
     if (options_.taps != nullptr)
       options_.taps->on_raw({.port = RawPort::Pixels,
                              .cycle = cycle_,
@@ -385,6 +418,13 @@ class VerilatedDevice : public RtlDevice {
     return low | static_cast<std::uint64_t>(read(address + 4)) << 32;
   }
 
+  [[noreturn]] void cut_short() const {
+    throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_),
+                                           .what = "a tile comes out marked as cut short",
+                                           .expected = "no mark: nothing was refused",
+                                           .got = "m_tuser_o = 1",
+                                           .fix = "look at the waveform of the last cycles"});
+  }
   [[noreturn]] void unanswered(const char* access) const {
     throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_),
                                            .what = std::string("no answer to a register ") + access,
@@ -433,9 +473,11 @@ class VerilatedDevice : public RtlDevice {
   std::unique_ptr<VerilatedFstC> wave_;
   std::uint64_t cycle_ = 0;
   cmodel::Beat beat_{};
-  bool pending_ = false;                    ///< a beat waits to be offered
-  bool offering_ = false;                   ///< and has been: valid stays up until taken
-  bool refused_ = false;                    ///< the device said so since reset
+  bool pending_ = false;    ///< a beat waits to be offered
+  bool offering_ = false;   ///< and has been: valid stays up until taken
+  bool refused_ = false;    ///< the device said so since reset
+  bool expecting_ = false;  ///< that it does, or that it cuts a tile short
+  std::uint64_t aborted_tiles_ = 0;
   bool reading_ = false, writing_ = false;  ///< an access was begun whose answer was not taken
   bool was_reset_ = false;                  ///< warm
   cmodel::Counters counters_;

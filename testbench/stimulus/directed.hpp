@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,19 +18,27 @@ using MakeDevice = std::function<std::unique_ptr<RtlDevice>(cmodel::PixelSink&, 
 
 struct DirectedResult {
   std::uint64_t comparisons = 0;
-  std::vector<std::string> failures;  ///< what, expected, got
-  Coverage coverage;                  ///< register.*, refusal.* or short_reset.*
+  std::vector<std::string> failures;   ///< what, expected, got
+  Coverage coverage;                   ///< register.*, refusal.* or short_reset.*
+  std::map<std::string, int> refused;  ///< streams that were refused as the model refuses them, by rule
 };
 
 /// Every bin of the three.
 Coverage directed_bins();
+/// Those of check_refusals().
+Coverage refusal_bins();
+
+/// `streams` small streams with random damage: refused as the model refuses them, or taken and equal to it.
+DirectedResult check_damage(const cmodel::Config& config, const MakeDevice& make, std::uint64_t seed, int streams);
 
 /// Identity, status, counters (against the model, cleared by CONTROL), answers to unknown addresses, answers that wait,
 /// halves of writes, resets that drop answers.
 DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& make);
 
-/// begin_frame with a wrong magic, version or hash and records of unknown opcode: refused at once, opcode in STATUS,
-/// the rest swallowed; after a reset the device works again.
+/// Each rule that a device judges, broken in every way the small stream has: refused at the model's beat by the model's
+/// rule, which ERROR and ERROR_BEAT tell; an open tile comes out as if it had ended there, marked, every tap and cycle
+/// the model's; the rest is swallowed; after a soft reset, or a hard one, the device works again. Soft resets within a
+/// tile.
 DirectedResult check_refusals(const cmodel::Config& config, const MakeDevice& make);
 
 /// A reset of one cycle with each record of a stream but begin_frame in the device's register, then the whole stream

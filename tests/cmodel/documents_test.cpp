@@ -10,6 +10,7 @@
 #include "cmodel/counters.hpp"
 #include "cmodel/register_map.hpp"
 #include "cmodel/stream_layout.hpp"
+#include "cmodel/stream_rules.hpp"
 #include "cmodel/sv_package.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 
@@ -125,6 +126,31 @@ TEST(StreamPage, MagicVersionAndEnumerations) {
   has(cmodel::Mode::Exponential, "exponential");
   has(cmodel::Mode::Additive, "additive");
   has(cmodel::Mode::Sum, "sum");
+}
+
+TEST(StreamPage, RulesByNumber) {
+  std::vector<std::vector<std::string>> rows;
+  bool here = false;
+  for (const std::string& line : lines_of("stream.md")) {
+    here = here || line == "## Rules by number";
+    if (here && line.rfind("| ", 0) == 0 && std::isdigit(static_cast<unsigned char>(line[2])) != 0)
+      rows.push_back(cells(line));
+  }
+  std::size_t at = 0;
+#define X(name, number, register_name, meaning)                                                        \
+  if (cmodel::StreamRule::name != cmodel::StreamRule::None) {                                          \
+    ASSERT_LT(at, rows.size());                                                                        \
+    EXPECT_EQ(rows[at][0], std::to_string(number));                                                    \
+    EXPECT_EQ(rows[at][1], lower(#register_name));                                                     \
+    EXPECT_EQ(rows[at][2], meaning);                                                                   \
+    EXPECT_EQ(rows[at][3].find("device") == 0, cmodel::StreamRule::name != cmodel::StreamRule::Whole); \
+    ++at;                                                                                              \
+  }
+  FASTSPLAT_STREAM_RULES(X)
+#undef X
+  EXPECT_EQ(at, rows.size());
+  std::printf("[figure] rules of the stream page held against the code = %zu (limit 18)\n", at);
+  EXPECT_EQ(at, 18u);
 }
 
 /// Rows "| table.key | symbol | base | meaning |" of section 2.

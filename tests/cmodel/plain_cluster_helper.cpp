@@ -34,7 +34,9 @@ class PlainDevice {
   void arrive(const PlainBeat& beat) { queue_.push_back(beat); }
   /// Nothing is queued or on the link.
   bool all_taken() const { return taken_places_ == 0; }
-  bool at_rest(std::uint64_t cycle) const { return all_taken() && !beat_ && !tile_open_ && cycle >= picture_end_; }
+  bool at_rest(std::uint64_t cycle) const {
+    return all_taken() && !judged_ && !beat_ && !tile_open_ && cycle >= picture_end_;
+  }
 
   void clock(std::uint64_t cycle) {
     const bool picture = cycle < picture_end_;
@@ -46,12 +48,16 @@ class PlainDevice {
     out.end = std::max(out.end, wipe_);
     const bool done = beat_ && carry_out(cycle);
     if (done) beat_.reset();
-    if (cycle < wipe_ || beat_ || queue_.empty()) return;
-    beat_ = queue_.front();
-    spent_ = 0;
+    if (!beat_ && judged_) {
+      beat_ = judged_;
+      spent_ = 0;
+      judged_.reset();
+    }
+    if (cycle < wipe_ || judged_ || queue_.empty()) return;
+    judged_ = queue_.front();
     queue_.pop_front();
     --taken_places_;
-    if (beat_->opcode == Opcode::BeginTile) out.tiles.push_back(beat_->tile);
+    if (judged_->opcode == Opcode::BeginTile) out.tiles.push_back(judged_->tile);
     last_taken = cycle;
   }
 
@@ -93,7 +99,7 @@ class PlainDevice {
   std::uint64_t wipe_;
   std::size_t places_, taken_places_ = 0;
   std::deque<PlainBeat> queue_;
-  std::optional<PlainBeat> beat_;
+  std::optional<PlainBeat> judged_, beat_;  ///< in the check, in decode
   std::uint64_t spent_ = 0;
   bool tile_open_ = false;
   std::size_t buffer_ = 0;

@@ -21,7 +21,7 @@ module icarus_bench;
   logic clk_i, rst_ni;
   logic s_tvalid_i, s_tready_o;
   logic [191:0] s_tdata_i;
-  logic m_tvalid_o, m_tready_i, m_tlast_o;
+  logic m_tvalid_o, m_tready_i, m_tlast_o, m_tuser_o, irq_o;
   logic [P*128-1:0] m_tdata_o;
   logic [P-1:0] m_tkeep_o;
   logic awvalid_i, awready_o, wvalid_i, wready_o, bvalid_o, bready_i, arvalid_i, arready_o, rvalid_o, rready_i;
@@ -49,13 +49,13 @@ module icarus_bench;
 
   // Transfers are decided by known values, and carry known values.
   task automatic look;
-    if (^{s_tready_o, error_o} === 1'bx) wrong("unknown", "s_tready, error");
+    if (^{s_tready_o, error_o, irq_o} === 1'bx) wrong("unknown", "s_tready, error, irq");
     if (m_tvalid_o === 1'bx) wrong("unknown", "m_tvalid");
     if (^{awready_o, wready_o, bvalid_o, arready_o, rvalid_o} === 1'bx) wrong("unknown", "register handshake");
     if (^{tap_snap_valid_o, tap_window_valid_o, tap_sheet_valid_o, tap_composite_valid_o, tap_sheet_done_o} === 1'bx)
       wrong("unknown", "tap valid");
     if (m_tvalid_o === 1'b1) begin
-      if (^{m_tlast_o, m_tkeep_o} === 1'bx) wrong("unknown", "m_tlast, m_tkeep");
+      if (^{m_tlast_o, m_tuser_o, m_tkeep_o} === 1'bx) wrong("unknown", "m_tlast, m_tuser, m_tkeep");
       for (int g = 0; g < P; g++)
         if (m_tkeep_o[g] === 1'b1 && ^m_tdata_o[g*128+:128] === 1'bx) wrong("unknown", "m_tdata");
     end

@@ -169,9 +169,30 @@ TEST_P(Directed, RegistersAnswerAsThePageSays) {
   expect_all(check_registers(config, rtl_of(config)));
 }
 
-TEST_P(Directed, ForeignStreamsAreRefusedUntilAReset) {
+void print_refused(const DirectedResult& result) {
+  int all = 0;
+  for (const auto& [rule, streams] : result.refused) {
+    std::printf("[figure] %s: %d streams refused at the model's beat by the model's rule\n", rule.c_str(), streams);
+    all += streams;
+  }
+  std::printf("[figure] streams refused as the model refuses them = %d\n", all);
+}
+
+/// base, whose tables are long, is in broken_streams_slow_test.cpp.
+class DirectedRefusals : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(DirectedRefusals, StreamsThatBreakARuleAreRefusedAsTheModelRefusesThem) {
   const auto config = driver::load_config(GetParam());
-  expect_all(check_refusals(config, rtl_of(config)));
+  const auto result = check_refusals(config, rtl_of(config));
+  expect_all(result);
+  print_refused(result);
+}
+
+TEST_P(DirectedRefusals, DamagedStreamsMeetTheModelsVerdict) {
+  const auto config = driver::load_config(GetParam());
+  const auto result = check_damage(config, rtl_of(config), 1, 200);
+  expect_all(result);
+  print_refused(result);
 }
 
 /// What differs between configurations is not what a reset clears; the largest takes seconds.
@@ -184,6 +205,7 @@ TEST_P(DirectedResets, OfOneCycleForgetAnyRecord) {
 
 constexpr auto kConfigName = [](const auto& param) { return std::string(param.param); };
 INSTANTIATE_TEST_SUITE_P(Configurations, Directed, ::testing::Values("tiny", "small", "base"), kConfigName);
+INSTANTIATE_TEST_SUITE_P(Configurations, DirectedRefusals, ::testing::Values("tiny", "small"), kConfigName);
 INSTANTIATE_TEST_SUITE_P(Configurations, DirectedResets, ::testing::Values("tiny", "small"), kConfigName);
 
 }  // namespace

@@ -28,7 +28,7 @@ struct SilentTop {
   std::uint32_t awaddr_i = 0, wdata_i = 0, araddr_i = 0, rdata_o = 0;
   std::array<std::uint32_t, 6> s_tdata_i{};
   std::uint64_t m_tdata_o = 0;
-  std::uint8_t wready_o = 0, m_tkeep_o = 0;
+  std::uint8_t wready_o = 0, m_tkeep_o = 0, m_tuser_o = 0, irq_o = 0;
   std::uint32_t tap_tile_o = 0;
   std::uint8_t tap_snap_valid_o = 0, tap_sheet_valid_o = 0, tap_window_valid_o = 0, tap_composite_valid_o = 0,
                tap_sheet_done_o = 0;

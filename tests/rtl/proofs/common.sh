@@ -26,7 +26,7 @@ package() {
 }
 
 # unit NAME MODULE BESIDE CUT [FILE EDIT]: NAME.smt2 of MODULE (with its specification inside) and the modules BESIDE it, the
-# modules CUT with free outputs: whatever they say. $connects ties undriven names of a specification to registers below. EDIT breaks
+# modules CUT with free outputs: whatever they say, as do $cut_wires. $connects ties undriven names of a specification to registers below. EDIT breaks
 # a line of the module FILE; lines of the specification with $without in them are left out.
 unit() {
   name=$1 module=$2 beside=$3 cut=$4 file=${5-} edit=${6-}
@@ -43,9 +43,11 @@ unit() {
     quiet="$quiet $source/rtl/$other.sv"
     free="$free t:$other t:*\\$other"
   done
-  # pixel_out is proved by itself (prove_units.sh): neither its assertions nor its assumptions are read here.
-  case $beside in *pixel_out*) quiet="$quiet $work/$name.pixel_out.sv" read=$(echo "$read" | sed "s| [^ ]*\.pixel_out\.sv||") ;; esac
-  yosys -q -l "$work/$name.log" -p "read_verilog -sv -I$source/rtl $package_file $quiet; read_verilog -sv -formal ${defines-} -I$source/rtl $read $work/$name.sv; hierarchy -check -top $module; proc; ${free:+cutpoint $free;} flatten; ${connects-} delete -output o:*; memory_map; opt -full -purge; async2sync; dffunmap; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2" >/dev/null 2>&1 ||
+  # Check and pixel out are proved by themselves: neither their assertions nor their assumptions are read here.
+  for other in stream_check pixel_out; do
+    case " $beside " in *" $other "*) quiet="$quiet $work/$name.$other.sv" read=$(echo "$read" | sed "s| [^ ]*\.$other\.sv||") ;; esac
+  done
+  yosys -q -l "$work/$name.log" -p "read_verilog -sv -I$source/rtl $package_file $quiet; read_verilog -sv -formal ${defines-} -I$source/rtl -I$here $read $work/$name.sv; hierarchy -check -top $module; proc; ${free:+cutpoint $free ${cut_wires-};} flatten; ${connects-} delete -output o:*; memory_map; opt -full -purge; async2sync; dffunmap; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2" >/dev/null 2>&1 ||
     { tail -5 "$work/$name.log"; echo "$name: Yosys fails"; exit 1; }
   grep -q 'yosys-smt2-assert' "$work/$name.smt2" || { echo "$name: nothing to prove"; exit 1; }
 }

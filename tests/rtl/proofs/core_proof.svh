@@ -1,7 +1,8 @@
-// How decode, splat path, compositor and pixel out share the sheet buffers (docs/microarchitecture.md), put inside fastsplat_core
+// How check, decode, splat path, compositor and pixel out share the sheet buffers (docs/microarchitecture.md), put inside fastsplat_core
 // by prove_control.sh: a memory has one owner at a time, which sheet_bank_proof.svh assumes; what dirty_map_proof.svh,
-// compositor_proof.svh and stream_decode_proof.svh assume of each other; and no deadlock. Data is cut off: any pixel may lie inside;
-// the walk picks what it will, in the cycles that dirty_map_proof.svh has.
+// compositor_proof.svh and stream_decode_proof.svh assume of each other; and no deadlock. The source sends what it will and soft resets
+// come at any time. Data is cut off: any pixel may lie inside, and check may call any field of a record right or wrong, in its place or
+// out of it (which fields are: stream_check_proof.svh); the walk picks what it will, in the cycles that dirty_map_proof.svh has.
 // Names that nothing drives are tied to registers below by the script; stage 0 of the pipe is decode's output.
 logic f_started = 1'b0;
 always @(posedge clk_i) f_started <= 1'b1;
@@ -9,7 +10,8 @@ always @* if (!f_started) assume (!rst_ni);
 
 logic f_beat, f_payload, f_take, f_splat, f_table, f_begin, f_idle_pixel;  // of decode and pixel out
 logic [7:0] f_opcode;
-logic [31:0] f_words;
+logic f_here, f_soft;       // of check: a beat, a soft reset
+logic [2:0] f_check_place;  // 0 before begin_frame, 1 in the frame, 2 in a table, 3 in a tile, 4 in a sheet
 logic [1:0] f_busy;
 logic f_buffer, f_idle_walk;
 logic [8:0] f_valid_below, f_last_below, f_buffer_below;
@@ -19,24 +21,20 @@ assign f_valid = {f_valid_below, window_valid};
 assign f_last = {f_last_below, window_last};
 assign f_of = {f_buffer_below, window_buffer};
 
-// The stream's grammar, over the record in decode's register: 0 in the frame, 1 in a tile, 2 in a sheet.
-logic [1:0] f_place_q;
+// Where the records that decode carried out lead to: 0 in the frame, 1 in a tile, 2 in a sheet; and with the one in its register.
+logic [1:0] f_place_q, f_next_place;
 logic f_record, f_out;
-assign f_record = f_beat && !f_payload && !error_o;
+assign f_record = f_beat && !f_payload;
 assign f_out = f_record && f_take;
 always @* begin
-  if (f_record) begin
-    if (f_opcode == 8'h46 || f_opcode == 8'h4C || f_opcode == 8'h54 || f_opcode == 8'h66) assume (f_place_q == 2'd0);
-    if (f_opcode == 8'h53 || f_opcode == 8'h74) assume (f_place_q == 2'd1);
-    if (f_opcode == 8'h50 || f_opcode == 8'h43 || f_opcode == 8'h73) assume (f_place_q == 2'd2);
-    if (f_opcode == 8'h4C) assume (f_words != '0);
-  end
+  f_next_place = f_place_q;
+  if (f_record && f_opcode == 8'h54) f_next_place = 2'd1;
+  if (f_record && f_opcode == 8'h53) f_next_place = 2'd2;
+  if (f_record && f_opcode == 8'h73) f_next_place = 2'd1;
+  if (f_record && f_opcode == 8'h74) f_next_place = 2'd0;
 end
 always @(posedge clk_i) begin
-  if (f_out && f_opcode == 8'h54) f_place_q <= 2'd1;
-  if (f_out && f_opcode == 8'h53) f_place_q <= 2'd2;
-  if (f_out && f_opcode == 8'h73) f_place_q <= 2'd1;
-  if (f_out && f_opcode == 8'h74) f_place_q <= 2'd0;
+  if (f_out) f_place_q <= f_next_place;
   if (!rst_ni) f_place_q <= 2'd0;
 end
 
@@ -52,12 +50,13 @@ always @(posedge clk_i) begin
   if (!rst_ni) f_wiped_q <= 1'b0;
 end
 
-// Something moves: a beat, a window, a table word, a block, a sheet given back, pixels, the wipe.
+// Something moves: a beat that is not swallowed, a window, a table word, a block, a sheet given back, pixels, the wipe; if there is
+// something to do, the sink is willing, and no soft reset is asked for just now.
 logic f_moves, f_fair;
 logic [4:0] f_still_q;
-localparam int F_LONGEST = 11;  // cycles between end_sheet and the first pick of its walk
-assign f_moves = wiping_q || (s_tvalid_i && s_tready_o) || f_splat || f_table || sheet_re || free || (m_tvalid_o && m_tready_i);
-assign f_fair = s_tvalid_i && m_tready_i;
+localparam int F_LONGEST = 11;  // cycles between end_sheet, when the beat behind it moves to decode, and the first pick of its walk
+assign f_moves = wiping_q || (s_tvalid_i && s_tready_o && !error_o) || (beat_valid && beat_ready) || f_splat || f_table || sheet_re || free || (m_tvalid_o && m_tready_i);
+assign f_fair = m_tready_i && !soft_reset && ((s_tvalid_i && !error_o) || check_busy || f_beat || !f_idle_pixel);
 always @(posedge clk_i) f_still_q <= (!rst_ni || f_moves || !f_fair) ? '0 : f_still_q + 5'(f_still_q != '1);
 
 // The walk: when it picks, as in dirty_map_proof.svh, from which these are. Whose walk is next or under way: f_turn.
@@ -128,6 +127,9 @@ always @(posedge clk_i) begin
     assert (!f_begin || pixel_idle);
     // pixel_out_proof.svh.
     assert (!tile_end || pixel_idle);
+    // A soft reset ends when nothing is left of the frame before (stream_check_proof.svh).
+    assert (!(f_soft && at_rest && !f_here && f_check_place <= 3'd2) ||
+            (!f_beat && f_busy == '0 && f_valid == '0 && f_last == '0 && f_full == '0 && f_place_q == '0 && f_idle_pixel && compositor_idle));
     // stream_decode_proof.svh.
     assert (!free || (f_busy[free_buffer] && !f_open[free_buffer]));
     assert (f_still_q <= 5'(F_LONGEST));  // No deadlock: while source and sink are willing something moves
@@ -136,7 +138,7 @@ always @(posedge clk_i) begin
     assert (wiping_q || f_wiped_q);
     assert (32'(wipe_addr_q) < fastsplat_pkg::BLOCKS);
     assert (!wiping_q || f_wiped_q == (wipe_addr_q > f_word));
-    assert (!wiping_q || !(f_beat || f_payload || f_busy != '0 || f_valid != '0 || f_last != '0 || f_full != '0 || f_since_q != 2'd3 || f_blocks != '0 || !f_idle_pixel || f_cleared_q || f_place_q != '0));
+    assert (!wiping_q || !(f_here || f_check_place != '0 || f_beat || f_busy != '0 || f_valid != '0 || f_last != '0 || f_full != '0 || f_since_q != 2'd3 || f_blocks != '0 || !f_idle_pixel || f_cleared_q || f_place_q != '0));
     // A buffer is in one place, its windows before its token.
     assert (f_busy == (f_open | f_ended));
     assert ((f_open & f_ended) == '0 && (f_token & f_full) == '0);
@@ -160,12 +162,21 @@ always @(posedge clk_i) begin
     for (int m = 0; m < 2; m++) assert (!f_full[m] || f_age_q[m] != '0);
     for (int s = 1; s <= 5; s++) assert (f_marked_way_q[s] == f_last[s+4]);
     assert (!(f_cleared_q && f_valid[0] && f_of[0] == f_cleared_of_q && !f_full[f_cleared_of_q]));
+    // What check passed and decode carried out: one beat lies between.
+    assert (f_check_place <= 3'd4);
+    assert (f_next_place == (f_check_place == 3'd4 ? 2'd2 : f_check_place == 3'd3 ? 2'd1 : 2'd0));
+    if (f_record) begin
+      if (f_opcode == 8'h46 || f_opcode == 8'h4C || f_opcode == 8'h54 || f_opcode == 8'h66) assert (f_place_q == 2'd0);
+      if (f_opcode == 8'h53 || f_opcode == 8'h74) assert (f_place_q == 2'd1);
+      if (f_opcode == 8'h50 || f_opcode == 8'h43 || f_opcode == 8'h73) assert (f_place_q == 2'd2);
+    end
     // Tiles.
     assert (tile_open == (f_place_q != '0));
     assert (f_place_q != 2'd3 && (f_place_q != '0 || f_busy == '0));
     assert (!!f_idle_pixel || (f_place_q == '0 && f_busy == '0 && compositor_idle));
-    assert (!f_payload || f_place_q == '0);
+    assert (!(f_beat && f_payload) || f_place_q == '0);
     cover (f_still_q == 5'(F_LONGEST));
     cover (sheet_re && f_valid[9]);
+    cover (f_soft && error_o && m_tvalid_o && m_tuser_o);
   end
 end

@@ -9,6 +9,9 @@ logic f_read_q, f_write_q;
 logic [31:0] f_data_q;
 logic [1:0] f_rresp_q, f_bresp_q;
 logic [63:0] f_truth_q[0:N-1];
+logic [31:0] f_high_q;  // of the counter whose low word was read last, at that moment
+logic [2:0] f_irq_q, f_mask_q;
+logic f_refused_q, f_raised_q;  // error, and whether an unmasked bit was set, a cycle ago
 
 // An access is taken when its answer's place is empty; a write needs both halves.
 logic f_take_read, f_take_write;
@@ -24,12 +27,25 @@ always @* begin
   else if (araddr_i == 12'h004) f_word = 32'd1;
   else if (araddr_i == 12'h008) f_word = fastsplat_pkg::HASH_LOW;
   else if (araddr_i == 12'h00C) f_word = fastsplat_pkg::HASH_HIGH;
-  else if (araddr_i == 12'h010) f_word = {16'd0, error_opcode_i, 6'd0, error_i, busy_i};
+  else if (araddr_i == 12'h010) f_word = {30'd0, error_i, busy_i};
   else if (araddr_i == 12'h014) f_word = '0;
+  else if (araddr_i == 12'h018) f_word = {16'd0, error_opcode_i, error_rule_i};
+  else if (araddr_i == 12'h01C) f_word = error_beat_i;
+  else if (araddr_i == 12'h020) f_word = {29'd0, f_irq_q};
+  else if (araddr_i == 12'h024) f_word = {29'd0, f_mask_q};
+  else if (araddr_i == 12'h040) f_word = {16'(fastsplat_pkg::TILE_HEIGHT), 16'(fastsplat_pkg::TILE_WIDTH)};
+  else if (araddr_i == 12'h044) f_word = {16'(fastsplat_pkg::RLUT_SETS), 16'(fastsplat_pkg::LANES)};
+  else if (araddr_i == 12'h048) f_word = {16'(fastsplat_pkg::PHASES), 16'(fastsplat_pkg::RLUT_COLUMNS)};
+  else if (araddr_i == 12'h04C) f_word = {16'(fastsplat_pkg::SEGMENTS), 16'(fastsplat_pkg::RADIAL_ENTRIES)};
+  else if (araddr_i == 12'h050) f_word = {8'd0, 8'(fastsplat_pkg::COLOUR_BITS), 8'(fastsplat_pkg::POS_FRAC), 8'(fastsplat_pkg::POS_INT)};
+  // Of these the package has the sum of two fields: they are the configuration's.
+  else if (araddr_i == 12'h054) f_word = fastsplat_pkg::CAP_WEIGHT;
+  else if (araddr_i == 12'h058) f_word = fastsplat_pkg::CAP_SHEET;
+  else if (araddr_i == 12'h05C) f_word = fastsplat_pkg::CAP_PIXEL;
   else if (araddr_i == 12'h080) f_word = f_truth_q[0][31:0];
-  else if (araddr_i == 12'h084) f_word = f_truth_q[0][63:32];
+  else if (araddr_i == 12'h084) f_word = f_high_q;
   else if (araddr_i == 12'h088) f_word = f_truth_q[1][31:0];
-  else if (araddr_i == 12'h08C) f_word = f_truth_q[1][63:32];
+  else if (araddr_i == 12'h08C) f_word = f_high_q;
   else f_known = 1'b0;
 end
 
@@ -38,17 +54,32 @@ always @(posedge clk_i) begin
     f_read_q <= 1'b1;
     f_data_q <= f_word;
     f_rresp_q <= f_known ? 2'd0 : 2'd2;
+    if (araddr_i == 12'h080) f_high_q <= f_truth_q[0][63:32];
+    if (araddr_i == 12'h088) f_high_q <= f_truth_q[1][63:32];
   end else if (rready_i) f_read_q <= 1'b0;
   if (f_take_write) begin
     f_write_q <= 1'b1;
-    f_bresp_q <= awaddr_i == 12'h014 ? 2'd0 : 2'd2;
+    f_bresp_q <= awaddr_i == 12'h014 || awaddr_i == 12'h020 || awaddr_i == 12'h024 ? 2'd0 : 2'd2;
+    if (awaddr_i == 12'h020) f_irq_q <= f_irq_q & ~wdata_i[2:0];
+    if (awaddr_i == 12'h024) f_mask_q <= wdata_i[2:0];
   end else if (bready_i) f_write_q <= 1'b0;
+  // What happens in the cycle of a write stays.
+  if (frame_i) f_irq_q[0] <= 1'b1;
+  if (tile_i) f_irq_q[1] <= 1'b1;
+  if (error_i && !f_refused_q) f_irq_q[2] <= 1'b1;
+  f_refused_q <= error_i;
+  f_raised_q <= (f_irq_q[0] && f_mask_q[0]) || (f_irq_q[1] && f_mask_q[1]) || (f_irq_q[2] && f_mask_q[2]);
   // A clear counts what comes with it neither before nor after.
   for (int n = 0; n < N; n++) f_truth_q[n] <= f_truth_q[n] + 64'(increments_i[16*n+:16]);
   if (f_take_write && awaddr_i == 12'h014 && wdata_i[0]) for (int n = 0; n < N; n++) f_truth_q[n] <= '0;
   if (!rst_ni) begin
     f_read_q <= 1'b0;
     f_write_q <= 1'b0;
+    f_high_q <= '0;
+    f_irq_q <= '0;
+    f_mask_q <= '0;
+    f_refused_q <= 1'b0;
+    f_raised_q <= 1'b0;
     for (int n = 0; n < N; n++) f_truth_q[n] <= '0;
   end
 end
@@ -61,10 +92,17 @@ always @(posedge clk_i) begin
     assert (awready_o == f_take_write && wready_o == f_take_write);
     assert (!f_read_q || (rdata_o == f_data_q && rresp_o == f_rresp_q));
     assert (!f_write_q || bresp_o == f_bresp_q);
+    assert (irq_o == f_raised_q);
+    assert (clear_o == (f_take_write && awaddr_i == 12'h014 && wdata_i[0]));
+    assert (reset_o == (f_take_write && awaddr_i == 12'h014 && wdata_i[1]));
+    // For induction.
     for (int n = 0; n < N; n++) assert (counter_q[n] == f_truth_q[n]);
+    assert (high_q == f_high_q && irq_q == f_irq_q && irq_mask_q == f_mask_q && error_q == f_refused_q);
     cover (rvalid_o && bvalid_o && !rready_i && !bready_i);
     cover (rvalid_o && rdata_o == 32'd70000 && rresp_o == 2'd0);
     cover (rvalid_o && rresp_o == 2'd2);
+    cover (irq_o && f_irq_q == '0);  // cleared a cycle ago
+    cover (f_take_write && awaddr_i == 12'h020 && wdata_i[2:0] == 3'd7 && f_irq_q == 3'd7 && tile_i);
     cover (clear_o && counter_q[0] != '0 && increments_i[15:0] != '0);
   end
 end

@@ -1,6 +1,6 @@
 // What pixel out sends (docs/microarchitecture.md, "Pixel out"), put inside pixel_out by prove_units.sh: every pixel of a tile of
-// any size once, in order, with the right keep, last and words, in the cycles that the page says, whatever the sink does; and each
-// row of the picture is asked for once.
+// any size once, in order, with the right keep, last and words, marked if the tile was cut short, in the cycles that the page says,
+// whatever the sink does; and each row of the picture is asked for once.
 logic f_started = 1'b0;
 always @(posedge clk_i) f_started <= 1'b1;
 always @* if (!f_started) assume (!rst_ni);
@@ -21,7 +21,7 @@ end
 always @(posedge clk_i) if (picture_re_o) f_read_q <= picture_addr_o;
 
 // The beat that is due: its first pixel, whether the tile is under way, and cycles since it began (2: beats are due).
-logic f_active_q;
+logic f_active_q, f_marked_q;
 logic [1:0] f_age_q;
 logic [SIDE-1:0] f_x_q, f_y_q;
 logic f_last, f_next_last;
@@ -39,6 +39,7 @@ endfunction
 always @(posedge clk_i) begin
   if (start_i) begin
     f_active_q <= 1'b1;
+    f_marked_q <= aborted_i;
     f_age_q <= '0;
     f_x_q <= '0;
     f_y_q <= '0;
@@ -85,10 +86,12 @@ always @(posedge clk_i) begin
     assert (valid_o == (f_active_q && f_age_q == 2'd2));
     assert (!valid_o || last_o == f_last);
     assert (!valid_o || f_keep_right);
+    assert (!valid_o || aborted_o == f_marked_q);  // at its start, on all of its beats
     assert (!(f_sending && f_sent_q));
     assert (!(idle_o && f_any_q) || f_sent_q == f_inside);
     // Where the stages stand, for induction.
     assert (f_any_q || !f_active_q);
+    assert (!f_active_q || aborted_o == f_marked_q);
     assert (!f_fresh_q || valid_r1_q);
     if (f_active_q && f_age_q == 2'd0) assert (!f_sent_q);
     if (f_active_q && f_age_q != 2'd0 && !valid_r1_q) assert (f_sent_q == f_inside);
@@ -112,6 +115,7 @@ always @(posedge clk_i) begin
       assert (f_read_q == (valid_r2_q ? f_block_of(f_next_x, f_next_y) : f_block_of(f_x_q, f_y_q)));
     end
     cover (valid_o && last_o && f_y_q == SIDE'(2) && f_width == SIDE'(3) && ready_i);
+    cover (valid_o && last_o && f_marked_q && !aborted_i && (f_x_q != '0 || f_y_q != '0));
     cover (valid_o && !ready_i && f_block_of(f_x_q, f_y_q) == f_block && data_o != '0);
   end
 end

@@ -1,6 +1,6 @@
 #!/bin/sh
 # prove_control.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR [short]: the device's control for ever, by induction, with Yosys and z3, each part
-# against its specification written again (NAME_proof.svh): decode, the dirty walk, the compositor's pipe, and how the parts share the sheet
+# against its specification written again (NAME_proof.svh): check, decode, the dirty walk, the compositor's pipe, and how the parts share the sheet
 # buffers (core), with what each assumes of the others proved there. What is asked about happens; planted faults are noticed.
 # Leaves WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS | FAULTS REFUTED, one a line. short: without the deadlock's proof, what takes minutes to reach
 # or to refute, and most of the faults.
@@ -13,6 +13,17 @@ here="$source/tests/rtl/proofs"
 : >"$work/proofs.txt"
 "$emit" "$source/configs/tiny.toml" >"$work/tiny.sv"
 
+# --- check: two radius sets of two phases and up to 8 columns, tables of a few words; words of any value
+package_file="$work/check_pkg.sv"
+package RLUT_SETS=2 RLUT_COLUMNS=8 COL_BITS=4 PHASES=2 PHASE_LOG2=1 PHASE_BITS=1 RHO_MOST=8 RADIAL_ENTRIES=2 RADIAL_LOG2=1 SEGMENTS=7 SEG_LOG2=3 >"$package_file"
+check() { without=FASTSPLAT_ASS unit "$1" stream_check "" "" "${2:+stream_check}" "${2-}"; }
+check stream_check
+holds stream_check 1 "stream_check: of any beats those that keep the rules, in order, once; the first other is told, and what is open is closed"
+check_broken() { defines=-DF_FEW_BEATS check "stream_check_$1" "$2"; refuted "stream_check_$1" "${3:-8}"; }
+if [ -z "$short" ]; then
+  check_broken taken_back_beat_passes_twice "s/^    if (moves) beat_valid_q <= 1'b0;.*//"
+fi
+
 # --- decode: two radius sets of two phases and up to 8 columns: 1 to 4 x 4 windows of 2 x 2 lanes
 package_file="$work/decode_pkg.sv"
 package RLUT_SETS=2 RLUT_COLUMNS=8 COL_BITS=4 PHASES=2 PHASE_LOG2=1 PHASE_BITS=1 >"$package_file"
@@ -20,10 +31,10 @@ decode() { unit "$1" stream_decode "" "" "${2:+stream_decode}" "${2-}"; }
 decode stream_decode
 holds stream_decode 2 "stream_decode: no beat lost, doubled or out of order; each window of a splat once, each table word in its place"
 decode_broken() { decode "stream_decode_$1" "$2"; refuted "stream_decode_$1" "${3:-8}"; }
-decode_broken one_window_more "s/COL'((header_pixels + RHO2'(P - 1))/COL'((header_pixels + RHO2'(P))/"
+decode_broken one_window_more "s/\(extent_q\[.*\] <= extent_i\);/\1 + COL'(P);/"
 if [ -z "$short" ]; then
   happens stream_decode 18
-  decode_broken beat_twice 's/assign ready_o = enable_i \&\& (!beat_valid_q || take);/assign ready_o = enable_i \&\& (!beat_valid_q || (take \&\& !payload_q));/'
+  decode_broken beat_twice 's/assign ready_o = !beat_valid_q || take;/assign ready_o = !beat_valid_q || (take \&\& !payload_q);/'
   decode_broken beat_lost 's/else if (wait_buffer || wait_tile) take = 1.b0;/else if (wait_tile) take = 1'"'"'b0;/' 14
   decode_broken window_twice 's/else if (is_splat) take = last_window;/else if (is_splat) take = last_window \&\& window_valid_o;/' 9:12
   decode_broken columns_of_one_phase "s/table_column_q + COL'(1) == table_extent_q/table_column_q == table_extent_q/"
@@ -75,13 +86,15 @@ package_file="$work/core_pkg.sv"
 package STATE_BITS=3 TRANS_BITS=3 SHEET_BITS=2 TRANS_FRAC=2 PIXEL_BITS=2 SIDE_BITS=3 RLUT_SETS=2 ADDR_BITS=2 BLOCKS_X=2 BLOCKS_Y=2 BLOCKS=4 BLK_BITS=1 >"$package_file"
 connects=""
 for pair in f_beat=u_decode.beat_valid_q f_payload=u_decode.payload_q f_take=u_decode.take f_splat=u_decode.is_splat f_table=u_decode.table_write \
-  f_begin=u_decode.tile_begin f_opcode=u_decode.opcode f_words=u_decode.w3 f_busy=u_decode.busy_q f_buffer=u_decode.buffer_q \
+  f_begin=u_decode.tile_begin f_opcode=u_decode.opcode f_busy=u_decode.busy_q f_buffer=u_decode.buffer_q \
   f_idle_walk=u_compositor.walk_idle f_blocks=u_compositor.valid_q f_valid_below=u_splat.valid_q \
-  f_last_below=u_splat.last_q f_buffer_below=u_splat.buffer_q f_idle_pixel=u_pixel_out.idle_o; do
+  f_last_below=u_splat.last_q f_buffer_below=u_splat.buffer_q f_idle_pixel=u_pixel_out.idle_o f_here=u_check.beat_valid_q f_soft=u_check.reset_q f_check_place=u_check.place_q; do
   connects="$connects connect -nounset -set ${pair%=*} ${pair#*=};"
 done
+cut_wires=""
+for wire in used table_good words_good tile_good set_good position_good colour_good; do cut_wires="$cut_wires stream_check/w:$wire"; done
 specification=core
-core() { unit "$1" fastsplat_core "stream_decode splat_array compositor pixel_out" "snap rlut axis lane sheet_bank dirty_map slab_opacity composite_lane csr popcount ram_1r1w" "${2-}" "${3-}"; }
+core() { unit "$1" fastsplat_core "stream_check stream_decode splat_array compositor pixel_out" "snap rlut axis lane sheet_bank dirty_map slab_opacity composite_lane csr popcount ram_1r1w" "${2-}" "${3-}"; }
 core_shares="core: one owner of a memory at a time, and what the parts' proofs assume of each other"
 if [ -n "$short" ]; then
   without="No deadlock" core core

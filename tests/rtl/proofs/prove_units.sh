@@ -24,14 +24,18 @@ smt() {
 # --- registers
 sed 's/\(localparam int COUNTERS\) = .*;/\1 = 2;/' "$work/tiny.sv" >"$work/csr_pkg.sv"
 smt csr csr "$work/csr_pkg.sv"
-holds csr 3 "csr: every read, write, answer and counter is the page's"
+holds csr 3 "csr: every read, write, answer, counter, interrupt and pulse is the page's"
 happens csr 12
 csr_broken() { smt "csr_$1" csr "$work/csr_pkg.sv" "$2"; refuted "csr_$1" 8; }
 csr_broken never_answers "s/rvalid_o <= 1'b1;/rvalid_o <= 1'b0;/"
-csr_broken counter_refused 's/if (!is_counter) rresp_o <= SLVERR;/rresp_o <= SLVERR;/'
+csr_broken counter_refused 's/if (!is_counter) begin/if (is_counter) begin/'
 csr_broken half_write 's/assign write = awvalid_i && wvalid_i/assign write = (awvalid_i || wvalid_i)/'
 csr_broken reset_with_answer "s/^      bvalid_o <= 1'b0;$/      bvalid_o <= 1'b1;/"
 csr_broken any_write_clears 's/ && wdata_i\[0\];/;/'
+csr_broken high_word_is_the_low 's/high_q <= counter\[63:32\]/high_q <= counter[31:0]/'
+csr_broken clear_wins "s/irq_q <= (irq_q & ~(\(.*\))) | {\(.*\)};/irq_q <= (irq_q | {\2}) \& ~(\1);/"
+csr_broken refused_for_ever 's/{error_i && !error_q, tile_i/{error_i, tile_i/'
+csr_broken mask_unasked "s/irq_o <= (irq_q & irq_mask_q) != '0;/irq_o <= irq_q != '0;/"
 
 # --- pixel out: tiles up to 4 x 4 of 2 x 2 lanes, words of a few bits
 sed -e 's/\(localparam int \(STATE_BITS\|TRANS_BITS\)\) = .*;/\1 = 3;/' -e 's/\(localparam int SHEET_BITS\) = .*;/\1 = 2;/' \
@@ -40,7 +44,7 @@ sed -e 's/\(localparam int \(STATE_BITS\|TRANS_BITS\)\) = .*;/\1 = 3;/' -e 's/\(
   -e 's/\(localparam int SHIFT_PIXEL_\(OUT\|SUM\)\) = .*;/\1 = 1;/' \
   -e 's/\(localparam int BLOCKS\) = .*;/\1 = 4;/' -e 's/\(localparam int BLK_BITS\) = .*;/\1 = 1;/' "$work/tiny.sv" >"$work/pixel_pkg.sv"
 smt pixel_out pixel_out "$work/pixel_pkg.sv"
-holds pixel_out 2 "pixel_out: each pixel once, in order and in time, with its keep, last and words; each row of the picture read once"
+holds pixel_out 2 "pixel_out: each pixel once, in order and in time, with its keep, last, words and mark; each row of the picture read once"
 happens pixel_out 16
 pixel_broken() { smt "pixel_out_$1" pixel_out "$work/pixel_pkg.sv" "$2"; refuted "pixel_out_$1" 12; }
 pixel_broken keep_one_more "s/x_r1_q + SIDE'(g) < width_i;/x_r1_q + SIDE'(g) <= width_i;/"
@@ -48,6 +52,7 @@ pixel_broken stray_after_reset "/^    if (!rst_ni) begin/,/^    end/s/valid_r1_q
 pixel_broken moves_while_waiting 's/assign enable = !valid_r2_q || ready_i;/assign enable = 1'"'"'b1;/'
 pixel_broken last_early "s/y_q + SIDE'(1) >= height_i;/y_q + SIDE'(2) >= height_i;/"
 pixel_broken row_read_twice "s/assign picture_re_o = running_q \&\& enable;/assign picture_re_o = running_q || valid_r1_q;/"
+pixel_broken mark_of_now "s/last_r2_q <= last_r1_q;/last_r2_q <= last_r1_q; aborted_o <= aborted_i;/"
 pixel_broken alpha_upside_down "s/(c == 3) ? (TB'(1) << TF) - word/(c == 3) ? word/"
 
 # --- narrow: every shift from 2 to the left to 6 to the right, every rounding, both kinds of word, more bits lost, kept or added; and

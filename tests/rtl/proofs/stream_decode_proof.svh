@@ -5,54 +5,41 @@ logic f_started = 1'b0;
 always @(posedge clk_i) f_started <= 1'b1;
 always @* if (!f_started) assume (!rst_ni);
 
+// What comes is what check passes: stream_check_proof.svh.
+logic f_passed_valid, f_passed_ready, f_passed_payload, f_passed_aborted;
+logic [191:0] f_passed_data;
+logic [COL-1:0] f_passed_extent;
+assign f_passed_valid = valid_i;
+assign f_passed_ready = ready_o;
+assign f_passed_data = data_i;
+assign f_passed_payload = payload_i;
+assign f_passed_aborted = aborted_i;
+assign f_passed_extent = extent_i;
+`define F_PROMISE(ALWAYS) assume (ALWAYS)
+`include "judged_beats.svh"
+
 // The beat in the register.
-logic f_have_q;
+logic f_have_q, f_payload_q, f_aborted_q;
 logic [191:0] f_beat_q;
 logic f_done;
 always @(posedge clk_i) begin
   if (valid_i && ready_o) begin
     f_have_q <= 1'b1;
     f_beat_q <= data_i;
+    f_payload_q <= payload_i;
+    f_aborted_q <= aborted_i;
   end else if (f_done) f_have_q <= 1'b0;
   if (!rst_ni) f_have_q <= 1'b0;
 end
 logic [7:0] f_opcode;
 assign f_opcode = f_beat_q[7:0];
 
-// The stream's grammar: 0 in the frame, 1 in a tile, 2 in a sheet. A table's words are payload.
+// Where the records that were carried out lead to: 0 in the frame, 1 in a tile, 2 in a sheet. A table's words are payload.
 logic [1:0] f_place_q;
 logic [31:0] f_left_q;      // words of the table to come
 logic [31:0] f_index_q;     // of the next one
 logic [7:0] f_table_q;
 logic [COL-1:0] f_base_q, f_padded_q;
-logic f_error_q, f_begin_right, f_known;
-assign f_begin_right = f_beat_q[63:32] == 32'h31535346 && f_beat_q[31:16] == 16'd1 &&
-                       f_beat_q[127:64] == {fastsplat_pkg::HASH_HIGH, fastsplat_pkg::HASH_LOW};
-assign f_known = f_opcode == 8'h46 ? f_begin_right :
-                 f_opcode == 8'h4C || f_opcode == 8'h54 || f_opcode == 8'h53 || f_opcode == 8'h50 || f_opcode == 8'h43 ||
-                 f_opcode == 8'h73 || f_opcode == 8'h74 || f_opcode == 8'h66;
-// Ea of a radius set with the radius rho, in words of COL bits: 2 rho / K rounded up to pixels, then to windows.
-function automatic logic [COL-1:0] f_padded(input logic [fastsplat_pkg::RHO_BITS-1:0] rho);
-  f_padded = COL'(((32'(rho) * 32'd2 + 32'(fastsplat_pkg::PHASES - 1)) / 32'(fastsplat_pkg::PHASES) + 32'(P - 1)) / 32'(P) * 32'(P));
-endfunction
-// A set's columns lie in the RLUT.
-localparam logic [fastsplat_pkg::RHO_BITS-1:0] F_RHO = fastsplat_pkg::RHO_BITS'(fastsplat_pkg::RLUT_COLUMNS * fastsplat_pkg::PHASES / 2);
-always @* begin
-  if (f_have_q && !f_error_q && f_left_q == '0) begin
-    if (f_opcode == 8'h46 || f_opcode == 8'h4C || f_opcode == 8'h54 || f_opcode == 8'h66) assume (f_place_q == 2'd0);
-    if (f_opcode == 8'h53 || f_opcode == 8'h74) assume (f_place_q == 2'd1);
-    if (f_opcode == 8'h50 || f_opcode == 8'h43 || f_opcode == 8'h73) assume (f_place_q == 2'd2);
-    if (f_opcode == 8'h4C) begin
-      assume (f_beat_q[127:96] != '0 && f_beat_q[15:8] <= 8'd2);
-      if (f_beat_q[15:8] == 8'd0) begin
-        assume (f_beat_q[63:32] < fastsplat_pkg::RLUT_SETS && f_beat_q[64+:fastsplat_pkg::RHO_BITS] != '0);
-        assume (f_beat_q[64+:fastsplat_pkg::RHO_BITS] <= F_RHO);
-        assume (f_beat_q[127:96] == 32'(f_padded(f_beat_q[64+:fastsplat_pkg::RHO_BITS])) * 32'(fastsplat_pkg::PHASES));
-      end
-    end
-    if (f_opcode == 8'h50) assume (f_beat_q[15:8] < fastsplat_pkg::RLUT_SETS && f_loaded_q[f_beat_q[8+:fastsplat_pkg::SET_BITS]]);
-  end
-end
 
 // Radius sets.
 logic [fastsplat_pkg::RLUT_SETS-1:0] f_loaded_q;
@@ -65,16 +52,15 @@ logic [2:0] f_word_q;  // of the beat
 logic [COL-1:0] f_x_q, f_y_q, f_ea;  // the window that is due
 logic f_last_x, f_last_y;
 assign f_ea = f_padded(f_rho_q[f_beat_q[8+:fastsplat_pkg::SET_BITS]]);
-assign f_payload = f_left_q != '0;
-assign f_splat = f_have_q && !f_error_q && !f_payload && f_opcode == 8'h50;
+assign f_payload = f_have_q && f_payload_q;
+assign f_splat = f_have_q && !f_payload && f_opcode == 8'h50;
 assign f_last_x = f_x_q + COL'(P) == f_ea;
 assign f_last_y = f_y_q + COL'(P) == f_ea;
 logic [1:0] f_busy_q;
 logic f_buffer_q;
 assign f_waits = f_opcode == 8'h53 ? f_busy_q[f_buffer_q] :
                  (f_opcode == 8'h54 || f_opcode == 8'h74) && !(tile_idle_i && f_busy_q == 2'd0);
-assign f_done = f_have_q && (f_error_q || (f_payload ? f_left_q == 32'd1 || f_word_q == 3'd5 :
-                                           f_splat ? f_last_x && f_last_y : !f_waits));
+assign f_done = f_have_q && (f_payload ? f_left_q == 32'd1 || f_word_q == 3'd5 : f_splat ? f_last_x && f_last_y : !f_waits);
 
 // Any window of the splat: how often it was issued.
 (* anyconst *) logic [COL-1:0] f_any_x, f_any_y;
@@ -82,14 +68,14 @@ logic [1:0] f_seen_q, f_seen;
 assign f_seen = f_seen_q + 2'(f_splat && f_x_q == f_any_x && f_y_q == f_any_y);
 
 always @(posedge clk_i) begin
-  if (f_have_q && !f_error_q) begin
+  if (f_have_q) begin
     if (f_payload) begin
       f_left_q <= f_left_q - 32'd1;
       f_index_q <= f_index_q + 32'd1;
       f_word_q <= f_word_q == 3'd5 || f_left_q == 32'd1 ? 3'd0 : f_word_q + 3'd1;
     end else if (f_done) begin
-      if (!f_known) f_error_q <= 1'b1;
       case (f_opcode)
+        8'h46: f_left_q <= '0;  // a soft reset cut a table short
         8'h4C: begin
           f_left_q <= f_beat_q[127:96];
           f_index_q <= '0;
@@ -118,12 +104,11 @@ always @(posedge clk_i) begin
   end
   // Buffers: taken in turn, given back by the compositor.
   if (free_i) f_busy_q[free_buffer_i] <= 1'b0;
-  if (f_done && !f_error_q && !f_payload && f_opcode == 8'h53) f_busy_q[f_buffer_q] <= 1'b1;
-  if (f_done && !f_error_q && !f_payload && f_opcode == 8'h73) f_buffer_q <= !f_buffer_q;
+  if (f_done && !f_payload && f_opcode == 8'h53) f_busy_q[f_buffer_q] <= 1'b1;
+  if (f_done && !f_payload && f_opcode == 8'h73) f_buffer_q <= !f_buffer_q;
   if (!rst_ni) begin
     f_place_q <= '0;
     f_left_q <= '0;
-    f_error_q <= 1'b0;
     f_x_q <= '0;
     f_y_q <= '0;
     f_seen_q <= '0;
@@ -132,11 +117,8 @@ always @(posedge clk_i) begin
     f_loaded_q <= '0;
   end
 end
-// Once memories are wiped they stay so until reset; and what comes back was out, and the open sheet's buffer does not: prove_control.sh, core.
-logic f_wiped_q;
-always @(posedge clk_i) f_wiped_q <= rst_ni && enable_i;
+// What comes back was out, and the open sheet's buffer does not: prove_control.sh, core.
 always @* begin
-  if (f_wiped_q && rst_ni) assume (enable_i);
   if (free_i) assume (f_busy_q[free_buffer_i] && !(f_place_q == 2'd2 && free_buffer_i == f_buffer_q));
 end
 
@@ -147,7 +129,7 @@ logic [fastsplat_pkg::RHO_BITS-1:0] f_was_rho_q;
 logic [191:0] f_was_q;
 always @(posedge clk_i) begin
   f_was_splat_q <= f_splat && rst_ni;
-  f_was_end_q <= f_done && !f_error_q && !f_payload && f_opcode == 8'h73 && rst_ni;
+  f_was_end_q <= f_done && !f_payload && f_opcode == 8'h73 && rst_ni;
   f_was_buffer_q <= f_buffer_q;
   f_was_rho_q <= f_rho_q[f_beat_q[8+:fastsplat_pkg::SET_BITS]];
   f_was_first_q <= f_first_q[f_beat_q[8+:fastsplat_pkg::SET_BITS]];
@@ -161,20 +143,21 @@ assign f_now = f_started && rst_ni;
 always @(posedge clk_i) begin
   if (f_now) begin
     // Beats: taken in order, each carried out once, after its time.
-    assert (ready_o == (enable_i && (!f_have_q || f_done)));
+    assert (ready_o == (!f_have_q || f_done));
     assert (beat_valid_q == f_have_q);
     assert (!f_have_q || beat_q == f_beat_q);
-    assert (tile_begin == (f_done && !f_error_q && !f_payload && f_opcode == 8'h54));
-    assert (tile_end_o == (f_done && !f_error_q && !f_payload && f_opcode == 8'h74));
+    assert (tile_begin == (f_done && !f_payload && f_opcode == 8'h54));
+    assert (tile_end_o == (f_done && !f_payload && f_opcode == 8'h74));
     assert (event_splat_o == (f_done && f_splat));
-    assert (event_cull_o == (f_done && !f_error_q && !f_payload && f_opcode == 8'h43));
-    assert (error_o == f_error_q);
+    assert (event_cull_o == (f_done && !f_payload && f_opcode == 8'h43));
+    assert (!tile_end_o || tile_aborted_o == f_aborted_q);
+    assert (frame_end_o == (f_done && !f_payload && f_opcode == 8'h66));
     assert (tile_open_o == (f_place_q != 2'd0));
-    // Who waits, and for what; what is swallowed after an error never does.
+    // Who waits, and for what.
     assert (stall_input_o == !f_have_q);
-    assert (stall_table_o == (f_have_q && !f_error_q && f_payload));
-    assert (stall_buffer_o == (f_have_q && !f_error_q && !f_payload && f_opcode == 8'h53 && f_waits));
-    assert (stall_tile_o == (f_have_q && !f_error_q && !f_payload && f_opcode != 8'h53 && f_waits));
+    assert (stall_table_o == (f_have_q && f_payload));
+    assert (stall_buffer_o == (f_have_q && !f_payload && f_opcode == 8'h53 && f_waits));
+    assert (stall_tile_o == (f_have_q && !f_payload && f_opcode != 8'h53 && f_waits));
     // Windows.
     assert (window_valid_o == f_was_splat_q);
     assert (window_last_o == f_was_end_q);
@@ -191,9 +174,9 @@ always @(posedge clk_i) begin
     if (f_done && f_splat && f_any_x < f_ea && f_any_y < f_ea && f_any_x % COL'(P) == '0 && f_any_y % COL'(P) == '0)
       assert (f_seen == 2'd1);
     // Table words.
-    assert (rlut_we_o == (f_have_q && f_payload && !f_error_q && f_table_q == 8'd0));
-    assert (radial_we_o == (f_have_q && f_payload && !f_error_q && f_table_q == 8'd1));
-    assert (factor_we_o == (f_have_q && f_payload && !f_error_q && f_table_q == 8'd2));
+    assert (rlut_we_o == (f_have_q && f_payload && f_table_q == 8'd0));
+    assert (radial_we_o == (f_have_q && f_payload && f_table_q == 8'd1));
+    assert (factor_we_o == (f_have_q && f_payload && f_table_q == 8'd2));
     if (rlut_we_o || radial_we_o || factor_we_o) begin
       assert (table_index_o == f_index_q);
       assert (table_word_o == f_beat_q[32*f_word_q+:32]);
@@ -204,19 +187,46 @@ always @(posedge clk_i) begin
     end
 
     // For induction: the registers of decode and of the specification say the same.
-    assert (payload_q == f_payload);
+    assert (!f_have_q || (payload_q == f_payload_q && aborted_q == f_aborted_q));
+    // The beat in the register is such as check passes, and lies between what was passed and what was carried out.
     if (f_payload) begin
-      assert (!f_error_q && f_place_q == 2'd0);
+      assert (f_place_q == 2'd0 && f_left_q != '0);
+      assert (f_words_left_q == (f_left_q > 32'd6 - 32'(f_word_q) ? f_left_q - (32'd6 - 32'(f_word_q)) : '0));
+    end else if (f_have_q) begin
+      if (f_opcode == 8'h46 || f_opcode == 8'h4C || f_opcode == 8'h54 || f_opcode == 8'h66) assert (f_place_q == 2'd0);
+      if (f_opcode == 8'h53 || f_opcode == 8'h74) assert (f_place_q == 2'd1);
+      if (f_opcode == 8'h50 || f_opcode == 8'h43 || f_opcode == 8'h73) assert (f_place_q == 2'd2);
+      assert (f_opcode == 8'h46 || f_left_q == '0);
+      assert (f_words_left_q == (f_opcode == 8'h4C ? f_beat_q[127:96] : '0));
+      if (f_opcode == 8'h4C) begin
+        assert (f_beat_q[127:96] != '0 && f_beat_q[15:8] <= 8'd2);
+        assert (f_set_passed_q == (f_beat_q[15:8] == 8'd0));
+        if (f_beat_q[15:8] == 8'd0) begin
+          assert (f_beat_q[63:32] < fastsplat_pkg::RLUT_SETS && f_rho_passed_q == f_beat_q[64+:fastsplat_pkg::RHO_BITS]);
+          assert (f_rho_passed_q != '0 && f_rho_passed_q <= F_RHO);
+          assert (f_beat_q[127:96] == 32'(f_padded(f_rho_passed_q)) * 32'(fastsplat_pkg::PHASES));
+        end
+      end
+      if (f_opcode == 8'h50) assert (f_beat_q[15:8] < fastsplat_pkg::RLUT_SETS && f_loaded_q[f_beat_q[8+:fastsplat_pkg::SET_BITS]]);
+    end else begin
+      assert (f_words_left_q == f_left_q && (f_left_q == '0 || f_word_q == '0));
+    end
+    assert (f_passed_place_q == (!f_have_q || f_payload ? f_place_q : f_opcode == 8'h53 ? 2'd2 : f_opcode == 8'h54 || f_opcode == 8'h73 ? 2'd1
+                                 : f_opcode == 8'h74 ? 2'd0 : f_place_q));
+    for (int n = 0; n < fastsplat_pkg::RLUT_SETS; n++)
+      assert (f_passed_sets_q[n] == (f_loaded_q[n] || (f_have_q && !f_payload && f_opcode == 8'h4C && f_beat_q[15:8] == 8'd0 && f_beat_q[63:32] == 32'(n))));
+    if (f_left_q != '0) begin
+      assert (f_place_q == 2'd0);
       assert (index_q == f_index_q && left_q + 32'd1 == f_left_q && last_word_q == (f_left_q == 32'd1) && word_in_beat_q == f_word_q);
       assert (table_q == f_table_q && f_table_q <= 8'd2 && f_word_q <= 3'd5);
-      assert (table_base_q == f_base_q && table_extent_q == f_padded_q);
+      assert (table_base_q == f_base_q);
       if (f_table_q == 8'd0) begin
+        assert (table_extent_q == f_padded_q);
         assert (f_padded_q != '0 && f_padded_q <= COL'(fastsplat_pkg::RLUT_COLUMNS) && table_column_q < f_padded_q);
         assert (32'(table_phase_q) * 32'(f_padded_q) + 32'(table_column_q) == f_index_q);
         assert (f_left_q + f_index_q == 32'(f_padded_q) * 32'(fastsplat_pkg::PHASES));
       end
     end
-    if (!enable_i) assert (!f_have_q);
     assert (busy_q == f_busy_q && buffer_q == f_buffer_q);
     assert (column_q == f_x_q && row_q == f_y_q);
     if (f_place_q == 2'd2) assert (f_busy_q[f_buffer_q]);
@@ -235,5 +245,7 @@ always @(posedge clk_i) begin
     cover (f_done && f_splat && f_x_q == COL'(P) && f_y_q == COL'(P));
     cover (f_have_q && f_opcode == 8'h53 && !f_payload && f_waits && f_busy_q == 2'b11);
     cover (f_done && f_payload && f_index_q == 32'd7);
+    cover (f_done && !f_payload && f_opcode == 8'h46 && f_left_q != '0);
+    cover (tile_end_o && tile_aborted_o);
   end
 end

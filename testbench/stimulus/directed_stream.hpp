@@ -1,0 +1,38 @@
+// What the directed checks share: a small stream with every record, where its records lie, and a check that hits bins.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cmodel/config.hpp"
+#include "cmodel/stream_layout.hpp"
+#include "testbench/stimulus/directed.hpp"
+
+namespace fastsplat::testbench {
+
+/// A record: its first beat, and of what kind it is. Words of tables are none, whatever they look like.
+struct Record {
+  std::size_t at;
+  cmodel::Opcode opcode;
+};
+std::vector<Record> records_of(const std::vector<cmodel::Beat>& beats);
+
+/// The first of the small streams that has a cull block and a tile of two sheets: not every one has, and every record is wanted. The last that
+/// is looked at where none has, whose bins then stay empty.
+std::vector<cmodel::Beat> small_stream(const cmodel::Config& config);
+
+class Check {
+ public:
+  DirectedResult result;
+  Coverage::Id bin(const char* group, const char* name) { return result.coverage.declare(group, name); }
+  void equal(const std::string& what, std::uint64_t expected, std::uint64_t got, Coverage::Id bin) {
+    ++result.comparisons;
+    if (expected == got)
+      result.coverage.hit(bin);
+    else
+      result.failures.push_back(what + ": expected " + std::to_string(expected) + ", got " + std::to_string(got));
+  }
+};
+
+}  // namespace fastsplat::testbench

@@ -1,0 +1,320 @@
+#include "testbench/stimulus/violations.hpp"
+
+#include <bit>
+
+#include "cmodel/records.hpp"
+
+namespace fastsplat::testbench {
+namespace {
+
+using cmodel::Beat;
+using cmodel::Opcode;
+using cmodel::StreamRule;
+namespace layout = cmodel::layout;
+
+void set(Beat& beat, const cmodel::Field& field, std::uint64_t value) {
+  beat[static_cast<std::size_t>(field.word)] &= ~field_mask(field);
+  put(beat, field, value);
+}
+
+class List {
+ public:
+  List(const cmodel::Config& config, const Beats& beats)
+      : config_(config), beats_(beats), records_(records_of(beats)) {}
+
+  std::vector<Violation> take() && { return std::move(out_); }
+
+  void all() {
+    opcodes();
+    order();
+    reserved();
+    frame();
+    tables();
+    words();
+    tile();
+    sheet();
+    splat();
+    ends();
+  }
+
+ private:
+  void add(StreamRule rule, std::string name, std::function<void(Beats&)> commit) {
+    out_.push_back({std::move(name), rule, std::move(commit)});
+  }
+  /// The beat of the record, `nth` of its kind.
+  std::size_t at(Opcode opcode, std::size_t nth = 0) const {
+    for (const Record& record : records_) {
+      if (record.opcode == opcode && nth-- == 0) return record.at;
+    }
+    return beats_.size();  // of a stream that lacks it: commits nothing there
+  }
+  std::size_t table(cmodel::Table which) const {
+    for (const Record& record : records_) {
+      if (record.opcode == Opcode::LoadTable &&
+          get(beats_[record.at], layout::kTableId) == static_cast<std::int64_t>(which))
+        return record.at;
+    }
+    return beats_.size();
+  }
+  void change(StreamRule rule, const std::string& name, std::size_t beat, const cmodel::Field& field,
+              std::uint64_t value) {
+    if (beat < beats_.size()) add(rule, name, [=](Beats& b) { set(b[beat], field, value); });
+  }
+  /// One more and one less: whoever compares with less than equality believes one of them.
+  void beside(StreamRule rule, const std::string& name, std::size_t beat, const cmodel::Field& field) {
+    if (beat >= beats_.size()) return;
+    const auto right = static_cast<std::uint64_t>(get(beats_[beat], field));
+    change(rule, name + " one more", beat, field, right + 1);
+    change(rule, name + " one less", beat, field, right - 1);
+  }
+  void word(StreamRule rule, const std::string& name, std::size_t beat, std::size_t which, std::uint32_t value) {
+    if (beat < beats_.size()) add(rule, name, [=](Beats& b) { b[beat][which] = value; });
+  }
+  void copy(StreamRule rule, const std::string& name, std::size_t from, std::size_t before) {
+    if (from < beats_.size() && before < beats_.size())
+      add(rule, name, [=](Beats& b) { b.insert(b.begin() + static_cast<std::ptrdiff_t>(before), Beat(b[from])); });
+  }
+  void erase(StreamRule rule, const std::string& name, std::size_t from, std::size_t count) {
+    if (from < beats_.size())
+      add(rule, name, [=](Beats& b) {
+        const auto first = b.begin() + static_cast<std::ptrdiff_t>(from);
+        b.erase(first, first + static_cast<std::ptrdiff_t>(count));
+      });
+  }
+  std::size_t payload(std::size_t header) const {
+    return (cmodel::announced_words(beats_[header]) + beats_[0].size() - 1) / beats_[0].size();
+  }
+
+  void opcodes() {
+    for (const Opcode opcode :
+         {Opcode::BeginFrame, Opcode::LoadTable, Opcode::BeginTile, Opcode::Splat, Opcode::EndFrame})
+      change(StreamRule::Opcode, "opcode 0x" + std::to_string(static_cast<int>(opcode)) + " with a stray bit",
+             at(opcode), layout::kOpcode, static_cast<std::uint64_t>(opcode) ^ 0x80);
+  }
+
+  void order() {
+    const auto rule = StreamRule::Order;
+    const std::size_t tile = at(Opcode::BeginTile), sheet = at(Opcode::BeginSheet), splat = at(Opcode::Splat),
+                      cull = at(Opcode::CullBlock), end_sheet = at(Opcode::EndSheet), end_tile = at(Opcode::EndTile),
+                      end_frame = at(Opcode::EndFrame), load = at(Opcode::LoadTable);
+    erase(rule, "no begin_frame", 0, 1);
+    copy(rule, "begin_frame twice", 0, 1);
+    copy(rule, "begin_frame in a sheet", 0, splat);
+    copy(rule, "load_table in a tile", load, tile + 1);
+    copy(rule, "load_table after a tile", load, end_tile + 1);
+    copy(rule, "begin_tile in a tile", tile, tile + 1);
+    copy(rule, "begin_tile in a sheet", tile, splat);
+    copy(rule, "begin_sheet outside a tile", sheet, tile);
+    copy(rule, "begin_sheet in a sheet", sheet, sheet + 1);
+    copy(rule, "splat outside a sheet", splat, sheet);
+    copy(rule, "splat outside a tile", splat, tile);
+    copy(rule, "cull_block outside a sheet", cull, sheet);
+    copy(rule, "end_sheet twice", end_sheet, end_sheet + 1);
+    copy(rule, "end_tile in a sheet", end_tile, splat);
+    copy(rule, "end_tile outside a tile", end_tile, tile);
+    copy(rule, "end_frame in a tile", end_frame, tile + 1);
+    copy(rule, "end_frame in a sheet", end_frame, splat);
+  }
+
+  void reserved() {
+    for (const auto& record : cmodel::record_layouts()) {
+      const std::size_t beat = at(record.opcode);
+      if (beat == beats_.size()) continue;
+      const Beat used = used_bits(record);
+      for (std::size_t i = 0; i < used.size(); ++i) {
+        const std::uint32_t free = ~used[i];
+        if (free == 0) continue;
+        for (const std::uint32_t bit : {free & (~free + 1), std::bit_floor(free)})
+          add(StreamRule::Reserved,
+              std::string(record.name) + " w" + std::to_string(i) + " bit " + std::to_string(std::countr_zero(bit)),
+              [=](Beats& b) { b[beat][i] |= bit; });
+      }
+    }
+  }
+
+  void frame() {
+    beside(StreamRule::Format, "magic", 0, layout::kFrameMagic);
+    beside(StreamRule::Format, "version", 0, layout::kFrameVersion);
+    beside(StreamRule::Configuration, "hash low", 0, layout::kFrameHashLow);
+    beside(StreamRule::Configuration, "hash high", 0, layout::kFrameHashHigh);
+    change(StreamRule::Image, "image without width", 0, layout::kFrameWidth, 0);
+    change(StreamRule::Image, "image without height", 0, layout::kFrameHeight, 0);
+  }
+
+  void tables() {
+    const auto rule = StreamRule::Table;
+    const std::size_t rlut = table(cmodel::Table::Rlut), radial = table(cmodel::Table::Radial),
+                      factor = table(cmodel::Table::Factor);
+    change(rule, "table 3", rlut, layout::kTableId, 3);
+    change(rule, "table 255", radial, layout::kTableId, 255);
+    change(rule, "set above the last", rlut, layout::kTableSet, static_cast<std::uint64_t>(config_.rlut_sets));
+    change(rule, "set 2^31", rlut, layout::kTableSet, 1ULL << 31);
+    change(rule, "rho 0", rlut, layout::kTableRho, 0);
+    change(rule, "rho above the largest", rlut, layout::kTableRho,
+           static_cast<std::uint64_t>(config_.rlut_columns) * static_cast<std::uint64_t>(config_.grid()) / 2 + 1);
+    change(rule, "rho 2^31 + 1", rlut, layout::kTableRho, (1ULL << 31) + 1);
+    change(rule, "base between lanes", rlut, layout::kTableBase, 1);
+    change(rule, "base at the end", rlut, layout::kTableBase, static_cast<std::uint64_t>(config_.rlut_columns));
+    change(rule, "base near 2^32", rlut, layout::kTableBase, (1ULL << 32) - static_cast<std::uint64_t>(config_.lanes));
+    for (const auto& [name, beat] :
+         {std::pair{"RLUT", rlut}, std::pair{"RADIAL", radial}, std::pair{"FACTOR", factor}}) {
+      beside(rule, std::string(name) + " words", beat, layout::kTableWords);
+      change(rule, std::string(name) + " words 0", beat, layout::kTableWords, 0);
+      if (beat == rlut) continue;
+      change(rule, std::string(name) + " with a set", beat, layout::kTableSet, 1);
+      change(rule, std::string(name) + " with a rho", beat, layout::kTableRho, 1);
+      change(rule, std::string(name) + " with a base", beat, layout::kTableBase,
+             static_cast<std::uint64_t>(config_.lanes));
+    }
+    const std::size_t tile = at(Opcode::BeginTile);
+    if (tile == beats_.size()) return;
+    for (const auto& [name, which] :
+         {std::pair{"RADIAL", cmodel::Table::Radial}, std::pair{"FACTOR", cmodel::Table::Factor}}) {
+      add(StreamRule::Loaded, std::string("tile without ") + name, [which](Beats& b) {
+        for (std::size_t i = b.size(); i-- > 0;) {  // all of them
+          const auto records = records_of(b);
+          for (const Record& record : records) {
+            if (record.at != i || record.opcode != Opcode::LoadTable ||
+                get(b[i], layout::kTableId) != static_cast<std::int64_t>(which))
+              continue;
+            const auto first = b.begin() + static_cast<std::ptrdiff_t>(i);
+            const std::size_t count = 1 + (cmodel::announced_words(b[i]) + b[i].size() - 1) / b[i].size();
+            b.erase(first, first + static_cast<std::ptrdiff_t>(count));
+            break;
+          }
+        }
+      });
+    }
+  }
+
+  void words() {
+    const auto rule = StreamRule::Words;
+    const std::size_t words_per_beat = beats_[0].size();
+    const auto each = [&](const char* name, std::size_t header, std::int64_t most) {
+      if (header >= beats_.size()) return;
+      const std::size_t last = header + payload(header), words = cmodel::announced_words(beats_[header]);
+      const auto above = static_cast<std::uint32_t>(most + 1);
+      for (std::size_t i = 0; i < std::min(words, words_per_beat); ++i)
+        word(rule, std::string(name) + " word " + std::to_string(i) + " too large", header + 1, i, above);
+      word(rule, std::string(name) + " word 2^31", header + 1, 0, 1U << 31);
+      word(rule, std::string(name) + " last word too large", last, (words - 1) % words_per_beat, above);
+      for (std::size_t i = words % words_per_beat; i != 0 && i < words_per_beat; ++i)
+        word(rule, std::string(name) + " padding " + std::to_string(i), last, i, 1);
+    };
+    each("RLUT", table(cmodel::Table::Rlut), config_.rlut_rim());
+    each("RADIAL", table(cmodel::Table::Radial), config_.weight_format().max);
+    const std::size_t factor = table(cmodel::Table::Factor);
+    each("FACTOR", factor, config_.factor_format().max);
+    if (factor >= beats_.size()) return;
+    const std::size_t count = cmodel::announced_words(beats_[factor]);
+    for (std::size_t i = 1; i < count; ++i) {
+      const auto& before = beats_[factor + 1 + (i - 1) / words_per_beat][(i - 1) % words_per_beat];
+      if (before >= static_cast<std::uint32_t>(config_.factor_format().max)) continue;
+      word(rule, "FACTOR rises at " + std::to_string(i), factor + 1 + i / words_per_beat, i % words_per_beat,
+           before + 1);
+    }
+  }
+
+  void tile() {
+    const auto rule = StreamRule::Tile;
+    const std::size_t tile = at(Opcode::BeginTile);
+    if (tile == beats_.size()) return;
+    const auto& frame = beats_[0];
+    const auto width = get(beats_[tile], layout::kTileWidth), height = get(beats_[tile], layout::kTileHeight);
+    change(rule, "mode 3", tile, layout::kTileMode, 3);
+    change(rule, "tile number beyond the count", tile, layout::kTileNumber,
+           static_cast<std::uint64_t>(get(frame, layout::kFrameTiles)));
+    change(rule, "tile number 2^32 - 1", tile, layout::kTileNumber, 0xffffffffU);
+    change(rule, "tile without width", tile, layout::kTileWidth, 0);
+    change(rule, "tile without height", tile, layout::kTileHeight, 0);
+    // An image that would hold it: the tile's own limit is what refuses.
+    add(rule, "tile too wide", [=, w = config_.tile_width](Beats& b) {
+      set(b[0], layout::kFrameWidth, 0xffff);
+      set(b[tile], layout::kTileWidth, static_cast<std::uint64_t>(w) + 1);
+    });
+    add(rule, "tile too high", [=, h = config_.tile_height](Beats& b) {
+      set(b[0], layout::kFrameHeight, 0xffff);
+      set(b[tile], layout::kTileHeight, static_cast<std::uint64_t>(h) + 1);
+    });
+    for (const std::uint64_t far : {0xffffffffULL, 0x80000000ULL, 0x7fffffffULL, 0x10000ULL}) {
+      change(rule, "tile x " + std::to_string(far), tile, layout::kTileX, far);
+      change(rule, "tile y " + std::to_string(far), tile, layout::kTileY, far);
+    }
+    change(rule, "tile right of the image", tile, layout::kTileX,
+           static_cast<std::uint64_t>(get(frame, layout::kFrameWidth) - width + 1));
+    change(rule, "tile below the image", tile, layout::kTileY,
+           static_cast<std::uint64_t>(get(frame, layout::kFrameHeight) - height + 1));
+  }
+
+  void sheet() {
+    // Of the first tile that has two.
+    std::size_t first = beats_.size();
+    for (const Record& record : records_) {
+      if (record.opcode == Opcode::BeginTile) first = beats_.size();
+      if (record.opcode != Opcode::BeginSheet) continue;
+      if (first < beats_.size()) {
+        const auto number = static_cast<std::uint64_t>(get(beats_[first], layout::kSheetNumber));
+        change(StreamRule::Sheet, "sheet number again", record.at, layout::kSheetNumber, number);
+        if (number > 0) change(StreamRule::Sheet, "sheet number falls", record.at, layout::kSheetNumber, number - 1);
+        return;
+      }
+      first = record.at;
+    }
+  }
+
+  void not_loaded(std::int64_t set) {
+    std::vector<std::size_t> loads;
+    for (const Record& record : records_) {
+      if (record.opcode == Opcode::LoadTable && get(beats_[record.at], layout::kTableId) == 0 &&
+          get(beats_[record.at], layout::kTableSet) == set)
+        loads.push_back(record.at);
+    }
+    if (loads.size() == 1) erase(StreamRule::Set, "set not loaded", loads[0], 1 + payload(loads[0]));
+  }
+
+  void splat() {
+    const std::size_t splat = at(Opcode::Splat), later = at(Opcode::Splat, 3), cull = at(Opcode::CullBlock);
+    change(StreamRule::Set, "set above the last", splat, layout::kSplatSet,
+           static_cast<std::uint64_t>(config_.rlut_sets));
+    change(StreamRule::Set, "set 255", splat, layout::kSplatSet, 255);
+    if (splat < beats_.size()) not_loaded(get(beats_[splat], layout::kSplatSet));
+    const auto positions = config_.position_format();
+    for (const auto& [name, field] : {std::pair{"x", layout::kSplatX}, std::pair{"y", layout::kSplatY}}) {
+      for (const std::int64_t value :
+           {positions.max + 1, positions.min - 1, std::int64_t{0x7fffffff}, -std::int64_t{0x80000000}})
+        change(StreamRule::Range, std::string(name) + " " + std::to_string(value), splat, field,
+               static_cast<std::uint64_t>(value) & 0xffffffffU);
+    }
+    if (config_.colour_frac_bits < 16) {
+      for (const auto& field : {layout::kSplatR, layout::kSplatG, layout::kSplatB, layout::kSplatTau})
+        change(StreamRule::Range, "colour at w" + std::to_string(field.word), splat, field,
+               1ULL << config_.colour_frac_bits);
+    }
+    beside(StreamRule::Tag, "tag", later, layout::kSplatTag);
+    beside(StreamRule::Tag, "first tag", splat, layout::kSplatTag);
+    change(StreamRule::Cull, "cull_block without width", cull, layout::kCullWidth, 0);
+    change(StreamRule::Cull, "cull_block without height", cull, layout::kCullHeight, 0);
+  }
+
+  void ends() {
+    beside(StreamRule::EndNumber, "end of another sheet", at(Opcode::EndSheet), layout::kEndSheetNumber);
+    beside(StreamRule::EndCount, "splats of the sheet", at(Opcode::EndSheet), layout::kEndSheetSplats);
+    beside(StreamRule::EndNumber, "end of another tile", at(Opcode::EndTile), layout::kEndTileNumber);
+    beside(StreamRule::EndCount, "sheets of the tile", at(Opcode::EndTile), layout::kEndTileSheets);
+  }
+
+  const cmodel::Config& config_;
+  const Beats& beats_;
+  std::vector<Record> records_;
+  std::vector<Violation> out_;
+};
+
+}  // namespace
+
+std::vector<Violation> violations(const cmodel::Config& config, const Beats& beats) {
+  List list(config, beats);
+  list.all();
+  return std::move(list).take();
+}
+
+}  // namespace fastsplat::testbench

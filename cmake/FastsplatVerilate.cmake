@@ -22,9 +22,9 @@ target_link_libraries(verilated_runtime PUBLIC ZLIB::ZLIB Threads::Threads)
 # ASSERT: checks the assertions of rtl/; WAVE: can write waveforms. Without either it is fastest. What can write waveforms keeps every signal
 # (a fifth of the time of `base`) and runs short streams only, so it is compiled fast instead of to be fast.
 # RTL <folder>: the source is there, generated from rtl/ (tests/mutants); QUICK: compiled rather than run quickly.
-# NETLIST <kind>: not the source but what Yosys makes of it (cmake/netlist.sh); CUT <net>: with that net tied to 0.
+# TOP <module>: of rtl/top/, around the device. NETLIST <kind>: not the source but what Yosys makes of it (cmake/netlist.sh); CUT <net>: with that net tied to 0.
 function(fastsplat_verilate target config)
-  cmake_parse_arguments(arg "ASSERT;WAVE;QUICK" "NETLIST;CUT;RTL" "DEFINES;SOURCES;ARGS" ${ARGN})
+  cmake_parse_arguments(arg "ASSERT;WAVE;QUICK" "NETLIST;CUT;RTL;TOP" "DEFINES;SOURCES;ARGS" ${ARGN})
   set(abilities "")
   set(optimise -O2)
   set(optimise_runtime -O2)
@@ -38,6 +38,12 @@ function(fastsplat_verilate target config)
   file(GLOB RTL_SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.sv)
   file(GLOB RTL_INCLUDES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.svh)
   set(rtl_folder ${PROJECT_SOURCE_DIR}/rtl)
+  set(top fastsplat_core)
+  if(arg_TOP)
+    set(top ${arg_TOP})
+    file(GLOB around CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/top/*.sv)
+    list(APPEND RTL_SOURCES ${around})
+  endif()
   set(warnings -Wall)
   if(arg_RTL)
     list(TRANSFORM RTL_SOURCES REPLACE "^.*/" "${arg_RTL}/")
@@ -88,7 +94,7 @@ function(fastsplat_verilate target config)
   add_custom_command(
     OUTPUT ${archive} ${folder}/obj/Vfs_${target}.h
     COMMAND ${PROJECT_SOURCE_DIR}/cmake/verilate.sh ${folder}/verilator.log ${CMAKE_COMMAND} -E env OBJCACHE=${FASTSPLAT_CCACHE} ${VERILATOR} --cc --build -j 1 --quiet-exit ${warnings} -O3 --x-assign unique --x-initial unique ${abilities}
-            --prefix Vfs_${target} --top-module fastsplat_core --Mdir ${folder}/obj ${defines} ${arg_ARGS} -I${rtl_folder}
+            --prefix Vfs_${target} --top-module ${top} --Mdir ${folder}/obj ${defines} ${arg_ARGS} -I${rtl_folder}
             -CFLAGS -std=c++20 -MAKEFLAGS OPT_FAST=${optimise} -MAKEFLAGS OPT_SLOW=-O0 -MAKEFLAGS OPT_GLOBAL=${optimise_runtime} ${sources}
     DEPENDS ${sources} ${RTL_INCLUDES}
     VERBATIM

@@ -44,6 +44,7 @@ const Arrows kDrawn{
     {"cli",
      {"golden", "driver", "testbench/triage", "testbench/closure", "testbench/faults", "analysis/errors",
       "analysis/family", "plan", "report/faces"}},
+    {"examples", {"images", "driver", "testbench/device"}},
 };
 
 /// `drawn` with everything that is reached by going on; a room on a circle reaches itself.

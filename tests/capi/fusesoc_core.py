@@ -31,6 +31,8 @@ for name, fileset in core["filesets"].items():
         assert os.path.isfile(f"{source}/{file}"), f"{file} is not there"
 rtl = {os.path.relpath(path, source) for path in glob.glob(f"{source}/rtl/*.sv*")}
 assert set(files["rtl"]) == rtl, set(files["rtl"]) ^ rtl
+top = {os.path.relpath(path, source) for path in glob.glob(f"{source}/rtl/top/*.sv")}
+assert set(files["top"]) == top, set(files["top"]) ^ top
 includes = {next(iter(file)) for file in core["filesets"]["rtl"]["files"] if not isinstance(file, str)}
 assert includes == {file for file in rtl if file.endswith(".svh")}
 for target in core["targets"].values():
@@ -50,7 +52,7 @@ assert made["name"] == "::fastsplat-package:0.1.0"
 package = [f"{folder}/{file}" for file in made["filesets"]["package"]["files"]]
 
 lint = core["targets"]["lint"]
-order = package + [f"{source}/{file}" for file in files["rtl"] if file not in includes]
+order = package + [f"{source}/{file}" for name in lint["filesets"] for file in files[name] if file not in includes]
 options = lint["tools"]["verilator"]["verilator_options"]
 subprocess.run(["verilator", "--lint-only", *options, f"-I{source}/rtl", "--top-module", lint["toplevel"], *order], check=True)
 print(f"[figure] core_files = {sum(map(len, files.values()))} (limit > 10)")

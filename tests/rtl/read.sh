@@ -1,21 +1,21 @@
 #!/bin/sh
-# read.sh CONFIG EMIT_PACKAGE SOURCE_DIR WORK_DIR: both tools accept rtl/*.sv with the package of CONFIG.
+# read.sh CONFIG EMIT_PACKAGE SOURCE_DIR WORK_DIR: both tools accept rtl/*.sv and rtl/top/*.sv with the package of CONFIG.
 # Verilator -Wall without a word; Yosys reads every module, elaborates the device, and `check -assert` finds nothing.
 set -eu
 config=$1 emit=$2 source=$3 work=$4
 mkdir -p "$work"
 "$emit" "$source/configs/$config.toml" >"$work/fastsplat_pkg.sv"
 
-verilator --lint-only -Wall --assert --top-module fastsplat_core "-I$source/rtl" "$work/fastsplat_pkg.sv" "$source"/rtl/*.sv >"$work/lint.log" 2>&1 ||
+verilator --lint-only -Wall --assert --top-module fastsplat_top "-I$source/rtl" "$work/fastsplat_pkg.sv" "$source"/rtl/*.sv "$source"/rtl/top/*.sv >"$work/lint.log" 2>&1 ||
   { cat "$work/lint.log"; echo "$config: Verilator refuses the RTL"; exit 1; }
 [ ! -s "$work/lint.log" ] || { cat "$work/lint.log"; echo "$config: Verilator warns"; exit 1; }
 
-yosys -q -l "$work/yosys.log" -p "read_verilog -sv -I$source/rtl $work/fastsplat_pkg.sv $source/rtl/*.sv; hierarchy -check -top fastsplat_core; proc; opt_clean; check -assert; tee -o $work/stat.txt stat" >/dev/null 2>&1 ||
+yosys -q -l "$work/yosys.log" -p "read_verilog -sv -I$source/rtl $work/fastsplat_pkg.sv $source/rtl/*.sv $source/rtl/top/*.sv; hierarchy -check -top fastsplat_top; proc; opt_clean; check -assert; tee -o $work/stat.txt stat" >/dev/null 2>&1 ||
   { tail -20 "$work/yosys.log"; echo "$config: Yosys refuses the RTL"; exit 1; }
 
 # Every module of rtl/ must be in the elaborated design, as itself or with parameters.
 modules=0
-for module in $(sed -n 's/^module \([a-z0-9_]*\).*/\1/p' "$source"/rtl/*.sv); do
+for module in $(sed -n 's/^module \([a-z0-9_]*\).*/\1/p' "$source"/rtl/*.sv "$source"/rtl/top/*.sv); do
   grep -q "^=== \(\$paramod.*\\\\\)\?$module\(\\\\.*\)\? ===" "$work/stat.txt" || { echo "$config: module $module is not in the design"; exit 1; }
   modules=$((modules + 1))
 done

@@ -1,0 +1,107 @@
+// The device as a block of a system: AXI4-Stream in and out and AXI4-Lite under the names that packagers look for, register slices
+// at both streams, no taps (docs/integration.md). What it computes is fastsplat_core's.
+module fastsplat_top (
+    input  logic         aclk,
+    input  logic         aresetn,  // synchronous
+    // beats of docs/stream.md in the low 192 bits; the others are not looked at
+    input  logic         s_axis_tvalid,
+    output logic         s_axis_tready,
+    input  logic [255:0] s_axis_tdata,
+    // P pixels of a row: R, G, B, A of 32 bits each; tuser: the tile was cut short
+    output logic         m_axis_tvalid,
+    input  logic         m_axis_tready,
+    output logic [fastsplat_pkg::LANES*128-1:0] m_axis_tdata,
+    output logic [fastsplat_pkg::LANES*16-1:0]  m_axis_tkeep,
+    output logic         m_axis_tlast,
+    output logic         m_axis_tuser,
+    // registers
+    input  logic         s_axil_awvalid,
+    output logic         s_axil_awready,
+    input  logic [11:0]  s_axil_awaddr,
+    input  logic [2:0]   s_axil_awprot,
+    input  logic         s_axil_wvalid,
+    output logic         s_axil_wready,
+    input  logic [31:0]  s_axil_wdata,
+    input  logic [3:0]   s_axil_wstrb,  // all four, or the write answers SLVERR
+    output logic         s_axil_bvalid,
+    input  logic         s_axil_bready,
+    output logic [1:0]   s_axil_bresp,
+    input  logic         s_axil_arvalid,
+    output logic         s_axil_arready,
+    input  logic [11:0]  s_axil_araddr,
+    input  logic [2:0]   s_axil_arprot,
+    output logic         s_axil_rvalid,
+    input  logic         s_axil_rready,
+    output logic [31:0]  s_axil_rdata,
+    output logic [1:0]   s_axil_rresp,
+    output logic         irq
+);
+  localparam int P = fastsplat_pkg::LANES;
+  localparam logic [11:0] NOWHERE = 12'hffc;  // an address that has no register
+
+  logic beat_valid, beat_ready;
+  logic [191:0] beat;
+  fastsplat_slice #(.BITS(192)) u_beats (
+      .clk_i(aclk),
+      .rst_ni(aresetn),
+      .valid_i(s_axis_tvalid),
+      .ready_o(s_axis_tready),
+      .data_i(s_axis_tdata[191:0]),
+      .valid_o(beat_valid),
+      .ready_i(beat_ready),
+      .data_o(beat)
+  );
+
+  logic pixels_valid, pixels_ready, last, aborted;
+  logic [P*128-1:0] pixels;
+  logic [P-1:0] keep, keep_q;
+  fastsplat_slice #(.BITS(P*128+P+2)) u_pixels (
+      .clk_i(aclk),
+      .rst_ni(aresetn),
+      .valid_i(pixels_valid),
+      .ready_o(pixels_ready),
+      .data_i({pixels, keep, last, aborted}),
+      .valid_o(m_axis_tvalid),
+      .ready_i(m_axis_tready),
+      .data_o({m_axis_tdata, keep_q, m_axis_tlast, m_axis_tuser})
+  );
+  for (genvar g = 0; g < P; g++) begin : gen_keep
+    assign m_axis_tkeep[16*g+:16] = {16{keep_q[g]}};
+  end
+
+  // Taps are left open, and error_o: it is STATUS and an interrupt.
+  // verilator lint_off PINMISSING
+  fastsplat_core u_core (
+      .clk_i(aclk),
+      .rst_ni(aresetn),
+      .s_tvalid_i(beat_valid),
+      .s_tready_o(beat_ready),
+      .s_tdata_i(beat),
+      .m_tvalid_o(pixels_valid),
+      .m_tready_i(pixels_ready),
+      .m_tdata_o(pixels),
+      .m_tkeep_o(keep),
+      .m_tlast_o(last),
+      .m_tuser_o(aborted),
+      .awvalid_i(s_axil_awvalid),
+      .awready_o(s_axil_awready),
+      .awaddr_i((s_axil_wstrb == 4'hf) ? s_axil_awaddr : NOWHERE),
+      .wvalid_i(s_axil_wvalid),
+      .wready_o(s_axil_wready),
+      .wdata_i(s_axil_wdata),
+      .bvalid_o(s_axil_bvalid),
+      .bready_i(s_axil_bready),
+      .bresp_o(s_axil_bresp),
+      .arvalid_i(s_axil_arvalid),
+      .arready_o(s_axil_arready),
+      .araddr_i(s_axil_araddr),
+      .rvalid_o(s_axil_rvalid),
+      .rready_i(s_axil_rready),
+      .rdata_o(s_axil_rdata),
+      .rresp_o(s_axil_rresp),
+      .irq_o(irq)
+  );
+  // verilator lint_on PINMISSING
+  logic unused;
+  assign unused = &{1'b0, s_axis_tdata[255:192], s_axil_awprot, s_axil_arprot};
+endmodule

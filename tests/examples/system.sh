@@ -1,0 +1,30 @@
+#!/bin/sh
+# system.sh SYSTEM FASTSPLAT WORK_DIR: the example system renders a recorded stream as the model does, tells a refusal and goes on after
+# it, and refuses what it cannot do.
+set -eu
+system=$1 fastsplat=$2 work=$3
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work"
+fail() { echo "system.sh: $*" >&2; exit 1; }
+
+"$fastsplat" stream record --volume shells:16 --config small --size 96 -o shells.fss >record.log 2>&1 || { cat record.log; fail "no stream"; }
+"$system" shells.fss shells.png >plain.log || { cat plain.log; fail "the picture differs"; }
+cat plain.log
+grep -q 'picture: 36864 words, 0 differ' plain.log || fail "not a whole picture compared"
+grep -q 'counters: 16 read, 0 differ' plain.log || fail "not all counters compared"
+[ -s shells.png ] || fail "no picture"
+
+"$system" shells.fss again.png --break >broken.log || { cat broken.log; fail "no recovery"; }
+cat broken.log
+grep -q 'ERROR rule 3 opcode 0x73' broken.log || fail "the refusal is not told"
+spoiled=$(sed -n 's/.* beat \([0-9]*\) (spoiled: \([0-9]*\)).*/\1 \2/p' broken.log)
+[ "${spoiled% *}" = "${spoiled#* }" ] || fail "another beat is told: $spoiled"
+grep -q 'marked as cut short: 1' broken.log || fail "no tile was marked"
+cmp shells.png again.png || fail "another picture after the refusal"
+
+"$fastsplat" stream record --volume shells:16 --config tiny --size 32 -o tiny.fss >record.log 2>&1
+if "$system" tiny.fss tiny.png 2>error.log; then fail "took a stream of another configuration"; else [ $? -eq 3 ] || fail "another exit code than 3"; fi
+grep -q 'another configuration' error.log || { cat error.log; fail "no reason told"; }
+if "$system" 2>error.log; then fail "took nothing"; else [ $? -eq 2 ] || fail "another exit code than 2"; fi
+echo "[figure] systems' pictures equal to the model's = 2, refusals told = 3"

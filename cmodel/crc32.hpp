@@ -24,7 +24,7 @@ class Crc32 {
  private:
   using Tables = std::array<std::array<std::uint32_t, 256>, 8>;
   /// kTables[n][b]: the remainder of byte b followed by n zero bytes.
-  static constexpr Tables make() {
+  static consteval Tables make() {
     Tables tables{};
     for (std::uint32_t byte = 0; byte < 256; ++byte) {
       std::uint32_t remainder = byte;

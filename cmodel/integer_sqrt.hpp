@@ -10,7 +10,7 @@ namespace fastsplat::cmodel {
 /// For t = 64..255 the a with (a - 1)^2 < m < (a + 1)^2 for every m of t's 16-bit words, 256 t .. 256 t + 255: the root
 /// f of the first where that is a square, else f + 1. (256 t + 255 < (f + 1)^2 in the one case, since f >= 128, and so
 /// the more below (f + 2)^2 in the other.)
-constexpr std::array<std::uint16_t, 192> sqrt_seeds() {
+consteval std::array<std::uint16_t, 192> sqrt_seeds() {
   std::array<std::uint16_t, 192> seeds{};
   std::uint32_t f = 128;
   for (std::uint32_t t = 64; t < 256; ++t) {

@@ -59,6 +59,12 @@ struct Between {
   void (*violate)(cmodel::Config&);
 };
 
+/// Alone no violation, with an even tile.
+void ties_to_even_pixels(cmodel::Config& c) {
+  c.lanes = c.phases = 1;
+  c.rounding_snap = static_cast<int>(cmodel::Rounding::RND_CONV);
+}
+
 const Between kBetween[] = {
     {"tile.width", "multiple of 8", "100", [](cmodel::Config& c) { c.tile_width = 100; }},
     {"tile.height", "multiple of 8", "4", [](cmodel::Config& c) { c.tile_height = 4; }},
@@ -86,6 +92,16 @@ const Between kBetween[] = {
        c.sheet_int_bits = 2;
        c.sheet_frac_bits = 4;
        c.opacity_segments = 128;
+     }},
+    {"rounding.snap", "even", "65",
+     [](cmodel::Config& c) {
+       ties_to_even_pixels(c);
+       c.tile_width = 65;
+     }},
+    {"rounding.snap", "even", "67",
+     [](cmodel::Config& c) {
+       ties_to_even_pixels(c);
+       c.tile_height = 67;
      }},
     {"composite.freeze_below", "65536", "65537", [](cmodel::Config& c) { c.freeze_below = 65537; }},
     {"index.symmetry", "blit2d", "rlut",
@@ -121,6 +137,9 @@ TEST(ConfigLimits, EveryLimitBetweenKeys) {
 
 TEST(ConfigLimits, EdgesAreTaken) {
   cmodel::Config config = named_config("base");
+  ties_to_even_pixels(config);
+  EXPECT_FALSE(cmodel::first_violation(config));
+  config = named_config("base");
   config.freeze_below = 65536;
   EXPECT_FALSE(cmodel::first_violation(config));
   config.sheet_int_bits = 1;

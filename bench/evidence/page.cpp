@@ -122,6 +122,7 @@ int sum(const Json& of) {
   return all;
 }
 
+/// Of a sample or of all: those that live are told one by one.
 std::string mutants(const Json& json) {
   std::string out = fmt::format(
       "{}.\n\n| module | mutants | killed | excluded | living | killed by | excluded because |\n"
@@ -167,6 +168,10 @@ std::string page(const std::filesystem::path& folder) {
   out += "## Mutants\n\n";
   const auto mutated = read(folder / "mutants.json");
   out += mutated ? mutants(*mutated) : missing("mutants", "./run mutate --all");
+  out += "### Model and driver\n\n";
+  out += mutated && mutated->contains("cplusplus")
+             ? mutants(mutated->at("cplusplus"))
+             : missing("their mutants", "./run mutate --module cmodel --module driver");
   out += "## Synthesis\n\n";
   const auto designs = read(folder / "synthesis.json");
   out += designs ? synthesis(*designs) : missing("synthesis", "./run synth");

@@ -1,8 +1,9 @@
-"""generate_cpp.py SOURCE_DIR MODULE OUT_DIR COUNT SEED: the sources of MODULE (cmodel or driver) with COUNT of their mutants in
-them, as many of each file as its share is; chosen at run time (selected.hpp). mutants.json says what each number is."""
+"""generate_cpp.py SOURCE_DIR MODULE OUT_DIR COUNT SEED: the sources and headers of MODULE (cmodel or driver) with COUNT of their mutants in
+them, as many of each file as its share is; chosen at run time (selected.hpp). mutants.json says what each number is. Which are taken
+does not depend on the others: a change of the sources changes few of them."""
+import hashlib
 import json
 import os
-import random
 import sys
 
 from cplusplus import CppMutator
@@ -14,11 +15,11 @@ LEFT = {"cmodel/fast/row_kernel.cpp"}
 
 
 def sources(root: str, module: str) -> list[str]:
-    found = [f"{folder}/{name}" for folder in FOLDERS[module] for name in sorted(os.listdir(f"{root}/{folder}")) if name.endswith(".cpp")]
+    found = [f"{folder}/{name}" for folder in FOLDERS[module] for name in sorted(os.listdir(f"{root}/{folder}")) if name.endswith((".cpp", ".hpp"))]
     return [path for path in found if path not in LEFT]
 
 
-def mutate(root: str, module: str, wanted=lambda module, number: True):
+def mutate(root: str, module: str, wanted=lambda name: True):
     """[(path, text, mutants)] and the number after the last."""
     out, number = [], 1
     for path in sources(root, module):
@@ -30,11 +31,17 @@ def mutate(root: str, module: str, wanted=lambda module, number: True):
     return out, number
 
 
+def sample(root: str, module: str, count: int, seed: int):
+    """The names of so many, as `wanted` has them: those whose hashes are lowest."""
+    names = []
+    mutate(root, module, names.append)
+    return set(sorted(names, key=lambda name: hashlib.sha256(f"{seed}/{name}".encode()).digest())[:count])
+
+
 def main(words) -> int:
     root, module, out, count, seed = words
-    _, after = mutate(root, module, lambda m, n: False)
-    chosen = set(random.Random(int(seed)).sample(range(1, after), min(int(count), after - 1)))
-    mutated, _ = mutate(root, module, lambda m, n: n in chosen)
+    chosen = sample(root, module, int(count), int(seed))
+    mutated, _ = mutate(root, module, chosen.__contains__)
     listed = []
     for path, text, mutants in mutated:
         os.makedirs(os.path.dirname(f"{out}/{path}"), exist_ok=True)

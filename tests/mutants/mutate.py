@@ -42,7 +42,7 @@ def chosen(arguments, mutants):
     if arguments.one is not None:
         found = [m for m in mutants if m["number"] == arguments.one]
         if not found:
-            campaign.usage(f"--one {arguments.one}: mutants have the numbers 1 to {len(mutants)}")
+            campaign.usage(f"--one {arguments.one}: there are {len(mutants)} mutants, {mutants[0]['number']} to {mutants[-1]['number']}")
         return found
     if arguments.module:
         known = sorted({m["module"] for m in mutants}) + ["cmodel and driver (without others)"]
@@ -62,11 +62,8 @@ def program(root, build, name, kind="check_mutants_"):
     return f"{build}/bin/{kind}{name}"
 
 
-def run_all(arguments, root, build):
+def run_all(arguments, root, build, until):
     """{number: (where, what was said)} of the killed, those that live, those not tried."""
-    until = time.monotonic() + 60 * arguments.budget if arguments.budget else None
-    if arguments.module and set(arguments.module) <= set(CPP):
-        return run_cpp(arguments, root, build, until)
     binary = program(root, build, "corners")
     with open(f"{build}/mutants/corners/mutants.json") as file:
         mutants = chosen(arguments, json.load(file))
@@ -97,6 +94,8 @@ def run_cpp(arguments, root, build, until):
         binary = program(root, build, f"mutants_{module}", "")
         with open(f"{build}/mutants/{module}/mutants.json") as file:
             listed = json.load(file)
+        if arguments.one is not None:
+            listed = chosen(arguments, listed)
         results = cpp_campaign.run(binary, [m["number"] for m in listed], arguments.jobs, until)
         say(f"{module}: {len(results)} tried")
         for mutant in listed:
@@ -175,14 +174,23 @@ def judged(mutants, killed, living, exclusions) -> bool:
     return red
 
 
-def keep(root, arguments, rows, mutants, living, exclusions):
+def tool(root, build, cpp: bool) -> str:
+    if not cpp:
+        return " ".join(subprocess.run(["verilator", "--version"], capture_output=True, text=True).stdout.split()[:2])
+    with open(f"{build}/CMakeCache.txt") as file:
+        compiler = next(line.strip().split("=", 1)[1] for line in file if line.startswith("CMAKE_CXX_COMPILER:"))
+    return subprocess.run([compiler, "--version"], capture_output=True, text=True).stdout.split("\n")[0]
+
+
+def keep(root, build, cpp, rows, mutants, living, exclusions):
+    """Those of C++, a sample, have a part of their own."""
     path = f"{root}/docs/evidence/mutants.json"
-    kept = {"modules": {}}
+    whole = {"modules": {}}
     if os.path.exists(path):
         with open(path) as file:
-            kept = json.load(file)
-    versions = subprocess.run(["verilator", "--version"], capture_output=True, text=True).stdout.split()[:2]
-    kept["tool"] = " ".join(versions)
+            whole = json.load(file)
+    kept = whole.setdefault("cplusplus", {"modules": {}}) if cpp else whole
+    kept["tool"] = tool(root, build, cpp)
     kept["modules"].update(rows)
     kept["modules"] = dict(sorted(kept["modules"].items()))
     gone = set(rows)
@@ -191,15 +199,17 @@ def keep(root, arguments, rows, mutants, living, exclusions):
         if mutant["number"] in living and not exclusions.of(mutant):
             survivors.append({key: mutant[key] for key in ("module", "line", "source", "what", "original")})
     kept["survivors"] = survivors
-    campaign.write(path, json.dumps(kept, indent=1) + "\n")
+    campaign.write(path, json.dumps(whole, indent=1) + "\n")
     say(f"{path}; `./run evidence` makes docs/evidence.md of it")
 
 
 def main(words) -> int:
     root, build, *rest = words
     arguments = parse(rest)
-    exclusions = Exclusions(f"{root}/tests/mutants/exclusions.toml")
-    mutants, killed, living, untried = run_all(arguments, root, build)
+    cpp = bool(arguments.module) and set(arguments.module) <= set(CPP)
+    exclusions = Exclusions(f"{root}/tests/mutants/{'exclusions_cpp' if cpp else 'exclusions'}.toml")
+    until = time.monotonic() + 60 * arguments.budget if arguments.budget else None
+    mutants, killed, living, untried = (run_cpp if cpp else run_all)(arguments, root, build, until)
     proved = hand_to_proofs(root, build, mutants, living, exclusions)
     killed.update(proved)
     living = [number for number in living if number not in proved]
@@ -210,14 +220,14 @@ def main(words) -> int:
     rows = table(mutants, killed, set(living), exclusions)
     print_table(rows)
     red = judged(mutants, killed, set(living), exclusions)
-    for entry in exclusions.unused(mutants) if arguments.all else []:
+    for entry in exclusions.unused(mutants) if arguments.all or (cpp and set(arguments.module) == set(CPP)) else []:
         print(f"EXCLUDES NOTHING: {entry['module']}: {entry['line']}")
         red = True
     if untried:
         print(f"not tried: {len(untried)} (the budget is over)")
     campaign.write(f"{build}/mutants/killed.json", json.dumps({str(n): k for n, k in sorted(killed.items())}, indent=0))
     if (arguments.all or arguments.module) and not untried:
-        keep(root, arguments, rows, mutants, set(living), exclusions)
+        keep(root, build, cpp, rows, mutants, set(living), exclusions)
     return 1 if red else 0
 
 

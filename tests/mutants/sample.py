@@ -5,10 +5,11 @@ import sys
 
 import campaign
 import generate
+import generate_cpp
 import mutate
 from exclusions import Exclusions
 
-FEWEST = 1400
+FEWEST, FEWEST_CPP = 1400, 4000
 # (line, name, check): what once lived, and a few that anything sees.
 FIXED = [
     ("rvalid_o <= 1'b1;", "1'b1 becomes 0 of 1'b1", "random"),
@@ -30,6 +31,16 @@ exclusions = Exclusions(f"{source}/tests/mutants/exclusions.toml")
 for entry in exclusions.unused(mutants):
     failures.append(f"excludes nothing: {entry['module']}: {entry['line']}: {entry['mutants']}")
 print(f"[figure] entries of exclusions.toml = {len(exclusions.entries)}, each with a mutant")
+
+# Of C++ only that they are found and explained: they run in the campaign.
+in_cpp = [vars(m) for module in mutate.CPP for _, _, listed in generate_cpp.mutate(source, module)[0] for m in listed]
+print(f"[figure] mutants of cmodel and driver = {len(in_cpp)} (limit >= {FEWEST_CPP})")
+if len(in_cpp) < FEWEST_CPP:
+    failures.append("too few mutants of C++")
+of_cpp = Exclusions(f"{source}/tests/mutants/exclusions_cpp.toml")
+for entry in of_cpp.unused(in_cpp):
+    failures.append(f"excludes nothing: {entry['module']}: {entry['line']}: {entry['mutants']}")
+print(f"[figure] entries of exclusions_cpp.toml = {len(of_cpp.entries)}, each with a mutant")
 
 with open(f"{build}/mutants/sample/mutants.json") as file:
     sample = json.load(file)

@@ -6,15 +6,12 @@
 
 namespace fastsplat_mutants {
 
-inline int selected() {
-  static const int number = [] {
-    const char* text = std::getenv("FASTSPLAT_MUTANT");
-    return text == nullptr ? 0 : std::atoi(text);
-  }();
-  return number;
-}
+inline const int selected = [] {
+  const char* text = std::getenv("FASTSPLAT_MUTANT");
+  return text == nullptr ? 0 : std::atoi(text);
+}();
 
 /// What the compiler works out is never mutated.
-constexpr bool is(int number) { return !std::is_constant_evaluated() && number == selected(); }
+constexpr bool is(int number) { return !std::is_constant_evaluated() && number == selected; }
 
 }  // namespace fastsplat_mutants

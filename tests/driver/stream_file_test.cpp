@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -44,7 +45,9 @@ std::string refusal(const std::function<void()>& action) {
 
 class StreamFile : public ::testing::Test {
  protected:
-  std::filesystem::path path_ = std::filesystem::path(::testing::TempDir()) / "fastsplat_stream_file_test.fss";
+  // Of this process: tests run beside each other.
+  std::filesystem::path path_ =
+      std::filesystem::path(::testing::TempDir()) / ("fastsplat_stream_file_" + std::to_string(::getpid()) + ".fss");
   void TearDown() override { std::filesystem::remove(path_); }
 };
 

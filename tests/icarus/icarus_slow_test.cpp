@@ -284,12 +284,13 @@ TEST_P(UsedBeforeSet, IsSeenAsUnknown) {
 
 INSTANTIATE_TEST_SUITE_P(
     Planted, UsedBeforeSet,
-    ::testing::Values(
-        Planted{"buffers_not_reset", "busy_q <= '0;", ""},
-        Planted{"sheets_not_wiped", "assign we = (wipe_i && !`FASTSPLAT_FAULT(MISSED_WIPE)) || clear || mine;",
-                "assign we = clear || mine;"},
-        Planted{"picture_not_wiped", ".we_i(wipe_i || (sent_q", ".we_i((sent_q"},
-        Planted{"counter_not_reset", "if (!rst_ni || clear_o) counter_q[n] <= '0;", "if (clear_o) counter_q[n] <= '0;"}),
+    ::testing::Values(Planted{"windows_not_reset", "column_q <= '0;\n      row_q <= '0;", ""},
+                      Planted{"sheets_not_wiped",
+                              "assign we = (wipe_i && !`FASTSPLAT_FAULT(MISSED_WIPE)) || clear || mine;",
+                              "assign we = clear || mine;"},
+                      Planted{"picture_not_wiped", ".we_i(wipe_i || (sent_q", ".we_i((sent_q"},
+                      Planted{"counter_not_reset", "if (!rst_ni || clear_o) counter_q[n] <= '0;",
+                              "if (clear_o) counter_q[n] <= '0;"}),
     [](const auto& param) { return std::string(param.param.name); });
 
 }  // namespace

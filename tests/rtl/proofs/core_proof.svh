@@ -134,7 +134,9 @@ always @(posedge clk_i) begin
     assert (!free || (f_busy[free_buffer] && !f_open[free_buffer]));
     assert (f_still_q <= 5'(F_LONGEST));  // No deadlock: while source and sink are willing something moves
 
-    // For induction. Nothing moves before all is wiped.
+    // For induction. What was refused is not in check any more.
+    assert (!(error_o && f_here));
+    // Nothing moves before all is wiped.
     assert (wiping_q || f_wiped_q);
     assert (32'(wipe_addr_q) < fastsplat_pkg::BLOCKS);
     assert (!wiping_q || f_wiped_q == (wipe_addr_q > f_word));

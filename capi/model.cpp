@@ -95,6 +95,7 @@ struct fastsplat_model {
 namespace fastsplat::capi {
 namespace {
 
+static_assert(FASTSPLAT_BEAT_WORDS == cmodel::kBeatWords);
 static_assert(FASTSPLAT_TAPS == cmodel::kTapCount && FASTSPLAT_TAP_PIXEL == static_cast<int>(cmodel::Tap::Pixel));
 
 fastsplat_model& live(const char* call, fastsplat_model* model) {

@@ -46,8 +46,9 @@ void declare(Options& options, ScalingFlags& to) {
       },
       [&to](const std::string& text) { to.devices = *devices_from(text); }, "N[,N...]",
       "equal devices that the tiles are dealt to; of several numbers a table, and all about the last");
-  options.integer("--bytes-per-cycle", to.bytes_per_cycle, 0, 65536, "B",
-                  "of the stream, to all devices together; a beat has 24; 0: no limit");
+  static const std::string bytes_help =
+      fmt::format("of the stream, to all devices together; a beat has {}; 0: no limit", cmodel::kBeatBytes);
+  options.integer("--bytes-per-cycle", to.bytes_per_cycle, 0, 65536, "B", bytes_help.c_str());
   options.value(
       "--clock",
       [](std::string& text) -> std::string {

@@ -2,13 +2,17 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace fastsplat::cmodel {
 
 /// Six 32-bit words: one transfer of the stream (docs/stream.md).
 using Beat = std::array<std::uint32_t, 6>;
-constexpr int kBeatBytes = 24;
+// Its size has one home: whatever counts in beats, bytes of a stream or bits of a transfer follows it.
+constexpr std::size_t kBeatWords = std::tuple_size_v<Beat>;
+constexpr int kBeatBytes = static_cast<int>(sizeof(Beat));
+constexpr int kBeatBits = 8 * kBeatBytes;
 
 /// Bits lsb .. lsb+bits-1 of word `word`.
 struct Field {

@@ -115,9 +115,10 @@ void append(std::vector<Beat>& beats, const Record& record) {
   beats.push_back(std::visit(ToBeat{}, record));
   const auto* table = std::get_if<LoadTable>(&record);
   if (table == nullptr) return;
-  for (std::size_t first = 0; first < table->words.size(); first += 6) {
+  for (std::size_t first = 0; first < table->words.size(); first += kBeatWords) {
     Beat payload{};
-    for (std::size_t i = 0; i < 6 && first + i < table->words.size(); ++i) payload[i] = table->words[first + i];
+    for (std::size_t i = 0; i < kBeatWords && first + i < table->words.size(); ++i)
+      payload[i] = table->words[first + i];
     beats.push_back(payload);
   }
 }
@@ -157,5 +158,8 @@ Record from_beat(const Beat& beat) {
 }
 
 std::uint32_t announced_words(const Beat& load_table) { return word(load_table, kTableWords); }
+std::uint64_t announced_beats(const Beat& load_table) {
+  return (std::uint64_t{announced_words(load_table)} + kBeatWords - 1) / kBeatWords;
+}
 
 }  // namespace fastsplat::cmodel

@@ -72,5 +72,7 @@ Record from_beat(const Beat& beat);
 
 /// Word count that load_table's header announces.
 std::uint32_t announced_words(const Beat& load_table);
+/// The beats that follow the header with those words.
+std::uint64_t announced_beats(const Beat& load_table);
 
 }  // namespace fastsplat::cmodel

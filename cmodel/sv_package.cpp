@@ -31,9 +31,10 @@ class Package {
     text_ += "  localparam logic [" + std::to_string(bits - 1) + ":0] " + name + " = " + std::to_string(bits) + "'h" +
              hash_text(value).substr(16 - static_cast<std::size_t>((bits + 3) / 4)) + ";\n";
   }
-  /// All 192 bits of a beat.
+  /// All bits of a beat.
   void beat(const std::string& name, const Beat& value) {
-    text_ += "  localparam logic [191:0] " + name + " = 192'h";
+    text_ += "  localparam logic [" + std::to_string(kBeatBits - 1) + ":0] " + name + " = " +
+             std::to_string(kBeatBits) + "'h";
     for (std::size_t i = value.size(); i-- > 0;) text_ += hash_text(value[i]).substr(8) + (i > 0 ? "_" : ";\n");
   }
   void section(const std::string& title) { text_ += "\n  // " + title + "\n"; }

@@ -1,6 +1,6 @@
 #include "driver/stream_file.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <bit>
@@ -334,12 +334,11 @@ void dump_stream(const std::filesystem::path& path, const std::function<bool(con
       const auto* layout = payload_left > 0 ? nullptr : cmodel::find_layout(static_cast<std::uint32_t>(opcode(beat)));
       if (payload_left > 0) {
         --payload_left;
-        text = fmt::format("{:>8}    {} {} {} {} {} {}", number, beat[0], beat[1], beat[2], beat[3], beat[4], beat[5]);
+        text = fmt::format("{:>8}    {}", number, fmt::join(beat, " "));
       } else {
         check_dumped(number, beat, layout, ended);
         text = fmt::format("{:>8} {}{}", number, layout->name, fields_of(beat, *layout));
-        if (layout->opcode == cmodel::Opcode::LoadTable)
-          payload_left = (std::uint64_t{cmodel::announced_words(beat)} + 5) / 6;
+        if (layout->opcode == cmodel::Opcode::LoadTable) payload_left = cmodel::announced_beats(beat);
       }
       all = line(text);
       if (!all) return false;

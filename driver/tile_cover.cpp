@@ -85,7 +85,7 @@ void CoverRule::see(const cmodel::Beat& beat) {
       image_ = get(beat, cmodel::layout::kFrameWidth) * get(beat, cmodel::layout::kFrameHeight);
       break;
     case cmodel::Opcode::LoadTable:
-      payload_left_ = (std::uint64_t{cmodel::announced_words(beat)} + 5) / 6;
+      payload_left_ = cmodel::announced_beats(beat);
       break;
     case cmodel::Opcode::BeginTile:
       cover_.add(get(beat, cmodel::layout::kTileX), get(beat, cmodel::layout::kTileY),

@@ -18,6 +18,7 @@ import numpy as np
 
 OK, NONE, FAILED, USAGE, INPUT = 0, -1, 1, 2, 3
 WHOLE, SUBSET = 0, 1
+BEAT_WORDS = 6
 TAPS = ("snap", "footprint", "sheet", "composite", "pixel")
 _DETECTORS = TAPS + ("tiles", "counters", "cycles")
 _VERDICTS = ("pass", "mismatch", "nothing compared", "open")
@@ -114,19 +115,19 @@ def _names(function):
 
 
 def read_stream(path):
-    """The beats of a recorded stream (.fss): uint32, (beats, 6). Its contents are checked when they are fed."""
+    """The beats of a recorded stream (.fss): uint32, (beats, BEAT_WORDS). Its contents are checked when they are fed."""
     words = np.fromfile(path, dtype="<u4")
-    if words.size == 0 or words.size % 6:
-        raise ValueError(f"{path}: not whole beats of 24 bytes")
-    return words.reshape(-1, 6)
+    if words.size == 0 or words.size % BEAT_WORDS:
+        raise ValueError(f"{path}: not whole beats of {4 * BEAT_WORDS} bytes")
+    return words.reshape(-1, BEAT_WORDS)
 
 
 def _beats(beats):
     beats = np.ascontiguousarray(beats, dtype=np.uint32)
-    if beats.ndim == 1 and beats.size == 6:
-        beats = beats.reshape(1, 6)
-    if beats.ndim != 2 or beats.shape[1] != 6:
-        raise ValueError(f"beats have the shape (n, 6), not {beats.shape}")
+    if beats.ndim == 1 and beats.size == BEAT_WORDS:
+        beats = beats.reshape(1, BEAT_WORDS)
+    if beats.ndim != 2 or beats.shape[1] != BEAT_WORDS:
+        raise ValueError(f"beats have the shape (n, {BEAT_WORDS}), not {beats.shape}")
     return beats
 
 

@@ -8,11 +8,9 @@
 namespace fastsplat::testbench {
 namespace {
 
-constexpr std::size_t kWordsPerBeat = std::tuple_size_v<cmodel::Beat>;
+std::size_t words_in_last_beat(std::size_t words) { return (words + cmodel::kBeatWords - 1) % cmodel::kBeatWords; }
 
-std::size_t words_in_last_beat(std::size_t words) { return (words + kWordsPerBeat - 1) % kWordsPerBeat; }
-
-/// Fills of a table's last beat (0: one word ... 5: six) that the configuration's tables can have.
+/// Fills of a table's last beat (0: one word, 1: two ...) that the configuration's tables can have.
 std::set<std::size_t> last_beats(const cmodel::Config& config) {
   std::set<std::size_t> out{words_in_last_beat(static_cast<std::size_t>(config.radial_entries)),
                             words_in_last_beat(static_cast<std::size_t>(config.opacity_segments) + 1)};

@@ -5,14 +5,13 @@
 namespace fastsplat::testbench {
 
 std::optional<cmodel::Opcode> TileAssembly::accept(const cmodel::Beat& beat) {
-  constexpr std::uint64_t kWords = std::tuple_size_v<cmodel::Beat>;
   if (payload_left_ > 0) {
     --payload_left_;
     return std::nullopt;
   }
   const auto opcode = static_cast<cmodel::Opcode>(get(beat, cmodel::layout::kOpcode));
   if (opcode == cmodel::Opcode::LoadTable) {
-    payload_left_ = (std::uint64_t{cmodel::announced_words(beat)} + kWords - 1) / kWords;
+    payload_left_ = cmodel::announced_beats(beat);
   } else if (opcode == cmodel::Opcode::BeginTile) {
     const auto begin = std::get<cmodel::BeginTile>(cmodel::from_beat(beat));
     tiles_.push_back({.begin = begin,

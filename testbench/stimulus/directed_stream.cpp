@@ -8,12 +8,10 @@
 namespace fastsplat::testbench {
 
 std::vector<Record> records_of(const std::vector<cmodel::Beat>& beats) {
-  constexpr std::size_t kWords = std::tuple_size_v<cmodel::Beat>;
   std::vector<Record> out;
   for (std::size_t at = 0; at < beats.size(); ++at) {
     out.push_back({at, static_cast<cmodel::Opcode>(get(beats[at], cmodel::layout::kOpcode))});
-    if (out.back().opcode == cmodel::Opcode::LoadTable)
-      at += (cmodel::announced_words(beats[at]) + kWords - 1) / kWords;
+    if (out.back().opcode == cmodel::Opcode::LoadTable) at += cmodel::announced_beats(beats[at]);
   }
   return out;
 }

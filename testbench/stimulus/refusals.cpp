@@ -95,8 +95,7 @@ Closers closers_of(std::span<const cmodel::Beat> beats) {
   const cmodel::Beat *tile = nullptr, *sheet = nullptr;  // open
   std::uint64_t sheets = 0, splats = 0;
   for (const auto& [at, opcode] : records_of(all)) {
-    if (opcode == Opcode::LoadTable)
-      out.in_table = at + (cmodel::announced_words(all[at]) + all[at].size() - 1) / all[at].size() >= all.size();
+    if (opcode == Opcode::LoadTable) out.in_table = at + cmodel::announced_beats(all[at]) >= all.size();
     if (opcode == Opcode::BeginTile) tile = &all[at], sheets = 0;
     if (opcode == Opcode::BeginSheet) sheet = &all[at], ++sheets, splats = 0;
     if (opcode == Opcode::Splat) ++splats;
@@ -328,7 +327,7 @@ DirectedResult check_damage(const cmodel::Config& config, const MakeDevice& make
     };
     for (std::int64_t times = random.between(1, 3); times > 0; --times) {
       const std::size_t at = std::min(record(), damaged.size() - 1);
-      const auto word = static_cast<std::size_t>(random.between(0, 5));
+      const auto word = static_cast<std::size_t>(random.between(0, std::int64_t{cmodel::kBeatWords} - 1));
       switch (random.between(0, 5)) {
         case 0:
           damaged[at][word] ^= 1U << random.between(0, 31);

@@ -81,9 +81,7 @@ class List {
         b.erase(first, first + static_cast<std::ptrdiff_t>(count));
       });
   }
-  std::size_t payload(std::size_t header) const {
-    return (cmodel::announced_words(beats_[header]) + beats_[0].size() - 1) / beats_[0].size();
-  }
+  std::size_t payload(std::size_t header) const { return cmodel::announced_beats(beats_[header]); }
 
   void opcodes() {
     for (const Opcode opcode :
@@ -178,7 +176,7 @@ class List {
                 get(b[i], layout::kTableId) != static_cast<std::int64_t>(which))
               continue;
             const auto first = b.begin() + static_cast<std::ptrdiff_t>(i);
-            const std::size_t count = 1 + (cmodel::announced_words(b[i]) + b[i].size() - 1) / b[i].size();
+            const std::size_t count = 1 + cmodel::announced_beats(b[i]);
             b.erase(first, first + static_cast<std::ptrdiff_t>(count));
             break;
           }
@@ -189,16 +187,15 @@ class List {
 
   void words() {
     const auto rule = StreamRule::Words;
-    const std::size_t words_per_beat = beats_[0].size();
     const auto each = [&](const char* name, std::size_t header, std::int64_t most) {
       if (header >= beats_.size()) return;
       const std::size_t last = header + payload(header), words = cmodel::announced_words(beats_[header]);
       const auto above = static_cast<std::uint32_t>(most + 1);
-      for (std::size_t i = 0; i < std::min(words, words_per_beat); ++i)
+      for (std::size_t i = 0; i < std::min(words, cmodel::kBeatWords); ++i)
         word(rule, std::string(name) + " word " + std::to_string(i) + " too large", header + 1, i, above);
       word(rule, std::string(name) + " word 2^31", header + 1, 0, 1U << 31);
-      word(rule, std::string(name) + " last word too large", last, (words - 1) % words_per_beat, above);
-      for (std::size_t i = words % words_per_beat; i != 0 && i < words_per_beat; ++i)
+      word(rule, std::string(name) + " last word too large", last, (words - 1) % cmodel::kBeatWords, above);
+      for (std::size_t i = words % cmodel::kBeatWords; i != 0 && i < cmodel::kBeatWords; ++i)
         word(rule, std::string(name) + " padding " + std::to_string(i), last, i, 1);
     };
     each("RLUT", table(cmodel::Table::Rlut), config_.rlut_rim());
@@ -208,9 +205,9 @@ class List {
     if (factor >= beats_.size()) return;
     const std::size_t count = cmodel::announced_words(beats_[factor]);
     for (std::size_t i = 1; i < count; ++i) {
-      const auto& before = beats_[factor + 1 + (i - 1) / words_per_beat][(i - 1) % words_per_beat];
+      const auto& before = beats_[factor + 1 + (i - 1) / cmodel::kBeatWords][(i - 1) % cmodel::kBeatWords];
       if (before >= static_cast<std::uint32_t>(config_.factor_format().max)) continue;
-      word(rule, "FACTOR rises at " + std::to_string(i), factor + 1 + i / words_per_beat, i % words_per_beat,
+      word(rule, "FACTOR rises at " + std::to_string(i), factor + 1 + i / cmodel::kBeatWords, i % cmodel::kBeatWords,
            before + 1);
     }
   }

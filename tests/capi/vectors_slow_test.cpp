@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cmodel/beat.hpp"
 #include "tests/capi/recorded_helper.hpp"
 
 namespace fastsplat::test {
@@ -59,15 +60,15 @@ TEST(CapiVectors, ReadBackByAnotherReader) {
   // Beats: the bytes of the stream.
   const std::string stream = cli_test::read_bytes(recorded().stream);
   const auto& beats = vectors.files.at("beats.hex");
-  ASSERT_EQ(beats.size() * 24, stream.size());
+  ASSERT_EQ(beats.size() * cmodel::kBeatBytes, stream.size());
   std::vector<Words> beat_words;
   for (std::size_t i = 0; i < beats.size(); ++i) {
-    ASSERT_EQ(beats[i].size(), 48u);
+    ASSERT_EQ(beats[i].size(), 8 * cmodel::kBeatWords);
     Words words;
-    for (std::size_t w = 0; w < 6; ++w) {
-      words.push_back(hex(beats[i].substr(8 * (5 - w), 8)));
+    for (std::size_t w = 0; w < cmodel::kBeatWords; ++w) {
+      words.push_back(hex(beats[i].substr(8 * (cmodel::kBeatWords - 1 - w), 8)));
       for (std::size_t b = 0; b < 4; ++b)
-        ASSERT_EQ(words[w] >> 8 * b & 0xff, static_cast<unsigned char>(stream[i * 24 + w * 4 + b]));
+        ASSERT_EQ(words[w] >> 8 * b & 0xff, static_cast<unsigned char>(stream[(i * cmodel::kBeatWords + w) * 4 + b]));
     }
     beat_words.push_back(words);
   }

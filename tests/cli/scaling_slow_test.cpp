@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cmodel/beat.hpp"
 #include "tests/cli/process_helper.hpp"
 
 namespace fastsplat::cli_test {
@@ -72,7 +73,7 @@ TEST(Scaling, ARecordedStreamIsItsScene) {
   for (const auto* key : {"frame_cycles", "shares", "each", "limit"})
     EXPECT_EQ(scene["scaling"][key], stream["scaling"][key]);
   EXPECT_EQ(scene["cycles"]["account"], stream["cycles"]["account"]);
-  EXPECT_EQ(number(scene["scaling"]["bytes_in"]) + 24, number(stream["scaling"]["bytes_in"]));
+  EXPECT_EQ(number(scene["scaling"]["bytes_in"]) + cmodel::kBeatBytes, number(stream["scaling"]["bytes_in"]));
   EXPECT_EQ(number(stream["scaling"]["bytes_in"]), std::filesystem::file_size(folder / "s.fss"));
 
   const Words late{"--stream", folder / "s.fss", "--config", "small",     "--set",   "tile.width=32",

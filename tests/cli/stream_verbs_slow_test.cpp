@@ -65,9 +65,11 @@ TEST_F(StreamVerbs, ADumpTellsWhatIsThereAndThenWhatIsWrong) {
   EXPECT_NE(good.out.find(" hash="), std::string::npos) << "as everywhere";
   EXPECT_NE(good.out.find(" magic=0x31535346"), std::string::npos);
 
-  const std::pair<std::string, const char*> damages[] = {{whole.substr(0, whole.size() - 24), "end_frame"},
-                                                         {whole.substr(0, whole.size() - 7), "17 bytes"},
-                                                         {whole + std::string(24, '\0'), "opcode"}};
+  const std::string cut_beat = std::to_string(cmodel::kBeatBytes - 7) + " bytes";
+  const std::pair<std::string, const char*> damages[] = {
+      {whole.substr(0, whole.size() - cmodel::kBeatBytes), "end_frame"},
+      {whole.substr(0, whole.size() - 7), cut_beat.c_str()},
+      {whole + std::string(cmodel::kBeatBytes, '\0'), "opcode"}};
   for (const auto& [bytes, told] : damages) {
     const auto run = fastsplat({"stream", "dump", folder_.write("d.fss", bytes), "--json", folder_ / "d.json"});
     EXPECT_EQ(run.code, 3) << told;
@@ -106,9 +108,9 @@ TEST_F(StreamVerbs, WhatIsNoStreamIsToldSo) {
 
 TEST_F(StreamVerbs, VerifyNamesTheFile) {
   auto bytes = read_bytes(stream_);
-  const auto cut = folder_.write("cut.fss", bytes.substr(0, bytes.size() - 24));
-  bytes[24 * 2] = '\x7f';
-  bytes[24 * 2 + 3] = '\x7f';
+  const auto cut = folder_.write("cut.fss", bytes.substr(0, bytes.size() - cmodel::kBeatBytes));
+  bytes[cmodel::kBeatBytes * 2] = '\x7f';
+  bytes[cmodel::kBeatBytes * 2 + 3] = '\x7f';
   const auto bent = folder_.write("bent.fss", bytes);
   for (const auto& path : {cut, bent}) {
     const auto run = fastsplat({"verify", "--stream", path, "--config", "tiny"});
@@ -146,7 +148,7 @@ TEST_F(StreamVerbs, AResetBehindTheEndIsRefused) {
   const auto run = fastsplat({"verify", "--stream", stream_, "--config", "tiny", "--reset-after", "1000000"});
   EXPECT_EQ(run.code, 2) << run.out << run.err;
   EXPECT_NE(run.err.find("the stream ends before it"), std::string::npos) << run.err;
-  const auto beats = std::to_string(read_bytes(stream_).size() / 24);
+  const auto beats = std::to_string(read_bytes(stream_).size() / cmodel::kBeatBytes);
   EXPECT_NE(run.err.find("at most " + beats), std::string::npos) << run.err;
   EXPECT_EQ(fastsplat({"verify", "--stream", stream_, "--config", "tiny", "--reset-after", beats}).code, 0);
   // Random streams are of many lengths: those that are shorter are counted.

@@ -194,9 +194,10 @@ TEST(Cluster, ABeatACycleForEachDeviceIsNoLimit) {
     const Pieces pieces = random_pieces(config, random, 800);
     for (const std::uint64_t queue : {1, 2, 512}) {
       const auto free = run(config, pieces, {.devices = devices, .queue_beats = queue});
-      const auto wide =
-          run(config, pieces,
-              {.devices = devices, .bytes_per_cycle = 24 * static_cast<std::uint64_t>(devices), .queue_beats = queue});
+      const auto wide = run(config, pieces,
+                            {.devices = devices,
+                             .bytes_per_cycle = cmodel::kBeatBytes * static_cast<std::uint64_t>(devices),
+                             .queue_beats = queue});
       for (std::size_t d = 0; d < free.devices().size(); ++d) {
         EXPECT_EQ(free.devices()[d].tiles, wide.devices()[d].tiles);
         compared.same(free.devices()[d].stalls, wide.devices()[d].stalls);

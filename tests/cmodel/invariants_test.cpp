@@ -20,7 +20,7 @@ struct Seen {
 
 std::vector<int> tile_modes(const std::vector<std::uint8_t>& bytes) {
   std::vector<int> modes;
-  for (std::size_t at = first_tile_beat(bytes) * 24; at < bytes.size(); at += 24)
+  for (std::size_t at = first_tile_beat(bytes) * cmodel::kBeatBytes; at < bytes.size(); at += cmodel::kBeatBytes)
     if (bytes[at] == 0x54) modes.push_back(bytes[at + 1]);
   return modes;
 }

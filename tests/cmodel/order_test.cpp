@@ -13,11 +13,12 @@ namespace fastsplat::test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-using Chunk = std::array<std::uint8_t, 24>;
+using Chunk = std::array<std::uint8_t, cmodel::kBeatBytes>;
 
 std::vector<Chunk> to_chunks(const Bytes& bytes) {
-  std::vector<Chunk> chunks(bytes.size() / 24);
-  for (std::size_t i = 0; i < chunks.size(); ++i) std::copy_n(&bytes[i * 24], 24, chunks[i].begin());
+  std::vector<Chunk> chunks(bytes.size() / cmodel::kBeatBytes);
+  for (std::size_t i = 0; i < chunks.size(); ++i)
+    std::copy_n(&bytes[i * cmodel::kBeatBytes], cmodel::kBeatBytes, chunks[i].begin());
   return chunks;
 }
 
@@ -84,7 +85,7 @@ TEST_P(Order, CullingHintsDoNotMatter) {
 
 TEST_P(Order, OfHandingOverBeatsDoesNotMatter) {
   const oracle::Rendering expected = run_model(config, stream.bytes);
-  const auto beats = static_cast<std::int64_t>(stream.bytes.size() / 24);
+  const auto beats = static_cast<std::int64_t>(stream.bytes.size() / cmodel::kBeatBytes);
   for (int round = 0; round < 4; ++round) {
     std::vector<std::size_t> cuts;
     for (int i = 0; i < (round == 0 ? 1 : 200); ++i) cuts.push_back(static_cast<std::size_t>(random.between(0, beats)));

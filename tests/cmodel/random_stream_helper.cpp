@@ -33,8 +33,8 @@ class Generator {
     std::vector<std::uint8_t> bytes = w.bytes();
     bytes.insert(bytes.end(), tables.bytes().begin(), tables.bytes().end());
     bytes.insert(bytes.end(), body.bytes().begin(), body.bytes().end());
-    bytes.resize(bytes.size() + 24);
-    bytes[bytes.size() - 24] = 0x66;
+    bytes.resize(bytes.size() + cmodel::kBeatBytes);
+    bytes[bytes.size() - cmodel::kBeatBytes] = 0x66;
     seal(bytes);
     return {std::move(bytes), body.total_splats()};
   }

@@ -15,7 +15,9 @@ using Bytes = std::vector<std::uint8_t>;
 
 void damage(Bytes& bytes, Random& random) {
   const auto last = static_cast<std::int64_t>(bytes.size()) - 1;
-  const auto beat_at = [&] { return static_cast<std::ptrdiff_t>(random.between(0, last / 24) * 24); };
+  const auto beat_at = [&] {
+    return static_cast<std::ptrdiff_t>(random.between(0, last / cmodel::kBeatBytes) * cmodel::kBeatBytes);
+  };
   switch (random.between(0, 5)) {
     case 0:
       bytes[static_cast<std::size_t>(random.between(0, last))] = static_cast<std::uint8_t>(random.next());
@@ -31,17 +33,18 @@ void damage(Bytes& bytes, Random& random) {
     }
     case 3: {  // a beat over another
       const Bytes copy(bytes.begin() + beat_at(), bytes.end());
-      std::copy(copy.begin(), copy.begin() + 24, bytes.begin() + beat_at());
+      std::copy(copy.begin(), copy.begin() + cmodel::kBeatBytes, bytes.begin() + beat_at());
       break;
     }
     case 4: {  // a beat lost
       const auto at = beat_at();
-      if (bytes.size() > 48) bytes.erase(bytes.begin() + at, bytes.begin() + at + 24);
+      if (bytes.size() > 2 * cmodel::kBeatBytes)
+        bytes.erase(bytes.begin() + at, bytes.begin() + at + cmodel::kBeatBytes);
       break;
     }
     default: {  // a beat doubled
       const auto at = beat_at();
-      const Bytes copy(bytes.begin() + at, bytes.begin() + at + 24);
+      const Bytes copy(bytes.begin() + at, bytes.begin() + at + cmodel::kBeatBytes);
       bytes.insert(bytes.begin() + at, copy.begin(), copy.end());
     }
   }

@@ -45,7 +45,8 @@ const Told kTold[] = {
 
 std::vector<std::uint8_t> with(std::size_t beat, std::size_t word, std::uint32_t value) {
   auto bytes = small_stream();
-  for (std::size_t i = 0; i < 4; ++i) bytes[beat * 24 + word * 4 + i] = static_cast<std::uint8_t>(value >> (8 * i));
+  for (std::size_t i = 0; i < 4; ++i)
+    bytes[beat * cmodel::kBeatBytes + word * 4 + i] = static_cast<std::uint8_t>(value >> (8 * i));
   return bytes;
 }
 
@@ -81,7 +82,7 @@ TEST(StreamMessages, ACutStreamSaysWhatIsMissing) {
                                                       {9, "splat, cull_block or end_sheet"},
                                                       {16, "begin_tile or end_frame"}};
   for (const auto& [beats, expected] : cuts) {
-    const Verdict verdict = model_verdict(small_stream_config(), {whole.data(), beats * 24});
+    const Verdict verdict = model_verdict(small_stream_config(), {whole.data(), beats * cmodel::kBeatBytes});
     ASSERT_TRUE(verdict.refused_at) << beats;
     EXPECT_EQ(verdict.parts.expected, expected);
     EXPECT_NE(verdict.parts.fix.find(kDamaged), std::string::npos) << verdict.text;

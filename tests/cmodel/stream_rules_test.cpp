@@ -17,17 +17,18 @@ using Bytes = std::vector<std::uint8_t>;
 class Edit {
  public:
   void set(std::size_t beat, std::size_t word, std::uint32_t value) {
-    for (std::size_t i = 0; i < 4; ++i) bytes[beat * 24 + word * 4 + i] = static_cast<std::uint8_t>(value >> (8 * i));
+    for (std::size_t i = 0; i < 4; ++i)
+      bytes[beat * cmodel::kBeatBytes + word * 4 + i] = static_cast<std::uint8_t>(value >> (8 * i));
   }
   std::uint32_t get(std::size_t beat, std::size_t word) const { return to_beats(bytes)[beat][word]; }
   void erase(std::size_t beat, std::size_t count = 1) {
-    const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(beat * 24);
-    bytes.erase(first, first + static_cast<std::ptrdiff_t>(count * 24));
+    const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(beat * cmodel::kBeatBytes);
+    bytes.erase(first, first + static_cast<std::ptrdiff_t>(count * cmodel::kBeatBytes));
   }
   void insert_copy(std::size_t from, std::size_t before) {
-    const Bytes copy(bytes.begin() + static_cast<std::ptrdiff_t>(from * 24),
-                     bytes.begin() + static_cast<std::ptrdiff_t>(from * 24 + 24));
-    bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(before * 24), copy.begin(), copy.end());
+    const Bytes copy(bytes.begin() + static_cast<std::ptrdiff_t>(from * cmodel::kBeatBytes),
+                     bytes.begin() + static_cast<std::ptrdiff_t>(from * cmodel::kBeatBytes + cmodel::kBeatBytes));
+    bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(before * cmodel::kBeatBytes), copy.begin(), copy.end());
   }
   Bytes bytes = small_stream();
 };
@@ -132,7 +133,7 @@ TEST(StreamRules, EachBrokenOnceIsRefusedAtItsBeatWithBothValues) {
   for (const Rule& rule : kRules) {
     Edit edit;
     rule.violate(edit);
-    if (edit.bytes[edit.bytes.size() - 24] == 0x66) seal(edit.bytes);  // so that nothing else is wrong
+    if (edit.bytes[edit.bytes.size() - cmodel::kBeatBytes] == 0x66) seal(edit.bytes);  // so that nothing else is wrong
     const Verdict model = model_verdict(small_stream_config(), edit.bytes);
     ASSERT_TRUE(model.refused_at) << rule.name << ": taken";
     EXPECT_EQ(*model.refused_at, rule.beat) << rule.name << ": " << model.text;
@@ -165,8 +166,8 @@ TEST(StreamRules, CountAndChecksumOfTheEnd) {
 
 TEST(StreamRules, TruncatedAnywhereIsRefused) {
   const Bytes whole = small_stream();
-  for (std::size_t beats = 0; beats < whole.size() / 24; ++beats) {
-    const Bytes part(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(beats * 24));
+  for (std::size_t beats = 0; beats < whole.size() / cmodel::kBeatBytes; ++beats) {
+    const Bytes part(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(beats * cmodel::kBeatBytes));
     const Verdict model = model_verdict(small_stream_config(), part);
     ASSERT_TRUE(model.refused_at) << beats << " beats are taken as a whole stream";
     EXPECT_EQ(*model.refused_at, beats) << model.text;
@@ -179,15 +180,15 @@ TEST(StreamRules, EverySingleBitCountsAsTheOracleSays) {
   for (std::size_t bit = 0; bit < small_stream().size() * 8; ++bit) {
     Bytes bytes = small_stream();
     bytes[bit / 8] = static_cast<std::uint8_t>(bytes[bit / 8] ^ (1U << bit % 8));
-    if (bit / 8 < bytes.size() - 24) seal(bytes);
+    if (bit / 8 < bytes.size() - cmodel::kBeatBytes) seal(bytes);
     bool accepted = false;
     ASSERT_EQ(disagreement(small_stream_config(), bytes, &accepted), "")
-        << "bit " << bit % 192 << " of beat " << bit / 192;
+        << "bit " << bit % cmodel::kBeatBits << " of beat " << bit / cmodel::kBeatBits;
     ++flips;
     taken += accepted ? 1 : 0;
   }
   std::printf("[figure] single bits flipped = %d, of which still legal = %d\n", flips, taken);
-  EXPECT_EQ(flips, 22 * 192);
+  EXPECT_EQ(flips, 22 * cmodel::kBeatBits);
   EXPECT_GT(taken, 0);
 }
 

@@ -11,10 +11,10 @@ std::uint32_t bits(std::int32_t value) { return static_cast<std::uint32_t>(value
 
 }  // namespace
 
-void StreamWriter::beat(const std::array<std::uint32_t, 6>& words) {
+void StreamWriter::beat(const cmodel::Beat& words) {
   const std::size_t at = bytes_.size();
-  bytes_.resize(at + 24);
-  for (std::size_t i = 0; i < 6; ++i) store(&bytes_[at + 4 * i], words[i]);
+  bytes_.resize(at + cmodel::kBeatBytes);
+  for (std::size_t i = 0; i < words.size(); ++i) store(&bytes_[at + 4 * i], words[i]);
 }
 
 void StreamWriter::begin_frame(int width, int height, std::uint32_t tiles) {
@@ -26,10 +26,10 @@ void StreamWriter::begin_frame(int width, int height, std::uint32_t tiles) {
 void StreamWriter::load_table(int table, std::uint32_t set, std::uint32_t rho, std::uint32_t base,
                               const std::vector<std::uint32_t>& words) {
   beat({0x4C | static_cast<std::uint32_t>(table) << 8, set, rho, static_cast<std::uint32_t>(words.size()), base, 0});
-  for (std::size_t i = 0; i < words.size(); i += 6) {
-    std::array<std::uint32_t, 6> six{};
-    for (std::size_t j = i; j < i + 6 && j < words.size(); ++j) six[j - i] = words[j];
-    beat(six);
+  for (std::size_t i = 0; i < words.size(); i += cmodel::kBeatWords) {
+    cmodel::Beat some{};
+    for (std::size_t j = i; j < i + some.size() && j < words.size(); ++j) some[j - i] = words[j];
+    beat(some);
   }
 }
 
@@ -69,10 +69,10 @@ void StreamWriter::end_frame() {
 }
 
 std::vector<cmodel::Beat> to_beats(std::span<const std::uint8_t> bytes) {
-  std::vector<cmodel::Beat> beats(bytes.size() / 24);
+  std::vector<cmodel::Beat> beats(bytes.size() / cmodel::kBeatBytes);
   for (std::size_t i = 0; i < beats.size(); ++i)
-    for (std::size_t j = 0; j < 6; ++j) {
-      const std::uint8_t* at = &bytes[i * 24 + j * 4];
+    for (std::size_t j = 0; j < cmodel::kBeatWords; ++j) {
+      const std::uint8_t* at = &bytes[i * cmodel::kBeatBytes + j * 4];
       beats[i][j] =
           std::uint32_t{at[0]} | std::uint32_t{at[1]} << 8 | std::uint32_t{at[2]} << 16 | std::uint32_t{at[3]} << 24;
     }
@@ -81,16 +81,16 @@ std::vector<cmodel::Beat> to_beats(std::span<const std::uint8_t> bytes) {
 
 std::size_t first_tile_beat(std::span<const std::uint8_t> bytes) {
   std::size_t beat = 1;
-  while (bytes[beat * 24] == 0x4C) {
-    const std::uint8_t* count = &bytes[beat * 24 + 12];
-    beat += 1 + (count[0] + 256U * count[1] + 65536U * count[2] + 5) / 6;
+  while (bytes[beat * cmodel::kBeatBytes] == 0x4C) {
+    const std::uint8_t* count = &bytes[beat * cmodel::kBeatBytes + 12];
+    beat += 1 + (count[0] + 256U * count[1] + 65536U * count[2] + cmodel::kBeatWords - 1) / cmodel::kBeatWords;
   }
   return beat;
 }
 
 void seal(std::vector<std::uint8_t>& bytes) {
-  const std::size_t at = bytes.size() - 24;
-  const std::uint64_t before = at / 24;
+  const std::size_t at = bytes.size() - cmodel::kBeatBytes;
+  const std::uint64_t before = at / cmodel::kBeatBytes;
   store(&bytes[at + 4], static_cast<std::uint32_t>(before));
   store(&bytes[at + 8], static_cast<std::uint32_t>(before >> 32));
   store(&bytes[at + 12], oracle::crc32(std::span(bytes).first(at)));

@@ -16,7 +16,7 @@ class StreamWriter {
  public:
   explicit StreamWriter(const oracle::Symbols& symbols) : symbols_(symbols) {}
 
-  void beat(const std::array<std::uint32_t, 6>& words);
+  void beat(const cmodel::Beat& words);
   void begin_frame(int width, int height, std::uint32_t tiles);
   /// Pads the last beat with zeros.
   void load_table(int table, std::uint32_t set, std::uint32_t rho, std::uint32_t base,
@@ -30,7 +30,7 @@ class StreamWriter {
   void end_frame();
 
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }
-  std::size_t beats() const { return bytes_.size() / 24; }
+  std::size_t beats() const { return bytes_.size() / cmodel::kBeatBytes; }
   std::uint64_t total_splats() const { return total_splats_; }
 
  private:

@@ -10,7 +10,8 @@ namespace {
 std::optional<std::uint64_t> beat_of(const std::string& where) {
   if (where.rfind("beat ", 0) != 0) return std::nullopt;
   const std::uint64_t beat = std::stoull(where.substr(5));
-  if (where != "beat " + std::to_string(beat) + " (byte offset " + std::to_string(beat * 24) + ")") return std::nullopt;
+  if (where != "beat " + std::to_string(beat) + " (byte offset " + std::to_string(beat * cmodel::kBeatBytes) + ")")
+    return std::nullopt;
   return beat;
 }
 

@@ -138,7 +138,7 @@ std::string difference(const std::vector<Beat>& expected, const std::vector<cmod
     const std::string where = "beat " + std::to_string(at) + ": ";
     if (at >= got.size()) return where + "ends early, expected " + told(beat);
     if (payload > 0) {
-      for (std::size_t i = 0; i < 6; ++i, ++word)
+      for (std::size_t i = 0; i < beat.size(); ++i, ++word)
         if (beat[i] != got[at][i])
           return where + table + " word " + std::to_string(word) + " expected " + std::to_string(beat[i]) + ", got " +
                  std::to_string(got[at][i]);
@@ -150,7 +150,7 @@ std::string difference(const std::vector<Beat>& expected, const std::vector<cmod
              told(got[at]);
     if ((beat[0] & 0xFF) == static_cast<std::uint32_t>(cmodel::Opcode::LoadTable)) {
       table = told(beat);
-      payload = (beat[3] + 5) / 6;
+      payload = cmodel::announced_beats(beat);
       word = 0;
     }
     if ((beat[0] & 0xFF) == static_cast<std::uint32_t>(cmodel::Opcode::BeginSheet))
@@ -233,7 +233,7 @@ void compare_with_oracle(const std::string& name, const scene::Scene& scene, con
   ++figures.frames;
   const auto add = [&figures](const std::vector<Beat>& beats) {
     figures.beats += beats.size();
-    figures.words += beats.size() * 6;
+    figures.words += beats.size() * cmodel::kBeatWords;
     for (const Beat& beat : beats)
       for (const std::uint32_t word : beat) figures.hash = (figures.hash ^ word) * 0x100000001b3U;
   };

@@ -109,8 +109,9 @@ TEST_F(StreamFile, a_short_file_is_refused_at_the_missing_beat) {
   record_stream(scene::build_scene(view_of("shells:8", 24)), config, path_);
   const auto size = std::filesystem::file_size(path_);
   int cuts = 0;
-  for (const std::uintmax_t left : {std::uintmax_t{0}, std::uintmax_t{3}, std::uintmax_t{23}, std::uintmax_t{24},
-                                    std::uintmax_t{34}, size / 2, size - 24, size - 23, size - 1}) {
+  constexpr std::uintmax_t beat_bytes = cmodel::kBeatBytes;
+  for (const std::uintmax_t left : {std::uintmax_t{0}, std::uintmax_t{3}, beat_bytes - 1, beat_bytes, beat_bytes + 10,
+                                    size / 2, size - beat_bytes, size - beat_bytes + 1, size - 1}) {
     if (left >= std::filesystem::file_size(path_))
       record_stream(scene::build_scene(view_of("shells:8", 24)), config, path_);
     std::filesystem::resize_file(path_, left);

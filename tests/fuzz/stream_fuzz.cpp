@@ -10,7 +10,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const cmodel::Config config = test::small_stream_config();
   fuzz::Bytes given{data, size};
   const bool sealed = fuzz::take_byte(given) % 2 == 1;
-  std::vector<std::uint8_t> bytes(given.begin(), given.end() - static_cast<std::ptrdiff_t>(given.size() % 24));
+  std::vector<std::uint8_t> bytes(given.begin(),
+                                  given.end() - static_cast<std::ptrdiff_t>(given.size() % cmodel::kBeatBytes));
   if (sealed && !bytes.empty()) test::seal(bytes);
   const std::string text = test::disagreement(config, bytes);
   if (!text.empty()) fuzz::finding(text);

@@ -13,6 +13,7 @@
 // played PLAY CYCLES; and what is wrong: unknown PLAY CYCLE NAME, stray PLAY CYCLE NAME, hangs PLAY CYCLE.
 module icarus_bench;
   localparam int P = fastsplat_pkg::LANES;
+  localparam int BEAT_BITS = 192;
   localparam int LENGTH = 32768;  // of a pattern
   localparam int PATTERNS = 16;
   localparam int MOST_BEATS = 65536;
@@ -20,7 +21,7 @@ module icarus_bench;
 
   logic clk_i, rst_ni;
   logic s_tvalid_i, s_tready_o;
-  logic [191:0] s_tdata_i;
+  logic [BEAT_BITS-1:0] s_tdata_i;
   logic m_tvalid_o, m_tready_i, m_tlast_o, m_tuser_o, irq_o;
   logic [P*128-1:0] m_tdata_o;
   logic [P-1:0] m_tkeep_o;
@@ -38,7 +39,7 @@ module icarus_bench;
   logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::STATE_BITS-1:0] tap_state_o;
   fastsplat_core u_core (.*);
 
-  logic [191:0] beats[0:MOST_BEATS-1];
+  logic [BEAT_BITS-1:0] beats[0:MOST_BEATS-1];
   logic willing[0:PATTERNS*LENGTH-1];
   int play, cycle, idle, sent, to_send, input_pattern, ready_pattern, beat_count, pattern_count;
   logic offering;

@@ -188,8 +188,7 @@ std::map<std::string, std::vector<std::size_t>> kinds_of(const std::vector<Beat>
   for (std::size_t i = 0; i < beats.size(); ++i) {
     kinds[cmodel::find_layout(static_cast<std::uint8_t>(beats[i][0]))->name].push_back(i);
     if (static_cast<cmodel::Opcode>(beats[i][0] & 0xff) != cmodel::Opcode::LoadTable) continue;
-    for (std::uint32_t words = cmodel::announced_words(beats[i]); words > 0; words -= std::min(words, 6U))
-      kinds["table words"].push_back(++i);
+    for (std::uint64_t left = cmodel::announced_beats(beats[i]); left > 0; --left) kinds["table words"].push_back(++i);
   }
   return kinds;
 }

@@ -11,22 +11,25 @@
 namespace fastsplat::oracle {
 namespace {
 
+// Of a beat.
+constexpr std::size_t kWords = 6, kBytes = 4 * kWords;
+
 struct Reader {
   const Symbols& c;
   std::span<const std::uint8_t> bytes;
   std::uint64_t beat = 0;  // next to read
-  std::array<std::uint32_t, 6> w{};
+  std::array<std::uint32_t, kWords> w{};
 
   void rule(bool holds, const char* text) const {
     if (!holds) throw Refusal(beat - 1, text);
   }
-  std::uint64_t beats() const { return bytes.size() / 24; }
+  std::uint64_t beats() const { return bytes.size() / kBytes; }
 
   /// The next beat into w; false at the end.
   bool next() {
     if (beat >= beats()) return false;
-    for (std::size_t i = 0; i < 6; ++i) {
-      const std::size_t at = beat * 24 + i * 4;
+    for (std::size_t i = 0; i < kWords; ++i) {
+      const std::size_t at = beat * kBytes + i * 4;
       w[i] = std::uint32_t{bytes[at]} + std::uint32_t{bytes[at + 1]} * 256 + std::uint32_t{bytes[at + 2]} * 65536 +
              std::uint32_t{bytes[at + 3]} * 16777216;
     }
@@ -38,9 +41,9 @@ struct Reader {
   }
   std::uint32_t low(std::size_t i) const { return w[i] % 65536; }
   std::uint32_t high(std::size_t i) const { return w[i] / 65536; }
-  /// Words `first`..5 carry nothing.
+  /// The words from `first` on carry nothing.
   void empty_from(std::size_t first) const {
-    for (std::size_t i = first; i < 6; ++i) rule(w[i] == 0, "an unnamed word is not zero");
+    for (std::size_t i = first; i < kWords; ++i) rule(w[i] == 0, "an unnamed word is not zero");
   }
   void only_opcode() const { rule(w[0] < 256, "an unnamed bit of w0 is not zero"); }
 };
@@ -90,9 +93,9 @@ TableLoad table_load(Reader& r) {
     r.rule(count == (load.table == 1 ? c.N : c.G + 1), "words");
     largest = static_cast<std::int64_t>(load.table == 1 ? u(c.wi, c.wf).largest : one(c.of).largest);
   }
-  for (std::int64_t done = 0; done < count; done += 6) {
+  for (std::int64_t done = 0; done < count; done += std::int64_t{kWords}) {
     r.need();
-    for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t i = 0; i < kWords; ++i) {
       if (done + static_cast<std::int64_t>(i) >= count) {
         r.rule(r.w[i] == 0, "padding");
         continue;
@@ -225,7 +228,7 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
       r.empty_from(4);
       r.rule(tiles_seen == tiles, "tile count");
       r.rule(r.w[1] + r.w[2] * (std::uint64_t{1} << 32) == r.beat - 1, "beat count");
-      r.rule(r.w[3] == crc32(bytes.first((r.beat - 1) * 24)), "CRC");
+      r.rule(r.w[3] == crc32(bytes.first((r.beat - 1) * kBytes)), "CRC");
       if (r.next()) r.rule(false, "something follows end_frame");
       return items;
     }

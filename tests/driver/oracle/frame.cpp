@@ -264,12 +264,14 @@ class Page {
   }
 
   static void load_table(std::vector<Beat>& beats, std::uint32_t table, std::size_t n, const RadiusSet& set,
-                         std::vector<std::uint32_t> words) {
+                         const std::vector<std::uint32_t>& words) {
     beats.push_back({0x4CU | table << 8, static_cast<std::uint32_t>(n), u32(set.rho),
                      static_cast<std::uint32_t>(words.size()), u32(set.base), 0});
-    while (words.size() % 6 != 0) words.push_back(0);
-    for (std::size_t i = 0; i < words.size(); i += 6)
-      beats.push_back({words[i], words[i + 1], words[i + 2], words[i + 3], words[i + 4], words[i + 5]});
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      const std::size_t place = i % std::tuple_size_v<Beat>;
+      if (place == 0) beats.emplace_back();  // what no word comes to stays 0
+      beats.back()[place] = words[i];
+    }
   }
 
   /// Whether `extent` pixels from the window's first one on meet a whole tile's `side` pixels, along one axis.

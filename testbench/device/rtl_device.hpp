@@ -71,8 +71,9 @@ class RtlDevice : public cmodel::Device {
   /// Offers a beat that breaks a rule: the cycle in which it was taken, or nothing if the device does not refuse it at
   /// once. Neither it nor what is taken after it is told to anybody, until a reset.
   virtual std::optional<std::uint64_t> refuse(const cmodel::Beat& beat) = 0;
-  /// Asks CONTROL for a soft reset, and waits until the device is at rest.
-  virtual void soft_reset() = 0;
+  /// Asks CONTROL for a soft reset. With `wait` until the device is at rest; without, the beats that are offered next
+  /// wait for that.
+  virtual void soft_reset(bool wait = true) = 0;
   virtual bool interrupt() const = 0;
   /// Tiles whose pixels came out marked as cut short, since reset was released. While no refusal and no soft reset was
   /// asked for, one is UserError (Simulation).

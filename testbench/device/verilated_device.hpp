@@ -110,12 +110,12 @@ class VerilatedDevice : public RtlDevice {
     return taken;
   }
 
-  void soft_reset() override {
-    expecting_ = true;  // of an open tile
+  void soft_reset(bool wait) override {
+    expecting_ = resetting_ = true;  // of an open tile
     write_register(cmodel::kRegControl.address, cmodel::kControlReset, 0);
+    if (!wait) return;
     come_to_rest();
-    tiles_.reset();  // of a table that was cut short
-    expecting_ = refused_ = false;
+    end_soft_reset();
   }
 
   bool interrupt() const override { return top_->irq_o != 0; }
@@ -234,6 +234,11 @@ class VerilatedDevice : public RtlDevice {
   static constexpr int kOkay = 0, kSlverr = 2;  ///< of AXI4-Lite
   static constexpr int kJudged = 2;             ///< cycles from a beat's transfer to the error it causes
 
+  void end_soft_reset() {
+    tiles_.reset();  // of a table that was cut short
+    expecting_ = resetting_ = refused_ = false;
+  }
+
   void come_to_rest() {
     for (std::uint64_t waited = 0; (read_status() & cmodel::kStatusBusy) != 0 || !tiles_.complete(); ++waited) {
       if (waited > options_.timeout) time_out("the device does not come to rest");
@@ -285,7 +290,7 @@ class VerilatedDevice : public RtlDevice {
     top_->rst_ni = 1;
     top_->eval();
     cycle_ = 0;
-    offering_ = pending_ = refused_ = reading_ = writing_ = expecting_ = false;
+    offering_ = pending_ = refused_ = reading_ = writing_ = expecting_ = resetting_ = false;
     aborted_tiles_ = 0;
     if (top_->rvalid_o || top_->bvalid_o || top_->m_tvalid_o) {
       throw UserError(ExitCode::Simulation, {.where = "after a reset of " + std::to_string(cycles) + " cycles",
@@ -313,6 +318,7 @@ class VerilatedDevice : public RtlDevice {
     const bool taken = offering_ && top_->s_tready_o != 0;
     sample();
     if (taken) {
+      if (resetting_) end_soft_reset();  // none is taken before
       if (!expecting_) {
         tiles_.accept(beat_);
         if (options_.taps != nullptr) options_.taps->accept(beat_);
@@ -477,6 +483,7 @@ class VerilatedDevice : public RtlDevice {
   bool offering_ = false;   ///< and has been: valid stays up until taken
   bool refused_ = false;    ///< the device said so since reset
   bool expecting_ = false;  ///< that it does, or that it cuts a tile short
+  bool resetting_ = false;  ///< a soft reset that nobody saw the end of
   std::uint64_t aborted_tiles_ = 0;
   bool reading_ = false, writing_ = false;  ///< an access was begun whose answer was not taken
   bool was_reset_ = false;                  ///< warm

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <optional>
 
 #include "cmodel/register_map.hpp"
-#include "testbench/check/checker.hpp"
+#include "testbench/stimulus/frames.hpp"
+#include "testbench/stimulus/mid_frame.hpp"
 #include "testbench/stimulus/random.hpp"
 #include "testbench/stimulus/violations.hpp"
 
@@ -31,197 +31,11 @@ constexpr const char* kOtherBins[] = {"open_tile_is_ended",
                                       "works_after_soft_reset",
                                       "works_after_reset",
                                       "interrupt",
+                                      "error_interrupt_cleared_while_the_error_lasts",
+                                      "soft_reset_raises_no_error",
                                       "soft_reset_in_a_tile",
-                                      "soft_reset_while_a_picture_goes_out"};
-
-/// From a cycle on.
-class NotBefore final : public cmodel::Willing {
- public:
-  std::uint64_t first = 0;
-  std::uint64_t next(std::uint64_t cycle) const override { return std::max(cycle, first); }
-};
-
-/// Told what the device shows; passes it to whoever checks the frame at hand.
-struct Relay final : RawTapSink {
-  Checker* to = nullptr;
-  void on_raw(const RawTap& tap) override {
-    if (to != nullptr) to->on_raw(tap);
-  }
-  void accept(const cmodel::Beat& beat) override {
-    if (to != nullptr) to->accept(beat);
-  }
-};
-
-/// Where the model refuses the stream, as a device does that may be given any tiles.
-struct Refused {
-  StreamRule rule;
-  std::size_t beat;
-};
-std::optional<Refused> refused_by_model(const cmodel::Config& config, const Beats& beats) {
-  cmodel::StreamDecode decode(config, cmodel::StreamScope::Subset);
-  for (std::size_t i = 0; i < beats.size(); ++i) {
-    try {
-      decode.feed(beats[i]);
-    } catch (const cmodel::StreamRefusal& refusal) {
-      return Refused{refusal.rule(), i};
-    }
-  }
-  return std::nullopt;
-}
-
-/// The beats up to and with the end_frame that a device takes; nothing if it takes none.
-std::optional<std::size_t> first_end(const cmodel::Config& config, const Beats& beats) {
-  cmodel::StreamDecode decode(config, cmodel::StreamScope::Subset);
-  try {
-    for (std::size_t i = 0; i < beats.size(); ++i) {
-      const cmodel::Record* record = decode.feed(beats[i]);
-      if (record != nullptr && std::holds_alternative<cmodel::EndFrame>(*record)) return i + 1;
-    }
-  } catch (const cmodel::StreamRefusal&) {
-    // Refused before any end.
-  }
-  return std::nullopt;
-}
-
-/// What ends the tile that is open after these beats; nothing if none is.
-struct Closers {
-  Beats beats;
-  bool in_table = false;  ///< it is a table that is open
-};
-Closers closers_of(std::span<const cmodel::Beat> beats) {
-  namespace layout = cmodel::layout;
-  Closers out;
-  const Beats all(beats.begin(), beats.end());
-  const cmodel::Beat *tile = nullptr, *sheet = nullptr;  // open
-  std::uint64_t sheets = 0, splats = 0;
-  for (const auto& [at, opcode] : records_of(all)) {
-    if (opcode == Opcode::LoadTable) out.in_table = at + cmodel::announced_beats(all[at]) >= all.size();
-    if (opcode == Opcode::BeginTile) tile = &all[at], sheets = 0;
-    if (opcode == Opcode::BeginSheet) sheet = &all[at], ++sheets, splats = 0;
-    if (opcode == Opcode::Splat) ++splats;
-    if (opcode == Opcode::EndSheet) sheet = nullptr;
-    if (opcode == Opcode::EndTile) tile = nullptr;
-  }
-  const auto end = [&](Opcode opcode, const cmodel::Field& number, std::int64_t value, const cmodel::Field& count,
-                       std::uint64_t counted) {
-    cmodel::Beat beat{};
-    put(beat, layout::kOpcode, static_cast<std::uint64_t>(opcode));
-    put(beat, number, static_cast<std::uint64_t>(value));
-    put(beat, count, counted);
-    out.beats.push_back(beat);
-  };
-  if (sheet != nullptr)
-    end(Opcode::EndSheet, layout::kEndSheetNumber, get(*sheet, layout::kSheetNumber), layout::kEndSheetSplats, splats);
-  if (tile != nullptr)
-    end(Opcode::EndTile, layout::kEndTileNumber, get(*tile, layout::kTileNumber), layout::kEndTileSheets, sheets);
-  return out;
-}
-
-/// A device that is fed one frame after the other, each under a checker of its own.
-class Frames {
- public:
-  Frames(const cmodel::Config& config, const MakeDevice& make, Check& check) : config_(config), check_(check) {
-    RtlOptions options;
-    options.taps = &relay_;
-    options.timeout = kTimeout;
-    device_ = make(none_, options);
-  }
-  RtlDevice& device() { return *device_; }
-
-  /// A frame that nothing is wrong with.
-  void good(const std::string& what, const Beats& beats, Coverage::Id bin) {
-    begin();
-    device_->consume(beats);
-    end(what, bin, false);
-  }
-
-  /// A frame of which the model refuses a beat. The device is left with its error.
-  void bad(const std::string& what, const Beats& beats, const Refused& expected, Coverage::Id bin) {
-    const std::size_t failures = check_.result.failures.size();
-    begin();
-    const auto before = std::span(beats).first(expected.beat);
-    device_->consume(before);
-    const std::uint64_t aborted = device_->aborted_tiles();
-    const auto taken = device_->refuse(beats[expected.beat]);
-    check_.equal(what + ": refused", 1, taken ? 1 : 0, bin);
-    const Closers closers = closers_of(before);
-    if (taken) source_.first = *taken + 1;
-    for (const auto& beat : closers.beats) checker_->accept(beat);
-    const auto opcode = static_cast<std::uint32_t>(get(beats[expected.beat], cmodel::layout::kOpcode));
-    const auto error = [&] {
-      check_.equal(what + ": STATUS, error", 1, read(cmodel::kRegStatus) >> 1 & 1, bin);
-      check_.equal(what + ": ERROR", static_cast<std::uint32_t>(expected.rule) | opcode << 8, read(cmodel::kRegError),
-                   bin);
-      check_.equal(what + ": ERROR_BEAT", expected.beat, read(cmodel::kRegErrorBeat), bin);
-    };
-    error();
-    end(what, closers.beats.empty() ? bin : check_.bin("refusal", "open_tile_is_ended"), closers.in_table);
-    check_.equal(what + ": tiles marked as cut short", aborted + (closers.beats.empty() ? 0 : 1),
-                 device_->aborted_tiles(), bin);
-    // What comes after it changes nothing, and is not what ERROR tells.
-    const auto swallowed = check_.bin("refusal", "rest_is_swallowed");
-    const auto counters = device_->counters();
-    const auto cycles = device_->cycle_counters().busy;
-    for (const auto& beat : std::span(beats).subspan(expected.beat)) device_->refuse(beat);
-    check_.equal(what + ": counters after the rest", 1, counters == device_->counters() ? 1 : 0, swallowed);
-    check_.equal(what + ": busy cycles after the rest", cycles, device_->cycle_counters().busy, swallowed);
-    error();
-    check_.result.refused[bin_of(expected.rule)] += check_.result.failures.size() == failures ? 1 : 0;
-  }
-
-  /// A soft reset behind some beats of a frame; `wait`: cycles, about, before it.
-  void cut(const std::string& what, std::span<const cmodel::Beat> beats, int wait, Coverage::Id bin) {
-    begin();
-    device_->consume(beats);
-    for (int i = 0; i < wait; ++i) read(cmodel::kRegStatus);
-    const Closers closers = closers_of(beats);
-    for (const auto& beat : closers.beats) checker_->accept(beat);
-    device_->soft_reset();
-    check_.equal(what + ": no error", 0, read(cmodel::kRegStatus), bin);
-    relay_.to = nullptr;
-    if (closers.in_table) return;
-    // When the reset came is not the cycle model's to know.
-    const CheckReport report = checker_->finish();
-    told(what, report, bin);
-  }
-
-  std::uint32_t read(const cmodel::Register& reg) { return device_->read_register(reg.address).word; }
-  void write(const cmodel::Register& reg, std::uint32_t word) { device_->write_register(reg.address, word); }
-
- private:
-  static constexpr std::uint64_t kTimeout = 200000;  ///< beyond any wait within a small stream
-
-  void begin() {
-    write(cmodel::kRegControl, cmodel::kControlClear);
-    source_.first = 0;
-    checker_.emplace(config_, cmodel::StreamScope::Subset, none_, CheckOptions{.source = &source_});
-    relay_.to = &*checker_;
-    checker_->start(device_->cycles());
-  }
-  void end(const std::string& what, Coverage::Id bin, bool in_table) {
-    device_->finish();
-    relay_.to = nullptr;
-    if (in_table) return;  // neither model knows an end there, and nothing but words was taken
-    told(what, checker_->finish(device_->counters(), device_->cycle_counters()), bin);
-  }
-  void told(const std::string& what, const CheckReport& report, Coverage::Id bin) {
-    check_.result.comparisons += report.comparisons;
-    std::string how = what + ": mismatches";
-    if (report.first)
-      how += ", first at tap " +
-             std::to_string(static_cast<int>(report.first->model ? report.first->model->tap : report.first->rtl->tap));
-    if (!report.differences.empty()) how += " (" + report.differences.front() + ")";
-    check_.equal(how, 0, report.mismatches, bin);
-  }
-
-  cmodel::Config config_;
-  Check& check_;
-  cmodel::NullPixels none_;
-  Relay relay_;
-  NotBefore source_;
-  std::unique_ptr<RtlDevice> device_;
-  std::optional<Checker> checker_;
-};
+                                      "soft_reset_while_a_picture_goes_out",
+                                      "next_frame_offered_in_a_soft_reset"};
 
 }  // namespace
 
@@ -231,6 +45,7 @@ Coverage refusal_bins() {
     if (judged_by_device(rule)) bins.declare("refusal", name);
   }
   for (const char* name : kOtherBins) bins.declare("refusal", name);
+  for (const char* name : mid_frame_bins()) bins.declare("refusal", name);
   return bins;
 }
 
@@ -239,7 +54,9 @@ DirectedResult check_refusals(const cmodel::Config& config, const MakeDevice& ma
   const Beats beats = small_stream(config);
   Frames frames(config, make, check);
   const auto soft = check.bin("refusal", "works_after_soft_reset"), hard = check.bin("refusal", "works_after_reset"),
-             interrupt = check.bin("refusal", "interrupt");
+             interrupt = check.bin("refusal", "interrupt"),
+             cleared = check.bin("refusal", "error_interrupt_cleared_while_the_error_lasts"),
+             silent = check.bin("refusal", "soft_reset_raises_no_error");
   // A frame's interrupts: its tiles', then its own.
   using namespace cmodel;
   check.equal("IRQ after reset", 0, frames.read(kRegIrq), interrupt);
@@ -269,16 +86,25 @@ DirectedResult check_refusals(const cmodel::Config& config, const MakeDevice& ma
     check.equal(violation.name + ": the model's rule", static_cast<std::uint64_t>(violation.rule),
                 expected ? static_cast<std::uint64_t>(expected->rule) : 0, bin);
     if (!expected) continue;
-    frames.bad(violation.name, spoiled, *expected, bin);
+    check.result.refused[bin_of(expected->rule)] += frames.bad(violation.name, spoiled, *expected, bin) ? 1 : 0;
     check.equal("interrupt of an error", 1, frames.device().interrupt() ? 1 : 0, interrupt);
     check.equal("IRQ of an error", kIrqError, frames.read(kRegIrq) & (kIrqError | kIrqFrame), interrupt);
+    // Once cleared it stays so, though the error lasts and beats are refused again.
     frames.write(kRegIrq, kIrqError | kIrqTile);
+    frames.device().refuse(spoiled[expected->beat]);
+    check.equal("IRQ, error, cleared", 0, frames.read(kRegIrq) & kIrqError, cleared);
+    check.equal("interrupt, cleared", 0, frames.device().interrupt() ? 1 : 0, cleared);
+    check.equal("STATUS, error, with its interrupt cleared", kStatusError, frames.read(kRegStatus) & kStatusError,
+                cleared);
     const bool softly = number % 8 != 0;
     if (softly)
       frames.device().soft_reset();
     else
       frames.device().warm_reset();
-    if (!softly) frames.write(kRegIrqMask, kIrqError);
+    if (softly)
+      check.equal("IRQ, error, after a soft reset", 0, frames.read(kRegIrq) & kIrqError, silent);
+    else
+      frames.write(kRegIrqMask, kIrqError);
     for (const auto& reg : {kRegStatus, kRegError, kRegErrorBeat})
       check.equal(std::string(reg.name) + " after a reset", 0, frames.read(reg), softly ? soft : hard);
     if (number++ % 16 == 0 || !softly) {
@@ -289,20 +115,23 @@ DirectedResult check_refusals(const cmodel::Config& config, const MakeDevice& ma
 
   // Soft resets behind each kind of record, at once and later.
   const auto in_tile = check.bin("refusal", "soft_reset_in_a_tile"),
-             in_picture = check.bin("refusal", "soft_reset_while_a_picture_goes_out");
+             in_picture = check.bin("refusal", "soft_reset_while_a_picture_goes_out"),
+             at_once = check.bin("refusal", "next_frame_offered_in_a_soft_reset");
   const auto records = records_of(beats);
   for (std::size_t i = 0; i < records.size(); i += 1 + records.size() / 24) {
     const std::size_t end = i + 1 < records.size() ? records[i + 1].at : beats.size();
     const bool picture = records[i].opcode == Opcode::EndTile;
-    for (const int wait : {2, 9})
-      frames.cut("soft reset behind beat " + std::to_string(end), std::span(beats).first(end), wait,
-                 picture ? in_picture : in_tile);
+    const std::string what = "soft reset behind beat " + std::to_string(end);
+    for (const int wait : {2, 9}) frames.cut(what, std::span(beats).first(end), wait, picture ? in_picture : in_tile);
+    frames.cut(what + " and the next frame", std::span(beats).first(end), static_cast<int>(i % 3), at_once, beats);
   }
   for (const auto& [at, opcode] : records) {
-    if (opcode == Opcode::EndTile)
-      frames.cut("soft reset behind end_tile", std::span(beats).first(at + 1), 4, in_picture);
+    if (opcode != Opcode::EndTile) continue;
+    frames.cut("soft reset behind end_tile", std::span(beats).first(at + 1), 4, in_picture);
+    frames.cut("soft reset behind end_tile and the next frame", std::span(beats).first(at + 1), 4, at_once, beats);
   }
   frames.good("a frame after all that", beats, soft);
+  check_mid_frame(config, make, frames, beats, check);
   return check.result;
 }
 
@@ -353,12 +182,13 @@ DirectedResult check_damage(const cmodel::Config& config, const MakeDevice& make
     if (end) damaged.resize(*end);
     const std::string what = "damaged stream " + std::to_string(i);
     if (const auto expected = refused_by_model(config, damaged)) {
-      frames.bad(what, damaged, *expected, refused);
+      check.result.refused[bin_of(expected->rule)] += frames.bad(what, damaged, *expected, refused) ? 1 : 0;
+      frames.write(cmodel::kRegIrq, cmodel::kIrqError);
       frames.device().soft_reset();
     } else if (end) {
       frames.good(what, damaged, legal);
     } else {  // it was cut: a soft reset ends it
-      frames.cut(what, damaged, 2, legal);
+      frames.cut(what, damaged, 2, legal, i % 2 == 0 ? Beats{} : beats);
     }
   }
   return check.result;

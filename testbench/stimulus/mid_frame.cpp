@@ -1,0 +1,148 @@
+#include "testbench/stimulus/mid_frame.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "cmodel/register_map.hpp"
+
+namespace fastsplat::testbench {
+namespace {
+
+using namespace cmodel;
+
+constexpr const char* kBins[] = {"register_writes_in_a_frame_are_refused",   "busy_while_a_beat_is_judged",
+                                 "error_beat_after_a_hard_reset_in_a_frame", "error_beat_after_a_soft_reset_in_a_frame",
+                                 "no_interrupt_before_the_last_pixels",      "no_interrupt_after_a_short_reset"};
+/// Reads after which a device that has nothing to do is at rest.
+constexpr int kReads = 24;
+/// More than a slow sink needs for a tile.
+constexpr std::uint64_t kMostReads = 1U << 20;
+
+/// Everything that answers SLVERR to a write: what is only read, and addresses that nothing has, most of them one bit
+/// beside one that is written.
+std::set<std::uint32_t> refused_addresses(const Config& config) {
+  constexpr std::uint32_t kEnd = 0x1000;
+  std::set<std::uint32_t> out;
+  const std::set<std::uint32_t> written{kRegControl.address, kRegIrq.address, kRegIrqMask.address};
+  for (const Register& reg : kRegisters) out.insert(reg.address);
+  for (const Capability& one : capabilities(config)) out.insert(one.reg.address);
+  for (const std::uint32_t address : written)
+    for (std::uint32_t bit = 1; bit < kEnd; bit <<= 1) out.insert(address ^ bit);
+  out.insert({kRegCounters.address + 4, kEnd - 4, kEnd - 1});
+  for (const std::uint32_t address : written) out.erase(address);
+  return out;
+}
+
+std::size_t behind_first(const Beats& beats, Opcode wanted) {
+  const auto records = records_of(beats);
+  return std::ranges::find(records, wanted, &testbench::Record::opcode)->at + 1;
+}
+
+/// In a tile, and between two words of a table, where a soft reset or cleared counters would show in what comes out.
+void refuse_writes(const Config& config, Frames& frames, const Beats& beats, Check& check) {
+  const auto bin = check.bin("refusal", kBins[0]);
+  for (const std::size_t at : {behind_first(beats, Opcode::LoadTable), behind_first(beats, Opcode::Splat)}) {
+    const std::string what = "writes behind beat " + std::to_string(at);
+    frames.good(what, beats, bin,
+                {at, [&] {
+                   const auto state = [&] {
+                     return std::array{frames.read(kRegStatus), frames.read(kRegIrq), frames.read(kRegIrqMask)};
+                   };
+                   for (int i = 0; i < kReads; ++i) frames.read(kRegStatus);  // the beat has gone its way
+                   const auto before = state();
+                   for (const std::uint32_t address : refused_addresses(config))
+                     check.equal(what + ", to " + std::to_string(address) + ": answers OKAY", 0,
+                                 frames.device().write_register(address, 0xffffffff).okay ? 1 : 0, bin);
+                   const auto after = state();
+                   check.equal(what + ": interrupts that they could clear", kIrqFrame | kIrqTile,
+                               before[1] & (kIrqFrame | kIrqTile), bin);
+                   for (std::size_t i = 0; i < before.size(); ++i)
+                     check.equal(what + ": STATUS, IRQ, IRQ_MASK after them", before[i], after[i], bin);
+                 }});
+  }
+}
+
+/// Read in the cycle after begin_frame was taken, when it lies in check, and in the one after.
+void be_busy_while_judging(Frames& frames, const Beats& beats, Check& check) {
+  const auto bin = check.bin("refusal", kBins[1]);
+  for (const int later : {0, 1}) {
+    frames.device().consume(std::span(beats).first(1));
+    if (later > 0) frames.device().takes_half_write(WriteHalf::Address, kRegControl.address, 0, later);
+    const std::string what = "STATUS behind begin_frame, " + std::to_string(later) + " cycles later";
+    check.equal(what, kStatusBusy, frames.read(kRegStatus), bin);
+    for (int i = 0; i < kReads; ++i) frames.read(kRegStatus);
+    check.equal(what + ", at rest", 0, frames.read(kRegStatus), bin);
+    frames.device().soft_reset();
+  }
+}
+
+/// A frame is given up in a tile; the next one's beats are numbered from 0.
+void count_anew(const Config& config, Frames& frames, const Beats& beats, Check& check) {
+  const auto hard = check.bin("refusal", kBins[2]), soft = check.bin("refusal", kBins[3]);
+  const auto part = std::span(beats).first(behind_first(beats, Opcode::Splat));
+  const auto all = violations(config, beats);
+  for (const StreamRule rule : {StreamRule::Format, StreamRule::EndCount}) {
+    Beats spoiled = beats;
+    std::ranges::find(all, rule, &Violation::rule)->commit(spoiled);
+    const auto expected = refused_by_model(config, spoiled);
+    if (!expected) continue;  // check_refusals() has said so
+    const std::string what = "rule " + std::to_string(static_cast<int>(rule)) + " in the frame after one given up";
+    frames.drop(part, 1);
+    frames.bad(what + " by a hard reset", spoiled, *expected, hard);
+    frames.write(kRegIrq, kIrqError);
+    frames.device().soft_reset();
+    frames.cut("a frame given up", part, 1, soft);
+    frames.bad(what + " by a soft reset", spoiled, *expected, soft);
+    frames.write(kRegIrq, kIrqError);
+    frames.device().soft_reset();
+  }
+}
+
+/// Of a stream of one tile, which a sink takes slowly: end_frame was carried out long before the last pixels leave.
+void wait_for_the_last_pixels(const Config& config, const MakeDevice& make, const Beats& beats, Check& check) {
+  const auto early = check.bin("refusal", kBins[4]), after_reset = check.bin("refusal", kBins[5]);
+  Frames frames(config, make, check, Pattern("every-97", 1));
+  Beats tile(beats.begin(), beats.begin() + static_cast<std::ptrdiff_t>(behind_first(beats, Opcode::EndTile)));
+  tile.push_back(beats.back());
+
+  std::uint32_t irq = 0;
+  std::uint64_t reads = 0;
+  const auto what = [&] {
+    for (; frames.tiles_left() == 0 && reads < kMostReads; ++reads) {
+      const std::uint32_t now = frames.read(kRegIrq);
+      if (frames.tiles_left() == 0) irq |= now;
+    }
+  };
+  frames.good("a frame whose pixels leave slowly", tile, early, {tile.size(), what});
+  check.equal("reads of IRQ while pixels leave slowly, more than a hundred", 1, reads > 100 ? 1 : 0, early);
+  check.equal("IRQ before the last pixels left", 0, irq, early);
+  check.equal("IRQ once they have left", kIrqFrame | kIrqTile, frames.read(kRegIrq), early);
+
+  // The same, forgotten while the picture goes out.
+  frames.drop(tile, 1);
+  frames.write(kRegIrqMask, kIrqFrame | kIrqTile | kIrqError);
+  irq = 0;
+  bool raised = false;
+  for (int i = 0; i < 4 * kReads; ++i) {
+    irq |= frames.read(kRegIrq);
+    raised = raised || frames.device().interrupt();
+  }
+  check.equal("tiles that left before or after the reset", 0, static_cast<std::uint64_t>(frames.tiles_left()),
+              after_reset);
+  check.equal("IRQ after a reset of one cycle", 0, irq, after_reset);
+  check.equal("interrupt after a reset of one cycle", 0, raised ? 1 : 0, after_reset);
+  frames.good("a frame after a reset of one cycle", tile, after_reset);
+}
+
+}  // namespace
+
+std::span<const char* const> mid_frame_bins() { return kBins; }
+
+void check_mid_frame(const Config& config, const MakeDevice& make, Frames& frames, const Beats& beats, Check& check) {
+  refuse_writes(config, frames, beats, check);
+  be_busy_while_judging(frames, beats, check);
+  count_anew(config, frames, beats, check);
+  wait_for_the_last_pixels(config, make, beats, check);
+}
+
+}  // namespace fastsplat::testbench

@@ -67,6 +67,19 @@ class List {
     change(rule, name + " one more", beat, field, right + 1);
     change(rule, name + " one less", beat, field, right - 1);
   }
+  /// One side 0, the other as it is, and small, large and largest: their product, sum or bits say nothing.
+  void without_a_side(StreamRule rule, const std::string& name, std::size_t beat, const cmodel::Field& width,
+                      const cmodel::Field& height) {
+    change(rule, name + " without width", beat, width, 0);
+    change(rule, name + " without height", beat, height, 0);
+    if (beat >= beats_.size()) return;
+    for (const std::uint64_t other : {0x1U, 0x8000U, 0xffffU}) {
+      add(rule, name + " of 0 x " + std::to_string(other),
+          [=](Beats& b) { set(b[beat], width, 0), set(b[beat], height, other); });
+      add(rule, name + " of " + std::to_string(other) + " x 0",
+          [=](Beats& b) { set(b[beat], width, other), set(b[beat], height, 0); });
+    }
+  }
   void word(StreamRule rule, const std::string& name, std::size_t beat, std::size_t which, std::uint32_t value) {
     if (beat < beats_.size()) add(rule, name, [=](Beats& b) { b[beat][which] = value; });
   }
@@ -135,8 +148,7 @@ class List {
     beside(StreamRule::Format, "version", 0, layout::kFrameVersion);
     beside(StreamRule::Configuration, "hash low", 0, layout::kFrameHashLow);
     beside(StreamRule::Configuration, "hash high", 0, layout::kFrameHashHigh);
-    change(StreamRule::Image, "image without width", 0, layout::kFrameWidth, 0);
-    change(StreamRule::Image, "image without height", 0, layout::kFrameHeight, 0);
+    without_a_side(StreamRule::Image, "image", 0, layout::kFrameWidth, layout::kFrameHeight);
   }
 
   void tables() {
@@ -151,6 +163,12 @@ class List {
     change(rule, "rho above the largest", rlut, layout::kTableRho,
            static_cast<std::uint64_t>(config_.rlut_columns) * static_cast<std::uint64_t>(config_.grid()) / 2 + 1);
     change(rule, "rho 2^31 + 1", rlut, layout::kTableRho, (1ULL << 31) + 1);
+    if (rlut < beats_.size())
+      add(rule, "rho 0 with no words",
+          [=](Beats& b) { set(b[rlut], layout::kTableRho, 0), set(b[rlut], layout::kTableWords, 0); });
+    // Bits above those that a column's number needs.
+    for (int bit = std::bit_width(static_cast<std::uint32_t>(config_.rlut_columns)); bit < 32; ++bit)
+      change(rule, "base 2^" + std::to_string(bit), rlut, layout::kTableBase, 1ULL << bit);
     change(rule, "base between lanes", rlut, layout::kTableBase, 1);
     change(rule, "base at the end", rlut, layout::kTableBase, static_cast<std::uint64_t>(config_.rlut_columns));
     change(rule, "base near 2^32", rlut, layout::kTableBase, (1ULL << 32) - static_cast<std::uint64_t>(config_.lanes));
@@ -222,8 +240,7 @@ class List {
     change(rule, "tile number beyond the count", tile, layout::kTileNumber,
            static_cast<std::uint64_t>(get(frame, layout::kFrameTiles)));
     change(rule, "tile number 2^32 - 1", tile, layout::kTileNumber, 0xffffffffU);
-    change(rule, "tile without width", tile, layout::kTileWidth, 0);
-    change(rule, "tile without height", tile, layout::kTileHeight, 0);
+    without_a_side(rule, "tile", tile, layout::kTileWidth, layout::kTileHeight);
     // An image that would hold it: the tile's own limit is what refuses.
     add(rule, "tile too wide", [=, w = config_.tile_width](Beats& b) {
       set(b[0], layout::kFrameWidth, 0xffff);
@@ -237,10 +254,22 @@ class List {
       change(rule, "tile x " + std::to_string(far), tile, layout::kTileX, far);
       change(rule, "tile y " + std::to_string(far), tile, layout::kTileY, far);
     }
+    smaller_image("narrower", layout::kFrameWidth, layout::kTileX, tile, static_cast<std::uint64_t>(width));
+    smaller_image("lower", layout::kFrameHeight, layout::kTileY, tile, static_cast<std::uint64_t>(height));
     change(rule, "tile right of the image", tile, layout::kTileX,
            static_cast<std::uint64_t>(get(frame, layout::kFrameWidth) - width + 1));
     change(rule, "tile below the image", tile, layout::kTileY,
            static_cast<std::uint64_t>(get(frame, layout::kFrameHeight) - height + 1));
+  }
+
+  /// An image that is smaller than the tile, which lies at its edge: what the image leaves is below 0.
+  void smaller_image(const std::string& how, const cmodel::Field& side, const cmodel::Field& begin, std::size_t tile,
+                     std::uint64_t most) {
+    for (const std::uint64_t size : {most / 2, most - 1}) {
+      if (size > 0)
+        add(StreamRule::Tile, "image " + how + " than the tile: " + std::to_string(size),
+            [=](Beats& b) { set(b[0], side, size), set(b[tile], begin, 0); });
+    }
   }
 
   void sheet() {
@@ -289,8 +318,7 @@ class List {
     }
     beside(StreamRule::Tag, "tag", later, layout::kSplatTag);
     beside(StreamRule::Tag, "first tag", splat, layout::kSplatTag);
-    change(StreamRule::Cull, "cull_block without width", cull, layout::kCullWidth, 0);
-    change(StreamRule::Cull, "cull_block without height", cull, layout::kCullHeight, 0);
+    without_a_side(StreamRule::Cull, "cull_block", cull, layout::kCullWidth, layout::kCullHeight);
   }
 
   void ends() {

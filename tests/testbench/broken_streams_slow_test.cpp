@@ -4,33 +4,17 @@
 #include <cstdio>
 
 #include "driver/config_file.hpp"
-#include "testbench/stimulus/directed.hpp"
+#include "tests/testbench/directed_helper.hpp"
 
 namespace fastsplat::testbench {
 namespace {
-
-MakeDevice rtl_of(const cmodel::Config& config) {
-  return [config](cmodel::PixelSink& pixels, const RtlOptions& options) {
-    return make_rtl_device(config, pixels, options);
-  };
-}
-
-int told(const DirectedResult& result) {
-  for (const auto& failure : result.failures) ADD_FAILURE() << failure;
-  int all = 0;
-  for (const auto& [rule, streams] : result.refused) {
-    std::printf("[figure] %s: %d streams refused at the model's beat by the model's rule\n", rule.c_str(), streams);
-    all += streams;
-  }
-  return all;
-}
 
 // tiny and small are in coverage_test.cpp; the tables of base are long.
 TEST(BrokenStreams, BaseRefusesWhatTheModelRefuses) {
   const auto config = driver::load_config("base");
   const auto result = check_refusals(config, rtl_of(config));
-  const int refused = told(result);
-  for (const auto& bin : result.coverage.bins()) EXPECT_GT(bin.hits, 0u) << bin.name;
+  expect_all(result);
+  const int refused = refused_streams(result);
   std::printf("[figure] base: streams that break a rule, refused as the model refuses them = %d (limit >= 200)\n",
               refused);
   EXPECT_GE(refused, 200);
@@ -45,7 +29,8 @@ class DamagedStreams : public ::testing::TestWithParam<Damaged> {};
 TEST_P(DamagedStreams, MeetTheModelsVerdict) {
   const auto config = driver::load_config(GetParam().config);
   const auto result = check_damage(config, rtl_of(config), 2, GetParam().streams);
-  const int refused = told(result);
+  expect_all(result);
+  const int refused = refused_streams(result);
   std::printf(
       "[figure] %s: damaged streams = %d, refused as the model refuses them = %d, comparisons = %llu (limit > 0)\n",
       GetParam().config, GetParam().streams, refused, static_cast<unsigned long long>(result.comparisons));

@@ -5,6 +5,7 @@ first. What lives goes on to the must-fail configuration, to three corners more,
 through all of it is in exclusions.toml with the reason why nobody can see it, or the campaign is red."""
 import argparse
 import collections
+import concurrent.futures
 import json
 import os
 import random
@@ -33,7 +34,7 @@ def parse(words):
     parser.add_argument("--all", action="store_true", help="all mutants; what they come to is kept in docs/evidence/mutants.json")
     parser.add_argument("--seed", type=int, default=1, metavar="S", help=f"which {SAMPLE}, without --all or --module (1)")
     parser.add_argument("--budget", type=float, metavar="MIN", help="begin no mutant after so many minutes; what was not tried is told")
-    parser.add_argument("--jobs", type=int, default=2, metavar="N", help="mutants at the same time (2)")
+    parser.add_argument("--jobs", type=int, default=2, metavar="N", help="mutants at the same time, and proofs of them (2)")
     parser.add_argument("--one", type=int, metavar="N", help="this mutant alone: what it is, and what every check says of it")
     return parser.parse_args(words)
 
@@ -111,17 +112,17 @@ def run_cpp(arguments, root, build, until):
     return mutants, killed, living, untried
 
 
-def hand_to_proofs(root, build, mutants, living, exclusions):
-    """What the proofs say of those that nobody has explained."""
-    killed = {}
-    for mutant in mutants:
-        if mutant["number"] not in living or exclusions.of(mutant) or not proofs.has(mutant["module"]):
-            continue
+def hand_to_proofs(root, build, mutants, living, exclusions, jobs):
+    """What the proofs say of those that nobody has explained, as many at the same time as mutants."""
+
+    def refuted(mutant):
         say(f"{mutant['number']} goes to the proof of {mutant['module']}")
-        said = proofs.refutes(root, build, mutant)
-        if said:
-            killed[mutant["number"]] = f"proof: {said}"
-    return killed
+        return proofs.refutes(root, build, mutant)
+
+    handed = [m for m in mutants if m["number"] in living and not exclusions.of(m) and proofs.has(m["module"])]
+    with concurrent.futures.ThreadPoolExecutor(max(1, jobs)) as pool:
+        said = pool.map(refuted, handed)
+        return {mutant["number"]: f"proof: {text}" for mutant, text in zip(handed, said) if text}
 
 
 def told(mutant):
@@ -210,7 +211,7 @@ def main(words) -> int:
     exclusions = Exclusions(f"{root}/tests/mutants/{'exclusions_cpp' if cpp else 'exclusions'}.toml")
     until = time.monotonic() + 60 * arguments.budget if arguments.budget else None
     mutants, killed, living, untried = (run_cpp if cpp else run_all)(arguments, root, build, until)
-    proved = hand_to_proofs(root, build, mutants, living, exclusions)
+    proved = hand_to_proofs(root, build, mutants, living, exclusions, arguments.jobs)
     killed.update(proved)
     living = [number for number in living if number not in proved]
     if arguments.one is not None:

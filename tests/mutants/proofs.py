@@ -1,4 +1,4 @@
-"""A mutant put to the proof of its module: rtl/ with that one mistake in it, nothing chosen at run time."""
+"""A mutant put to the proof of its module, and to no other: rtl/ with that one mistake in it, nothing chosen at run time."""
 import os
 import re
 import shutil
@@ -37,7 +37,7 @@ def refutes(root: str, build: str, mutant):
     script = _SCRIPTS[mutant["module"]]
     words = [f"{root}/tests/rtl/{script}", f"{build}/bin/fastsplat_emit_package", f"{tree}/source", f"{tree}/work"]
     words += [f"{build}/{word}" if "/" in word else word for word in _MORE.get(script, [])]
-    ran = subprocess.run(words, capture_output=True, text=True)
+    ran = subprocess.run(words, capture_output=True, text=True, env={**os.environ, "FASTSPLAT_PROVE_ONLY": mutant["module"]})
     said = re.search(r"^(\w+: not (?:proved|its definition).*)$", ran.stdout, re.M)
     # A planted fault of the proof's own may lie in the mutated line: the property itself was proved before.
     if not said and ran.returncode != 0 and "nothing to break" not in ran.stdout:

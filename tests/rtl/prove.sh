@@ -13,6 +13,7 @@ package STATE_BITS=3 TRANS_BITS=3 SHEET_BITS=2 TRANS_FRAC=2 PIXEL_BITS=2 ADDR_BI
 
 # smt NAME TOP FILES DEFINES...: writes NAME.smt2
 smt() {
+  if passed_over "$1"; then return; fi
   name=$1 top=$2 files=$3
   shift 3
   yosys -q -l "$work/$name.log" -p "read_verilog -sv -formal $* -I$source/rtl -I$source/tests/rtl $work/fastsplat_pkg.sv $faults $files; hierarchy -check -top $top; proc; flatten; delete -output o:*; memory_map; opt -full -purge; async2sync; dffunmap; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2" >/dev/null 2>&1 ||
@@ -21,7 +22,7 @@ smt() {
 bank="$source/rtl/sheet_bank.sv $source/rtl/ram_1r1w.sv"
 
 smt sheet_bank sheet_bank "$bank" -DFASTSPLAT_PROOF
-grep -q 'yosys-smt2-assert' "$work/sheet_bank.smt2" || { echo "sheet_bank: nothing to prove"; exit 1; }
+passed_over sheet_bank || grep -q 'yosys-smt2-assert' "$work/sheet_bank.smt2" || { echo "sheet_bank: nothing to prove"; exit 1; }
 holds sheet_bank 6 "sheet_bank: forwarding gives every sum, if a memory has one owner at a time"
 happens sheet_bank 20
 

@@ -32,7 +32,7 @@ void say(fmt::format_string<Args...> text, Args&&... args) {
 
 /// Who the device is, before anything is sent to it.
 void meet(Host& host, const Config& config) {
-  const std::uint32_t tile = host.read(0x40), lanes = host.read(0x44);
+  const std::uint32_t tile = host.read(kRegCapTile.address), lanes = host.read(kRegCapLanes.address);
   const std::uint64_t hash = host.read(kRegHashLow.address) | std::uint64_t{host.read(kRegHashHigh.address)} << 32;
   say("device: magic {:08x}, stream version {}, configuration {}", host.read(kRegMagic.address),
       host.read(kRegVersion.address), hash_text(hash));

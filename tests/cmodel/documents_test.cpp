@@ -241,18 +241,86 @@ TEST(MicroarchitecturePage, NumbersEveryCounterAsThePackageDoes) {
   EXPECT_GT(named.size(), 16u);
 }
 
-TEST(MicroarchitecturePage, NamesEveryRegisterAtItsAddress) {
-  std::string page;
-  for (const std::string& line : lines_of("microarchitecture.md")) page += line + '\n';
-  for (const auto& reg : cmodel::kRegisters) {
-    char address[8];
-    std::snprintf(address, sizeof address, "0x%02X", static_cast<unsigned>(reg.address));
-    const auto at = page.find(address);
-    ASSERT_NE(at, std::string::npos) << reg.name << " at " << address;
-    const std::string line = page.substr(at, page.find('\n', at) - at);
-    const bool counters = std::string(reg.name) == "COUNTERS";
-    EXPECT_NE(line.find(counters ? "8n" : reg.name), std::string::npos) << address << ": " << line;
+/// Rows "| 0x14 | CONTROL | ... |" of the page's table of registers.
+std::vector<std::vector<std::string>> register_rows() {
+  std::vector<std::vector<std::string>> rows;
+  for (const std::string& line : lines_of("microarchitecture.md"))
+    if (line.rfind("| 0x", 0) == 0) rows.push_back(cells(line));
+  return rows;
+}
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts;
+  std::stringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');) parts.push_back(trimmed(part));
+  return parts;
+}
+
+TEST(MicroarchitecturePage, NamesEveryRegisterAtItsAddressAndNoOther) {
+  std::map<std::string, std::uint32_t> page, code;
+  std::vector<std::uint32_t> counters;  // of the row of low words, of that of high ones
+  for (const auto& row : register_rows()) {
+    const auto addresses = split(row[0]);
+    if (addresses[0].ends_with(" + 8n")) {
+      counters.push_back(static_cast<std::uint32_t>(std::stoul(addresses[0], nullptr, 16)));
+      continue;
+    }
+    const auto names = split(row[1]);
+    ASSERT_EQ(addresses.size(), names.size()) << row[0];
+    for (std::size_t i = 0; i < names.size(); ++i)
+      page[names[i]] = static_cast<std::uint32_t>(std::stoul(addresses[i], nullptr, 16));
   }
+  for (const auto& reg : cmodel::kRegisters)
+    if (reg.address != cmodel::kRegCounters.address) code[reg.name] = reg.address;
+  for (const auto& one : cmodel::capabilities(named_config("base"))) code[one.reg.name] = one.reg.address;
+  EXPECT_EQ(page, code);
+  EXPECT_EQ(counters, (std::vector{cmodel::kRegCounters.address, cmodel::kRegCounters.address + 4}));
+  std::printf("[figure] registers held against the code, the counters being one = %zu (limit 19)\n", page.size() + 1);
+  EXPECT_EQ(page.size() + 1, 19u);
+}
+
+/// The value that a word of the page stands for: a symbol of numerics.md, section 2, or a key without one by its end.
+int value_of(const cmodel::Config& config, const std::string& symbol) {
+  for (const auto& row : key_rows()) {
+    const std::string end = row[0].substr(row[0].find('.') + 1);
+    if (row[1].substr(0, row[1].find(' ')) != symbol && !(row[1] == "-" && end == symbol)) continue;
+    for (const auto& key : cmodel::config_keys())
+      if (key.name == row[0]) return std::stoi(cmodel::text_of(config, key));
+  }
+  ADD_FAILURE() << "numerics.md knows no " << symbol;
+  return 0;
+}
+
+TEST(MicroarchitecturePage, CapabilitiesArePackedAsTheirRowsSay) {
+  static const std::regex field(R"((?:.* )?(\w+) in (?:bits )?(\d+)\.\.(\d+))");
+  const auto rows = register_rows();
+  std::vector<cmodel::Config> configs;
+  for (const std::string& name : config_names()) configs.push_back(named_config(name));
+  Random random(1);
+  for (int i = 0; i < 20; ++i) configs.push_back(random_config(random));  // the others' tiles are as wide as high
+  int fields = 0, words = 0;
+  for (const cmodel::Config& config : configs) {
+    for (const auto& [reg, word] : cmodel::capabilities(config)) {
+      const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& one) { return one[1] == reg.name; });
+      ASSERT_NE(row, rows.end()) << reg.name;
+      std::uint32_t expected = 0;
+      for (const std::string& part : split((*row)[2])) {
+        std::smatch match;
+        ASSERT_TRUE(std::regex_match(part, match, field)) << reg.name << ": " << part;
+        const int high = std::stoi(match[2]), low = std::stoi(match[3]);
+        const auto value = static_cast<std::uint64_t>(value_of(config, match[1]));
+        const std::uint64_t field_values = std::uint64_t{1} << (high - low + 1);
+        EXPECT_LE(value, field_values) << reg.name << ", " << part;  // as many as there are: told as 0
+        expected |= static_cast<std::uint32_t>(value % field_values) << low;
+        ++fields;
+      }
+      EXPECT_EQ(word, expected) << reg.name << " of " << config.name;
+      ++words;
+    }
+  }
+  std::printf("[figure] capability words of all configurations = %d (limit > 0), their fields = %d\n", words, fields);
+  EXPECT_GT(words, 0);
+  EXPECT_EQ(fields * 8, words * 20);
 }
 
 /// Who has only the page can connect the device: every port of the top module is there.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "cmodel/records.hpp"
 #include "cmodel/register_map.hpp"
 
 namespace fastsplat::testbench {
@@ -98,13 +99,31 @@ void count_anew(const Config& config, Frames& frames, const Beats& beats, Check&
   }
 }
 
+/// The first tile as a frame of its own, and as large as a tile can be.
+Beats large_tile(const Config& config, const Beats& beats) {
+  Beats out(beats.begin(), beats.begin() + static_cast<std::ptrdiff_t>(behind_first(beats, Opcode::EndTile)));
+  out.push_back(beats.back());
+  auto frame = std::get<BeginFrame>(from_beat(out[0]));
+  frame.width = config.tile_width;
+  frame.height = config.tile_height;
+  auto& tile_beat = out[behind_first(beats, Opcode::BeginTile) - 1];
+  auto tile = std::get<BeginTile>(from_beat(tile_beat));
+  tile.x = tile.y = 0;
+  tile.width = config.tile_width;
+  tile.height = config.tile_height;
+  Beats changed;
+  append(changed, frame);
+  append(changed, tile);
+  out[0] = changed[0];
+  tile_beat = changed[1];
+  return out;
+}
+
 /// Of a stream of one tile, which a sink takes slowly: end_frame was carried out long before the last pixels leave.
 void wait_for_the_last_pixels(const Config& config, const MakeDevice& make, const Beats& beats, Check& check) {
   const auto early = check.bin("refusal", kBins[4]), after_reset = check.bin("refusal", kBins[5]);
   Frames frames(config, make, check, Pattern("every-97", 1));
-  Beats tile(beats.begin(), beats.begin() + static_cast<std::ptrdiff_t>(behind_first(beats, Opcode::EndTile)));
-  tile.push_back(beats.back());
-
+  const Beats tile = large_tile(config, beats);
   std::uint32_t irq = 0;
   std::uint64_t reads = 0;
   const auto what = [&] {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/errors/cost.hpp"
+#include "analysis/errors/synthesised.hpp"
 #include "analysis/family/family_cost.hpp"
 #include "base/hash_text.hpp"
 
@@ -22,6 +23,7 @@ nlohmann::ordered_json priced_config_json(const cmodel::Config& config) {
   // What is counted is the device of rtl/.
   const bool counted = config.index() == cmodel::IndexKind::Rlut;
   json["cost"] = counted ? analysis::to_json(analysis::cost(config)) : nlohmann::ordered_json(nullptr);
+  json["synthesis"] = analysis::synthesised(config);
   json["index_cost"] = {{"radius", kPricedRadius},
                         {"table_bits", analysis::storage_bits(config, kPricedRadius)},
                         {"cycles_per_splat", analysis::cycles_per_splat(config, kPricedRadius)}};
@@ -39,7 +41,7 @@ nlohmann::ordered_json config_json(const cmodel::Config& config) {
                               {"verified", config.verified},
                               {"hash", hash_text(cmodel::config_hash(config))}};
   const auto priced = priced_config_json(config);
-  for (const char* name : {"cost", "index_cost"}) json[name] = priced.at(name);
+  for (const char* name : {"cost", "synthesis", "index_cost"}) json[name] = priced.at(name);
   for (const auto& key : cmodel::config_keys()) {
     const std::string name = key.name;
     const auto dot = name.find('.');

@@ -15,10 +15,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::optional<Json> read(const std::filesystem::path& path) {
+std::optional<std::string> text(const std::filesystem::path& path) {
   std::ifstream in(path);
   if (!in) return std::nullopt;
-  return Json::parse(in);
+  return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+std::optional<Json> read(const std::filesystem::path& path) {
+  const auto found = text(path);
+  if (!found) return std::nullopt;
+  return Json::parse(*found);
 }
 
 std::string missing(const char* what, const char* command) {
@@ -26,8 +32,7 @@ std::string missing(const char* what, const char* command) {
 }
 
 std::string preface() {
-  std::ifstream in(std::filesystem::path(FASTSPLAT_SOURCE_DIR) / "bench/evidence/preface.md");
-  return {std::istreambuf_iterator<char>(in), {}};
+  return text(std::filesystem::path(FASTSPLAT_SOURCE_DIR) / "bench/evidence/preface.md").value_or("");
 }
 
 /// A row for each test, its figures in words.
@@ -175,6 +180,9 @@ std::string page(const std::filesystem::path& folder) {
   out += "## Synthesis\n\n";
   const auto designs = read(folder / "synthesis.json");
   out += designs ? synthesis(*designs) : missing("synthesis", "./run synth");
+  out += "## Error, cycles, area\n\n";
+  const auto area = text(folder / "area.md");
+  out += area ? *area : missing("the plan error-cycles-area", "./run evidence");
   while (out.ends_with("\n\n")) out.pop_back();
   return out;
 }

@@ -172,6 +172,8 @@ Json read_synthesis(const std::filesystem::path& work, const std::string& family
     const auto space = line.find(' ');
     if (line.starts_with("seconds ")) {
       seconds = std::stod(line.substr(space));
+    } else if (line.starts_with("configuration ")) {
+      json["configuration"] = line.substr(space + 1);
     } else {
       json["tools"][line.substr(0, space)] = line.substr(space + 1);
     }

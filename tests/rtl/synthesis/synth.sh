@@ -3,9 +3,9 @@
 # fastsplat_evidence reads:
 #   FAMILY-CONFIG.stat    cells by module (`stat`), hierarchy kept
 #   FAMILY-CONFIG.levels  longest path of each module between registers, memories and its submodules (`ltp`)
-#   FAMILY-CONFIG.tools   versions, one a line, and the processor seconds of synthesis
+#   FAMILY-CONFIG.tools   versions, one a line, the configuration's hash, and the processor seconds of synthesis
 #   FAMILY-CONFIG.place   placed (FAMILY hx8k only): nextpnr's report and its log
-# FAMILY: ice40, xc7, ecp5; hx8k: tiny_hx8k.toml in ice40_wrap, flattened and placed.
+# FAMILY: ice40, xc7, ecp5; hx8k: tiny_hx8k.toml in ice40_wrap, flattened, mapped by delay (abc9) and placed.
 set -eu
 family=$1 config=$2 emit=$3 source=$4 work=$5
 mkdir -p "$work"
@@ -20,7 +20,7 @@ case $family in
   hx8k)
     command -v nextpnr-ice40 >/dev/null || { echo "skipped: nextpnr-ice40 is not installed (optional package nextpnr-ice40)"; exit 77; }
     top=ice40_wrap files="$here/ice40_wrap.sv" place=1
-    pass="synth_ice40 -top $top -json $base.json" ;;
+    pass="synth_ice40 -abc9 -device hx -top $top -json $base.json" ;;
   *) echo "synth.sh: no family $family" >&2; exit 2 ;;
 esac
 
@@ -39,12 +39,15 @@ yosys -q -l "$base.log" -p "read_verilog -sv -I$source/rtl $base.pkg.sv $source/
   { tail -5 "$base.log"; echo "$family $config: Yosys fails"; exit 1; }
 {
   sed -n 's/^\(Yosys [^ ]*\) .*/yosys \1/p' "$base.log" | tail -1
+  # The configuration's hash, where the device is one as it is.
+  hex() { sed -n "s/.* HASH_$1 = 32'h\([0-9a-f]*\);.*/\1/p" "$base.pkg.sv"; }
+  [ -n "$place" ] || echo "configuration $(hex HIGH)$(hex LOW)"
   sed -n 's/.*CPU: user \([0-9.]*\)s.*/seconds \1/p' "$base.log" | tail -1
 } >"$base.tools"
 
 if [ -n "$place" ]; then
   # Router and placer are seeded: the same netlist gives the same placement.
-  nextpnr-ice40 --hx8k --package ct256 --json "$base.json" --seed 1 --freq 50 --pcf-allow-unconstrained --timing-allow-fail --detailed-timing-report \
+  nextpnr-ice40 --hx8k --package ct256 --json "$base.json" --seed 1 --freq 80 --pcf-allow-unconstrained --timing-allow-fail --detailed-timing-report \
     --report "$base.report" --log "$base.place" -q >/dev/null 2>&1 ||
     { tail -5 "$base.place"; echo "$family $config: nextpnr fails"; exit 1; }
   nextpnr-ice40 --version 2>&1 | sed -n 's/.*Version \([^)]*\)).*/nextpnr nextpnr-ice40 \1/p' >>"$base.tools"

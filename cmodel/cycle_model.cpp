@@ -52,16 +52,22 @@ void CycleModel::empty(std::uint64_t from, std::uint64_t to) {
   stalls_.busy += last - first;
 }
 
+std::uint64_t CycleModel::judged(std::uint64_t taken) const {
+  return std::max(taken + stages::kWeigh, judge_free_) + stages::kJudge;
+}
+
 std::uint64_t CycleModel::enter() {
   const std::uint64_t offered = options_.input == nullptr ? next_offer_ : options_.input->next(next_offer_);
   const std::uint64_t taken = std::max(offered, check_free_);
-  const std::uint64_t checked = std::max(taken + stages::kCheck, ready_);
+  const std::uint64_t weighed = judged(taken) - stages::kJudge;
+  const std::uint64_t checked = std::max(weighed + stages::kJudge, ready_);
   beat_.wanted = std::max(next_offer_, check_free_);
   beat_.offered = offered;
   beat_.taken = taken;
   beat_.entered = checked + 1;
   next_offer_ = taken + 1;
-  check_free_ = checked;
+  check_free_ = weighed;
+  judge_free_ = checked;
   empty(register_free_, checked + 1);
   return checked + 1;
 }

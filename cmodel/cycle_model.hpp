@@ -76,6 +76,9 @@ class CycleModel final : public Device {
   void finish() override;
   /// tiles, sheets, splats, windows, cull_blocks and dirty_blocks; the others need pixels and stay 0.
   const Counters& counters() const override { return counters_; }
+  /// The cycle in which the verdict falls on a beat that is taken in this one, after those consumed. One that breaks a
+  /// rule is consumed by nobody.
+  std::uint64_t judged(std::uint64_t taken) const;
 
   // After finish():
   /// Sums to stalls().busy.
@@ -119,7 +122,8 @@ class CycleModel final : public Device {
 
   std::uint64_t payload_words_ = 0;  ///< of the open table
   std::uint64_t next_offer_ = 0;     ///< earliest cycle in which the next beat can be offered
-  std::uint64_t check_free_ = 0;     ///< earliest cycle in which the check takes the next beat
+  std::uint64_t check_free_ = 0;     ///< earliest cycle in which check's first stage takes the next beat
+  std::uint64_t judge_free_ = 0;     ///< earliest cycle in which its second stage takes it from there
   std::uint64_t ready_ = 0;          ///< earliest cycle in which decode takes the next beat from it
   std::uint64_t register_free_ = 0;  ///< first cycle after the last beat left
   std::uint64_t end_ = 0;

@@ -5,7 +5,9 @@
 
 namespace fastsplat::cmodel::stages {
 
-inline constexpr std::uint64_t kCheck = 1;  ///< from the cycle in which a beat is taken to that in which it was judged
+// The two stages of check: from the cycle in which each takes a beat to the earliest in which it passes it on.
+inline constexpr std::uint64_t kWeigh = 1;
+inline constexpr std::uint64_t kJudge = 1;
 
 // From the cycle in which decode issues a window.
 inline constexpr std::uint64_t kSnap = 2;       ///< c1: the snapped origin

@@ -160,11 +160,14 @@ std::string sv_package(const Config& config) {
   p.vector("STREAM_VERSION", 16, kStreamVersion);
   for (const auto& record : record_layouts())
     p.vector("OP_" + upper(record.name), 8, static_cast<std::uint64_t>(record.opcode));
+  p.vector("TABLE_RLUT", 8, static_cast<std::uint64_t>(Table::Rlut));
+  p.vector("TABLE_RADIAL", 8, static_cast<std::uint64_t>(Table::Radial));
+  p.vector("TABLE_FACTOR", 8, static_cast<std::uint64_t>(Table::Factor));
 
   p.section("what a beat may hold: bits with a name, w5 to w0; rules in the order in which a record is judged");
   for (const auto& record : record_layouts()) p.beat("USED_" + upper(record.name), used_bits(record));
-#define X(name, number, register_name, meaning) \
-  if (StreamRule::name != StreamRule::Whole) p.vector("RULE_" #register_name, 8, number);
+#define X(name, value, register_name, meaning) \
+  if (StreamRule::name != StreamRule::Whole) p.number("RULE_" #register_name, value);
   FASTSPLAT_STREAM_RULES(X)
 #undef X
   p.number("RHO_MOST", std::int64_t{config.rlut_columns} * config.grid() / 2);

@@ -94,13 +94,15 @@ module compositor (
   // ---- pipe control
   logic [6:1] valid_q;
   logic [AB-1:0] addr_q[1:6];
+  logic still_q;  // valid_q is 0: what waits for rest waits for no comparison
   always_ff @(posedge clk_i) begin
     valid_q <= {valid_q[5:1], issue};
+    still_q <= !rst_ni || {valid_q[5:1], issue} == '0;
     if (!rst_ni) valid_q <= '0;
     addr_q[1] <= pick;
     for (int s = 2; s <= 6; s++) addr_q[s] <= addr_q[s-1];
   end
-  assign idle_o = walk_idle && valid_q == '0;
+  assign idle_o = walk_idle && still_q;
 
   // ---- factor table: word j closes segment j-1
   logic [FB-1:0] previous_q;
@@ -207,6 +209,7 @@ module compositor (
   assign tap_valid_o = valid_q[6];
   assign tap_block_o = addr_q[6];
 
+  `FASTSPLAT_ASSERT(rest_foretold, still_q == (valid_q == '0))
   `FASTSPLAT_ASSERT(picture_sent_when_still, !picture_re_i || idle_o)
   `FASTSPLAT_ASSERT(picture_has_one_writer, $onehot0({wipe_i, sent_q, valid_q[6]}))
 endmodule

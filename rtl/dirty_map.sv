@@ -56,13 +56,13 @@ module dirty_map (
   logic buffer_q;  // walked, or next to be
   logic [1:0] marked_q, full_q;
   logic f1_valid_q, f2_valid_q;
-  logic [BX-1:0] f2_row_q, f3_row_q, lowest, others;
+  logic [BX-1:0] f2_row_q, f3_row_q, f3_rest_q, f2_rest, rest;  // rest: a row without its lowest block
   logic start, advance, go, one_left_q, finish;
   logic [2:0] finish_q;
   assign start = state_q == StIdle && marked_q[buffer_q];
   assign go = state_q == StWalk && full_q[buffer_q];
-  assign lowest = f3_row_q & (~f3_row_q + BX'(1));
-  assign others = f3_row_q & ~lowest;
+  assign f2_rest = f2_row_q & (f2_row_q - BX'(1));
+  assign rest = f3_rest_q & (f3_rest_q - BX'(1));
   // Rows follow one another without a gap: where f2 is empty there are no more.
   assign finish = go && one_left_q && !f2_valid_q;
   assign advance = start || state_q == StRow || state_q == StBlocks || (go && one_left_q);
@@ -70,6 +70,8 @@ module dirty_map (
   // ---- the maps, of buffer 0 and 1: which rows hold dirt, and which blocks of a row. What is fetched is forgotten.
   logic [BY-1:0] rows_q[0:1], f1_row, f1_row_q;
   logic [BX-1:0] dirty[0:2*BY-1], f2_row;
+  logic [BY-1:0] fetched_q;  // the row that went to f2: cleared a cycle later, for all of it waits for this
+  logic fetched_buffer_q;
   assign f1_row = rows_q[buffer_q] & (~rows_q[buffer_q] + BY'(1));
   for (genvar m = 0; m < 2; m++) begin : gen_buffer
     always_ff @(posedge clk_i) begin
@@ -80,7 +82,7 @@ module dirty_map (
       logic [BX-1:0] row_q;
       always_ff @(posedge clk_i) begin
         if (mark_y[r] && mark_buffer_i == 1'(m)) row_q <= row_q | mark_x;
-        if (!rst_ni || (f1_valid_q && f1_row_q[r] && advance && buffer_q == 1'(m))) row_q <= '0;
+        if (!rst_ni || (fetched_q[r] && fetched_buffer_q == 1'(m))) row_q <= '0;
       end
       assign dirty[m*BY+r] = row_q;
     end
@@ -98,10 +100,12 @@ module dirty_map (
         f2_number = f2_number | YB'(r);
       end
     end
-    for (int b = 0; b < BX; b++) if (lowest[b]) column = column | XB'(b);
+    for (int b = 0; b < BX; b++) if (f3_row_q[b] && !f3_rest_q[b]) column = column | XB'(b);
   end
 
   always_ff @(posedge clk_i) begin
+    fetched_q <= advance ? f1_row_q : '0;
+    fetched_buffer_q <= buffer_q;
     if (advance) begin
       f1_row_q <= f1_row;
       f1_valid_q <= f1_row != '0;
@@ -113,10 +117,12 @@ module dirty_map (
     // One block left in the row, or none: known a cycle ahead, for all of the fetch waits for it.
     if (advance) begin
       f3_row_q <= f2_row_q;
-      one_left_q <= (f2_row_q & (f2_row_q - BX'(1))) == '0;
+      f3_rest_q <= f2_rest;
+      one_left_q <= f2_rest == '0;
     end else if (go) begin
-      f3_row_q <= others;
-      one_left_q <= (others & (others - BX'(1))) == '0;
+      f3_row_q <= f3_rest_q;
+      f3_rest_q <= rest;
+      one_left_q <= rest == '0;
     end
 
     case (state_q)
@@ -134,6 +140,7 @@ module dirty_map (
     if (marked_i) marked_q[marked_buffer_i] <= 1'b1;
     if (done_i) full_q[done_buffer_i] <= 1'b1;
     finish_q <= {finish_q[1:0], finish};
+    idle_o <= full_q == '0 && !done_i && !finish && finish_q[1:0] == '0;
     valid_o <= go && f3_row_q != '0;
     buffer_o <= buffer_q;
     block_o <= (AB'(f3_number_q) << BXL) | AB'(column);
@@ -144,24 +151,26 @@ module dirty_map (
       full_q <= '0;
       f1_row_q <= '0;
       f1_valid_q <= 1'b0;
+      fetched_q <= '0;
       f2_row_q <= '0;
       f2_valid_q <= 1'b0;
       f3_row_q <= '0;
       finish_q <= '0;
+      idle_o <= 1'b1;
       valid_o <= 1'b0;
     end
   end
   assign finish_o = finish_q[0];
-  assign idle_o = full_q == '0 && finish_q == '0;
 
   logic [BY-1:0] left;  // rows that hold dirt of the buffer whose walk ends
   for (genvar r = 0; r < BY; r++) begin : gen_left
     assign left[r] = (buffer_q ? dirty[BY+r] : dirty[r]) != '0;
   end
   `FASTSPLAT_ASSERT(walk_leaves_no_dirt, !finish || (left == '0 && rows_q[buffer_q] == '0))
-  `FASTSPLAT_ASSERT(last_of_row_foretold, !go || one_left_q == (f3_row_q == lowest))
+  `FASTSPLAT_ASSERT(last_of_row_foretold, !go || (f3_rest_q == (f3_row_q & (f3_row_q - BX'(1))) && one_left_q == (f3_rest_q == '0)))
   `FASTSPLAT_ASSERT(rows_without_gap, !(state_q == StWalk && f3_row_q == '0) || (!f1_valid_q && !f2_valid_q))
   `FASTSPLAT_ASSERT(walk_owns_its_sheet, !valid_o || finish_o || full_q[buffer_o])
+  `FASTSPLAT_ASSERT(rest_foretold, idle_o == (full_q == '0 && finish_q == '0))
   `FASTSPLAT_ASSERT(handed_over_once, !done_i || !full_q[done_buffer_i])
   `FASTSPLAT_ASSERT(marked_before_done, !done_i || marked_q[done_buffer_i] || (marked_i && marked_buffer_i == done_buffer_i))
   `FASTSPLAT_ASSERT(no_mark_behind_the_walk, !(mark_i && marked_q[mark_buffer_i]))

@@ -48,7 +48,6 @@ module pixel_out (
   assign last = x_q + SIDE'(P) >= width_i && y_q + SIDE'(1) >= height_i;
   assign picture_re_o = running_q && enable;
   assign picture_addr_o = address;
-  assign idle_o = !running_q && !valid_r1_q && !valid_r2_q;
 
   always_ff @(posedge clk_i) begin
     if (start_i) begin
@@ -75,7 +74,9 @@ module pixel_out (
       last_r2_q <= last_r1_q;
     end
     if (`FASTSPLAT_FAULT(VALID_DROPPED) && valid_r2_q && !ready_i && x_q[LB]) valid_r2_q <= 1'b0;
+    idle_o <= !start_i && !running_q && !valid_r1_q && (!valid_r2_q || ready_i);
     if (!rst_ni) begin
+      idle_o <= 1'b1;
       running_q <= 1'b0;
       valid_r1_q <= 1'b0;
       valid_r2_q <= 1'b0;
@@ -108,6 +109,7 @@ module pixel_out (
   assign last_o = last_r2_q;
   `FASTSPLAT_ASSERT_NEXT(pixel_valid_held, valid_o && !ready_i, valid_o)
   `FASTSPLAT_ASSERT_HELD(pixel_payload_held, valid_o && !ready_i, 1'b1, {data_o, keep_o, last_o, aborted_o})
+  `FASTSPLAT_ASSERT(pixel_rest_foretold, idle_o == (!running_q && !valid_r1_q && !valid_r2_q))
   `FASTSPLAT_ASSUME(pixel_start_when_idle, !start_i || idle_o)
   `FASTSPLAT_COVER(pixel_back_pressure, valid_o && !ready_i)
 endmodule

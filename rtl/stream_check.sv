@@ -1,5 +1,6 @@
 // Unit "check": judges each beat before decode sees it, by every rule of docs/stream.md that a device can judge
-// (cmodel/stream_decode.hpp, StreamScope::Subset; cmodel/stream_rules.hpp). One beat register in front of decode's.
+// (cmodel/stream_decode.hpp, StreamScope::Subset; cmodel/stream_rules.hpp). Two beat registers in front of decode's: long comparisons in
+// the first stage, the beat's place in the grammar in the second.
 // A beat that breaks a rule is not passed on, nor is any after it: rule, opcode and number of the beat stay in registers, and
 // a tile that is open is ended by an end_sheet and an end_tile of the device's own, so that its picture goes out, marked, and
 // all memories are left as a tile leaves them. A soft reset does the same, and then waits for a begin_frame.
@@ -31,187 +32,178 @@ module stream_check (
     output logic [31:0]  error_beat_o
 );
   localparam int COL = fastsplat_pkg::COL_BITS;
-  localparam int CB = fastsplat_pkg::COLOUR_BITS;
-  localparam int PB = fastsplat_pkg::POS_BITS;
+  localparam int FB = fastsplat_pkg::FACTOR_BITS;
   localparam int WB = fastsplat_pkg::WORDS_BITS;
-  localparam int RHO2 = fastsplat_pkg::RHO_BITS + 2;
-  localparam int P = fastsplat_pkg::LANES;
-  localparam logic [7:0] TABLE_RLUT = 8'd0, TABLE_RADIAL = 8'd1, TABLE_FACTOR = 8'd2;
-
-  logic beat_valid_q;
-  logic [191:0] beat_q;
-  logic [31:0] w0, w1, w2, w3, w4, w5;
-  assign {w5, w4, w3, w2, w1, w0} = beat_q;
-  logic [7:0] opcode;
-  assign opcode = w0[7:0];
+  localparam int RULES = fastsplat_pkg::RULE_END_COUNT;
+  // Comparisons of order, not of equality, with words that are no constants.
+  localparam logic [RULES:0] LATE = (RULES + 1)'(1) << fastsplat_pkg::RULE_TILE | (RULES + 1)'(1) << fastsplat_pkg::RULE_SHEET;
 
   // Where in the grammar the beat stands.
   typedef enum logic [2:0] {PlStart, PlTables, PlWords, PlTile, PlSheet} place_e;
-  place_e place_q;
-  logic tile_seen_q;  // tables come before the first tile
-  logic [31:0] beats_q;  // before this one, since begin_frame
-  // of begin_frame
+
+  // ---- first stage: what is known of a beat before its place is. Numbers and counts are of the records before it, words of tables
+  // taken for records too: those lie outside of tiles, and begin_tile and begin_sheet begin anew.
+  logic next_valid_q, next_moves;
+  logic [191:0] next_q;
+  logic [31:0] n1;
+  logic [7:0] next_opcode;
+  assign next_opcode = next_q[7:0];
+  assign n1 = next_q[63:32];
+  logic [31:0] tile_q, sheets_q, sheet_q, splats_q, tag_q;
+  logic [FB-1:0] word_before_q;
+  // of begin_frame and load_table, which are never the beat before one that asks for them
   logic [15:0] image_width_q, image_height_q;
   logic [31:0] tiles_q;
-  // of the tile, of the sheet
-  logic [31:0] tile_q, sheets_q, sheet_q, splats_q, tag_q;
-  // tables
   logic [fastsplat_pkg::RLUT_SETS-1:0] sets_loaded_q;
-  logic radial_loaded_q, factor_loaded_q;
-  logic [7:0] table_q;
-  logic [WB-1:0] words_left_q;
-  logic [31:0] words_most_q;
-  logic [fastsplat_pkg::FACTOR_BITS-1:0] factor_q;  // the word before
 
-  // ---- load_table: the set's extent, padded to whole windows
-  logic [RHO2-1:0] pixels;
-  logic [COL-1:0] extent;
-  assign pixels = (RHO2'({w2[fastsplat_pkg::RHO_BITS-1:0], 1'b0}) + RHO2'(fastsplat_pkg::PHASES - 1)) >> fastsplat_pkg::PHASE_LOG2;
-  assign extent = COL'((pixels + RHO2'(P - 1)) >> fastsplat_pkg::LANE_LOG2) << fastsplat_pkg::LANE_LOG2;
-  logic table_good, base_good;
-  assign base_good = w4[31:COL] == '0 && w4[fastsplat_pkg::LANE_LOG2-1:0] == '0 &&
-                     (COL + 1)'(w4[COL-1:0]) + (COL + 1)'(extent) <= (COL + 1)'(fastsplat_pkg::RLUT_COLUMNS);
+  logic [RULES:0] next_broken;
+  logic [COL-1:0] next_extent;
+  record_rules u_record (
+      .beat_i(next_q),
+      .image_width_i(image_width_q),
+      .image_height_i(image_height_q),
+      .tiles_i(tiles_q),
+      .sets_loaded_i(sets_loaded_q),
+      .tile_i(tile_q),
+      .sheet_i(sheet_q),
+      .sheets_i(sheets_q),
+      .splats_i(splats_q),
+      .tag_i(tag_q),
+      .broken_o(next_broken),
+      .extent_o(next_extent)
+  );
+  logic [5:0] next_zero, next_rlut, next_radial, next_factor, next_falls;
+  word_rules u_words (
+      .beat_i(next_q),
+      .before_i(word_before_q),
+      .zero_o(next_zero),
+      .rlut_o(next_rlut),
+      .radial_o(next_radial),
+      .factor_o(next_factor),
+      .falls_o(next_falls)
+  );
+  place_e next_place;  // the one in which the record may come
   always_comb begin
-    case (w0[15:8])
-      TABLE_RLUT:
-      table_good = w1 < 32'(fastsplat_pkg::RLUT_SETS) && w2 != '0 && w2 <= 32'(fastsplat_pkg::RHO_MOST) && base_good &&
-                   w3 == 32'(extent) << fastsplat_pkg::PHASE_LOG2;
-      TABLE_RADIAL: table_good = w1 == '0 && w2 == '0 && w4 == '0 && w3 == 32'(fastsplat_pkg::RADIAL_ENTRIES);
-      TABLE_FACTOR: table_good = w1 == '0 && w2 == '0 && w4 == '0 && w3 == 32'(fastsplat_pkg::SEGMENTS + 1);
-      default: table_good = 1'b0;
+    case (next_opcode)
+      fastsplat_pkg::OP_BEGIN_FRAME: next_place = PlStart;
+      fastsplat_pkg::OP_BEGIN_SHEET, fastsplat_pkg::OP_END_TILE: next_place = PlTile;
+      fastsplat_pkg::OP_SPLAT, fastsplat_pkg::OP_CULL_BLOCK, fastsplat_pkg::OP_END_SHEET: next_place = PlSheet;
+      default: next_place = PlTables;
     endcase
   end
-
-  // ---- words of a table: in range, those of FACTOR never rising, 0 behind the last
-  logic words_good;
-  logic [fastsplat_pkg::FACTOR_BITS-1:0] factor_word[0:6];
-  assign factor_word[0] = factor_q;
-  logic [5:0] word_good;
-  for (genvar i = 0; i < 6; i++) begin : gen_word
-    logic [31:0] word;
-    logic there;
-    assign word = beat_q[32*i+:32];
-    assign there = words_left_q > WB'(i);
-    assign factor_word[i+1] = word[fastsplat_pkg::FACTOR_BITS-1:0];
-    assign word_good[i] = there ? word <= words_most_q && (table_q != TABLE_FACTOR || factor_word[i+1] <= factor_word[i]) : word == '0;
-  end
-  assign words_good = &word_good;
-
-  // ---- the other records
-  logic known, in_order;
-  logic [191:0] used;
-  always_comb begin
-    known = 1'b1;
-    in_order = 1'b0;
-    used = '0;
-    case (opcode)
-      fastsplat_pkg::OP_BEGIN_FRAME: begin
-        in_order = place_q == PlStart;
-        used = fastsplat_pkg::USED_BEGIN_FRAME;
-      end
-      fastsplat_pkg::OP_LOAD_TABLE: begin
-        in_order = place_q == PlTables && !tile_seen_q;
-        used = fastsplat_pkg::USED_LOAD_TABLE;
-      end
-      fastsplat_pkg::OP_BEGIN_TILE: begin
-        in_order = place_q == PlTables;
-        used = fastsplat_pkg::USED_BEGIN_TILE;
-      end
-      fastsplat_pkg::OP_BEGIN_SHEET: begin
-        in_order = place_q == PlTile;
-        used = fastsplat_pkg::USED_BEGIN_SHEET;
-      end
-      fastsplat_pkg::OP_SPLAT: begin
-        in_order = place_q == PlSheet;
-        used = fastsplat_pkg::USED_SPLAT;
-      end
-      fastsplat_pkg::OP_CULL_BLOCK: begin
-        in_order = place_q == PlSheet;
-        used = fastsplat_pkg::USED_CULL_BLOCK;
-      end
-      fastsplat_pkg::OP_END_SHEET: begin
-        in_order = place_q == PlSheet;
-        used = fastsplat_pkg::USED_END_SHEET;
-      end
-      fastsplat_pkg::OP_END_TILE: begin
-        in_order = place_q == PlTile;
-        used = fastsplat_pkg::USED_END_TILE;
-      end
-      fastsplat_pkg::OP_END_FRAME: begin
-        in_order = place_q == PlTables;
-        used = fastsplat_pkg::USED_END_FRAME;
-      end
-      default: known = 1'b0;
-    endcase
-  end
-
-  logic tile_good, set_good, position_good, colour_good;
-  assign tile_good = w0[9:8] != 2'd3 && w1 < tiles_q && w4[15:0] != '0 && w4[15:0] <= 16'(fastsplat_pkg::TILE_WIDTH) &&
-                     w4[31:16] != '0 && w4[31:16] <= 16'(fastsplat_pkg::TILE_HEIGHT) && w2[31:16] == '0 && w3[31:16] == '0 &&
-                     17'(w2[15:0]) + 17'(w4[15:0]) <= 17'(image_width_q) && 17'(w3[15:0]) + 17'(w4[31:16]) <= 17'(image_height_q);
-  assign set_good = w0[15:8] < 8'(fastsplat_pkg::RLUT_SETS) && sets_loaded_q[w0[8+:fastsplat_pkg::SET_BITS]];
-  assign position_good = (w2[31:PB-1] == '0 || w2[31:PB-1] == '1) && (w3[31:PB-1] == '0 || w3[31:PB-1] == '1);
-  assign colour_good = (w4[15:0] >> CB) == '0 && (w4[31:16] >> CB) == '0 && (w5[15:0] >> CB) == '0 && (w5[31:16] >> CB) == '0;
-
-  // ---- the verdict: the first rule that is broken
-  logic [7:0] rule;
-  always_comb begin
-    rule = fastsplat_pkg::RULE_NONE;
-    if (place_q == PlWords) begin
-      if (!words_good) rule = fastsplat_pkg::RULE_WORDS;
-    end else if (!known) begin
-      rule = fastsplat_pkg::RULE_OPCODE;
-    end else if (!in_order) begin
-      rule = fastsplat_pkg::RULE_ORDER;
-    end else if ((beat_q & ~used) != '0) begin
-      rule = fastsplat_pkg::RULE_RESERVED;
-    end else begin
-      case (opcode)
-        fastsplat_pkg::OP_BEGIN_FRAME:
-        if (w1 != fastsplat_pkg::STREAM_MAGIC || w0[31:16] != fastsplat_pkg::STREAM_VERSION) rule = fastsplat_pkg::RULE_FORMAT;
-        else if (w2 != fastsplat_pkg::HASH_LOW || w3 != fastsplat_pkg::HASH_HIGH) rule = fastsplat_pkg::RULE_CONFIGURATION;
-        else if (w4[15:0] == '0 || w4[31:16] == '0) rule = fastsplat_pkg::RULE_IMAGE;
-        fastsplat_pkg::OP_LOAD_TABLE: if (!table_good) rule = fastsplat_pkg::RULE_TABLE;
-        fastsplat_pkg::OP_BEGIN_TILE:
-        if (!radial_loaded_q || !factor_loaded_q) rule = fastsplat_pkg::RULE_LOADED;
-        else if (!tile_good) rule = fastsplat_pkg::RULE_TILE;
-        fastsplat_pkg::OP_BEGIN_SHEET: if (sheets_q != '0 && w1 <= sheet_q) rule = fastsplat_pkg::RULE_SHEET;
-        fastsplat_pkg::OP_SPLAT:
-        if (!set_good) rule = fastsplat_pkg::RULE_SET;
-        else if (!position_good || !colour_good) rule = fastsplat_pkg::RULE_RANGE;
-        else if (w1 != tag_q) rule = fastsplat_pkg::RULE_TAG;
-        fastsplat_pkg::OP_CULL_BLOCK: if (w4[15:0] == '0 || w4[31:16] == '0) rule = fastsplat_pkg::RULE_CULL;
-        fastsplat_pkg::OP_END_SHEET:
-        if (w1 != sheet_q) rule = fastsplat_pkg::RULE_END_NUMBER;
-        else if (w2 != splats_q) rule = fastsplat_pkg::RULE_END_COUNT;
-        fastsplat_pkg::OP_END_TILE:
-        if (w1 != tile_q) rule = fastsplat_pkg::RULE_END_NUMBER;
-        else if (w2 != sheets_q) rule = fastsplat_pkg::RULE_END_COUNT;
+  always_ff @(posedge clk_i) begin
+    if (next_moves) begin
+      word_before_q <= next_q[160+:FB];
+      case (next_opcode)
+        fastsplat_pkg::OP_BEGIN_TILE: begin
+          tile_q <= n1;
+          sheets_q <= '0;
+          tag_q <= '0;
+        end
+        fastsplat_pkg::OP_BEGIN_SHEET: begin
+          sheet_q <= n1;
+          sheets_q <= sheets_q + 32'd1;
+          splats_q <= '0;
+        end
+        fastsplat_pkg::OP_SPLAT: begin
+          tag_q <= tag_q + 32'd1;
+          splats_q <= splats_q + 32'd1;
+        end
         default: ;
       endcase
     end
   end
 
+  // ---- second stage: its place, and the verdict
+  logic beat_valid_q;
+  logic [191:0] beat_q;
+  logic [7:0] opcode;
+  logic [RULES:0] record_broken_q;  // by number of the rule
+  logic any_broken_q;               // of any but those of LATE
+  place_e record_place_q;
+  logic [5:0] zero_q, rlut_q, radial_q, factor_q, falls_q;
+  logic [COL-1:0] extent_q;
+  assign opcode = beat_q[7:0];
+  always_ff @(posedge clk_i) begin
+    if (next_moves) begin
+      beat_q <= next_q;
+      record_broken_q <= next_broken;
+      any_broken_q <= (next_broken & ~LATE) != '0;
+      record_place_q <= next_place;
+      extent_q <= next_extent;
+      zero_q <= next_zero;
+      rlut_q <= next_rlut;
+      radial_q <= next_radial;
+      factor_q <= next_factor;
+      falls_q <= next_falls;
+    end
+  end
+
+  place_e place_q;
+  logic tile_seen_q;  // tables come before the first tile
+  logic [31:0] beats_q;  // before this one, since begin_frame
+  logic radial_loaded_q, factor_loaded_q;
+  logic [7:0] table_q;
+  logic [WB-1:0] words_left_q, words_left_next;
+  logic [5:0] there_q;   // which words of the next beat are the table's
+  logic last_words_q;    // it has the last of them
+  logic first_words_q;   // the beat before it is no word
+  assign words_left_next = (place_q == PlWords) ? words_left_q - WB'(6) : beat_q[96+:WB];
+
+  logic in_order, loaded, is_tile;
+  assign is_tile = opcode == fastsplat_pkg::OP_BEGIN_TILE;
+  assign in_order = place_q == record_place_q && !(tile_seen_q && opcode == fastsplat_pkg::OP_LOAD_TABLE);
+  assign loaded = radial_loaded_q && factor_loaded_q;
+  logic [5:0] word_good;
+  for (genvar i = 0; i < 6; i++) begin : gen_word
+    logic of_table;
+    assign of_table = (table_q == fastsplat_pkg::TABLE_RLUT) ? rlut_q[i] : (table_q == fastsplat_pkg::TABLE_RADIAL) ? radial_q[i]
+                      : factor_q[i] && (falls_q[i] || (i == 0 && first_words_q));
+    assign word_good[i] = there_q[i] ? of_table : zero_q[i];
+  end
+  // That a rule is broken at once, for a handshake waits for it; which is the first, for the register.
+  logic broken;
+  logic [RULES:0] rules_broken;
+  logic [7:0] rule;
+  assign broken = (place_q == PlWords) ? word_good != '1 : any_broken_q || (record_broken_q & LATE) != '0 || !in_order || (is_tile && !loaded);
+  always_comb begin
+    rules_broken = '0;
+    if (place_q == PlWords) begin
+      rules_broken[fastsplat_pkg::RULE_WORDS] = 1'b1;
+    end else begin
+      rules_broken = record_broken_q;
+      rules_broken[fastsplat_pkg::RULE_ORDER] = !in_order;
+      rules_broken[fastsplat_pkg::RULE_LOADED] = is_tile && !loaded;
+    end
+    rule = 8'(fastsplat_pkg::RULE_NONE);
+    for (int n = RULES; n > 0; n--) if (rules_broken[n]) rule = 8'(n);
+  end
+
   // ---- passing on, or ending what is open
-  logic reset_q, stopped, refused, moves, ends;
-  assign stopped = error_o || (reset_q && !beat_valid_q);  // a beat that is here is judged still
-  assign refused = beat_valid_q && !stopped && rule != fastsplat_pkg::RULE_NONE;
-  assign moves = beat_valid_q && !stopped && rule == fastsplat_pkg::RULE_NONE && ready_i;
+  logic reset_q, stopped, judged, refused, moves, ends;
+  assign stopped = error_o || (reset_q && !next_valid_q && !beat_valid_q);  // beats that are here are judged still
+  assign judged = beat_valid_q && !error_o;
+  assign refused = judged && broken;
+  assign moves = judged && !broken && ready_i;
   assign ends = stopped && (place_q == PlTile || place_q == PlSheet);
-  assign ready_o = enable_i && !reset_q && (!beat_valid_q || moves || error_o);
-  assign valid_o = ends || (beat_valid_q && !stopped && rule == fastsplat_pkg::RULE_NONE);
+  assign next_moves = next_valid_q && !error_o && (!beat_valid_q || moves);
+  assign ready_o = enable_i && !reset_q && (!next_valid_q || next_moves || error_o);
+  assign valid_o = ends || (judged && !broken);
   assign data_o = {beat_q[191:8], !ends ? opcode : (place_q == PlSheet) ? fastsplat_pkg::OP_END_SHEET : fastsplat_pkg::OP_END_TILE};
   assign payload_o = !ends && place_q == PlWords;
   assign aborted_o = ends && place_q == PlTile;
-  assign busy_o = beat_valid_q || ends || reset_q;
+  assign busy_o = next_valid_q || beat_valid_q || ends || reset_q;
 
   always_ff @(posedge clk_i) begin
-    if (moves) beat_valid_q <= 1'b0;  // nothing need come after it: a soft reset takes none
+    if (next_moves) next_valid_q <= 1'b0;  // nothing need come after it: a soft reset takes none
     if (ready_o && !error_o) begin  // after a refusal all is swallowed
-      beat_valid_q <= valid_i;
-      beat_q <= data_i;
+      next_valid_q <= valid_i;
+      next_q <= data_i;
     end
+    if (moves) beat_valid_q <= 1'b0;
+    if (next_moves) beat_valid_q <= 1'b1;
     if (refused) begin
+      next_valid_q <= 1'b0;
       beat_valid_q <= 1'b0;
       error_o <= 1'b1;
       error_rule_o <= rule;
@@ -222,13 +214,15 @@ module stream_check (
 
     if (moves) begin
       beats_q <= beats_q + 32'd1;
+      words_left_q <= words_left_next;
+      for (int i = 0; i < 6; i++) there_q[i] <= words_left_next > WB'(i);
+      last_words_q <= words_left_next <= WB'(6);
+      first_words_q <= place_q != PlWords;
       if (place_q == PlWords) begin
-        words_left_q <= words_left_q - WB'(6);
-        factor_q <= factor_word[6];
-        if (words_left_q <= WB'(6)) begin
+        if (last_words_q) begin
           place_q <= PlTables;
-          if (table_q == TABLE_RADIAL) radial_loaded_q <= 1'b1;
-          if (table_q == TABLE_FACTOR) factor_loaded_q <= 1'b1;
+          if (table_q == fastsplat_pkg::TABLE_RADIAL) radial_loaded_q <= 1'b1;
+          if (table_q == fastsplat_pkg::TABLE_FACTOR) factor_loaded_q <= 1'b1;
         end
       end else begin
         case (opcode)
@@ -238,37 +232,21 @@ module stream_check (
             sets_loaded_q <= '0;
             radial_loaded_q <= 1'b0;
             factor_loaded_q <= 1'b0;
-            {image_height_q, image_width_q} <= w4;
-            tiles_q <= w5;
+            {image_height_q, image_width_q} <= beat_q[159:128];
+            tiles_q <= beat_q[191:160];
           end
           fastsplat_pkg::OP_LOAD_TABLE: begin
             place_q <= PlWords;
-            table_q <= w0[15:8];
-            words_left_q <= w3[WB-1:0];
-            words_most_q <= (w0[15:8] == TABLE_RLUT) ? fastsplat_pkg::RLUT_WORD_MOST
-                            : (w0[15:8] == TABLE_RADIAL) ? fastsplat_pkg::RADIAL_WORD_MOST : fastsplat_pkg::FACTOR_WORD_MOST;
-            factor_q <= '1;
-            extent_o <= extent;
+            table_q <= beat_q[15:8];
+            extent_o <= extent_q;
             // Its words follow before anything else does.
-            if (w0[15:8] == TABLE_RLUT) sets_loaded_q[w1[fastsplat_pkg::SET_BITS-1:0]] <= 1'b1;
+            if (beat_q[15:8] == fastsplat_pkg::TABLE_RLUT) sets_loaded_q[beat_q[32+:fastsplat_pkg::SET_BITS]] <= 1'b1;
           end
           fastsplat_pkg::OP_BEGIN_TILE: begin
             place_q <= PlTile;
             tile_seen_q <= 1'b1;
-            tile_q <= w1;
-            sheets_q <= '0;
-            tag_q <= '0;
           end
-          fastsplat_pkg::OP_BEGIN_SHEET: begin
-            place_q <= PlSheet;
-            sheet_q <= w1;
-            sheets_q <= sheets_q + 32'd1;
-            splats_q <= '0;
-          end
-          fastsplat_pkg::OP_SPLAT: begin
-            tag_q <= tag_q + 32'd1;
-            splats_q <= splats_q + 32'd1;
-          end
+          fastsplat_pkg::OP_BEGIN_SHEET: place_q <= PlSheet;
           fastsplat_pkg::OP_END_SHEET: place_q <= PlTile;
           fastsplat_pkg::OP_END_TILE: place_q <= PlTables;
           fastsplat_pkg::OP_END_FRAME: begin
@@ -286,17 +264,18 @@ module stream_check (
       place_q <= PlStart;
       beats_q <= '0;
       error_o <= 1'b0;
-      error_rule_o <= fastsplat_pkg::RULE_NONE;
+      error_rule_o <= 8'(fastsplat_pkg::RULE_NONE);
       error_opcode_o <= '0;
       error_beat_o <= '0;
     end
     if (!rst_ni) begin
+      next_valid_q <= 1'b0;
       beat_valid_q <= 1'b0;
       place_q <= PlStart;
       beats_q <= '0;
       reset_q <= 1'b0;
       error_o <= 1'b0;
-      error_rule_o <= fastsplat_pkg::RULE_NONE;
+      error_rule_o <= 8'(fastsplat_pkg::RULE_NONE);
       error_opcode_o <= '0;
       error_beat_o <= '0;
     end

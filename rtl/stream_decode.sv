@@ -105,10 +105,10 @@ module stream_decode (
 
   // Windows of the splat in the beat register
   logic [COL-1:0] column_q, row_q, extent;
-  logic last_column, last_window;
+  logic [fastsplat_pkg::RLUT_SETS-1:0] single_q;  // by set: one window
+  logic last_column_q, last_row_q, last_window;   // foretold a cycle ahead: the source's handshake waits for it
   assign extent = extent_q[set];
-  assign last_column = column_q + COL'(P) >= extent;
-  assign last_window = last_column && row_q + COL'(P) >= extent;
+  assign last_window = last_column_q && last_row_q;
 
   // Sheet buffers
   logic [1:0] busy_q;
@@ -147,6 +147,8 @@ module stream_decode (
       beat_q <= data_i;
       payload_q <= payload_i;
       aborted_q <= aborted_i;
+      last_column_q <= single_q[data_i[8+:fastsplat_pkg::SET_BITS]];
+      last_row_q <= single_q[data_i[8+:fastsplat_pkg::SET_BITS]];
     end
     if (`FASTSPLAT_FAULT(LOST_BEAT) && ready_o && valid_i && is_splat && data_i[7:0] == fastsplat_pkg::OP_SPLAT && w1[2:0] == 3'd5)
       beat_valid_q <= 1'b0;
@@ -166,6 +168,7 @@ module stream_decode (
         rho_q[w1[fastsplat_pkg::SET_BITS-1:0]] <= w2[fastsplat_pkg::RHO_BITS-1:0];
         base_q[w1[fastsplat_pkg::SET_BITS-1:0]] <= w4[COL-1:0];
         extent_q[w1[fastsplat_pkg::SET_BITS-1:0]] <= extent_i;
+        single_q[w1[fastsplat_pkg::SET_BITS-1:0]] <= extent_i <= COL'(P);
       end
     end
     if (table_write) begin
@@ -207,8 +210,12 @@ module stream_decode (
     window_row_o <= row_q;
     window_colour_o <= {w5[16+:CB], w5[0+:CB], w4[16+:CB], w4[0+:CB]};
     if (is_splat) begin
-      column_q <= last_column ? '0 : column_q + COL'(P);
-      if (last_column) row_q <= last_window ? '0 : row_q + COL'(P);
+      column_q <= last_column_q ? '0 : column_q + COL'(P);
+      if (last_column_q) row_q <= last_window ? '0 : row_q + COL'(P);
+      if (!last_window) begin  // so that there are two columns and two rows at the least
+        last_column_q <= !last_column_q && (COL + 1)'(column_q) + (COL + 1)'(2 * P) >= (COL + 1)'(extent);
+        if (last_column_q) last_row_q <= (COL + 1)'(row_q) + (COL + 1)'(2 * P) >= (COL + 1)'(extent);
+      end
     end
 
     if (!rst_ni) begin
@@ -229,6 +236,7 @@ module stream_decode (
                     $onehot0({tile_begin, tile_end_o, event_splat_o, event_cull_o, rlut_we_o, radial_we_o, factor_we_o}))
   `FASTSPLAT_ASSERT(window_in_open_sheet, !window_valid_o || busy_q[window_buffer_o])
   `FASTSPLAT_ASSERT(only_busy_buffers_come_back, !free_i || busy_q[free_buffer_i])
+  `FASTSPLAT_ASSERT(last_window_foretold, !is_splat || (last_column_q == (column_q + COL'(P) >= extent) && last_row_q == (row_q + COL'(P) >= extent)))
   `FASTSPLAT_COVER(sheet_waits_for_buffer, wait_buffer)
   `FASTSPLAT_COVER(both_buffers_busy, busy_q == 2'b11)
 endmodule

@@ -63,6 +63,8 @@ class Checker final : public RawTapSink {
   /// The cycle after reset from which the source has the first beat. Without it cycles are not compared.
   void start(std::uint64_t first_beat);
   bool started() const { return cycle_model_.has_value(); }
+  /// By the cycle model, of a beat that breaks a rule and is taken in that cycle; 0 where cycles are not compared.
+  std::uint64_t judged(std::uint64_t taken) const { return cycle_model_ ? cycle_model_->judged(taken) : 0; }
 
   /// Throws UserError (Input) for a beat that breaks docs/stream.md. After stopped() nothing more is expected.
   void accept(const cmodel::Beat& beat) override;

@@ -27,7 +27,7 @@ class PassingDevice : public RtlDevice {
   }
   void leave_answers_waiting() override { device_->leave_answers_waiting(); }
   void warm_reset(int cycles) override { device_->warm_reset(cycles); }
-  std::optional<std::uint64_t> refuse(const cmodel::Beat& beat) override { return device_->refuse(beat); }
+  std::optional<Refusal> refuse(const cmodel::Beat& beat) override { return device_->refuse(beat); }
   void soft_reset(bool wait) override { device_->soft_reset(wait); }
   bool interrupt() const override { return device_->interrupt(); }
   std::uint64_t aborted_tiles() const override { return device_->aborted_tiles(); }

@@ -49,6 +49,12 @@ struct RegisterAnswer {
 /// Half of a write's offer.
 enum class WriteHalf { Address, Data };
 
+/// Of a beat that breaks a rule. Judged: the cycle before that in which error rises; that of the transfer, for one that is
+/// swallowed because another was refused before.
+struct Refusal {
+  std::uint64_t taken = 0, judged = 0;
+};
+
 /// Of a stream that the device refuses, consume() throws UserError (Simulation) once; what follows is swallowed until a
 /// reset. Who expects a refusal asks for it (refuse()).
 class RtlDevice : public cmodel::Device {
@@ -68,9 +74,9 @@ class RtlDevice : public cmodel::Device {
   /// Resets again in the middle of whatever is going on, for so many cycles; memories keep what they hold, counters
   /// restart. Nobody takes answers or pixels meanwhile; one that is still there afterwards is UserError (Simulation).
   virtual void warm_reset(int cycles = kResetCycles) = 0;
-  /// Offers a beat that breaks a rule: the cycle in which it was taken, or nothing if the device does not refuse it at
-  /// once. Neither it nor what is taken after it is told to anybody, until a reset.
-  virtual std::optional<std::uint64_t> refuse(const cmodel::Beat& beat) = 0;
+  /// Offers a beat that breaks a rule: when it was taken and judged, or nothing if the device does not refuse it. Neither
+  /// it nor what is taken after it is told to anybody, until a reset.
+  virtual std::optional<Refusal> refuse(const cmodel::Beat& beat) = 0;
   /// Asks CONTROL for a soft reset. With `wait` until the device is at rest; without, the beats that are offered next
   /// wait for that.
   virtual void soft_reset(bool wait = true) = 0;

@@ -98,16 +98,17 @@ class VerilatedDevice : public RtlDevice {
     for (int i = 0; i < 16; ++i) cycle();
   }
 
-  std::optional<std::uint64_t> refuse(const cmodel::Beat& beat) override {
+  std::optional<Refusal> refuse(const cmodel::Beat& beat) override {
     expecting_ = true;
     offer(beat);
     for (std::uint64_t waited = 0; !cycle(); ++waited) {
       if (waited > options_.timeout) time_out("no beat taken");
     }
     const std::uint64_t taken = cycle_ - 1;
-    for (int i = 0; i < kJudged && !top_->error_o; ++i) cycle();
+    // It may lie behind a beat that waits in decode.
+    for (std::uint64_t waited = 0; !top_->error_o && waited < options_.timeout; ++waited) cycle();
     if (!top_->error_o) return std::nullopt;
-    return taken;
+    return Refusal{.taken = taken, .judged = cycle_ - 1};
   }
 
   void soft_reset(bool wait) override {
@@ -232,7 +233,6 @@ class VerilatedDevice : public RtlDevice {
 
  private:
   static constexpr int kOkay = 0, kSlverr = 2;  ///< of AXI4-Lite
-  static constexpr int kJudged = 2;             ///< cycles from a beat's transfer to the error it causes
 
   void end_soft_reset() {
     tiles_.reset();  // of a table that was cut short

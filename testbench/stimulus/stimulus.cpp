@@ -96,13 +96,13 @@ class Generator {
         after = draw(1, random_.chance(50) ? tiles.front() : 2);
         break;
       case 1:
-        after = one_of(tiles) + draw(0, 1);
+        after = one_of(tiles) + draw(0, 2);  // check holds the last two, decode the one before
         break;
       case 2:
         after = (sheets.empty() ? 0 : one_of(sheets)) + draw(8, 30);  // the walk begins 12 cycles later
         break;
       case 3:
-        after = one_of(pictures) + 1;
+        after = one_of(pictures) + draw(1, 3);
         break;
       default:
         after = draw(1, beats.size());

@@ -35,7 +35,7 @@ class PlainDevice {
   /// Nothing is queued or on the link.
   bool all_taken() const { return taken_places_ == 0; }
   bool at_rest(std::uint64_t cycle) const {
-    return all_taken() && !judged_ && !beat_ && !tile_open_ && cycle >= picture_end_;
+    return all_taken() && !weighed_ && !judged_ && !beat_ && !tile_open_ && cycle >= picture_end_;
   }
 
   void clock(std::uint64_t cycle) {
@@ -53,11 +53,15 @@ class PlainDevice {
       spent_ = 0;
       judged_.reset();
     }
-    if (cycle < wipe_ || judged_ || queue_.empty()) return;
-    judged_ = queue_.front();
+    if (!judged_ && weighed_) {
+      judged_ = weighed_;
+      weighed_.reset();
+    }
+    if (cycle < wipe_ || weighed_ || queue_.empty()) return;
+    weighed_ = queue_.front();
     queue_.pop_front();
     --taken_places_;
-    if (judged_->opcode == Opcode::BeginTile) out.tiles.push_back(judged_->tile);
+    if (weighed_->opcode == Opcode::BeginTile) out.tiles.push_back(weighed_->tile);
     last_taken = cycle;
   }
 
@@ -99,7 +103,7 @@ class PlainDevice {
   std::uint64_t wipe_;
   std::size_t places_, taken_places_ = 0;
   std::deque<PlainBeat> queue_;
-  std::optional<PlainBeat> judged_, beat_;  ///< in the check, in decode
+  std::optional<PlainBeat> weighed_, judged_, beat_;  ///< in the two registers of check, in decode
   std::uint64_t spent_ = 0;
   bool tile_open_ = false;
   std::size_t buffer_ = 0;

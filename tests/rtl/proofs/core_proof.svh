@@ -10,10 +10,13 @@ always @* if (!f_started) assume (!rst_ni);
 
 logic f_beat, f_payload, f_take, f_splat, f_table, f_begin, f_idle_pixel;  // of decode and pixel out
 logic [7:0] f_opcode;
-logic f_here, f_soft;       // of check: a beat, a soft reset
+logic [7:0] f_check_opcode;  // of the beat in check that is judged, and the place where it may come
+logic [2:0] f_check_wants;
+logic f_pixel_running, f_pixel_r1, f_pixel_r2;  // of pixel out
+logic f_next_here, f_here, f_soft;  // of check: beats, a soft reset
 logic [2:0] f_check_place;  // 0 before begin_frame, 1 in the frame, 2 in a table, 3 in a tile, 4 in a sheet
 logic [1:0] f_busy;
-logic f_buffer, f_idle_walk;
+logic f_buffer, f_idle_walk, f_still;
 logic [8:0] f_valid_below, f_last_below, f_buffer_below;
 logic [5:0] f_blocks;  // in the compositor's pipe
 logic [9:0] f_valid, f_last, f_of;
@@ -135,12 +138,12 @@ always @(posedge clk_i) begin
     assert (f_still_q <= 5'(F_LONGEST));  // No deadlock: while source and sink are willing something moves
 
     // For induction. What was refused is not in check any more.
-    assert (!(error_o && f_here));
+    assert (!(error_o && (f_here || f_next_here)));
     // Nothing moves before all is wiped.
     assert (wiping_q || f_wiped_q);
     assert (32'(wipe_addr_q) < fastsplat_pkg::BLOCKS);
     assert (!wiping_q || f_wiped_q == (wipe_addr_q > f_word));
-    assert (!wiping_q || !(f_here || f_check_place != '0 || f_beat || f_busy != '0 || f_valid != '0 || f_last != '0 || f_full != '0 || f_since_q != 2'd3 || f_blocks != '0 || !f_idle_pixel || f_cleared_q || f_place_q != '0));
+    assert (!wiping_q || !(f_here || f_next_here || f_check_place != '0 || f_beat || f_busy != '0 || f_valid != '0 || f_last != '0 || f_full != '0 || f_since_q != 2'd3 || f_blocks != '0 || !f_idle_pixel || f_cleared_q || f_place_q != '0));
     // A buffer is in one place, its windows before its token.
     assert (f_busy == (f_open | f_ended));
     assert ((f_open & f_ended) == '0 && (f_token & f_full) == '0);
@@ -166,6 +169,8 @@ always @(posedge clk_i) begin
     assert (!(f_cleared_q && f_valid[0] && f_of[0] == f_cleared_of_q && !f_full[f_cleared_of_q]));
     // What check passed and decode carried out: one beat lies between.
     assert (f_check_place <= 3'd4);
+    assert (!f_here || f_check_wants == (f_check_opcode == 8'h46 ? 3'd0 : f_check_opcode == 8'h53 || f_check_opcode == 8'h74 ? 3'd3 :
+                                         f_check_opcode == 8'h50 || f_check_opcode == 8'h43 || f_check_opcode == 8'h73 ? 3'd4 : 3'd1));
     assert (f_next_place == (f_check_place == 3'd4 ? 2'd2 : f_check_place == 3'd3 ? 2'd1 : 2'd0));
     if (f_record) begin
       if (f_opcode == 8'h46 || f_opcode == 8'h4C || f_opcode == 8'h54 || f_opcode == 8'h66) assert (f_place_q == 2'd0);
@@ -175,6 +180,8 @@ always @(posedge clk_i) begin
     // Tiles.
     assert (tile_open == (f_place_q != '0));
     assert (f_place_q != 2'd3 && (f_place_q != '0 || f_busy == '0));
+    assert (f_still == (f_blocks == '0));
+    assert (f_idle_pixel == !(f_pixel_running || f_pixel_r1 || f_pixel_r2));
     assert (!!f_idle_pixel || (f_place_q == '0 && f_busy == '0 && compositor_idle));
     assert (!(f_beat && f_payload) || f_place_q == '0);
     cover (f_still_q == 5'(F_LONGEST));

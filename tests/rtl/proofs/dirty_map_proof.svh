@@ -96,7 +96,7 @@ end
 
 // Where the mark is: in the map, on its way in f2 or f3, or picked in this cycle.
 logic f_dirty, f_in_f2, f_in_f3, f_go_q;
-assign f_dirty = f_buffer ? dirty[BY+f_row][f_column] : dirty[f_row][f_column];
+assign f_dirty = (f_buffer ? dirty[BY+f_row][f_column] : dirty[f_row][f_column]) && !(fetched_q[f_row] && fetched_buffer_q == f_buffer);
 assign f_in_f2 = buffer_q == f_buffer && f2_number_q == f_row && f2_row_q[f_column];
 assign f_in_f3 = buffer_q == f_buffer && f3_number_q == f_row && f3_row_q[f_column];
 always @(posedge clk_i) f_go_q <= rst_ni && go;
@@ -149,6 +149,8 @@ always @(posedge clk_i) begin
     assert (state_q == StIdle || f1_valid_q || f_rows == '0);
     assert (state_q == StIdle || state_q == StRow || f2_valid_q || !f1_valid_q);
     assert (state_q != StWalk || f3_row_q != '0 || !f2_valid_q);
+    assert (state_q != StWalk || f3_rest_q == (f3_row_q & (f3_row_q - BX'(1))));
+    assert (fetched_q == '0 || (f2_valid_q && fetched_q == BY'(1) << f2_number_q && fetched_buffer_q == buffer_q));
     assert (state_q != StWalk || one_left_q == ((f3_row_q & (f3_row_q - BX'(1))) == '0));
     assert (!f_walking || finish_o || f3_row_q != '0);
     assert (!f1_valid_q || (f_rows & (f1_row_q | (f1_row_q - BY'(1)))) == '0);
@@ -158,7 +160,8 @@ always @(posedge clk_i) begin
     // A row holds dirt if its bit says so, or it is in f1.
     for (int m = 0; m < 2; m++) begin
       for (int r = 0; r < BY; r++) begin
-        assert ((dirty[m*BY+r] != '0) == (rows_q[m][r] || (buffer_q == 1'(m) && f1_row_q[r])));
+        assert ((dirty[m*BY+r] != '0) == (rows_q[m][r] || (buffer_q == 1'(m) && f1_row_q[r]) || (fetched_buffer_q == 1'(m) && fetched_q[r])));
+        assert (!(fetched_buffer_q == 1'(m) && fetched_q[r]) || !(rows_q[m][r] || (buffer_q == 1'(m) && f1_row_q[r])));
       end
     end
     assert (f_marked_q == (f_dirty || f_in_f2 || f_in_f3 || f_pick));

@@ -16,7 +16,7 @@ here="$source/tests/rtl/proofs"
 # --- check: two radius sets of two phases and up to 8 columns, tables of a few words; words of any value
 package_file="$work/check_pkg.sv"
 package RLUT_SETS=2 RLUT_COLUMNS=8 COL_BITS=4 PHASES=2 PHASE_LOG2=1 PHASE_BITS=1 RHO_MOST=8 RADIAL_ENTRIES=2 RADIAL_LOG2=1 SEGMENTS=7 SEG_LOG2=3 >"$package_file"
-check() { without=FASTSPLAT_ASS unit "$1" stream_check "" "" "${2:+stream_check}" "${2-}"; }
+check() { without=FASTSPLAT_ASS unit "$1" stream_check "record_rules word_rules" "" "${2:+stream_check}" "${2-}"; }
 check stream_check
 holds stream_check 1 "stream_check: of any beats those that keep the rules, in order, once; the first other is told, and what is open is closed"
 check_broken() { defines=-DF_FEW_BEATS check "stream_check_$1" "$2"; refuted "stream_check_$1" "${3:-8}"; }
@@ -49,8 +49,8 @@ walk dirty_map
 holds dirty_map 2 "dirty_map: each marked block once, rising, one a cycle, in its cycle, clean afterwards; no other"
 happens dirty_map 16
 walk_broken() { walk "dirty_map_$1" "$2"; refuted "dirty_map_$1" "${3:-16}"; }
-walk_broken stays_dirty "s/ || (f1_valid_q \&\& f1_row_q\[r\] \&\& advance \&\& buffer_q == 1'(m))//"
-walk_broken gap_between_rows "s/one_left_q <= (others \& (others - BX'(1))) == '0;/one_left_q <= others == '0;/"
+walk_broken stays_dirty "s/ || (fetched_q\[r\] \&\& fetched_buffer_q == 1'(m))//"
+walk_broken gap_between_rows "s/one_left_q <= rest == '0;/one_left_q <= f3_rest_q == '0;/"
 if [ -z "$short" ]; then
   walk_broken other_buffer_cleared "s/(advance \&\& buffer_q == 1'(m)) ? f1_row/advance ? f1_row/"
   walk_broken row_end_is_the_end 's/assign finish = go \&\& one_left_q \&\& !f2_valid_q;/assign finish = go \&\& one_left_q;/'
@@ -88,13 +88,12 @@ connects=""
 for pair in f_beat=u_decode.beat_valid_q f_payload=u_decode.payload_q f_take=u_decode.take f_splat=u_decode.is_splat f_table=u_decode.table_write \
   f_begin=u_decode.tile_begin f_opcode=u_decode.opcode f_busy=u_decode.busy_q f_buffer=u_decode.buffer_q \
   f_idle_walk=u_compositor.walk_idle f_blocks=u_compositor.valid_q f_valid_below=u_splat.valid_q \
-  f_last_below=u_splat.last_q f_buffer_below=u_splat.buffer_q f_idle_pixel=u_pixel_out.idle_o f_here=u_check.beat_valid_q f_soft=u_check.reset_q f_check_place=u_check.place_q; do
+  f_pixel_running=u_pixel_out.running_q f_pixel_r1=u_pixel_out.valid_r1_q f_pixel_r2=u_pixel_out.valid_r2_q f_last_below=u_splat.last_q f_buffer_below=u_splat.buffer_q f_idle_pixel=u_pixel_out.idle_o f_here=u_check.beat_valid_q f_soft=u_check.reset_q f_check_place=u_check.place_q \
+  f_still=u_compositor.still_q f_next_here=u_check.next_valid_q f_check_opcode=u_check.opcode f_check_wants=u_check.record_place_q; do
   connects="$connects connect -nounset -set ${pair%=*} ${pair#*=};"
 done
-cut_wires=""
-for wire in used table_good words_good tile_good set_good position_good colour_good; do cut_wires="$cut_wires stream_check/w:$wire"; done
 specification=core
-core() { unit "$1" fastsplat_core "stream_check stream_decode splat_array compositor pixel_out" "snap rlut axis lane sheet_bank dirty_map slab_opacity composite_lane csr popcount ram_1r1w" "${2-}" "${3-}"; }
+core() { unit "$1" fastsplat_core "stream_check stream_decode splat_array compositor pixel_out" "record_rules word_rules snap rlut axis lane sheet_bank dirty_map slab_opacity composite_lane csr popcount ram_1r1w" "${2-}" "${3-}"; }
 core_shares="core: one owner of a memory at a time, and what the parts' proofs assume of each other"
 if [ -n "$short" ]; then
   without="No deadlock" core core

@@ -2,6 +2,8 @@
 // the pages and put inside stream_check by prove_control.sh. What comes is garbage, held or not; decode, the rest behind it, enable and
 // soft resets do what they will. Up to the first refusal beats pass in order, each once and as it came; then nothing does, but what is
 // open is closed; and what passes is what decode's proof assumes.
+localparam int CB = fastsplat_pkg::COLOUR_BITS;
+localparam int P = fastsplat_pkg::LANES;
 logic f_started = 1'b0;
 always @(posedge clk_i) f_started <= 1'b1;
 always @* if (!f_started) assume (!rst_ni);
@@ -46,9 +48,9 @@ assign f_passed_extent = extent_o;
 `define F_PROMISE(ALWAYS) assert (ALWAYS)
 `include "judged_beats.svh"
 
-// The beat that was taken last and did not pass yet.
-logic f_have_q;
-logic [191:0] f_beat_q;
+// The beats that were taken and did not pass yet: the elder is judged.
+logic f_next_q, f_have_q;
+logic [191:0] f_next_beat_q, f_beat_q;
 logic [31:0] f_w0, f_w1, f_w2, f_w3, f_w4, f_w5;
 assign {f_w5, f_w4, f_w3, f_w2, f_w1, f_w0} = f_beat_q;
 
@@ -134,25 +136,33 @@ always @* begin
 end
 
 // What is offered to decode: the beat; or, after a refusal or for a soft reset, what closes what is open.
-logic f_error_q, f_soft_q, f_stop, f_offers, f_closes, f_passes;
+logic f_error_q, f_soft_q, f_stop, f_offers, f_closes, f_passes, f_moves;
 logic [7:0] f_error_rule_q, f_error_opcode_q;
 logic [31:0] f_error_number_q;
-assign f_stop = f_error_q || (f_soft_q && !f_have_q);
+assign f_stop = f_error_q || (f_soft_q && !f_have_q && !f_next_q);
 assign f_offers = f_have_q && f_rule == 8'd0;
 assign f_closes = f_stop && f_place_q >= 2'd2;
 assign f_passes = f_offers && ready_i;
+assign f_moves = f_next_q && (!f_have_q || f_passes);
 
 always @(posedge clk_i) begin
-  if (f_passes || (f_have_q && f_rule != 8'd0)) f_have_q <= 1'b0;
+  if (f_passes) f_have_q <= 1'b0;
+  if (f_moves) begin
+    f_next_q <= 1'b0;
+    f_have_q <= 1'b1;
+    f_beat_q <= f_next_beat_q;
+  end
+  if (valid_i && ready_o && !f_error_q) begin
+    f_next_q <= 1'b1;
+    f_next_beat_q <= data_i;
+  end
   if (f_have_q && f_rule != 8'd0) begin
+    f_next_q <= 1'b0;
+    f_have_q <= 1'b0;
     f_error_q <= 1'b1;
     f_error_rule_q <= f_rule;
     f_error_opcode_q <= f_beat_q[7:0];
     f_error_number_q <= f_number_q;
-  end
-  if (valid_i && ready_o && !f_error_q) begin
-    f_have_q <= 1'b1;
-    f_beat_q <= data_i;
   end
   if (f_closes && ready_i) f_place_q <= f_place_q - 2'd1;
   if (f_passes) begin
@@ -219,15 +229,16 @@ always @(posedge clk_i) begin
     f_error_number_q <= '0;
   end
   if (!rst_ni) begin
+    f_next_q <= 1'b0;
     f_have_q <= 1'b0;
     f_soft_q <= 1'b0;
   end
 end
 
-// Cycles without ready in which nobody else is to blame: one for a refusal; for a soft reset the beat, end_sheet, end_tile and its end.
+// Cycles without ready in which nobody else is to blame: one for a refusal; for a soft reset both beats, end_sheet, end_tile and its end.
 logic [2:0] f_waits_q, f_phase;
 always @(posedge clk_i) f_waits_q <= rst_ni && enable_i && ready_i && idle_i && !reset_i && !ready_o ? f_waits_q + 3'(f_waits_q != '1) : '0;
-assign f_phase = f_have_q ? 3'd0 : f_place_q == 2'd3 ? 3'd1 : f_place_q == 2'd2 ? 3'd2 : 3'd3;
+assign f_phase = f_next_q ? 3'd0 : f_have_q ? 3'd1 : f_place_q == 2'd3 ? 3'd2 : f_place_q == 2'd2 ? 3'd3 : 3'd4;
 // Ends since the source was stopped: of a sheet, of a tile.
 logic [1:0] f_sheet_ends_q, f_tile_ends_q;
 always @(posedge clk_i) begin
@@ -238,6 +249,23 @@ always @(posedge clk_i) begin
   if (!rst_ni || !f_stop) begin
     f_sheet_ends_q <= '0;
     f_tile_ends_q <= '0;
+  end
+end
+
+// What first stage counts: as if the beat that is judged had passed.
+logic f_tile_to_come, f_sheet_to_come;
+logic [31:0] f_tile_to, f_sheet_to, f_sheets_to, f_splats_to, f_tags_to;
+always @* begin
+  f_tile_to_come = f_place_q >= 2'd2 || (f_have_q && f_left_q == '0 && f_w0[7:0] == 8'h54);
+  f_sheet_to_come = f_place_q == 2'd3 || (f_have_q && f_w0[7:0] == 8'h53);
+  {f_tile_to, f_sheet_to, f_sheets_to, f_splats_to, f_tags_to} = {f_of_tile_q, f_of_sheet_q, f_sheets_q, f_splats_q, f_tags_q};
+  if (f_have_q) begin
+    case (f_w0[7:0])
+      8'h54: {f_tile_to, f_sheets_to, f_tags_to} = {f_w1, 64'd0};
+      8'h53: {f_sheet_to, f_sheets_to, f_splats_to} = {f_w1, f_sheets_q + 32'd1, 32'd0};
+      8'h50: {f_splats_to, f_tags_to} = {f_splats_q + 32'd1, f_tags_q + 32'd1};
+      default: ;
+    endcase
   end
 end
 
@@ -252,7 +280,7 @@ end
 always @* begin
   if (f_started && rst_ni) begin
     // Beats are taken as the page says, and pass in order, once, unchanged.
-    assert (ready_o == (enable_i && !f_soft_q && (!f_have_q || f_passes || f_error_q)));
+    assert (ready_o == (enable_i && !f_soft_q && (!f_next_q || f_moves || f_error_q)));
     assert (valid_o == (f_offers || f_closes));
     assert (!(f_offers && f_closes));
     assert (!f_offers || (data_o == f_beat_q && payload_o == (f_left_q != '0) && !aborted_o));
@@ -265,13 +293,14 @@ always @* begin
     // What is told.
     assert (error_o == f_error_q);
     assert (error_rule_o == f_error_rule_q && error_opcode_o == f_error_opcode_q && error_beat_o == f_error_number_q);
-    assert (busy_o == (f_have_q || f_closes || f_soft_q));
+    assert (busy_o == (f_next_q || f_have_q || f_closes || f_soft_q));
     // Nobody waits for long.
-    assert (f_waits_q <= 3'd4 && (f_soft_q || f_have_q || f_error_q || f_waits_q == '0 || f_place_q == 2'd0));
+    assert (f_waits_q <= 3'd5 && (f_soft_q || f_have_q || f_error_q || f_waits_q == '0 || f_place_q == 2'd0));
 
     // For induction: the registers of check and of the specification say the same.
     assert (beat_valid_q == f_have_q && (!f_have_q || beat_q == f_beat_q));
-    assert (!(f_have_q && f_error_q));
+    assert (next_valid_q == f_next_q && (!f_next_q || next_q == f_next_beat_q));
+    assert (!((f_have_q || f_next_q) && f_error_q));
     assert (reset_q == f_soft_q);
     assert (place_q == (f_left_q != '0 ? PlWords : f_place_q == 2'd0 ? PlStart : f_place_q == 2'd1 ? PlTables : f_place_q == 2'd2 ? PlTile : PlSheet));
     assert (f_left_q == '0 || f_place_q == 2'd1);
@@ -280,11 +309,34 @@ always @* begin
       assert (tile_seen_q == f_tile_q && image_width_q == f_image_q[15:0] && image_height_q == f_image_q[31:16] && tiles_q == f_tiles_q);
       assert (sets_loaded_q == f_sets_q && radial_loaded_q == f_radial_q && factor_loaded_q == f_factor_q);
     end
-    if (f_place_q >= 2'd2) assert (tile_q == f_of_tile_q && sheets_q == f_sheets_q && tag_q == f_tags_q && (f_sheets_q == '0 || sheet_q == f_of_sheet_q));
-    if (f_place_q == 2'd3) assert (splats_q == f_splats_q && sheet_q == f_of_sheet_q);
+    if (!f_error_q && f_tile_to_come) begin
+      assert (tile_q == f_tile_to && sheets_q == f_sheets_to && tag_q == f_tags_to && ((f_sheets_to == '0 && !f_sheet_to_come) || (sheet_q == f_sheet_to && splats_q == f_splats_to)));
+    end
+    // What the first stage found: what the rules say once the beat is in its place.
+    if (f_have_q) begin
+      assert (any_broken_q == ((record_broken_q & ~LATE) != '0) && !record_broken_q[0] && !record_broken_q[2] && !record_broken_q[8] && !record_broken_q[9]);
+      assert (record_broken_q[1] == !f_known);
+      assert (!f_known || record_broken_q[3] == f_unnamed);
+      assert (f_w0[7:0] != 8'h54 || (record_broken_q & ~(18'd1 << 3 | 18'd1 << 10)) == '0);
+      assert (record_place_q == (f_w0[7:0] == 8'h46 ? PlStart : f_w0[7:0] == 8'h53 || f_w0[7:0] == 8'h74 ? PlTile :
+                                 f_w0[7:0] == 8'h50 || f_w0[7:0] == 8'h43 || f_w0[7:0] == 8'h73 ? PlSheet : PlTables));
+      assert (f_left_q != '0 || !f_known || !f_order || (f_w0[7:0] == 8'h54 && !(f_radial_q && f_factor_q)) || (broken ? rule : 8'd0) == f_rule);
+      assert (f_w0[7:0] != 8'h4C || f_left_q != '0 || f_rule != 8'd0 || 40'(extent_q) == f_columns || f_w0[15:8] != 8'd0);
+      for (int i = 0; i < 6; i++) begin
+        assert (zero_q[i] == (f_beat_q[32*i+:32] == '0));
+        assert (rlut_q[i] == (f_beat_q[32*i+:32] <= fastsplat_pkg::RLUT_WORD_MOST));
+        assert (radial_q[i] == (f_beat_q[32*i+:32] <= fastsplat_pkg::RADIAL_WORD_MOST));
+        assert (factor_q[i] == (f_beat_q[32*i+:32] <= fastsplat_pkg::FACTOR_WORD_MOST));
+        if (i > 0) assert (falls_q[i] == (f_beat_q[32*i+:FB] <= f_beat_q[32*(i-1)+:FB]));
+      end
+      assert (f_left_q == '0 || f_table_q != 8'd2 || first_words_q || falls_q[0] == (f_beat_q[0+:FB] <= f_before_q[FB-1:0]));
+    end
     if (f_left_q != '0) begin
-      assert (32'(words_left_q) == f_left_q && table_q == f_table_q && f_table_q <= 8'd2 && words_most_q == f_word_most);
-      if (f_table_q == 8'd2) assert (factor_q == f_before_q[fastsplat_pkg::FACTOR_BITS-1:0] && (f_before_q == '1 || f_before_q <= f_word_most));
+      assert (32'(words_left_q) == f_left_q && table_q == f_table_q && f_table_q <= 8'd2 && first_words_q == (f_before_q == '1));
+      assert (last_words_q == (f_left_q <= 32'd6));
+      for (int i = 0; i < 6; i++) assert (there_q[i] == (f_left_q > 32'(i)));
+      if (f_table_q == 8'd2) assert (f_before_q == '1 || f_before_q <= f_word_most);
+      assert (f_error_q || word_before_q == (f_have_q ? f_w5[FB-1:0] : f_before_q[FB-1:0]) || (!f_have_q && first_words_q));
     end
     assert (f_passed_place_q == (f_place_q == 2'd3 ? 2'd2 : f_place_q == 2'd2 ? 2'd1 : 2'd0));
     assert (f_place_q == 2'd0 || f_words_left_q == f_left_q);

@@ -232,7 +232,7 @@ always @(posedge clk_i) begin
     if (f_place_q == 2'd2) assert (f_busy_q[f_buffer_q]);
     for (int n = 0; n < fastsplat_pkg::RLUT_SETS; n++)
       if (f_loaded_q[n]) begin
-        assert (rho_q[n] == f_rho_q[n] && base_q[n] == f_first_q[n] && extent_q[n] == f_padded(f_rho_q[n]));
+        assert (rho_q[n] == f_rho_q[n] && base_q[n] == f_first_q[n] && extent_q[n] == f_padded(f_rho_q[n]) && single_q[n] == (extent_q[n] <= COL'(P)));
         assert (f_rho_q[n] != '0 && f_rho_q[n] <= F_RHO);
       end
     if (f_x_q != '0 || f_y_q != '0) assert (f_splat);

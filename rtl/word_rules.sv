@@ -1,0 +1,36 @@
+// What each word of a beat is fit for, if the beat is table words (docs/stream.md, rule 8). Combinational; part of unit "check"
+// (stream_check.sv), whose first stage it is: how many of the words are the table's, and which table's, its second stage knows.
+
+module word_rules (
+    input  logic [191:0] beat_i,
+    input  logic [fastsplat_pkg::FACTOR_BITS-1:0] before_i,  // the last word of the beat before
+    output logic [5:0]   zero_o,
+    output logic [5:0]   rlut_o,     // a word of RLUT, RADIAL, FACTOR
+    output logic [5:0]   radial_o,
+    output logic [5:0]   factor_o,
+    output logic [5:0]   falls_o     // no larger than the word before
+);
+  localparam int FB = fastsplat_pkg::FACTOR_BITS;
+  // word <= most: a constant, mostly 2^n or 2^n - 1, which cost no comparison.
+  function automatic logic at_most(input logic [31:0] word, input logic [31:0] most);
+    if ((most & (most + 32'd1)) == '0) at_most = (word & ~most) == '0;
+    else if ((most & (most - 32'd1)) == '0) at_most = (word & ~(most | (most - 32'd1))) == '0 && ((word & most) == '0 || (word & (most - 32'd1)) == '0);
+    else at_most = word <= most;
+  endfunction
+
+  for (genvar i = 0; i < 6; i++) begin : gen_word
+    logic [31:0] word;
+    logic [FB-1:0] previous;
+    assign word = beat_i[32*i+:32];
+    if (i == 0) begin : gen_first
+      assign previous = before_i;
+    end else begin : gen_other
+      assign previous = beat_i[32*(i-1)+:FB];
+    end
+    assign zero_o[i] = word == '0;
+    assign rlut_o[i] = at_most(word, fastsplat_pkg::RLUT_WORD_MOST);
+    assign radial_o[i] = at_most(word, fastsplat_pkg::RADIAL_WORD_MOST);
+    assign factor_o[i] = at_most(word, fastsplat_pkg::FACTOR_WORD_MOST);
+    assign falls_o[i] = word[FB-1:0] <= previous;
+  end
+endmodule

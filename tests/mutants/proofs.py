@@ -6,9 +6,12 @@ import subprocess
 
 import generate
 
-_SCRIPTS = {"sheet_bank": "prove.sh", "csr": "proofs/prove_units.sh", "pixel_out": "proofs/prove_units.sh", "narrow": "proofs/prove_units.sh",
-            "stream_decode": "proofs/prove_control.sh", "dirty_map": "proofs/prove_control.sh", "compositor": "proofs/prove_control.sh",
-            "slab_opacity": "proofs/prove_bounds.sh", "composite_lane": "proofs/prove_bounds.sh"}
+# By module: the script, and the unit in it that is proved.
+_CONTROL, _UNITS, _BOUNDS = "proofs/prove_control.sh", "proofs/prove_units.sh", "proofs/prove_bounds.sh"
+_SCRIPTS = {"sheet_bank": ("prove.sh", "sheet_bank"), "csr": (_UNITS, "csr"), "pixel_out": (_UNITS, "pixel_out"), "narrow": (_UNITS, "narrow"),
+            "stream_check": (_CONTROL, "stream_check"), "record_rules": (_CONTROL, "stream_check"), "word_rules": (_CONTROL, "stream_check"),
+            "stream_decode": (_CONTROL, "stream_decode"), "dirty_map": (_CONTROL, "dirty_map"), "compositor": (_CONTROL, "compositor"),
+            "fastsplat_core": (_CONTROL, "core"), "slab_opacity": (_BOUNDS, "slab_opacity"), "composite_lane": (_BOUNDS, "composite_lane")}
 _MORE = {"prove.sh": ["generated/mustfail/fastsplat_fault_pkg.sv"], "proofs/prove_control.sh": ["short"]}
 
 
@@ -34,10 +37,10 @@ def refutes(root: str, build: str, mutant):
     for name in ("configs", "tests", "docs"):
         os.symlink(f"{root}/{name}", f"{tree}/source/{name}")
     plant(f"{root}/rtl", f"{tree}/source/rtl", mutant)
-    script = _SCRIPTS[mutant["module"]]
+    script, unit = _SCRIPTS[mutant["module"]]
     words = [f"{root}/tests/rtl/{script}", f"{build}/bin/fastsplat_emit_package", f"{tree}/source", f"{tree}/work"]
     words += [f"{build}/{word}" if "/" in word else word for word in _MORE.get(script, [])]
-    ran = subprocess.run(words, capture_output=True, text=True, env={**os.environ, "FASTSPLAT_PROVE_ONLY": mutant["module"]})
+    ran = subprocess.run(words, capture_output=True, text=True, env={**os.environ, "FASTSPLAT_PROVE_ONLY": unit})
     said = re.search(r"^(\w+: not (?:proved|its definition).*)$", ran.stdout, re.M)
     # A planted fault of the proof's own may lie in the mutated line: the property itself was proved before.
     if not said and ran.returncode != 0 and "nothing to break" not in ran.stdout:

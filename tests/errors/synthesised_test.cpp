@@ -1,0 +1,47 @@
+// What synthesis made of a configuration is found by its hash, and is what docs/evidence/synthesis.json says.
+#include "analysis/errors/synthesised.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "driver/config_file.hpp"
+
+namespace fastsplat::analysis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+TEST(Synthesised, IsWhatTheEvidenceKeepsOfTheConfiguration) {
+  std::ifstream in(FASTSPLAT_SOURCE_DIR "/docs/evidence/synthesis.json");
+  const Json kept = Json::parse(in);
+  int compared = 0;
+  for (const char* name : {"tiny", "small", "base"}) {
+    const auto config = driver::load_config(name);
+    const Json found = synthesised(config);
+    for (const Json& design : kept) {
+      if (!design.contains("modules") || design.at("design") != name) continue;
+      const std::string family = design.at("family");
+      ASSERT_TRUE(found.contains(family)) << name << ": kept of another configuration; ./run synth " << family << "-"
+                                          << name << " makes it anew";
+      for (const auto& [cells, count] : design.at("total").items()) {
+        EXPECT_EQ(found.at(family).at(cells), count) << name << " " << family << " " << cells;
+        ++compared;
+      }
+      EXPECT_GT(found.at(family).at("levels"), 1);
+    }
+  }
+  std::printf("[figure] figures compared = %d (limit > 0)\n", compared);
+  EXPECT_GT(compared, 0);
+}
+
+TEST(Synthesised, IsNothingOfOneThatWasNot) {
+  auto config = driver::load_config("tiny");
+  config.radial_frac_bits += 1;
+  EXPECT_TRUE(synthesised(config).is_null());
+}
+
+}  // namespace
+}  // namespace fastsplat::analysis

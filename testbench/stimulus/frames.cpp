@@ -160,9 +160,10 @@ void Frames::follow(const std::string& what, const Beats& next, bool in_table, C
   });
 }
 
-void Frames::drop(std::span<const cmodel::Beat> beats, int reset_cycles) {
+void Frames::drop(std::span<const cmodel::Beat> beats, int reset_cycles, int wait) {
   relay_.tiles_left = 0;
   device_->consume(beats);
+  for (int i = 0; i < wait; ++i) read(cmodel::kRegStatus);
   device_->warm_reset(reset_cycles);
 }
 

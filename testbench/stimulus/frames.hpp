@@ -51,8 +51,8 @@ class Frames {
   /// offered at once, whatever the reset still has to do.
   void cut(const std::string& what, std::span<const cmodel::Beat> beats, int wait, Coverage::Id bin,
            const Beats& next = {});
-  /// A hard reset behind some beats of a frame.
-  void drop(std::span<const cmodel::Beat> beats, int reset_cycles);
+  /// A hard reset behind some beats of a frame; `wait`: cycles, about, before it.
+  void drop(std::span<const cmodel::Beat> beats, int reset_cycles, int wait = 0);
 
  private:
   /// When the source is willing: always, but for its pauses, which come in their order.

@@ -61,6 +61,7 @@ DirectedResult check_refusals(const cmodel::Config& config, const MakeDevice& ma
   using namespace cmodel;
   check.equal("IRQ after reset", 0, frames.read(kRegIrq), interrupt);
   check.equal("IRQ_MASK after reset", 0, frames.read(kRegIrqMask), interrupt);
+  frames.good("a frame without tables or tiles", {beats.front(), beats.back()}, soft);
   frames.good("the first frame", beats, soft);
   check.equal("IRQ after a frame", kIrqFrame | kIrqTile, frames.read(kRegIrq), interrupt);
   check.equal("masked", 0, frames.device().interrupt() ? 1 : 0, interrupt);

@@ -34,7 +34,7 @@ namespace {
 using testbench::StimulusClass;
 
 /// Longer than any wait of a healthy device in these streams.
-constexpr std::uint64_t kTimeout = 20000;
+constexpr std::uint64_t kTimeout = 40000;
 /// Processor seconds of a mutant, beside so many times what the healthy device takes.
 constexpr double kSeconds = 2.0, kTimes = 5.0;
 

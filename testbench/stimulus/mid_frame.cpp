@@ -138,7 +138,7 @@ void wait_for_the_last_pixels(const Config& config, const MakeDevice& make, cons
   check.equal("IRQ once they have left", kIrqFrame | kIrqTile, frames.read(kRegIrq), early);
 
   // The same, forgotten while the picture goes out, end_frame being carried out.
-  frames.drop(tile, 1, 8);
+  frames.drop(tile, 1, 60);
   frames.write(kRegIrqMask, kIrqFrame | kIrqTile | kIrqError);
   irq = 0;
   bool raised = false;

@@ -96,7 +96,7 @@ module fastsplat_core (
   logic [7:0] error_rule, error_opcode;
   logic [31:0] error_beat;
   assign at_rest = stall_input && compositor_idle && pixel_idle;
-  stream_check u_check (
+  fastsplat_stream_check u_check (
       .clk_i,
       .rst_ni,
       .enable_i(!wiping_q),
@@ -118,7 +118,7 @@ module fastsplat_core (
       .error_beat_o(error_beat)
   );
   logic tile_aborted, frame_end;
-  stream_decode u_decode (
+  fastsplat_stream_decode u_decode (
       .clk_i,
       .rst_ni,
       .valid_i(beat_valid),
@@ -175,7 +175,7 @@ module fastsplat_core (
   logic [fastsplat_pkg::LANES-1:0] window_inside_x, window_inside_y;
   logic [BANKS-1:0] weighted;
   logic [4*BANKS-1:0] product_saturated, sheet_saturated;
-  splat_array u_splat (
+  fastsplat_splat_array u_splat (
       .clk_i,
       .rst_ni,
       .rlut_we_i(rlut_we),
@@ -243,7 +243,7 @@ module fastsplat_core (
   logic [fastsplat_pkg::LANES-1:0] composite_inside_x, composite_inside_y;
   logic [BANKS-1:0] composite_frozen;
   logic [4*BANKS-1:0] opacity_saturated, composite_saturated;
-  compositor u_compositor (
+  fastsplat_compositor u_compositor (
       .clk_i,
       .rst_ni,
       .factor_we_i(factor_we),
@@ -287,7 +287,7 @@ module fastsplat_core (
   );
 
   logic [4*fastsplat_pkg::LANES-1:0] pixel_saturated;
-  pixel_out u_pixel_out (
+  fastsplat_pixel_out u_pixel_out (
       .clk_i,
       .rst_ni,
       .start_i(tile_end),
@@ -367,7 +367,7 @@ module fastsplat_core (
   endfunction
   logic [16*fastsplat_pkg::COUNTERS-1:0] increments;
   for (genvar n = 0; n < fastsplat_pkg::COUNTERS; n++) begin : gen_count
-    popcount #(.BITS(bits_of(n))) u_count (
+    fastsplat_popcount #(.BITS(bits_of(n))) u_count (
         .clk_i,
         .rst_ni,
         .clear_i(clear_counters),
@@ -381,7 +381,7 @@ module fastsplat_core (
   assign frame_left = frame_ending_q && pixel_idle;
   always_ff @(posedge clk_i) frame_ending_q <= rst_ni && (frame_end || (frame_ending_q && !frame_left));
 
-  csr u_csr (
+  fastsplat_csr u_csr (
       .clk_i,
       .rst_ni,
       .awvalid_i,

@@ -38,7 +38,7 @@ TEST(AssertionInVerify, IsASimulationFaultWithNameInstanceAndCycle) {
   EXPECT_EQ(result.check.mismatches, 0u);
   EXPECT_NE(result.error.find("assertion sheet_has_one_owner of the RTL failed in fastsplat_core.u_splat.gen_owner"),
             std::string::npos);
-  EXPECT_NE(result.error.find("(splat_array.sv:"), std::string::npos);
+  EXPECT_NE(result.error.find("(fastsplat_splat_array.sv:"), std::string::npos);
   EXPECT_EQ(result.error.find('\n'), std::string::npos);
   EXPECT_EQ(result.error.rfind("cycle ", 0), 0u);
   const auto cycle = std::stoull(result.error.substr(6));

@@ -21,12 +21,22 @@ def files_of(rtl: str) -> list[str]:
     return sorted(name for name in os.listdir(rtl) if name.endswith(".sv")) + ["narrow.svh"]
 
 
+def module_of(name: str) -> str:
+    """A file's module without the prefix that all have but for the whole: short, for tables and lists."""
+    short = name.split(".")[0]
+    return short if short == "fastsplat_core" else short.removeprefix("fastsplat_")
+
+
+def file_of(module: str) -> str:
+    return "narrow.svh" if module == "narrow" else f"fastsplat_{module.removeprefix('fastsplat_')}.sv"
+
+
 def mutate(rtl: str, wanted=lambda module, number: True, planted=False):
     """[(file, text, mutants)] of all files that have any, and the number after the last."""
     out, number = [], 1
     for name in files_of(rtl):
         with open(f"{rtl}/{name}") as file:
-            mutator = Mutator(name.split(".")[0], file.read(), number, wanted, planted)
+            mutator = Mutator(module_of(name), file.read(), number, wanted, planted)
         text = mutator.result()
         number = mutator.number
         out.append((name, text, mutator.mutants))
@@ -64,8 +74,8 @@ def main(words: list[str]) -> int:
         listed += mutants
     if "--plant-nothing" in flags:
         found = "  assign arready_o = "
-        assert found in texts["csr.sv"]
-        texts["csr.sv"] = texts["csr.sv"].replace(found, f"{found}{SELECTED} == {number} ? !rvalid_o : ", 1)
+        assert found in texts["fastsplat_csr.sv"]
+        texts["fastsplat_csr.sv"] = texts["fastsplat_csr.sv"].replace(found, f"{found}{SELECTED} == {number} ? !rvalid_o : ", 1)
         listed.append(Mutant(number, "csr", 0, "planted", "changes nothing", "!rvalid_o", "!rvalid_o"))
     for name, text in texts.items():
         write(f"{out}/{name}", text)

@@ -22,7 +22,7 @@ def has(module: str) -> bool:
 def plant(rtl: str, out: str, mutant):
     """OUT becomes RTL with the mutant in it for good."""
     shutil.copytree(rtl, out, dirs_exist_ok=True)
-    name = f"{mutant['module']}.sv" if mutant["module"] != "narrow" else "narrow.svh"
+    name = generate.file_of(mutant["module"])
     mutated, _ = generate.mutate(rtl, lambda module, number: number == mutant["number"], planted=True)
     text = next(text for file, text, _ in mutated if file == name)
     with open(f"{out}/{name}", "w") as file:

@@ -16,10 +16,10 @@ smt() {
   if passed_over "$1"; then return; fi
   name=$1 top=$2 files=$3
   shift 3
-  yosys -q -l "$work/$name.log" -p "read_verilog -sv -formal $* -I$source/rtl -I$source/tests/rtl $work/fastsplat_pkg.sv $faults $files; hierarchy -check -top $top; proc; flatten; delete -output o:*; memory_map; opt -full -purge; async2sync; dffunmap; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2" >/dev/null 2>&1 ||
+  yosys -q -l "$work/$name.log" -p "read_verilog -sv -formal $* -I$source/rtl -I$source/tests/rtl $work/fastsplat_pkg.sv $faults $files; hierarchy -check -top $(rtl_of "$top"); proc; flatten; delete -output o:*; memory_map; opt -full -purge; async2sync; dffunmap; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2" >/dev/null 2>&1 ||
     { tail -5 "$work/$name.log"; echo "$name: Yosys fails"; exit 1; }
 }
-bank="$source/rtl/sheet_bank.sv $source/rtl/ram_1r1w.sv"
+bank="$source/rtl/fastsplat_sheet_bank.sv $source/rtl/fastsplat_ram_1r1w.sv"
 
 smt sheet_bank sheet_bank "$bank" -DFASTSPLAT_PROOF
 passed_over sheet_bank || grep -q 'yosys-smt2-assert' "$work/sheet_bank.smt2" || { echo "sheet_bank: nothing to prove"; exit 1; }

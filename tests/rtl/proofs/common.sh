@@ -11,10 +11,13 @@ trap 'status=$?; [ $status -ne 0 ] || [ -s "$work/proofs.txt" ] || { echo "$0: n
 
 seconds() { awk -v from="$1" -v to="$(date +%s.%N)" 'BEGIN { printf "%.1f", to - from }'; }
 
+# A unit's module, and its file: fastsplat_NAME.
+rtl_of() { echo "fastsplat_${1#fastsplat_}"; }
+
 # with_spec MODULE SPECIFICATION: the module with the text before its end. (z3 sits still over pixel_payload_held, which
 # compares all 256 bits; pixel out's specification says more.)
 with_spec() {
-  awk -v spec="$2" '/pixel_payload_held/ { next } /^endmodule/ { while ((getline line < spec) > 0) print line } { print }' "$source/rtl/$1.sv"
+  awk -v spec="$2" '/pixel_payload_held/ { next } /^endmodule/ { while ((getline line < spec) > 0) print line } { print }' "$source/rtl/$(rtl_of "$1").sv"
 }
 # broken FILE EDIT: FILE with the sed command EDIT done, which must change it.
 broken() {
@@ -43,20 +46,20 @@ unit() {
   with_spec "$module" "$here/${specification:-$module}_proof.svh" | grep -v "pixel_beat_not_empty${without:+\\|$without}" >"$work/$name.sv"
   [ "$file" != "$module" ] || broken "$work/$name.sv" "$edit"
   for other in $beside; do
-    cp "$source/rtl/$other.sv" "$work/$name.$other.sv"
+    cp "$source/rtl/$(rtl_of "$other").sv" "$work/$name.$other.sv"
     [ "$file" != "$other" ] || broken "$work/$name.$other.sv" "$edit"
     read="$read $work/$name.$other.sv"
   done
   quiet=""
   for other in $cut; do
-    quiet="$quiet $source/rtl/$other.sv"
-    free="$free t:$other t:*\\$other"
+    quiet="$quiet $source/rtl/$(rtl_of "$other").sv"
+    free="$free t:$(rtl_of "$other") t:*\\$(rtl_of "$other")"
   done
   # Check and pixel out are proved by themselves: neither their assertions nor their assumptions are read here.
   for other in stream_check pixel_out; do
     case " $beside " in *" $other "*) quiet="$quiet $work/$name.$other.sv" read=$(echo "$read" | sed "s| [^ ]*\.$other\.sv||") ;; esac
   done
-  yosys -q -l "$work/$name.log" -p "read_verilog -sv -I$source/rtl $package_file $quiet; read_verilog -sv -formal ${defines-} -I$source/rtl -I$here $read $work/$name.sv; hierarchy -check -top $module; proc; ${free:+cutpoint $free ${cut_wires-};} flatten; ${connects-} delete -output o:*; memory_map; opt -full -purge; async2sync; dffunmap; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2" >/dev/null 2>&1 ||
+  yosys -q -l "$work/$name.log" -p "read_verilog -sv -I$source/rtl $package_file $quiet; read_verilog -sv -formal ${defines-} -I$source/rtl -I$here $read $work/$name.sv; hierarchy -check -top $(rtl_of "$module"); proc; ${free:+cutpoint $free ${cut_wires-};} flatten; ${connects-} delete -output o:*; memory_map; opt -full -purge; async2sync; dffunmap; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2" >/dev/null 2>&1 ||
     { tail -5 "$work/$name.log"; echo "$name: Yosys fails"; exit 1; }
   grep -q 'yosys-smt2-assert' "$work/$name.smt2" || { echo "$name: nothing to prove"; exit 1; }
 }

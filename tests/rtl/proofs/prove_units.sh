@@ -17,7 +17,7 @@ smt() {
   name=$1 module=$2 package=$3 edit=${4-}
   with_spec "$module" "$here/${module}_proof.svh" >"$work/$name.sv"
   [ -z "$edit" ] || broken "$work/$name.sv" "$edit"
-  yosys -q -l "$work/$name.log" -p "read_verilog -sv -formal -DFORMAL -I$source/rtl $package $work/$name.sv; hierarchy -check -top $module; proc; flatten; memory_map; opt -full; async2sync; dffunmap; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2" >/dev/null 2>&1 ||
+  yosys -q -l "$work/$name.log" -p "read_verilog -sv -formal -DFORMAL -I$source/rtl $package $work/$name.sv; hierarchy -check -top $(rtl_of "$module"); proc; flatten; memory_map; opt -full; async2sync; dffunmap; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2" >/dev/null 2>&1 ||
     { tail -5 "$work/$name.log"; echo "$name: Yosys fails"; exit 1; }
   grep -q 'yosys-smt2-assert' "$work/$name.smt2" || { echo "$name: nothing to prove"; exit 1; }
 }

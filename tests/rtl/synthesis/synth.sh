@@ -32,7 +32,7 @@ else
 fi
 
 # What ends a path: registers, memories, submodules.
-ends="t:FD* t:SRL* t:RAM* t:TRELLIS_FF t:TRELLIS_DPR* t:DP16KD t:SB_DFF* t:SB_RAM* t:*ram_1r1w"
+ends="t:FD* t:SRL* t:RAM* t:TRELLIS_FF t:TRELLIS_DPR* t:DP16KD t:SB_DFF* t:SB_RAM* t:*fastsplat_ram_1r1w"
 for module in $modules; do ends="$ends t:$module"; done
 
 yosys -q -l "$base.log" -p "read_verilog -sv -I$source/rtl $base.pkg.sv $source/rtl/*.sv $files; hierarchy -check -top $top; $pass; tee -o $base.stat.new stat; delete $ends; tee -o $base.levels ltp -noff" >/dev/null 2>&1 ||

@@ -1,6 +1,6 @@
 // Memory with one registered read port and one write port. What a read of the word being written returns is undefined:
 // nobody may depend on it.
-module ram_1r1w #(
+module fastsplat_ram_1r1w #(
     parameter int BITS  = 8,
     parameter int WORDS = 16,
     parameter int ADDR  = 4

@@ -1,7 +1,7 @@
 // What each word of a beat is fit for, if the beat is table words (docs/stream.md, rule 8). Combinational; part of unit "check"
-// (stream_check.sv), whose first stage it is: how many of the words are the table's, and which table's, its second stage knows.
+// (fastsplat_stream_check.sv), whose first stage it is: how many of the words are the table's, and which table's, its second stage knows.
 
-module word_rules (
+module fastsplat_word_rules (
     input  logic [191:0] beat_i,
     input  logic [fastsplat_pkg::FACTOR_BITS-1:0] before_i,  // the last word of the beat before
     output logic [5:0]   zero_o,

@@ -1,6 +1,6 @@
 // Unit "popcount": how many bits of a word are set, in two cycles: 16 bits a partial sum, then the sum of those. What `clear_i`
 // meets half-way is forgotten (docs/microarchitecture.md, "Registers").
-module popcount #(
+module fastsplat_popcount #(
     parameter int BITS = 16
 ) (
     input  logic            clk_i,

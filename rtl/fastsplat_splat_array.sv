@@ -3,7 +3,7 @@
 `include "assertions.svh"
 `include "fault.svh"
 
-module splat_array (
+module fastsplat_splat_array (
     input  logic                                            clk_i,
     input  logic                                            rst_ni,
     // table load, one word a cycle
@@ -93,12 +93,12 @@ module splat_array (
   logic signed [ORG-1:0] x_c1, y_c1;
   logic [fastsplat_pkg::PHASE_BITS-1:0] mx_c1, my_c1;
   logic saturated_x, saturated_y;
-  snap u_snap_x (.clk_i, .centre_i(x_i), .rho_i, .column_i, .origin_o(x_c1), .phase_o(mx_c1), .saturated_o(saturated_x));
-  snap u_snap_y (.clk_i, .centre_i(y_i), .rho_i, .column_i(row_i), .origin_o(y_c1), .phase_o(my_c1), .saturated_o(saturated_y));
+  fastsplat_snap u_snap_x (.clk_i, .centre_i(x_i), .rho_i, .column_i, .origin_o(x_c1), .phase_o(mx_c1), .saturated_o(saturated_x));
+  fastsplat_snap u_snap_y (.clk_i, .centre_i(y_i), .rho_i, .column_i(row_i), .origin_o(y_c1), .phase_o(my_c1), .saturated_o(saturated_y));
 
   // c2
   logic [P*RB-1:0] rlut_x, rlut_y;
-  rlut u_rlut_x (
+  fastsplat_rlut u_rlut_x (
       .clk_i,
       .we_i(rlut_we_i),
       .wphase_i(rlut_wphase_i),
@@ -109,7 +109,7 @@ module splat_array (
       .column_i(column_c1_q),
       .words_o(rlut_x)
   );
-  rlut u_rlut_y (
+  fastsplat_rlut u_rlut_y (
       .clk_i,
       .we_i(rlut_we_i),
       .wphase_i(rlut_wphase_i),
@@ -125,7 +125,7 @@ module splat_array (
   logic [P*RB-1:0] columns_c3, rows_c3;
   logic [P*BLK-1:0] block_x_c3, block_y_c3;
   logic [P-1:0] inside_x_c3, inside_y_c3;
-  axis u_axis_x (
+  fastsplat_axis u_axis_x (
       .clk_i,
       .valid_i(valid_q[2]),
       .origin_i(x_q[2]),
@@ -135,7 +135,7 @@ module splat_array (
       .block_o(block_x_c3),
       .inside_o(inside_x_c3)
   );
-  axis u_axis_y (
+  fastsplat_axis u_axis_y (
       .clk_i,
       .valid_i(valid_q[2]),
       .origin_i(y_q[2]),
@@ -181,7 +181,7 @@ module splat_array (
       // Lanes outside the tile work, too, but count nothing.
       assign tap_weighted_o[B] = inside_x_q[6][g] && inside_y_q[6][h] && weights[B] != '0;
       assign tap_product_saturated_o[4*B+:4] = tap_weighted_o[B] ? saturated : '0;
-      lane u_lane (
+      fastsplat_lane u_lane (
           .clk_i,
           .we_i(radial_we_i),
           .waddr_i(radial_waddr_i),
@@ -194,7 +194,7 @@ module splat_array (
           .products_o(products),
           .saturated_o(saturated)
       );
-      sheet_bank u_bank (
+      fastsplat_sheet_bank u_bank (
           .clk_i,
           .rst_ni,
           .wipe_i,

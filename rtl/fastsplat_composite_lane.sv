@@ -4,7 +4,7 @@
 `include "assertions.svh"
 `include "narrow.svh"
 
-module composite_lane (
+module fastsplat_composite_lane (
     input  logic                                   clk_i,
     input  logic                                   rst_ni,    // of the assertions
     input  logic [5:4]                             valid_i,   // stages that hold a block: k4, k5

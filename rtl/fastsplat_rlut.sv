@@ -1,7 +1,7 @@
 // Unit "RLUT": squared distances along one axis, P consecutive columns a read (docs/numerics.md, section 4;
 // cmodel/rlut.hpp). Lane l holds the columns with column mod P = l. Instantiated once for x and once for y.
 // One register: words_o belong to the address of the cycle before.
-module rlut (
+module fastsplat_rlut (
     input  logic                                    clk_i,
     // load: one word a cycle
     input  logic                                    we_i,
@@ -28,7 +28,7 @@ module rlut (
   for (genvar l = 0; l < P; l++) begin : gen_lane
     logic lane_we;
     assign lane_we = we_i && (wcolumn_i & fastsplat_pkg::COL_BITS'(P - 1)) == fastsplat_pkg::COL_BITS'(l);
-    ram_1r1w #(.BITS(W), .WORDS(WORDS), .ADDR(ADDR)) u_ram (
+    fastsplat_ram_1r1w #(.BITS(W), .WORDS(WORDS), .ADDR(ADDR)) u_ram (
         .clk_i,
         .re_i,
         .raddr_i(raddr),

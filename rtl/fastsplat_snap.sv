@@ -2,7 +2,7 @@
 // One register: outputs belong to the inputs of the cycle before.
 `include "fault.svh"
 
-module snap (
+module fastsplat_snap (
     input  logic                                     clk_i,
     input  logic signed [ fastsplat_pkg::POS_BITS-1:0] centre_i,  // S pi.pf, tile-relative
     input  logic        [fastsplat_pkg::RHO_BITS-1:0] rho_i,      // support radius, 1/k pixel

@@ -3,7 +3,7 @@
 // In mode 2 (sum) the sums pass through unchanged. A stage without a block holds.
 `include "narrow.svh"
 
-module slab_opacity (
+module fastsplat_slab_opacity (
     input  logic                                    clk_i,
     // factor table load: segment start and fall to the next
     input  logic                                    we_i,
@@ -36,7 +36,7 @@ module slab_opacity (
   endfunction
 
   logic [2*FB-1:0] segment_k2;
-  ram_1r1w #(.BITS(2 * FB), .WORDS(fastsplat_pkg::SEGMENTS), .ADDR(fastsplat_pkg::SEG_LOG2)) u_factor (
+  fastsplat_ram_1r1w #(.BITS(2 * FB), .WORDS(fastsplat_pkg::SEGMENTS), .ADDR(fastsplat_pkg::SEG_LOG2)) u_factor (
       .clk_i,
       .re_i(valid_i[1]),
       .raddr_i(sums_i[3*SB+REM+:fastsplat_pkg::SEG_LOG2]),

@@ -3,7 +3,7 @@
 `include "assertions.svh"
 `include "narrow.svh"
 
-module pixel_out (
+module fastsplat_pixel_out (
     input  logic                                 clk_i,
     input  logic                                 rst_ni,
     input  logic                                 start_i,   // pulse; tile registers hold until idle

@@ -6,7 +6,7 @@
 // all memories are left as a tile leaves them. A soft reset does the same, and then waits for a begin_frame.
 `include "assertions.svh"
 
-module stream_check (
+module fastsplat_stream_check (
     input  logic         clk_i,
     input  logic         rst_ni,
     input  logic         enable_i,        // 0 while memories are wiped after reset
@@ -58,7 +58,7 @@ module stream_check (
 
   logic [RULES:0] next_broken;
   logic [COL-1:0] next_extent;
-  record_rules u_record (
+  fastsplat_record_rules u_record (
       .beat_i(next_q),
       .image_width_i(image_width_q),
       .image_height_i(image_height_q),
@@ -73,7 +73,7 @@ module stream_check (
       .extent_o(next_extent)
   );
   logic [5:0] next_zero, next_rlut, next_radial, next_factor, next_falls;
-  word_rules u_words (
+  fastsplat_word_rules u_words (
       .beat_i(next_q),
       .before_i(word_before_q),
       .zero_o(next_zero),

@@ -8,7 +8,7 @@
 `include "assertions.svh"
 `include "narrow.svh"
 
-module sheet_bank (
+module fastsplat_sheet_bank (
     input  logic                                   clk_i,
     input  logic                                   rst_ni,
     // clear walk after reset: writes zero to both memories
@@ -60,7 +60,7 @@ module sheet_bank (
     assign waddr = wipe_i ? wipe_addr_i : clear ? comp_addr_q : addr_w_q;
     assign wdata = (wipe_i || clear) ? '0 : sum_w;
     assign raddr = comp_mine ? comp_addr_i : addr_i;
-    ram_1r1w #(.BITS(4 * SB), .WORDS(fastsplat_pkg::BLOCKS), .ADDR(AB)) u_ram (
+    fastsplat_ram_1r1w #(.BITS(4 * SB), .WORDS(fastsplat_pkg::BLOCKS), .ADDR(AB)) u_ram (
         .clk_i,
         .re_i(re),
         .raddr_i(raddr),

@@ -3,7 +3,7 @@
 // One register; holds while there is no window.
 `include "fault.svh"
 
-module axis (
+module fastsplat_axis (
     input  logic                                                     clk_i,
     input  logic                                                     valid_i,
     input  logic signed [fastsplat_pkg::ORG_BITS-1:0]                origin_i,  // first pixel of the window

@@ -4,7 +4,7 @@
 `include "assertions.svh"
 `include "fault.svh"
 
-module compositor (
+module fastsplat_compositor (
     input  logic                                   clk_i,
     input  logic                                   rst_ni,
     // factor table load, one word a cycle
@@ -66,7 +66,7 @@ module compositor (
   // ---- k0: a dirty block a cycle
   logic issue, finish, walk_idle;
   logic [AB-1:0] pick;
-  dirty_map u_dirty (
+  fastsplat_dirty_map u_dirty (
       .clk_i,
       .rst_ni,
       .mark_i(dirty_valid_i),
@@ -157,7 +157,7 @@ module compositor (
       localparam int B = h * P + g;
       logic [4*DB-1:0] slab;
       logic [3:0] opacity_saturated_k4, opacity_saturated_k5_q, opacity_saturated_k6_q;
-      slab_opacity u_opacity (
+      fastsplat_slab_opacity u_opacity (
           .clk_i,
           .we_i(segment_we),
           .waddr_i(segment),
@@ -168,7 +168,7 @@ module compositor (
           .slab_o(slab),
           .saturated_o(opacity_saturated_k4)
       );
-      ram_1r1w #(.BITS(4 * DB), .WORDS(NB), .ADDR(AB)) u_picture (
+      fastsplat_ram_1r1w #(.BITS(4 * DB), .WORDS(NB), .ADDR(AB)) u_picture (
           .clk_i,
           .re_i(valid_q[2] || picture_re_i),
           .raddr_i(picture_raddr),
@@ -177,7 +177,7 @@ module compositor (
           .waddr_i(picture_waddr),
           .wdata_i((wipe_i || sent_q) ? '0 : states[B] ^ transparent)
       );
-      composite_lane u_composite (
+      fastsplat_composite_lane u_composite (
           .clk_i,
           .rst_ni,
           .valid_i(valid_q[5:4]),

@@ -1,8 +1,8 @@
 // Rules of docs/stream.md that a record can be held against before its place in the grammar is known: all but order, loaded and words.
-// Combinational; part of unit "check" (stream_check.sv), whose first stage it is. What it compares with is of the records before this
+// Combinational; part of unit "check" (fastsplat_stream_check.sv), whose first stage it is. What it compares with is of the records before this
 // one, each taken for what its opcode says: where that is wrong, order is broken here, or was before.
 
-module record_rules (
+module fastsplat_record_rules (
     input  logic [191:0] beat_i,
     // of begin_frame
     input  logic [15:0]  image_width_i,

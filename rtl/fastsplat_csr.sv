@@ -3,7 +3,7 @@
 // the third cycle after it.
 `include "assertions.svh"
 
-module csr (
+module fastsplat_csr (
     input  logic        clk_i,
     input  logic        rst_ni,
     // AXI4-Lite

@@ -6,7 +6,7 @@
 `include "assertions.svh"
 `include "fault.svh"
 
-module dirty_map (
+module fastsplat_dirty_map (
     input  logic                                   clk_i,
     input  logic                                   rst_ni,
     // c3: a window marks the blocks it meets inside the tile, at most two block columns and two block rows

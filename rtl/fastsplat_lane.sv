@@ -4,7 +4,7 @@
 // window is in the stage before.
 `include "narrow.svh"
 
-module lane (
+module fastsplat_lane (
     input  logic                                    clk_i,
     // radial table load
     input  logic                                    we_i,
@@ -45,7 +45,7 @@ module lane (
 
   // c5
   logic [WB-1:0] table_word, weight;
-  ram_1r1w #(.BITS(WB), .WORDS(fastsplat_pkg::RADIAL_ENTRIES), .ADDR(fastsplat_pkg::RADIAL_LOG2)) u_radial (
+  fastsplat_ram_1r1w #(.BITS(WB), .WORDS(fastsplat_pkg::RADIAL_ENTRIES), .ADDR(fastsplat_pkg::RADIAL_LOG2)) u_radial (
       .clk_i,
       .re_i(valid_i[4]),
       .raddr_i(index_q),

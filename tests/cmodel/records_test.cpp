@@ -32,5 +32,19 @@ TEST(Records, ATableTakesTheBeatsThatItsHeaderAnnounces) {
   std::printf("[figure] tables whose beats were counted = %zu\n", words);
 }
 
+TEST(Records, HeadersKeepWhatTheyAreGiven) {
+  const auto frame =
+      std::get<BeginFrame>(from_beat(beats_of(BeginFrame{0x0123456789abcdefU, 17, 65535, 0x89abcdefU})[0]));
+  EXPECT_EQ(frame.config_hash, 0x0123456789abcdefU);
+  EXPECT_EQ(frame.width, 17);
+  EXPECT_EQ(frame.height, 65535);
+  EXPECT_EQ(frame.tiles, 0x89abcdefU);
+  const auto table = std::get<LoadTable>(from_beat(beats_of(LoadTable{Table::Factor, {3, 5, 8}, {1, 2}})[0]));
+  EXPECT_EQ(table.table, Table::Factor);
+  EXPECT_EQ(table.radius.set, 3U);
+  EXPECT_EQ(table.radius.rho, 5U);
+  EXPECT_EQ(table.radius.base, 8U);
+}
+
 }  // namespace
 }  // namespace fastsplat::cmodel

@@ -1,0 +1,75 @@
+// What the cycle model says of a run beside cycles of events: accounts that sum to the busy cycles, pictures that take
+// their beats, a tap of each kind for each event; accounts of several devices add up kind by kind.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "cmodel/cycle_model.hpp"
+#include "tests/cmodel/configs_helper.hpp"
+#include "tests/cmodel/random_stream_helper.hpp"
+#include "tests/cmodel/stream_writer_helper.hpp"
+
+namespace fastsplat::test {
+namespace {
+
+struct Counted final : cmodel::TapSink {
+  std::array<std::uint64_t, cmodel::kTapCount> taps{};
+  void on_tap(const cmodel::TapRecord& record) override { ++taps[static_cast<std::size_t>(record.tap)]; }
+  std::uint64_t of(cmodel::Tap tap) const { return taps[static_cast<std::size_t>(tap)]; }
+};
+
+TEST(CycleAccount, OfRunsIsThatOfTheirRecords) {
+  constexpr std::uint64_t kFill = 2;  // of pixel out, docs/microarchitecture.md, "Account"
+  Random random(seed_or(5));
+  std::uint64_t tiles = 0, splats = 0;
+  for (const char* name : {"tiny", "small", "base"}) {
+    const cmodel::Config config = named_config(name);
+    for (int i = 0; i < 4; ++i) {
+      const auto beats = to_beats(random_stream(symbols_of(config), random, 200).bytes);
+      std::uint64_t pictures = 0, pixels = 0;
+      for (std::size_t at = 0; at < beats.size(); ++at) {
+        const auto opcode = static_cast<cmodel::Opcode>(get(beats[at], cmodel::layout::kOpcode));
+        if (opcode == cmodel::Opcode::LoadTable) at += cmodel::announced_beats(beats[at]);
+        if (opcode != cmodel::Opcode::BeginTile) continue;
+        const auto tile = std::get<cmodel::BeginTile>(cmodel::from_beat(beats[at]));
+        const int a_row = (tile.width + config.lanes - 1) / config.lanes;
+        pictures += kFill + static_cast<std::uint64_t>(a_row) * static_cast<std::uint64_t>(tile.height);
+        pixels += static_cast<std::uint64_t>(tile.width) * static_cast<std::uint64_t>(tile.height);
+        ++tiles;
+      }
+      Counted counted;
+      cmodel::CycleModel model(config, cmodel::StreamScope::Whole, {.taps = &counted});
+      model.consume(beats);
+      model.finish();
+      EXPECT_EQ(model.account().pixels, pictures);
+      EXPECT_EQ(model.account().output, 0u) << "the sink is always willing";
+      EXPECT_EQ(model.account().total(), model.stalls().busy);
+      EXPECT_EQ(counted.of(cmodel::Tap::Snap), model.counters().splats);
+      EXPECT_EQ(counted.of(cmodel::Tap::Footprint), model.counters().windows);
+      EXPECT_EQ(counted.of(cmodel::Tap::Sheet), model.counters().windows);
+      EXPECT_EQ(counted.of(cmodel::Tap::Composite), model.counters().dirty_blocks);
+      EXPECT_EQ(counted.of(cmodel::Tap::Pixel), pixels);
+      splats += model.counters().splats;
+    }
+  }
+  std::printf("[figure] tiles = %llu, splats = %llu (limits > 12, > 100)\n", static_cast<unsigned long long>(tiles),
+              static_cast<unsigned long long>(splats));
+  EXPECT_GT(tiles, 12u);
+  EXPECT_GT(splats, 100u);
+}
+
+TEST(CycleAccount, AddsUpKindByKind) {
+  cmodel::CycleAccount a, b;
+  std::uint64_t value = 0;
+#define X(name, meaning) a.name = ++value, b.name = 100 * value;
+  FASTSPLAT_CYCLE_KINDS(X)
+#undef X
+  a += b;
+  std::uint64_t kind = 0;
+  a.for_each([&](const char* name, std::uint64_t sum, const char*) { EXPECT_EQ(sum, 101 * ++kind) << name; });
+  EXPECT_EQ(kind, value);
+  EXPECT_EQ(a.total(), 101 * value * (value + 1) / 2);
+}
+
+}  // namespace
+}  // namespace fastsplat::test

@@ -1,0 +1,54 @@
+// Dirty blocks against a set of places: tiles of several words of marks a row, footprints over their ends and the
+// tile's.
+#include "cmodel/dirty_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <set>
+#include <utility>
+
+#include "tests/cmodel/random_helper.hpp"
+
+namespace fastsplat::test {
+namespace {
+
+using Places = std::vector<std::pair<int, int>>;  ///< row, column
+
+Places marked(const cmodel::DirtyMap& map) {
+  Places out;
+  map.each([&](int column, int row) { out.emplace_back(row, column); });
+  return out;
+}
+
+TEST(DirtyMap, HasEveryBlockThatAFootprintMeetsOnceAndInOrder) {
+  Random random(seed_or(3));
+  std::size_t blocks = 0, tiles = 0;
+  for (; tiles < 60; ++tiles) {
+    const int lanes = 1 << random.between(0, 3);
+    const auto width = static_cast<int>(random.between(1, 200 * lanes)),
+               height = static_cast<int>(random.between(1, 20 * lanes));
+    cmodel::DirtyMap map(lanes);
+    map.begin_tile(width, height);
+    std::set<std::pair<int, int>> expected;
+    for (std::int64_t marks = random.between(0, 3); marks > 0; --marks) {
+      const auto side = static_cast<int>(random.between(1, 100 * lanes));
+      const auto x = static_cast<int>(random.between(-side, width)),
+                 y = static_cast<int>(random.between(-side, height));
+      map.mark(x, y, side);
+      for (int row = std::max(y, 0); row < std::min(y + side, height); ++row)
+        for (int column = std::max(x, 0); column < std::min(x + side, width); ++column)
+          expected.emplace(row / lanes, column / lanes);
+    }
+    EXPECT_EQ(marked(map), Places(expected.begin(), expected.end())) << width << " x " << height << ", lanes " << lanes;
+    EXPECT_EQ(map.count(), expected.size());
+    blocks += expected.size();
+    map.clear();
+    EXPECT_TRUE(marked(map).empty());
+  }
+  std::printf("[figure] tiles = %zu, dirty blocks = %zu (limit > 10000)\n", tiles, blocks);
+  EXPECT_GT(blocks, 10000u);
+}
+
+}  // namespace
+}  // namespace fastsplat::test

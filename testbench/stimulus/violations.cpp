@@ -186,12 +186,12 @@ class List {
     if (tile == beats_.size()) return;
     for (const auto& [name, which] :
          {std::pair{"RADIAL", cmodel::Table::Radial}, std::pair{"FACTOR", cmodel::Table::Factor}}) {
-      add(StreamRule::Loaded, std::string("tile without ") + name, [which](Beats& b) {
+      add(StreamRule::Loaded, std::string("tile without ") + name, [table = which](Beats& b) {
         for (std::size_t i = b.size(); i-- > 0;) {  // all of them
           const auto records = records_of(b);
           for (const Record& record : records) {
             if (record.at != i || record.opcode != Opcode::LoadTable ||
-                get(b[i], layout::kTableId) != static_cast<std::int64_t>(which))
+                get(b[i], layout::kTableId) != static_cast<std::int64_t>(table))
               continue;
             const auto first = b.begin() + static_cast<std::ptrdiff_t>(i);
             const std::size_t count = 1 + cmodel::announced_beats(b[i]);

@@ -102,7 +102,7 @@ if [ -n "$short" ]; then
 fi
 core core
 holds core 15 "$core_shares; something moves within 12 cycles"
-happens core 28
+happens core 31
 core_broken() { core "core_$1" "$2" "$3"; refuted "core_$1" "$4"; }
 core_broken early_swap splat_array 's/: last_q\[9\];/: last_q[6];/; s/: buffer_q\[9\];/: buffer_q[6];/' 15:20
 core_broken marked_late splat_array 's/: last_q\[4\];/: last_q[5];/; s/: buffer_q\[4\];/: buffer_q[5];/' 15:20

@@ -104,6 +104,6 @@ core core
 holds core 15 "$core_shares; something moves within 12 cycles"
 happens core 31
 core_broken() { core "core_$1" "$2" "$3"; refuted "core_$1" "$4"; }
-core_broken early_swap splat_array 's/: last_q\[9\];/: last_q[6];/; s/: buffer_q\[9\];/: buffer_q[6];/' 15:20
-core_broken marked_late splat_array 's/: last_q\[4\];/: last_q[5];/; s/: buffer_q\[4\];/: buffer_q[5];/' 15:20
-core_broken waits_for_its_own_buffer stream_decode "s/(!tile_idle_i || busy_q != '0)/(!tile_idle_i || busy_q == '0)/" 18:23
+core_broken early_swap splat_array 's/: last_q\[9\];/: last_q[6];/; s/: buffer_q\[9\];/: buffer_q[6];/' 18:25
+core_broken marked_late splat_array 's/: last_q\[4\];/: last_q[5];/; s/: buffer_q\[4\];/: buffer_q[5];/' 18:25
+core_broken waits_for_its_own_buffer stream_decode "s/(!tile_idle_i || busy_q != '0)/(!tile_idle_i || busy_q == '0)/" 20:27

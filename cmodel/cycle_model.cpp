@@ -7,12 +7,6 @@
 #include "cmodel/window_geometry.hpp"
 
 namespace fastsplat::cmodel {
-namespace {
-
-constexpr std::uint64_t kWordsPerBeat = std::tuple_size_v<Beat>;
-
-}  // namespace
-
 std::uint64_t wipe_cycles(const Config& config) {
   return static_cast<std::uint64_t>(config.tile_width / config.lanes) *
          static_cast<std::uint64_t>(config.tile_height / config.lanes);
@@ -59,14 +53,14 @@ std::uint64_t CycleModel::judged(std::uint64_t taken) const {
 std::uint64_t CycleModel::enter() {
   const std::uint64_t offered = options_.input == nullptr ? next_offer_ : options_.input->next(next_offer_);
   const std::uint64_t taken = std::max(offered, check_free_);
-  const std::uint64_t weighed = judged(taken) - stages::kJudge;
-  const std::uint64_t checked = std::max(weighed + stages::kJudge, ready_);
+  const std::uint64_t verdict = judged(taken);
+  const std::uint64_t checked = std::max(verdict, ready_);
   beat_.wanted = std::max(next_offer_, check_free_);
   beat_.offered = offered;
   beat_.taken = taken;
   beat_.entered = checked + 1;
   next_offer_ = taken + 1;
-  check_free_ = weighed;
+  check_free_ = verdict - stages::kJudge;
   judge_free_ = checked;
   empty(register_free_, checked + 1);
   return checked + 1;
@@ -90,7 +84,7 @@ void CycleModel::take(const Beat& beat) {
   beat_.opcode = payload ? Opcode::LoadTable : opcode;
   const std::uint64_t at = enter();
   if (payload) {
-    const std::uint64_t words = std::min(payload_words_, kWordsPerBeat);
+    const std::uint64_t words = std::min<std::uint64_t>(payload_words_, kBeatWords);
     payload_words_ -= words;
     leave(at, at + words - 1);
     stalls_.stall_table += words;

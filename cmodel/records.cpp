@@ -158,8 +158,9 @@ Record from_beat(const Beat& beat) {
 }
 
 std::uint32_t announced_words(const Beat& load_table) { return word(load_table, kTableWords); }
-std::uint64_t announced_beats(const Beat& load_table) {
-  return (std::uint64_t{announced_words(load_table)} + kBeatWords - 1) / kBeatWords;
+std::uint64_t announced_beats(const Beat& header) {
+  if (get(header, kOpcode) != static_cast<std::int64_t>(Opcode::LoadTable)) return 0;
+  return (std::uint64_t{announced_words(header)} + kBeatWords - 1) / kBeatWords;
 }
 
 }  // namespace fastsplat::cmodel

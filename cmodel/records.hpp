@@ -72,7 +72,8 @@ Record from_beat(const Beat& beat);
 
 /// Word count that load_table's header announces.
 std::uint32_t announced_words(const Beat& load_table);
-/// The beats that follow the header with those words.
-std::uint64_t announced_beats(const Beat& load_table);
+/// The beats that belong to a record behind its first, `header`: load_table's words. Whoever goes from record to record
+/// passes over so many.
+std::uint64_t announced_beats(const Beat& header);
 
 }  // namespace fastsplat::cmodel

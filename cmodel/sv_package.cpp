@@ -158,13 +158,16 @@ std::string sv_package(const Config& config) {
   p.vector("HASH_HIGH", 32, hash >> 32);
   p.vector("STREAM_MAGIC", 32, kStreamMagic);
   p.vector("STREAM_VERSION", 16, kStreamVersion);
+  p.number("BEAT_WORDS", kBeatWords);
+  p.number("BEAT_BITS", kBeatBits);
   for (const auto& record : record_layouts())
     p.vector("OP_" + upper(record.name), 8, static_cast<std::uint64_t>(record.opcode));
   p.vector("TABLE_RLUT", 8, static_cast<std::uint64_t>(Table::Rlut));
   p.vector("TABLE_RADIAL", 8, static_cast<std::uint64_t>(Table::Radial));
   p.vector("TABLE_FACTOR", 8, static_cast<std::uint64_t>(Table::Factor));
 
-  p.section("what a beat may hold: bits with a name, w5 to w0; rules in the order in which a record is judged");
+  p.section(
+      "what a beat may hold: bits with a name, the last word first; rules in the order in which a record is judged");
   for (const auto& record : record_layouts()) p.beat("USED_" + upper(record.name), used_bits(record));
 #define X(name, value, register_name, meaning) \
   if (StreamRule::name != StreamRule::Whole) p.number("RULE_" #register_name, value);
@@ -175,8 +178,8 @@ std::string sv_package(const Config& config) {
   p.vector("RADIAL_WORD_MOST", 32, static_cast<std::uint64_t>(config.weight_format().max));
   p.vector("FACTOR_WORD_MOST", 32, static_cast<std::uint64_t>(config.factor_format().max));
   p.number("WORDS_BITS",
-           bits_for(std::max({std::int64_t{config.rlut_columns} * config.phases, std::int64_t{config.radial_entries},
-                              std::int64_t{config.opacity_segments} + 1})));
+           bits_for(std::max({std::int64_t{kBeatWords}, std::int64_t{config.rlut_columns} * config.phases,
+                              std::int64_t{config.radial_entries}, std::int64_t{config.opacity_segments} + 1})));
 
   p.section("counters, in the model's order, then cycles");
   int counters = 0;

@@ -338,7 +338,7 @@ void dump_stream(const std::filesystem::path& path, const std::function<bool(con
       } else {
         check_dumped(number, beat, layout, ended);
         text = fmt::format("{:>8} {}{}", number, layout->name, fields_of(beat, *layout));
-        if (layout->opcode == cmodel::Opcode::LoadTable) payload_left = cmodel::announced_beats(beat);
+        payload_left = cmodel::announced_beats(beat);
       }
       all = line(text);
       if (!all) return false;

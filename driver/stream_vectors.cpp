@@ -87,8 +87,9 @@ class Scribe final : public cmodel::Device, private cmodel::TapSink, private cmo
   void consume(std::span<const cmodel::Beat> beats) override {
     for (const auto& beat : beats) {
       model_.consume({&beat, 1});
-      beats_.line(fmt::format("{5:08x}{4:08x}{3:08x}{2:08x}{1:08x}{0:08x}", beat[0], beat[1], beat[2], beat[3], beat[4],
-                              beat[5]));
+      std::string digits;
+      for (std::size_t word = beat.size(); word-- > 0;) digits += fmt::format("{:08x}", beat[word]);
+      beats_.line(digits);
       record(fmt::format("{{\"beat\":{}}}", array(beat)));
       for (const auto& text : shown_) record(text);
       shown_.clear();

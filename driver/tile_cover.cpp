@@ -80,12 +80,10 @@ void CoverRule::see(const cmodel::Beat& beat) {
     --payload_left_;
     return;
   }
+  payload_left_ = cmodel::announced_beats(beat);
   switch (static_cast<cmodel::Opcode>(get(beat, cmodel::layout::kOpcode))) {
     case cmodel::Opcode::BeginFrame:
       image_ = get(beat, cmodel::layout::kFrameWidth) * get(beat, cmodel::layout::kFrameHeight);
-      break;
-    case cmodel::Opcode::LoadTable:
-      payload_left_ = cmodel::announced_beats(beat);
       break;
     case cmodel::Opcode::BeginTile:
       cover_.add(get(beat, cmodel::layout::kTileX), get(beat, cmodel::layout::kTileY),

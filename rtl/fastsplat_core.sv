@@ -12,7 +12,7 @@ module fastsplat_core (
     // AXI4-Stream in: one beat of docs/stream.md
     input  logic         s_tvalid_i,
     output logic         s_tready_o,
-    input  logic [191:0] s_tdata_i,
+    input  logic [fastsplat_pkg::BEAT_BITS-1:0] s_tdata_i,
     // AXI4-Stream out: P pixels of a row, R, G, B, A of 32 bits each; keep marks the pixels inside the tile
     output logic         m_tvalid_o,
     input  logic         m_tready_i,
@@ -91,7 +91,7 @@ module fastsplat_core (
   logic [4*fastsplat_pkg::COLOUR_BITS-1:0] window_colour;
   logic event_splat, event_cull, stall_input, stall_table, stall_buffer, stall_tile;
   logic beat_valid, beat_ready, beat_payload, beat_aborted, check_busy, soft_reset, at_rest;
-  logic [191:0] beat;
+  logic [fastsplat_pkg::BEAT_BITS-1:0] beat;
   logic [fastsplat_pkg::COL_BITS-1:0] set_extent;
   logic [7:0] error_rule, error_opcode;
   logic [31:0] error_beat;

@@ -3,7 +3,7 @@
 // one, each taken for what its opcode says: where that is wrong, order is broken here, or was before.
 
 module fastsplat_record_rules (
-    input  logic [191:0] beat_i,
+    input  logic [fastsplat_pkg::BEAT_BITS-1:0] beat_i,
     // of begin_frame
     input  logic [15:0]  image_width_i,
     input  logic [15:0]  image_height_i,
@@ -25,12 +25,12 @@ module fastsplat_record_rules (
   localparam int P = fastsplat_pkg::LANES;
 
   logic [31:0] w0, w1, w2, w3, w4, w5;
-  assign {w5, w4, w3, w2, w1, w0} = beat_i;
+  assign {w5, w4, w3, w2, w1, w0} = beat_i[0+:6*32];  // where fields lie
   logic [7:0] opcode;
   assign opcode = w0[7:0];
 
   logic known;
-  logic [191:0] used;
+  logic [fastsplat_pkg::BEAT_BITS-1:0] used;
   always_comb begin
     known = 1'b1;
     used = '0;

@@ -13,11 +13,11 @@ module fastsplat_stream_check (
     // stream in
     input  logic         valid_i,
     output logic         ready_o,
-    input  logic [191:0] data_i,
+    input  logic [fastsplat_pkg::BEAT_BITS-1:0] data_i,
     // to decode
     output logic         valid_o,
     input  logic         ready_i,
-    output logic [191:0] data_o,
+    output logic [fastsplat_pkg::BEAT_BITS-1:0] data_o,
     output logic         payload_o,       // words of the table announced last
     output logic         aborted_o,       // end_tile of the device's own
     output logic [fastsplat_pkg::COL_BITS-1:0] extent_o,  // padded extent of the set announced last
@@ -44,7 +44,7 @@ module fastsplat_stream_check (
   // ---- first stage: what is known of a beat before its place is. Numbers and counts are of the records before it, words of tables
   // taken for records too: those lie outside of tiles, and begin_tile and begin_sheet begin anew.
   logic next_valid_q, next_moves;
-  logic [191:0] next_q;
+  logic [fastsplat_pkg::BEAT_BITS-1:0] next_q;
   logic [31:0] n1;
   logic [7:0] next_opcode;
   assign next_opcode = next_q[7:0];
@@ -72,7 +72,7 @@ module fastsplat_stream_check (
       .broken_o(next_broken),
       .extent_o(next_extent)
   );
-  logic [5:0] next_zero, next_rlut, next_radial, next_factor, next_falls;
+  logic [fastsplat_pkg::BEAT_WORDS-1:0] next_zero, next_rlut, next_radial, next_factor, next_falls;
   fastsplat_word_rules u_words (
       .beat_i(next_q),
       .before_i(word_before_q),
@@ -93,7 +93,7 @@ module fastsplat_stream_check (
   end
   always_ff @(posedge clk_i) begin
     if (next_moves) begin
-      word_before_q <= next_q[160+:FB];
+      word_before_q <= next_q[32*(fastsplat_pkg::BEAT_WORDS-1)+:FB];
       case (next_opcode)
         fastsplat_pkg::OP_BEGIN_TILE: begin
           tile_q <= n1;
@@ -116,12 +116,12 @@ module fastsplat_stream_check (
 
   // ---- second stage: its place, and the verdict
   logic beat_valid_q;
-  logic [191:0] beat_q;
+  logic [fastsplat_pkg::BEAT_BITS-1:0] beat_q;
   logic [7:0] opcode;
   logic [RULES:0] record_broken_q;  // by number of the rule
   logic any_broken_q;               // of any but those of LATE
   place_e record_place_q;
-  logic [5:0] zero_q, rlut_q, radial_q, factor_q, falls_q;
+  logic [fastsplat_pkg::BEAT_WORDS-1:0] zero_q, rlut_q, radial_q, factor_q, falls_q;
   logic [COL-1:0] extent_q;
   assign opcode = beat_q[7:0];
   always_ff @(posedge clk_i) begin
@@ -145,17 +145,17 @@ module fastsplat_stream_check (
   logic radial_loaded_q, factor_loaded_q;
   logic [7:0] table_q;
   logic [WB-1:0] words_left_q, words_left_next;
-  logic [5:0] there_q;   // which words of the next beat are the table's
+  logic [fastsplat_pkg::BEAT_WORDS-1:0] there_q;   // which words of the next beat are the table's
   logic last_words_q;    // it has the last of them
   logic first_words_q;   // the beat before it is no word
-  assign words_left_next = (place_q == PlWords) ? words_left_q - WB'(6) : beat_q[96+:WB];
+  assign words_left_next = (place_q == PlWords) ? words_left_q - WB'(fastsplat_pkg::BEAT_WORDS) : beat_q[96+:WB];
 
   logic in_order, loaded, is_tile;
   assign is_tile = opcode == fastsplat_pkg::OP_BEGIN_TILE;
   assign in_order = place_q == record_place_q && !(tile_seen_q && opcode == fastsplat_pkg::OP_LOAD_TABLE);
   assign loaded = radial_loaded_q && factor_loaded_q;
-  logic [5:0] word_good;
-  for (genvar i = 0; i < 6; i++) begin : gen_word
+  logic [fastsplat_pkg::BEAT_WORDS-1:0] word_good;
+  for (genvar i = 0; i < fastsplat_pkg::BEAT_WORDS; i++) begin : gen_word
     logic of_table;
     assign of_table = (table_q == fastsplat_pkg::TABLE_RLUT) ? rlut_q[i] : (table_q == fastsplat_pkg::TABLE_RADIAL) ? radial_q[i]
                       : factor_q[i] && (falls_q[i] || (i == 0 && first_words_q));
@@ -189,7 +189,7 @@ module fastsplat_stream_check (
   assign next_moves = next_valid_q && !error_o && (!beat_valid_q || moves);
   assign ready_o = enable_i && !reset_q && (!next_valid_q || next_moves || error_o);
   assign valid_o = ends || (judged && !broken);
-  assign data_o = {beat_q[191:8], !ends ? opcode : (place_q == PlSheet) ? fastsplat_pkg::OP_END_SHEET : fastsplat_pkg::OP_END_TILE};
+  assign data_o = {beat_q[fastsplat_pkg::BEAT_BITS-1:8], !ends ? opcode : (place_q == PlSheet) ? fastsplat_pkg::OP_END_SHEET : fastsplat_pkg::OP_END_TILE};
   assign payload_o = !ends && place_q == PlWords;
   assign aborted_o = ends && place_q == PlTile;
   assign busy_o = next_valid_q || beat_valid_q || ends || reset_q;
@@ -215,8 +215,8 @@ module fastsplat_stream_check (
     if (moves) begin
       beats_q <= beats_q + 32'd1;
       words_left_q <= words_left_next;
-      for (int i = 0; i < 6; i++) there_q[i] <= words_left_next > WB'(i);
-      last_words_q <= words_left_next <= WB'(6);
+      for (int i = 0; i < fastsplat_pkg::BEAT_WORDS; i++) there_q[i] <= words_left_next > WB'(i);
+      last_words_q <= words_left_next <= WB'(fastsplat_pkg::BEAT_WORDS);
       first_words_q <= place_q != PlWords;
       if (place_q == PlWords) begin
         if (last_words_q) begin

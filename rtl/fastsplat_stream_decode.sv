@@ -11,7 +11,7 @@ module fastsplat_stream_decode (
     // beats that keep the rules
     input  logic                                       valid_i,
     output logic                                       ready_o,
-    input  logic [191:0]                               data_i,
+    input  logic [fastsplat_pkg::BEAT_BITS-1:0]                               data_i,
     input  logic                                       payload_i,   // words of the table announced last
     input  logic                                       aborted_i,   // an end_tile that nobody sent
     input  logic [fastsplat_pkg::COL_BITS-1:0]         extent_i,    // padded extent of the set announced last
@@ -60,11 +60,15 @@ module fastsplat_stream_decode (
   localparam int CB = fastsplat_pkg::COLOUR_BITS;
   localparam int COL = fastsplat_pkg::COL_BITS;
   localparam int P = fastsplat_pkg::LANES;
+  localparam int WORD_BITS = $clog2(fastsplat_pkg::BEAT_WORDS);
+  localparam logic [WORD_BITS-1:0] LAST_WORD = WORD_BITS'(fastsplat_pkg::BEAT_WORDS - 1);
 
   logic beat_valid_q, payload_q, aborted_q, take;
-  logic [191:0] beat_q;
+  logic [fastsplat_pkg::BEAT_BITS-1:0] beat_q;
   logic [31:0] w0, w1, w2, w3, w4, w5;
-  assign {w5, w4, w3, w2, w1, w0} = beat_q;
+  assign {w5, w4, w3, w2, w1, w0} = beat_q[0+:6*32];  // where fields lie
+  logic unused;
+  assign unused = &{1'b0, w0, w2, w4, w5};
   logic [7:0] opcode;
   assign opcode = w0[7:0];
   assign ready_o = !beat_valid_q || take;
@@ -81,24 +85,15 @@ module fastsplat_stream_decode (
   logic [31:0] left_q;  // words after this one
   logic last_word_q;
   logic [31:0] index_q;
-  logic [2:0] word_in_beat_q;
+  logic [WORD_BITS-1:0] word_in_beat_q;
   logic [COL-1:0] table_base_q, table_extent_q, table_column_q;
   logic [fastsplat_pkg::PHASE_BITS-1:0] table_phase_q;
-  always_comb begin
-    case (word_in_beat_q)
-      3'd0: table_word_o = w0;
-      3'd1: table_word_o = w1;
-      3'd2: table_word_o = w2;
-      3'd3: table_word_o = w3;
-      3'd4: table_word_o = w4;
-      default: table_word_o = w5;
-    endcase
-  end
+  assign table_word_o = beat_q[32*word_in_beat_q+:32];
   logic table_write;
   assign table_write = beat_valid_q && payload_q;
-  assign rlut_we_o = table_write && table_q == 8'd0;
-  assign radial_we_o = table_write && table_q == 8'd1 && !(`FASTSPLAT_FAULT(STALE_TABLE) && index_q[3:0] == 4'd5);
-  assign factor_we_o = table_write && table_q == 8'd2;
+  assign rlut_we_o = table_write && table_q == fastsplat_pkg::TABLE_RLUT;
+  assign radial_we_o = table_write && table_q == fastsplat_pkg::TABLE_RADIAL && !(`FASTSPLAT_FAULT(STALE_TABLE) && index_q[3:0] == 4'd5);
+  assign factor_we_o = table_write && table_q == fastsplat_pkg::TABLE_FACTOR;
   assign rlut_wphase_o = table_phase_q;
   assign rlut_wcolumn_o = table_base_q + table_column_q;
   assign table_index_o = index_q;
@@ -122,7 +117,7 @@ module fastsplat_stream_decode (
                      (!tile_idle_i || busy_q != '0);
   always_comb begin
     take = beat_valid_q;
-    if (payload_q) take = beat_valid_q && (last_word_q || word_in_beat_q == 3'd5);
+    if (payload_q) take = beat_valid_q && (last_word_q || word_in_beat_q == LAST_WORD);
     else if (is_splat) take = last_window;
     else if (wait_buffer || wait_tile) take = 1'b0;
   end
@@ -164,7 +159,7 @@ module fastsplat_stream_decode (
       table_extent_q <= extent_i;
       table_column_q <= '0;
       table_phase_q <= '0;
-      if (w0[15:8] == 8'd0) begin
+      if (w0[15:8] == fastsplat_pkg::TABLE_RLUT) begin
         rho_q[w1[fastsplat_pkg::SET_BITS-1:0]] <= w2[fastsplat_pkg::RHO_BITS-1:0];
         base_q[w1[fastsplat_pkg::SET_BITS-1:0]] <= w4[COL-1:0];
         extent_q[w1[fastsplat_pkg::SET_BITS-1:0]] <= extent_i;
@@ -175,7 +170,7 @@ module fastsplat_stream_decode (
       index_q <= index_q + 32'd1;
       left_q <= left_q - 32'd1;
       last_word_q <= left_q == 32'd1;
-      word_in_beat_q <= (word_in_beat_q == 3'd5) ? 3'd0 : word_in_beat_q + 3'd1;
+      word_in_beat_q <= (word_in_beat_q == LAST_WORD) ? '0 : word_in_beat_q + WORD_BITS'(1);
       table_column_q <= table_column_q + COL'(1);
       if (table_column_q + COL'(1) == table_extent_q) begin
         table_column_q <= '0;

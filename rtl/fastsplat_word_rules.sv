@@ -2,13 +2,13 @@
 // (fastsplat_stream_check.sv), whose first stage it is: how many of the words are the table's, and which table's, its second stage knows.
 
 module fastsplat_word_rules (
-    input  logic [191:0] beat_i,
+    input  logic [fastsplat_pkg::BEAT_BITS-1:0] beat_i,
     input  logic [fastsplat_pkg::FACTOR_BITS-1:0] before_i,  // the last word of the beat before
-    output logic [5:0]   zero_o,
-    output logic [5:0]   rlut_o,     // a word of RLUT, RADIAL, FACTOR
-    output logic [5:0]   radial_o,
-    output logic [5:0]   factor_o,
-    output logic [5:0]   falls_o     // no larger than the word before
+    output logic [fastsplat_pkg::BEAT_WORDS-1:0] zero_o,
+    output logic [fastsplat_pkg::BEAT_WORDS-1:0] rlut_o,     // a word of RLUT, RADIAL, FACTOR
+    output logic [fastsplat_pkg::BEAT_WORDS-1:0] radial_o,
+    output logic [fastsplat_pkg::BEAT_WORDS-1:0] factor_o,
+    output logic [fastsplat_pkg::BEAT_WORDS-1:0] falls_o     // no larger than the word before
 );
   localparam int FB = fastsplat_pkg::FACTOR_BITS;
   // word <= most: a constant, mostly 2^n or 2^n - 1, which cost no comparison.
@@ -18,7 +18,7 @@ module fastsplat_word_rules (
     else at_most = word <= most;
   endfunction
 
-  for (genvar i = 0; i < 6; i++) begin : gen_word
+  for (genvar i = 0; i < fastsplat_pkg::BEAT_WORDS; i++) begin : gen_word
     logic [31:0] word;
     logic [FB-1:0] previous;
     assign word = beat_i[32*i+:32];

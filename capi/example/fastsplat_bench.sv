@@ -17,7 +17,7 @@ module fastsplat_bench;
 
   logic rst_ni = 0;
   logic s_tvalid_i = 0, s_tready_o;
-  logic [191:0] s_tdata_i = '0;
+  logic [fastsplat_pkg::BEAT_BITS-1:0] s_tdata_i = '0;
   logic m_tvalid_o, m_tready_i = 0, m_tlast_o;
   logic [fastsplat_pkg::LANES*128-1:0] m_tdata_o;
   logic [fastsplat_pkg::LANES-1:0] m_tkeep_o;
@@ -64,7 +64,7 @@ module fastsplat_bench;
     if (error_o) fail("the device refused the stream");
   endtask
 
-  task automatic send(input bit [191:0] beat);
+  task automatic send(input bit [fastsplat_pkg::BEAT_BITS-1:0] beat);
     bit offered = 0, taken = 0;
     s_tdata_i = beat;
     for (int waited = 0; !taken; waited++) begin
@@ -100,7 +100,7 @@ module fastsplat_bench;
 
   initial begin
     int file;
-    bit [191:0] beat;
+    bit [fastsplat_pkg::BEAT_BITS-1:0] beat;
     bit [64*fastsplat_pkg::COUNTERS-1:0] counters;
     if (!$value$plusargs("beats=%s", beats_file)) fail("no +beats=FILE");
     if ($value$plusargs("config=%s", config_name)) $display("config %s", config_name);

@@ -36,7 +36,7 @@ package fastsplat_dpi_pkg;
   import "DPI-C" function int fastsplat_dpi_pixels(
     input chandle judge, input longint unsigned cycle, input bit [fastsplat_pkg::LANES*128-1:0] pixels,
     input int unsigned words, input int last);
-  import "DPI-C" function int fastsplat_dpi_took(input chandle judge, input bit [191:0] beat);
+  import "DPI-C" function int fastsplat_dpi_took(input chandle judge, input bit [fastsplat_pkg::BEAT_BITS-1:0] beat);
 
   // The device has come to rest; 0 is a pass. Counter n at bits 64 n and up.
   import "DPI-C" function int fastsplat_dpi_finish(

@@ -5,7 +5,7 @@ module fastsplat_monitor (
     input logic         rst_ni,
     input logic         s_tvalid_i,
     input logic         s_tready_o,
-    input logic [191:0] s_tdata_i,
+    input logic [fastsplat_pkg::BEAT_BITS-1:0] s_tdata_i,
     input logic         m_tvalid_o,
     input logic         m_tready_i,
     input logic [fastsplat_pkg::LANES*128-1:0] m_tdata_o,

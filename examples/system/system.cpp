@@ -50,10 +50,8 @@ void meet(Host& host, const Config& config) {
 /// A beat of a tile with a bit that has no name: refused. The host reads why, and resets.
 void spoil(Host& host, std::vector<Beat> beats) {
   std::size_t at = 0;  // of the first end_sheet; words of tables are passed over
-  for (; get(beats[at], layout::kOpcode) != static_cast<std::int64_t>(Opcode::EndSheet); ++at) {
-    if (get(beats[at], layout::kOpcode) == static_cast<std::int64_t>(Opcode::LoadTable))
-      at += announced_beats(beats[at]);
-  }
+  while (get(beats[at], layout::kOpcode) != static_cast<std::int64_t>(Opcode::EndSheet))
+    at += 1 + announced_beats(beats[at]);
   beats[at][5] ^= 1;
   host.start(std::move(beats));
   host.wait_for_interrupt(kPatience);

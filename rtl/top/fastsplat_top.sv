@@ -40,13 +40,13 @@ module fastsplat_top (
   localparam logic [11:0] NOWHERE = 12'hffc;  // an address that has no register
 
   logic beat_valid, beat_ready;
-  logic [191:0] beat;
-  fastsplat_slice #(.BITS(192)) u_beats (
+  logic [fastsplat_pkg::BEAT_BITS-1:0] beat;
+  fastsplat_slice #(.BITS(fastsplat_pkg::BEAT_BITS)) u_beats (
       .clk_i(aclk),
       .rst_ni(aresetn),
       .valid_i(s_axis_tvalid),
       .ready_o(s_axis_tready),
-      .data_i(s_axis_tdata[191:0]),
+      .data_i(s_axis_tdata[fastsplat_pkg::BEAT_BITS-1:0]),
       .valid_o(beat_valid),
       .ready_i(beat_ready),
       .data_o(beat)

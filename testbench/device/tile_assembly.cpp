@@ -10,9 +10,8 @@ std::optional<cmodel::Opcode> TileAssembly::accept(const cmodel::Beat& beat) {
     return std::nullopt;
   }
   const auto opcode = static_cast<cmodel::Opcode>(get(beat, cmodel::layout::kOpcode));
-  if (opcode == cmodel::Opcode::LoadTable) {
-    payload_left_ = cmodel::announced_beats(beat);
-  } else if (opcode == cmodel::Opcode::BeginTile) {
+  payload_left_ = cmodel::announced_beats(beat);
+  if (opcode == cmodel::Opcode::BeginTile) {
     const auto begin = std::get<cmodel::BeginTile>(cmodel::from_beat(beat));
     tiles_.push_back({.begin = begin,
                       .out = {.tile = begin.tile,

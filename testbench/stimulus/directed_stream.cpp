@@ -9,10 +9,8 @@ namespace fastsplat::testbench {
 
 std::vector<Record> records_of(const std::vector<cmodel::Beat>& beats) {
   std::vector<Record> out;
-  for (std::size_t at = 0; at < beats.size(); ++at) {
+  for (std::size_t at = 0; at < beats.size(); at += 1 + cmodel::announced_beats(beats[at]))
     out.push_back({at, static_cast<cmodel::Opcode>(get(beats[at], cmodel::layout::kOpcode))});
-    if (out.back().opcode == cmodel::Opcode::LoadTable) at += cmodel::announced_beats(beats[at]);
-  }
   return out;
 }
 

@@ -100,7 +100,8 @@ bool Frames::bad(const std::string& what, const Beats& beats, const Refused& exp
   check_.equal(what + ": refused", 1, refusal ? 1 : 0, bin);
   if (refusal) check_.equal(what + ": judged in cycle", checker_->judged(refusal->taken), refusal->judged, bin);
   const Closers closers = closers_of(before);
-  // Its own ends lie where the refused beat lay, a cycle later: as if they had been taken in the cycle before the verdict.
+  // Its own ends lie where the refused beat lay, a cycle later: as if they had been taken in the cycle before the
+  // verdict.
   if (refusal) source_.pause(0, refusal->judged - 1);
   for (const auto& beat : closers.beats) checker_->accept(beat);
   const auto opcode = static_cast<std::uint32_t>(get(beats[expected.beat], cmodel::layout::kOpcode));

@@ -13,7 +13,7 @@
 // played PLAY CYCLES; and what is wrong: unknown PLAY CYCLE NAME, stray PLAY CYCLE NAME, hangs PLAY CYCLE.
 module icarus_bench;
   localparam int P = fastsplat_pkg::LANES;
-  localparam int BEAT_BITS = 192;
+  localparam int BEAT_BITS = fastsplat_pkg::BEAT_BITS;
   localparam int LENGTH = 32768;  // of a pattern
   localparam int PATTERNS = 16;
   localparam int MOST_BEATS = 65536;

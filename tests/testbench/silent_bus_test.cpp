@@ -26,7 +26,7 @@ struct SilentTop {
   std::uint8_t awvalid_i = 0, awready_o = 0, wvalid_i = 0, bready_i = 0, bvalid_o = 0, bresp_o = 0;
   std::uint8_t arvalid_i = 0, arready_o = 0, rvalid_o = 0, rready_i = 0, rresp_o = 0, error_o = 0;
   std::uint32_t awaddr_i = 0, wdata_i = 0, araddr_i = 0, rdata_o = 0;
-  std::array<std::uint32_t, 6> s_tdata_i{};
+  cmodel::Beat s_tdata_i{};
   std::uint64_t m_tdata_o = 0;
   std::uint8_t wready_o = 0, m_tkeep_o = 0, m_tuser_o = 0, irq_o = 0;
   std::uint32_t tap_tile_o = 0;

@@ -11,7 +11,7 @@ always @* if (!f_started) assume (!rst_ni);
 `ifdef F_FEW_BEATS
 // Where something has to be found, not proved: one good beat of each kind, and one that is none.
 (* anyseq *) logic [3:0] f_which;
-logic [191:0] f_few;
+logic [fastsplat_pkg::BEAT_BITS-1:0] f_few;
 always @* begin
   case (f_which)
     4'd0: f_few = {32'd1, 32'h00020002, fastsplat_pkg::HASH_HIGH, fastsplat_pkg::HASH_LOW, 32'h31535346, 32'h00010046};
@@ -37,7 +37,7 @@ end
 
 // What decode's proof assumes.
 logic f_passed_valid, f_passed_ready, f_passed_payload, f_passed_aborted;
-logic [191:0] f_passed_data;
+logic [fastsplat_pkg::BEAT_BITS-1:0] f_passed_data;
 logic [COL-1:0] f_passed_extent;
 assign f_passed_valid = valid_o;
 assign f_passed_ready = ready_i;
@@ -50,7 +50,7 @@ assign f_passed_extent = extent_o;
 
 // The beats that were taken and did not pass yet: the elder is judged.
 logic f_next_q, f_have_q;
-logic [191:0] f_next_beat_q, f_beat_q;
+logic [fastsplat_pkg::BEAT_BITS-1:0] f_next_beat_q, f_beat_q;
 logic [31:0] f_w0, f_w1, f_w2, f_w3, f_w4, f_w5;
 assign {f_w5, f_w4, f_w3, f_w2, f_w1, f_w0} = f_beat_q;
 

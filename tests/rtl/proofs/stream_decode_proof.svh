@@ -7,7 +7,7 @@ always @* if (!f_started) assume (!rst_ni);
 
 // What comes is what check passes: stream_check_proof.svh.
 logic f_passed_valid, f_passed_ready, f_passed_payload, f_passed_aborted;
-logic [191:0] f_passed_data;
+logic [fastsplat_pkg::BEAT_BITS-1:0] f_passed_data;
 logic [COL-1:0] f_passed_extent;
 assign f_passed_valid = valid_i;
 assign f_passed_ready = ready_o;
@@ -20,7 +20,7 @@ assign f_passed_extent = extent_i;
 
 // The beat in the register.
 logic f_have_q, f_payload_q, f_aborted_q;
-logic [191:0] f_beat_q;
+logic [fastsplat_pkg::BEAT_BITS-1:0] f_beat_q;
 logic f_done;
 always @(posedge clk_i) begin
   if (valid_i && ready_o) begin
@@ -126,7 +126,7 @@ end
 logic f_was_splat_q, f_was_end_q, f_was_buffer_q;
 logic [COL-1:0] f_was_x_q, f_was_y_q, f_was_first_q;
 logic [fastsplat_pkg::RHO_BITS-1:0] f_was_rho_q;
-logic [191:0] f_was_q;
+logic [fastsplat_pkg::BEAT_BITS-1:0] f_was_q;
 always @(posedge clk_i) begin
   f_was_splat_q <= f_splat && rst_ni;
   f_was_end_q <= f_done && !f_payload && f_opcode == 8'h73 && rst_ni;

@@ -13,7 +13,7 @@ module ice40_wrap (
 );
   localparam int P = fastsplat_pkg::LANES;
   localparam int PB = fastsplat_pkg::PIXEL_BITS;
-  logic [191:0] beat_q;
+  logic [fastsplat_pkg::BEAT_BITS-1:0] beat_q;
   logic [P*128-1:0] pixels;
   logic [P-1:0] keep;
   logic [P*4*PB+P-1:0] words, out_q;

@@ -1,5 +1,5 @@
 // The C interface of libfastsplat: the integer device model and the passive checker, for benches in any language.
-// docs/capi.md is its page: the contract, an example, every status. Version 1.0; C99 and C++.
+// docs/capi.md is its page: the contract, an example, every status. Version 2.0; C99 and C++.
 //
 // Every function that can fail returns a fastsplat_status; fastsplat_last_error() then has one line of text. A call
 // that fails changes nothing but that text, and no C++ exception leaves the library.
@@ -26,7 +26,7 @@ extern "C" {
 
 // ---- version and errors
 
-#define FASTSPLAT_API_MAJOR 1
+#define FASTSPLAT_API_MAJOR 2
 #define FASTSPLAT_API_MINOR 0
 
 /// Of the library that runs: major << 16 | minor. A program runs with its own major and any minor from its own on.
@@ -70,9 +70,9 @@ FASTSPLAT_API fastsplat_status fastsplat_config_hash(const fastsplat_config* con
 /// The number behind a key of the file, "array.lanes"; of a key of words the word's place in its list.
 FASTSPLAT_API fastsplat_status fastsplat_config_value(const fastsplat_config* config, const char* key, int64_t* out);
 
-// ---- streams (docs/stream.md): a beat is six 32-bit words, w0 first
+// ---- streams (docs/stream.md): a beat is eight 32-bit words, w0 first
 
-enum { FASTSPLAT_BEAT_WORDS = 6 };
+enum { FASTSPLAT_BEAT_WORDS = 8 };
 
 enum {
   FASTSPLAT_WHOLE = 0,   ///< a whole recorded stream: tiles, beats and checksum are checked at its end
@@ -117,7 +117,7 @@ FASTSPLAT_API fastsplat_status fastsplat_model_create(const fastsplat_config* co
                                                       fastsplat_model** out);
 FASTSPLAT_API fastsplat_status fastsplat_model_destroy(fastsplat_model* model);
 
-/// `beats` beats of six words, in stream order, in any pieces. Taps and tiles are kept until they are taken, so take
+/// `beats` beats of eight words, in stream order, in any pieces. Taps and tiles are kept until they are taken, so take
 /// them between pieces. FASTSPLAT_INPUT names the beat and its byte offset; the beats before it were carried out, and
 /// only takes, counters, reset and destroy are left.
 FASTSPLAT_API fastsplat_status fastsplat_model_feed(fastsplat_model* model, const uint32_t* words, size_t beats);

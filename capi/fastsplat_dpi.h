@@ -14,7 +14,7 @@ extern "C" {
 FASTSPLAT_API void* fastsplat_dpi_checker(const char* config, uint64_t hash, const char* input, const char* output,
                                           uint64_t seed);
 
-/// A beat that was taken, 192 bits.
+/// A beat that was taken, 256 bits.
 FASTSPLAT_API fastsplat_status fastsplat_dpi_took(void* checker, const uint32_t* beat);
 
 // What a port shows (fastsplat_shown); `words`: of the vector.

@@ -7,8 +7,8 @@
 
 namespace fastsplat::cmodel {
 
-/// Six 32-bit words: one transfer of the stream (docs/stream.md).
-using Beat = std::array<std::uint32_t, 6>;
+/// Eight 32-bit words: one transfer of the stream (docs/stream.md).
+using Beat = std::array<std::uint32_t, 8>;
 // Its size has one home: whatever counts in beats, bytes of a stream or bits of a transfer follows it.
 constexpr std::size_t kBeatWords = std::tuple_size_v<Beat>;
 constexpr int kBeatBytes = static_cast<int>(sizeof(Beat));

@@ -104,8 +104,8 @@ void StreamDecode::check(const BeginFrame& record, const Beat& beat) {
   rule_ = StreamRule::Format;
   if (const auto magic = static_cast<std::uint32_t>(get(beat, layout::kFrameMagic)); magic != kStreamMagic)
     refuse("not a FastSplat stream: wrong magic", hex(kStreamMagic), hex(magic), "name a stream file (.fss)");
-  expect(get(beat, layout::kFrameVersion) == kStreamVersion, "unknown stream version", kStreamVersion,
-         get(beat, layout::kFrameVersion));
+  if (const std::int64_t version = get(beat, layout::kFrameVersion); version != kStreamVersion)
+    refuse(version_message(version).c_str(), std::to_string(kStreamVersion), std::to_string(version), kOtherVersion);
   rule_ = StreamRule::Configuration;
   if (record.config_hash != config_hash_) {
     refuse("stream was made for another configuration", hash_text(config_hash_) + " (" + config_.name + ")",
@@ -293,9 +293,9 @@ const Record* StreamDecode::feed(const Beat& beat) {
   if (state_ == State::Payload) {
     done = payload(beat);
   } else if (state_ == State::Sheet && get(beat, layout::kOpcode) == static_cast<std::int64_t>(Opcode::Splat)) {
-    // All bits of a splat but w0[31:16] are fields: the common case skips the general check.
-    rule_ = StreamRule::Reserved;
-    if ((beat[0] >> 16) != 0) refuse("reserved bits are set", "0 in w0", hex(beat[0] & 0xffff0000U));
+    // Of a splat's bits w0[31:16], w6 and w7 have no name: the common case skips the general check.
+    if (((beat[0] >> 16) | beat[6] | beat[7]) != 0)
+      check_reserved(beat, *find_layout(static_cast<std::uint32_t>(Opcode::Splat)));
     record_ = to_splat(beat);
     check(std::get<SplatRecord>(record_));
     done = &record_;

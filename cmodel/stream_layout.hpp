@@ -24,7 +24,7 @@ enum class Table : std::uint8_t { Rlut = 0, Radial = 1, Factor = 2 };
 enum class Mode : std::uint8_t { Exponential = 0, Additive = 1, Sum = 2 };
 
 constexpr std::uint32_t kStreamMagic = 0x31535346;  // "FSS1"
-constexpr int kStreamVersion = 1;
+constexpr int kStreamVersion = 2;
 
 namespace layout {
 inline constexpr Field kOpcode{0, 0, 8};
@@ -33,7 +33,7 @@ inline constexpr Field kFrameVersion{0, 16, 16}, kFrameMagic{1, 0, 32}, kFrameHa
     kFrameHashHigh{3, 0, 32}, kFrameWidth{4, 0, 16}, kFrameHeight{4, 16, 16}, kFrameTiles{5, 0, 32};
 inline constexpr Field kTableId{0, 8, 8}, kTableSet{1, 0, 32}, kTableRho{2, 0, 32}, kTableWords{3, 0, 32},
     kTableBase{4, 0, 32};
-inline constexpr Field kTileMode{0, 8, 2}, kTileNumber{1, 0, 32}, kTileX{2, 0, 32, true}, kTileY{3, 0, 32, true},
+inline constexpr Field kTileMode{0, 8, 4}, kTileNumber{1, 0, 32}, kTileX{2, 0, 32, true}, kTileY{3, 0, 32, true},
     kTileWidth{4, 0, 16}, kTileHeight{4, 16, 16};
 inline constexpr Field kSheetNumber{1, 0, 32};
 inline constexpr Field kSplatSet{0, 8, 8}, kSplatTag{1, 0, 32}, kSplatX{2, 0, 32, true}, kSplatY{3, 0, 32, true},

@@ -72,11 +72,19 @@ class Writer {
 
 std::string hex(std::uint32_t word) { return fmt::format("0x{:08x}", word); }
 
-/// Before anything else is said of a file: whether it is a stream at all.
+/// Before anything else is said of a file: whether it is a stream at all, and of the version that is read.
 void require_stream(const Beat& first) {
   const auto opcode = static_cast<std::uint32_t>(get(first, cmodel::layout::kOpcode));
   const auto magic = static_cast<std::uint32_t>(get(first, cmodel::layout::kFrameMagic));
-  if (opcode == static_cast<std::uint32_t>(cmodel::Opcode::BeginFrame) && magic == cmodel::kStreamMagic) return;
+  if (opcode == static_cast<std::uint32_t>(cmodel::Opcode::BeginFrame) && magic == cmodel::kStreamMagic) {
+    const std::int64_t version = get(first, cmodel::layout::kFrameVersion);
+    if (version == cmodel::kStreamVersion) return;
+    throw_input({.where = cmodel::beat_place(0),
+                 .what = cmodel::version_message(version),
+                 .expected = std::to_string(cmodel::kStreamVersion),
+                 .got = std::to_string(version),
+                 .fix = cmodel::kOtherVersion});
+  }
   throw_input(
       {.where = cmodel::beat_place(0),
        .what = "not a FastSplat stream",

@@ -67,7 +67,7 @@ module fastsplat_record_rules (
   end
 
   logic tile_good, set_good, position_good, colour_good, sides_good;
-  assign tile_good = w0[9:8] != 2'd3 && w1 < tiles_i && w4[15:0] <= 16'(fastsplat_pkg::TILE_WIDTH) &&
+  assign tile_good = w0[11:8] <= 4'd2 && w1 < tiles_i && w4[15:0] <= 16'(fastsplat_pkg::TILE_WIDTH) &&
                      w4[31:16] <= 16'(fastsplat_pkg::TILE_HEIGHT) && w2[31:16] == '0 && w3[31:16] == '0 &&
                      17'(w2[15:0]) + 17'(w4[15:0]) <= 17'(image_width_i) && 17'(w3[15:0]) + 17'(w4[31:16]) <= 17'(image_height_i);
   assign sides_good = w4[15:0] != '0 && w4[31:16] != '0;

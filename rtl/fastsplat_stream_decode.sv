@@ -170,7 +170,7 @@ module fastsplat_stream_decode (
       index_q <= index_q + 32'd1;
       left_q <= left_q - 32'd1;
       last_word_q <= left_q == 32'd1;
-      word_in_beat_q <= (word_in_beat_q == LAST_WORD) ? '0 : word_in_beat_q + WORD_BITS'(1);
+      word_in_beat_q <= word_in_beat_q + WORD_BITS'(1);  // a power of two of them
       table_column_q <= table_column_q + COL'(1);
       if (table_column_q + COL'(1) == table_extent_q) begin
         table_column_q <= '0;

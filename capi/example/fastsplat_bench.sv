@@ -1,7 +1,7 @@
 // An example bench: streams a file of beats through fastsplat_core and checks every tap, pixel, counter and cycle inside
 // the simulation, by fastsplat_monitor. Needs no C++ of its own (docs/capi.md, "SystemVerilog").
 //
-//   +beats=FILE    the stream, a beat of 48 hex digits a line: beats.hex of `fastsplat stream vectors`
+//   +beats=FILE    the stream, a beat of 64 hex digits a line: beats.hex of `fastsplat stream vectors`
 //   +config=NAME   its configuration, built-in or a TOML file; the device's own
 //   +input=PATTERN +output=PATTERN +seed=S   when beats are offered and pixels taken; always, always, 1
 //   +fault=N       breaks the device on purpose: a line of testbench/faults/faults.def, in a build with FASTSPLAT_FAULT_SELECT

@@ -18,11 +18,13 @@ import numpy as np
 
 OK, NONE, FAILED, USAGE, INPUT = 0, -1, 1, 2, 3
 WHOLE, SUBSET = 0, 1
-BEAT_WORDS = 6
+BEAT_WORDS = 8
+STREAM_VERSION = 2
 TAPS = ("snap", "footprint", "sheet", "composite", "pixel")
 _DETECTORS = TAPS + ("tiles", "counters", "cycles")
 _VERDICTS = ("pass", "mismatch", "nothing compared", "open")
-_API_MAJOR = 1
+_API_MAJOR = 2
+_STREAM_MAGIC = 0x31535346
 
 
 class Error(Exception):
@@ -72,8 +74,8 @@ class _Report(ctypes.Structure):
 def _load():
     beside = os.path.join(os.path.dirname(os.path.abspath(__file__)), *[os.pardir] * 3)
     names = [os.environ.get("FASTSPLAT_LIBRARY")]
-    names += [os.path.join(beside, lib, "libfastsplat.so.1") for lib in ("lib", "lib64", "lib/" + os.uname().machine + "-linux-gnu")]
-    names = [name for name in names if name and os.path.exists(name)] + ["libfastsplat.so.1"]
+    names += [os.path.join(beside, lib, "libfastsplat.so.2") for lib in ("lib", "lib64", "lib/" + os.uname().machine + "-linux-gnu")]
+    names = [name for name in names if name and os.path.exists(name)] + ["libfastsplat.so.2"]
     library = ctypes.CDLL(names[0])
     for name in ("fastsplat_version", "fastsplat_last_error", "fastsplat_checker_first_mismatch",
                  "fastsplat_checker_summary"):
@@ -117,6 +119,8 @@ def _names(function):
 def read_stream(path):
     """The beats of a recorded stream (.fss): uint32, (beats, BEAT_WORDS). Its contents are checked when they are fed."""
     words = np.fromfile(path, dtype="<u4")
+    if words.size > 1 and words[1] == _STREAM_MAGIC and words[0] >> 16 != STREAM_VERSION:
+        raise ValueError(f"{path}: stream version {words[0] >> 16}, this library reads version {STREAM_VERSION}: record it again")
     if words.size == 0 or words.size % BEAT_WORDS:
         raise ValueError(f"{path}: not whole beats of {4 * BEAT_WORDS} bytes")
     return words.reshape(-1, BEAT_WORDS)

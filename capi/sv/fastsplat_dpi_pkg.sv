@@ -2,7 +2,7 @@
 // fastsplat_pkg, the package of the device's configuration, first. Every int is a status: 0 is well, fastsplat_last_error()
 // has the line that says why not.
 package fastsplat_dpi_pkg;
-  localparam int API_MAJOR = 1;  // of fastsplat_api_version() >> 16
+  localparam int API_MAJOR = 2;  // of fastsplat_api_version() >> 16
 
   import "DPI-C" function int unsigned fastsplat_api_version();
   import "DPI-C" function string fastsplat_last_error();

@@ -3,10 +3,10 @@
 module fastsplat_top (
     input  logic         aclk,
     input  logic         aresetn,  // synchronous
-    // beats of docs/stream.md in the low 192 bits; the others are not looked at
+    // beats of docs/stream.md
     input  logic         s_axis_tvalid,
     output logic         s_axis_tready,
-    input  logic [255:0] s_axis_tdata,
+    input  logic [fastsplat_pkg::BEAT_BITS-1:0] s_axis_tdata,
     // P pixels of a row: R, G, B, A of 32 bits each; tuser: the tile was cut short
     output logic         m_axis_tvalid,
     input  logic         m_axis_tready,
@@ -46,7 +46,7 @@ module fastsplat_top (
       .rst_ni(aresetn),
       .valid_i(s_axis_tvalid),
       .ready_o(s_axis_tready),
-      .data_i(s_axis_tdata[fastsplat_pkg::BEAT_BITS-1:0]),
+      .data_i(s_axis_tdata),
       .valid_o(beat_valid),
       .ready_i(beat_ready),
       .data_o(beat)
@@ -103,5 +103,5 @@ module fastsplat_top (
   );
   // verilator lint_on PINMISSING
   logic unused;
-  assign unused = &{1'b0, s_axis_tdata[255:192], s_axil_awprot, s_axil_arprot};
+  assign unused = &{1'b0, s_axil_awprot, s_axil_arprot};
 endmodule

@@ -153,7 +153,7 @@ TEST(Scaling, NamesTheLimit) {
     EXPECT_EQ(limit["name"], name) << limit;
     EXPECT_NE(limit["help"].get<std::string>().find(said), std::string::npos) << limit;
   };
-  expect_limit(kScene + Words{"--devices", "4", "--bytes-per-cycle", "8"}, "bandwidth", "96 are as good as no limit");
+  expect_limit(kScene + Words{"--devices", "4", "--bytes-per-cycle", "8"}, "bandwidth", "128 are as good as no limit");
   // Most devices have no tile at all, but no tile would come faster if they had.
   expect_limit(kScene + Words{"--devices", "40", "--bytes-per-cycle", "2"}, "bandwidth", "bytes a cycle");
   expect_limit(kScene + Words{"--devices", "1", "--input", "every-20"}, "bandwidth", "--input");

@@ -182,7 +182,7 @@ std::vector<PlainDeviceCycles> plain_cluster(const cmodel::Config& config, std::
           devices[served].unsent.pop_front();
         }
         for (const std::size_t at : whose) devices[at].reserve();
-        left = 24;
+        left = 32;
       }
       const std::uint64_t now = rate == 0 ? left : std::min(left, budget);
       left -= now;

@@ -40,7 +40,8 @@ struct Rule {
 };
 
 const Rule kRules[] = {
-    {"version", 0, [](Edit& e) { e.set(0, 0, 0x20046); }},
+    {"version before", 0, [](Edit& e) { e.set(0, 0, 0x10046); }},
+    {"version after", 0, [](Edit& e) { e.set(0, 0, 0x30046); }},
     {"magic", 0, [](Edit& e) { e.set(0, 1, 0x32535346); }},
     {"hash low", 0, [](Edit& e) { e.set(0, 2, e.get(0, 2) ^ 1); }},
     {"hash high", 0, [](Edit& e) { e.set(0, 3, e.get(0, 3) ^ 0x80000000); }},

@@ -19,7 +19,7 @@ void StreamWriter::beat(const cmodel::Beat& words) {
 
 void StreamWriter::begin_frame(int width, int height, std::uint32_t tiles) {
   const std::uint64_t hash = oracle::hash(symbols_);
-  beat({pair(0x46, 1), 0x31535346, static_cast<std::uint32_t>(hash), static_cast<std::uint32_t>(hash >> 32),
+  beat({pair(0x46, 2), 0x31535346, static_cast<std::uint32_t>(hash), static_cast<std::uint32_t>(hash >> 32),
         pair(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)), tiles});
 }
 

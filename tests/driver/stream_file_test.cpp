@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <functional>
 
 #include "base/error.hpp"
 #include "cmodel/crc32.hpp"
@@ -101,6 +102,38 @@ TEST_F(StreamFile, a_hole_in_the_image_is_refused) {
   EXPECT_THAT(refusal([&] { feed_stream(path_, cycles); }), ::testing::HasSubstr(end));
   EXPECT_THAT(refusal([&] { require_covered(path_); }), ::testing::HasSubstr(end));
   EXPECT_THAT(refusal([&] { replay_stream(path_, config); }), ::testing::HasSubstr(end));
+}
+
+// A file of version 1: 24 bytes a beat, so that whatever follows begin_frame lies elsewhere. It is refused by name, by
+// all.
+TEST_F(StreamFile, a_file_of_the_version_before_is_refused_by_name) {
+  const auto config = load_config("tiny");
+  record_stream(scene::build_scene(view_of("shells:8", 24)), config, path_);
+  constexpr std::size_t kOldWords = 6;
+  std::vector<std::uint32_t> old;
+  for (const auto& beat : read_beats(path_)) old.insert(old.end(), beat.begin(), beat.begin() + kOldWords);
+  old[0] = (old[0] & 0xffffU) | 1U << 16;
+  std::ofstream(path_, std::ios::binary)
+      .write(reinterpret_cast<const char*>(old.data()), static_cast<std::streamsize>(4 * old.size()));
+  cmodel::CycleModel cycles(config, cmodel::StreamScope::Whole, {});
+  const std::string told = "beat 0 (byte offset 0): stream version 1, this program reads version 2 (expected 2, got 1)";
+  int readers = 0;
+  const std::function<void()> all[] = {[&] { replay_stream(path_, config); }, [&] { feed_stream(path_, cycles); },
+                                       [&] { require_covered(path_); },
+                                       [&] { dump_stream(path_, [](const std::string&) { return true; }); }};
+  for (const auto& read : all) {
+    try {
+      read();
+      FAIL() << "accepted";
+    } catch (const UserError& error) {
+      EXPECT_EQ(error.code(), ExitCode::Input);
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(path_.string() + ": " + told));
+      EXPECT_THAT(error.what(), ::testing::HasSubstr("record it again"));
+      ++readers;
+    }
+  }
+  std::printf("[figure] readers that refuse version 1 by name = %d\n", readers);
+  EXPECT_EQ(readers, 4);
 }
 
 // Cut at any byte: refused at the beat that is missing or not whole, by every reader of the file.

@@ -2,7 +2,7 @@
 // Everything of the device is unknown at power-up. What decides a transfer, and what is transferred, may never be unknown
 // once a reset was released: every cycle is looked at.
 //
-//   +beats=FILE    a beat a line, hexadecimal, w5 first (docs/stream.md)         +beat_count=N   its lines
+//   +beats=FILE    a beat a line, hexadecimal, w7 first (docs/stream.md)         +beat_count=N   its lines
 //   +willing=FILE  a bit a line: LENGTH cycles of each pattern, one after the other (docs/verify.md, "Patterns")
 //   +pattern_count=N
 //   +plays=FILE    a play a line, decimal: RESET BEATS LINGER INPUT READY: reset for RESET cycles, then BEATS beats by the

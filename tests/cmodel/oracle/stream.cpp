@@ -12,7 +12,7 @@ namespace fastsplat::oracle {
 namespace {
 
 // Of a beat.
-constexpr std::size_t kWords = 6, kBytes = 4 * kWords;
+constexpr std::size_t kWords = 8, kBytes = 4 * kWords;
 
 struct Reader {
   const Symbols& c;
@@ -121,6 +121,7 @@ TableLoad table_load(Reader& r) {
 Splat splat(const Reader& r, const std::set<std::int64_t>& sets, std::uint32_t tag) {
   const Symbols& c = r.c;
   r.rule(r.w[0] < 65536, "an unnamed bit of w0 is not zero");
+  r.empty_from(6);
   Splat splat;
   splat.set = static_cast<int>(r.w[0] / 256);
   r.rule(sets.contains(splat.set), "radius set not loaded");
@@ -147,7 +148,8 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
   r.need();
   r.rule(r.w[0] % 256 == 0x46, "begin_frame expected");
   r.rule(r.low(0) == 0x46, "an unnamed bit of w0 is not zero");
-  r.rule(r.high(0) == 1, "version");
+  r.rule(r.high(0) == 2, "version");
+  r.empty_from(6);
   r.rule(r.w[1] == 0x31535346, "magic");
   r.rule(r.w[2] + r.w[3] * (std::uint64_t{1} << 32) == hash(symbols), "hash");
   const std::int64_t image_width = r.low(4), image_height = r.high(4);
@@ -170,7 +172,7 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
       items.emplace_back(std::move(load));
     } else if (opcode == 0x54) {
       r.rule(have_radial && have_factor, "a tile before its tables");
-      r.rule(r.w[0] < 1024, "an unnamed bit of w0 is not zero");
+      r.rule(r.w[0] < 4096, "an unnamed bit of w0 is not zero");
       r.empty_from(5);
       TileStart tile;
       tile.mode = static_cast<int>(r.w[0] / 256);
@@ -207,6 +209,7 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
           } else {
             r.rule(r.w[0] % 256 == 0x43, "splat, cull_block or end_sheet expected");
             r.only_opcode();
+            r.empty_from(6);
             r.rule(r.low(4) >= 1 && r.high(4) >= 1, "an empty cull_block");
             items.emplace_back(CullHint{});
           }

@@ -254,7 +254,7 @@ class Page {
 
   void preamble(std::vector<Beat>& beats) const {
     const std::uint64_t hash = oracle::hash(symbols_);
-    beats.push_back({0x46U | 1U << 16, 0x31535346U, static_cast<std::uint32_t>(hash),
+    beats.push_back({0x46U | 2U << 16, 0x31535346U, static_cast<std::uint32_t>(hash),
                      static_cast<std::uint32_t>(hash >> 32), u32(given_.width) | u32(given_.height) << 16,
                      u32(across() * down())});
     load_table(beats, 1, 0, {}, radial(given_));

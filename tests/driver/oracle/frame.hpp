@@ -14,7 +14,7 @@
 
 namespace fastsplat::scene_oracle {
 
-using Beat = std::array<std::uint32_t, 6>;
+using Beat = std::array<std::uint32_t, 8>;
 
 /// The page says that the frame is refused.
 struct Refused : std::runtime_error {

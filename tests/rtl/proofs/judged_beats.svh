@@ -17,7 +17,7 @@ localparam logic [fastsplat_pkg::RHO_BITS-1:0] F_RHO = fastsplat_pkg::RHO_BITS'(
 always @(posedge clk_i) begin
   if (f_passed_valid && f_passed_ready) begin
     if (f_passed_payload) begin
-      f_words_left_q <= f_words_left_q > 32'd6 ? f_words_left_q - 32'd6 : '0;
+      f_words_left_q <= f_words_left_q > 32'd8 ? f_words_left_q - 32'd8 : '0;
     end else begin
       case (f_passed_opcode)
         8'h46: f_words_left_q <= '0;  // a soft reset cut the table short

@@ -15,7 +15,7 @@ here="$source/tests/rtl/proofs"
 
 # --- check: two radius sets of two phases and up to 8 columns, tables of a few words; words of any value
 package_file="$work/check_pkg.sv"
-package RLUT_SETS=2 RLUT_COLUMNS=8 COL_BITS=4 PHASES=2 PHASE_LOG2=1 PHASE_BITS=1 RHO_MOST=8 RADIAL_ENTRIES=2 RADIAL_LOG2=1 SEGMENTS=7 SEG_LOG2=3 >"$package_file"
+package RLUT_SETS=2 RLUT_COLUMNS=8 COL_BITS=4 PHASES=2 PHASE_LOG2=1 PHASE_BITS=1 RHO_MOST=8 RADIAL_ENTRIES=2 RADIAL_LOG2=1 SEGMENTS=8 SEG_LOG2=3 >"$package_file"
 check() { without=FASTSPLAT_ASS unit "$1" stream_check "record_rules word_rules" "" "${2:+stream_check}" "${2-}"; }
 check stream_check
 holds stream_check 1 "stream_check: of any beats those that keep the rules, in order, once; the first other is told, and what is open is closed"
@@ -33,7 +33,7 @@ holds stream_decode 2 "stream_decode: no beat lost, doubled or out of order; eac
 decode_broken() { decode "stream_decode_$1" "$2"; refuted "stream_decode_$1" "${3:-8}"; }
 decode_broken one_window_more "s/\(extent_q\[.*\] <= extent_i\);/\1 + COL'(P);/"
 if [ -z "$short" ]; then
-  happens stream_decode 18
+  happens stream_decode 20
   decode_broken beat_twice 's/assign ready_o = !beat_valid_q || take;/assign ready_o = !beat_valid_q || (take \&\& !payload_q);/'
   decode_broken beat_lost 's/else if (wait_buffer || wait_tile) take = 1.b0;/else if (wait_tile) take = 1'"'"'b0;/' 14
   decode_broken window_twice 's/else if (is_splat) take = last_window;/else if (is_splat) take = last_window \&\& window_valid_o;/' 9:12

@@ -14,7 +14,7 @@ always @* if (!f_started) assume (!rst_ni);
 logic [fastsplat_pkg::BEAT_BITS-1:0] f_few;
 always @* begin
   case (f_which)
-    4'd0: f_few = {32'd1, 32'h00020002, fastsplat_pkg::HASH_HIGH, fastsplat_pkg::HASH_LOW, 32'h31535346, 32'h00010046};
+    4'd0: f_few = {32'd1, 32'h00020002, fastsplat_pkg::HASH_HIGH, fastsplat_pkg::HASH_LOW, 32'h31535346, 32'h00020046};
     4'd1: f_few = {64'd0, 32'd4, 32'd1, 32'd0, 32'h0000004C};
     4'd2: f_few = {64'd0, 32'(fastsplat_pkg::RADIAL_ENTRIES), 64'd0, 32'h0000014C};
     4'd3: f_few = {64'd0, 32'(fastsplat_pkg::SEGMENTS + 1), 64'd0, 32'h0000024C};
@@ -51,8 +51,8 @@ assign f_passed_extent = extent_o;
 // The beats that were taken and did not pass yet: the elder is judged.
 logic f_next_q, f_have_q;
 logic [fastsplat_pkg::BEAT_BITS-1:0] f_next_beat_q, f_beat_q;
-logic [31:0] f_w0, f_w1, f_w2, f_w3, f_w4, f_w5;
-assign {f_w5, f_w4, f_w3, f_w2, f_w1, f_w0} = f_beat_q;
+logic [31:0] f_w0, f_w1, f_w2, f_w3, f_w4, f_w5, f_w6, f_w7;
+assign {f_w7, f_w6, f_w5, f_w4, f_w3, f_w2, f_w1, f_w0} = f_beat_q;
 
 // What passed since the last reset. The frame: 0 none, 1 begun, 2 in a tile, 3 in a sheet.
 logic [1:0] f_place_q;
@@ -76,7 +76,7 @@ always @* begin
                 : f_table_q == 8'd1 ? (32'd1 << fastsplat_pkg::WEIGHT_BITS) - 32'd1 : 32'd1 << (fastsplat_pkg::FACTOR_BITS - 1);
   f_words_bad = 1'b0;
   f_word_before = f_before_q;
-  for (int i = 0; i < 6; i++) begin
+  for (int i = 0; i < 8; i++) begin
     f_word = f_beat_q[32*i+:32];
     if (32'(i) >= f_left_q) begin
       if (f_word != '0) f_words_bad = 1'b1;
@@ -92,7 +92,7 @@ always @* begin
     8'd2: f_table_bad = !(f_w1 == '0 && f_w2 == '0 && f_w4 == '0 && f_w3 == 32'(fastsplat_pkg::SEGMENTS + 1));
     default: f_table_bad = 1'b1;
   endcase
-  f_tile_bad = f_w0[9:8] > 2'd2 || f_w1 >= f_tiles_q || f_w4[15:0] < 16'd1 || f_w4[15:0] > 16'(fastsplat_pkg::TILE_WIDTH) ||
+  f_tile_bad = f_w0[11:8] > 4'd2 || f_w1 >= f_tiles_q || f_w4[15:0] < 16'd1 || f_w4[15:0] > 16'(fastsplat_pkg::TILE_WIDTH) ||
                f_w4[31:16] < 16'd1 || f_w4[31:16] > 16'(fastsplat_pkg::TILE_HEIGHT) ||
                33'(f_w2) + 33'(f_w4[15:0]) > 33'(f_image_q[15:0]) || 33'(f_w3) + 33'(f_w4[31:16]) > 33'(f_image_q[31:16]);
   // x + 2^(b-1) is in 0..2^b - 1; b: bits of a position.
@@ -106,7 +106,7 @@ always @* begin
   case (f_w0[7:0])
     8'h46: {f_order, f_unnamed} = {f_place_q == 2'd0, f_w0[15:8] != '0};
     8'h4C: {f_order, f_unnamed} = {f_place_q == 2'd1 && !f_tile_q, f_w0[31:16] != '0 || f_w5 != '0};
-    8'h54: {f_order, f_unnamed} = {f_place_q == 2'd1, f_w0[31:10] != '0 || f_w5 != '0};
+    8'h54: {f_order, f_unnamed} = {f_place_q == 2'd1, f_w0[31:12] != '0 || f_w5 != '0};
     8'h66: {f_order, f_unnamed} = {f_place_q == 2'd1, f_w0[31:8] != '0 || f_w4 != '0 || f_w5 != '0};
     8'h53: {f_order, f_unnamed} = {f_place_q == 2'd2, f_w0[31:8] != '0 || {f_w2, f_w3, f_w4, f_w5} != '0};
     8'h74: {f_order, f_unnamed} = {f_place_q == 2'd2, f_w0[31:8] != '0 || {f_w3, f_w4, f_w5} != '0};
@@ -115,13 +115,14 @@ always @* begin
     8'h73: {f_order, f_unnamed} = {f_place_q == 2'd3, f_w0[31:8] != '0 || {f_w3, f_w4, f_w5} != '0};
     default: f_known = 1'b0;
   endcase
+  if ({f_w6, f_w7} != '0) f_unnamed = 1'b1;  // no record has fields there
   f_rule = 8'd0;
   if (f_left_q != '0) f_rule = f_words_bad ? 8'd8 : 8'd0;
   else if (!f_known) f_rule = 8'd1;
   else if (!f_order) f_rule = 8'd2;
   else if (f_unnamed) f_rule = 8'd3;
   else if (f_w0[7:0] == 8'h46) begin
-    if (f_w1 != 32'h31535346 || f_w0[31:16] != 16'd1) f_rule = 8'd4;
+    if (f_w1 != 32'h31535346 || f_w0[31:16] != 16'd2) f_rule = 8'd4;
     else if ({f_w3, f_w2} != {fastsplat_pkg::HASH_HIGH, fastsplat_pkg::HASH_LOW}) f_rule = 8'd5;
     else if (f_w4[15:0] < 16'd1 || f_w4[31:16] < 16'd1) f_rule = 8'd6;
   end else if (f_w0[7:0] == 8'h4C) f_rule = f_table_bad ? 8'd7 : 8'd0;
@@ -168,10 +169,10 @@ always @(posedge clk_i) begin
   if (f_passes) begin
     f_number_q <= f_number_q + 32'd1;
     if (f_left_q != '0) begin
-      f_left_q <= f_left_q > 32'd6 ? f_left_q - 32'd6 : '0;
-      f_before_q <= f_w5;
-      if (f_left_q <= 32'd6 && f_table_q == 8'd1) f_radial_q <= 1'b1;
-      if (f_left_q <= 32'd6 && f_table_q == 8'd2) f_factor_q <= 1'b1;
+      f_left_q <= f_left_q > 32'd8 ? f_left_q - 32'd8 : '0;
+      f_before_q <= f_w7;
+      if (f_left_q <= 32'd8 && f_table_q == 8'd1) f_radial_q <= 1'b1;
+      if (f_left_q <= 32'd8 && f_table_q == 8'd2) f_factor_q <= 1'b1;
     end else begin
       case (f_w0[7:0])
         8'h46: begin
@@ -271,7 +272,7 @@ end
 
 // What is offered stays.
 logic f_held_q;
-logic [193:0] f_offered_q;
+logic [257:0] f_offered_q;
 always @(posedge clk_i) begin
   f_held_q <= rst_ni && valid_o && !ready_i;
   f_offered_q <= {data_o, payload_o, aborted_o};
@@ -322,7 +323,7 @@ always @* begin
                                  f_w0[7:0] == 8'h50 || f_w0[7:0] == 8'h43 || f_w0[7:0] == 8'h73 ? PlSheet : PlTables));
       assert (f_left_q != '0 || !f_known || !f_order || (f_w0[7:0] == 8'h54 && !(f_radial_q && f_factor_q)) || (broken ? rule : 8'd0) == f_rule);
       assert (f_w0[7:0] != 8'h4C || f_left_q != '0 || f_rule != 8'd0 || 40'(extent_q) == f_columns || f_w0[15:8] != 8'd0);
-      for (int i = 0; i < 6; i++) begin
+      for (int i = 0; i < 8; i++) begin
         assert (zero_q[i] == (f_beat_q[32*i+:32] == '0));
         assert (rlut_q[i] == (f_beat_q[32*i+:32] <= fastsplat_pkg::RLUT_WORD_MOST));
         assert (radial_q[i] == (f_beat_q[32*i+:32] <= fastsplat_pkg::RADIAL_WORD_MOST));
@@ -333,10 +334,10 @@ always @* begin
     end
     if (f_left_q != '0) begin
       assert (32'(words_left_q) == f_left_q && table_q == f_table_q && f_table_q <= 8'd2 && first_words_q == (f_before_q == '1));
-      assert (last_words_q == (f_left_q <= 32'd6));
-      for (int i = 0; i < 6; i++) assert (there_q[i] == (f_left_q > 32'(i)));
+      assert (last_words_q == (f_left_q <= 32'd8));
+      for (int i = 0; i < 8; i++) assert (there_q[i] == (f_left_q > 32'(i)));
       if (f_table_q == 8'd2) assert (f_before_q == '1 || f_before_q <= f_word_most);
-      assert (f_error_q || word_before_q == (f_have_q ? f_w5[FB-1:0] : f_before_q[FB-1:0]) || (!f_have_q && first_words_q));
+      assert (f_error_q || word_before_q == (f_have_q ? f_w7[FB-1:0] : f_before_q[FB-1:0]) || (!f_have_q && first_words_q));
     end
     assert (f_passed_place_q == (f_place_q == 2'd3 ? 2'd2 : f_place_q == 2'd2 ? 2'd1 : 2'd0));
     assert (f_place_q == 2'd0 || f_words_left_q == f_left_q);

@@ -60,7 +60,7 @@ logic [1:0] f_busy_q;
 logic f_buffer_q;
 assign f_waits = f_opcode == 8'h53 ? f_busy_q[f_buffer_q] :
                  (f_opcode == 8'h54 || f_opcode == 8'h74) && !(tile_idle_i && f_busy_q == 2'd0);
-assign f_done = f_have_q && (f_payload ? f_left_q == 32'd1 || f_word_q == 3'd5 : f_splat ? f_last_x && f_last_y : !f_waits);
+assign f_done = f_have_q && (f_payload ? f_left_q == 32'd1 || f_word_q == 3'd7 : f_splat ? f_last_x && f_last_y : !f_waits);
 
 // Any window of the splat: how often it was issued.
 (* anyconst *) logic [COL-1:0] f_any_x, f_any_y;
@@ -72,7 +72,7 @@ always @(posedge clk_i) begin
     if (f_payload) begin
       f_left_q <= f_left_q - 32'd1;
       f_index_q <= f_index_q + 32'd1;
-      f_word_q <= f_word_q == 3'd5 || f_left_q == 32'd1 ? 3'd0 : f_word_q + 3'd1;
+      f_word_q <= f_word_q == 3'd7 || f_left_q == 32'd1 ? 3'd0 : f_word_q + 3'd1;
     end else if (f_done) begin
       case (f_opcode)
         8'h46: f_left_q <= '0;  // a soft reset cut a table short
@@ -191,7 +191,7 @@ always @(posedge clk_i) begin
     // The beat in the register is such as check passes, and lies between what was passed and what was carried out.
     if (f_payload) begin
       assert (f_place_q == 2'd0 && f_left_q != '0);
-      assert (f_words_left_q == (f_left_q > 32'd6 - 32'(f_word_q) ? f_left_q - (32'd6 - 32'(f_word_q)) : '0));
+      assert (f_words_left_q == (f_left_q > 32'd8 - 32'(f_word_q) ? f_left_q - (32'd8 - 32'(f_word_q)) : '0));
     end else if (f_have_q) begin
       if (f_opcode == 8'h46 || f_opcode == 8'h4C || f_opcode == 8'h54 || f_opcode == 8'h66) assert (f_place_q == 2'd0);
       if (f_opcode == 8'h53 || f_opcode == 8'h74) assert (f_place_q == 2'd1);
@@ -218,7 +218,7 @@ always @(posedge clk_i) begin
     if (f_left_q != '0) begin
       assert (f_place_q == 2'd0);
       assert (index_q == f_index_q && left_q + 32'd1 == f_left_q && last_word_q == (f_left_q == 32'd1) && word_in_beat_q == f_word_q);
-      assert (table_q == f_table_q && f_table_q <= 8'd2 && f_word_q <= 3'd5);
+      assert (table_q == f_table_q && f_table_q <= 8'd2);
       assert (table_base_q == f_base_q);
       if (f_table_q == 8'd0) begin
         assert (table_extent_q == f_padded_q);
@@ -244,7 +244,7 @@ always @(posedge clk_i) begin
     if (!f_splat) assert (f_seen_q == '0);
     cover (f_done && f_splat && f_x_q == COL'(P) && f_y_q == COL'(P));
     cover (f_have_q && f_opcode == 8'h53 && !f_payload && f_waits && f_busy_q == 2'b11);
-    cover (f_done && f_payload && f_index_q == 32'd7);
+    cover (f_done && f_payload && f_index_q == 32'd9);
     cover (f_done && !f_payload && f_opcode == 8'h46 && f_left_q != '0);
     cover (tile_end_o && tile_aborted_o);
   end

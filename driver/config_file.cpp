@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -33,22 +34,23 @@ std::string to_toml(const cmodel::Config& config) {
   std::string text =
       fmt::format("# hash {}\nname = {}\ndescription = {}\nverified = {}\n", hash_text(cmodel::config_hash(config)),
                   quoted(config.name), quoted(config.description), quoted(config.verified));
-  std::string table;
+  // By table: a key that came later stands beside the others.
+  std::vector<std::pair<std::string, std::string>> tables;
   for (const auto& key : cmodel::config_keys()) {
     const std::string name = key.name;
     const auto dot = name.find('.');
-    if (name.substr(0, dot) != table) {
-      table = name.substr(0, dot);
-      text += fmt::format("\n[{}]\n", table);
-    }
+    const std::string table = name.substr(0, dot);
+    auto lines = std::find_if(tables.begin(), tables.end(), [&](const auto& one) { return one.first == table; });
+    if (lines == tables.end()) lines = tables.insert(lines, {table, ""});
     const std::string value = cmodel::text_of(config, key);
     const bool neutral = key.neutral == config.*key.member;
-    text += fmt::format(
+    lines->second += fmt::format(
         "{:40} # {}{}{}: {}\n",
         fmt::format("{}{} = {}", neutral ? "# " : "", name.substr(dot + 1), key.names.empty() ? value : quoted(value)),
         cmodel::allowed(key), key.power_of_two ? ", a power of two" : "", key.neutral ? ", may be absent" : "",
         key.meaning);
   }
+  for (const auto& [table, lines] : tables) text += fmt::format("\n[{}]\n{}", table, lines);
   return text;
 }
 

@@ -24,7 +24,7 @@ always @* begin
   f_word = '0;
   f_known = 1'b1;
   if (araddr_i == 12'h000) f_word = 32'h31535346;
-  else if (araddr_i == 12'h004) f_word = 32'd1;
+  else if (araddr_i == 12'h004) f_word = 32'd2;
   else if (araddr_i == 12'h008) f_word = fastsplat_pkg::HASH_LOW;
   else if (araddr_i == 12'h00C) f_word = fastsplat_pkg::HASH_HIGH;
   else if (araddr_i == 12'h010) f_word = {30'd0, error_i, busy_i};

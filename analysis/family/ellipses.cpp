@@ -94,7 +94,7 @@ class Comparison {
     out_.least_q = std::numeric_limits<std::int64_t>::max();
   }
 
-  void add(const golden::ScreenShape& shape, double circle_radius, double energy) {
+  void add(const scene::ScreenShape& shape, double circle_radius, double energy) {
     const int i = static_cast<int>(out_.splats++);
     const auto x = static_cast<std::int32_t>(kSide / 2 * kGrid + spread(i, 2.0) * kGrid);
     const auto y = static_cast<std::int32_t>(kSide / 2 * kGrid + spread(i, 3.0) * kGrid);
@@ -130,7 +130,7 @@ class Comparison {
 
  private:
   /// Golden's own weights.
-  void draw_exact(const golden::ScreenShape& shape, std::int32_t x, std::int32_t y) {
+  void draw_exact(const scene::ScreenShape& shape, std::int32_t x, std::int32_t y) {
     golden::ProjectedSplat splat;
     splat.x = static_cast<double>(x) / kGrid;
     splat.y = static_cast<double>(y) / kGrid;
@@ -146,7 +146,7 @@ class Comparison {
     }
   }
   /// q by the words and by the shape, at the pixels of the square that holds the ellipse.
-  void follow_q(const golden::ScreenShape& shape, const cmodel::LoadTable& table, std::int32_t x, std::int32_t y) {
+  void follow_q(const scene::ScreenShape& shape, const cmodel::LoadTable& table, std::int32_t x, std::int32_t y) {
     const cmodel::Quadric f = cmodel::quadric_of(table.words);
     const double R2 = kernel_.radius() * kernel_.radius(), determinant = shape.determinant();
     const int reach = static_cast<int>(table.radius.rho / kGrid) + 1;

@@ -15,7 +15,7 @@ namespace fastsplat::golden {
 void Footprint::rasterise(const scene::Kernel& kernel, const ProjectedSplat& splat, Rows rows, int image_width) {
   spans_.clear();
   std::size_t used = 0;
-  const ScreenShape& shape = splat.shape;
+  const scene::ScreenShape& shape = splat.shape;
   const double slope = shape.xy / shape.yy;
   const double aspect = shape.yy / (shape.xx - slope * shape.xy);
   const double radius2 = splat.reach_y * splat.reach_y;

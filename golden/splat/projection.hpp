@@ -1,16 +1,10 @@
-// From a splat to its footprint on the screen: one pipeline in which every technique changes the shape that the one
-// before it left.
-//
-//   circle -> ellipse (perspective) -> growth (anti-aliasing) -> + motion -> + lens
-//
-// Each is absent unless its setting asks for it, and leaves every bit alone where it has nothing to do.
+// From a splat to its footprint on the screen.
 #pragma once
 
-#include "golden/splat/depth_of_field_splats.hpp"
-#include "golden/splat/motion_blur.hpp"
 #include "golden/splat/projected_splat.hpp"
 #include "golden/splat/textured_splats.hpp"
 #include "scene/scene.hpp"
+#include "scene/splat_shaper.hpp"
 #include "scene/splats.hpp"
 
 namespace fastsplat::golden {
@@ -25,9 +19,8 @@ class Projector {
 
  private:
   const scene::Scene& scene_;
-  double unit_, density_;
-  MotionBlur motion_;
-  DepthOfFieldSplats lens_;
+  double density_;
+  scene::SplatShaper shape_;
   TexturedSplats textures_;
 };
 

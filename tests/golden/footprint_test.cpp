@@ -92,7 +92,7 @@ TEST(Footprint, EllipseIsItsCanonicalForm) {
     const double x = uniform(0, kSide), y = uniform(0, kSide), angle = uniform(0, std::numbers::pi);
     const double along = std::exp2(uniform(0, 7)), across = std::exp2(uniform(-1, 5));  // pixels^2 per unit^2
     const double c = std::cos(angle), s = std::sin(angle);
-    const ScreenShape shape{along * c * c + across * s * s, (along - across) * c * s, along * s * s + across * c * c};
+    const scene::ScreenShape shape{along * c * c + across * s * s, (along - across) * c * s, along * s * s + across * c * c};
     const double a = shape.yy / shape.determinant(), b = -2 * shape.xy / shape.determinant(),
                  d = shape.xx / shape.determinant();
     Image image(kSide, kSide, 1);
@@ -157,7 +157,7 @@ TEST(Footprint, EllipseRimIsTheSilhouetteToSecondOrder) {
           eye + shrink * sight + r * std::sqrt(shrink) * (std::cos(angle) * u + std::sin(angle) * v);
       const scene::ScreenPoint at = scene.camera.project(touch);
       const double dx = at.x - splat.x, dy = at.y - splat.y, from_centre = std::hypot(dx, dy);
-      const ScreenShape& s = splat.shape;
+      const scene::ScreenShape& s = splat.shape;
       const double q = (s.yy * dx * dx - 2 * s.xy * dx * dy + s.xx * dy * dy) / s.determinant();
       ellipse_error = std::max(ellipse_error, std::abs(from_centre * (1 - r / std::sqrt(q))));
       circle_error = std::max(circle_error, std::abs(from_centre - r * std::sqrt(circle)));

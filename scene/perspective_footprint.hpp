@@ -4,16 +4,15 @@
 
 #include <glm/glm.hpp>
 
-#include "golden/splat/projected_splat.hpp"
 #include "scene/camera.hpp"
+#include "scene/shaped_splat.hpp"
 
-namespace fastsplat::golden {
+namespace fastsplat::scene {
 
 /// Of the map (X,Y,Z) -> (f X/Z, f Y/Z) the derivative at the splat is J = s (1 0 -gx; 0 1 -gy) with g = (X,Y)/Z the
 /// tangents of its direction, so a sphere becomes S = J J^T = s^2 (I + g g^T): longer by 1/cos(angle) away from the
 /// image's centre. Orthographic: g = 0, the circle, bit for bit.
-inline void apply_perspective(const scene::Camera& camera, const glm::dvec3& world, double depth,
-                              ProjectedSplat& splat) {
+inline void apply_perspective(const Camera& camera, const glm::dvec3& world, double depth, ShapedSplat& splat) {
   const double from_eye = camera.eye_distance() + depth;  // mm; infinite for an orthographic camera
   const double gx = glm::dot(world, camera.right()) / from_eye;
   const double gy = glm::dot(world, camera.down()) / from_eye;
@@ -21,4 +20,4 @@ inline void apply_perspective(const scene::Camera& camera, const glm::dvec3& wor
   reshape(splat, {circle.xx * (1.0 + gx * gx), circle.xx * gx * gy, circle.yy * (1.0 + gy * gy)});
 }
 
-}  // namespace fastsplat::golden
+}  // namespace fastsplat::scene

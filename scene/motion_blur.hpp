@@ -4,29 +4,29 @@
 
 #include <glm/glm.hpp>
 
-#include "golden/splat/projected_splat.hpp"
 #include "scene/camera.hpp"
 #include "scene/kernel.hpp"
+#include "scene/shaped_splat.hpp"
 #include "scene/techniques.hpp"
 
-namespace fastsplat::golden {
+namespace fastsplat::scene {
 
 class MotionBlur {
  public:
-  MotionBlur(const scene::Motion& motion, const scene::Camera& camera, const scene::Kernel& kernel);
+  MotionBlur(const Motion& motion, const Camera& camera, const Kernel& kernel);
 
   /// A point spread evenly over the straight way u has the second moment u u^T / 12, which is added to the
   /// footprint's.
-  void apply(const glm::dvec3& world, ProjectedSplat& splat) const;
+  void apply(const glm::dvec3& world, ShapedSplat& splat) const;
 
  private:
   glm::dvec2 on_screen(const glm::dvec3& world, double end) const;
 
   bool none_;
-  const scene::Camera& camera_;
+  const Camera& camera_;
   glm::dvec3 translate_;
   double sin_, cos_;  ///< of half the orbit
   double per_pixel2_;
 };
 
-}  // namespace fastsplat::golden
+}  // namespace fastsplat::scene

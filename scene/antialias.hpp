@@ -2,18 +2,18 @@
 // the kernel grows with depth. docs/techniques/anti-aliasing.md
 #pragma once
 
-#include "golden/splat/projected_splat.hpp"
 #include "scene/kernel_growth.hpp"
+#include "scene/shaped_splat.hpp"
 
-namespace fastsplat::golden {
+namespace fastsplat::scene {
 
 /// h_l(x) = lambda^-3 h(x/lambda): footprint and depth extent grow by lambda; the footprint's amplitude falls as
 /// lambda^-2, its slices' thickness makes up the third.
-inline void apply_antialias(double pixels_per_unit, ProjectedSplat& splat) {
-  const double growth = scene::kernel_growth(pixels_per_unit);
+inline void apply_antialias(double pixels_per_unit, ShapedSplat& splat) {
+  const double growth = kernel_growth(pixels_per_unit);
   const double area = growth * growth;
   reshape(splat, {splat.shape.xx * area, splat.shape.xy * area, splat.shape.yy * area});
   splat.depth_growth = growth;
 }
 
-}  // namespace fastsplat::golden
+}  // namespace fastsplat::scene

@@ -1,11 +1,11 @@
-#include "golden/splat/motion_blur.hpp"
+#include "scene/motion_blur.hpp"
 
 #include <cmath>
 #include <numbers>
 
-namespace fastsplat::golden {
+namespace fastsplat::scene {
 
-MotionBlur::MotionBlur(const scene::Motion& motion, const scene::Camera& camera, const scene::Kernel& kernel)
+MotionBlur::MotionBlur(const Motion& motion, const Camera& camera, const Kernel& kernel)
     : none_(motion.none()),
       camera_(camera),
       translate_(motion.translate),
@@ -18,16 +18,15 @@ MotionBlur::MotionBlur(const scene::Motion& motion, const scene::Camera& camera,
 glm::dvec2 MotionBlur::on_screen(const glm::dvec3& world, double end) const {
   const glm::dvec3 moved = world + 0.5 * end * translate_;
   const double sin = end * sin_;
-  const scene::ScreenPoint at =
-      camera_.project({cos_ * moved.x - sin * moved.y, sin * moved.x + cos_ * moved.y, moved.z});
+  const ScreenPoint at = camera_.project({cos_ * moved.x - sin * moved.y, sin * moved.x + cos_ * moved.y, moved.z});
   return {at.x, at.y};
 }
 
-void MotionBlur::apply(const glm::dvec3& world, ProjectedSplat& splat) const {
+void MotionBlur::apply(const glm::dvec3& world, ShapedSplat& splat) const {
   if (none_) return;
   const glm::dvec2 way = on_screen(world, 1.0) - on_screen(world, -1.0);
   reshape(splat, {splat.shape.xx + per_pixel2_ * way.x * way.x, splat.shape.xy + per_pixel2_ * way.x * way.y,
                   splat.shape.yy + per_pixel2_ * way.y * way.y});
 }
 
-}  // namespace fastsplat::golden
+}  // namespace fastsplat::scene

@@ -68,6 +68,7 @@ nlohmann::ordered_json to_json(const driver::DriverReport& report) {
             {"saturated_records", report.saturated_records},
             {"vanished_voxels", report.vanished_voxels},
             {"vanished_share", report.vanished_share},
+            {"widened_voxels", report.widened_voxels},
             {"carried", report.carried}}}};
 }
 
@@ -89,6 +90,13 @@ std::vector<Remark> remarks(const driver::DriverReport& report) {
                      "colour and opacity{}",
                      grouped(report.vanished_voxels), grouped(report.voxels), 100.0 * report.vanished_share,
                      shows ? "; use a configuration with more colour.frac_bits, or --set rounding.carry=on" : "")});
+  }
+  if (report.widened_voxels > 0) {
+    remarks.push_back(
+        {Remark::Note,
+         fmt::format("{} of {} voxels have footprints thinner than half a pixel and were drawn as wide as "
+                     "that, and as much fainter; --antialias on, or a larger --size",
+                     grouped(report.widened_voxels), grouped(report.voxels))});
   }
   return remarks;
 }

@@ -93,6 +93,13 @@ constexpr std::array kKeys{
               .meaning = "which footprints of a blit2d set are stored",
               .names = kIndexSymmetries,
               .neutral = static_cast<int>(IndexSymmetry::Off)},
+    ConfigKey{.name = "ellipse.frac_bits",
+              .member = &Config::ellipse_frac_bits,
+              .min = 0,
+              .max = 20,
+              .power_of_two = false,
+              .meaning = "f: fraction bits of an ellipse's q below one RLUT word; 0: the device has no ellipses",
+              .neutral = 0},
 };
 
 ErrorParts violation(const char* key, std::string what, std::string expected, int got, std::string fix) {
@@ -163,6 +170,54 @@ std::optional<ErrorParts> index_violation(const Config& config) {
     case IndexKind::Rlut:
     case IndexKind::Separable:
       break;
+  }
+  return std::nullopt;
+}
+
+/// Limits of ellipses (docs/numerics.md, section 4.6).
+std::optional<ErrorParts> ellipse_violation(const Config& config) {
+  if (!config.has_ellipses()) return std::nullopt;
+  const char* key = "ellipse.frac_bits";
+  if (config.index() == IndexKind::Linear) {
+    return ErrorParts{.where = key,
+                      .what = "reads the radial table by squared distance, and that of linear is by distance",
+                      .expected = "another index.kind than linear",
+                      .got = kIndexKinds[config.index_kind],
+                      .fix = "use ellipse.frac_bits = 0, or index.kind = rlut"};
+  }
+  const int position_bits = config.position_int_bits + config.position_frac_bits;
+  if (config.position_frac_bits > kEllipsePositionFracBits || position_bits > kEllipsePositionBits) {
+    const bool fraction = config.position_frac_bits > kEllipsePositionFracBits;
+    return violation("position.frac_bits", "makes positions that an ellipse's record has no room for",
+                     fraction ? "at most " + std::to_string(kEllipsePositionFracBits)
+                              : "int_bits + frac_bits <= " + std::to_string(kEllipsePositionBits),
+                     fraction ? config.position_frac_bits : position_bits,
+                     "lower position.frac_bits or int_bits, or use ellipse.frac_bits = 0");
+  }
+  if (config.radial_index_bits() + config.rlut_guard_bits < 2) {
+    return violation("radial.entries", "leaves an ellipse's q no room to be rounded",
+                     "log2(radial.entries) + rlut.guard_bits >= 2", config.radial_entries,
+                     "raise radial.entries, or use ellipse.frac_bits = 0");
+  }
+  if (config.rlut_columns > kEllipseWindows * config.lanes || config.rlut_columns > kEllipseReach) {
+    return violation(
+        "rlut.columns", "is wider than an ellipse's record can say",
+        "at most " + std::to_string(std::min(kEllipseWindows * config.lanes, kEllipseReach)) + " with ellipses",
+        config.rlut_columns, "lower rlut.columns, or use ellipse.frac_bits = 0");
+  }
+  const int steepest = config.radial_index_bits() + config.rlut_guard_bits + 4 - 2 * config.position_frac_bits;
+  if (steepest >= kEllipseTermBits) {
+    return violation(
+        "position.frac_bits", "makes the steepest ellipse (1/4 pixel) too large for a record",
+        "log2(radial.entries) + rlut.guard_bits + 4 - 2 frac_bits <= " + std::to_string(kEllipseTermBits - 1), steepest,
+        "raise position.frac_bits, or use ellipse.frac_bits = 0");
+  }
+  const int bits = config.ellipse_format().word_bits;
+  if (bits > kEllipseMostBits) {
+    return violation(key, "makes an ellipse's q too wide",
+                     "log2(radial.entries) + rlut.guard_bits + 2 log2(array.lanes) + 10 + frac_bits <= " +
+                         std::to_string(kEllipseMostBits),
+                     bits, "lower ellipse.frac_bits or rlut.guard_bits");
   }
   return std::nullopt;
 }
@@ -276,7 +331,8 @@ std::optional<ErrorParts> first_violation(const Config& config) {
                      config.freeze_below,
                      "use a small number such as " + std::to_string((1 << config.composite_frac_bits) / 1024));
   }
-  return index_violation(config);
+  if (auto found = index_violation(config)) return found;
+  return ellipse_violation(config);
 }
 
 std::uint64_t config_hash(const Config& config) {

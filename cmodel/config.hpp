@@ -20,6 +20,14 @@ enum class IndexSymmetry { Off, Eightfold };
 /// Where the driver carries what a splat's rounding leaves to the next one.
 enum class Carry { Off, XRay, On };
 
+// What an ellipse's record has room for (docs/stream.md), and what its arithmetic fits into 62 bits.
+inline constexpr int kEllipsePositionBits = 22, kEllipsePositionFracBits = 9;
+inline constexpr int kEllipseTermBits = 22;  ///< A and C; |B| is below 2^23
+inline constexpr int kEllipseMostShift = 63;
+inline constexpr int kEllipseWindows = 32;  ///< along a side
+inline constexpr int kEllipseReach = 510;   ///< pixels from the centre to the first or last one
+inline constexpr int kEllipseMostBits = 60;
+
 struct Config {
   std::string name;         ///< not hashed
   std::string description;  ///< not hashed
@@ -62,6 +70,8 @@ struct Config {
   int index_kind = static_cast<int>(IndexKind::Rlut);
   int index_symmetry = static_cast<int>(IndexSymmetry::Off);
 
+  int ellipse_frac_bits = 0;  ///< f; 0: no ellipses
+
   bool operator==(const Config&) const = default;
 
   // Derived; exact for a configuration that passed first_violation().
@@ -81,6 +91,17 @@ struct Config {
   std::int64_t rlut_rim() const { return std::int64_t{1} << (radial_index_bits() + rlut_guard_bits); }
   /// Low bits of a sheet word that interpolate within one segment of the slab factor table (b in numerics.md).
   int opacity_remainder_bits() const { return sheet_int_bits + sheet_frac_bits - log2_exact(opacity_segments); }
+  bool has_ellipses() const { return ellipse_frac_bits > 0; }
+  /// q of an ellipse, in steps of 2^-g radial table entries with f fraction bits: up to 512 P^2 times the rim.
+  Format ellipse_format() const {
+    return signed_format(radial_index_bits() + rlut_guard_bits + 2 * log2_exact(lanes) + 10, ellipse_frac_bits);
+  }
+  /// Of a window's first pixel, tile-relative: a centre, and at most a footprint's half, or an ellipse's 512 pixels,
+  /// beside it.
+  int origin_bits() const {
+    constexpr int kBesideEllipse = 11;
+    return (has_ellipses() && position_int_bits < kBesideEllipse ? kBesideEllipse : position_int_bits) + 2;
+  }
   /// Largest extent in pixels that the RLUT can hold.
   int max_extent() const { return rlut_columns; }
 

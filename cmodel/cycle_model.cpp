@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cmodel/cycle_stages.hpp"
+#include "cmodel/ellipse_unit.hpp"
 #include "cmodel/snap.hpp"
 #include "cmodel/window_geometry.hpp"
 
@@ -27,6 +28,7 @@ CycleModel::CycleModel(const Config& config, StreamScope scope, const CycleOptio
       decode_(config, scope),
       sets_(static_cast<std::size_t>(config.rlut_sets)),
       dirty_(config.lanes),
+      delay_(config.has_ellipses() ? stages::kEllipseDelay : 0),
       next_offer_(options.first_beat),
       check_free_(wipe_cycles(config)),
       end_(check_free_) {}
@@ -96,6 +98,9 @@ void CycleModel::take(const Beat& beat) {
     case Opcode::Splat:
       splat(std::get<SplatRecord>(*record), at);
       return;
+    case Opcode::Ellipse:
+      ellipse(std::get<EllipseRecord>(*record), at);
+      return;
     case Opcode::BeginTile:
       begin_tile(std::get<BeginTile>(*record), at);
       return;
@@ -131,21 +136,34 @@ void CycleModel::load(const LoadTable& table) {
 
 void CycleModel::splat(const SplatRecord& record, std::uint64_t at) {
   const Set& set = sets_[record.set];
-  const std::int32_t x = snap(config_, record.x, set.rho).origin;
-  const std::int32_t y = snap(config_, record.y, set.rho).origin;
-  dirty_.mark(x, y, set.extent);
-  const auto side = static_cast<std::uint64_t>(set.extent / config_.lanes);
-  const std::uint64_t windows = side * side;
+  footprint(at, record.tag, snap(config_, record.x, set.rho).origin, snap(config_, record.y, set.rho).origin,
+            set.extent, set.extent);
+}
+
+void CycleModel::ellipse(const EllipseRecord& record, std::uint64_t at) {
+  const EllipseWindows& windows = record.windows;
+  footprint(at, record.tag, ellipse_axis(config_, record.x, windows.left).origin,
+            ellipse_axis(config_, record.y, windows.top).origin,
+            static_cast<std::int32_t>(windows.columns) * config_.lanes,
+            static_cast<std::int32_t>(windows.rows) * config_.lanes);
+}
+
+void CycleModel::footprint(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y, std::int32_t width,
+                           std::int32_t height) {
+  dirty_.mark(x, y, width, height);
+  const std::uint64_t windows =
+      static_cast<std::uint64_t>(width / config_.lanes) * static_cast<std::uint64_t>(height / config_.lanes);
   ++counters_.splats;
   counters_.windows += windows;
   sheet_.windows += windows;
   leave(at, at + windows - 1);
   if (options_.taps == nullptr) return;
-  tap(Tap::Snap, at + stages::kSnap, record.tag, x, y);
-  for (std::int32_t row = 0; row < set.extent; row += config_.lanes) {
-    for (std::int32_t column = 0; column < set.extent; column += config_.lanes, ++at) {
-      tap(Tap::Footprint, at + stages::kFootprint, record.tag, x + column, y + row);
-      tap(Tap::Sheet, at + stages::kSheet, record.tag, x + column, y + row);
+  at += delay_;
+  tap(Tap::Snap, at + stages::kSnap, tag, x, y);
+  for (std::int32_t row = 0; row < height; row += config_.lanes) {
+    for (std::int32_t column = 0; column < width; column += config_.lanes, ++at) {
+      tap(Tap::Footprint, at + stages::kFootprint, tag, x + column, y + row);
+      tap(Tap::Sheet, at + stages::kSheet, tag, x + column, y + row);
     }
   }
 }
@@ -178,7 +196,7 @@ void CycleModel::end_sheet(std::uint64_t at) {
   ++counters_.sheets;
   const std::uint64_t blocks = dirty_.count();
   counters_.dirty_blocks += blocks;
-  const std::uint64_t first = std::max(at + stages::kWalk, walk_free_);
+  const std::uint64_t first = std::max(at + delay_ + stages::kWalk, walk_free_);
   const std::uint64_t last = first + std::max<std::uint64_t>(blocks, 1) - 1;  // an empty walk is noticed in one cycle
   walk_free_ = last + stages::kNextWalk;
   buffer_free_[buffer_] = last + stages::kFree;

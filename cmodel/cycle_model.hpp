@@ -103,6 +103,10 @@ class CycleModel final : public Device {
   /// A record carried out in cycle `at`, in the register since `since`.
   void leave(std::uint64_t since, std::uint64_t at);
   void splat(const SplatRecord& record, std::uint64_t at);
+  void ellipse(const EllipseRecord& record, std::uint64_t at);
+  /// A splat's windows, the first at (x,y): width x height pixels.
+  void footprint(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y, std::int32_t width,
+                 std::int32_t height);
   void load(const LoadTable& table);
   void begin_tile(const BeginTile& record, std::uint64_t at);
   void begin_sheet(const BeginSheet& record, std::uint64_t at);
@@ -119,6 +123,7 @@ class CycleModel final : public Device {
   StallCounters stalls_;
   std::vector<Set> sets_;
   DirtyMap dirty_;
+  std::uint64_t delay_;  ///< of the splat path
 
   std::uint64_t payload_words_ = 0;  ///< of the open table
   std::uint64_t next_offer_ = 0;     ///< earliest cycle in which the next beat can be offered

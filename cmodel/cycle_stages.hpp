@@ -9,6 +9,9 @@ namespace fastsplat::cmodel::stages {
 inline constexpr std::uint64_t kWeigh = 1;
 inline constexpr std::uint64_t kJudge = 1;
 
+// A device with ellipses: all windows go down the splat path so much later, for their words take so long.
+inline constexpr std::uint64_t kEllipseDelay = 10;
+
 // From the cycle in which decode issues a window.
 inline constexpr std::uint64_t kSnap = 2;       ///< c1: the snapped origin
 inline constexpr std::uint64_t kFootprint = 7;  ///< c6: weights and products

@@ -21,10 +21,10 @@ class DirtyMap {
     marks_.assign(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(words_), 0);
   }
 
-  /// The footprint of `side` x `side` pixels whose first pixel is (x,y).
-  void mark(std::int32_t x, std::int32_t y, std::int32_t side) {
-    const std::int32_t x0 = std::max(0, x), x1 = std::min(width_, x + side);
-    const std::int32_t y0 = std::max(0, y), y1 = std::min(height_, y + side);
+  /// The footprint of width x height pixels whose first pixel is (x,y).
+  void mark(std::int32_t x, std::int32_t y, std::int32_t width, std::int32_t height) {
+    const std::int32_t x0 = std::max(0, x), x1 = std::min(width_, x + width);
+    const std::int32_t y0 = std::max(0, y), y1 = std::min(height_, y + height);
     if (x0 >= x1 || y0 >= y1) return;
     const int first = x0 >> lane_bits_, last = (x1 - 1) >> lane_bits_;
     for (int row = y0 >> lane_bits_; row <= (y1 - 1) >> lane_bits_; ++row) {

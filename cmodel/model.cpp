@@ -9,6 +9,8 @@ Model::Model(const Config& config, StreamScope scope, PixelSink& pixels, TapSink
       decode_(config, scope),
       snap_(config),
       unit_(weight_unit(config)),
+      ellipse_(config),
+      radial_(config),
       sheet_(config),
       compositor_(config),
       pixel_out_(config),
@@ -36,6 +38,8 @@ template <class Observer>
 void Model::take(const Record& record, Observer& observer) {
   if (const auto* found = std::get_if<SplatRecord>(&record)) {
     splat(*found, observer);
+  } else if (const auto* shaped = std::get_if<EllipseRecord>(&record)) {
+    ellipse(*shaped, observer);
   } else if (const auto* table = std::get_if<LoadTable>(&record)) {
     load(*table);
   } else if (const auto* tile = std::get_if<BeginTile>(&record)) {
@@ -58,6 +62,7 @@ void Model::load(const LoadTable& table) {
       break;
     case Table::Radial:
       std::visit([&](auto& unit) { unit.load_radial(table.words); }, unit_);
+      radial_.load(table.words);
       break;
     case Table::Factor:
       compositor_.opacity().load(table.words);
@@ -100,7 +105,28 @@ void Model::splat(const SplatRecord& record, Unit& unit, Observer& observer) {
 }
 
 template <class Observer>
-void Model::window(const SplatRecord& record, std::int32_t x, std::int32_t y, Observer& observer) {
+void Model::ellipse(const EllipseRecord& record, Observer& observer) {
+  const EllipseAxis x = ellipse_axis(config_, record.x, record.windows.left);
+  const EllipseAxis y = ellipse_axis(config_, record.y, record.windows.top);
+  ++counters_.splats;
+  if (taps_ != nullptr) {
+    const std::array<std::uint32_t, 4> payload{
+        static_cast<std::uint32_t>(x.origin), static_cast<std::uint32_t>(y.origin),
+        static_cast<std::uint32_t>(x.distance), static_cast<std::uint32_t>(y.distance)};
+    tap(Tap::Snap, record.tag, x.origin, y.origin, payload);
+  }
+  const EllipseCoefficients f = ellipse_.coefficients(record.shape, x.distance, y.distance);
+  const auto lanes = static_cast<std::uint32_t>(config_.lanes);
+  for (std::uint32_t row = 0; row < record.windows.rows * lanes; row += lanes) {
+    for (std::uint32_t column = 0; column < record.windows.columns * lanes; column += lanes) {
+      ellipse_.window(f, column, row, radial_, weights_);
+      window(record, x.origin + static_cast<std::int32_t>(column), y.origin + static_cast<std::int32_t>(row), observer);
+    }
+  }
+}
+
+template <class Record, class Observer>
+void Model::window(const Record& record, std::int32_t x, std::int32_t y, Observer& observer) {
   ++counters_.windows;
   sheet_.accumulate(x, y, weights_, record.colour, counters_, observer);
   if (taps_ != nullptr) {

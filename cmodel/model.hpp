@@ -7,6 +7,7 @@
 #include "cmodel/compositor.hpp"
 #include "cmodel/config.hpp"
 #include "cmodel/device.hpp"
+#include "cmodel/ellipse_unit.hpp"
 #include "cmodel/observers.hpp"
 #include "cmodel/pixel_out.hpp"
 #include "cmodel/sheet_buffer.hpp"
@@ -37,7 +38,9 @@ class Model final : public Device {
   template <class Unit, class Observer>
   void splat(const SplatRecord& record, Unit& unit, Observer& observer);
   template <class Observer>
-  void window(const SplatRecord& record, std::int32_t x, std::int32_t y, Observer& observer);
+  void ellipse(const EllipseRecord& record, Observer& observer);
+  template <class Record, class Observer>
+  void window(const Record& record, std::int32_t x, std::int32_t y, Observer& observer);
   template <class Observer>
   void end_sheet(Observer& observer);
   template <class Observer>
@@ -51,6 +54,8 @@ class Model final : public Device {
   StreamDecode decode_;
   Snap snap_;
   WeightUnit unit_;
+  EllipseUnit ellipse_;
+  RadialTable radial_;  ///< the ellipses'
   SheetBuffer sheet_;
   Compositor compositor_;
   PixelOut pixel_out_;

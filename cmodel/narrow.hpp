@@ -41,11 +41,12 @@ class Narrowing {
     bias_ = rounding == Rounding::TRN ? 0 : half - even_;
   }
 
-  /// `value` has from_frac() fraction bits. |value| < 2^62 and the result before overflow handling fits 63 bits.
+  /// `value` has from_frac() fraction bits. |value| < 2^62, and unless it wraps the result before overflow handling
+  /// fits 63 bits.
   constexpr Narrowed operator()(std::int64_t value) const {
     Narrowed out;
     if (dropped_bits_ == 0) {
-      out.word = value * (std::int64_t{1} << grown_bits_);
+      out.word = static_cast<std::int64_t>(static_cast<std::uint64_t>(value) << grown_bits_);
     } else {
       // Half less one, and one more where the word would be odd: only then does a tie go up.
       out.word = (value + bias_ + ((value >> dropped_bits_) & even_)) >> dropped_bits_;

@@ -14,6 +14,8 @@ class RecordSink {
   virtual void begin_sheet(const BeginSheet& sheet) = 0;
   /// Of the open sheet, in order, some hundreds at a time.
   virtual void splats(std::span<const SplatRecord> records) = 0;
+  /// Likewise; none from a configuration without ellipses.
+  virtual void ellipses(std::span<const EllipseRecord> records) = 0;
   virtual void end_sheet(const EndSheet& sheet) = 0;
   virtual void end_tile(const EndTile& tile) = 0;
 };

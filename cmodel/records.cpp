@@ -50,6 +50,7 @@ struct ToBeat {
     return beat;
   }
   Beat operator()(const SplatRecord& r) const { return to_beat(r); }
+  Beat operator()(const EllipseRecord& r) const { return to_beat(r); }
   Beat operator()(const CullBlock& r) const {
     Beat beat = begin(Opcode::CullBlock);
     put(beat, kCullTag, r.tag);
@@ -103,6 +104,26 @@ Beat to_beat(const SplatRecord& r) {
   return beat;
 }
 
+Beat to_beat(const EllipseRecord& r) {
+  Beat beat = begin(Opcode::Ellipse);
+  put(beat, kEllipseTag, r.tag);
+  put(beat, kEllipseX, r.x);
+  put(beat, kEllipseY, r.y);
+  put(beat, kEllipseR, r.colour[0]);
+  put(beat, kEllipseG, r.colour[1]);
+  put(beat, kEllipseBlue, r.colour[2]);
+  put(beat, kEllipseTau, r.colour[3]);
+  put(beat, kEllipseA, r.shape.a);
+  put(beat, kEllipseB, r.shape.b);
+  put(beat, kEllipseC, r.shape.c);
+  put(beat, kEllipseShift, r.shape.shift);
+  put(beat, kEllipseLeft, r.windows.left);
+  put(beat, kEllipseTop, r.windows.top);
+  put(beat, kEllipseColumns, std::int64_t{r.windows.columns} - 1);
+  put(beat, kEllipseRows, std::int64_t{r.windows.rows} - 1);
+  return beat;
+}
+
 SplatRecord to_splat(const Beat& beat) {
   return {.set = word(beat, kSplatSet),
           .tag = word(beat, kSplatTag),
@@ -143,6 +164,20 @@ Record from_beat(const Beat& beat) {
       return BeginSheet{word(beat, kSheetNumber)};
     case Opcode::Splat:
       return to_splat(beat);
+    case Opcode::Ellipse:
+      return EllipseRecord{
+          .tag = word(beat, kEllipseTag),
+          .x = offset(beat, kEllipseX),
+          .y = offset(beat, kEllipseY),
+          .colour = {word(beat, kEllipseR), word(beat, kEllipseG), word(beat, kEllipseBlue), word(beat, kEllipseTau)},
+          .shape = {.a = word(beat, kEllipseA),
+                    .c = word(beat, kEllipseC),
+                    .b = offset(beat, kEllipseB),
+                    .shift = word(beat, kEllipseShift)},
+          .windows = {.left = offset(beat, kEllipseLeft),
+                      .top = offset(beat, kEllipseTop),
+                      .columns = word(beat, kEllipseColumns) + 1,
+                      .rows = word(beat, kEllipseRows) + 1}};
     case Opcode::CullBlock:
       return CullBlock{word(beat, kCullTag),    offset(beat, kCullX),     offset(beat, kCullY),
                        count(beat, kCullWidth), count(beat, kCullHeight), word(beat, kCullSplats)};

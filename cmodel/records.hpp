@@ -35,11 +35,30 @@ struct BeginTile {
 struct BeginSheet {
   std::uint32_t sheet = 0;
 };
+/// q = (A dx^2 + B dx dy + C dy^2) 2^-h, in steps of 2^-g radial table entries; dx, dy in 2^-pf pixel.
+struct EllipseShape {
+  std::uint32_t a = 0, c = 0;  ///< 22 bits
+  std::int32_t b = 0;          ///< 24 bits, two's complement
+  std::uint32_t shift = 0;     ///< h, 0..63
+};
+/// P x P windows, row by row: the first pixel relative to the pixel that the centre lies in or right and below of.
+struct EllipseWindows {
+  std::int32_t left = 0, top = 0;       ///< -512..511 pixels
+  std::uint32_t columns = 1, rows = 1;  ///< 1..32
+};
 struct SplatRecord {
   std::uint32_t set = 0;
   std::uint32_t tag = 0;
   std::int32_t x = 0, y = 0;              ///< S pi.pf, relative to the tile
   std::array<std::uint32_t, 4> colour{};  ///< R, G, B, tau; U 0.cf
+};
+/// A splat with a shape of its own (docs/numerics.md, section 4.6), its window rectangle where the driver wants it.
+struct EllipseRecord {
+  std::uint32_t tag = 0;
+  std::int32_t x = 0, y = 0;              ///< S pi.pf, relative to the tile
+  std::array<std::uint32_t, 4> colour{};  ///< R, G, B, tau; U 0.cf
+  EllipseShape shape;
+  EllipseWindows windows;
 };
 struct CullBlock {
   std::uint32_t tag = 0;
@@ -57,13 +76,14 @@ struct EndFrame {
   std::uint64_t beats = 0;
   std::uint32_t crc = 0;
 };
-using Record =
-    std::variant<BeginFrame, LoadTable, BeginTile, BeginSheet, SplatRecord, CullBlock, EndSheet, EndTile, EndFrame>;
+using Record = std::variant<BeginFrame, LoadTable, BeginTile, BeginSheet, SplatRecord, EllipseRecord, CullBlock,
+                            EndSheet, EndTile, EndFrame>;
 
 /// Appends the record's beats.
 void append(std::vector<Beat>& beats, const Record& record);
 /// The same without the variant: the driver's inner loop.
 Beat to_beat(const SplatRecord& splat);
+Beat to_beat(const EllipseRecord& ellipse);
 SplatRecord to_splat(const Beat& beat);
 
 /// Every record but load_table, whose words follow in later beats: there only the header is filled.

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
+#include "cmodel/ellipse_rule.hpp"
 #include "cmodel/index_set.hpp"
 #include "cmodel/stream_advice.hpp"
 #include "cmodel/window_geometry.hpp"
@@ -91,7 +92,8 @@ void StreamDecode::check_order(Opcode opcode, const char* name) const {
       ok = opcode == Opcode::BeginSheet || opcode == Opcode::EndTile;
       break;
     case State::Sheet:
-      ok = opcode == Opcode::Splat || opcode == Opcode::CullBlock || opcode == Opcode::EndSheet;
+      ok = opcode == Opcode::Splat || opcode == Opcode::Ellipse || opcode == Opcode::CullBlock ||
+           opcode == Opcode::EndSheet;
       break;
     case State::Ended:
     case State::Payload:
@@ -235,19 +237,30 @@ void StreamDecode::check(const BeginSheet& record) {
 }
 
 void StreamDecode::check(const SplatRecord& record) {
-  const Format position = config_.position_format();
   rule_ = StreamRule::Set;
   if (record.set >= sets_loaded_.size() || !sets_loaded_[record.set])
     refuse("radius set not loaded", "a loaded radius set", std::to_string(record.set));
+  check_splat(record.x, record.y, record.colour, record.tag);
+}
+
+void StreamDecode::check_splat(std::int32_t x, std::int32_t y, const std::array<std::uint32_t, 4>& colour,
+                               std::uint32_t tag) {
+  const Format position = config_.position_format();
   rule_ = StreamRule::Range;
-  expect_within(record.x, position.min, position.max, "x does not fit the position format");
-  expect_within(record.y, position.min, position.max, "y does not fit the position format");
-  for (const std::uint32_t colour : record.colour)
-    expect_most(colour, config_.colour_format().max, "colour does not fit its format");
+  expect_within(x, position.min, position.max, "x does not fit the position format");
+  expect_within(y, position.min, position.max, "y does not fit the position format");
+  for (const std::uint32_t word : colour)
+    expect_most(word, config_.colour_format().max, "colour does not fit its format");
   rule_ = StreamRule::Tag;
-  expect(record.tag == next_tag_, "tags out of order", next_tag_, record.tag);
+  expect(tag == next_tag_, "tags out of order", next_tag_, tag);
   ++next_tag_;
   ++splats_seen_;
+}
+
+void StreamDecode::check(const EllipseRecord& record) {
+  check_splat(record.x, record.y, record.colour, record.tag);
+  rule_ = StreamRule::Shape;
+  if (const auto wrong = ellipse_violation(config_, record)) refuse(wrong->what.c_str(), wrong->expected, wrong->got);
 }
 
 void StreamDecode::check(const CullBlock& record) {
@@ -303,6 +316,9 @@ const Record* StreamDecode::feed(const Beat& beat) {
     const auto opcode = static_cast<std::uint32_t>(get(beat, layout::kOpcode));
     const RecordLayout* found = find_layout(opcode);
     rule_ = StreamRule::Opcode;
+    if (found != nullptr && found->opcode == Opcode::Ellipse && !config_.has_ellipses()) {
+      refuse("this configuration has no ellipses", "ellipse.frac_bits above 0", "ellipse", kForeignStream);
+    }
     if (found == nullptr)
       refuse("unknown opcode",
              state_ == State::Start

@@ -47,6 +47,8 @@ class StreamDecode {
   void check(const BeginTile& record);
   void check(const BeginSheet& record);
   void check(const SplatRecord& record);
+  void check(const EllipseRecord& record);
+  void check_splat(std::int32_t x, std::int32_t y, const std::array<std::uint32_t, 4>& colour, std::uint32_t tag);
   void check(const CullBlock& record);
   void check(const EndSheet& record);
   void check(const EndTile& record);

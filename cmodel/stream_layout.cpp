@@ -21,6 +21,12 @@ constexpr std::array kBeginSheet{NamedField{"sheet", kSheetNumber}};
 constexpr std::array kSplat{NamedField{"set", kSplatSet}, NamedField{"tag", kSplatTag}, NamedField{"x", kSplatX},
                             NamedField{"y", kSplatY},     NamedField{"r", kSplatR},     NamedField{"g", kSplatG},
                             NamedField{"b", kSplatB},     NamedField{"tau", kSplatTau}};
+constexpr std::array kEllipse{
+    NamedField{"b_term", kEllipseB},        NamedField{"tag", kEllipseTag},   NamedField{"x", kEllipseX},
+    NamedField{"columns", kEllipseColumns}, NamedField{"rows", kEllipseRows}, NamedField{"y", kEllipseY},
+    NamedField{"h", kEllipseShift},         NamedField{"r", kEllipseR},       NamedField{"g", kEllipseG},
+    NamedField{"b", kEllipseBlue},          NamedField{"tau", kEllipseTau},   NamedField{"a_term", kEllipseA},
+    NamedField{"left", kEllipseLeft},       NamedField{"c_term", kEllipseC},  NamedField{"top", kEllipseTop}};
 constexpr std::array kCullBlock{NamedField{"tag", kCullTag},       NamedField{"x", kCullX},
                                 NamedField{"y", kCullY},           NamedField{"width", kCullWidth},
                                 NamedField{"height", kCullHeight}, NamedField{"splats", kCullSplats}};
@@ -35,6 +41,7 @@ constexpr std::array kRecords{
     RecordLayout{Opcode::BeginTile, "begin_tile", kBeginTile},
     RecordLayout{Opcode::BeginSheet, "begin_sheet", kBeginSheet},
     RecordLayout{Opcode::Splat, "splat", kSplat},
+    RecordLayout{Opcode::Ellipse, "ellipse", kEllipse},
     RecordLayout{Opcode::CullBlock, "cull_block", kCullBlock},
     RecordLayout{Opcode::EndSheet, "end_sheet", kEndSheet},
     RecordLayout{Opcode::EndTile, "end_tile", kEndTile},

@@ -14,6 +14,7 @@ enum class Opcode : std::uint8_t {
   BeginTile = 0x54,
   BeginSheet = 0x53,
   Splat = 0x50,
+  Ellipse = 0x45,
   CullBlock = 0x43,
   EndSheet = 0x73,
   EndTile = 0x74,
@@ -38,6 +39,11 @@ inline constexpr Field kTileMode{0, 8, 4}, kTileNumber{1, 0, 32}, kTileX{2, 0, 3
 inline constexpr Field kSheetNumber{1, 0, 32};
 inline constexpr Field kSplatSet{0, 8, 8}, kSplatTag{1, 0, 32}, kSplatX{2, 0, 32, true}, kSplatY{3, 0, 32, true},
     kSplatR{4, 0, 16}, kSplatG{4, 16, 16}, kSplatB{5, 0, 16}, kSplatTau{5, 16, 16};
+// Both in one beat: where, how much and which windows as well as the shape.
+inline constexpr Field kEllipseB{0, 8, 24, true}, kEllipseTag{1, 0, 32}, kEllipseX{2, 0, 22, true},
+    kEllipseColumns{2, 22, 5}, kEllipseRows{2, 27, 5}, kEllipseY{3, 0, 22, true}, kEllipseShift{3, 22, 6},
+    kEllipseR{4, 0, 16}, kEllipseG{4, 16, 16}, kEllipseBlue{5, 0, 16}, kEllipseTau{5, 16, 16}, kEllipseA{6, 0, 22},
+    kEllipseLeft{6, 22, 10, true}, kEllipseC{7, 0, 22}, kEllipseTop{7, 22, 10, true};
 inline constexpr Field kCullTag{1, 0, 32}, kCullX{2, 0, 32, true}, kCullY{3, 0, 32, true}, kCullWidth{4, 0, 16},
     kCullHeight{4, 16, 16}, kCullSplats{5, 0, 32};
 inline constexpr Field kEndSheetNumber{1, 0, 32}, kEndSheetSplats{2, 0, 32};

@@ -25,11 +25,13 @@ namespace fastsplat::cmodel {
   X(Tile, 10, TILE, "begin_tile: mode, number below the count, sides, inside the image")                          \
   X(Sheet, 11, SHEET, "begin_sheet: numbers rise within the tile")                                                \
   X(Set, 12, SET, "splat: its radius set was loaded since begin_frame")                                           \
-  X(Range, 13, RANGE, "splat: x, y and colours fit their formats")                                                \
-  X(Tag, 14, TAG, "splat: tags count 0, 1, 2, ... within the tile")                                               \
+  X(Range, 13, RANGE, "splat, ellipse: x, y and colours fit their formats")                                       \
+  X(Tag, 14, TAG, "splat, ellipse: tags count 0, 1, 2, ... within the tile")                                      \
   X(Cull, 15, CULL, "cull_block: width and height are at least 1")                                                \
   X(EndNumber, 16, END_NUMBER, "end_sheet, end_tile: the number of what they end")                                \
   X(EndCount, 17, END_COUNT, "end_sheet, end_tile: the count of splats, of sheets")                               \
+  X(Shape, 18, SHAPE,                                                                                             \
+    "ellipse: 4 A C is at least B^2, its windows' far side within reach, q in range at their corners")            \
   X(Whole, 255, WHOLE,                                                                                            \
     "a whole stream: tile numbers 0, 1, 2, ..., all tiles, the number of beats, the checksum, nothing behind or " \
     "missing")
@@ -39,6 +41,9 @@ enum class StreamRule : std::uint8_t {
   FASTSPLAT_STREAM_RULES(X)
 #undef X
 };
+
+/// Whether a device judges it, too: what is left is the reader's, and whoever writes a stream has to know it.
+constexpr bool judged_by_device(StreamRule rule) { return rule != StreamRule::Shape && rule != StreamRule::Whole; }
 
 /// A beat that breaks a rule.
 class StreamRefusal : public UserError {

@@ -6,6 +6,7 @@
 
 #include "base/hash_text.hpp"
 #include "cmodel/counters.hpp"
+#include "cmodel/cycle_stages.hpp"
 #include "cmodel/register_map.hpp"
 #include "cmodel/sites.hpp"
 #include "cmodel/stall_counters.hpp"
@@ -66,6 +67,9 @@ std::optional<ErrorParts> rtl_violation(const Config& config) {
                       .got = text_of(config, *find_key("index.kind")),
                       .fix = "use the model for this configuration"};
   }
+  if (config.has_ellipses() && config.position_frac_bits < 1)
+    return refuse("position.frac_bits", "the RTL's ellipses need a fraction bit", "at least 1",
+                  config.position_frac_bits);
   if (config.phases < 2) return refuse("snap.phases", "the RTL needs a phase bit", "at least 2", config.phases);
   if (config.lanes < 2) return refuse("array.lanes", "the RTL needs a lane bit", "at least 2", config.lanes);
   if (config.opacity_segments < 2)
@@ -113,7 +117,7 @@ std::string sv_package(const Config& config) {
   p.number("PHASES", config.phases);
   p.number("PHASE_LOG2", config.phase_bits());
   p.number("PHASE_BITS", config.phase_bits());
-  p.number("ORG_BITS", config.position_int_bits + 2);
+  p.number("ORG_BITS", config.origin_bits());
 
   p.section("RLUT and radial table");
   p.number("RLUT_SETS", config.rlut_sets);
@@ -128,6 +132,17 @@ std::string sv_package(const Config& config) {
   p.number("WEIGHT_BITS", config.radial_int_bits + config.radial_frac_bits);
   p.number("TABLE_BITS", std::max(bits_for(config.rlut_rim()), config.radial_int_bits + config.radial_frac_bits));
   p.number("COLOUR_BITS", config.colour_frac_bits);
+
+  p.section("ellipses: 0, or there are some; where there are none, words of one bit");
+  const bool ellipses = config.has_ellipses();
+  const int most_windows = kEllipseWindows * config.lanes;
+  p.number("ELLIPSES", ellipses ? 1 : 0);
+  p.number("ELLIPSE_FRAC", config.ellipse_frac_bits);
+  p.number("ELLIPSE_BITS", ellipses ? config.ellipse_format().word_bits : 1);
+  p.number("ELLIPSE_DELAY", ellipses ? static_cast<int>(stages::kEllipseDelay) : 0);
+  p.number("SHAPE_BITS", ellipses ? 94 : 1);
+  p.number("WINDOW_BITS", bits_for(ellipses ? std::max(config.rlut_columns, most_windows) : config.rlut_columns));
+  p.number("WAY_BITS", ellipses ? 32 : config.phase_bits());
 
   p.section("sheet, slab opacity, compositing, pixels");
   p.number("SHEET_BITS", sheet_bits);
@@ -170,7 +185,7 @@ std::string sv_package(const Config& config) {
       "what a beat may hold: bits with a name, the last word first; rules in the order in which a record is judged");
   for (const auto& record : record_layouts()) p.beat("USED_" + upper(record.name), used_bits(record));
 #define X(name, value, register_name, meaning) \
-  if (StreamRule::name != StreamRule::Whole) p.number("RULE_" #register_name, value);
+  if (judged_by_device(StreamRule::name)) p.number("RULE_" #register_name, value);
   FASTSPLAT_STREAM_RULES(X)
 #undef X
   p.number("RHO_MOST", std::int64_t{config.rlut_columns} * config.grid() / 2);

@@ -42,6 +42,10 @@ class BeatWriter final : public cmodel::RecordSink {
     for (const cmodel::SplatRecord& record : records) beats_.push_back(to_beat(record));
     if (beats_.size() >= kBlock) flush();
   }
+  void ellipses(std::span<const cmodel::EllipseRecord> records) override {
+    for (const cmodel::EllipseRecord& record : records) beats_.push_back(to_beat(record));
+    if (beats_.size() >= kBlock) flush();
+  }
   void end_sheet(const cmodel::EndSheet& sheet) override { append(beats_, sheet); }
   void end_tile(const cmodel::EndTile& tile) override {
     append(beats_, tile);
@@ -71,15 +75,18 @@ CompiledFrame::State::State(const scene::Scene& scene, const cmodel::Config& dev
       bands(grid, band_rows > 0 ? (band_rows + device.lanes - 1) / device.lanes * device.lanes : device.tile_height),
       windows(device, projected.sets),
       bins(make_bins(threads)) {
-  if (sliced()) reach = slices.reach();
+  if (sliced()) reach = shaped() ? slices.reach(slices.growth(projected.least_shrink)) : slices.reach();
   make_preamble(scene);
 }
 
 TileBins CompiledFrame::State::make_bins(int threads) const {
   const auto& splats = projected.splats;
   return TileBins(
-      grid, bands, plan.slabs.count, splats.size(), threads, [&](std::size_t i) { return windows(splats[i]); },
-      [&](std::size_t i) { return first_sheet(splats[i]); });
+      grid, bands, plan.slabs.count, splats.size(), threads,
+      [&](std::size_t i) {
+        return splats[i].set == kOwnShape ? windows(splats[i], projected.ellipses[i].shape) : windows(splats[i]);
+      },
+      [&](std::size_t i) { return first_sheet(static_cast<std::uint32_t>(i)); });
 }
 
 void CompiledFrame::State::make_preamble(const scene::Scene& scene) {
@@ -90,6 +97,25 @@ void CompiledFrame::State::make_preamble(const scene::Scene& scene) {
   for (std::uint32_t set = 0; set < projected.sets.size(); ++set) {
     cmodel::append(preamble,
                    set_table(config, scene.kernel, set, projected.sets.radius(set), projected.sets.base(set)));
+  }
+}
+
+template <class Visit>
+void CompiledFrame::State::for_each_ellipse(int tile, std::uint32_t number, const Share& part, Visit visit) const {
+  const QuantisedSplat& splat = projected.splats[number];
+  const cmodel::EllipseShape& shape = projected.ellipses[number].shape;
+  const int pf = config.position_frac_bits;
+  const std::int32_t x = (splat.x >> pf) - grid.x(tile), y = (splat.y >> pf) - grid.y(tile);
+  for (const EllipseSpan& span : EllipseSpans(config, shape, splat.x, splat.y)) {
+    if (x + span.right <= 0 || x + span.windows.left >= grid.width(tile) || y + span.bottom <= 0 ||
+        y + span.windows.top >= grid.height(tile))
+      continue;
+    visit(cmodel::EllipseRecord{.tag = 0,
+                                .x = splat.x - grid.x(tile) * (1 << pf),
+                                .y = splat.y - grid.y(tile) * (1 << pf),
+                                .colour = part.words,
+                                .shape = shape,
+                                .windows = span.windows});
   }
 }
 
@@ -104,8 +130,21 @@ std::uint32_t CompiledFrame::State::emit_sheet(int tile, int sheet, std::uint32_
   for (int from = std::max(0, sheet - reach); from <= sheet; ++from) {
     for (const std::uint32_t number : bins.bin(tile, from, merged)) {
       const QuantisedSplat& splat = projected.splats[number];
-      const Share part = share(splat.words, splat.depth, sheet);
+      const Share part = share(number, sheet);
       if (part.empty()) continue;
+      if (splat.set == kOwnShape) {
+        if (waiting > 0) out.splats(std::span(some).first(waiting));
+        waiting = 0;
+        std::uint32_t more = 0;
+        for_each_ellipse(tile, number, part, [&](cmodel::EllipseRecord record) {
+          if (records + more++ == 0) out.begin_sheet({static_cast<std::uint32_t>(sheet)});
+          record.tag = tag++;
+          out.ellipses({&record, 1});
+        });
+        report.saturated_records += part.saturated ? more : 0;
+        records += more;
+        continue;
+      }
       if (records == 0) out.begin_sheet({static_cast<std::uint32_t>(sheet)});
       report.saturated_records += part.saturated ? 1 : 0;
       some[waiting++] = {.set = splat.set, .tag = tag++, .x = splat.x - x0, .y = splat.y - y0, .colour = part.words};
@@ -120,9 +159,14 @@ std::uint32_t CompiledFrame::State::emit_sheet(int tile, int sheet, std::uint32_
   return records;
 }
 
-scene::Offers offers(const cmodel::Config&) {
+scene::Offers offers(const cmodel::Config& config) {
   using scene::Method, scene::only;
-  return {"device", only(Method::ImageAligned) | only(Method::AxisAligned) | only(Method::XRay), 0u};
+  const scene::Methods sheets = only(Method::ImageAligned) | only(Method::AxisAligned) | only(Method::XRay);
+  if (config.has_ellipses()) return {"device with ellipses", sheets, static_cast<unsigned>(scene::Feature::Footprints)};
+  return {.engine = "device",
+          .methods = sheets,
+          .features = 0u,
+          .footprints_fix = "choose a configuration with ellipses, "};
 }
 
 CompiledFrame::CompiledFrame(const scene::Scene& scene, const cmodel::Config& config, int threads, int band_rows)
@@ -184,6 +228,7 @@ DriverReport CompiledFrame::report() const {
           .saturated_voxels = state_->projected.saturated,
           .vanished_voxels = state_->projected.vanished,
           .vanished_share = state_->projected.vanished_share,
+          .widened_voxels = state_->projected.widened,
           .carried = state_->projected.carried};
 }
 

@@ -20,8 +20,7 @@
 
 namespace fastsplat::driver {
 
-/// What a device of this configuration has: today all have the same methods, and none of the golden renderer's
-/// features.
+/// What a device of this configuration has: all have the same methods, those with ellipses footprints of any shape.
 scene::Offers offers(const cmodel::Config& config);
 
 /// What one tile's records add to the report.

@@ -1,6 +1,7 @@
 // What a compiled frame consists of: for those who emit its tiles or draw them.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -19,13 +20,27 @@ namespace fastsplat::driver {
 /// the tile's origin is a whole number of pixels, so the window is the one the device finds.
 class Windows {
  public:
-  Windows(const cmodel::Config& config, const RadiusSets& sets) : sets_(sets), snap_(wide(config)) {
+  Windows(const cmodel::Config& config, const RadiusSets& sets) : config_(config), sets_(sets), snap_(wide(config)) {
     for (std::uint32_t set = 0; set < sets.size(); ++set)
       extents_.push_back(cmodel::window_geometry(config, sets_.rho(set)));
   }
   cmodel::SnappedAxis snapped(std::int32_t centre, std::uint32_t set) const {
     cmodel::Nothing nobody;
     return snap_(centre, sets_.rho(set), nobody);
+  }
+  /// Of an ellipse: the box of all its windows.
+  Extent operator()(const QuantisedSplat& splat, const cmodel::EllipseShape& shape) const {
+    const std::int32_t x = splat.x >> config_.position_frac_bits, y = splat.y >> config_.position_frac_bits;
+    Extent out{.x0 = x, .x1 = x, .y0 = y, .y1 = y, .window_end = y};  // of no pixel
+    bool first = true;
+    for (const EllipseSpan& span : EllipseSpans(config_, shape, splat.x, splat.y)) {
+      const Extent one{x + span.windows.left, x + span.right, y + span.windows.top, y + span.bottom, y + span.bottom};
+      out = first ? one
+                  : Extent{std::min(out.x0, one.x0), std::max(out.x1, one.x1), std::min(out.y0, one.y0),
+                           std::max(out.y1, one.y1), std::max(out.window_end, one.window_end)};
+      first = false;
+    }
+    return out;
   }
   Extent operator()(const QuantisedSplat& splat) const {
     const auto extent = static_cast<std::int32_t>(extents_[splat.set].extent);
@@ -38,6 +53,7 @@ class Windows {
     config.position_int_bits = 30 - config.position_frac_bits;
     return config;
   }
+  const cmodel::Config config_;
   const RadiusSets& sets_;
   cmodel::Snap snap_;
   std::vector<cmodel::WindowGeometry> extents_;  ///< per set
@@ -53,13 +69,25 @@ struct CompiledFrame::State {
   Bands bands;
   Windows windows;
   TileBins bins;
+  DepthGrowth growth(std::uint32_t number) const { return slices.growth(projected.ellipses[number].shrink); }
   int reach = 0;  ///< a splat reaches at most this many sheets beyond its first
   std::vector<cmodel::Beat> preamble;
 
   State(const scene::Scene& scene, const cmodel::Config& device, int threads, int band_rows);
 
   bool sliced() const { return plan.use == scene::SheetUse::Sliced; }
-  int first_sheet(const QuantisedSplat& splat) const { return sliced() ? slices.first(splat.depth) : splat.depth; }
+  bool shaped() const { return !projected.ellipses.empty(); }
+  int first_sheet(std::uint32_t number) const {
+    const std::int32_t depth = projected.splats[number].depth;
+    if (!sliced()) return depth;
+    return shaped() ? slices.first(depth, growth(number)) : slices.first(depth);
+  }
+  /// What a splat of a frame with ellipses has of a sheet.
+  Share share(std::uint32_t number, int sheet) const {
+    const QuantisedSplat& splat = projected.splats[number];
+    return sliced() && shaped() ? slices.share(splat.words, splat.depth, sheet, growth(number))
+                                : share(splat.words, splat.depth, sheet);
+  }
   Share share(const SplatWords& words, std::int32_t depth, int sheet) const {
     return sliced() ? slices.share(words, depth, sheet) : slices.whole(words);
   }
@@ -74,6 +102,9 @@ struct CompiledFrame::State {
   }
   /// Records of one sheet of one tile; begin_sheet only when there is something to say.
   std::uint32_t emit_sheet(int tile, int sheet, std::uint32_t& tag, cmodel::RecordSink& out, TileReport& report) const;
+  /// visit(EllipseRecord) for every record of a splat with kOwnShape that meets the tile, without its tag; none may.
+  template <class Visit>
+  void for_each_ellipse(int tile, std::uint32_t number, const Share& part, Visit visit) const;
 
  private:
   TileBins make_bins(int threads) const;

@@ -1,10 +1,14 @@
 #include "driver/projection.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/parallel/parallel.hpp"
 
 namespace fastsplat::driver {
@@ -34,11 +38,24 @@ RadiusRange radius_range(const scene::Scene& scene) {
 struct Piece {
   scene::GridPart part;
   std::vector<QuantisedSplat> splats;
-  std::vector<std::size_t> ends;    ///< per slice of the part, of its splats
-  std::vector<std::size_t> places;  ///< likewise, of the frame's splats: where the slice's begin
+  std::vector<SplatEllipse> ellipses;  ///< of each, in a frame with ellipses
+  std::vector<std::size_t> ends;       ///< per slice of the part, of its splats
+  std::vector<std::size_t> places;     ///< likewise, of the frame's splats: where the slice's begin
   std::uint64_t voxels = 0, saturated = 0, vanished = 0;
   double asked = 0.0, lost = 0.0;
+  std::uint64_t widened = 0;
+  std::uint32_t least_shrink = 1 << 16;
+  double reach = 0.0;
 
+  void add(const SplatQuantiser::Shaped& one, int slice) {
+    const std::size_t before = splats.size();
+    add(one.result, slice);
+    if (splats.size() == before) return;
+    ellipses.push_back(one.ellipse);
+    widened += one.widened ? 1 : 0;
+    least_shrink = std::min(least_shrink, one.ellipse.shrink);
+    reach = std::max({reach, one.reach.x, one.reach.y});
+  }
   void add(const SplatQuantiser::Result& one, int slice) {
     while (part.first_slice + static_cast<int>(ends.size()) < slice) ends.push_back(splats.size());
     ++voxels;
@@ -75,7 +92,7 @@ std::vector<Piece> pieces_of(const scene::Traversal& traversal, bool bands) {
 }
 
 /// In traversal order: slice by slice, of each one piece after the other.
-Uninitialised<QuantisedSplat> joined(std::vector<Piece>& pieces, int slices, int threads) {
+void join(std::vector<Piece>& pieces, int slices, int threads, Projected& to) {
   std::size_t total = 0;
   for (int slice = 0; slice < slices; ++slice) {
     for (Piece& piece : pieces) {
@@ -84,36 +101,63 @@ Uninitialised<QuantisedSplat> joined(std::vector<Piece>& pieces, int slices, int
       total += piece.slice(slice).size();
     }
   }
-  Uninitialised<QuantisedSplat> out(total);
+  to.splats = Uninitialised<QuantisedSplat>(total);
+  const bool shaped = std::ranges::any_of(pieces, [](const Piece& piece) { return !piece.ellipses.empty(); });
+  if (shaped) to.ellipses = Uninitialised<SplatEllipse>(total);
   parallel_for(pieces.size(), threads, [&](std::size_t number) {
     Piece& piece = pieces[number];
     for (int slice = piece.part.first_slice; slice < piece.part.end_slice; ++slice) {
       const std::size_t place = piece.places[static_cast<std::size_t>(slice - piece.part.first_slice)];
-      std::ranges::copy(piece.slice(slice), out.begin() + static_cast<std::ptrdiff_t>(place));
+      const auto splats = piece.slice(slice);
+      std::ranges::copy(splats, to.splats.begin() + static_cast<std::ptrdiff_t>(place));
+      if (!shaped) continue;
+      const auto first = piece.ellipses.begin() + (splats.data() - piece.splats.data());
+      std::copy_n(first, splats.size(), to.ellipses.begin() + static_cast<std::ptrdiff_t>(place));
     }
     piece.splats = {};  // a frame is in memory once, not twice
+    piece.ellipses = {};
   });
-  return out;
+}
+
+/// A device holds footprints as wide as the RLUT, whoever makes their weights.
+void check_reach(double reach, const cmodel::Config& config) {
+  const double widest = config.rlut_columns / 2.0;
+  if (reach <= widest) return;
+  throw_usage(
+      {.where = "configuration " + config.name,
+       .what = "a footprint is wider than the device takes",
+       .expected = fmt::format("half sides of at most {} pixels (rlut.columns = {})", widest, config.rlut_columns),
+       .got = fmt::format("{:.2f} pixels", reach),
+       .fix = "use a smaller --size, --zoom or blur, or a configuration with more rlut.columns"});
 }
 
 }  // namespace
 
 RadiusSets radius_sets(const scene::Scene& scene, const cmodel::Config& config) {
   const RadiusRange range = radius_range(scene);
-  return RadiusSets(config, range.smallest, range.largest);
+  // With shapes of their own, splats of other radii than the largest are ellipses.
+  return RadiusSets(config, draws_ellipses(scene, config) ? range.largest : range.smallest, range.largest);
 }
 
 Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices,
                   const scene::SheetPlan& plan, int threads) {
-  Projected out{.splats = {}, .sets = radius_sets(scene, config)};
+  Projected out{.splats = {}, .ellipses = {}, .sets = radius_sets(scene, config)};
   const SplatQuantiser quantised(scene, config, out.sets, slices, plan);
   const scene::Traversal traversal(scene);
   out.carried = quantised.carries();
+  const bool shaped = draws_ellipses(scene, config);
 
   std::vector<Piece> pieces = pieces_of(traversal, out.carried);
   parallel_for(pieces.size(), threads, [&](std::size_t number) {
     Piece& piece = pieces[number];
-    if (out.carried) {
+    if (shaped) {
+      std::optional<RoundingCarry> carry =
+          out.carried ? std::optional(quantised.carry(piece.part.first_row, piece.part.end_row, traversal.columns()))
+                      : std::nullopt;
+      traversal.visit(piece.part, [&](const scene::Splat& splat, std::uint32_t line) {
+        piece.add(quantised.shaped(splat, line, carry ? &*carry : nullptr), splat.sheet);
+      });
+    } else if (out.carried) {
       RoundingCarry carry = quantised.carry(piece.part.first_row, piece.part.end_row, traversal.columns());
       traversal.visit(piece.part, [&](const scene::Splat& splat, std::uint32_t line) {
         piece.add(quantised(scene::real_splat(scene, splat), line, carry), splat.sheet);
@@ -126,8 +170,11 @@ Projected project(const scene::Scene& scene, const cmodel::Config& config, const
     piece.end();
   });
 
-  double asked = 0.0, lost = 0.0;
+  double asked = 0.0, lost = 0.0, reach = 0.0;
   for (const Piece& piece : pieces) {
+    out.widened += piece.widened;
+    out.least_shrink = std::min(out.least_shrink, piece.least_shrink);
+    reach = std::max(reach, piece.reach);
     out.voxels += piece.voxels;
     out.saturated += piece.saturated;
     out.vanished += piece.vanished;
@@ -135,7 +182,8 @@ Projected project(const scene::Scene& scene, const cmodel::Config& config, const
     lost += piece.lost;
   }
   out.vanished_share = out.carried || asked == 0.0 ? 0.0 : lost / asked;
-  out.splats = joined(pieces, traversal.slices(), threads);
+  check_reach(reach, config);
+  join(pieces, traversal.slices(), threads, out);
   return out;
 }
 

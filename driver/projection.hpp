@@ -10,12 +10,15 @@ namespace fastsplat::driver {
 
 struct Projected {
   Uninitialised<QuantisedSplat> splats;  ///< in traversal order, without those that vanished
+  Uninitialised<SplatEllipse> ellipses;  ///< of each, in a frame with ellipses; else none
   RadiusSets sets;
   std::uint64_t voxels = 0;     ///< non-empty voxels
   std::uint64_t saturated = 0;  ///< voxels whose colour or optical depth left U 4.cf
   std::uint64_t vanished = 0;   ///< voxels whose words are all 0
   double vanished_share = 0.0;  ///< of all colour and opacity, what they had; 0 where it is carried to the next voxel
   bool carried = false;
+  std::uint64_t widened = 0;             ///< ellipses that were thinner than kThinnest
+  std::uint32_t least_shrink = 1 << 16;  ///< of the kernel that has grown most (DepthGrowth)
 };
 
 /// Those that the scene's splats need.

@@ -31,6 +31,14 @@ Target target(Site site, const cmodel::Config& config) {
     case Site::Position:
       return {rounded_by_the_snap(config) ? Rounding::Down : Rounding::Nearest, Overflow::Impossible,
               signed_word(config.position_frac_bits)};
+    case Site::EllipseCentre:
+      return {Rounding::Nearest, Overflow::Impossible, signed_word(config.position_frac_bits)};
+    case Site::EllipseTerm:  // up, as Scale; and B towards 0, as Cross
+      return {Rounding::Up, Overflow::Impossible, cmodel::unsigned_format(cmodel::kEllipseTermBits, 0)};
+    case Site::EllipseCross:
+      return {Rounding::Down, Overflow::Impossible, cmodel::unsigned_format(cmodel::kEllipseTermBits + 1, 0)};
+    case Site::Shrink:
+      return {Rounding::Nearest, Overflow::Impossible, cmodel::unit_format(16)};
     case Site::Depth:
     case Site::Boundary:
       return {Rounding::Nearest, Overflow::Impossible, signed_word(config.slice_phase_bits)};

@@ -12,21 +12,25 @@
 namespace fastsplat::driver {
 
 enum class Site {
-  Position,   ///< a projected centre, image pixels
-  Depth,      ///< of a centre behind the first slab boundary, kernel units
-  Boundary,   ///< between two slabs, behind the first one, kernel units
-  Whole,      ///< a channel of a whole splat
-  Carried,    ///< a channel of a whole splat and what the splat before left
-  Phi,        ///< cumulative slice weight
-  Rho,        ///< support radius, pixels
-  Rlut,       ///< scaled squared distance, in words already
-  Scale,      ///< index.kind linear, squared, squared_elliptic: radial table steps per distance, in words already
-  Cross,      ///< squared_elliptic: B without its sign, in words already
-  Axis,       ///< separable: weight along one axis
-  Footprint,  ///< blit2d: weight of a pixel
-  Radial,     ///< radial weight, before the largest remainders are raised
-  RadialSum,  ///< of all radial weights, in words already
-  Factor,     ///< slab factor
+  Position,       ///< a projected centre, image pixels
+  Depth,          ///< of a centre behind the first slab boundary, kernel units
+  Boundary,       ///< between two slabs, behind the first one, kernel units
+  Whole,          ///< a channel of a whole splat
+  Carried,        ///< a channel of a whole splat and what the splat before left
+  Phi,            ///< cumulative slice weight
+  Rho,            ///< support radius, pixels
+  Rlut,           ///< scaled squared distance, in words already
+  Scale,          ///< index.kind linear, squared, squared_elliptic: radial table steps per distance, in words already
+  Cross,          ///< squared_elliptic: B without its sign, in words already
+  Axis,           ///< separable: weight along one axis
+  Footprint,      ///< blit2d: weight of a pixel
+  EllipseCentre,  ///< a projected centre that no device snaps, image pixels
+  EllipseTerm,    ///< an ellipse's A and C, in words already
+  EllipseCross,   ///< its B without the sign, in words already
+  Shrink,         ///< of a kernel's depths where it has grown: One.16
+  Radial,         ///< radial weight, before the largest remainders are raised
+  RadialSum,      ///< of all radial weights, in words already
+  Factor,         ///< slab factor
 };
 
 /// What a site makes of a number v: with s = v 2^frac_bits the word is floor(s), floor(s + 1/2) or ceil(s), where s +

@@ -29,7 +29,7 @@ RadiusSets::RadiusSets(const cmodel::Config& config, double smallest, double lar
   columns_ = config.has_columns() ? widest_set : 0;
   const auto most = static_cast<std::uint32_t>(config.rlut_sets);
   const std::uint32_t room = config.has_phases() ? static_cast<std::uint32_t>(config.rlut_columns) / widest_set : most;
-  const bool one_radius = largest <= smallest * (1.0 + 1e-9);
+  const bool one_radius = largest <= smallest * (1.0 + kSameRadius);
   const std::uint32_t count = one_radius ? 1 : std::min(room, most);
   if (one_radius) {
     radii_ = {largest};

@@ -8,6 +8,9 @@
 
 namespace fastsplat::driver {
 
+/// Radii that differ by no more than this, relatively, are one.
+inline constexpr double kSameRadius = 1e-9;
+
 /// rho = ceil(r K): the radius in pixels as the device takes it, 1/K pixel.
 std::uint32_t support_radius(double radius, const cmodel::Config& config);
 

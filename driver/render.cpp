@@ -14,6 +14,7 @@
 #include "cmodel/model.hpp"
 #include "driver/compile.hpp"
 #include "driver/frame_sink.hpp"
+#include "driver/splat_quantiser.hpp"
 
 namespace fastsplat::driver {
 
@@ -124,7 +125,9 @@ UnitReport& operator+=(UnitReport& report, const UnitReport& tile) {
 
 DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, const RenderOptions& options) {
   const char* why_plain = nullptr;
-  const bool fast = options.unit == Unit::Fast && cmodel::fast::fast_plan(config, &why_plain);
+  const bool shaped = draws_ellipses(scene, config);
+  const bool fast = options.unit == Unit::Fast && !shaped && cmodel::fast::fast_plan(config, &why_plain);
+  if (options.unit == Unit::Fast && shaped) why_plain = "splats are ellipses";
   const int band_rows = !fast ? 0 : options.band_rows > 0 ? options.band_rows : kBandRows;
   const CompiledFrame compiled(scene, config, options.threads, band_rows);
   const auto tables = fast ? cmodel::fast::frame_tables(config, compiled.preamble(), &why_plain)

@@ -27,7 +27,7 @@ struct RenderOptions {
   Progress progress = {};
 };
 
-/// What the driver had to bend to fit the formats; the last three are 0 in a healthy frame.
+/// What the driver had to bend to fit the formats; all but the first four are 0 in a healthy frame.
 struct DriverReport {
   std::uint64_t voxels = 0;         ///< non-empty voxels
   std::uint64_t splat_records = 0;  ///< splat records over all tiles and sheets
@@ -37,7 +37,8 @@ struct DriverReport {
   std::uint64_t saturated_records = 0;  ///< records whose share left the input format U 0.cf
   std::uint64_t vanished_voxels = 0;    ///< voxels whose words are all 0
   double vanished_share = 0.0;          ///< of all colour and opacity, what they had; 0 where it was carried on
-  bool carried = false;                 ///< roundings were carried from voxel to voxel (rounding.carry)
+  std::uint64_t widened_voxels = 0;  ///< voxels whose footprint was drawn wider than it is (driver/ellipse_shape.hpp)
+  bool carried = false;              ///< roundings were carried from voxel to voxel (rounding.carry)
 };
 
 /// Which unit drew the tiles of a frame.

@@ -23,6 +23,12 @@ struct Share {
   bool empty() const { return (words[0] | words[1] | words[2] | words[3]) == 0; }
 };
 
+/// A kernel that anti-aliasing has grown along the view axis (docs/numerics.md, section 8, "Ellipses").
+struct DepthGrowth {
+  std::uint32_t shrink = 1U << 16;  ///< of depths, One.16: at least 1
+  std::int32_t half = 0;            ///< the kernel's half depth, depth steps
+};
+
 /// Slabs of a frame and the kernel's cumulative weights.
 class Slices {
  public:
@@ -45,12 +51,21 @@ class Slices {
   }
   /// The most slabs that a kernel reaches beyond its first.
   int reach() const;
+  // The same of a kernel that has grown.
+  DepthGrowth growth(std::uint32_t shrink) const {
+    const auto words = static_cast<std::uint32_t>(middle_) << 16;
+    return {shrink, static_cast<std::int32_t>((words + shrink - 1) / shrink)};
+  }
+  int first(std::int32_t depth, const DepthGrowth& growth) const {
+    return last_that(depth - growth.half, [front = depth - growth.half](std::int32_t at) { return at <= front; });
+  }
+  int reach(const DepthGrowth& growth) const;
+  Share share(const SplatWords& whole, std::int32_t depth, int s, const DepthGrowth& growth) const {
+    return between(whole, cumulative(depth, s, growth), cumulative(depth, s + 1, growth));
+  }
   /// What falls into slab s.
   Share share(const SplatWords& whole, std::int32_t depth, int s) const {
-    const std::uint64_t near = cumulative(depth, s), far = cumulative(depth, s + 1);
-    SplatWords difference;
-    for (std::size_t c = 0; c < 4; ++c) difference[c] = part(whole[c], far) - part(whole[c], near);
-    return this->whole(difference);
+    return between(whole, cumulative(depth, s), cumulative(depth, s + 1));
   }
   /// The same for slabs one after the other, from the first that the splat reaches on: `before` is what lies in front
   /// of slab s, 0 at first, and becomes what lies in front of the next.
@@ -111,6 +126,16 @@ class Slices {
   std::uint64_t cumulative(std::int32_t depth, int boundary) const {
     const std::int32_t at = cut_[static_cast<std::size_t>(boundary)] - depth + middle_;
     return phi_[static_cast<std::size_t>(std::clamp(at, 0, 2 * middle_))];
+  }
+  Share between(const SplatWords& whole, std::uint64_t near, std::uint64_t far) const {
+    SplatWords difference;
+    for (std::size_t c = 0; c < 4; ++c) difference[c] = part(whole[c], far) - part(whole[c], near);
+    return this->whole(difference);
+  }
+  std::uint64_t cumulative(std::int32_t depth, int boundary, const DepthGrowth& growth) const {
+    const std::int64_t steps = std::int64_t{cut_[static_cast<std::size_t>(boundary)]} - depth;
+    const std::int64_t at = ((steps * growth.shrink) >> 16) + middle_;
+    return phi_[static_cast<std::size_t>(std::clamp(at, std::int64_t{0}, std::int64_t{2} * middle_))];
   }
   /// Last slab whose near boundary is `before` the depth, else the first one. Boundaries lie nearly evenly: a guess,
   /// then a step or two.

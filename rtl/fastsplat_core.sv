@@ -42,8 +42,8 @@ module fastsplat_core (
     output logic [31:0]  tap_snap_tag_o,
     output logic signed [fastsplat_pkg::ORG_BITS-1:0] tap_snap_x_o,
     output logic signed [fastsplat_pkg::ORG_BITS-1:0] tap_snap_y_o,
-    output logic [fastsplat_pkg::PHASE_BITS-1:0] tap_snap_mx_o,
-    output logic [fastsplat_pkg::PHASE_BITS-1:0] tap_snap_my_o,
+    output logic [fastsplat_pkg::WAY_BITS-1:0] tap_snap_mx_o,
+    output logic [fastsplat_pkg::WAY_BITS-1:0] tap_snap_my_o,
     output logic         tap_window_valid_o,
     output logic [31:0]  tap_window_tag_o,
     output logic signed [fastsplat_pkg::ORG_BITS-1:0] tap_window_x_o,
@@ -87,7 +87,10 @@ module fastsplat_core (
   logic [31:0] window_tag;
   logic signed [fastsplat_pkg::POS_BITS-1:0] window_x, window_y;
   logic [fastsplat_pkg::RHO_BITS-1:0] window_rho;
-  logic [fastsplat_pkg::COL_BITS-1:0] window_base, window_column, window_row;
+  logic [fastsplat_pkg::COL_BITS-1:0] window_base;
+  logic [fastsplat_pkg::WINDOW_BITS-1:0] window_column, window_row;
+  logic window_ellipse;
+  logic [fastsplat_pkg::SHAPE_BITS-1:0] window_shape;
   logic [4*fastsplat_pkg::COLOUR_BITS-1:0] window_colour;
   logic event_splat, event_cull, stall_input, stall_table, stall_buffer, stall_tile;
   logic beat_valid, beat_ready, beat_payload, beat_aborted, check_busy, soft_reset, at_rest;
@@ -156,6 +159,8 @@ module fastsplat_core (
       .window_base_o(window_base),
       .window_column_o(window_column),
       .window_row_o(window_row),
+      .window_ellipse_o(window_ellipse),
+      .window_shape_o(window_shape),
       .window_colour_o(window_colour),
       .event_splat_o(event_splat),
       .event_cull_o(event_cull),
@@ -197,6 +202,8 @@ module fastsplat_core (
       .base_i(window_base),
       .column_i(window_column),
       .row_i(window_row),
+      .ellipse_i(window_ellipse),
+      .shape_i(window_shape),
       .colour_i(window_colour),
       .dirty_valid_o(dirty_valid),
       .dirty_buffer_o(dirty_buffer),

@@ -2,6 +2,7 @@
 // cmodel/lane.hpp).
 // Registers: c4 (q), c5 (table read), c6 (products). Outputs belong to the inputs of three cycles before and hold while no
 // window is in the stage before.
+`include "fault.svh"
 `include "narrow.svh"
 
 module fastsplat_lane (
@@ -15,6 +16,10 @@ module fastsplat_lane (
     // c3
     input  logic [fastsplat_pkg::RLUT_BITS-1:0]     column_i,  // RLUT word of this lane's column
     input  logic [fastsplat_pkg::RLUT_BITS-1:0]     row_i,     // and row
+    input  logic                                    ellipse_i,  // or, of an ellipse, three words whose sum is q
+    input  logic [fastsplat_pkg::ELLIPSE_BITS-1:0]  ellipse_column_i,
+    input  logic [fastsplat_pkg::ELLIPSE_BITS-1:0]  ellipse_row_i,
+    input  logic [fastsplat_pkg::ELLIPSE_BITS-1:0]  ellipse_cross_i,
     // c5: the splat's colour, two cycles after its RLUT words
     input  logic [4*fastsplat_pkg::COLOUR_BITS-1:0] colour_i,
     output logic [fastsplat_pkg::WEIGHT_BITS-1:0]   weight_o,   // with products_o
@@ -32,10 +37,30 @@ module fastsplat_lane (
   logic [fastsplat_pkg::RADIAL_LOG2-1:0] index_q;
   logic outside_q, outside_q2;
   assign q = {1'b0, column_i} + {1'b0, row_i};
+  logic [fastsplat_pkg::RADIAL_LOG2-1:0] ellipse_index;
+  logic ellipse_outside;
+  if (fastsplat_pkg::ELLIPSES != 0) begin : gen_ellipse
+    localparam int QB = fastsplat_pkg::ELLIPSE_BITS;
+    localparam int BELOW = fastsplat_pkg::GUARD + fastsplat_pkg::ELLIPSE_FRAC;
+    logic [QB-1:0] sum;
+    logic below;
+    assign sum = ellipse_column_i + ellipse_row_i + ellipse_cross_i;
+    // A centre may come out a little below 0.
+    assign below = sum[QB-1] && !`FASTSPLAT_FAULT(ELLIPSE_BELOW);
+    assign ellipse_index = below ? '0 : sum[BELOW+:fastsplat_pkg::RADIAL_LOG2];
+    assign ellipse_outside = !below && sum[QB-2:BELOW+fastsplat_pkg::RADIAL_LOG2] != '0;
+    logic unused_bits;
+    assign unused_bits = &{1'b0, sum[BELOW-1:0]};
+  end else begin : gen_circles
+    assign ellipse_index = '0;
+    assign ellipse_outside = 1'b0;
+    logic unused_words;
+    assign unused_words = &{1'b0, ellipse_column_i, ellipse_row_i, ellipse_cross_i};
+  end
   always_ff @(posedge clk_i) begin
     if (valid_i[3]) begin
-      index_q <= q[fastsplat_pkg::GUARD+:fastsplat_pkg::RADIAL_LOG2];
-      outside_q <= |q[QW-1:fastsplat_pkg::GUARD+fastsplat_pkg::RADIAL_LOG2];
+      index_q <= ellipse_i ? ellipse_index : q[fastsplat_pkg::GUARD+:fastsplat_pkg::RADIAL_LOG2];
+      outside_q <= ellipse_i ? ellipse_outside : |q[QW-1:fastsplat_pkg::GUARD+fastsplat_pkg::RADIAL_LOG2];
     end
     if (valid_i[4]) outside_q2 <= outside_q;
   end

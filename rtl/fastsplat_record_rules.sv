@@ -40,6 +40,10 @@ module fastsplat_record_rules (
       fastsplat_pkg::OP_BEGIN_TILE: used = fastsplat_pkg::USED_BEGIN_TILE;
       fastsplat_pkg::OP_BEGIN_SHEET: used = fastsplat_pkg::USED_BEGIN_SHEET;
       fastsplat_pkg::OP_SPLAT: used = fastsplat_pkg::USED_SPLAT;
+      fastsplat_pkg::OP_ELLIPSE: begin
+        known = fastsplat_pkg::ELLIPSES != 0;
+        used = fastsplat_pkg::USED_ELLIPSE;
+      end
       fastsplat_pkg::OP_CULL_BLOCK: used = fastsplat_pkg::USED_CULL_BLOCK;
       fastsplat_pkg::OP_END_SHEET: used = fastsplat_pkg::USED_END_SHEET;
       fastsplat_pkg::OP_END_TILE: used = fastsplat_pkg::USED_END_TILE;
@@ -66,22 +70,25 @@ module fastsplat_record_rules (
     endcase
   end
 
-  logic tile_good, set_good, position_good, colour_good, sides_good;
+  logic tile_good, set_good, position_good, ellipse_position_good, colour_good, sides_good;
   assign tile_good = w0[11:8] <= 4'd2 && w1 < tiles_i && w4[15:0] <= 16'(fastsplat_pkg::TILE_WIDTH) &&
                      w4[31:16] <= 16'(fastsplat_pkg::TILE_HEIGHT) && w2[31:16] == '0 && w3[31:16] == '0 &&
                      17'(w2[15:0]) + 17'(w4[15:0]) <= 17'(image_width_i) && 17'(w3[15:0]) + 17'(w4[31:16]) <= 17'(image_height_i);
   assign sides_good = w4[15:0] != '0 && w4[31:16] != '0;
   assign set_good = w0[15:8] < 8'(fastsplat_pkg::RLUT_SETS) && sets_loaded_i[w0[8+:fastsplat_pkg::SET_BITS]];
   assign position_good = (w2[31:PB-1] == '0 || w2[31:PB-1] == '1) && (w3[31:PB-1] == '0 || w3[31:PB-1] == '1);
+  localparam int EX = 22;  // an ellipse's x and y
+  assign ellipse_position_good = (w2[EX-1:PB-1] == '0 || w2[EX-1:PB-1] == '1) && (w3[EX-1:PB-1] == '0 || w3[EX-1:PB-1] == '1);
   assign colour_good = (w4[15:0] >> CB) == '0 && (w4[31:16] >> CB) == '0 && (w5[15:0] >> CB) == '0 && (w5[31:16] >> CB) == '0;
 
   // Side by side, not one after another: the long comparisons are late as it is.
-  logic begin_frame, load_table, begin_tile, begin_sheet, splat, cull_block, end_sheet, end_tile;
+  logic begin_frame, load_table, begin_tile, begin_sheet, splat, ellipse, cull_block, end_sheet, end_tile;
   assign begin_frame = opcode == fastsplat_pkg::OP_BEGIN_FRAME;
   assign load_table = opcode == fastsplat_pkg::OP_LOAD_TABLE;
   assign begin_tile = opcode == fastsplat_pkg::OP_BEGIN_TILE;
   assign begin_sheet = opcode == fastsplat_pkg::OP_BEGIN_SHEET;
   assign splat = opcode == fastsplat_pkg::OP_SPLAT;
+  assign ellipse = opcode == fastsplat_pkg::OP_ELLIPSE;
   assign cull_block = opcode == fastsplat_pkg::OP_CULL_BLOCK;
   assign end_sheet = opcode == fastsplat_pkg::OP_END_SHEET;
   assign end_tile = opcode == fastsplat_pkg::OP_END_TILE;
@@ -96,8 +103,8 @@ module fastsplat_record_rules (
     broken_o[fastsplat_pkg::RULE_TILE] = begin_tile && (!tile_good || !sides_good);
     broken_o[fastsplat_pkg::RULE_SHEET] = begin_sheet && sheets_i != '0 && w1 <= sheet_i;
     broken_o[fastsplat_pkg::RULE_SET] = splat && !set_good;
-    broken_o[fastsplat_pkg::RULE_RANGE] = splat && (!position_good || !colour_good);
-    broken_o[fastsplat_pkg::RULE_TAG] = splat && w1 != tag_i;
+    broken_o[fastsplat_pkg::RULE_RANGE] = (splat && !position_good) || (ellipse && !ellipse_position_good) || ((splat || ellipse) && !colour_good);
+    broken_o[fastsplat_pkg::RULE_TAG] = (splat || ellipse) && w1 != tag_i;
     broken_o[fastsplat_pkg::RULE_CULL] = cull_block && !sides_good;
     broken_o[fastsplat_pkg::RULE_END_NUMBER] = (end_sheet && w1 != sheet_i) || (end_tile && w1 != tile_i);
     broken_o[fastsplat_pkg::RULE_END_COUNT] = (end_sheet && w2 != splats_i) || (end_tile && w2 != sheets_i);

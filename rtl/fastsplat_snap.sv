@@ -13,8 +13,9 @@ module fastsplat_snap (
 );
   localparam int DROP = fastsplat_pkg::SHIFT_SNAP;
   localparam int GRID_BITS = fastsplat_pkg::POS_INT + fastsplat_pkg::PHASE_LOG2;
-  // Wide enough for centre + BIAS + 1 and for grid position minus rho.
-  localparam int WIDE = ((fastsplat_pkg::POS_BITS > GRID_BITS + 2) ? fastsplat_pkg::POS_BITS : GRID_BITS + 2) + 2;
+  // Wide enough for centre + BIAS + 1, for grid position minus rho, and for an origin, which may be an ellipse's.
+  localparam int NEEDED = ((fastsplat_pkg::POS_BITS > GRID_BITS + 2) ? fastsplat_pkg::POS_BITS : GRID_BITS + 2) + 2;
+  localparam int WIDE = (NEEDED > fastsplat_pkg::ORG_BITS) ? NEEDED : fastsplat_pkg::ORG_BITS + 1;
   localparam logic signed [WIDE-1:0] EVEN = (fastsplat_pkg::ROUND_SNAP == 2 && DROP > 0) ? WIDE'(1) : '0;
   localparam logic signed [WIDE-1:0] BIAS = (fastsplat_pkg::ROUND_SNAP != 0 && DROP > 0) ? (WIDE'(1) << (DROP > 0 ? DROP - 1 : 0)) - EVEN : '0;
   localparam logic signed [WIDE-1:0] LARGEST = (WIDE'(1) << (GRID_BITS - 1)) - WIDE'(1);

@@ -26,8 +26,10 @@ module fastsplat_splat_array (
     input  logic signed [fastsplat_pkg::POS_BITS-1:0]       y_i,
     input  logic [fastsplat_pkg::RHO_BITS-1:0]              rho_i,
     input  logic [fastsplat_pkg::COL_BITS-1:0]              base_i,
-    input  logic [fastsplat_pkg::COL_BITS-1:0]              column_i,    // of the window within the footprint, pixels
-    input  logic [fastsplat_pkg::COL_BITS-1:0]              row_i,
+    input  logic [fastsplat_pkg::WINDOW_BITS-1:0]           column_i,    // of the window within the footprint, pixels
+    input  logic [fastsplat_pkg::WINDOW_BITS-1:0]           row_i,
+    input  logic                                            ellipse_i,
+    input  logic [fastsplat_pkg::SHAPE_BITS-1:0]            shape_i,     // {top, left, h, C, B, A}
     input  logic [4*fastsplat_pkg::COLOUR_BITS-1:0]         colour_i,
     // dirty blocks of the window at c3
     output logic                                            dirty_valid_o,
@@ -54,8 +56,8 @@ module fastsplat_splat_array (
     output logic [31:0]                                     tap_snap_tag_o,
     output logic signed [fastsplat_pkg::ORG_BITS-1:0]       tap_snap_x_o,
     output logic signed [fastsplat_pkg::ORG_BITS-1:0]       tap_snap_y_o,
-    output logic [fastsplat_pkg::PHASE_BITS-1:0]            tap_snap_mx_o,
-    output logic [fastsplat_pkg::PHASE_BITS-1:0]            tap_snap_my_o,
+    output logic [fastsplat_pkg::WAY_BITS-1:0]              tap_snap_mx_o,  // phase; of an ellipse X, two's complement
+    output logic [fastsplat_pkg::WAY_BITS-1:0]              tap_snap_my_o,
     output logic [1:0]                                      tap_snap_saturated_o,
     output logic                                            tap_window_valid_o,    // c6
     output logic [31:0]                                     tap_window_tag_o,
@@ -80,6 +82,28 @@ module fastsplat_splat_array (
   localparam int CB4 = 4 * fastsplat_pkg::COLOUR_BITS;
   localparam int ORG = fastsplat_pkg::ORG_BITS;
   localparam int COL = fastsplat_pkg::COL_BITS;
+  localparam int QB = fastsplat_pkg::ELLIPSE_BITS;
+
+  // c0, later by what an ellipse's words take.
+  logic valid, last, first_window, buffer, ellipse;
+  logic [31:0] tag;
+  logic signed [fastsplat_pkg::POS_BITS-1:0] x, y;
+  logic [fastsplat_pkg::RHO_BITS-1:0] rho;
+  logic [COL-1:0] base;
+  logic [fastsplat_pkg::WINDOW_BITS-1:0] column, row;
+  logic [CB4-1:0] colour;
+  fastsplat_delay #(.BITS(2), .STAGES(fastsplat_pkg::ELLIPSE_DELAY)) u_here (
+      .clk_i, .rst_ni, .data_i({valid_i, last_i}), .data_o({valid, last})
+  );
+  fastsplat_delay #(
+      .BITS(35 + 2 * fastsplat_pkg::POS_BITS + fastsplat_pkg::RHO_BITS + COL + 2 * fastsplat_pkg::WINDOW_BITS + CB4),
+      .STAGES(fastsplat_pkg::ELLIPSE_DELAY)
+  ) u_window (
+      .clk_i,
+      .rst_ni(1'b1),
+      .data_i({first_window_i, buffer_i, ellipse_i, tag_i, x_i, y_i, rho_i, base_i, column_i, row_i, colour_i}),
+      .data_o({first_window, buffer, ellipse, tag, x, y, rho, base, column, row, colour})
+  );
 
   // What rides along: index = stage (1..9).
   logic [9:1] valid_q, last_q, buffer_q;
@@ -90,11 +114,67 @@ module fastsplat_splat_array (
   logic signed [ORG-1:0] x_q[2:6], y_q[2:6];
 
   // c1
-  logic signed [ORG-1:0] x_c1, y_c1;
+  logic signed [ORG-1:0] x_c1, y_c1, circle_x, circle_y;
   logic [fastsplat_pkg::PHASE_BITS-1:0] mx_c1, my_c1;
   logic saturated_x, saturated_y;
-  fastsplat_snap u_snap_x (.clk_i, .centre_i(x_i), .rho_i, .column_i, .origin_o(x_c1), .phase_o(mx_c1), .saturated_o(saturated_x));
-  fastsplat_snap u_snap_y (.clk_i, .centre_i(y_i), .rho_i, .column_i(row_i), .origin_o(y_c1), .phase_o(my_c1), .saturated_o(saturated_y));
+  fastsplat_snap u_snap_x (.clk_i, .centre_i(x), .rho_i(rho), .column_i(column[COL-1:0]), .origin_o(circle_x), .phase_o(mx_c1), .saturated_o(saturated_x));
+  fastsplat_snap u_snap_y (.clk_i, .centre_i(y), .rho_i(rho), .column_i(row[COL-1:0]), .origin_o(circle_y), .phase_o(my_c1), .saturated_o(saturated_y));
+
+  // An ellipse's own way to c1 and c3.
+  logic ellipse_c1, ellipse_c3;
+  logic [fastsplat_pkg::WAY_BITS-1:0] way_x_c1, way_y_c1;
+  logic [2*P*QB-1:0] ellipse_columns, ellipse_rows;
+  logic [P*P*QB-1:0] ellipse_cross;
+  logic [P-1:0] second_x, second_y;
+  if (fastsplat_pkg::ELLIPSES != 0) begin : gen_ellipse
+    localparam int PF = fastsplat_pkg::POS_FRAC;
+    logic ellipse_c2;
+    logic signed [9:0] left, top;
+    logic signed [ORG-1:0] ellipse_x_q, ellipse_y_q;
+    logic signed [31:0] way_x_q, way_y_q;
+    fastsplat_delay #(.BITS(20), .STAGES(fastsplat_pkg::ELLIPSE_DELAY)) u_corner (
+        .clk_i, .rst_ni(1'b1), .data_i(shape_i[74+:20]), .data_o({top, left})
+    );
+    always_ff @(posedge clk_i) begin
+      ellipse_c1 <= ellipse;
+      ellipse_c2 <= ellipse_c1;
+      ellipse_c3 <= ellipse_c2;
+      ellipse_x_q <= ORG'(32'(x) >>> PF) + ORG'(left) + $signed(ORG'(column));
+      ellipse_y_q <= ORG'(32'(y) >>> PF) + ORG'(top) + $signed(ORG'(row));
+      way_x_q <= (32'(left) <<< PF) - $signed({{(32 - PF) {1'b0}}, x[PF-1:0]});
+      way_y_q <= (32'(top) <<< PF) - $signed({{(32 - PF) {1'b0}}, y[PF-1:0]});
+    end
+    assign x_c1 = ellipse_c1 ? ellipse_x_q : circle_x;
+    assign y_c1 = ellipse_c1 ? ellipse_y_q : circle_y;
+    assign way_x_c1 = ellipse_c1 ? way_x_q : 32'(mx_c1);
+    assign way_y_c1 = ellipse_c1 ? way_y_q : 32'(my_c1);
+    fastsplat_ellipse u_ellipse (
+        .clk_i,
+        .first_i(first_window_i),
+        .new_row_i(column_i == '0),
+        .x_i,
+        .y_i,
+        .shape_i,
+        .columns_o(ellipse_columns),
+        .rows_o(ellipse_rows),
+        .cross_o(ellipse_cross),
+        .second_x_o(second_x),
+        .second_y_o(second_y)
+    );
+  end else begin : gen_circles
+    assign {ellipse_c1, ellipse_c3} = '0;
+    assign x_c1 = circle_x;
+    assign y_c1 = circle_y;
+    assign way_x_c1 = mx_c1;
+    assign way_y_c1 = my_c1;
+    assign ellipse_columns = '0;
+    assign ellipse_rows = '0;
+    assign ellipse_cross = '0;
+    assign second_x = '0;
+    assign second_y = '0;
+    logic unused;
+    assign unused = &{1'b0, ellipse, shape_i};
+  end
 
   // c2
   logic [P*RB-1:0] rlut_x, rlut_y;
@@ -189,6 +269,10 @@ module fastsplat_splat_array (
           .valid_i(valid_q[5:3]),
           .column_i(columns_c3[g*RB+:RB]),
           .row_i(rows_c3[h*RB+:RB]),
+          .ellipse_i(ellipse_c3),
+          .ellipse_column_i(ellipse_columns[((second_y[h]?P:0)+g)*QB+:QB]),
+          .ellipse_row_i(ellipse_rows[((second_x[g]?P:0)+h)*QB+:QB]),
+          .ellipse_cross_i(ellipse_cross[B*QB+:QB]),
           .colour_i(colour_q[5]),
           .weight_o(weights[B]),
           .products_o(products),
@@ -214,18 +298,18 @@ module fastsplat_splat_array (
   end
 
   always_ff @(posedge clk_i) begin
-    valid_q <= {valid_q[8:1], valid_i};
-    last_q <= {last_q[8:1], last_i};
-    buffer_q <= {buffer_q[8:1], buffer_i};
+    valid_q <= {valid_q[8:1], valid};
+    last_q <= {last_q[8:1], last};
+    buffer_q <= {buffer_q[8:1], buffer};
     if (!rst_ni) begin
       valid_q <= '0;
       last_q <= '0;
     end
-    first_c1_q <= first_window_i;
-    tag_q[1] <= tag_i;
-    colour_q[1] <= colour_i;
-    column_c1_q <= base_i + column_i;
-    row_c1_q <= base_i + row_i;
+    first_c1_q <= first_window;
+    tag_q[1] <= tag;
+    colour_q[1] <= colour;
+    column_c1_q <= base + column[COL-1:0];
+    row_c1_q <= base + row[COL-1:0];
     x_q[2] <= x_c1;
     y_q[2] <= y_c1;
     for (int s = 2; s <= 9; s++) tag_q[s] <= tag_q[s-1];
@@ -245,9 +329,9 @@ module fastsplat_splat_array (
   assign tap_snap_tag_o = tag_q[1];
   assign tap_snap_x_o = x_c1;
   assign tap_snap_y_o = y_c1;
-  assign tap_snap_mx_o = mx_c1;
-  assign tap_snap_my_o = my_c1;
-  assign tap_snap_saturated_o = {saturated_y, saturated_x};
+  assign tap_snap_mx_o = way_x_c1;
+  assign tap_snap_my_o = way_y_c1;
+  assign tap_snap_saturated_o = ellipse_c1 ? '0 : {saturated_y, saturated_x};
   assign tap_window_valid_o = valid_q[6];
   assign tap_window_tag_o = tag_q[6];
   assign tap_window_x_o = x_q[6];

@@ -87,7 +87,7 @@ module fastsplat_stream_check (
     case (next_opcode)
       fastsplat_pkg::OP_BEGIN_FRAME: next_place = PlStart;
       fastsplat_pkg::OP_BEGIN_SHEET, fastsplat_pkg::OP_END_TILE: next_place = PlTile;
-      fastsplat_pkg::OP_SPLAT, fastsplat_pkg::OP_CULL_BLOCK, fastsplat_pkg::OP_END_SHEET: next_place = PlSheet;
+      fastsplat_pkg::OP_SPLAT, fastsplat_pkg::OP_ELLIPSE, fastsplat_pkg::OP_CULL_BLOCK, fastsplat_pkg::OP_END_SHEET: next_place = PlSheet;
       default: next_place = PlTables;
     endcase
   end
@@ -105,7 +105,7 @@ module fastsplat_stream_check (
           sheets_q <= sheets_q + 32'd1;
           splats_q <= '0;
         end
-        fastsplat_pkg::OP_SPLAT: begin
+        fastsplat_pkg::OP_SPLAT, fastsplat_pkg::OP_ELLIPSE: begin
           tag_q <= tag_q + 32'd1;
           splats_q <= splats_q + 32'd1;
         end

@@ -46,8 +46,10 @@ module fastsplat_stream_decode (
     output logic signed [fastsplat_pkg::POS_BITS-1:0]  window_y_o,
     output logic [fastsplat_pkg::RHO_BITS-1:0]         window_rho_o,
     output logic [fastsplat_pkg::COL_BITS-1:0]         window_base_o,
-    output logic [fastsplat_pkg::COL_BITS-1:0]         window_column_o,
-    output logic [fastsplat_pkg::COL_BITS-1:0]         window_row_o,
+    output logic [fastsplat_pkg::WINDOW_BITS-1:0]      window_column_o,
+    output logic [fastsplat_pkg::WINDOW_BITS-1:0]      window_row_o,
+    output logic                                       window_ellipse_o,
+    output logic [fastsplat_pkg::SHAPE_BITS-1:0]       window_shape_o,  // {top, left, h, C, B, A}
     output logic [4*fastsplat_pkg::COLOUR_BITS-1:0]    window_colour_o,
     // status
     output logic                                       event_splat_o,
@@ -65,10 +67,10 @@ module fastsplat_stream_decode (
 
   logic beat_valid_q, payload_q, aborted_q, take;
   logic [fastsplat_pkg::BEAT_BITS-1:0] beat_q;
-  logic [31:0] w0, w1, w2, w3, w4, w5;
-  assign {w5, w4, w3, w2, w1, w0} = beat_q[0+:6*32];  // where fields lie
+  logic [31:0] w0, w1, w2, w3, w4, w5, w6, w7;
+  assign {w7, w6, w5, w4, w3, w2, w1, w0} = beat_q;  // where fields lie
   logic unused;
-  assign unused = &{1'b0, w0, w2, w4, w5};
+  assign unused = &{1'b0, w0, w2, w3, w4, w5, w6, w7};
   logic [7:0] opcode;
   assign opcode = w0[7:0];
   assign ready_o = !beat_valid_q || take;
@@ -99,18 +101,38 @@ module fastsplat_stream_decode (
   assign table_index_o = index_q;
 
   // Windows of the splat in the beat register
-  logic [COL-1:0] column_q, row_q, extent;
+  localparam int WIN = fastsplat_pkg::WINDOW_BITS;
+  logic [WIN-1:0] column_q, row_q, extent_x, extent_y;
   logic [fastsplat_pkg::RLUT_SETS-1:0] single_q;  // by set: one window
   logic last_column_q, last_row_q, last_window;   // foretold a cycle ahead: the source's handshake waits for it
-  assign extent = extent_q[set];
+  logic is_ellipse;
+  if (fastsplat_pkg::ELLIPSES != 0) begin : gen_ellipse
+    assign is_ellipse = opcode == fastsplat_pkg::OP_ELLIPSE;
+    assign extent_x = is_ellipse ? (WIN'(w2[26:22]) + WIN'(1)) << fastsplat_pkg::LANE_LOG2 : WIN'(extent_q[set]);
+    assign extent_y = is_ellipse ? (WIN'(w2[31:27]) + WIN'(1)) << fastsplat_pkg::LANE_LOG2 : WIN'(extent_q[set]);
+    always_ff @(posedge clk_i) begin
+      window_ellipse_o <= is_ellipse;
+      window_shape_o <= {w7[31:22], w6[31:22], w3[27:22], w7[21:0], w0[31:8], w6[21:0]};
+    end
+  end else begin : gen_circles
+    assign is_ellipse = 1'b0;
+    assign extent_x = extent_q[set];
+    assign extent_y = extent_q[set];
+    assign window_ellipse_o = 1'b0;
+    assign window_shape_o = '0;
+  end
   assign last_window = last_column_q && last_row_q;
+
+  logic ellipse_next, one_column;  // coming into the register; of the record in it
+  assign ellipse_next = fastsplat_pkg::ELLIPSES != 0 && data_i[7:0] == fastsplat_pkg::OP_ELLIPSE;
+  assign one_column = is_ellipse && w2[26:22] == '0;
 
   // Sheet buffers
   logic [1:0] busy_q;
   logic buffer_q;
 
   logic is_splat, wait_buffer, wait_tile;
-  assign is_splat = beat_valid_q && !payload_q && opcode == fastsplat_pkg::OP_SPLAT;
+  assign is_splat = beat_valid_q && !payload_q && (opcode == fastsplat_pkg::OP_SPLAT || is_ellipse);
   assign wait_buffer = beat_valid_q && !payload_q && opcode == fastsplat_pkg::OP_BEGIN_SHEET && busy_q[buffer_q];
   // A sheet on its way through the splat path keeps its buffer busy, so "all buffers free" covers the pipe as well.
   assign wait_tile = beat_valid_q && !payload_q && (opcode == fastsplat_pkg::OP_BEGIN_TILE || opcode == fastsplat_pkg::OP_END_TILE) &&
@@ -129,7 +151,7 @@ module fastsplat_stream_decode (
   assign tile_end_o = accepted && opcode == fastsplat_pkg::OP_END_TILE;
   assign tile_aborted_o = aborted_q;
   assign frame_end_o = accepted && opcode == fastsplat_pkg::OP_END_FRAME;
-  assign event_splat_o = accepted && opcode == fastsplat_pkg::OP_SPLAT;
+  assign event_splat_o = accepted && is_splat;
   assign event_cull_o = accepted && opcode == fastsplat_pkg::OP_CULL_BLOCK;
   assign stall_input_o = !beat_valid_q;
   assign stall_table_o = table_write;
@@ -142,8 +164,8 @@ module fastsplat_stream_decode (
       beat_q <= data_i;
       payload_q <= payload_i;
       aborted_q <= aborted_i;
-      last_column_q <= single_q[data_i[8+:fastsplat_pkg::SET_BITS]];
-      last_row_q <= single_q[data_i[8+:fastsplat_pkg::SET_BITS]];
+      last_column_q <= ellipse_next ? data_i[86+:5] == '0 : single_q[data_i[8+:fastsplat_pkg::SET_BITS]];
+      last_row_q <= ellipse_next ? data_i[91+:5] == '0 : single_q[data_i[8+:fastsplat_pkg::SET_BITS]];
     end
     if (`FASTSPLAT_FAULT(LOST_BEAT) && ready_o && valid_i && is_splat && data_i[7:0] == fastsplat_pkg::OP_SPLAT && w1[2:0] == 3'd5)
       beat_valid_q <= 1'b0;
@@ -205,11 +227,11 @@ module fastsplat_stream_decode (
     window_row_o <= row_q;
     window_colour_o <= {w5[16+:CB], w5[0+:CB], w4[16+:CB], w4[0+:CB]};
     if (is_splat) begin
-      column_q <= last_column_q ? '0 : column_q + COL'(P);
-      if (last_column_q) row_q <= last_window ? '0 : row_q + COL'(P);
-      if (!last_window) begin  // so that there are two columns and two rows at the least
-        last_column_q <= !last_column_q && (COL + 1)'(column_q) + (COL + 1)'(2 * P) >= (COL + 1)'(extent);
-        if (last_column_q) last_row_q <= (COL + 1)'(row_q) + (COL + 1)'(2 * P) >= (COL + 1)'(extent);
+      column_q <= last_column_q ? '0 : column_q + WIN'(P);
+      if (last_column_q) row_q <= last_window ? '0 : row_q + WIN'(P);
+      if (!last_window) begin  // so that there are two columns or rows at the least, of a circle both
+        last_column_q <= last_column_q ? one_column : (WIN + 1)'(column_q) + (WIN + 1)'(2 * P) >= (WIN + 1)'(extent_x);
+        if (last_column_q) last_row_q <= (WIN + 1)'(row_q) + (WIN + 1)'(2 * P) >= (WIN + 1)'(extent_y);
       end
     end
 
@@ -231,7 +253,7 @@ module fastsplat_stream_decode (
                     $onehot0({tile_begin, tile_end_o, event_splat_o, event_cull_o, rlut_we_o, radial_we_o, factor_we_o}))
   `FASTSPLAT_ASSERT(window_in_open_sheet, !window_valid_o || busy_q[window_buffer_o])
   `FASTSPLAT_ASSERT(only_busy_buffers_come_back, !free_i || busy_q[free_buffer_i])
-  `FASTSPLAT_ASSERT(last_window_foretold, !is_splat || (last_column_q == (column_q + COL'(P) >= extent) && last_row_q == (row_q + COL'(P) >= extent)))
+  `FASTSPLAT_ASSERT(last_window_foretold, !is_splat || (last_column_q == (column_q + WIN'(P) >= extent_x) && last_row_q == (row_q + WIN'(P) >= extent_y)))
   `FASTSPLAT_COVER(sheet_waits_for_buffer, wait_buffer)
   `FASTSPLAT_COVER(both_buffers_busy, busy_q == 2'b11)
 endmodule

@@ -20,15 +20,16 @@ constexpr Methods only(Method method) { return 1u << static_cast<unsigned>(metho
 inline constexpr Methods kAllMethods = (1u << 5) - 1;
 
 /// What an engine must have beyond circles of the splats' own scale that are added into sheets.
-enum class Feature : unsigned { None, Footprints = 1, Pixels = 2, Freezing = 4 };
+enum class Feature : unsigned { None, Footprints = 1, Pixels = 2, Freezing = 4, Details = 8 };
 
 /// What an engine has.
 struct Offers {
   const char* engine;  ///< "golden", "device"
   Methods methods;
-  unsigned features;  ///< Features, or'ed
+  unsigned features;                     ///< Features, or'ed
+  const char* footprints_fix = nullptr;  ///< how to have Feature::Footprints, where another of its kind has it
 };
-inline constexpr Offers kOffersAll{"golden", kAllMethods, 7u};
+inline constexpr Offers kOffersAll{"golden", kAllMethods, 15u};
 
 /// What a scene has or has not, in the order in which an engine is asked for it: rows of the table. Not all are
 /// techniques; the last are what techniques need.

@@ -82,7 +82,7 @@ constexpr std::array kRows{
                  .methods = kSplatting,
                  .no_method = kNoFootprints,
                  .method_fix = kSplattingFix,
-                 .feature = Feature::Footprints},
+                 .feature = Feature::Details},
     TechniqueRow{.technique = Technique::Translation,
                  .key = "motion.translate",
                  .name = "motion of the volume",

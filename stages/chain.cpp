@@ -18,7 +18,9 @@ namespace {
 constexpr int kRows = 16;  ///< of a band: its sheets stay in the cache
 
 const scene::Scene& drawable(const scene::Scene& scene, const cmodel::Config& config) {
-  scene::check_capability(scene, driver::offers(config));
+  scene::Offers offers = driver::offers(config);
+  if (config.has_ellipses()) offers = {"error attribution", offers.methods, 0u};  // steps are of circles
+  scene::check_capability(scene, offers);
   return scene;
 }
 

@@ -26,6 +26,13 @@ Cost cost(const cmodel::Config& c) {
                    c.lanes * 4.0 * out_word;
   out.multiplier_bits =
       lanes * 4.0 * colour * weight + lanes * (factor * rest + 4.0 * sheet * factor + 4.0 * unit * unit);
+  if (c.has_ellipses()) {
+    // Of a record: four products of 22 and 24 bits with X and Y, then two of those sums. A window: its polynomial from
+    // the one before, a few sums a column and a row, multiples by constants. A lane: one multiple, and three words.
+    const double word = c.ellipse_format().word_bits, way = 11.0 + c.position_frac_bits;
+    out.multiplier_bits += 92.0 * way + way * (26.0 + way) + way * (24.0 + way);
+    out.adder_bits += word * (8.0 + 14.0 * c.lanes + 3.0 * lanes);
+  }
   return out;
 }
 

@@ -47,6 +47,7 @@ class TileUnit final : public RecordSink {
   void begin_band(const BeginTile& band, bool first, int ahead);
   void begin_sheet(const BeginSheet& sheet) override { now_ = sheet.sheet % slots_.size(); }
   void splats(std::span<const SplatRecord> records) override;
+  void ellipses(std::span<const EllipseRecord> records) override { sound_ = sound_ && records.empty(); }
   void end_sheet(const EndSheet& sheet) override;
   void end_tile(const EndTile& tile) override;
 

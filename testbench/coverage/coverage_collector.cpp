@@ -65,6 +65,8 @@ void CoverageCollector::before(const cmodel::Record& record) {
   stream_.on_record(record);
   if (const auto* splat = std::get_if<cmodel::SplatRecord>(&record)) {
     splats_.splat(*splat);
+  } else if (const auto* ellipse = std::get_if<cmodel::EllipseRecord>(&record)) {
+    splats_.ellipse(*ellipse);
   } else if (const auto* tile = std::get_if<cmodel::BeginTile>(&record)) {
     splats_.begin_tile(*tile);
     composite_.begin_tile(*tile);

@@ -30,8 +30,9 @@ constexpr std::array kOpcodes{std::pair{cmodel::Opcode::BeginFrame, "begin_frame
 
 std::size_t kind_of(const cmodel::BeatCycles& beat) {
   if (beat.payload) return kOpcodes.size() - 1;
+  const auto opcode = beat.opcode == cmodel::Opcode::Ellipse ? cmodel::Opcode::Splat : beat.opcode;
   for (std::size_t i = 1; i < kOpcodes.size(); ++i) {
-    if (kOpcodes[i].first == beat.opcode) return i - 1;
+    if (kOpcodes[i].first == opcode) return i - 1;
   }
   return 0;
 }
@@ -231,6 +232,7 @@ void ResetCoverage::on_beat(const cmodel::BeatCycles& beat) {
       in_sheet_ = false;
       break;
     case cmodel::Opcode::Splat:
+    case cmodel::Opcode::Ellipse:
       last_splat_ = beat.left;
       break;
     default:

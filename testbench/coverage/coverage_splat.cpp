@@ -69,6 +69,7 @@ SplatCoverage::SplatCoverage(const cmodel::Config& config, Coverage& coverage)
   sum_exactly_ = per_channel("_exactly_largest");
   sum_stays_ = per_channel("_stays_largest");
   sum_all_ = coverage.declare("sum", "all_saturated");
+  if (config.has_ellipses()) ellipses_.emplace(config, coverage);
 }
 
 void SplatCoverage::load(const cmodel::LoadTable& table) {
@@ -81,6 +82,9 @@ void SplatCoverage::begin_tile(const cmodel::BeginTile& tile) { tile_ = tile; }
 
 void SplatCoverage::splat(const cmodel::SplatRecord& record) {
   record_ = record;
+  if (in_ellipse_) ellipses_->circle_follows();
+  in_ellipse_ = false;
+  after_circle_ = true;
   snap_x_.sample(coverage_, record.x);
   snap_y_.sample(coverage_, record.y);
   const auto format = config_.position_format();
@@ -92,6 +96,13 @@ void SplatCoverage::splat(const cmodel::SplatRecord& record) {
   if (side <= 6) coverage_.hit(windows_per_side_ + side - 1);
 }
 
+void SplatCoverage::ellipse(const cmodel::EllipseRecord& record) {
+  record_.colour = record.colour;
+  ellipses_->record(record, after_circle_);
+  in_ellipse_ = true;
+  after_circle_ = false;
+}
+
 void SplatCoverage::on_tap(const cmodel::TapRecord& record) {
   if (record.tap == cmodel::Tap::Snap) snapped(record);
   if (record.tap == cmodel::Tap::Footprint) footprint(record);
@@ -101,6 +112,7 @@ void SplatCoverage::on_tap(const cmodel::TapRecord& record) {
 void SplatCoverage::snapped(const cmodel::TapRecord& record) {
   x0_ = record.x;
   y0_ = record.y;
+  if (in_ellipse_) return;
   mx_ = record.payload[2];
   my_ = record.payload[3];
   coverage_.hit(phase_x_ + mx_);
@@ -125,6 +137,7 @@ void SplatCoverage::footprint(const cmodel::TapRecord& record) {
   place(record.x, record.y);
   weights_.assign(record.payload.begin(), record.payload.end());
   const auto column = static_cast<std::uint32_t>(record.x - x0_), row = static_cast<std::uint32_t>(record.y - y0_);
+  if (in_ellipse_) return ellipses_->window(column, row);
   const auto columns = rlut_.read(record_.set, mx_, column), rows = rlut_.read(record_.set, my_, row);
   const auto rim = static_cast<std::uint32_t>(config_.rlut_rim());
   for (const auto words : {columns, rows}) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "cmodel/config.hpp"
@@ -12,6 +13,7 @@
 #include "cmodel/sites.hpp"
 #include "cmodel/taps.hpp"
 #include "testbench/coverage/coverage.hpp"
+#include "testbench/coverage/coverage_ellipse.hpp"
 
 namespace fastsplat::testbench {
 
@@ -23,6 +25,7 @@ class SplatCoverage {
   void begin_tile(const cmodel::BeginTile& tile);
   /// The splat whose taps follow.
   void splat(const cmodel::SplatRecord& record);
+  void ellipse(const cmodel::EllipseRecord& record);
   void on_tap(const cmodel::TapRecord& record);
 
   /// The sheet's sums at a pixel of the tile; the compositor's side empties them.
@@ -46,7 +49,9 @@ class SplatCoverage {
   cmodel::Rlut rlut_;
   std::array<std::uint32_t, 256> base_{};  ///< first RLUT column of each set
   cmodel::BeginTile tile_;
-  cmodel::SplatRecord record_;
+  cmodel::SplatRecord record_;               ///< or an ellipse's colours
+  std::optional<EllipseCoverage> ellipses_;  ///< of a configuration with ellipses
+  bool in_ellipse_ = false, after_circle_ = false;
   std::int32_t x0_ = 0, y0_ = 0;
   std::uint32_t mx_ = 0, my_ = 0;
   std::vector<std::uint32_t> weights_;

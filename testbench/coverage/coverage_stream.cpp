@@ -27,10 +27,9 @@ StreamCoverage::StreamCoverage(const cmodel::Config& config, Coverage& coverage)
       sets_(static_cast<std::size_t>(config.rlut_sets)),
       extents_(static_cast<std::size_t>(config.rlut_sets)) {
   record_ = coverage.bins().size();
-  // In the order of cmodel::Record.
-  for (const char* name : {"begin_frame", "load_table", "begin_tile", "begin_sheet", "splat", "cull_block", "end_sheet",
-                           "end_tile", "end_frame"})
-    coverage.declare("record", name);
+  // In the order of cmodel::Record, as they are.
+  for (const auto& record : cmodel::record_layouts())
+    if (record.opcode != cmodel::Opcode::Ellipse || config.has_ellipses()) coverage.declare("record", record.name);
   table_kind_ = coverage.bins().size();
   for (const char* name : {"rlut", "radial", "factor"}) coverage.declare("table", name);
   for (const std::size_t words : last_beats(config))
@@ -67,10 +66,14 @@ StreamCoverage::StreamCoverage(const cmodel::Config& config, Coverage& coverage)
 }
 
 void StreamCoverage::on_record(const cmodel::Record& record) {
-  // Variant order: BeginFrame, LoadTable, BeginTile, BeginSheet, SplatRecord, CullBlock, EndSheet, EndTile, EndFrame.
-  coverage_.hit(record_ + record.index());
+  constexpr std::size_t kEllipse = 5;  // alternative
+  static_assert(std::is_same_v<std::variant_alternative_t<kEllipse, cmodel::Record>, cmodel::EllipseRecord>);
+  const bool skipped = record.index() > kEllipse && !config_.has_ellipses();
+  coverage_.hit(record_ + record.index() - (skipped ? 1 : 0));
   if (const auto* splat_record = std::get_if<cmodel::SplatRecord>(&record)) {
     splat(*splat_record);
+  } else if (const auto* ellipse = std::get_if<cmodel::EllipseRecord>(&record)) {
+    colours(ellipse->colour);
   } else if (const auto* load = std::get_if<cmodel::LoadTable>(&record)) {
     table(*load);
   } else if (const auto* begin = std::get_if<cmodel::BeginTile>(&record)) {
@@ -133,11 +136,15 @@ void StreamCoverage::splat(const cmodel::SplatRecord& splat) {
     if (splats_ > 0 && splat.set != set_) coverage_.hit(other_set_);
   }
   set_ = splat.set;
+  colours(splat.colour);
+}
+
+void StreamCoverage::colours(const std::array<std::uint32_t, 4>& colour) {
   ++splats_;
   const auto largest = static_cast<std::uint32_t>(config_.colour_format().max);
-  for (std::size_t c = 0; c < splat.colour.size(); ++c) {
-    if (splat.colour[c] == 0) coverage_.hit(colour_zero_ + c);
-    if (splat.colour[c] == largest) coverage_.hit(colour_largest_ + c);
+  for (std::size_t c = 0; c < colour.size(); ++c) {
+    if (colour[c] == 0) coverage_.hit(colour_zero_ + c);
+    if (colour[c] == largest) coverage_.hit(colour_largest_ + c);
   }
 }
 

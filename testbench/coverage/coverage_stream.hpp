@@ -20,6 +20,7 @@ class StreamCoverage {
   void tile(const cmodel::BeginTile& tile);
   void sheet(const cmodel::BeginSheet& sheet);
   void splat(const cmodel::SplatRecord& splat);
+  void colours(const std::array<std::uint32_t, 4>& colour);
   void end_sheet(const cmodel::EndSheet& end);
 
   cmodel::Config config_;

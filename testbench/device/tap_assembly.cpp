@@ -18,7 +18,7 @@ constexpr std::size_t kWords = 4;  ///< of a pixel
 TapAssembly::TapAssembly(const cmodel::Config& config, cmodel::PixelSink& pixels, cmodel::TapSink& taps)
     : taps_(taps),
       lanes_(config.lanes),
-      origin_bits_(config.position_int_bits + 2),
+      origin_bits_(config.origin_bits()),
       columns_(static_cast<std::uint32_t>(config.tile_width / config.lanes)),
       banks_(static_cast<std::size_t>(config.lanes) * config.lanes),
       sheet_fields_(port_bits(config).sheet),
@@ -37,7 +37,7 @@ void TapAssembly::accept(const cmodel::Beat& beat) {
   } else if (opcode == cmodel::Opcode::BeginSheet) {
     sheets_.back().begun.push_back(
         {static_cast<std::uint32_t>(get(beat, cmodel::layout::kSheetNumber)), sheets_.back().tags});
-  } else if (opcode == cmodel::Opcode::Splat) {
+  } else if (opcode == cmodel::Opcode::Splat || opcode == cmodel::Opcode::Ellipse) {
     ++sheets_.back().tags;
   }
 }

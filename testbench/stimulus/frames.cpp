@@ -22,7 +22,7 @@ Closers closers_of(std::span<const cmodel::Beat> beats) {
     if (opcode == Opcode::LoadTable) out.in_table = at + cmodel::announced_beats(all[at]) >= all.size();
     if (opcode == Opcode::BeginTile) tile = &all[at], sheets = 0;
     if (opcode == Opcode::BeginSheet) sheet = &all[at], ++sheets, splats = 0;
-    if (opcode == Opcode::Splat) ++splats;
+    if (opcode == Opcode::Splat || opcode == Opcode::Ellipse) ++splats;
     if (opcode == Opcode::EndSheet) sheet = nullptr;
     if (opcode == Opcode::EndTile) tile = nullptr;
   }

@@ -24,7 +24,7 @@ constexpr RuleName kRules[] = {
 const char* bin_of(StreamRule rule) {
   return std::find_if(std::begin(kRules), std::end(kRules), [&](const RuleName& one) { return one.rule == rule; })->bin;
 }
-bool judged_by_device(StreamRule rule) { return rule != StreamRule::None && rule != StreamRule::Whole; }
+bool judged(StreamRule rule) { return rule != StreamRule::None && cmodel::judged_by_device(rule); }
 
 constexpr const char* kOtherBins[] = {"open_tile_is_ended",
                                       "rest_is_swallowed",
@@ -42,7 +42,7 @@ constexpr const char* kOtherBins[] = {"open_tile_is_ended",
 Coverage refusal_bins() {
   Coverage bins;
   for (const auto& [rule, name] : kRules) {
-    if (judged_by_device(rule)) bins.declare("refusal", name);
+    if (judged(rule)) bins.declare("refusal", name);
   }
   for (const char* name : kOtherBins) bins.declare("refusal", name);
   for (const char* name : mid_frame_bins()) bins.declare("refusal", name);

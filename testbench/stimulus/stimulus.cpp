@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "cmodel/stream_decode.hpp"
 #include "cmodel/window_geometry.hpp"
+#include "testbench/stimulus/ellipse_stimulus.hpp"
 #include "testbench/stimulus/random.hpp"
 #include "testbench/stimulus/stimulus_tables.hpp"
 
@@ -341,11 +342,35 @@ class Generator {
     return place();
   }
 
+  /// Those that aim at words of tables, products or sums, or past the tile, are of circles.
+  bool ellipses() const {
+    if (!config_.has_ellipses()) return false;
+    switch (which_) {
+      case StimulusClass::TableCorners:
+      case StimulusClass::RoundingTies:
+      case StimulusClass::Saturation:
+      case StimulusClass::Thresholds:
+      case StimulusClass::OffTile:
+        return false;
+      default:
+        return true;
+    }
+  }
+  std::int64_t most_ellipse_windows() const {
+    return which_ == StimulusClass::MultiWindow ? static_cast<std::int64_t>(kMostWindows) : 2;
+  }
+
   SheetDocument make_sheet(std::uint32_t number, std::uint64_t count) {
     SheetDocument sheet{number, {}};
     for (std::uint64_t i = 0; i < count; ++i) {
       if (random_.chance(2)) sheet.records.emplace_back(cull());
       const Place at = next_place(i);
+      if (ellipses() && random_.chance(40)) {
+        cmodel::EllipseRecord shaped = random_ellipse(config_, random_, at.x, at.y, most_ellipse_windows());
+        shaped.colour = colours();
+        sheet.records.emplace_back(shaped);
+        continue;
+      }
       sheet.records.emplace_back(
           cmodel::SplatRecord{.set = at.set, .tag = 0, .x = at.x, .y = at.y, .colour = colours()});
     }

@@ -11,7 +11,7 @@ std::uint64_t StreamDocument::splats() const {
   std::uint64_t count = 0;
   for (const auto& tile : tiles) {
     for (const auto& sheet : tile.sheets) {
-      for (const auto& record : sheet.records) count += std::holds_alternative<cmodel::SplatRecord>(record) ? 1 : 0;
+      for (const auto& record : sheet.records) count += std::holds_alternative<cmodel::CullBlock>(record) ? 0 : 1;
     }
   }
   return count;
@@ -34,6 +34,8 @@ StreamDocument read_document(const cmodel::Config& config, std::span<const cmode
       document.tiles.back().sheets.push_back({sheet->sheet, {}});
     } else if (const auto* splat = std::get_if<cmodel::SplatRecord>(record)) {
       document.tiles.back().sheets.back().records.emplace_back(*splat);
+    } else if (const auto* ellipse = std::get_if<cmodel::EllipseRecord>(record)) {
+      document.tiles.back().sheets.back().records.emplace_back(*ellipse);
     } else if (const auto* cull = std::get_if<cmodel::CullBlock>(record)) {
       document.tiles.back().sheets.back().records.emplace_back(*cull);
     }
@@ -90,6 +92,10 @@ std::vector<cmodel::Beat> write_document(const cmodel::Config& config, const Str
       for (const auto& record : sheet.records) {
         if (const auto* splat = std::get_if<cmodel::SplatRecord>(&record)) {
           cmodel::SplatRecord numbered = *splat;
+          numbered.tag = tag++;
+          beats.push_back(to_beat(numbered));
+        } else if (const auto* ellipse = std::get_if<cmodel::EllipseRecord>(&record)) {
+          cmodel::EllipseRecord numbered = *ellipse;
           numbered.tag = tag++;
           beats.push_back(to_beat(numbered));
         } else {

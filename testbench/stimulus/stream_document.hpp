@@ -14,7 +14,7 @@ namespace fastsplat::testbench {
 
 struct SheetDocument {
   std::uint32_t number = 0;
-  std::vector<std::variant<cmodel::SplatRecord, cmodel::CullBlock>> records;
+  std::vector<std::variant<cmodel::SplatRecord, cmodel::EllipseRecord, cmodel::CullBlock>> records;
 };
 
 struct TileDocument {
@@ -27,7 +27,7 @@ struct StreamDocument {
   std::vector<cmodel::LoadTable> tables;
   std::vector<TileDocument> tiles;
 
-  std::uint64_t splats() const;
+  std::uint64_t splats() const;  ///< and ellipses
 };
 
 /// Reads any legal subset of a stream. Throws UserError (Input) for an illegal one.

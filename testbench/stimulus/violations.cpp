@@ -34,6 +34,7 @@ class List {
     tile();
     sheet();
     splat();
+    ellipse();
     ends();
   }
 
@@ -319,6 +320,26 @@ class List {
     beside(StreamRule::Tag, "tag", later, layout::kSplatTag);
     beside(StreamRule::Tag, "first tag", splat, layout::kSplatTag);
     without_a_side(StreamRule::Cull, "cull_block", cull, layout::kCullWidth, layout::kCullHeight);
+  }
+
+  void ellipse() {
+    const std::size_t ellipse = at(Opcode::Ellipse);
+    if (ellipse == beats_.size()) return;
+    const auto positions = config_.position_format();
+    if (config_.position_int_bits + config_.position_frac_bits < cmodel::kEllipsePositionBits) {
+      for (const auto& [name, field] : {std::pair{"x", layout::kEllipseX}, std::pair{"y", layout::kEllipseY}}) {
+        for (const std::int64_t value : {positions.max + 1, positions.min - 1})
+          change(StreamRule::Range, std::string("ellipse ") + name + " " + std::to_string(value), ellipse, field,
+                 static_cast<std::uint64_t>(value) & ((1ULL << cmodel::kEllipsePositionBits) - 1));
+      }
+    }
+    if (config_.colour_frac_bits < 16) {
+      for (const auto& field : {layout::kEllipseR, layout::kEllipseG, layout::kEllipseBlue, layout::kEllipseTau})
+        change(StreamRule::Range, "ellipse colour at w" + std::to_string(field.word), ellipse, field,
+               1ULL << config_.colour_frac_bits);
+    }
+    beside(StreamRule::Tag, "ellipse tag", ellipse, layout::kEllipseTag);
+    copy(StreamRule::Order, "ellipse outside a sheet", ellipse, at(Opcode::BeginSheet));
   }
 
   void ends() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cmodel/compositor.hpp"
+#include "cmodel/ellipse_unit.hpp"
 #include "cmodel/footprint.hpp"
 #include "cmodel/observers.hpp"
 #include "cmodel/rlut.hpp"
@@ -49,6 +50,8 @@ class Walk {
       number_ = begin->sheet;
     } else if (const auto* found = std::get_if<cmodel::SplatRecord>(&record)) {
       splat(*found);
+    } else if (const auto* shaped = std::get_if<cmodel::EllipseRecord>(&record)) {
+      ellipse(*shaped);
     } else if (std::holds_alternative<cmodel::EndSheet>(record)) {
       end_sheet();
     } else if (std::holds_alternative<cmodel::EndTile>(record)) {
@@ -104,6 +107,42 @@ class Walk {
     }
   }
 
+  void ellipse(const cmodel::EllipseRecord& record) {
+    const auto x = cmodel::ellipse_axis(config_, record.x, record.windows.left);
+    const auto y = cmodel::ellipse_axis(config_, record.y, record.windows.top);
+    const cmodel::EllipseShape& shape = record.shape;
+    if (here(cmodel::Tap::Snap, record.tag)) {
+      return tell("ellipse, centre x=" + hex(record.x) + " y=" + hex(record.y) +
+                  ", left=" + std::to_string(record.windows.left) + " top=" + std::to_string(record.windows.top) +
+                  ": x0=" + std::to_string(x.origin) + " X=" + std::to_string(x.distance) +
+                  ", y0=" + std::to_string(y.origin) + " Y=" + std::to_string(y.distance));
+    }
+    const cmodel::EllipseUnit unit(config_);
+    const auto f = unit.coefficients(shape, x.distance, y.distance);
+    std::vector<std::uint32_t> weights(lanes() * lanes());
+    const auto step = static_cast<std::uint32_t>(config_.lanes);
+    for (std::uint32_t row = 0; row < record.windows.rows * step; row += step) {
+      for (std::uint32_t column = 0; column < record.windows.columns * step; column += step) {
+        unit.window(f, column, row, radial_, weights);
+        const std::int32_t left = x.origin + static_cast<std::int32_t>(column);
+        const std::int32_t top = y.origin + static_cast<std::int32_t>(row);
+        const bool this_window = at_.x == left && at_.y == top;
+        if (this_window && here(cmodel::Tap::Footprint, record.tag)) {
+          const std::size_t i = column + word_ % lanes(), j = row + word_ / lanes();
+          return tell(
+              "A=" + std::to_string(shape.a) + " B=" + std::to_string(shape.b) + " C=" + std::to_string(shape.c) +
+              " h=" + std::to_string(shape.shift) + ": u0=" + std::to_string(f.u0) + " u1=" + std::to_string(f.u1) +
+              " u2=" + std::to_string(f.u2) + " v1=" + std::to_string(f.v1) + " v2=" + std::to_string(f.v2) +
+              " e=" + std::to_string(f.e) + "; pixel " + std::to_string(i) + "," + std::to_string(j) +
+              ": index=" + std::to_string(unit.index(f, static_cast<std::int64_t>(i), static_cast<std::int64_t>(j))));
+        }
+        if (this_window && here(cmodel::Tap::Sheet, record.tag)) return sum(record, left, top, weights);
+        cmodel::Counters unused;
+        sheet_.accumulate(left, top, weights, record.colour, unused, nobody_);
+      }
+    }
+  }
+
   std::string weight(const cmodel::SplatRecord& record, std::uint32_t column, std::uint32_t row, std::uint32_t mx,
                      std::uint32_t my, std::size_t i, std::size_t j) {
     const std::uint32_t q = column + row, index = cmodel::radial_index(q, config_.rlut_guard_bits);
@@ -116,8 +155,8 @@ class Walk {
            (inside ? ", RADIAL=" + hex(radial_.weight(q)) : ", at or beyond the rim: 0");
   }
 
-  void sum(const cmodel::SplatRecord& record, std::int32_t left, std::int32_t top,
-           const std::vector<std::uint32_t>& weights) {
+  template <class Record>
+  void sum(const Record& record, std::int32_t left, std::int32_t top, const std::vector<std::uint32_t>& weights) {
     const std::size_t lane = word_ / 4, channel = word_ % 4;
     const std::int32_t x = left + static_cast<std::int32_t>(lane % lanes());
     const std::int32_t y = top + static_cast<std::int32_t>(lane / lanes());

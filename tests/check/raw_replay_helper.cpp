@@ -94,7 +94,7 @@ class Replay final : public cmodel::TapSink, public cmodel::PixelSink {
     return static_cast<std::size_t>(y & mask) * lanes_ + static_cast<std::size_t>(x & mask);
   }
   std::uint32_t origin(std::int32_t value) const {
-    return static_cast<std::uint32_t>(value) & ((1U << (config_.position_int_bits + 2)) - 1);
+    return static_cast<std::uint32_t>(value) & ((1U << config_.origin_bits()) - 1);
   }
   bool inside(std::int32_t x, std::int32_t y) const { return x >= 0 && y >= 0 && x < tile_.width && y < tile_.height; }
 

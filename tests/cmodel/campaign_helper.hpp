@@ -11,9 +11,15 @@ namespace fastsplat::test {
 struct Campaign {
   Comparison comparison;
   std::uint64_t splats = 0;
+  oracle::EllipseWork ellipses;
+
+  Campaign& operator+=(const Campaign& other);
 };
 
 /// Streams of about `per_stream` splats until `splats` were compared; stops at the first stream that differs.
 Campaign compare_streams(const cmodel::Config& config, Random& random, std::uint64_t splats, std::uint64_t per_stream);
+
+/// A figure of what of it was ellipses.
+void print_ellipses(const char* name, const Campaign& campaign);
 
 }  // namespace fastsplat::test

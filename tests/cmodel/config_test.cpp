@@ -22,7 +22,7 @@ void expect_violation(const cmodel::Config& config, const std::string& key, cons
 
 TEST(ConfigLimits, NamedConfigurationsAreSound) {
   ASSERT_EQ(config_names(),
-            (std::vector<std::string>{"base", "compact", "exact", "small", "tiny", "wide", "year2000"}));
+            (std::vector<std::string>{"base", "compact", "ellipse", "exact", "small", "tiny", "wide", "year2000"}));
   for (const std::string& name : config_names()) {
     const auto violation = cmodel::first_violation(named_config(name));
     EXPECT_FALSE(violation) << name << ": " << one_line(*violation);
@@ -58,6 +58,13 @@ struct Between {
   const char* got;
   void (*violate)(cmodel::Config&);
 };
+
+/// The configuration that has ellipses; every limit of them holds.
+void with_ellipses(cmodel::Config& c) {
+  oracle::Symbols symbols = symbols_of(c);
+  symbols.f = 11;
+  c = config_of(symbols, c.name);
+}
 
 /// Alone no violation, with an even tile.
 void ties_to_even_pixels(cmodel::Config& c) {
@@ -125,6 +132,55 @@ const Between kBetween[] = {
        c.index_kind = static_cast<int>(cmodel::IndexKind::SquaredElliptic);
        c.position_frac_bits = 11;
      }},
+    {"ellipse.frac_bits", "linear", "linear",
+     [](cmodel::Config& c) {
+       with_ellipses(c);
+       c.index_kind = static_cast<int>(cmodel::IndexKind::Linear);
+     }},
+    {"position.frac_bits", "9", "10",
+     [](cmodel::Config& c) {
+       with_ellipses(c);
+       c.position_frac_bits = 10;
+     }},
+    {"position.frac_bits", "22", "23",
+     [](cmodel::Config& c) {
+       with_ellipses(c);
+       c.position_int_bits = 14;
+       c.position_frac_bits = 9;
+     }},
+    {"rlut.columns", "256", "264",
+     [](cmodel::Config& c) {
+       with_ellipses(c);
+       c.rlut_columns = 264;
+     }},
+    {"rlut.columns", "510", "512",
+     [](cmodel::Config& c) {
+       with_ellipses(c);
+       c.lanes = 16;
+       c.rlut_columns = 512;
+     }},
+    {"radial.entries", "2", "2",
+     [](cmodel::Config& c) {
+       with_ellipses(c);
+       c.radial_entries = 2;
+       c.rlut_guard_bits = 0;
+     }},
+    {"position.frac_bits", "21", "24",
+     [](cmodel::Config& c) {
+       with_ellipses(c);
+       c.position_frac_bits = 0;
+       c.phases = 1;
+       c.rlut_guard_bits = 10;
+     }},
+    {"ellipse.frac_bits", "60", "61",
+     [](cmodel::Config& c) {
+       with_ellipses(c);
+       c.position_frac_bits = 8;
+       c.rlut_guard_bits = 12;
+       c.radial_entries = 2048;
+       c.ellipse_frac_bits = 20;
+       c.lanes = 16;
+     }},
 };
 
 TEST(ConfigLimits, EveryLimitBetweenKeys) {
@@ -160,6 +216,24 @@ TEST(ConfigLimits, EdgesAreTaken) {
   config.position_frac_bits = 12;
   config.rlut_guard_bits = 12;
   EXPECT_FALSE(cmodel::first_violation(config));
+  config = named_config("base");
+  with_ellipses(config);
+  config.position_int_bits = 13;
+  config.position_frac_bits = 9;
+  EXPECT_FALSE(cmodel::first_violation(config));
+  config.rlut_columns = 256;  // 32 windows of 8
+  EXPECT_FALSE(cmodel::first_violation(config));
+  config.lanes = 16;
+  config.rlut_columns = 496;
+  config.rlut_guard_bits = 12;
+  config.ellipse_frac_bits = 20;  // 10 + 12 + 20 + 8 + 10 = 60
+  EXPECT_FALSE(cmodel::first_violation(config));
+  config = named_config("base");
+  with_ellipses(config);
+  config.position_frac_bits = 0;
+  config.phases = 1;
+  config.rlut_guard_bits = 7;  // 10 + 7 + 4 = 21
+  EXPECT_FALSE(cmodel::first_violation(config));
 }
 
 TEST(ConfigSet, EveryKeyTakesItsTextAndGivesItBack) {
@@ -179,7 +253,7 @@ TEST(ConfigSet, EveryKeyTakesItsTextAndGivesItBack) {
     }
   }
   std::printf("[figure] texts set and read back = %d\n", compared);
-  EXPECT_EQ(compared, 23 * 2 + 7 * 3 + 6 + 2);
+  EXPECT_EQ(compared, 23 * 2 + 7 * 3 + 6 + 2 + 2);
 }
 
 TEST(ConfigSet, WhatIsWrongIsToldAndNothingChanges) {
@@ -220,8 +294,8 @@ TEST(ConfigHash, ANeutralKeyDoesNotEnterItAndAnyOtherValueDoes) {
     }
   }
   std::printf("[figure] neutral keys = %d, hashes = %zu\n", neutral, hashes.size());
-  EXPECT_EQ(neutral, 9);
-  EXPECT_EQ(hashes.size(), 21U);
+  EXPECT_EQ(neutral, 10);
+  EXPECT_EQ(hashes.size(), 41U);
 }
 
 }  // namespace

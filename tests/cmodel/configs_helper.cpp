@@ -48,6 +48,7 @@ cmodel::Config named_config(const std::string& name) {
   for (const auto& [key, member] :
        {std::pair{"index.kind", &oracle::Symbols::index}, {"index.symmetry", &oracle::Symbols::symmetry}})
     if (read.contains(key)) symbols.*member = read.at(key).substr(1, read.at(key).size() - 2);
+  if (read.contains("ellipse.frac_bits")) symbols.f = std::stoi(read.at("ellipse.frac_bits"));
   return config_of(symbols, name);
 }
 
@@ -71,6 +72,7 @@ oracle::Symbols symbols_of(const cmodel::Config& config) {
   symbols.carry = cmodel::text_of(config, *cmodel::find_key("rounding.carry"));
   symbols.index = cmodel::text_of(config, *cmodel::find_key("index.kind"));
   symbols.symmetry = cmodel::text_of(config, *cmodel::find_key("index.symmetry"));
+  symbols.f = config.*cmodel::find_key("ellipse.frac_bits")->member;
   return symbols;
 }
 
@@ -85,17 +87,38 @@ cmodel::Config config_of(const oracle::Symbols& symbols, const std::string& name
       throw std::runtime_error(one_line(*wrong));
   for (const auto& [key, word] : {std::pair{"rounding.carry", symbols.carry},
                                   {"index.kind", symbols.index},
-                                  {"index.symmetry", symbols.symmetry}})
+                                  {"index.symmetry", symbols.symmetry},
+                                  {"ellipse.frac_bits", std::to_string(symbols.f)}})
     if (const auto wrong = cmodel::set(config, key, word)) throw std::runtime_error(one_line(*wrong));
   return config;
 }
 
-cmodel::Config random_config(Random& random, cmodel::IndexKind kind) {
+namespace {
+
+/// What numerics.md, section 2, asks of a configuration with ellipses, as often at its edges as not.
+void draw_ellipses(cmodel::Config& config, Random& random) {
+  const auto draw = [&](std::int64_t least, std::int64_t most) {
+    if (most <= least) return static_cast<int>(least);
+    return static_cast<int>(random.once_in(3) ? random.one_of({least, most}) : random.between(least, most));
+  };
+  config.position_frac_bits = draw(0, 9);
+  config.position_int_bits = draw(cmodel::find_key("position.int_bits")->min,
+                                  std::min(cmodel::find_key("position.int_bits")->max, 22 - config.position_frac_bits));
+  config.phases = std::min(config.phases, 1 << config.position_frac_bits);
+  const int nl = cmodel::Config::log2_exact(config.radial_entries), pl = cmodel::Config::log2_exact(config.lanes);
+  config.rlut_columns = std::min(config.rlut_columns, 32 * config.lanes);
+  config.rlut_guard_bits = std::min(config.rlut_guard_bits, std::max(18 + 2 * config.position_frac_bits - nl, 0));
+  const int room = 50 - nl - config.rlut_guard_bits - 2 * pl;
+  config.*cmodel::find_key("ellipse.frac_bits")->member =
+      draw(1, std::min(cmodel::find_key("ellipse.frac_bits")->max, room));
+}
+
+cmodel::Config drawn_config(Random& random, cmodel::IndexKind kind, bool ellipses) {
   while (true) {
     cmodel::Config config;
     config.name = "random";
     for (const cmodel::ConfigKey& key : cmodel::config_keys()) {
-      if (std::string(key.name).starts_with("index.")) continue;
+      if (std::string(key.name).starts_with("index.") || std::string(key.name).starts_with("ellipse.")) continue;
       const bool at_an_end = random.once_in(3);
       std::int64_t value = at_an_end ? random.one_of({key.min, key.max}) : random.between(key.min, key.max);
       if (key.power_of_two) {
@@ -117,8 +140,17 @@ cmodel::Config random_config(Random& random, cmodel::IndexKind kind) {
       config.phases = std::min(config.phases, 16);  // streams of less than a million words
       config.rlut_columns = std::min(config.rlut_columns, 32 / config.lanes * config.lanes);
     }
+    if (ellipses) draw_ellipses(config, random);
     if (!cmodel::first_violation(config)) return config;
   }
+}
+
+}  // namespace
+
+cmodel::Config random_config(Random& random, cmodel::IndexKind kind) { return drawn_config(random, kind, false); }
+
+cmodel::Config random_ellipse_config(Random& random, cmodel::IndexKind kind) {
+  return drawn_config(random, kind, true);
 }
 
 }  // namespace fastsplat::test

@@ -25,5 +25,7 @@ cmodel::Config config_of(const oracle::Symbols& symbols, const std::string& name
 /// Legal, small enough to render quickly (tiles up to 40 pixels, up to 64 columns), otherwise anything; one key in
 /// three sits at an end of its range. Of another index.kind only if asked for, blit2d with or without symmetry.
 cmodel::Config random_config(Random& random, cmodel::IndexKind kind = cmodel::IndexKind::Rlut);
+/// The same with ellipses, so not linear.
+cmodel::Config random_ellipse_config(Random& random, cmodel::IndexKind kind = cmodel::IndexKind::Rlut);
 
 }  // namespace fastsplat::test

@@ -35,7 +35,7 @@ TEST(DirtyMap, HasEveryBlockThatAFootprintMeetsOnceAndInOrder) {
       const auto side = static_cast<int>(random.between(1, 100 * lanes));
       const auto x = static_cast<int>(random.between(-side, width)),
                  y = static_cast<int>(random.between(-side, height));
-      map.mark(x, y, side);
+      map.mark(x, y, side, side);
       for (int row = std::max(y, 0); row < std::min(y + side, height); ++row)
         for (int column = std::max(x, 0); column < std::min(x + side, width); ++column)
           expected.emplace(row / lanes, column / lanes);

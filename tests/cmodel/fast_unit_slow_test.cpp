@@ -51,6 +51,7 @@ void compare(const cmodel::Config& config, const FrameTables& tables, std::span<
     const cmodel::Record* record = decode.feed(beat);
     ASSERT_NE(record, nullptr);
     if (const auto* splat = std::get_if<cmodel::SplatRecord>(record)) fast.splats({splat, 1});
+    if (const auto* ellipse = std::get_if<cmodel::EllipseRecord>(record)) fast.ellipses({ellipse, 1});
     if (const auto* tile = std::get_if<cmodel::BeginTile>(record)) {
       plain_before = values(plain.counters());
       fast_before = values(fast.counters());
@@ -83,7 +84,7 @@ TEST(FastUnit, RandomStreams) {
   std::uint64_t mismatches = 0, tiles = 0, redone = 0, planned = 0;
   for (int round = 0; round < 60; ++round) {
     const cmodel::Config config =
-        round < 21 ? named_config(config_names()[static_cast<std::size_t>(round % 7)]) : random_config(random);
+        round < 24 ? named_config(config_names()[static_cast<std::size_t>(round % 8)]) : random_config(random);
     const RandomStream stream = random_stream(symbols_of(config), random, 300);
     const auto beats = to_beats(stream.bytes);
     const std::size_t first = first_tile_beat(stream.bytes);

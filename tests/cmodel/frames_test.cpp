@@ -16,6 +16,10 @@ TEST_P(NamedFrames, ModelEqualsOracle) {
   Random random(seed_or(1));
   const Campaign result = compare_streams(config, random, 10000, 400);
   print(GetParam().c_str(), result.comparison);
+  if (config.has_ellipses()) {
+    print_ellipses(GetParam().c_str(), result);
+    EXPECT_GT(result.ellipses.weighted, 10000U) << "no ellipses were compared";
+  }
   RecordProperty("splats", static_cast<int>(result.splats));
   EXPECT_EQ(result.comparison.mismatches, 0U) << result.comparison.first;
   for (const char* what : {"snap", "footprint", "sheet", "composite", "pixel", "picture", "counter"})

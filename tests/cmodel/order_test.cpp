@@ -50,8 +50,8 @@ TEST_P(Order, OfSplatsWithinASheetDoesNotMatter) {
     std::vector<Chunk> chunks = to_chunks(stream.bytes);
     for (std::size_t begin = first_tile_beat(stream.bytes); begin < chunks.size(); ++begin) {
       std::size_t end = begin;
-      while (end < chunks.size() && chunks[end][0] == 0x50) ++end;
-      // A run of splats: new places, the old tags in order (tags count within a tile).
+      while (end < chunks.size() && (chunks[end][0] == 0x50 || chunks[end][0] == 0x45)) ++end;
+      // A run of splats and ellipses: new places, the old tags in order (tags count within a tile).
       std::vector<Chunk> before(chunks.begin() + static_cast<std::ptrdiff_t>(begin),
                                 chunks.begin() + static_cast<std::ptrdiff_t>(end));
       for (std::size_t i = end; i > begin + 1; --i) {
@@ -104,7 +104,7 @@ TEST_P(Order, TapsDoNotMatter) {
   EXPECT_FALSE(watched.events.empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Configs, Order, ::testing::Values("tiny", "base", "compact"),
+INSTANTIATE_TEST_SUITE_P(Configs, Order, ::testing::Values("tiny", "base", "compact", "ellipse"),
                          [](const auto& param_info) { return param_info.param; });
 
 }  // namespace

@@ -17,7 +17,8 @@ struct Listener final : cmodel::CycleSink {
   std::uint32_t tile = 0;
   void on_beat(const cmodel::BeatCycles& beat) override {
     PlainBeat plain{.opcode = beat.opcode, .payload = beat.payload};
-    if (beat.payload || beat.opcode == Opcode::Splat) plain.cycles = beat.left - beat.entered + 1;
+    if (beat.payload || beat.opcode == Opcode::Splat || beat.opcode == Opcode::Ellipse)
+      plain.cycles = beat.left - beat.entered + 1;
     beats.push_back(plain);
   }
   void on_sheet(const cmodel::SheetCycles& sheet) override { beats.back().blocks = sheet.blocks; }
@@ -27,7 +28,10 @@ struct Listener final : cmodel::CycleSink {
 /// docs/microarchitecture.md of one device, clocked; the sink is always ready.
 class PlainDevice {
  public:
-  PlainDevice(std::uint64_t wipe, std::size_t queue) : wipe_(wipe), places_(queue) {}
+  PlainDevice(const cmodel::Config& config, std::size_t queue)
+      : wipe_(static_cast<std::uint64_t>((config.tile_width / config.lanes) * (config.tile_height / config.lanes))),
+        walk_(config.has_ellipses() ? 22 : 12),
+        places_(queue) {}
 
   bool has_place() const { return taken_places_ < places_; }
   void reserve() { ++taken_places_; }
@@ -73,7 +77,8 @@ class PlainDevice {
   bool carry_out(std::uint64_t cycle) {
     ++spent_;
     if (beat_->payload) ++out.stalls.stall_table;
-    if (beat_->payload || beat_->opcode == Opcode::Splat) return spent_ == beat_->cycles;
+    if (beat_->payload || beat_->opcode == Opcode::Splat || beat_->opcode == Opcode::Ellipse)
+      return spent_ == beat_->cycles;
     switch (beat_->opcode) {
       case Opcode::BeginTile:
         if (cycle < rest_ || cycle < picture_end_) return ++out.stalls.stall_tile, false;
@@ -83,7 +88,7 @@ class PlainDevice {
         if (cycle < buffer_free_[buffer_]) return ++out.stalls.stall_buffer, false;
         return true;
       case Opcode::EndSheet: {
-        const auto first = std::max(cycle + 12, walked_ + 4);
+        const auto first = std::max(cycle + walk_, walked_ + 4);
         walked_ = first + std::max<std::uint64_t>(beat_->blocks, 1) - 1;
         buffer_free_[buffer_] = walked_ + 1;
         rest_ = walked_ + (beat_->blocks > 0 ? 7 : 3);
@@ -100,7 +105,7 @@ class PlainDevice {
     }
   }
 
-  std::uint64_t wipe_;
+  std::uint64_t wipe_, walk_;
   std::size_t places_, taken_places_ = 0;
   std::deque<PlainBeat> queue_;
   std::optional<PlainBeat> weighed_, judged_, beat_;  ///< in the two registers of check, in decode
@@ -135,9 +140,7 @@ std::vector<PlainBeat> plain_beats(const cmodel::Config& config, std::span<const
 
 std::vector<PlainDeviceCycles> plain_cluster(const cmodel::Config& config, std::span<const PlainBeat> beats,
                                              std::size_t count, std::uint64_t rate, std::size_t queue) {
-  const auto wipe =
-      static_cast<std::uint64_t>((config.tile_width / config.lanes) * (config.tile_height / config.lanes));
-  std::vector<PlainDevice> devices(count, PlainDevice(wipe, queue));
+  std::vector<PlainDevice> devices(count, PlainDevice(config, queue));
   std::deque<PlainBeat> preamble;
   std::deque<std::deque<PlainBeat>> tiles;
   for (const PlainBeat& beat : beats) {
@@ -182,7 +185,7 @@ std::vector<PlainDeviceCycles> plain_cluster(const cmodel::Config& config, std::
           devices[served].unsent.pop_front();
         }
         for (const std::size_t at : whose) devices[at].reserve();
-        left = 32;
+        left = cmodel::kBeatBytes;
       }
       const std::uint64_t now = rate == 0 ? left : std::min(left, budget);
       left -= now;

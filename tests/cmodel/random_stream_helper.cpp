@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "tests/cmodel/random_ellipse_helper.hpp"
 #include "tests/cmodel/stream_writer_helper.hpp"
 
 namespace fastsplat::test {
@@ -173,9 +174,14 @@ class Generator {
       w.begin_sheet(sheet);
       sheet += static_cast<std::uint32_t>(r.between(1, 3));
       const std::int64_t splats = r.once_in(6) ? 0 : r.between(1, 40);
+      const std::int64_t kinds = c.f > 0 ? r.between(0, 2) : 2;
       for (std::int64_t i = 0; i < splats; ++i) {
         if (r.once_in(12)) w.cull_block(static_cast<std::uint32_t>(r.next()), 0, 0, width, height, 3);
-        splat(width, height, dimming);
+        // With ellipses whole sheets of either, and both mixed.
+        if (c.f > 0 && (kinds == 0 || (kinds == 1 && r.once_in(2))))
+          ellipse(width, height, dimming);
+        else
+          splat(width, height, dimming);
       }
       w.end_sheet();
     }
@@ -186,8 +192,22 @@ class Generator {
     const auto which = static_cast<std::size_t>(r.between(0, static_cast<std::int64_t>(sets.size()) - 1));
     const std::int32_t x = position(width, sets[which]), y = position(height, sets[which]);
     std::array<std::uint32_t, 4> colour{};
-    for (std::uint32_t& v : colour) v = word(((std::int64_t{1} << c.cf) - 1) >> std::min(dimming, c.cf - 1));
+    draw(colour, dimming);
     w.splat(static_cast<int>(numbers[which]), x, y, colour);
+  }
+
+  void ellipse(int width, int height, int dimming) {
+    oracle::Ellipse e;
+    const Set near{.rho = 0, .columns = r.between(0, 2 * c.P)};
+    e.x = position(width, near), e.y = position(height, near);
+    random_shape(c, r, e);
+    draw(e.v, dimming);
+    w.ellipse(e);
+  }
+
+  template <class Colour>
+  void draw(Colour& colour, int dimming) {
+    for (std::uint32_t& v : colour) v = word(((std::int64_t{1} << c.cf) - 1) >> std::min(dimming, c.cf - 1));
   }
 
   std::int32_t position(int side, const Set& set) {

@@ -15,7 +15,8 @@ struct RandomStream {
   std::uint64_t splats = 0;
 };
 
-/// At least `splats` splat records (a few more: sheets are not cut short).
+/// At least `splats` splat records (a few more: sheets are not cut short); with ellipse.frac_bits about half of them
+/// are ellipses.
 RandomStream random_stream(const oracle::Symbols& symbols, Random& random, std::uint64_t splats);
 
 }  // namespace fastsplat::test

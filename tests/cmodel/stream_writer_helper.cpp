@@ -54,6 +54,17 @@ void StreamWriter::splat(int set, std::int32_t x, std::int32_t y, const std::arr
   ++total_splats_;
 }
 
+void StreamWriter::ellipse(const oracle::Ellipse& e) {
+  const auto field = [](std::int64_t value, int first, int n) {
+    return (static_cast<std::uint32_t>(value) & ((std::uint32_t{1} << n) - 1)) << first;
+  };
+  beat({0x45 | field(e.B, 8, 24), tag_++, field(e.x, 0, 22) | field(e.nx - 1, 22, 5) | field(e.ny - 1, 27, 5),
+        field(e.y, 0, 22) | field(e.h, 22, 6), pair(e.v[0], e.v[1]), pair(e.v[2], e.v[3]),
+        field(e.A, 0, 22) | field(e.left, 22, 10), field(e.C, 0, 22) | field(e.top, 22, 10)});
+  ++splats_;
+  ++total_splats_;
+}
+
 void StreamWriter::cull_block(std::uint32_t tag, std::int32_t x, std::int32_t y, int width, int height,
                               std::uint32_t splats) {
   beat({0x43, tag, bits(x), bits(y), pair(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)),

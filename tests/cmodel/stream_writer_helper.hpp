@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cmodel/beat.hpp"
+#include "tests/cmodel/oracle/ellipse.hpp"
 #include "tests/cmodel/oracle/symbols.hpp"
 
 namespace fastsplat::test {
@@ -24,6 +25,8 @@ class StreamWriter {
   void begin_tile(int mode, std::uint32_t tile, int x, int y, int width, int height);
   void begin_sheet(std::uint32_t sheet);
   void splat(int set, std::int32_t x, std::int32_t y, const std::array<std::uint32_t, 4>& colour);
+  /// The tag is the next one, not e's; each field cut to its bits.
+  void ellipse(const oracle::Ellipse& e);
   void cull_block(std::uint32_t tag, std::int32_t x, std::int32_t y, int width, int height, std::uint32_t splats);
   void end_sheet();
   void end_tile();

@@ -14,7 +14,7 @@ namespace {
 
 /// Between the marks of docs/guide.md.
 TEST(CapabilityGuide, is_the_capability_table) {
-  const scene::Offers engines[] = {scene::kOffersAll, offers(load_config("base"))};
+  const scene::Offers engines[] = {scene::kOffersAll, offers(load_config("base")), offers(load_config("ellipse"))};
   const std::string table = scene::capability_guide(engines);
   const std::string guide = read_text_file(FASTSPLAT_SOURCE_DIR "/docs/guide.md");
   const std::string begin = "<!-- capability table: generated -->\n", end = "<!-- end of capability table -->";

@@ -32,7 +32,8 @@ void compare_random_frames_of(cmodel::IndexKind kind, test::Random& random, int 
                               OracleFigures& figures);
 /// One figure per line; expects no mismatch.
 void print_and_expect_equal(const OracleFigures& figures);
-/// Expects that every case of the page was met but the rims of the first and last slab, which need scenes of their own.
+/// Expects that every case of the page was met but the rims of the first and last slab and ellipses, which need scenes
+/// of their own.
 void expect_all_met(const OracleFigures& figures);
 
 }  // namespace fastsplat::driver

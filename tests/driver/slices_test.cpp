@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "base/error.hpp"
 #include "driver/config_file.hpp"
 #include "tests/driver/scenes_helper.hpp"
@@ -36,6 +38,39 @@ TEST(Slices, telescope_for_every_phase_width_and_configuration) {
   figure("splats whose slices do not sum to them", static_cast<double>(wrong));
   ASSERT_GT(sums, 0u);
   EXPECT_EQ(wrong, 0u);
+}
+
+TEST(Slices, grown_kernels_telescope_too_and_reach_as_far_as_they_say) {
+  std::uint64_t sums = 0, outside = 0, wrong = 0;
+  const auto config = load_config("base");
+  const auto one = static_cast<std::uint32_t>(config.colour_format().max);
+  const SplatWords whole{one, one / 2 + 1, 1, one - 3};
+  const Slices slices(config, scene::kernel_by_name("gauss2"), 0.7, 60);
+  for (const double growth : {1.0, 1.3, 2.0, 5.5}) {
+    const DepthGrowth grown = slices.growth(static_cast<std::uint32_t>(std::floor(65536.0 / growth + 0.5)));
+    const int reach = slices.reach(grown);
+    for (std::int32_t depth = 0; depth <= slices.quantise_depth(40.0); depth += 7) {
+      std::array<std::uint64_t, 4> sum{};
+      const int first = slices.first(depth, grown);
+      if (growth == 1.0) EXPECT_EQ(first, slices.first(depth));
+      for (int s = 0; s < slices.count(); ++s) {
+        const Share share = slices.share(whole, depth, s, grown);
+        if (growth == 1.0) EXPECT_EQ(share.words, slices.share(whole, depth, s).words);
+        if (s < first || s > first + reach) outside += share.empty() ? 0 : 1;
+        for (std::size_t c = 0; c < 4; ++c) sum[c] += share.words[c];
+      }
+      for (std::size_t c = 0; c < 4; ++c) {
+        ++sums;
+        wrong += sum[c] != whole[c] ? 1 : 0;
+      }
+    }
+  }
+  figure("grown splats summed", static_cast<double>(sums));
+  figure("whose slices do not sum to them", static_cast<double>(wrong));
+  figure("slices out of their reach", static_cast<double>(outside));
+  ASSERT_GT(sums, 10000u);
+  EXPECT_EQ(wrong, 0u);
+  EXPECT_EQ(outside, 0u);
 }
 
 TEST(Slices, outlines_are_those_of_the_shares) {

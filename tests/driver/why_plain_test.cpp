@@ -38,7 +38,14 @@ TEST(WhyPlain, SaysWhichNumbersOfTheConfiguration) {
   fine.phases = 1;
   fine.position_frac_bits = 10;
   EXPECT_NE(why_plain(fine).find("more than it keeps"), std::string::npos) << why_plain(fine);
-  figure("reasons told", 3);
+  auto perspective = view_of("shells:12", 24);
+  perspective.camera.projection = scene::Projection::Perspective;
+  perspective.footprint.shape = scene::FootprintShape::Ellipse;
+  const auto shaped = render(scene::build_scene(perspective), load_config("ellipse"), {.threads = 1}).units;
+  ASSERT_NE(shaped.why_plain, nullptr);
+  EXPECT_EQ(shaped.why_plain, std::string("splats are ellipses"));
+  EXPECT_EQ(why_plain(load_config("ellipse")), "") << "of circles the fast unit draws those of this device, too";
+  figure("reasons told", 4);
 }
 
 }  // namespace

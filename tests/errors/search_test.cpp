@@ -192,6 +192,11 @@ TEST(Cost, CountsWhatTheRtlHas) {
   EXPECT_EQ(cost(c).storage_bits, 2 * 128 * 64 * 17 + 64 * 1024 * 15 + 64 * 256 * 34 + 2 * 16384 * 72 + 16384 * 72);
   EXPECT_EQ(cost(c).multiplier_bits, 64 * (4 * 16 * 15 + 17 * 10 + 4 * 18 * 17 + 4 * 17 * 17));
   EXPECT_EQ(cost(c).adder_bits, 2 * 18 + 64 * (17 + 72) + 64 * (34 + 68) + 8 * 4 * 17);
+  Config shaped = c;
+  shaped.ellipse_frac_bits = 11;
+  EXPECT_EQ(cost(shaped).adder_bits - cost(c).adder_bits, (10 + 6 + 6 + 10 + 11) * (8 + 14 * 8 + 3 * 64));
+  EXPECT_EQ(cost(shaped).multiplier_bits - cost(c).multiplier_bits, 92 * 17 + 17 * 43 + 17 * 41);
+  EXPECT_EQ(cost(shaped).storage_bits, cost(c).storage_bits);
   // No key of a search makes a device cheaper by being finer.
   for (std::size_t k = 0; k < freeze_knob(); ++k) {
     Steps finer(knobs().size(), 0);

@@ -44,7 +44,7 @@ struct CircularFootprint {
   }
 };
 
-ProjectedSplat shaped(const scene::Kernel& kernel, double x, double y, const ScreenShape& shape) {
+ProjectedSplat shaped(const scene::Kernel& kernel, double x, double y, const scene::ScreenShape& shape) {
   ProjectedSplat splat;
   splat.x = x, splat.y = y;
   splat.shape = shape;

@@ -32,7 +32,7 @@ module icarus_bench;
   logic tap_snap_valid_o, tap_window_valid_o, tap_sheet_valid_o, tap_composite_valid_o, tap_sheet_done_o, error_o;
   logic [31:0] tap_snap_tag_o, tap_window_tag_o, tap_sheet_tag_o, tap_tile_o;
   logic signed [fastsplat_pkg::ORG_BITS-1:0] tap_snap_x_o, tap_snap_y_o, tap_window_x_o, tap_window_y_o;
-  logic [fastsplat_pkg::PHASE_BITS-1:0] tap_snap_mx_o, tap_snap_my_o;
+  logic [fastsplat_pkg::WAY_BITS-1:0] tap_snap_mx_o, tap_snap_my_o;
   logic [fastsplat_pkg::BANKS*fastsplat_pkg::WEIGHT_BITS-1:0] tap_weights_o;
   logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::SHEET_BITS-1:0] tap_sums_o;
   logic [fastsplat_pkg::ADDR_BITS-1:0] tap_composite_block_o;

@@ -86,16 +86,35 @@ class Renderer {
     const Wide mx = remainder(xs - set.rho, c.K()), my = remainder(ys - set.rho, c.K());
     emit(Kind::Snap, splat.tag, x0, y0, {word(x0), word(y0), word(mx), word(my)});
     for (std::int64_t j = 0; j < set.Ea; j += c.P)
-      for (std::int64_t i = 0; i < set.Ea; i += c.P) window(splat, set, x0, y0, mx, my, i, j);
+      for (std::int64_t i = 0; i < set.Ea; i += c.P)
+        window(splat, x0, y0, i, j,
+               [&](std::int64_t column, std::int64_t row) { return weight(set, mx, my, column, row); });
   }
 
-  void window(const Splat& splat, const RadiusSet& set, Wide x0, Wide y0, Wide mx, Wide my, std::int64_t i0,
-              std::int64_t j0) {
+  void take(const Ellipse& e) {
+    ++out.counts["splats"];
+    ++out.ellipses.records;
+    const FirstPixel first = first_pixel(c, e);
+    emit(Kind::Snap, e.tag, first.x0, first.y0, {word(first.x0), word(first.y0), word(first.X), word(first.Y)});
+    const EllipseForm form(c, e);
+    out.ellipses.wrapped += form.wrapped() ? 1 : 0;
+    const std::uint64_t weighted = out.counts["lanes_weighted"];
+    for (std::int64_t j = 0; j < e.ny; ++j)
+      for (std::int64_t i = 0; i < e.nx; ++i)
+        window(e, first.x0, first.y0, i * c.P, j * c.P,
+               [&](std::int64_t column, std::int64_t row) { return entry(form.entry(column, row)); });
+    out.ellipses.windows += static_cast<std::uint64_t>(e.nx) * static_cast<std::uint64_t>(e.ny);
+    out.ellipses.weighted += out.counts["lanes_weighted"] - weighted;
+  }
+
+  /// The window of a splat or an ellipse from its pixel (i0, j0) on.
+  template <class Record, class Weight>
+  void window(const Record& splat, Wide x0, Wide y0, std::int64_t i0, std::int64_t j0, const Weight& weight_of) {
     ++out.counts["windows"];
     std::vector<std::uint32_t> weights, sums;
     for (std::int64_t j = j0; j < j0 + c.P; ++j)
       for (std::int64_t i = i0; i < i0 + c.P; ++i) {
-        const Wide w = weight(set, mx, my, i, j);
+        const Wide w = weight_of(i, j);
         weights.push_back(word(w));
         if (!inside(x0 + i, y0 + j)) {
           sums.insert(sums.end(), 4, 0);

@@ -30,10 +30,17 @@ struct Picture {
   bool operator==(const Picture&) const = default;
 };
 
+/// What of it was ellipses: for figures, no word of the device says it.
+struct EllipseWork {
+  std::uint64_t records = 0, windows = 0, weighted = 0;
+  std::uint64_t wrapped = 0;  ///< records with a coefficient that left its word
+};
+
 struct Rendering {
   std::vector<Event> events;
   std::vector<Picture> tiles;
   std::map<std::string, std::uint64_t> counts;  ///< by the names of the device's counters
+  EllipseWork ellipses;                         ///< the oracle's only
 };
 
 /// Renders a whole stream; throws Refusal where the stream breaks a rule.

@@ -41,6 +41,14 @@ struct Reader {
   }
   std::uint32_t low(std::size_t i) const { return w[i] % 65536; }
   std::uint32_t high(std::size_t i) const { return w[i] / 65536; }
+  /// The field of n bits from bit `first` of a word on.
+  std::int64_t bits(std::size_t i, int first, int n) const {
+    return static_cast<std::int64_t>(remainder(w[i] / power_of_two(first), power_of_two(n)));
+  }
+  std::int64_t two_complement(std::size_t i, int first, int n) const {
+    const std::int64_t word = bits(i, first, n), half = std::int64_t{1} << (n - 1);
+    return word >= half ? word - 2 * half : word;
+  }
   /// The words from `first` on carry nothing.
   void empty_from(std::size_t first) const {
     for (std::size_t i = first; i < kWords; ++i) rule(w[i] == 0, "an unnamed word is not zero");
@@ -118,6 +126,18 @@ TableLoad table_load(Reader& r) {
   return load;
 }
 
+/// What splats and ellipses share: x and y were read.
+template <class Record>
+void place_and_colour(const Reader& r, Record& record) {
+  const Words position = s(r.c.pi, r.c.pf);
+  for (const std::int32_t p : {record.x, record.y}) r.rule(p >= position.smallest && p <= position.largest, "position");
+  const std::uint32_t v[4] = {r.low(4), r.high(4), r.low(5), r.high(5)};
+  for (int i = 0; i < 4; ++i) {
+    r.rule(v[i] <= u(0, r.c.cf).largest, "colour");
+    record.v[i] = v[i];
+  }
+}
+
 Splat splat(const Reader& r, const std::set<std::int64_t>& sets, std::uint32_t tag) {
   const Symbols& c = r.c;
   r.rule(r.w[0] < 65536, "an unnamed bit of w0 is not zero");
@@ -129,14 +149,30 @@ Splat splat(const Reader& r, const std::set<std::int64_t>& sets, std::uint32_t t
   r.rule(splat.tag == tag, "tag");
   splat.x = static_cast<std::int32_t>(r.w[2]);
   splat.y = static_cast<std::int32_t>(r.w[3]);
-  const Words position = s(c.pi, c.pf);
-  for (const std::int32_t p : {splat.x, splat.y}) r.rule(p >= position.smallest && p <= position.largest, "position");
-  const std::uint32_t v[4] = {r.low(4), r.high(4), r.low(5), r.high(5)};
-  for (int i = 0; i < 4; ++i) {
-    r.rule(v[i] <= u(0, c.cf).largest, "colour");
-    splat.v[i] = v[i];
-  }
+  place_and_colour(r, splat);
   return splat;
+}
+
+Ellipse ellipse(const Reader& r, std::uint32_t tag) {
+  // Every bit has a name but the uppermost four of w3.
+  r.rule(r.w[3] < 268435456, "an unnamed bit of w3 is not zero");
+  Ellipse e;
+  e.tag = r.w[1];
+  r.rule(e.tag == tag, "tag");
+  e.x = static_cast<std::int32_t>(r.two_complement(2, 0, 22));
+  e.y = static_cast<std::int32_t>(r.two_complement(3, 0, 22));
+  place_and_colour(r, e);
+  e.A = r.bits(6, 0, 22);
+  e.B = r.two_complement(0, 8, 24);
+  e.C = r.bits(7, 0, 22);
+  e.h = static_cast<int>(r.bits(3, 22, 6));
+  e.left = static_cast<int>(r.two_complement(6, 22, 10));
+  e.top = static_cast<int>(r.two_complement(7, 22, 10));
+  e.nx = static_cast<int>(r.bits(2, 22, 5)) + 1;
+  e.ny = static_cast<int>(r.bits(2, 27, 5)) + 1;
+  const char* broken = broken_shape(r.c, e);
+  r.rule(broken == nullptr, broken == nullptr ? "" : broken);
+  return e;
 }
 
 }  // namespace
@@ -205,6 +241,9 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
         for (r.need(); r.w[0] % 256 != 0x73; r.need()) {
           if (r.w[0] % 256 == 0x50) {
             items.emplace_back(splat(r, sets, tag++));
+            ++splats;
+          } else if (symbols.f > 0 && r.w[0] % 256 == 0x45) {
+            items.emplace_back(ellipse(r, tag++));
             ++splats;
           } else {
             r.rule(r.w[0] % 256 == 0x43, "splat, cull_block or end_sheet expected");

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "tests/cmodel/oracle/ellipse.hpp"
 #include "tests/cmodel/oracle/symbols.hpp"
 
 namespace fastsplat::oracle {
@@ -41,7 +42,7 @@ struct Splat {
 struct CullHint {};
 struct SheetEnd {};
 struct TileEnd {};
-using Item = std::variant<TableLoad, TileStart, SheetStart, Splat, CullHint, SheetEnd, TileEnd>;
+using Item = std::variant<TableLoad, TileStart, SheetStart, Splat, Ellipse, CullHint, SheetEnd, TileEnd>;
 
 /// A whole stream; throws Refusal.
 std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8_t> bytes);

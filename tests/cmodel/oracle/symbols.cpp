@@ -58,6 +58,7 @@ std::uint64_t hash(const Symbols& symbols) {
   if (symbols.carry != "xray") line("rounding.carry", symbols.carry);
   if (symbols.index != "rlut") line("index.kind", symbols.index);
   if (symbols.symmetry != "off") line("index.symmetry", symbols.symmetry);
+  if (symbols.f != 0) line("ellipse.frac_bits", std::to_string(symbols.f));
   return state;
 }
 

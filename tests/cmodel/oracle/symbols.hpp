@@ -26,6 +26,7 @@ struct Symbols {
   Rounding Ra = Rounding::Rnd, Rl = Rounding::Rnd, Ro = Rounding::Rnd;
   std::string carry = "xray";
   std::string index = "rlut", symmetry = "off";
+  int f = 0;  ///< 0: no ellipses
 
   /// Weights depend on window phases: centres lie on the snap's grid.
   bool has_phases() const { return index == "rlut" || index == "blit2d" || index == "separable"; }

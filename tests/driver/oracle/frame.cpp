@@ -4,9 +4,11 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <span>
 
 #include "tests/cmodel/oracle/number.hpp"
+#include "tests/driver/oracle/ellipse.hpp"
 
 namespace fastsplat::scene_oracle {
 namespace {
@@ -41,7 +43,7 @@ Sets radius_sets(const Given& given) {
   }
   if (r_max > symbols.columns / 2.0) throw Refused("a support radius beyond half the RLUT's columns");
   const RadiusSet largest = radius_set(symbols, r_max);
-  if (r_max <= sets.r_min * (1 + 1e-9)) {
+  if (r_max <= sets.r_min * (1 + 1e-9) || shaped(given)) {
     sets.all = {largest};
     return sets;
   }
@@ -69,7 +71,8 @@ Sheets sheets_of(const Given& given) {
   const int composited = given.additive ? 1 : 0;
   switch (given.method) {
     case Method::ImageAligned:
-      return {composited, slabs, true, -half * given.w, given.w};
+      return {composited, slabs + static_cast<std::int64_t>(given.slabs_before + given.slabs_behind), true,
+              -half * given.w - given.slabs_before * given.w, given.w};
     case Method::AxisAligned:
       return {composited, given.grid_sheets, false, 0.0, 0.0};
     case Method::XRay:
@@ -101,6 +104,7 @@ struct Splat {
   std::int64_t first_sheet = 0;
   std::vector<Share> shares;  ///< of every sheet
   std::int64_t first_tile = -1;
+  std::optional<EllipseWords> ellipse;
 };
 
 class Page {
@@ -157,11 +161,17 @@ class Page {
     splat.y = rounded_later ? to_int(static_cast<Wide>(std::floor(real.y * one))) : nearest(real.y * one);
     const double r = given_.R * given_.u * real.s;
     splat.set = set_of(r);
+    const bool ellipse = shaped(given_) && !is_circle_of(given_, real.shapes.back(), sets_.all[0].r);
+    if (ellipse) {
+      splat.x = nearest(real.x * one);
+      splat.y = nearest(real.y * one);
+      splat.ellipse = ellipse_words(given_, real.shapes.back(), splat.x, splat.y);
+    }
     const double r_set = sets_.all[splat.set].r;
 
     const double peak = given_.a / (std::numbers::pi * (1 - std::exp(-given_.a * given_.R * given_.R)));
     const double A = peak * given_.cx * given_.cy * given_.cz;
-    const double f = A * exposure(given_) * (r / r_set) * (r / r_set);
+    const double f = ellipse ? A * exposure(given_) : A * exposure(given_) * (r / r_set) * (r / r_set);
     const Wide most = power_of_two(symbols_.cf + 4) - 1;
     std::array<Wide, 4> V{};
     bool cut = false, visible = false;
@@ -170,7 +180,9 @@ class Page {
     if (rest.empty())
       rest.assign(4, (32768 + std::int64_t{49472} * real.i + std::int64_t{37345} * real.j) % 65536 / 65536.0);
     for (std::size_t c = 0; c < 4; ++c) {
-      const double real_word = real.e[c] * f * std::ldexp(1.0, symbols_.cf);
+      double value = real.e[c] * f;
+      if (ellipse) value = as_shaped(real, *splat.ellipse, value);
+      const double real_word = value * std::ldexp(1.0, symbols_.cf);
       const double t = carried ? real_word + rest[c] : real_word + 0.5;
       const double word = std::floor(std::max(t, 0.0));
       const bool beyond = word > static_cast<double>(most);
@@ -186,11 +198,22 @@ class Page {
       ++met_.vanished_voxels;
       return;
     }
+    if (ellipse && splat.ellipse->too_large) throw Refused("a footprint beyond the RLUT's columns");
+    met_.ellipses += ellipse ? 1 : 0;
+    met_.thin_ellipses += ellipse && splat.ellipse->thin ? 1 : 0;
     if (sheets_.sliced)
-      slice(splat, V, real.z);
+      slice(splat, V, real.z, shaped(given_) ? real.lambda : 1.0);
     else
       whole(splat, V, given_.method == Method::AxisAligned ? real.g : 0);
     splats_.push_back(splat);
+  }
+
+  /// What a real is after all techniques.
+  static double as_shaped(const RealSplat& real, const EllipseWords& words, double value) {
+    const auto det = [](const Shape& S) { return S.xx * S.yy - S.xy * S.xy; };
+    for (std::size_t i = 1; i < real.shapes.size(); ++i)
+      value *= std::sqrt(det(real.shapes[i - 1]) / det(real.shapes[i]));
+    return words.thin ? value * words.factor : value;
   }
 
   /// What the sheets show of a word on average.
@@ -227,13 +250,16 @@ class Page {
     for (std::size_t c = 0; c < 4; ++c) input(splat.shares[static_cast<std::size_t>(sheet)], c, V[c]);
   }
 
-  void slice(Splat& splat, const std::array<Wide, 4>& V, double z) {
+  void slice(Splat& splat, const std::array<Wide, 4>& V, double z, double lambda) {
     const auto M = static_cast<std::int64_t>(phi_.size()) - 1;
     const std::int64_t zq = nearest((z / given_.u - sheets_.nearest_boundary) * std::ldexp(1.0, symbols_.zf));
-    while (splat.first_sheet < sheets_.S - 1 && B_[static_cast<std::size_t>(splat.first_sheet + 1)] <= zq - M / 2)
+    const std::int64_t g = nearest(65536 / lambda);
+    const std::int64_t D = to_int(ceil_divide(M / 2 * Wide{65536}, g));
+    while (splat.first_sheet < sheets_.S - 1 && B_[static_cast<std::size_t>(splat.first_sheet + 1)] <= zq - D)
       ++splat.first_sheet;
     const auto entry = [&](std::int64_t s) {
-      const std::int64_t i = std::clamp<std::int64_t>(B_[static_cast<std::size_t>(s)] - zq + M / 2, 0, M);
+      const Wide way = floor_divide(Wide{B_[static_cast<std::size_t>(s)] - zq} * g, 65536);
+      const std::int64_t i = std::clamp<std::int64_t>(to_int(way) + M / 2, 0, M);
       const std::int64_t ended = s == 0 ? 0 : s == sheets_.S ? M : i;
       met_.rims_kept += ended != i ? 1 : 0;
       return ended;
@@ -247,6 +273,7 @@ class Page {
       const std::int64_t before = entry(s), after = entry(s + 1);
       Share& share = splat.shares.emplace_back();
       if (before == after) continue;  // the kernel does not reach this slab
+      met_.grown += g != 65536 ? 1 : 0;
       for (std::size_t c = 0; c < 4; ++c) input(share, c, h(after, c) - h(before, c));
       met_.left_out += share.v == Words{} ? 1 : 0;
     }
@@ -282,6 +309,28 @@ class Page {
     return x0 < first + side && x0 + extent > first;
   }
 
+  /// The records of one sheet of one tile.
+  std::vector<Beat> ellipse_beats(const Splat& splat, const Words& v, std::int64_t X, std::int64_t Y,
+                                  std::uint32_t& tag) const {
+    const EllipseWords& e = *splat.ellipse;
+    const std::int64_t pixel = to_int(power_of_two(symbols_.pf));
+    const std::int64_t x = to_int(floor_divide(splat.x, pixel)) - X, y = to_int(floor_divide(splat.y, pixel)) - Y;
+    const auto field = [](std::int64_t value, int first, int n) {
+      return (u32(value) & ((std::uint32_t{1} << n) - 1)) << first;
+    };
+    std::vector<Beat> beats;
+    for (const Span& span : e.spans) {
+      if (x + span.left >= std::min<std::int64_t>(symbols_.W, given_.width - X) || x + span.last_column < 0) continue;
+      if (y + span.top >= std::min<std::int64_t>(symbols_.H, given_.height - Y) || y + span.last_row < 0) continue;
+      beats.push_back({0x45U | field(e.B, 8, 24), tag++,
+                       field(splat.x - X * pixel, 0, 22) | field(span.nx - 1, 22, 5) | field(span.ny - 1, 27, 5),
+                       field(splat.y - Y * pixel, 0, 22) | field(e.h, 22, 6), u32(v[0]) | u32(v[1]) << 16,
+                       u32(v[2]) | u32(v[3]) << 16, field(e.A, 0, 22) | field(span.left, 22, 10),
+                       field(e.C, 0, 22) | field(span.top, 22, 10)});
+    }
+    return beats;
+  }
+
   std::vector<Beat> tile_beats(std::int64_t tile) {
     const std::int64_t X = tile % across() * symbols_.W, Y = tile / across() * symbols_.H;
     const std::int64_t width = std::min<std::int64_t>(symbols_.W, given_.width - X);
@@ -295,6 +344,17 @@ class Page {
       for (Splat& splat : splats_) {
         const auto& [v, cut] = splat.shares[static_cast<std::size_t>(s)];
         if (v == Words{}) continue;
+        if (splat.ellipse) {
+          const auto made = ellipse_beats(splat, v, X, Y, tag);
+          records.insert(records.end(), made.begin(), made.end());
+          met_.saturated_records += cut ? made.size() : 0;
+          met_.ellipse_records += made.size();
+          met_.many_spans += made.size() > 1 ? 1 : 0;
+          if (made.empty()) continue;
+          if (splat.first_tile < 0) splat.first_tile = tile;
+          met_.other_tiles += splat.first_tile != tile ? made.size() : 0;
+          continue;
+        }
         const RadiusSet& set = sets_.all[splat.set];
         if (!meets(splat.x, set, set.E, X, symbols_.W) || !meets(splat.y, set, set.E, Y, symbols_.H)) {
           met_.beyond_E +=
@@ -355,11 +415,21 @@ constexpr MetName kMet[] = {
     {"records out of traversal order", &Met::reordered},
     {"empty tiles", &Met::empty_tiles},
     {"words that the carry changed", &Met::carried_words},
+    {"voxels as ellipses", &Met::ellipses},
+    {"ellipse records", &Met::ellipse_records},
+    {"ellipses grown across", &Met::thin_ellipses},
+    {"ellipses of several records", &Met::many_spans},
+    {"slices of grown kernels", &Met::grown},
 };
 
 }  // namespace
 
 std::span<const MetName> met_names() { return kMet; }
+
+bool is_of_ellipses(std::uint64_t Met::*member) {
+  return member == &Met::ellipses || member == &Met::ellipse_records || member == &Met::thin_ellipses ||
+         member == &Met::many_spans || member == &Met::grown;
+}
 
 Frame compile(const Given& given) { return Page(given).frame(); }
 

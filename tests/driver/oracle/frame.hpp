@@ -37,6 +37,11 @@ struct Met {
   std::uint64_t other_tiles = 0;      ///< records of splats that have some in an earlier tile too
   std::uint64_t reordered = 0;        ///< neighbours in a sheet that are not in traversal order
   std::uint64_t empty_tiles = 0;
+  std::uint64_t ellipses = 0;  ///< voxels that are ellipse records
+  std::uint64_t ellipse_records = 0;
+  std::uint64_t thin_ellipses = 0;  ///< voxels that grew across
+  std::uint64_t many_spans = 0;     ///< voxels of more than one ellipse record a tile
+  std::uint64_t grown = 0;          ///< slices of kernels that grew in depth
   std::uint64_t carried_words = 0;  ///< words that are others than without the carry
 };
 struct MetName {
@@ -44,6 +49,8 @@ struct MetName {
   std::uint64_t Met::*member;
 };
 std::span<const MetName> met_names();
+/// Met only where splats have shapes.
+bool is_of_ellipses(std::uint64_t Met::*member);
 
 struct Frame {
   std::vector<Beat> preamble;            ///< begin_frame and tables

@@ -4,6 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "scene/antialias.hpp"
+#include "scene/depth_of_field_splats.hpp"
+#include "scene/motion_blur.hpp"
+#include "scene/perspective_footprint.hpp"
 #include "scene/splats.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 
@@ -59,6 +63,28 @@ double densest_line(const volume::Volume& volume, const scene::Classifier& class
   return densest;
 }
 
+/// Each technique of the scene as golden makes it.
+void shape(const scene::Scene& scene, const glm::dvec3& world, double u, RealSplat& splat) {
+  const scene::SceneDescription& description = scene.description;
+  const double side = splat.s * u;
+  scene::ShapedSplat made{.shape = {side * side, 0.0, side * side}, .value = {}};
+  const auto keep = [&] { splat.shapes.push_back({made.shape.xx, made.shape.xy, made.shape.yy}); };
+  keep();
+  if (description.footprint.shape == scene::FootprintShape::Ellipse) {
+    scene::apply_perspective(scene.camera, world, splat.z, made);
+    keep();
+  }
+  if (description.footprint.antialias) {
+    scene::apply_antialias(side, made);
+    keep();
+  }
+  scene::MotionBlur(description.motion, scene.camera, scene.kernel).apply(world, made);
+  keep();
+  scene::DepthOfFieldSplats(description.lens, scene.camera, scene.kernel).apply(splat.z, made);
+  keep();
+  splat.lambda = made.depth_growth;
+}
+
 }  // namespace
 
 Given given_by(const scene::Scene& scene, const cmodel::Config& config) {
@@ -104,6 +130,15 @@ Given given_by(const scene::Scene& scene, const cmodel::Config& config) {
             .scale;
   }
 
+  const scene::FootprintSettings& footprint = description.footprint;
+  given.shapes = footprint.shape == scene::FootprintShape::Ellipse || footprint.antialias ||
+                 !description.motion.none() || description.lens.depth_of_field == scene::DepthOfField::Splats;
+  const auto slabs_more = [&](double depth) {
+    return std::ceil((scene::depth_growth(scene, depth) - 1.0) * given.R / given.w);
+  };
+  given.slabs_before = slabs_more(-given.D);
+  given.slabs_behind = slabs_more(given.D);
+
   const auto found = scene::collect_splats(scene);
   const auto [slices, outer, inner] = walks(scene);
   given.grid_sheets = slices.voxels;
@@ -119,7 +154,8 @@ Given given_by(const scene::Scene& scene, const cmodel::Config& config) {
         if (next.position != glm::vec3(volume.position(voxel.x, voxel.y, voxel.z))) continue;  // an empty voxel
         const scene::ScreenPoint at = scene.camera.project(glm::dvec3(next.position));
         const auto e = glm::dvec3(next.emission);
-        given.splats.push_back({at.x, at.y, at.depth, at.scale, {e.r, e.g, e.b, next.extinction}, g, i, j});
+        given.splats.push_back({at.x, at.y, at.depth, at.scale, {e.r, e.g, e.b, next.extinction}, g, i, j, {}, 1.0});
+        if (given.shapes) shape(scene, glm::dvec3(next.position), given.u, given.splats.back());
       }
   if (given.splats.size() != found.size()) throw std::runtime_error("the scene's splats come in another order");
   return given;

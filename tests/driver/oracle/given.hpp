@@ -10,6 +10,11 @@
 
 namespace fastsplat::scene_oracle {
 
+/// S: of the kernel's unit disc on the screen, square pixels.
+struct Shape {
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+};
+
 struct RealSplat {
   double x = 0.0, y = 0.0;    ///< projected centre, image pixels
   double z = 0.0;             ///< depth from the volume's centre, mm
@@ -17,6 +22,8 @@ struct RealSplat {
   std::array<double, 4> e{};  ///< emission R, G, B and extinction
   int g = 0;                  ///< grid sheet, 0 nearest
   int i = 0, j = 0;           ///< steps of the outer and the inner loop in it
+  std::vector<Shape> shapes;  ///< the circle, then what each technique leaves
+  double lambda = 1.0;        ///< the kernel's growth in depth
 };
 
 enum class Method { ImageAligned, AxisAligned, XRay };
@@ -35,6 +42,9 @@ struct Given {
   double o = 0.0;                           ///< opacity_scale
   double L = 0.0;                           ///< densest line of voxels
   std::array<double, 8> scale_at_corner{};  ///< pixels per mm at the corners of the box of voxel centres
+  bool shapes = false;                      ///< the view or a technique asks for shapes
+  double slabs_before = 0.0;                ///< that grown kernels ask for, nearer and
+  double slabs_behind = 0.0;                ///< farther than all others
   int grid_sheets = 0;                      ///< voxels along the axis of the slices
   std::vector<RealSplat> splats;            ///< in traversal order
 };

@@ -170,7 +170,7 @@ always @(posedge clk_i) begin
     // What check passed and decode carried out: one beat lies between.
     assert (f_check_place <= 3'd4);
     assert (!f_here || f_check_wants == (f_check_opcode == 8'h46 ? 3'd0 : f_check_opcode == 8'h53 || f_check_opcode == 8'h74 ? 3'd3 :
-                                         f_check_opcode == 8'h50 || f_check_opcode == 8'h43 || f_check_opcode == 8'h73 ? 3'd4 : 3'd1));
+                                         f_check_opcode == 8'h50 || f_check_opcode == 8'h45 || f_check_opcode == 8'h43 || f_check_opcode == 8'h73 ? 3'd4 : 3'd1));
     assert (f_next_place == (f_check_place == 3'd4 ? 2'd2 : f_check_place == 3'd3 ? 2'd1 : 2'd0));
     if (f_record) begin
       if (f_opcode == 8'h46 || f_opcode == 8'h4C || f_opcode == 8'h54 || f_opcode == 8'h66) assert (f_place_q == 2'd0);

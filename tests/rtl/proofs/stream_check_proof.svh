@@ -264,7 +264,7 @@ always @* begin
     case (f_w0[7:0])
       8'h54: {f_tile_to, f_sheets_to, f_tags_to} = {f_w1, 64'd0};
       8'h53: {f_sheet_to, f_sheets_to, f_splats_to} = {f_w1, f_sheets_q + 32'd1, 32'd0};
-      8'h50: {f_splats_to, f_tags_to} = {f_splats_q + 32'd1, f_tags_q + 32'd1};
+      8'h50, 8'h45: {f_splats_to, f_tags_to} = {f_splats_q + 32'd1, f_tags_q + 32'd1};
       default: ;
     endcase
   end
@@ -320,7 +320,7 @@ always @* begin
       assert (!f_known || record_broken_q[3] == f_unnamed);
       assert (f_w0[7:0] != 8'h54 || (record_broken_q & ~(18'd1 << 3 | 18'd1 << 10)) == '0);
       assert (record_place_q == (f_w0[7:0] == 8'h46 ? PlStart : f_w0[7:0] == 8'h53 || f_w0[7:0] == 8'h74 ? PlTile :
-                                 f_w0[7:0] == 8'h50 || f_w0[7:0] == 8'h43 || f_w0[7:0] == 8'h73 ? PlSheet : PlTables));
+                                 f_w0[7:0] == 8'h50 || f_w0[7:0] == 8'h45 || f_w0[7:0] == 8'h43 || f_w0[7:0] == 8'h73 ? PlSheet : PlTables));
       assert (f_left_q != '0 || !f_known || !f_order || (f_w0[7:0] == 8'h54 && !(f_radial_q && f_factor_q)) || (broken ? rule : 8'd0) == f_rule);
       assert (f_w0[7:0] != 8'h4C || f_left_q != '0 || f_rule != 8'd0 || 40'(extent_q) == f_columns || f_w0[15:8] != 8'd0);
       for (int i = 0; i < 8; i++) begin

@@ -1,0 +1,31 @@
+// Coverage of ellipses: shapes, windows and the places in which q ends (docs/numerics.md, section 4.6).
+#pragma once
+
+#include "cmodel/config.hpp"
+#include "cmodel/ellipse_unit.hpp"
+#include "cmodel/records.hpp"
+#include "testbench/coverage/coverage.hpp"
+
+namespace fastsplat::testbench {
+
+class EllipseCoverage {
+ public:
+  EllipseCoverage(const cmodel::Config& config, Coverage& coverage);
+  void record(const cmodel::EllipseRecord& record, bool behind_a_circle);
+  void circle_follows() { coverage_.hit(before_circle_); }
+  /// The window at pixel (column, row) of the record.
+  void window(std::uint32_t column, std::uint32_t row);
+
+ private:
+  using Id = Coverage::Id;
+  cmodel::Config config_;
+  Coverage& coverage_;
+  cmodel::EllipseUnit unit_;
+  cmodel::EllipseCoefficients f_;
+  Id before_circle_ = 0, after_circle_ = 0, one_window_ = 0, columns_ = 0, rows_ = 0, both_ = 0;
+  Id circle_ = 0, leans_right_ = 0, leans_left_ = 0, thinnest_ = 0;
+  Id shift_right_ = 0, tie_ = 0;
+  Id first_ = 0, last_ = 0, beyond_ = 0, far_ = 0, negative_ = 0;
+};
+
+}  // namespace fastsplat::testbench

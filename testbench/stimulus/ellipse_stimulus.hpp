@@ -1,0 +1,15 @@
+// A random ellipse that the stream's rules allow.
+#pragma once
+
+#include "cmodel/config.hpp"
+#include "cmodel/records.hpp"
+#include "testbench/stimulus/random.hpp"
+
+namespace fastsplat::testbench {
+
+/// From thin to round and from less than a pixel to many windows, about (x,y), words of the position format. Of up to
+/// `most` windows a side, seldom more. Tag and colours are the caller's.
+cmodel::EllipseRecord random_ellipse(const cmodel::Config& config, Random& random, std::int32_t x, std::int32_t y,
+                                     std::int64_t most);
+
+}  // namespace fastsplat::testbench

@@ -139,7 +139,6 @@ void place_and_colour(const Reader& r, Record& record) {
 }
 
 Splat splat(const Reader& r, const std::set<std::int64_t>& sets, std::uint32_t tag) {
-  const Symbols& c = r.c;
   r.rule(r.w[0] < 65536, "an unnamed bit of w0 is not zero");
   r.empty_from(6);
   Splat splat;

@@ -77,6 +77,8 @@ std::string placement(const Json& design) {
   std::string out = fmt::format("Placed ({}): **{} MHz**", tools(design), placed.at("fmax_mhz").get<double>());
   for (const auto& [kind, used] : placed.at("used").items())
     out += fmt::format(", {} {} of {}", kind, used.at(0).get<int>(), used.at(1).get<int>());
+  if (placed.contains("bitstream_bytes"))
+    out += fmt::format("; a bitstream of {} bytes", placed.at("bitstream_bytes").get<std::int64_t>());
   out += ".\n\n";
   const Json& slowest = placed.at("slowest");
   out += fmt::format(

@@ -168,18 +168,21 @@ Json read_synthesis(const std::filesystem::path& work, const std::string& family
   const auto levels = read_levels(base + ".levels");
   Json json{{"design", config}, {"family", family}};
   double seconds = 0;
+  std::int64_t bitstream = 0;
   for (const auto& line : lines_of(base + ".tools")) {
     const auto space = line.find(' ');
     if (line.starts_with("seconds ")) {
       seconds = std::stod(line.substr(space));
+    } else if (line.starts_with("bitstream ")) {
+      bitstream = std::stoll(line.substr(space));
     } else if (line.starts_with("configuration ")) {
       json["configuration"] = line.substr(space + 1);
     } else {
       json["tools"][line.substr(0, space)] = line.substr(space + 1);
     }
   }
-  const bool flat = modules.contains("ice40_wrap");
-  const std::string top = flat ? "ice40_wrap" : "fastsplat_core";
+  const bool whole = modules.contains("ice40_whole"), flat = whole || modules.contains("ice40_wrap");
+  const std::string top = whole ? "ice40_whole" : flat ? "ice40_wrap" : "fastsplat_core";
   Cells instances, total;
   count_instances(modules, top, 1, instances);
   for (const auto& [name, times] : instances)
@@ -196,6 +199,7 @@ Json read_synthesis(const std::filesystem::path& work, const std::string& family
     }
   }
   if (family == "hx8k") json["placement"] = read_placement(base + ".report");
+  if (bitstream > 0) json["placement"]["bitstream_bytes"] = bitstream;
   json["seconds"] = std::round(seconds);
   return json;
 }

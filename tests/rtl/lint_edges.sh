@@ -38,5 +38,7 @@ lint tiny rlut.sets=64
 lint tiny radial.entries=2 opacity.segments=2
 lint tiny pixel.int_bits=8 pixel.frac_bits=24
 lint base tile.width=512
+lint hx8k composite.lanes=2 counters.bits=33
+lint hx8k composite.lanes=4 counters.bits=64
 echo "[figure] configurations at the ends of the limits, without a warning = $read_count"
-(( read_count == 11 ))
+(( read_count == 13 ))

@@ -4,8 +4,10 @@
 #   FAMILY-CONFIG.stat    cells by module (`stat`), hierarchy kept
 #   FAMILY-CONFIG.levels  longest path of each module between registers, memories and its submodules (`ltp`)
 #   FAMILY-CONFIG.tools   versions, one a line, the configuration's hash, and the processor seconds of synthesis
-#   FAMILY-CONFIG.place   placed (FAMILY hx8k only): nextpnr's report and its log
-# FAMILY: ice40, xc7, ecp5; hx8k: tiny_hx8k.toml in ice40_wrap, flattened, mapped by delay (abc9) and placed.
+#   FAMILY-CONFIG.report, .place   placed (FAMILY hx8k only): nextpnr's report and its log
+#   FAMILY-CONFIG.bin     the bitstream of what is a device as it is, where icepack is at hand
+# FAMILY: ice40, xc7, ecp5; hx8k: flattened, mapped by delay (abc9) and placed: of tiny tiny_hx8k.toml in ice40_wrap, of others the
+# configuration itself, whole, in ice40_whole.
 set -eu
 family=$1 config=$2 emit=$3 source=$4 work=$5
 mkdir -p "$work"
@@ -19,12 +21,14 @@ case $family in
   ecp5) pass="synth_ecp5 -noflatten -top $top" ;;
   hx8k)
     command -v nextpnr-ice40 >/dev/null || { echo "skipped: nextpnr-ice40 is not installed (optional package nextpnr-ice40)"; exit 77; }
-    top=ice40_wrap files="$here/ice40_wrap.sv" place=1
+    place=1
+    if [ "$config" = tiny ]; then top=ice40_wrap; else top=ice40_whole; fi
+    files="$here/$top.sv"
     pass="synth_ice40 -abc9 -device hx -top $top -json $base.json" ;;
   *) echo "synth.sh: no family $family" >&2; exit 2 ;;
 esac
 
-if [ -n "$place" ]; then
+if [ "$top" = ice40_wrap ]; then
   "$emit" "$here/tiny_hx8k.toml" | sed -e 's/\(localparam int \(STATE_BITS\|TRANS_BITS\|SHEET_BITS\)\) = 5;/\1 = 4;/' \
     -e 's/\(localparam int TRANS_FRAC\) = 4;/\1 = 3;/' >"$base.pkg.sv"
 else
@@ -41,15 +45,19 @@ yosys -q -l "$base.log" -p "read_verilog -sv -I$source/rtl $base.pkg.sv $source/
   sed -n 's/^\(Yosys [^ ]*\) .*/yosys \1/p' "$base.log" | tail -1
   # The configuration's hash, where the device is one as it is.
   hex() { sed -n "s/.* HASH_$1 = 32'h\([0-9a-f]*\);.*/\1/p" "$base.pkg.sv"; }
-  [ -n "$place" ] || echo "configuration $(hex HIGH)$(hex LOW)"
+  [ "$top" = ice40_wrap ] || echo "configuration $(hex HIGH)$(hex LOW)"
   sed -n 's/.*CPU: user \([0-9.]*\)s.*/seconds \1/p' "$base.log" | tail -1
 } >"$base.tools"
 
 if [ -n "$place" ]; then
   # Router and placer are seeded: the same netlist gives the same placement.
   nextpnr-ice40 --hx8k --package ct256 --json "$base.json" --seed 1 --freq 80 --pcf-allow-unconstrained --timing-allow-fail --detailed-timing-report \
-    --report "$base.report" --log "$base.place" -q >/dev/null 2>&1 ||
+    --asc "$base.asc" --report "$base.report" --log "$base.place" -q >/dev/null 2>&1 ||
     { tail -5 "$base.place"; echo "$family $config: nextpnr fails"; exit 1; }
   nextpnr-ice40 --version 2>&1 | sed -n 's/.*Version \([^)]*\)).*/nextpnr nextpnr-ice40 \1/p' >>"$base.tools"
+  if [ "$top" = ice40_whole ] && command -v icepack >/dev/null; then
+    icepack "$base.asc" "$base.bin"
+    echo "bitstream $(wc -c <"$base.bin")" >>"$base.tools"
+  fi
 fi
 mv -- "$base.stat.new" "$base.stat"

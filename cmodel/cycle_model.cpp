@@ -28,7 +28,7 @@ CycleModel::CycleModel(const Config& config, StreamScope scope, const CycleOptio
       decode_(config, scope),
       sets_(static_cast<std::size_t>(config.rlut_sets)),
       dirty_(config.lanes),
-      delay_(config.has_ellipses() ? stages::kEllipseDelay : 0),
+      delay_(stages::splat_delay(config)),
       next_offer_(options.first_beat),
       check_free_(wipe_cycles(config)),
       end_(check_free_) {}

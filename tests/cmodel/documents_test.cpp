@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "cmodel/counters.hpp"
-#include "cmodel/register_map.hpp"
+#include "cmodel/register_fields.hpp"
 #include "cmodel/stream_layout.hpp"
 #include "cmodel/stream_rules.hpp"
 #include "cmodel/sv_package.hpp"

@@ -257,6 +257,9 @@ module fastsplat_stream_decode (
                     $onehot0({tile_begin, tile_end_o, event_splat_o, event_cull_o, rlut_we_o, radial_we_o, factor_we_o}))
   `FASTSPLAT_ASSERT(window_in_open_sheet, !window_valid_o || busy_q[window_buffer_o])
   `FASTSPLAT_ASSERT(only_busy_buffers_come_back, !free_i || busy_q[free_buffer_i])
+  `FASTSPLAT_ASSERT(kind_foretold, !beat_valid_q || {splat_q, begins_sheet_q, waits_for_rest_q} ==
+                    {!payload_q && (opcode == fastsplat_pkg::OP_SPLAT || is_ellipse), !payload_q && opcode == fastsplat_pkg::OP_BEGIN_SHEET,
+                     !payload_q && (opcode == fastsplat_pkg::OP_BEGIN_TILE || opcode == fastsplat_pkg::OP_END_TILE)})
   `FASTSPLAT_ASSERT(last_window_foretold, !is_splat || (last_column_q == (column_q + WIN'(P) >= extent_x) && last_row_q == (row_q + WIN'(P) >= extent_y)))
   `FASTSPLAT_COVER(sheet_waits_for_buffer, wait_buffer)
   `FASTSPLAT_COVER(both_buffers_busy, busy_q == 2'b11)

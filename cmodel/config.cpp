@@ -100,6 +100,13 @@ constexpr std::array kKeys{
               .power_of_two = false,
               .meaning = "f: fraction bits of an ellipse's q below one RLUT word; 0: the device has no ellipses",
               .neutral = 0},
+    ConfigKey{.name = "composite.every_sample",
+              .member = &Config::composite_every_sample,
+              .min = 0,
+              .max = 1,
+              .power_of_two = false,
+              .meaning = "1: the device composites every sample of a tile that asks for it, in the order of its splats",
+              .neutral = 0},
 };
 
 ErrorParts violation(const char* key, std::string what, std::string expected, int got, std::string fix) {

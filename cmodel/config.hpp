@@ -72,6 +72,8 @@ struct Config {
 
   int ellipse_frac_bits = 0;  ///< f; 0: no ellipses
 
+  int composite_every_sample = 0;  ///< 1: a tile may ask for every sample to be composited
+
   bool operator==(const Config&) const = default;
 
   // Derived; exact for a configuration that passed first_violation().

@@ -67,6 +67,8 @@ std::optional<ErrorParts> rtl_violation(const Config& config) {
                       .got = text_of(config, *find_key("index.kind")),
                       .fix = "use the model for this configuration"};
   }
+  if (config.composite_every_sample != 0)
+    return refuse("composite.every_sample", "the RTL composites sheets only", "0", config.composite_every_sample);
   if (config.has_ellipses() && config.position_frac_bits < 1)
     return refuse("position.frac_bits", "the RTL's ellipses need a fraction bit", "at least 1",
                   config.position_frac_bits);

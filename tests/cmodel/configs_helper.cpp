@@ -49,6 +49,8 @@ cmodel::Config named_config(const std::string& name) {
        {std::pair{"index.kind", &oracle::Symbols::index}, {"index.symmetry", &oracle::Symbols::symmetry}})
     if (read.contains(key)) symbols.*member = read.at(key).substr(1, read.at(key).size() - 2);
   if (read.contains("ellipse.frac_bits")) symbols.f = std::stoi(read.at("ellipse.frac_bits"));
+  if (read.contains("composite.every_sample"))
+    symbols.every_sample = std::stoi(read.at("composite.every_sample"));
   return config_of(symbols, name);
 }
 
@@ -73,6 +75,7 @@ oracle::Symbols symbols_of(const cmodel::Config& config) {
   symbols.index = cmodel::text_of(config, *cmodel::find_key("index.kind"));
   symbols.symmetry = cmodel::text_of(config, *cmodel::find_key("index.symmetry"));
   symbols.f = config.*cmodel::find_key("ellipse.frac_bits")->member;
+  symbols.every_sample = config.*cmodel::find_key("composite.every_sample")->member;
   return symbols;
 }
 
@@ -88,7 +91,8 @@ cmodel::Config config_of(const oracle::Symbols& symbols, const std::string& name
   for (const auto& [key, word] : {std::pair{"rounding.carry", symbols.carry},
                                   {"index.kind", symbols.index},
                                   {"index.symmetry", symbols.symmetry},
-                                  {"ellipse.frac_bits", std::to_string(symbols.f)}})
+                                  {"ellipse.frac_bits", std::to_string(symbols.f)},
+                                  {"composite.every_sample", std::to_string(symbols.every_sample)}})
     if (const auto wrong = cmodel::set(config, key, word)) throw std::runtime_error(one_line(*wrong));
   return config;
 }

@@ -59,6 +59,7 @@ std::uint64_t hash(const Symbols& symbols) {
   if (symbols.index != "rlut") line("index.kind", symbols.index);
   if (symbols.symmetry != "off") line("index.symmetry", symbols.symmetry);
   if (symbols.f != 0) line("ellipse.frac_bits", std::to_string(symbols.f));
+  if (symbols.every_sample != 0) line("composite.every_sample", "1");
   return state;
 }
 

@@ -27,6 +27,7 @@ struct Symbols {
   std::string carry = "xray";
   std::string index = "rlut", symmetry = "off";
   int f = 0;  ///< 0: no ellipses
+  int every_sample = 0;
 
   /// Weights depend on window phases: centres lie on the snap's grid.
   bool has_phases() const { return index == "rlut" || index == "blit2d" || index == "separable"; }

@@ -122,7 +122,7 @@ FrameScaling ScalingRun::scaling(const cmodel::CycleCluster& cluster) const {
   out.splats = cluster.counters().splats;
   out.windows = cluster.counters().windows;
   out.shares = cmodel::frame_shares(config_, cluster);
-  out.roofline = cmodel::roofline(cluster, bytes_per_cycle_);
+  out.roofline = cmodel::roofline(config_, cluster, bytes_per_cycle_);
   for (const auto& device : out.each) out.account += device.account;
   out.wipe = out.devices * (cmodel::wipe_cycles(config_) + 1);
   return out;

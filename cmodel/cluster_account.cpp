@@ -25,11 +25,12 @@ FrameShares frame_shares(const Config& config, const CycleCluster& cluster) {
   return shares;
 }
 
-Roofline roofline(const CycleCluster& cluster, std::uint64_t bytes_per_cycle) {
+Roofline roofline(const Config& config, const CycleCluster& cluster, std::uint64_t bytes_per_cycle) {
   const auto devices = static_cast<std::uint64_t>(cluster.devices().size());
+  const auto slices = static_cast<std::uint64_t>(config.slices());
   const Counters& counters = cluster.counters();
   return {.lanes = up(counters.windows, devices),
-          .compositor = up(counters.dirty_blocks, devices),
+          .compositor = up(counters.dirty_blocks * slices, devices),
           .stream = bytes_per_cycle == 0 ? 0 : up(cluster.beats_in() * kBeatBytes, bytes_per_cycle),
           .pixel_out = up(cluster.pixel_beats(), devices)};
 }

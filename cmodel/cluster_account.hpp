@@ -54,6 +54,6 @@ struct Roofline {
 /// Of a cluster that finished.
 FrameShares frame_shares(const Config& config, const CycleCluster& cluster);
 /// `bytes_per_cycle` of its link; 0: no limit, and no bound from it.
-Roofline roofline(const CycleCluster& cluster, std::uint64_t bytes_per_cycle);
+Roofline roofline(const Config& config, const CycleCluster& cluster, std::uint64_t bytes_per_cycle);
 
 }  // namespace fastsplat::cmodel

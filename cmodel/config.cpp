@@ -100,6 +100,20 @@ constexpr std::array kKeys{
               .power_of_two = false,
               .meaning = "f: fraction bits of an ellipse's q below one RLUT word; 0: the device has no ellipses",
               .neutral = 0},
+    ConfigKey{.name = "composite.lanes",
+              .member = &Config::composite_lanes,
+              .min = 0,
+              .max = 1024,
+              .power_of_two = false,
+              .meaning = "C: pixels composited in a cycle, a divisor of P^2; 0: all of a block",
+              .neutral = 0},
+    ConfigKey{.name = "counters.bits",
+              .member = &Config::counter_bits,
+              .min = 16,
+              .max = 64,
+              .power_of_two = false,
+              .meaning = "width of the device's counters, which go round",
+              .neutral = 64},
     ConfigKey{.name = "composite.every_sample",
               .member = &Config::composite_every_sample,
               .min = 0,
@@ -337,6 +351,14 @@ std::optional<ErrorParts> first_violation(const Config& config) {
                      "at most 2^composite.frac_bits = " + std::to_string(1 << config.composite_frac_bits),
                      config.freeze_below,
                      "use a small number such as " + std::to_string((1 << config.composite_frac_bits) / 1024));
+  }
+  const int block = config.lanes * config.lanes;
+  if (config.composite_lanes > block || block % config.composited_at_once() != 0) {
+    return violation("composite.lanes", "does not divide a block's pixels",
+                     "a divisor of array.lanes^2 = " + std::to_string(block) + ", or 0 for all of them",
+                     config.composite_lanes,
+                     "use " + std::to_string(std::min(block, static_cast<int>(std::bit_floor(
+                                                                 static_cast<unsigned>(config.composite_lanes))))));
   }
   if (auto found = index_violation(config)) return found;
   return ellipse_violation(config);

@@ -72,6 +72,8 @@ struct Config {
 
   int ellipse_frac_bits = 0;  ///< f; 0: no ellipses
 
+  int composite_lanes = 0;  ///< C as it is written; 0: P^2
+  int counter_bits = 64;
   int composite_every_sample = 0;  ///< 1: a tile may ask for every sample to be composited
 
   bool operator==(const Config&) const = default;
@@ -103,6 +105,13 @@ struct Config {
   int origin_bits() const {
     constexpr int kBesideEllipse = 11;
     return (has_ellipses() && position_int_bits < kBesideEllipse ? kBesideEllipse : position_int_bits) + 2;
+  }
+  int composited_at_once() const { return composite_lanes == 0 ? lanes * lanes : composite_lanes; }  ///< C, pixels
+  /// The cycles of a dirty block in the compositor, each for one slice of it: P^2 / C.
+  int slices() const { return lanes * lanes / composited_at_once(); }
+  /// What the registers of a counter show of a count.
+  std::uint64_t counter_word(std::uint64_t count) const {
+    return counter_bits < 64 ? count & ((std::uint64_t{1} << counter_bits) - 1) : count;
   }
   /// Largest extent in pixels that the RLUT can hold.
   int max_extent() const { return rlut_columns; }

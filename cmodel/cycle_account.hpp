@@ -58,7 +58,7 @@ class Accountant {
     pauses_[index(kind)] += to - from;
     for (Walk& walk : walks_) walk.add(kind, from, to);
   }
-  /// A sheet with `windows` windows was closed; the compositor picks its blocks in [from, to).
+  /// A sheet with `windows` windows was closed; the compositor picks its blocks' slices in [from, to).
   void sheet(std::size_t buffer, std::uint64_t windows, std::uint64_t from, std::uint64_t to);
   /// The walk of this buffer is over and so is what it overlapped.
   void settle(std::size_t buffer);

@@ -203,12 +203,13 @@ void CycleModel::end_sheet(std::uint64_t at) {
   ++counters_.sheets;
   const std::uint64_t blocks = dirty_.count();
   counters_.dirty_blocks += blocks;
+  const std::uint64_t slices = static_cast<std::uint64_t>(config_.slices()), picks = blocks * slices;
   const std::uint64_t first = std::max(at + delay_ + stages::kWalk, walk_free_);
-  const std::uint64_t last = first + std::max<std::uint64_t>(blocks, 1) - 1;  // an empty walk is noticed in one cycle
+  const std::uint64_t last = first + std::max<std::uint64_t>(picks, 1) - 1;  // an empty walk is noticed in one cycle
   walk_free_ = last + stages::kNextWalk;
   buffer_free_[buffer_] = last + stages::kFree;
   compositor_idle_ = last + (blocks > 0 ? stages::kIdle : stages::kIdleAfterEmpty);
-  accountant_.sheet(buffer_, sheet_.windows, first, first + blocks);
+  accountant_.sheet(buffer_, sheet_.windows, first, first + picks);
   buffer_ = 1 - buffer_;
   sheet_.closed = at;
   sheet_.blocks = blocks;
@@ -216,10 +217,10 @@ void CycleModel::end_sheet(std::uint64_t at) {
   sheet_.walk_to = last + 1;
   if (options_.spans != nullptr) options_.spans->on_sheet(sheet_);
   if (options_.taps != nullptr) {
-    std::uint64_t pick = first;
+    std::uint64_t pick = first + slices - 1;  // of a block's last slice
     dirty_.each([&](int column, int row) {
       tap(Tap::Composite, pick + stages::kComposite, 0, column * config_.lanes, row * config_.lanes);
-      ++pick;
+      pick += slices;
     });
   }
   dirty_.clear();

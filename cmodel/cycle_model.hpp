@@ -26,7 +26,7 @@ struct SheetCycles {
   std::uint64_t offered = 0;                 ///< begin_sheet lies in decode from here
   std::uint64_t begun = 0, closed = 0;       ///< begin_sheet and end_sheet carried out
   std::uint64_t windows = 0, blocks = 0;     ///< P x P windows; dirty blocks
-  std::uint64_t walk_from = 0, walk_to = 0;  ///< the compositor picks blocks
+  std::uint64_t walk_from = 0, walk_to = 0;  ///< the compositor picks blocks, slice by slice
 };
 
 /// A tile's. `picture_to` is the cycle after the one in which its last pixels were taken.

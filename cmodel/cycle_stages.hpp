@@ -23,13 +23,13 @@ inline constexpr std::uint64_t kSheet = 10;     ///< W: sums written
 // From the cycle in which decode carries out end_sheet.
 inline constexpr std::uint64_t kWalk = 12;  ///< first pick, if the compositor is idle
 
-// From the last pick of a sheet.
+// From the last pick of a sheet: that of its last block's last slice.
 inline constexpr std::uint64_t kFree = 1;            ///< begin_sheet may take the buffer
 inline constexpr std::uint64_t kNextWalk = 4;        ///< first pick of the next sheet at the earliest
 inline constexpr std::uint64_t kIdle = 7;            ///< the pipe is empty: begin_tile and end_tile may go on
 inline constexpr std::uint64_t kIdleAfterEmpty = 3;  ///< the same where the sheet had no dirty block
 
-inline constexpr std::uint64_t kComposite = 6;  ///< k6: from a block's pick to its new state
+inline constexpr std::uint64_t kComposite = 6;  ///< k6: from a slice's pick to its new state
 inline constexpr std::uint64_t kPixel = 3;      ///< r2: from end_tile carried out to the first pixel beat
 
 }  // namespace fastsplat::cmodel::stages

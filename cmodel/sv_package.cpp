@@ -156,6 +156,9 @@ std::string sv_package(const Config& config) {
   p.number("TRANS_FRAC", config.composite_frac_bits);
   p.number("STATE_BITS", sheet_bits > transmittance_bits ? sheet_bits : transmittance_bits);
   p.number("FREEZE_BELOW", config.freeze_below);
+  p.number("COMPOSITE_LANES", config.composited_at_once());
+  p.number("SLICES", config.slices());
+  p.number("SLICE_BITS", bits_for(config.slices() - 1));
   p.number("PIXEL_BITS", config.pixel_int_bits + config.pixel_frac_bits);
 
   p.section("narrowing sites: fraction bits dropped, 0 TRN 1 RND 2 RND_CONV, 1 where the word is One.f");
@@ -202,6 +205,7 @@ std::string sv_package(const Config& config) {
   int counters = 0;
   for (const CounterEntry& counter : counter_entries()) p.number("CNT_" + counter.name, counters++);
   p.number("COUNTERS", counters);
+  p.number("COUNTER_BITS", config.counter_bits);
 
   p.section("registers");
   for (const auto& reg : kRegisters) p.vector(std::string("REG_") + reg.name, 12, reg.address);

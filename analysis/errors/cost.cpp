@@ -7,7 +7,7 @@ namespace fastsplat::analysis {
 
 Cost cost(const cmodel::Config& c) {
   const double pixels = static_cast<double>(c.tile_width) * c.tile_height,
-               lanes = static_cast<double>(c.lanes) * c.lanes;
+               lanes = static_cast<double>(c.lanes) * c.lanes, composited = c.composited_at_once();
   const double distance = c.radial_index_bits() + c.rlut_guard_bits + 1.0,
                weight = c.radial_int_bits + c.radial_frac_bits, colour = c.colour_frac_bits,
                sheet = c.sheet_int_bits + c.sheet_frac_bits, factor = c.opacity_frac_bits + 1.0,
@@ -17,15 +17,15 @@ Cost cost(const cmodel::Config& c) {
   // A table that all lanes read in the same cycle is there once a lane.
   out.storage_bits = 2.0 * c.rlut_columns * c.phases * distance   // RLUT: x and y
                      + lanes * c.radial_entries * weight          // radial table
-                     + lanes * c.opacity_segments * 2.0 * factor  // factor table: start and fall of a segment
+                     + composited * c.opacity_segments * 2.0 * factor  // factor table: start and fall of a segment
                      + 2.0 * pixels * 4.0 * sheet                 // two sheet buffers
                      + pixels * 4.0 * std::max(unit, sheet);      // picture, or an X-ray's sums
-  // A splat: its place on the two axes. A lane: q; four products and sums; then a pixel of a block: the factor's fall
+  // A splat: its place on the two axes. A lane: q; four products and sums; then a pixel of a slice: the factor's fall
   // and its subtraction, four products with it, four with T, three sums and a difference. A row's pixels going out.
-  out.adder_bits = 2.0 * position + lanes * (distance + 4.0 * sheet) + lanes * (2.0 * factor + 4.0 * unit) +
+  out.adder_bits = 2.0 * position + lanes * (distance + 4.0 * sheet) + composited * (2.0 * factor + 4.0 * unit) +
                    c.lanes * 4.0 * out_word;
   out.multiplier_bits =
-      lanes * 4.0 * colour * weight + lanes * (factor * rest + 4.0 * sheet * factor + 4.0 * unit * unit);
+      lanes * 4.0 * colour * weight + composited * (factor * rest + 4.0 * sheet * factor + 4.0 * unit * unit);
   if (c.has_ellipses()) {
     // Of a record: four products of 22 and 24 bits with X and Y, then two of those sums. A window: its polynomial from
     // the one before, a few sums a column and a row, multiples by constants. A lane: one multiple, and three words.

@@ -94,8 +94,9 @@ double ratio(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-std::string to_text(const Counts& counts) {
+std::string to_text(const Counts& counts, int slices) {
   const auto& account = counts.account;
+  const std::uint64_t composited = counts.counters.dirty_blocks * static_cast<std::uint64_t>(slices);
   std::string text;
   const auto row = [&](char sign, std::string_view name, std::uint64_t cycles, std::string_view meaning) {
     text += fmt::format("{} {:<14}{:>18}{:>9.3f} %  {}\n", sign, name, grouped(cycles),
@@ -112,7 +113,7 @@ std::string to_text(const Counts& counts) {
   text +=
       fmt::format("actual/ideal {:.4f}, splat array used {:.1f} %, compositor used {:.1f} %, {:.3f} splats/cycle\n",
                   ratio(counts.stalls.busy, account.ideal), 100.0 * ratio(counts.counters.windows, counts.stalls.busy),
-                  100.0 * ratio(counts.counters.dirty_blocks, counts.stalls.busy),
+                  100.0 * ratio(composited, counts.stalls.busy),
                   ratio(counts.counters.splats, counts.stalls.busy));
   return text;
 }
@@ -123,7 +124,7 @@ std::string to_text(const Result& result) {
          fmt::format("configuration {} {}, {} splats, {} windows, {} sheets, {} tiles\n", result.config.name,
                      hash_text(cmodel::config_hash(result.config)), grouped(counters.splats), grouped(counters.windows),
                      grouped(counters.sheets), grouped(counters.tiles)) +
-         to_text(result.counts) +
+         to_text(result.counts, result.config.slices()) +
          (result.hidden_share ? fmt::format("{:.1f} % of the splats lay wholly on frozen blocks and changed nothing\n",
                                             100.0 * *result.hidden_share)
                               : "") +

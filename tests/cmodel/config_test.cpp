@@ -181,6 +181,8 @@ const Between kBetween[] = {
        c.ellipse_frac_bits = 20;
        c.lanes = 16;
      }},
+    {"composite.lanes", "a divisor of array.lanes^2 = 64", "3", [](cmodel::Config& c) { c.composite_lanes = 3; }},
+    {"composite.lanes", "a divisor of array.lanes^2 = 64", "128", [](cmodel::Config& c) { c.composite_lanes = 128; }},
 };
 
 TEST(ConfigLimits, EveryLimitBetweenKeys) {
@@ -253,7 +255,7 @@ TEST(ConfigSet, EveryKeyTakesItsTextAndGivesItBack) {
     }
   }
   std::printf("[figure] texts set and read back = %d\n", compared);
-  EXPECT_EQ(compared, 23 * 2 + 7 * 3 + 6 + 2 + 2);
+  EXPECT_EQ(compared, 23 * 2 + 7 * 3 + 6 + 2 + 3 * 2);
 }
 
 TEST(ConfigSet, WhatIsWrongIsToldAndNothingChanges) {
@@ -294,8 +296,8 @@ TEST(ConfigHash, ANeutralKeyDoesNotEnterItAndAnyOtherValueDoes) {
     }
   }
   std::printf("[figure] neutral keys = %d, hashes = %zu\n", neutral, hashes.size());
-  EXPECT_EQ(neutral, 10);
-  EXPECT_EQ(hashes.size(), 41U);
+  EXPECT_EQ(neutral, 12);
+  EXPECT_EQ(hashes.size(), 41U + 1024U + 48U);
 }
 
 }  // namespace

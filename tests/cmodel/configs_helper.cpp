@@ -1,6 +1,7 @@
 #include "tests/cmodel/configs_helper.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -34,6 +35,12 @@ std::map<std::string, std::string> read_keys(const std::string& path) {
   return keys;
 }
 
+/// Numbers that may be absent.
+constexpr std::array kNumbers{std::pair{"ellipse.frac_bits", &oracle::Symbols::f},
+                              std::pair{"composite.lanes", &oracle::Symbols::C},
+                              std::pair{"counters.bits", &oracle::Symbols::counter_bits},
+                              std::pair{"composite.every_sample", &oracle::Symbols::every_sample}};
+
 cmodel::Config named_config(const std::string& name) {
   const auto read = read_keys(std::string(FASTSPLAT_SOURCE_DIR) + "/configs/" + name + ".toml");
   oracle::Symbols symbols;
@@ -48,9 +55,8 @@ cmodel::Config named_config(const std::string& name) {
   for (const auto& [key, member] :
        {std::pair{"index.kind", &oracle::Symbols::index}, {"index.symmetry", &oracle::Symbols::symmetry}})
     if (read.contains(key)) symbols.*member = read.at(key).substr(1, read.at(key).size() - 2);
-  if (read.contains("ellipse.frac_bits")) symbols.f = std::stoi(read.at("ellipse.frac_bits"));
-  if (read.contains("composite.every_sample"))
-    symbols.every_sample = std::stoi(read.at("composite.every_sample"));
+  for (const auto& [key, member] : kNumbers)
+    if (read.contains(key)) symbols.*member = std::stoi(read.at(key));
   return config_of(symbols, name);
 }
 
@@ -74,8 +80,7 @@ oracle::Symbols symbols_of(const cmodel::Config& config) {
   symbols.carry = cmodel::text_of(config, *cmodel::find_key("rounding.carry"));
   symbols.index = cmodel::text_of(config, *cmodel::find_key("index.kind"));
   symbols.symmetry = cmodel::text_of(config, *cmodel::find_key("index.symmetry"));
-  symbols.f = config.*cmodel::find_key("ellipse.frac_bits")->member;
-  symbols.every_sample = config.*cmodel::find_key("composite.every_sample")->member;
+  for (const auto& [key, member] : kNumbers) symbols.*member = config.*cmodel::find_key(key)->member;
   return symbols;
 }
 
@@ -90,10 +95,11 @@ cmodel::Config config_of(const oracle::Symbols& symbols, const std::string& name
       throw std::runtime_error(one_line(*wrong));
   for (const auto& [key, word] : {std::pair{"rounding.carry", symbols.carry},
                                   {"index.kind", symbols.index},
-                                  {"index.symmetry", symbols.symmetry},
-                                  {"ellipse.frac_bits", std::to_string(symbols.f)},
-                                  {"composite.every_sample", std::to_string(symbols.every_sample)}})
+                                  {"index.symmetry", symbols.symmetry}})
     if (const auto wrong = cmodel::set(config, key, word)) throw std::runtime_error(one_line(*wrong));
+  for (const auto& [key, member] : kNumbers)
+    if (const auto wrong = cmodel::set(config, key, std::to_string(symbols.*member)))
+      throw std::runtime_error(one_line(*wrong));
   return config;
 }
 
@@ -144,6 +150,8 @@ cmodel::Config drawn_config(Random& random, cmodel::IndexKind kind, bool ellipse
       config.phases = std::min(config.phases, 16);  // streams of less than a million words
       config.rlut_columns = std::min(config.rlut_columns, 32 / config.lanes * config.lanes);
     }
+    config.composite_lanes =
+        random.once_in(2) ? 0 : 1 << random.between(0, 2 * cmodel::Config::log2_exact(config.lanes));
     if (ellipses) draw_ellipses(config, random);
     if (!cmodel::first_violation(config)) return config;
   }

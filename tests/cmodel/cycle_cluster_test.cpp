@@ -226,7 +226,7 @@ TEST(Cluster, SharesAreAllCyclesAndNoFrameIsBelowTheRoofline) {
         EXPECT_EQ(sum, cluster.frame_cycles() * static_cast<std::uint64_t>(devices));
         EXPECT_TRUE(rate > 0 || shares.bandwidth == 0U);
         EXPECT_TRUE(devices > 1 || shares.tail == 0U);
-        const auto bounds = cmodel::roofline(cluster, rate);
+        const auto bounds = cmodel::roofline(config, cluster, rate);
         std::uint64_t largest = 0;
         bounds.for_each([&](const char* what, std::uint64_t cycles, const char*) {
           EXPECT_LE(cycles, cluster.frame_cycles()) << what;

@@ -172,7 +172,8 @@ TEST(NumericsPage, KeysAndBaseValuesAreTheConfigurations) {
   const std::size_t required = oracle::keys().size();
   std::vector<std::string> optional;
   for (const oracle::RoundingKey& key : oracle::rounding_keys()) optional.emplace_back(key.name);
-  for (const char* key : {"rounding.carry", "index.kind", "index.symmetry", "ellipse.frac_bits", "composite.every_sample"})
+  for (const char* key : {"rounding.carry", "index.kind", "index.symmetry", "ellipse.frac_bits", "composite.lanes",
+                          "counters.bits", "composite.every_sample"})
     optional.emplace_back(key);
   ASSERT_EQ(rows.size(), required + optional.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -31,6 +31,7 @@ class PlainDevice {
   PlainDevice(const cmodel::Config& config, std::size_t queue)
       : wipe_(static_cast<std::uint64_t>((config.tile_width / config.lanes) * (config.tile_height / config.lanes))),
         walk_(config.has_ellipses() ? 22 : 12),
+        slices_(static_cast<std::uint64_t>(config.slices())),
         places_(queue) {}
 
   bool has_place() const { return taken_places_ < places_; }
@@ -89,7 +90,7 @@ class PlainDevice {
         return true;
       case Opcode::EndSheet: {
         const auto first = std::max(cycle + walk_, walked_ + 4);
-        walked_ = first + std::max<std::uint64_t>(beat_->blocks, 1) - 1;
+        walked_ = first + std::max<std::uint64_t>(beat_->blocks * slices_, 1) - 1;
         buffer_free_[buffer_] = walked_ + 1;
         rest_ = walked_ + (beat_->blocks > 0 ? 7 : 3);
         buffer_ = 1 - buffer_;
@@ -105,7 +106,7 @@ class PlainDevice {
     }
   }
 
-  std::uint64_t wipe_, walk_;
+  std::uint64_t wipe_, walk_, slices_;
   std::size_t places_, taken_places_ = 0;
   std::deque<PlainBeat> queue_;
   std::optional<PlainBeat> weighed_, judged_, beat_;  ///< in the two registers of check, in decode

@@ -27,6 +27,9 @@ struct Symbols {
   std::string carry = "xray";
   std::string index = "rlut", symmetry = "off";
   int f = 0;  ///< 0: no ellipses
+  // Of time and registers; no word depends on them.
+  int C = 0;  ///< 0: P^2
+  int counter_bits = 64;
   int every_sample = 0;
 
   /// Weights depend on window phases: centres lie on the snap's grid.

@@ -1,5 +1,6 @@
-// Unit "compositor": takes the dirty blocks of a finished sheet, one P x P block a cycle, lowest number first, clears them
-// behind itself and composites them over the picture (docs/numerics.md, section 6; docs/microarchitecture.md).
+// Unit "compositor": takes the dirty blocks of a finished sheet, lowest number first, one slice of COMPOSITE_LANES pixels of a
+// P x P block a cycle, clears them behind itself and composites them over the picture (docs/numerics.md, section 6;
+// docs/microarchitecture.md).
 // k0 pick -> k1 sums -> k2 factor -> k3 slope, picture -> k4 slab, state -> k5 products -> k6 new state, written.
 `include "assertions.svh"
 `include "fault.svh"
@@ -43,18 +44,22 @@ module fastsplat_compositor (
     input  logic [fastsplat_pkg::ADDR_BITS-1:0]    picture_addr_i,
     input  logic [fastsplat_pkg::LANES-1:0]        picture_row_i,     // of the block, one bit each; a cycle later
     output logic [fastsplat_pkg::LANES*4*fastsplat_pkg::STATE_BITS-1:0] picture_o,     // with it
-    // taps and events, k6
+    // tap, k6 of a block's last slice
     output logic                                   tap_valid_o,
     output logic [fastsplat_pkg::ADDR_BITS-1:0]    tap_block_o,
     output logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::STATE_BITS-1:0] tap_state_o,
-    output logic [fastsplat_pkg::LANES-1:0]        tap_inside_x_o,  // by lane column and row
-    output logic [fastsplat_pkg::LANES-1:0]        tap_inside_y_o,
-    output logic [fastsplat_pkg::BANKS-1:0]        tap_frozen_o,
-    output logic [4*fastsplat_pkg::BANKS-1:0]      tap_opacity_saturated_o,
-    output logic [4*fastsplat_pkg::BANKS-1:0]      tap_saturated_o,
-    output logic                                   tap_sheet_o    // pulse: a sheet's walk ended
+    output logic                                   tap_sheet_o,     // pulse: a sheet's walk ended
+    // events of a slice, k6
+    output logic                                   event_valid_o,
+    output logic [fastsplat_pkg::COMPOSITE_LANES-1:0]   event_inside_o,  // the tile
+    output logic [fastsplat_pkg::COMPOSITE_LANES-1:0]   event_frozen_o,
+    output logic [4*fastsplat_pkg::COMPOSITE_LANES-1:0] event_opacity_saturated_o,
+    output logic [4*fastsplat_pkg::COMPOSITE_LANES-1:0] event_saturated_o
 );
   localparam int P = fastsplat_pkg::LANES;
+  localparam int C = fastsplat_pkg::COMPOSITE_LANES;
+  localparam int R = fastsplat_pkg::SLICES;
+  localparam int LB = fastsplat_pkg::SLICE_BITS;
   localparam int NB = fastsplat_pkg::BLOCKS;
   localparam int AB = fastsplat_pkg::ADDR_BITS;
   localparam int BX = fastsplat_pkg::BLOCKS_X;
@@ -63,9 +68,10 @@ module fastsplat_compositor (
   localparam int FB = fastsplat_pkg::FACTOR_BITS;
   localparam int SIDE = fastsplat_pkg::SIDE_BITS;
 
-  // ---- k0: a dirty block a cycle
+  // ---- k0: a slice of a dirty block a cycle. Its first slice reads the block's sums; the banks hold them for the others.
   logic issue, finish, walk_idle;
   logic [AB-1:0] pick;
+  logic [LB-1:0] slice;
   fastsplat_dirty_map u_dirty (
       .clk_i,
       .rst_ni,
@@ -82,10 +88,11 @@ module fastsplat_compositor (
       .valid_o(issue),
       .buffer_o(sheet_buffer_o),
       .block_o(pick),
+      .slice_o(slice),
       .finish_o(finish),
       .idle_o(walk_idle)
   );
-  assign sheet_re_o = issue;
+  assign sheet_re_o = issue && (R == 1 || slice == '0);
   assign sheet_addr_o = pick;
   assign free_o = finish;
   assign free_buffer_o = sheet_buffer_o;
@@ -94,13 +101,18 @@ module fastsplat_compositor (
   // ---- pipe control
   logic [6:1] valid_q;
   logic [AB-1:0] addr_q[1:6];
+  logic [LB-1:0] slice_q[1:6];
   logic still_q;  // valid_q is 0: what waits for rest waits for no comparison
   always_ff @(posedge clk_i) begin
     valid_q <= {valid_q[5:1], issue};
     still_q <= !rst_ni || {valid_q[5:1], issue} == '0;
     if (!rst_ni) valid_q <= '0;
     addr_q[1] <= pick;
-    for (int s = 2; s <= 6; s++) addr_q[s] <= addr_q[s-1];
+    slice_q[1] <= slice;
+    for (int s = 2; s <= 6; s++) begin
+      addr_q[s] <= addr_q[s-1];
+      slice_q[s] <= slice_q[s-1];
+    end
   end
   assign idle_o = walk_idle && still_q;
 
@@ -123,13 +135,18 @@ module fastsplat_compositor (
   assign block_x = (SIDE + 2)'(number_x) << fastsplat_pkg::LANE_LOG2;
   assign block_y = (SIDE + 2)'(number_y) << fastsplat_pkg::LANE_LOG2;
 
+  logic [P-1:0] inside_x_q, inside_y_q;  // by lane column and row, k6
+  logic [P*P-1:0] in_tile;
   always_ff @(posedge clk_i) begin
     if (valid_q[5]) begin
       for (int g = 0; g < P; g++) begin
-        tap_inside_x_o[g] <= (block_x + (SIDE + 2)'(g)) < (SIDE + 2)'(width_i);
-        tap_inside_y_o[g] <= (block_y + (SIDE + 2)'(g)) < (SIDE + 2)'(height_i);
+        inside_x_q[g] <= (block_x + (SIDE + 2)'(g)) < (SIDE + 2)'(width_i);
+        inside_y_q[g] <= (block_y + (SIDE + 2)'(g)) < (SIDE + 2)'(height_i);
       end
     end
+  end
+  for (genvar b = 0; b < P * P; b++) begin : gen_inside
+    assign in_tile[b] = inside_x_q[b%P] && inside_y_q[b/P];
   end
 
   // ---- picture: blank is 0, so the top bit of a transmittance is kept inverted (1.0 is that bit alone). Written rows lie in
@@ -146,67 +163,98 @@ module fastsplat_compositor (
     if (!rst_ni) sent_q <= 1'b0;
   end
 
-  // k2 reads. The first block of a sheet may be the last of the one before, at the least four cycles ago: then it is written in
-  // this cycle, and the lane holds it in the next.
+  // k2 reads. The first block of a sheet may be the last of the one before, whose last slice was picked at least four cycles ago:
+  // then it is written in this cycle, and the lane holds it in the next. In a block of several slices each of them is read later
+  // than that, and no state is met on its way.
   logic forward_q;
-  always_ff @(posedge clk_i) forward_q <= valid_q[6] && addr_q[6] == addr_q[2];
+  always_ff @(posedge clk_i) forward_q <= R == 1 && valid_q[6] && addr_q[6] == addr_q[2];
 
-  logic [4*DB-1:0] picture[0:P*P-1], state_k4_q[0:P*P-1], states[0:P*P-1];
+  // By bank: the picture. Bank b is worked on in slice b / C, by lane b mod C.
+  logic [4*DB-1:0] picture[0:P*P-1], shown[0:P*P-1], states[0:C-1];  // k3; k6, of the tap; k6
   for (genvar h = 0; h < P; h++) begin : gen_row
-    for (genvar g = 0; g < P; g++) begin : gen_lane
+    for (genvar g = 0; g < P; g++) begin : gen_bank
       localparam int B = h * P + g;
-      logic [4*DB-1:0] slab;
-      logic [3:0] opacity_saturated_k4, opacity_saturated_k5_q, opacity_saturated_k6_q;
-      fastsplat_slab_opacity u_opacity (
-          .clk_i,
-          .we_i(segment_we),
-          .waddr_i(segment),
-          .wdata_i(segment_word),
-          .valid_i(valid_q[3:1]),
-          .mode_i,
-          .sums_i(sheet_data_i[B*4*SB+:4*SB]),
-          .slab_o(slab),
-          .saturated_o(opacity_saturated_k4)
-      );
+      localparam int LANE = B % C;
+      logic read, written;
+      assign read = valid_q[2] && (R == 1 || slice_q[2] == LB'(B / C));
+      assign written = valid_q[6] && (R == 1 || slice_q[6] == LB'(B / C));
       fastsplat_ram_1r1w #(.BITS(4 * DB), .WORDS(NB), .ADDR(AB)) u_picture (
           .clk_i,
-          .re_i(valid_q[2] || picture_re_i),
+          .re_i(read || picture_re_i),
           .raddr_i(picture_raddr),
           .rdata_o(picture[B]),
-          .we_i(wipe_i || (sent_q && picture_row_i[h]) || (valid_q[6] && tap_inside_y_o[h])),
+          .we_i(wipe_i || (sent_q && picture_row_i[h]) || (written && inside_y_q[h])),
           .waddr_i(picture_waddr),
-          .wdata_i((wipe_i || sent_q) ? '0 : states[B] ^ transparent)
+          .wdata_i((wipe_i || sent_q) ? '0 : states[LANE] ^ transparent)
       );
-      fastsplat_composite_lane u_composite (
-          .clk_i,
-          .rst_ni,
-          .valid_i(valid_q[5:4]),
-          .mode_i,
-          .slab_i(slab),
-          .state_i(state_k4_q[B]),
-          .state_o(states[B]),
-          .frozen_o(tap_frozen_o[B]),
-          .saturated_o(tap_saturated_o[4*B+:4])
-      );
-      always_ff @(posedge clk_i) begin
-        if (valid_q[3]) state_k4_q[B] <= (forward_q && tap_inside_y_o[h]) ? states[B] : picture[B] ^ transparent;
-        if (valid_q[4]) opacity_saturated_k5_q <= opacity_saturated_k4;
-        if (valid_q[5]) opacity_saturated_k6_q <= opacity_saturated_k5_q;
+      // The tap shows a whole block: what was made of it in slices before the last is kept.
+      if (B / C == R - 1) begin : gen_last
+        assign shown[B] = states[LANE];
+      end else begin : gen_kept
+        logic [4*DB-1:0] state_q;
+        always_ff @(posedge clk_i) if (written) state_q <= states[LANE];
+        assign shown[B] = state_q;
       end
-      assign tap_opacity_saturated_o[4*B+:4] = opacity_saturated_k6_q;
+      assign tap_state_o[B*4*DB+:4*DB] = tap_valid_o ? shown[B] : '0;
     end
+  end
+
+  // By lane: in slice r, lane c works on bank C r + c.
+  logic [4*DB-1:0] state_k4_q[0:C-1];
+  for (genvar c = 0; c < C; c++) begin : gen_lane
+    logic [4*SB-1:0] sums;          // k1
+    logic [4*DB-1:0] stored, slab;  // k3, k4
+    logic [3:0] opacity_saturated_k4, opacity_saturated_k5_q, opacity_saturated_k6_q;
+    always_comb begin
+      sums = sheet_data_i[c*4*SB+:4*SB];
+      stored = picture[c];
+      event_inside_o[c] = in_tile[c];
+      for (int r = 1; r < R; r++) begin
+        if (slice_q[1] == LB'(r)) sums = sheet_data_i[(r*C+c)*4*SB+:4*SB];
+        if (slice_q[3] == LB'(r) && !(`FASTSPLAT_FAULT(STALE_SLICE) && r == 1)) stored = picture[r*C+c];
+        if (slice_q[6] == LB'(r)) event_inside_o[c] = in_tile[r*C+c];
+      end
+    end
+    fastsplat_slab_opacity u_opacity (
+        .clk_i,
+        .we_i(segment_we),
+        .waddr_i(segment),
+        .wdata_i(segment_word),
+        .valid_i(valid_q[3:1]),
+        .mode_i,
+        .sums_i(sums),
+        .slab_o(slab),
+        .saturated_o(opacity_saturated_k4)
+    );
+    fastsplat_composite_lane u_composite (
+        .clk_i,
+        .rst_ni,
+        .valid_i(valid_q[5:4]),
+        .mode_i,
+        .slab_i(slab),
+        .state_i(state_k4_q[c]),
+        .state_o(states[c]),
+        .frozen_o(event_frozen_o[c]),
+        .saturated_o(event_saturated_o[4*c+:4])
+    );
+    // Forwarded is what was written: rows of the tile. Where a block is one slice, lane c is bank c.
+    always_ff @(posedge clk_i) begin
+      if (valid_q[3]) state_k4_q[c] <= (forward_q && inside_y_q[c/P]) ? states[c] : stored ^ transparent;
+      if (valid_q[4]) opacity_saturated_k5_q <= opacity_saturated_k4;
+      if (valid_q[5]) opacity_saturated_k6_q <= opacity_saturated_k5_q;
+    end
+    assign event_opacity_saturated_o[4*c+:4] = opacity_saturated_k6_q;
   end
   always_comb begin
     picture_o = '0;  // verilator lint_off WIDTHCONCAT
-    tap_state_o = '0;  // verilator lint_on WIDTHCONCAT
-    for (int h = 0; h < P; h++) begin
+    for (int h = 0; h < P; h++) begin  // verilator lint_on WIDTHCONCAT
       for (int g = 0; g < P; g++) begin
         if (picture_row_i[h]) picture_o[g*4*DB+:4*DB] = picture[h*P+g] ^ transparent;
-        if (valid_q[6]) tap_state_o[(h*P+g)*4*DB+:4*DB] = states[h*P+g];
       end
     end
   end
-  assign tap_valid_o = valid_q[6];
+  assign event_valid_o = valid_q[6];
+  assign tap_valid_o = valid_q[6] && (R == 1 || slice_q[6] == LB'(R - 1));
   assign tap_block_o = addr_q[6];
 
   `FASTSPLAT_ASSERT(rest_foretold, still_q == (valid_q == '0))

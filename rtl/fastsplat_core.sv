@@ -247,9 +247,10 @@ module fastsplat_core (
   logic [fastsplat_pkg::ADDR_BITS-1:0] picture_addr;
   logic [fastsplat_pkg::LANES-1:0] picture_row;
   logic [fastsplat_pkg::LANES*4*fastsplat_pkg::STATE_BITS-1:0] picture;
-  logic [fastsplat_pkg::LANES-1:0] composite_inside_x, composite_inside_y;
-  logic [BANKS-1:0] composite_frozen;
-  logic [4*BANKS-1:0] opacity_saturated, composite_saturated;
+  localparam int COMPOSITED = fastsplat_pkg::COMPOSITE_LANES;
+  logic slice_valid;
+  logic [COMPOSITED-1:0] slice_inside, slice_frozen;
+  logic [4*COMPOSITED-1:0] opacity_saturated, composite_saturated;
   fastsplat_compositor u_compositor (
       .clk_i,
       .rst_ni,
@@ -285,12 +286,12 @@ module fastsplat_core (
       .tap_valid_o(tap_composite_valid_o),
       .tap_block_o(tap_composite_block_o),
       .tap_state_o(tap_state_o),
-      .tap_inside_x_o(composite_inside_x),
-      .tap_inside_y_o(composite_inside_y),
-      .tap_frozen_o(composite_frozen),
-      .tap_opacity_saturated_o(opacity_saturated),
-      .tap_saturated_o(composite_saturated),
-      .tap_sheet_o(tap_sheet_done_o)
+      .tap_sheet_o(tap_sheet_done_o),
+      .event_valid_o(slice_valid),
+      .event_inside_o(slice_inside),
+      .event_frozen_o(slice_frozen),
+      .event_opacity_saturated_o(opacity_saturated),
+      .event_saturated_o(composite_saturated)
   );
 
   logic [4*fastsplat_pkg::LANES-1:0] pixel_saturated;
@@ -317,12 +318,13 @@ module fastsplat_core (
   );
 
   // ---- events: counted in two cycles, in the counters a cycle later
-  logic [BANKS-1:0] window_inside, composite_inside;
-  logic [4*BANKS-1:0] composite_inside4;
+  logic [BANKS-1:0] window_inside;
+  logic [4*COMPOSITED-1:0] slice_inside4;
   for (genvar b = 0; b < BANKS; b++) begin : gen_inside
     assign window_inside[b] = window_inside_x[b%fastsplat_pkg::LANES] && window_inside_y[b/fastsplat_pkg::LANES];
-    assign composite_inside[b] = composite_inside_x[b%fastsplat_pkg::LANES] && composite_inside_y[b/fastsplat_pkg::LANES];
-    assign composite_inside4[4*b+:4] = {4{composite_inside[b]}};
+  end
+  for (genvar c = 0; c < COMPOSITED; c++) begin : gen_slice_inside
+    assign slice_inside4[4*c+:4] = {4{slice_inside[c]}};
   end
   logic pixel_taken, running, clear_counters;
   assign pixel_taken = m_tvalid_o && m_tready_i;
@@ -345,11 +347,11 @@ module fastsplat_core (
     end
     if (tap_sheet_valid_o && !`FASTSPLAT_FAULT(LOST_COUNT)) events[fastsplat_pkg::CNT_SHEET_SATURATED] = sheet_saturated;
     events[fastsplat_pkg::CNT_DIRTY_BLOCKS][0] = tap_composite_valid_o;
-    if (tap_composite_valid_o) begin
-      events[fastsplat_pkg::CNT_PIXELS_COMPOSITED][BANKS-1:0] = composite_inside;
-      events[fastsplat_pkg::CNT_FROZEN_PIXELS][BANKS-1:0] = composite_inside & composite_frozen;
-      events[fastsplat_pkg::CNT_OPACITY_SATURATED] = composite_inside4 & opacity_saturated;
-      events[fastsplat_pkg::CNT_COMPOSITE_SATURATED] = composite_inside4 & composite_saturated;
+    if (slice_valid) begin
+      events[fastsplat_pkg::CNT_PIXELS_COMPOSITED][COMPOSITED-1:0] = slice_inside;
+      events[fastsplat_pkg::CNT_FROZEN_PIXELS][COMPOSITED-1:0] = slice_inside & slice_frozen;
+      events[fastsplat_pkg::CNT_OPACITY_SATURATED][4*COMPOSITED-1:0] = slice_inside4 & opacity_saturated;
+      events[fastsplat_pkg::CNT_COMPOSITE_SATURATED][4*COMPOSITED-1:0] = slice_inside4 & composite_saturated;
     end
     if (pixel_taken) begin
       events[fastsplat_pkg::CNT_TILES][0] = m_tlast_o;
@@ -363,10 +365,10 @@ module fastsplat_core (
   end
   function automatic int bits_of(input int n);
     case (n)
-      fastsplat_pkg::CNT_LANES_INSIDE, fastsplat_pkg::CNT_LANES_WEIGHTED, fastsplat_pkg::CNT_PIXELS_COMPOSITED,
-      fastsplat_pkg::CNT_FROZEN_PIXELS: bits_of = BANKS;
-      fastsplat_pkg::CNT_PRODUCT_SATURATED, fastsplat_pkg::CNT_SHEET_SATURATED, fastsplat_pkg::CNT_OPACITY_SATURATED,
-      fastsplat_pkg::CNT_COMPOSITE_SATURATED: bits_of = 4 * BANKS;
+      fastsplat_pkg::CNT_LANES_INSIDE, fastsplat_pkg::CNT_LANES_WEIGHTED: bits_of = BANKS;
+      fastsplat_pkg::CNT_PIXELS_COMPOSITED, fastsplat_pkg::CNT_FROZEN_PIXELS: bits_of = COMPOSITED;
+      fastsplat_pkg::CNT_PRODUCT_SATURATED, fastsplat_pkg::CNT_SHEET_SATURATED: bits_of = 4 * BANKS;
+      fastsplat_pkg::CNT_OPACITY_SATURATED, fastsplat_pkg::CNT_COMPOSITE_SATURATED: bits_of = 4 * COMPOSITED;
       fastsplat_pkg::CNT_PIXEL_SATURATED: bits_of = 4 * fastsplat_pkg::LANES;
       fastsplat_pkg::CNT_SNAP_SATURATED: bits_of = 2;
       default: bits_of = 1;
@@ -428,6 +430,8 @@ module fastsplat_core (
                   fastsplat_pkg::LANES, 1 << fastsplat_pkg::LANE_LOG2)
   `FASTSPLAT_INIT(banks, BANKS == fastsplat_pkg::LANES * fastsplat_pkg::LANES, "BANKS is %0d, but LANES squared is %0d", BANKS,
                   fastsplat_pkg::LANES * fastsplat_pkg::LANES)
+  `FASTSPLAT_INIT(slices, fastsplat_pkg::SLICES * COMPOSITED == BANKS, "SLICES is %0d, but %0d of COMPOSITE_LANES pixels make a block",
+                  fastsplat_pkg::SLICES, BANKS / COMPOSITED)
   `FASTSPLAT_INIT(blocks, fastsplat_pkg::BLOCKS == fastsplat_pkg::BLOCKS_X * fastsplat_pkg::BLOCKS_Y,
                   "BLOCKS is %0d, but BLOCKS_X * BLOCKS_Y is %0d", fastsplat_pkg::BLOCKS,
                   fastsplat_pkg::BLOCKS_X * fastsplat_pkg::BLOCKS_Y)

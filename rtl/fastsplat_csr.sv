@@ -51,11 +51,12 @@ module fastsplat_csr (
   logic unused;
   assign unused = &{1'b0, wdata_i};
 
-  logic [63:0] counter_q[0:N-1];
+  localparam int CB = fastsplat_pkg::COUNTER_BITS;
+  logic [CB-1:0] counter_q[0:N-1];
   for (genvar n = 0; n < N; n++) begin : gen_counter
     always_ff @(posedge clk_i) begin
       if (!rst_ni || clear_o) counter_q[n] <= '0;
-      else counter_q[n] <= counter_q[n] + 64'(increments_i[16*n+:16]);
+      else counter_q[n] <= counter_q[n] + CB'(increments_i[16*n+:16]);
     end
   end
 
@@ -83,7 +84,7 @@ module fastsplat_csr (
   logic [31:0] high_q;
   always_comb begin
     counter = '0;
-    for (int n = 0; n < N; n++) if (number == 12'(n)) counter = counter | counter_q[n];
+    for (int n = 0; n < N; n++) if (number == 12'(n)) counter = counter | 64'(counter_q[n]);
   end
 
   logic is_counter;

@@ -1,5 +1,5 @@
-// The dirty blocks of both sheet buffers and the walk over those of a finished sheet: one block a cycle, lowest number first
-// (docs/microarchitecture.md, "Dirty walk"; cmodel/dirty_map.hpp).
+// The dirty blocks of both sheet buffers and the walk over those of a finished sheet: lowest number first, one slice of a
+// block a cycle (docs/microarchitecture.md, "Dirty walk" and "Slices"; cmodel/dirty_map.hpp).
 // No cycle looks at the whole map: f1 lowest dirty row -> f2 its blocks -> f3 the row being walked -> k0 block. The three
 // cycles of f1 to f3 pass while the end of the sheet goes down the splat path, or while the last blocks of the sheet
 // before go down the compositor's.
@@ -23,10 +23,11 @@ module fastsplat_dirty_map (
     input  logic                                   done_i,
     input  logic                                   done_buffer_i,
     // k0
-    output logic                                   valid_o,   // a block
+    output logic                                   valid_o,   // a slice of a block
     output logic                                   buffer_o,
     output logic [fastsplat_pkg::ADDR_BITS-1:0]    block_o,
-    output logic                                   finish_o,  // the sheet's last block, or that it has none
+    output logic [fastsplat_pkg::SLICE_BITS-1:0]   slice_o,
+    output logic                                   finish_o,  // the last slice of the sheet's last block, or that it has none
     output logic                                   idle_o     // no finished sheet waits or is walked, nor was in the last 2 cycles
 );
   localparam int P = fastsplat_pkg::LANES;
@@ -57,10 +58,12 @@ module fastsplat_dirty_map (
   logic [1:0] marked_q, full_q;
   logic f1_valid_q, f2_valid_q;
   logic [BX-1:0] f2_row_q, f3_row_q, f3_rest_q, f2_rest, rest;  // rest: a row without its lowest block
-  logic start, advance, go, one_left_q, finish;
+  logic start, advance, walking, go, one_left_q, finish;  // go: the block's last slice, or the walk of nothing
   logic [2:0] finish_q;
+  logic [fastsplat_pkg::SLICE_BITS-1:0] slice_q;
   assign start = state_q == StIdle && marked_q[buffer_q];
-  assign go = state_q == StWalk && full_q[buffer_q];
+  assign walking = state_q == StWalk && full_q[buffer_q];
+  assign go = walking && (fastsplat_pkg::SLICES == 1 || slice_q == fastsplat_pkg::SLICE_BITS'(fastsplat_pkg::SLICES - 1) || f3_row_q == '0);
   assign f2_rest = f2_row_q & (f2_row_q - BX'(1));
   assign rest = f3_rest_q & (f3_rest_q - BX'(1));
   // Rows follow one another without a gap: where f2 is empty there are no more.
@@ -141,7 +144,9 @@ module fastsplat_dirty_map (
     if (done_i) full_q[done_buffer_i] <= 1'b1;
     finish_q <= {finish_q[1:0], finish};
     idle_o <= full_q == '0 && !done_i && !finish && finish_q[1:0] == '0;
-    valid_o <= go && f3_row_q != '0;
+    valid_o <= walking && f3_row_q != '0;
+    slice_q <= (walking && !go) ? slice_q + fastsplat_pkg::SLICE_BITS'(1) : '0;
+    slice_o <= slice_q;
     buffer_o <= buffer_q;
     block_o <= (AB'(f3_number_q) << BXL) | AB'(column);
     if (!rst_ni) begin
@@ -155,6 +160,7 @@ module fastsplat_dirty_map (
       f2_row_q <= '0;
       f2_valid_q <= 1'b0;
       f3_row_q <= '0;
+      slice_q <= '0;
       finish_q <= '0;
       idle_o <= 1'b1;
       valid_o <= 1'b0;

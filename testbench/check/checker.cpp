@@ -72,7 +72,9 @@ CheckReport Checker::finish() {
 
 void Checker::check_counters(const cmodel::Counters& rtl) {
   std::vector<std::uint64_t> expected;
-  model_.counters().for_each([&](const char*, std::uint64_t value, const char*) { expected.push_back(value); });
+  model_.counters().for_each([&](const char*, std::uint64_t value, const char*) {
+    expected.push_back(config_.counter_word(value));
+  });
   auto model = expected.begin();
   rtl.for_each([&](const char* name, std::uint64_t value, const char*) {
     equal(Detector::Counters, std::string("counter ") + name, *model++, value);
@@ -84,7 +86,7 @@ void Checker::check_cycles(const cmodel::StallCounters& rtl) {
   const cmodel::StallCounters& model = cycle_model_->stalls();
   cycles_model_ = model.busy;
   cycles_rtl_ = rtl.busy;
-#define X(name, counter, meaning) equal(Detector::Cycles, meaning, model.name, rtl.name);
+#define X(name, counter, meaning) equal(Detector::Cycles, meaning, config_.counter_word(model.name), rtl.name);
   FASTSPLAT_STALL_COUNTERS(X)
 #undef X
 }

@@ -171,7 +171,7 @@ void CycleCoverage::on_sheet(const cmodel::SheetCycles& sheet) {
       coverage_.hit(walk_ends_ + std::min(windows_before_end_, kWalkEnds));
     else
       coverage_.hit(walk_ends_after_);
-    if (before_.blocks > sheet.windows) coverage_.hit(compositor_bound_);
+    if (before_.blocks > 0 && before_.walk_to - before_.walk_from > sheet.windows) coverage_.hit(compositor_bound_);
   }
   before_ = sheet;
   walk_known_ = true;

@@ -28,4 +28,5 @@ refused POS_FRAC=2 "POS_FRAC is 2, but phases need 3 fraction bits"
 refused RADIAL_ENTRIES=63 "RADIAL_ENTRIES is 63, but 2^RADIAL_LOG2 is 64"
 refused BLOCKS_Y=17 "BLOCKS is 256, but BLOCKS_X \* BLOCKS_Y is 272"
 refused RLUT_COLUMNS=15 "RLUT_COLUMNS is 15, but must be a multiple of 2"
-[ "$checked" -eq 5 ]
+refused SLICES=2 "SLICES is 2, but 1 of COMPOSITE_LANES pixels make a block"
+[ "$checked" -eq 6 ]

@@ -65,17 +65,21 @@ struct Checker final : cmodel::TapSink {
   }
 };
 
-/// The ideal by its formula, from each sheet's windows and blocks.
+/// The ideal by its formula, from each sheet's windows and its blocks' slices.
 struct Ideal final : cmodel::CycleSink {
-  std::uint64_t cycles = 0, blocks_before = 0;
+  explicit Ideal(int slices) : slices_(static_cast<std::uint64_t>(slices)) {}
+  std::uint64_t cycles = 0;
   void on_sheet(const cmodel::SheetCycles& sheet) override {
-    cycles += std::max(sheet.windows, blocks_before);
-    blocks_before = sheet.blocks;
+    cycles += std::max(sheet.windows, picks_before_);
+    picks_before_ = sheet.blocks * slices_;
   }
   void on_tile(const cmodel::TileCycles&) override {
-    cycles += blocks_before;
-    blocks_before = 0;
+    cycles += picks_before_;
+    picks_before_ = 0;
   }
+
+ private:
+  std::uint64_t slices_, picks_before_ = 0;
 };
 
 }  // namespace
@@ -111,7 +115,7 @@ CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmo
   Expected expected;
   Checker checker(expected, result);
   cmodel::NullPixels pixels;
-  Ideal ideal;
+  Ideal ideal(config.slices());
   testbench::RtlOptions rtl_options;
   rtl_options.input = input;
   rtl_options.output = output;
@@ -136,17 +140,17 @@ CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmo
   result.stalls = model.stalls();
   result.counters = model.counters();
   const cmodel::StallCounters theirs = rtl->cycle_counters();
-#define X(name, counter, meaning) checker.equal(#counter, model.stalls().name, theirs.name);
+#define X(name, counter, meaning) checker.equal(#counter, config.counter_word(model.stalls().name), theirs.name);
   FASTSPLAT_STALL_COUNTERS(X)
 #undef X
   const cmodel::Counters& counts = rtl->counters();
-  checker.equal("tiles", model.counters().tiles, counts.tiles);
-  checker.equal("sheets", model.counters().sheets, counts.sheets);
-  checker.equal("splats", model.counters().splats, counts.splats);
-  checker.equal("windows", model.counters().windows, counts.windows);
-  checker.equal("cull blocks", model.counters().cull_blocks, counts.cull_blocks);
-  checker.equal("dirty blocks", model.counters().dirty_blocks, counts.dirty_blocks);
-  checker.equal("sum of the account", model.account().total(), theirs.busy);
+  checker.equal("tiles", config.counter_word(model.counters().tiles), counts.tiles);
+  checker.equal("sheets", config.counter_word(model.counters().sheets), counts.sheets);
+  checker.equal("splats", config.counter_word(model.counters().splats), counts.splats);
+  checker.equal("windows", config.counter_word(model.counters().windows), counts.windows);
+  checker.equal("cull blocks", config.counter_word(model.counters().cull_blocks), counts.cull_blocks);
+  checker.equal("dirty blocks", config.counter_word(model.counters().dirty_blocks), counts.dirty_blocks);
+  checker.equal("sum of the account", model.account().total(), model.stalls().busy);
   checker.equal("ideal of the account", model.account().ideal, ideal.cycles);
   return result;
 }

@@ -126,8 +126,8 @@ TEST_P(EachConfig, IdenticalCentresTakeOneCycleEach) {
                            static_cast<std::uint64_t>(config().opacity_segments) + 1;
   const auto beats_out = static_cast<std::uint64_t>(config().tile_width / config().lanes) *
                          static_cast<std::uint64_t>(config().tile_height);
-  const std::uint64_t by_hand =
-      1 + 3 + table_words + 1 + (kSplats + 2) + (model.counters().dirty_blocks + 18) + (2 + beats_out);
+  const std::uint64_t picks = model.counters().dirty_blocks * static_cast<std::uint64_t>(config().slices());
+  const std::uint64_t by_hand = 1 + 3 + table_words + 1 + (kSplats + 2) + (picks + 18) + (2 + beats_out);
   std::printf("[figure] %s busy cycles = %llu, by hand %llu\n", GetParam().c_str(),
               static_cast<unsigned long long>(model.stalls().busy), static_cast<unsigned long long>(by_hand));
   EXPECT_EQ(model.stalls().busy, by_hand);
@@ -156,7 +156,8 @@ TEST_P(EachConfig, SheetsOfNineWindowsMoreThanBlocksNeverWait) {
     writer.end_frame();
     return compare_cycles(config(), to_beats(writer.bytes()), Pattern(), Pattern());
   };
-  const std::uint64_t blocks = run(1).counters.dirty_blocks / kSheets;
+  const std::uint64_t blocks =
+      run(1).counters.dirty_blocks / kSheets * static_cast<std::uint64_t>(config().slices());  // a slice a cycle
   const auto enough = run(blocks + 9), short_of_one = run(blocks + 8);
   std::printf("[figure] %s sheets of %llu blocks: waits for a buffer %llu (limit 0), with one window less %llu\n",
               GetParam().c_str(), static_cast<unsigned long long>(blocks),

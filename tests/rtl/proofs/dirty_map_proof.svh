@@ -1,6 +1,6 @@
 // The dirty walk (docs/microarchitecture.md, "Dirty walk"), written again from the page and put inside dirty_map by
-// prove_control.sh: each block that a sheet marked is picked once, in rising order, one a cycle, in its cycle, and is clean
-// afterwards; nothing else is picked. One block of one buffer is looked at: any.
+// prove_control.sh: each block that a sheet marked is picked once, in rising order, slice by slice, one a cycle, in its cycle,
+// and is clean afterwards; nothing else is picked. One block of one buffer is looked at: any.
 logic f_started = 1'b0;
 always @(posedge clk_i) f_started <= 1'b1;
 always @* if (!f_started) assume (!rst_ni);
@@ -28,11 +28,20 @@ always @* begin
 end
 assign f_mark = mark_i && mark_buffer_i == f_buffer && f_in_column && f_in_row;
 
-// The block's mark, as the page has it, and what the walk did to it.
+// The slice that is picked next: 0 to the last of a block.
+localparam int F_SLICES = fastsplat_pkg::SLICES;
+logic [fastsplat_pkg::SLICE_BITS-1:0] f_slice_q, f_slice_next;
+logic f_last_slice;
+assign f_last_slice = 32'(f_slice_q) == F_SLICES - 1;
+assign f_slice_next = !valid_o ? f_slice_q : f_last_slice ? '0 : f_slice_q + fastsplat_pkg::SLICE_BITS'(1);
+
+// The block's mark, as the page has it, and what the walk did to it: its last slice's pick ends it.
 logic f_marked_q, f_picked_q;
-logic f_pick;
-assign f_pick = valid_o && buffer_o == f_buffer && block_o == f_block;
+logic f_at_it, f_pick;
+assign f_at_it = valid_o && buffer_o == f_buffer && block_o == f_block;
+assign f_pick = f_at_it && f_last_slice;
 always @(posedge clk_i) begin
+  f_slice_q <= rst_ni ? f_slice_next : '0;
   if (f_mark) f_marked_q <= 1'b1;
   if (f_pick) f_marked_q <= 1'b0;
   if (f_pick) f_picked_q <= 1'b1;
@@ -99,17 +108,21 @@ logic f_dirty, f_in_f2, f_in_f3, f_go_q;
 assign f_dirty = (f_buffer ? dirty[BY+f_row][f_column] : dirty[f_row][f_column]) && !(fetched_q[f_row] && fetched_buffer_q == f_buffer);
 assign f_in_f2 = buffer_q == f_buffer && f2_number_q == f_row && f2_row_q[f_column];
 assign f_in_f3 = buffer_q == f_buffer && f3_number_q == f_row && f3_row_q[f_column];
-always @(posedge clk_i) f_go_q <= rst_ni && go;
+always @(posedge clk_i) f_go_q <= rst_ni && walking;
 logic [BY-1:0] f_rows;
 assign f_rows = rows_q[buffer_q];
 always @(posedge clk_i) begin
   if (f_started && rst_ni) begin
     // Each block once, and marked ones alone.
-    assert (!f_pick || f_marked_q);
+    assert (!f_at_it || f_marked_q);
     assert (!f_pick || !f_picked_q);
     assert (!(finish_o && buffer_o == f_buffer) || !f_marked_q || f_pick);
     // Rising, one a cycle, in its cycle: a walk picks from its first cycle to its last; a clean sheet's takes one.
-    assert (!(valid_o && f_begun_q) || block_o > f_last_q);
+    assert (!(valid_o && f_begun_q && f_slice_q == '0) || block_o > f_last_q);
+    // All slices of a block, one behind the other; the last of the last ends the walk.
+    assert (!valid_o || slice_o == f_slice_q);
+    assert (f_slice_q == '0 || (valid_o && f_begun_q && block_o == f_last_q));
+    assert (!(valid_o && finish_o) || f_last_slice);
     assert (valid_o || finish_o || !f_walking);
     assert (!(valid_o || finish_o) || f_walking);
     assert (!f_begun_q || valid_o);
@@ -117,7 +130,9 @@ always @(posedge clk_i) begin
     assert (!valid_o || f_begun_q || f_recent_q == '0);
     assert (idle_o == (f_full_q == '0 && f_since_q >= 2'd2));
 
-    // For induction. The hand-over.
+    // For induction. The slices.
+    assert (32'(f_slice_q) < F_SLICES && slice_q == f_slice_next);
+    // The hand-over.
     assert (f_go_q == f_walking);
     assert (buffer_q == (finish_o ? !f_turn_q : f_turn_q));
     assert (f_since_q == 2'd3 || !(f_begun_q || finish_o));
@@ -156,7 +171,8 @@ always @(posedge clk_i) begin
     assert (!f1_valid_q || (f_rows & (f1_row_q | (f1_row_q - BY'(1)))) == '0);
     assert (!(f1_valid_q && f2_valid_q) || f1_row_q > BY'(1) << f2_number_q);
     assert (f3_row_q == '0 || !f2_valid_q || f2_number_q > f3_number_q);
-    assert (!valid_o || finish_o || ((AB'(f3_number_q) << BXL) | AB'(column)) > block_o);
+    assert (!valid_o || finish_o || !f_last_slice || ((AB'(f3_number_q) << BXL) | AB'(column)) > block_o);
+    assert (!valid_o || f_last_slice || ((AB'(f3_number_q) << BXL) | AB'(column)) == block_o);
     // A row holds dirt if its bit says so, or it is in f1.
     for (int m = 0; m < 2; m++) begin
       for (int r = 0; r < BY; r++) begin
@@ -169,6 +185,7 @@ always @(posedge clk_i) begin
     assert (!(f_picked_q && f_full_q[f_buffer] && f_marked_q));
     cover (f_pick && f_begun_q && finish_o);
     cover (finish_o && !valid_o);
+    cover (f_pick && f_recent_q[0]);
     cover (f_pick && f_full_q == 2'b11 && f_since_q == 2'd3 && f_row == YB'(BY - 1));
   end
 end

@@ -56,8 +56,15 @@ if [ -z "$short" ]; then
   walk_broken row_end_is_the_end 's/assign finish = go \&\& one_left_q \&\& !f2_valid_q;/assign finish = go \&\& one_left_q;/'
   walk_broken marks_missed 's/if (mark_y\[r\] \&\& mark_buffer_i/if (mark_y[r] \&\& !f1_row_q[r] \&\& mark_buffer_i/'
   walk_broken waits_for_the_sums 's/assign start = state_q == StIdle \&\& marked_q\[buffer_q\];/assign start = state_q == StIdle \&\& full_q[buffer_q];/'
-  walk_broken early_row "s/assign go = state_q == StWalk \&\& full_q/assign go = (state_q == StWalk || state_q == StBlocks) \&\& full_q/"
+  walk_broken early_row "s/assign walking = state_q == StWalk \&\& full_q/assign walking = (state_q == StWalk || state_q == StBlocks) \&\& full_q/"
 fi
+
+package_file="$work/dirty_map_slices_pkg.sv"
+package ADDR_BITS=4 BLOCKS_X=4 BLOCKS_Y=4 BLOCKS=16 BLK_BITS=2 COMPOSITE_LANES=1 SLICES=4 SLICE_BITS=2 >"$package_file"
+walk dirty_map_slices
+holds dirty_map_slices 2 "dirty_map: the same where a block is four slices: each of them once, in order"
+happens dirty_map_slices 18
+walk_broken slice_lost "s/(fastsplat_pkg::SLICES - 1) || f3_row_q/(fastsplat_pkg::SLICES - 2) || f3_row_q/"
 
 # --- the compositor's pipe and picture: 2 x 2 blocks of words of a few bits, and memories that give anything when they read what
 # is written
@@ -65,7 +72,7 @@ package_file="$work/compositor_pkg.sv"
 package STATE_BITS=3 TRANS_BITS=3 SHEET_BITS=2 TRANS_FRAC=2 PIXEL_BITS=2 SIDE_BITS=4 ADDR_BITS=2 BLOCKS_X=2 BLOCKS_Y=2 BLOCKS=4 BLK_BITS=1 >"$package_file"
 probes=""
 for lane in 0 1 2 3; do
-  memory="gen_row[$((lane / 2))].gen_lane[$((lane % 2))].u_picture"
+  memory="gen_row[$((lane / 2))].gen_bank[$((lane % 2))].u_picture"
   probes="$probes connect -nounset -set $memory.probe_addr_i f_block; connect -nounset -set f_memory$lane $memory.probe_o;"
 done
 pipe() { connects=$probes defines=-DFASTSPLAT_PROOF unit "$1" compositor "ram_1r1w" "dirty_map slab_opacity composite_lane" "${2:+compositor}" "${2-}"; }
@@ -77,8 +84,20 @@ pipe_broken not_blanked "s/(wipe_i || sent_q) ? '0 : states/wipe_i ? '0 : states
 if [ -z "$short" ]; then
   pipe_broken all_rows_blanked 's/(sent_q \&\& picture_row_i\[h\])/sent_q/'
   pipe_broken blanked_next_door 's/sent_addr_q <= picture_addr_i;/sent_addr_q <= picture_addr_i + AB'"'"'(1);/'
-  pipe_broken rows_outside_written 's/(valid_q\[6\] \&\& tap_inside_y_o\[h\])/valid_q[6]/'
-  pipe_broken not_forwarded 's/(forward_q \&\& tap_inside_y_o\[h\]) ? states/1'"'"'b0 ? states/'
+  pipe_broken rows_outside_written 's/(written \&\& inside_y_q\[h\])/written/'
+  pipe_broken not_forwarded 's/(forward_q \&\& inside_y_q\[c\/P\]) ? states/1'"'"'b0 ? states/'
+fi
+for lanes in 1 2; do
+  package_file="$work/compositor_lanes_pkg.sv"
+  package STATE_BITS=3 TRANS_BITS=3 SHEET_BITS=2 TRANS_FRAC=2 PIXEL_BITS=2 SIDE_BITS=4 ADDR_BITS=2 BLOCKS_X=2 BLOCKS_Y=2 BLOCKS=4 BLK_BITS=1 \
+    COMPOSITE_LANES=$lanes SLICES=$((4 / lanes)) SLICE_BITS=$((3 - lanes)) >"$package_file"
+  pipe compositor_lanes_$lanes
+  holds compositor_lanes_$lanes 2 "compositor: the same where a block is $((4 / lanes)) slices, and the tap has all of them"
+  happens compositor_lanes_$lanes 20
+done
+pipe_broken slice_of_the_next "s/slice_q\[3\] == LB'(r)/slice_q[2] == LB'(r)/"
+if [ -z "$short" ]; then
+  pipe_broken first_slice_kept "s/assign written = valid_q\[6\] \&\& (R == 1 || slice_q\[6\] == LB'(B \/ C));/assign written = valid_q[6] \&\& slice_q[6] == '0;/"
 fi
 
 # --- the whole: 2 x 2 blocks, the data path cut off

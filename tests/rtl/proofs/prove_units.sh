@@ -38,6 +38,13 @@ csr_broken clear_wins "s/irq_q <= (irq_q & ~(\(.*\))) | {\(.*\)};/irq_q <= (irq_
 csr_broken refused_for_ever 's/{error_i && !error_q, tile_i/{error_i, tile_i/'
 csr_broken mask_unasked "s/irq_o <= (irq_q & irq_mask_q) != '0;/irq_o <= irq_q != '0;/"
 
+# The same with counters of 16 bits, which go round.
+sed 's/\(localparam int COUNTER_BITS\) = .*;/\1 = 16;/' "$work/csr_pkg.sv" >"$work/csr_short_pkg.sv"
+smt csr_short csr "$work/csr_short_pkg.sv"
+holds csr_short 3 "csr: the same where counters have 16 bits and go round"
+smt csr_short_one_bit_less csr "$work/csr_short_pkg.sv" 's/64.(counter_q\[n\]);/{49'"'"'d0, counter_q[n][14:0]};/'
+refuted csr_short_one_bit_less 8
+
 # --- pixel out: tiles up to 4 x 4 of 2 x 2 lanes, words of a few bits
 sed -e 's/\(localparam int \(STATE_BITS\|TRANS_BITS\)\) = .*;/\1 = 3;/' -e 's/\(localparam int SHEET_BITS\) = .*;/\1 = 2;/' \
   -e 's/\(localparam int \(TRANS_FRAC\|PIXEL_BITS\)\) = .*;/\1 = 2;/' -e 's/\(localparam int ADDR_BITS\) = .*;/\1 = 2;/' \

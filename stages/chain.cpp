@@ -21,7 +21,9 @@ const scene::Scene& drawable(const scene::Scene& scene, const cmodel::Config& co
   scene::Offers offers = driver::offers(config);
   // Steps are of circles in sheets.
   if (config.has_ellipses()) offers = {"error attribution", offers.methods, 0u};
+  if (config.composite_every_sample != 0) offers.engine = "error attribution";
   offers.methods &= ~scene::only(scene::Method::Westover);
+  offers.methods_elsewhere = 0u;
   scene::check_capability(scene, offers);
   return scene;
 }

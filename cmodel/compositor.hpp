@@ -19,13 +19,12 @@ class Compositor {
 
   SlabOpacity& opacity() { return opacity_; }
   void begin_tile(Mode mode, int width, int height) {
-    mode_ = mode;
+    mode_ = slab_mode(mode);
     width_ = width;
     pixels_.assign(static_cast<std::size_t>(width) * height, PixelState{0, 0, 0, mode == Mode::Sum ? 0 : one_});
   }
-  Mode mode() const { return mode_; }
 
-  /// The sheet's sums at pixel (x,y) into the picture.
+  /// The sums of a sheet, or of one sample, at pixel (x,y) into the picture.
   template <class Observer>
   void step(const SheetWord& sums, int x, int y, Counters& counters, Observer& observer) {
     PixelState& pixel = pixels_[static_cast<std::size_t>(y) * width_ + x];

@@ -114,6 +114,13 @@ constexpr std::array kKeys{
               .power_of_two = false,
               .meaning = "width of the device's counters, which go round",
               .neutral = 64},
+    ConfigKey{.name = "composite.every_sample",
+              .member = &Config::composite_every_sample,
+              .min = 0,
+              .max = 1,
+              .power_of_two = false,
+              .meaning = "1: the device composites every sample of a tile that asks for it, in the order of its splats",
+              .neutral = 0},
 };
 
 ErrorParts violation(const char* key, std::string what, std::string expected, int got, std::string fix) {

@@ -74,6 +74,7 @@ struct Config {
 
   int composite_lanes = 0;  ///< C as it is written; 0: P^2
   int counter_bits = 64;
+  int composite_every_sample = 0;  ///< 1: a tile may ask for every sample to be composited
 
   bool operator==(const Config&) const = default;
 

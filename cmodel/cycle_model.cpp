@@ -14,6 +14,13 @@ std::uint64_t wipe_cycles(const Config& config) {
 }
 
 std::optional<ErrorParts> cycle_violation(const Config& config) {
+  if (config.composite_every_sample != 0) {
+    return ErrorParts{.where = "composite.every_sample",
+                      .what = "cycles are counted of sheets only",
+                      .expected = "0",
+                      .got = std::to_string(config.composite_every_sample),
+                      .fix = "use a configuration without it"};
+  }
   if (config.has_phases()) return std::nullopt;  // a window a cycle, like the RLUT's
   return ErrorParts{.where = "index.kind",
                     .what = "goes along scan lines, and cycles are counted for all P x P pixels at once",
@@ -28,7 +35,7 @@ CycleModel::CycleModel(const Config& config, StreamScope scope, const CycleOptio
       decode_(config, scope),
       sets_(static_cast<std::size_t>(config.rlut_sets)),
       dirty_(config.lanes),
-      delay_(config.has_ellipses() ? stages::kEllipseDelay : 0),
+      delay_(stages::splat_delay(config)),
       next_offer_(options.first_beat),
       check_free_(wipe_cycles(config)),
       end_(check_free_) {}

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "cmodel/config.hpp"
+
 namespace fastsplat::cmodel::stages {
 
 // The two stages of check: from the cycle in which each takes a beat to the earliest in which it passes it on.
@@ -11,6 +13,7 @@ inline constexpr std::uint64_t kJudge = 1;
 
 // A device with ellipses: all windows go down the splat path so much later, for their words take so long.
 inline constexpr std::uint64_t kEllipseDelay = 10;
+inline std::uint64_t splat_delay(const Config& config) { return config.has_ellipses() ? kEllipseDelay : 0; }
 
 // From the cycle in which decode issues a window.
 inline constexpr std::uint64_t kSnap = 2;       ///< c1: the snapped origin

@@ -12,6 +12,7 @@ Model::Model(const Config& config, StreamScope scope, PixelSink& pixels, TapSink
       ellipse_(config),
       radial_(config),
       sheet_(config),
+      lane_(config),
       compositor_(config),
       pixel_out_(config),
       pixels_(pixels),
@@ -128,10 +129,36 @@ void Model::ellipse(const EllipseRecord& record, Observer& observer) {
 template <class Record, class Observer>
 void Model::window(const Record& record, std::int32_t x, std::int32_t y, Observer& observer) {
   ++counters_.windows;
+  if (every_sample(tile_.mode)) {
+    samples(record, x, y, observer);
+    return;
+  }
   sheet_.accumulate(x, y, weights_, record.colour, counters_, observer);
   if (taps_ != nullptr) {
     tap(Tap::Footprint, record.tag, x, y, weights_);
     tap(Tap::Sheet, record.tag, x, y, gather(x, y, [&](int i, int j) { return sheet_.at(i, j).data(); }));
+  }
+}
+
+template <class Record, class Observer>
+void Model::samples(const Record& record, std::int32_t x, std::int32_t y, Observer& observer) {
+  const int lanes = config_.lanes;
+  const int left = std::max(0, -x), right = std::min(lanes, tile_.width - x);
+  const int top = std::max(0, -y), bottom = std::min(lanes, tile_.height - y);
+  for (int j = top; j < bottom; ++j) {
+    for (int i = left; i < right; ++i) {
+      const std::uint32_t weight = weights_[static_cast<std::size_t>(j) * lanes + i];
+      ++counters_.lanes_inside;
+      if (weight == 0) continue;
+      ++counters_.lanes_weighted;
+      SheetWord products;
+      for (std::size_t c = 0; c < 4; ++c) products[c] = lane_.product(record.colour[c], weight, observer);
+      compositor_.step(products, x + i, y + j, counters_, observer);
+    }
+  }
+  if (taps_ != nullptr) {
+    tap(Tap::Footprint, record.tag, x, y, weights_);
+    tap(Tap::Composite, record.tag, x, y, gather(x, y, [&](int i, int j) { return compositor_.at(i, j).data(); }));
   }
 }
 

@@ -41,6 +41,9 @@ class Model final : public Device {
   void ellipse(const EllipseRecord& record, Observer& observer);
   template <class Record, class Observer>
   void window(const Record& record, std::int32_t x, std::int32_t y, Observer& observer);
+  /// Mode bit "every sample": the window's products into the picture, at once.
+  template <class Record, class Observer>
+  void samples(const Record& record, std::int32_t x, std::int32_t y, Observer& observer);
   template <class Observer>
   void end_sheet(Observer& observer);
   template <class Observer>
@@ -57,6 +60,7 @@ class Model final : public Device {
   EllipseUnit ellipse_;
   RadialTable radial_;  ///< the ellipses'
   SheetBuffer sheet_;
+  Lane lane_;  ///< of every sample
   Compositor compositor_;
   PixelOut pixel_out_;
   Counters counters_;

@@ -208,7 +208,9 @@ void StreamDecode::check(const BeginTile& record) {
   if (!radial_loaded_) refuse("no radial table before the first tile", "load_table 1", "begin_tile");
   if (!factor_loaded_) refuse("no slab factor table before the first tile", "load_table 2", "begin_tile");
   rule_ = StreamRule::Tile;
-  if (record.mode > Mode::Sum) refuse("unknown mode", "0, 1 or 2", std::to_string(static_cast<int>(record.mode)));
+  if (record.mode > Mode::Sum && !(config_.composite_every_sample != 0 && every_sample(record.mode)))
+    refuse("unknown mode", config_.composite_every_sample != 0 ? "0, 1, 2, 4 or 5" : "0, 1 or 2",
+           std::to_string(static_cast<int>(record.mode)));
   expect_most(std::int64_t{record.tile} + 1, frame_.tiles, "more tiles than announced");
   expect_within(record.width, 1, config_.tile_width, "tile width");
   expect_within(record.height, 1, config_.tile_height, "tile height");

@@ -22,7 +22,13 @@ enum class Opcode : std::uint8_t {
 };
 
 enum class Table : std::uint8_t { Rlut = 0, Radial = 1, Factor = 2 };
-enum class Mode : std::uint8_t { Exponential = 0, Additive = 1, Sum = 2 };
+/// What a tile does with sums: of a sheet, or (bit 2) with the products of every window.
+enum class Mode : std::uint8_t { Exponential = 0, Additive = 1, Sum = 2, SampleExponential = 4, SampleAdditive = 5 };
+constexpr bool every_sample(Mode mode) { return mode == Mode::SampleExponential || mode == Mode::SampleAdditive; }
+/// Exponential, Additive or Sum.
+constexpr Mode slab_mode(Mode mode) {
+  return every_sample(mode) ? static_cast<Mode>(static_cast<unsigned>(mode) & 3U) : mode;
+}
 
 constexpr std::uint32_t kStreamMagic = 0x31535346;  // "FSS1"
 constexpr int kStreamVersion = 2;

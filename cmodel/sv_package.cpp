@@ -7,7 +7,7 @@
 #include "base/hash_text.hpp"
 #include "cmodel/counters.hpp"
 #include "cmodel/cycle_stages.hpp"
-#include "cmodel/register_map.hpp"
+#include "cmodel/register_fields.hpp"
 #include "cmodel/sites.hpp"
 #include "cmodel/stall_counters.hpp"
 #include "cmodel/stream_decode.hpp"
@@ -67,6 +67,8 @@ std::optional<ErrorParts> rtl_violation(const Config& config) {
                       .got = text_of(config, *find_key("index.kind")),
                       .fix = "use the model for this configuration"};
   }
+  if (config.composite_every_sample != 0)
+    return refuse("composite.every_sample", "the RTL composites sheets only", "0", config.composite_every_sample);
   if (config.has_ellipses() && config.position_frac_bits < 1)
     return refuse("position.frac_bits", "the RTL's ellipses need a fraction bit", "at least 1",
                   config.position_frac_bits);
@@ -139,7 +141,7 @@ std::string sv_package(const Config& config) {
   p.number("ELLIPSES", ellipses ? 1 : 0);
   p.number("ELLIPSE_FRAC", config.ellipse_frac_bits);
   p.number("ELLIPSE_BITS", ellipses ? config.ellipse_format().word_bits : 1);
-  p.number("ELLIPSE_DELAY", ellipses ? static_cast<int>(stages::kEllipseDelay) : 0);
+  p.number("ELLIPSE_DELAY", static_cast<int>(stages::splat_delay(config)));
   p.number("SHAPE_BITS", ellipses ? 94 : 1);
   p.number("WINDOW_BITS", bits_for(ellipses ? std::max(config.rlut_columns, most_windows) : config.rlut_columns));
   p.number("WAY_BITS", ellipses ? 32 : config.phase_bits());
@@ -201,11 +203,7 @@ std::string sv_package(const Config& config) {
 
   p.section("counters, in the model's order, then cycles");
   int counters = 0;
-  Counters{}.for_each(
-      [&](const char* name, std::uint64_t, const char*) { p.number("CNT_" + upper(name), counters++); });
-#define X(name, counter, meaning) p.number("CNT_" #counter, counters++);
-  FASTSPLAT_STALL_COUNTERS(X)
-#undef X
+  for (const CounterEntry& counter : counter_entries()) p.number("CNT_" + counter.name, counters++);
   p.number("COUNTERS", counters);
   p.number("COUNTER_BITS", config.counter_bits);
 

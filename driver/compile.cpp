@@ -16,8 +16,9 @@ namespace {
 
 cmodel::Mode mode_of(const scene::SceneDescription& description) {
   if (description.method == scene::Method::XRay) return cmodel::Mode::Sum;
-  return description.slab_opacity == scene::SlabOpacity::Exponential ? cmodel::Mode::Exponential
-                                                                     : cmodel::Mode::Additive;
+  const bool exponential = description.slab_opacity == scene::SlabOpacity::Exponential;
+  if (every_sample(description)) return exponential ? cmodel::Mode::SampleExponential : cmodel::Mode::SampleAdditive;
+  return exponential ? cmodel::Mode::Exponential : cmodel::Mode::Additive;
 }
 
 const cmodel::Config& checked(const scene::Scene& scene, const cmodel::Config& device) {
@@ -25,8 +26,9 @@ const cmodel::Config& checked(const scene::Scene& scene, const cmodel::Config& d
   return device;
 }
 
-/// The device takes sheets, whatever the method that makes them.
+/// The device takes sheets, whatever the method that makes them; where every sample is composited one holds them all.
 scene::SheetPlan plan_for_device(const scene::Scene& scene) {
+  if (every_sample(scene.description)) return {scene::SheetUse::OneSheet, {.count = 1}};
   const scene::SheetPlan plan = scene::sheet_plan(scene);
   assert(plan.use != scene::SheetUse::None && "refused by check_capability");
   return plan;
@@ -161,13 +163,21 @@ std::uint32_t CompiledFrame::State::emit_sheet(int tile, int sheet, std::uint32_
 
 scene::Offers offers(const cmodel::Config& config) {
   using scene::Method, scene::only;
-  const scene::Methods sheets = only(Method::ImageAligned) | only(Method::AxisAligned) | only(Method::XRay);
-  if (config.has_ellipses()) return {"device with ellipses", sheets, static_cast<unsigned>(scene::Feature::Footprints)};
-  return {.engine = "device",
-          .methods = sheets,
-          .features = 0u,
-          .footprints_fix = "choose a configuration with ellipses, "};
+  scene::Offers out{.engine = "device",
+                    .methods = only(Method::ImageAligned) | only(Method::AxisAligned) | only(Method::XRay),
+                    .features = 0u,
+                    .footprints_fix = "choose a configuration with ellipses, ",
+                    .methods_elsewhere = only(Method::Westover),
+                    .methods_fix = "set composite.every_sample = 1, "};
+  if (config.has_ellipses()) {
+    out.engine = "device with ellipses";
+    out.features = static_cast<unsigned>(scene::Feature::Footprints);
+  }
+  if (config.composite_every_sample != 0) out.methods |= only(Method::Westover);
+  return out;
 }
+
+bool every_sample(const scene::SceneDescription& description) { return description.method == scene::Method::Westover; }
 
 CompiledFrame::CompiledFrame(const scene::Scene& scene, const cmodel::Config& config, int threads, int band_rows)
     : state_(std::make_unique<const State>(scene, config, threads, band_rows)) {}

@@ -51,10 +51,11 @@ class Slices {
   }
   /// The most slabs that a kernel reaches beyond its first.
   int reach() const;
-  // The same of a kernel that has grown.
+  // The same of a kernel that has grown; beyond all depths there are it is not deeper.
+  static constexpr std::uint64_t kDeepest = std::uint64_t{1} << 28;
   DepthGrowth growth(std::uint32_t shrink) const {
     const auto words = static_cast<std::uint32_t>(middle_) << 16;
-    return {shrink, static_cast<std::int32_t>((words + shrink - 1) / shrink)};
+    return {shrink, static_cast<std::int32_t>(std::min((std::uint64_t{words} + shrink - 1) / shrink, kDeepest))};
   }
   int first(std::int32_t depth, const DepthGrowth& growth) const {
     return last_that(depth - growth.half, [front = depth - growth.half](std::int32_t at) { return at <= front; });

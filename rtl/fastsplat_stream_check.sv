@@ -35,6 +35,9 @@ module fastsplat_stream_check (
   localparam int FB = fastsplat_pkg::FACTOR_BITS;
   localparam int WB = fastsplat_pkg::WORDS_BITS;
   localparam int RULES = fastsplat_pkg::RULE_END_COUNT;
+  // Judged by what is counted of the beats before.
+  localparam logic [RULES:0] COUNTED = (RULES + 1)'(1) << fastsplat_pkg::RULE_SHEET | (RULES + 1)'(1) << fastsplat_pkg::RULE_TAG |
+                                       (RULES + 1)'(1) << fastsplat_pkg::RULE_END_NUMBER | (RULES + 1)'(1) << fastsplat_pkg::RULE_END_COUNT;
   // Comparisons of order, not of equality, with words that are no constants.
   localparam logic [RULES:0] LATE = (RULES + 1)'(1) << fastsplat_pkg::RULE_TILE | (RULES + 1)'(1) << fastsplat_pkg::RULE_SHEET;
 
@@ -42,8 +45,9 @@ module fastsplat_stream_check (
   typedef enum logic [2:0] {PlStart, PlTables, PlWords, PlTile, PlSheet} place_e;
 
   // ---- first stage: what is known of a beat before its place is. Numbers and counts are of the records before it, words of tables
-  // taken for records too: those lie outside of tiles, and begin_tile and begin_sheet begin anew.
-  logic next_valid_q, next_moves;
+  // taken for records too: those lie outside of tiles, and begin_tile and begin_sheet begin anew. A beat is counted in its first cycle
+  // here, for no handshake decides that; what counts said of it is kept while it waits.
+  logic next_valid_q, next_moves, next_new_q;
   logic [fastsplat_pkg::BEAT_BITS-1:0] next_q;
   logic [31:0] n1;
   logic [7:0] next_opcode;
@@ -56,7 +60,8 @@ module fastsplat_stream_check (
   logic [31:0] tiles_q;
   logic [fastsplat_pkg::RLUT_SETS-1:0] sets_loaded_q;
 
-  logic [RULES:0] next_broken;
+  logic [RULES:0] next_broken, found_broken, counted_broken_q;
+  assign next_broken = next_new_q ? found_broken : (found_broken & ~COUNTED) | counted_broken_q;
   logic [COL-1:0] next_extent;
   fastsplat_record_rules u_record (
       .beat_i(next_q),
@@ -69,7 +74,7 @@ module fastsplat_stream_check (
       .sheets_i(sheets_q),
       .splats_i(splats_q),
       .tag_i(tag_q),
-      .broken_o(next_broken),
+      .broken_o(found_broken),
       .extent_o(next_extent)
   );
   logic [fastsplat_pkg::BEAT_WORDS-1:0] next_zero, next_rlut, next_radial, next_factor, next_falls;
@@ -92,8 +97,10 @@ module fastsplat_stream_check (
     endcase
   end
   always_ff @(posedge clk_i) begin
-    if (next_moves) begin
-      word_before_q <= next_q[32*(fastsplat_pkg::BEAT_WORDS-1)+:FB];
+    if (next_moves) word_before_q <= next_q[32*(fastsplat_pkg::BEAT_WORDS-1)+:FB];
+    next_new_q <= ready_o && valid_i;
+    if (next_new_q) begin
+      counted_broken_q <= found_broken & COUNTED;
       case (next_opcode)
         fastsplat_pkg::OP_BEGIN_TILE: begin
           tile_q <= n1;
@@ -180,13 +187,15 @@ module fastsplat_stream_check (
   end
 
   // ---- passing on, or ending what is open
-  logic reset_q, stopped, judged, refused, moves, ends;
+  // No enable of a register waits for the verdict: where decode is ready a beat leaves, and the one behind it follows, be it broken or
+  // not. A refusal empties both, and what else was written in that cycle counts for nothing: the next begin_frame begins anew.
+  logic reset_q, stopped, judged, refused, leaves, ends;
   assign stopped = error_o || (reset_q && !next_valid_q && !beat_valid_q);  // beats that are here are judged still
   assign judged = beat_valid_q && !error_o;
   assign refused = judged && broken;
-  assign moves = judged && !broken && ready_i;
+  assign leaves = judged && ready_i;
   assign ends = stopped && (place_q == PlTile || place_q == PlSheet);
-  assign next_moves = next_valid_q && !error_o && (!beat_valid_q || moves);
+  assign next_moves = next_valid_q && !error_o && (!beat_valid_q || leaves);
   assign ready_o = enable_i && !reset_q && (!next_valid_q || next_moves || error_o);
   assign valid_o = ends || (judged && !broken);
   assign data_o = {beat_q[fastsplat_pkg::BEAT_BITS-1:8], !ends ? opcode : (place_q == PlSheet) ? fastsplat_pkg::OP_END_SHEET : fastsplat_pkg::OP_END_TILE};
@@ -200,19 +209,11 @@ module fastsplat_stream_check (
       next_valid_q <= valid_i;
       next_q <= data_i;
     end
-    if (moves) beat_valid_q <= 1'b0;
+    if (leaves) beat_valid_q <= 1'b0;
     if (next_moves) beat_valid_q <= 1'b1;
-    if (refused) begin
-      next_valid_q <= 1'b0;
-      beat_valid_q <= 1'b0;
-      error_o <= 1'b1;
-      error_rule_o <= rule;
-      error_opcode_o <= opcode;
-      error_beat_o <= beats_q;
-    end
     if (ends && ready_i) place_q <= (place_q == PlSheet) ? PlTile : PlTables;
 
-    if (moves) begin
+    if (leaves) begin
       beats_q <= beats_q + 32'd1;
       words_left_q <= words_left_next;
       for (int i = 0; i < fastsplat_pkg::BEAT_WORDS; i++) there_q[i] <= words_left_next > WB'(i);
@@ -256,6 +257,15 @@ module fastsplat_stream_check (
           default: ;
         endcase
       end
+    end
+    if (refused) begin
+      next_valid_q <= 1'b0;
+      beat_valid_q <= 1'b0;
+      place_q <= place_q;  // what is open is what is ended
+      error_o <= 1'b1;
+      error_rule_o <= rule;
+      error_opcode_o <= opcode;
+      error_beat_o <= beats_q;
     end
 
     if (reset_i) reset_q <= 1'b1;

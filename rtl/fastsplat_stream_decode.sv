@@ -131,12 +131,13 @@ module fastsplat_stream_decode (
   logic [1:0] busy_q;
   logic buffer_q;
 
+  // Of what kind the record in the register is: read off on its way there, for the source's handshake waits for it.
+  logic splat_q, begins_sheet_q, waits_for_rest_q;
   logic is_splat, wait_buffer, wait_tile;
-  assign is_splat = beat_valid_q && !payload_q && (opcode == fastsplat_pkg::OP_SPLAT || is_ellipse);
-  assign wait_buffer = beat_valid_q && !payload_q && opcode == fastsplat_pkg::OP_BEGIN_SHEET && busy_q[buffer_q];
+  assign is_splat = beat_valid_q && splat_q;
+  assign wait_buffer = beat_valid_q && begins_sheet_q && busy_q[buffer_q];
   // A sheet on its way through the splat path keeps its buffer busy, so "all buffers free" covers the pipe as well.
-  assign wait_tile = beat_valid_q && !payload_q && (opcode == fastsplat_pkg::OP_BEGIN_TILE || opcode == fastsplat_pkg::OP_END_TILE) &&
-                     (!tile_idle_i || busy_q != '0);
+  assign wait_tile = beat_valid_q && waits_for_rest_q && (!tile_idle_i || busy_q != '0);
   always_comb begin
     take = beat_valid_q;
     if (payload_q) take = beat_valid_q && (last_word_q || word_in_beat_q == LAST_WORD);
@@ -164,6 +165,9 @@ module fastsplat_stream_decode (
       beat_q <= data_i;
       payload_q <= payload_i;
       aborted_q <= aborted_i;
+      splat_q <= !payload_i && (data_i[7:0] == fastsplat_pkg::OP_SPLAT || ellipse_next);
+      begins_sheet_q <= !payload_i && data_i[7:0] == fastsplat_pkg::OP_BEGIN_SHEET;
+      waits_for_rest_q <= !payload_i && (data_i[7:0] == fastsplat_pkg::OP_BEGIN_TILE || data_i[7:0] == fastsplat_pkg::OP_END_TILE);
       last_column_q <= ellipse_next ? data_i[86+:5] == '0 : single_q[data_i[8+:fastsplat_pkg::SET_BITS]];
       last_row_q <= ellipse_next ? data_i[91+:5] == '0 : single_q[data_i[8+:fastsplat_pkg::SET_BITS]];
     end
@@ -253,6 +257,9 @@ module fastsplat_stream_decode (
                     $onehot0({tile_begin, tile_end_o, event_splat_o, event_cull_o, rlut_we_o, radial_we_o, factor_we_o}))
   `FASTSPLAT_ASSERT(window_in_open_sheet, !window_valid_o || busy_q[window_buffer_o])
   `FASTSPLAT_ASSERT(only_busy_buffers_come_back, !free_i || busy_q[free_buffer_i])
+  `FASTSPLAT_ASSERT(kind_foretold, !beat_valid_q || {splat_q, begins_sheet_q, waits_for_rest_q} ==
+                    {!payload_q && (opcode == fastsplat_pkg::OP_SPLAT || is_ellipse), !payload_q && opcode == fastsplat_pkg::OP_BEGIN_SHEET,
+                     !payload_q && (opcode == fastsplat_pkg::OP_BEGIN_TILE || opcode == fastsplat_pkg::OP_END_TILE)})
   `FASTSPLAT_ASSERT(last_window_foretold, !is_splat || (last_column_q == (column_q + WIN'(P) >= extent_x) && last_row_q == (row_q + WIN'(P) >= extent_y)))
   `FASTSPLAT_COVER(sheet_waits_for_buffer, wait_buffer)
   `FASTSPLAT_COVER(both_buffers_busy, busy_q == 2'b11)

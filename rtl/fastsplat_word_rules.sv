@@ -11,11 +11,10 @@ module fastsplat_word_rules (
     output logic [fastsplat_pkg::BEAT_WORDS-1:0] falls_o     // no larger than the word before
 );
   localparam int FB = fastsplat_pkg::FACTOR_BITS;
-  // word <= most: a constant, mostly 2^n or 2^n - 1, which cost no comparison.
+  // word <= most: a constant, 2^n or 2^n - 1, which cost no comparison.
   function automatic logic at_most(input logic [31:0] word, input logic [31:0] most);
     if ((most & (most + 32'd1)) == '0) at_most = (word & ~most) == '0;
-    else if ((most & (most - 32'd1)) == '0) at_most = (word & ~(most | (most - 32'd1))) == '0 && ((word & most) == '0 || (word & (most - 32'd1)) == '0);
-    else at_most = word <= most;
+    else at_most = (word & ~(most | (most - 32'd1))) == '0 && ((word & most) == '0 || (word & (most - 32'd1)) == '0);
   endfunction
 
   for (genvar i = 0; i < fastsplat_pkg::BEAT_WORDS; i++) begin : gen_word

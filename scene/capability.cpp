@@ -58,7 +58,8 @@ std::optional<ErrorParts> refusal(const SceneDescription& description, const Off
                     .what = fmt::format("the {} has no method '{}'", offers.engine, method),
                     .expected = listed(offers.methods),
                     .got = method,
-                    .fix = "choose one of these, or --engine golden"};
+                    .fix = fmt::format("{}choose one of these, or --engine golden",
+                                       offers.methods_elsewhere & only(description.method) ? offers.methods_fix : "")};
 }
 
 std::optional<ErrorParts> refusal(const Given& given, const SceneDescription& description) {

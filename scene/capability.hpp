@@ -28,6 +28,8 @@ struct Offers {
   Methods methods;
   unsigned features;                     ///< Features, or'ed
   const char* footprints_fix = nullptr;  ///< how to have Feature::Footprints, where another of its kind has it
+  Methods methods_elsewhere = 0u;        ///< methods that another of its kind has, and how to have it
+  const char* methods_fix = "";
 };
 inline constexpr Offers kOffersAll{"golden", kAllMethods, 15u};
 

@@ -19,7 +19,11 @@ constexpr int kRows = 16;  ///< of a band: its sheets stay in the cache
 
 const scene::Scene& drawable(const scene::Scene& scene, const cmodel::Config& config) {
   scene::Offers offers = driver::offers(config);
-  if (config.has_ellipses()) offers = {"error attribution", offers.methods, 0u};  // steps are of circles
+  // Steps are of circles in sheets.
+  if (config.has_ellipses()) offers = {"error attribution", offers.methods, 0u};
+  if (config.composite_every_sample != 0) offers.engine = "error attribution";
+  offers.methods &= ~scene::only(scene::Method::Westover);
+  offers.methods_elsewhere = 0u;
   scene::check_capability(scene, offers);
   return scene;
 }

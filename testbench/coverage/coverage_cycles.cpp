@@ -14,7 +14,9 @@ constexpr std::uint64_t kDistances = 8;
 constexpr std::uint64_t kLeastSwap = 3;
 /// The most windows that a sheet can issue before the walk of the one before begins: a walk that is late because of an
 /// earlier one holds back the sheet's own begin_sheet as well.
-constexpr std::uint64_t kWalkBegins = cmodel::stages::kWalk - 2;
+std::uint64_t walk_begins(const cmodel::Config& config) {
+  return cmodel::stages::splat_delay(config) + cmodel::stages::kWalk - 2;
+}
 constexpr std::uint64_t kWalkEnds = 16;
 constexpr std::uint64_t kSheetSizes = 41;
 
@@ -64,7 +66,7 @@ CycleCoverage::CycleCoverage(const cmodel::Config& config, Coverage& coverage)
   whole_overlap_ = distances("whole_window_", 1, 4);
   part_overlap_ = distances("part_of_window_", 1, 4);
   windows_in_sheet_ = coverage.declare_range("swap", "sheet_of_windows_", kSheetSizes);
-  walk_begins_ = coverage.declare_range("swap", "walk_begins_at_window_", kWalkBegins + 1);
+  walk_begins_ = coverage.declare_range("swap", "walk_begins_at_window_", walk_begins(config) + 1);
   walk_begins_after_ = coverage.declare("swap", "walk_begins_after_the_sheet");
   walk_ends_ = coverage.declare_range("swap", "walk_ends_at_window_", kWalkEnds + 1);
   walk_ends_after_ = coverage.declare("swap", "walk_ends_after_the_sheet");
@@ -119,7 +121,7 @@ void CycleCoverage::on_tap(const cmodel::TapRecord& record) {
 }
 
 void CycleCoverage::window(const cmodel::TapRecord& record) {
-  const std::uint64_t issued = record.cycle - cmodel::stages::kSheet;
+  const std::uint64_t issued = record.cycle - cmodel::stages::splat_delay(config_) - cmodel::stages::kSheet;
   if (walk_known_) {
     if (issued < before_.walk_from) ++windows_before_walk_;
     if (issued < before_.walk_to) ++windows_before_end_;
@@ -157,11 +159,12 @@ void CycleCoverage::hazards(const cmodel::TapRecord& record) {
 void CycleCoverage::on_sheet(const cmodel::SheetCycles& sheet) {
   if (sheet.windows < kSheetSizes) coverage_.hit(windows_in_sheet_ + sheet.windows);
   if (sheet.begun > sheet.offered) coverage_.hit(buffer_wait_ + length(sheet.begun - sheet.offered));
-  coverage_.hit(sheet.walk_from > sheet.closed + cmodel::stages::kWalk ? walk_waits_ : walk_at_once_);
+  const std::uint64_t soonest = sheet.closed + cmodel::stages::splat_delay(config_) + cmodel::stages::kWalk;
+  coverage_.hit(sheet.walk_from > soonest ? walk_waits_ : walk_at_once_);
   if (sheet.blocks == 0) coverage_.hit(empty_walk_);
   if (walk_known_) {
     if (windows_before_walk_ < sheet.windows)
-      coverage_.hit(walk_begins_ + std::min(windows_before_walk_, kWalkBegins));
+      coverage_.hit(walk_begins_ + std::min(windows_before_walk_, walk_begins(config_)));
     else
       coverage_.hit(walk_begins_after_);
     if (windows_before_end_ < sheet.windows)

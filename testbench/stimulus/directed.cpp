@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 #include "cmodel/model.hpp"
-#include "cmodel/register_map.hpp"
+#include "cmodel/register_fields.hpp"
 #include "cmodel/stream_layout.hpp"
 #include "testbench/check/verify.hpp"
 #include "testbench/stimulus/directed_stream.hpp"

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "cmodel/records.hpp"
-#include "cmodel/register_map.hpp"
+#include "cmodel/register_fields.hpp"
 
 namespace fastsplat::testbench {
 namespace {

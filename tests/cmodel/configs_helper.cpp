@@ -38,7 +38,8 @@ std::map<std::string, std::string> read_keys(const std::string& path) {
 /// Numbers that may be absent.
 constexpr std::array kNumbers{std::pair{"ellipse.frac_bits", &oracle::Symbols::f},
                               std::pair{"composite.lanes", &oracle::Symbols::C},
-                              std::pair{"counters.bits", &oracle::Symbols::counter_bits}};
+                              std::pair{"counters.bits", &oracle::Symbols::counter_bits},
+                              std::pair{"composite.every_sample", &oracle::Symbols::every_sample}};
 
 cmodel::Config named_config(const std::string& name) {
   const auto read = read_keys(std::string(FASTSPLAT_SOURCE_DIR) + "/configs/" + name + ".toml");

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "cmodel/counters.hpp"
-#include "cmodel/register_map.hpp"
+#include "cmodel/register_fields.hpp"
 #include "cmodel/stream_layout.hpp"
 #include "cmodel/stream_rules.hpp"
 #include "cmodel/sv_package.hpp"
@@ -172,7 +172,8 @@ TEST(NumericsPage, KeysAndBaseValuesAreTheConfigurations) {
   const std::size_t required = oracle::keys().size();
   std::vector<std::string> optional;
   for (const oracle::RoundingKey& key : oracle::rounding_keys()) optional.emplace_back(key.name);
-  for (const char* key : {"rounding.carry", "index.kind", "index.symmetry", "ellipse.frac_bits", "composite.lanes", "counters.bits"})
+  for (const char* key : {"rounding.carry", "index.kind", "index.symmetry", "ellipse.frac_bits", "composite.lanes",
+                          "counters.bits", "composite.every_sample"})
     optional.emplace_back(key);
   ASSERT_EQ(rows.size(), required + optional.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {

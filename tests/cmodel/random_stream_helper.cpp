@@ -160,12 +160,17 @@ class Generator {
     w.load_table(2, 0, 0, 0, words);
   }
 
+  int mode() {
+    const auto drawn = static_cast<int>(r.between(0, c.every_sample != 0 ? 4 : 2));
+    return drawn > 2 ? drawn + 1 : drawn;
+  }
+
   void tile(std::uint32_t number) {
     int width = static_cast<int>(r.between(1, std::min(c.W, 3 * c.P + 8)));
     int height = static_cast<int>(r.between(1, std::min(c.H, 3 * c.P + 8)));
     if (r.once_in(8)) width = height = 1;
     if (r.once_in(8) || c.W * c.H <= 1600) width = c.W, height = c.H;
-    w.begin_tile(static_cast<int>(r.between(0, 2)), number, static_cast<int>(r.between(0, image_width - width)),
+    w.begin_tile(mode(), number, static_cast<int>(r.between(0, image_width - width)),
                  static_cast<int>(r.between(0, image_height - height)), width, height);
     // Bright tiles freeze and saturate; dim ones keep many sheets visible.
     const int dimming = static_cast<int>(r.one_of({0, 1, 2, 4, 6}));

@@ -213,6 +213,23 @@ TEST(Ellipses, ThinFootprintsAreWidenedAndTold) {
   EXPECT_DOUBLE_EQ(dot.yy, kThinnest * kThinnest);
 }
 
+TEST(Ellipses, KernelsGrownBeyondTheWordShareOutAllTheSame) {
+  auto description = view_of("shells:8", 16);
+  description.method = scene::Method::XRay;
+  description.xray_sheets = 4;
+  description.xray_exposure = 1e6;
+  description.opacity_scale = 1e6;
+  description.footprint.antialias = true;
+  description.camera.zoom = 1e-6;  // a kernel is a million times as deep as it was, and the word of 1/lambda has 16 bits
+  const auto device = render(scene::build_scene(description), load_config("ellipse"));
+  const std::uint64_t voxels = device.report.voxels - device.report.vanished_voxels;
+  figure("voxels", static_cast<double>(voxels));
+  figure("records", static_cast<double>(device.counters.splats));
+  EXPECT_GT(voxels, 0u);
+  // Half of each in the first sheet and half in the last, and a step of the table where it crosses a boundary between.
+  EXPECT_EQ(device.counters.splats, 3 * voxels);
+}
+
 TEST(Ellipses, TooWideIsRefusedWithBothNumbers) {
   auto description = view_of("shells:12", 64);
   description.motion.translate = {1000.0, 0.0, 0.0};

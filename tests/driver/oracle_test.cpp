@@ -129,6 +129,24 @@ TEST(DriverOracle, WordsVanishAndSaturateAtTheSameDouble) {
   print_and_expect_equal(figures);
 }
 
+TEST(DriverOracle, EverySampleIsOfOneSheetInItsOrder) {
+  OracleFigures figures;
+  for (const char* name : {"base", "tiny", "ellipse"}) {
+    auto config = load_config(name);
+    config.composite_every_sample = 1;
+    for (const auto projection : kProjections) {
+      for (const auto opacity : {scene::SlabOpacity::Exponential, scene::SlabOpacity::Additive}) {
+        auto description = row_from_the_left();
+        description.method = scene::Method::Westover;
+        description.slab_opacity = opacity;
+        description.camera.projection = projection;
+        compare_with_oracle(std::string(name) + ", every sample", row_of(12, description), config, figures);
+      }
+    }
+  }
+  print_and_expect_equal(figures);
+}
+
 // A flat kernel in coarse sheets shows words longer than they are: what is owed is taken from the splats behind.
 TEST(DriverOracle, WhatIsShownTooLongIsOwed) {
   OracleFigures figures;

@@ -52,10 +52,14 @@ TEST(Slices, grown_kernels_telescope_too_and_reach_as_far_as_they_say) {
     for (std::int32_t depth = 0; depth <= slices.quantise_depth(40.0); depth += 7) {
       std::array<std::uint64_t, 4> sum{};
       const int first = slices.first(depth, grown);
-      if (growth == 1.0) EXPECT_EQ(first, slices.first(depth));
+      if (growth == 1.0) {
+        EXPECT_EQ(first, slices.first(depth));
+      }
       for (int s = 0; s < slices.count(); ++s) {
         const Share share = slices.share(whole, depth, s, grown);
-        if (growth == 1.0) EXPECT_EQ(share.words, slices.share(whole, depth, s).words);
+        if (growth == 1.0) {
+          EXPECT_EQ(share.words, slices.share(whole, depth, s).words);
+        }
         if (s < first || s > first + reach) outside += share.empty() ? 0 : 1;
         for (std::size_t c = 0; c < 4; ++c) sum[c] += share.words[c];
       }
@@ -71,6 +75,21 @@ TEST(Slices, grown_kernels_telescope_too_and_reach_as_far_as_they_say) {
   ASSERT_GT(sums, 10000u);
   EXPECT_EQ(wrong, 0u);
   EXPECT_EQ(outside, 0u);
+}
+
+TEST(Slices, a_kernel_grown_beyond_the_word_is_as_deep_as_the_page_says) {
+  auto config = load_config("base");
+  config.slice_phase_bits = 12;  // the deepest kernel there is
+  const Slices slices(config, scene::kernel_by_name("gauss2"), 0.7, 60);
+  const double step = std::ldexp(1.0, -config.slice_phase_bits), half_kernel = slices.growth(1U << 16).half * step;
+  for (const std::uint32_t shrink : {1U, 2U, 1000U}) {
+    const DepthGrowth grown = slices.growth(shrink);
+    const double said = std::min(half_kernel * 65536.0 / shrink / step, std::ldexp(1.0, 28));
+    figure("half depth", grown.half, "steps");
+    EXPECT_NEAR(grown.half, said, 1.0) << shrink;
+    EXPECT_EQ(slices.first(100, grown), 0) << shrink;
+    EXPECT_EQ(slices.reach(grown), slices.count() - 1) << shrink;
+  }
 }
 
 TEST(Slices, outlines_are_those_of_the_shares) {

@@ -42,8 +42,11 @@ TEST(EllipseFrames, TheDeviceEqualsTheModel) {
     std::uint64_t ellipses = 0;
     for (const auto& beat : beats)
       ellipses += get(beat, cmodel::layout::kOpcode) == static_cast<std::int64_t>(cmodel::Opcode::Ellipse) ? 1 : 0;
-    testbench::VerifyOptions options{
-        .config = config, .scope = cmodel::StreamScope::Subset, .ready = "random-50", .input = "burst-16"};
+    testbench::VerifyOptions options;
+    options.config = config;
+    options.scope = cmodel::StreamScope::Subset;
+    options.ready = "random-50";
+    options.input = "burst-16";
     options.device = [&](cmodel::PixelSink& pixels, const testbench::RtlOptions& rtl) {
       return faulty(Fault::None, Assertions::On)(config, pixels, rtl);
     };

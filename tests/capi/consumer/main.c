@@ -2,8 +2,12 @@
 // "pixels SUM" of all words; what goes wrong to stderr, with its status as the exit code.
 #include <fastsplat.h>
 #include <fastsplat_dpi.h>
+#include <fastsplat_registers.h>
 #include <inttypes.h>
 #include <stdio.h>
+
+_Static_assert(FASTSPLAT_REG_COUNTER_HIGH(FASTSPLAT_COUNTER_SHEETS) == 0x8Cu, "an address is one");
+_Static_assert(FASTSPLAT_ERROR_OPCODE_MASK == 0xFFu << FASTSPLAT_ERROR_OPCODE_BIT, "a mask is its field's");
 
 static int refused(fastsplat_status status) {
   fprintf(stderr, "%s\n", fastsplat_last_error());

@@ -123,16 +123,27 @@ class Renderer {
         ++out.counts["lanes_inside"];
         if (w > 0) ++out.counts["lanes_weighted"];
         Pixel& p = at(x0 + i, y0 + j);
-        p.hit = true;
         const Words sums_format = u(c.si, c.sf);
+        Four products;
+        for (std::size_t ch = 0; ch < 4; ++ch)
+          products[ch] = sat(c.Rp, Wide{splat.v[ch]} * w, c.cf + c.wf, sums_format, "product_saturated");
+        if (tile.mode >= 4) {
+          if (w > 0) {
+            ++out.counts["pixels_composited"];
+            if (p.C[3] < c.eps) ++out.counts["frozen_pixels"];
+            composite(p, products, tile.mode - 4);
+          }
+          for (const Wide value : p.C) sums.push_back(word(value));
+          continue;
+        }
+        p.hit = true;
         for (std::size_t ch = 0; ch < 4; ++ch) {
-          const Wide product = sat(c.Rp, Wide{splat.v[ch]} * w, c.cf + c.wf, sums_format, "product_saturated");
-          p.S[ch] = sat(Rounding::Trn, p.S[ch] + product, c.sf, sums_format, "sheet_saturated");
+          p.S[ch] = sat(Rounding::Trn, p.S[ch] + products[ch], c.sf, sums_format, "sheet_saturated");
           sums.push_back(word(p.S[ch]));
         }
       }
     emit(Kind::Footprint, splat.tag, x0 + i0, y0 + j0, std::move(weights));
-    emit(Kind::Sheet, splat.tag, x0 + i0, y0 + j0, std::move(sums));
+    emit(tile.mode >= 4 ? Kind::Composite : Kind::Sheet, splat.tag, x0 + i0, y0 + j0, std::move(sums));
   }
 
   /// Of pixel (i, j) of the footprint, by the page's formula of the kind.
@@ -217,7 +228,7 @@ class Renderer {
         Pixel& p = at(x, y);
         if (dirty) ++out.counts["pixels_composited"];
         if (dirty && tile.mode != 2 && p.C[3] < c.eps) ++out.counts["frozen_pixels"];
-        composite(p);
+        composite(p, p.S, tile.mode);
         for (const Wide value : p.C) words.push_back(word(value));
       }
     if (!dirty) return;
@@ -225,24 +236,25 @@ class Renderer {
     emit(Kind::Composite, 0, bx, by, std::move(words));
   }
 
-  void composite(Pixel& p) {
-    if (tile.mode == 2) {
+  /// S of a sheet or a sample, by mode 0, 1 or 2.
+  void composite(Pixel& p, const Four& S, int mode) {
+    if (mode == 2) {
       for (std::size_t ch = 0; ch < 4; ++ch)
-        p.C[ch] = sat(Rounding::Trn, p.C[ch] + p.S[ch], c.sf, u(c.si, c.sf), "composite_saturated");
+        p.C[ch] = sat(Rounding::Trn, p.C[ch] + S[ch], c.sf, u(c.si, c.sf), "composite_saturated");
       return;
     }
     Wide f = 1;
     int f_bits = 0;  // mode 1: the factor is the integer 1
-    if (tile.mode == 0) {
+    if (mode == 0) {
       const int b = c.si + c.sf - log2_of(c.G);
-      const Wide i = floor_divide(p.S[3], power_of_two(b)), rem = remainder(p.S[3], power_of_two(b));
+      const Wide i = floor_divide(S[3], power_of_two(b)), rem = remainder(S[3], power_of_two(b));
       const Wide left = factor[static_cast<std::size_t>(i)], right = factor[static_cast<std::size_t>(i) + 1];
       f = left - sat(c.Rf, (left - right) * rem, c.of + b, one(c.of), "never");
       f_bits = c.of;
     }
     Four slab;
     for (std::size_t ch = 0; ch < 4; ++ch)
-      slab[ch] = sat(c.Ra, p.S[ch] * f, c.sf + f_bits, one(c.tf), "opacity_saturated");
+      slab[ch] = sat(c.Ra, S[ch] * f, c.sf + f_bits, one(c.tf), "opacity_saturated");
     const Wide T = p.C[3];
     if (T < c.eps) return;
     for (std::size_t ch = 0; ch < 3; ++ch) {

@@ -211,7 +211,7 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
       r.empty_from(5);
       TileStart tile;
       tile.mode = static_cast<int>(r.w[0] / 256);
-      r.rule(tile.mode <= 2, "mode");
+      r.rule(tile.mode <= 2 || (r.c.every_sample != 0 && (tile.mode == 4 || tile.mode == 5)), "mode");
       tile.tile = r.w[1];
       r.rule(tile.tile == tiles_seen && tile.tile < tiles, "tile number");
       tile.x = static_cast<std::int32_t>(r.w[2]);

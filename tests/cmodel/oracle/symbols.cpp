@@ -61,6 +61,7 @@ std::uint64_t hash(const Symbols& symbols) {
   if (symbols.f != 0) line("ellipse.frac_bits", std::to_string(symbols.f));
   if (symbols.C != 0) line("composite.lanes", std::to_string(symbols.C));
   if (symbols.counter_bits != 64) line("counters.bits", std::to_string(symbols.counter_bits));
+  if (symbols.every_sample != 0) line("composite.every_sample", "1");
   return state;
 }
 

@@ -30,6 +30,7 @@ struct Symbols {
   // Of time and registers; no word depends on them.
   int C = 0;  ///< 0: P^2
   int counter_bits = 64;
+  int every_sample = 0;
 
   /// Weights depend on window phases: centres lie on the snap's grid.
   bool has_phases() const { return index == "rlut" || index == "blit2d" || index == "separable"; }

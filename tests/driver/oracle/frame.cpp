@@ -75,6 +75,8 @@ Sheets sheets_of(const Given& given) {
               -half * given.w - given.slabs_before * given.w, given.w};
     case Method::AxisAligned:
       return {composited, given.grid_sheets, false, 0.0, 0.0};
+    case Method::Westover:
+      return {4 + composited, 1, false, 0.0, 0.0};
     case Method::XRay:
       break;
   }

@@ -104,6 +104,9 @@ Given given_by(const scene::Scene& scene, const cmodel::Config& config) {
     case scene::Method::XRay:
       given.method = Method::XRay;
       break;
+    case scene::Method::Westover:
+      given.method = Method::Westover;
+      break;
     default:
       throw std::runtime_error("a method that the device does not have");
   }

@@ -26,7 +26,7 @@ struct RealSplat {
   double lambda = 1.0;        ///< the kernel's growth in depth
 };
 
-enum class Method { ImageAligned, AxisAligned, XRay };
+enum class Method { ImageAligned, AxisAligned, XRay, Westover };
 
 struct Given {
   oracle::Symbols symbols;

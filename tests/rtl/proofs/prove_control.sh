@@ -21,7 +21,7 @@ check stream_check
 holds stream_check 1 "stream_check: of any beats those that keep the rules, in order, once; the first other is told, and what is open is closed"
 check_broken() { defines=-DF_FEW_BEATS check "stream_check_$1" "$2"; refuted "stream_check_$1" "${3:-8}"; }
 if [ -z "$short" ]; then
-  check_broken taken_back_beat_passes_twice "s/^    if (moves) beat_valid_q <= 1'b0;.*//"
+  check_broken taken_back_beat_passes_twice "s/^    if (leaves) beat_valid_q <= 1'b0;.*//"
 fi
 
 # --- decode: two radius sets of two phases and up to 8 columns: 1 to 4 x 4 windows of 2 x 2 lanes

@@ -144,7 +144,7 @@ assign f_stop = f_error_q || (f_soft_q && !f_have_q && !f_next_q);
 assign f_offers = f_have_q && f_rule == 8'd0;
 assign f_closes = f_stop && f_place_q >= 2'd2;
 assign f_passes = f_offers && ready_i;
-assign f_moves = f_next_q && (!f_have_q || f_passes);
+assign f_moves = f_next_q && (!f_have_q || ready_i);
 
 always @(posedge clk_i) begin
   if (f_passes) f_have_q <= 1'b0;
@@ -253,9 +253,14 @@ always @(posedge clk_i) begin
   end
 end
 
-// What first stage counts: as if the beat that is judged had passed.
-logic f_tile_to_come, f_sheet_to_come;
+// What first stage counts: as if the beat that is judged had passed, and its own as well, if it is not new.
+logic f_tile_to_come, f_sheet_to_come, f_next_counted;
 logic [31:0] f_tile_to, f_sheet_to, f_sheets_to, f_splats_to, f_tags_to;
+logic [31:0] f_tile_on, f_sheet_on, f_sheets_on, f_splats_on, f_tags_on;
+logic [31:0] f_n0, f_n1, f_n2;
+logic [17:0] f_counts_break;
+assign {f_n2, f_n1, f_n0} = f_next_beat_q[95:0];
+assign f_next_counted = f_next_q && !next_new_q;
 always @* begin
   f_tile_to_come = f_place_q >= 2'd2 || (f_have_q && f_left_q == '0 && f_w0[7:0] == 8'h54);
   f_sheet_to_come = f_place_q == 2'd3 || (f_have_q && f_w0[7:0] == 8'h53);
@@ -267,6 +272,20 @@ always @* begin
       8'h50, 8'h45: {f_splats_to, f_tags_to} = {f_splats_q + 32'd1, f_tags_q + 32'd1};
       default: ;
     endcase
+  end
+  {f_tile_on, f_sheet_on, f_sheets_on, f_splats_on, f_tags_on} = {f_tile_to, f_sheet_to, f_sheets_to, f_splats_to, f_tags_to};
+  f_counts_break = '0;
+  if (f_next_counted) begin
+    case (f_n0[7:0])
+      8'h54: {f_tile_on, f_sheets_on, f_tags_on} = {f_n1, 64'd0};
+      8'h53: {f_sheet_on, f_sheets_on, f_splats_on} = {f_n1, f_sheets_to + 32'd1, 32'd0};
+      8'h50, 8'h45: {f_splats_on, f_tags_on} = {f_splats_to + 32'd1, f_tags_to + 32'd1};
+      default: ;
+    endcase
+    f_counts_break[11] = f_n0[7:0] == 8'h53 && f_sheets_to != '0 && f_n1 <= f_sheet_to;
+    f_counts_break[14] = (f_n0[7:0] == 8'h50 || f_n0[7:0] == 8'h45) && f_n1 != f_tags_to;
+    f_counts_break[16] = (f_n0[7:0] == 8'h73 && f_n1 != f_sheet_to) || (f_n0[7:0] == 8'h74 && f_n1 != f_tile_to);
+    f_counts_break[17] = (f_n0[7:0] == 8'h73 && f_n2 != f_splats_to) || (f_n0[7:0] == 8'h74 && f_n2 != f_sheets_to);
   end
 end
 
@@ -302,17 +321,24 @@ always @* begin
     assert (beat_valid_q == f_have_q && (!f_have_q || beat_q == f_beat_q));
     assert (next_valid_q == f_next_q && (!f_next_q || next_q == f_next_beat_q));
     assert (!((f_have_q || f_next_q) && f_error_q));
+    assert (!next_new_q || f_next_q || f_error_q || f_place_q == 2'd0);
     assert (reset_q == f_soft_q);
     assert (place_q == (f_left_q != '0 ? PlWords : f_place_q == 2'd0 ? PlStart : f_place_q == 2'd1 ? PlTables : f_place_q == 2'd2 ? PlTile : PlSheet));
     assert (f_left_q == '0 || f_place_q == 2'd1);
-    assert (beats_q == f_number_q);
-    if (f_place_q != 2'd0) begin
+    assert (f_error_q || beats_q == f_number_q);
+    if (f_place_q != 2'd0 && !f_error_q) begin
       assert (tile_seen_q == f_tile_q && image_width_q == f_image_q[15:0] && image_height_q == f_image_q[31:16] && tiles_q == f_tiles_q);
       assert (sets_loaded_q == f_sets_q && radial_loaded_q == f_radial_q && factor_loaded_q == f_factor_q);
     end
-    if (!f_error_q && f_tile_to_come) begin
-      assert (tile_q == f_tile_to && sheets_q == f_sheets_to && tag_q == f_tags_to && ((f_sheets_to == '0 && !f_sheet_to_come) || (sheet_q == f_sheet_to && splats_q == f_splats_to)));
+    if (!f_error_q && (f_tile_to_come || (f_next_counted && f_n0[7:0] == 8'h54))) begin
+      assert (tile_q == f_tile_on && sheets_q == f_sheets_on && tag_q == f_tags_on);
+      assert (!f_tile_to_come || (f_sheets_on == '0 && !f_sheet_to_come && !(f_next_counted && f_n0[7:0] == 8'h53)) || (sheet_q == f_sheet_on && splats_q == f_splats_on));
     end
+    if (f_next_counted) begin
+      assert ((counted_broken_q & ~(f_n0[7:0] == 8'h53 ? 18'd1 << 11 : f_n0[7:0] == 8'h50 || f_n0[7:0] == 8'h45 ? 18'd1 << 14 :
+                                    f_n0[7:0] == 8'h73 || f_n0[7:0] == 8'h74 ? 18'd3 << 16 : 18'd0)) == '0);
+    end
+    if (f_next_counted && f_tile_to_come && !(f_sheets_to == '0 && !f_sheet_to_come && f_n0[7:0] == 8'h73)) assert (counted_broken_q == f_counts_break);
     // What the first stage found: what the rules say once the beat is in its place.
     if (f_have_q) begin
       assert (any_broken_q == ((record_broken_q & ~LATE) != '0) && !record_broken_q[0] && !record_broken_q[2] && !record_broken_q[8] && !record_broken_q[9]);
@@ -332,12 +358,12 @@ always @* begin
       end
       assert (f_left_q == '0 || f_table_q != 8'd2 || first_words_q || falls_q[0] == (f_beat_q[0+:FB] <= f_before_q[FB-1:0]));
     end
-    if (f_left_q != '0) begin
+    if (f_left_q != '0 && !f_error_q) begin
       assert (32'(words_left_q) == f_left_q && table_q == f_table_q && f_table_q <= 8'd2 && first_words_q == (f_before_q == '1));
       assert (last_words_q == (f_left_q <= 32'd8));
       for (int i = 0; i < 8; i++) assert (there_q[i] == (f_left_q > 32'(i)));
       if (f_table_q == 8'd2) assert (f_before_q == '1 || f_before_q <= f_word_most);
-      assert (f_error_q || word_before_q == (f_have_q ? f_w7[FB-1:0] : f_before_q[FB-1:0]) || (!f_have_q && first_words_q));
+      assert (word_before_q == (f_have_q ? f_w7[FB-1:0] : f_before_q[FB-1:0]) || (!f_have_q && first_words_q));
     end
     assert (f_passed_place_q == (f_place_q == 2'd3 ? 2'd2 : f_place_q == 2'd2 ? 2'd1 : 2'd0));
     assert (f_place_q == 2'd0 || f_words_left_q == f_left_q);

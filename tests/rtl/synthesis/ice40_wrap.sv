@@ -28,7 +28,7 @@ module ice40_wrap (
     rst_q <= rst_ni;
     s_valid_q <= s_tvalid_i;
     m_ready_q <= m_tready_i;
-    beat_q <= {beat_q[190:0], bit_i};
+    beat_q <= {beat_q[fastsplat_pkg::BEAT_BITS-2:0], bit_i};
     out_q <= (valid && m_ready_q) ? words : {1'b0, out_q[P*4*PB+P-1:1]};
     s_tready_o <= ready;
     m_tvalid_o <= valid;

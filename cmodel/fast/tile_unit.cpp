@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 
 #include "cmodel/observers.hpp"
 
@@ -37,6 +38,7 @@ TileUnit<T>::TileUnit(const FrameTables& tables, PixelSink& pixels)
 
 template <class T>
 void TileUnit<T>::begin_band(const BeginTile& tile, bool first, int ahead) {
+  assert(!every_sample(tile.mode) && "the plain unit's");
   tile_ = tile;
   first_band_ = first;
   sheet_.resize(tile.width, tile.height, tables_.reach);

@@ -44,6 +44,7 @@ TEST_F(ConfigFile, keys_off_their_neutral_value_are_read_back) {
         config.index_kind = static_cast<int>(cmodel::IndexKind::Blit2d);
         config.phases = 32;
       }
+      if (cmodel::first_violation(config)) continue;  // lanes that do not divide a block
       EXPECT_EQ(read_back(config), config) << key.name << " = " << value;
       auto neutral = config;
       neutral.*key.member = *key.neutral;

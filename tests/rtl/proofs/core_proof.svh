@@ -9,6 +9,7 @@ always @(posedge clk_i) f_started <= 1'b1;
 always @* if (!f_started) assume (!rst_ni);
 
 logic f_beat, f_payload, f_take, f_splat, f_table, f_begin, f_idle_pixel;  // of decode and pixel out
+logic f_kind_splat, f_kind_sheet, f_kind_rest;  // what decode read off its record on the way
 logic [7:0] f_opcode;
 logic [7:0] f_check_opcode;  // of the beat in check that is judged, and the place where it may come
 logic [2:0] f_check_wants;
@@ -171,6 +172,8 @@ always @(posedge clk_i) begin
     assert (f_check_place <= 3'd4);
     assert (!f_here || f_check_wants == (f_check_opcode == 8'h46 ? 3'd0 : f_check_opcode == 8'h53 || f_check_opcode == 8'h74 ? 3'd3 :
                                          f_check_opcode == 8'h50 || f_check_opcode == 8'h45 || f_check_opcode == 8'h43 || f_check_opcode == 8'h73 ? 3'd4 : 3'd1));
+    assert (!f_beat || {f_kind_splat, f_kind_sheet, f_kind_rest} ==
+                       {f_record && f_opcode == 8'h50, f_record && f_opcode == 8'h53, f_record && (f_opcode == 8'h54 || f_opcode == 8'h74)});
     assert (f_next_place == (f_check_place == 3'd4 ? 2'd2 : f_check_place == 3'd3 ? 2'd1 : 2'd0));
     if (f_record) begin
       if (f_opcode == 8'h46 || f_opcode == 8'h4C || f_opcode == 8'h54 || f_opcode == 8'h66) assert (f_place_q == 2'd0);

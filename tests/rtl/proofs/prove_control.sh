@@ -104,7 +104,7 @@ fi
 package_file="$work/core_pkg.sv"
 package STATE_BITS=3 TRANS_BITS=3 SHEET_BITS=2 TRANS_FRAC=2 PIXEL_BITS=2 SIDE_BITS=3 RLUT_SETS=2 ADDR_BITS=2 BLOCKS_X=2 BLOCKS_Y=2 BLOCKS=4 BLK_BITS=1 >"$package_file"
 connects=""
-for pair in f_beat=u_decode.beat_valid_q f_payload=u_decode.payload_q f_take=u_decode.take f_splat=u_decode.is_splat f_table=u_decode.table_write \
+for pair in f_beat=u_decode.beat_valid_q f_payload=u_decode.payload_q f_take=u_decode.take f_splat=u_decode.is_splat f_kind_splat=u_decode.splat_q f_kind_sheet=u_decode.begins_sheet_q f_kind_rest=u_decode.waits_for_rest_q f_table=u_decode.table_write \
   f_begin=u_decode.tile_begin f_opcode=u_decode.opcode f_busy=u_decode.busy_q f_buffer=u_decode.buffer_q \
   f_idle_walk=u_compositor.walk_idle f_blocks=u_compositor.valid_q f_valid_below=u_splat.valid_q \
   f_pixel_running=u_pixel_out.running_q f_pixel_r1=u_pixel_out.valid_r1_q f_pixel_r2=u_pixel_out.valid_r2_q f_last_below=u_splat.last_q f_buffer_below=u_splat.buffer_q f_idle_pixel=u_pixel_out.idle_o f_here=u_check.beat_valid_q f_soft=u_check.reset_q f_check_place=u_check.place_q \

@@ -128,7 +128,7 @@ cmodel::Config drawn_config(Random& random, cmodel::IndexKind kind, bool ellipse
     cmodel::Config config;
     config.name = "random";
     for (const cmodel::ConfigKey& key : cmodel::config_keys()) {
-      if (std::string(key.name).starts_with("index.") || std::string(key.name).starts_with("ellipse.")) continue;
+      if (key.neutral && !std::string(key.name).starts_with("rounding.")) continue;  // drawn below
       const bool at_an_end = random.once_in(3);
       std::int64_t value = at_an_end ? random.one_of({key.min, key.max}) : random.between(key.min, key.max);
       if (key.power_of_two) {
@@ -150,10 +150,14 @@ cmodel::Config drawn_config(Random& random, cmodel::IndexKind kind, bool ellipse
       config.phases = std::min(config.phases, 16);  // streams of less than a million words
       config.rlut_columns = std::min(config.rlut_columns, 32 / config.lanes * config.lanes);
     }
-    config.composite_lanes =
-        random.once_in(2) ? 0 : 1 << random.between(0, 2 * cmodel::Config::log2_exact(config.lanes));
     if (ellipses) draw_ellipses(config, random);
-    if (!cmodel::first_violation(config)) return config;
+    if (cmodel::first_violation(config)) continue;
+    Random beside = random;  // so that these change no other draw
+    config.composite_lanes =
+        beside.once_in(2) ? 0 : 1 << beside.between(0, 2 * cmodel::Config::log2_exact(config.lanes));
+    config.counter_bits = static_cast<int>(beside.between(16, 64));
+    config.composite_every_sample = static_cast<int>(beside.between(0, 1));
+    return config;
   }
 }
 

@@ -17,7 +17,7 @@ FIXED = [
     ("rdata_o <= '0;", "dropped", "registers"),
     ("if (!is_counter) begin", "always of !is_counter", "random"),
     ("assign write = awvalid_i && wvalid_i && !bvalid_o;", "&& becomes || of awvalid_i && wvalid_i", "registers"),
-    ("else counter_q[n] <= counter_q[n] + 64'(increments_i[16*n+:16]);", "dropped", "random"),
+    ("else counter_q[n] <= counter_q[n] + CB'(increments_i[16*n+:16]);", "dropped", "random"),
 ]
 
 source, build = sys.argv[1:]

@@ -354,11 +354,11 @@ std::optional<ErrorParts> first_violation(const Config& config) {
   }
   const int block = config.lanes * config.lanes;
   if (config.composite_lanes > block || block % config.composited_at_once() != 0) {
-    return violation("composite.lanes", "does not divide a block's pixels",
-                     "a divisor of array.lanes^2 = " + std::to_string(block) + ", or 0 for all of them",
-                     config.composite_lanes,
-                     "use " + std::to_string(std::min(block, static_cast<int>(std::bit_floor(
-                                                                 static_cast<unsigned>(config.composite_lanes))))));
+    return violation(
+        "composite.lanes", "does not divide a block's pixels",
+        "a divisor of array.lanes^2 = " + std::to_string(block) + ", or 0 for all of them", config.composite_lanes,
+        "use " + std::to_string(
+                     std::min(block, static_cast<int>(std::bit_floor(static_cast<unsigned>(config.composite_lanes))))));
   }
   if (auto found = index_violation(config)) return found;
   return ellipse_violation(config);

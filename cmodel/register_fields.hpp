@@ -1,5 +1,5 @@
-// What the bits of the device's registers are (docs/microarchitecture.md, "Registers"): the map that docs/registers.md and
-// fastsplat_registers.h are generated of, and of which capabilities() are packed.
+// What the bits of the device's registers are (docs/microarchitecture.md, "Registers"): the map that docs/registers.md
+// and fastsplat_registers.h are generated of, and of which capabilities() are packed.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,8 @@ struct RegisterEntry {
 /// All registers but the counters, by address.
 std::span<const RegisterEntry> register_entries();
 
-/// A register whose word says what the device was built for. A field too narrow for its value, which only 65536 is, tells it as 0.
+/// A register whose word says what the device was built for. A field too narrow for its value, which only 65536 is,
+/// tells it as 0.
 struct Capability {
   Register reg;
   std::uint32_t word;

@@ -23,7 +23,8 @@ namespace fastsplat::driver {
 /// Whether a frame's samples are composited one by one (modes 4 and 5), not summed in sheets.
 bool every_sample(const scene::SceneDescription& description);
 
-/// What a device of this configuration has: all have the methods of sheets, those with ellipses footprints of any shape.
+/// What a device of this configuration has: all have the methods of sheets, those with ellipses footprints of any
+/// shape.
 scene::Offers offers(const cmodel::Config& config);
 
 /// What one tile's records add to the report.

@@ -38,7 +38,8 @@ Target target(Site site, const cmodel::Config& config) {
     case Site::EllipseCross:
       return {Rounding::Down, Overflow::Impossible, cmodel::unsigned_format(cmodel::kEllipseTermBits + 1, 0)};
     case Site::Shrink:
-      return {Rounding::Nearest, Overflow::Saturates, cmodel::Format{.min = 1, .max = std::int64_t{1} << 16, .frac_bits = 16}};
+      return {Rounding::Nearest, Overflow::Saturates,
+              cmodel::Format{.min = 1, .max = std::int64_t{1} << 16, .frac_bits = 16}};
     case Site::Depth:
     case Site::Boundary:
       return {Rounding::Nearest, Overflow::Impossible, signed_word(config.slice_phase_bits)};

@@ -129,8 +129,8 @@ DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, con
   const char* no_circles_in_sheets = shaped                            ? "splats are ellipses"
                                      : every_sample(scene.description) ? "every sample is composited"
                                                                        : nullptr;
-  const bool fast = options.unit == Unit::Fast && no_circles_in_sheets == nullptr &&
-                    cmodel::fast::fast_plan(config, &why_plain);
+  const bool fast =
+      options.unit == Unit::Fast && no_circles_in_sheets == nullptr && cmodel::fast::fast_plan(config, &why_plain);
   if (options.unit == Unit::Fast && no_circles_in_sheets != nullptr) why_plain = no_circles_in_sheets;
   const int band_rows = !fast ? 0 : options.band_rows > 0 ? options.band_rows : kBandRows;
   const CompiledFrame compiled(scene, config, options.threads, band_rows);

@@ -15,11 +15,11 @@ Cost cost(const cmodel::Config& c) {
                position = c.position_int_bits + c.position_frac_bits, out_word = c.pixel_int_bits + c.pixel_frac_bits;
   Cost out;
   // A table that all lanes read in the same cycle is there once a lane.
-  out.storage_bits = 2.0 * c.rlut_columns * c.phases * distance   // RLUT: x and y
-                     + lanes * c.radial_entries * weight          // radial table
+  out.storage_bits = 2.0 * c.rlut_columns * c.phases * distance        // RLUT: x and y
+                     + lanes * c.radial_entries * weight               // radial table
                      + composited * c.opacity_segments * 2.0 * factor  // factor table: start and fall of a segment
-                     + 2.0 * pixels * 4.0 * sheet                 // two sheet buffers
-                     + pixels * 4.0 * std::max(unit, sheet);      // picture, or an X-ray's sums
+                     + 2.0 * pixels * 4.0 * sheet                      // two sheet buffers
+                     + pixels * 4.0 * std::max(unit, sheet);           // picture, or an X-ray's sums
   // A splat: its place on the two axes. A lane: q; four products and sums; then a pixel of a slice: the factor's fall
   // and its subtraction, four products with it, four with T, three sums and a difference. A row's pixels going out.
   out.adder_bits = 2.0 * position + lanes * (distance + 4.0 * sheet) + composited * (2.0 * factor + 4.0 * unit) +

@@ -64,7 +64,9 @@ std::map<std::string, Cells> read_stat(const std::filesystem::path& path) {
   return modules;
 }
 
-bool is_memory(const std::string& module) { return module.ends_with("\\fastsplat_ram_1r1w") || module == "fastsplat_ram_1r1w"; }
+bool is_memory(const std::string& module) {
+  return module.ends_with("\\fastsplat_ram_1r1w") || module == "fastsplat_ram_1r1w";
+}
 
 void add_cells(const std::map<std::string, Cells>& modules, const std::string& name, std::int64_t times, Cells& to) {
   for (const auto& [cell, count] : modules.at(name)) {

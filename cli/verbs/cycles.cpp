@@ -113,8 +113,7 @@ std::string to_text(const Counts& counts, int slices) {
   text +=
       fmt::format("actual/ideal {:.4f}, splat array used {:.1f} %, compositor used {:.1f} %, {:.3f} splats/cycle\n",
                   ratio(counts.stalls.busy, account.ideal), 100.0 * ratio(counts.counters.windows, counts.stalls.busy),
-                  100.0 * ratio(composited, counts.stalls.busy),
-                  ratio(counts.counters.splats, counts.stalls.busy));
+                  100.0 * ratio(composited, counts.stalls.busy), ratio(counts.counters.splats, counts.stalls.busy));
   return text;
 }
 

@@ -72,9 +72,8 @@ CheckReport Checker::finish() {
 
 void Checker::check_counters(const cmodel::Counters& rtl) {
   std::vector<std::uint64_t> expected;
-  model_.counters().for_each([&](const char*, std::uint64_t value, const char*) {
-    expected.push_back(config_.counter_word(value));
-  });
+  model_.counters().for_each(
+      [&](const char*, std::uint64_t value, const char*) { expected.push_back(config_.counter_word(value)); });
   auto model = expected.begin();
   rtl.for_each([&](const char* name, std::uint64_t value, const char*) {
     equal(Detector::Counters, std::string("counter ") + name, *model++, value);

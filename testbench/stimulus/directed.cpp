@@ -135,7 +135,8 @@ DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& m
   const auto all_counters = [&](bool zero, Coverage::Id bin) {
     int number = 0;
     model.counters().for_each([&](const char* name, std::uint64_t value, const char*) {
-      check.equal(std::string("counter ") + name, zero ? 0 : config.counter_word(value), read_counter(*device, number++), bin);
+      check.equal(std::string("counter ") + name, zero ? 0 : config.counter_word(value),
+                  read_counter(*device, number++), bin);
     });
   };
   all_counters(false, counters);

@@ -154,9 +154,8 @@ void Frames::follow(const std::string& what, const Beats& next, bool in_table, C
   cmodel::Counters both = checker_->counted();
   both += after.counted();
   std::vector<std::uint64_t> expected;
-  both.for_each([&](const char*, std::uint64_t value, const char*) {
-    expected.push_back(config_.counter_word(value));
-  });
+  both.for_each(
+      [&](const char*, std::uint64_t value, const char*) { expected.push_back(config_.counter_word(value)); });
   auto one = expected.begin();
   device_->counters().for_each([&](const char* name, std::uint64_t value, const char*) {
     check_.equal(what + ", counter " + name + " of both frames", *one++, value, bin);

@@ -21,8 +21,8 @@ void expect_violation(const cmodel::Config& config, const std::string& key, cons
 }
 
 TEST(ConfigLimits, NamedConfigurationsAreSound) {
-  ASSERT_EQ(config_names(),
-            (std::vector<std::string>{"base", "compact", "ellipse", "exact", "hx8k", "small", "tiny", "wide", "year2000"}));
+  ASSERT_EQ(config_names(), (std::vector<std::string>{"base", "compact", "ellipse", "exact", "hx8k", "small", "tiny",
+                                                      "wide", "year2000"}));
   for (const std::string& name : config_names()) {
     const auto violation = cmodel::first_violation(named_config(name));
     EXPECT_FALSE(violation) << name << ": " << one_line(*violation);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <fstream>
 #include <map>
 #include <regex>
@@ -279,6 +280,41 @@ TEST(MicroarchitecturePage, NamesEveryRegisterAtItsAddressAndNoOther) {
   EXPECT_EQ(counters, (std::vector{cmodel::kRegCounters.address, cmodel::kRegCounters.address + 4}));
   std::printf("[figure] registers held against the code, the counters being one = %zu (limit 19)\n", page.size() + 1);
   EXPECT_EQ(page.size() + 1, 19u);
+}
+
+TEST(IntegrationPage, CountsEveryMemoryOfEachConfiguration) {
+  const auto said = [](int instances, int words, int bits) {
+    return std::to_string(instances) + " of " + std::to_string(words) + " x " + std::to_string(bits);
+  };
+  std::map<std::string, std::vector<std::string>> rows;
+  for (const std::string& line : lines_of("integration.md")) {
+    const auto columns = line.starts_with("| ") ? cells(line) : std::vector<std::string>{};
+    if (columns.size() == 7) rows[columns[0]] = {columns.begin() + 4, columns.end()};
+  }
+  ASSERT_EQ(rows["memory"], (std::vector<std::string>{"`tiny`", "`small`", "`base`"}));
+  std::size_t held = 0;
+  for (const auto& [column, name] : {std::pair{0U, "tiny"}, {1U, "small"}, {2U, "base"}}) {
+    const cmodel::Config c = named_config(name);
+    const int lanes = c.lanes * c.lanes, blocks = c.tile_width * c.tile_height / lanes;
+    const int sum = c.sheet_int_bits + c.sheet_frac_bits, state = std::max(sum, c.composite_frac_bits + 1);
+    const int groups = static_cast<int>(std::bit_ceil(static_cast<unsigned>(c.rlut_columns / c.lanes)));
+    const std::pair<const char*, std::string> expected[] = {
+        {"sheet buffers, by bank", said(2 * lanes, blocks, 4 * sum)},
+        {"picture, by bank", said(lanes, blocks, 4 * state)},
+        {"RLUT of x and of y, by lane",
+         said(2 * c.lanes, c.phases * groups, c.radial_index_bits() + c.rlut_guard_bits + 1)},
+        {"radial table, by lane", said(lanes, c.radial_entries, c.weight_format().word_bits)},
+        {"slab factor, by composite lane",
+         said(c.composited_at_once(), c.opacity_segments, 2 * (c.opacity_frac_bits + 1))},
+    };
+    for (const auto& [memory, text] : expected) {
+      ASSERT_EQ(rows[memory].size(), 3U) << memory;
+      EXPECT_EQ(rows[memory][column], text) << memory << ", " << name;
+      ++held;
+    }
+  }
+  std::printf("[figure] memories of the page held against configurations = %zu (limit 15)\n", held);
+  EXPECT_EQ(rows.size(), 6U) << "a memory that is not counted here";
 }
 
 /// The value that a word of the page stands for: a symbol of numerics.md, section 2, or a key without one by its end.

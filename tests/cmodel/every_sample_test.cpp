@@ -48,7 +48,8 @@ std::vector<std::uint8_t> two(const cmodel::Config& config, int mode, bool swapp
   const auto part = static_cast<std::uint32_t>(config.colour_format().max) / 3;
   for (const bool second : {swapped, !swapped}) {
     const std::int32_t x = (8 + (second ? apart : 0)) << config.position_frac_bits, y = 8 << config.position_frac_bits;
-    w.splat(0, x, y, second ? std::array<std::uint32_t, 4>{part, 0, 0, part} : std::array<std::uint32_t, 4>{0, 0, part, part});
+    w.splat(0, x, y,
+            second ? std::array<std::uint32_t, 4>{part, 0, 0, part} : std::array<std::uint32_t, 4>{0, 0, part, part});
   }
   w.end_sheet();
   w.end_tile();

@@ -1,5 +1,5 @@
-// composite.lanes and counters.bits are of time and of registers alone: no word of any tap depends on them, and what they
-// do to time is the page's rule (docs/microarchitecture.md, "Slices" and "Dirty walk").
+// composite.lanes and counters.bits are of time and of registers alone: no word of any tap depends on them, and what
+// they do to time is the page's rule (docs/microarchitecture.md, "Slices" and "Dirty walk").
 #include <gtest/gtest.h>
 
 #include <algorithm>

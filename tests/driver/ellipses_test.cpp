@@ -184,17 +184,7 @@ TEST(Ellipses, WhereNothingIsShapedNoWordChanges) {
 TEST(Ellipses, TilesNeverShow) {
   auto description = view_of("shells:20", 80);
   kTechniques[std::size(kTechniques) - 1].on(description);
-  const auto scene = scene::build_scene(description);
-  auto small = load_config("ellipse");
-  const auto whole = render(scene, small);
-  small.tile_width = 16;
-  small.tile_height = 24;
-  const auto cut = render(scene, small);
-  const WordDifference apart = difference(whole.frame, cut.frame);
-  figure("words compared", static_cast<double>(apart.compared));
-  EXPECT_GT(apart.compared, 0u);
-  EXPECT_EQ(apart.different, 0u);
-  EXPECT_GT(cut.counters.tiles, whole.counters.tiles);
+  expect_tiles_never_show(description, load_config("ellipse"));
 }
 
 TEST(Ellipses, ThinFootprintsAreWidenedAndTold) {
@@ -220,7 +210,8 @@ TEST(Ellipses, KernelsGrownBeyondTheWordShareOutAllTheSame) {
   description.xray_exposure = 1e6;
   description.opacity_scale = 1e6;
   description.footprint.antialias = true;
-  description.camera.zoom = 1e-6;  // a kernel is a million times as deep as it was, and the word of 1/lambda has 16 bits
+  description.camera.zoom =
+      1e-6;  // a kernel is a million times as deep as it was, and the word of 1/lambda has 16 bits
   const auto device = render(scene::build_scene(description), load_config("ellipse"));
   const std::uint64_t voxels = device.report.voxels - device.report.vanished_voxels;
   figure("voxels", static_cast<double>(voxels));

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "driver/render.hpp"
+
 namespace fastsplat::driver {
 
 scene::SceneDescription view_of(const std::string& volume, int size, const std::string& transfer_function) {
@@ -42,6 +44,19 @@ Lsb8 distance(const Image& a, const Image& b) {
   out.rms = 255.0 * std::sqrt(mean);
   out.psnr_db = -10.0 * std::log10(mean);
   return out;
+}
+
+void expect_tiles_never_show(const scene::SceneDescription& description, cmodel::Config config) {
+  const auto scene = scene::build_scene(description);
+  const auto whole = render(scene, config);
+  config.tile_width = 2 * config.lanes;
+  config.tile_height = 3 * config.lanes;
+  const auto cut = render(scene, config);
+  const WordDifference apart = difference(whole.frame, cut.frame);
+  figure("words compared", static_cast<double>(apart.compared));
+  EXPECT_GT(apart.compared, 0u);
+  EXPECT_EQ(apart.different, 0u);
+  EXPECT_GT(cut.counters.tiles, whole.counters.tiles);
 }
 
 void figure(const std::string& name, double value, const std::string& unit) {

@@ -27,7 +27,8 @@ int main(int argc, char** argv) {
   FILE* file = fopen(argv[2], "rb");
   if (file == NULL) return FASTSPLAT_INPUT;
   uint32_t beat[FASTSPLAT_BEAT_WORDS];
-  while (status == FASTSPLAT_OK && fread(beat, sizeof beat, 1, file) == 1) status = fastsplat_model_feed(model, beat, 1);
+  while (status == FASTSPLAT_OK && fread(beat, sizeof beat, 1, file) == 1)
+    status = fastsplat_model_feed(model, beat, 1);
   fclose(file);
   if (status == FASTSPLAT_OK) status = fastsplat_model_finish(model);
   if (status != FASTSPLAT_OK) return refused(status);

@@ -117,7 +117,7 @@ BoundCheck check(const Bound& bound, const stages::Picture& real, const stages::
       const double measured = std::abs(device.pixels[i][c] - real.pixels[i][c]);
       const double allowed = bound.greatest.pixels[i][c];
       ++out.values;
-      out.over += measured > allowed ? 1 : 0;
+      out.over += measured <= allowed ? 0 : 1;  // a bound that is no number holds nothing
       out.worst = std::max(out.worst, measured / allowed);
       error = std::max(error, measured);
       most = std::max(most, allowed);

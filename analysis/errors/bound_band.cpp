@@ -7,15 +7,18 @@
 namespace fastsplat::analysis {
 namespace {
 
+/// exp(-tau) (exp(by) - 1), 0 <= by <= tau: in this order no factor is infinite, however great tau.
+double dimmed_growth(double tau, double by) { return std::exp(by - tau) * -std::expm1(-by); }
+
 /// Most that the opacity 1 - exp(-tau) changes where tau does by at most `error`, and stays at 0 or above.
 double opacity_change(double tau, double dims, double error) {
-  return dims * std::max(std::expm1(std::min(error, tau)), -std::expm1(-error));
+  return std::max(dimmed_growth(tau, std::min(error, tau)), dims * -std::expm1(-error));
 }
 
 /// Most that this change differs from dims times that of tau.
 double beyond_linear(double tau, double dims, double error) {
   const double less = std::min(error, tau);
-  return dims * std::max(std::expm1(less) - less, error + std::expm1(-error));
+  return std::max(dimmed_growth(tau, less) - dims * less, dims * (error + std::expm1(-error)));
 }
 
 }  // namespace
@@ -52,7 +55,8 @@ void BoundBand::run(const stages::BandBins& bins, int band) {
   }
   for (std::size_t at = 0; at < total_.size(); ++at) {
     for (std::size_t c = 0; c < 4; ++c) {
-      if (closed_[at] == 0) greatest_[at][c] = std::max(greatest_[at][c], total_[at][c]);
+      if (closed_[at] == 0 && !(total_[at][c] <= greatest_[at][c]))
+        greatest_[at][c] = total_[at][c];  // no number stays one
     }
   }
 }
@@ -154,7 +158,15 @@ void BoundBand::slice(const stages::StagedSplat& splat) {
   Sliced& s = sliced_;
   steps.shares(splat, known_, s.value);
   s.first = splat.first;
-  for (std::size_t c = 0; c < 4; ++c) s.whole_error[c] = r_.emission + std::max(0.0, splat.value[c] - r_.largest_whole);
+  // The device's words are of the value times this, and its weights are; here the weights have all of it.
+  double ratio = 1.0;
+  if (r_.radius) {
+    const auto& sets = steps.sets();
+    const double of_set = splat.radius / sets.radius(sets.nearest(splat.radius));
+    ratio = of_set * of_set;
+  }
+  for (std::size_t c = 0; c < 4; ++c)
+    s.whole_error[c] = r_.emission / ratio + std::max(0.0, splat.value[c] - r_.largest_whole / ratio);
   if (!steps.sliced() || r_.shares_known) {  // whole splats, or shares that are known
     s.part.assign(s.size(), steps.sliced() ? 0.0 : 1.0);
     s.cut.assign(s.size() + 1, 0.0);
@@ -176,7 +188,7 @@ void BoundBand::slice(const stages::StagedSplat& splat) {
       const bool inside = !end && near < radius;
       // The kernel falls off to both sides, so its profile is greatest where the boundary comes nearest to the centre.
       s.cut.push_back(inside ? r_.depth * chain_.scene().kernel.profile(near) + r_.phi : 0.0);
-      s.word.push_back(inside ? r_.share : i == s.size() ? r_.last_share : 0.0);
+      s.word.push_back((inside ? r_.share : i == s.size() ? r_.last_share : 0.0) / ratio);
     }
   }
   s.share_error.assign(s.size(), Sums{});
@@ -185,7 +197,7 @@ void BoundBand::slice(const stages::StagedSplat& splat) {
     for (std::size_t c = 0; c < 4; ++c) {
       const double error =
           s.whole_error[c] * s.part[m] + (s.cut[m] + s.cut[m + 1]) * splat.value[c] + s.word[m] + s.word[m + 1];
-      s.over[m][c] = std::max(0.0, s.value[m][c] + error - r_.largest_share);
+      s.over[m][c] = std::max(0.0, s.value[m][c] + error - r_.largest_share / ratio);
       s.share_error[m][c] = error + s.over[m][c];
     }
   }
@@ -326,7 +338,7 @@ void BoundBand::finish_pixel(int sheet, SheetCell& here, std::size_t at, int x, 
       for (int s = sheet; s < std::min(sheets_, sheet + chain_.steps().reach() + 2); ++s)
         amid += cell(s, x, y).straddling[c];
       const double candidate = total_[at][c] + amid + unseen;
-      if (candidate > greatest_[at][c]) greatest_[at][c] = candidate;
+      if (!(candidate <= greatest_[at][c])) greatest_[at][c] = candidate;
       if (upper < r_.freeze) term(Term::Freeze, unseen + amid);
     }
     if (upper < r_.freeze) {

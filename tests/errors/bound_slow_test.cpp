@@ -1,6 +1,7 @@
 // The proved worst case: no pixel of any picture errs by more, and no step alone does.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 
 #include "analysis/errors/bound.hpp"
@@ -63,6 +64,23 @@ TEST(Bound, HoldsOnEveryPixelAtRandom) {
     }
   }
   totals.print("at random");
+}
+
+/// Opacities at which exp(-tau) is 0 in doubles and exp(tau) is infinite, and words saturate.
+TEST(Bound, HoldsWhereNothingIsSeenBehindASheet) {
+  test::Random random(test::seed_or(3102));
+  Totals totals;
+  while (totals.frames < 300) {
+    const cmodel::Config config = test::random_config(random);
+    scene::SceneDescription description = stages::test::random_scene(random);
+    description.opacity_scale = std::exp2(static_cast<double>(random.between(8, 16)));
+    try {
+      hold(scene::build_scene(description), config, totals);
+    } catch (const UserError&) {
+      continue;  // the configuration cannot hold the scene
+    }
+  }
+  totals.print("opaque");
 }
 
 TEST(Bound, HoldsForEveryKindOfIndexWhereItsGeometryIsKnown) {

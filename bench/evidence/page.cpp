@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -130,6 +131,18 @@ int sum(const Json& of) {
 }
 
 /// Of a sample or of all: those that live are told one by one.
+std::string fuzz(const Json& json) {
+  std::string out = fmt::format(
+      "{}, AddressSanitizer, UndefinedBehaviorSanitizer. No finding is open.\n\n| reader | minutes | inputs tried | "
+      "edges reached |\n|---|---|---|---|\n",
+      json.at("tool").get<std::string>());
+  for (const auto& [name, target] : json.at("targets").items()) {
+    out += fmt::format("| {} | {:.0f} | {} | {} |\n", name, target.at("seconds").get<double>() / 60.0,
+                       target.at("runs").get<std::int64_t>(), target.at("edges").get<int>());
+  }
+  return out + "\n";
+}
+
 std::string mutants(const Json& json) {
   std::string out = fmt::format(
       "{}.\n\n| module | mutants | killed | excluded | living | killed by | excluded because |\n"
@@ -179,6 +192,9 @@ std::string page(const std::filesystem::path& folder) {
   out += mutated && mutated->contains("cplusplus")
              ? mutants(mutated->at("cplusplus"))
              : missing("their mutants", "./run mutate --module cmodel --module driver");
+  out += "## Files of strangers\n\n";
+  const auto fuzzed = read(folder / "fuzz.json");
+  out += fuzzed ? fuzz(*fuzzed) : missing("minutes of fuzzing", "./run fuzz --keep");
   out += "## Synthesis\n\n";
   const auto designs = read(folder / "synthesis.json");
   out += designs ? synthesis(*designs) : missing("synthesis", "./run synth");

@@ -1,0 +1,31 @@
+"""fuzz_keep.py KEPT RESULTS SECONDS TOOL: adds a run of packaging/fuzz to docs/evidence/fuzz.json.
+
+RESULTS has a line a target, as `one` in packaging/fuzz writes it. Time and runs add up; edges are the most that a run saw. A target
+with a finding starts again from nothing: what it ran before was of code that is about to change."""
+import json
+import os
+import re
+import sys
+
+kept, results, seconds, tool = sys.argv[1:]
+whole = {"targets": {}}
+if os.path.exists(kept):
+    with open(kept) as file:
+        whole = json.load(file)
+whole["tool"] = tool
+with open(results) as file:
+    for line in file:
+        name = line.split()[0]
+        fine = re.fullmatch(r"\S+ +(\d+) runs, +(\d+) edges, no finding\n", line)
+        if not fine:
+            whole["targets"].pop(name, None)
+            continue
+        target = whole["targets"].setdefault(name, {"seconds": 0, "runs": 0, "edges": 0})
+        target["seconds"] += int(seconds)
+        target["runs"] += int(fine[1])
+        target["edges"] = max(target["edges"], int(fine[2]))
+whole["targets"] = dict(sorted(whole["targets"].items()))
+with open(kept + ".new", "w") as file:
+    json.dump(whole, file, indent=1)
+    file.write("\n")
+os.replace(kept + ".new", kept)

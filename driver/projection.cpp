@@ -119,7 +119,9 @@ void join(std::vector<Piece>& pieces, int slices, int threads, Projected& to) {
   });
 }
 
-/// A device holds footprints as wide as the RLUT, whoever makes their weights.
+}  // namespace
+
+// A device holds footprints as wide as the RLUT, whoever makes their weights.
 void check_reach(double reach, const cmodel::Config& config) {
   const double widest = config.rlut_columns / 2.0;
   if (reach <= widest) return;
@@ -130,8 +132,6 @@ void check_reach(double reach, const cmodel::Config& config) {
        .got = fmt::format("{:.2f} pixels", reach),
        .fix = "use a smaller --size, --zoom or blur, or a configuration with more rlut.columns"});
 }
-
-}  // namespace
 
 RadiusSets radius_sets(const scene::Scene& scene, const cmodel::Config& config) {
   const RadiusRange range = radius_range(scene);

@@ -21,6 +21,9 @@ struct Projected {
   std::uint32_t least_shrink = 1 << 16;  ///< of the kernel that has grown most (DepthGrowth)
 };
 
+/// Throws UserError (Usage) where an ellipse's half sides are more pixels than the device takes.
+void check_reach(double reach, const cmodel::Config& config);
+
 /// Those that the scene's splats need.
 RadiusSets radius_sets(const scene::Scene& scene, const cmodel::Config& config);
 

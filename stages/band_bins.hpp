@@ -18,12 +18,22 @@ inline driver::TileGrid band_grid(const cmodel::Config& config, int width, int h
   return grid;
 }
 
-/// Pixels within the splat's radius, and `more`, along both axes.
-inline driver::Extent extent_of(const StagedSplat& splat, double more = 0.0) {
-  const double reach = splat.radius + more;
-  const auto from = [&](double at) { return static_cast<std::int32_t>(std::ceil(at - reach)); };
-  const auto to = [&](double at) { return static_cast<std::int32_t>(std::floor(at + reach)) + 1; };
-  return {from(splat.x), to(splat.x), from(splat.y), to(splat.y), to(splat.y)};
+/// How far from its centre a splat's pixels lie, along x and y.
+struct Reach {
+  double x = 0.0, y = 0.0;
+};
+/// `more`: of circles. An ellipse's rounded distances may be inside the rim at a pixel beyond it.
+inline Reach reach_of(const StagedSplat& splat, const StagedShape* shape, double more) {
+  if (shape != nullptr && shape->own) return {shape->reach_x + 1.0, shape->reach_y + 1.0};
+  return {splat.radius + more, splat.radius + more};
+}
+
+inline driver::Extent extent_of(const StagedSplat& splat, const StagedShape* shape = nullptr, double more = 0.0) {
+  const Reach reach = reach_of(splat, shape, more);
+  const auto from = [](double at, double far) { return static_cast<std::int32_t>(std::ceil(at - far)); };
+  const auto to = [](double at, double far) { return static_cast<std::int32_t>(std::floor(at + far)) + 1; };
+  const std::int32_t bottom = to(splat.y, reach.y);
+  return {from(splat.x, reach.x), to(splat.x, reach.x), from(splat.y, reach.y), bottom, bottom};
 }
 
 /// Splats by the band they touch and a sheet, in their order.

@@ -19,8 +19,7 @@ constexpr int kRows = 16;  ///< of a band: its sheets stay in the cache
 
 const scene::Scene& drawable(const scene::Scene& scene, const cmodel::Config& config) {
   scene::Offers offers = driver::offers(config);
-  // Steps are of circles in sheets.
-  if (config.has_ellipses()) offers = {"error attribution", offers.methods, 0u};
+  // Steps are of sheets.
   if (config.composite_every_sample != 0) offers.engine = "error attribution";
   offers.methods &= ~scene::only(scene::Method::Westover);
   offers.methods_elsewhere = 0u;
@@ -50,8 +49,8 @@ ProductRule product_rule(const cmodel::Config& config, const Mixture& mixture) {
 /// Rows of the picture, sheet by sheet.
 class Chain::Band {
  public:
-  Band(const Chain& chain, const Mixture& mixture, const std::vector<StagedSplat>& splats, bool golden_units,
-       golden::Rows rows, int width)
+  Band(const Chain& chain, const Mixture& mixture, const Staged& splats, bool golden_units, golden::Rows rows,
+       int width)
       : chain_(chain),
         mixture_(mixture),
         splats_(splats),
@@ -67,7 +66,7 @@ class Chain::Band {
 
   void run(const BandBins& bins, int band) {
     for (int sheet = 0; sheet < chain_.steps_.sheets(); ++sheet) {
-      for (const std::uint32_t i : bins.bin(band, sheet)) add(splats_[i]);
+      for (const std::uint32_t i : bins.bin(band, sheet)) add(splats_.splats[i], splats_.shape(i));
       drain(at(sheet));
     }
   }
@@ -78,15 +77,17 @@ class Chain::Band {
  private:
   golden::Sheet& at(int sheet) { return ring_[static_cast<std::size_t>(sheet) % ring_.size()]; }
 
-  void add(const StagedSplat& splat) {
+  void add(const StagedSplat& splat, const StagedShape* shape) {
     golden::ProjectedSplat reach;
     reach.x = splat.x;
     reach.y = splat.y;
-    reach.reach_x = reach.reach_y = splat.radius + more_reach(chain_.config_);
+    const Reach far = reach_of(splat, shape, more_reach(chain_.config_));
+    reach.reach_x = far.x;
+    reach.reach_y = far.y;
     const golden::Rows open = settled_.open_rows(reach, rows_);
     if (open.first >= open.end) return;
-    weights_.rasterise(splat, mixture_, golden_units_, open, width_);
-    chain_.steps_.shares(splat, mixture_, shares_);
+    weights_.rasterise(splat, shape, mixture_, golden_units_, open, width_);
+    chain_.steps_.shares(splat, mixture_, shares_, shape != nullptr ? shape->growth : Growth{});
     for (std::size_t s = 0; s < shares_.size(); ++s) {
       if (shares_[s] == golden::Sums{}) continue;
       golden::Sheet& sheet = at(splat.first + static_cast<int>(s));
@@ -111,7 +112,7 @@ class Chain::Band {
 
   const Chain& chain_;
   const Mixture& mixture_;
-  const std::vector<StagedSplat>& splats_;
+  const Staged& splats_;
   bool golden_units_;
   golden::Rows rows_;
   int width_;
@@ -131,12 +132,12 @@ Picture Chain::operator()(const Mixture& mixture, int threads) const {
   // Where nothing is rounded before the sheets are full, the order of the factors is free, and golden's is taken.
   const bool golden_units = mixture.real(Step::Position, Step::Sheet);
   const int width = scene_.description.width, height = scene_.description.height;
-  const std::vector<StagedSplat> splats = steps_.staged(list_, mixture, golden_units, threads);
+  const Staged splats = steps_.staged(list_, mixture, golden_units, threads);
   const driver::TileGrid bands = band_grid(config_, width, height, kRows);
   const BandBins bins(
-      bands, steps_.sheets(), splats.size(), threads,
-      [&](std::size_t i) { return extent_of(splats[i], more_reach(config_)); },
-      [&](std::size_t i) { return splats[i].first; });
+      bands, steps_.sheets(), splats.splats.size(), threads,
+      [&](std::size_t i) { return extent_of(splats.splats[i], splats.shape(i), more_reach(config_)); },
+      [&](std::size_t i) { return splats.splats[i].first; });
 
   Picture picture{width, height, std::vector<golden::Sums>(static_cast<std::size_t>(width) * height)};
   parallel_for(bins.work(), threads, [&](std::size_t number) {

@@ -35,7 +35,8 @@ WeightSteps::WeightSteps(const scene::Kernel& kernel, const cmodel::Config& conf
       entries_(config.radial_entries),
       per_entry_(std::ldexp(1.0, -config.rlut_guard_bits)),
       fall_(kernel.a() * kernel.radius() * kernel.radius()),
-      real_(driver::radial_samples(config, kernel)) {
+      real_(driver::radial_samples(config, kernel)),
+      ellipse_(config) {
   for (const std::uint32_t word : driver::radial_table(config, kernel).words)
     words_.push_back(std::ldexp(static_cast<double>(word), -config.radial_frac_bits));
 }
@@ -107,13 +108,14 @@ double WeightSteps::other_weight(double dx, double dy, const Rim& rim, const Mix
   return u < 1.0 ? std::exp(-fall_ * u) : 0.0;
 }
 
-void WeightSteps::rasterise_golden(const StagedSplat& splat, golden::Rows rows, int width) {
+void WeightSteps::rasterise_golden(const StagedSplat& splat, const StagedShape* shape, golden::Rows rows, int width) {
   golden::ProjectedSplat p;
   const double per_unit = splat.radius / kernel_.radius();
   p.x = splat.x;
   p.y = splat.y;
-  p.shape = {per_unit * per_unit, 0.0, per_unit * per_unit};
-  p.reach_x = p.reach_y = kernel_.radius() * std::sqrt(p.shape.xx);
+  p.shape = shape != nullptr ? shape->screen : scene::ScreenShape{per_unit * per_unit, 0.0, per_unit * per_unit};
+  p.reach_x = kernel_.radius() * std::sqrt(p.shape.xx);
+  p.reach_y = kernel_.radius() * std::sqrt(p.shape.yy);
   golden_.rasterise(kernel_, p, rows, width);
   spans_ = golden_.spans();
   if (!spans_.empty()) weights_ = golden_.weights(spans_.front()) - spans_.front().weights;
@@ -125,14 +127,27 @@ void WeightSteps::rasterise_rlut(const StagedSplat& splat, const Mixture& mixtur
   distances(splat.y, splat.radius, box.y0, box.y1, words, down_);
   for (int y = box.y0; y < box.y1; ++y) {
     const double row = down_[static_cast<std::size_t>(y - box.y0)];
-    const auto at = [&](int x) { return row + across_[static_cast<std::size_t>(x - box.x0)]; };
-    int begin = box.x0, end = box.x1;
-    while (begin < end && !(at(begin) < entries_)) ++begin;
-    while (begin < end && !(at(end - 1) < entries_)) --end;
-    if (begin == end) continue;
-    spans_.push_back({y, begin, end - begin, own_.size()});
-    for (int x = begin; x < end; ++x) own_.push_back(weight(at(x), mixture));
+    add_row(
+        y, box.x0, box.x1 - box.x0, [&](int i) { return row + across_[static_cast<std::size_t>(i)]; }, mixture);
   }
+}
+
+void WeightSteps::rasterise_ellipse(const StagedSplat& splat, const StagedShape& shape, const Mixture& mixture,
+                                    golden::Rows rows, int width) {
+  ellipse_.rows(splat, shape, mixture, rows, width, [&](int y, int x, std::span<const double> entries) {
+    add_row(
+        y, x, static_cast<int>(entries.size()), [&](int i) { return entries[static_cast<std::size_t>(i)]; }, mixture);
+  });
+}
+
+template <class Entries>
+void WeightSteps::add_row(int y, int x, int count, Entries entries, const Mixture& mixture) {
+  int begin = 0, end = count;
+  while (begin < end && !(entries(begin) < entries_)) ++begin;
+  while (begin < end && !(entries(end - 1) < entries_)) --end;
+  if (begin == end) return;
+  spans_.push_back({y, x + begin, end - begin, own_.size()});
+  for (int i = begin; i < end; ++i) own_.push_back(weight(entries(i), mixture));
 }
 
 void WeightSteps::rasterise_other(const StagedSplat& splat, const Mixture& mixture, const driver::Extent& box) {
@@ -154,9 +169,20 @@ void WeightSteps::rasterise_other(const StagedSplat& splat, const Mixture& mixtu
   }
 }
 
-void WeightSteps::rasterise(const StagedSplat& splat, const Mixture& mixture, bool golden_units, golden::Rows rows,
-                            int width) {
-  if (golden_units) return rasterise_golden(splat, rows, width);
+void WeightSteps::rasterise(const StagedSplat& splat, const StagedShape* shape, const Mixture& mixture,
+                            bool golden_units, golden::Rows rows, int width) {
+  if (golden_units) return rasterise_golden(splat, shape, rows, width);
+  spans_.clear();
+  own_.clear();
+  if (shape != nullptr && shape->own) {
+    rasterise_ellipse(splat, *shape, mixture, rows, width);
+  } else {
+    rasterise_circle(splat, mixture, rows, width);
+  }
+  weights_ = own_.data();
+}
+
+void WeightSteps::rasterise_circle(const StagedSplat& splat, const Mixture& mixture, golden::Rows rows, int width) {
   const auto clip = [](double at, int low, int high) {
     return static_cast<int>(std::clamp(at, static_cast<double>(low), static_cast<double>(high)));
   };
@@ -166,14 +192,11 @@ void WeightSteps::rasterise(const StagedSplat& splat, const Mixture& mixture, bo
             top = clip(std::ceil(splat.y - reach), rows.first, rows.end),
             bottom = clip(std::floor(splat.y + reach) + 1.0, rows.first, rows.end);
   const driver::Extent box{left, right, top, bottom, bottom};
-  spans_.clear();
-  own_.clear();
   if (config_.index() == IndexKind::Rlut) {
     rasterise_rlut(splat, mixture, box);
   } else {
     rasterise_other(splat, mixture, box);
   }
-  weights_ = own_.data();
 }
 
 }  // namespace fastsplat::stages

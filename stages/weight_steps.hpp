@@ -11,6 +11,7 @@
 #include "driver/tile_bins.hpp"
 #include "golden/splat/footprint.hpp"
 #include "scene/kernel.hpp"
+#include "stages/ellipse_distance.hpp"
 #include "stages/splat_steps.hpp"
 #include "stages/step.hpp"
 
@@ -28,8 +29,10 @@ class WeightSteps {
   /// Keeps references.
   WeightSteps(const scene::Kernel& kernel, const cmodel::Config& config);
 
-  /// Rows and columns of a splat's pixels inside `rows` and an image of `width` columns.
-  void rasterise(const StagedSplat& splat, const Mixture& mixture, bool golden_units, golden::Rows rows, int width);
+  /// Rows and columns of a splat's pixels inside `rows` and an image of `width` columns. `shape`: in a frame with
+  /// ellipses.
+  void rasterise(const StagedSplat& splat, const StagedShape* shape, const Mixture& mixture, bool golden_units,
+                 golden::Rows rows, int width);
 
   const std::vector<golden::Footprint::Span>& spans() const { return spans_; }
   std::span<const double> weights(const golden::Footprint::Span& span) const {
@@ -44,7 +47,13 @@ class WeightSteps {
     double radius = -1.0;  ///< pixels
     driver::Scale scale;   ///< of the kinds that compute
   };
-  void rasterise_golden(const StagedSplat& splat, golden::Rows rows, int width);
+  void rasterise_golden(const StagedSplat& splat, const StagedShape* shape, golden::Rows rows, int width);
+  void rasterise_circle(const StagedSplat& splat, const Mixture& mixture, golden::Rows rows, int width);
+  void rasterise_ellipse(const StagedSplat& splat, const StagedShape& shape, const Mixture& mixture, golden::Rows rows,
+                         int width);
+  /// The pixels of row y from x on that lie inside the rim; `entries`(i) of the i-th of `count`.
+  template <class Entries>
+  void add_row(int y, int x, int count, Entries entries, const Mixture& mixture);
   void rasterise_rlut(const StagedSplat& splat, const Mixture& mixture, const driver::Extent& box);
   void rasterise_other(const StagedSplat& splat, const Mixture& mixture, const driver::Extent& box);
   /// RLUT words or what they stand for, in table entries, of the pixels from first to before end.
@@ -63,6 +72,7 @@ class WeightSteps {
   double fall_;                       ///< a R^2
   std::vector<double> real_, words_;  ///< F in the middle of entry t; RADIAL[t] 2^-wf
   Rim rim_;
+  EllipseDistance ellipse_;
   golden::Footprint golden_;
   std::vector<golden::Footprint::Span> spans_;
   std::vector<double> across_, down_, own_;

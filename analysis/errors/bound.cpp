@@ -5,6 +5,8 @@
 
 #include "analysis/errors/bound_band.hpp"
 #include "base/parallel/parallel.hpp"
+#include "driver/compile.hpp"
+#include "scene/capability.hpp"
 
 namespace fastsplat::analysis {
 namespace {
@@ -57,8 +59,10 @@ Bound bound(const stages::Chain& chain, const stages::Picture& real, Known known
 Bound bound(const stages::Chain& chain, const stages::Picture& real, const stages::Mixture& mixture,
             const stages::Mixture& device, int threads) {
   const scene::Scene& scene = chain.scene();
+  // What is proved is proved of circles.
+  scene::check_capability(scene, {"error bound", driver::offers(chain.config()).methods, 0u});
   const Roundings roundings(scene, chain.config(), chain.steps(), mixture, device);
-  const auto splats = chain.steps().staged(chain.list(), mixture, false, threads);
+  const auto splats = chain.steps().staged(chain.list(), mixture, false, threads).splats;
   const int width = real.width, height = real.height;
   const double more = roundings.place + [&] {
     double most = 0.0;  // by how much a radius set can be larger than the splat's own
@@ -73,7 +77,7 @@ Bound bound(const stages::Chain& chain, const stages::Picture& real, const stage
       stages::band_grid(chain.config(), width, height, rows_of_band(chain.steps().sheets(), width));
   const stages::BandBins bins(
       bands, chain.steps().sheets(), splats.size(), threads,
-      [&](std::size_t i) { return stages::extent_of(splats[i], more); },
+      [&](std::size_t i) { return stages::extent_of(splats[i], nullptr, more); },
       [&](std::size_t i) { return std::max(0, splats[i].first - lead); });
 
   Bound out{{width, height, std::vector<Sums>(static_cast<std::size_t>(width) * height)}, {}};

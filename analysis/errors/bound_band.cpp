@@ -68,7 +68,7 @@ void BoundBand::fill_sheets(const stages::BandBins& bins, int band) {
 }
 
 void BoundBand::fill(const stages::StagedSplat& splat) {
-  weights_.rasterise(splat, known_, false, rows_, width_);
+  weights_.rasterise(splat, nullptr, known_, false, rows_, width_);
   chain_.steps().shares(splat, known_, shares_);
   for (const auto& span : weights_.spans()) {
     const auto weights = weights_.weights(span);
@@ -222,7 +222,7 @@ void BoundBand::add(const stages::StagedSplat& splat) {
   slice(splat);
   const bool geometry = r_.place == 0.0 && r_.lookup == 0.0 && r_.weight == 0.0 && !r_.radius;
   if (geometry) {
-    weights_.rasterise(splat, known_, false, {top, bottom}, width_);
+    weights_.rasterise(splat, nullptr, known_, false, {top, bottom}, width_);
     for (const auto& span : weights_.spans()) {
       const auto weights = weights_.weights(span);
       for (std::size_t p = 0; p < weights.size(); ++p) {

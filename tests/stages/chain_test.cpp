@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -55,9 +56,9 @@ struct Differences {
   }
 };
 
-/// All views of a configuration against the integer model.
-void against_device(const cmodel::Config& config, int size, Differences& all) {
-  for (const auto& description : views(size)) {
+/// Views of a configuration against the integer model.
+void against_device(const cmodel::Config& config, const std::vector<scene::SceneDescription>& views, Differences& all) {
+  for (const auto& description : views) {
     const scene::Scene scene = scene::build_scene(description);
     const cmodel::Frame frame = driver::render(scene, config).frame;
     const Picture picture = Chain(scene, config)(Mixture::all_device(), 2);
@@ -65,14 +66,28 @@ void against_device(const cmodel::Config& config, int size, Differences& all) {
     for (std::size_t i = 0; i < frame.words.size(); ++i)
       all.add(std::ldexp(picture.pixels[i / 4][i % 4], frame.frac_bits) == static_cast<double>(frame.words[i]));
     EXPECT_EQ(all.different, before) << config.name << ", index kind " << config.index_kind << ", view "
-                                     << all.frames % 7;
+                                     << all.frames % views.size();
+    ++all.frames;
+  }
+}
+
+/// And against golden.
+void against_golden(const cmodel::Config& config, const std::vector<scene::SceneDescription>& views, Differences& all) {
+  for (const auto& description : views) {
+    const scene::Scene scene = scene::build_scene(description);
+    const Image image = golden::render(scene);
+    const Picture picture = Chain(scene, config)(Mixture{}, 2);
+    const std::uint64_t before = all.different;
+    for (std::size_t i = 0; i < image.data.size(); ++i)
+      all.add(image.data[i] == static_cast<float>(picture.pixels[i / 4][i % 4]));
+    EXPECT_EQ(all.different, before) << config.name << ", view " << all.frames % views.size();
     ++all.frames;
   }
 }
 
 TEST(Chain, AllDeviceIsTheIntegerModelBitForBit) {
   Differences all;
-  for (const std::string& name : test::config_names()) against_device(test::named_config(name), 40, all);
+  for (const std::string& name : test::config_names()) against_device(test::named_config(name), views(40), all);
   all.print("words");
   EXPECT_GT(all.compared, 100000u);
 }
@@ -89,28 +104,96 @@ TEST(Chain, AllDeviceIsTheIntegerModelForEveryKindOfIndex) {
         config.position_frac_bits = std::min(config.position_frac_bits, 5);
       }
       ASSERT_FALSE(cmodel::first_violation(config)) << kind << " " << name;
-      against_device(config, 24, all);
+      against_device(config, views(24), all);
     }
   }
   all.print("words of six kinds of index");
   EXPECT_GT(all.compared, 100000u);
 }
 
+/// Frames whose splats have shapes of their own, alone and together.
+std::vector<scene::SceneDescription> shaped_views(int size) {
+  std::vector<scene::SceneDescription> all;
+  const auto view = [&]() -> scene::SceneDescription& {
+    all.push_back(view_of("shells:16", size));
+    all.back().camera.azimuth = 25.0;
+    all.back().camera.elevation = 15.0;
+    return all.back();
+  };
+  const auto perspective = [](scene::SceneDescription& d) {
+    d.camera.projection = scene::Projection::Perspective;
+    d.camera.fov = 60.0;
+    d.footprint.shape = scene::FootprintShape::Ellipse;
+  };
+  perspective(view());
+  view().footprint.antialias = true;
+  all.back().camera.zoom = 0.3;
+  view().motion.translate = {3.0, 1.0, 0.5};
+  scene::SceneDescription& lens = view();
+  lens.lens.depth_of_field = scene::DepthOfField::Splats;
+  lens.lens.aperture = 1.5;
+  lens.camera.projection = scene::Projection::Perspective;
+  scene::SceneDescription& mixed = view();
+  perspective(mixed);
+  mixed.footprint.antialias = true;
+  mixed.motion.orbit = 6.0;
+  mixed.slab_opacity = scene::SlabOpacity::Additive;
+  perspective(view());
+  all.back().method = scene::Method::AxisAligned;
+  perspective(view());
+  all.back().method = scene::Method::XRay;
+  all.back().xray_sheets = 5;
+  view().footprint.antialias = true;
+  all.back().camera.zoom = 0.2;
+  all.back().slab_width = 0.6;
+  all.back().opacity_scale = 6.0;
+  view().motion.translate = {6.0, 1.0, 0.0};
+  all.back().camera.zoom = 0.06;  // thinner than kThinnest
+  perspective(view());
+  all.back().volume = "shells:6";  // of several rows of windows
+  all.back().motion.translate = {0.5, 0.2, 0.0};
+  return all;
+}
+
+cmodel::Config with_carry(cmodel::Config config) {
+  config.rounding_carry = static_cast<int>(cmodel::Carry::On);
+  return config;
+}
+
+TEST(Chain, AllDeviceIsTheIntegerModelWithEllipses) {
+  Differences all;
+  const cmodel::Config config = test::named_config("ellipse");
+  const std::vector<scene::SceneDescription> views = shaped_views(40);
+  std::size_t grown = 0, stretched = 0;
+  for (const auto& description : views) {
+    const scene::Scene scene = scene::build_scene(description);
+    const Chain chain(scene, config);
+    const Staged staged = chain.steps().staged(chain.list(), Mixture::all_device(), false, 2);
+    const auto own = std::ranges::count_if(staged.shapes, [](const StagedShape& shape) { return shape.own; });
+    EXPECT_GT(own, 100);
+    grown += std::ranges::any_of(staged.shapes, [](const StagedShape& shape) { return shape.growth.shrink < 65536; });
+    stretched += std::ranges::any_of(staged.shapes, [](const StagedShape& shape) { return shape.words.b != 0; });
+  }
+  std::printf("[figure] of %zu views %zu have kernels that grow in depth, %zu ellipses that lie obliquely\n",
+              views.size(), grown, stretched);
+  EXPECT_GE(grown, 3u);
+  EXPECT_GE(stretched, 4u);
+  against_device(config, views, all);
+  against_device(with_carry(config), views, all);
+  all.print("words of frames with ellipses");
+  EXPECT_GT(all.compared, 100000u);
+}
+
+TEST(Chain, AllRealIsGoldenWithEllipses) {
+  Differences all;
+  against_golden(test::named_config("ellipse"), shaped_views(48), all);
+  all.print("floats of frames with ellipses");
+  EXPECT_GT(all.compared, 70000u);
+}
+
 TEST(Chain, AllRealIsGoldenFloatByFloat) {
   Differences all;
-  for (const char* name : {"base", "tiny"}) {
-    const cmodel::Config config = test::named_config(name);
-    for (const auto& description : views(48)) {
-      const scene::Scene scene = scene::build_scene(description);
-      const Image image = golden::render(scene);
-      const Picture picture = Chain(scene, config)(Mixture{}, 2);
-      const std::uint64_t before = all.different;
-      for (std::size_t i = 0; i < image.data.size(); ++i)
-        all.add(image.data[i] == static_cast<float>(picture.pixels[i / 4][i % 4]));
-      EXPECT_EQ(all.different, before) << name << ", view " << all.frames % 7;
-      ++all.frames;
-    }
-  }
+  for (const char* name : {"base", "tiny"}) against_golden(test::named_config(name), views(48), all);
   all.print("floats");
   EXPECT_GT(all.compared, 100000u);
 }

@@ -7,6 +7,7 @@ namespace fastsplat::cli {
 
 void declare(Options& options, RenderArguments& to) {
   declare(options, to.scene);
+  declare(options, to.gaussians);
   options.group("Engine");
   options.word("--engine", to.engine, "golden|cmodel|rtl",
                "golden (floating point), cmodel (the integer device) or rtl (its Verilated RTL)");
@@ -33,6 +34,9 @@ void declare(Options& options, RenderArguments& to) {
   options.example(
       "fastsplat render --volume shells:64 --size 256 --engine cmodel --config base -o model.exr -o model.png",
       "the integer device's picture of the same");
+  options.example(
+      "fastsplat render --gaussians shells:2000 --size 256 --engine cmodel -o gaussians.exr -o gaussians.png",
+      "3-D Gaussians on the integer device; the same without --engine cmodel to measure by");
   options.example("fastsplat render --volume shells:32 --size 96 --orbit 0..360 --frames 6 -o turn-#.png",
                   "a turn around it, a picture a step");
 }

@@ -100,6 +100,17 @@ scene::GaussianScene build(const GaussianFlags& flags, const GaussianView& view)
   return scene::build_gaussian_scene(view.description, std::move(cloud));
 }
 
+cmodel::Config load_for_gaussians(const ConfigFlags& flags) {
+  if (flags.config) return load(flags);
+  std::vector<std::string> changes = flags.changes;
+  for (const std::string change : {"composite.every_sample=1", "composite.freeze_below=7"}) {
+    const std::string key = change.substr(0, change.find('=') + 1);
+    if (std::ranges::none_of(flags.changes, [&](const std::string& other) { return other.starts_with(key); }))
+      changes.push_back(change);
+  }
+  return load("ellipse", changes);
+}
+
 std::string summary(const scene::GaussianScene& scene) {
   return fmt::format("{}, {}, degree {}, {}x{} pixels", scene.cloud->name,
                      counted(scene.cloud->gaussians.size(), "Gaussian"), scene.cloud->degree, scene.camera.width(),

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/config_flags.hpp"
 #include "cli/options.hpp"
 #include "cli/scene_flags.hpp"
 #include "golden/gaussians.hpp"
@@ -37,6 +38,9 @@ std::vector<std::string> inputs_of(const GaussianFlags& flags);
 
 /// Reads the file, or makes the built-in scene; a name that there is none of is Usage.
 scene::GaussianScene build(const GaussianFlags& flags, const GaussianView& view);
+/// The configuration named; without a name `ellipse` that composites every sample and finishes pixels where golden
+/// does.
+cmodel::Config load_for_gaussians(const ConfigFlags& flags);
 /// "lastchance.splat, 14,007 Gaussians, degree 0, 512x512 pixels".
 std::string summary(const scene::GaussianScene& scene);
 

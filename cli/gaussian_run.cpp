@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "base/hash_text.hpp"
+#include "base/srgb.hpp"
 #include "base/version.hpp"
 #include "cli/config_json.hpp"
 #include "cli/frame.hpp"
@@ -159,6 +160,23 @@ std::vector<Remark> remarks(const DeviceGaussians& device) {
   return said;
 }
 
+/// As it is shown: colours of trained scenes are those of photographs, encoded as sRGB, and are blended so. Behind them
+/// the background.
+Image shown_of(const Image& image, const scene::Display& display) {
+  const bool behind = display.background != glm::dvec3(0.0);
+  Image shown = image;
+  for (std::size_t at = 0; at < shown.data.size(); at += 4) {
+    const double left = 1.0 - static_cast<double>(shown.data[at + 3]);
+    for (int c = 0; c < 3; ++c) {
+      const double value = static_cast<double>(shown.data[at + static_cast<std::size_t>(c)]);
+      const double over = behind ? value + left * srgb_encode(display.background[c]) : value;
+      shown.data[at + static_cast<std::size_t>(c)] = static_cast<float>(srgb_decode(over));
+    }
+    if (behind) shown.data[at + 3] = 1.0F;
+  }
+  return shown;
+}
+
 /// Which numbers are the picture's: a picture of the same ones can be compared with it.
 images::Metadata metadata_of(const Result& result, const std::optional<cmodel::Config>& config,
                              golden::GaussianOrder order) {
@@ -182,12 +200,6 @@ images::Metadata metadata_of(const Result& result, const std::optional<cmodel::C
   return metadata;
 }
 
-cmodel::Config config_of(const ConfigFlags& flags) {
-  ConfigFlags named = flags;
-  if (!named.config) named.config = "gaussians";
-  return load(named);
-}
-
 }  // namespace
 
 ExitCode run_gaussians(const RenderArguments& arguments) {
@@ -201,7 +213,7 @@ ExitCode run_gaussians(const RenderArguments& arguments) {
        .others = {arguments.common.json},
        .inputs = joined(inputs_of(arguments.gaussians), inputs_of_config(arguments.config.config.value_or("")))});
   std::optional<cmodel::Config> config;
-  if (engine == Engine::CModel) config = config_of(arguments.config);
+  if (engine == Engine::CModel) config = load_for_gaussians(arguments.config);
   const GaussianView view = describe(arguments.gaussians, arguments.scene);
   const scene::GaussianScene scene = build(arguments.gaussians, view);
 
@@ -222,7 +234,9 @@ ExitCode run_gaussians(const RenderArguments& arguments) {
     output.remark(remarks(device));
     result.of = device;
     driver::DeviceRender whole{.frame = std::move(render.frame), .counters = {}, .report = {}, .units = {}};
-    write_device_images(whole, result.files.out, result.files.raw, metadata, output, &view.shown);
+    const Image image = driver::to_image(whole.frame);
+    write_images(result.files.out, image, shown_of(image, view.shown.display), metadata, output);
+    write_device_images(whole, {}, result.files.raw, metadata, output);
   } else {
     GoldenGaussians golden{projection};
     Image image;
@@ -237,7 +251,7 @@ ExitCode run_gaussians(const RenderArguments& arguments) {
     output.line(to_text(golden));
     result.of = golden;
     warn_if_empty(image, output);
-    write_images(result.files.out, image, scene::displayed(image, view.shown), metadata, output);
+    write_images(result.files.out, image, shown_of(image, view.shown.display), metadata, output);
   }
   result.seconds = output.seconds();
   output.json(to_json(result));

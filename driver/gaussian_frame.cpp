@@ -25,7 +25,7 @@ const cmodel::Config& checked(const cmodel::Config& config) {
                .what = "3-D Gaussians are ellipses composited one by one, which it cannot",
                .expected = "ellipse.frac_bits above 0 and composite.every_sample = 1",
                .got = {},
-               .fix = "use --config gaussians"});
+               .fix = "leave --config out, or --config ellipse --set composite.every_sample=1"});
 }
 
 /// Some of the Gaussian's pixels in the picture lie beyond the reach of a record.

@@ -75,9 +75,9 @@ void shells(int count, GaussianCloud& cloud) {
       const glm::dvec3 normal(ring * std::cos(angle), ring * std::sin(angle), z);
       const double pattern =
           std::sin(5.0 * normal.x + 1.3 * shell) * std::sin(5.0 * normal.y) * std::sin(5.0 * normal.z);
-      const bool hole = shell < 2 && pattern > 0.12;
+      const bool hole = shell < 2 && pattern > 0.03;
       cloud.gaussians.push_back({.position = radius * normal,
-                                 .scale = glm::vec3(0.9 * apart, 0.45 * apart, 0.08 * apart),
+                                 .scale = glm::vec3(0.6 * apart, 0.35 * apart, 0.06 * apart),
                                  .rotation = turn_to(normal),
                                  .opacity = hole         ? 0.04F
                                             : shell == 2 ? 0.95F

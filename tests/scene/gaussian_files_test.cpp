@@ -1,12 +1,11 @@
 // Files of 3-D Gaussians that are sound: every format and order of properties, there and back, and those that ship.
-#include "scene/gaussians/gaussian_file.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "scene/gaussians/gaussian_file.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
 #include "tests/scene/gaussian_helper.hpp"
 
@@ -121,10 +120,10 @@ TEST(SplatFile, WrittenAndReadAgain) {
 
 TEST(SplatFile, OneByHand) {
   std::string bytes(32, '\0');
-  bytes[3] = '\x3f', bytes[2] = '\x80';                          // x = 1.0
-  bytes[15] = '\x40';                                            // scale 2.0, 0, 0
-  bytes[24] = '\xff', bytes[25] = '\x00', bytes[26] = '\x80';    // colour
-  bytes[27] = '\x33';                                            // opacity 0.2
+  bytes[3] = '\x3f', bytes[2] = '\x80';                                    // x = 1.0
+  bytes[15] = '\x40';                                                      // scale 2.0, 0, 0
+  bytes[24] = '\xff', bytes[25] = '\x00', bytes[26] = '\x80';              // colour
+  bytes[27] = '\x33';                                                      // opacity 0.2
   bytes[28] = '\x80', bytes[29] = '\x00', bytes[30] = bytes[31] = '\x80';  // a half turn about x, backwards
   const TestFile file(".splat", bytes);
   const GaussianCloud cloud = load_gaussians(file.path());

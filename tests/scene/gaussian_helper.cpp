@@ -44,7 +44,8 @@ std::string bytes_of(const std::filesystem::path& path) {
 }
 
 std::string PlyTable::text(const std::string& format, const std::string& type, const std::string& comment) const {
-  std::string out = "ply\nformat " + format + " 1.0\n" + comment + "element vertex " + std::to_string(rows.size()) + "\n";
+  std::string out =
+      "ply\nformat " + format + " 1.0\n" + comment + "element vertex " + std::to_string(rows.size()) + "\n";
   for (const auto& name : names) out += "property " + type + " " + name + "\n";
   out += "end_header\n";
   const bool big = format == "binary_big_endian";

@@ -24,7 +24,8 @@ class TestFile {
 
 std::string bytes_of(const std::filesystem::path& path);
 
-/// Names of a PLY's properties and a row for each Gaussian, as a PLY of this format; `type`: float, float32, double or float64.
+/// Names of a PLY's properties and a row for each Gaussian, as a PLY of this format; `type`: float, float32, double or
+/// float64.
 struct PlyTable {
   std::vector<std::string> names;
   std::vector<std::vector<double>> rows;

@@ -15,8 +15,8 @@ double factorial(unsigned n) { return std::tgamma(n + 1.0); }
 /// Y_l^m of real harmonics. (std::assoc_legendre leaves the phase (-1)^m out.)
 double closed_formula(int l, int m, double theta, double phi) {
   const auto degree = static_cast<unsigned>(l), order = static_cast<unsigned>(std::abs(m));
-  const double norm = std::sqrt((2.0 * l + 1.0) / (4.0 * std::numbers::pi) * factorial(degree - order) /
-                                factorial(degree + order));
+  const double norm =
+      std::sqrt((2.0 * l + 1.0) / (4.0 * std::numbers::pi) * factorial(degree - order) / factorial(degree + order));
   const double legendre = (order % 2 == 1 ? -1.0 : 1.0) * std::assoc_legendre(degree, order, std::cos(theta));
   if (m == 0) return norm * legendre;
   return std::numbers::sqrt2 * norm * legendre * (m > 0 ? std::cos(m * phi) : std::sin(-m * phi));

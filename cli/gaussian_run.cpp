@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <variant>
 
 #include "base/hash_text.hpp"
@@ -221,12 +222,14 @@ ExitCode run_gaussians(const RenderArguments& arguments) {
   scene::ProjectionReport projection;
   const auto projected = scene::project_all(scene, &projection);
   const images::Metadata metadata = metadata_of(result, config, view.order);
+  std::optional<driver::GaussianFrame> frame;
+  if (config) frame.emplace(scene, projected, *config);
   output.line(summary(scene));
-  if (config) {
+  if (frame) {
     driver::GaussianRender render;
     {
       ProgressBar bar(arguments.engine, watching(arguments.common));
-      render = driver::render_gaussians({scene, projected, *config}, arguments.common.threads, bar.callback());
+      render = driver::render_gaussians(*frame, arguments.common.threads, bar.callback());
     }
     DeviceGaussians device{*config, render.report, render.counters};
     device.report.projection = projection;

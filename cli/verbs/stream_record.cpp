@@ -42,6 +42,7 @@ void declare(Options& options, Arguments& to) {
                   "what the device is fed for a scene");
   options.example("fastsplat stream record --scene demo:layer-adding --size 64 --config base -o layers.fss",
                   "of a built-in scene");
+  options.example("fastsplat stream record --gaussians shells:200 --size 64 -o gaussians.fss", "of 3-D Gaussians");
 }
 
 /// What was recorded, in words.

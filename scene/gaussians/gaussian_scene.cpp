@@ -60,13 +60,13 @@ double radius_of(const GaussianCloud& cloud, const glm::dvec3& middle, double cu
   return radius > 0.0 ? radius : 1.0;
 }
 
-void check_limit(const char* flag, double value, double low, double high) {
+void check_limit(const char* flag, double value, double low, double high, double usual) {
   if (value >= low && value <= high) return;
   throw_usage({.where = flag,
                .what = "out of range",
                .expected = fmt::format("{:g}..{:g}", low, high),
                .got = fmt::format("{:g}", value),
-               .fix = {}});
+               .fix = fmt::format("{:g} is the default", usual)});
 }
 
 }  // namespace
@@ -78,8 +78,8 @@ const std::vector<std::string>& up_axis_names() {
 
 GaussianScene build_gaussian_scene(const GaussianDescription& description, std::shared_ptr<const GaussianCloud> cloud) {
   assert(!cloud->gaussians.empty());
-  check_limit("--low-pass", description.low_pass, 0.01, 100.0);
-  check_limit("--cutoff", description.cutoff, 1.0, 4.0);
+  check_limit("--low-pass", description.low_pass, 0.01, 100.0, GaussianDescription{}.low_pass);
+  check_limit("--cutoff", description.cutoff, 1.0, 4.0, GaussianDescription{}.cutoff);
   const glm::dvec3 middle = middle_of(*cloud);
   const double radius = radius_of(*cloud, middle, description.cutoff);
   return {.description = description,

@@ -143,7 +143,11 @@ GaussianCloud read_gaussian_ply(const std::filesystem::path& path) {
   const PlyElement& element = vertices(header, rows, where);
   const Columns at = columns_of(element, where);
   if (element.count == 0) {
-    throw_input({.where = where, .what = "the file holds no Gaussian", .expected = {}, .got = {}, .fix = {}});
+    throw_input({.where = where,
+                 .what = "the file holds no Gaussian",
+                 .expected = "element vertex COUNT with at least 1",
+                 .got = "0",
+                 .fix = "check that this is the file you meant"});
   }
   rows.require(element);
 

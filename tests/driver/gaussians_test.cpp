@@ -222,6 +222,46 @@ TEST(Gaussians, ModelEqualsOracle) {
   EXPECT_GT(total.total(), 500000U);
 }
 
+// The device's work in its own unit: windows, of which one is begun a cycle but for what waits for a pixel.
+TEST(Gaussians, WindowsAreWhatTheRecordsSay) {
+  const auto config = usual_config();
+  const cmodel::EllipseUnit unit(config);
+  for (const char* name : {"shells:2000", "cloud:3000"}) {
+    const auto scene = scene_of(name, 256, 256);
+    const GaussianFrame frame(scene, scene::project_all(scene), config);
+    std::uint64_t windows = 0, empty = 0;
+    const auto count = [&](const cmodel::EllipseRecord& record) {
+      const auto x = cmodel::ellipse_axis(config, record.x, record.windows.left);
+      const auto y = cmodel::ellipse_axis(config, record.y, record.windows.top);
+      const auto f = unit.coefficients(record.shape, x.distance, y.distance);
+      for (std::uint32_t row = 0; row < record.windows.rows * 8; row += 8) {
+        for (std::uint32_t column = 0; column < record.windows.columns * 8; column += 8, ++windows) {
+          bool weighted = false;
+          for (std::uint32_t lane = 0; lane < 64; ++lane)
+            weighted = weighted || unit.index(f, column + lane % 8, row + lane / 8) < 1024;
+          empty += weighted ? 0 : 1;
+        }
+      }
+    };
+    for (int tile = 0; tile < frame.grid().count(); ++tile) {
+      frame.emit_tile(tile, [&](std::span<const cmodel::Beat> beats) {
+        for (const cmodel::Beat& beat : beats) {
+          const cmodel::Record record = cmodel::from_beat(beat);
+          if (const auto* ellipse = std::get_if<cmodel::EllipseRecord>(&record)) count(*ellipse);
+        }
+      });
+    }
+    const GaussianRender device = render_gaussians(frame);
+    EXPECT_EQ(device.counters.windows, windows);
+    const double all = static_cast<double>(windows);
+    figure(std::string(name) + ": windows a Gaussian and tile", all / static_cast<double>(device.report.in_tiles));
+    figure(std::string(name) + ": windows without a weight", 100.0 * static_cast<double>(empty) / all, "%");
+    figure(std::string(name) + ": lanes used",
+           100.0 * static_cast<double>(device.counters.lanes_weighted) / (64.0 * all), "%");
+    EXPECT_LT(static_cast<double>(empty), 0.05 * all);
+  }
+}
+
 // A picture is that of smaller tiles but for what six coefficients round at another first pixel.
 TEST(Gaussians, TilesHardlyShow) {
   auto config = usual_config();

@@ -34,9 +34,6 @@ void declare(Options& options, RenderArguments& to) {
   options.example(
       "fastsplat render --volume shells:64 --size 256 --engine cmodel --config base -o model.exr -o model.png",
       "the integer device's picture of the same");
-  options.example(
-      "fastsplat render --gaussians shells:2000 --size 256 --engine cmodel -o gaussians.exr -o gaussians.png",
-      "3-D Gaussians on the integer device; the same without --engine cmodel to measure by");
   options.example("fastsplat render --volume shells:32 --size 96 --orbit 0..360 --frames 6 -o turn-#.png",
                   "a turn around it, a picture a step");
 }

@@ -258,7 +258,7 @@ TEST(Gaussians, WindowsAreWhatTheRecordsSay) {
     figure(std::string(name) + ": windows without a weight", 100.0 * static_cast<double>(empty) / all, "%");
     figure(std::string(name) + ": lanes used",
            100.0 * static_cast<double>(device.counters.lanes_weighted) / (64.0 * all), "%");
-    EXPECT_LT(static_cast<double>(empty), 0.05 * all);
+    EXPECT_LT(static_cast<double>(empty), 0.002 * all);
   }
 }
 

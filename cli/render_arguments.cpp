@@ -7,6 +7,7 @@ namespace fastsplat::cli {
 
 void declare(Options& options, RenderArguments& to) {
   declare(options, to.scene);
+  declare(options, to.gaussians);
   options.group("Engine");
   options.word("--engine", to.engine, "golden|cmodel|rtl",
                "golden (floating point), cmodel (the integer device) or rtl (its Verilated RTL)");

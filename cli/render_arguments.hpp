@@ -7,6 +7,7 @@
 
 #include "cli/common.hpp"
 #include "cli/config_flags.hpp"
+#include "cli/gaussian_flags.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/wave_flags.hpp"
 
@@ -15,6 +16,7 @@ namespace fastsplat::cli {
 struct RenderArguments {
   Common common;
   SceneFlags scene;
+  GaussianFlags gaussians;  ///< instead of a scene of a volume
   std::string engine = "golden";
   ConfigFlags config;
   std::vector<std::string> out;

@@ -47,6 +47,8 @@ Target target(Site site, const cmodel::Config& config) {
       return {Rounding::Nearest, Overflow::Saturates, whole_word(config)};
     case Site::Carried:  // what is cut off goes to the next splat
       return {Rounding::Down, Overflow::Saturates, whole_word(config)};
+    case Site::Gaussian:
+      return {Rounding::Nearest, Overflow::Saturates, config.colour_format()};
     case Site::Phi:
       return {Rounding::Nearest, Overflow::Impossible, cmodel::unit_format(config.slice_frac_bits)};
     case Site::Rho:

@@ -17,6 +17,7 @@ enum class Site {
   Boundary,       ///< between two slabs, behind the first one, kernel units
   Whole,          ///< a channel of a whole splat
   Carried,        ///< a channel of a whole splat and what the splat before left
+  Gaussian,       ///< opacity of a 3-D Gaussian, or a channel of its colour times that
   Phi,            ///< cumulative slice weight
   Rho,            ///< support radius, pixels
   Rlut,           ///< scaled squared distance, in words already

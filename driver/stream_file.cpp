@@ -17,6 +17,7 @@
 #include "cmodel/model.hpp"
 #include "cmodel/stream_advice.hpp"
 #include "driver/compile.hpp"
+#include "driver/gaussian_frame.hpp"
 #include "driver/frame_sink.hpp"
 #include "driver/tile_cover.hpp"
 
@@ -265,6 +266,14 @@ DriverReport record_stream(const scene::Scene& scene, const cmodel::Config& conf
   const CompiledFrame compiled(scene, config);
   const DriverReport report =
       compiled.emit([&](std::span<const Beat> beats) { writer.write(beats); }, options.progress);
+  writer.finish();
+  return report;
+}
+
+GaussianReport record_stream(const GaussianFrame& frame, const std::filesystem::path& path, const Progress& progress) {
+  check_image_size(frame.grid().image_width, frame.grid().image_height);
+  Writer writer(path);
+  const GaussianReport report = frame.emit([&](std::span<const Beat> beats) { writer.write(beats); }, progress);
   writer.finish();
   return report;
 }

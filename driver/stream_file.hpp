@@ -21,6 +21,12 @@ void check_image_size(int width, int height);
 DriverReport record_stream(const scene::Scene& scene, const cmodel::Config& config, const std::filesystem::path& path,
                            const RenderOptions& options = {});
 
+/// The same of a compiled view of 3-D Gaussians (driver/gaussian_frame.hpp).
+class GaussianFrame;
+struct GaussianReport;
+GaussianReport record_stream(const GaussianFrame& frame, const std::filesystem::path& path,
+                             const Progress& progress = {});
+
 /// Feeds a recorded stream to the cmodel. A corrupt, truncated or foreign stream is a UserError (Input) with the byte
 /// offset and the reason; a configuration that differs from the stream's is refused by hash and name.
 DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Config& config,

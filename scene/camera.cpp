@@ -46,6 +46,9 @@ void check_angle(const char* name, double degrees) {
 }  // namespace
 
 Camera::Camera(const CameraParams& params, const volume::Volume& volume, double kernel_radius_mm, int width, int height)
+    : Camera(params, volume.bounding_radius() + kernel_radius_mm, width, height) {}
+
+Camera::Camera(const CameraParams& params, double radius, int width, int height)
     : projection_(params.projection), width_(width), height_(height), centre_(0.5 * (width - 1), 0.5 * (height - 1)) {
   check_angle("azimuth", params.azimuth);
   check_angle("elevation", params.elevation);
@@ -67,7 +70,6 @@ Camera::Camera(const CameraParams& params, const volume::Volume& volume, double 
   down_ = roll.cos * upright - roll.sin * level;
 
   const double zoom = params.fit == Fit::Content ? 1.0 : params.zoom;
-  const double radius = volume.bounding_radius() + kernel_radius_mm;
   const double half_side = 0.5 * std::min(width, height);
   if (projection_ == Projection::Orthographic) {
     scale_ = zoom * half_side / radius;

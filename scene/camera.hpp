@@ -43,6 +43,8 @@ class Camera {
   /// Perspective zoom brings the eye nearer; the field of view stays. Throws UserError (Usage) for zoom <= 0, fov
   /// outside (1,150), an eye inside the bounding sphere, sizes < 1.
   Camera(const CameraParams& params, const volume::Volume& volume, double kernel_radius_mm, int width, int height);
+  /// The same about the origin, of whatever lies within a sphere of `radius`, in whatever unit.
+  Camera(const CameraParams& params, double radius, int width, int height);
 
   /// The same view with picture point `middle` moved to the picture's middle and everything `factor` times as large.
   Camera enlarged(double factor, const glm::dvec2& middle) const;

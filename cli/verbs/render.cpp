@@ -9,6 +9,7 @@
 #include "base/version.hpp"
 #include "cli/animation.hpp"
 #include "cli/frame.hpp"
+#include "cli/gaussian_run.hpp"
 #include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
@@ -158,6 +159,8 @@ ExitCode run(const RenderArguments& arguments) {
                     .unit = arguments.plain ? driver::Unit::Plain : driver::Unit::Fast,
                     .threads = arguments.common.threads};
   check(arguments, renderer.engine);
+  if (arguments.gaussians.file) return run_gaussians(arguments);
+  refuse_without_gaussians(arguments.gaussians);
   const auto sequence = sequence_of(arguments);
   if (sequence) {
     if (!arguments.wave.file.empty()) {
@@ -185,7 +188,6 @@ ExitCode run(const RenderArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::render{"render", "volume + transfer function + camera to an image",
-                         verb<RenderArguments, declare, run>};
+const Verb verbs::render{"render", "a volume, or 3-D Gaussians, to an image", verb<RenderArguments, declare, run>};
 
 }  // namespace fastsplat::cli

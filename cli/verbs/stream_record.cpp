@@ -1,16 +1,20 @@
 // fastsplat stream record: what the device is fed for a scene, in a file.
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "base/version.hpp"
 #include "cli/config_flags.hpp"
 #include "cli/config_json.hpp"
 #include "cli/device_report.hpp"
+#include "cli/gaussian_flags.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "cli/volume_json.hpp"
+#include "driver/gaussian_frame.hpp"
 #include "driver/stream_file.hpp"
 
 namespace fastsplat::cli {
@@ -21,12 +25,14 @@ using Json = nlohmann::ordered_json;
 struct Arguments {
   Common common;
   SceneFlags scene;
+  GaussianFlags gaussians;
   ConfigFlags config;
   std::string out;
 };
 
 void declare(Options& options, Arguments& to) {
   declare(options, to.scene);
+  declare(options, to.gaussians);
   options.group("Engine");
   declare(options, to.config, "hardware configuration, a name or a TOML file");
   options.group("Output");
@@ -36,6 +42,7 @@ void declare(Options& options, Arguments& to) {
                   "what the device is fed for a scene");
   options.example("fastsplat stream record --scene demo:layer-adding --size 64 --config base -o layers.fss",
                   "of a built-in scene");
+  options.example("fastsplat stream record --gaussians shells:200 --size 64 -o gaussians.fss", "of 3-D Gaussians");
 }
 
 /// What was recorded, in words.
@@ -59,6 +66,34 @@ Json to_json(const Result& result) {
   return json;
 }
 
+/// 3-D Gaussians instead of a volume.
+ExitCode record_gaussians(const Arguments& arguments, const cmodel::Config& config, const Output& output) {
+  if (arguments.gaussians.order) {
+    throw_usage({.where = "--order",
+                 .what = "the device has one order, that of its records",
+                 .expected = {},
+                 .got = {},
+                 .fix = "leave it out"});
+  }
+  const GaussianView view = describe(arguments.gaussians, arguments.scene);
+  driver::check_image_size(view.description.width, view.description.height);
+  const scene::GaussianScene scene = build(arguments.gaussians, view);
+  driver::GaussianReport report;
+  {
+    ProgressBar bar("recording", watching(arguments.common));
+    report = driver::record_stream({scene, scene::project_all(scene), config}, arguments.out, bar.callback());
+  }
+  output.line(fmt::format("{}\ndriver: {}, {}\n{}\n", summary(scene), counted(report.records, "ellipse record"),
+                          counted(report.tiles, "tile"), arguments.out));
+  output.json(Json{{"verb", "stream record"},
+                   {"version", program_version()},
+                   {"stream", arguments.out},
+                   {"config", config_identity_json(config)},
+                   {"driver", {{"records", report.records}, {"in_tiles", report.in_tiles}, {"tiles", report.tiles}}}});
+  output.note_time("recorded");
+  return ExitCode::Pass;
+}
+
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
   if (!arguments.out.ends_with(".fss")) {
@@ -68,11 +103,15 @@ ExitCode run(const Arguments& arguments) {
                  .got = {},
                  .fix = "for example --out scene.fss"});
   }
-  check_outputs({.images = {},
-                 .maps = {},
-                 .raws = {},
-                 .others = {arguments.out, arguments.common.json},
-                 .inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")))});
+  check_outputs(
+      {.images = {},
+       .maps = {},
+       .raws = {},
+       .others = {arguments.out, arguments.common.json},
+       .inputs = joined(arguments.gaussians.file ? inputs_of(arguments.gaussians) : inputs_of(arguments.scene),
+                        inputs_of_config(arguments.config.config.value_or("")))});
+  if (arguments.gaussians.file) return record_gaussians(arguments, load_for_gaussians(arguments.config), output);
+  refuse_without_gaussians(arguments.gaussians);
   const auto config = load(arguments.config);
   const auto description = describe(arguments.scene);
   driver::check_image_size(description.width, description.height);

@@ -1,0 +1,120 @@
+#include "cli/gaussian_flags.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "base/error.hpp"
+#include "cli/names.hpp"
+#include "cli/output.hpp"
+#include "scene/gaussians/gaussian_file.hpp"
+#include "scene/gaussians/synthetic_gaussians.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+const std::vector<std::string>& order_names() {
+  static const std::vector<std::string> names = {"centres", "pixels"};
+  return names;
+}
+
+template <class Enum>
+Enum named(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<Enum>(std::ranges::find(names, name) - names.begin());
+}
+
+[[noreturn]] void meaningless(const std::string& flag, const std::string& what, const std::string& fix) {
+  throw_usage({.where = flag, .what = what, .expected = {}, .got = {}, .fix = fix});
+}
+
+void refuse_what_is_of_volumes(const SceneFlags& scene) {
+  const auto refuse = [](const char* flag) {
+    meaningless(flag, "says something of volumes, and --gaussians has none", "leave it out");
+  };
+  if (scene.file) refuse("--scene");
+  if (scene.volume) refuse("--volume");
+  if (scene.transfer_function) refuse("--tf");
+  if (scene.kernel) refuse("--kernel");
+  if (scene.nan_as) refuse("--nan-as");
+  constexpr std::array kOurs{"--azimuth", "--elevation", "--roll", "--zoom", "--fov", "--background"};
+  for (const auto& [flag, text] : scene.settings) {
+    if (std::ranges::find(kOurs, flag) == kOurs.end()) refuse(flag.c_str());
+  }
+}
+
+}  // namespace
+
+void declare(Options& options, GaussianFlags& to) {
+  options.group("3-D Gaussians");
+  options.word("--gaussians", to.file, "FILE|NAME",
+               "a trained scene, .ply or .splat, or shells:2000 or cloud:500; instead of a volume");
+  options.values(scene::synthetic_gaussian_names);
+  options.choice("--up", to.up, scene::up_axis_names(), "AXIS",
+                 "which of the file's axes points up: x, y, z, -x, -y, -z (-y; of built-in scenes z)");
+  options.number("--low-pass", to.low_pass, "NUMBER",
+                 "square pixels added to every footprint's variance, 0.01 to 100 (0.3)");
+  options.number("--cutoff", to.cutoff, "NUMBER", "standard deviations to where a footprint reaches, 1 to 4 (3)");
+  options.choice("--order", to.order, order_names(), "NAME",
+                 "golden: what is in front by the depth of centres, or at every pixel: centres, pixels (centres)");
+}
+
+GaussianView describe(const GaussianFlags& flags, const SceneFlags& scene) {
+  refuse_what_is_of_volumes(scene);
+  SceneFlags camera = scene;
+  if (!camera.orthographic) camera.perspective = true;
+  GaussianView view;
+  view.shown = describe(camera);
+  view.description.camera = view.shown.camera;
+  view.description.width = view.shown.width;
+  view.description.height = view.shown.height;
+  view.description.up = scene::files_of_gaussians(*flags.file).empty() ? scene::UpAxis::Z : scene::UpAxis::MinusY;
+  if (flags.up) view.description.up = named<scene::UpAxis>(scene::up_axis_names(), *flags.up);
+  if (flags.low_pass) view.description.low_pass = *flags.low_pass;
+  if (flags.cutoff) view.description.cutoff = *flags.cutoff;
+  if (flags.order) view.order = named<golden::GaussianOrder>(order_names(), *flags.order);
+  return view;
+}
+
+void refuse_without_gaussians(const GaussianFlags& flags) {
+  const char* const flag = flags.up         ? "--up"
+                           : flags.low_pass ? "--low-pass"
+                           : flags.cutoff   ? "--cutoff"
+                           : flags.order    ? "--order"
+                                            : nullptr;
+  if (flag != nullptr)
+    meaningless(flag, "means nothing without 3-D Gaussians", "add --gaussians FILE, or leave it out");
+}
+
+std::vector<std::string> inputs_of(const GaussianFlags& flags) {
+  std::vector<std::string> names;
+  if (!flags.file) return names;
+  for (const auto& path : scene::files_of_gaussians(*flags.file)) names.push_back(path.string());
+  return names;
+}
+
+scene::GaussianScene build(const GaussianFlags& flags, const GaussianView& view) {
+  std::shared_ptr<const scene::GaussianCloud> cloud;
+  as_word(*flags.file, [&] { cloud = std::make_shared<scene::GaussianCloud>(scene::load_gaussians(*flags.file)); });
+  return scene::build_gaussian_scene(view.description, std::move(cloud));
+}
+
+cmodel::Config load_for_gaussians(const ConfigFlags& flags) {
+  if (flags.config) return load(flags);
+  std::vector<std::string> changes = flags.changes;
+  for (const std::string change : {"composite.every_sample=1", "composite.freeze_below=7"}) {
+    const std::string key = change.substr(0, change.find('=') + 1);
+    if (std::ranges::none_of(flags.changes, [&](const std::string& other) { return other.starts_with(key); }))
+      changes.push_back(change);
+  }
+  return load("ellipse", changes);
+}
+
+std::string summary(const scene::GaussianScene& scene) {
+  return fmt::format("{}, {}, degree {}, {}x{} pixels", scene.cloud->name,
+                     counted(scene.cloud->gaussians.size(), "Gaussian"), scene.cloud->degree, scene.camera.width(),
+                     scene.camera.height());
+}
+
+}  // namespace fastsplat::cli

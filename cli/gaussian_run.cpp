@@ -1,0 +1,265 @@
+#include "cli/gaussian_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <variant>
+
+#include "base/hash_text.hpp"
+#include "base/srgb.hpp"
+#include "base/version.hpp"
+#include "cli/config_json.hpp"
+#include "cli/frame.hpp"
+#include "cli/image_output.hpp"
+#include "cli/output_names.hpp"
+#include "cli/progress_bar.hpp"
+#include "driver/gaussian_frame.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void check(const RenderArguments& arguments, Engine engine) {
+  const auto refuse = [](const char* flag, const std::string& what, const std::string& fix) {
+    throw_usage({.where = flag, .what = what, .expected = {}, .got = {}, .fix = fix});
+  };
+  const std::string none = "--gaussians has none";
+  if (engine == Engine::Rtl) refuse("--engine rtl", "draws no 3-D Gaussians", "use --engine cmodel, its model");
+  if (engine != Engine::Golden && arguments.gaussians.order)
+    refuse("--order", "the device has one order, that of its records", "add --engine golden, or leave it out");
+  if (arguments.orbit || arguments.sequence || arguments.frames)
+    refuse("--orbit, --sequence, --frames", "animations are of volumes", "render stills with --azimuth");
+  if (!arguments.save_scene.empty()) refuse("--save-scene", "a scene.toml describes volumes; " + none, "leave it out");
+  if (arguments.plain) refuse("--plain", "there is one way to draw 3-D Gaussians", "leave it out");
+}
+
+struct GoldenGaussians {
+  scene::ProjectionReport projection;
+  std::uint64_t samples = 0;
+};
+struct DeviceGaussians {
+  cmodel::Config config;
+  driver::GaussianReport report;
+  cmodel::Counters counters;
+  double lanes() const { return static_cast<double>(config.lanes) * config.lanes; }
+  /// Of the lanes of all windows, those with a weight.
+  double used() const {
+    return static_cast<double>(counters.lanes_weighted) /
+           (lanes() * static_cast<double>(std::max<std::uint64_t>(counters.windows, 1)));
+  }
+  double windows_each() const {
+    return static_cast<double>(counters.windows) / static_cast<double>(std::max<std::uint64_t>(report.in_tiles, 1));
+  }
+};
+
+struct Result {
+  std::string engine;
+  const scene::GaussianScene& scene;
+  std::variant<GoldenGaussians, DeviceGaussians> of{};
+  FrameFiles files{};
+  double seconds = 0.0;
+};
+
+std::string to_text(const scene::ProjectionReport& projection) {
+  return fmt::format("projection: {} drawn, {} behind the near plane, {} outside the picture\n",
+                     grouped(projection.gaussians - projection.near - projection.outside), grouped(projection.near),
+                     grouped(projection.outside));
+}
+
+std::string to_text(const GoldenGaussians& golden) {
+  return to_text(golden.projection) + fmt::format("golden: {} composited\n", counted(golden.samples, "sample"));
+}
+
+std::string to_text(const DeviceGaussians& device) {
+  return to_text(device.report.projection) +
+         fmt::format("driver: {} Gaussians in tiles, {}, {}\n", grouped(device.report.in_tiles),
+                     counted(device.report.records, "ellipse record"), counted(device.report.tiles, "tile")) +
+         fmt::format(
+             "device: configuration {} {}, {} ({:.2f} a Gaussian and tile, {:.1f} % of their lanes used), {} "
+             "composited, {} of them frozen\n",
+             device.config.name, hash_text(cmodel::config_hash(device.config)),
+             counted(device.counters.windows, "window"), device.windows_each(), 100.0 * device.used(),
+             counted(device.counters.pixels_composited, "sample"), grouped(device.counters.frozen_pixels));
+}
+
+Json to_json(const scene::ProjectionReport& projection) {
+  return {{"gaussians", projection.gaussians}, {"near", projection.near}, {"outside", projection.outside}};
+}
+
+Json to_json(const GoldenGaussians& golden) {
+  return {{"projection", to_json(golden.projection)}, {"samples", golden.samples}};
+}
+
+Json to_json(const DeviceGaussians& device) {
+  Json json{{"config", priced_config_json(device.config)}, {"projection", to_json(device.report.projection)}};
+  json["driver"] = {{"drawn", device.report.drawn},         {"vanished", device.report.vanished},
+                    {"saturated", device.report.saturated}, {"cut", device.report.cut},
+                    {"in_tiles", device.report.in_tiles},   {"records", device.report.records},
+                    {"tiles", device.report.tiles}};
+  auto& counts = json["counters"];
+  device.counters.for_each(
+      [&](std::string_view name, std::uint64_t value, std::string_view) { counts[std::string(name)] = value; });
+  return json;
+}
+
+Json to_json(const Result& result) {
+  const auto& description = result.scene.description;
+  Json json{{"verb", "render"},
+            {"version", program_version()},
+            {"engine", result.engine},
+            {"gaussians",
+             {{"name", result.scene.cloud->name},
+              {"source", result.scene.cloud->source},
+              {"count", result.scene.cloud->gaussians.size()},
+              {"degree", result.scene.cloud->degree},
+              {"content_hash", hash_text(scene::content_hash(*result.scene.cloud))},
+              {"up", scene::up_axis_names()[static_cast<std::size_t>(description.up)]},
+              {"low_pass", description.low_pass},
+              {"cutoff", description.cutoff},
+              {"width", description.width},
+              {"height", description.height}}}};
+  std::visit([&json](const auto& of) { json.update(to_json(of)); }, result.of);
+  json["outputs"] = result.files.out;
+  if (!result.files.raw.empty()) json["raw"] = result.files.raw;
+  json["seconds"] = result.seconds;
+  return json;
+}
+
+std::vector<Remark> remarks(const DeviceGaussians& device) {
+  std::vector<Remark> said;
+  const auto& report = device.report;
+  if (report.cut > 0) {
+    said.push_back({Remark::Warning,
+                    fmt::format("{} Gaussians reach farther into the picture than an ellipse record does and were cut "
+                                "there; a smaller --size or --zoom",
+                                grouped(report.cut))});
+  }
+  if (report.saturated > 0) {
+    said.push_back({Remark::Warning, fmt::format("{} Gaussians are brighter than the input format holds and were cut",
+                                                 grouped(report.saturated))});
+  }
+  if (report.vanished > 0) {
+    said.push_back({Remark::Note, fmt::format("{} Gaussians are too transparent for the input format and vanished",
+                                              grouped(report.vanished))});
+  }
+  const int one = 1 << device.config.composite_frac_bits;
+  const int wanted = static_cast<int>(std::ceil(scene::kFinished * one));
+  if (device.config.freeze_below != wanted) {
+    said.push_back(
+        {Remark::Note, fmt::format("pixels are finished below a transmittance of {:.2g}, golden's below "
+                                   "{:g}: --set composite.freeze_below={}",
+                                   static_cast<double>(device.config.freeze_below) / one, scene::kFinished, wanted)});
+  }
+  device.counters.for_each([&](std::string_view name, std::uint64_t value, std::string_view meaning) {
+    if (name.ends_with("_saturated") && value > 0)
+      said.push_back({Remark::Warning, fmt::format("{} {}", grouped(value), meaning)});
+  });
+  return said;
+}
+
+/// As it is shown: colours of trained scenes are those of photographs, encoded as sRGB, and are blended so. Behind them
+/// the background.
+Image shown_of(const Image& image, const scene::Display& display) {
+  const bool behind = display.background != glm::dvec3(0.0);
+  Image shown = image;
+  for (std::size_t at = 0; at < shown.data.size(); at += 4) {
+    const double left = 1.0 - static_cast<double>(shown.data[at + 3]);
+    for (int c = 0; c < 3; ++c) {
+      const double value = static_cast<double>(shown.data[at + static_cast<std::size_t>(c)]);
+      const double over = behind ? value + left * srgb_encode(display.background[c]) : value;
+      shown.data[at + static_cast<std::size_t>(c)] = static_cast<float>(srgb_decode(over));
+    }
+    if (behind) shown.data[at + 3] = 1.0F;
+  }
+  return shown;
+}
+
+/// Which numbers are the picture's: a picture of the same ones can be compared with it.
+images::Metadata metadata_of(const Result& result, const std::optional<cmodel::Config>& config,
+                             golden::GaussianOrder order) {
+  const auto& scene = result.scene;
+  const auto& camera = scene.description.camera;
+  images::Metadata metadata{
+      {"engine", result.engine},
+      {"method", order == golden::GaussianOrder::Pixels ? "gaussians, ordered at every pixel" : "gaussians"},
+      {"gaussians", scene.cloud->source},
+      {"content_hash", hash_text(scene::content_hash(*scene.cloud))},
+      {"view", fmt::format("{}, azimuth {}, elevation {}, roll {}, zoom {}, fov {}, up {}, low-pass {}, cutoff {}",
+                           camera.projection == scene::Projection::Perspective ? "perspective" : "orthographic",
+                           camera.azimuth, camera.elevation, camera.roll, camera.zoom, camera.fov,
+                           scene::up_axis_names()[static_cast<std::size_t>(scene.description.up)],
+                           scene.description.low_pass, scene.description.cutoff)},
+      {"version", program_version()}};
+  if (config) {
+    metadata["config"] = config->name;
+    metadata["config_hash"] = hash_text(cmodel::config_hash(*config));
+  }
+  return metadata;
+}
+
+}  // namespace
+
+ExitCode run_gaussians(const RenderArguments& arguments) {
+  const Output output(arguments.common);
+  const Engine engine = engine_from(arguments.engine);
+  check(arguments, engine);
+  check_outputs(
+      {.images = arguments.out,
+       .maps = {},
+       .raws = {arguments.raw},
+       .others = {arguments.common.json},
+       .inputs = joined(inputs_of(arguments.gaussians), inputs_of_config(arguments.config.config.value_or("")))});
+  std::optional<cmodel::Config> config;
+  if (engine == Engine::CModel) config = load_for_gaussians(arguments.config);
+  const GaussianView view = describe(arguments.gaussians, arguments.scene);
+  const scene::GaussianScene scene = build(arguments.gaussians, view);
+
+  Result result{.engine = arguments.engine, .scene = scene, .files = {.out = arguments.out, .raw = arguments.raw}};
+  scene::ProjectionReport projection;
+  const auto projected = scene::project_all(scene, &projection);
+  const images::Metadata metadata = metadata_of(result, config, view.order);
+  std::optional<driver::GaussianFrame> frame;
+  if (config) frame.emplace(scene, projected, *config);
+  output.line(summary(scene));
+  if (frame) {
+    driver::GaussianRender render;
+    {
+      ProgressBar bar(arguments.engine, watching(arguments.common));
+      render = driver::render_gaussians(*frame, arguments.common.threads, bar.callback());
+    }
+    DeviceGaussians device{*config, render.report, render.counters};
+    device.report.projection = projection;
+    output.line(to_text(device));
+    output.remark(remarks(device));
+    result.of = device;
+    driver::DeviceRender whole{.frame = std::move(render.frame), .counters = {}, .report = {}, .units = {}};
+    const Image image = driver::to_image(whole.frame);
+    write_images(result.files.out, image, shown_of(image, view.shown.display), metadata, output);
+    write_device_images(whole, {}, result.files.raw, metadata, output);
+  } else {
+    GoldenGaussians golden{projection};
+    Image image;
+    {
+      ProgressBar bar(arguments.engine, watching(arguments.common));
+      image = golden::render_gaussians(scene, projected,
+                                       {.threads = arguments.common.threads,
+                                        .progress = bar.callback(),
+                                        .order = view.order,
+                                        .samples = &golden.samples});
+    }
+    output.line(to_text(golden));
+    result.of = golden;
+    warn_if_empty(image, output);
+    write_images(result.files.out, image, shown_of(image, view.shown.display), metadata, output);
+  }
+  result.seconds = output.seconds();
+  output.json(to_json(result));
+  output.note_time("rendered");
+  return ExitCode::Pass;
+}
+
+}  // namespace fastsplat::cli

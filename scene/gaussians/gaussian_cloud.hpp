@@ -1,0 +1,48 @@
+// A scene of 3-D Gaussians, as trainers of radiance fields make them (docs/techniques/gaussians.md).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace fastsplat::scene {
+
+inline constexpr int kMostDegree = 3;
+/// Spherical harmonics of a degree and all below: 1, 4, 9, 16.
+constexpr int harmonic_count(int degree) { return (degree + 1) * (degree + 1); }
+
+/// One Gaussian, without its colour. Lengths in the file's own unit, along the file's own axes.
+struct Gaussian {
+  glm::vec3 position{0.0F};
+  glm::vec3 scale{1.0F};                       ///< standard deviations along its own axes, linear, not negative
+  glm::vec4 rotation{1.0F, 0.0F, 0.0F, 0.0F};  ///< w, x, y, z; unit: turns its axes to the file's
+  float opacity = 0.0F;                        ///< 0..1
+
+  bool operator==(const Gaussian&) const = default;
+};
+
+struct GaussianCloud {
+  std::string name;    ///< "shells:2000", or the file's name without its folder
+  std::string source;  ///< where it came from, for metadata
+  int degree = 0;      ///< of the spherical harmonics, 0..3
+  std::vector<Gaussian> gaussians{};
+  std::vector<glm::vec3> harmonics{};  ///< RGB, harmonic_count(degree) a Gaussian, its constant first
+
+  std::span<const glm::vec3> harmonics_of(std::size_t i) const {
+    const auto count = static_cast<std::size_t>(harmonic_count(degree));
+    return std::span(harmonics).subspan(i * count, count);
+  }
+};
+
+/// R diag(scale^2) R^T.
+glm::dmat3 covariance(const Gaussian& gaussian);
+/// The columns are its own axes.
+glm::dmat3 axes_of(const Gaussian& gaussian);
+
+/// FNV-1a over every number: whether two files hold the same scene.
+std::uint64_t content_hash(const GaussianCloud& cloud);
+
+}  // namespace fastsplat::scene

@@ -1,0 +1,36 @@
+// Files of 3-D Gaussians: .ply as trainers write it, and .splat, 32 bytes each (docs/techniques/gaussians.md).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/gaussians/gaussian_cloud.hpp"
+
+namespace fastsplat::scene {
+
+/// A built-in scene "name[:count]", or a file by its ending. Every failure is a UserError (Input) with the fix.
+GaussianCloud load_gaussians(const std::string& name_or_path);
+/// The files that load_gaussians would read: none for a built-in scene.
+std::vector<std::filesystem::path> files_of_gaussians(const std::string& name_or_path);
+
+/// PLY: ascii or binary of either end, properties in any order and of any type, those of other names and other
+/// elements of fixed length are passed over. Needed: x y z, scale_0..2 (logarithms), rot_0..3 (w x y z, any length),
+/// opacity (logit), f_dc_0..2; f_rest_0.. 9, 24 or 45 of them, channel by channel, for degrees 1 to 3.
+GaussianCloud read_gaussian_ply(const std::filesystem::path& path);
+/// 32 bytes each, little-endian: position and scale (linear) 3 floats each, R G B opacity and w x y z a byte each.
+GaussianCloud read_splat_file(const std::filesystem::path& path);
+
+enum class PlyText { Binary, Ascii };
+/// By ending; .ply in floats, little-endian or as text, with the normals that viewers ask for. Scales below 1e-10 and
+/// opacities closer to 0 or 1 than 1e-6 have no logarithm that a float holds and become that. .splat keeps no
+/// harmonics above the constant, and rounds colour, opacity and rotation to bytes. Atomic.
+void save_gaussians(const GaussianCloud& cloud, const std::filesystem::path& path, PlyText text = PlyText::Binary);
+
+/// UserError (Input) where a number is not finite, a scale negative, or an opacity not in 0..1.
+/// `where` names the Gaussian.
+void check_gaussian(const Gaussian& gaussian, std::span<const glm::vec3> harmonics, const std::string& where);
+/// The rotation made unit; UserError (Input) where it has no direction.
+glm::vec4 unit_rotation(const glm::dvec4& rotation, const std::string& where);
+
+}  // namespace fastsplat::scene

@@ -1,0 +1,38 @@
+// Gaussians and a view of them: everything that decides the picture (docs/techniques/gaussians.md).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scene/camera.hpp"
+#include "scene/gaussians/gaussian_cloud.hpp"
+
+namespace fastsplat::scene {
+
+/// Which of the file's axes points up.
+enum class UpAxis { X, Y, Z, MinusX, MinusY, MinusZ };
+const std::vector<std::string>& up_axis_names();  ///< in that order: x, y, z, -x, -y, -z
+
+struct GaussianDescription {
+  CameraParams camera{};
+  int width = 512, height = 512;
+  UpAxis up = UpAxis::MinusY;
+  double low_pass = 0.3;  ///< square pixels added to each projected variance, 0.01..100
+  double cutoff = 3.0;    ///< standard deviations to where a footprint reaches, 1..4
+};
+
+/// World: the file's axes turned so that `up` is z, its origin in the scene's middle.
+struct GaussianScene {
+  GaussianDescription description;
+  std::shared_ptr<const GaussianCloud> cloud;
+  glm::dmat3 turn;      ///< from the file's axes
+  glm::dvec3 middle;    ///< in the file's axes: medians of the positions
+  double radius = 1.0;  ///< of the sphere about it that 95 of 100 Gaussians lie in, with their cutoff
+  Camera camera;        ///< zoom 1 fits that sphere
+};
+
+/// Throws UserError (Usage) where the description's limits do not hold.
+GaussianScene build_gaussian_scene(const GaussianDescription& description, std::shared_ptr<const GaussianCloud> cloud);
+
+}  // namespace fastsplat::scene

@@ -1,0 +1,155 @@
+#include "scene/gaussians/ply_header.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/number_text.hpp"
+
+namespace fastsplat::scene {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, PlyType>, 16> kTypes{{{"char", PlyType::Int8},
+                                                                       {"int8", PlyType::Int8},
+                                                                       {"uchar", PlyType::UInt8},
+                                                                       {"uint8", PlyType::UInt8},
+                                                                       {"short", PlyType::Int16},
+                                                                       {"int16", PlyType::Int16},
+                                                                       {"ushort", PlyType::UInt16},
+                                                                       {"uint16", PlyType::UInt16},
+                                                                       {"int", PlyType::Int32},
+                                                                       {"int32", PlyType::Int32},
+                                                                       {"uint", PlyType::UInt32},
+                                                                       {"uint32", PlyType::UInt32},
+                                                                       {"float", PlyType::Float32},
+                                                                       {"float32", PlyType::Float32},
+                                                                       {"double", PlyType::Float64},
+                                                                       {"float64", PlyType::Float64}}};
+
+std::optional<PlyType> type_named(std::string_view word) {
+  const auto* const found = std::ranges::find(kTypes, word, &std::pair<std::string_view, PlyType>::first);
+  return found == kTypes.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::vector<std::string> words_of(std::string_view line) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at < line.size();) {
+    const std::size_t begin = std::min(line.find_first_not_of(" \t", at), line.size());
+    at = std::min(line.find_first_of(" \t", begin), line.size());
+    if (at > begin) words.emplace_back(line.substr(begin, at - begin));
+  }
+  return words;
+}
+
+/// Line after line of a header.
+class Lines {
+ public:
+  Lines(std::string_view text, const std::string& where) : text_(text), where_(where) {}
+  std::size_t at() const { return at_; }
+  std::size_t number() const { return number_; }
+  std::string here() const { return fmt::format("{}:{}", where_, number_); }
+
+  std::vector<std::string> next() {
+    constexpr std::size_t kLongest = 4096;  // what is no PLY may have no line end at all
+    ++number_;
+    const std::size_t end = text_.substr(0, std::min(text_.size(), at_ + kLongest)).find('\n', at_);
+    if (end == std::string_view::npos) {
+      refuse("the header has no end", "a line end_header", at_ == text_.size() ? "the end of the file" : "no line end",
+             "the file is cut, or is no PLY");
+    }
+    std::string_view line = text_.substr(at_, end - at_);
+    at_ = end + 1;
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return words_of(line);
+  }
+  [[noreturn]] void refuse(const std::string& what, const std::string& expected, const std::string& got,
+                           const std::string& fix) const {
+    throw_input({.where = here(), .what = what, .expected = expected, .got = got, .fix = fix});
+  }
+
+ private:
+  std::string_view text_;
+  const std::string& where_;
+  std::size_t at_ = 0, number_ = 0;
+};
+
+PlyFormat format_of(const Lines& lines, const std::vector<std::string>& words) {
+  const std::string known = "ascii, binary_little_endian or binary_big_endian, and 1.0";
+  if (words.size() == 3 && words[0] == "format" && words[2] == "1.0") {
+    if (words[1] == "ascii") return PlyFormat::Ascii;
+    if (words[1] == "binary_little_endian") return PlyFormat::LittleEndian;
+    if (words[1] == "binary_big_endian") return PlyFormat::BigEndian;
+  }
+  lines.refuse("not a format of PLY", "format " + known, fmt::format("'{}'", fmt::join(words, " ")),
+               "save it in one of these");
+}
+
+PlyElement element_of(const Lines& lines, const std::vector<std::string>& words) {
+  const auto count = words.size() == 3 ? integer_from<std::uint64_t>(words[2]) : std::nullopt;
+  if (!count) {
+    lines.refuse("not an element", "element NAME COUNT", fmt::format("'{}'", fmt::join(words, " ")),
+                 "the header is damaged");
+  }
+  return {.name = words[1], .count = *count, .properties = {}};
+}
+
+void add_property(const Lines& lines, const std::vector<std::string>& words, PlyElement& to) {
+  const bool list = words.size() == 5 && words[1] == "list" && type_named(words[2]) && type_named(words[3]);
+  if (list) {
+    to.has_list = true;
+    return;
+  }
+  const auto type = words.size() == 3 ? type_named(words[1]) : std::nullopt;
+  if (!type) {
+    lines.refuse("not a property", "property TYPE NAME with a type such as float",
+                 fmt::format("'{}'", fmt::join(words, " ")), "the header is damaged");
+  }
+  for (const PlyProperty& other : to.properties) {
+    if (other.name == words[2])
+      lines.refuse(fmt::format("the property {} is there twice", other.name), {}, {}, "leave one out");
+  }
+  to.properties.push_back({words[2], *type});
+}
+
+}  // namespace
+
+std::size_t size_of(PlyType type) {
+  constexpr std::array<std::size_t, 8> kSizes{1, 1, 2, 2, 4, 4, 4, 8};
+  return kSizes[static_cast<std::size_t>(type)];
+}
+
+std::size_t PlyElement::row_bytes() const {
+  std::size_t bytes = 0;
+  for (const PlyProperty& property : properties) bytes += size_of(property.type);
+  return bytes;
+}
+
+PlyHeader read_ply_header(std::string_view text, const std::string& where) {
+  Lines lines(text, where);
+  if (lines.next() != std::vector<std::string>{"ply"})
+    lines.refuse("not a PLY file", "a first line 'ply'", "another", "check that this is the file you meant");
+  PlyHeader header;
+  header.format = format_of(lines, lines.next());
+  while (true) {
+    const std::vector<std::string> words = lines.next();
+    if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
+    if (words[0] == "end_header") break;
+    if (words[0] == "element") {
+      header.elements.push_back(element_of(lines, words));
+    } else if (words[0] == "property" && !header.elements.empty()) {
+      add_property(lines, words, header.elements.back());
+    } else {
+      lines.refuse("not a line of a PLY header", "comment, element, property or end_header", "'" + words[0] + "'",
+                   "the header is damaged");
+    }
+  }
+  header.size = lines.at();
+  header.lines = lines.number();
+  return header;
+}
+
+}  // namespace fastsplat::scene

@@ -1,0 +1,38 @@
+// The header of a PLY file: what lies behind it, and how.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fastsplat::scene {
+
+enum class PlyFormat { Ascii, LittleEndian, BigEndian };
+enum class PlyType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
+std::size_t size_of(PlyType type);
+
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::Float32;
+};
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<PlyProperty> properties;
+  bool has_list = false;  ///< of a length that only the data say
+
+  std::size_t row_bytes() const;
+};
+struct PlyHeader {
+  PlyFormat format = PlyFormat::Ascii;
+  std::vector<PlyElement> elements;
+  std::size_t size = 0;   ///< bytes, to the end of the line end_header
+  std::size_t lines = 0;  ///< of the header
+};
+
+/// `text` is the whole file, `where` its name. UserError (Input) names the line.
+PlyHeader read_ply_header(std::string_view text, const std::string& where);
+
+}  // namespace fastsplat::scene

@@ -1,0 +1,84 @@
+#include "scene/gaussians/splat_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/read_file.hpp"
+#include "scene/gaussians/gaussian_file.hpp"
+#include "scene/gaussians/harmonics.hpp"
+
+namespace fastsplat::scene {
+namespace {
+
+constexpr std::size_t kMostBytes = std::size_t{16} << 30;
+
+std::uint32_t byte_at(const std::string& bytes, std::size_t at) { return static_cast<unsigned char>(bytes[at]); }
+
+float float_at(const std::string& bytes, std::size_t at) {
+  return std::bit_cast<float>(byte_at(bytes, at) | byte_at(bytes, at + 1) << 8U | byte_at(bytes, at + 2) << 16U |
+                              byte_at(bytes, at + 3) << 24U);
+}
+
+void append(std::string& to, float value) {
+  const auto word = std::bit_cast<std::uint32_t>(value);
+  for (unsigned shift = 0; shift < 32; shift += 8) to.push_back(static_cast<char>((word >> shift) & 0xFFU));
+}
+
+/// The byte nearest to a number of 0..255.
+void append_byte(std::string& to, double value) {
+  to.push_back(static_cast<char>(static_cast<unsigned char>(std::clamp(std::floor(value + 0.5), 0.0, 255.0))));
+}
+
+}  // namespace
+
+GaussianCloud read_splat_file(const std::filesystem::path& path) {
+  const std::string where = path.string(), bytes = read_text_file(path, kMostBytes);
+  if (bytes.size() % kSplatBytes != 0) {
+    throw_input({.where = where,
+                 .what = "the file does not end with a whole Gaussian",
+                 .expected = fmt::format("a multiple of {} bytes", kSplatBytes),
+                 .got = fmt::format("{} bytes, {} too many", bytes.size(), bytes.size() % kSplatBytes),
+                 .fix = "the file is cut, or is no .splat: write or download it again"});
+  }
+  GaussianCloud cloud{.name = path.filename().string(), .source = where, .degree = 0};
+  for (std::size_t at = 0; at < bytes.size(); at += kSplatBytes) {
+    const std::string here = fmt::format("{}, Gaussian {} (byte {})", where, at / kSplatBytes, at);
+    Gaussian one;
+    glm::vec3 constant;
+    glm::dvec4 rotation;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int axis = static_cast<int>(i);
+      one.position[axis] = float_at(bytes, at + 4 * i);
+      one.scale[axis] = float_at(bytes, at + 12 + 4 * i);
+      constant[axis] = static_cast<float>((byte_at(bytes, at + 24 + i) / 255.0 - 0.5) / kConstantHarmonic);
+    }
+    one.opacity = static_cast<float>(byte_at(bytes, at + 27) / 255.0);
+    for (std::size_t i = 0; i < 4; ++i)
+      rotation[static_cast<int>(i)] = (static_cast<double>(byte_at(bytes, at + 28 + i)) - 128.0) / 128.0;
+    one.rotation = unit_rotation(rotation, here);
+    cloud.gaussians.push_back(one);
+    cloud.harmonics.push_back(constant);
+    check_gaussian(one, {&constant, 1}, here);
+  }
+  return cloud;
+}
+
+std::string splat_bytes(const GaussianCloud& cloud) {
+  std::string out;
+  for (std::size_t i = 0; i < cloud.gaussians.size(); ++i) {
+    const Gaussian& one = cloud.gaussians[i];
+    for (int axis = 0; axis < 3; ++axis) append(out, one.position[axis]);
+    for (int axis = 0; axis < 3; ++axis) append(out, one.scale[axis]);
+    for (int c = 0; c < 3; ++c)
+      append_byte(out, 255.0 * (0.5 + kConstantHarmonic * static_cast<double>(cloud.harmonics_of(i)[0][c])));
+    append_byte(out, 255.0 * static_cast<double>(one.opacity));
+    for (int k = 0; k < 4; ++k) append_byte(out, 128.0 * static_cast<double>(one.rotation[k]) + 128.0);
+  }
+  return out;
+}
+
+}  // namespace fastsplat::scene

@@ -1,0 +1,111 @@
+// 3-D Gaussians from the command line: both engines, the files that ship, a recorded stream, and every misuse in one
+// line.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/process_helper.hpp"
+
+namespace fastsplat::cli_test {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string kShells = FASTSPLAT_SOURCE_DIR "/examples/gaussians/shells.ply";
+const std::string kCloud = FASTSPLAT_SOURCE_DIR "/examples/gaussians/cloud.splat";
+
+TEST(GaussiansRun, TheDeviceIsAbove50dBOfGolden) {
+  for (const std::string& file : {kShells, kCloud, std::string("shells:500")}) {
+    const TempFolder folder;
+    const std::vector<std::string> scene{"render", "--gaussians", file, "--size", "160x120", "--zoom", "1.3"};
+    const auto with = [&](std::vector<std::string> more) {
+      more.insert(more.begin(), scene.begin(), scene.end());
+      return fastsplat(more);
+    };
+    expect_success(with({"-o", folder / "golden.exr", "-o", folder / "golden.png"}));
+    const Result device = with({"--engine", "cmodel", "-o", folder / "device.exr", "--json", "-"});
+    expect_success(device);
+    const Json json = Json::parse(device.out);
+    EXPECT_EQ(json["driver"]["cut"], 0);
+    EXPECT_EQ(json["driver"]["saturated"], 0);
+    EXPECT_GT(json["counters"]["windows"], 100);
+    EXPECT_EQ(json["counters"]["splats"], json["driver"]["records"]);
+    EXPECT_EQ(json["config"]["name"], "ellipse+composite.freeze_below=7+composite.every_sample=1");
+    const Result compared = fastsplat({"compare", folder / "golden.exr", folder / "device.exr", "--min-psnr", "50"});
+    expect_success(compared);
+    std::printf("%s:\n%s\n", file.c_str(), compared.out.substr(0, 250).c_str());
+    expect_success(with({"--order", "pixels", "-o", folder / "pixels.exr"}));
+  }
+}
+
+TEST(GaussiansRun, ARecordedStreamIsTheSamePicture) {
+  const TempFolder folder;
+  const std::vector<std::string> scene{"--gaussians", kShells, "--size", "90", "--up", "z"};
+  const auto with = [&](std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), scene.begin(), scene.end());
+    words.insert(words.end(), more.begin(), more.end());
+    return fastsplat(words);
+  };
+  expect_success(with({"stream", "record"}, {"-o", folder / "a.fss"}));
+  expect_success(with({"render", "--engine", "cmodel"}, {"-o", folder / "a.exr"}));
+  expect_success(fastsplat({"stream", "replay", folder / "a.fss", "--config", "ellipse", "--set",
+                            "composite.every_sample=1", "--set", "composite.freeze_below=7", "-o", folder / "b.exr"}));
+  expect_success(fastsplat({"compare", folder / "a.exr", folder / "b.exr", "--max-lsb", "0"}));
+}
+
+TEST(GaussiansRun, DamagedFilesAreExit3) {
+  const TempFolder folder;
+  const std::string ply = read_bytes(kShells), splat = read_bytes(kCloud);
+  const auto refused = [&](const std::string& name, const std::string& bytes, const std::vector<std::string>& said) {
+    const std::string path = folder.write(name, bytes);
+    const auto before = folder.entries();
+    for (const char* engine : {"golden", "cmodel"})
+      expect_error(fastsplat({"render", "--gaussians", path, "--engine", engine, "-o", folder / "a.exr"}), 3, said);
+    expect_error(fastsplat({"stream", "record", "--gaussians", path, "-o", folder / "a.fss"}), 3, said);
+    EXPECT_EQ(folder.entries(), before);
+  };
+  refused("cut.ply", ply.substr(0, ply.size() / 2), {"cut.ply", "shorter"});
+  refused("empty.ply", "", {"empty.ply", "empty"});
+  refused("cut.splat", splat.substr(0, 77), {"cut.splat", "multiple of 32"});
+  std::string nan = splat;
+  nan.replace(64, 4, "\xff\xff\xff\xff");
+  refused("nan.splat", nan, {"nan.splat, Gaussian 2", "position is not finite"});
+  std::string missing = ply;
+  missing.replace(missing.find("property float opacity"), 22, "property float opacitx");
+  refused("missing.ply", missing, {"missing.ply", "opacity is missing"});
+  expect_error(fastsplat({"render", "--gaussians", folder / "none.ply", "-o", folder / "a.exr"}), 3, {"no such file"});
+}
+
+TEST(GaussiansRun, MisuseIsExit2) {
+  struct Misuse {
+    std::vector<std::string> words, said;
+  };
+  const TempFolder folder;
+  for (const Misuse& misuse : {
+           Misuse{{"--gaussians", "nothing"}, {"shells:2000"}},
+           Misuse{{"--gaussians", "shells:0"}, {"out of range", "shells:2000"}},
+           Misuse{{"--gaussians", "shells:9", "--volume", "shells:9"}, {"--volume", "leave it out"}},
+           Misuse{{"--gaussians", "shells:9", "--scene", "demo:fire"}, {"--scene", "leave it out"}},
+           Misuse{{"--gaussians", "shells:9", "--slab-width", "2"}, {"--slab-width", "leave it out"}},
+           Misuse{{"--gaussians", "shells:9", "--up", "w"}, {"--up", "-y"}},
+           Misuse{{"--gaussians", "shells:9", "--low-pass", "0"}, {"--low-pass", "0.01..100"}},
+           Misuse{{"--gaussians", "shells:9", "--cutoff", "9"}, {"--cutoff", "1..4"}},
+           Misuse{{"--gaussians", "shells:9", "--order", "pixels", "--engine", "cmodel"}, {"--order", "golden"}},
+           Misuse{{"--gaussians", "shells:9", "--engine", "rtl"}, {"--engine rtl", "cmodel"}},
+           Misuse{{"--gaussians", "shells:9", "--engine", "cmodel", "--config", "base"}, {"base", "ellipse"}},
+           Misuse{{"--gaussians", "shells:9", "--orbit", "0..90", "--frames", "3"}, {"--orbit"}},
+           Misuse{{"--gaussians", "shells:9", "--save-scene", folder / "a.toml"}, {"--save-scene"}},
+           Misuse{{"--gaussians", "shells:9", "--plain"}, {"--plain"}},
+           Misuse{{"--gaussians", "shells:9", "--orthographic", "--fov", "20"}, {"--fov", "--perspective"}},
+           Misuse{{"--up", "z"}, {"--up", "--gaussians FILE"}},
+           Misuse{{"--order", "pixels"}, {"--order", "--gaussians FILE"}},
+       }) {
+    std::vector<std::string> words{"render", "-o", folder / "a.exr"};
+    words.insert(words.end(), misuse.words.begin(), misuse.words.end());
+    expect_error(fastsplat(words), 2, misuse.said);
+    EXPECT_TRUE(folder.entries().empty());
+  }
+}
+
+}  // namespace
+}  // namespace fastsplat::cli_test

@@ -1,0 +1,310 @@
+// 3-D Gaussians on the device: its picture against golden's, the words that matter, its records against their rules,
+// its stream against the oracle.
+#include "golden/gaussians.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "base/error.hpp"
+#include "cmodel/ellipse_unit.hpp"
+#include "driver/config_file.hpp"
+#include "driver/ellipse_shape.hpp"
+#include "driver/gaussian_frame.hpp"
+#include "driver/gaussian_windows.hpp"
+#include "driver/render.hpp"
+#include "driver/stream_file.hpp"
+#include "scene/gaussians/synthetic_gaussians.hpp"
+#include "tests/cmodel/compare_helper.hpp"
+#include "tests/cmodel/configs_helper.hpp"
+#include "tests/driver/scenes_helper.hpp"
+
+namespace fastsplat::driver {
+namespace {
+
+using scene::GaussianCloud;
+
+/// What `render --gaussians` takes where nothing is said.
+cmodel::Config usual_config() {
+  cmodel::Config config = load_config("ellipse");
+  config.composite_every_sample = 1;
+  config.freeze_below = 7;  // 1e-4 of 2^16, rounded up
+  return config;
+}
+
+scene::GaussianScene scene_of(const std::string& name, int width, int height, double zoom = 1.0,
+                              scene::Projection projection = scene::Projection::Perspective) {
+  scene::GaussianDescription description;
+  description.camera.projection = projection;
+  description.camera.zoom = zoom;
+  description.width = width, description.height = height;
+  description.up = scene::UpAxis::Z;
+  return scene::build_gaussian_scene(description,
+                                     std::make_shared<GaussianCloud>(scene::make_synthetic_gaussians(name)));
+}
+
+struct Seen {
+  GaussianRender device;
+  Lsb8 apart;
+};
+
+Seen seen(const scene::GaussianScene& scene, const cmodel::Config& config) {
+  const auto projected = scene::project_all(scene);
+  GaussianRender device = render_gaussians({scene, projected, config});
+  const Lsb8 apart = distance(golden::render_gaussians(scene, projected), to_image(device.frame));
+  return {std::move(device), apart};
+}
+
+TEST(Gaussians, AreWithin70dBOfGolden) {
+  const auto config = usual_config();
+  for (const auto& [name, zoom, projection] : {std::tuple{"shells:2000", 1.0, scene::Projection::Perspective},
+                                               std::tuple{"shells:2000", 2.0, scene::Projection::Orthographic},
+                                               std::tuple{"cloud:500", 1.0, scene::Projection::Perspective},
+                                               std::tuple{"cloud:3000", 1.5, scene::Projection::Orthographic}}) {
+    const auto scene = scene_of(name, 300, 200, zoom, projection);
+    const Seen here = seen(scene, config);
+    const std::string what = std::string(name) + ", zoom " + std::to_string(zoom).substr(0, 3);
+    figure(what + ": PSNR", here.apart.psnr_db, "dB");
+    figure(what + ": max", here.apart.largest, "LSB8");
+    EXPECT_GE(here.apart.psnr_db, 70.0) << what;
+    EXPECT_EQ(here.device.report.saturated, 0U);
+    EXPECT_EQ(here.device.report.cut, 0U);
+    EXPECT_EQ(here.device.report.vanished, 0U);
+    EXPECT_EQ(here.device.report.drawn, scene::project_all(scene).size());
+    EXPECT_EQ(here.device.counters.splats, here.device.report.records);
+    EXPECT_GT(here.device.counters.lanes_weighted, 100000U);
+    EXPECT_EQ(here.device.counters.composite_saturated + here.device.counters.opacity_saturated, 0U);
+  }
+}
+
+// base's own words with ellipses of every sample: positions of 6 bits, frozen below 64.
+TEST(Gaussians, BasesWordsAreAbove50dB) {
+  auto config = load_config("base");
+  config.ellipse_frac_bits = 11;
+  config.composite_every_sample = 1;
+  for (const int freeze : {64, 7}) {
+    config.freeze_below = freeze;
+    const Seen here = seen(scene_of("shells:2000", 256, 256), config);
+    figure("base's words, freeze_below " + std::to_string(freeze), here.apart.psnr_db, "dB");
+    EXPECT_GE(here.apart.psnr_db, 50.0);
+  }
+}
+
+// Which words matter: each shortened by itself until it shows.
+TEST(Gaussians, WordsThatMatter) {
+  const auto scene = scene_of("cloud:500", 256, 256);
+  const auto projected = scene::project_all(scene);
+  const Image golden = golden::render_gaussians(scene, projected);
+  const auto with = [&](const std::vector<std::pair<const char*, int>>& changes) {
+    auto config = usual_config();
+    for (const auto& [key, value] : changes) {
+      const auto wrong = cmodel::set(config, key, std::to_string(value));
+      EXPECT_FALSE(wrong) << key;
+    }
+    const auto violation = cmodel::first_violation(config);
+    EXPECT_FALSE(violation) << (violation ? one_line(*violation) : "");
+    return distance(golden, to_image(render_gaussians({scene, projected, config}).frame)).psnr_db;
+  };
+  const double whole = with({});
+  figure("as it is", whole, "dB");
+  std::map<std::string, double> found;
+  const auto one = [&](const char* key, int value) {
+    const double psnr = with({{key, value}});
+    figure(std::string(key) + " = " + std::to_string(value), psnr, "dB");
+    found[std::string(key) + "=" + std::to_string(value)] = psnr;
+  };
+  for (const int bits : {2, 4, 6}) {  // phases, of which ellipses know nothing, are no finer than positions
+    found["position.frac_bits=" + std::to_string(bits)] =
+        with({{"position.frac_bits", bits}, {"snap.phases", 1 << bits}});
+    figure("position.frac_bits = " + std::to_string(bits), found["position.frac_bits=" + std::to_string(bits)], "dB");
+  }
+  for (const int entries : {64, 256, 2048, 4096}) one("radial.entries", entries);
+  for (const int bits : {8, 10, 12}) one("radial.frac_bits", bits);
+  for (const int bits : {8, 10, 12}) one("colour.frac_bits", bits);
+  for (const int bits : {8, 10, 12}) one("sheet.frac_bits", bits);
+  for (const int bits : {2, 5, 8}) one("ellipse.frac_bits", bits);
+  for (const int freeze : {64, 655, 3277}) one("composite.freeze_below", freeze);
+  for (const int bits : {8, 10, 12}) {
+    const int below = std::max(1, static_cast<int>(std::ceil(1e-4 * (1 << bits))));
+    const double psnr = with({{"composite.frac_bits", bits}, {"composite.freeze_below", below}});
+    figure("composite.frac_bits = " + std::to_string(bits), psnr, "dB");
+    found["composite.frac_bits=" + std::to_string(bits)] = psnr;
+  }
+  // The table's steps are what is left; twice the entries, 6 dB.
+  EXPECT_GT(found["radial.entries=4096"], whole + 3.0);
+  EXPECT_LT(found["radial.entries=64"], whole - 15.0);
+  EXPECT_LT(found["composite.frac_bits=8"], whole - 15.0);
+  EXPECT_LT(found["sheet.frac_bits=8"], whole - 10.0);
+  EXPECT_LT(found["position.frac_bits=2"], whole - 10.0);
+}
+
+// The windows of a tile hold every pixel with a weight, and each once; whatever the shape, place and tile.
+TEST(Gaussians, WindowsHoldEveryWeightedPixelOnce) {
+  auto config = usual_config();
+  config.tile_width = 64, config.tile_height = 48;
+  ASSERT_FALSE(cmodel::first_violation(config));
+  test::Random random(test::seed_or(63));
+  const auto real = [&random](double low, double high) {
+    return low + (high - low) * std::ldexp(static_cast<double>(random.next() >> 11U), -53);
+  };
+  const cmodel::EllipseUnit unit(config);
+  std::uint64_t weighted = 0, windows = 0, missed = 0, twice = 0, none = 0;
+  for (int round = 0; round < 3000; ++round) {
+    const double longer = std::exp(real(0.5, 6.0)), shorter = std::max(1.6, longer * real(0.01, 1.0)),
+                 angle = real(0.0, 3.1416), c = std::cos(angle), s = std::sin(angle), l = longer * longer,
+                 m = shorter * shorter;
+    const auto shape = ellipse_words(config, {c * c * l + s * s * m, c * s * (l - m), s * s * l + c * c * m});
+    const auto x = static_cast<std::int32_t>(256.0 * real(-longer, 64.0 + longer));
+    const auto y = static_cast<std::int32_t>(256.0 * real(-longer, 48.0 + longer));
+    if (std::abs(x) > 256 * 400 || std::abs(y) > 256 * 400) continue;
+    std::vector<int> covered(64 * 48, 0);
+    const auto all = gaussian_windows(config, shape, x, y, 64, 48);
+    none += all.empty() ? 1 : 0;
+    for (const auto& window : all) {
+      windows += window.columns * window.rows;
+      const int x0 = (x >> 8) + window.left, y0 = (y >> 8) + window.top;
+      for (int j = 0; j < static_cast<int>(window.rows) * 8; ++j)
+        for (int i = 0; i < static_cast<int>(window.columns) * 8; ++i)
+          if (x0 + i >= 0 && x0 + i < 64 && y0 + j >= 0 && y0 + j < 48)
+            ++covered[static_cast<std::size_t>((y0 + j) * 64 + x0 + i)];
+    }
+    for (int py = 0; py < 48; ++py) {
+      for (int px = 0; px < 64; ++px) {
+        const std::int64_t q = cmodel::exact_q(shape, px * 256 - x, py * 256 - y) >> shape.shift;
+        const int count = covered[static_cast<std::size_t>(py * 64 + px)];
+        if (q < config.rlut_rim()) {
+          ++weighted;
+          missed += count == 0 ? 1 : 0;
+          twice += count > 1 ? 1 : 0;
+        }
+      }
+    }
+  }
+  figure("weighted pixels", static_cast<double>(weighted));
+  figure("windows", static_cast<double>(windows));
+  figure("footprints beside the tile", static_cast<double>(none));
+  EXPECT_GT(weighted, 500000U);
+  EXPECT_GT(none, 20U);
+  EXPECT_EQ(missed, 0U);
+  EXPECT_EQ(twice, 0U);
+}
+
+// A whole recorded stream: the reader takes it by every rule, and the oracle, written from the documents alone, says
+// the same words, taps and counters as the model.
+TEST(Gaussians, ModelEqualsOracle) {
+  test::Comparison total;
+  for (const auto& [name, width, height, zoom] :
+       {std::tuple{"shells:150", 70, 41, 1.0}, std::tuple{"cloud:200", 150, 60, 1.0},
+        std::tuple{"cloud:120", 40, 140, 2.5}}) {
+    for (const int lanes : {8, 4}) {
+      auto config = usual_config();
+      config.lanes = lanes;
+      if (lanes == 4) config.tile_width = config.tile_height = 32;
+      ASSERT_FALSE(cmodel::first_violation(config));
+      const auto scene = scene_of(name, width, height, zoom);
+      const GaussianFrame frame(scene, scene::project_all(scene), config);
+      const auto path = std::filesystem::temp_directory_path() / ("gaussians-" + std::to_string(::getpid()) + ".fss");
+      const GaussianReport report = record_stream(frame, path);
+      std::vector<std::uint8_t> bytes(std::filesystem::file_size(path));
+      std::ifstream(path, std::ios::binary)
+          .read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+      const DeviceRender replayed = replay_stream(path, config);
+      std::filesystem::remove(path);
+      EXPECT_EQ(replayed.counters.splats, report.records);
+      EXPECT_EQ(difference(replayed.frame, render_gaussians(frame, 2).frame).different, 0U);
+      total += test::compare(test::run_model(config, bytes), oracle::render(test::symbols_of(config), bytes));
+    }
+  }
+  test::print("3-D Gaussians", total);
+  EXPECT_EQ(total.mismatches, 0U) << total.first;
+  EXPECT_GT(total.total(), 500000U);
+}
+
+// The device's work in its own unit: windows, of which one is begun a cycle but for what waits for a pixel.
+TEST(Gaussians, WindowsAreWhatTheRecordsSay) {
+  const auto config = usual_config();
+  const cmodel::EllipseUnit unit(config);
+  for (const char* name : {"shells:2000", "cloud:3000"}) {
+    const auto scene = scene_of(name, 256, 256);
+    const GaussianFrame frame(scene, scene::project_all(scene), config);
+    std::uint64_t windows = 0, empty = 0;
+    const auto count = [&](const cmodel::EllipseRecord& record) {
+      const auto x = cmodel::ellipse_axis(config, record.x, record.windows.left);
+      const auto y = cmodel::ellipse_axis(config, record.y, record.windows.top);
+      const auto f = unit.coefficients(record.shape, x.distance, y.distance);
+      for (std::uint32_t row = 0; row < record.windows.rows * 8; row += 8) {
+        for (std::uint32_t column = 0; column < record.windows.columns * 8; column += 8, ++windows) {
+          bool weighted = false;
+          for (std::uint32_t lane = 0; lane < 64; ++lane)
+            weighted = weighted || unit.index(f, column + lane % 8, row + lane / 8) < 1024;
+          empty += weighted ? 0 : 1;
+        }
+      }
+    };
+    for (int tile = 0; tile < frame.grid().count(); ++tile) {
+      frame.emit_tile(tile, [&](std::span<const cmodel::Beat> beats) {
+        for (const cmodel::Beat& beat : beats) {
+          const cmodel::Record record = cmodel::from_beat(beat);
+          if (const auto* ellipse = std::get_if<cmodel::EllipseRecord>(&record)) count(*ellipse);
+        }
+      });
+    }
+    const GaussianRender device = render_gaussians(frame);
+    EXPECT_EQ(device.counters.windows, windows);
+    const double all = static_cast<double>(windows);
+    figure(std::string(name) + ": windows a Gaussian and tile", all / static_cast<double>(device.report.in_tiles));
+    figure(std::string(name) + ": windows without a weight", 100.0 * static_cast<double>(empty) / all, "%");
+    figure(std::string(name) + ": lanes used",
+           100.0 * static_cast<double>(device.counters.lanes_weighted) / (64.0 * all), "%");
+    EXPECT_LT(static_cast<double>(empty), 0.002 * all);
+  }
+}
+
+// A picture is that of smaller tiles but for what six coefficients round at another first pixel.
+TEST(Gaussians, TilesHardlyShow) {
+  auto config = usual_config();
+  const auto scene = scene_of("shells:400", 200, 150);
+  const auto projected = scene::project_all(scene);
+  const Image large = to_image(render_gaussians({scene, projected, config}).frame);
+  config.tile_width = 64, config.tile_height = 32;
+  const Image small = to_image(render_gaussians({scene, projected, config}).frame);
+  const Lsb8 apart = distance(large, small);
+  figure("tiles of 128 x 128 against 64 x 32", apart.psnr_db, "dB");
+  figure("largest", apart.largest, "LSB8");
+  EXPECT_GE(apart.psnr_db, 85.0);
+}
+
+TEST(Gaussians, WhatDoesNotFitIsCountedOrRefused) {
+  const auto config = usual_config();
+  for (const char* other : {"base", "ellipse"}) {
+    try {
+      const auto scene = scene_of("cloud:5", 32, 32);
+      GaussianFrame(scene, scene::project_all(scene), load_config(other));
+      ADD_FAILURE() << other;
+    } catch (const UserError& error) {
+      EXPECT_EQ(error.code(), ExitCode::Usage);
+      EXPECT_EQ(error.parts().fix, "leave --config out, or --config ellipse --set composite.every_sample=1");
+    }
+  }
+  // One that fills a picture larger than a record's reach, one too bright, one too thin.
+  GaussianCloud cloud = scene::make_synthetic_gaussians("cloud:3");
+  for (auto& one : cloud.gaussians) one.position = glm::vec3(0.0F), one.scale = glm::vec3(0.1F);
+  cloud.gaussians[0].scale = glm::vec3(5.0F);
+  cloud.harmonics[4] = glm::vec3(9.0F), cloud.gaussians[1].opacity = 0.9F;
+  cloud.gaussians[2].opacity = 1e-6F;
+  auto scene = scene_of("cloud:3", 1400, 64);
+  scene.description.camera.zoom = 1.0;
+  scene.cloud = std::make_shared<GaussianCloud>(cloud);
+  const auto projected = scene::project_all(scene);
+  const GaussianRender device = render_gaussians({scene, projected, config});
+  EXPECT_EQ(device.report.cut, 1U);
+  EXPECT_EQ(device.report.saturated, 1U);
+  EXPECT_EQ(device.report.vanished, 1U);
+  EXPECT_EQ(device.report.drawn, 2U);
+  EXPECT_GT(device.counters.windows, 0U);
+}
+
+}  // namespace
+}  // namespace fastsplat::driver

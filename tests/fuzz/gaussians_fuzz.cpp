@@ -1,0 +1,24 @@
+// Files of 3-D Gaussians: read, or refused; what was read is sound, and is the same once written and read again.
+#include "scene/gaussians/gaussian_file.hpp"
+#include "tests/fuzz/fuzz.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace fastsplat;
+  fuzz::Bytes bytes{data, size};
+  const auto path = fuzz::file_of(bytes, fuzz::take_byte(bytes) % 2 == 0 ? ".ply" : ".splat");
+  fuzz::answered([&] {
+    const scene::GaussianCloud cloud = scene::load_gaussians(path.string());
+    const auto harmonics = static_cast<std::size_t>(scene::harmonic_count(cloud.degree));
+    if (cloud.gaussians.empty() || cloud.harmonics.size() != cloud.gaussians.size() * harmonics)
+      fuzz::finding("not as many colours as Gaussians");
+    for (std::size_t i = 0; i < cloud.gaussians.size(); ++i)
+      scene::check_gaussian(cloud.gaussians[i], cloud.harmonics_of(i), "read");
+    const std::filesystem::path again = path.string() + ".ply";
+    scene::save_gaussians(cloud, again);
+    const scene::GaussianCloud copy = scene::load_gaussians(again.string());
+    std::filesystem::remove(again);
+    if (copy.gaussians.size() != cloud.gaussians.size() || copy.degree != cloud.degree)
+      fuzz::finding("written and read again it is another scene");
+  });
+  return 0;
+}

@@ -1,0 +1,110 @@
+#include "tests/scene/gaussian_helper.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+namespace fastsplat::scene {
+namespace {
+
+template <class T, class Word>
+void append(std::string& to, T value, bool big) {
+  const auto word = std::bit_cast<Word>(value);
+  std::string bytes;
+  for (std::size_t i = 0; i < sizeof(T); ++i) bytes.push_back(static_cast<char>((word >> (8 * i)) & 0xFFU));
+  if (big) std::ranges::reverse(bytes);
+  to += bytes;
+}
+
+double apart(float a, float b) {
+  return std::abs(double(a) - double(b)) / std::max({1.0, std::abs(double(a)), std::abs(double(b))});
+}
+
+}  // namespace
+
+TestFile::TestFile(const std::string& ending, const std::string& bytes) {
+  static int number = 0;
+  path_ = std::filesystem::temp_directory_path() /
+          ("gaussians-" + std::to_string(::getpid()) + "-" + std::to_string(number++) + ending);
+  std::ofstream(path_, std::ios::binary) << bytes;
+}
+TestFile::~TestFile() { std::filesystem::remove(path_); }
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+std::string PlyTable::text(const std::string& format, const std::string& type, const std::string& comment) const {
+  std::string out =
+      "ply\nformat " + format + " 1.0\n" + comment + "element vertex " + std::to_string(rows.size()) + "\n";
+  for (const auto& name : names) out += "property " + type + " " + name + "\n";
+  out += "end_header\n";
+  const bool big = format == "binary_big_endian";
+  for (const auto& row : rows) {
+    if (format == "ascii") {
+      std::ostringstream line;
+      line.precision(std::numeric_limits<double>::max_digits10);
+      for (const double value : row) line << value << ' ';
+      out += line.str() + "\n";
+      continue;
+    }
+    for (const double value : row) {
+      if (type == "double" || type == "float64") {
+        append<double, std::uint64_t>(out, value, big);
+      } else {
+        append<float, std::uint32_t>(out, static_cast<float>(value), big);
+      }
+    }
+  }
+  return out;
+}
+
+PlyTable table_of(const GaussianCloud& cloud) {
+  PlyTable table{.names = {"x", "y", "z", "nx", "ny", "nz", "f_dc_0", "f_dc_1", "f_dc_2"}, .rows = {}};
+  const int rest = harmonic_count(cloud.degree) - 1;
+  for (int i = 0; i < 3 * rest; ++i) table.names.push_back("f_rest_" + std::to_string(i));
+  for (const char* name : {"opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"})
+    table.names.emplace_back(name);
+  for (std::size_t i = 0; i < cloud.gaussians.size(); ++i) {
+    const Gaussian& one = cloud.gaussians[i];
+    std::vector<double> row{one.position.x, one.position.y, one.position.z, 0.0, 0.0, 1.0};
+    for (int c = 0; c < 3; ++c) row.push_back(cloud.harmonics_of(i)[0][c]);
+    for (int c = 0; c < 3; ++c)
+      for (const auto& harmonic : cloud.harmonics_of(i).subspan(1)) row.push_back(harmonic[c]);
+    row.push_back(std::log(double(one.opacity) / (1.0 - double(one.opacity))));
+    for (int axis = 0; axis < 3; ++axis) row.push_back(std::log(double(one.scale[axis])));
+    for (int k = 0; k < 4; ++k) row.push_back(3.0 * double(one.rotation[k]));  // a trainer's are of any length
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+double difference(const GaussianCloud& a, const GaussianCloud& b) {
+  EXPECT_EQ(a.gaussians.size(), b.gaussians.size());
+  EXPECT_EQ(a.harmonics.size(), b.harmonics.size());
+  EXPECT_EQ(a.degree, b.degree);
+  double worst = 0.0;
+  for (std::size_t i = 0; i < std::min(a.gaussians.size(), b.gaussians.size()); ++i) {
+    const Gaussian &ours = a.gaussians[i], &theirs = b.gaussians[i];
+    for (int axis = 0; axis < 3; ++axis) {
+      worst = std::max(worst, apart(ours.position[axis], theirs.position[axis]));
+      worst = std::max(worst, apart(ours.scale[axis], theirs.scale[axis]));
+    }
+    for (int k = 0; k < 4; ++k) worst = std::max(worst, apart(ours.rotation[k], theirs.rotation[k]));
+    worst = std::max(worst, apart(ours.opacity, theirs.opacity));
+  }
+  for (std::size_t i = 0; i < std::min(a.harmonics.size(), b.harmonics.size()); ++i)
+    for (int c = 0; c < 3; ++c) worst = std::max(worst, apart(a.harmonics[i][c], b.harmonics[i][c]));
+  return worst;
+}
+
+}  // namespace fastsplat::scene

@@ -1,0 +1,40 @@
+// Files of Gaussians written by tests, byte by byte.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/gaussians/gaussian_cloud.hpp"
+
+namespace fastsplat::scene {
+
+/// A file of the test that is running, gone at its end.
+class TestFile {
+ public:
+  TestFile(const std::string& ending, const std::string& bytes);
+  ~TestFile();
+  TestFile(const TestFile&) = delete;
+  TestFile& operator=(const TestFile&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string bytes_of(const std::filesystem::path& path);
+
+/// Names of a PLY's properties and a row for each Gaussian, as a PLY of this format; `type`: float, float32, double or
+/// float64.
+struct PlyTable {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> rows;
+  std::string text(const std::string& format, const std::string& type = "float", const std::string& comment = "") const;
+};
+/// What a trainer would write of it.
+PlyTable table_of(const GaussianCloud& cloud);
+
+/// The largest difference of any number, relative to 1 or to itself where it is larger.
+double difference(const GaussianCloud& a, const GaussianCloud& b);
+
+}  // namespace fastsplat::scene

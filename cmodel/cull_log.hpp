@@ -1,5 +1,5 @@
-// What the tests of a frame found, tile by tile: timing depends on it, and nothing else of the pixels
-// (docs/microarchitecture.md, "Culling").
+// What the tests of a frame found and where its map changed, tile by tile: timing depends on it, and nothing else of
+// the pixels (docs/microarchitecture.md, "Culling").
 #pragma once
 
 #include <cstdint>
@@ -28,16 +28,20 @@ struct CullCounts {
 };
 
 /// Answers of one tile's tests in the order of the stream: per cull_block one; per splat that is not swallowed one, and
-/// if it is not hidden and has several windows, one for each of them, row by row. None of a tile without tests.
+/// if it is not hidden and has several windows, one for each of them, row by row. And of each sheet the first row of
+/// blocks with a cell that became opaque, or as many as there are. None of either in a tile without tests.
 class CullAnswers {
  public:
   void add(bool hidden) { bits_.push_back(hidden); }
   bool operator[](std::size_t at) const { return bits_.at(at); }
   std::size_t size() const { return bits_.size(); }
+  void add_sheet(int row) { rows_.push_back(row); }
+  int first_row(std::size_t sheet) const { return rows_.at(sheet); }
   bool operator==(const CullAnswers&) const = default;
 
  private:
   std::vector<bool> bits_;
+  std::vector<int> rows_;  ///< by sheet
 };
 
 /// By tile number. Tiles are independent: logs of some of them each are put together by merge().

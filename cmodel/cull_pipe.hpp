@@ -52,16 +52,17 @@ class CullPipe {
     done_ = 0;
     whole_.fill(0);
     changed_.fill(0);  // what the tables hold is another tile's
-    touched_ = false;
+    opaque_ = false;
   }
   int rows() const { return rows_; }  ///< of blocks
 
-  /// A sheet's last block was picked in cycle `last`; its first dirty row of blocks, rows() if there is none.
+  /// A sheet's last block was picked in cycle `last`; the first row of blocks with a cell that became opaque, rows()
+  /// if there is none.
   void composited(std::uint64_t last, int row) {
-    touched_ = touched_ || row < rows_;
+    opaque_ = opaque_ || row < rows_;
     const std::size_t table = done_++ % 2;
     whole_[table] = last + 1;
-    if (!touched_) return;  // no cell of the tile can be opaque yet
+    if (!opaque_) return;  // no cell of the tile can be opaque yet
     for (int& first : changed_) first = std::min(first, row);
     if (changed_[table] < rows_) {
       built_ = std::max(built_, last + stages::kComposite) +
@@ -81,7 +82,7 @@ class CullPipe {
   std::uint64_t row_cycles_ = 1;                           ///< of a row of blocks
   std::uint64_t sheet_ = 0, done_ = 0;
   int rows_ = 0;
-  bool touched_ = false;
+  bool opaque_ = false;
 };
 
 }  // namespace fastsplat::cmodel

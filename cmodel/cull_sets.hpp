@@ -8,11 +8,20 @@
 
 namespace fastsplat::cmodel {
 
-/// Cells of 2P x 2P pixels of a tile: as many sets may wait for their splats.
-inline int cull_cell_pixels(const Config& config) { return 2 * config.lanes; }
+/// Cells of a tile, each of so many pixels a side: P, or twice that and so on where the cells would be too many.
+inline constexpr std::int64_t kMostCullCells = 1024;
+inline int cull_cell_pixels(const Config& config) {
+  const auto cells = [&](int side) {
+    return std::int64_t{(config.tile_width + side - 1) / side} * ((config.tile_height + side - 1) / side);
+  };
+  int side = config.lanes;
+  while (cells(side) > kMostCullCells) side *= 2;
+  return side;
+}
+/// As many sets may wait for their splats.
 inline std::int64_t cull_sets(const Config& config) {
-  const std::int64_t side = cull_cell_pixels(config);
-  return (config.tile_width + side - 1) / side * ((config.tile_height + side - 1) / side);
+  const int side = cull_cell_pixels(config);
+  return std::int64_t{(config.tile_width + side - 1) / side} * ((config.tile_height + side - 1) / side);
 }
 
 /// A queue of sets with splats to come, oldest first, each with what its owner wants to know of it.

@@ -24,7 +24,10 @@ class CullUnit {
 
   void begin_tile(Mode mode, int width, int height);
   /// The next sheet of the tile; its tests are made against the map as it was two sheets before.
-  void begin_sheet() { now_ = 1 - now_; }
+  void begin_sheet() {
+    now_ = 1 - now_;
+    first_changed_ = blocks_[0].rows();
+  }
   /// Tests are made in this tile.
   bool on() const { return on_; }
 
@@ -39,20 +42,28 @@ class CullUnit {
     if (!on_) return;
     const int x0 = bx * lanes_, x1 = std::min(width_, x0 + lanes_), y0 = by * lanes_,
               y1 = std::min(height_, y0 + lanes_);
-    bool opaque = true;
+    bool opaque = true, changed = false;
     for (int y = y0; y < y1; ++y) {
       for (int x = x0; x < x1; ++x) {
         const bool one = frozen(x, y);
-        if (by_pixels_)
-          pixel_map_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)] =
-              one ? 1 : 0;
         opaque = opaque && one;
+        if (!by_pixels_ || !one) continue;
+        auto& was =
+            pixel_map_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+        changed = changed || was == 0;
+        was = 1;
       }
     }
-    block_map_[static_cast<std::size_t>(by) * static_cast<std::size_t>(blocks_[0].columns()) +
-               static_cast<std::size_t>(bx)] = opaque ? 1 : 0;
+    auto& was = block_map_[static_cast<std::size_t>(by) * static_cast<std::size_t>(blocks_[0].columns()) +
+                           static_cast<std::size_t>(bx)];
+    changed = changed || (opaque && was == 0);
+    was = opaque ? 1 : 0;
+    if (!changed) return;
+    first_changed_ = std::min(first_changed_, by);
     for (int& row : changed_) row = std::min(row, by);
   }
+  /// Of the open sheet's blocks that were told, the first row with a cell that became opaque; all rows: none did.
+  int first_changed() const { return first_changed_; }
   /// All of its blocks were told.
   void end_sheet();
 
@@ -68,6 +79,7 @@ class CullUnit {
   std::array<CullTable, 2> blocks_, pixels_;         ///< after the sheet before the last one, and after the last one
   std::vector<std::uint8_t> block_map_, pixel_map_;  ///< of today
   std::array<int, 2> changed_{};                     ///< first row of blocks that a table does not know yet
+  int first_changed_ = 0;
   std::size_t now_ = 0;
 };
 

@@ -166,13 +166,14 @@ void CycleModel::cull_block(const CullBlock& record) {
 }
 
 bool CycleModel::swallowed(const Record& record) {
-  const bool splat = std::holds_alternative<SplatRecord>(record) || std::holds_alternative<EllipseRecord>(record);
-  if (!config_.culls() || (!splat && !std::holds_alternative<EndSheet>(record))) return false;
-  const Verdict* set = splat ? cull_sets_.next() : nullptr;
-  // What belongs to no set lies behind all that do.
-  if (options_.fetch && last_verdict_ > 0)
-    offer_from((set != nullptr ? set->cycle : last_verdict_) + options_.fetch->latency);
-  return set != nullptr && set->hidden;
+  if (!std::holds_alternative<SplatRecord>(record) && !std::holds_alternative<EllipseRecord>(record)) return false;
+  const Verdict* set = cull_sets_.next();
+  if (set == nullptr) return false;
+  if (options_.fetch) {
+    const std::uint64_t jump = std::max<std::uint64_t>(options_.fetch->latency, 1);
+    next_offer_ = std::max(next_offer_, set->cycle + (set->hidden ? jump : 1));
+  }
+  return set->hidden;
 }
 
 void CycleModel::hide(std::uint64_t at) {
@@ -274,7 +275,7 @@ void CycleModel::begin_tile(const BeginTile& record, std::uint64_t at) {
   sheet_ = {};
   answers_ = nullptr;
   answered_ = 0;
-  last_verdict_ = 0;
+  cull_sheet_ = 0;
   if (!config_.culls()) return;
   cull_.begin_tile(record.width, record.height);
   if (options_.culls == nullptr || !culls_in(record.mode)) return;
@@ -292,7 +293,6 @@ void CycleModel::begin_sheet(const BeginSheet& record, std::uint64_t at) {
   accountant_.pause(Pause::Records, done, done + 1);
   leave(at, done);
   sheet_ = {.tile = tile_.tile, .sheet = record.sheet, .offered = at, .begun = done};
-  last_verdict_ = 0;
 }
 
 void CycleModel::end_sheet(std::uint64_t at) {
@@ -309,8 +309,7 @@ void CycleModel::end_sheet(std::uint64_t at) {
   compositor_idle_ = last + (blocks > 0 ? stages::kIdle : stages::kIdleAfterEmpty);
   accountant_.sheet(buffer_, sheet_.windows, first, first + picks);
   if (config_.culls() && culls_in(tile_.mode)) {
-    int row = cull_.rows();
-    dirty_.each([&row](int, int by) { row = std::min(row, by); });
+    const int row = answers_ == nullptr ? cull_.rows() : answers_->first_row(cull_sheet_++);
     cull_.composited(last, row);
   }
   buffer_ = 1 - buffer_;

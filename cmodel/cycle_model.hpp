@@ -61,7 +61,7 @@ class CycleSink {
 
 /// The source is a master that reads the stream from a memory and never asks for the splats of a hidden set.
 struct Fetch {
-  std::uint64_t latency = 0;  ///< cycles from a verdict to the first beat that it lets come
+  std::uint64_t latency = 0;  ///< cycles from a set's verdict to the first beat behind it, if it is hidden; at least 1
 };
 
 struct CycleOptions {
@@ -119,8 +119,6 @@ class CycleModel final : public Device {
   void hide(std::uint64_t at);
   /// The splat belongs to a hidden set. What was never sent takes no time.
   bool swallowed(const Record& record);
-  /// A fetching source has what follows no earlier than this.
-  void offer_from(std::uint64_t cycle) { next_offer_ = std::max(next_offer_, cycle); }
   /// A splat some of whose windows are hidden.
   void some_windows(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y, std::int32_t width,
                     std::int32_t height, const std::vector<bool>& hidden);
@@ -154,7 +152,7 @@ class CycleModel final : public Device {
 
   CullPipe cull_;
   const CullAnswers* answers_ = nullptr;  ///< of the open tile
-  std::size_t answered_ = 0;
+  std::size_t answered_ = 0, cull_sheet_ = 0;
   struct Verdict {
     bool hidden = false;
     std::uint64_t cycle = 0;

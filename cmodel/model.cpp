@@ -235,6 +235,7 @@ void Model::end_sheet(Observer& observer) {
       tap(Tap::Composite, 0, x0, y0, gather(x0, y0, [&](int i, int j) { return compositor_.at(i, j).data(); }));
   });
   cull_.end_sheet();
+  if (cull_.on() && log_ != nullptr) log_->tile(tile_.tile).add_sheet(cull_.first_changed());
 }
 
 template <class Observer>

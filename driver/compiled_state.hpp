@@ -67,6 +67,16 @@ class Windows {
   std::vector<cmodel::WindowGeometry> extents_;  ///< per set
 };
 
+/// Neighbouring cells whose splats go in one set: one cell, two beside one another, or four.
+struct CellSet {
+  cmodel::CullBlock block;  ///< pixels of all windows of the splats that they can have; no tag, no splats yet
+  std::vector<int> cells;   ///< row by row
+};
+struct SheetSets {
+  std::vector<CellSet> sets;
+  std::vector<int> others;  ///< cells with splats in no set
+};
+
 struct CompiledFrame::State {
   cmodel::Config config;
   cmodel::Mode mode;
@@ -114,10 +124,8 @@ struct CompiledFrame::State {
   /// The same where the tile's splats go in sets; true if the sheet was written.
   bool emit_sets(int tile, int sheet, std::uint32_t& tag, cmodel::RecordSink& out, TileReport& report) const;
   bool in_sets() const { return cells.count() > 1; }
-  /// Pixels of all windows of the splats that a cell can have, of no splats yet.
-  cmodel::CullBlock set_of(int cell) const;
-  /// Cells of a tile whose splats are worth a set in this sheet, behind `written` others of the tile.
-  std::vector<int> set_cells(int tile, int sheet, std::uint64_t written) const;
+  /// The sets of a tile's sheet, behind `written` others of the tile, and the cells that are in none.
+  SheetSets sheet_sets(int tile, int sheet, std::uint64_t written) const;
   /// visit(EllipseRecord) for every record of a splat with kOwnShape that meets the tile, without its tag; none may.
   template <class Visit>
   void for_each_ellipse(int tile, std::uint32_t number, const Share& part, Visit visit) const;

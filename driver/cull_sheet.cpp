@@ -15,19 +15,55 @@ constexpr std::uint64_t kSheetsUnhidden = 2;
 
 }  // namespace
 
-cmodel::CullBlock CompiledFrame::State::set_of(int cell) const {
-  const int side = cells.side() - 1 + windows.widest();
-  return {.tag = 0, .x = cells.x(cell), .y = cells.y(cell), .width = side, .height = side, .splats = 0};
-}
-
-std::vector<int> CompiledFrame::State::set_cells(int tile, int sheet, std::uint64_t written) const {
-  std::vector<int> out;
-  if (written < kSheetsUnhidden) return out;
+SheetSets CompiledFrame::State::sheet_sets(int tile, int sheet, std::uint64_t written) const {
   const auto side = static_cast<std::uint64_t>(windows.narrowest() / config.lanes);
+  std::vector<std::uint64_t> candidates(static_cast<std::size_t>(cells.count()));
   for (int cell = 0; cell < cells.count(); ++cell) {
-    std::uint64_t splats = 0;
-    for (int from = std::max(0, sheet - reach); from <= sheet; ++from) splats += bins.cell(tile, from, cell).size();
-    if (splats * side * side >= kWindowsOfASet) out.push_back(cell);
+    auto& of = candidates[static_cast<std::size_t>(cell)];
+    for (int from = std::max(0, sheet - reach); from <= sheet; ++from)
+      of += bins.cell(tile, from, cell).size() * side * side;
+  }
+  SheetSets out;
+  // Of the cells in columns x0..x1-1 and rows y0..y1-1 that have any, one set, if it is worth it.
+  const auto worth = [&](int x0, int y0, int x1, int y1) {
+    std::uint64_t sum = 0;
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x) sum += candidates[static_cast<std::size_t>(y * cells.columns() + x)];
+    return sum == 0 || sum >= kWindowsOfASet;
+  };
+  const auto take = [&](int x0, int y0, int x1, int y1, bool as_set) {
+    CellSet set;
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; ++x) {
+        const int cell = y * cells.columns() + x;
+        if (candidates[static_cast<std::size_t>(cell)] > 0) (as_set ? set.cells : out.others).push_back(cell);
+      }
+    }
+    if (set.cells.empty()) return;
+    const int more = windows.widest() - 1;
+    set.block.x = x0 * cells.side(), set.block.y = y0 * cells.side();
+    set.block.width = (x1 - x0) * cells.side() + more, set.block.height = (y1 - y0) * cells.side() + more;
+    out.sets.push_back(std::move(set));
+  };
+  for (int y = 0; y < cells.rows(); y += 2) {
+    const int end = std::min(y + 2, cells.rows());
+    for (int x = 0; x < cells.columns(); x += 2) {
+      const int right = std::min(x + 2, cells.columns());
+      bool singly = true, by_rows = true;
+      for (int row = y; row < end; ++row) {
+        by_rows = by_rows && worth(x, row, right, row + 1);
+        for (int column = x; column < right; ++column) singly = singly && worth(column, row, column + 1, row + 1);
+      }
+      const bool all = worth(x, y, right, end), hides = written >= kSheetsUnhidden;
+      if (!hides || !all || (!singly && !by_rows)) {
+        take(x, y, right, end, hides && all);
+        continue;
+      }
+      for (int row = y; row < end; ++row) {
+        if (!singly) take(x, row, right, row + 1, true);
+        for (int column = x; singly && column < right; ++column) take(column, row, column + 1, row + 1, true);
+      }
+    }
   }
   return out;
 }
@@ -48,25 +84,20 @@ bool CompiledFrame::State::emit_sets(int tile, int sheet, std::uint32_t& tag, cm
       }
     }
   };
-  const std::vector<int> in_sets = set_cells(tile, sheet, report.sheets);
+  const SheetSets split = sheet_sets(tile, sheet, report.sheets);
   std::vector<cmodel::CullBlock> sets;
-  if (!in_sets.empty()) out.begin_sheet({static_cast<std::uint32_t>(sheet)});
-  for (const int cell : in_sets) {
-    cmodel::CullBlock set = set_of(cell);
+  if (!split.sets.empty()) out.begin_sheet({static_cast<std::uint32_t>(sheet)});
+  for (const CellSet& one : split.sets) {
+    cmodel::CullBlock set = one.block;
     set.tag = tag;
     const std::size_t before = records.size();
-    if (!out.would_hide(set)) gather(cell);
+    if (!out.would_hide(set)) std::ranges::for_each(one.cells, gather);
     set.splats = static_cast<std::uint32_t>(records.size() - before);
     sets.push_back(set);
   }
-  for (int cell = 0, at = 0; cell < cells.count(); ++cell) {
-    if (at < static_cast<int>(in_sets.size()) && in_sets[static_cast<std::size_t>(at)] == cell)
-      ++at;
-    else
-      gather(cell);
-  }
-  if (in_sets.empty() && records.empty()) return false;
-  if (in_sets.empty()) out.begin_sheet({static_cast<std::uint32_t>(sheet)});
+  std::ranges::for_each(split.others, gather);
+  if (split.sets.empty() && records.empty()) return false;
+  if (split.sets.empty()) out.begin_sheet({static_cast<std::uint32_t>(sheet)});
   out.cull_blocks(sets);
   out.splats(records);
   out.end_sheet({static_cast<std::uint32_t>(sheet), static_cast<std::uint32_t>(records.size())});

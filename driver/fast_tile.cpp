@@ -142,15 +142,20 @@ class CullWalk {
   BandReport operator()() {
     std::uint32_t written = 0;
     for (int sheet = 0; sheet < s_.plan.slabs.count && unit_.sound(); ++sheet) {
-      const std::vector<int> sets = s_.set_cells(tile_, sheet, written);
+      const SheetSets split = s_.sheet_sets(tile_, sheet, written);
       const std::uint64_t before = report_.splat_records;
-      std::size_t next = 0;
-      for (int cell = 0; cell < s_.cells.count(); ++cell) {
-        const bool in_set = next < sets.size() && sets[next] == cell;
-        next += in_set ? 1 : 0;
-        draw(cell, sheet, in_set);
+      for (const CellSet& set : split.sets) {
+        unit_.cull_blocks({&set.block, 1});
+        const bool hidden = unit_.would_hide(set.block);
+        for (const int cell : set.cells) {
+          if (hidden)
+            hide(cells_[static_cast<std::size_t>(cell)]);
+          else
+            draw(cell, sheet);
+        }
       }
-      if (sets.empty() && report_.splat_records == before) continue;
+      for (const int cell : split.others) draw(cell, sheet);
+      if (split.sets.empty() && report_.splat_records == before) continue;
       report_.sheets[static_cast<std::size_t>(sheet)] = 1;
       unit_.end_sheet({static_cast<std::uint32_t>(sheet), 0});
       ++written;
@@ -165,17 +170,12 @@ class CullWalk {
     bool hidden = false;         ///< all of it, for good
   };
 
-  void draw(int number, int sheet, bool in_set) {
+  static void hide(Cell& cell) {
+    cell.hidden = true;
+    cell.waiting.clear();
+  }
+  void draw(int number, int sheet) {
     Cell& cell = cells_[static_cast<std::size_t>(number)];
-    if (in_set) {
-      cmodel::CullBlock set = s_.set_of(number);
-      unit_.cull_blocks({&set, 1});
-      cell.hidden = cell.hidden || unit_.would_hide(set);
-      if (cell.hidden) {
-        cell.waiting.clear();
-        return;
-      }
-    }
     if (cell.hidden) {
       count(number, sheet);
       return;

@@ -72,8 +72,8 @@ class Cells {
     if (count() == 1) return 0;
     return std::clamp(y / side_, 0, rows_ - 1) * columns_ + std::clamp(x / side_, 0, columns_ - 1);
   }
-  std::int32_t x(int cell) const { return cell % columns_ * side_; }
-  std::int32_t y(int cell) const { return cell / columns_ * side_; }
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
   int side() const { return side_; }
 
  private:

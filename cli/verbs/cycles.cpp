@@ -146,7 +146,7 @@ std::string to_text(const Result& result) {
                               : "") +
          (result.scalings.size() > 1 ? to_table(result.scalings) : "") +
          (result.scalings.empty() ? "" : to_text(result.scalings.back())) +
-         (result.cull_table.empty() ? "" : to_text(result.cull_table)) +
+         (result.cull_table.empty() ? "" : cli::to_text(result.cull_table)) +
          (result.trace.empty() ? "" : result.trace + "\n");
 }
 
@@ -190,7 +190,7 @@ Json to_json(const Result& result) {
                      {"windows_hidden", result.culls->hidden_windows}};
   }
   if (result.fetch) json["fetch"] = *result.fetch;
-  if (!result.cull_table.empty()) json["cull_table"] = to_json(result.cull_table);
+  if (!result.cull_table.empty()) json["cull_table"] = cli::to_json(result.cull_table);
   if (result.hidden_share) json["hidden_share"] = *result.hidden_share;
   if (!result.scalings.empty()) json["scaling"] = to_json(result.scalings.back());
   if (result.scalings.size() > 1) {

@@ -18,11 +18,19 @@ using cmodel::Opcode;
 struct Drawn final : cmodel::TapSink, cmodel::PixelSink {
   using Key = std::pair<std::uint32_t, std::uint32_t>;
   std::map<Key, std::vector<std::pair<int, int>>> windows;  ///< (tile, tag): first pixels
-  std::map<Key, std::vector<int>> blocks;                   ///< (tile, sheet): first rows of pixels
+  std::map<Key, std::uint64_t> blocks;                      ///< (tile, sheet): dirty
+  std::map<Key, std::vector<std::pair<int, int>>> frozen;   ///< likewise: pixels of these blocks that are
+  std::uint32_t eps = 0;
+  int lanes = 0;
   void on_tile(cmodel::TilePixels&&) override {}
   void on_tap(const cmodel::TapRecord& tap) override {
     if (tap.tap == cmodel::Tap::Footprint) windows[{tap.tile, tap.tag}].emplace_back(tap.x, tap.y);
-    if (tap.tap == cmodel::Tap::Composite) blocks[{tap.tile, tap.sheet}].push_back(tap.y);
+    if (tap.tap != cmodel::Tap::Composite) return;
+    ++blocks[{tap.tile, tap.sheet}];
+    for (int i = 0; i < lanes * lanes; ++i) {
+      if (tap.payload[static_cast<std::size_t>(4 * i + 3)] < eps)
+        frozen[{tap.tile, tap.sheet}].emplace_back(tap.x + i % lanes, tap.y + i / lanes);
+    }
   }
 };
 
@@ -34,12 +42,14 @@ struct Item {
   bool skipped = false;      ///< of a hidden set
   int set = -1;              ///< the cull_block that covers it, by number
   std::uint64_t blocks = 0;  ///< end_sheet: dirty
-  int row = 0;               ///< end_sheet: the first of their rows
+  int row = 0;               ///< end_sheet: the first row of blocks with a new opaque cell
   int mode = 0, width = 0, height = 0;
 };
 
 std::vector<Item> items_of(const cmodel::Config& config, std::span<const cmodel::Beat> beats) {
   Drawn drawn;
+  drawn.eps = static_cast<std::uint32_t>(config.freeze_below);
+  drawn.lanes = config.lanes;
   cmodel::CullLog log;
   cmodel::Model model(config, cmodel::StreamScope::Whole, drawn, &drawn);
   model.log_culls(&log);
@@ -47,7 +57,8 @@ std::vector<Item> items_of(const cmodel::Config& config, std::span<const cmodel:
   std::vector<Item> out;
   std::uint64_t words = 0;
   std::uint32_t tile = 0, sheet = 0;
-  int height = 0, mode = 0, sets = 0;
+  int width = 0, height = 0, mode = 0, sets = 0;
+  std::set<std::pair<int, int>> opaque;  // pixels of the tile
   std::map<std::uint32_t, std::uint32_t> rho;
   std::deque<std::pair<int, bool>> covered;  // the next splats' sets, and whether these are hidden
   std::size_t answer = 0;
@@ -65,10 +76,11 @@ std::vector<Item> items_of(const cmodel::Config& config, std::span<const cmodel:
     const cmodel::Record record = cmodel::from_beat(beat);
     if (item.opcode == Opcode::LoadTable) words = cmodel::announced_words(beat);
     if (const auto* one = std::get_if<cmodel::BeginTile>(&record)) {
-      tile = one->tile, height = one->height, mode = static_cast<int>(one->mode);
+      tile = one->tile, width = one->width, height = one->height, mode = static_cast<int>(one->mode);
       item.width = one->width, item.height = height, item.mode = mode;
       answer = 0;
       covered.clear();
+      opaque.clear();
     }
     if (const auto* one = std::get_if<cmodel::BeginSheet>(&record)) sheet = one->sheet;
     const auto next_answer = [&] { return mode < 2 && log.tile(tile)[answer++]; };
@@ -107,10 +119,21 @@ std::vector<Item> items_of(const cmodel::Config& config, std::span<const cmodel:
     if (const auto* one = std::get_if<cmodel::EllipseRecord>(&record)) splat(one->tag);
     if (item.opcode == Opcode::LoadTable && (beat[0] >> 8 & 0xFF) == 0) rho[beat[1]] = beat[2];
     if (item.opcode == Opcode::EndSheet) {
-      const auto& blocks = drawn.blocks[{tile, sheet}];
-      item.blocks = blocks.size();
+      item.blocks = drawn.blocks[{tile, sheet}];
       item.row = (height + config.lanes - 1) / config.lanes;
-      for (const int y : blocks) item.row = std::min(item.row, y / config.lanes);
+      // A cell is opaque where all of its pixels in the tile are.
+      const int u = config.cull_cell();
+      const auto all = [&](int x, int y) {
+        for (int j = y / u * u; j < std::min(y / u * u + u, height); ++j)
+          for (int i = x / u * u; i < std::min(x / u * u + u, width); ++i)
+            if (!opaque.contains({i, j})) return false;
+        return true;
+      };
+      std::vector<std::pair<int, int>> fresh;
+      for (const auto& [x, y] : drawn.frozen[{tile, sheet}])
+        if (x < width && y < height && opaque.insert({x, y}).second) fresh.emplace_back(x, y);
+      for (const auto& [x, y] : fresh)
+        if (all(x, y)) item.row = std::min(item.row, y / config.lanes);
     }
     out.push_back(item);
   }
@@ -133,7 +156,6 @@ PlainCullClock plain_cull_clock(const cmodel::Config& config, std::span<const cm
   std::uint64_t left_in_decode = 0;      // cycles of what decode holds, this one included
   std::map<int, std::uint64_t> verdict;  // of each cull_block
   std::uint64_t jumped = 0;              // what lies behind a hidden set comes from here on
-  int last_set = -1;                     // of the sheet that is being sent
   // Buffers, walk, picture.
   std::array<std::uint64_t, 2> buffer_from{};
   std::size_t buffer = 0;
@@ -151,7 +173,7 @@ PlainCullClock plain_cull_clock(const cmodel::Config& config, std::span<const cm
   std::uint64_t all_begun = 0, all_ended = 0;  // since reset: in t0, in decode
   std::array<std::uint64_t, 2> walk_end{};     // by table: of its sheet, the cycle after
   int mode_in_t0 = 0;
-  bool touched = false;
+  bool opaque_yet = false;
   int rows = 0, width = 0, mode = 0;
   std::size_t done = 0, sent = 0;
   const auto wipe = static_cast<std::uint64_t>(config.tile_width / config.lanes) *
@@ -185,7 +207,7 @@ PlainCullClock plain_cull_clock(const cmodel::Config& config, std::span<const cm
           rows = (item.height + config.lanes - 1) / config.lanes, width = item.width, mode = item.mode;
           first_row = {0, 0};
           ended = 0;
-          touched = false;
+          opaque_yet = false;
         }
         if (record && item.opcode == Opcode::EndSheet) {
           const std::uint64_t m = item.blocks * slices;
@@ -195,11 +217,11 @@ PlainCullClock plain_cull_clock(const cmodel::Config& config, std::span<const cm
           buffer_from[buffer] = f + 1;
           buffer = 1 - buffer;
           at_rest = f + (m > 0 ? 7 : 3);
-          touched = touched || item.blocks > 0;
+          opaque_yet = opaque_yet || item.row < rows;
           const std::size_t table = ended++ % 2;
           ++all_ended;
           walk_end[table] = f + 1;
-          if (mode < 2 && touched) {
+          if (mode < 2 && opaque_yet) {
             for (int& row : first_row) row = std::min(row, item.row);
             const auto changed = static_cast<std::uint64_t>(rows - first_row[table]);
             const std::uint64_t each = config.cull_cell() == 1
@@ -252,20 +274,16 @@ PlainCullClock plain_cull_clock(const cmodel::Config& config, std::span<const cm
     // The source.
     while (latency && next < static_cast<int>(items.size()) && items[static_cast<std::size_t>(next)].skipped) {
       if (!verdict.contains(items[static_cast<std::size_t>(next)].set)) break;
-      jumped = std::max(jumped, verdict.at(items[static_cast<std::size_t>(next)].set) + *latency);
+      jumped = std::max(jumped,
+                        verdict.at(items[static_cast<std::size_t>(next)].set) + std::max<std::uint64_t>(*latency, 1));
       ++next;
     }
     if (held[0] >= 0 || next >= static_cast<int>(items.size())) continue;
     const Item& item = items[static_cast<std::size_t>(next)];
     if ((latency && item.skipped) || c < jumped) continue;
     const bool splat = !item.payload && (item.opcode == Opcode::Splat || item.opcode == Opcode::Ellipse);
-    const bool end = !item.payload && item.opcode == Opcode::EndSheet;
-    if (latency && (splat || end)) {
-      const int of = splat && item.set >= 0 ? item.set : last_set;
-      if (of >= 0 && (!verdict.contains(of) || c < verdict.at(of) + *latency)) continue;
-    }
-    if (!item.payload && item.opcode == Opcode::BeginSheet) last_set = -1;
-    if (!item.payload && item.opcode == Opcode::CullBlock) last_set = item.set;
+    // Of a set that is seen, from the cycle behind its verdict on.
+    if (latency && splat && item.set >= 0 && (!verdict.contains(item.set) || c <= verdict.at(item.set))) continue;
     out.beats[static_cast<std::size_t>(next)].taken = c;
     order.push_back(next);
     held[0] = next++;

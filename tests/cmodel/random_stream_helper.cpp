@@ -256,7 +256,9 @@ class Generator {
                std::pair{b.box.y0 / (2 * c.P), b.box.x0 / (2 * c.P)};
       });
     }
-    const std::int64_t room = ((c.W + 2 * c.P - 1) / (2 * c.P)) * ((c.H + 2 * c.P - 1) / (2 * c.P));
+    std::int64_t room = 0;
+    for (std::int64_t side = c.P; room == 0 || room > 1024; side *= 2)
+      room = ((c.W + side - 1) / side) * ((c.H + side - 1) / side);
     std::vector<std::size_t> ends;  // of open sets
     std::size_t promised = 0;
     const bool in_front = r.once_in(2);  // as many as there is room for

@@ -37,6 +37,8 @@ class Compositor {
         mode_ == Mode::Exponential ? opacity_.exponential(sums, observer) : opacity_.additive(sums, observer);
     counters.frozen_pixels += lane_.composite(slab, pixel, observer) ? 1 : 0;
   }
+  /// Of modes 0, 1, 4 and 5.
+  bool frozen(int x, int y) const { return lane_.frozen(at(x, y)); }
   const PixelState& at(int x, int y) const { return pixels_[static_cast<std::size_t>(y) * width_ + x]; }
 
  private:

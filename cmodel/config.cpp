@@ -21,6 +21,8 @@ constexpr const char* kIndexKinds[] = {"linear", "squared", "squared_elliptic",
 
 constexpr const char* kIndexSymmetries[] = {"off", "eightfold"};  // in the order of IndexSymmetry
 
+constexpr const char* kCullMaps[] = {"off", "block", "pixel"};  // in the order of CullMap
+
 constexpr ConfigKey rounding(const char* name, int Config::*member, const char* meaning) {
   return {.name = name,
           .member = member,
@@ -121,6 +123,14 @@ constexpr std::array kKeys{
               .power_of_two = false,
               .meaning = "1: the device composites every sample of a tile that asks for it, in the order of its splats",
               .neutral = 0},
+    ConfigKey{.name = "cull.map",
+              .member = &Config::cull_map,
+              .min = 0,
+              .max = 2,
+              .power_of_two = false,
+              .meaning = "the cells of the map by which hidden splats are found; off: they are not",
+              .names = kCullMaps,
+              .neutral = static_cast<int>(CullMap::Off)},
 };
 
 ErrorParts violation(const char* key, std::string what, std::string expected, int got, std::string fix) {

@@ -17,6 +17,9 @@ enum class IndexKind { Linear, Squared, SquaredElliptic, Blit2d, Rlut, Separable
 /// What of a blit2d set's footprints is stored: each, or each once that is no mirror image of another.
 enum class IndexSymmetry { Off, Eightfold };
 
+/// The cells of the map by which hidden splats are found (docs/numerics.md, section 6.1).
+enum class CullMap { Off, Block, Pixel };
+
 /// Where the driver carries what a splat's rounding leaves to the next one.
 enum class Carry { Off, XRay, On };
 
@@ -75,6 +78,7 @@ struct Config {
   int composite_lanes = 0;  ///< C as it is written; 0: P^2
   int counter_bits = 64;
   int composite_every_sample = 0;  ///< 1: a tile may ask for every sample to be composited
+  int cull_map = static_cast<int>(CullMap::Off);
 
   bool operator==(const Config&) const = default;
 
@@ -106,6 +110,8 @@ struct Config {
     constexpr int kBesideEllipse = 11;
     return (has_ellipses() && position_int_bits < kBesideEllipse ? kBesideEllipse : position_int_bits) + 2;
   }
+  bool culls() const { return cull_map != static_cast<int>(CullMap::Off); }
+  int cull_cell() const { return cull_map == static_cast<int>(CullMap::Pixel) ? 1 : lanes; }         ///< u, pixels
   int composited_at_once() const { return composite_lanes == 0 ? lanes * lanes : composite_lanes; }  ///< C, pixels
   /// The cycles of a dirty block in the compositor, each for one slice of it: P^2 / C.
   int slices() const { return lanes * lanes / composited_at_once(); }

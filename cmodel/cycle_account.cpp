@@ -37,6 +37,8 @@ CycleAccount Accountant::account() const {
   out.sheet_buffer = pauses_[index(Pause::Buffer)];
   out.drain = pauses_[index(Pause::Drain)];
   out.input = pauses_[index(Pause::Input)];
+  out.map = pauses_[index(Pause::Map)];
+  out.hidden = pauses_[index(Pause::Hidden)];
   out.records = pauses_[index(Pause::Records)];
   return out;
 }

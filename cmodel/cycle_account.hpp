@@ -12,8 +12,10 @@ namespace fastsplat::cmodel {
   X(ideal, "windows and dirty blocks: n_1 + sum max(n_s, m_(s-1)) + m_S of every tile")                      \
   X(records, "records that are no splat, one cycle each")                                                    \
   X(table_load, "table words, one cycle each")                                                               \
+  X(hidden, "hidden splats that were sent, and rows of hidden windows, one cycle each")                       \
   X(input, "no record: the source was late")                                                                 \
   X(sheet_buffer, "begin_sheet waits for a buffer, beyond the compositor's ideal")                           \
+  X(map, "begin_sheet waits for the map of opaque cells")                                                    \
   X(drain, "end_tile waits for the pipes: fill and drain of splat path and compositor")                      \
   X(pixels, "the picture goes out")                                                                          \
   X(output, "a pixel beat waits: the sink was not ready")
@@ -47,7 +49,8 @@ struct CycleAccount {
 
 /// What decode does in a cycle in which it issues no window; the order is that in which ideal compositing cycles are
 /// taken out of them.
-enum class Pause : std::uint8_t { Buffer, Drain, Input, Records };
+enum class Pause : std::uint8_t { Buffer, Drain, Map, Input, Hidden, Records };
+inline constexpr std::size_t kPauses = 6;
 
 /// Splits the cycles of one tile after another. Half-open spans [from, to) in rising order.
 class Accountant {
@@ -75,13 +78,13 @@ class Accountant {
   struct Walk {
     std::uint64_t from = 0, to = 0;
     std::uint64_t windows_beside = 0;  ///< of the sheet splatted meanwhile
-    std::array<std::uint64_t, 4> paused{};
+    std::array<std::uint64_t, kPauses> paused{};
     void add(Pause kind, std::uint64_t a, std::uint64_t b);
   };
   static constexpr std::size_t index(Pause kind) { return static_cast<std::size_t>(kind); }
 
   CycleAccount account_;
-  std::array<std::uint64_t, 4> pauses_{};
+  std::array<std::uint64_t, kPauses> pauses_{};
   std::array<Walk, 2> walks_;
 };
 

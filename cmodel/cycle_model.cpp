@@ -1,6 +1,7 @@
 #include "cmodel/cycle_model.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "cmodel/cycle_stages.hpp"
 #include "cmodel/ellipse_unit.hpp"
@@ -36,6 +37,7 @@ CycleModel::CycleModel(const Config& config, StreamScope scope, const CycleOptio
       sets_(static_cast<std::size_t>(config.rlut_sets)),
       dirty_(config.lanes),
       delay_(stages::splat_delay(config)),
+      cull_(config),
       next_offer_(options.first_beat),
       check_free_(wipe_cycles(config)),
       end_(check_free_) {}
@@ -59,19 +61,34 @@ std::uint64_t CycleModel::judged(std::uint64_t taken) const {
   return std::max(taken + stages::kWeigh, judge_free_) + stages::kJudge;
 }
 
-std::uint64_t CycleModel::enter() {
+std::uint64_t CycleModel::enter(Opcode opcode, bool payload) {
   const std::uint64_t offered = options_.input == nullptr ? next_offer_ : options_.input->next(next_offer_);
   const std::uint64_t taken = std::max(offered, check_free_);
   const std::uint64_t verdict = judged(taken);
-  const std::uint64_t checked = std::max(verdict, ready_);
   beat_.wanted = std::max(next_offer_, check_free_);
   beat_.offered = offered;
   beat_.taken = taken;
-  beat_.entered = checked + 1;
   next_offer_ = taken + 1;
   check_free_ = verdict - stages::kJudge;
-  judge_free_ = checked;
-  empty(register_free_, checked + 1);
+  ++sent_;
+  std::uint64_t checked = 0, map = 0;
+  if (config_.culls()) {
+    const CullPipe::Passage passage = cull_.pass(verdict, ready_, opcode == Opcode::BeginSheet && !payload);
+    judge_free_ = passage.entered;
+    checked = passage.left;
+    map = passage.waited;
+    last_verdict_ = opcode == Opcode::CullBlock && !payload ? passage.verdict : last_verdict_;
+  } else {
+    judge_free_ = checked = std::max(verdict, ready_);
+  }
+  beat_.entered = checked + 1;
+  const std::uint64_t waited = checked + 1 > register_free_ ? std::min(map, checked + 1 - register_free_) : 0;
+  empty(register_free_, checked + 1 - waited);
+  if (waited > 0) {
+    accountant_.pause(Pause::Map, checked + 1 - waited, checked + 1);
+    stalls_.stall_input += waited;
+    stalls_.busy += waited;
+  }
   return checked + 1;
 }
 
@@ -89,9 +106,15 @@ void CycleModel::take(const Beat& beat) {
   const bool payload = payload_words_ > 0;
   const auto opcode = static_cast<Opcode>(get(beat, layout::kOpcode));
   const Record* record = decode_.feed(beat);
+  const bool gone = !payload && record != nullptr && swallowed(*record);
+  if (gone && options_.fetch) return;
   beat_.payload = payload;
   beat_.opcode = payload ? Opcode::LoadTable : opcode;
-  const std::uint64_t at = enter();
+  const std::uint64_t at = enter(opcode, payload);
+  if (gone) {
+    hide(at);
+    return;
+  }
   if (payload) {
     const std::uint64_t words = std::min<std::uint64_t>(payload_words_, kBeatWords);
     payload_words_ -= words;
@@ -124,7 +147,7 @@ void CycleModel::take(const Beat& beat) {
       payload_words_ = announced_words(beat);
       break;
     case Opcode::CullBlock:
-      ++counters_.cull_blocks;
+      cull_block(std::get<CullBlock>(*record));
       break;
     case Opcode::BeginFrame:
     case Opcode::EndFrame:
@@ -132,6 +155,29 @@ void CycleModel::take(const Beat& beat) {
   }
   // end_frame costs nothing while the last picture goes out.
   if (tile_open_ || at >= picture_to_) accountant_.pause(Pause::Records, at, at + 1);
+  leave(at, at);
+}
+
+bool CycleModel::answer() { return answers_ != nullptr && (*answers_)[answered_++]; }
+
+void CycleModel::cull_block(const CullBlock& record) {
+  ++counters_.cull_blocks;
+  if (tile_open_ && culls_in(tile_.mode)) cull_sets_.announce(record.splats, {answer(), last_verdict_});
+}
+
+bool CycleModel::swallowed(const Record& record) {
+  if (!std::holds_alternative<SplatRecord>(record) && !std::holds_alternative<EllipseRecord>(record)) return false;
+  const Verdict* set = cull_sets_.next();
+  if (set == nullptr) return false;
+  if (options_.fetch) {
+    const std::uint64_t jump = std::max<std::uint64_t>(options_.fetch->latency, 1);
+    next_offer_ = std::max(next_offer_, set->cycle + (set->hidden ? jump : 1));
+  }
+  return set->hidden;
+}
+
+void CycleModel::hide(std::uint64_t at) {
+  accountant_.pause(Pause::Hidden, at, at + 1);
   leave(at, at);
 }
 
@@ -157,10 +203,24 @@ void CycleModel::ellipse(const EllipseRecord& record, std::uint64_t at) {
 
 void CycleModel::footprint(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y, std::int32_t width,
                            std::int32_t height) {
-  dirty_.mark(x, y, width, height);
+  ++counters_.splats;
   const std::uint64_t windows =
       static_cast<std::uint64_t>(width / config_.lanes) * static_cast<std::uint64_t>(height / config_.lanes);
-  ++counters_.splats;
+  if (answers_ != nullptr) {
+    if (answer()) {
+      hide(at);
+      return;
+    }
+    if (windows > 1) {
+      std::vector<bool> hidden;
+      for (std::uint64_t i = 0; i < windows; ++i) hidden.push_back(answer());
+      if (std::ranges::find(hidden, true) != hidden.end()) {
+        some_windows(at, tag, x, y, width, height, hidden);
+        return;
+      }
+    }
+  }
+  dirty_.mark(x, y, width, height);
   counters_.windows += windows;
   sheet_.windows += windows;
   leave(at, at + windows - 1);
@@ -168,11 +228,39 @@ void CycleModel::footprint(std::uint64_t at, std::uint32_t tag, std::int32_t x, 
   at += delay_;
   tap(Tap::Snap, at + stages::kSnap, tag, x, y);
   for (std::int32_t row = 0; row < height; row += config_.lanes) {
-    for (std::int32_t column = 0; column < width; column += config_.lanes, ++at) {
-      tap(Tap::Footprint, at + stages::kFootprint, tag, x + column, y + row);
-      tap(Tap::Sheet, at + stages::kSheet, tag, x + column, y + row);
-    }
+    for (std::int32_t column = 0; column < width; column += config_.lanes) window(at++, tag, x + column, y + row);
   }
+}
+
+void CycleModel::window(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y) const {
+  tap(Tap::Footprint, at + stages::kFootprint, tag, x, y);
+  tap(Tap::Sheet, at + stages::kSheet, tag, x, y);
+}
+
+void CycleModel::some_windows(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y, std::int32_t width,
+                              std::int32_t height, const std::vector<bool>& hidden) {
+  const std::uint64_t since = at;
+  std::uint64_t windows = 0;
+  std::size_t number = 0;
+  for (std::int32_t row = 0; row < height; row += config_.lanes) {
+    const std::uint64_t before = windows;
+    for (std::int32_t column = 0; column < width; column += config_.lanes) {
+      if (hidden[number++]) continue;
+      dirty_.mark(x + column, y + row, config_.lanes, config_.lanes);
+      if (options_.taps != nullptr) {
+        if (windows == 0) tap(Tap::Snap, at + delay_ + stages::kSnap, tag, x, y);
+        window(at + delay_, tag, x + column, y + row);
+      }
+      ++windows;
+      ++at;
+    }
+    if (windows > before) continue;
+    accountant_.pause(Pause::Hidden, at, at + 1);  // the walk looks at one row of windows a cycle
+    ++at;
+  }
+  counters_.windows += windows;
+  sheet_.windows += windows;
+  leave(since, at - 1);
 }
 
 void CycleModel::begin_tile(const BeginTile& record, std::uint64_t at) {
@@ -185,6 +273,16 @@ void CycleModel::begin_tile(const BeginTile& record, std::uint64_t at) {
   dirty_.begin_tile(record.width, record.height);
   span_ = {.tile = record.tile, .begun = done};
   sheet_ = {};
+  answers_ = nullptr;
+  answered_ = 0;
+  cull_sheet_ = 0;
+  if (!config_.culls()) return;
+  cull_.begin_tile(record.width, record.height);
+  if (options_.culls == nullptr || !culls_in(record.mode)) return;
+  // A tile without a cull_block and a splat has no answers; who misses any is told by CullAnswers.
+  static const CullAnswers kNone;
+  answers_ = options_.culls->find(record.tile);
+  if (answers_ == nullptr) answers_ = &kNone;
 }
 
 void CycleModel::begin_sheet(const BeginSheet& record, std::uint64_t at) {
@@ -210,6 +308,10 @@ void CycleModel::end_sheet(std::uint64_t at) {
   buffer_free_[buffer_] = last + stages::kFree;
   compositor_idle_ = last + (blocks > 0 ? stages::kIdle : stages::kIdleAfterEmpty);
   accountant_.sheet(buffer_, sheet_.windows, first, first + picks);
+  if (config_.culls() && culls_in(tile_.mode)) {
+    const int row = answers_ == nullptr ? cull_.rows() : answers_->first_row(cull_sheet_++);
+    cull_.composited(last, row);
+  }
   buffer_ = 1 - buffer_;
   sheet_.closed = at;
   sheet_.blocks = blocks;
@@ -235,6 +337,8 @@ void CycleModel::end_tile(std::uint64_t at) {
   accountant_.pause(Pause::Records, done, done + 1);
   leave(at, done);
   tile_open_ = false;
+  if (answers_ != nullptr && answered_ != answers_->size())
+    throw std::logic_error("the log of culled records is not this stream's");
   ++counters_.tiles;
   sheet_.sheet = 0;  // pixels belong to no sheet
   picture(done);

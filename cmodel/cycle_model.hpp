@@ -1,5 +1,6 @@
 // When everything happens: the clock cycle of each event of the RTL, computed from the stream alone, without a clock
-// (docs/microarchitecture.md). Time goes by records, not by cycles; no pixel is computed.
+// (docs/microarchitecture.md). Time goes by records, not by cycles; no pixel is computed. Where the device culls, what
+// its tests found is taken from a log that Model wrote.
 #pragma once
 
 #include <array>
@@ -8,6 +9,10 @@
 #include <vector>
 
 #include "cmodel/config.hpp"
+#include "cmodel/cull_log.hpp"
+#include "cmodel/cull_pipe.hpp"
+#include "cmodel/cull_sets.hpp"
+#include "cmodel/cull_unit.hpp"
 #include "cmodel/cycle_account.hpp"
 #include "cmodel/device.hpp"
 #include "cmodel/dirty_map.hpp"
@@ -54,12 +59,19 @@ class CycleSink {
   virtual void on_tile(const TileCycles& tile) = 0;
 };
 
+/// The source is a master that reads the stream from a memory and never asks for the splats of a hidden set.
+struct Fetch {
+  std::uint64_t latency = 0;  ///< cycles from a set's verdict to the first beat behind it, if it is hidden; at least 1
+};
+
 struct CycleOptions {
   const Willing* input = nullptr;   ///< when the source begins to offer a beat; null: always
   const Willing* output = nullptr;  ///< when the sink takes pixels; null: always
   std::uint64_t first_beat = 0;     ///< cycle after reset from which the source has a beat
   TapSink* taps = nullptr;          ///< every event with its cycle; payloads are empty
   CycleSink* spans = nullptr;
+  const CullLog* culls = nullptr;   ///< of all tiles, for a device that culls; null: nothing is hidden
+  std::optional<Fetch> fetch = {};  ///< none: every beat is sent
 };
 
 /// What of a configuration has another timing than the RTL's, which this model has; empty where the timing holds.
@@ -88,6 +100,8 @@ class CycleModel final : public Device {
   std::uint64_t end_cycle() const { return end_; }
   /// Cycles after reset in which the device waited for a frame: the wipe, and a late source outside of tiles.
   std::uint64_t idle_cycles() const { return end_ - stalls_.busy; }
+  /// Beats the source sent: all but those of hidden sets where it need not.
+  std::uint64_t sent_beats() const { return sent_; }
 
  private:
   struct Set {
@@ -97,7 +111,18 @@ class CycleModel final : public Device {
 
   void take(const Beat& beat);
   /// The beat enters the register at the returned cycle; accounts for the empty register before it.
-  std::uint64_t enter();
+  std::uint64_t enter(Opcode opcode, bool payload);
+  /// The next answer of the open tile's tests; false where none are made.
+  bool answer();
+  void cull_block(const CullBlock& record);
+  /// A splat of which nothing is done, in its cycle.
+  void hide(std::uint64_t at);
+  /// The splat belongs to a hidden set. What was never sent takes no time.
+  bool swallowed(const Record& record);
+  /// A splat some of whose windows are hidden.
+  void some_windows(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y, std::int32_t width,
+                    std::int32_t height, const std::vector<bool>& hidden);
+  void window(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y) const;
   /// The register is empty in [from, to).
   void empty(std::uint64_t from, std::uint64_t to);
   /// A record carried out in cycle `at`, in the register since `since`.
@@ -124,6 +149,16 @@ class CycleModel final : public Device {
   std::vector<Set> sets_;
   DirtyMap dirty_;
   std::uint64_t delay_;  ///< of the splat path
+
+  CullPipe cull_;
+  const CullAnswers* answers_ = nullptr;  ///< of the open tile
+  std::size_t answered_ = 0, cull_sheet_ = 0;
+  struct Verdict {
+    bool hidden = false;
+    std::uint64_t cycle = 0;
+  };
+  CullSets<Verdict> cull_sets_;
+  std::uint64_t last_verdict_ = 0, sent_ = 0;
 
   std::uint64_t payload_words_ = 0;  ///< of the open table
   std::uint64_t next_offer_ = 0;     ///< earliest cycle in which the next beat can be offered

@@ -15,6 +15,9 @@ inline constexpr std::uint64_t kJudge = 1;
 inline constexpr std::uint64_t kEllipseDelay = 10;
 inline std::uint64_t splat_delay(const Config& config) { return config.has_ellipses() ? kEllipseDelay : 0; }
 
+// A device that culls: registers between check and decode, and when a table of its map is whole.
+inline constexpr std::size_t kCullStages = 4;  ///< t0 .. t3
+
 // From the cycle in which decode issues a window.
 inline constexpr std::uint64_t kSnap = 2;       ///< c1: the snapped origin
 inline constexpr std::uint64_t kFootprint = 7;  ///< c6: weights and products

@@ -6,6 +6,9 @@
 
 #include "cmodel/compositor.hpp"
 #include "cmodel/config.hpp"
+#include "cmodel/cull_log.hpp"
+#include "cmodel/cull_sets.hpp"
+#include "cmodel/cull_unit.hpp"
 #include "cmodel/device.hpp"
 #include "cmodel/ellipse_unit.hpp"
 #include "cmodel/observers.hpp"
@@ -27,6 +30,12 @@ class Model final : public Device {
   void finish() override { decode_.finish(); }
   const Counters& counters() const override { return counters_; }
 
+  /// Where the answers of all tests go from now on; null: nowhere. Outlives the model.
+  void log_culls(CullLog* log) { log_ = log; }
+  const CullCounts& culls() const { return culls_; }
+  /// Whether a set of this rectangle would be hidden in the open sheet: then its splats may be left out.
+  bool would_hide(const CullBlock& set) const { return cull_.on() && cull_.hidden(box_of(set)); }
+
  private:
   /// `Observer` counts saturation, and watches ranges if there are any to watch.
   template <class Observer>
@@ -41,6 +50,16 @@ class Model final : public Device {
   void ellipse(const EllipseRecord& record, Observer& observer);
   template <class Record, class Observer>
   void window(const Record& record, std::int32_t x, std::int32_t y, Observer& observer);
+  void cull_block(const CullBlock& record);
+  /// The next splat belongs to a hidden set.
+  bool swallowed();
+  /// All windows of a splat: columns x rows of them from pixel (x,y) on. True if it is hidden; else asks for each.
+  bool hidden(std::int32_t x, std::int32_t y, std::uint32_t columns, std::uint32_t rows);
+  /// Of a splat that is not hidden, after hidden().
+  bool window_hidden(std::size_t number) const { return !hidden_windows_.empty() && hidden_windows_[number] != 0; }
+  void log(bool hidden) {
+    if (log_ != nullptr) log_->tile(tile_.tile).add(hidden);
+  }
   /// Mode bit "every sample": the window's products into the picture, at once.
   template <class Record, class Observer>
   void samples(const Record& record, std::int32_t x, std::int32_t y, Observer& observer);
@@ -63,6 +82,11 @@ class Model final : public Device {
   Lane lane_;  ///< of every sample
   Compositor compositor_;
   PixelOut pixel_out_;
+  CullUnit cull_;
+  CullSets<bool> sets_;  ///< and whether each is hidden
+  CullCounts culls_;
+  CullLog* log_ = nullptr;
+  std::vector<std::uint8_t> hidden_windows_;  ///< of the splat in flight; none if no test was made
   Counters counters_;
   PixelSink& pixels_;
   TapSink* taps_;

@@ -16,6 +16,11 @@ class RecordSink {
   virtual void splats(std::span<const SplatRecord> records) = 0;
   /// Likewise; none from a configuration without ellipses.
   virtual void ellipses(std::span<const EllipseRecord> records) = 0;
+  /// Likewise, in front of all splats they cover; none for a device that does not cull.
+  virtual void cull_blocks(std::span<const CullBlock> records) = 0;
+  /// Whether the device would hide the set if it came now, in the open sheet: then its splats may be left out, and it
+  /// is handed on as a set of none. Nobody need know.
+  virtual bool would_hide(const CullBlock& /*set*/) { return false; }
   virtual void end_sheet(const EndSheet& sheet) = 0;
   virtual void end_tile(const EndTile& tile) = 0;
 };

@@ -2,8 +2,11 @@
 
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
+#include "cmodel/cull_unit.hpp"
 #include "cmodel/ellipse_rule.hpp"
+#include "cmodel/ellipse_unit.hpp"
 #include "cmodel/index_set.hpp"
+#include "cmodel/snap.hpp"
 #include "cmodel/stream_advice.hpp"
 #include "cmodel/window_geometry.hpp"
 
@@ -22,9 +25,10 @@ StreamDecode::StreamDecode(const Config& config, StreamScope scope)
     : config_(config),
       scope_(scope),
       config_hash_(config_hash(config)),
-      sets_loaded_(static_cast<std::size_t>(config.rlut_sets), false) {}
+      sets_loaded_(static_cast<std::size_t>(config.rlut_sets), false),
+      rho_(static_cast<std::size_t>(config.rlut_sets), 0) {}
 
-void StreamDecode::refuse(const char* what, const std::string& expected, const std::string& got,
+void StreamDecode::refuse(const std::string& what, const std::string& expected, const std::string& got,
                           const char* fix) const {
   throw StreamRefusal(rule_, beats_,
                       {.where = beat_place(beats_),
@@ -197,7 +201,10 @@ const Record* StreamDecode::payload(const Beat& beat) {
       refuse(wrong->what.c_str(), wrong->expected, wrong->got);
   }
   state_ = State::Tables;
-  if (table.table == Table::Rlut) sets_loaded_[table.radius.set] = true;
+  if (table.table == Table::Rlut) {
+    sets_loaded_[table.radius.set] = true;
+    rho_[table.radius.set] = table.radius.rho;
+  }
   if (table.table == Table::Radial) radial_loaded_ = true;
   if (table.table == Table::Factor) factor_loaded_ = true;
   return &record_;
@@ -222,6 +229,8 @@ void StreamDecode::check(const BeginTile& record) {
   rule_ = StreamRule::Whole;
   if (scope_ == StreamScope::Whole) expect(record.tile == tiles_seen_, "tiles out of order", tiles_seen_, record.tile);
   tile_ = record.tile;
+  in_ = record;
+  sets_.clear();
   ++tiles_seen_;
   sheets_seen_ = 0;
   next_tag_ = 0;
@@ -243,6 +252,9 @@ void StreamDecode::check(const SplatRecord& record) {
   if (record.set >= sets_loaded_.size() || !sets_loaded_[record.set])
     refuse("radius set not loaded", "a loaded radius set", std::to_string(record.set));
   check_splat(record.x, record.y, record.colour, record.tag);
+  if (sets_.open() == 0) return;
+  const std::uint32_t rho = rho_[record.set], windows = window_geometry(config_, rho).windows;
+  check_promise(snap(config_, record.x, rho).origin, snap(config_, record.y, rho).origin, windows, windows);
 }
 
 void StreamDecode::check_splat(std::int32_t x, std::int32_t y, const std::array<std::uint32_t, 4>& colour,
@@ -263,20 +275,54 @@ void StreamDecode::check(const EllipseRecord& record) {
   check_splat(record.x, record.y, record.colour, record.tag);
   rule_ = StreamRule::Shape;
   if (const auto wrong = ellipse_violation(config_, record)) refuse(wrong->what.c_str(), wrong->expected, wrong->got);
+  if (sets_.open() == 0) return;
+  const EllipseWindows& windows = record.windows;
+  check_promise(ellipse_axis(config_, record.x, windows.left).origin,
+                ellipse_axis(config_, record.y, windows.top).origin, windows.columns, windows.rows);
 }
 
 void StreamDecode::check(const CullBlock& record) {
   rule_ = StreamRule::Cull;
   expect_least(record.width, 1, "empty cull block");
   expect_least(record.height, 1, "empty cull block");
+  if (config_.culls()) check_promise(record);
+}
+
+void StreamDecode::check_promise(const CullBlock& record) {
+  rule_ = StreamRule::Promise;
+  expect(record.tag == static_cast<std::uint32_t>(next_tag_ + sets_.waiting()),
+         "cull_block has not the tag of the first splat it covers",
+         static_cast<std::int64_t>(next_tag_ + sets_.waiting()), record.tag);
+  expect_most(static_cast<std::int64_t>(sets_.open()) + (record.splats > 0 ? 1 : 0), cull_sets(config_),
+              "more cull_blocks with splats to come than the device has room for");
+  sets_.announce(record.splats, record);
+}
+
+void StreamDecode::check_promise(std::int32_t x, std::int32_t y, std::uint32_t columns, std::uint32_t rows) {
+  rule_ = StreamRule::Promise;
+  const CullBlock set = *sets_.next();
+  const std::int64_t lanes = config_.lanes;
+  const PixelBox windows = PixelBox{x, y, x + columns * lanes, y + rows * lanes}.clipped(in_.width, in_.height);
+  const PixelBox promised = box_of(set);
+  if (windows.empty() || promised.contains(windows)) return;
+  const auto text = [](const PixelBox& box) {
+    return "x " + std::to_string(box.x0) + ".." + std::to_string(box.x1 - 1) + ", y " + std::to_string(box.y0) + ".." +
+           std::to_string(box.y1 - 1);
+  };
+  refuse("splat lies outside of the rectangle that cull_block " + std::to_string(set.tag) + " promised",
+         "within " + text(promised), text(windows));
 }
 
 void StreamDecode::check(const EndSheet& record) {
+  const std::uint64_t missing = sets_.waiting();
   rule_ = StreamRule::EndNumber;
   expect(record.sheet == sheet_, "end of another sheet", sheet_, record.sheet);
   rule_ = StreamRule::EndCount;
   expect(record.splats == splats_seen_, "end_sheet counts other splats than the sheet has", splats_seen_,
          record.splats);
+  rule_ = StreamRule::Promise;
+  if (missing > 0)
+    refuse("end_sheet before the splats that cull_block promised", "none to come", std::to_string(missing));
   state_ = State::Tile;
 }
 

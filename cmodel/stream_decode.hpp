@@ -6,6 +6,8 @@
 
 #include "cmodel/config.hpp"
 #include "cmodel/crc32.hpp"
+#include "cmodel/cull_sets.hpp"
+#include "cmodel/cull_table.hpp"
 #include "cmodel/records.hpp"
 #include "cmodel/stream_rules.hpp"
 
@@ -32,7 +34,7 @@ class StreamDecode {
   enum class State { Start, Tables, Payload, Tile, Sheet, Ended };
 
   /// For breaking rule_. `fix`: what to do about it; null where who wrote the stream broke a rule.
-  [[noreturn]] void refuse(const char* what, const std::string& expected, const std::string& got,
+  [[noreturn]] void refuse(const std::string& what, const std::string& expected, const std::string& got,
                            const char* fix = nullptr) const;
   void expect(bool holds, const char* what, std::int64_t expected, std::int64_t got) const;
   void expect_least(std::int64_t got, std::int64_t least, const char* what) const;
@@ -50,6 +52,9 @@ class StreamDecode {
   void check(const EllipseRecord& record);
   void check_splat(std::int32_t x, std::int32_t y, const std::array<std::uint32_t, 4>& colour, std::uint32_t tag);
   void check(const CullBlock& record);
+  void check_promise(const CullBlock& record);
+  /// The next splat, of columns x rows windows from pixel (x,y) on, against the promise of the set that it belongs to.
+  void check_promise(std::int32_t x, std::int32_t y, std::uint32_t columns, std::uint32_t rows);
   void check(const EndSheet& record);
   void check(const EndTile& record);
   void check(const EndFrame& record);
@@ -69,6 +74,9 @@ class StreamDecode {
   bool radial_loaded_ = false, factor_loaded_ = false;
   std::uint32_t tiles_seen_ = 0, tile_ = 0, sheets_seen_ = 0, sheet_ = 0, splats_seen_ = 0;
   std::uint32_t next_tag_ = 0;
+  BeginTile in_;                    ///< the open tile
+  std::vector<std::uint32_t> rho_;  ///< of each radius set; kept where promises are checked
+  CullSets<CullBlock> sets_;
 };
 
 }  // namespace fastsplat::cmodel

@@ -10,30 +10,33 @@
 namespace fastsplat::cmodel {
 
 // X(name, number, register name, what it holds): in the order in which a record is judged. A device judges all but the
-// last.
-#define FASTSPLAT_STREAM_RULES(X)                                                                                 \
-  X(None, 0, NONE, "nothing was refused")                                                                         \
-  X(Opcode, 1, OPCODE, "the opcode is a record's")                                                                \
-  X(Order, 2, ORDER, "the grammar: the record may come here")                                                     \
-  X(Reserved, 3, RESERVED, "unnamed bits and words are 0")                                                        \
-  X(Format, 4, FORMAT, "begin_frame: magic and version")                                                          \
-  X(Configuration, 5, CONFIGURATION, "begin_frame: the hash is the device's")                                     \
-  X(Image, 6, IMAGE, "begin_frame: image sides are at least 1")                                                   \
-  X(Table, 7, TABLE, "load_table: table, set, rho, base and number of words")                                     \
-  X(Words, 8, WORDS, "table words: range, never increasing in FACTOR, padding 0")                                 \
-  X(Loaded, 9, LOADED, "begin_tile: RADIAL and FACTOR were loaded since begin_frame")                             \
-  X(Tile, 10, TILE, "begin_tile: mode, number below the count, sides, inside the image")                          \
-  X(Sheet, 11, SHEET, "begin_sheet: numbers rise within the tile")                                                \
-  X(Set, 12, SET, "splat: its radius set was loaded since begin_frame")                                           \
-  X(Range, 13, RANGE, "splat, ellipse: x, y and colours fit their formats")                                       \
-  X(Tag, 14, TAG, "splat, ellipse: tags count 0, 1, 2, ... within the tile")                                      \
-  X(Cull, 15, CULL, "cull_block: width and height are at least 1")                                                \
-  X(EndNumber, 16, END_NUMBER, "end_sheet, end_tile: the number of what they end")                                \
-  X(EndCount, 17, END_COUNT, "end_sheet, end_tile: the count of splats, of sheets")                               \
-  X(Shape, 18, SHAPE,                                                                                             \
-    "ellipse: 4 A C is at least B^2, its windows' far side within reach, q in range at their corners")            \
-  X(Whole, 255, WHOLE,                                                                                            \
-    "a whole stream: tile numbers 0, 1, 2, ..., all tiles, the number of beats, the checksum, nothing behind or " \
+// last three.
+#define FASTSPLAT_STREAM_RULES(X)                                                                                  \
+  X(None, 0, NONE, "nothing was refused")                                                                          \
+  X(Opcode, 1, OPCODE, "the opcode is a record's")                                                                 \
+  X(Order, 2, ORDER, "the grammar: the record may come here")                                                      \
+  X(Reserved, 3, RESERVED, "unnamed bits and words are 0")                                                         \
+  X(Format, 4, FORMAT, "begin_frame: magic and version")                                                           \
+  X(Configuration, 5, CONFIGURATION, "begin_frame: the hash is the device's")                                      \
+  X(Image, 6, IMAGE, "begin_frame: image sides are at least 1")                                                    \
+  X(Table, 7, TABLE, "load_table: table, set, rho, base and number of words")                                      \
+  X(Words, 8, WORDS, "table words: range, never increasing in FACTOR, padding 0")                                  \
+  X(Loaded, 9, LOADED, "begin_tile: RADIAL and FACTOR were loaded since begin_frame")                              \
+  X(Tile, 10, TILE, "begin_tile: mode, number below the count, sides, inside the image")                           \
+  X(Sheet, 11, SHEET, "begin_sheet: numbers rise within the tile")                                                 \
+  X(Set, 12, SET, "splat: its radius set was loaded since begin_frame")                                            \
+  X(Range, 13, RANGE, "splat, ellipse: x, y and colours fit their formats")                                        \
+  X(Tag, 14, TAG, "splat, ellipse: tags count 0, 1, 2, ... within the tile")                                       \
+  X(Cull, 15, CULL, "cull_block: width and height are at least 1")                                                 \
+  X(EndNumber, 16, END_NUMBER, "end_sheet, end_tile: the number of what they end")                                 \
+  X(EndCount, 17, END_COUNT, "end_sheet, end_tile: the count of splats, of sheets")                                \
+  X(Shape, 18, SHAPE,                                                                                              \
+    "ellipse: 4 A C is at least B^2, its windows' far side within reach, q in range at their corners")             \
+  X(Promise, 19, PROMISE,                                                                                          \
+    "cull_block, where cull.map is not off: its tag, the windows of its splats within its rectangle, all of them " \
+    "before end_sheet, no more of them open than the device has room for")                                         \
+  X(Whole, 255, WHOLE,                                                                                             \
+    "a whole stream: tile numbers 0, 1, 2, ..., all tiles, the number of beats, the checksum, nothing behind or "  \
     "missing")
 
 enum class StreamRule : std::uint8_t {
@@ -43,7 +46,9 @@ enum class StreamRule : std::uint8_t {
 };
 
 /// Whether a device judges it, too: what is left is the reader's, and whoever writes a stream has to know it.
-constexpr bool judged_by_device(StreamRule rule) { return rule != StreamRule::Shape && rule != StreamRule::Whole; }
+constexpr bool judged_by_device(StreamRule rule) {
+  return rule != StreamRule::Shape && rule != StreamRule::Promise && rule != StreamRule::Whole;
+}
 
 /// A beat that breaks a rule.
 class StreamRefusal : public UserError {

@@ -67,6 +67,13 @@ std::optional<ErrorParts> rtl_violation(const Config& config) {
                       .got = text_of(config, *find_key("index.kind")),
                       .fix = "use the model for this configuration"};
   }
+  if (config.culls()) {
+    return ErrorParts{.where = "cull.map",
+                      .what = "the RTL has no cull unit",
+                      .expected = "off",
+                      .got = text_of(config, *find_key("cull.map")),
+                      .fix = "use the model for this configuration"};
+  }
   if (config.composite_every_sample != 0)
     return refuse("composite.every_sample", "the RTL composites sheets only", "0", config.composite_every_sample);
   if (config.has_ellipses() && config.position_frac_bits < 1)

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <utility>
 
+#include "cmodel/cull_sets.hpp"
+#include "cmodel/cull_unit.hpp"
 #include "cmodel/records.hpp"
 #include "driver/compiled_state.hpp"
 #include "driver/index_tables.hpp"
@@ -37,7 +40,9 @@ scene::SheetPlan plan_for_device(const scene::Scene& scene) {
 /// Records as beats, handed on in blocks.
 class BeatWriter final : public cmodel::RecordSink {
  public:
-  explicit BeatWriter(const cmodel::BeatSink& sink) : sink_(sink) { beats_.reserve(kBlock + 512); }
+  BeatWriter(const cmodel::BeatSink& sink, Hides hides) : sink_(sink), hides_(std::move(hides)) {
+    beats_.reserve(kBlock + 512);
+  }
   void begin_tile(const cmodel::BeginTile& tile) override { append(beats_, tile); }
   void begin_sheet(const cmodel::BeginSheet& sheet) override { append(beats_, sheet); }
   void splats(std::span<const cmodel::SplatRecord> records) override {
@@ -48,6 +53,14 @@ class BeatWriter final : public cmodel::RecordSink {
     for (const cmodel::EllipseRecord& record : records) beats_.push_back(to_beat(record));
     if (beats_.size() >= kBlock) flush();
   }
+  void cull_blocks(std::span<const cmodel::CullBlock> records) override {
+    for (const cmodel::CullBlock& record : records) append(beats_, record);
+  }
+  bool would_hide(const cmodel::CullBlock& set) override {
+    if (!hides_) return false;
+    flush();  // what it is hidden by is what came before
+    return hides_(set);
+  }
   void end_sheet(const cmodel::EndSheet& sheet) override { append(beats_, sheet); }
   void end_tile(const cmodel::EndTile& tile) override {
     append(beats_, tile);
@@ -56,12 +69,14 @@ class BeatWriter final : public cmodel::RecordSink {
 
  private:
   void flush() {
+    if (beats_.empty()) return;
     sink_(beats_);
     beats_.clear();
   }
 
   static constexpr std::size_t kBlock = 4096;
   const cmodel::BeatSink& sink_;
+  const Hides hides_;
   std::vector<cmodel::Beat> beats_;
 };
 
@@ -74,17 +89,25 @@ CompiledFrame::State::State(const scene::Scene& scene, const cmodel::Config& dev
       slices(frame_slices(device, scene, plan)),
       projected(project(scene, device, slices, plan, threads)),
       grid(device, scene.description.width, scene.description.height),
-      bands(grid, band_rows > 0 ? (band_rows + device.lanes - 1) / device.lanes * device.lanes : device.tile_height),
+      bands(grid, band_rows > 0 && !device.culls() ? (band_rows + device.lanes - 1) / device.lanes * device.lanes
+                                                   : device.tile_height),
       windows(device, projected.sets),
+      cells(make_cells()),
       bins(make_bins(threads)) {
   if (sliced()) reach = shaped() ? slices.reach(slices.growth(projected.least_shrink)) : slices.reach();
   make_preamble(scene);
 }
 
+Cells CompiledFrame::State::make_cells() const {
+  // Footprints of their own are no sets' yet: each is tested by itself.
+  return config.culls() && cmodel::culls_in(mode) && !shaped() ? Cells(grid, cmodel::cull_cell_pixels(config))
+                                                               : Cells();
+}
+
 TileBins CompiledFrame::State::make_bins(int threads) const {
   const auto& splats = projected.splats;
   return TileBins(
-      grid, bands, plan.slabs.count, splats.size(), threads,
+      grid, bands, cells, plan.slabs.count, splats.size(), threads,
       [&](std::size_t i) {
         return splats[i].set == kOwnShape ? windows(splats[i], projected.ellipses[i].shape) : windows(splats[i]);
       },
@@ -194,6 +217,10 @@ TileReport CompiledFrame::emit_tile(int tile, cmodel::RecordSink& sink) const {
   TileReport report;
   std::uint32_t tag = 0;
   for (int sheet = 0; sheet < s.plan.slabs.count; ++sheet) {
+    if (s.in_sets()) {
+      report.sheets += s.emit_sets(tile, sheet, tag, sink, report) ? 1 : 0;
+      continue;
+    }
     const std::uint32_t records = s.emit_sheet(tile, sheet, tag, sink, report);
     report.sheets += records > 0 ? 1 : 0;
     report.splat_records += records;
@@ -202,8 +229,8 @@ TileReport CompiledFrame::emit_tile(int tile, cmodel::RecordSink& sink) const {
   return report;
 }
 
-TileReport CompiledFrame::emit_tile(int tile, const cmodel::BeatSink& sink) const {
-  BeatWriter beats(sink);
+TileReport CompiledFrame::emit_tile(int tile, const cmodel::BeatSink& sink, const Hides& hides) const {
+  BeatWriter beats(sink, hides);
   return emit_tile(tile, beats);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -38,6 +39,8 @@ struct BandReport {
   std::vector<std::uint8_t> sheets;  ///< of all the frame's: 1 with a record, else 0
 };
 
+using Hides = std::function<bool(const cmodel::CullBlock& set)>;
+
 DriverReport& operator+=(DriverReport& report, const TileReport& tile);
 
 class CompiledFrame {
@@ -57,8 +60,9 @@ class CompiledFrame {
   std::span<const cmodel::Beat> preamble() const;
   /// begin_tile .. end_tile. Const and without shared state: tiles may be emitted in parallel.
   TileReport emit_tile(int tile, cmodel::RecordSink& sink) const;
-  /// The same as beats.
-  TileReport emit_tile(int tile, const cmodel::BeatSink& sink) const;
+  /// The same as beats. With `hides`, a device that has taken all beats before says of a set whether it would hide it:
+  /// then none of its splats are made. No word and no counter of that device depends on it.
+  TileReport emit_tile(int tile, const cmodel::BeatSink& sink, const Hides& hides = {}) const;
   /// The same of a band of the tile, into the fast unit, which then has its words and counters: no records, and what a
   /// splat's place in the band says is worked out once, not once a sheet.
   template <class Word>

@@ -48,6 +48,14 @@ class Windows {
     return {x0, x0 + extent, y0, y0 + extent, y0 + static_cast<std::int32_t>(extents_[splat.set].padded)};
   }
 
+  /// Sides of the widest and the narrowest footprint, pixels, whole windows.
+  std::int32_t widest() const {
+    return static_cast<std::int32_t>(std::ranges::max(extents_, {}, &cmodel::WindowGeometry::padded).padded);
+  }
+  std::int32_t narrowest() const {
+    return static_cast<std::int32_t>(std::ranges::min(extents_, {}, &cmodel::WindowGeometry::padded).padded);
+  }
+
  private:
   static cmodel::Config wide(cmodel::Config config) {
     config.position_int_bits = 30 - config.position_frac_bits;
@@ -59,6 +67,16 @@ class Windows {
   std::vector<cmodel::WindowGeometry> extents_;  ///< per set
 };
 
+/// Neighbouring cells whose splats go in one set: one cell, two beside one another, or four.
+struct CellSet {
+  cmodel::CullBlock block;  ///< pixels of all windows of the splats that they can have; no tag, no splats yet
+  std::vector<int> cells;   ///< row by row
+};
+struct SheetSets {
+  std::vector<CellSet> sets;
+  std::vector<int> others;  ///< cells with splats in no set
+};
+
 struct CompiledFrame::State {
   cmodel::Config config;
   cmodel::Mode mode;
@@ -68,6 +86,7 @@ struct CompiledFrame::State {
   TileGrid grid;
   Bands bands;
   Windows windows;
+  Cells cells;
   TileBins bins;
   DepthGrowth growth(std::uint32_t number) const { return slices.growth(projected.ellipses[number].shrink); }
   int reach = 0;  ///< a splat reaches at most this many sheets beyond its first
@@ -102,11 +121,17 @@ struct CompiledFrame::State {
   }
   /// Records of one sheet of one tile; begin_sheet only when there is something to say.
   std::uint32_t emit_sheet(int tile, int sheet, std::uint32_t& tag, cmodel::RecordSink& out, TileReport& report) const;
+  /// The same where the tile's splats go in sets; true if the sheet was written.
+  bool emit_sets(int tile, int sheet, std::uint32_t& tag, cmodel::RecordSink& out, TileReport& report) const;
+  bool in_sets() const { return cells.count() > 1; }
+  /// The sets of a tile's sheet, behind `written` others of the tile, and the cells that are in none.
+  SheetSets sheet_sets(int tile, int sheet, std::uint64_t written) const;
   /// visit(EllipseRecord) for every record of a splat with kOwnShape that meets the tile, without its tag; none may.
   template <class Visit>
   void for_each_ellipse(int tile, std::uint32_t number, const Share& part, Visit visit) const;
 
  private:
+  Cells make_cells() const;
   TileBins make_bins(int threads) const;
   void make_preamble(const scene::Scene& scene);
 };

@@ -14,6 +14,24 @@ struct Ready {
   std::int32_t last_sheet = 0;  ///< beyond it, its shares are empty
 };
 
+template <class Unit>
+Ready ready(const CompiledFrame::State& s, const cmodel::BeginTile& place, const Unit& unit,
+            const QuantisedSplat& splat) {
+  cmodel::SnappedAxis x = s.windows.snapped(splat.x, splat.set), y = s.windows.snapped(splat.y, splat.set);
+  x.origin -= place.x;
+  y.origin -= place.y;
+  return {.placed = unit.place(splat.set, x, y),
+          .words = splat.words,
+          .before = {},
+          .depth = splat.depth,
+          .last_sheet = s.sliced() ? s.slices.last(splat.depth) : splat.depth};
+}
+
+/// The splat's part of a sheet: sheet after sheet.
+Share next_share(const CompiledFrame::State& s, Ready& splat, int sheet) {
+  return s.sliced() ? s.slices.next_share(splat.words, splat.depth, sheet, splat.before) : s.slices.whole(splat.words);
+}
+
 /// One band drawn, sheet by sheet. Of its splats, those that still can be seen wait in a list; of one that cannot, all
 /// sheets are counted at once.
 template <class Word>
@@ -42,7 +60,7 @@ class BandWalk {
       const auto numbers = s_.bins.bin(tile_, band_, sheet);
       for (std::size_t i = 0; i < numbers.size(); ++i) {
         __builtin_prefetch(&s_.projected.splats[numbers[std::min(i + kAhead, numbers.size() - 1)]]);
-        Ready splat = ready(s_.projected.splats[numbers[i]]);
+        Ready splat = ready(s_, place_, unit_, s_.projected.splats[numbers[i]]);
         if (draw(splat, sheet)) waiting_.push_back(splat);
       }
       if (report_.sheets[static_cast<std::size_t>(sheet)] == 0) continue;
@@ -54,20 +72,6 @@ class BandWalk {
   }
 
  private:
-  Ready ready(const QuantisedSplat& splat) const {
-    cmodel::SnappedAxis x = s_.windows.snapped(splat.x, splat.set), y = s_.windows.snapped(splat.y, splat.set);
-    x.origin -= place_.x;
-    y.origin -= place_.y;
-    return {.placed = unit_.place(splat.set, x, y),
-            .words = splat.words,
-            .before = {},
-            .depth = splat.depth,
-            .last_sheet = s_.sliced() ? s_.slices.last(splat.depth) : splat.depth};
-  }
-  Share next_share(Ready& splat, int sheet) const {
-    return s_.sliced() ? s_.slices.next_share(splat.words, splat.depth, sheet, splat.before)
-                       : s_.slices.whole(splat.words);
-  }
   void record(const Ready& splat, std::uint64_t records, std::uint64_t saturated) {
     if (!splat.placed.counted) return;
     report_.splat_records += records;
@@ -76,7 +80,7 @@ class BandWalk {
   /// The splat's part of a sheet; true if there is more to come.
   bool draw(Ready& splat, int sheet) {
     if (unit_.hidden(splat.placed) && hide(splat, sheet)) return false;
-    const Share share = next_share(splat, sheet);
+    const Share share = next_share(s_, splat, sheet);
     if (!share.empty()) {
       record(splat, 1, share.saturated ? 1 : 0);
       report_.sheets[static_cast<std::size_t>(sheet)] = 1;
@@ -119,10 +123,119 @@ class BandWalk {
   std::vector<cmodel::fast::HiddenShare> hidden_;  ///< of one splat
 };
 
+/// One tile drawn on a device that culls, sheet by sheet and cell by cell: the splats of a set that was hidden once are
+/// never looked at again, but where they are so few that they are no set.
+template <class Word>
+class CullWalk {
+ public:
+  using Unit = cmodel::fast::TileUnit<Word>;
+  CullWalk(const CompiledFrame::State& s, int tile, Unit& unit)
+      : s_(s),
+        tile_(tile),
+        place_(s.begin_band(tile, 0)),
+        unit_(unit),
+        cells_(static_cast<std::size_t>(s.cells.count())) {
+    unit_.begin_band(place_, true, 0);
+    report_.sheets.resize(static_cast<std::size_t>(s.plan.slabs.count));
+  }
+
+  BandReport operator()() {
+    std::uint32_t written = 0;
+    for (int sheet = 0; sheet < s_.plan.slabs.count && unit_.sound(); ++sheet) {
+      const SheetSets split = s_.sheet_sets(tile_, sheet, written);
+      const std::uint64_t before = report_.splat_records;
+      for (const CellSet& set : split.sets) {
+        unit_.cull_blocks({&set.block, 1});
+        const bool hidden = unit_.would_hide(set.block);
+        for (const int cell : set.cells) {
+          if (hidden)
+            hide(cells_[static_cast<std::size_t>(cell)]);
+          else
+            draw(cell, sheet);
+        }
+      }
+      for (const int cell : split.others) draw(cell, sheet);
+      if (split.sets.empty() && report_.splat_records == before) continue;
+      report_.sheets[static_cast<std::size_t>(sheet)] = 1;
+      unit_.end_sheet({static_cast<std::uint32_t>(sheet), 0});
+      ++written;
+    }
+    unit_.end_tile({static_cast<std::uint32_t>(tile_), written});
+    return std::move(report_);
+  }
+
+ private:
+  struct Cell {
+    std::vector<Ready> waiting;  ///< in no order that means anything
+    bool hidden = false;         ///< all of it, for good
+  };
+
+  static void hide(Cell& cell) {
+    cell.hidden = true;
+    cell.waiting.clear();
+  }
+  void draw(int number, int sheet) {
+    Cell& cell = cells_[static_cast<std::size_t>(number)];
+    if (cell.hidden) {
+      count(number, sheet);
+      return;
+    }
+    for (std::size_t i = 0; i < cell.waiting.size();) {
+      if (draw(cell.waiting[i], sheet)) {
+        ++i;
+        continue;
+      }
+      cell.waiting[i] = cell.waiting.back();
+      cell.waiting.pop_back();
+    }
+    const auto numbers = s_.bins.cell(tile_, sheet, number);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      __builtin_prefetch(&s_.projected.splats[numbers[std::min(i + kAhead, numbers.size() - 1)]]);
+      Ready splat = ready(s_, place_, unit_, s_.projected.splats[numbers[i]]);
+      if (draw(splat, sheet)) cell.waiting.push_back(splat);
+    }
+  }
+  /// The splat's part of a sheet; true if there is more to come.
+  bool draw(Ready& splat, int sheet) {
+    const Share share = next_share(s_, splat, sheet);
+    if (!share.empty()) {
+      ++report_.splat_records;
+      report_.saturated_records += share.saturated ? 1 : 0;
+      if (unit_.culled(splat.placed))
+        unit_.count_culled(1);
+      else
+        unit_.add(splat.placed, share.words);
+    }
+    return splat.last_sheet > sheet;
+  }
+  /// Records of a hidden cell that go in no set: each is hidden by itself.
+  void count(int number, int sheet) {
+    for (int from = std::max(0, sheet - s_.reach); from <= sheet; ++from) {
+      for (const std::uint32_t splat : s_.bins.cell(tile_, from, number)) {
+        const Share share = s_.share(splat, sheet);
+        if (share.empty()) continue;
+        ++report_.splat_records;
+        report_.saturated_records += share.saturated ? 1 : 0;
+        unit_.count_culled(1);
+      }
+    }
+  }
+
+  static constexpr std::size_t kAhead = 8;  ///< splats, asked for while others are drawn
+
+  const CompiledFrame::State& s_;
+  int tile_;
+  cmodel::BeginTile place_;
+  Unit& unit_;
+  BandReport report_;
+  std::vector<Cell> cells_;
+};
+
 }  // namespace
 
 template <class Word>
 BandReport CompiledFrame::draw_band(int tile, int band, cmodel::fast::TileUnit<Word>& unit) const {
+  if (state_->in_sets()) return CullWalk<Word>(*state_, tile, unit)();
   return BandWalk<Word>(*state_, tile, band, unit)();
 }
 

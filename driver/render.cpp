@@ -37,10 +37,13 @@ TileResult draw_plain(const CompiledFrame& compiled, int tile, cmodel::PixelSink
   cmodel::Model device(compiled.config(), cmodel::StreamScope::Subset, pixels);
   device.consume(compiled.preamble());
   TileResult out;
-  out.report = compiled.emit_tile(tile, [&](std::span<const cmodel::Beat> beats) { device.consume(beats); });
+  out.report = compiled.emit_tile(
+      tile, [&](std::span<const cmodel::Beat> beats) { device.consume(beats); },
+      [&](const cmodel::CullBlock& set) { return device.would_hide(set); });
   device.finish();
   out.counters = device.counters();
   out.units.plain = 1;
+  out.units.hidden_splats = device.culls().hidden_splats;
   return out;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -58,16 +59,41 @@ struct Extent {
   std::int32_t x0 = 0, x1 = 0, y0 = 0, y1 = 0, window_end = 0;
 };
 
-/// Counting sort of splat numbers by (band of a tile, first sheet); stable, so traversal order stays within a bin.
+/// A tile cut into square cells, row by row, for sets of splats (docs/numerics.md, section 8); one cell: no sets.
+class Cells {
+ public:
+  Cells() = default;
+  /// `side` in pixels.
+  Cells(const TileGrid& grid, int side)
+      : side_(side), columns_((grid.tile_width + side - 1) / side), rows_((grid.tile_height + side - 1) / side) {}
+  int count() const { return columns_ * rows_; }
+  /// Of the windows whose first pixel this is, relative to the tile.
+  int number(std::int32_t x, std::int32_t y) const {
+    if (count() == 1) return 0;
+    return std::clamp(y / side_, 0, rows_ - 1) * columns_ + std::clamp(x / side_, 0, columns_ - 1);
+  }
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+  int side() const { return side_; }
+
+ private:
+  int side_ = 1, columns_ = 1, rows_ = 1;
+};
+
+/// Counting sort of splat numbers by (band of a tile, first sheet, cell of the tile); stable, so traversal order stays
+/// within a bin.
 class TileBins {
  public:
-  /// extent(i) and first_sheet(i) for i in [0, splats): each asked for once, by several threads.
+  /// extent(i) and first_sheet(i) for i in [0, splats): each asked for once, by several threads. Where there are
+  /// several cells a tile is one band.
   template <class ExtentOf, class SheetOf>
-  TileBins(const TileGrid& grid, const Bands& bands, int sheets, std::size_t splats, int threads, ExtentOf extent,
-           SheetOf first_sheet)
+  TileBins(const TileGrid& grid, const Bands& bands, const Cells& cells, int sheets, std::size_t splats, int threads,
+           ExtentOf extent, SheetOf first_sheet)
       : columns_(static_cast<std::size_t>(grid.columns())),
         bands_(static_cast<std::size_t>(bands.of_tile())),
-        sheets_(static_cast<std::size_t>(sheets)) {
+        sheets_(static_cast<std::size_t>(sheets)),
+        cells_(static_cast<std::size_t>(cells.count())) {
+    assert(cells_ == 1 || bands_ == 1);
     Uninitialised<Place> places(splats);
     const Intervals across(grid.columns() * grid.tile_width, [&](int x) { return x / grid.tile_width; });
     const Intervals down(grid.rows() * grid.tile_height, [&](int y) { return y / grid.tile_height; });
@@ -75,11 +101,21 @@ class TileBins {
     const auto place = [&](std::size_t i) -> Place {
       const Extent e = extent(i);
       const int tiles_end = (down.last(e.y1) + 1) * bands.of_tile() - 1;
-      return {across.first(e.x0), across.last(e.x1), rows.first(e.y0),
-              static_cast<std::int16_t>(std::min<int>(rows.last(e.window_end), tiles_end)), first_sheet(i)};
+      return {across.first(e.x0),
+              across.last(e.x1),
+              rows.first(e.y0),
+              static_cast<std::int16_t>(std::min<int>(rows.last(e.window_end), tiles_end)),
+              first_sheet(i),
+              e.x0,
+              e.y0};
+    };
+    // Of a tile's column and row.
+    const auto cell = [&](const Place& at, int x, int y) -> std::size_t {
+      if (cells_ == 1) return 0;
+      return static_cast<std::size_t>(cells.number(at.px - x * grid.tile_width, at.py - y * grid.tile_height));
     };
     // Every part of the splats counts for itself, and then knows where in each bin its own begin.
-    const std::size_t bins = static_cast<std::size_t>(grid.count()) * bands_ * sheets_;
+    const std::size_t bins = static_cast<std::size_t>(grid.count()) * bands_ * sheets_ * cells_;
     const std::size_t parts = parts_of(splats, bins, threads);
     const auto begin = [&](std::size_t part) { return splats * part / parts; };
     std::vector<std::vector<std::uint32_t>> next(parts);
@@ -87,7 +123,7 @@ class TileBins {
       next[part].assign(bins, 0);
       for (std::size_t i = begin(part); i < begin(part + 1); ++i) {
         places[i] = place(i);
-        visit(places[i], [&](std::size_t bin) { ++next[part][bin]; });
+        visit(places[i], cell, [&](std::size_t bin) { ++next[part][bin]; });
       }
     });
     start_.resize(bins + 1);
@@ -104,19 +140,25 @@ class TileBins {
     order_.resize(total);
     parallel_for(parts, threads, [&](std::size_t part) {
       for (std::size_t i = begin(part); i < begin(part + 1); ++i)
-        visit(places[i],
+        visit(places[i], cell,
               [&](std::size_t bin) { order_[start_[bin] + next[part][bin]++] = static_cast<std::uint32_t>(i); });
     });
   }
 
   std::span<const std::uint32_t> bin(int tile, int band, int sheet) const {
-    const std::size_t at = first_bin(tile, band) + static_cast<std::size_t>(sheet);
+    const std::size_t at = first_bin(tile, band) + static_cast<std::size_t>(sheet) * cells_;
+    return {order_.data() + start_[at], order_.data() + start_[at + cells_]};
+  }
+  /// Of one cell, in a tile of one band.
+  std::span<const std::uint32_t> cell(int tile, int sheet, int cell) const {
+    const std::size_t at =
+        first_bin(tile, 0) + static_cast<std::size_t>(sheet) * cells_ + static_cast<std::size_t>(cell);
     return {order_.data() + start_[at], order_.data() + start_[at + 1]};
   }
   /// Splats of a band, over all sheets.
   std::uint64_t count(int tile, int band) const {
     const std::size_t at = first_bin(tile, band);
-    return start_[at + sheets_] - start_[at];
+    return start_[at + sheets_ * cells_] - start_[at];
   }
   /// What the bands of a tile hold, each splat once. `merged` is where it lies if there are several.
   std::span<const std::uint32_t> bin(int tile, int sheet, std::vector<std::uint32_t>& merged) const {
@@ -137,6 +179,7 @@ class TileBins {
   struct Place {
     std::int16_t x0, x1, y0, y1;  ///< the last ones included
     std::int32_t sheet;
+    std::int32_t px, py;  ///< first pixel
   };
   /// What of the image's columns or rows belongs together, looked up by pixel: a division each is what most of the
   /// binning would cost.
@@ -167,19 +210,19 @@ class TileBins {
   }
   std::size_t first_bin(int tile, int band) const {
     const auto t = static_cast<std::size_t>(tile);
-    return ((t / columns_ * bands_ + static_cast<std::size_t>(band)) * columns_ + t % columns_) * sheets_;
+    return ((t / columns_ * bands_ + static_cast<std::size_t>(band)) * columns_ + t % columns_) * sheets_ * cells_;
   }
-  template <class Visit>
-  void visit(const Place& place, Visit visit) const {
+  template <class CellOf, class Visit>
+  void visit(const Place& place, CellOf cell, Visit visit) const {
     for (int y = place.y0; y <= place.y1; ++y) {
       for (int x = place.x0; x <= place.x1; ++x) {
         const std::size_t unit = static_cast<std::size_t>(y) * columns_ + static_cast<std::size_t>(x);
-        visit(unit * sheets_ + static_cast<std::size_t>(place.sheet));
+        visit((unit * sheets_ + static_cast<std::size_t>(place.sheet)) * cells_ + cell(place, x, y));
       }
     }
   }
 
-  std::size_t columns_, bands_, sheets_;
+  std::size_t columns_, bands_, sheets_, cells_;
   std::vector<std::uint64_t> start_;    ///< per (band, column of tiles, sheet)
   Uninitialised<std::uint32_t> order_;  ///< splat numbers
 };

@@ -41,7 +41,8 @@ class BandBins {
  public:
   template <class ExtentOf, class SheetOf>
   BandBins(const driver::TileGrid& bands, int sheets, std::size_t splats, int threads, ExtentOf extent, SheetOf sheet)
-      : sheets_(sheets), bins_(bands, driver::Bands(bands, bands.tile_height), sheets, splats, threads, extent, sheet) {
+      : sheets_(sheets),
+        bins_(bands, driver::Bands(bands, bands.tile_height), {}, sheets, splats, threads, extent, sheet) {
     for (int band = 0; band < bands.count(); ++band) work_.push_back(bins_.count(band, 0));
   }
   int sheets() const { return sheets_; }

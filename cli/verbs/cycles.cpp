@@ -10,6 +10,7 @@
 #include "base/version.hpp"
 #include "cli/config_flags.hpp"
 #include "cli/config_json.hpp"
+#include "cli/cull_table.hpp"
 #include "cli/cycle_timeline.hpp"
 #include "cli/cycle_trace.hpp"
 #include "cli/frame_scaling.hpp"
@@ -21,6 +22,8 @@
 #include "cli/verbs/verbs.hpp"
 #include "cli/volume_json.hpp"
 #include "cmodel/cycle_model.hpp"
+#include "cmodel/model.hpp"
+#include "driver/cull_log.hpp"
 #include "driver/render.hpp"
 #include "driver/run_device.hpp"
 #include "driver/stream_file.hpp"
@@ -36,8 +39,8 @@ struct Arguments {
   ConfigFlags config;
   ScalingFlags scaling;
   std::string input = "always", ready = "always", trace;
-  bool timeline = false;
-  int seed = 1;
+  bool timeline = false, cull_table = false;
+  int seed = 1, fetch = -1;  ///< none
 };
 
 using Json = nlohmann::ordered_json;
@@ -75,9 +78,12 @@ struct Result {
   std::string input, ready;  ///< patterns
   int seed = 1;
   Counts counts;
-  std::vector<FrameScaling> scalings;  ///< if asked for, by devices; the counts are those of the last
-  std::string trace;                   ///< empty for none
-  std::optional<Json> timeline;        ///< if asked for
+  std::vector<FrameScaling> scalings;       ///< if asked for, by devices; the counts are those of the last
+  std::string trace;                        ///< empty for none
+  std::optional<Json> timeline;             ///< if asked for
+  std::optional<cmodel::CullCounts> culls;  ///< of a device that culls
+  std::optional<int> fetch;
+  std::vector<driver::CullRow> cull_table;  ///< if asked for
   double seconds = 0.0;
 };
 
@@ -94,7 +100,16 @@ double ratio(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-std::string to_text(const Counts& counts, int slices) {
+/// Of devices that cull only.
+bool of_culling(std::string_view cause) { return cause == "hidden" || cause == "map"; }
+
+std::string to_text(const cmodel::CullCounts& culls) {
+  return fmt::format("culling: {} of {} sets hidden, {} of {} splats tested, {} windows of the others\n",
+                     grouped(culls.hidden_sets), grouped(culls.set_tests), grouped(culls.hidden_splats),
+                     grouped(culls.splat_tests), grouped(culls.hidden_windows));
+}
+
+std::string to_text(const Counts& counts, int slices, bool culls) {
   const auto& account = counts.account;
   const std::uint64_t composited = counts.counters.dirty_blocks * static_cast<std::uint64_t>(slices);
   std::string text;
@@ -104,6 +119,7 @@ std::string to_text(const Counts& counts, int slices) {
   };
   bool first = true;
   account.for_each([&](std::string_view name, std::uint64_t cycles, std::string_view meaning) {
+    if (!culls && of_culling(name)) return;
     row(first ? ' ' : '+', name, cycles, meaning);
     first = false;
   });
@@ -123,21 +139,25 @@ std::string to_text(const Result& result) {
          fmt::format("configuration {} {}, {} splats, {} windows, {} sheets, {} tiles\n", result.config.name,
                      hash_text(cmodel::config_hash(result.config)), grouped(counters.splats), grouped(counters.windows),
                      grouped(counters.sheets), grouped(counters.tiles)) +
-         to_text(result.counts, result.config.slices()) +
+         to_text(result.counts, result.config.slices(), result.config.culls()) +
+         (result.culls ? to_text(*result.culls) : "") +
          (result.hidden_share ? fmt::format("{:.1f} % of the splats lay wholly on frozen blocks and changed nothing\n",
                                             100.0 * *result.hidden_share)
                               : "") +
          (result.scalings.size() > 1 ? to_table(result.scalings) : "") +
          (result.scalings.empty() ? "" : to_text(result.scalings.back())) +
+         (result.cull_table.empty() ? "" : cli::to_text(result.cull_table)) +
          (result.trace.empty() ? "" : result.trace + "\n");
 }
 
-Json to_json(const Counts& counts) {
+Json to_json(const Counts& counts, bool culls) {
   Json json;
   json["actual"] = counts.stalls.busy;
   json["idle"] = counts.idle;
   json["end"] = counts.end;
-  counts.account.for_each([&](const char* name, std::uint64_t cycles, const char*) { json["account"][name] = cycles; });
+  counts.account.for_each([&](const char* name, std::uint64_t cycles, const char*) {
+    if (culls || !of_culling(name)) json["account"][name] = cycles;
+  });
   json["counters"] = {{"stall_input", counts.stalls.stall_input},
                       {"stall_table", counts.stalls.stall_table},
                       {"stall_buffer", counts.stalls.stall_buffer},
@@ -158,10 +178,19 @@ Json to_json(const Result& result) {
             {"splats", counters.splats},
             {"windows", counters.windows},
             {"dirty_blocks", counters.dirty_blocks},
-            {"cycles", to_json(result.counts)},
+            {"cycles", to_json(result.counts, result.config.culls())},
             {"actual_to_ideal", ratio(stalls.busy, account.ideal)},
             {"utilisation", ratio(counters.windows, stalls.busy)},
             {"splats_per_cycle", ratio(counters.splats, stalls.busy)}};
+  if (result.culls) {
+    json["culls"] = {{"sets_tested", result.culls->set_tests},
+                     {"sets_hidden", result.culls->hidden_sets},
+                     {"splats_tested", result.culls->splat_tests},
+                     {"splats_hidden", result.culls->hidden_splats},
+                     {"windows_hidden", result.culls->hidden_windows}};
+  }
+  if (result.fetch) json["fetch"] = *result.fetch;
+  if (!result.cull_table.empty()) json["cull_table"] = cli::to_json(result.cull_table);
   if (result.hidden_share) json["hidden_share"] = *result.hidden_share;
   if (!result.scalings.empty()) json["scaling"] = to_json(result.scalings.back());
   if (result.scalings.size() > 1) {
@@ -171,6 +200,18 @@ Json to_json(const Result& result) {
   if (result.timeline) json["timeline"] = *result.timeline;
   json["seconds"] = result.seconds;
   return json;
+}
+
+void check_culling(const Arguments& arguments, const cmodel::Config& config) {
+  const auto refuse = [](std::string where, std::string what, std::string fix) {
+    throw_usage({.where = std::move(where), .what = std::move(what), .expected = {}, .got = {}, .fix = std::move(fix)});
+  };
+  if (arguments.cull_table && !arguments.stream.empty())
+    refuse("--cull-table", "a stream was made for one cull.map", "give a scene's flags");
+  if (arguments.fetch >= 0 && !config.culls() && !arguments.cull_table)
+    refuse("--fetch", "nothing is hidden where cull.map is off", "add --set cull.map=block");
+  if (arguments.fetch >= 0 && arguments.scaling.any())
+    refuse("--fetch", "several devices share a link, which sends every beat", "leave --fetch or --devices out");
 }
 
 ExitCode run(const Arguments& arguments) {
@@ -191,6 +232,7 @@ ExitCode run(const Arguments& arguments) {
                  .inputs = joined(arguments.stream.empty() ? inputs_of(arguments.scene) : std::vector{arguments.stream},
                                   inputs_of_config(arguments.config.config.value_or("")))});
   const auto config = load(arguments.config);
+  check_culling(arguments, config);
   if (auto wrong = cmodel::cycle_violation(config)) {
     wrong->where = "configuration " + config.name + ": " + wrong->where;
     throw_usage(*wrong);
@@ -208,6 +250,11 @@ ExitCode run(const Arguments& arguments) {
     options.spans = &trace;
   }
 
+  driver::CullRun culls;
+  if (config.culls()) options.culls = &culls.log;
+  if (arguments.fetch >= 0 && config.culls())
+    options.fetch = cmodel::Fetch{static_cast<std::uint64_t>(arguments.fetch)};
+
   Result result{.scene = {},
                 .hidden_share = {},
                 .config = config,
@@ -217,7 +264,11 @@ ExitCode run(const Arguments& arguments) {
                 .counts = {},
                 .scalings = {},
                 .trace = arguments.trace,
-                .timeline = {}};
+                .timeline = {},
+                .culls = {},
+                .fetch = {},
+                .cull_table = {}};
+  if (config.culls() && arguments.fetch >= 0) result.fetch = arguments.fetch;
   const auto make = [&](cmodel::StreamScope scope) -> std::unique_ptr<cmodel::Device> {
     if (arguments.scaling.any()) return std::make_unique<ScalingRun>(config, scope, arguments.scaling, options);
     return std::make_unique<cmodel::CycleModel>(config, scope, options);
@@ -229,6 +280,14 @@ ExitCode run(const Arguments& arguments) {
     result.counts.take(several, result.scalings.back());
   };
   if (!arguments.stream.empty()) {
+    if (config.culls()) {
+      ProgressBar bar("culling", watching(arguments.common));
+      cmodel::NullPixels nowhere;
+      cmodel::Model model(config, cmodel::StreamScope::Whole, nowhere);
+      model.log_culls(&culls.log);
+      driver::feed_stream(arguments.stream, model, {.threads = 1, .progress = bar.callback()});
+      culls.counts = model.culls();
+    }
     ProgressBar bar("cycles", watching(arguments.common));
     const auto device = make(cmodel::StreamScope::Whole);
     driver::feed_stream(arguments.stream, *device, {.threads = 1, .progress = bar.callback()});
@@ -238,11 +297,22 @@ ExitCode run(const Arguments& arguments) {
     output.remark(remarks(*scene.volume));
     result.scene = summary(scene);
     result.hidden_share = hidden_share(scene, config, arguments.common.threads);
+    if (config.culls()) {
+      ProgressBar bar("culling", watching(arguments.common));
+      culls = driver::run_culls(driver::CompiledFrame(scene, config, arguments.common.threads),
+                                arguments.common.threads, bar.callback());
+    }
+    if (arguments.cull_table) {
+      ProgressBar bar("cull table", watching(arguments.common));
+      result.cull_table = driver::cull_table(scene, config, static_cast<std::uint64_t>(std::max(arguments.fetch, 0)),
+                                             arguments.common.threads, bar.callback());
+    }
     ProgressBar bar("cycles", watching(arguments.common));
     driver::run_device(
         scene, config, [&](cmodel::PixelSink&) { return make(cmodel::StreamScope::Subset); },
         {.threads = arguments.common.threads, .progress = bar.callback()}, take);
   }
+  if (config.culls()) result.culls = culls.counts;
   if (!arguments.trace.empty()) write_text_file(arguments.trace, trace.text());
   if (arguments.timeline) result.timeline = timeline.json();
   output.line(to_text(result));
@@ -264,6 +334,10 @@ void declare(Options& options, Arguments& to) {
   options.word("--ready", to.ready, "PATTERN", "when the sink takes pixels: as --input");
   options.values(pattern_words);
   options.integer("--seed", to.seed, 0, 2'000'000'000, "N", "of the patterns");
+  options.group("Culling");
+  options.integer("--fetch", to.fetch, 0, 1'000'000, "CYCLES",
+                  "a source that does not send hidden sets; what it sends comes so many cycles after it may");
+  options.flag("--cull-table", to.cull_table, "the scene on devices of every cull.map, with and without --fetch");
   options.group("Several devices");
   declare(options, to.scaling);
   options.group("Output");

@@ -24,6 +24,8 @@ std::optional<FastPlan> fast_plan(const Config& config, const char** why_not) {
   if (product(largest_product).overflow) return none("a product can be larger than a sheet's word");
   if ((config.tile_width + config.lanes - 1) / config.lanes > 64) return none("a tile's row has more than 64 blocks");
 
+  if (config.cull_map == static_cast<int>(CullMap::Pixel)) return none("hidden splats are found by single pixels");
+
   FastPlan plan{.largest_sum = static_cast<std::uint32_t>(config.sheet_format().max)};
   // The factors together shifted left so far that 15 bits are dropped, each still a positive word of 16 bits.
   const int grow = 15 - dropped, colour_room = 15 - colour_bits, weight_room = 15 - weight_bits;

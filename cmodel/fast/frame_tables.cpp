@@ -57,6 +57,8 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
         bytes += WeightMemo::bytes(config, table->radius.rho);
         if (static_cast<int>(window_geometry(config, table->radius.rho).padded) > kWidest)
           return none("a footprint is wider than 128 pixels");
+        if (config.culls() && window_geometry(config, table->radius.rho).windows > 1)
+          return none("hidden windows of larger footprints are left out");
         if (bytes > (config.index() == IndexKind::Rlut ? kMemoBytes : kOtherMemoBytes))
           return none("the footprints at all places of their grid are more than it keeps");
         break;

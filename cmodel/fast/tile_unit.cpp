@@ -48,6 +48,10 @@ void TileUnit<T>::begin_band(const BeginTile& tile, bool first, int ahead) {
   const auto rows = static_cast<std::size_t>((tile.height + lanes_ - 1) >> lane_bits_);
   dirty_.assign(rows, 0);
   frozen_.assign(rows, 0);
+  culls_ = tables_.config.culls() && culls_in(tile.mode);
+  for (auto& map : opaque_) map.assign(rows, 0);
+  sheet_parity_ = 0;
+  sets_.clear();
   slots_.assign(static_cast<std::size_t>(ahead) + 1, {.dirty = std::vector<std::uint64_t>(rows)});
   hidden_sums_.assign(slots_.size() * sheet_.pixels(), 0);
   most_excess_ = 0;
@@ -96,10 +100,22 @@ void TileUnit<T>::splats(std::span<const SplatRecord> records) {
   if (!sound_) return;
   Counting counting{counters_};
   for (const SplatRecord& record : records) {
+    if (const bool* gone = sets_.next(); gone != nullptr && *gone) continue;
     const std::uint32_t rho = tables_.memo.shape(record.set).rho;
+    const auto& words = record.colour;
+    if (culls_) {
+      Nothing nobody;
+      if (culled(place(record.set, snap_(record.x, rho, nobody), snap_(record.y, rho, nobody)))) {
+        count_culled(1);
+        continue;
+      }
+    }
     const SnappedAxis x = snap_(record.x, rho, counting), y = snap_(record.y, rho, counting);
     const Placed placed = place(record.set, x, y);
-    const auto& words = record.colour;
+    if (culls_) {
+      add(placed, words);
+      continue;
+    }
     const std::uint32_t largest = std::max({words[0], words[1], words[2], words[3]});
     const HiddenShare share{largest, largest - words[3]};
     if (largest != 0 && hidden(placed) && can_hide(placed, {&share, 1}))
@@ -107,6 +123,25 @@ void TileUnit<T>::splats(std::span<const SplatRecord> records) {
     else
       add(placed, words);
   }
+}
+
+template <class T>
+bool TileUnit<T>::would_hide(const CullBlock& set) {
+  if (!culls_) return false;
+  const PixelBox box = box_of(set).clipped(tile_.width, tile_.height);
+  if (box.empty()) return true;
+  const std::uint64_t columns =
+      bits(static_cast<int>(box.x0) >> lane_bits_, ((static_cast<int>(box.x1) - 1) >> lane_bits_) + 1);
+  for (int by = static_cast<int>(box.y0) >> lane_bits_; by <= (static_cast<int>(box.y1) - 1) >> lane_bits_; ++by)
+    if ((columns & ~opaque_[sheet_parity_][static_cast<std::size_t>(by)]) != 0) return false;
+  return true;
+}
+
+template <class T>
+void TileUnit<T>::cull_blocks(std::span<const CullBlock> records) {
+  counters_.cull_blocks += records.size();
+  if (!culls_) return;
+  for (const CullBlock& set : records) sets_.announce(set.splats, would_hide(set));
 }
 
 template <class T>
@@ -182,6 +217,11 @@ void TileUnit<T>::end_sheet(const EndSheet&) {
   if (slot.hidden)
     std::fill_n(hidden_sums_.begin() + static_cast<std::ptrdiff_t>(now_ * sheet_.pixels()), sheet_.pixels(), 0);
   slot.hidden = false;
+  if (culls_) {
+    // The open sheet's map, which nobody asks any more, becomes that of the next but one.
+    opaque_[sheet_parity_] = frozen_;
+    sheet_parity_ = 1 - sheet_parity_;
+  }
   slot.excess = most_excess_ = 0;
   for (const Slot& other : slots_) most_excess_ = std::max(most_excess_, other.excess);
   bound_ = 0;

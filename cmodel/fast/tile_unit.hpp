@@ -9,6 +9,8 @@
 
 #include "cmodel/compositor.hpp"
 #include "cmodel/counters.hpp"
+#include "cmodel/cull_sets.hpp"
+#include "cmodel/cull_unit.hpp"
 #include "cmodel/device.hpp"
 #include "cmodel/fast/frame_tables.hpp"
 #include "cmodel/fast/row_kernel.hpp"
@@ -48,6 +50,7 @@ class TileUnit final : public RecordSink {
   void begin_sheet(const BeginSheet& sheet) override { now_ = sheet.sheet % slots_.size(); }
   void splats(std::span<const SplatRecord> records) override;
   void ellipses(std::span<const EllipseRecord> records) override { sound_ = sound_ && records.empty(); }
+  void cull_blocks(std::span<const CullBlock> records) override;
   void end_sheet(const EndSheet& sheet) override;
   void end_tile(const EndTile& tile) override;
 
@@ -71,6 +74,22 @@ class TileUnit final : public RecordSink {
   std::uint64_t hide(const Placed& placed, std::span<const HiddenShare> shares);
   /// False if that could not be exact: then add() them, each in its turn. True where no share has an excess.
   bool can_hide(const Placed& placed, std::span<const HiddenShare> shares) const;
+
+  // Of a device that culls (docs/numerics.md, section 6.1), in modes 0 and 1 and in bands that are whole tiles: neither
+  // hidden() nor hide(), but these. Footprints are single windows, cells of the map blocks.
+  bool culls() const { return culls_; }
+  /// All of the splat is hidden by the sheets up to the last but one.
+  bool culled(const Placed& placed) const {
+    for (std::size_t by = placed.first; by <= placed.last; ++by)
+      if ((placed.columns & ~opaque_[sheet_parity_][by]) != 0) return false;
+    return true;
+  }
+  bool would_hide(const CullBlock& set) override;
+  /// Hidden splats that are no hidden set's.
+  void count_culled(std::uint64_t splats) {
+    counters_.splats += splats;
+    hidden_splats_ += splats;
+  }
 
   /// False if a sum may have left the sheet's format in the last tile: it was not delivered and its counters mean
   /// nothing; only the plain unit can tell how often. Then `counters()` are those of the tiles before.
@@ -146,6 +165,10 @@ class TileUnit final : public RecordSink {
   std::vector<Slot> slots_;                    ///< of sheet s: s modulo their number
   std::size_t now_ = 0;                        ///< the slot of the sheet begun
   std::uint64_t most_excess_ = 0;              ///< of the slots
+  bool culls_ = false;
+  std::array<std::vector<std::uint64_t>, 2> opaque_;  ///< frozen_ after the last sheet but one, and after the last
+  std::size_t sheet_parity_ = 0;                      ///< of the open sheet
+  CullSets<bool> sets_;                               ///< and whether each is hidden
   bool first_band_ = true;
   bool any_frozen_ = false, sound_ = true;
   std::uint64_t bound_ = 0;    ///< no word of the sheet is above

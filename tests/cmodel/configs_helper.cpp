@@ -52,8 +52,9 @@ cmodel::Config named_config(const std::string& name) {
   }
   if (read.contains("rounding.carry"))
     symbols.carry = read.at("rounding.carry").substr(1, read.at("rounding.carry").size() - 2);
-  for (const auto& [key, member] :
-       {std::pair{"index.kind", &oracle::Symbols::index}, {"index.symmetry", &oracle::Symbols::symmetry}})
+  for (const auto& [key, member] : {std::pair{"index.kind", &oracle::Symbols::index},
+                                    {"index.symmetry", &oracle::Symbols::symmetry},
+                                    {"cull.map", &oracle::Symbols::cull}})
     if (read.contains(key)) symbols.*member = read.at(key).substr(1, read.at(key).size() - 2);
   for (const auto& [key, member] : kNumbers)
     if (read.contains(key)) symbols.*member = std::stoi(read.at(key));
@@ -78,6 +79,7 @@ oracle::Symbols symbols_of(const cmodel::Config& config) {
       if (cmodel::text_of(config, *cmodel::find_key(ours.name)) == oracle::word_of(rounding))
         symbols.*ours.member = rounding;
   symbols.carry = cmodel::text_of(config, *cmodel::find_key("rounding.carry"));
+  symbols.cull = cmodel::text_of(config, *cmodel::find_key("cull.map"));
   symbols.index = cmodel::text_of(config, *cmodel::find_key("index.kind"));
   symbols.symmetry = cmodel::text_of(config, *cmodel::find_key("index.symmetry"));
   for (const auto& [key, member] : kNumbers) symbols.*member = config.*cmodel::find_key(key)->member;
@@ -95,7 +97,8 @@ cmodel::Config config_of(const oracle::Symbols& symbols, const std::string& name
       throw std::runtime_error(one_line(*wrong));
   for (const auto& [key, word] : {std::pair{"rounding.carry", symbols.carry},
                                   {"index.kind", symbols.index},
-                                  {"index.symmetry", symbols.symmetry}})
+                                  {"index.symmetry", symbols.symmetry},
+                                  {"cull.map", symbols.cull}})
     if (const auto wrong = cmodel::set(config, key, word)) throw std::runtime_error(one_line(*wrong));
   for (const auto& [key, member] : kNumbers)
     if (const auto wrong = cmodel::set(config, key, std::to_string(symbols.*member)))

@@ -9,8 +9,23 @@
 namespace fastsplat::test {
 namespace {
 
+using oracle::Wide;
+
 struct Set {
   std::int64_t rho = 0, columns = 0;
+};
+
+/// Pixels x0..x1-1, y0..y1-1.
+struct Box {
+  Wide x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+  Box clipped(int width, int height) const {
+    return {std::max<Wide>(x0, 0), std::max<Wide>(y0, 0), std::min<Wide>(x1, width), std::min<Wide>(y1, height)};
+  }
+  Box around(const Box& other) const {
+    if (other.x0 >= other.x1 || other.y0 >= other.y1) return *this;
+    return {std::min(x0, other.x0), std::min(y0, other.y0), std::max(x1, other.x1), std::max(y1, other.y1)};
+  }
 };
 
 class Generator {
@@ -178,6 +193,11 @@ class Generator {
     for (std::int64_t s = r.between(0, 8); s > 0; --s) {
       w.begin_sheet(sheet);
       sheet += static_cast<std::uint32_t>(r.between(1, 3));
+      if (c.cull != "off") {
+        promising_sheet(width, height, dimming);
+        w.end_sheet();
+        continue;
+      }
       const std::int64_t splats = r.once_in(6) ? 0 : r.between(1, 40);
       const std::int64_t kinds = c.f > 0 ? r.between(0, 2) : 2;
       for (std::int64_t i = 0; i < splats; ++i) {
@@ -191,6 +211,81 @@ class Generator {
       w.end_sheet();
     }
     w.end_tile();
+  }
+
+  /// For devices that cull: every cull_block is a promise that holds. Some sheets are walls, which freeze what they
+  /// may.
+  void promising_sheet(int width, int height, int dimming) {
+    struct Planned {
+      std::size_t which = 0;
+      oracle::Ellipse ellipse;
+      bool round = true;
+      Box box;
+    };
+    std::vector<Planned> planned;
+    const auto add = [&](std::int32_t x, std::int32_t y, int dim) {
+      Planned one;
+      one.which = static_cast<std::size_t>(r.between(0, static_cast<std::int64_t>(sets.size()) - 1));
+      one.ellipse.x = x, one.ellipse.y = y;
+      draw(one.ellipse.v, dim);
+      one.box = box_of(sets[one.which], x, y);
+      planned.push_back(one);
+    };
+    const std::int64_t one = std::int64_t{1} << c.pf, half = std::int64_t{1} << (c.pi + c.pf - 1);
+    if (r.once_in(3)) {
+      for (std::int64_t y = 0; y <= height; y += c.P / 2 + 1)
+        for (std::int64_t x = 0; x <= width; x += c.P / 2 + 1)
+          add(static_cast<std::int32_t>(std::min(x * one, half - 1)),
+              static_cast<std::int32_t>(std::min(y * one, half - 1)), 0);
+    } else {
+      for (std::int64_t i = r.once_in(6) ? 0 : r.between(1, 40); i > 0; --i) {
+        const Set& near = sets[static_cast<std::size_t>(r.between(0, static_cast<std::int64_t>(sets.size()) - 1))];
+        add(position(width, near), position(height, near), dimming);
+        if (c.f == 0 || r.once_in(2)) continue;
+        Planned& last = planned.back();
+        last.round = false;
+        random_shape(c, r, last.ellipse);
+        const oracle::FirstPixel first = oracle::first_pixel(c, last.ellipse);
+        last.box = {first.x0, first.y0, first.x0 + last.ellipse.nx * c.P, first.y0 + last.ellipse.ny * c.P};
+      }
+    }
+    // Neighbours in a set of few: only then is it hidden now and then.
+    if (r.once_in(2)) {
+      std::stable_sort(planned.begin(), planned.end(), [&](const Planned& a, const Planned& b) {
+        return std::pair{a.box.y0 / (2 * c.P), a.box.x0 / (2 * c.P)} <
+               std::pair{b.box.y0 / (2 * c.P), b.box.x0 / (2 * c.P)};
+      });
+    }
+    std::int64_t room = 0;
+    for (std::int64_t side = c.P; room == 0 || room > 1024; side *= 2)
+      room = ((c.W + side - 1) / side) * ((c.H + side - 1) / side);
+    std::vector<std::size_t> ends;  // of open sets
+    std::size_t promised = 0;
+    const bool in_front = r.once_in(2);  // as many as there is room for
+    for (std::size_t at = 0; at < planned.size(); ++at) {
+      std::erase_if(ends, [&](std::size_t end) { return end <= at; });
+      promised = std::max(promised, at);
+      while (static_cast<std::int64_t>(ends.size()) < room && (in_front || r.once_in(6))) {
+        const std::size_t most = planned.size() - promised;
+        const std::size_t n = std::min(most, static_cast<std::size_t>(r.between(0, 9)));
+        Box box{Wide{width}, Wide{height}, 0, 0};
+        for (std::size_t i = promised; i < promised + n; ++i) box = box.around(planned[i].box.clipped(width, height));
+        if (r.once_in(8)) box = {0, 0, width, height};
+        if (box.x0 >= box.x1 || box.y0 >= box.y1) box = {-5, 3, -4, 4};  // beside the tile
+        w.cull_block(static_cast<std::uint32_t>(w.next_tag() + (promised - at)), static_cast<std::int32_t>(box.x0),
+                     static_cast<std::int32_t>(box.y0), static_cast<int>(box.x1 - box.x0),
+                     static_cast<int>(box.y1 - box.y0), static_cast<std::uint32_t>(n));
+        promised += n;
+        if (n > 0) ends.push_back(promised);
+        if (most == 0 || r.once_in(10)) break;
+      }
+      const Planned& one_of = planned[at];
+      if (one_of.round)
+        w.splat(static_cast<int>(numbers[one_of.which]), one_of.ellipse.x, one_of.ellipse.y,
+                {one_of.ellipse.v[0], one_of.ellipse.v[1], one_of.ellipse.v[2], one_of.ellipse.v[3]});
+      else
+        w.ellipse(one_of.ellipse);
+    }
   }
 
   void splat(int width, int height, int dimming) {
@@ -213,6 +308,15 @@ class Generator {
   template <class Colour>
   void draw(Colour& colour, int dimming) {
     for (std::uint32_t& v : colour) v = word(((std::int64_t{1} << c.cf) - 1) >> std::min(dimming, c.cf - 1));
+  }
+
+  /// All windows of a splat.
+  Box box_of(const Set& set, std::int32_t x, std::int32_t y) const {
+    const oracle::Words grid = oracle::s(c.pi, oracle::log2_of(c.K()));
+    const auto first = [&](std::int32_t p) {
+      return oracle::floor_divide(oracle::narrow(c.Rs, oracle::Overflow::Sat, p, c.pf, grid).word - set.rho, c.K()) + 1;
+    };
+    return {first(x), first(y), first(x) + set.columns, first(y) + set.columns};
   }
 
   std::int32_t position(int side, const Set& set) {

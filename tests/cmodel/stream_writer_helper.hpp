@@ -34,6 +34,7 @@ class StreamWriter {
 
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }
   std::size_t beats() const { return bytes_.size() / cmodel::kBeatBytes; }
+  std::uint32_t next_tag() const { return tag_; }
   std::uint64_t total_splats() const { return total_splats_; }
 
  private:

@@ -1,5 +1,6 @@
 #include "tests/cmodel/oracle/oracle.hpp"
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <utility>
@@ -63,6 +64,8 @@ class Renderer {
     Pixel fresh;
     if (tile.mode != 2) fresh.C[3] = power_of_two(c.tf);
     pixels.assign(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height), fresh);
+    frozen.clear();
+    promises.clear();
     ++out.counts["tiles"];
   }
 
@@ -74,12 +77,44 @@ class Renderer {
     }
   }
 
-  void take(const CullHint&) { ++out.counts["cull_blocks"]; }
+  void take(const CullHint& hint) {
+    ++out.counts["cull_blocks"];
+    if (!culls()) return;
+    promises.insert(promises.end(), hint.splats, hidden(hint.x, hint.y, hint.width, hint.height, cell()));
+  }
+
+  // Culling, section 6.1, pixel by pixel.
+  bool culls() const { return c.cull != "off" && tile.mode < 2; }
+  int cell() const { return c.cull == "block" ? c.P : 1; }
+  /// Whether all pixels of all cells that the rectangle meets in the tile were frozen two sheets ago.
+  bool hidden(Wide x0, Wide y0, Wide width, Wide height, int u) const {
+    for (Wide y = 0; y < tile.height; ++y)
+      for (Wide x = 0; x < tile.width; ++x) {
+        // The pixel's cell, [cx, cx+u) x [cy, cy+u), meets the rectangle in the tile.
+        const Wide cx = x - x % u, cy = y - y % u;
+        const bool meets = std::max(cx, x0) < std::min({cx + u, x0 + width, Wide{tile.width}}) &&
+                           std::max(cy, y0) < std::min({cy + u, y0 + height, Wide{tile.height}});
+        if (!meets) continue;
+        if (frozen.size() < 2 || !frozen[frozen.size() - 2][static_cast<std::size_t>(y * tile.width + x)]) return false;
+      }
+    return true;
+  }
+  bool swallowed() {
+    if (promises.empty()) return false;
+    const bool gone = promises.front();
+    promises.erase(promises.begin());
+    return gone;
+  }
 
   void take(const Splat& splat) {
+    if (swallowed()) return;
     ++out.counts["splats"];
     const RadiusSet& set = sets.at(splat.set);
     const Words grid = s(c.pi, log2_of(c.K()));
+    const auto first = [&](Wide p) {
+      return floor_divide(narrow(c.Rs, Overflow::Sat, p, c.pf, grid).word - set.rho, c.K()) + 1;
+    };
+    if (culls() && hidden(first(splat.x), first(splat.y), set.Ea, set.Ea, cell())) return;
     const Wide xs = sat(c.Rs, splat.x, c.pf, grid, "snap_saturated");
     const Wide ys = sat(c.Rs, splat.y, c.pf, grid, "snap_saturated");
     const Wide x0 = floor_divide(xs - set.rho, c.K()) + 1, y0 = floor_divide(ys - set.rho, c.K()) + 1;
@@ -92,9 +127,11 @@ class Renderer {
   }
 
   void take(const Ellipse& e) {
+    if (swallowed()) return;
     ++out.counts["splats"];
     ++out.ellipses.records;
     const FirstPixel first = first_pixel(c, e);
+    if (culls() && hidden(first.x0, first.y0, Wide{e.nx} * c.P, Wide{e.ny} * c.P, cell())) return;
     emit(Kind::Snap, e.tag, first.x0, first.y0, {word(first.x0), word(first.y0), word(first.X), word(first.Y)});
     const EllipseForm form(c, e);
     out.ellipses.wrapped += form.wrapped() ? 1 : 0;
@@ -110,6 +147,7 @@ class Renderer {
   /// The window of a splat or an ellipse from its pixel (i0, j0) on.
   template <class Record, class Weight>
   void window(const Record& splat, Wide x0, Wide y0, std::int64_t i0, std::int64_t j0, const Weight& weight_of) {
+    if (culls() && hidden(x0 + i0, y0 + j0, c.P, c.P, c.P)) return;
     ++out.counts["windows"];
     std::vector<std::uint32_t> weights, sums;
     for (std::int64_t j = j0; j < j0 + c.P; ++j)
@@ -211,6 +249,8 @@ class Renderer {
     ++out.counts["sheets"];
     for (int by = 0; by < tile.height; by += c.P)
       for (int bx = 0; bx < tile.width; bx += c.P) block(bx, by);
+    frozen.emplace_back();
+    for (const Pixel& p : pixels) frozen.back().push_back(p.C[3] < c.eps);
   }
 
   /// Every pixel is composited, dirty or not: the model, which visits dirty blocks only, must agree.
@@ -293,6 +333,8 @@ class Renderer {
   TileStart tile;
   std::uint32_t sheet = 0;
   std::vector<Pixel> pixels;
+  std::vector<std::vector<bool>> frozen;  // the tile's pixels after each of its sheets
+  std::vector<bool> promises;             // of the next splats, whether their set is hidden
 };
 
 }  // namespace

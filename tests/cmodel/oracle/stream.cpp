@@ -237,6 +237,7 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
         ++sheets;
         items.emplace_back(SheetStart{sheet});
         std::uint32_t splats = 0;
+        std::uint64_t promised = 0;  // splats up to here are in some set
         for (r.need(); r.w[0] % 256 != 0x73; r.need()) {
           if (r.w[0] % 256 == 0x50) {
             items.emplace_back(splat(r, sets, tag++));
@@ -249,13 +250,21 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
             r.only_opcode();
             r.empty_from(6);
             r.rule(r.low(4) >= 1 && r.high(4) >= 1, "an empty cull_block");
-            items.emplace_back(CullHint{});
+            const CullHint hint{static_cast<std::int32_t>(r.w[2]), static_cast<std::int32_t>(r.w[3]),
+                                static_cast<int>(r.low(4)), static_cast<int>(r.high(4)), r.w[5]};
+            if (symbols.cull != "off") {
+              promised = std::max<std::uint64_t>(promised, splats);
+              r.rule(r.w[1] == tag + (promised - splats), "a promise with another tag");
+              promised += hint.splats;
+            }
+            items.emplace_back(hint);
           }
         }
         r.only_opcode();
         r.empty_from(3);
         r.rule(r.w[1] == sheet, "sheet number");
         r.rule(r.w[2] == splats, "splat count");
+        r.rule(promised <= splats, "a promise without its splats");
         items.emplace_back(SheetEnd{});
       }
       r.only_opcode();

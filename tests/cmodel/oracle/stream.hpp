@@ -39,7 +39,11 @@ struct Splat {
   std::int32_t x = 0, y = 0;
   std::uint32_t v[4] = {};
 };
-struct CullHint {};
+struct CullHint {
+  std::int32_t x = 0, y = 0;
+  int width = 0, height = 0;
+  std::uint32_t splats = 0;
+};
 struct SheetEnd {};
 struct TileEnd {};
 using Item = std::variant<TableLoad, TileStart, SheetStart, Splat, Ellipse, CullHint, SheetEnd, TileEnd>;

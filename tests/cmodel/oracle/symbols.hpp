@@ -31,6 +31,7 @@ struct Symbols {
   int C = 0;  ///< 0: P^2
   int counter_bits = 64;
   int every_sample = 0;
+  std::string cull = "off";  ///< the map's cells
 
   /// Weights depend on window phases: centres lie on the snap's grid.
   bool has_phases() const { return index == "rlut" || index == "blit2d" || index == "separable"; }

@@ -1,0 +1,17 @@
+// What a table of culling says, and its JSON (docs/culling.md).
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "driver/cull_table.hpp"
+
+namespace fastsplat::cli {
+
+/// A line per device: cycles and how many times fewer, milliseconds at 100 MHz, share of splat records drawn, and where
+/// the cycles went.
+std::string to_text(const std::vector<driver::CullRow>& rows);
+nlohmann::ordered_json to_json(const std::vector<driver::CullRow>& rows);
+
+}  // namespace fastsplat::cli

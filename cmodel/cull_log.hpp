@@ -1,0 +1,64 @@
+// What the tests of a frame found and where its map changed, tile by tile: timing depends on it, and nothing else of
+// the pixels (docs/microarchitecture.md, "Culling").
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace fastsplat::cmodel {
+
+/// What the cull unit did: tests made, and what they found.
+struct CullCounts {
+  std::uint64_t set_tests = 0, hidden_sets = 0;
+  std::uint64_t splat_tests = 0, hidden_splats = 0;  ///< of those that were not swallowed
+  std::uint64_t swallowed = 0;                       ///< splats of hidden sets, as far as they were sent
+  std::uint64_t hidden_windows = 0;                  ///< of splats that are not hidden
+
+  CullCounts& operator+=(const CullCounts& other) {
+    set_tests += other.set_tests;
+    hidden_sets += other.hidden_sets;
+    splat_tests += other.splat_tests;
+    hidden_splats += other.hidden_splats;
+    swallowed += other.swallowed;
+    hidden_windows += other.hidden_windows;
+    return *this;
+  }
+  bool operator==(const CullCounts&) const = default;
+};
+
+/// Answers of one tile's tests in the order of the stream: per cull_block one; per splat that is not swallowed one, and
+/// if it is not hidden and has several windows, one for each of them, row by row. And of each sheet the first row of
+/// blocks with a cell that became opaque, or as many as there are. None of either in a tile without tests.
+class CullAnswers {
+ public:
+  void add(bool hidden) { bits_.push_back(hidden); }
+  bool operator[](std::size_t at) const { return bits_.at(at); }
+  std::size_t size() const { return bits_.size(); }
+  void add_sheet(int row) { rows_.push_back(row); }
+  int first_row(std::size_t sheet) const { return rows_.at(sheet); }
+  bool operator==(const CullAnswers&) const = default;
+
+ private:
+  std::vector<bool> bits_;
+  std::vector<int> rows_;  ///< by sheet
+};
+
+/// By tile number. Tiles are independent: logs of some of them each are put together by merge().
+class CullLog {
+ public:
+  CullAnswers& tile(std::uint32_t number) { return tiles_[number]; }
+  /// Null if nothing is known of it.
+  const CullAnswers* find(std::uint32_t number) const {
+    const auto found = tiles_.find(number);
+    return found == tiles_.end() ? nullptr : &found->second;
+  }
+  void merge(CullLog&& other) { tiles_.merge(other.tiles_); }
+  std::size_t size() const { return tiles_.size(); }
+  bool operator==(const CullLog&) const = default;
+
+ private:
+  std::map<std::uint32_t, CullAnswers> tiles_;
+};
+
+}  // namespace fastsplat::cmodel

@@ -1,0 +1,123 @@
+// The cycle model of a device that culls: beat by beat against a clock, and against the device that does not cull.
+#include <gtest/gtest.h>
+
+#include "cmodel/cycle_model.hpp"
+#include "cmodel/model.hpp"
+#include "tests/cmodel/compare_helper.hpp"
+#include "tests/cmodel/configs_helper.hpp"
+#include "tests/cmodel/plain_cull_clock_helper.hpp"
+#include "tests/cmodel/random_stream_helper.hpp"
+#include "tests/cmodel/stream_writer_helper.hpp"
+
+namespace fastsplat::test {
+namespace {
+
+struct Times final : cmodel::CycleSink {
+  std::vector<BeatTimes> beats;
+  void on_beat(const cmodel::BeatCycles& beat) override {
+    beats.push_back({beat.taken, beat.entered, beat.left});
+    opcodes.push_back(static_cast<int>(beat.opcode));
+  }
+  std::vector<int> opcodes;
+  void on_sheet(const cmodel::SheetCycles&) override {}
+  void on_tile(const cmodel::TileCycles&) override {}
+};
+
+struct Tally {
+  std::uint64_t beats = 0, unsent = 0, waited = 0, hidden = 0, map = 0, later = 0;
+};
+
+void compare(const cmodel::Config& config, std::span<const cmodel::Beat> beats, Tally& tally) {
+  Collector seen;
+  cmodel::CullLog log;
+  cmodel::Model model(config, cmodel::StreamScope::Whole, seen);
+  model.log_culls(&log);
+  model.consume(beats);
+  for (const std::optional<std::uint64_t> latency :
+       {std::optional<std::uint64_t>{}, {std::uint64_t{0}}, {std::uint64_t{3}}, {std::uint64_t{50}}}) {
+    Times times;
+    cmodel::CycleOptions options{.spans = &times, .culls = &log};
+    if (latency) options.fetch = cmodel::Fetch{*latency};
+    cmodel::CycleModel cycles(config, cmodel::StreamScope::Whole, options);
+    cycles.consume(beats);
+    cycles.finish();
+    const PlainCullClock clock = plain_cull_clock(config, beats, latency);
+    ASSERT_EQ(times.beats.size(), clock.beats.size());
+    for (std::size_t i = 0; i < times.beats.size(); ++i) {
+      const auto text = [](const BeatTimes& beat) {
+        return std::to_string(beat.taken) + " " + std::to_string(beat.entered) + " " + std::to_string(beat.left);
+      };
+      ASSERT_EQ(text(times.beats[i]), text(clock.beats[i]))
+          << "beat " << i << " of " << times.beats.size() << ", latency " << latency.value_or(9999) << ", opcode "
+          << times.opcodes[i] << " behind " << times.opcodes[i - 1] << " of " << text(times.beats[i - 1]);
+    }
+    EXPECT_EQ(cycles.account().total(), cycles.stalls().busy);
+    EXPECT_EQ(cycles.counters().splats, model.counters().splats);
+    EXPECT_EQ(cycles.counters().windows, model.counters().windows);
+    EXPECT_EQ(cycles.counters().dirty_blocks, model.counters().dirty_blocks);
+    EXPECT_EQ(cycles.counters().sheets, model.counters().sheets);
+    EXPECT_EQ(cycles.counters().cull_blocks, model.counters().cull_blocks);
+    EXPECT_EQ(cycles.sent_beats(), times.beats.size());
+    if (!latency) {
+      EXPECT_EQ(cycles.sent_beats(), beats.size());
+    }
+    tally.beats += times.beats.size();
+    tally.unsent += beats.size() - times.beats.size();
+    tally.waited += clock.waited;
+    tally.hidden += cycles.account().hidden;
+    tally.map += cycles.account().map;
+  }
+}
+
+TEST(CullCycles, AreThoseOfAClock) {
+  Random random(seed_or(95));
+  Tally tally;
+  for (const char* name : {"tiny", "small", "base", "ellipse"}) {
+    for (const auto map : {cmodel::CullMap::Block, cmodel::CullMap::Pixel}) {
+      for (int i = 0; i < 6; ++i) {
+        cmodel::Config config = named_config(name);
+        config.cull_map = static_cast<int>(map);
+        if (i % 3 == 1) config.composite_lanes = config.lanes;
+        const auto stream = random_stream(symbols_of(config), random, 200);
+        compare(config, to_beats(stream.bytes), tally);
+        if (HasFatalFailure()) return;
+      }
+    }
+  }
+  std::printf(
+      "[figure] beats compared = %llu, not sent = %llu, cycles begin_sheet waited for a table = %llu, of the "
+      "account: hidden = %llu, map = %llu\n",
+      static_cast<unsigned long long>(tally.beats), static_cast<unsigned long long>(tally.unsent),
+      static_cast<unsigned long long>(tally.waited), static_cast<unsigned long long>(tally.hidden),
+      static_cast<unsigned long long>(tally.map));
+  EXPECT_GT(tally.unsent, 500U);
+  EXPECT_GT(tally.waited, 500U);
+  EXPECT_GT(tally.hidden, 500U);
+  EXPECT_GT(tally.map, 500U);
+}
+
+TEST(CullCycles, FollowFromTheLogAlone) {
+  Random random(seed_or(96));
+  cmodel::Config config = named_config("small");
+  config.cull_map = static_cast<int>(cmodel::CullMap::Block);
+  const auto beats = to_beats(random_stream(symbols_of(config), random, 300).bytes);
+  Collector seen;
+  cmodel::CullLog log, empty;
+  cmodel::Model model(config, cmodel::StreamScope::Whole, seen);
+  model.log_culls(&log);
+  model.consume(beats);
+  const auto busy = [&](const cmodel::CullLog* culls) {
+    cmodel::CycleModel cycles(config, cmodel::StreamScope::Whole, {.culls = culls});
+    cycles.consume(beats);
+    cycles.finish();
+    return cycles.stalls().busy;
+  };
+  EXPECT_LT(busy(&log), busy(nullptr)) << "nothing is hidden without a log";
+  EXPECT_ANY_THROW(busy(&empty)) << "a log of another stream";
+  cmodel::CullLog more = log;
+  more.tile(0).add(true);
+  EXPECT_ANY_THROW(busy(&more)) << "a log with answers that nobody asked for";
+}
+
+}  // namespace
+}  // namespace fastsplat::test

@@ -1,0 +1,31 @@
+// The stream side of a device that culls, clock by clock as docs/microarchitecture.md says it, for the cycle model to
+// be held against: registers that hold beats, a unit that builds tables a row at a time, a source that waits for
+// verdicts.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cmodel/beat.hpp"
+#include "cmodel/config.hpp"
+
+namespace fastsplat::test {
+
+/// When a beat was taken, lay in decode first, and last.
+struct BeatTimes {
+  std::uint64_t taken = 0, entered = 0, left = 0;
+  bool operator==(const BeatTimes&) const = default;
+};
+
+struct PlainCullClock {
+  std::vector<BeatTimes> beats;  ///< that were sent, in order
+  std::uint64_t waited = 0;      ///< cycles of begin_sheet in t0 for a table
+};
+
+/// A whole stream. `latency`: of a source that does not send hidden sets; none: it sends all.
+PlainCullClock plain_cull_clock(const cmodel::Config& config, std::span<const cmodel::Beat> beats,
+                                std::optional<std::uint64_t> latency);
+
+}  // namespace fastsplat::test

@@ -1,0 +1,91 @@
+// What culling brings of a real head (Debian's mricron-data): the same picture, cycles, and processor time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ctime>
+
+#include "base/error.hpp"
+#include "driver/config_file.hpp"
+#include "driver/cull_table.hpp"
+#include "driver/render.hpp"
+#include "tests/driver/scenes_helper.hpp"
+#include "volume/volume_file.hpp"
+
+namespace fastsplat::driver {
+namespace {
+
+constexpr std::uint64_t kLatency = 40;  ///< cycles of a memory
+
+/// The scan; null where it is not installed.
+std::shared_ptr<const volume::Volume> scan(std::string& why_not) {
+  try {
+    return std::make_shared<const volume::Volume>(volume::load_volume("ch2bet"));
+  } catch (const UserError& error) {
+    why_not = error.what();
+    return nullptr;
+  }
+}
+
+void tell(const std::string& name, const std::vector<CullRow>& rows) {
+  for (const CullRow& row : rows) {
+    const std::string of = name + ", " + row.map + (row.fetch ? ", fetch" : "");
+    figure(of + ": cycles", static_cast<double>(row.cycles));
+    figure(of + ": times fewer", static_cast<double>(rows[0].cycles) / static_cast<double>(row.cycles));
+    figure(of + ": records drawn", 100.0 * share_drawn(row, rows[0]), "%");
+    row.account.for_each([&](const char* cause, std::uint64_t cycles, const char*) {
+      figure(of + ": of it " + cause, static_cast<double>(cycles));
+    });
+    figure(of + ": of ideal, windows", static_cast<double>(row.counters.windows));
+  }
+}
+
+TEST(CulledHead, IsTheSamePictureInFewerCycles) {
+  std::string why_not;
+  const auto volume = scan(why_not);
+  if (!volume) GTEST_SKIP() << "the scan is not installed: " << why_not;
+  for (const int size : {256, 512}) {
+    const auto scene = scene::build_scene(view_of("ch2bet", size, "mri-head"), volume);
+    const auto rows = cull_table(scene, load_config("base"), kLatency, 0);
+    tell("ch2bet " + std::to_string(size), rows);
+    EXPECT_GT(static_cast<double>(rows[0].cycles), (size == 512 ? 2.5 : 2.4) * static_cast<double>(rows[2].cycles));
+  }
+}
+
+/// Of this thread alone.
+double processor_seconds() {
+  timespec at{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &at);
+  return static_cast<double>(at.tv_sec) + 1e-9 * static_cast<double>(at.tv_nsec);
+}
+
+TEST(CulledHead, TakesLessOfTheProcessor) {
+  std::string why_not;
+  const auto volume = scan(why_not);
+  if (!volume) GTEST_SKIP() << "the scan is not installed: " << why_not;
+  const auto scene = scene::build_scene(view_of("ch2bet", 512, "mri-head"), volume);
+  cmodel::Config off = load_config("base"), block = off;
+  block.cull_map = static_cast<int>(cmodel::CullMap::Block);
+  for (const Unit unit : {Unit::Fast, Unit::Plain}) {
+    double without = 1e9, with = 1e9;  // the best of some rounds, in turn
+    for (int round = 0; round < (unit == Unit::Fast ? 5 : 2); ++round) {
+      const double a = processor_seconds();
+      const DeviceRender unculled = render(scene, off, {.threads = 1, .unit = unit});
+      const double b = processor_seconds();
+      const DeviceRender culled = render(scene, block, {.threads = 1, .unit = unit});
+      const double c = processor_seconds();
+      without = std::min(without, b - a), with = std::min(with, c - b);
+      EXPECT_EQ(unculled.frame.words, culled.frame.words);
+      EXPECT_EQ(unculled.units.fast > 0, culled.units.fast > 0);
+    }
+    const std::string name = unit == Unit::Fast ? "ch2bet 512, fast unit" : "ch2bet 512, plain unit";
+    figure(name + ": without", without, "s");
+    figure(name + ": with", with, "s");
+    figure(name + ": times faster", without / with);
+    if (unit == Unit::Plain) {
+      EXPECT_LT(with, without);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fastsplat::driver

@@ -1,0 +1,164 @@
+// Culling from scene to picture (docs/numerics.md, sections 6.1 and 8, "Sets"): the picture is the one without, sets
+// keep their promise, what is left out changes nothing, and what it costs and brings in cycles.
+#include <gtest/gtest.h>
+
+#include "cmodel/cycle_model.hpp"
+#include "cmodel/model.hpp"
+#include "driver/config_file.hpp"
+#include "driver/cull_log.hpp"
+#include "driver/cull_table.hpp"
+#include "driver/frame_sink.hpp"
+#include "driver/run_device.hpp"
+#include "tests/driver/scenes_helper.hpp"
+
+namespace fastsplat::driver {
+namespace {
+
+using cmodel::CullMap;
+
+cmodel::Config culling(const std::string& name, CullMap map) {
+  cmodel::Config config = load_config(name);
+  config.cull_map = static_cast<int>(map);
+  return config;
+}
+
+/// Much of it is behind other of it.
+scene::SceneDescription opaque() {
+  auto out = view_of("shells:40", 140);
+  out.opacity_scale = 20.0;
+  return out;
+}
+
+struct Named {
+  std::string name;
+  scene::SceneDescription description;
+};
+
+/// Of each method and projection that has sheets; some with much to hide.
+std::vector<Named> scenes() {
+  std::vector<Named> out;
+  const auto add = [&](const std::string& name, scene::SceneDescription d) { out.push_back({name, std::move(d)}); };
+  auto d = opaque();
+  add("opaque", d);
+  d.camera.azimuth = 30, d.camera.elevation = 15;
+  d.slab_opacity = scene::SlabOpacity::Additive;
+  add("oblique, additive", d);
+  d.camera.projection = scene::Projection::Perspective;
+  add("perspective", d);
+  d = opaque();
+  d.method = scene::Method::AxisAligned;
+  add("axis aligned", d);
+  d.method = scene::Method::XRay;
+  add("xray", d);
+  add("default", view_of("shells:32", 128));
+  return out;
+}
+
+TEST(CulledFrames, AreTheFramesWithout) {
+  std::uint64_t sets = 0, swallowed = 0, hidden = 0;
+  for (const auto& [name, description] : scenes()) {
+    const auto scene = scene::build_scene(description);
+    for (const char* device : {"base", "tiny"}) {
+      if (std::string(device) == "tiny" && name == "perspective") continue;  // radii above what its RLUT holds
+      const DeviceRender off = render(scene, load_config(device), {.threads = 1, .unit = Unit::Plain});
+      for (const CullMap map : {CullMap::Block, CullMap::Pixel}) {
+        const cmodel::Config config = culling(device, map);
+        const DeviceRender skipped = render(scene, config, {.threads = 1, .unit = Unit::Plain});
+        EXPECT_EQ(skipped.frame.words, off.frame.words) << name << ", " << device;
+        EXPECT_EQ(render(scene, config, {.threads = 3}).counters, skipped.counters);
+        // The whole stream, of which no splat is left out.
+        cmodel::CullCounts counts;
+        const DeviceRender whole = run_device(
+            scene, config,
+            [&](cmodel::PixelSink& pixels) {
+              return std::make_unique<cmodel::Model>(config, cmodel::StreamScope::Subset, pixels);
+            },
+            {}, [&](cmodel::Device& model) { counts = dynamic_cast<cmodel::Model&>(model).culls(); });
+        EXPECT_EQ(whole.frame.words, off.frame.words) << name << ", " << device;
+        EXPECT_EQ(whole.counters, skipped.counters) << name << ", " << device;
+        EXPECT_EQ(whole.report.splat_records, off.report.splat_records) << name << ", " << device;
+        EXPECT_EQ(whole.counters.splats + counts.swallowed, off.counters.splats) << name << ", " << device;
+        EXPECT_EQ(skipped.report.splat_records, whole.report.splat_records - counts.swallowed);
+        EXPECT_EQ(off.counters.cull_blocks, 0U);
+        if (name == "xray") {
+          EXPECT_EQ(counts, cmodel::CullCounts{});
+        }
+        sets += counts.hidden_sets, swallowed += counts.swallowed, hidden += counts.hidden_splats;
+      }
+    }
+  }
+  figure("sets hidden", static_cast<double>(sets));
+  figure("splats swallowed", static_cast<double>(swallowed));
+  figure("splats hidden one by one", static_cast<double>(hidden));
+  EXPECT_GT(sets, 100U);
+  EXPECT_GT(swallowed, 10000U);
+  EXPECT_GT(hidden, 1000U);
+}
+
+TEST(CulledFrames, LogsAreThoseOfTheWholeStream) {
+  const auto scene = scene::build_scene(opaque());
+  for (const CullMap map : {CullMap::Off, CullMap::Block, CullMap::Pixel}) {
+    const cmodel::Config config = culling("small", map);
+    const CompiledFrame compiled(scene, config);
+    const CullRun one = run_culls(compiled, 1), three = run_culls(compiled, 3);
+    cmodel::NullPixels nowhere;
+    cmodel::CullLog log;
+    cmodel::Model model(config, cmodel::StreamScope::Subset, nowhere);
+    model.log_culls(&log);
+    compiled.emit([&](std::span<const cmodel::Beat> beats) { model.consume(beats); });
+    EXPECT_EQ(one.log, log);
+    EXPECT_EQ(one.log, three.log);
+    EXPECT_EQ(one.counts, three.counts);
+    EXPECT_EQ(log.size() > 0, config.culls());
+  }
+}
+
+/// What the cycle model counts of a scene, and the model.
+TEST(CulledFrames, CycleModelCountsWhatTheModelCounts) {
+  for (const auto& [name, description] : scenes()) {
+    const auto scene = scene::build_scene(description);
+    for (const CullMap map : {CullMap::Block, CullMap::Pixel}) {
+      const cmodel::Config config = culling("base", map);
+      const CompiledFrame compiled(scene, config);
+      const CullRun run = run_culls(compiled);
+      cmodel::CycleOptions options{.culls = &run.log};
+      cmodel::CycleModel sent(config, cmodel::StreamScope::Subset, options);
+      options.fetch = cmodel::Fetch{20};
+      cmodel::CycleModel fetched(config, cmodel::StreamScope::Subset, options);
+      compiled.emit([&](std::span<const cmodel::Beat> beats) { sent.consume(beats), fetched.consume(beats); });
+      for (cmodel::CycleModel* model : {&sent, &fetched}) {
+        model->finish();
+        const cmodel::Counters& counts = model->counters();
+        EXPECT_EQ(counts.splats, run.counters.splats) << name;
+        EXPECT_EQ(counts.windows, run.counters.windows) << name;
+        EXPECT_EQ(counts.sheets, run.counters.sheets) << name;
+        EXPECT_EQ(counts.cull_blocks, run.counters.cull_blocks) << name;
+        EXPECT_EQ(counts.dirty_blocks, run.counters.dirty_blocks) << name;
+        EXPECT_EQ(model->account().total(), model->stalls().busy) << name;
+      }
+      EXPECT_LE(fetched.sent_beats(), sent.sent_beats());
+      if (name == "opaque") {
+        EXPECT_LT(fetched.stalls().busy, sent.stalls().busy);
+      }
+    }
+  }
+}
+
+TEST(CulledFrames, CostNextToNothingWhereNothingHides) {
+  // So thin that no pixel freezes.
+  auto description = view_of("shells:96", 256);  // whole tiles: what lies beside one is hidden, too
+  description.opacity_scale = 0.02;
+  const auto rows = cull_table(scene::build_scene(description), load_config("base"), 40);
+  ASSERT_EQ(rows.size(), 5U);
+  for (const CullRow& row : rows) {
+    const double cost = static_cast<double>(row.cycles) / static_cast<double>(rows[0].cycles) - 1.0;
+    figure("nothing hides, " + row.map + (row.fetch ? ", fetch" : "") + ": cost", 100.0 * cost, "%");
+    EXPECT_EQ(row.counters.splats, rows[0].counters.splats);
+    if (row.map == "block") {
+      EXPECT_LE(cost, 0.01);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fastsplat::driver

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "cmodel/model.hpp"
 #include "cmodel/stream_rules.hpp"
+#include "cmodel/sv_package.hpp"
 #include "tests/cmodel/campaign_helper.hpp"
 #include "tests/cmodel/random_stream_helper.hpp"
 #include "tests/cmodel/stream_writer_helper.hpp"
@@ -216,6 +217,17 @@ TEST(CullingRule, WordsOfTheTableAreModular) {
               static_cast<unsigned long long>(hidden));
   EXPECT_GT(hidden, tests / 10);
   EXPECT_LT(hidden, tests * 9 / 10);
+}
+
+TEST(CullingRule, TheRtlHasNone) {
+  for (const CullMap map : {CullMap::Off, CullMap::Block, CullMap::Pixel}) {
+    const auto wrong = cmodel::rtl_violation(culling(named_config("tiny"), map));
+    ASSERT_EQ(wrong.has_value(), map != CullMap::Off);
+    if (!wrong) continue;
+    EXPECT_EQ(wrong->where, "cull.map");
+    EXPECT_EQ(wrong->got, map == CullMap::Block ? "block" : "pixel");
+    std::printf("[figure] %s\n", one_line(*wrong).c_str());
+  }
 }
 
 /// A sheet of three splats in a row and what stands before each of them.

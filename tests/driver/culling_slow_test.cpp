@@ -51,6 +51,48 @@ TEST(CulledHead, IsTheSamePictureInFewerCycles) {
   }
 }
 
+struct Goal {
+  const char* name;
+  const char* volume;
+  const char* transfer_function;
+  int size;
+  double opacity_scale;
+  double times_fewer;  ///< with blocks and a source that jumps, at least
+  double cost;         ///< at most, where every beat is sent
+};
+/// From much that hides to nothing (docs/culling.md). Thin fibres hide little: what lies between them stays open.
+const Goal kGoals[] = {
+    {"solid", "binary-cube:256", "binary", 512, 20.0, 4.0, 0.01},
+    {"opaque", "shells:128", "default", 512, 20.0, 2.2, 0.01},
+    {"256^3", "shells:256", "default", 512, 20.0, 2.5, 0.01},
+    {"fibres", "fire:128", "fire", 512, 1.0, 0.99, 0.01},
+    {"transparent", "shells:128", "default", 512, 0.05, 0.99, 0.01},
+};
+
+class CulledScenes : public ::testing::TestWithParam<Goal> {};
+
+TEST_P(CulledScenes, TakeFewerCyclesOrHardlyMore) {
+  const Goal& goal = GetParam();
+  auto description = view_of(goal.volume, goal.size, goal.transfer_function);
+  description.opacity_scale = goal.opacity_scale;
+  const auto rows = cull_table(scene::build_scene(description), load_config("base"), kLatency, 0);
+  tell(goal.name, rows);
+  ASSERT_EQ(rows.size(), 5U);
+  const auto off = static_cast<double>(rows[0].cycles);
+  for (const CullRow& row : rows) {
+    EXPECT_LE(static_cast<double>(row.cycles), off * (1.0 + goal.cost)) << row.map;
+    if (row.fetch) {
+      EXPECT_GE(off, goal.times_fewer * static_cast<double>(row.cycles)) << row.map;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Goals, CulledScenes, ::testing::ValuesIn(kGoals), [](const auto& of) {
+  std::string name = of.param.name;
+  std::erase_if(name, [](char c) { return c == '^'; });
+  return name;
+});
+
 /// Of this thread alone.
 double processor_seconds() {
   timespec at{};

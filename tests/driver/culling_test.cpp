@@ -154,9 +154,7 @@ TEST(CulledFrames, CostNextToNothingWhereNothingHides) {
     const double cost = static_cast<double>(row.cycles) / static_cast<double>(rows[0].cycles) - 1.0;
     figure("nothing hides, " + row.map + (row.fetch ? ", fetch" : "") + ": cost", 100.0 * cost, "%");
     EXPECT_EQ(row.counters.splats, rows[0].counters.splats);
-    if (row.map == "block") {
-      EXPECT_LE(cost, 0.01);
-    }
+    EXPECT_LE(cost, 0.01);
   }
 }
 

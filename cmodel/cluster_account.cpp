@@ -17,7 +17,7 @@ FrameShares frame_shares(const Config& config, const CycleCluster& cluster) {
   for (const DeviceCycles& device : cluster.devices()) {
     const CycleAccount& account = device.account;
     shares.work += account.ideal;
-    shares.fill += start + account.table_load + account.records + account.sheet_buffer + account.drain;
+    shares.fill += start + account.table_load + account.records + account.sheet_buffer + account.drain + account.hazard;
     shares.bandwidth += account.input + device.idle - start;
     shares.pixel_out += account.pixels + account.output;
     shares.tail += frame - device.end;

@@ -38,6 +38,7 @@ CycleAccount Accountant::account() const {
   out.drain = pauses_[index(Pause::Drain)];
   out.input = pauses_[index(Pause::Input)];
   out.records = pauses_[index(Pause::Records)];
+  out.hazard = pauses_[index(Pause::Hazard)];
   return out;
 }
 

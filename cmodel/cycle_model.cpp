@@ -1,6 +1,7 @@
 #include "cmodel/cycle_model.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "cmodel/cycle_stages.hpp"
 #include "cmodel/ellipse_unit.hpp"
@@ -14,13 +15,6 @@ std::uint64_t wipe_cycles(const Config& config) {
 }
 
 std::optional<ErrorParts> cycle_violation(const Config& config) {
-  if (config.composite_every_sample != 0) {
-    return ErrorParts{.where = "composite.every_sample",
-                      .what = "cycles are counted of sheets only",
-                      .expected = "0",
-                      .got = std::to_string(config.composite_every_sample),
-                      .fix = "use a configuration without it"};
-  }
   if (config.has_phases()) return std::nullopt;  // a window a cycle, like the RLUT's
   return ErrorParts{.where = "index.kind",
                     .what = "goes along scan lines, and cycles are counted for all P x P pixels at once",
@@ -155,22 +149,42 @@ void CycleModel::ellipse(const EllipseRecord& record, std::uint64_t at) {
             static_cast<std::int32_t>(windows.rows) * config_.lanes);
 }
 
+std::uint64_t CycleModel::issue(std::uint64_t at, std::int32_t x, std::int32_t y) {
+  if (!every_sample(tile_.mode) || at >= window_issued_ + stages::kHazard) return at;
+  const bool over = std::abs(x - window_x_) < config_.lanes && std::abs(y - window_y_) < config_.lanes;
+  if (!over) return at;
+  const std::uint64_t done = window_issued_ + stages::kHazard;
+  stalls_.stall_hazard += done - at;
+  accountant_.pause(Pause::Hazard, at, done);
+  return done;
+}
+
 void CycleModel::footprint(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y, std::int32_t width,
                            std::int32_t height) {
-  dirty_.mark(x, y, width, height);
+  const bool samples = every_sample(tile_.mode);
+  if (!samples) dirty_.mark(x, y, width, height);
   const std::uint64_t windows =
       static_cast<std::uint64_t>(width / config_.lanes) * static_cast<std::uint64_t>(height / config_.lanes);
   ++counters_.splats;
   counters_.windows += windows;
   sheet_.windows += windows;
-  leave(at, at + windows - 1);
+  const std::uint64_t since = at;
+  at = issue(at, x, y);
+  window_issued_ = at + windows - 1;
+  window_x_ = x + width - config_.lanes;
+  window_y_ = y + height - config_.lanes;
+  leave(since, window_issued_);
   if (options_.taps == nullptr) return;
   at += delay_;
   tap(Tap::Snap, at + stages::kSnap, tag, x, y);
   for (std::int32_t row = 0; row < height; row += config_.lanes) {
     for (std::int32_t column = 0; column < width; column += config_.lanes, ++at) {
       tap(Tap::Footprint, at + stages::kFootprint, tag, x + column, y + row);
-      tap(Tap::Sheet, at + stages::kSheet, tag, x + column, y + row);
+      if (samples) {
+        tap(Tap::Composite, at + stages::kSample, tag, x + column, y + row);
+      } else {
+        tap(Tap::Sheet, at + stages::kSheet, tag, x + column, y + row);
+      }
     }
   }
 }
@@ -185,6 +199,7 @@ void CycleModel::begin_tile(const BeginTile& record, std::uint64_t at) {
   dirty_.begin_tile(record.width, record.height);
   span_ = {.tile = record.tile, .begun = done};
   sheet_ = {};
+  window_issued_ = 0;
 }
 
 void CycleModel::begin_sheet(const BeginSheet& record, std::uint64_t at) {

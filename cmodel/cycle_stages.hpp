@@ -19,6 +19,9 @@ inline std::uint64_t splat_delay(const Config& config) { return config.has_ellip
 inline constexpr std::uint64_t kSnap = 2;       ///< c1: the snapped origin
 inline constexpr std::uint64_t kFootprint = 7;  ///< c6: weights and products
 inline constexpr std::uint64_t kSheet = 10;     ///< W: sums written
+inline constexpr std::uint64_t kSample = 12;    ///< k6: every sample composited, new state
+/// Every sample: a window over another one is issued so much later at the earliest.
+inline constexpr std::uint64_t kHazard = 2;
 
 // From the cycle in which decode carries out end_sheet.
 inline constexpr std::uint64_t kWalk = 12;  ///< first pick, if the compositor is idle

@@ -183,7 +183,7 @@ class Generator {
     std::uint64_t in_tile = std::min(left_, tile_splats);
     left_ -= in_tile;
     auto number = static_cast<std::uint32_t>(random_.between(0, 5));
-    hot_ = place();
+    hot_ = before_ = last_ = place();
     auto sheet = static_cast<std::uint64_t>(random_.between(0, kSheetSizes - 1));
     while (in_tile > 0) {
       const std::uint64_t count = std::min(in_tile, sheet_size(sheet++));

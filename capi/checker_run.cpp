@@ -5,6 +5,7 @@
 
 #include "base/hash_text.hpp"
 #include "capi/handles.hpp"
+#include "cmodel/register_fields.hpp"
 #include "testbench/device/port_bits.hpp"
 
 namespace fastsplat::capi {
@@ -98,11 +99,11 @@ void CheckerRun::showed(const char* call, const fastsplat_shown& shown) {
 
 void CheckerRun::finish(const char* call, std::span<const std::uint64_t> counters) {
   require_open(call);
-  const std::size_t count = counters.size();
-  if (count != 0 && count != FASTSPLAT_MODEL_COUNTERS && count != FASTSPLAT_COUNTERS_ALL)
-    misuse(call, "wrong number of counters", "0, 16 or 21", number(count));
-  if (checker_.started() && count != FASTSPLAT_COUNTERS_ALL)
-    misuse(call, "cycles are compared, and their counters are missing", "21 counters", number(count));
+  const std::size_t count = counters.size(), all = cmodel::counters_of(setup_.config);
+  if (count != 0 && count != FASTSPLAT_MODEL_COUNTERS && count != all)
+    misuse(call, "wrong number of counters", "0, 16 or " + number(all), number(count));
+  if (checker_.started() && count != all)
+    misuse(call, "cycles are compared, and their counters are missing", number(all) + " counters", number(count));
   if (count == 0) {
     checker_.finish();
   } else {
@@ -112,8 +113,9 @@ void CheckerRun::finish(const char* call, std::span<const std::uint64_t> counter
 #define X(name, meaning) work.name = *value++;
     FASTSPLAT_COUNTERS(X)
 #undef X
-    if (count == FASTSPLAT_COUNTERS_ALL) {
-#define X(name, counter, meaning) cycles.name = *value++;
+    if (count == all) {
+#define X(name, counter, meaning) \
+  if (cmodel::has_counter(setup_.config, #counter)) cycles.name = *value++;
       FASTSPLAT_STALL_COUNTERS(X)
 #undef X
     }

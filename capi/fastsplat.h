@@ -135,6 +135,8 @@ FASTSPLAT_API fastsplat_status fastsplat_model_next_tile(fastsplat_model* model,
 
 /// What the model counts, then the cycle counters that only a device has.
 enum { FASTSPLAT_MODEL_COUNTERS = 16, FASTSPLAT_COUNTERS_ALL = 21 };
+/// Those of a device with composite.every_sample = 1, which counts one more.
+enum { FASTSPLAT_COUNTERS_EVERY_SAMPLE = 22 };
 
 /// Name of counter `index`, "splats"; FASTSPLAT_NONE behind the last. The text lives as long as the library.
 FASTSPLAT_API fastsplat_status fastsplat_counter_name(size_t index, const char** out);
@@ -210,7 +212,7 @@ FASTSPLAT_API fastsplat_status fastsplat_checker_showed(fastsplat_checker* check
 FASTSPLAT_API fastsplat_status fastsplat_checker_stopped(const fastsplat_checker* checker, int32_t* stopped);
 
 /// The device has come to rest. Its counters, `count` of them: 0 (values NULL: not compared), FASTSPLAT_MODEL_COUNTERS,
-/// or, after fastsplat_checker_start always, FASTSPLAT_COUNTERS_ALL. Once. FASTSPLAT_OK is a pass; FASTSPLAT_FAILED one
+/// or, after fastsplat_checker_start always, all that its configuration has. Once. FASTSPLAT_OK is a pass; FASTSPLAT_FAILED one
 /// that failed or compared no tap; FASTSPLAT_INPUT a stream that may not end there.
 FASTSPLAT_API fastsplat_status fastsplat_checker_finish(fastsplat_checker* checker, const uint64_t* values,
                                                         size_t count);

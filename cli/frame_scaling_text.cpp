@@ -62,7 +62,8 @@ std::string help_against_fill(const FrameScaling& scaling) {
       {a.records,
        "most of it are records of sheets and tiles: thicker slabs (--slab-width) or larger tiles make fewer"},
       {a.sheet_buffer, "most of it are sheets that wait for a buffer: thicker slabs (--slab-width) make longer sheets"},
-      {a.drain, "most of it are pipes that run empty at the end of each tile: larger tiles make fewer ends"}};
+      {a.drain, "most of it are pipes that run empty at the end of each tile: larger tiles make fewer ends"},
+      {a.hazard, "most of it are windows over the one before them, which every sample of its own has to wait for"}};
   return std::max_element(std::begin(parts), std::end(parts),
                           [](const Part& x, const Part& y) { return x.cycles < y.cycles; })
       ->text;

@@ -35,6 +35,7 @@ driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config&
     return plain;
   };
   run.emplace();
+  run->config = config;
   return driver::run_device(scene, config, device, options, [&](cmodel::Device& finished) {
     run->stalls = rtl->cycle_counters();
     run->last_cycle = rtl->cycles();
@@ -79,7 +80,8 @@ std::string to_text(const RtlRun& run) {
 nlohmann::ordered_json to_json(const RtlRun& run) {
   nlohmann::ordered_json json{{"cycles_rtl", run.stalls.busy}};
   if (run.check) json["cycles_model"] = optional_json(run.check->cycles_model);
-  run.stalls.for_each([&](const char* name, std::uint64_t value, const char*) { json["cycles"][name] = value; });
+  run.stalls.for_each(run.config,
+                      [&](const char* name, std::uint64_t value, const char*) { json["cycles"][name] = value; });
   if (!run.check) return json;
   json["check"] = {{"comparisons", run.check->comparisons},
                    {"mismatches", run.check->mismatches},

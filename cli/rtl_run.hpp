@@ -17,6 +17,7 @@ enum class Checking { Off, EveryTap };
 
 /// A frame of the RTL: its cycles and, if checked, the checker's report.
 struct RtlRun {
+  cmodel::Config config;
   cmodel::StallCounters stalls;
   std::optional<testbench::CheckReport> check;
   std::string difference;        ///< first one, in words

@@ -18,11 +18,12 @@ namespace {
 /// UserError (Usage) where the fault is not in this configuration's RTL.
 const testbench::PlantedFault& fault_of(const VerifyArguments& arguments, const cmodel::Config& config) {
   const auto& fault = testbench::planted_fault_from(arguments.fault);
-  const auto breakable = cmodel::config_hash(driver::load_config(testbench::kBreakableConfig));
+  const std::string name = testbench::breakable_config(fault);
+  const auto breakable = cmodel::config_hash(driver::load_config(name));
   if (fault.where == testbench::PlantedFault::Where::Rtl && cmodel::config_hash(config) != breakable) {
     throw_usage(
         {.where = "--fault " + arguments.fault,
-         .what = "is only in the RTL of configuration " + std::string(testbench::kBreakableConfig),
+         .what = "is only in the RTL of configuration " + name,
          .expected = hash_text(breakable),
          .got = config.name + " " + hash_text(cmodel::config_hash(config)),
          .fix = "leave out --config, or plant a fault at the ports, which any configuration takes: --fault list"});

@@ -1,7 +1,8 @@
 # The RTL with line coverage and cover points counted. Built only for the program that closes coverage (`./run coverage`).
 #   tiny      the smallest named configuration
 #   mustfail  what tiny does not have: centres that are rounded, two radius sets, early freezing
-set(FASTSPLAT_COVERED_CONFIGS tiny mustfail)
+#   westover  what neither has: every sample composited
+set(FASTSPLAT_COVERED_CONFIGS tiny mustfail westover)
 set(declarations "")
 set(entries "")
 add_library(fastsplat_covered_rtl STATIC EXCLUDE_FROM_ALL)

@@ -18,7 +18,7 @@ FrameShares frame_shares(const Config& config, const CycleCluster& cluster) {
     const CycleAccount& account = device.account;
     shares.work += account.ideal;
     shares.fill += start + account.table_load + account.records + account.sheet_buffer + account.drain +
-                   account.hidden + account.map;
+                   account.hazard + account.hidden + account.map;
     shares.bandwidth += account.input + device.idle - start;
     shares.pixel_out += account.pixels + account.output;
     shares.tail += frame - device.end;

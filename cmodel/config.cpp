@@ -370,6 +370,11 @@ std::optional<ErrorParts> first_violation(const Config& config) {
         "use " + std::to_string(
                      std::min(block, static_cast<int>(std::bit_floor(static_cast<unsigned>(config.composite_lanes))))));
   }
+  if (config.composite_every_sample != 0 && config.composited_at_once() != block) {
+    return violation("composite.lanes", "makes slices of a block, and every sample is composited at once",
+                     "0 or array.lanes^2 = " + std::to_string(block) + " with composite.every_sample = 1",
+                     config.composite_lanes, "use composite.lanes = 0, or composite.every_sample = 0");
+  }
   if (auto found = index_violation(config)) return found;
   return ellipse_violation(config);
 }

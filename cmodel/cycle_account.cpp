@@ -40,6 +40,7 @@ CycleAccount Accountant::account() const {
   out.map = pauses_[index(Pause::Map)];
   out.hidden = pauses_[index(Pause::Hidden)];
   out.records = pauses_[index(Pause::Records)];
+  out.hazard = pauses_[index(Pause::Hazard)];
   return out;
 }
 

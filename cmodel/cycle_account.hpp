@@ -17,6 +17,7 @@ namespace fastsplat::cmodel {
   X(sheet_buffer, "begin_sheet waits for a buffer, beyond the compositor's ideal")                           \
   X(map, "begin_sheet waits for the map of opaque cells")                                                    \
   X(drain, "end_tile waits for the pipes: fill and drain of splat path and compositor")                      \
+  X(hazard, "every sample: a window waits for the one before, which it lies over")                           \
   X(pixels, "the picture goes out")                                                                          \
   X(output, "a pixel beat waits: the sink was not ready")
 // clang-format on
@@ -28,13 +29,17 @@ struct CycleAccount {
 
   std::uint64_t total() const {
     std::uint64_t sum = 0;
-    for_each([&sum](const char*, std::uint64_t value, const char*) { sum += value; });
+#define X(name, meaning) sum += name;
+    FASTSPLAT_CYCLE_KINDS(X)
+#undef X
     return sum;
   }
-  /// visit(name, cycles, meaning) in the order above.
+  /// visit(name, cycles, meaning) in the order above; `hazard`, which only tiles of every sample know, where there is
+  /// any.
   template <class Visit>
   void for_each(Visit visit) const {
-#define X(name, meaning) visit(#name, name, meaning);
+#define X(name, meaning) \
+  if (&CycleAccount::name != &CycleAccount::hazard || hazard != 0) visit(#name, name, meaning);
     FASTSPLAT_CYCLE_KINDS(X)
 #undef X
   }
@@ -49,8 +54,8 @@ struct CycleAccount {
 
 /// What decode does in a cycle in which it issues no window; the order is that in which ideal compositing cycles are
 /// taken out of them.
-enum class Pause : std::uint8_t { Buffer, Drain, Map, Input, Hidden, Records };
-inline constexpr std::size_t kPauses = 6;
+enum class Pause : std::uint8_t { Buffer, Drain, Map, Input, Hidden, Records, Hazard };
+inline constexpr std::size_t kPauses = 7;
 
 /// Splits the cycles of one tile after another. Half-open spans [from, to) in rising order.
 class Accountant {

@@ -1,6 +1,7 @@
 #include "cmodel/cycle_model.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <stdexcept>
 
 #include "cmodel/cycle_stages.hpp"
@@ -15,13 +16,6 @@ std::uint64_t wipe_cycles(const Config& config) {
 }
 
 std::optional<ErrorParts> cycle_violation(const Config& config) {
-  if (config.composite_every_sample != 0) {
-    return ErrorParts{.where = "composite.every_sample",
-                      .what = "cycles are counted of sheets only",
-                      .expected = "0",
-                      .got = std::to_string(config.composite_every_sample),
-                      .fix = "use a configuration without it"};
-  }
   if (config.has_phases()) return std::nullopt;  // a window a cycle, like the RLUT's
   return ErrorParts{.where = "index.kind",
                     .what = "goes along scan lines, and cycles are counted for all P x P pixels at once",
@@ -201,6 +195,16 @@ void CycleModel::ellipse(const EllipseRecord& record, std::uint64_t at) {
             static_cast<std::int32_t>(windows.rows) * config_.lanes);
 }
 
+std::uint64_t CycleModel::issue(std::uint64_t at, std::int32_t x, std::int32_t y) {
+  if (!every_sample(tile_.mode) || at >= window_issued_ + stages::kHazard) return at;
+  const bool over = std::abs(x - window_x_) < config_.lanes && std::abs(y - window_y_) < config_.lanes;
+  if (!over) return at;
+  const std::uint64_t done = window_issued_ + stages::kHazard;
+  stalls_.stall_hazard += done - at;
+  accountant_.pause(Pause::Hazard, at, done);
+  return done;
+}
+
 void CycleModel::footprint(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y, std::int32_t width,
                            std::int32_t height) {
   ++counters_.splats;
@@ -220,10 +224,15 @@ void CycleModel::footprint(std::uint64_t at, std::uint32_t tag, std::int32_t x, 
       }
     }
   }
-  dirty_.mark(x, y, width, height);
+  if (!every_sample(tile_.mode)) dirty_.mark(x, y, width, height);
   counters_.windows += windows;
   sheet_.windows += windows;
-  leave(at, at + windows - 1);
+  const std::uint64_t since = at;
+  at = issue(at, x, y);
+  window_issued_ = at + windows - 1;
+  window_x_ = x + width - config_.lanes;
+  window_y_ = y + height - config_.lanes;
+  leave(since, window_issued_);
   if (options_.taps == nullptr) return;
   at += delay_;
   tap(Tap::Snap, at + stages::kSnap, tag, x, y);
@@ -234,7 +243,11 @@ void CycleModel::footprint(std::uint64_t at, std::uint32_t tag, std::int32_t x, 
 
 void CycleModel::window(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y) const {
   tap(Tap::Footprint, at + stages::kFootprint, tag, x, y);
-  tap(Tap::Sheet, at + stages::kSheet, tag, x, y);
+  if (every_sample(tile_.mode)) {
+    tap(Tap::Composite, at + stages::kSample, tag, x, y);
+  } else {
+    tap(Tap::Sheet, at + stages::kSheet, tag, x, y);
+  }
 }
 
 void CycleModel::some_windows(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y, std::int32_t width,
@@ -273,6 +286,7 @@ void CycleModel::begin_tile(const BeginTile& record, std::uint64_t at) {
   dirty_.begin_tile(record.width, record.height);
   span_ = {.tile = record.tile, .begun = done};
   sheet_ = {};
+  window_issued_ = 0;
   answers_ = nullptr;
   answered_ = 0;
   cull_sheet_ = 0;

@@ -129,6 +129,8 @@ class CycleModel final : public Device {
   void leave(std::uint64_t since, std::uint64_t at);
   void splat(const SplatRecord& record, std::uint64_t at);
   void ellipse(const EllipseRecord& record, std::uint64_t at);
+  /// The cycle in which a record's first window, at (x,y), is issued; accounts for its wait (every sample).
+  std::uint64_t issue(std::uint64_t at, std::int32_t x, std::int32_t y);
   /// A splat's windows, the first at (x,y): width x height pixels.
   void footprint(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y, std::int32_t width,
                  std::int32_t height);
@@ -174,6 +176,8 @@ class CycleModel final : public Device {
   SheetCycles sheet_;
   TileCycles span_;
   std::size_t buffer_ = 0;
+  std::uint64_t window_issued_ = 0;  ///< the last window: its cycle, and its first pixel
+  std::int32_t window_x_ = 0, window_y_ = 0;
   std::array<std::uint64_t, 2> buffer_free_{};  ///< cycle from which begin_sheet may take it
   std::uint64_t walk_free_ = 0;                 ///< earliest first pick of the next sheet
   std::uint64_t compositor_idle_ = 0;           ///< cycle from which it has nothing to do

@@ -22,6 +22,9 @@ inline constexpr std::size_t kCullStages = 4;  ///< t0 .. t3
 inline constexpr std::uint64_t kSnap = 2;       ///< c1: the snapped origin
 inline constexpr std::uint64_t kFootprint = 7;  ///< c6: weights and products
 inline constexpr std::uint64_t kSheet = 10;     ///< W: sums written
+inline constexpr std::uint64_t kSample = 12;    ///< k6: every sample composited, new state
+/// Every sample: a window over another one is issued so much later at the earliest.
+inline constexpr std::uint64_t kHazard = 2;
 
 // From the cycle in which decode carries out end_sheet.
 inline constexpr std::uint64_t kWalk = 12;  ///< first pick, if the compositor is idle

@@ -1,5 +1,7 @@
 #include "cmodel/register_fields.hpp"
 
+#include <algorithm>
+
 #include "cmodel/counters.hpp"
 #include "cmodel/stall_counters.hpp"
 
@@ -117,6 +119,11 @@ std::vector<CounterEntry> counter_entries() {
   FASTSPLAT_STALL_COUNTERS(X)
 #undef X
   return out;
+}
+
+std::size_t counters_of(const Config& config) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      counter_entries(), [&](const CounterEntry& counter) { return has_counter(config, counter.name); }));
 }
 
 }  // namespace fastsplat::cmodel

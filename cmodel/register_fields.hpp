@@ -46,5 +46,7 @@ struct CounterEntry {
   const char* says;
 };
 std::vector<CounterEntry> counter_entries();
+/// How many of them, the first, a device of this configuration has.
+std::size_t counters_of(const Config& config);
 
 }  // namespace fastsplat::cmodel

@@ -3,18 +3,27 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
+
+#include "cmodel/config.hpp"
 
 namespace fastsplat::cmodel {
 
 // clang-format off
-/// X(name, register, what it counts)
+/// X(name, register, what it counts). The last one is of devices with composite.every_sample = 1 only: has_counter().
 #define FASTSPLAT_STALL_COUNTERS(X)                                     \
   X(busy, CYCLES, "cycles")                                             \
   X(stall_input, STALL_INPUT, "cycles without input")                   \
   X(stall_table, STALL_TABLE, "cycles of table words")                  \
   X(stall_buffer, STALL_BUFFER, "cycles of waiting for a sheet buffer") \
-  X(stall_tile, STALL_TILE, "cycles of waiting between tiles")
+  X(stall_tile, STALL_TILE, "cycles of waiting between tiles")          \
+  X(stall_hazard, STALL_HAZARD, "cycles of windows that wait for the one before (composite.every_sample = 1)")
 // clang-format on
+
+/// The device of this configuration has a counter of that register name.
+inline bool has_counter(const Config& config, std::string_view counter) {
+  return config.composite_every_sample != 0 || counter != "STALL_HAZARD";
+}
 
 struct StallCounters {
 #define X(name, counter, meaning) std::uint64_t name = 0;
@@ -29,10 +38,11 @@ struct StallCounters {
   }
   bool operator==(const StallCounters&) const = default;
 
-  /// visit(name, value, meaning) in the order above.
+  /// visit(name, value, meaning) in the order above, of those that the configuration has.
   template <class Visit>
-  void for_each(Visit visit) const {
-#define X(name, counter, meaning) visit(#name, name, meaning);
+  void for_each(const Config& config, Visit visit) const {
+#define X(name, counter, meaning) \
+  if (has_counter(config, #counter)) visit(#name, name, meaning);
     FASTSPLAT_STALL_COUNTERS(X)
 #undef X
   }

@@ -74,8 +74,6 @@ std::optional<ErrorParts> rtl_violation(const Config& config) {
                       .got = text_of(config, *find_key("cull.map")),
                       .fix = "use the model for this configuration"};
   }
-  if (config.composite_every_sample != 0)
-    return refuse("composite.every_sample", "the RTL composites sheets only", "0", config.composite_every_sample);
   if (config.has_ellipses() && config.position_frac_bits < 1)
     return refuse("position.frac_bits", "the RTL's ellipses need a fraction bit", "at least 1",
                   config.position_frac_bits);
@@ -166,6 +164,7 @@ std::string sv_package(const Config& config) {
   p.number("COMPOSITE_LANES", config.composited_at_once());
   p.number("SLICES", config.slices());
   p.number("SLICE_BITS", bits_for(config.slices() - 1));
+  p.number("EVERY_SAMPLE", config.composite_every_sample);
   p.number("PIXEL_BITS", config.pixel_int_bits + config.pixel_frac_bits);
 
   p.section("narrowing sites: fraction bits dropped, 0 TRN 1 RND 2 RND_CONV, 1 where the word is One.f");
@@ -209,9 +208,9 @@ std::string sv_package(const Config& config) {
                               std::int64_t{config.radial_entries}, std::int64_t{config.opacity_segments} + 1})));
 
   p.section("counters, in the model's order, then cycles");
-  int counters = 0;
+  std::int64_t counters = 0;
   for (const CounterEntry& counter : counter_entries()) p.number("CNT_" + counter.name, counters++);
-  p.number("COUNTERS", counters);
+  p.number("COUNTERS", static_cast<std::int64_t>(counters_of(config)));
   p.number("COUNTER_BITS", config.counter_bits);
 
   p.section("registers");

@@ -12,6 +12,8 @@ module fastsplat_composite_lane (
     // k4
     input  logic [4*fastsplat_pkg::STATE_BITS-1:0] slab_i,
     input  logic [4*fastsplat_pkg::STATE_BITS-1:0] state_i,   // C_R, C_G, C_B, T, or the four sums
+    // k5: what state_o is in the next cycle, if k5 holds a block
+    output logic [4*fastsplat_pkg::STATE_BITS-1:0] next_o,
     // k6
     output logic [4*fastsplat_pkg::STATE_BITS-1:0] state_o,
     output logic                                   frozen_o,
@@ -45,6 +47,15 @@ module fastsplat_composite_lane (
     if (valid_i[5]) frozen_o <= frozen_k5_q;
   end
 
+  // k5: X + S; C + light, T - absorbed
+  function automatic logic [DB:0] stepped(input logic sums, input logic frozen, input logic is_transmittance,
+                                          input logic [DB-1:0] state, input logic [DB-1:0] light);
+    if (sums) stepped = sum_to_state(narrow_sum({1'b0, state[SB-1:0]} + {1'b0, light[SB-1:0]}));
+    else if (frozen) stepped = {1'b0, state};
+    else if (is_transmittance) stepped = {1'b0, state - light};
+    else stepped = colour_to_state(narrow_colour({1'b0, state[TB-1:0]} + {1'b0, light[TB-1:0]}));
+  endfunction
+
   for (genvar c = 0; c < 4; c++) begin : gen_channel
     logic [DB-1:0] state_k5_q, light_k5_q;
     always_ff @(posedge clk_i) begin
@@ -55,13 +66,16 @@ module fastsplat_composite_lane (
                       DB'(TB'((c == 3) ? narrow_absorbed((2 * TB)'(transmittance) * (2 * TB)'(slab_i[c*DB+:TB])) :
                                          narrow_light((2 * TB)'(transmittance) * (2 * TB)'(slab_i[c*DB+:TB]))));
       end
-      // k5: X + S; C + light, T - absorbed
-      if (valid_i[5]) begin
-        if (sum_mode) {saturated_o[c], state_o[c*DB+:DB]} <= sum_to_state(narrow_sum({1'b0, state_k5_q[SB-1:0]} + {1'b0, light_k5_q[SB-1:0]}));
-        else if (frozen_k5_q) {saturated_o[c], state_o[c*DB+:DB]} <= {1'b0, state_k5_q};
-        else if (c == 3) {saturated_o[c], state_o[c*DB+:DB]} <= {1'b0, state_k5_q - light_k5_q};
-        else {saturated_o[c], state_o[c*DB+:DB]} <= colour_to_state(narrow_colour({1'b0, state_k5_q[TB-1:0]} + {1'b0, light_k5_q[TB-1:0]}));
-      end
+      if (valid_i[5]) {saturated_o[c], state_o[c*DB+:DB]} <= stepped(sum_mode, frozen_k5_q, c == 3, state_k5_q, light_k5_q);
+    end
+    // Nobody asks for it where only sheets are composited.
+    if (fastsplat_pkg::EVERY_SAMPLE != 0) begin : gen_next
+      logic overflow;
+      assign {overflow, next_o[c*DB+:DB]} = stepped(1'b0, frozen_k5_q, c == 3, state_k5_q, light_k5_q);
+      logic unused;
+      assign unused = &{1'b0, overflow};
+    end else begin : gen_no_next
+      assign next_o[c*DB+:DB] = '0;
     end
   end
   // What is absorbed comes off the transmittance: it never rises and never wraps.

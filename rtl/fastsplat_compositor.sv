@@ -2,6 +2,8 @@
 // P x P block a cycle, clears them behind itself and composites them over the picture (docs/numerics.md, section 6;
 // docs/microarchitecture.md).
 // k0 pick -> k1 sums -> k2 factor -> k3 slope, picture -> k4 slab, state -> k5 products -> k6 new state, written.
+// In a tile that composites every sample the splat array's windows go down the same pipe, their products in place of sums, each bank
+// at an address of its own (fastsplat_sample_places.sv); nothing is dirty then.
 `include "assertions.svh"
 `include "fault.svh"
 
@@ -17,8 +19,17 @@ module fastsplat_compositor (
     input  logic [fastsplat_pkg::ADDR_BITS-1:0]    wipe_addr_i,
     // tile
     input  logic [1:0]                             mode_i,
+    input  logic                                   every_sample_i,
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]    width_i,
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]    height_i,
+    // every sample: a window comes in k0, what it is in k1
+    input  logic                                   sample_valid_i,
+    input  logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::SHEET_BITS-1:0] sample_products_i,
+    input  logic [fastsplat_pkg::LANES*fastsplat_pkg::BLK_BITS-1:0] sample_column_i,
+    input  logic [fastsplat_pkg::LANES*fastsplat_pkg::BLK_BITS-1:0] sample_row_i,
+    input  logic [fastsplat_pkg::LANES-1:0]        sample_inside_x_i,
+    input  logic [fastsplat_pkg::LANES-1:0]        sample_inside_y_i,
+    input  logic [fastsplat_pkg::BANKS-1:0]        sample_weighted_i,
     // dirty marks from the splat path
     input  logic                                   dirty_valid_i,
     input  logic                                   dirty_buffer_i,
@@ -44,14 +55,14 @@ module fastsplat_compositor (
     input  logic [fastsplat_pkg::ADDR_BITS-1:0]    picture_addr_i,
     input  logic [fastsplat_pkg::LANES-1:0]        picture_row_i,     // of the block, one bit each; a cycle later
     output logic [fastsplat_pkg::LANES*4*fastsplat_pkg::STATE_BITS-1:0] picture_o,     // with it
-    // tap, k6 of a block's last slice
+    // tap, k6 of a block's last slice, or of a window
     output logic                                   tap_valid_o,
     output logic [fastsplat_pkg::ADDR_BITS-1:0]    tap_block_o,
     output logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::STATE_BITS-1:0] tap_state_o,
     output logic                                   tap_sheet_o,     // pulse: a sheet's walk ended
     // events of a slice, k6
     output logic                                   event_valid_o,
-    output logic [fastsplat_pkg::COMPOSITE_LANES-1:0]   event_inside_o,  // the tile
+    output logic [fastsplat_pkg::COMPOSITE_LANES-1:0]   event_inside_o,  // the tile; of a window's lanes those of weight
     output logic [fastsplat_pkg::COMPOSITE_LANES-1:0]   event_frozen_o,
     output logic [4*fastsplat_pkg::COMPOSITE_LANES-1:0] event_opacity_saturated_o,
     output logic [4*fastsplat_pkg::COMPOSITE_LANES-1:0] event_saturated_o
@@ -98,14 +109,20 @@ module fastsplat_compositor (
   assign free_buffer_o = sheet_buffer_o;
   assign tap_sheet_o = finish;
 
+  // ---- every sample
+  logic sampling;
+  assign sampling = fastsplat_pkg::EVERY_SAMPLE != 0 && every_sample_i;
+
   // ---- pipe control
+  logic picked;
+  assign picked = issue || (sampling && sample_valid_i);
   logic [6:1] valid_q;
   logic [AB-1:0] addr_q[1:6];
   logic [LB-1:0] slice_q[1:6];
   logic still_q;  // valid_q is 0: what waits for rest waits for no comparison
   always_ff @(posedge clk_i) begin
-    valid_q <= {valid_q[5:1], issue};
-    still_q <= !rst_ni || {valid_q[5:1], issue} == '0;
+    valid_q <= {valid_q[5:1], picked};
+    still_q <= !rst_ni || {valid_q[5:1], picked} == '0;
     if (!rst_ni) valid_q <= '0;
     addr_q[1] <= pick;
     slice_q[1] <= slice;
@@ -141,7 +158,7 @@ module fastsplat_compositor (
     if (valid_q[5]) begin
       for (int g = 0; g < P; g++) begin
         inside_x_q[g] <= (block_x + (SIDE + 2)'(g)) < (SIDE + 2)'(width_i);
-        inside_y_q[g] <= (block_y + (SIDE + 2)'(g)) < (SIDE + 2)'(height_i);
+        inside_y_q[g] <= !sampling && (block_y + (SIDE + 2)'(g)) < (SIDE + 2)'(height_i);
       end
     end
   end
@@ -169,6 +186,37 @@ module fastsplat_compositor (
   logic forward_q;
   always_ff @(posedge clk_i) forward_q <= R == 1 && valid_q[6] && addr_q[6] == addr_q[2];
 
+  // Every sample: by bank, where its pixel lies in k2 and k6, whether it lies in the tile and has a weight in k6, and whether in k3
+  // a window 2, 3 or 4 cycles ago had the same.
+  logic [P*P*AB-1:0] sample_raddr, sample_waddr;
+  logic [P*P-1:0] sample_written, sample_weighted, sample_forward_2, sample_forward_3, sample_forward_4;
+  if (fastsplat_pkg::EVERY_SAMPLE != 0) begin : gen_samples
+    fastsplat_sample_places u_places (
+        .clk_i,
+        .rst_ni,
+        .valid_i(valid_q[6:2] & {5{sampling}}),
+        .column_i(sample_column_i),
+        .row_i(sample_row_i),
+        .inside_x_i(sample_inside_x_i),
+        .inside_y_i(sample_inside_y_i),
+        .weighted_i(sample_weighted_i),
+        .raddr_o(sample_raddr),
+        .forward_2_o(sample_forward_2),
+        .forward_3_o(sample_forward_3),
+        .forward_4_o(sample_forward_4),
+        .waddr_o(sample_waddr),
+        .written_o(sample_written),
+        .weighted_o(sample_weighted)
+    );
+  end else begin : gen_sheets_only
+    assign sample_raddr = '0;
+    assign sample_waddr = '0;
+    assign {sample_written, sample_weighted, sample_forward_2, sample_forward_3, sample_forward_4} = '0;
+    logic unused;
+    assign unused = &{1'b0, every_sample_i, sample_valid_i, sample_products_i, sample_column_i, sample_row_i, sample_inside_x_i,
+                      sample_inside_y_i, sample_weighted_i, sample_weighted, sample_forward_2, sample_forward_3, sample_forward_4};
+  end
+
   // By bank: the picture. Bank b is worked on in slice b / C, by lane b mod C.
   logic [4*DB-1:0] picture[0:P*P-1], shown[0:P*P-1], states[0:C-1];  // k3; k6, of the tap; k6
   for (genvar h = 0; h < P; h++) begin : gen_row
@@ -181,10 +229,10 @@ module fastsplat_compositor (
       fastsplat_ram_1r1w #(.BITS(4 * DB), .WORDS(NB), .ADDR(AB)) u_picture (
           .clk_i,
           .re_i(read || picture_re_i),
-          .raddr_i(picture_raddr),
+          .raddr_i((sampling && !picture_re_i) ? sample_raddr[B*AB+:AB] : picture_raddr),
           .rdata_o(picture[B]),
-          .we_i(wipe_i || (sent_q && picture_row_i[h]) || (written && inside_y_q[h])),
-          .waddr_i(picture_waddr),
+          .we_i(wipe_i || (sent_q && picture_row_i[h]) || (written && inside_y_q[h]) || sample_written[B]),
+          .waddr_i((sampling && !wipe_i && !sent_q) ? sample_waddr[B*AB+:AB] : picture_waddr),
           .wdata_i((wipe_i || sent_q) ? '0 : states[LANE] ^ transparent)
       );
       // The tap shows a whole block: what was made of it in slices before the last is kept.
@@ -203,7 +251,9 @@ module fastsplat_compositor (
   logic [4*DB-1:0] state_k4_q[0:C-1];
   for (genvar c = 0; c < C; c++) begin : gen_lane
     logic [4*SB-1:0] sums;          // k1
-    logic [4*DB-1:0] stored, slab;  // k3, k4
+    logic [4*DB-1:0] stored, slab, next;  // k3, k4, k5
+    logic sample_forwarded;               // k3
+    logic [4*DB-1:0] sample_state;
     logic [3:0] opacity_saturated_k4, opacity_saturated_k5_q, opacity_saturated_k6_q;
     always_comb begin
       sums = sheet_data_i[c*4*SB+:4*SB];
@@ -213,6 +263,10 @@ module fastsplat_compositor (
         if (slice_q[1] == LB'(r)) sums = sheet_data_i[(r*C+c)*4*SB+:4*SB];
         if (slice_q[3] == LB'(r) && !(`FASTSPLAT_FAULT(STALE_SLICE) && r == 1)) stored = picture[r*C+c];
         if (slice_q[6] == LB'(r)) event_inside_o[c] = in_tile[r*C+c];
+      end
+      if (sampling) begin
+        sums = sample_products_i[c*4*SB+:4*SB];
+        event_inside_o[c] = sample_weighted[c];
       end
     end
     fastsplat_slab_opacity u_opacity (
@@ -233,6 +287,7 @@ module fastsplat_compositor (
         .mode_i,
         .slab_i(slab),
         .state_i(state_k4_q[c]),
+        .next_o(next),
         .state_o(states[c]),
         .frozen_o(event_frozen_o[c]),
         .saturated_o(event_saturated_o[4*c+:4])
@@ -240,10 +295,25 @@ module fastsplat_compositor (
     // Forwarded is what was written: rows of the tile. Where a block is one slice, lane c is bank c.
     always_ff @(posedge clk_i) begin
       if (valid_q[3]) state_k4_q[c] <= (forward_q && inside_y_q[c/P]) ? states[c] : stored ^ transparent;
+      if (valid_q[3] && sample_forwarded) state_k4_q[c] <= sample_state;
       if (valid_q[4]) opacity_saturated_k5_q <= opacity_saturated_k4;
       if (valid_q[5]) opacity_saturated_k6_q <= opacity_saturated_k5_q;
     end
     assign event_opacity_saturated_o[4*c+:4] = opacity_saturated_k6_q;
+    // A window's pixel may be that of another one 2, 3 or 4 cycles ago, whose new state is just being made, is in k6, or was
+    // written while this one read. The last of them counts.
+    if (fastsplat_pkg::EVERY_SAMPLE != 0) begin : gen_forward
+      logic [4*DB-1:0] past_q;  // of the cycle before
+      always_ff @(posedge clk_i) if (valid_q[6]) past_q <= states[c];
+      assign sample_forwarded = sample_forward_2[c] || sample_forward_3[c] || sample_forward_4[c];
+      assign sample_state = (sample_forward_4[c] && `FASTSPLAT_FAULT(SAMPLE_OLDEST)) ? past_q :
+                            sample_forward_2[c] ? next : sample_forward_3[c] ? states[c] : past_q;
+    end else begin : gen_no_forward
+      assign sample_forwarded = 1'b0;
+      assign sample_state = '0;
+      logic unused;
+      assign unused = &{1'b0, next};
+    end
   end
   always_comb begin
     picture_o = '0;  // verilator lint_off WIDTHCONCAT
@@ -255,7 +325,7 @@ module fastsplat_compositor (
   end
   assign event_valid_o = valid_q[6];
   assign tap_valid_o = valid_q[6] && (R == 1 || slice_q[6] == LB'(R - 1));
-  assign tap_block_o = addr_q[6];
+  assign tap_block_o = sampling ? '0 : addr_q[6];
 
   `FASTSPLAT_ASSERT(rest_foretold, still_q == (valid_q == '0))
   `FASTSPLAT_ASSERT(picture_sent_when_still, !picture_re_i || idle_o)

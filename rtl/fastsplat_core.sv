@@ -81,6 +81,7 @@ module fastsplat_core (
   logic [31:0] table_index, table_word;
   logic tile_end, tile_open, compositor_idle, pixel_idle;
   logic [1:0] mode;
+  logic every_sample;
   logic [fastsplat_pkg::SIDE_BITS-1:0] width, height;
   logic free, free_buffer;
   logic window_valid, window_last, window_first, window_buffer;
@@ -92,7 +93,7 @@ module fastsplat_core (
   logic window_ellipse;
   logic [fastsplat_pkg::SHAPE_BITS-1:0] window_shape;
   logic [4*fastsplat_pkg::COLOUR_BITS-1:0] window_colour;
-  logic event_splat, event_cull, stall_input, stall_table, stall_buffer, stall_tile;
+  logic event_splat, event_cull, stall_input, stall_table, stall_buffer, stall_tile, stall_hazard;
   logic beat_valid, beat_ready, beat_payload, beat_aborted, check_busy, soft_reset, at_rest;
   logic [fastsplat_pkg::BEAT_BITS-1:0] beat;
   logic [fastsplat_pkg::COL_BITS-1:0] set_extent;
@@ -143,6 +144,7 @@ module fastsplat_core (
       .tile_open_o(tile_open),
       .tile_idle_i(compositor_idle && pixel_idle),
       .mode_o(mode),
+      .every_sample_o(every_sample),
       .tile_number_o(tap_tile_o),
       .width_o(width),
       .height_o(height),
@@ -167,7 +169,8 @@ module fastsplat_core (
       .stall_input_o(stall_input),
       .stall_table_o(stall_table),
       .stall_buffer_o(stall_buffer),
-      .stall_tile_o(stall_tile)
+      .stall_tile_o(stall_tile),
+      .stall_hazard_o(stall_hazard)
   );
 
   logic dirty_valid, dirty_buffer, marked, marked_buffer, done, done_buffer;
@@ -179,6 +182,9 @@ module fastsplat_core (
   logic [1:0] snap_saturated;
   logic [fastsplat_pkg::LANES-1:0] window_inside_x, window_inside_y;
   logic [BANKS-1:0] weighted;
+  logic sample_valid;
+  logic [BANKS*4*fastsplat_pkg::SHEET_BITS-1:0] sample_products;
+  logic [fastsplat_pkg::LANES*fastsplat_pkg::BLK_BITS-1:0] sample_column, sample_row;
   logic [4*BANKS-1:0] product_saturated, sheet_saturated;
   fastsplat_splat_array u_splat (
       .clk_i,
@@ -191,6 +197,7 @@ module fastsplat_core (
       .table_word_i(table_word[fastsplat_pkg::TABLE_BITS-1:0]),
       .width_i(width),
       .height_i(height),
+      .every_sample_i(every_sample),
       .valid_i(window_valid),
       .last_i(window_last),
       .first_window_i(window_first),
@@ -221,6 +228,10 @@ module fastsplat_core (
       .comp_buffer_i(sheet_buffer),
       .comp_addr_i(sheet_addr),
       .comp_data_o(sheet_data),
+      .sample_valid_o(sample_valid),
+      .sample_products_o(sample_products),
+      .sample_column_o(sample_column),
+      .sample_row_o(sample_row),
       .tap_snap_valid_o,
       .tap_snap_tag_o,
       .tap_snap_x_o,
@@ -260,8 +271,16 @@ module fastsplat_core (
       .wipe_i(wiping_q),
       .wipe_addr_i(wipe_addr_q),
       .mode_i(mode),
+      .every_sample_i(every_sample),
       .width_i(width),
       .height_i(height),
+      .sample_valid_i(sample_valid),
+      .sample_products_i(sample_products),
+      .sample_column_i(sample_column),
+      .sample_row_i(sample_row),
+      .sample_inside_x_i(window_inside_x),
+      .sample_inside_y_i(window_inside_y),
+      .sample_weighted_i(weighted),
       .dirty_valid_i(dirty_valid),
       .dirty_buffer_i(dirty_buffer),
       .dirty_column_i(dirty_column),
@@ -334,7 +353,7 @@ module fastsplat_core (
   // What a counter counts: bits set in a cycle.
   logic [4*BANKS-1:0] events[0:fastsplat_pkg::COUNTERS-1];
   always_comb begin
-    for (int n = 0; n < fastsplat_pkg::COUNTERS; n++) events[n] = '0;
+    for (int n = 0; n < fastsplat_pkg::COUNTERS; n++) events[n] = (4 * BANKS)'(n == fastsplat_pkg::CNT_STALL_HAZARD && stall_hazard);
     events[fastsplat_pkg::CNT_SHEETS][0] = tap_sheet_done_o;
     events[fastsplat_pkg::CNT_SPLATS][0] = event_splat;
     events[fastsplat_pkg::CNT_CULL_BLOCKS][0] = event_cull;
@@ -346,7 +365,7 @@ module fastsplat_core (
       events[fastsplat_pkg::CNT_PRODUCT_SATURATED] = product_saturated;
     end
     if (tap_sheet_valid_o && !`FASTSPLAT_FAULT(LOST_COUNT)) events[fastsplat_pkg::CNT_SHEET_SATURATED] = sheet_saturated;
-    events[fastsplat_pkg::CNT_DIRTY_BLOCKS][0] = tap_composite_valid_o;
+    events[fastsplat_pkg::CNT_DIRTY_BLOCKS][0] = tap_composite_valid_o && !every_sample;
     if (slice_valid) begin
       events[fastsplat_pkg::CNT_PIXELS_COMPOSITED][COMPOSITED-1:0] = slice_inside;
       events[fastsplat_pkg::CNT_FROZEN_PIXELS][COMPOSITED-1:0] = slice_inside & slice_frozen;
@@ -432,6 +451,8 @@ module fastsplat_core (
                   fastsplat_pkg::LANES * fastsplat_pkg::LANES)
   `FASTSPLAT_INIT(slices, fastsplat_pkg::SLICES * COMPOSITED == BANKS, "SLICES is %0d, but %0d of COMPOSITE_LANES pixels make a block",
                   fastsplat_pkg::SLICES, BANKS / COMPOSITED)
+  `FASTSPLAT_INIT(every_sample, fastsplat_pkg::EVERY_SAMPLE == 0 || fastsplat_pkg::SLICES == 1,
+                  "EVERY_SAMPLE is %0d, but a block has %0d slices", fastsplat_pkg::EVERY_SAMPLE, fastsplat_pkg::SLICES)
   `FASTSPLAT_INIT(blocks, fastsplat_pkg::BLOCKS == fastsplat_pkg::BLOCKS_X * fastsplat_pkg::BLOCKS_Y,
                   "BLOCKS is %0d, but BLOCKS_X * BLOCKS_Y is %0d", fastsplat_pkg::BLOCKS,
                   fastsplat_pkg::BLOCKS_X * fastsplat_pkg::BLOCKS_Y)

@@ -71,7 +71,9 @@ module fastsplat_record_rules (
   end
 
   logic tile_good, set_good, position_good, ellipse_position_good, colour_good, sides_good;
-  assign tile_good = w0[11:8] <= 4'd2 && w1 < tiles_i && w4[15:0] <= 16'(fastsplat_pkg::TILE_WIDTH) &&
+  logic mode_good;  // 4 and 5: of every sample
+  assign mode_good = w0[11:8] <= 4'd2 || (fastsplat_pkg::EVERY_SAMPLE != 0 && w0[11:9] == 3'd2);
+  assign tile_good = mode_good && w1 < tiles_i && w4[15:0] <= 16'(fastsplat_pkg::TILE_WIDTH) &&
                      w4[31:16] <= 16'(fastsplat_pkg::TILE_HEIGHT) && w2[31:16] == '0 && w3[31:16] == '0 &&
                      17'(w2[15:0]) + 17'(w4[15:0]) <= 17'(image_width_i) && 17'(w3[15:0]) + 17'(w4[31:16]) <= 17'(image_height_i);
   assign sides_good = w4[15:0] != '0 && w4[31:16] != '0;

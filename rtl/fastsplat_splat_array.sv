@@ -16,6 +16,7 @@ module fastsplat_splat_array (
     // tile, held
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]             width_i,
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]             height_i,
+    input  logic                                            every_sample_i,  // windows are composited, not summed up
     // c0
     input  logic                                            valid_i,     // a window
     input  logic                                            last_i,      // an end-of-sheet token; needs no window
@@ -51,6 +52,11 @@ module fastsplat_splat_array (
     input  logic                                            comp_buffer_i,
     input  logic [fastsplat_pkg::ADDR_BITS-1:0]             comp_addr_i,
     output logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::SHEET_BITS-1:0] comp_data_o,
+    // every sample: a window at c5; its products and blocks at c6, with tap_inside and tap_weighted
+    output logic                                            sample_valid_o,
+    output logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::SHEET_BITS-1:0] sample_products_o,
+    output logic [fastsplat_pkg::LANES*fastsplat_pkg::BLK_BITS-1:0] sample_column_o,
+    output logic [fastsplat_pkg::LANES*fastsplat_pkg::BLK_BITS-1:0] sample_row_o,
     // taps
     output logic                                            tap_snap_valid_o,   // c1, first window of a splat
     output logic [31:0]                                     tap_snap_tag_o,
@@ -226,7 +232,9 @@ module fastsplat_splat_array (
       .inside_o(inside_y_c3)
   );
 
-  assign dirty_valid_o = valid_q[3];
+  logic summing;  // into sheets
+  assign summing = fastsplat_pkg::EVERY_SAMPLE == 0 || !every_sample_i;
+  assign dirty_valid_o = valid_q[3] && summing;
   assign dirty_buffer_o = buffer_q[3];
   assign dirty_column_o = block_x_c3;
   assign dirty_row_o = block_y_c3;
@@ -283,7 +291,7 @@ module fastsplat_splat_array (
           .rst_ni,
           .wipe_i,
           .wipe_addr_i,
-          .valid_i(valid_q[6] && inside_x_q[6][g] && inside_y_q[6][h]),
+          .valid_i(valid_q[6] && (summing || `FASTSPLAT_FAULT(SAMPLE_SUMMED)) && inside_x_q[6][g] && inside_y_q[6][h]),
           .buffer_i(buffer_q[6]),
           .addr_i(AB'(block_y_q[6][h*BLK+:BLK]) * AB'(fastsplat_pkg::BLOCKS_X) + AB'(block_x_q[6][g*BLK+:BLK])),
           .products_i(products),
@@ -294,8 +302,12 @@ module fastsplat_splat_array (
           .comp_addr_i,
           .comp_data_o(comp_data_o[B*4*SB+:4*SB])
       );
+      assign sample_products_o[B*4*SB+:4*SB] = (fastsplat_pkg::EVERY_SAMPLE != 0) ? products : '0;
     end
   end
+  assign sample_valid_o = valid_q[5] && !summing;
+  assign sample_column_o = block_x_q[6];
+  assign sample_row_o = block_y_q[6];
 
   always_ff @(posedge clk_i) begin
     valid_q <= {valid_q[8:1], valid};
@@ -336,7 +348,7 @@ module fastsplat_splat_array (
   assign tap_window_tag_o = tag_q[6];
   assign tap_window_x_o = x_q[6];
   assign tap_window_y_o = y_q[6];
-  assign tap_sheet_valid_o = valid_q[9];
+  assign tap_sheet_valid_o = valid_q[9] && summing;
   assign tap_sheet_tag_o = tag_q[9];
   always_comb begin
     // verilator lint_off WIDTHCONCAT
@@ -345,12 +357,12 @@ module fastsplat_splat_array (
     // verilator lint_on WIDTHCONCAT
     for (int b = 0; b < P * P; b++) begin
       if (valid_q[6]) tap_weights_o[b*WB+:WB] = weights[b];
-      if (valid_q[9]) tap_sums_o[b*4*SB+:4*SB] = sums[b];
+      if (tap_sheet_valid_o) tap_sums_o[b*4*SB+:4*SB] = sums[b];
     end
   end
   // The compositor reads and clears a memory that no window is on its way to: A to W.
   for (genvar s = 6; s <= 9; s++) begin : gen_owner
-    `FASTSPLAT_ASSERT(sheet_has_one_owner, !(comp_re_i && valid_q[s] && buffer_q[s] == comp_buffer_i))
+    `FASTSPLAT_ASSERT(sheet_has_one_owner, !(comp_re_i && valid_q[s] && summing && buffer_q[s] == comp_buffer_i))
   end
   `FASTSPLAT_ASSERT(nothing_moves_while_wiping, !wipe_i || (!valid_q[6] && !comp_re_i))
 endmodule

@@ -30,6 +30,7 @@ module fastsplat_stream_decode (
     output logic                                       tile_open_o,   // between begin_tile and end_tile
     input  logic                                       tile_idle_i,   // compositor and pixel out have nothing to do
     output logic [1:0]                                 mode_o,
+    output logic                                       every_sample_o,  // mode bit 2
     output logic [31:0]                                tile_number_o,
     output logic [fastsplat_pkg::SIDE_BITS-1:0]        width_o,
     output logic [fastsplat_pkg::SIDE_BITS-1:0]        height_o,
@@ -57,7 +58,8 @@ module fastsplat_stream_decode (
     output logic                                       stall_input_o,   // nothing to decode
     output logic                                       stall_table_o,   // a table word
     output logic                                       stall_buffer_o,  // begin_sheet waits for a buffer
-    output logic                                       stall_tile_o     // begin_tile or end_tile waits
+    output logic                                       stall_tile_o,    // begin_tile or end_tile waits
+    output logic                                       stall_hazard_o   // a window that lies over the one before waits
 );
   localparam int CB = fastsplat_pkg::COLOUR_BITS;
   localparam int COL = fastsplat_pkg::COL_BITS;
@@ -133,7 +135,7 @@ module fastsplat_stream_decode (
 
   // Of what kind the record in the register is: read off on its way there, for the source's handshake waits for it.
   logic splat_q, begins_sheet_q, waits_for_rest_q;
-  logic is_splat, wait_buffer, wait_tile;
+  logic is_splat, wait_buffer, wait_tile, wait_hazard;
   assign is_splat = beat_valid_q && splat_q;
   assign wait_buffer = beat_valid_q && begins_sheet_q && busy_q[buffer_q];
   // A sheet on its way through the splat path keeps its buffer busy, so "all buffers free" covers the pipe as well.
@@ -143,7 +145,38 @@ module fastsplat_stream_decode (
     if (payload_q) take = beat_valid_q && (last_word_q || word_in_beat_q == LAST_WORD);
     else if (is_splat) take = last_window;
     else if (wait_buffer || wait_tile) take = 1'b0;
+    if (wait_hazard) take = 1'b0;
   end
+
+  // Every sample: a window over that of the cycle before would read a state that is not there yet (docs/microarchitecture.md,
+  // "Hazard"). Windows of one record never meet, so only a record's first one waits, a cycle.
+  if (fastsplat_pkg::EVERY_SAMPLE != 0) begin : gen_samples
+    logic overlap;
+    localparam int PB = fastsplat_pkg::POS_BITS;
+    fastsplat_overlap u_overlap (
+        .clk_i,
+        .enter_i(ready_o),
+        .ellipse_i(ellipse_next),
+        .x_i(data_i[64+:PB]),
+        .y_i(data_i[96+:PB]),
+        .rho_i(rho_q[data_i[8+:fastsplat_pkg::SET_BITS]]),
+        .left_i(data_i[214+:10]),
+        .top_i(data_i[246+:10]),
+        .column_i(column_q),
+        .row_i(row_q),
+        .overlap_o(overlap)
+    );
+    assign wait_hazard = every_sample_o && is_splat && window_valid_o && overlap && !`FASTSPLAT_FAULT(SAMPLE_STALL);
+    always_ff @(posedge clk_i) begin
+      if (tile_begin) every_sample_o <= w0[10];
+      if (!rst_ni) every_sample_o <= 1'b0;
+    end
+    `FASTSPLAT_ASSERT_NEXT(hazard_lasts_a_cycle, wait_hazard, is_splat && !wait_hazard && !window_valid_o)
+  end else begin : gen_sheets_only
+    assign wait_hazard = 1'b0;
+    assign every_sample_o = 1'b0;
+  end
+  assign stall_hazard_o = wait_hazard;
 
   logic accepted;  // the record in the register is carried out in this cycle
   logic tile_begin;
@@ -218,7 +251,7 @@ module fastsplat_stream_decode (
     if (accepted && opcode == fastsplat_pkg::OP_END_SHEET) buffer_q <= !buffer_q;
 
     // windows
-    window_valid_o <= is_splat;
+    window_valid_o <= is_splat && !wait_hazard;
     window_last_o <= accepted && opcode == fastsplat_pkg::OP_END_SHEET;
     window_first_o <= column_q == '0 && row_q == '0;
     window_buffer_o <= buffer_q;
@@ -230,7 +263,7 @@ module fastsplat_stream_decode (
     window_column_o <= column_q;
     window_row_o <= row_q;
     window_colour_o <= {w5[16+:CB], w5[0+:CB], w4[16+:CB], w4[0+:CB]};
-    if (is_splat) begin
+    if (is_splat && !wait_hazard) begin
       column_q <= last_column_q ? '0 : column_q + WIN'(P);
       if (last_column_q) row_q <= last_window ? '0 : row_q + WIN'(P);
       if (!last_window) begin  // so that there are two columns or rows at the least, of a circle both

@@ -162,6 +162,7 @@ Json to_json(const Counts& counts, bool culls) {
                       {"stall_table", counts.stalls.stall_table},
                       {"stall_buffer", counts.stalls.stall_buffer},
                       {"stall_tile", counts.stalls.stall_tile}};
+  if (counts.stalls.stall_hazard != 0) json["counters"]["stall_hazard"] = counts.stalls.stall_hazard;
   return json;
 }
 

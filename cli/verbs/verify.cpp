@@ -40,7 +40,7 @@ ConfigFlags config_of(const VerifyArguments& arguments) {
   ConfigFlags config = arguments.config;
   if (arguments.fault.empty() || config.config) return config;
   const auto& fault = testbench::planted_fault_from(arguments.fault);
-  if (fault.where == testbench::PlantedFault::Where::Rtl) config.config = testbench::kBreakableConfig;
+  if (fault.where == testbench::PlantedFault::Where::Rtl) config.config = testbench::breakable_config(fault);
   return config;
 }
 

@@ -74,13 +74,16 @@ std::string word_name(const cmodel::Config& config, const TapCopy& record, std::
   return "?";
 }
 
-std::string place(const TapCopy& record) {
+std::string place(const cmodel::Config& config, const TapCopy& record) {
   std::string text = std::string("stage ") + cmodel::to_string(record.tap) +
                      (record.tile == kNoTile ? ", outside of any tile" : ", tile " + std::to_string(record.tile));
   if (record.tap != cmodel::Tap::Pixel) text += ", sheet " + std::to_string(record.sheet);
-  if (record.tap <= cmodel::Tap::Sheet) text += ", splat " + std::to_string(record.tag);
+  // A device that composites every sample shows windows there too, and the record does not tell them from blocks.
+  const bool either = record.tap == cmodel::Tap::Composite && config.composite_every_sample != 0;
+  if (record.tap <= cmodel::Tap::Sheet || either) text += ", splat " + std::to_string(record.tag);
   // What lies at x, y is one pixel only where the picture goes out; a window may begin outside of the tile.
   const char* what = record.tap == cmodel::Tap::Pixel       ? ", pixel "
+                     : either                               ? ", window or block at "
                      : record.tap == cmodel::Tap::Composite ? ", block at "
                                                             : ", window at ";
   return text + what + position(record.x, record.y);
@@ -100,16 +103,17 @@ TapCopy copy(const cmodel::TapRecord& record) {
 }
 
 std::string describe(const cmodel::Config& config, const Divergence& divergence) {
-  if (!divergence.rtl) return place(*divergence.model) + ": the RTL never produced this event";
+  if (!divergence.rtl) return place(config, *divergence.model) + ": the RTL never produced this event";
   if (!divergence.model)
-    return place(*divergence.rtl) + ": the RTL produced an event that the model has not (cycle " +
+    return place(config, *divergence.rtl) + ": the RTL produced an event that the model has not (cycle " +
            std::to_string(divergence.rtl->cycle) + ")";
   const TapCopy& model = *divergence.model;
   const TapCopy& rtl = *divergence.rtl;
   if (divergence.header)
-    return "expected " + place(model) + ", RTL has " + place(rtl) + " (cycle " + std::to_string(rtl.cycle) + ")";
+    return "expected " + place(config, model) + ", RTL has " + place(config, rtl) + " (cycle " +
+           std::to_string(rtl.cycle) + ")";
   const std::uint32_t a = model.payload[divergence.word], b = rtl.payload[divergence.word];
-  return place(model) + ", " + word_name(config, model, divergence.word) + " " + hex(a) + ", RTL " + hex(b) +
+  return place(config, model) + ", " + word_name(config, model, divergence.word) + " " + hex(a) + ", RTL " + hex(b) +
          " (differs in " + hex(a ^ b) + ", cycle " + std::to_string(rtl.cycle) + ")";
 }
 
@@ -123,8 +127,8 @@ DivergenceRow row_of(const cmodel::Config& config, const Divergence& divergence)
                     .y = at.y,
                     .cycle = std::nullopt,
                     .what = "record",
-                    .expected = divergence.model ? place(*divergence.model) : "nothing",
-                    .got = divergence.rtl ? place(*divergence.rtl) : "nothing"};
+                    .expected = divergence.model ? place(config, *divergence.model) : "nothing",
+                    .got = divergence.rtl ? place(config, *divergence.rtl) : "nothing"};
   if (at.tile != kNoTile) row.tile = at.tile;
   if (at.tap != cmodel::Tap::Pixel) row.sheet = at.sheet;
   if (at.tap <= cmodel::Tap::Sheet) row.splat = at.tag;

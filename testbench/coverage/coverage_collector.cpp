@@ -70,7 +70,7 @@ void CoverageCollector::before(const cmodel::Record& record) {
   } else if (const auto* tile = std::get_if<cmodel::BeginTile>(&record)) {
     splats_.begin_tile(*tile);
     composite_.begin_tile(*tile);
-    times_.begin_tile(tile->width, tile->height);
+    times_.begin_tile(*tile);
   } else if (const auto* table = std::get_if<cmodel::LoadTable>(&record)) {
     splats_.load(*table);
     composite_.load(*table);

@@ -84,14 +84,12 @@ void CompositeCoverage::begin_tile(const cmodel::BeginTile& tile) {
 }
 
 void CompositeCoverage::on_tap(const cmodel::TapRecord& record) {
-  if (record.tap == cmodel::Tap::Composite) block(record);
+  if (record.tap == cmodel::Tap::Composite) cmodel::every_sample(tile_.mode) ? window(record) : block(record);
   if (record.tap == cmodel::Tap::Pixel) pixel(record);
 }
 
 void CompositeCoverage::block(const cmodel::TapRecord& record) {
-  const auto number =
-      static_cast<std::size_t>(record.y / config_.lanes) * (columns_ / static_cast<std::size_t>(config_.lanes)) +
-      static_cast<std::size_t>(record.x / config_.lanes);
+  const std::size_t number = block_of(record.x, record.y);
   if (number == 0) coverage_.hit(block_first_);
   if (number + 1 == touched_.size()) coverage_.hit(block_last_);
   coverage_.hit(touched_[number] ? block_again_ : block_blank_);
@@ -112,8 +110,30 @@ void CompositeCoverage::block(const cmodel::TapRecord& record) {
   }
 }
 
+void CompositeCoverage::window(const cmodel::TapRecord& record) {
+  std::size_t lane = 0;
+  for (int y = record.y; y < record.y + config_.lanes; ++y) {
+    for (int x = record.x; x < record.x + config_.lanes; ++x, ++lane) {
+      if (x < 0 || y < 0 || x >= tile_.width || y >= tile_.height) continue;
+      const auto sample = splats_.sample(lane);
+      if (!sample) continue;
+      touched_[block_of(x, y)] = true;
+      cmodel::PixelState& state = picture_[static_cast<std::size_t>(y) * columns_ + static_cast<std::size_t>(x)];
+      cmodel::PixelState after{};
+      std::copy_n(record.payload.begin() + static_cast<std::ptrdiff_t>(4 * lane), 4, after.begin());
+      pixel_step(*sample, state, after);
+      state = after;
+    }
+  }
+}
+
+std::size_t CompositeCoverage::block_of(int x, int y) const {
+  return static_cast<std::size_t>(y / config_.lanes) * (columns_ / static_cast<std::size_t>(config_.lanes)) +
+         static_cast<std::size_t>(x / config_.lanes);
+}
+
 std::array<std::int64_t, 4> CompositeCoverage::slab(const cmodel::SheetWord& sums) {
-  const bool exponential = tile_.mode == cmodel::Mode::Exponential;
+  const bool exponential = cmodel::slab_mode(tile_.mode) == cmodel::Mode::Exponential;
   std::int64_t f = 1;
   if (exponential) {
     const int rem_bits = config_.opacity_remainder_bits();
@@ -175,9 +195,7 @@ void CompositeCoverage::transmittance(std::uint32_t before, std::uint32_t after,
 void CompositeCoverage::pixel(const cmodel::TapRecord& record) {
   const cmodel::PixelState& state =
       picture_[static_cast<std::size_t>(record.y) * columns_ + static_cast<std::size_t>(record.x)];
-  const auto number =
-      static_cast<std::size_t>(record.y / config_.lanes) * (columns_ / static_cast<std::size_t>(config_.lanes)) +
-      static_cast<std::size_t>(record.x / config_.lanes);
+  const std::size_t number = block_of(record.x, record.y);
   if (!touched_[number]) coverage_.hit(untouched_);
   const bool sum = tile_.mode == cmodel::Mode::Sum;
   const std::int64_t one = std::int64_t{1} << config_.composite_frac_bits;

@@ -29,11 +29,13 @@ class CompositeCoverage {
   using Four = std::array<RoundingPoint, 4>;
   Four four(const char* group, const std::string& prefix, cmodel::Site site, std::int64_t largest);
   void block(const cmodel::TapRecord& record);
+  void window(const cmodel::TapRecord& record);
   void pixel_step(const cmodel::SheetWord& sums, const cmodel::PixelState& before, const cmodel::PixelState& after);
   std::array<std::int64_t, 4> slab(const cmodel::SheetWord& sums);
   void transmittance(std::uint32_t before, std::uint32_t after, bool light);
   void pixel(const cmodel::TapRecord& record);
   cmodel::PixelState blank() const;
+  std::size_t block_of(int x, int y) const;
 
   cmodel::Config config_;
   Coverage& coverage_;

@@ -94,7 +94,8 @@ CycleCoverage::CycleCoverage(const cmodel::Config& config, Coverage& coverage)
   hold_length_ = lengths(coverage, "output", "held_");
   stall_ = coverage.bins().size();
   cmodel::StallCounters{}.for_each(
-      [&](const char* name, std::uint64_t, const char*) { coverage.declare("counter", name); });
+      config, [&](const char* name, std::uint64_t, const char*) { coverage.declare("counter", name); });
+  if (config.composite_every_sample != 0) samples_.emplace(config, coverage);
 }
 
 void CycleCoverage::on_beat(const cmodel::BeatCycles& beat) {
@@ -109,14 +110,17 @@ void CycleCoverage::on_beat(const cmodel::BeatCycles& beat) {
   if (beat.opcode == cmodel::Opcode::EndTile) coverage_.hit(wait_end_tile_ + length(beat.left - beat.entered));
 }
 
-void CycleCoverage::begin_tile(int width, int height) {
-  width_ = width;
-  height_ = height;
+void CycleCoverage::begin_tile(const cmodel::BeginTile& tile) {
+  width_ = tile.width;
+  height_ = tile.height;
+  every_sample_ = cmodel::every_sample(tile.mode);
+  if (every_sample_) samples_->begin_tile(width_, height_);
   walk_known_ = false;
 }
 
 void CycleCoverage::on_tap(const cmodel::TapRecord& record) {
   if (record.tap == cmodel::Tap::Sheet) window(record);
+  if (record.tap == cmodel::Tap::Composite && every_sample_) samples_->window(record);
   if (record.tap == cmodel::Tap::Pixel) pixel_beat(record.cycle);
 }
 
@@ -157,6 +161,7 @@ void CycleCoverage::hazards(const cmodel::TapRecord& record) {
 }
 
 void CycleCoverage::on_sheet(const cmodel::SheetCycles& sheet) {
+  if (every_sample_) return;  // nothing is swapped or walked
   if (sheet.windows < kSheetSizes) coverage_.hit(windows_in_sheet_ + sheet.windows);
   if (sheet.begun > sheet.offered) coverage_.hit(buffer_wait_ + length(sheet.begun - sheet.offered));
   const std::uint64_t soonest = sheet.closed + cmodel::stages::splat_delay(config_) + cmodel::stages::kWalk;
@@ -205,7 +210,7 @@ void CycleCoverage::on_tile(const cmodel::TileCycles& tile) {
 
 void CycleCoverage::stalls(const cmodel::StallCounters& stalls) {
   Id id = stall_;
-  stalls.for_each([&](const char*, std::uint64_t count, const char*) { coverage_.hit(id++, count); });
+  stalls.for_each(config_, [&](const char*, std::uint64_t count, const char*) { coverage_.hit(id++, count); });
 }
 
 ResetCoverage::ResetCoverage(const cmodel::Config&, Coverage& coverage) : coverage_(coverage) {

@@ -2,10 +2,13 @@
 // back-pressure, and what a reset interrupts (docs/microarchitecture.md).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "cmodel/cycle_model.hpp"
+#include "cmodel/records.hpp"
 #include "testbench/coverage/coverage.hpp"
+#include "testbench/coverage/coverage_samples.hpp"
 
 namespace fastsplat::testbench {
 
@@ -17,7 +20,7 @@ class CycleCoverage final : public cmodel::CycleSink, public cmodel::TapSink {
   void on_sheet(const cmodel::SheetCycles& sheet) override;
   void on_tile(const cmodel::TileCycles& tile) override;
   void on_tap(const cmodel::TapRecord& record) override;
-  void begin_tile(int width, int height);
+  void begin_tile(const cmodel::BeginTile& tile);
   /// The device's own stall counters, at the end.
   void stalls(const cmodel::StallCounters& stalls);
 
@@ -35,6 +38,8 @@ class CycleCoverage final : public cmodel::CycleSink, public cmodel::TapSink {
   Coverage& coverage_;
   std::size_t columns_;
   int width_ = 0, height_ = 0;
+  bool every_sample_ = false;  ///< of the tile
+  std::optional<SampleCoverage> samples_;
   std::vector<Written> written_;
   std::uint64_t window_number_ = 0, sheet_number_ = 1;
 

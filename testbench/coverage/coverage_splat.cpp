@@ -169,6 +169,16 @@ void SplatCoverage::footprint(const cmodel::TapRecord& record) {
   }
 }
 
+std::optional<cmodel::SheetWord> SplatCoverage::sample(std::size_t lane) {
+  const std::uint32_t weight = weights_[lane];
+  if (weight == 0) return std::nullopt;
+  cmodel::SheetWord products{};
+  for (std::size_t c = 0; c < 4; ++c)
+    products[c] =
+        static_cast<std::uint32_t>(product_[c].sample(coverage_, std::int64_t{record_.colour[c]} * weight).word);
+  return products;
+}
+
 void SplatCoverage::accumulated(const cmodel::TapRecord& record) {
   for (int j = 0; j < config_.lanes; ++j) {
     for (int i = 0; i < config_.lanes; ++i) {

@@ -39,6 +39,10 @@ StreamCoverage::StreamCoverage(const cmodel::Config& config, Coverage& coverage)
   last_columns_ = coverage.declare("table", "set_in_last_columns");
   mode_ = coverage.bins().size();
   for (const char* name : {"exponential", "additive", "sum"}) coverage.declare("tile", name);
+  if (config.composite_every_sample != 0) {
+    sample_mode_ = coverage.bins().size();
+    for (const char* name : {"every_sample_exponential", "every_sample_additive"}) coverage.declare("tile", name);
+  }
   full_width_ = coverage.declare("tile", "full_width");
   full_height_ = coverage.declare("tile", "full_height");
   partial_width_ = coverage.declare("tile", "partial_block_width");
@@ -109,7 +113,11 @@ void StreamCoverage::table(const cmodel::LoadTable& table) {
 }
 
 void StreamCoverage::tile(const cmodel::BeginTile& tile) {
-  coverage_.hit(mode_ + static_cast<std::size_t>(tile.mode));
+  if (cmodel::every_sample(tile.mode)) {
+    coverage_.hit(sample_mode_ + static_cast<std::size_t>(cmodel::slab_mode(tile.mode)));
+  } else {
+    coverage_.hit(mode_ + static_cast<std::size_t>(tile.mode));
+  }
   if (tile.width == config_.tile_width) coverage_.hit(full_width_);
   if (tile.height == config_.tile_height) coverage_.hit(full_height_);
   if (tile.width % config_.lanes != 0) coverage_.hit(partial_width_);

@@ -96,7 +96,7 @@ void TapAssembly::snap(const RawTap& tap) {
 
 void TapAssembly::window(const RawTap& tap) {
   const Place at{.x = origin(tap.x), .y = origin(tap.y)};
-  windows_.push_back(at);
+  windows_.push_back({at, tap.tag});
   weight_fields_.unpack(tap.words.data(), banks_, banked_.data());
   const int mask = lanes_ - 1;
   std::uint32_t* out = payload_.data();
@@ -121,18 +121,28 @@ void TapAssembly::arrange(Place at, const cmodel::BeginTile& begin) {
   }
 }
 
+TapAssembly::Window TapAssembly::next_window() {
+  if (windows_.empty()) return {};
+  const Window window = windows_.front();
+  windows_.pop_front();
+  return window;
+}
+
 void TapAssembly::sheet(const RawTap& tap) {
-  Place at;
-  if (!windows_.empty()) {
-    at = windows_.front();
-    windows_.pop_front();
-  }
+  const Place at = next_window().at;
   sheet_fields_.unpack(tap.words.data(), kWords * banks_, banked_.data());
   arrange(at, tile());
   emit(cmodel::Tap::Sheet, tap.cycle, sheet_of(tap.tag), tap.tag, at, payload_);
 }
 
 void TapAssembly::composite(const RawTap& tap) {
+  if (cmodel::every_sample(tile().mode)) {
+    const Window window = next_window();
+    state_fields_.unpack(tap.words.data(), kWords * banks_, banked_.data());
+    arrange(window.at, tile());
+    emit(cmodel::Tap::Composite, tap.cycle, sheet_of(window.tag), window.tag, window.at, payload_);
+    return;
+  }
   pass_sheets(tap.cycle);
   const Place at{.x = static_cast<std::int32_t>(tap.block % columns_) * lanes_,
                  .y = static_cast<std::int32_t>(tap.block / columns_) * lanes_};

@@ -39,6 +39,10 @@ class TapAssembly final : public RawTapSink {
   struct Place {
     std::int32_t x = 0, y = 0;
   };
+  struct Window {
+    Place at;
+    std::uint32_t tag = 0;
+  };
   /// The tile whose events come now; an empty one if there is none.
   const cmodel::BeginTile& tile() const;
   void snap(const RawTap& tap);
@@ -51,6 +55,8 @@ class TapAssembly final : public RawTapSink {
   /// Counts the sheets whose blocks have all been shown before the cycle.
   void pass_sheets(std::uint64_t cycle);
   std::uint32_t composited_sheet() const;
+  /// The earliest window that passed the footprint tap and no later one; {} if there is none.
+  Window next_window();
   /// The banks of a window at `at`, their four words each, in the order of its pixels; 0 for those outside of the tile.
   void arrange(Place at, const cmodel::BeginTile& begin);
   void emit(cmodel::Tap tap, std::uint64_t cycle, std::uint32_t sheet, std::uint32_t tag, Place at,
@@ -64,7 +70,7 @@ class TapAssembly final : public RawTapSink {
   TileAssembly tiles_;
   std::deque<Sheets> sheets_;
   std::optional<std::uint32_t> shown_tile_;  ///< by the event at hand
-  std::deque<Place> windows_;                ///< between the footprint and the sheet tap
+  std::deque<Window> windows_;               ///< between the footprint and the sheet tap, or composite of every sample
   std::deque<std::uint64_t> finished_;       ///< cycles of sheet_done whose blocks are still in the pipe
   std::vector<std::uint32_t> banked_;        ///< of a port, by bank: one word or four of each
   std::vector<std::uint32_t> payload_;       ///< the same by pixel

@@ -137,7 +137,8 @@ class VerilatedDevice : public RtlDevice {
     FASTSPLAT_COUNTERS(X)
 #undef X
     cmodel::StallCounters out;
-#define X(name, counter_name, meaning) out.name = counter(number++);
+#define X(name, counter_name, meaning) \
+  if (cmodel::has_counter(config_, #counter_name)) out.name = counter(number++);
     FASTSPLAT_STALL_COUNTERS(X)
 #undef X
     return out;

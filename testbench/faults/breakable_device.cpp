@@ -3,6 +3,9 @@
 #include "Vfs_rtl_faulty.h"
 #include "Vfs_rtl_faulty___024root.h"
 #include "Vfs_rtl_faulty_fastsplat_fault_pkg.h"
+#include "Vfs_rtl_faulty_samples.h"
+#include "Vfs_rtl_faulty_samples___024root.h"
+#include "Vfs_rtl_faulty_samples_fastsplat_fault_pkg.h"
 #include "testbench/device/verilated_device.hpp"
 
 namespace fastsplat::testbench {
@@ -12,15 +15,16 @@ namespace {
 thread_local RtlFault next_fault = RtlFault::None;
 thread_local Assertions next_assertions = Assertions::Off;
 
-class FaultyTop : public Vfs_rtl_faulty {
+template <class Top>
+class FaultyTop : public Top {
  public:
-  explicit FaultyTop(VerilatedContext* context) : Vfs_rtl_faulty(context), fault_(next_fault) {
+  explicit FaultyTop(VerilatedContext* context) : Top(context), fault_(next_fault) {
     context->assertOn(next_assertions == Assertions::On);
   }
   /// The selection holds from the first evaluation on.
   void eval() {
-    rootp->__PVT__fastsplat_fault_pkg->selected = static_cast<std::uint32_t>(fault_);
-    Vfs_rtl_faulty::eval();
+    this->rootp->__PVT__fastsplat_fault_pkg->selected = static_cast<std::uint32_t>(fault_);
+    Top::eval();
   }
 
  private:
@@ -33,7 +37,9 @@ std::unique_ptr<RtlDevice> make_breakable_device(const cmodel::Config& config, c
                                                  const RtlOptions& options, RtlFault fault, Assertions assertions) {
   next_fault = fault;
   next_assertions = assertions;
-  return std::make_unique<VerilatedDevice<FaultyTop>>(config, pixels, options);
+  if (config.composite_every_sample != 0)
+    return std::make_unique<VerilatedDevice<FaultyTop<Vfs_rtl_faulty_samples>>>(config, pixels, options);
+  return std::make_unique<VerilatedDevice<FaultyTop<Vfs_rtl_faulty>>>(config, pixels, options);
 }
 
 }  // namespace fastsplat::testbench

@@ -15,8 +15,12 @@ enum class RtlFault : std::uint32_t {
 
 enum class Assertions { Off, On };
 
-/// `config` has the numbers of configs/faults/mustfail.toml, else UserError (Simulation). With assertions on, one that
-/// fires ends the run. Devices on several threads may have different faults.
+/// Configurations of configs/faults whose RTL can be broken: of every fault but SAMPLE_..., of SAMPLE_...
+constexpr const char* kBreakableConfig = "mustfail";
+constexpr const char* kBreakableSamples = "westover";
+
+/// `config` has the numbers of kBreakableConfig or kBreakableSamples, else UserError (Simulation). With assertions on,
+/// one that fires ends the run. Devices on several threads may have different faults.
 std::unique_ptr<RtlDevice> make_breakable_device(const cmodel::Config& config, cmodel::PixelSink& pixels,
                                                  const RtlOptions& options, RtlFault fault, Assertions assertions);
 

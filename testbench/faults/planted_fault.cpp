@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 #include <utility>
 
 #include "base/error.hpp"
@@ -27,6 +28,10 @@ constexpr std::size_t kInRtl = static_cast<std::size_t>(
     std::ranges::count_if(kFaults, [](const auto& fault) { return fault.where == Where::Rtl; }));
 
 }  // namespace
+
+const char* breakable_config(const PlantedFault& fault) {
+  return std::string_view(fault.name).starts_with("SAMPLE_") ? kBreakableSamples : kBreakableConfig;
+}
 
 std::span<const PlantedFault> planted_faults() { return kFaults; }
 

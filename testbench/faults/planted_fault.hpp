@@ -8,21 +8,22 @@
 #include <vector>
 
 #include "testbench/device/rtl_device.hpp"
+#include "testbench/faults/breakable_device.hpp"
 
 namespace fastsplat::testbench {
 
-/// The only configuration whose RTL can be broken: configs/faults/mustfail.toml.
-constexpr const char* kBreakableConfig = "mustfail";
-
 struct PlantedFault {
   enum class Where {
-    Rtl,    ///< needs the configuration kBreakableConfig
+    Rtl,    ///< needs the configuration breakable_config()
     Ports,  ///< any configuration; signals and waveforms are healthy
   };
   const char* name;
   Where where;
   const char* meaning;  ///< what is broken, one line
 };
+
+/// The configuration whose RTL has the fault; of the ports' faults, any has.
+const char* breakable_config(const PlantedFault& fault);
 
 /// Those of the RTL as in faults.def, then those of the ports.
 std::span<const PlantedFault> planted_faults();

@@ -141,9 +141,7 @@ DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& m
   };
   all_counters(false, counters);
   // Below the counters, between two of them, and above the last; while there is something to tell and to clear.
-  int number = 0;
-  model.counters().for_each([&](const char*, std::uint64_t, const char*) { ++number; });
-  const auto beyond = cmodel::kRegCounters.address + 8 * (static_cast<std::uint32_t>(number) + 5);
+  const auto beyond = cmodel::kRegCounters.address + 8 * static_cast<std::uint32_t>(cmodel::counters_of(config));
   for (const std::uint32_t address :
        {cmodel::kRegIrqMask.address + 4, cmodel::kRegCounters.address - 4, cmodel::kRegControl.address + 1,
         cmodel::kRegCounters.address + 1, cmodel::kRegCounters.address + 2, cmodel::kRegCounters.address + 3, beyond,

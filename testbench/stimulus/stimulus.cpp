@@ -166,6 +166,9 @@ class Generator {
                            .y = 0,
                            .width = side(config_.tile_width),
                            .height = side(config_.tile_height)};
+    if (config_.composite_every_sample != 0 && tile.mode != cmodel::Mode::Sum && random_.chance(70))
+      tile.mode =
+          tile.mode == cmodel::Mode::Exponential ? cmodel::Mode::SampleExponential : cmodel::Mode::SampleAdditive;
     tile.x = static_cast<std::int32_t>(random_.between(0, 3 * config_.tile_width));
     tile.y = static_cast<std::int32_t>(random_.between(0, 3 * config_.tile_height));
     return tile;
@@ -180,7 +183,7 @@ class Generator {
     std::uint64_t in_tile = std::min(left_, tile_splats);
     left_ -= in_tile;
     auto number = static_cast<std::uint32_t>(random_.between(0, 5));
-    hot_ = place();
+    hot_ = before_ = last_ = place();
     auto sheet = static_cast<std::uint64_t>(random_.between(0, kSheetSizes - 1));
     while (in_tile > 0) {
       const std::uint64_t count = std::min(in_tile, sheet_size(sheet++));
@@ -328,9 +331,44 @@ class Generator {
     return words;
   }
 
+  /// The hot spot, moved by up to a window's side: what just does and just does not lie over what was there.
+  Place beside_hot() {
+    Place at = hot_;
+    const auto format = config_.position_format();
+    for (std::int32_t* word : {&at.x, &at.y}) {
+      const std::int64_t pixels = random_.between(-config_.lanes, config_.lanes);
+      *word = static_cast<std::int32_t>(
+          std::clamp(*word + pixels * (std::int64_t{1} << config_.position_frac_bits), format.min, format.max));
+    }
+    return at;
+  }
+
+  /// The place before the last one, a whole tile of the device further: outside of the one where the other is inside,
+  /// its blocks have the same numbers but for the bits that addresses do not have.
+  Place opposite() {
+    Place at = before_;
+    const auto format = config_.position_format();
+    const auto across = [&](std::int32_t& word, int side) {
+      const std::int64_t whole = std::int64_t{side} << config_.position_frac_bits;
+      word = static_cast<std::int32_t>(std::clamp(word + (2 * word < whole ? whole : -whole), format.min, format.max));
+    };
+    if (random_.chance(50))
+      across(at.x, config_.tile_width);
+    else
+      across(at.y, config_.tile_height);
+    return at;
+  }
+
   Place next_place(std::uint64_t index) {
+    const Place at = drawn_place(index);
+    before_ = last_;
+    return last_ = at;
+  }
+
+  Place drawn_place(std::uint64_t index) {
     const bool swap = which_ == StimulusClass::SwapHazards || which_ == StimulusClass::SwapPhases;
     if (which_ == StimulusClass::Hazards || swap) {
+      if (cmodel::every_sample(tile_.mode) && random_.chance(40)) return beside_hot();
       if (random_.chance(2)) hot_ = place();
       // Back at the hot spot after 1, 2, 3, ... 8 windows.
       if (index % distance_ != 0) return place();
@@ -338,6 +376,8 @@ class Generator {
       return hot_;
     }
     if (which_ == StimulusClass::Thresholds) return hot_;
+    if (which_ == StimulusClass::ScreenEdges && cmodel::every_sample(tile_.mode) && random_.chance(75))
+      return opposite();
     if (random_.chance(which_ == StimulusClass::Saturation ? 80 : 10)) return hot_;
     return place();
   }
@@ -394,7 +434,7 @@ class Generator {
   std::uint32_t first_set_ = 0, sets_ = 1;
   std::array<std::uint32_t, 256> rho_{};
   cmodel::BeginTile tile_;
-  Place hot_;
+  Place hot_, before_, last_;
   std::uint64_t left_ = 0, distance_ = 1;
   std::int64_t phase_ = 0;
   std::array<std::int64_t, 4> missing_{};  ///< of the words that a sheet aims at; negative: any colour will do

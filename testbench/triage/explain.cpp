@@ -26,6 +26,7 @@ class Walk {
         rlut_(config),
         radial_(config),
         sheet_(config),
+        lane_(config),
         compositor_(config) {}
 
   void feed(std::span<const cmodel::Beat> beats) {
@@ -73,6 +74,28 @@ class Walk {
     return at_.tap == tap && at_.tile == tile_.tile && at_.sheet == number_ && at_.tag == tag;
   }
 
+  /// A window's products into the sheet or, every sample, into the picture; true once what was asked for has been told.
+  template <class Record>
+  bool window(const Record& record, std::int32_t left, std::int32_t top, const std::vector<std::uint32_t>& weights) {
+    const bool wanted = at_.x == left && at_.y == top;
+    cmodel::Counters unused;
+    if (!cmodel::every_sample(tile_.mode)) {
+      if (wanted && here(cmodel::Tap::Sheet, record.tag)) return sum(record, left, top, weights), true;
+      sheet_.accumulate(left, top, weights, record.colour, unused, nobody_);
+      return false;
+    }
+    const bool told = wanted && here(cmodel::Tap::Composite, record.tag);
+    for (std::size_t lane = 0; lane < weights.size(); ++lane) {
+      const std::int32_t x = left + static_cast<std::int32_t>(lane % lanes());
+      const std::int32_t y = top + static_cast<std::int32_t>(lane / lanes());
+      cmodel::SheetWord products{};
+      for (std::size_t c = 0; c < 4; ++c) products[c] = lane_.product(record.colour[c], weights[lane], nobody_);
+      if (told && lane == word_ / 4) return composite(x, y, products, "sample"), true;
+      if (weights[lane] != 0 && sheet_.inside(x, y)) compositor_.step(products, x, y, unused, nobody_);
+    }
+    return false;
+  }
+
   void tell(std::string text) {
     text_ = std::move(text);
     found_ = true;
@@ -96,13 +119,10 @@ class Walk {
         cmodel::footprint(radial_, columns, rows, weights);
         const std::int32_t left = x.origin + static_cast<std::int32_t>(column);
         const std::int32_t top = y.origin + static_cast<std::int32_t>(row);
-        const bool this_window = at_.x == left && at_.y == top;
-        if (this_window && here(cmodel::Tap::Footprint, record.tag))
+        if (at_.x == left && at_.y == top && here(cmodel::Tap::Footprint, record.tag))
           return tell(weight(record, columns[word_ % lanes()], rows[word_ / lanes()], x.phase, y.phase,
                              column + word_ % lanes(), row + word_ / lanes()));
-        if (this_window && here(cmodel::Tap::Sheet, record.tag)) return sum(record, left, top, weights);
-        cmodel::Counters unused;
-        sheet_.accumulate(left, top, weights, record.colour, unused, nobody_);
+        if (window(record, left, top, weights)) return;
       }
     }
   }
@@ -126,8 +146,7 @@ class Walk {
         unit.window(f, column, row, radial_, weights);
         const std::int32_t left = x.origin + static_cast<std::int32_t>(column);
         const std::int32_t top = y.origin + static_cast<std::int32_t>(row);
-        const bool this_window = at_.x == left && at_.y == top;
-        if (this_window && here(cmodel::Tap::Footprint, record.tag)) {
+        if (at_.x == left && at_.y == top && here(cmodel::Tap::Footprint, record.tag)) {
           const std::size_t i = column + word_ % lanes(), j = row + word_ / lanes();
           return tell(
               "A=" + std::to_string(shape.a) + " B=" + std::to_string(shape.b) + " C=" + std::to_string(shape.c) +
@@ -136,9 +155,7 @@ class Walk {
               " e=" + std::to_string(f.e) + "; pixel " + std::to_string(i) + "," + std::to_string(j) +
               ": index=" + std::to_string(unit.index(f, static_cast<std::int64_t>(i), static_cast<std::int64_t>(j))));
         }
-        if (this_window && here(cmodel::Tap::Sheet, record.tag)) return sum(record, left, top, weights);
-        cmodel::Counters unused;
-        sheet_.accumulate(left, top, weights, record.colour, unused, nobody_);
+        if (window(record, left, top, weights)) return;
       }
     }
   }
@@ -173,7 +190,10 @@ class Walk {
     const bool wanted = here(cmodel::Tap::Composite, 0);
     const int block = config_.lanes;
     sheet_.drain([&](int bx, int by) {
-      if (wanted && !found_ && at_.x == bx * block && at_.y == by * block) return composite(bx * block, by * block);
+      if (wanted && !found_ && at_.x == bx * block && at_.y == by * block) {
+        const int x = at_.x + static_cast<int>(word_ / 4 % lanes()), y = at_.y + static_cast<int>(word_ / 4 / lanes());
+        return composite(x, y, sheet_.inside(x, y) ? sheet_.at(x, y) : cmodel::SheetWord{}, "sheet");
+      }
       for (int y = by * block; y < std::min(tile_.height, (by + 1) * block); ++y) {
         for (int x = bx * block; x < std::min(tile_.width, (bx + 1) * block); ++x) {
           cmodel::Counters unused;
@@ -183,12 +203,10 @@ class Walk {
     });
   }
 
-  void composite(int left, int top) {
-    const std::size_t lane = word_ / 4;
-    const int x = left + static_cast<int>(lane % lanes()), y = top + static_cast<int>(lane / lanes());
+  /// A pixel before the sums of `what` are composited.
+  void composite(int x, int y, const cmodel::SheetWord& sums, const char* what) {
     if (!sheet_.inside(x, y))
       return tell("pixel (" + std::to_string(x) + "," + std::to_string(y) + ") is outside the tile");
-    const auto& sums = sheet_.at(x, y);
     const auto& state = compositor_.at(x, y);
     std::string text = "pixel (" + std::to_string(x) + "," + std::to_string(y) + ") before: ";
     const bool summing = tile_.mode == cmodel::Mode::Sum;
@@ -198,10 +216,10 @@ class Walk {
                : c == 3 ? ""
                         : "C_") +
               (c == 3 && !summing ? "T" : kChannels[c]) + "=" + hex(state[c]);
-    text += "; sheet";
+    text += std::string("; ") + what;
     for (std::size_t c = 0; c < 4; ++c) text += std::string(" ") + kChannels[c] + "=" + hex(sums[c]);
     if (!summing) {
-      const bool exponential = tile_.mode == cmodel::Mode::Exponential;
+      const bool exponential = cmodel::slab_mode(tile_.mode) == cmodel::Mode::Exponential;
       const auto& opacity = compositor_.opacity();
       const auto slab = exponential ? opacity.exponential(sums, nobody_) : opacity.additive(sums, nobody_);
       if (exponential) text += "; factor " + hex(opacity.factor(sums[3], nobody_));
@@ -227,6 +245,7 @@ class Walk {
   cmodel::Rlut rlut_;
   cmodel::RadialTable radial_;
   cmodel::SheetBuffer sheet_;
+  cmodel::Lane lane_;
   cmodel::Compositor compositor_;
   cmodel::Nothing nobody_;
   cmodel::BeginTile tile_;

@@ -26,7 +26,7 @@ const Truth& truth_of(const std::string& name) {
   cmodel::CycleModel cycles(truth.config, cmodel::StreamScope::Whole, {.first_beat = kFirstBeat});
   cycles.consume(truth.beats);
   cycles.finish();
-  cycles.stalls().for_each(add);
+  cycles.stalls().for_each(truth.config, add);
   return made.emplace(name, std::move(truth)).first->second;
 }
 

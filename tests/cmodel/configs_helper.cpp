@@ -160,6 +160,7 @@ cmodel::Config drawn_config(Random& random, cmodel::IndexKind kind, bool ellipse
         beside.once_in(2) ? 0 : 1 << beside.between(0, 2 * cmodel::Config::log2_exact(config.lanes));
     config.counter_bits = static_cast<int>(beside.between(16, 64));
     config.composite_every_sample = static_cast<int>(beside.between(0, 1));
+    if (config.composite_every_sample != 0) config.composite_lanes = 0;
     return config;
   }
 }

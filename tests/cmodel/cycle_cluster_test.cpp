@@ -68,10 +68,9 @@ class Compared {
     EXPECT_EQ(a, b) << what;
   }
   void same(const cmodel::StallCounters& a, const cmodel::StallCounters& b) {
-    std::vector<std::uint64_t> values;
-    a.for_each([&](const char*, std::uint64_t value, const char*) { values.push_back(value); });
-    std::size_t i = 0;
-    b.for_each([&](const char* name, std::uint64_t value, const char*) { same(values[i++], value, name); });
+#define X(name, counter, meaning) same(a.name, b.name, #name);
+    FASTSPLAT_STALL_COUNTERS(X)
+#undef X
   }
   void same(const cmodel::DeviceCycles& a, const cmodel::CycleModel& b) {
     same(a.stalls, b.stalls());

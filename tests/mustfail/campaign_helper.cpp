@@ -21,6 +21,27 @@ struct Run {
   std::size_t reset_after = 0;  ///< beats before a warm reset; 0: none
 };
 
+/// Footprints of one window, all of it inside the rim; weights that dimming makes smaller.
+struct Tables {
+  Tables(const oracle::Symbols& c, Random& random, int dimming)
+      : rho(static_cast<std::uint32_t>(c.P * c.k / 2)),
+        rlut(static_cast<std::size_t>(c.k) * static_cast<std::size_t>(c.P)),
+        radial(static_cast<std::size_t>(c.N)),
+        factor(static_cast<std::size_t>(c.G) + 1) {
+    for (auto& word : rlut) word = static_cast<std::uint32_t>(random.between(0, (std::int64_t{c.N} << c.g) / 4));
+    for (auto& word : radial) word = static_cast<std::uint32_t>(random.between(1, (1 << (c.wf - dimming)) - 1));
+    for (std::size_t j = 0; j < factor.size(); ++j)
+      factor[j] = static_cast<std::uint32_t>((std::size_t{1} << c.of) * factor.size() / (factor.size() + j));
+  }
+  void write(StreamWriter& w) const {
+    w.load_table(0, 0, rho, 0, rlut);
+    w.load_table(1, 0, 0, 0, radial);
+    w.load_table(2, 0, 0, 0, factor);
+  }
+  std::uint32_t rho;
+  std::vector<std::uint32_t> rlut, radial, factor;
+};
+
 /// Splats of one window each on two neighbouring centres, in sheets that follow each other without a stall: every
 /// sheet's buffer is free again before it is wanted, so the words of sheet s+1 come three cycles after those of sheet
 /// s.
@@ -28,17 +49,9 @@ std::vector<cmodel::Beat> hot_spot(const cmodel::Config& config, std::uint64_t s
   const oracle::Symbols c = symbols_of(config);
   Random random(seed);
   StreamWriter w(c);
-  const auto columns = static_cast<std::size_t>(c.P);
-  std::vector<std::uint32_t> rlut(static_cast<std::size_t>(c.k) * columns), radial(static_cast<std::size_t>(c.N)),
-      factor(static_cast<std::size_t>(c.G) + 1);
-  for (auto& word : rlut) word = static_cast<std::uint32_t>(random.between(0, (std::int64_t{c.N} << c.g) / 4));
-  for (auto& word : radial) word = static_cast<std::uint32_t>(random.between(1, (1 << (c.wf - dimming)) - 1));
-  for (std::size_t j = 0; j < factor.size(); ++j)
-    factor[j] = static_cast<std::uint32_t>((std::size_t{1} << c.of) * factor.size() / (factor.size() + j));
+  const Tables tables(c, random, dimming);
   w.begin_frame(c.W, c.H, 1);
-  w.load_table(0, 0, static_cast<std::uint32_t>(c.P * c.k / 2), 0, rlut);
-  w.load_table(1, 0, 0, 0, radial);
-  w.load_table(2, 0, 0, 0, factor);
+  tables.write(w);
   w.begin_tile(0, 0, 0, 0, c.W, c.H);
   const std::int32_t one = 1 << c.pf;
   for (std::uint32_t sheet = 0; sheet < 40; ++sheet) {
@@ -59,6 +72,41 @@ std::vector<cmodel::Beat> hot_spot(const cmodel::Config& config, std::uint64_t s
   return to_beats(w.bytes());
 }
 
+/// Tiles of few splats, so that pixels do not freeze: windows on one place, on one beside it and on one far away, after
+/// 1 to 6 cycles, and across the tile's left and upper edge. In a device that composites every sample in its order,
+/// else by sheets.
+std::vector<cmodel::Beat> hot_samples(const cmodel::Config& config, std::uint64_t seed) {
+  const oracle::Symbols c = symbols_of(config);
+  constexpr std::uint32_t kTiles = 40;
+  Random random(seed);
+  StreamWriter w(c);
+  const Tables tables(c, random, 4);
+  w.begin_frame(c.W, c.H * static_cast<int>(kTiles), kTiles);
+  tables.write(w);
+  const std::int32_t one = 1 << c.pf;
+  for (std::uint32_t tile = 0; tile < kTiles; ++tile) {
+    w.begin_tile(c.every_sample != 0 ? 4 : 0, tile, 0, c.H * static_cast<int>(tile), c.W, c.H);
+    w.begin_sheet(0);
+    std::int64_t next = 0;
+    for (int i = 0; i < 40; ++i) {
+      std::array<std::uint32_t, 4> colour{};
+      for (auto& channel : colour) channel = static_cast<std::uint32_t>(random.between(1, (1 << (c.cf - 2)) - 1));
+      const bool hot = i == next;
+      if (hot) next = i + random.between(1, 6);
+      const bool corner = tile % 2 == 0;
+      const std::int32_t at = corner ? 0 : 5 * one;
+      const std::int32_t beside = one * static_cast<std::int32_t>(random.between(-c.P, c.P));
+      const std::int32_t away = one * (corner ? c.W - c.P : 2 * c.P);
+      const std::int32_t x = !hot ? at + away : random.once_in(2) ? at : at + beside;
+      w.splat(0, x, at + (random.once_in(4) ? one : 0), colour);
+    }
+    w.end_sheet();
+    w.end_tile();
+  }
+  w.end_frame();
+  return to_beats(w.bytes());
+}
+
 std::vector<cmodel::Beat> random_beats(const cmodel::Config& config, std::uint64_t seed) {
   Random random(seed);
   return to_beats(random_stream(symbols_of(config), random, 300).bytes);
@@ -75,6 +123,8 @@ std::vector<Run> runs_of(const cmodel::Config& config, Stimulus stimulus) {
       return {{hot_spot(config, 1), "always", "always", 1}, {hot_spot(config, 2), "random-50", "always", 2}};
     case Stimulus::Bright:
       return {{hot_spot(config, 4, 0), "always", "always", 4}};
+    case Stimulus::HotSamples:
+      return {{hot_samples(config, 5), "always", "always", 5}, {hot_samples(config, 6), "random-50", "always", 6}};
     case Stimulus::WarmReset: {
       auto beats = hot_spot(config, 3);
       const std::size_t tables = beats.size() / 2;
@@ -130,7 +180,7 @@ const char* to_string(Detector detector) {
 }
 
 const char* to_string(Stimulus stimulus) {
-  constexpr const char* kNames[] = {"random", "hot spot", "bright", "warm reset"};
+  constexpr const char* kNames[] = {"random", "hot spot", "bright", "hot samples", "warm reset"};
   return kNames[static_cast<int>(stimulus)];
 }
 

@@ -6,6 +6,7 @@
 #include <ostream>
 #include <string>
 
+#include "testbench/faults/planted_fault.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/mustfail/campaign_helper.hpp"
 
@@ -13,7 +14,9 @@ namespace fastsplat::test {
 namespace {
 
 /// Beside configs/, which holds the products only.
-constexpr const char* kConfig = "faults/mustfail";
+std::string config_of(const char* fault) {
+  return std::string("faults/") + breakable_config(testbench::planted_fault_from(fault));
+}
 
 constexpr const char* kNone = nullptr;
 
@@ -40,7 +43,7 @@ class MustFail : public ::testing::TestWithParam<Row> {};
 
 TEST_P(MustFail, IsCaughtByItsDetector) {
   const Row& row = GetParam();
-  const Outcome outcome = run(named_config(kConfig), row.stimulus, faulty(row.fault, Assertions::Off));
+  const Outcome outcome = run(named_config(config_of(row.name)), row.stimulus, faulty(row.fault, Assertions::Off));
   ASSERT_TRUE(outcome.caught.has_value())
       << "SURVIVED: " << row.meaning << " (" << outcome.comparisons << " comparisons)";
   std::printf("[figure] %s: %s; caught by %s after %llu comparisons\n    %s\n", row.name, row.meaning,
@@ -51,7 +54,7 @@ TEST_P(MustFail, IsCaughtByItsDetector) {
 
 TEST_P(MustFail, IsCaughtByItsAssertion) {
   const Row& row = GetParam();
-  const Outcome outcome = run(named_config(kConfig), row.stimulus, faulty(row.fault, Assertions::On));
+  const Outcome outcome = run(named_config(config_of(row.name)), row.stimulus, faulty(row.fault, Assertions::On));
   ASSERT_TRUE(outcome.caught.has_value()) << "SURVIVED: " << row.meaning;
   if (row.assertion == kNone) {
     // Whatever fires is right, but belongs into the table.
@@ -68,7 +71,7 @@ TEST_P(MustFail, IsCaughtByItsAssertion) {
 
 INSTANTIATE_TEST_SUITE_P(Fault, MustFail, ::testing::ValuesIn(kRows), [](const auto& row) { return row.param.name; });
 
-void passes(const char* what, const char* config, const MakeDevice& make) {
+void passes(const char* what, const std::string& config, const MakeDevice& make) {
   for (const Stimulus stimulus : kStimuli) {
     const Outcome outcome = run(named_config(config), stimulus, make);
     EXPECT_FALSE(outcome.caught.has_value()) << what << ", " << to_string(stimulus) << ": "
@@ -80,7 +83,8 @@ void passes(const char* what, const char* config, const MakeDevice& make) {
 }
 
 TEST(MustPass, TheBreakableDeviceWithNoFaultSelected) {
-  passes("no fault selected", kConfig, faulty(Fault::None, Assertions::On));
+  for (const char* fault : {"FORWARD_1", "SAMPLE_STALL"})
+    passes("no fault selected", config_of(fault), faulty(Fault::None, Assertions::On));
 }
 TEST(MustPass, TheDeviceItself) { passes("the device itself, tiny", "tiny", testbench::make_rtl_device); }
 

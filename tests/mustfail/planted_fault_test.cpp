@@ -21,7 +21,7 @@ testbench::CampaignOptions campaign(const testbench::PlantedFault* fault, const 
   testbench::CampaignOptions options{
       .verify = {.config = config, .ready = "all", .timeout = 20000, .wave = {}, .device = {}},
       .splats = 1000,
-      .seeds = 3,
+      .seeds = 8,
       .threads = 1,
       .progress = {}};
   if (fault != nullptr) options.verify.device = testbench::with_fault(*fault, config);
@@ -32,7 +32,7 @@ TEST(PlantedFault, IsSeenByRandomStreams) {
   int in_rtl = 0, at_ports = 0;
   for (const auto& fault : testbench::planted_faults()) {
     const bool rtl = fault.where == Where::Rtl;
-    const auto config = named_config(rtl ? "faults/mustfail" : "tiny");
+    const auto config = named_config(rtl ? std::string("faults/") + testbench::breakable_config(fault) : "tiny");
     const auto options = campaign(&fault, config);
     const auto result = testbench::run_campaign(options);
     ASSERT_TRUE(result.failed) << fault.name << " is not seen in " << result.streams << " streams";

@@ -1,7 +1,7 @@
 """mutate.py ROOT BUILD [FLAGS]: what `./run mutate` does; its flags are told by --help.
 
 Every mutant of rtl/ runs on the smallest device there can be (corners.toml) through the checks of check_mutants.cpp, cheapest
-first. What lives goes on to the must-fail configuration, to three corners more, to `tiny`, and to the proof of its module where there is one. A mutant that lives
+first. What lives goes on to the must-fail configurations, to three corners more, to `tiny`, and to the proof of its module where there is one. A mutant that lives
 through all of it is in exclusions.toml with the reason why nobody can see it, or the campaign is red."""
 import argparse
 import collections
@@ -71,8 +71,8 @@ def run_all(arguments, root, build, until):
     killed, untried = {}, []
     living = [m["number"] for m in mutants]
     corner = "tests/mutants/{}.toml"
-    for name, config in [("corners", corner), ("mustfail", "configs/faults/{}.toml"), ("ties", corner), ("halves", corner),
-                         ("truncating", corner), ("tiny", "configs/{}.toml")]:
+    for name, config in [("corners", corner), ("mustfail", "configs/faults/{}.toml"), ("westover", "configs/faults/{}.toml"),
+                         ("ties", corner), ("halves", corner), ("truncating", corner), ("tiny", "configs/{}.toml")]:
         if name != "corners":
             campaign.write(f"{build}/mutants/living.txt", "".join(f"{number}\n" for number in living))
             binary = program(root, build, name)

@@ -40,5 +40,7 @@ lint tiny pixel.int_bits=8 pixel.frac_bits=24
 lint base tile.width=512
 lint hx8k composite.lanes=2 counters.bits=33
 lint hx8k composite.lanes=4 counters.bits=64
+lint faults/westover tile.width=2 tile.height=2 ellipse.frac_bits=0
+lint faults/westover array.lanes=4 composite.freeze_below=0
 echo "[figure] configurations at the ends of the limits, without a warning = $read_count"
-(( read_count == 13 ))
+(( read_count == 15 ))

@@ -110,7 +110,7 @@ void judge(const std::string& name, const CycleComparison& comparison) {
 }
 
 CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmodel::Beat> beats,
-                               const testbench::Pattern& input, const testbench::Pattern& output) {
+                               const testbench::Pattern& input, const testbench::Pattern& output, const MakeRtl& make) {
   CycleComparison result;
   Expected expected;
   Checker checker(expected, result);
@@ -121,7 +121,7 @@ CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmo
   rtl_options.output = output;
   testbench::TapAssembly taps(config, pixels, checker);
   rtl_options.taps = &taps;
-  const auto rtl = testbench::make_rtl_device(config, pixels, rtl_options);
+  const auto rtl = make(config, pixels, rtl_options);
 
   // Making the device took some cycles already: it read the configuration's hash.
   cmodel::CycleModel model(

@@ -4,11 +4,14 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <span>
 #include <string>
 
 #include "cmodel/cycle_model.hpp"
 #include "testbench/device/pattern.hpp"
+#include "testbench/device/rtl_device.hpp"
 
 namespace fastsplat::test {
 
@@ -27,7 +30,10 @@ struct CycleComparison {
 /// Prints the figures; fails the test where something differs or nothing of a tap was compared.
 void judge(const std::string& name, const CycleComparison& comparison);
 
+using MakeRtl = std::function<std::unique_ptr<testbench::RtlDevice>(const cmodel::Config&, cmodel::PixelSink&,
+                                                                    const testbench::RtlOptions&)>;
 CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmodel::Beat> beats,
-                               const testbench::Pattern& input, const testbench::Pattern& output);
+                               const testbench::Pattern& input, const testbench::Pattern& output,
+                               const MakeRtl& make = testbench::make_rtl_device);
 
 }  // namespace fastsplat::test

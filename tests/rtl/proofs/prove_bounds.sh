@@ -29,7 +29,7 @@ composite composite_lane
 holds composite_lane 2 "composite_lane: transmittance in 0..1, never rises or wraps; colour never falls, gains T at most; frozen pixels stay; sums saturate; words of 7 bits"
 happens composite_lane 6
 composite_broken() { composite "composite_lane_$1" "$2"; refuted "composite_lane_$1" 6; }
-composite_broken transmittance_rises "s/{1'b0, state_k5_q - light_k5_q}/{1'b0, state_k5_q + light_k5_q}/"
+composite_broken transmittance_rises "s/{1'b0, state - light}/{1'b0, state + light}/"
 composite_broken frozen_too_late "s/transmittance < TB'(fastsplat_pkg::FREEZE_BELOW)/transmittance <= TB'(fastsplat_pkg::FREEZE_BELOW)/"
 composite_broken light_of_the_state 's/narrow_light((2 \* TB).(transmittance) \* (2 \* TB).(slab_i\[c\*DB+:TB\]))/narrow_light((2 * TB)'"'"'(state_i[c*DB+:TB]) * (2 * TB)'"'"'(slab_i[c*DB+:TB]))/'
-composite_broken frozen_moves "s/else if (frozen_k5_q) {saturated_o\[c\], state_o/else if (frozen_k5_q \&\& c != 3) {saturated_o[c], state_o/"
+composite_broken frozen_moves "s/else if (frozen) stepped/else if (frozen \&\& !is_transmittance) stepped/"

@@ -382,24 +382,23 @@ module fastsplat_core (
     events[fastsplat_pkg::CNT_STALL_BUFFER][0] = stall_buffer;
     events[fastsplat_pkg::CNT_STALL_TILE][0] = stall_tile;
   end
-  function automatic int bits_of(input int n);
-    case (n)
-      fastsplat_pkg::CNT_LANES_INSIDE, fastsplat_pkg::CNT_LANES_WEIGHTED: bits_of = BANKS;
-      fastsplat_pkg::CNT_PIXELS_COMPOSITED, fastsplat_pkg::CNT_FROZEN_PIXELS: bits_of = COMPOSITED;
-      fastsplat_pkg::CNT_PRODUCT_SATURATED, fastsplat_pkg::CNT_SHEET_SATURATED: bits_of = 4 * BANKS;
-      fastsplat_pkg::CNT_OPACITY_SATURATED, fastsplat_pkg::CNT_COMPOSITE_SATURATED: bits_of = 4 * COMPOSITED;
-      fastsplat_pkg::CNT_PIXEL_SATURATED: bits_of = 4 * fastsplat_pkg::LANES;
-      fastsplat_pkg::CNT_SNAP_SATURATED: bits_of = 2;
-      default: bits_of = 1;
-    endcase
-  endfunction
   logic [16*fastsplat_pkg::COUNTERS-1:0] increments;
   for (genvar n = 0; n < fastsplat_pkg::COUNTERS; n++) begin : gen_count
-    fastsplat_popcount #(.BITS(bits_of(n))) u_count (
+    localparam bit OfLanes = n == fastsplat_pkg::CNT_LANES_INSIDE || n == fastsplat_pkg::CNT_LANES_WEIGHTED;
+    localparam bit OfProducts = n == fastsplat_pkg::CNT_PRODUCT_SATURATED || n == fastsplat_pkg::CNT_SHEET_SATURATED;
+    localparam bit OfPixels = n == fastsplat_pkg::CNT_PIXELS_COMPOSITED || n == fastsplat_pkg::CNT_FROZEN_PIXELS;
+    localparam bit OfSlabs = n == fastsplat_pkg::CNT_OPACITY_SATURATED || n == fastsplat_pkg::CNT_COMPOSITE_SATURATED;
+    localparam int Bits = OfLanes ? BANKS
+                        : OfProducts ? 4 * BANKS
+                        : OfPixels ? COMPOSITED
+                        : OfSlabs ? 4 * COMPOSITED
+                        : n == fastsplat_pkg::CNT_PIXEL_SATURATED ? 4 * fastsplat_pkg::LANES
+                        : n == fastsplat_pkg::CNT_SNAP_SATURATED ? 2 : 1;
+    fastsplat_popcount #(.BITS(Bits)) u_count (
         .clk_i,
         .rst_ni,
         .clear_i(clear_counters),
-        .bits_i(events[n][bits_of(n)-1:0]),
+        .bits_i(events[n][Bits-1:0]),
         .count_o(increments[16*n+:16])
     );
   end

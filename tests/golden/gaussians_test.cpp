@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -163,6 +164,12 @@ TEST(GoldenGaussians, WhatTheCapBeforeTheKernelCosts) {
   for (auto& splat : projected) splat.opacity = 1.0;
   const Image after = render_gaussians(scene, projected, {.cap_samples = true});
   figure("all opaque: cap before against cap after the kernel", psnr(before, after), "dB");
+  const auto widest =
+      std::ranges::max_element(projected, {}, [](const auto& splat) { return splat.shape.determinant(); });
+  const Image alone = render_gaussians(scene, {*widest}, {.cap_samples = true});
+  float most = 0.0F;
+  for (std::size_t i = 3; i < alone.data.size(); i += 4) most = std::max(most, alone.data[i]);
+  EXPECT_EQ(most, 0.99F) << "the most that one sample hides";
   EXPECT_GT(psnr(before, after), 50.0);
   EXPECT_LT(psnr(before, after), 100.0);
 }

@@ -201,42 +201,28 @@ class SecondSimulator : public ::testing::TestWithParam<const char*> {
   cmodel::Config config() const { return driver::load_config(GetParam()); }
 };
 
-/// A scene and a random stream.
-void streams_equal_the_model(const std::string& name, const cmodel::Config& config, scene::Method method) {
-  const Icarus icarus(config, "streams-" + name);
+TEST_P(SecondSimulator, StreamsEqualTheModelUnderEveryPattern) {
+  const Icarus icarus(config(), std::string("streams-") + GetParam());
   std::printf("[figure] %s\n", Icarus::version().c_str());
   scene::SceneDescription description;
   description.volume = "shells:8";
   description.width = 40;  // more than a tile, and no multiple of one
   description.height = 24;
-  description.method = method;
-  Played played{.beats = scene_beats(description, config), .patterns = patterns(7), .plays = {}};
+  Played played{.beats = scene_beats(description, config()), .patterns = patterns(7), .plays = {}};
   for (std::size_t i = 0; i < 2; ++i)
     played.plays.push_back({.beats = played.beats.size(), .input = i * 3, .ready = i * 3});
   Transcript transcript = icarus.play(played);
   // Four-state from the first moment: nothing is known before the first reset.
   EXPECT_EQ(transcript.power_up, "s_tready=x m_tvalid=x bvalid=x rvalid=x error=x");
-  judge(name + " scene", config, played, transcript);
+  judge(std::string(GetParam()) + " scene", config(), played, transcript);
 
-  auto document = testbench::make_stimulus(config, testbench::StimulusClass::Mixed, 11, 60).document;
+  auto document = testbench::make_stimulus(config(), testbench::StimulusClass::Mixed, 11, 60).document;
   keep_smallest_set(document);
-  played.beats = testbench::write_document(config, document);
+  played.beats = testbench::write_document(config(), document);
   played.plays.clear();
   for (std::size_t i = 0; i < played.patterns.size(); ++i)
     played.plays.push_back({.beats = played.beats.size(), .input = played.patterns.size() - 1 - i, .ready = i});
-  judge(name + " random", config, played, icarus.play(played));
-}
-
-TEST_P(SecondSimulator, StreamsEqualTheModelUnderEveryPattern) {
-  streams_equal_the_model(GetParam(), config(), scene::Method::ImageAligned);
-}
-
-/// Windows that are composited one by one, and the wait between them.
-TEST(SecondSimulatorOfSamples, StreamsEqualTheModelUnderEveryPattern) {
-  if (const std::string missing = Icarus::missing(); !missing.empty()) GTEST_SKIP() << missing;
-  cmodel::Config config = driver::load_config("tiny");
-  config.composite_every_sample = 1;
-  streams_equal_the_model("tiny-samples", config, scene::Method::Westover);
+  judge(std::string(GetParam()) + " random", config(), played, icarus.play(played));
 }
 
 TEST_P(SecondSimulator, ResetsOfAnyLengthInAnyRecordLeaveNothingBehind) {

@@ -13,9 +13,12 @@ const causes: Record<string, string> = {
   ideal: "windows and dirty blocks, one a cycle",
   records: "records that are no splat, one cycle each",
   table_load: "table words, one cycle each",
+  hidden: "hidden splats that were sent, and rows of hidden windows, one cycle each",
   input: "no record: the source was late",
   sheet_buffer: "begin_sheet waits for a buffer",
+  map: "begin_sheet waits for the map of opaque cells",
   drain: "end_tile waits for the pipes",
+  hazard: "a window waits for the one before, which it lies over",
   pixels: "the picture goes out",
   output: "a pixel beat waits: the sink was not ready",
 };

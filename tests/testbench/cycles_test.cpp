@@ -54,7 +54,12 @@ TEST_P(EachConfig, RandomStreamsUnderPairsOfPatterns) {
   EXPECT_GE(pairs, 12);
   judge(GetParam() + " random", total);
   total.account.for_each([&](const char* name, std::uint64_t cycles, const char*) {
-    EXPECT_GT(cycles, 0U) << name << ": the streams never went that way";
+    const bool of_culling = std::string(name) == "hidden" || std::string(name) == "map";
+    if (of_culling && !config().culls()) {
+      EXPECT_EQ(cycles, 0U) << name;
+    } else {
+      EXPECT_GT(cycles, 0U) << name << ": the streams never went that way";
+    }
     std::printf("[figure] %s %s = %llu cycles\n", GetParam().c_str(), name, static_cast<unsigned long long>(cycles));
   });
 }

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "tests/architecture/source_helper.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::architecture {
 namespace {

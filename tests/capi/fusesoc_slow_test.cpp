@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "tests/capi/recorded_helper.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::test {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "tests/capi/truth_helper.hpp"
 #include "tests/cmodel/configs_helper.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::test {
 namespace {

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "tests/capi/recorded_helper.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::test {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "tests/cli/process_helper.hpp"
 #include "tests/cli/words_helper.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::cli_test {
 namespace {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "tests/cli/process_helper.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::cli_test {
 namespace {

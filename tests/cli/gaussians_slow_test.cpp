@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/process_helper.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::cli_test {
 namespace {

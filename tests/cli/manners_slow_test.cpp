@@ -8,6 +8,7 @@
 
 #include "cli/command_line.hpp"
 #include "tests/cli/process_helper.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::cli_test {
 namespace {

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "tests/paths.hpp"
+
 namespace fastsplat::test {
 namespace {
 

@@ -14,6 +14,7 @@
 #include "cmodel/stream_rules.hpp"
 #include "cmodel/sv_package.hpp"
 #include "tests/cmodel/configs_helper.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::test {
 namespace {

@@ -8,6 +8,7 @@
 #include "driver/compile.hpp"
 #include "driver/config_file.hpp"
 #include "tests/driver/scenes_helper.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::driver {
 namespace {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "tests/driver/scenes_helper.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::driver {
 namespace {

@@ -15,6 +15,7 @@
 #include "driver/render.hpp"
 #include "driver/run_device.hpp"
 #include "scene/scene.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::driver {
 namespace {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "driver/config_file.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::analysis {
 namespace {

@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "report/faces/face.hpp"
 #include "tests/faces/results_helper.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::report {
 namespace {

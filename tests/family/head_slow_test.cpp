@@ -7,6 +7,7 @@
 
 #include "analysis/family/family_page.hpp"
 #include "analysis/family/head.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::analysis {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "analysis/family/family_plots.hpp"
 #include "tests/family/xml_helper.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::analysis {
 namespace {

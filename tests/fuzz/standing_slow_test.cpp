@@ -10,6 +10,7 @@
 #include <string>
 
 #include "tests/fuzz/mutate.hpp"
+#include "tests/paths.hpp"
 
 #define FASTSPLAT_FUZZ_TARGET(name, folder, runs) extern "C" int fuzz_##name(const std::uint8_t*, std::size_t);
 #include "tests/fuzz/targets.def"

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "cmodel/sv_package.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::test {
 namespace {

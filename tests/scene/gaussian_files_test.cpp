@@ -7,6 +7,7 @@
 
 #include "scene/gaussians/gaussian_file.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
+#include "tests/paths.hpp"
 #include "tests/scene/gaussian_helper.hpp"
 
 namespace fastsplat::scene {

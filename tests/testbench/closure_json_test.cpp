@@ -8,6 +8,7 @@
 
 #include "base/read_file.hpp"
 #include "testbench/closure/closure_report.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::testbench {
 namespace {

@@ -10,6 +10,7 @@
 #include "driver/config_file.hpp"
 #include "testbench/closure/closure_report.hpp"
 #include "testbench/closure/coverage_campaigns.hpp"
+#include "tests/paths.hpp"
 #include "tests/testbench/scene_beats_helper.hpp"
 
 namespace fastsplat::testbench {

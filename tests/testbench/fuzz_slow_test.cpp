@@ -14,6 +14,7 @@
 #include "testbench/coverage/coverage_book.hpp"
 #include "testbench/stimulus/stimulus.hpp"
 #include "tests/cmodel/random_helper.hpp"
+#include "tests/paths.hpp"
 #include "volume/volume_file.hpp"
 
 namespace fastsplat::testbench {

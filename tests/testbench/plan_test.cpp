@@ -13,6 +13,7 @@
 #include "driver/config_file.hpp"
 #include "testbench/closure/closure_report.hpp"
 #include "testbench/closure/coverage_campaigns.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::testbench {
 namespace {

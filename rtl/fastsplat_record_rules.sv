@@ -73,9 +73,20 @@ module fastsplat_record_rules (
   logic tile_good, set_good, position_good, ellipse_position_good, colour_good, sides_good;
   logic mode_good;  // 4 and 5: of every sample
   assign mode_good = w0[11:8] <= 4'd2 || (fastsplat_pkg::EVERY_SAMPLE != 0 && w0[11:9] == 3'd2);
+  // x + w <= W is x + w + (2^16 - 1 - W) < 2^16: three numbers made two by a carry-save adder, then one long carry instead of two.
+  logic [15:0] sum_x, carry_x, sum_y, carry_y, unused_x, unused_y;
+  logic [1:0] right, bottom;  // of the image: 0 inside
+  assign sum_x = w2[15:0] ^ w4[15:0] ^ ~image_width_i;
+  assign carry_x = (w2[15:0] & w4[15:0]) | ((w2[15:0] | w4[15:0]) & ~image_width_i);
+  assign sum_y = w3[15:0] ^ w4[31:16] ^ ~image_height_i;
+  assign carry_y = (w3[15:0] & w4[31:16]) | ((w3[15:0] | w4[31:16]) & ~image_height_i);
+  assign {right, unused_x} = 18'(sum_x) + {1'b0, carry_x, 1'b0};
+  assign {bottom, unused_y} = 18'(sum_y) + {1'b0, carry_y, 1'b0};
+  logic unused;
+  assign unused = &{1'b0, unused_x, unused_y};
   assign tile_good = mode_good && w1 < tiles_i && w4[15:0] <= 16'(fastsplat_pkg::TILE_WIDTH) &&
                      w4[31:16] <= 16'(fastsplat_pkg::TILE_HEIGHT) && w2[31:16] == '0 && w3[31:16] == '0 &&
-                     17'(w2[15:0]) + 17'(w4[15:0]) <= 17'(image_width_i) && 17'(w3[15:0]) + 17'(w4[31:16]) <= 17'(image_height_i);
+                     right == '0 && bottom == '0;
   assign sides_good = w4[15:0] != '0 && w4[31:16] != '0;
   assign set_good = w0[15:8] < 8'(fastsplat_pkg::RLUT_SETS) && sets_loaded_i[w0[8+:fastsplat_pkg::SET_BITS]];
   assign position_good = (w2[31:PB-1] == '0 || w2[31:PB-1] == '1) && (w3[31:PB-1] == '0 || w3[31:PB-1] == '1);

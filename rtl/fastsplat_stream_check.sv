@@ -38,8 +38,9 @@ module fastsplat_stream_check (
   // Judged by what is counted of the beats before.
   localparam logic [RULES:0] COUNTED = (RULES + 1)'(1) << fastsplat_pkg::RULE_SHEET | (RULES + 1)'(1) << fastsplat_pkg::RULE_TAG |
                                        (RULES + 1)'(1) << fastsplat_pkg::RULE_END_NUMBER | (RULES + 1)'(1) << fastsplat_pkg::RULE_END_COUNT;
-  // Comparisons of order, not of equality, with words that are no constants.
-  localparam logic [RULES:0] LATE = (RULES + 1)'(1) << fastsplat_pkg::RULE_TILE | (RULES + 1)'(1) << fastsplat_pkg::RULE_SHEET;
+  // Comparisons of order, not of equality, with words that are no constants, or are sums.
+  localparam logic [RULES:0] LATE = (RULES + 1)'(1) << fastsplat_pkg::RULE_TABLE | (RULES + 1)'(1) << fastsplat_pkg::RULE_TILE |
+                                    (RULES + 1)'(1) << fastsplat_pkg::RULE_SHEET;
 
   // Where in the grammar the beat stands.
   typedef enum logic [2:0] {PlStart, PlTables, PlWords, PlTile, PlSheet} place_e;

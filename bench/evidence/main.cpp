@@ -1,7 +1,9 @@
 // fastsplat_evidence: what tools other than the simulator said of the device, gathered (./run synth, ./run evidence).
 //   synthesis KEPT WORK_DIR FAMILY-CONFIG...  KEPT (it may be missing) with those named anew, of the files of synth.sh
 //   ratchet BASELINE WORK_DIR FAMILY-CONFIG...  those against the baseline's: exit code 1 where one moved by more than
-//   2 % figures GTEST_JSON                       the figures of a test program's report, by test page FOLDER
+//   2 %
+//   seed BASELINE FAMILY-CONFIG               the placer's seed of which the baseline has it placed; nothing if it is not
+//   figures GTEST_JSON                        the figures of a test program's report, by test page FOLDER
 //   docs/evidence.md of FOLDER's JSON, to standard output
 // Exit codes: 0, 1 moved, 2 usage, 3 a file that is missing or wrong.
 #include <algorithm>
@@ -68,6 +70,15 @@ int ratchet(const Json& baseline, const std::string& work, std::span<const std::
   return moved || compared == 0 ? 1 : 0;
 }
 
+int seed(const Json& baseline, const std::string& name) {
+  const auto dash = name.find('-');
+  if (dash == std::string::npos) throw std::runtime_error(name + " is no FAMILY-CONFIG");
+  const auto kept = find_design(baseline, {{"family", name.substr(0, dash)}, {"design", name.substr(dash + 1)}});
+  if (kept != baseline.end() && kept->contains("placement"))
+    std::cout << kept->at("placement").at("seed").get<int>() << "\n";
+  return 0;
+}
+
 Json proofs(const std::string& tool, std::span<const std::string> files) {
   Json all = Json::array();
   for (const auto& file : files) {
@@ -127,6 +138,7 @@ int run(const std::vector<std::string>& words) {
     return 0;
   }
   if (is("ratchet", 3)) return ratchet(read_json(words[1]), words[2], std::span(words).subspan(3));
+  if (is("seed", 2)) return seed(read_json(words[1]), words[2]);
   if (is("figures", 2)) {
     std::cout << Json{{"tool", words[1]}, {"tests", figures(read_json(words[2]))}}.dump(1) << "\n";
     return 0;
@@ -140,7 +152,7 @@ int run(const std::vector<std::string>& words) {
     return 0;
   }
   std::cerr << "usage: fastsplat_evidence synthesis KEPT WORK_DIR FAMILY-CONFIG... | ratchet BASELINE WORK_DIR "
-               "FAMILY-CONFIG... | figures TOOL GTEST_JSON | proofs TOOL FILE... | page FOLDER\n";
+               "FAMILY-CONFIG... | seed BASELINE FAMILY-CONFIG | figures TOOL GTEST_JSON | proofs TOOL FILE... | page FOLDER\n";
   return 2;
 }
 

@@ -80,6 +80,9 @@ std::string placement(const Json& design) {
     out += fmt::format(", {} {} of {}", kind, used.at(0).get<int>(), used.at(1).get<int>());
   if (placed.contains("bitstream_bytes"))
     out += fmt::format("; a bitstream of {} bytes", placed.at("bitstream_bytes").get<std::int64_t>());
+  out += fmt::format(".\n\nThat is the fastest, seed {}, of:", placed.at("seed").get<int>());
+  for (const auto& [seed, speed] : placed.at("seeds_mhz").items())
+    out += fmt::format("{} {} MHz", seed == placed.at("seeds_mhz").begin().key() ? "" : ",", speed.get<double>());
   out += ".\n\n";
   const Json& slowest = placed.at("slowest");
   out += fmt::format(

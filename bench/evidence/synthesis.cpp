@@ -141,7 +141,7 @@ Json read_placement(const std::filesystem::path& report) {
 void compare(const std::string& where, const Json& then, const Json& now, double share, int& compared,
              std::vector<std::string>& out) {
   for (const auto& [key, value] : then.items()) {
-    if (key == "seconds" || key == "worst_paths" || key == "slowest") continue;
+    if (key == "seconds" || key == "worst_paths" || key == "slowest" || key == "seeds_mhz") continue;
     const std::string place = where + " " + key;
     if (!now.contains(key)) {
       out.push_back(place + ": gone");
@@ -172,12 +172,16 @@ Json read_synthesis(const std::filesystem::path& work, const std::string& family
   Json json{{"design", config}, {"family", family}};
   double seconds = 0;
   std::int64_t bitstream = 0;
+  Json seeds = Json::object();  // of the placer: MHz
   for (const auto& line : lines_of(base + ".tools")) {
     const auto space = line.find(' ');
     if (line.starts_with("seconds ")) {
       seconds = std::stod(line.substr(space));
     } else if (line.starts_with("bitstream ")) {
       bitstream = std::stoll(line.substr(space));
+    } else if (line.starts_with("seed ")) {
+      const auto speed = line.find(' ', space + 1);
+      seeds[line.substr(space + 1, speed - space - 1)] = std::round(std::stod(line.substr(speed)) / 100) / 10;
     } else if (line.starts_with("configuration ")) {
       json["configuration"] = line.substr(space + 1);
     } else {
@@ -201,7 +205,13 @@ Json read_synthesis(const std::filesystem::path& work, const std::string& family
       json["modules"][name] = module;
     }
   }
-  if (family == "hx8k") json["placement"] = read_placement(base + ".report");
+  if (family == "hx8k") {
+    json["placement"] = read_placement(base + ".report");
+    const auto fastest = std::max_element(seeds.begin(), seeds.end());  // the first of equals: the one that is kept
+    if (fastest == seeds.end()) throw std::runtime_error(base + ".tools names no seed of the placer");
+    json["placement"]["seed"] = std::stoi(fastest.key());
+    json["placement"]["seeds_mhz"] = seeds;
+  }
   if (bitstream > 0) json["placement"]["bitstream_bytes"] = bitstream;
   json["seconds"] = std::round(seconds);
   return json;

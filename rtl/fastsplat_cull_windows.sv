@@ -16,6 +16,7 @@ module fastsplat_cull_windows (
 );
   localparam int PL = fastsplat_pkg::LANE_LOG2;
   localparam int BX = fastsplat_pkg::BLOCKS_X;
+  localparam int SIDE = fastsplat_pkg::SIDE_BITS;
   localparam int ORG = fastsplat_pkg::ORG_BITS;
   localparam int NW = fastsplat_pkg::WINDOWS_X;
 
@@ -29,17 +30,22 @@ module fastsplat_cull_windows (
   assign rows = $signed(((ORG + 1)'(height_i) + (ORG + 1)'(fastsplat_pkg::LANES - 1)) >> PL);
   assign row_o = row[fastsplat_pkg::BLK_BITS-1:0];
 
-  logic first_out, second_out;  // the row of blocks lies beside the tile
+  logic first_out, second_out;  // nothing of the windows lies in the tile there: in the row of blocks, in the row below
   logic [BX-1:0] seen;          // columns of blocks
-  logic [NW:0] met;             // from the first window's column on
-  assign first_out = row < 0 || row >= rows;
+  logic [NW-1:0] first, second;  // by window: it meets such a one in its first column, in the next one
+  assign first_out = row < 0 || (ORG + 1)'(y_i) >= $signed((ORG + 1)'(height_i));
   assign second_out = row < -1 || row >= rows - 1 || !between_y;
   always_comb begin
     for (int b = 0; b < BX; b++) seen[b] = (ORG + 1)'(b) < columns && ((!first_out && !row_i[b]) || (!second_out && !row_below_i[b]));
-    met = '0;
-    for (int w = 0; w <= NW; w++) begin
-      for (int b = 0; b < BX; b++) if (column + (ORG + 1)'(w) == (ORG + 1)'(b)) met[w] = seen[b];
+    first = '0;
+    second = '0;
+    for (int w = 0; w < NW; w++) begin
+      for (int b = 0; b < BX; b++) begin
+        // Of the tile's last column the windows may begin behind its last pixel.
+        if (column + (ORG + 1)'(w) == (ORG + 1)'(b)) first[w] = seen[b] && (SIDE'(b << PL) | SIDE'(x_i[PL-1:0])) < width_i;
+        if (column + (ORG + 1)'(w) + (ORG + 1)'(1) == (ORG + 1)'(b)) second[w] = seen[b] && between_x;
+      end
+      seen_o[w] = there_i[w] && (!culls_i || first[w] || second[w]);
     end
-    for (int w = 0; w < NW; w++) seen_o[w] = there_i[w] && (!culls_i || met[w] || (between_x && met[w+1]));
   end
 endmodule

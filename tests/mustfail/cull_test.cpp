@@ -44,7 +44,7 @@ TEST(Culling, EachEventHappensInItsCycle) {
 
 TEST(Culling, RandomStreamsOfEveryClass) {
   testbench::CampaignOptions options{.verify = {.config = culling(), .ready = "all", .wave = {}, .device = {}},
-                                     .splats = 6000,
+                                     .splats = 8000,
                                      .seeds = 3,
                                      .threads = 1,
                                      .progress = {}};

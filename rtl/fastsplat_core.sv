@@ -470,9 +470,16 @@ module fastsplat_core (
   assign running = !stall_input || tile_open || !pixel_idle;
 
   // What a counter counts: bits set in a cycle.
-  logic [4*BANKS-1:0] events[0:fastsplat_pkg::COUNTERS-1];
+  localparam int MOST = (fastsplat_pkg::CULL_MAP != 0 && fastsplat_pkg::WINDOWS_X > 4 * BANKS) ? fastsplat_pkg::WINDOWS_X : 4 * BANKS;
+  logic [MOST-1:0] events[0:fastsplat_pkg::COUNTERS-1];
   always_comb begin
-    for (int n = 0; n < fastsplat_pkg::COUNTERS; n++) events[n] = (4 * BANKS)'(n == fastsplat_pkg::CNT_STALL_HAZARD && stall_hazard);
+    // Those that not every device has.
+    for (int n = 0; n < fastsplat_pkg::COUNTERS; n++) begin
+      events[n] = (n == fastsplat_pkg::CNT_HIDDEN_WINDOWS) ? MOST'(event_hidden_windows)
+                  : MOST'((n == fastsplat_pkg::CNT_STALL_HAZARD && stall_hazard) || (n == fastsplat_pkg::CNT_CULL_TESTS && event_test) ||
+                          (n == fastsplat_pkg::CNT_HIDDEN_SETS && event_hidden_set) ||
+                          (n == fastsplat_pkg::CNT_HIDDEN_SPLATS && event_hidden));
+    end
     events[fastsplat_pkg::CNT_SHEETS][0] = tap_sheet_done_o;
     events[fastsplat_pkg::CNT_SPLATS][0] = event_splat;
     events[fastsplat_pkg::CNT_CULL_BLOCKS][0] = event_cull;
@@ -481,9 +488,9 @@ module fastsplat_core (
     if (tap_window_valid_o) begin
       events[fastsplat_pkg::CNT_LANES_INSIDE][BANKS-1:0] = window_inside;
       events[fastsplat_pkg::CNT_LANES_WEIGHTED][BANKS-1:0] = weighted;
-      events[fastsplat_pkg::CNT_PRODUCT_SATURATED] = product_saturated;
+      events[fastsplat_pkg::CNT_PRODUCT_SATURATED][4*BANKS-1:0] = product_saturated;
     end
-    if (tap_sheet_valid_o && !`FASTSPLAT_FAULT(LOST_COUNT)) events[fastsplat_pkg::CNT_SHEET_SATURATED] = sheet_saturated;
+    if (tap_sheet_valid_o && !`FASTSPLAT_FAULT(LOST_COUNT)) events[fastsplat_pkg::CNT_SHEET_SATURATED][4*BANKS-1:0] = sheet_saturated;
     events[fastsplat_pkg::CNT_DIRTY_BLOCKS][0] = tap_composite_valid_o && !every_sample;
     if (slice_valid) begin
       events[fastsplat_pkg::CNT_PIXELS_COMPOSITED][COMPOSITED-1:0] = slice_inside;
@@ -512,6 +519,7 @@ module fastsplat_core (
                         : OfPixels ? COMPOSITED
                         : OfSlabs ? 4 * COMPOSITED
                         : n == fastsplat_pkg::CNT_PIXEL_SATURATED ? 4 * fastsplat_pkg::LANES
+                        : n == fastsplat_pkg::CNT_HIDDEN_WINDOWS ? fastsplat_pkg::WINDOWS_X
                         : n == fastsplat_pkg::CNT_SNAP_SATURATED ? 2 : 1;
     fastsplat_popcount #(.BITS(Bits)) u_count (
         .clk_i,

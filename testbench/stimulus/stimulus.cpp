@@ -177,7 +177,6 @@ class Generator {
 
   TileDocument make_tile() {
     tile_ = begin_tile();
-    tag_ = 0;
     TileDocument tile{tile_, {}};
     // What happens once in a pixel's life wants many tiles.
     const bool many_tiles = which_ == StimulusClass::Thresholds;
@@ -418,8 +417,7 @@ class Generator {
           cmodel::SplatRecord{.set = at.set, .tag = 0, .x = at.x, .y = at.y, .colour = colours()});
     }
     if (hints && random_.chance(2)) sheet.records.emplace_back(cull());
-    if (!hints) promise(config_, random_, tile_, rho_, tag_, sheet);
-    tag_ += static_cast<std::uint32_t>(count);
+    if (!hints) promise(config_, random_, tile_, rho_, sheet);
     return sheet;
   }
 
@@ -440,7 +438,6 @@ class Generator {
   std::array<std::uint32_t, 256> rho_{};
   cmodel::BeginTile tile_;
   Place hot_, before_, last_;
-  std::uint32_t tag_ = 0;  ///< of the sheet's first splat
   std::uint64_t left_ = 0, distance_ = 1;
   std::int64_t phase_ = 0;
   std::array<std::int64_t, 4> missing_{};  ///< of the words that a sheet aims at; negative: any colour will do

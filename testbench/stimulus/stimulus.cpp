@@ -7,6 +7,7 @@
 #include "cmodel/stream_decode.hpp"
 #include "cmodel/window_geometry.hpp"
 #include "testbench/stimulus/ellipse_stimulus.hpp"
+#include "testbench/stimulus/promises.hpp"
 #include "testbench/stimulus/random.hpp"
 #include "testbench/stimulus/stimulus_tables.hpp"
 
@@ -402,8 +403,9 @@ class Generator {
 
   SheetDocument make_sheet(std::uint32_t number, std::uint64_t count) {
     SheetDocument sheet{number, {}};
+    const bool hints = !config_.culls();
     for (std::uint64_t i = 0; i < count; ++i) {
-      if (random_.chance(2)) sheet.records.emplace_back(cull());
+      if (hints && random_.chance(2)) sheet.records.emplace_back(cull());
       const Place at = next_place(i);
       if (ellipses() && random_.chance(40)) {
         cmodel::EllipseRecord shaped = random_ellipse(config_, random_, at.x, at.y, most_ellipse_windows());
@@ -414,7 +416,8 @@ class Generator {
       sheet.records.emplace_back(
           cmodel::SplatRecord{.set = at.set, .tag = 0, .x = at.x, .y = at.y, .colour = colours()});
     }
-    if (random_.chance(2)) sheet.records.emplace_back(cull());
+    if (hints && random_.chance(2)) sheet.records.emplace_back(cull());
+    if (!hints) promise(config_, random_, tile_, rho_, sheet);
     return sheet;
   }
 

@@ -50,6 +50,7 @@ class CullPipe {
         by_pixels_ ? static_cast<std::uint64_t>(lanes_) * static_cast<std::uint64_t>((width + lanes_ - 1) / lanes_) : 1;
     sheet_ = 0;
     done_ = 0;
+    built_ = 0;
     whole_.fill(0);
     changed_.fill(0);  // what the tables hold is another tile's
     opaque_ = false;

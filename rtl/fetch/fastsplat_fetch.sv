@@ -55,11 +55,14 @@ module fastsplat_fetch #(
   localparam logic [1:0] NONE = 2'd0, RESPONSE = 2'd1, VERDICT = 2'd2, COMMAND = 2'd3;
   `FASTSPLAT_INIT(burst, BURST >= 1 && BURST <= 128 && BURST <= (1 << DEPTH_LOG2), "BURST = %0d, not 1 to 128, or more than there is room for (%0d)", BURST, 1 << DEPTH_LOG2)
   `FASTSPLAT_INIT(outstanding, OUTSTANDING >= 2 && OUTSTANDING <= 1024, "OUTSTANDING = %0d, not 2 to %0d", OUTSTANDING, 1024)
-  `FASTSPLAT_INIT(address, ADDRESS_BITS >= 13 && ADDRESS_BITS <= 64, "ADDRESS_BITS = %0d, not 13 to %0d", ADDRESS_BITS, 64)
+  `FASTSPLAT_INIT(address, ADDRESS_BITS >= 16 && ADDRESS_BITS <= 64, "ADDRESS_BITS = %0d, not 16 to %0d", ADDRESS_BITS, 64)
 
   logic clk_i, rst_ni;
   assign clk_i = aclk;
   assign rst_ni = aresetn;
+
+  logic unused;  // high bits of counts, where addresses are short
+  assign unused = &{1'b0, run_skip, run_beats};
 
   logic failed, forget;  // all that is not memory's or the device's is as after a reset
   assign failed = error != NONE;
@@ -239,7 +242,7 @@ module fastsplat_fetch #(
     end
     if (judges) begin
       undecided_q <= undecided_q - SB'(1);
-      skipped_q <= verdict_hidden ? skipped_q + judged_splats - 32'(`FASTSPLAT_FAULT(FETCH_SHORT_JUMP)) : seen_splats != 32'd0 ? 32'd0 : skipped_q;
+      skipped_q <= verdict_hidden ? skipped_q + judged_splats - 32'(`FASTSPLAT_FAULT(FETCH_SHORT_JUMP) && judged_splats != 32'd0) : seen_splats != 32'd0 ? 32'd0 : skipped_q;
     end
     if (takes_command && legal && command_splats != '0) begin
       undecided_q <= SB'(command_sets);

@@ -17,11 +17,11 @@ module fastsplat_queue #(
 );
   localparam int WORDS = 1 << LOG2;
 
-  // In the memory, read last cycle, and read before that and not taken.
+  // In the memory, read in the cycle before, and read earlier and not taken: of those the second is still the memory's output.
   logic [LOG2:0] put_q, read_q;
   logic fetched_q;
   logic [1:0] held_q, shown, left;
-  logic [BITS-1:0] fetched, first_q, second_q;
+  logic [BITS-1:0] fetched, first_q;
   logic taken, read;
   assign valid_o = shown != 2'd0;
   assign data_o = (held_q != 2'd0) ? first_q : fetched;
@@ -49,8 +49,7 @@ module fastsplat_queue #(
     if (read) read_q <= read_q + (LOG2 + 1)'(1);
     fetched_q <= read;
     held_q <= left;
-    if (taken || held_q == 2'd0) first_q <= (held_q == 2'd2) ? second_q : fetched;
-    if (held_q != 2'd2 || taken) second_q <= fetched;
+    if (taken || held_q == 2'd0) first_q <= fetched;
     if (!rst_ni || clear_i) begin
       put_q <= '0;
       read_q <= '0;

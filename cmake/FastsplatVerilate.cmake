@@ -22,7 +22,7 @@ target_link_libraries(verilated_runtime PUBLIC ZLIB::ZLIB Threads::Threads)
 # ASSERT: checks the assertions of rtl/; WAVE: can write waveforms. Without either it is fastest. What can write waveforms keeps every signal
 # (a fifth of the time of `base`) and runs short streams only, so it is compiled fast instead of to be fast.
 # RTL <folder>: the source is there, generated from rtl/ (tests/mutants); QUICK: compiled rather than run quickly.
-# TOP <module>: of rtl/top/, around the device. NETLIST <kind>: not the source but what Yosys makes of it (cmake/netlist.sh); CUT <net>: with that net tied to 0.
+# TOP <module>: of rtl/top/, around the device, or of rtl/fetch/, beside it. NETLIST <kind>: not the source but what Yosys makes of it (cmake/netlist.sh); CUT <net>: with that net tied to 0.
 function(fastsplat_verilate target config)
   cmake_parse_arguments(arg "ASSERT;WAVE;QUICK" "NETLIST;CUT;RTL;TOP" "DEFINES;SOURCES;ARGS" ${ARGN})
   set(abilities "")
@@ -41,7 +41,7 @@ function(fastsplat_verilate target config)
   set(top fastsplat_core)
   if(arg_TOP)
     set(top ${arg_TOP})
-    file(GLOB around CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/top/*.sv)
+    file(GLOB around CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/top/*.sv ${PROJECT_SOURCE_DIR}/rtl/fetch/*.sv)
     list(APPEND RTL_SOURCES ${around})
   endif()
   set(warnings -Wall)
@@ -104,4 +104,27 @@ function(fastsplat_verilate target config)
   add_dependencies(${target} verilate_${target})
   target_include_directories(${target} SYSTEM INTERFACE ${folder}/obj)
   target_link_libraries(${target} INTERFACE ${archive} verilated_runtime)
+endfunction()
+
+# fastsplat_fault_package(<list> <package>): <package>, generated now: the faults of <list>, lines FAULT(NAME, ...), by the number of the line, and the one
+# that is selected (rtl/fault.svh).
+function(fastsplat_fault_package list package)
+  file(STRINGS ${list} lines REGEX "^FAULT\\(")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${list})
+  set(numbers "")
+  set(number 0)
+  foreach(line ${lines})
+    string(REGEX MATCH "^FAULT\\(([A-Z0-9_]+)," unused "${line}")
+    math(EXPR number "${number} + 1")
+    string(APPEND numbers "  localparam int ${CMAKE_MATCH_1} = ${number};\n")
+  endforeach()
+  file(RELATIVE_PATH source ${PROJECT_SOURCE_DIR} ${list})
+  file(CONFIGURE OUTPUT ${package} @ONLY CONTENT [=[
+// Generated from @source@; do not edit.
+package fastsplat_fault_pkg;
+@numbers@`ifdef VERILATOR
+  int selected  /* verilator public_flat_rw */;
+`endif
+endpackage
+]=])
 endfunction()

@@ -6,6 +6,7 @@
 
 #include "cmodel/cycle_stages.hpp"
 #include "cmodel/ellipse_unit.hpp"
+#include "cmodel/fetch_commands.hpp"
 #include "cmodel/snap.hpp"
 #include "cmodel/window_geometry.hpp"
 
@@ -164,14 +165,21 @@ void CycleModel::cull_block(const CullBlock& record) {
 }
 
 bool CycleModel::swallowed(const Record& record) {
-  if (!std::holds_alternative<SplatRecord>(record) && !std::holds_alternative<EllipseRecord>(record)) return false;
-  const Verdict* set = cull_sets_.next();
-  if (set == nullptr) return false;
-  if (options_.fetch) {
-    const std::uint64_t jump = std::max<std::uint64_t>(options_.fetch->latency, 1);
-    next_offer_ = std::max(next_offer_, set->cycle + (set->hidden ? jump : 1));
+  const bool splat = std::holds_alternative<SplatRecord>(record) || std::holds_alternative<EllipseRecord>(record);
+  const Verdict* set = splat ? cull_sets_.next() : nullptr;
+  if (set == nullptr) {
+    if (behind_set_ && cull_sets_.waiting() > 0) refuse_parted_sets(decode_.beats() - 1, cull_sets_.waiting());
+    if (behind_set_) fetch_behind(last_verdict_);  // of the last set
+    behind_set_ = false;
+    return false;
   }
+  behind_set_ = options_.fetch.has_value();
+  if (behind_set_ && !set->hidden) fetch_behind(set->cycle);
   return set->hidden;
+}
+
+void CycleModel::fetch_behind(std::uint64_t verdict) {
+  next_offer_ = std::max(next_offer_, verdict + std::max<std::uint64_t>(options_.fetch->latency, 1) + stages::kFetch);
 }
 
 void CycleModel::hide(std::uint64_t at) {

@@ -59,9 +59,10 @@ class CycleSink {
   virtual void on_tile(const TileCycles& tile) = 0;
 };
 
-/// The source is a master that reads the stream from a memory and never asks for the splats of a hidden set.
+/// The source is a master that reads the stream from a memory and never asks for the splats of a hidden set
+/// (rtl/fetch). It refuses, with UserError (Input), sets that cull_blocks lie between (cmodel/fetch_commands.hpp).
 struct Fetch {
-  std::uint64_t latency = 0;  ///< cycles from a set's verdict to the first beat behind it, if it is hidden; at least 1
+  std::uint64_t latency = 1;  ///< of the memory: cycles from an address taken to its first beat; 0 is taken for 1
 };
 
 struct CycleOptions {
@@ -117,8 +118,10 @@ class CycleModel final : public Device {
   void cull_block(const CullBlock& record);
   /// A splat of which nothing is done, in its cycle.
   void hide(std::uint64_t at);
-  /// The splat belongs to a hidden set. What was never sent takes no time.
+  /// The splat belongs to a hidden set. What was never sent takes no time; what is waits for its verdict.
   bool swallowed(const Record& record);
+  /// A fetching source has the next beat, which waits for the verdict of cycle `verdict`, from then on.
+  void fetch_behind(std::uint64_t verdict);
   /// A splat some of whose windows are hidden.
   void some_windows(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y, std::int32_t width,
                     std::int32_t height, const std::vector<bool>& hidden);
@@ -161,6 +164,7 @@ class CycleModel final : public Device {
   };
   CullSets<Verdict> cull_sets_;
   std::uint64_t last_verdict_ = 0, sent_ = 0;
+  bool behind_set_ = false;  ///< a fetching source has passed a splat of a set, and nothing behind the last set yet
 
   std::uint64_t payload_words_ = 0;  ///< of the open table
   std::uint64_t next_offer_ = 0;     ///< earliest cycle in which the next beat can be offered

@@ -17,6 +17,8 @@ inline std::uint64_t splat_delay(const Config& config) { return config.has_ellip
 
 // A device that culls: registers between check and decode, and when a table of its map is whole.
 inline constexpr std::size_t kCullStages = 4;  ///< t0 .. t3
+/// A fetching source: from a verdict to the first beat asked for after it, the memory's latency aside.
+inline constexpr std::uint64_t kFetch = 6;
 
 // From the cycle in which decode issues a window.
 inline constexpr std::uint64_t kSnap = 2;       ///< c1: the snapped origin

@@ -32,6 +32,8 @@
 namespace fastsplat::cli {
 namespace {
 
+constexpr int kLatency = 40;  ///< of the memory in a table of culling, cycles
+
 struct Arguments {
   Common common;
   SceneFlags scene;
@@ -305,7 +307,7 @@ ExitCode run(const Arguments& arguments) {
     }
     if (arguments.cull_table) {
       ProgressBar bar("cull table", watching(arguments.common));
-      result.cull_table = driver::cull_table(scene, config, static_cast<std::uint64_t>(std::max(arguments.fetch, 0)),
+      result.cull_table = driver::cull_table(scene, config, static_cast<std::uint64_t>(arguments.fetch >= 0 ? arguments.fetch : kLatency),
                                              arguments.common.threads, bar.callback());
     }
     ProgressBar bar("cycles", watching(arguments.common));
@@ -336,9 +338,10 @@ void declare(Options& options, Arguments& to) {
   options.values(pattern_words);
   options.integer("--seed", to.seed, 0, 2'000'000'000, "N", "of the patterns");
   options.group("Culling");
-  options.integer("--fetch", to.fetch, 0, 1'000'000, "CYCLES",
-                  "a source that does not send hidden sets; what it sends comes so many cycles after it may");
-  options.flag("--cull-table", to.cull_table, "the scene on devices of every cull.map, with and without --fetch");
+  options.integer("--fetch", to.fetch, 1, 1'000'000, "CYCLES",
+                  "a source that reads a memory of this latency and never asks for hidden sets");
+  options.flag("--cull-table", to.cull_table,
+               "the scene on devices of every cull.map, every beat sent and with --fetch (40 if it is not given)");
   options.group("Several devices");
   declare(options, to.scaling);
   options.group("Output");

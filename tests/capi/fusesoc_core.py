@@ -33,10 +33,12 @@ rtl = {os.path.relpath(path, source) for path in glob.glob(f"{source}/rtl/*.sv*"
 assert set(files["rtl"]) == rtl, set(files["rtl"]) ^ rtl
 top = {os.path.relpath(path, source) for path in glob.glob(f"{source}/rtl/top/*.sv")}
 assert set(files["top"]) == top, set(files["top"]) ^ top
+fetch = {os.path.relpath(path, source) for path in glob.glob(f"{source}/rtl/fetch/*.sv")}
+assert set(files["fetch"]) - rtl == fetch, (set(files["fetch"]) - rtl) ^ fetch
 includes = {next(iter(file)) for file in core["filesets"]["rtl"]["files"] if not isinstance(file, str)}
 assert includes == {file for file in rtl if file.endswith(".svh")}
 for target in core["targets"].values():
-    assert set(target["filesets"]) <= set(core["filesets"]) and set(target["generate"]) <= set(core["generate"])
+    assert set(target["filesets"]) <= set(core["filesets"]) and set(target.get("generate", [])) <= set(core["generate"])
 for instance in core["generate"].values():
     assert instance["generator"] in core["generators"]
 

@@ -1,7 +1,9 @@
 // The cycle model of a device that culls: beat by beat against a clock, and against the device that does not cull.
 #include <gtest/gtest.h>
 
+#include "base/error.hpp"
 #include "cmodel/cycle_model.hpp"
+#include "cmodel/fetch_commands.hpp"
 #include "cmodel/model.hpp"
 #include "tests/cmodel/compare_helper.hpp"
 #include "tests/cmodel/configs_helper.hpp"
@@ -27,14 +29,17 @@ struct Tally {
   std::uint64_t beats = 0, unsent = 0, waited = 0, hidden = 0, map = 0, later = 0;
 };
 
-void compare(const cmodel::Config& config, std::span<const cmodel::Beat> beats, Tally& tally) {
+/// Every beat sent, and a source that fetches from memories of these latencies.
+const std::optional<std::uint64_t> kSources[] = {{}, 0, 3, 50};
+
+void compare(const cmodel::Config& config, std::span<const cmodel::Beat> beats,
+             std::span<const std::optional<std::uint64_t>> sources, Tally& tally) {
   Collector seen;
   cmodel::CullLog log;
   cmodel::Model model(config, cmodel::StreamScope::Whole, seen);
   model.log_culls(&log);
   model.consume(beats);
-  for (const std::optional<std::uint64_t> latency :
-       {std::optional<std::uint64_t>{}, {std::uint64_t{0}}, {std::uint64_t{3}}, {std::uint64_t{50}}}) {
+  for (const std::optional<std::uint64_t> latency : sources) {
     Times times;
     cmodel::CycleOptions options{.spans = &times, .culls = &log};
     if (latency) options.fetch = cmodel::Fetch{*latency};
@@ -78,8 +83,11 @@ TEST(CullCycles, AreThoseOfAClock) {
         cmodel::Config config = named_config(name);
         config.cull_map = static_cast<int>(map);
         if (i % 3 == 1) config.composite_lanes = config.lanes;
-        const auto stream = random_stream(symbols_of(config), random, 200);
-        compare(config, to_beats(stream.bytes), tally);
+        const auto whole = random_stream(symbols_of(config), random, 200, SetOrder::Whole);
+        compare(config, to_beats(whole.bytes), kSources, tally);
+        if (HasFatalFailure()) return;
+        const auto any = random_stream(symbols_of(config), random, 100);
+        compare(config, to_beats(any.bytes), std::span(kSources).first(1), tally);
         if (HasFatalFailure()) return;
       }
     }
@@ -94,6 +102,79 @@ TEST(CullCycles, AreThoseOfAClock) {
   EXPECT_GT(tally.waited, 500U);
   EXPECT_GT(tally.hidden, 500U);
   EXPECT_GT(tally.map, 500U);
+}
+
+// A set whose splats a cull_block lies between has no place in memory that a source could jump over.
+TEST(CullCycles, FetchedSetsLieTogether) {
+  Random random(seed_or(97));
+  cmodel::Config config = named_config("tiny");
+  config.cull_map = static_cast<int>(cmodel::CullMap::Block);
+  int refused = 0, taken = 0;
+  for (int i = 0; i < 12; ++i) {
+    const auto beats =
+        to_beats(random_stream(symbols_of(config), random, 100, i % 2 == 0 ? SetOrder::Any : SetOrder::Whole).bytes);
+    Collector seen;
+    cmodel::CullLog log;
+    cmodel::Model model(config, cmodel::StreamScope::Whole, seen);
+    model.log_culls(&log);
+    model.consume(beats);
+    cmodel::CycleModel cycles(config, cmodel::StreamScope::Whole, {.culls = &log, .fetch = cmodel::Fetch{3}});
+    const auto what = [](const auto& run) -> std::string {
+      try {
+        run();
+        return "";
+      } catch (const UserError& error) {
+        return error.what();
+      }
+    };
+    const std::string counted = what([&] { cycles.consume(beats); });
+    EXPECT_EQ(counted, what([&] { cmodel::fetch_commands(config, beats, 0); }));
+    (counted.empty() ? taken : refused) += 1;
+    EXPECT_TRUE(counted.empty() || (i % 2 == 0 && counted.find("between the splats of a set") != std::string::npos))
+        << counted;
+  }
+  std::printf("[figure] streams taken by a fetching source = %d, refused = %d\n", taken, refused);
+  EXPECT_GT(taken, 0);
+  EXPECT_GT(refused, 0);
+}
+
+// Commands, run by hand: every beat once, in order, and of each set its splats.
+TEST(FetchCommands, AreTheStream) {
+  Random random(seed_or(98));
+  std::uint64_t commands = 0, sets = 0, splats = 0;
+  for (const char* name : {"tiny", "small", "ellipse"}) {
+    for (const auto map : {cmodel::CullMap::Off, cmodel::CullMap::Block}) {
+      cmodel::Config config = named_config(name);
+      config.cull_map = static_cast<int>(map);
+      const auto beats = to_beats(random_stream(symbols_of(config), random, 300, SetOrder::Whole).bytes);
+      constexpr std::uint64_t kFrom = 0x1'0000'0fe0;
+      const auto list = cmodel::fetch_commands(config, beats, kFrom);
+      if (map == cmodel::CullMap::Off) {
+        EXPECT_EQ(list.size(), 1U);
+      }
+      std::uint64_t next = kFrom;
+      for (const cmodel::FetchCommand& command : list) {
+        EXPECT_EQ(command.address, next);
+        next += (std::uint64_t{command.beats} + command.splats) * cmodel::kBeatBytes;
+        const std::size_t from = (command.address - kFrom) / cmodel::kBeatBytes;
+        std::uint64_t announced = 0;
+        for (std::size_t i = from + command.beats - command.sets; i < from + command.beats; ++i) {
+          EXPECT_EQ(beats[i][0] & 0xFF, static_cast<std::uint32_t>(cmodel::Opcode::CullBlock));
+          announced += beats[i][5];
+        }
+        if (command.splats > 0) {
+          EXPECT_EQ(announced, command.splats);
+        }
+        ++commands, sets += command.sets, splats += command.splats;
+      }
+      EXPECT_EQ(next, kFrom + beats.size() * cmodel::kBeatBytes);
+    }
+  }
+  std::printf("[figure] commands = %llu, sets = %llu, splats in sets = %llu\n",
+              static_cast<unsigned long long>(commands), static_cast<unsigned long long>(sets),
+              static_cast<unsigned long long>(splats));
+  EXPECT_GT(sets, 100U);
+  EXPECT_GT(splats, 100U);
 }
 
 TEST(CullCycles, FollowFromTheLogAlone) {

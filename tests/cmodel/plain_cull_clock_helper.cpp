@@ -40,7 +40,8 @@ struct Item {
   bool payload = false;
   std::uint64_t cycles = 1;  ///< in decode, waits aside
   bool skipped = false;      ///< of a hidden set
-  int set = -1;              ///< the cull_block that covers it, by number
+  int set = -1;              ///< cull_block: its number
+  int waits = -1;            ///< the cull_block whose verdict a fetching source must have
   std::uint64_t blocks = 0;  ///< end_sheet: dirty
   int row = 0;               ///< end_sheet: the first row of blocks with a new opaque cell
   int mode = 0, width = 0, height = 0;
@@ -62,6 +63,7 @@ std::vector<Item> items_of(const cmodel::Config& config, std::span<const cmodel:
   std::map<std::uint32_t, std::uint32_t> rho;
   std::deque<std::pair<int, bool>> covered;  // the next splats' sets, and whether these are hidden
   std::size_t answer = 0;
+  bool behind = false;  // splats of sets, and nothing else yet
   for (const cmodel::Beat& beat : beats) {
     Item item;
     if (words > 0) {
@@ -90,7 +92,7 @@ std::vector<Item> items_of(const cmodel::Config& config, std::span<const cmodel:
     }
     const auto splat = [&](std::uint32_t tag) {
       if (mode < 2 && !covered.empty()) {
-        item.set = covered.front().first;
+        item.waits = covered.front().first;
         item.skipped = covered.front().second;
         covered.pop_front();
       }
@@ -117,6 +119,10 @@ std::vector<Item> items_of(const cmodel::Config& config, std::span<const cmodel:
     };
     if (const auto* one = std::get_if<cmodel::SplatRecord>(&record)) splat(one->tag);
     if (const auto* one = std::get_if<cmodel::EllipseRecord>(&record)) splat(one->tag);
+    // What comes behind the splats of sets waits for the last of these.
+    const bool covers = item.waits >= 0;
+    if (behind && !covers) item.waits = sets - 1 - (item.set >= 0 ? 1 : 0);
+    behind = covers;
     if (item.opcode == Opcode::LoadTable && (beat[0] >> 8 & 0xFF) == 0) rho[beat[1]] = beat[2];
     if (item.opcode == Opcode::EndSheet) {
       item.blocks = drawn.blocks[{tile, sheet}];
@@ -155,7 +161,6 @@ PlainCullClock plain_cull_clock(const cmodel::Config& config, std::span<const cm
   int next = 0;                          // beat to be sent
   std::uint64_t left_in_decode = 0;      // cycles of what decode holds, this one included
   std::map<int, std::uint64_t> verdict;  // of each cull_block
-  std::uint64_t jumped = 0;              // what lies behind a hidden set comes from here on
   // Buffers, walk, picture.
   std::array<std::uint64_t, 2> buffer_from{};
   std::size_t buffer = 0;
@@ -278,18 +283,12 @@ PlainCullClock plain_cull_clock(const cmodel::Config& config, std::span<const cm
       free = held[i] < 0;
     }
     // The source.
-    while (latency && next < static_cast<int>(items.size()) && items[static_cast<std::size_t>(next)].skipped) {
-      if (!verdict.contains(items[static_cast<std::size_t>(next)].set)) break;
-      jumped = std::max(jumped,
-                        verdict.at(items[static_cast<std::size_t>(next)].set) + std::max<std::uint64_t>(*latency, 1));
-      ++next;
-    }
+    while (latency && next < static_cast<int>(items.size()) && items[static_cast<std::size_t>(next)].skipped) ++next;
     if (held[0] >= 0 || next >= static_cast<int>(items.size())) continue;
     const Item& item = items[static_cast<std::size_t>(next)];
-    if ((latency && item.skipped) || c < jumped) continue;
-    const bool splat = !item.payload && (item.opcode == Opcode::Splat || item.opcode == Opcode::Ellipse);
-    // Of a set that is seen, from the cycle behind its verdict on.
-    if (latency && splat && item.set >= 0 && (!verdict.contains(item.set) || c <= verdict.at(item.set))) continue;
+    if (latency && item.waits >= 0 &&
+        (!verdict.contains(item.waits) || c < verdict.at(item.waits) + std::max<std::uint64_t>(*latency, 1) + 6))
+      continue;
     out.beats[static_cast<std::size_t>(next)].taken = c;
     order.push_back(next);
     held[0] = next++;

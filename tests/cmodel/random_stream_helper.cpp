@@ -30,7 +30,8 @@ struct Box {
 
 class Generator {
  public:
-  Generator(const oracle::Symbols& symbols, Random& random) : c(symbols), r(random), w(symbols) {}
+  Generator(const oracle::Symbols& symbols, Random& random, SetOrder sets_order)
+      : c(symbols), r(random), w(symbols), order(sets_order) {}
 
   RandomStream run(std::uint64_t splats) {
     // begin_frame names the number of tiles, so the tiles are written first.
@@ -265,7 +266,8 @@ class Generator {
     for (std::size_t at = 0; at < planned.size(); ++at) {
       std::erase_if(ends, [&](std::size_t end) { return end <= at; });
       promised = std::max(promised, at);
-      while (static_cast<std::int64_t>(ends.size()) < room && (in_front || r.once_in(6))) {
+      const bool may = order == SetOrder::Any || promised == at;
+      while (may && static_cast<std::int64_t>(ends.size()) < room && (in_front || r.once_in(6))) {
         const std::size_t most = planned.size() - promised;
         const std::size_t n = std::min(most, static_cast<std::size_t>(r.between(0, 9)));
         Box box{Wide{width}, Wide{height}, 0, 0};
@@ -350,14 +352,15 @@ class Generator {
   oracle::Symbols c;
   Random& r;
   StreamWriter w;
+  SetOrder order;
   std::vector<Set> sets;
   std::vector<std::uint32_t> numbers;
 };
 
 }  // namespace
 
-RandomStream random_stream(const oracle::Symbols& symbols, Random& random, std::uint64_t splats) {
-  return Generator(symbols, random).run(splats);
+RandomStream random_stream(const oracle::Symbols& symbols, Random& random, std::uint64_t splats, SetOrder sets) {
+  return Generator(symbols, random, sets).run(splats);
 }
 
 }  // namespace fastsplat::test

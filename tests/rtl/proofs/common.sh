@@ -14,10 +14,10 @@ seconds() { awk -v from="$1" -v to="$(date +%s.%N)" 'BEGIN { printf "%.1f", to -
 # A unit's module, and its file: fastsplat_NAME.
 rtl_of() { echo "fastsplat_${1#fastsplat_}"; }
 
-# with_spec MODULE SPECIFICATION: the module with the text before its end. (z3 sits still over pixel_payload_held, which
+# with_spec MODULE SPECIFICATION [FOLDER/]: the module, of rtl/ or its folder, with the text before its end. (z3 sits still over pixel_payload_held, which
 # compares all 256 bits; pixel out's specification says more.)
 with_spec() {
-  awk -v spec="$2" '/pixel_payload_held/ { next } /^endmodule/ { while ((getline line < spec) > 0) print line } { print }' "$source/rtl/$(rtl_of "$1").sv"
+  awk -v spec="$2" '/pixel_payload_held/ { next } /^endmodule/ { while ((getline line < spec) > 0) print line } { print }' "$source/rtl/${3-}$(rtl_of "$1").sv"
 }
 # broken FILE EDIT: FILE with the sed command EDIT done, which must change it.
 broken() {

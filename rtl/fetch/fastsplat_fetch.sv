@@ -1,0 +1,274 @@
+// The source beside a device: an AXI4 read master that reads a stream from memory, command by command, and never asks for the splats
+// of a hidden set (docs/microarchitecture.md, "Fetch"; cmodel/fetch_commands.hpp makes the commands).
+// Requests: command -> run of beats -> burst -> address channel. Beats: data channel -> queue -> stream. Verdicts: a set that was sent
+// is judged by the device -> run of beats, or the address goes on without it.
+`include "assertions.svh"
+`include "fault.svh"
+
+module fastsplat_fetch #(
+    parameter int ADDRESS_BITS = 64,  // of the memory
+    parameter int BURST = 16,         // most beats of a burst
+    parameter int DEPTH_LOG2 = 6,     // of the beats that may be asked for and not sent yet
+    parameter int OUTSTANDING = 64,   // most bursts that may be under way
+    parameter int SETS_LOG2 = 10      // of the most sets of a command
+) (
+    input  logic         aclk,
+    input  logic         aresetn,  // synchronous
+    // commands: splats, sets, beats, 32 bits each, and an address of 64, the lowest
+    input  logic         s_axis_cmd_tvalid,
+    output logic         s_axis_cmd_tready,
+    input  logic [159:0] s_axis_cmd_tdata,
+    // memory
+    output logic         m_axi_arvalid,
+    input  logic         m_axi_arready,
+    output logic [ADDRESS_BITS-1:0] m_axi_araddr,
+    output logic [7:0]   m_axi_arlen,
+    output logic [2:0]   m_axi_arsize,
+    output logic [1:0]   m_axi_arburst,
+    output logic [3:0]   m_axi_arcache,
+    output logic [2:0]   m_axi_arprot,
+    input  logic         m_axi_rvalid,
+    output logic         m_axi_rready,
+    input  logic [255:0] m_axi_rdata,
+    input  logic [1:0]   m_axi_rresp,
+    input  logic         m_axi_rlast,
+    // to the device, and its verdicts
+    output logic         m_axis_tvalid,
+    input  logic         m_axis_tready,
+    output logic [255:0] m_axis_tdata,
+    input  logic         verdict_valid,
+    input  logic [31:0]  verdict_tag,
+    input  logic         verdict_hidden,
+    // while high nothing is asked for, commands are taken and dropped, and when all that was asked for has been sent all is as after a reset
+    input  logic         stop,
+    output logic         busy,   // there is a command, or a beat that was asked for and not sent
+    output logic [1:0]   error   // the first error; stays until stop or reset, and nothing is asked for
+);
+  localparam int AB = ADDRESS_BITS;
+  localparam int BEAT_LOG2 = 5, PAGE_LOG2 = 12;  // bytes of a beat; no burst crosses a page
+  localparam int PB = PAGE_LOG2 - BEAT_LOG2 + 1;
+  localparam int DB = DEPTH_LOG2 + 1;
+  localparam int OB = $clog2(OUTSTANDING + 1);
+  localparam int SB = SETS_LOG2 + 1;
+  localparam int RUNS_LOG2 = SETS_LOG2, BURSTS_LOG2 = $clog2(OUTSTANDING);
+  localparam int JUDGED_LOG2 = 4;  // a device holds fewer cull_blocks than 16 between its port and its verdict
+  localparam logic [1:0] NONE = 2'd0, RESPONSE = 2'd1, VERDICT = 2'd2, COMMAND = 2'd3;
+  `FASTSPLAT_INIT(burst, BURST >= 1 && BURST <= 128 && BURST <= (1 << DEPTH_LOG2), "BURST = %0d, not 1 to 128, or more than there is room for (%0d)", BURST, 1 << DEPTH_LOG2)
+  `FASTSPLAT_INIT(outstanding, OUTSTANDING >= 2 && OUTSTANDING <= 1024, "OUTSTANDING = %0d, not 2 to %0d", OUTSTANDING, 1024)
+  `FASTSPLAT_INIT(address, ADDRESS_BITS >= 16 && ADDRESS_BITS <= 64, "ADDRESS_BITS = %0d, not 16 to %0d", ADDRESS_BITS, 64)
+
+  logic clk_i, rst_ni;
+  assign clk_i = aclk;
+  assign rst_ni = aresetn;
+
+  logic unused;  // high bits of counts, where addresses are short
+  assign unused = &{1'b0, run_skip, run_beats};
+
+  logic failed, forget;  // all that is not memory's or the device's is as after a reset
+  assign failed = error != NONE;
+
+  // ---- verdicts: sets that were sent, oldest first, and what follows of the answer
+  logic sent_set, sent_counted, judged_valid, judged_counted;
+  logic [31:0] judged_tag, judged_splats;
+  fastsplat_queue #(
+      .BITS(65),
+      .LOG2(JUDGED_LOG2)
+  ) u_judged (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .clear_i(forget),
+      .put_i(sent_set),
+      .data_i({sent_counted, m_axis_tdata[32*5+:32], m_axis_tdata[32+:32]}),
+      .valid_o(judged_valid),
+      .take_i(verdict_valid),
+      .data_o({judged_counted, judged_splats, judged_tag})
+  );
+  // Sets of the command that were not judged yet; splats behind the last run that are left out.
+  logic [SB-1:0] undecided_q;
+  logic [31:0] skipped_q;
+  logic judges, last_set, wrong_verdict;
+  assign wrong_verdict = verdict_valid && !stop && (!judged_valid || (judged_tag != verdict_tag && !`FASTSPLAT_FAULT(FETCH_ANY_TAG)));
+  assign judges = verdict_valid && judged_valid && judged_counted;
+  assign last_set = undecided_q == SB'(1);
+
+  logic run_put, run_valid, run_take, run_last;
+  logic [31:0] run_beats, run_skip, seen_splats;
+  assign seen_splats = (verdict_hidden && !`FASTSPLAT_FAULT(FETCH_HIDDEN_TOO)) ? 32'd0 : judged_splats;
+  assign run_put = judges && (last_set || seen_splats != 32'd0);
+  fastsplat_queue #(
+      .BITS(65),
+      .LOG2(RUNS_LOG2)
+  ) u_runs (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .clear_i(forget),
+      .put_i(run_put),
+      .data_i({last_set, seen_splats, skipped_q}),
+      .valid_o(run_valid),
+      .take_i(run_take),
+      .data_o({run_last, run_beats, run_skip})
+  );
+
+  // ---- commands and runs: what is asked for next
+  typedef enum logic [1:0] {PhNone, PhPlain, PhSets, PhRuns} phase_e;
+  phase_e phase_q;  // what the run at hand is of: nothing, beats of the command, its sets, their splats
+  logic [AB-1:0] command_address, address_q, body_q, run_address;
+  logic [31:0] command_beats, command_sets, command_splats, left_q, burst_left;
+  logic [SB-1:0] sets_q;
+  logic counted_q, run_valid_q, last_run_q;
+  assign {command_splats, command_sets, command_beats} = s_axis_cmd_tdata[159:64];
+  assign command_address = s_axis_cmd_tdata[AB-1:0];
+
+  logic legal;
+  if (AB < 64) begin : gen_narrow
+    assign legal = s_axis_cmd_tdata[BEAT_LOG2-1:0] == '0 && s_axis_cmd_tdata[63:AB] == '0 && command_beats != '0 && command_sets <= command_beats &&
+                   command_sets <= 32'd1 << SETS_LOG2 && (command_splats == '0 || command_sets != '0);
+  end else begin : gen_wide
+    assign legal = s_axis_cmd_tdata[BEAT_LOG2-1:0] == '0 && command_beats != '0 && command_sets <= command_beats &&
+                   command_sets <= 32'd1 << SETS_LOG2 && (command_splats == '0 || command_sets != '0);
+  end
+
+  logic issue, ends_run, wants_sets, wants_run, wants_command, takes_command;
+  assign ends_run = issue && burst_left == '0;
+  assign wants_sets = phase_q == PhPlain && sets_q != '0;
+  assign wants_run = (phase_q == PhSets && counted_q) || (phase_q == PhRuns && !last_run_q);
+  assign run_take = (!run_valid_q || ends_run) && wants_run && run_valid && !failed && !stop;
+  // The last set's run may be empty: then the next command's is the next.
+  assign wants_command = (!run_valid_q || ends_run) && !failed && (!(wants_sets || wants_run) || (run_take && run_beats == '0));
+  assign s_axis_cmd_tready = wants_command || stop;
+  assign takes_command = s_axis_cmd_tvalid && wants_command && !stop;
+  assign run_address = body_q + (AB'(run_skip) << BEAT_LOG2);
+
+  // ---- bursts
+  logic [PB-1:0] to_page, burst;
+  logic [31:0] most;
+  logic [DB-1:0] room_q;
+  logic [OB-1:0] outstanding_q;
+  logic ends_burst;
+  assign to_page = PB'(1 << (PB - 1)) - PB'(address_q[PAGE_LOG2-1:BEAT_LOG2]);
+  assign most = (32'(to_page) < 32'(BURST) && !`FASTSPLAT_FAULT(FETCH_OVER_PAGE)) ? 32'(to_page) : 32'(BURST);
+  assign burst = (left_q < most) ? PB'(left_q) : PB'(most);
+  assign burst_left = left_q - 32'(burst);
+  assign issue = run_valid_q && (!m_axi_arvalid || m_axi_arready) && (room_q >= DB'(BURST) || `FASTSPLAT_FAULT(FETCH_NO_ROOM)) && outstanding_q < OB'(OUTSTANDING) && !failed && !stop;
+  assign m_axi_arsize = 3'(BEAT_LOG2);
+  assign m_axi_arburst = 2'b01;  // INCR
+  assign m_axi_arcache = 4'b0011;
+  assign m_axi_arprot = 3'b000;
+
+  logic arrived_set, arrived_counted, burst_known;
+  fastsplat_queue #(
+      .BITS(2),
+      .LOG2(BURSTS_LOG2)
+  ) u_bursts (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .clear_i(1'b0),
+      .put_i(issue),
+      .data_i({counted_q, phase_q == PhSets}),
+      .valid_o(burst_known),
+      .take_i(ends_burst),
+      .data_o({arrived_counted, arrived_set})
+  );
+
+  // ---- beats: there is room for all that was asked for
+  logic arrives, bad;
+  assign m_axi_rready = 1'b1;
+  assign bad = m_axi_rvalid && m_axi_rresp != 2'b00 && !`FASTSPLAT_FAULT(FETCH_BAD_RESPONSE);
+  assign arrives = m_axi_rvalid && !bad && error != RESPONSE;
+  assign ends_burst = m_axi_rvalid && m_axi_rlast;
+  logic sending_set, sending_counted, sends;
+  fastsplat_queue #(
+      .BITS(258),
+      .LOG2(DEPTH_LOG2)
+  ) u_beats (
+      .clk_i(clk_i),
+      .rst_ni(rst_ni),
+      .clear_i(1'b0),
+      .put_i(arrives),
+      .data_i({arrived_counted, arrived_set, m_axi_rdata}),
+      .valid_o(m_axis_tvalid),
+      .take_i(m_axis_tready),
+      .data_o({sending_counted, sending_set, m_axis_tdata})
+  );
+  assign sends = m_axis_tvalid && m_axis_tready;
+  assign sent_set = sends && sending_set;
+  assign sent_counted = sending_counted;
+
+  logic waits;  // something was asked for and has not been sent
+  assign waits = m_axi_arvalid || outstanding_q != '0 || unsent_q != '0;
+  assign forget = stop && !waits;
+  assign busy = waits || ((run_valid_q || wants_sets || wants_run) && !failed);
+
+  logic [DB-1:0] unsent_q;  // beats that arrived
+  always_ff @(posedge clk_i) begin
+    unsent_q <= unsent_q + DB'(arrives) - DB'(sends);
+    room_q <= room_q - (issue ? DB'(burst) : '0) + DB'(sends);
+    outstanding_q <= outstanding_q + OB'(issue) - OB'(ends_burst);
+    if (!m_axi_arvalid || m_axi_arready) begin
+      m_axi_arvalid <= issue;
+      m_axi_araddr <= address_q;
+      m_axi_arlen <= 8'(burst) - 8'd1;
+    end
+    if (`FASTSPLAT_FAULT(FETCH_VALID_DROPPED) && m_axi_arvalid && !m_axi_arready && left_q[0]) m_axi_arvalid <= 1'b0;
+    if (issue) begin
+      address_q <= address_q + (AB'(burst) << BEAT_LOG2);
+      left_q <= burst_left;
+    end
+    if (ends_run) run_valid_q <= 1'b0;
+    if ((!run_valid_q || ends_run) && wants_sets && !failed) begin
+      run_valid_q <= 1'b1;
+      phase_q <= PhSets;
+      left_q <= 32'(sets_q);
+    end
+    if (run_take) begin
+      run_valid_q <= run_beats != '0;
+      phase_q <= PhRuns;
+      last_run_q <= run_last;
+      address_q <= run_address;
+      body_q <= run_address + (AB'(run_beats) << BEAT_LOG2);
+      left_q <= run_beats;
+    end
+    if (takes_command && legal) begin
+      run_valid_q <= 1'b1;
+      phase_q <= (command_sets == command_beats) ? PhSets : PhPlain;
+      last_run_q <= 1'b0;
+      address_q <= command_address;
+      left_q <= (command_sets == command_beats) ? command_beats : command_beats - command_sets;
+      sets_q <= SB'(command_sets);
+      counted_q <= command_splats != '0;
+      body_q <= command_address + (AB'(command_beats) << BEAT_LOG2);
+    end else if (wants_command) begin
+      phase_q <= PhNone;
+    end
+    if (judges) begin
+      undecided_q <= undecided_q - SB'(1);
+      skipped_q <= verdict_hidden ? skipped_q + judged_splats - 32'(`FASTSPLAT_FAULT(FETCH_SHORT_JUMP) && judged_splats != 32'd0) : seen_splats != 32'd0 ? 32'd0 : skipped_q;
+    end
+    if (takes_command && legal && command_splats != '0) begin
+      undecided_q <= SB'(command_sets);
+      skipped_q <= '0;
+    end
+    if (!failed) error <= bad ? RESPONSE : wrong_verdict ? VERDICT : (takes_command && !legal) ? COMMAND : NONE;
+    if (!rst_ni || forget) begin
+      error <= NONE;
+      run_valid_q <= 1'b0;
+      phase_q <= PhNone;
+      last_run_q <= 1'b0;
+      room_q <= DB'(1 << DEPTH_LOG2);
+    end
+    if (!rst_ni) begin
+      m_axi_arvalid <= 1'b0;
+      outstanding_q <= '0;
+      unsent_q <= '0;
+    end
+  end
+
+  // AXI4: what is offered stays; no burst crosses a page or is longer than it may be; there is room for what comes.
+  `FASTSPLAT_ASSERT_HELD(asked_until_taken, m_axi_arvalid && !m_axi_arready, m_axi_arvalid, {m_axi_araddr, m_axi_arlen})
+  `FASTSPLAT_ASSERT(burst_within_page, !m_axi_arvalid || 32'(m_axi_araddr[PAGE_LOG2-1:BEAT_LOG2]) + 32'(m_axi_arlen) < 32'd1 << (PAGE_LOG2 - BEAT_LOG2))
+  `FASTSPLAT_ASSERT(burst_short_enough, !m_axi_arvalid || 32'(m_axi_arlen) < 32'(BURST))
+  `FASTSPLAT_ASSERT(room_for_all, room_q <= DB'(1 << DEPTH_LOG2))
+  // Of the memory: nothing that was not asked for.
+  `FASTSPLAT_ASSUME(answers_what_was_asked, !m_axi_rvalid || burst_known)
+  `FASTSPLAT_COVER(jumped, judges && verdict_hidden)
+endmodule

@@ -1,0 +1,62 @@
+// A queue over a memory: one in and one out a cycle. What is put in cycle t is shown from t+2 on, or from the cycle after the one
+// before it was taken (docs/microarchitecture.md, "Fetch"). Who puts knows that there is room: WORDS at least.
+`include "assertions.svh"
+
+module fastsplat_queue #(
+    parameter int BITS = 8,
+    parameter int LOG2 = 4  // of WORDS
+) (
+    input  logic            clk_i,
+    input  logic            rst_ni,
+    input  logic            clear_i,  // all that is in it is forgotten, what is put in this cycle too
+    input  logic            put_i,
+    input  logic [BITS-1:0] data_i,
+    output logic            valid_o,
+    input  logic            take_i,
+    output logic [BITS-1:0] data_o
+);
+  localparam int WORDS = 1 << LOG2;
+
+  // In the memory, read in the cycle before, and read earlier and not taken: of those the second is still the memory's output.
+  logic [LOG2:0] put_q, read_q;
+  logic fetched_q;
+  logic [1:0] held_q, shown, left;
+  logic [BITS-1:0] fetched, first_q;
+  logic taken, read;
+  assign valid_o = shown != 2'd0;
+  assign data_o = (held_q != 2'd0) ? first_q : fetched;
+  assign taken = take_i && valid_o;
+  assign shown = held_q + 2'(fetched_q);
+  assign left = shown - 2'(taken);
+  assign read = put_q != read_q && left < 2'd2;
+
+  fastsplat_ram_1r1w #(
+      .BITS(BITS),
+      .WORDS(WORDS),
+      .ADDR(LOG2)
+  ) u_words (
+      .clk_i(clk_i),
+      .re_i(read),
+      .raddr_i(read_q[LOG2-1:0]),
+      .rdata_o(fetched),
+      .we_i(put_i),
+      .waddr_i(put_q[LOG2-1:0]),
+      .wdata_i(data_i)
+  );
+
+  always_ff @(posedge clk_i) begin
+    if (put_i) put_q <= put_q + (LOG2 + 1)'(1);
+    if (read) read_q <= read_q + (LOG2 + 1)'(1);
+    fetched_q <= read;
+    held_q <= left;
+    if (taken || held_q == 2'd0) first_q <= fetched;
+    if (!rst_ni || clear_i) begin
+      put_q <= '0;
+      read_q <= '0;
+      fetched_q <= 1'b0;
+      held_q <= '0;
+    end
+  end
+  `FASTSPLAT_ASSUME(queue_has_room, !put_i || put_q - read_q != (LOG2 + 1)'(WORDS))
+  `FASTSPLAT_ASSERT_HELD(queue_shows_until_taken, valid_o && !take_i && !clear_i, valid_o, data_o)
+endmodule

@@ -1,0 +1,259 @@
+#include "tests/fetch/fetch_bench_helper.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <limits>
+#include <memory>
+
+#include "Vfs_fetch.h"
+#include "Vfs_fetch___024root.h"
+#include "Vfs_fetch_fastsplat_fault_pkg.h"
+#include "Vfs_fetch_narrow.h"
+#include "Vfs_fetch_narrow___024root.h"
+#include "Vfs_fetch_narrow_fastsplat_fault_pkg.h"
+#include "cmodel/cull_unit.hpp"
+#include "cmodel/model.hpp"
+#include "testbench/device/simulator_output.hpp"
+
+namespace fastsplat::test {
+namespace {
+
+using cmodel::Beat;
+
+constexpr std::uint64_t kPatience = 20'000;  ///< cycles without a beat
+constexpr std::uint64_t kJudged = 6;         ///< from a beat taken to its verdict: two registers of check, t0 to t3
+
+/// The master of type Top in a run.
+template <class Top>
+class Bench {
+ public:
+  Bench(const FetchStream& stream, const FetchRun& run)
+      : stream_(stream), run_(run), wanted_(stream.wanted()), memory_(stream.beats, stream.address, run.memory) {
+    context_.threads(1);
+    context_.randReset(2);
+    context_.fatalOnError(false);
+    context_.errorLimit(std::numeric_limits<int>::max());
+    context_.assertOn(run.fault == FetchFault::None);
+    testbench::take_simulator_output();
+    top_ = std::make_unique<Top>(&context_);
+    if (run.spoiled < stream.beats.size()) memory_.spoil(run.spoiled);
+    out_.verdicts.assign(stream.hidden.size(), 0);
+    judged_.assign(stream.hidden.size(), false);
+  }
+  ~Bench() {
+    Verilated::threadContextp(&context_);
+    top_->final();
+    top_.reset();
+  }
+
+  FetchResult go() {
+    top_->aresetn = 0;
+    top_->s_axis_cmd_tvalid = top_->verdict_valid = top_->m_axi_rvalid = top_->stop = 0;
+    for (int i = 0; i < 3; ++i) eval(0), eval(1);
+    top_->aresetn = 1;
+    const std::uint64_t rest = 200 + run_.memory.latency + run_.memory.more_latency;
+    for (std::uint64_t quiet = 0; quiet < rest && out_.finding.empty(); ++cycle_) {
+      clock();
+      quiet = done() ? quiet + 1 : 0;
+      if (cycle_ > last_ + kPatience) say("nothing is sent any more");
+    }
+    if (out_.finding.empty()) look_back();
+    const auto failed = testbench::first_failed_assertion(testbench::take_simulator_output());
+    if (!failed.name.empty()) say("assertion " + failed.name);
+    out_.cycles = cycle_;
+    out_.bursts = memory_.bursts();
+    out_.most_under_way = memory_.most_under_way();
+    for (const std::uint32_t times : memory_.asked()) out_.asked += times;
+    return out_;
+  }
+
+ private:
+  void say(const std::string& what) {
+    if (out_.finding.empty()) out_.finding = "cycle " + std::to_string(cycle_) + ": " + what;
+  }
+  bool done() const {
+    if (top_->error != 0 || stopping_) return top_->busy == 0;
+    return out_.taken.size() == wanted_.size() && command_ == stream_.commands.size() && verdicts_.empty();
+  }
+  void eval(int edge) {
+    top_->aclk = static_cast<std::uint8_t>(edge);
+    top_->rootp->__PVT__fastsplat_fault_pkg->selected = static_cast<std::uint32_t>(run_.fault);
+    top_->eval();
+  }
+
+  void clock() {
+    // What the others show in this cycle.
+    const bool commands = command_ < stream_.commands.size() && (offering_ || run_.commands.at(cycle_));
+    top_->s_axis_cmd_tvalid = commands ? 1 : 0;
+    if (commands) {
+      const auto words = cmodel::words_of(stream_.commands[command_]);
+      for (std::size_t i = 0; i < words.size(); ++i) top_->s_axis_cmd_tdata[i] = words[i];
+    }
+    const testbench::AxiAnswer answer = memory_.answer();
+    top_->m_axi_arready = memory_.ready() ? 1 : 0;
+    top_->m_axi_rvalid = answer.valid ? 1 : 0;
+    top_->m_axi_rlast = answer.last ? 1 : 0;
+    top_->m_axi_rresp = static_cast<std::uint8_t>(answer.response);
+    for (std::size_t i = 0; i < answer.data.size(); ++i) top_->m_axi_rdata[i] = answer.data[i];
+    // A beat in each register between port and verdict.
+    top_->m_axis_tready = run_.ready.at(cycle_) && verdicts_.size() < kJudged ? 1 : 0;
+    top_->stop = stopping_ ? 1 : 0;
+    judge();
+    eval(0);
+    take_beat();
+    if (commands && top_->s_axis_cmd_tready != 0) {
+      if (command_ == 0) out_.begun = cycle_;
+      ++command_;
+      offering_ = false;
+    } else {
+      offering_ = commands;
+    }
+    const testbench::AxiRequest request{.valid = top_->m_axi_arvalid != 0,
+                                        .address = top_->m_axi_araddr,
+                                        .len = top_->m_axi_arlen,
+                                        .size = top_->m_axi_arsize,
+                                        .burst = top_->m_axi_arburst};
+    memory_.edge(request, top_->m_axi_rready != 0);
+    if (!memory_.broken().empty()) say(memory_.broken());
+    for (const std::size_t beat : memory_.asked_now()) {
+      const int set = stream_.set_of[beat];
+      if (set < 0) continue;
+      const auto number = static_cast<std::size_t>(set);
+      if (stream_.hidden[number]) {
+        say("beat " + std::to_string(beat) + " is of a hidden set");
+      } else if (!judged_[number]) {
+        say("beat " + std::to_string(beat) + " is asked for before its set was judged");
+      }
+    }
+    for (const int set : telling_) judged_[static_cast<std::size_t>(set)] = true;
+    telling_.clear();
+    eval(1);
+    if (run_.stop_after > 0 && out_.taken.size() >= run_.stop_after) stopping_ = true;
+    if (out_.error == 0 && top_->error != 0) out_.error = top_->error;
+  }
+
+  /// The device's verdict of this cycle.
+  void judge() {
+    const bool due = !verdicts_.empty() && verdicts_.front().cycle <= cycle_;
+    top_->verdict_valid = due ? 1 : 0;
+    if (!due) return;
+    const auto [number, tag, from] = verdicts_.front();
+    verdicts_.pop_front();
+    top_->verdict_tag = tag + (static_cast<int>(number) == run_.other_tag ? 1 : 0);
+    top_->verdict_hidden = stream_.hidden[number] ? 1 : 0;
+    out_.verdicts[number] = cycle_;
+    telling_.push_back(static_cast<int>(number));
+  }
+
+  void take_beat() {
+    const bool valid = top_->m_axis_tvalid != 0;
+    Beat beat{};
+    for (std::size_t i = 0; i < beat.size(); ++i) beat[i] = top_->m_axis_tdata[i];
+    if (waiting_ && (!valid || beat != waiting_beat_)) say("a beat is withdrawn or changed before it was taken");
+    waiting_ = valid && top_->m_axis_tready == 0;
+    waiting_beat_ = beat;
+    if (!valid) return;
+    const std::size_t at = out_.taken.size();
+    if (at == wanted_.size()) return say("a beat behind the last");
+    if (out_.offered.size() == at) out_.offered.push_back(cycle_);
+    if (wanted_[at] == run_.spoiled) return say("sends what could not be read");
+    if (beat != stream_.beats[wanted_[at]])
+      return say("another beat than number " + std::to_string(wanted_[at]) + " is sent");
+    if (waiting_) return;
+    out_.taken.push_back(cycle_);
+    last_ = cycle_;
+    const int block = stream_.block[wanted_[at]];
+    if (block < 0) return;
+    const std::uint64_t wait = testbench::mix(run_.seed + cycle_) % (run_.verdict_wait + 1ULL);
+    next_verdict_ = std::max(next_verdict_ + 1, cycle_ + kJudged + wait);
+    verdicts_.push_back({static_cast<std::size_t>(block), beat[1], next_verdict_});
+  }
+
+  /// When all is at rest.
+  void look_back() {
+    out_.all_sent = out_.taken.size() == wanted_.size();
+    if (top_->busy != 0) return say("busy, and nothing is left to do");
+    if (out_.error != run_.error)
+      return say("error " + std::to_string(out_.error) + ", expected " + std::to_string(run_.error));
+    if (run_.error != 0 || stopping_) return;
+    std::vector<std::uint32_t> once(stream_.beats.size(), 0);
+    for (const std::size_t beat : wanted_) once[beat] = 1;
+    for (std::size_t i = 0; i < once.size(); ++i) {
+      if (memory_.asked()[i] != once[i])
+        return say("beat " + std::to_string(i) + " was asked for " + std::to_string(memory_.asked()[i]) + " times");
+    }
+  }
+
+  struct Verdict {
+    std::size_t number;
+    std::uint32_t tag;
+    std::uint64_t cycle;
+  };
+
+  const FetchStream& stream_;
+  const FetchRun& run_;
+  std::vector<std::size_t> wanted_;
+  testbench::AxiReadMemory memory_;
+  VerilatedContext context_;
+  std::unique_ptr<Top> top_;
+  FetchResult out_;
+  std::deque<Verdict> verdicts_;
+  std::vector<bool> judged_;  ///< told before this cycle
+  std::vector<int> telling_;  ///< in it
+  std::uint64_t cycle_ = 0, last_ = 0, next_verdict_ = 0;
+  std::size_t command_ = 0;
+  bool waiting_ = false, offering_ = false, stopping_ = false;
+  Beat waiting_beat_{};
+};
+
+}  // namespace
+
+std::vector<std::size_t> FetchStream::wanted() const {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < beats.size(); ++i) {
+    if (set_of[i] < 0 || !hidden[static_cast<std::size_t>(set_of[i])]) out.push_back(i);
+  }
+  return out;
+}
+
+FetchStream fetch_stream(const cmodel::Config& config, std::vector<Beat> beats, std::uint64_t address) {
+  FetchStream out{
+      .beats = std::move(beats), .commands = {}, .address = address, .set_of = {}, .block = {}, .hidden = {}};
+  out.commands = cmodel::fetch_commands(config, out.beats, address);
+  cmodel::NullPixels nowhere;
+  cmodel::Model model(config, cmodel::StreamScope::Whole, nowhere);
+  std::deque<int> covers;  // the next splats' sets
+  std::uint64_t words = 0;
+  bool tests = false;
+  for (const Beat& beat : out.beats) {
+    const std::uint64_t before = model.culls().hidden_sets;
+    model.consume({&beat, 1});
+    out.set_of.push_back(-1);
+    out.block.push_back(-1);
+    if (words > 0) {
+      --words;
+      continue;
+    }
+    words = cmodel::announced_beats(beat);
+    const cmodel::Record record = cmodel::from_beat(beat);
+    if (const auto* tile = std::get_if<cmodel::BeginTile>(&record)) tests = cmodel::culls_in(tile->mode);
+    if (const auto* set = std::get_if<cmodel::CullBlock>(&record); set != nullptr && config.culls()) {
+      out.block.back() = static_cast<int>(out.hidden.size());
+      if (tests) covers.insert(covers.end(), set->splats, out.block.back());
+      out.hidden.push_back(model.culls().hidden_sets > before);
+    }
+    const bool splat =
+        std::holds_alternative<cmodel::SplatRecord>(record) || std::holds_alternative<cmodel::EllipseRecord>(record);
+    if (!splat || covers.empty()) continue;
+    out.set_of.back() = covers.front();
+    covers.pop_front();
+  }
+  return out;
+}
+
+FetchResult run_fetch(const FetchStream& stream, const FetchRun& run) {
+  if (run.build == FetchBuild::Narrow) return Bench<Vfs_fetch_narrow>(stream, run).go();
+  return Bench<Vfs_fetch>(stream, run).go();
+}
+
+}  // namespace fastsplat::test

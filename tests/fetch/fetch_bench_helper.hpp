@@ -1,0 +1,64 @@
+// The fetch master between a memory and a device that is played: takes beats, judges sets, and looks at everything.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cmodel/fetch_commands.hpp"
+#include "testbench/device/axi_read_memory.hpp"
+
+namespace fastsplat::test {
+
+enum class FetchFault {
+  None,
+#define FAULT(name, said, meaning) name,
+#include "tests/fetch/fetch_faults.def"
+#undef FAULT
+};
+
+/// How rtl/fetch is built: by default, or with bursts of 4 beats, two of them under way, room for 8 beats.
+enum class FetchBuild { Default, Narrow };
+
+/// What lies in memory and what the device answers.
+struct FetchStream {
+  std::vector<cmodel::Beat> beats;
+  std::vector<cmodel::FetchCommand> commands;
+  std::uint64_t address = 0;
+  std::vector<int> set_of;   ///< by beat: the cull_block that judges it, by number; -1: none
+  std::vector<int> block;    ///< by beat: its number, if it is a cull_block that is judged; else -1
+  std::vector<bool> hidden;  ///< by cull_block
+  /// The beats that the device is to get, in order.
+  std::vector<std::size_t> wanted() const;
+};
+
+/// Of a legal stream: sets hidden as the model says.
+FetchStream fetch_stream(const cmodel::Config& config, std::vector<cmodel::Beat> beats, std::uint64_t address);
+
+struct FetchRun {
+  FetchBuild build = FetchBuild::Default;
+  testbench::AxiTimings memory = {};
+  testbench::Pattern ready = {}, commands = {};
+  unsigned verdict_wait = 0;  ///< a verdict comes up to so many cycles later than it could, by seed
+  std::uint64_t seed = 1;
+  FetchFault fault = FetchFault::None;
+  std::size_t spoiled = ~std::size_t{0};  ///< a beat that cannot be read
+  int other_tag = -1;                     ///< this cull_block's verdict has another tag
+  unsigned error = 0;                     ///< that is to be told
+  std::size_t stop_after = 0;             ///< beats sent before `stop` is raised; 0: never
+};
+
+struct FetchResult {
+  std::string finding;                        ///< the first thing that was wrong; empty: none
+  std::vector<std::uint64_t> offered, taken;  ///< by beat sent
+  std::vector<std::uint64_t> verdicts;        ///< by cull_block that was sent
+  std::uint64_t begun = 0;                    ///< the first command was taken
+  std::uint64_t cycles = 0, bursts = 0, asked = 0;
+  std::size_t most_under_way = 0;
+  unsigned error = 0;
+  bool all_sent = false;
+};
+
+FetchResult run_fetch(const FetchStream& stream, const FetchRun& run);
+
+}  // namespace fastsplat::test

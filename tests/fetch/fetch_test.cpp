@@ -1,0 +1,211 @@
+// The fetch master (docs/microarchitecture.md, "Fetch"): the right beats under any memory, no set asked for that is
+// hidden or not judged, every cycle where the memory is regular, errors told; and each planted fault seen.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "tests/cmodel/configs_helper.hpp"
+#include "tests/cmodel/random_stream_helper.hpp"
+#include "tests/cmodel/stream_writer_helper.hpp"
+#include "tests/fetch/fetch_bench_helper.hpp"
+
+namespace fastsplat::test {
+namespace {
+
+using testbench::Pattern;
+
+constexpr std::uint64_t kAddress = 0x8'0000'0fa0;              ///< three beats before a page ends
+constexpr unsigned kResponse = 1, kVerdict = 2, kCommand = 3;  ///< errors
+constexpr unsigned kLatencies[] = {1, 2, 7, 40};
+
+FetchStream stream_of(const char* name, std::uint64_t seed, std::uint64_t splats,
+                      cmodel::CullMap map = cmodel::CullMap::Block) {
+  Random random(seed);
+  cmodel::Config config = named_config(name);
+  config.cull_map = static_cast<int>(map);
+  return fetch_stream(config, to_beats(random_stream(symbols_of(config), random, splats, SetOrder::Whole).bytes),
+                      kAddress);
+}
+
+/// What the page says of when beats are offered, from the cycles in which those before were taken.
+std::vector<std::uint64_t> due(const FetchStream& stream, const FetchResult& seen, std::uint64_t latency) {
+  std::vector<std::uint64_t> out;
+  int last_block = -1, before = -1;  // of those passed; the set of the beat before, sent or not
+  std::size_t sent = 0;
+  for (std::size_t i = 0; i < stream.beats.size(); ++i) {
+    const int set = stream.set_of[i];
+    const int waits = set >= 0 ? set : before >= 0 ? last_block : -1;
+    before = set;
+    if (stream.block[i] >= 0) last_block = stream.block[i];
+    if (set >= 0 && stream.hidden[static_cast<std::size_t>(set)]) continue;
+    std::uint64_t cycle = sent == 0 ? seen.begun + latency + 4 : seen.taken[sent - 1] + 1;
+    if (waits >= 0) cycle = std::max(cycle, seen.verdicts[static_cast<std::size_t>(waits)] + latency + 6);
+    out.push_back(cycle);
+    ++sent;
+  }
+  return out;
+}
+
+TEST(Fetch, IsExactWhereTheMemoryIsRegular) {
+  std::uint64_t beats = 0, unsent = 0, waited = 0;
+  for (const char* name : {"tiny", "small"}) {
+    for (const unsigned latency : kLatencies) {
+      for (const char* ready : {"always", "random-70", "burst-40", "every-3"}) {
+        const FetchStream stream = stream_of(name, 7 * latency + beats, 200);
+        const FetchRun run{
+            .memory = {.latency = latency}, .ready = Pattern(ready, latency), .verdict_wait = latency == 7 ? 30U : 0U};
+        const FetchResult seen = run_fetch(stream, run);
+        ASSERT_EQ(seen.finding, "") << name << ", latency " << latency << ", ready " << ready;
+        ASSERT_TRUE(seen.all_sent);
+        const auto times = due(stream, seen, latency);
+        ASSERT_EQ(times.size(), seen.offered.size());
+        for (std::size_t i = 0; i < times.size(); ++i) {
+          ASSERT_EQ(seen.offered[i], times[i])
+              << "beat " << i << " sent, " << name << ", latency " << latency << ", " << ready;
+          waited += i > 0 && times[i] > seen.taken[i - 1] + 1 ? 1 : 0;
+        }
+        beats += times.size();
+        unsent += stream.beats.size() - times.size();
+      }
+    }
+  }
+  std::printf("[figure] beats offered in their cycle = %llu, waits = %llu, beats of hidden sets = %llu\n",
+              static_cast<unsigned long long>(beats), static_cast<unsigned long long>(waited),
+              static_cast<unsigned long long>(unsent));
+  EXPECT_GT(unsent, 100U);
+  EXPECT_GT(waited, 100U);
+}
+
+TEST(Fetch, SendsTheSameBeatsFromAnyMemory) {
+  std::uint64_t beats = 0, unsent = 0, bursts = 0, cycles = 0;
+  std::size_t under_way = 0;
+  for (int i = 0; i < 48; ++i) {
+    const auto seed = static_cast<std::uint64_t>(i);
+    const auto pattern = [&](const std::vector<const char*>& of, std::uint64_t salt) {
+      return Pattern(of[testbench::mix(seed + 1000 * salt) % of.size()], seed + salt);
+    };
+    const FetchStream stream = stream_of(i % 3 == 0 ? "small" : "tiny", 300 + seed, 150,
+                                         i % 8 == 7 ? cmodel::CullMap::Off : cmodel::CullMap::Pixel);
+    const FetchRun run{.build = i % 2 == 0 ? FetchBuild::Default : FetchBuild::Narrow,
+                       .memory = {.latency = kLatencies[seed % 4],
+                                  .more_latency = static_cast<unsigned>(seed % 5 * 20),
+                                  .takes = pattern({"always", "random-30", "burst-60"}, 1),
+                                  .has = pattern({"always", "random-60", "burst-25", "every-4"}, 2),
+                                  .seed = seed},
+                       .ready = pattern({"always", "random-50", "burst-90", "alternate-7"}, 3),
+                       .commands = pattern({"always", "random-10"}, 4),
+                       .verdict_wait = static_cast<unsigned>(seed % 3 * 15),
+                       .seed = seed};
+    const FetchResult seen = run_fetch(stream, run);
+    ASSERT_EQ(seen.finding, "") << "run " << i;
+    ASSERT_TRUE(seen.all_sent) << "run " << i;
+    beats += seen.taken.size(), unsent += stream.beats.size() - seen.taken.size();
+    bursts += seen.bursts, cycles += seen.cycles;
+    under_way = std::max(under_way, seen.most_under_way);
+  }
+  std::printf(
+      "[figure] beats sent = %llu, of hidden sets and never asked for = %llu, bursts = %llu, most under way = %zu, "
+      "cycles = %llu\n",
+      static_cast<unsigned long long>(beats), static_cast<unsigned long long>(unsent),
+      static_cast<unsigned long long>(bursts), under_way, static_cast<unsigned long long>(cycles));
+  EXPECT_GT(unsent, 200U);
+  EXPECT_GT(under_way, 2U);
+}
+
+TEST(Fetch, TellsErrorsAndStops) {
+  const FetchStream stream = stream_of("tiny", 5, 200);
+  int told = 0;
+  for (const FetchBuild build : {FetchBuild::Default, FetchBuild::Narrow}) {
+    for (const std::size_t number : {std::size_t{0}, std::size_t{9}, stream.wanted().size() - 1}) {
+      FetchRun run{.build = build, .memory = {.latency = 5}};
+      run.spoiled = stream.wanted()[number];
+      run.error = kResponse;
+      const FetchResult seen = run_fetch(stream, run);
+      EXPECT_EQ(seen.finding, "");
+      EXPECT_EQ(seen.taken.size(), number) << "what came before it is sent";
+      ++told;
+    }
+    for (const int set : {0, 3}) {
+      FetchRun run{.build = build, .memory = {.latency = 5}};
+      run.other_tag = set;
+      run.error = kVerdict;
+      const FetchResult seen = run_fetch(stream, run);
+      EXPECT_EQ(seen.finding, "");
+      EXPECT_FALSE(seen.all_sent);
+      ++told;
+    }
+    FetchStream wrong = stream;
+    for (int i = 0; i < 4; ++i) {
+      cmodel::FetchCommand& command = wrong.commands[0];
+      command = stream.commands[0];
+      if (i == 0) command.address += 8;
+      if (i == 1) command.beats = 0;
+      if (i == 2) command.sets = command.beats + 1;
+      if (i == 3) command.sets = 0, command.splats = 1;
+      const FetchResult seen = run_fetch(wrong, {.build = build, .error = kCommand});
+      EXPECT_EQ(seen.finding, "");
+      EXPECT_EQ(seen.bursts, 0U);
+      ++told;
+    }
+  }
+  std::printf("[figure] errors told = %d\n", told);
+}
+
+TEST(Fetch, StopsAnywhere) {
+  const FetchStream stream = stream_of("tiny", 6, 200);
+  std::uint64_t sent = 0;
+  int stops = 0;
+  for (std::size_t after = 1; after < stream.wanted().size(); after += 17) {
+    FetchRun run{.build = after % 2 == 0 ? FetchBuild::Default : FetchBuild::Narrow,
+                 .memory = {.latency = 9, .has = Pattern("random-60", after)},
+                 .ready = Pattern("random-60", after)};
+    run.stop_after = after;
+    const FetchResult seen = run_fetch(stream, run);
+    EXPECT_EQ(seen.finding, "");
+    EXPECT_GE(seen.taken.size(), after);
+    EXPECT_EQ(seen.taken.size(), seen.asked) << "all that was asked for is sent";
+    sent += seen.taken.size();
+    ++stops;
+  }
+  std::printf("[figure] stops = %d, beats sent = %llu\n", stops, static_cast<unsigned long long>(sent));
+  EXPECT_GT(stops, 10);
+}
+
+struct Planted {
+  FetchFault fault;
+  const char* name;
+  const char* said;
+  const char* meaning;
+};
+const Planted kPlanted[] = {
+#define FAULT(name, said, meaning) {FetchFault::name, #name, said, meaning},
+#include "tests/fetch/fetch_faults.def"
+#undef FAULT
+};
+
+class PlantedFetchFault : public ::testing::TestWithParam<Planted> {};
+
+TEST_P(PlantedFetchFault, IsSeen) {
+  const Planted& planted = GetParam();
+  for (const FetchBuild build : {FetchBuild::Default, FetchBuild::Narrow}) {
+    // There is more behind one another than there is room for where no set is waited for.
+    const bool all = planted.fault == FetchFault::FETCH_NO_ROOM;
+    const FetchStream stream = stream_of("tiny", 5, 200, all ? cmodel::CullMap::Off : cmodel::CullMap::Block);
+    FetchRun run{
+        .build = build, .memory = {.latency = 12, .takes = Pattern("random-50", 3)}, .ready = Pattern("random-20", 4)};
+    if (planted.fault == FetchFault::FETCH_BAD_RESPONSE) run.spoiled = stream.wanted()[30], run.error = kResponse;
+    if (planted.fault == FetchFault::FETCH_ANY_TAG) run.other_tag = 2, run.error = kVerdict;
+    const std::string healthy = run_fetch(stream, run).finding;
+    EXPECT_EQ(healthy, "");
+    run.fault = planted.fault;
+    const std::string finding = run_fetch(stream, run).finding;
+    EXPECT_NE(finding.find(planted.said), std::string::npos) << planted.meaning << ": " << finding;
+    std::printf("[figure] %s: %s\n", planted.name, finding.c_str());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PlantedFetchFault, ::testing::ValuesIn(kPlanted),
+                         [](const auto& of) { return std::string(of.param.name); });
+
+}  // namespace
+}  // namespace fastsplat::test

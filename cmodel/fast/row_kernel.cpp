@@ -7,8 +7,6 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "cmodel/fast/spread-inl.hpp"
-
 HWY_BEFORE_NAMESPACE();
 namespace fastsplat::cmodel::fast {
 namespace HWY_NAMESPACE {
@@ -22,6 +20,8 @@ void hidden(const FastPlan&, const HiddenJob&, std::span<const HiddenShare>, con
 const char* target() { return nullptr; }
 
 #else
+
+#include "cmodel/fast/spread.inc"
 
 struct Lanes16 {
   using D = hn::ScalableTag<std::uint16_t>;

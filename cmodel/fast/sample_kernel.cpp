@@ -5,8 +5,6 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "cmodel/fast/spread-inl.hpp"
-
 HWY_BEFORE_NAMESPACE();
 namespace fastsplat::cmodel::fast {
 namespace HWY_NAMESPACE {
@@ -17,6 +15,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 void samples(const SampleTables&, bool, std::span<const SplatJob>, std::uint32_t*, std::size_t, SampleCounts&) {}
 
 #else
+
+#include "cmodel/fast/spread.inc"
 
 using D = hn::ScalableTag<std::uint32_t>;
 using V = hn::Vec<D>;

@@ -25,9 +25,10 @@ std::vector<cmodel::fast::SplatJob> jobs_of(const bench::Rows& rows, const cmode
   for (const cmodel::SplatRecord& record : rows.records) {
     const std::uint32_t rho = tables.memo.shape(0).rho;
     const auto placed = unit.place(0, snap(rows.config, record.x, rho), snap(rows.config, record.y, rho));
-    cmodel::fast::SplatJob job{.weights = placed.weights, .at = placed.at};
+    cmodel::fast::SplatJob job{
+        .weights = placed.weights, .at = placed.at, .columns = placed.across, .rows = placed.down};
     for (std::size_t c = 0; c < 4; ++c)
-      job.colour[c] = static_cast<std::uint16_t>(record.colour[c] << tables.jobs.plan.colour_shift);
+      job.colour[c] = static_cast<std::uint16_t>(record.colour[c] << tables.plan.colour_shift);
     jobs.push_back(job);
   }
   return jobs;
@@ -44,7 +45,7 @@ void kernel(benchmark::State& state, Order order) {
   for (auto _ : state) {
     for (std::size_t at = 0; at < jobs.size(); at += kJobs) {
       const auto some = std::span(jobs).subspan(at, std::min(kJobs, jobs.size() - at));
-      benchmark::DoNotOptimize(add_splats(tables->jobs, some, sheet.words(), sheet.row()));
+      benchmark::DoNotOptimize(add_splats(tables->plan, some, sheet.words(), sheet.row()));
     }
   }
   bench::count_splats(state, jobs.size());

@@ -44,7 +44,7 @@ inline void fast_rows(benchmark::State& state, const std::string& config, int ex
   const Rows rows(config, extent);
   const auto tables = cmodel::fast::frame_tables(rows.config, rows.preamble);
   if (!tables) return state.SkipWithError("no fast unit for it here");
-  if (tables->jobs.plan.narrow)
+  if (tables->plan.narrow)
     fast_rows_of<std::uint16_t>(state, rows, *tables);
   else
     fast_rows_of<std::uint32_t>(state, rows, *tables);

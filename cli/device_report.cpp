@@ -34,6 +34,8 @@ bool only_opaque(const DeviceReport& report) {
          report.counters.opacity_saturated == 0;
 }
 
+}  // namespace
+
 std::string to_text(const driver::UnitReport& units, const cmodel::Counters& counters) {
   if (units.fast == 0) {
     if (units.plain == 0) return "";
@@ -49,7 +51,15 @@ std::string to_text(const driver::UnitReport& units, const cmodel::Counters& cou
                          static_cast<double>(std::max<std::uint64_t>(counters.splats, 1)));
 }
 
-}  // namespace
+nlohmann::ordered_json to_json(const driver::UnitReport& units) {
+  nlohmann::ordered_json json{{"fast_tiles", units.fast},
+                              {"plain_tiles", units.plain},
+                              {"redone_tiles", units.redone},
+                              {"hidden_splats", units.hidden_splats}};
+  if (units.vectors != nullptr) json["vectors"] = units.vectors;
+  if (units.why_plain != nullptr) json["why_plain"] = units.why_plain;
+  return json;
+}
 
 std::string to_text(const driver::DriverReport& report) {
   // A replayed stream no longer knows its voxels.
@@ -112,14 +122,7 @@ std::string to_text(const DeviceReport& report) {
 nlohmann::ordered_json to_json(const DeviceReport& report) {
   nlohmann::ordered_json json{{"config", priced_config_json(report.config)}};
   json.update(to_json(report.driver));
-  if (report.units.fast + report.units.plain > 0) {
-    json["units"] = {{"fast_tiles", report.units.fast},
-                     {"plain_tiles", report.units.plain},
-                     {"redone_tiles", report.units.redone},
-                     {"hidden_splats", report.units.hidden_splats}};
-    if (report.units.vectors != nullptr) json["units"]["vectors"] = report.units.vectors;
-    if (report.units.why_plain != nullptr) json["units"]["why_plain"] = report.units.why_plain;
-  }
+  if (report.units.fast + report.units.plain > 0) json["units"] = to_json(report.units);
   auto& counts = json["counters"];
   report.counters.for_each(
       [&](std::string_view name, std::uint64_t value, std::string_view) { counts[std::string(name)] = value; });

@@ -21,9 +21,12 @@ struct DeviceReport {
   bool sums = false;           ///< an X-ray: its words may truly be too large
 };
 
+/// Which unit drew; `counters` of the same frame.
+std::string to_text(const driver::UnitReport& units, const cmodel::Counters& counters);
 std::string to_text(const driver::DriverReport& report);
 std::string to_text(const DeviceReport& report);
 /// Keys for the JSON of a verb.
+nlohmann::ordered_json to_json(const driver::UnitReport& units);
 nlohmann::ordered_json to_json(const driver::DriverReport& report);
 nlohmann::ordered_json to_json(const DeviceReport& report);
 /// Every loss that is not zero, with the fix.

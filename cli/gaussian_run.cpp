@@ -12,6 +12,7 @@
 #include "base/srgb.hpp"
 #include "base/version.hpp"
 #include "cli/config_json.hpp"
+#include "cli/device_report.hpp"
 #include "cli/frame.hpp"
 #include "cli/image_output.hpp"
 #include "cli/output_names.hpp"
@@ -34,7 +35,8 @@ void check(const RenderArguments& arguments, Engine engine) {
   if (arguments.orbit || arguments.sequence || arguments.frames)
     refuse("--orbit, --sequence, --frames", "animations are of volumes", "render stills with --azimuth");
   if (!arguments.save_scene.empty()) refuse("--save-scene", "a scene.toml describes volumes; " + none, "leave it out");
-  if (arguments.plain) refuse("--plain", "there is one way to draw 3-D Gaussians", "leave it out");
+  if (arguments.plain && engine == Engine::Golden)
+    refuse("--plain", "golden has one way to draw 3-D Gaussians", "add --engine cmodel, or leave it out");
 }
 
 struct GoldenGaussians {
@@ -45,6 +47,7 @@ struct DeviceGaussians {
   cmodel::Config config;
   driver::GaussianReport report;
   cmodel::Counters counters;
+  driver::UnitReport units;
   double lanes() const { return static_cast<double>(config.lanes) * config.lanes; }
   /// Of the lanes of all windows, those with a weight.
   double used() const {
@@ -83,7 +86,8 @@ std::string to_text(const DeviceGaussians& device) {
              "composited, {} of them frozen\n",
              device.config.name, hash_text(cmodel::config_hash(device.config)),
              counted(device.counters.windows, "window"), device.windows_each(), 100.0 * device.used(),
-             counted(device.counters.pixels_composited, "sample"), grouped(device.counters.frozen_pixels));
+             counted(device.counters.pixels_composited, "sample"), grouped(device.counters.frozen_pixels)) +
+         cli::to_text(device.units, device.counters);
 }
 
 Json to_json(const scene::ProjectionReport& projection) {
@@ -100,6 +104,7 @@ Json to_json(const DeviceGaussians& device) {
                     {"saturated", device.report.saturated}, {"cut", device.report.cut},
                     {"in_tiles", device.report.in_tiles},   {"records", device.report.records},
                     {"tiles", device.report.tiles}};
+  json["units"] = cli::to_json(device.units);
   auto& counts = json["counters"];
   device.counters.for_each(
       [&](std::string_view name, std::uint64_t value, std::string_view) { counts[std::string(name)] = value; });
@@ -229,9 +234,11 @@ ExitCode run_gaussians(const RenderArguments& arguments) {
     driver::GaussianRender render;
     {
       ProgressBar bar(arguments.engine, watching(arguments.common));
-      render = driver::render_gaussians(*frame, arguments.common.threads, bar.callback());
+      render = driver::render_gaussians(*frame, {.threads = arguments.common.threads,
+                                                 .unit = arguments.plain ? driver::Unit::Plain : driver::Unit::Fast,
+                                                 .progress = bar.callback()});
     }
-    DeviceGaussians device{*config, render.report, render.counters};
+    DeviceGaussians device{*config, render.report, render.counters, render.units};
     device.report.projection = projection;
     output.line(to_text(device));
     output.remark(remarks(device));

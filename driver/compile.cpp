@@ -8,6 +8,7 @@
 #include "cmodel/cull_sets.hpp"
 #include "cmodel/cull_unit.hpp"
 #include "cmodel/records.hpp"
+#include "driver/beat_writer.hpp"
 #include "driver/compiled_state.hpp"
 #include "driver/index_tables.hpp"
 #include "driver/tables.hpp"
@@ -29,58 +30,14 @@ const cmodel::Config& checked(const scene::Scene& scene, const cmodel::Config& d
   return device;
 }
 
-/// The device takes sheets, whatever the method that makes them; where every sample is composited one holds them all.
+}  // namespace
+
 scene::SheetPlan plan_for_device(const scene::Scene& scene) {
   if (every_sample(scene.description)) return {scene::SheetUse::OneSheet, {.count = 1}};
   const scene::SheetPlan plan = scene::sheet_plan(scene);
   assert(plan.use != scene::SheetUse::None && "refused by check_capability");
   return plan;
 }
-
-/// Records as beats, handed on in blocks.
-class BeatWriter final : public cmodel::RecordSink {
- public:
-  BeatWriter(const cmodel::BeatSink& sink, Hides hides) : sink_(sink), hides_(std::move(hides)) {
-    beats_.reserve(kBlock + 512);
-  }
-  void begin_tile(const cmodel::BeginTile& tile) override { append(beats_, tile); }
-  void begin_sheet(const cmodel::BeginSheet& sheet) override { append(beats_, sheet); }
-  void splats(std::span<const cmodel::SplatRecord> records) override {
-    for (const cmodel::SplatRecord& record : records) beats_.push_back(to_beat(record));
-    if (beats_.size() >= kBlock) flush();
-  }
-  void ellipses(std::span<const cmodel::EllipseRecord> records) override {
-    for (const cmodel::EllipseRecord& record : records) beats_.push_back(to_beat(record));
-    if (beats_.size() >= kBlock) flush();
-  }
-  void cull_blocks(std::span<const cmodel::CullBlock> records) override {
-    for (const cmodel::CullBlock& record : records) append(beats_, record);
-  }
-  bool would_hide(const cmodel::CullBlock& set) override {
-    if (!hides_) return false;
-    flush();  // what it is hidden by is what came before
-    return hides_(set);
-  }
-  void end_sheet(const cmodel::EndSheet& sheet) override { append(beats_, sheet); }
-  void end_tile(const cmodel::EndTile& tile) override {
-    append(beats_, tile);
-    flush();
-  }
-
- private:
-  void flush() {
-    if (beats_.empty()) return;
-    sink_(beats_);
-    beats_.clear();
-  }
-
-  static constexpr std::size_t kBlock = 4096;
-  const cmodel::BeatSink& sink_;
-  const Hides hides_;
-  std::vector<cmodel::Beat> beats_;
-};
-
-}  // namespace
 
 CompiledFrame::State::State(const scene::Scene& scene, const cmodel::Config& device, int threads, int band_rows)
     : config(checked(scene, device)),
@@ -125,25 +82,6 @@ void CompiledFrame::State::make_preamble(const scene::Scene& scene) {
   }
 }
 
-template <class Visit>
-void CompiledFrame::State::for_each_ellipse(int tile, std::uint32_t number, const Share& part, Visit visit) const {
-  const QuantisedSplat& splat = projected.splats[number];
-  const cmodel::EllipseShape& shape = projected.ellipses[number].shape;
-  const int pf = config.position_frac_bits;
-  const std::int32_t x = (splat.x >> pf) - grid.x(tile), y = (splat.y >> pf) - grid.y(tile);
-  for (const EllipseSpan& span : EllipseSpans(config, shape, splat.x, splat.y)) {
-    if (x + span.right <= 0 || x + span.windows.left >= grid.width(tile) || y + span.bottom <= 0 ||
-        y + span.windows.top >= grid.height(tile))
-      continue;
-    visit(cmodel::EllipseRecord{.tag = 0,
-                                .x = splat.x - grid.x(tile) * (1 << pf),
-                                .y = splat.y - grid.y(tile) * (1 << pf),
-                                .colour = part.words,
-                                .shape = shape,
-                                .windows = span.windows});
-  }
-}
-
 std::uint32_t CompiledFrame::State::emit_sheet(int tile, int sheet, std::uint32_t& tag, cmodel::RecordSink& out,
                                                TileReport& report) const {
   const std::int32_t x0 = grid.x(tile) * (1 << config.position_frac_bits),
@@ -161,7 +99,7 @@ std::uint32_t CompiledFrame::State::emit_sheet(int tile, int sheet, std::uint32_
         if (waiting > 0) out.splats(std::span(some).first(waiting));
         waiting = 0;
         std::uint32_t more = 0;
-        for_each_ellipse(tile, number, part, [&](cmodel::EllipseRecord record) {
+        for_each_ellipse(tile, number, part.words, [&](cmodel::EllipseRecord record) {
           if (records + more++ == 0) out.begin_sheet({static_cast<std::uint32_t>(sheet)});
           record.tag = tag++;
           out.ellipses({&record, 1});

@@ -18,11 +18,16 @@
 #include "driver/tile_bins.hpp"
 #include "scene/capability.hpp"
 #include "scene/scene.hpp"
+#include "scene/sheet_plan.hpp"
 
 namespace fastsplat::driver {
 
 /// Whether a frame's samples are composited one by one (modes 4 and 5), not summed in sheets.
 bool every_sample(const scene::SceneDescription& description);
+
+/// The sheets that the device takes, whatever the method that makes them; where every sample is composited one holds
+/// them all. Of a scene that a device offers.
+scene::SheetPlan plan_for_device(const scene::Scene& scene);
 
 /// What a device of this configuration has: all have the methods of sheets, those with ellipses footprints of any
 /// shape.

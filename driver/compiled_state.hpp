@@ -34,7 +34,9 @@ class Windows {
     Extent out{.x0 = x, .x1 = x, .y0 = y, .y1 = y, .window_end = y};  // of no pixel
     bool first = true;
     for (const EllipseSpan& span : EllipseSpans(config_, shape, splat.x, splat.y)) {
-      const Extent one{x + span.windows.left, x + span.right, y + span.windows.top, y + span.bottom, y + span.bottom};
+      const std::int32_t top = y + span.windows.top;
+      const std::int32_t end = top + static_cast<std::int32_t>(span.windows.rows) * config_.lanes;
+      const Extent one{x + span.windows.left, x + span.right, top, y + span.bottom, end};
       out = first ? one
                   : Extent{std::min(out.x0, one.x0), std::max(out.x1, one.x1), std::min(out.y0, one.y0),
                            std::max(out.y1, one.y1), std::max(out.window_end, one.window_end)};
@@ -101,6 +103,10 @@ struct CompiledFrame::State {
     if (!sliced()) return depth;
     return shaped() ? slices.first(depth, growth(number)) : slices.first(depth);
   }
+  /// The splat's kernel is deeper than its own: shares are those of a kernel that has grown.
+  bool grown(std::uint32_t number) const {
+    return sliced() && shaped() && projected.ellipses[number].shrink != DepthGrowth{}.shrink;
+  }
   /// What a splat of a frame with ellipses has of a sheet.
   Share share(std::uint32_t number, int sheet) const {
     const QuantisedSplat& splat = projected.splats[number];
@@ -128,7 +134,23 @@ struct CompiledFrame::State {
   SheetSets sheet_sets(int tile, int sheet, std::uint64_t written) const;
   /// visit(EllipseRecord) for every record of a splat with kOwnShape that meets the tile, without its tag; none may.
   template <class Visit>
-  void for_each_ellipse(int tile, std::uint32_t number, const Share& part, Visit visit) const;
+  void for_each_ellipse(int tile, std::uint32_t number, const SplatWords& colour, Visit visit) const {
+    const QuantisedSplat& splat = projected.splats[number];
+    const cmodel::EllipseShape& shape = projected.ellipses[number].shape;
+    const int pf = config.position_frac_bits;
+    const std::int32_t x = (splat.x >> pf) - grid.x(tile), y = (splat.y >> pf) - grid.y(tile);
+    for (const EllipseSpan& span : EllipseSpans(config, shape, splat.x, splat.y)) {
+      if (x + span.right <= 0 || x + span.windows.left >= grid.width(tile) || y + span.bottom <= 0 ||
+          y + span.windows.top >= grid.height(tile))
+        continue;
+      visit(cmodel::EllipseRecord{.tag = 0,
+                                  .x = splat.x - grid.x(tile) * (1 << pf),
+                                  .y = splat.y - grid.y(tile) * (1 << pf),
+                                  .colour = colour,
+                                  .shape = shape,
+                                  .windows = span.windows});
+    }
+  }
 
  private:
   Cells make_cells() const;

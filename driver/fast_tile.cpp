@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "driver/compiled_state.hpp"
@@ -6,30 +8,47 @@
 namespace fastsplat::driver {
 namespace {
 
-/// A splat of a band, ready for its next sheet.
+/// A splat of a band, or one record of its ellipse, ready for its next sheet.
 struct Ready {
   cmodel::fast::Placed placed;
-  SplatWords words{}, before{};  ///< whole; of it, what lies in front of the next sheet
+  std::unique_ptr<std::uint16_t[]> weights;  ///< an ellipse's own
+  SplatWords words{}, before{};              ///< whole; of it, what lies in front of the next sheet
   std::int32_t depth = 0;
   std::int32_t last_sheet = 0;  ///< beyond it, its shares are empty
+  std::uint32_t number = 0;
+  bool grown = false;  ///< CompiledFrame::State::grown()
 };
 
-template <class Unit>
-Ready ready(const CompiledFrame::State& s, const cmodel::BeginTile& place, const Unit& unit,
-            const QuantisedSplat& splat) {
-  cmodel::SnappedAxis x = s.windows.snapped(splat.x, splat.set), y = s.windows.snapped(splat.y, splat.set);
-  x.origin -= place.x;
-  y.origin -= place.y;
-  return {.placed = unit.place(splat.set, x, y),
+Ready ready(const CompiledFrame::State& s, std::uint32_t number, const cmodel::fast::Placed& placed) {
+  const QuantisedSplat& splat = s.projected.splats[number];
+  const bool grown = s.grown(number);
+  const int last = !s.sliced() ? splat.depth
+                   : grown     ? s.slices.last(splat.depth, s.growth(number))
+                               : s.slices.last(splat.depth);
+  return {.placed = placed,
+          .weights = nullptr,
           .words = splat.words,
           .before = {},
           .depth = splat.depth,
-          .last_sheet = s.sliced() ? s.slices.last(splat.depth) : splat.depth};
+          .last_sheet = last,
+          .number = number,
+          .grown = grown};
+}
+
+template <class Unit>
+Ready ready_circle(const CompiledFrame::State& s, const cmodel::BeginTile& place, Unit& unit, std::uint32_t number) {
+  const QuantisedSplat& splat = s.projected.splats[number];
+  cmodel::SnappedAxis x = s.windows.snapped(splat.x, splat.set), y = s.windows.snapped(splat.y, splat.set);
+  x.origin -= place.x;
+  y.origin -= place.y;
+  return ready(s, number, unit.place(splat.set, x, y));
 }
 
 /// The splat's part of a sheet: sheet after sheet.
 Share next_share(const CompiledFrame::State& s, Ready& splat, int sheet) {
-  return s.sliced() ? s.slices.next_share(splat.words, splat.depth, sheet, splat.before) : s.slices.whole(splat.words);
+  if (!s.sliced()) return s.slices.whole(splat.words);
+  if (splat.grown) return s.share(splat.number, sheet);
+  return s.slices.next_share(splat.words, splat.depth, sheet, splat.before);
 }
 
 /// One band drawn, sheet by sheet. Of its splats, those that still can be seen wait in a list; of one that cannot, all
@@ -54,17 +73,18 @@ class BandWalk {
           continue;
         }
         // Their order means nothing: sums do not depend on it.
-        waiting_[i] = waiting_.back();
+        done(waiting_[i]);
+        waiting_[i] = std::move(waiting_.back());
         waiting_.pop_back();
       }
       const auto numbers = s_.bins.bin(tile_, band_, sheet);
       for (std::size_t i = 0; i < numbers.size(); ++i) {
         __builtin_prefetch(&s_.projected.splats[numbers[std::min(i + kAhead, numbers.size() - 1)]]);
-        Ready splat = ready(s_, place_, unit_, s_.projected.splats[numbers[i]]);
-        if (draw(splat, sheet)) waiting_.push_back(splat);
+        begin(numbers[i], sheet);
       }
       if (report_.sheets[static_cast<std::size_t>(sheet)] == 0) continue;
       unit_.end_sheet({static_cast<std::uint32_t>(sheet), 0});
+      done_.clear();
       ++sheets;
     }
     unit_.end_tile({static_cast<std::uint32_t>(tile_), sheets});
@@ -76,6 +96,34 @@ class BandWalk {
     if (!splat.placed.counted) return;
     report_.splat_records += records;
     report_.saturated_records += saturated;
+  }
+  /// It has no more to come; its weights may have.
+  void done(Ready& splat) {
+    if (splat.weights) done_.push_back(std::move(splat.weights));
+  }
+  /// A splat in its first sheet.
+  void begin(std::uint32_t number, int sheet) {
+    const auto draw_ready = [&](Ready splat) {
+      if (draw(splat, sheet))
+        waiting_.push_back(std::move(splat));
+      else
+        done(splat);
+    };
+    if (s_.projected.splats[number].set != kOwnShape) {
+      draw_ready(ready_circle(s_, place_, unit_, number));
+      return;
+    }
+    const int rows = s_.grid.y(tile_) - place_.y, pf = s_.config.position_frac_bits;
+    s_.for_each_ellipse(tile_, number, {}, [&](cmodel::EllipseRecord record) {
+      record.y += rows * (1 << pf);
+      const int top = (record.y >> pf) + record.windows.top;
+      if (top >= place_.height || top + static_cast<int>(record.windows.rows) * s_.config.lanes <= 0) return;
+      // Where it is drawn once, its weights need not be kept.
+      std::unique_ptr<std::uint16_t[]> weights;
+      Ready splat = ready(s_, number, unit_.place(record, s_.reach > 0 ? &weights : nullptr));
+      splat.weights = std::move(weights);
+      draw_ready(std::move(splat));
+    });
   }
   /// The splat's part of a sheet; true if there is more to come.
   bool draw(Ready& splat, int sheet) {
@@ -100,10 +148,13 @@ class BandWalk {
       excess |= share.excess;
       saturated += share.saturated ? 1 : 0;
     };
-    if (s_.sliced())
+    if (splat.grown) {
+      for (int at = sheet; at <= splat.last_sheet; ++at) take(Slices::outline(s_.share(splat.number, at)));
+    } else if (s_.sliced()) {
       s_.slices.outlines(splat.words, splat.depth, sheet, splat.last_sheet, take);
-    else
+    } else {
       take(Slices::outline(s_.slices.whole(splat.words)));
+    }
     const auto shares = std::span(hidden_).first(count);
     if (excess != 0 && !unit_.can_hide(splat.placed, shares)) return false;
     const std::uint64_t records = unit_.hide(splat.placed, shares);
@@ -120,7 +171,8 @@ class BandWalk {
   Unit& unit_;
   BandReport report_;
   std::vector<Ready> waiting_;
-  std::vector<cmodel::fast::HiddenShare> hidden_;  ///< of one splat
+  std::vector<std::unique_ptr<std::uint16_t[]>> done_;  ///< weights of the open sheet
+  std::vector<cmodel::fast::HiddenShare> hidden_;       ///< of one splat
 };
 
 /// One tile drawn on a device that culls, sheet by sheet and cell by cell: the splats of a set that was hidden once are
@@ -185,14 +237,14 @@ class CullWalk {
         ++i;
         continue;
       }
-      cell.waiting[i] = cell.waiting.back();
+      cell.waiting[i] = std::move(cell.waiting.back());
       cell.waiting.pop_back();
     }
     const auto numbers = s_.bins.cell(tile_, sheet, number);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       __builtin_prefetch(&s_.projected.splats[numbers[std::min(i + kAhead, numbers.size() - 1)]]);
-      Ready splat = ready(s_, place_, unit_, s_.projected.splats[numbers[i]]);
-      if (draw(splat, sheet)) cell.waiting.push_back(splat);
+      Ready splat = ready_circle(s_, place_, unit_, numbers[i]);
+      if (draw(splat, sheet)) cell.waiting.push_back(std::move(splat));
     }
   }
   /// The splat's part of a sheet; true if there is more to come.

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 
 #include "base/error.hpp"
 #include "base/parallel/parallel.hpp"
+#include "cmodel/fast/tile_unit.hpp"
 #include "cmodel/model.hpp"
+#include "driver/beat_writer.hpp"
 #include "driver/ellipse_shape.hpp"
 #include "driver/frame_sink.hpp"
 #include "driver/gaussian_windows.hpp"
@@ -105,14 +108,12 @@ void GaussianFrame::bin(std::uint32_t number) {
   }
 }
 
-GaussianReport GaussianFrame::emit_tile(int tile, const cmodel::BeatSink& sink) const {
-  constexpr std::size_t kBlock = 4096;
+GaussianReport GaussianFrame::emit_tile(int tile, cmodel::RecordSink& sink) const {
   const int x = grid_.x(tile), y = grid_.y(tile), width = grid_.width(tile), height = grid_.height(tile);
   const std::int32_t pixel = 1 << config_.position_frac_bits;
-  std::vector<cmodel::Beat> beats;
+  std::vector<cmodel::EllipseRecord> records;
   GaussianReport report;
-  cmodel::append(
-      beats, cmodel::BeginTile{cmodel::Mode::SampleAdditive, static_cast<std::uint32_t>(tile), x, y, width, height});
+  sink.begin_tile({cmodel::Mode::SampleAdditive, static_cast<std::uint32_t>(tile), x, y, width, height});
   std::uint32_t tag = 0;
   for (const std::uint32_t number : bins_[static_cast<std::size_t>(tile)]) {
     const QuantisedGaussian& one = gaussians_[number];
@@ -122,24 +123,28 @@ GaussianReport GaussianFrame::emit_tile(int tile, const cmodel::BeatSink& sink) 
                                  .colour = one.colour,
                                  .shape = one.shape,
                                  .windows = {}};
-    const auto all = gaussian_windows(config_, one.shape, record.x, record.y, width, height);
-    report.in_tiles += all.empty() ? 0 : 1;
-    for (const cmodel::EllipseWindows& windows : all) {
-      if (tag == 0) cmodel::append(beats, cmodel::BeginSheet{0});
-      record.tag = tag++;
+    records.clear();
+    for (const cmodel::EllipseWindows& windows :
+         gaussian_windows(config_, one.shape, record.x, record.y, width, height)) {
+      record.tag = tag + static_cast<std::uint32_t>(records.size());
       record.windows = windows;
-      beats.push_back(to_beat(record));
+      records.push_back(record);
     }
-    if (beats.size() >= kBlock) {
-      sink(beats);
-      beats.clear();
-    }
+    if (records.empty()) continue;
+    if (tag == 0) sink.begin_sheet({0});
+    sink.ellipses(records);
+    tag += static_cast<std::uint32_t>(records.size());
+    ++report.in_tiles;
   }
-  if (tag > 0) cmodel::append(beats, cmodel::EndSheet{0, tag});
-  cmodel::append(beats, cmodel::EndTile{static_cast<std::uint32_t>(tile), tag > 0 ? 1U : 0U});
-  sink(beats);
+  if (tag > 0) sink.end_sheet({0, tag});
+  sink.end_tile({static_cast<std::uint32_t>(tile), tag > 0 ? 1U : 0U});
   report.records = tag;
   return report;
+}
+
+GaussianReport GaussianFrame::emit_tile(int tile, const cmodel::BeatSink& sink) const {
+  BeatWriter beats(sink);
+  return emit_tile(tile, beats);
 }
 
 GaussianReport GaussianFrame::emit(const cmodel::BeatSink& sink, const Progress& progress) const {
@@ -164,29 +169,67 @@ GaussianReport& operator+=(GaussianReport& report, const GaussianReport& tile) {
   return report;
 }
 
-GaussianRender render_gaussians(const GaussianFrame& frame, int threads, const Progress& progress) {
+namespace {
+
+struct DrawnTile {
+  cmodel::Counters counters;
+  GaussianReport report;
+  UnitReport units;
+};
+
+DrawnTile draw_plain(const GaussianFrame& frame, int tile, cmodel::PixelSink& pixels) {
+  cmodel::Model device(frame.config(), cmodel::StreamScope::Subset, pixels);
+  device.consume(frame.preamble());
+  DrawnTile out;
+  out.report = frame.emit_tile(tile, [&](std::span<const cmodel::Beat> beats) { device.consume(beats); });
+  device.finish();
+  out.counters = device.counters();
+  out.units.plain = 1;
+  return out;
+}
+
+/// By the plain unit where the fast one gives the tile up.
+template <class Word>
+DrawnTile draw_fast(const GaussianFrame& frame, const cmodel::fast::FrameTables& tables, int tile,
+                    cmodel::PixelSink& pixels) {
+  cmodel::fast::TileUnit<Word> unit(tables, pixels);
+  DrawnTile out;
+  out.report = frame.emit_tile(tile, unit);
+  if (!unit.sound()) {
+    out = draw_plain(frame, tile, pixels);
+    out.units.redone = 1;
+    return out;
+  }
+  out.counters = unit.counters();
+  out.units.fast = 1;
+  return out;
+}
+
+}  // namespace
+
+GaussianRender render_gaussians(const GaussianFrame& frame, const RenderOptions& options) {
   const TileGrid& grid = frame.grid();
   FrameSink pixels(frame.config(), grid.image_width, grid.image_height);
   const std::vector<std::uint64_t> work = frame.work();
-  struct Tile {
-    cmodel::Counters counters;
-    GaussianReport report;
-  };
-  std::vector<Tile> tiles(work.size());
+  GaussianRender out{.frame = {}, .counters = {}, .report = frame.report(), .units = {}};
+  std::optional<cmodel::fast::FrameTables> tables;
+  if (options.unit == Unit::Fast)
+    tables = cmodel::fast::frame_tables(frame.config(), frame.preamble(), {.ellipses = true, .samples = true},
+                                        &out.units.why_plain);
+  if (tables) out.units.vectors = cmodel::fast::vector_target();
+  std::vector<DrawnTile> tiles(work.size());
   std::atomic<std::size_t> done{0};
-  parallel_for(work, threads, [&](std::size_t tile) {
-    cmodel::Model device(frame.config(), cmodel::StreamScope::Subset, pixels);
-    device.consume(frame.preamble());
-    tiles[tile].report =
-        frame.emit_tile(static_cast<int>(tile), [&](std::span<const cmodel::Beat> beats) { device.consume(beats); });
-    device.finish();
-    tiles[tile].counters = device.counters();
-    if (progress) progress(done.fetch_add(1) + 1, work.size());
+  parallel_for(work, options.threads, [&](std::size_t number) {
+    const int tile = static_cast<int>(number);
+    tiles[number] = !tables               ? draw_plain(frame, tile, pixels)
+                    : tables->plan.narrow ? draw_fast<std::uint16_t>(frame, *tables, tile, pixels)
+                                          : draw_fast<std::uint32_t>(frame, *tables, tile, pixels);
+    if (options.progress) options.progress(done.fetch_add(1) + 1, work.size());
   });
-  GaussianRender out{.frame = {}, .counters = {}, .report = frame.report()};
-  for (const Tile& tile : tiles) {
+  for (const DrawnTile& tile : tiles) {
     out.counters += tile.counters;
     out.report += tile.report;
+    out.units += tile.units;
   }
   out.frame = pixels.take();
   return out;

@@ -13,7 +13,9 @@
 #include "cmodel/counters.hpp"
 #include "cmodel/device.hpp"
 #include "cmodel/frame.hpp"
+#include "cmodel/record_sink.hpp"
 #include "cmodel/records.hpp"
+#include "driver/render.hpp"
 #include "driver/tile_bins.hpp"
 #include "scene/gaussians/projected_gaussian.hpp"
 
@@ -50,6 +52,8 @@ class GaussianFrame {
   /// begin_frame and the tables.
   std::span<const cmodel::Beat> preamble() const { return preamble_; }
   /// begin_tile .. end_tile; what it adds to the report. Tiles may be emitted in parallel.
+  GaussianReport emit_tile(int tile, cmodel::RecordSink& sink) const;
+  /// The same as beats.
   GaussianReport emit_tile(int tile, const cmodel::BeatSink& sink) const;
   /// Preamble and all tiles in order: a subset stream, without end_frame.
   GaussianReport emit(const cmodel::BeatSink& sink, const Progress& progress = {}) const;
@@ -75,9 +79,10 @@ struct GaussianRender {
   cmodel::Frame frame;
   cmodel::Counters counters;
   GaussianReport report;
+  UnitReport units;
 };
 
-/// Through the integer model, tiles in parallel. `threads` (0: all cores) never changes the result.
-GaussianRender render_gaussians(const GaussianFrame& frame, int threads = 0, const Progress& progress = {});
+/// Through the integer model, tiles in parallel: bands it has none.
+GaussianRender render_gaussians(const GaussianFrame& frame, const RenderOptions& options = {});
 
 }  // namespace fastsplat::driver

@@ -105,8 +105,8 @@ std::vector<TileResult> draw_all_fast(const CompiledFrame& compiled, const cmode
   parallel_for(compiled.work(), threads, [&](std::size_t number) {
     const std::size_t tile = number / each;
     const int t = static_cast<int>(tile), band = static_cast<int>(number % each);
-    bands[number] = tables.jobs.plan.narrow ? draw_fast<std::uint16_t>(compiled, tables, t, band, pixels)
-                                            : draw_fast<std::uint32_t>(compiled, tables, t, band, pixels);
+    bands[number] = tables.plan.narrow ? draw_fast<std::uint16_t>(compiled, tables, t, band, pixels)
+                                       : draw_fast<std::uint32_t>(compiled, tables, t, band, pixels);
     if (++ended[tile] < each) return;
     const auto whole = whole_tile(std::span(bands).subspan(tile * each, each));
     results[tile] = whole ? *whole : draw_plain(compiled, t, pixels);
@@ -116,6 +116,8 @@ std::vector<TileResult> draw_all_fast(const CompiledFrame& compiled, const cmode
   return results;
 }
 
+}  // namespace
+
 UnitReport& operator+=(UnitReport& report, const UnitReport& tile) {
   report.fast += tile.fast;
   report.plain += tile.plain;
@@ -124,20 +126,14 @@ UnitReport& operator+=(UnitReport& report, const UnitReport& tile) {
   return report;
 }
 
-}  // namespace
-
 DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, const RenderOptions& options) {
   const char* why_plain = nullptr;
-  const bool shaped = draws_ellipses(scene, config);
-  const char* no_circles_in_sheets = shaped                            ? "splats are ellipses"
-                                     : every_sample(scene.description) ? "every sample is composited"
-                                                                       : nullptr;
-  const bool fast =
-      options.unit == Unit::Fast && no_circles_in_sheets == nullptr && cmodel::fast::fast_plan(config, &why_plain);
-  if (options.unit == Unit::Fast && no_circles_in_sheets != nullptr) why_plain = no_circles_in_sheets;
+  const bool fast = options.unit == Unit::Fast && cmodel::fast::fast_plan(config, &why_plain);
   const int band_rows = !fast ? 0 : options.band_rows > 0 ? options.band_rows : kBandRows;
   const CompiledFrame compiled(scene, config, options.threads, band_rows);
-  const auto tables = fast ? cmodel::fast::frame_tables(config, compiled.preamble(), &why_plain)
+  const cmodel::fast::FrameNeeds needs{.ellipses = draws_ellipses(scene, config),
+                                       .samples = every_sample(scene.description)};
+  const auto tables = fast ? cmodel::fast::frame_tables(config, compiled.preamble(), needs, &why_plain)
                            : std::optional<cmodel::fast::FrameTables>{};
   FrameSink frame(config, compiled.grid().image_width, compiled.grid().image_height);
   std::atomic<std::size_t> done{0};

@@ -51,6 +51,9 @@ struct UnitReport {
   const char* why_plain = nullptr;  ///< why the fast unit, which was asked for, could not draw any
 };
 
+/// Adds what was drawn.
+UnitReport& operator+=(UnitReport& report, const UnitReport& tile);
+
 struct DeviceRender {
   cmodel::Frame frame;
   cmodel::Counters counters;

@@ -60,6 +60,9 @@ class Slices {
   int first(std::int32_t depth, const DepthGrowth& growth) const {
     return last_that(depth - growth.half, [front = depth - growth.half](std::int32_t at) { return at <= front; });
   }
+  int last(std::int32_t depth, const DepthGrowth& growth) const {
+    return last_that(depth + growth.half, [back = depth + growth.half](std::int32_t at) { return at < back; });
+  }
   int reach(const DepthGrowth& growth) const;
   Share share(const SplatWords& whole, std::int32_t depth, int s, const DepthGrowth& growth) const {
     return between(whole, cumulative(depth, s, growth), cumulative(depth, s + 1, growth));

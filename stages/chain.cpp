@@ -18,12 +18,7 @@ namespace {
 constexpr int kRows = 16;  ///< of a band: its sheets stay in the cache
 
 const scene::Scene& drawable(const scene::Scene& scene, const cmodel::Config& config) {
-  scene::Offers offers = driver::offers(config);
-  // Steps are of sheets.
-  if (config.composite_every_sample != 0) offers.engine = "error attribution";
-  offers.methods &= ~scene::only(scene::Method::Westover);
-  offers.methods_elsewhere = 0u;
-  scene::check_capability(scene, offers);
+  scene::check_capability(scene, driver::offers(config));
   return scene;
 }
 
@@ -55,6 +50,7 @@ class Chain::Band {
         mixture_(mixture),
         splats_(splats),
         golden_units_(golden_units),
+        samples_(driver::every_sample(chain.scene_.description)),
         rows_(rows),
         width_(width),
         weights_(chain.scene_.kernel, chain.config_),
@@ -88,12 +84,25 @@ class Chain::Band {
     if (open.first >= open.end) return;
     weights_.rasterise(splat, shape, mixture_, golden_units_, open, width_);
     chain_.steps_.shares(splat, mixture_, shares_, shape != nullptr ? shape->growth : Growth{});
+    if (samples_) return composite();
     for (std::size_t s = 0; s < shares_.size(); ++s) {
       if (shares_[s] == golden::Sums{}) continue;
       golden::Sheet& sheet = at(splat.first + static_cast<int>(s));
       for (const auto& span : weights_.spans()) {
         add_products(weights_.weights(span), shares_[s], product_, sheet.row(span.y) + span.x);
         sheet.touch(span.y, {span.x, span.x + span.width});
+      }
+    }
+  }
+
+  /// Each sample of the splat by itself.
+  void composite() {
+    for (const auto& span : weights_.spans()) {
+      products_.assign(static_cast<std::size_t>(span.width), {});
+      add_products(weights_.weights(span), shares_.front(), product_, products_.data());
+      golden::Sums* const pixels = &picture_[static_cast<std::size_t>(span.y - rows_.first) * width_ + span.x];
+      for (int i = 0; i < span.width; ++i) {
+        if (pixels_.take(products_[static_cast<std::size_t>(i)], pixels[i])) settled_.settle(span.x + i, span.y);
       }
     }
   }
@@ -113,7 +122,7 @@ class Chain::Band {
   const Chain& chain_;
   const Mixture& mixture_;
   const Staged& splats_;
-  bool golden_units_;
+  bool golden_units_, samples_;
   golden::Rows rows_;
   int width_;
   WeightSteps weights_;
@@ -122,7 +131,7 @@ class Chain::Band {
   golden::SettledPixels settled_;
   std::vector<golden::Sheet> ring_;
   std::vector<golden::Sums> picture_;
-  std::vector<golden::Sums> shares_;
+  std::vector<golden::Sums> shares_, products_;
 };
 
 Chain::Chain(const scene::Scene& scene, const cmodel::Config& config)

@@ -25,7 +25,7 @@ class PixelSteps {
 
   /// A pixel before the first sheet: C and T, or an X-ray's sums.
   golden::Sums initial() const { return {0.0, 0.0, 0.0, xray_ ? 0.0 : 1.0}; }
-  /// The sheet's sums into the pixel; true where nothing behind can be seen in it any more.
+  /// The sheet's sums, or one sample's products, into the pixel; true where nothing behind can be seen in it any more.
   bool take(const golden::Sums& sums, golden::Sums& pixel) const;
   /// R, G, B, A.
   golden::Sums out(const golden::Sums& pixel) const;

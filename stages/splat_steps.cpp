@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/parallel/parallel.hpp"
+#include "driver/compile.hpp"
 #include "driver/projection.hpp"
 #include "driver/tables.hpp"
 #include "golden/splat/projection.hpp"
@@ -35,7 +36,7 @@ SplatList::SplatList(const scene::Scene& scene) {
 SplatSteps::SplatSteps(const scene::Scene& scene, const cmodel::Config& config)
     : scene_(scene),
       config_(config),
-      plan_(scene::sheet_plan(scene)),
+      plan_(driver::plan_for_device(scene)),
       slices_(driver::frame_slices(config, scene, plan_)),
       sets_(driver::radius_sets(scene, config)),
       quantiser_(scene, config, sets_, slices_, plan_),

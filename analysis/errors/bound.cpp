@@ -59,8 +59,9 @@ Bound bound(const stages::Chain& chain, const stages::Picture& real, Known known
 Bound bound(const stages::Chain& chain, const stages::Picture& real, const stages::Mixture& mixture,
             const stages::Mixture& device, int threads) {
   const scene::Scene& scene = chain.scene();
-  // What is proved is proved of circles.
-  scene::check_capability(scene, {"error bound", driver::offers(chain.config()).methods, 0u});
+  // What is proved is proved of circles in sheets.
+  const scene::Methods methods = driver::offers(chain.config()).methods & ~scene::only(scene::Method::Westover);
+  scene::check_capability(scene, {"error bound", methods, 0u});
   const Roundings roundings(scene, chain.config(), chain.steps(), mixture, device);
   const auto splats = chain.steps().staged(chain.list(), mixture, false, threads).splats;
   const int width = real.width, height = real.height;

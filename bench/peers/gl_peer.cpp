@@ -79,7 +79,7 @@ void device_draw(benchmark::State& state, const std::string& config) {
   const driver::CompiledFrame frame(xray(), device);
   const auto tables = cmodel::fast::frame_tables(device, frame.preamble());
   if (!tables) throw std::runtime_error("no fast unit here");
-  if (tables->jobs.plan.narrow)
+  if (tables->plan.narrow)
     draw_tiles<std::uint16_t>(state, frame, *tables);
   else
     draw_tiles<std::uint32_t>(state, frame, *tables);

@@ -1,6 +1,8 @@
 #include "cmodel/fast/frame_tables.hpp"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "cmodel/fast/row_kernel.hpp"
 #include "cmodel/stream_decode.hpp"
@@ -32,7 +34,8 @@ std::optional<std::uint64_t> opacity_excess(const Config& config, std::span<cons
 
 }  // namespace
 
-std::optional<FrameTables> frame_tables(const Config& config, std::span<const Beat> preamble, const char** why_not) {
+std::optional<FrameTables> frame_tables(const Config& config, std::span<const Beat> preamble, const FrameNeeds& needs,
+                                        const char** why_not) {
   const auto none = [why_not](const char* reason) {
     if (why_not != nullptr) *why_not = reason;
     return std::optional<FrameTables>{};
@@ -40,11 +43,14 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
   const auto plan = fast_plan(config, why_not);
   if (!plan) return {};
   if (!has_vectors()) return none("this processor has none of its vectors");
+  if (needs.ellipses && config.culls()) return none("splats are ellipses, and the device hides windows of them");
+  const auto samples = sample_plan(config, *plan, needs.samples ? why_not : nullptr);
+  if (needs.samples && !samples) return {};
   WeightUnit unit = weight_unit(config);
   SlabOpacity opacity(config);
   std::uint32_t sets = 0;
   std::size_t bytes = 0;
-  std::optional<std::uint64_t> excess;
+  std::vector<std::uint32_t> radial, factor;
   StreamDecode decode(config, StreamScope::Subset);
   for (const Beat& beat : preamble) {
     const Record* record = decode.feed(beat);
@@ -64,24 +70,28 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
         break;
       case Table::Radial:
         std::visit([&](auto& kind) { kind.load_radial(table->words); }, unit);
+        radial = table->words;
         break;
       case Table::Factor:
         opacity.load(table->words);
-        excess = opacity_excess(config, table->words);
+        factor = table->words;
         break;
     }
   }
+  const auto excess = factor.empty() ? std::nullopt : opacity_excess(config, factor);
   FrameTables out{.config = config,
-                  .jobs = {.plan = *plan, .shapes = {}},
+                  .plan = *plan,
                   .memo = WeightMemo(config, unit, sets, plan->weight_shift),
                   .opacity = opacity,
                   .opacity_holds = excess.has_value(),
-                  .opacity_excess = excess.value_or(0)};
-  for (std::uint32_t set = 0; set < sets; ++set) {
-    const Shape& shape = out.memo.shape(set);
-    out.jobs.shapes.push_back({static_cast<std::uint32_t>(shape.extent), static_cast<std::uint32_t>(shape.pitch)});
-    out.reach = std::max(out.reach, shape.extent + kVectorPixels);
-  }
+                  .opacity_excess = excess.value_or(0),
+                  .ellipses = ellipse_table(config, radial, plan->weight_shift),
+                  .samples = std::nullopt,
+                  .reach = kVectorPixels};
+  if (needs.ellipses && !out.ellipses) return none("an ellipse's place in the radial table is wider than its lanes");
+  if (samples) out.samples = SampleTables{*samples, std::move(factor)};
+  for (std::uint32_t set = 0; set < sets; ++set)
+    out.reach = std::max(out.reach, out.memo.shape(set).extent + kVectorPixels);
   return out;
 }
 

@@ -14,40 +14,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
 
-bool add16(const JobFrame&, std::span<const SplatJob>, std::uint16_t*, std::size_t) { return false; }
-bool add32(const JobFrame&, std::span<const SplatJob>, std::uint32_t*, std::size_t) { return false; }
-void hidden(const JobFrame&, const HiddenJob&, std::span<const HiddenShare>, const Planes&) {}
+bool add16(const FastPlan&, std::span<const SplatJob>, std::uint16_t*, std::size_t) { return false; }
+bool add32(const FastPlan&, std::span<const SplatJob>, std::uint32_t*, std::size_t) { return false; }
+void hidden(const FastPlan&, const HiddenJob&, std::span<const HiddenShare>, const Planes&) {}
 const char* target() { return nullptr; }
 
 #else
 
-// Of 8 weights in every 128-bit block, the ones of vector v's pixels, each in the four lanes of its pixel.
-template <class D>
-class Spread {
- public:
-  using T = hn::TFromD<D>;
-  using Bytes = hn::Repartition<std::uint8_t, D>;
-  static constexpr std::size_t kBytes = HWY_MAX_BYTES;
-  static constexpr std::size_t kVectors = 8 * 4 / (HWY_MAX_BYTES / sizeof(T));  // of 8 pixels
-
-  Spread() {
-    for (std::size_t v = 0; v < kVectors; ++v) {
-      for (std::size_t i = 0; i < kBytes; ++i) {
-        const std::size_t pixel = (v * (kBytes / sizeof(T)) + i / sizeof(T)) / 4, byte = i % sizeof(T);
-        index_[v * kBytes + i] = static_cast<std::uint8_t>(byte < 2 ? 2 * pixel + byte : 0x80);
-      }
-    }
-  }
-  template <class V>
-  V operator()(V weights, std::size_t vector) const {
-    const Bytes bytes;
-    const auto index = hn::Load(bytes, index_ + vector * kBytes);
-    return hn::BitCast(D{}, hn::TableLookupBytesOr0(hn::BitCast(bytes, weights), index));
-  }
-
- private:
-  HWY_ALIGN std::uint8_t index_[kVectors * kBytes];
-};
+#include "cmodel/fast/spread.inc"
 
 struct Lanes16 {
   using D = hn::ScalableTag<std::uint16_t>;
@@ -95,14 +69,14 @@ struct Carries32 : Lanes32 {
 };
 
 template <class Lanes, std::size_t kVectors, class T>
-void add_rows(const SplatJob& job, const JobShape& shape, T* sheet, std::size_t row, Lanes& lanes,
-              const Spread<typename Lanes::D>& spread) {
+void add_rows(const SplatJob& job, T* sheet, std::size_t row, Lanes& lanes, const Spread<typename Lanes::D>& spread) {
   const typename Lanes::D d;
   constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(T);
   const auto colour = Lanes::colour(job);
+  const std::size_t pitch = pitch_of(job.columns);
   T* out = sheet + std::size_t{job.at} * 4;
   const std::uint16_t* weights = job.weights;
-  for (std::size_t j = 0; j < shape.extent; ++j, out += row * 4, weights += shape.pitch) {
+  for (std::size_t j = 0; j < job.rows; ++j, out += row * 4, weights += pitch) {
     for (std::size_t v = 0; v < kVectors; ++v) {
       const std::size_t block = v / Spread<typename Lanes::D>::kVectors;
       const auto eight =
@@ -115,14 +89,15 @@ void add_rows(const SplatJob& job, const JobShape& shape, T* sheet, std::size_t 
 }
 
 template <class Lanes, class T>
-void add_wide(const SplatJob& job, const JobShape& shape, T* sheet, std::size_t row, Lanes& lanes,
-              const Spread<typename Lanes::D>& spread, std::size_t vectors) {
+void add_wide(const SplatJob& job, T* sheet, std::size_t row, Lanes& lanes, const Spread<typename Lanes::D>& spread,
+              std::size_t vectors) {
   const typename Lanes::D d;
   constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(T), kEach = Spread<typename Lanes::D>::kVectors;
   const auto colour = Lanes::colour(job);
-  for (std::size_t j = 0; j < shape.extent; ++j) {
+  const std::size_t pitch = pitch_of(job.columns);
+  for (std::size_t j = 0; j < job.rows; ++j) {
     T* out = sheet + (job.at + j * row) * 4;
-    const std::uint16_t* weights = job.weights + j * shape.pitch;
+    const std::uint16_t* weights = job.weights + j * pitch;
     for (std::size_t v = 0; v < vectors; ++v) {
       const auto eight = hn::BitCast(
           d, hn::LoadDup128(hn::Repartition<std::uint16_t, typename Lanes::D>{}, weights + 8 * (v / kEach)));
@@ -133,56 +108,55 @@ void add_wide(const SplatJob& job, const JobShape& shape, T* sheet, std::size_t 
 }
 
 template <class Lanes, class T>
-bool add_all(const JobFrame& frame, std::span<const SplatJob> jobs, T* sheet, std::size_t row) {
-  Lanes lanes(frame.plan);
+bool add_all(const FastPlan& plan, std::span<const SplatJob> jobs, T* sheet, std::size_t row) {
+  Lanes lanes(plan);
   const Spread<typename Lanes::D> spread;
   constexpr std::size_t kPixels = HWY_MAX_BYTES / sizeof(T) / 4;
   for (const SplatJob& job : jobs) {
-    const JobShape& shape = frame.shapes[job.set];
-    const std::size_t vectors = (shape.extent + kPixels - 1) / kPixels;
+    const std::size_t vectors = (job.columns + kPixels - 1) / kPixels;
     switch (vectors) {
       case 0:
         break;
       case 1:
-        add_rows<Lanes, 1>(job, shape, sheet, row, lanes, spread);
+        add_rows<Lanes, 1>(job, sheet, row, lanes, spread);
         break;
       case 2:
-        add_rows<Lanes, 2>(job, shape, sheet, row, lanes, spread);
+        add_rows<Lanes, 2>(job, sheet, row, lanes, spread);
         break;
       case 3:
-        add_rows<Lanes, 3>(job, shape, sheet, row, lanes, spread);
+        add_rows<Lanes, 3>(job, sheet, row, lanes, spread);
         break;
       case 4:
-        add_rows<Lanes, 4>(job, shape, sheet, row, lanes, spread);
+        add_rows<Lanes, 4>(job, sheet, row, lanes, spread);
         break;
       case 5:
-        add_rows<Lanes, 5>(job, shape, sheet, row, lanes, spread);
+        add_rows<Lanes, 5>(job, sheet, row, lanes, spread);
         break;
       case 6:
-        add_rows<Lanes, 6>(job, shape, sheet, row, lanes, spread);
+        add_rows<Lanes, 6>(job, sheet, row, lanes, spread);
         break;
       default:
-        add_wide<Lanes>(job, shape, sheet, row, lanes, spread, vectors);
+        add_wide<Lanes>(job, sheet, row, lanes, spread, vectors);
         break;
     }
   }
   return lanes.sound();
 }
 
-bool add16(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint16_t* sheet, std::size_t row) {
-  return add_all<Lanes16>(frame, jobs, sheet, row);
+bool add16(const FastPlan& plan, std::span<const SplatJob> jobs, std::uint16_t* sheet, std::size_t row) {
+  return add_all<Lanes16>(plan, jobs, sheet, row);
 }
-bool add32(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint32_t* sheet, std::size_t row) {
-  return frame.plan.carries ? add_all<Carries32>(frame, jobs, sheet, row) : add_all<Lanes32>(frame, jobs, sheet, row);
+bool add32(const FastPlan& plan, std::span<const SplatJob> jobs, std::uint32_t* sheet, std::size_t row) {
+  return plan.carries ? add_all<Carries32>(plan, jobs, sheet, row) : add_all<Lanes32>(plan, jobs, sheet, row);
 }
 // Rows of weights are padded to 8 words, so no vector is wider than 8 pixels here.
-void hidden(const JobFrame& frame, const HiddenJob& job, std::span<const HiddenShare> shares, const Planes& planes) {
+void hidden(const FastPlan& plan, const HiddenJob& job, std::span<const HiddenShare> shares, const Planes& planes) {
   const hn::CappedTag<std::uint16_t, 8> d;
   const hn::RebindToSigned<decltype(d)> s;
-  const JobShape& shape = frame.shapes[job.set];
-  const int down = std::max(0, frame.plan.hidden_shift), up = std::max(0, -frame.plan.hidden_shift);
+  const std::size_t pitch = pitch_of(job.columns);
+  const int down = std::max(0, plan.hidden_shift), up = std::max(0, -plan.hidden_shift);
   // Where products are exact, so are these; else this is what rounding may have taken off, and a little more.
-  const auto lost = hn::Set(d, static_cast<std::uint16_t>(frame.plan.narrow ? 0 : 1));
+  const auto lost = hn::Set(d, static_cast<std::uint16_t>(plan.narrow ? 0 : 1));
   std::size_t plane = planes.first;
   for (const HiddenShare& share : shares) {
     std::uint16_t* out = planes.words + plane * planes.pixels + job.at;
@@ -191,8 +165,8 @@ void hidden(const JobFrame& frame, const HiddenJob& job, std::span<const HiddenS
     const std::uint32_t word = ((share.word + (1U << down) - 1) >> down) << up;
     const auto colour = hn::BitCast(s, hn::Set(d, static_cast<std::uint16_t>(word)));
     const std::uint16_t* weights = job.weights;
-    for (std::size_t j = 0; j < shape.extent; ++j, out += planes.row, weights += shape.pitch) {
-      for (std::size_t i = 0; i < shape.extent; i += hn::Lanes(d)) {
+    for (std::size_t j = 0; j < job.rows; ++j, out += planes.row, weights += pitch) {
+      for (std::size_t i = 0; i < job.columns; i += hn::Lanes(d)) {
         const auto product = hn::MulFixedPoint15(colour, hn::BitCast(s, hn::LoadU(d, weights + i)));
         const auto most = hn::Add(hn::BitCast(d, product), lost);
         hn::StoreU(hn::SaturatedAdd(hn::LoadU(d, out + i), most), d, out + i);
@@ -215,15 +189,14 @@ HWY_EXPORT(add32);
 HWY_EXPORT(hidden);
 HWY_EXPORT(target);
 
-bool add_splats(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint16_t* sheet, std::size_t row) {
-  return HWY_DYNAMIC_DISPATCH(add16)(frame, jobs, sheet, row);
+bool add_splats(const FastPlan& plan, std::span<const SplatJob> jobs, std::uint16_t* sheet, std::size_t row) {
+  return HWY_DYNAMIC_DISPATCH(add16)(plan, jobs, sheet, row);
 }
-bool add_splats(const JobFrame& frame, std::span<const SplatJob> jobs, std::uint32_t* sheet, std::size_t row) {
-  return HWY_DYNAMIC_DISPATCH(add32)(frame, jobs, sheet, row);
+bool add_splats(const FastPlan& plan, std::span<const SplatJob> jobs, std::uint32_t* sheet, std::size_t row) {
+  return HWY_DYNAMIC_DISPATCH(add32)(plan, jobs, sheet, row);
 }
-void add_hidden(const JobFrame& frame, const HiddenJob& job, std::span<const HiddenShare> shares,
-                const Planes& planes) {
-  HWY_DYNAMIC_DISPATCH(hidden)(frame, job, shares, planes);
+void add_hidden(const FastPlan& plan, const HiddenJob& job, std::span<const HiddenShare> shares, const Planes& planes) {
+  HWY_DYNAMIC_DISPATCH(hidden)(plan, job, shares, planes);
 }
 bool has_vectors() { return vector_target() != nullptr; }
 const char* vector_target() { return HWY_DYNAMIC_DISPATCH(target)(); }

@@ -9,6 +9,9 @@
 namespace fastsplat::cmodel::fast {
 namespace {
 
+constexpr std::size_t kVectorPixels = 8;  ///< what the widest vector writes
+constexpr std::size_t kRoom = 16384;      ///< words: half a first-level cache
+
 /// Bits a..b-1.
 std::uint64_t bits(int a, int b) { return (~std::uint64_t{0} >> (64 - (b - a))) << a; }
 
@@ -23,28 +26,28 @@ TileUnit<T>::TileUnit(const FrameTables& tables, PixelSink& pixels)
       pixel_out_(tables.config),
       lanes_(tables.config.lanes),
       lane_bits_(Config::log2_exact(tables.config.lanes)),
-      colour_shift_(tables.jobs.plan.colour_shift),
+      colour_shift_(tables.plan.colour_shift),
       dropped_(narrowing(tables.config, Site::Product).dropped_bits()),
+      ellipse_(tables.config),
       slots_(1) {
   const std::uint64_t brightest = (std::uint64_t{1} << tables.config.colour_frac_bits) - 1;
-  for (std::uint32_t set = 0; set < tables.jobs.shapes.size(); ++set) {
-    const Shape& shape = tables.memo.shape(set);
-    windows_.push_back(shape.windows);
-    heaviest_.push_back(shape.heaviest);
-    // Rounding adds less than one to what the bits kept say.
-    largest_product_.push_back(static_cast<std::uint32_t>((brightest * shape.heaviest) >> dropped_) + 1);
-  }
+  for (std::uint32_t set = 0; set < tables.memo.sets(); ++set) heaviest_.push_back(tables.memo.shape(set).heaviest);
+  heaviest_.push_back(tables.ellipses ? tables.ellipses->heaviest : 0);
+  // Rounding adds less than one to what the bits kept say.
+  for (const std::uint32_t weight : heaviest_)
+    largest_product_.push_back(static_cast<std::uint32_t>((brightest * weight) >> dropped_) + 1);
 }
 
 template <class T>
 void TileUnit<T>::begin_band(const BeginTile& tile, bool first, int ahead) {
-  assert(!every_sample(tile.mode) && "the plain unit's");
   tile_ = tile;
   first_band_ = first;
-  sheet_.resize(tile.width, tile.height, tables_.reach);
+  samples_ = every_sample(tile.mode);
+  if (!samples_) sheet_.resize(tile.width, tile.height, tables_.reach);
   const std::uint32_t one = std::uint32_t{1} << tables_.config.composite_frac_bits;
-  picture_.assign(static_cast<std::size_t>(tile.width) * tile.height,
+  picture_.assign(static_cast<std::size_t>(tile.width) * tile.height + kVectorPixels,
                   PixelState{0, 0, 0, tile.mode == Mode::Sum ? 0 : one});
+  room_.resize(std::max(kRoom, std::size_t{pitch_of(static_cast<std::uint32_t>(tile.width))} * tile.height));
   const auto rows = static_cast<std::size_t>((tile.height + lanes_ - 1) >> lane_bits_);
   dirty_.assign(rows, 0);
   frozen_.assign(rows, 0);
@@ -53,46 +56,119 @@ void TileUnit<T>::begin_band(const BeginTile& tile, bool first, int ahead) {
   sheet_parity_ = 0;
   sets_.clear();
   slots_.assign(static_cast<std::size_t>(ahead) + 1, {.dirty = std::vector<std::uint64_t>(rows)});
-  hidden_sums_.assign(slots_.size() * sheet_.pixels(), 0);
+  hidden_sums_.assign(samples_ ? 0 : slots_.size() * sheet_.pixels(), 0);
   most_excess_ = 0;
-  now_ = waiting_jobs_ = 0;
+  now_ = waiting_jobs_ = room_taken_ = 0;
   any_frozen_ = false;
-  sound_ = true;
+  sound_ = !samples_ || tables_.samples;
   bound_ = waiting_ = 0;
   before_ = counters_;
 }
 
 template <class T>
-std::uint32_t TileUnit<T>::clipped_weighted(const Shape& shape, const std::uint16_t* weights, int x, int y) const {
-  const int i0 = std::max(0, -x), i1 = std::min(shape.extent, tile_.width - x);
-  const int j0 = std::max(0, -y), j1 = std::min(shape.extent, tile_.height - y);
-  std::uint32_t weighted = 0;
-  for (int j = j0; j < j1; ++j) {
-    const std::uint16_t* row = weights + static_cast<std::size_t>(j) * shape.pitch;
-    for (int i = i0; i < i1; ++i) weighted += row[i] != 0 ? 1 : 0;
-  }
-  return weighted;
+std::uint16_t* TileUnit<T>::room(std::size_t words) {
+  if (room_taken_ + words > room_.size()) draw();
+  std::uint16_t* const out = room_.data() + room_taken_;
+  room_taken_ += words;
+  return out;
 }
 
 template <class T>
-Placed TileUnit<T>::place(std::uint32_t set, const SnappedAxis& sx, const SnappedAxis& sy) const {
-  const int x = sx.origin, y = sy.origin;
-  Placed out{.set = static_cast<std::uint16_t>(set), .counted = first_band_ || y >= 0};
-  const Shape& shape = tables_.memo.shape(set);
-  const int x0 = std::max(x, 0), x1 = std::min(x + shape.padded, tile_.width);
-  const int y0 = std::max(y, 0), y1 = std::min(y + shape.padded, tile_.height);
+void TileUnit<T>::clip(Placed& placed, int x, int y) {
+  const int i0 = std::max(0, -x), i1 = std::min<int>(placed.across, tile_.width - x);
+  const int j0 = std::max(0, -y), j1 = std::min<int>(placed.down, tile_.height - y);
+  const std::size_t pitch = pitch_of(placed.across);
+  placed.weighted = 0;
+  for (int j = j0; j < j1; ++j) {
+    const std::uint16_t* row = placed.weights + static_cast<std::size_t>(j) * pitch;
+    for (int i = i0; i < i1; ++i) placed.weighted += row[i] != 0 ? 1 : 0;
+  }
+  if (!samples_ || placed.weighted == 0) return;
+  const auto columns = static_cast<std::uint16_t>(i1 - i0), rows = static_cast<std::uint16_t>(j1 - j0);
+  const std::size_t inner = pitch_of(columns);
+  std::uint16_t* const out = room(inner * rows);
+  std::fill_n(out, inner * rows, std::uint16_t{0});
+  for (int j = j0; j < j1; ++j)
+    std::copy_n(placed.weights + static_cast<std::size_t>(j) * pitch + i0, columns,
+                out + static_cast<std::size_t>(j - j0) * inner);
+  placed.weights = out;
+  placed.across = columns;
+  placed.down = rows;
+  placed.at = memory_at(x + i0, y + j0);
+}
+
+template <class T>
+Placed TileUnit<T>::outline(int x, int y, int width, int height) const {
+  Placed out{.counted = first_band_ || y >= 0};
+  const int x0 = std::max(x, 0), x1 = std::min(x + width, tile_.width);
+  const int y0 = std::max(y, 0), y1 = std::min(y + height, tile_.height);
+  out.windows = static_cast<std::uint16_t>((width >> lane_bits_) * (height >> lane_bits_));
   if (x0 >= x1 || y0 >= y1) return out;
-  const std::size_t number = tables_.memo.number(sx.phase, sy.phase);
-  out.weights = tables_.memo.words(shape, number);
-  const bool whole = x >= 0 && y >= 0 && x + shape.extent <= tile_.width && y + shape.extent <= tile_.height;
-  out.weighted = static_cast<std::uint16_t>(whole ? tables_.memo.weighted(set, number)
-                                                  : clipped_weighted(shape, out.weights, x, y));
-  out.inside = static_cast<std::uint16_t>((x1 - x0) * (y1 - y0));
+  out.inside = static_cast<std::uint32_t>(x1 - x0) * static_cast<std::uint32_t>(y1 - y0);
   out.columns = bits(x0 >> lane_bits_, ((x1 - 1) >> lane_bits_) + 1);
   out.first = static_cast<std::uint16_t>(y0 >> lane_bits_);
   out.last = static_cast<std::uint16_t>((y1 - 1) >> lane_bits_);
-  if (out.weighted != 0) out.at = static_cast<std::uint32_t>(sheet_.at(x, y));
   return out;
+}
+
+template <class T>
+Placed TileUnit<T>::place(std::uint32_t set, const SnappedAxis& sx, const SnappedAxis& sy) {
+  const int x = sx.origin, y = sy.origin;
+  const Shape& shape = tables_.memo.shape(set);
+  Placed out = outline(x, y, shape.padded, shape.padded);
+  out.set = static_cast<std::uint16_t>(set);
+  if (out.inside == 0) return out;
+  const std::size_t number = tables_.memo.number(sx.phase, sy.phase);
+  out.weights = tables_.memo.words(shape, number);
+  out.across = out.down = static_cast<std::uint16_t>(shape.extent);
+  if (x >= 0 && y >= 0 && x + shape.extent <= tile_.width && y + shape.extent <= tile_.height) {
+    out.weighted = tables_.memo.weighted(set, number);
+    out.at = memory_at(x, y);
+    return out;
+  }
+  if (!samples_) out.at = memory_at(x, y);
+  clip(out, x, y);
+  return out;
+}
+
+template <class T>
+Placed TileUnit<T>::place(const EllipseRecord& record, std::unique_ptr<std::uint16_t[]>* kept) {
+  assert(tables_.ellipses);
+  const EllipseAxis x = ellipse_axis(tables_.config, record.x, record.windows.left);
+  const EllipseAxis y = ellipse_axis(tables_.config, record.y, record.windows.top);
+  const int width = static_cast<int>(record.windows.columns) * lanes_,
+            height = static_cast<int>(record.windows.rows) * lanes_;
+  Placed out = outline(x.origin, y.origin, width, height);
+  out.set = static_cast<std::uint16_t>(heaviest_.size() - 1);
+  if (out.inside == 0) return out;
+  const EllipseBox box{.column = std::max(0, -x.origin),
+                       .row = std::max(0, -y.origin),
+                       .columns = std::min(x.origin + width, tile_.width) - std::max(x.origin, 0),
+                       .rows = std::min(y.origin + height, tile_.height) - std::max(y.origin, 0)};
+  const std::size_t words = std::size_t{pitch_of(static_cast<std::uint32_t>(box.columns))} * box.rows;
+  std::uint16_t* weights = nullptr;
+  if (kept != nullptr) {
+    *kept = std::make_unique_for_overwrite<std::uint16_t[]>(words);
+    weights = kept->get();
+  } else {
+    weights = room(words);
+  }
+  out.weighted = weigh(*tables_.ellipses, ellipse_.coefficients(record.shape, x.distance, y.distance), box, weights);
+  out.weights = weights;
+  out.across = static_cast<std::uint16_t>(box.columns);
+  out.down = static_cast<std::uint16_t>(box.rows);
+  out.at = memory_at(x.origin + box.column, y.origin + box.row);
+  return out;
+}
+
+template <class T>
+void TileUnit<T>::take(const Placed& placed, const std::array<std::uint32_t, 4>& words) {
+  const std::uint32_t largest = std::max({words[0], words[1], words[2], words[3]});
+  const HiddenShare share{largest, largest - words[3]};
+  if (largest != 0 && hidden(placed) && can_hide(placed, {&share, 1}))
+    hide(placed, {&share, 1});
+  else
+    add(placed, words);
 }
 
 template <class T>
@@ -102,7 +178,6 @@ void TileUnit<T>::splats(std::span<const SplatRecord> records) {
   for (const SplatRecord& record : records) {
     if (const bool* gone = sets_.next(); gone != nullptr && *gone) continue;
     const std::uint32_t rho = tables_.memo.shape(record.set).rho;
-    const auto& words = record.colour;
     if (culls_) {
       Nothing nobody;
       if (culled(place(record.set, snap_(record.x, rho, nobody), snap_(record.y, rho, nobody)))) {
@@ -112,16 +187,20 @@ void TileUnit<T>::splats(std::span<const SplatRecord> records) {
     }
     const SnappedAxis x = snap_(record.x, rho, counting), y = snap_(record.y, rho, counting);
     const Placed placed = place(record.set, x, y);
-    if (culls_) {
-      add(placed, words);
-      continue;
-    }
-    const std::uint32_t largest = std::max({words[0], words[1], words[2], words[3]});
-    const HiddenShare share{largest, largest - words[3]};
-    if (largest != 0 && hidden(placed) && can_hide(placed, {&share, 1}))
-      hide(placed, {&share, 1});
+    if (culls_)
+      add(placed, record.colour);
     else
-      add(placed, words);
+      take(placed, record.colour);
+  }
+}
+
+template <class T>
+void TileUnit<T>::ellipses(std::span<const EllipseRecord> records) {
+  sound_ = sound_ && (records.empty() || (tables_.ellipses && !culls_));
+  if (!sound_) return;
+  for (const EllipseRecord& record : records) {
+    if (const bool* gone = sets_.next(); gone != nullptr && *gone) continue;
+    take(place(record), record.colour);
   }
 }
 
@@ -169,22 +248,33 @@ std::uint64_t TileUnit<T>::hide(const Placed& placed, std::span<const HiddenShar
   count(placed, records);
   if (placed.weighted == 0) return records;
   if (placed.counted) hidden_splats_ += records;
-  add_hidden(tables_.jobs, {placed.weights, placed.at, placed.set}, shares,
+  add_hidden(tables_.plan, {placed.weights, placed.at, placed.across, placed.down}, shares,
              {hidden_sums_.data(), sheet_.pixels(), sheet_.row(), slots_.size(), now_});
   return records;
 }
 
 template <class T>
 void TileUnit<T>::draw() {
-  // Words of 16 bits stay at their end when they reach it; those of 32 bits must not come round.
-  if (sizeof(T) == 4 && !tables_.jobs.plan.carries && bound_ + waiting_ > 0xFFFFFFFFU) {
-    bound_ = largest_word();
-    if (bound_ > tables_.jobs.plan.largest_sum || bound_ + waiting_ > 0xFFFFFFFFU) sound_ = false;
+  const auto jobs = std::span(jobs_).first(waiting_jobs_);
+  waiting_jobs_ = room_taken_ = 0;
+  if (samples_) {
+    if (!sound_) return;
+    SampleCounts counts;
+    composite_samples(*tables_.samples, tile_.mode == Mode::SampleExponential, jobs, picture_.front().data(),
+                      static_cast<std::size_t>(tile_.width), counts);
+    counters_.frozen_pixels += counts.frozen;
+    counters_.opacity_saturated += counts.opacity_saturated;
+    counters_.composite_saturated += counts.composite_saturated;
+    return;
   }
-  if (sound_) sound_ = add_splats(tables_.jobs, std::span(jobs_).first(waiting_jobs_), sheet_.words(), sheet_.row());
+  // Words of 16 bits stay at their end when they reach it; those of 32 bits must not come round.
+  if (sizeof(T) == 4 && !tables_.plan.carries && bound_ + waiting_ > 0xFFFFFFFFU) {
+    bound_ = largest_word();
+    if (bound_ > tables_.plan.largest_sum || bound_ + waiting_ > 0xFFFFFFFFU) sound_ = false;
+  }
+  if (sound_) sound_ = add_splats(tables_.plan, jobs, sheet_.words(), sheet_.row());
   bound_ += waiting_;
   waiting_ = 0;
-  waiting_jobs_ = 0;
 }
 
 template <class T>
@@ -204,13 +294,13 @@ void TileUnit<T>::end_sheet(const EndSheet&) {
   ++counters_.sheets;
   draw();
   Slot& slot = slots_[now_];
-  if (!sound_) return;
+  if (!sound_ || samples_) return;
   for (std::size_t by = 0; by < dirty_.size(); ++by) {
     for (std::uint64_t left = dirty_[by] | slot.dirty[by]; left != 0 && sound_; left &= left - 1)
       composite(std::countr_zero(left), static_cast<int>(by));
     dirty_[by] = slot.dirty[by] = 0;
   }
-  if (tables_.jobs.plan.carries) {
+  if (tables_.plan.carries) {
     // What lies in the guard band would come round in the end.
     sheet_.clear();
   }
@@ -283,7 +373,7 @@ void TileUnit<T>::count_frozen(int x0, int y0, int x1, int y1) {
     for (int x = x0; x < x1; ++x, ++bound) {
       const SheetWord sums = sheet_.sums(x, y);
       const std::uint32_t colour = std::max({sums[0], sums[1], sums[2]});
-      const std::uint64_t hidden = std::uint64_t{*bound} << tables_.jobs.plan.hidden_unit;
+      const std::uint64_t hidden = std::uint64_t{*bound} << tables_.plan.hidden_unit;
       if (std::max(colour, sums[3]) + hidden > largest_whole()) {
         sound_ = false;
         return;
@@ -321,8 +411,9 @@ void TileUnit<T>::end_tile(const EndTile&) {
   Counting counting{counters_};
   TilePixels out{
       .tile = tile_.tile, .x = tile_.x, .y = tile_.y, .width = tile_.width, .height = tile_.height, .words = {}};
-  out.words.reserve(picture_.size() * 4);
-  for (const PixelState& pixel : picture_) {
+  const auto pixels = std::span(picture_).first(static_cast<std::size_t>(tile_.width) * tile_.height);
+  out.words.reserve(pixels.size() * 4);
+  for (const PixelState& pixel : pixels) {
     const auto words = pixel_out_(tile_.mode, pixel, counting);
     out.words.insert(out.words.end(), words.begin(), words.end());
   }

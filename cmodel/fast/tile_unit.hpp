@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "cmodel/cull_sets.hpp"
 #include "cmodel/cull_unit.hpp"
 #include "cmodel/device.hpp"
+#include "cmodel/ellipse_unit.hpp"
 #include "cmodel/fast/frame_tables.hpp"
 #include "cmodel/fast/row_kernel.hpp"
 #include "cmodel/fast/sheet.hpp"
@@ -25,12 +27,14 @@ namespace fastsplat::cmodel::fast {
 struct Placed {
   std::uint64_t columns = 0;  ///< of blocks its windows touch, a bit each
   const std::uint16_t* weights = nullptr;
-  std::uint32_t at = 0;               ///< first pixel, of the sheet's memory
-  std::uint16_t inside = 0;           ///< pixels of its windows inside the tile
-  std::uint16_t weighted = 0;         ///< of those, with a weight above 0
-  std::uint16_t first = 1, last = 0;  ///< rows of blocks, both included
-  std::uint16_t set = 0;
-  bool counted = true;  ///< here; false in a band of a tile that the footprint only reaches down into
+  std::uint32_t at = 0;                ///< first pixel, of the memory of sheet or picture
+  std::uint32_t inside = 0;            ///< pixels of its windows inside the tile
+  std::uint32_t weighted = 0;          ///< of those, with a weight above 0
+  std::uint16_t across = 0, down = 0;  ///< pixels that `weights` are of
+  std::uint16_t first = 1, last = 0;   ///< rows of blocks, both included
+  std::uint16_t windows = 0;
+  std::uint16_t set = 0;  ///< behind the last one: an ellipse
+  bool counted = true;    ///< here; false in a band of a tile that the footprint only reaches down into
 };
 
 /// Takes tiles one after the other, in records that are known to obey docs/stream.md (the driver's own). T is the
@@ -49,23 +53,29 @@ class TileUnit final : public RecordSink {
   void begin_band(const BeginTile& band, bool first, int ahead);
   void begin_sheet(const BeginSheet& sheet) override { now_ = sheet.sheet % slots_.size(); }
   void splats(std::span<const SplatRecord> records) override;
-  void ellipses(std::span<const EllipseRecord> records) override { sound_ = sound_ && records.empty(); }
+  void ellipses(std::span<const EllipseRecord> records) override;
   void cull_blocks(std::span<const CullBlock> records) override;
   void end_sheet(const EndSheet& sheet) override;
   void end_tile(const EndTile& tile) override;
 
-  /// What splats() does, in two steps: the first once per splat and tile, the second once per sheet. A snapped splat,
-  /// relative to the tile.
-  Placed place(std::uint32_t set, const SnappedAxis& x, const SnappedAxis& y) const;
+  /// What splats() does, in two steps: the first once per splat and tile, the second once per sheet; where every sample
+  /// is composited the second before the next place(). A snapped splat, relative to the tile.
+  Placed place(std::uint32_t set, const SnappedAxis& x, const SnappedAxis& y);
+  /// What ellipses() does, likewise. The weights are in `kept`, or if none is given good until the next place().
+  Placed place(const EllipseRecord& record, std::unique_ptr<std::uint16_t[]>* kept = nullptr);
   void add(const Placed& placed, const std::array<std::uint32_t, 4>& colour) {
     count(placed, 1);
-    touch(placed, dirty_);
+    if (samples_)
+      counters_.pixels_composited += placed.weighted;
+    else
+      touch(placed, dirty_);
     if (placed.weighted != 0) put(placed, colour);
   }
   /// No picture depends on what the splat adds to this sheet or to any later one: hide() will do instead of add().
   bool hidden(const Placed& placed) const {
+    if (samples_) return false;
     if (placed.weighted == 0) return true;
-    bool frozen = any_frozen_ && tables_.jobs.plan.hides;
+    bool frozen = any_frozen_ && tables_.plan.hides;
     for (std::size_t by = placed.first; by <= placed.last; ++by)
       frozen = frozen && (placed.columns & ~frozen_[by]) == 0;
     return frozen;
@@ -115,7 +125,7 @@ class TileUnit final : public RecordSink {
   void count(const Placed& placed, std::uint64_t records) {
     if (placed.counted) {
       counters_.splats += records;
-      counters_.windows += records * windows_[placed.set];
+      counters_.windows += records * placed.windows;
     }
     counters_.lanes_inside += records * placed.inside;
     counters_.lanes_weighted += records * placed.weighted;
@@ -127,14 +137,25 @@ class TileUnit final : public RecordSink {
     SplatJob& job = jobs_[waiting_jobs_];
     job.weights = placed.weights;
     job.at = placed.at;
-    job.set = placed.set;
+    job.columns = placed.across;
+    job.rows = placed.down;
     for (std::size_t c = 0; c < 4; ++c) job.colour[c] = static_cast<std::uint16_t>(colour[c] << colour_shift_);
     __builtin_prefetch(placed.weights);
     __builtin_prefetch(placed.weights + 32);
     waiting_ += largest_product_[placed.set];
     if (++waiting_jobs_ == kJobs) draw();
   }
-  std::uint32_t clipped_weighted(const Shape& shape, const std::uint16_t* weights, int x, int y) const;
+  /// Of windows of these pixels: all but the weights.
+  Placed outline(int x, int y, int width, int height) const;
+  /// Of the picture or of the sheet.
+  std::uint32_t memory_at(int x, int y) const {
+    return static_cast<std::uint32_t>(samples_ ? static_cast<std::size_t>(y) * tile_.width + x : sheet_.at(x, y));
+  }
+  /// Counts the weights inside the tile; where every sample is composited only these are kept.
+  void clip(Placed& placed, int x, int y);
+  /// Room for weights until the next one's.
+  std::uint16_t* room(std::size_t words);
+  void take(const Placed& placed, const std::array<std::uint32_t, 4>& words);
   void draw();
   std::uint32_t largest_word() const;
   void composite(int bx, int by);
@@ -144,7 +165,7 @@ class TileUnit final : public RecordSink {
   bool hidden_slab_fits(const SheetWord& seen, std::uint64_t hidden) const;
   /// Above it a sum may have been cut: words of 16 bits stop at their end.
   std::uint32_t largest_whole() const {
-    const std::uint32_t largest = tables_.jobs.plan.largest_sum;
+    const std::uint32_t largest = tables_.plan.largest_sum;
     return largest - (sizeof(T) == 2 && largest == 0xFFFF ? 1 : 0);
   }
 
@@ -154,12 +175,13 @@ class TileUnit final : public RecordSink {
   CompositeLane lane_;
   PixelOut pixel_out_;
   int lanes_, lane_bits_, colour_shift_, dropped_;
-  std::vector<std::uint32_t> windows_;          ///< of a splat, per set
-  std::vector<std::uint32_t> heaviest_;         ///< weight, per set
-  std::vector<std::uint32_t> largest_product_;  ///< per set
+  EllipseUnit ellipse_;
+  std::vector<std::uint32_t> heaviest_;         ///< weight, per set, and of ellipses
+  std::vector<std::uint32_t> largest_product_;  ///< likewise
   BeginTile tile_;
+  bool samples_ = false;  ///< every one is composited
   Sheet<T> sheet_;
-  std::vector<PixelState> picture_;            ///< row by row
+  std::vector<PixelState> picture_;            ///< row by row, and some more for what vectors write behind
   std::vector<std::uint64_t> dirty_, frozen_;  ///< a word per row of blocks
   std::vector<std::uint16_t> hidden_sums_;     ///< bounds of hidden splats' largest words, a plane per slot
   std::vector<Slot> slots_;                    ///< of sheet s: s modulo their number
@@ -175,6 +197,8 @@ class TileUnit final : public RecordSink {
   std::uint64_t waiting_ = 0;  ///< no word grows by more when the jobs are drawn
   std::array<SplatJob, kJobs> jobs_;
   std::size_t waiting_jobs_ = 0;
+  std::vector<std::uint16_t> room_;  ///< weights of waiting jobs
+  std::size_t room_taken_ = 0;
   Counters counters_, before_;
   std::uint64_t hidden_splats_ = 0;
 };

@@ -16,7 +16,7 @@ struct Shape {
   std::uint32_t rho = 0;       ///< support radius, 1/K pixel
   int padded = 0;              ///< Ea, pixels: what the windows cover
   int extent = 0;              ///< pixels from the origin that any phase weights; <= Ea
-  int pitch = 0;               ///< words from row to row, a multiple of 8
+  int pitch = 0;               ///< words from row to row: pitch_of(extent)
   std::uint32_t windows = 0;   ///< of one splat
   std::uint32_t heaviest = 0;  ///< largest weight, unshifted
   std::size_t first = 0;       ///< of words(), phases (0,0)
@@ -30,6 +30,7 @@ class WeightMemo {
   /// Bytes the footprints of one set take.
   static std::size_t bytes(const Config& config, std::uint32_t rho);
 
+  std::uint32_t sets() const { return static_cast<std::uint32_t>(shapes_.size()); }
   const Shape& shape(std::uint32_t set) const { return shapes_[set]; }
   /// Number of the footprint with these phases.
   std::size_t number(std::uint32_t phase_x, std::uint32_t phase_y) const {

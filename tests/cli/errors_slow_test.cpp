@@ -90,7 +90,8 @@ TEST(Errors, BadInputIsOneLine) {
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
     EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
   };
-  refused(with({"errors", "--method", "westover"}, kSmall), 2, "westover");
+  refused(with({"errors", "--method", "westover"}, kSmall), 2, "composite.every_sample");
+  refused(with({"errors", "bound", "--method", "westover", "--set", "composite.every_sample=1"}, kSmall), 2, "westover");
   refused({"errors", "--volume", "no-such-volume"}, 2, "no-such-volume");
   refused(with({"errors", "--config", "no-such"}, kSmall), 2, "no-such");
   refused(with({"errors", "--blame", folder / "b.jpg"}, kSmall), 2, "b.jpg");

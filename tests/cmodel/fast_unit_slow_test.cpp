@@ -31,6 +31,14 @@ std::vector<std::uint64_t> values(const Counters& counters) {
 
 struct Tally {
   std::uint64_t tiles = 0, redone = 0, mismatches = 0, hidden = 0;
+  // Of tiles not given up: records of ellipses; of every sample: those, frozen ones, words cut to 1.0 or to the largest.
+  std::uint64_t ellipses = 0, samples = 0, frozen = 0, cut = 0;
+
+  Tally& operator+=(const Tally& more) {
+    tiles += more.tiles, redone += more.redone, mismatches += more.mismatches, hidden += more.hidden;
+    ellipses += more.ellipses, samples += more.samples, frozen += more.frozen, cut += more.cut;
+    return *this;
+  }
 };
 
 /// Records of a stream to a fast unit; tiles it gives up are taken from the plain run, counters and all.
@@ -45,16 +53,25 @@ void compare(const cmodel::Config& config, const FrameTables& tables, std::span<
   cmodel::StreamDecode decode(config, cmodel::StreamScope::Subset);
   for (const auto& beat : beats.first(first)) decode.feed(beat);
   std::vector<std::uint64_t> plain_before, fast_before;
+  std::uint64_t ellipses = 0;
+  bool samples = false;
+  Counters before;
   for (const auto& beat : beats.subspan(first)) {
     const cmodel::Record* record = decode.feed(beat);
     ASSERT_NE(record, nullptr);
     if (const auto* splat = std::get_if<cmodel::SplatRecord>(record)) fast.splats({splat, 1});
-    if (const auto* ellipse = std::get_if<cmodel::EllipseRecord>(record)) fast.ellipses({ellipse, 1});
+    if (const auto* ellipse = std::get_if<cmodel::EllipseRecord>(record)) {
+      ++ellipses;
+      fast.ellipses({ellipse, 1});
+    }
     if (const auto* set = std::get_if<cmodel::CullBlock>(record)) fast.cull_blocks({set, 1});
     if (const auto* tile = std::get_if<cmodel::BeginTile>(record)) {
       plain_before = values(plain.counters());
       fast_before = values(fast.counters());
       fast.begin_tile(*tile);
+      ellipses = 0;
+      samples = cmodel::every_sample(tile->mode);
+      before = plain.counters();
     }
     if (const auto* sheet = std::get_if<cmodel::BeginSheet>(record)) fast.begin_sheet(*sheet);
     if (const auto* sheet = std::get_if<cmodel::EndSheet>(record)) fast.end_sheet(*sheet);
@@ -69,6 +86,14 @@ void compare(const cmodel::Config& config, const FrameTables& tables, std::span<
       fast_tiles.all.push_back(plain_tiles.all.back());
       continue;
     }
+    tally.ellipses += ellipses;
+    if (samples) {
+      const Counters& now = plain.counters();
+      tally.samples += now.pixels_composited - before.pixels_composited;
+      tally.frozen += now.frozen_pixels - before.frozen_pixels;
+      tally.cut +=
+          now.opacity_saturated + now.composite_saturated - before.opacity_saturated - before.composite_saturated;
+    }
     ASSERT_EQ(fast_tiles.all.size(), plain_tiles.all.size());
     tally.mismatches += fast_tiles.all.back().words != plain_tiles.all.back().words ? 1 : 0;
     const auto plain_now = values(plain.counters()), fast_now = values(fast.counters());
@@ -78,44 +103,85 @@ void compare(const cmodel::Config& config, const FrameTables& tables, std::span<
   tally.hidden += fast.hidden_splats();
 }
 
-void random_streams(cmodel::CullMap map, std::uint64_t least_planned) {
+/// What the fast unit takes of `rounds` random streams.
+template <class Draw>
+Tally random_streams(const char* name, int rounds, std::uint64_t least_planned, Draw draw) {
   Random random(20261122);
-  std::uint64_t mismatches = 0, tiles = 0, redone = 0, planned = 0, hidden = 0;
-  for (int round = 0; round < 60; ++round) {
-    const auto names = config_names();
-    cmodel::Config config =
-        round < 24 ? named_config(names[static_cast<std::size_t>(round) % names.size()]) : random_config(random);
-    config.composite_every_sample = 0;  // such tiles are the plain unit's
-    config.cull_map = static_cast<int>(map);
+  Tally all;
+  std::uint64_t planned = 0;
+  for (int round = 0; round < rounds; ++round) {
+    const cmodel::Config config = draw(random, round);
     const RandomStream stream = random_stream(symbols_of(config), random, 300);
     const auto beats = to_beats(stream.bytes);
     const std::size_t first = first_tile_beat(stream.bytes);
     const auto tables = frame_tables(config, std::span(beats).first(first));
+    if (!tables) continue;
+    ++planned;
     Tally tally;
-    if (tables) {
-      ++planned;
-      if (tables->jobs.plan.narrow)
-        compare<std::uint16_t>(config, *tables, beats, first, tally);
-      else
-        compare<std::uint32_t>(config, *tables, beats, first, tally);
-    }
-    hidden += tally.hidden;
-    mismatches += tally.mismatches, tiles += tally.tiles, redone += tally.redone;
+    if (tables->plan.narrow)
+      compare<std::uint16_t>(config, *tables, beats, first, tally);
+    else
+      compare<std::uint32_t>(config, *tables, beats, first, tally);
+    all += tally;
     EXPECT_EQ(tally.mismatches, 0u) << "round " << round << " " << config.name;
   }
+  const auto number = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
   std::printf(
-      "[figure] random streams the fast unit takes = %llu of 60; tiles %llu, given up %llu, splats hidden %llu, "
-      "different "
-      "%llu (limit 0)\n",
-      static_cast<unsigned long long>(planned), static_cast<unsigned long long>(tiles),
-      static_cast<unsigned long long>(redone), static_cast<unsigned long long>(hidden),
-      static_cast<unsigned long long>(mismatches));
+      "[figure] %s: streams the fast unit takes = %llu of %d; tiles %llu, given up %llu, splats hidden %llu, ellipses "
+      "%llu, samples %llu (frozen %llu, words cut %llu), different %llu (limit 0)\n",
+      name, number(planned), rounds, number(all.tiles), number(all.redone), number(all.hidden), number(all.ellipses),
+      number(all.samples), number(all.frozen), number(all.cut), number(all.mismatches));
   EXPECT_GT(planned, least_planned);
-  EXPECT_GT(tiles, redone) << "all given up: nothing was compared";
+  EXPECT_GT(all.tiles, all.redone) << "all given up: nothing was compared";
+  return all;
 }
 
-TEST(FastUnit, RandomStreams) { random_streams(cmodel::CullMap::Off, 20); }
-TEST(FastUnit, RandomStreamsOnADeviceThatCulls) { random_streams(cmodel::CullMap::Block, 5); }
+/// The named configurations, then random ones.
+cmodel::Config any_config(Random& random, int round, int named) {
+  const auto names = config_names();
+  return round < named ? named_config(names[static_cast<std::size_t>(round) % names.size()]) : random_config(random);
+}
+
+TEST(FastUnit, RandomStreams) {
+  random_streams("circles in sheets", 60, 20, [](Random& random, int round) {
+    cmodel::Config config = any_config(random, round, 24);
+    config.composite_every_sample = 0;
+    return config;
+  });
+}
+
+TEST(FastUnit, RandomStreamsOnADeviceThatCulls) {
+  random_streams("on a device that culls", 60, 5, [](Random& random, int round) {
+    cmodel::Config config = any_config(random, round, 24);
+    config.composite_every_sample = 0;
+    config.cull_map = static_cast<int>(cmodel::CullMap::Block);
+    return config;
+  });
+}
+
+TEST(FastUnit, RandomStreamsOfEllipses) {
+  const Tally all = random_streams("ellipses in sheets", 120, 20, [](Random& random, int round) {
+    cmodel::Config config = round < 12 ? named_config("ellipse") : random_ellipse_config(random);
+    config.composite_every_sample = 0;
+    return config;
+  });
+  EXPECT_GT(all.ellipses, 500u);
+}
+
+TEST(FastUnit, RandomStreamsOfSamples) {
+  const Tally all = random_streams("every sample", 160, 30, [](Random& random, int round) {
+    cmodel::Config config = round < 80   ? any_config(random, round, 40)
+                            : round < 92 ? named_config("ellipse")
+                                         : random_ellipse_config(random);
+    config.composite_lanes = 0;
+    config.composite_every_sample = 1;
+    return config;
+  });
+  EXPECT_GT(all.ellipses, 500u);
+  EXPECT_GT(all.samples, 50000u);
+  EXPECT_GT(all.cut, 1000u);
+  EXPECT_GT(all.frozen, 1000u);
+}
 
 /// A tile that freezes whole, and then `splats` on one place behind it, each of two fifths of the largest red and of
 /// `above` sixteenths less tau.
@@ -172,13 +238,13 @@ TEST(FastUnit, WhatIsHiddenIsStillCounted) {
           const auto tables = frame_tables(config, std::span(beats).first(first));
           ASSERT_TRUE(tables);
           Tally tally;
-          if (tables->jobs.plan.narrow)
+          if (tables->plan.narrow)
             compare<std::uint16_t>(config, *tables, beats, first, tally);
           else
             compare<std::uint32_t>(config, *tables, beats, first, tally);
           EXPECT_EQ(tally.mismatches, 0u) << name << ", mode " << mode << ", " << splats << " splats, above " << above;
           EXPECT_GT(tally.hidden, 0u) << name << ", mode " << mode << ": nothing froze";
-          all.tiles += tally.tiles, all.redone += tally.redone, all.mismatches += tally.mismatches;
+          all += tally;
         }
       }
     }

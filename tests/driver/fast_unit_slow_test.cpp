@@ -1,15 +1,12 @@
 // The fast unit draws what the plain unit draws: words, counters and report of whole frames, over configurations,
 // methods, views, threads, heights of bands and every kind of vector instruction this processor has.
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
-#include <cstdio>
-#include <map>
+#include <memory>
 
-#include "cmodel/fast/row_kernel.hpp"
 #include "driver/config_file.hpp"
-#include "driver/render.hpp"
-#include "scene/scene.hpp"
+#include "scene/gaussians/synthetic_gaussians.hpp"
+#include "tests/driver/fast_unit_helper.hpp"
 
 namespace fastsplat::driver {
 namespace {
@@ -37,43 +34,9 @@ const Setting kViews[] = {
      }},
 };
 
-/// The vector targets one by one, and the processor's own choice at the end.
-class Targets {
- public:
-  Targets() {
-    std::uint64_t left = static_cast<std::uint64_t>(hwy::SupportedTargets());
-    for (; left != 0; left &= left - 1) {
-      choose(left & (~left + 1));
-      if (cmodel::fast::has_vectors()) all_.push_back(left & (~left + 1));
-    }
-    choose(0);
-  }
-  ~Targets() { choose(0); }
-  void choose(std::uint64_t target) {
-    hwy::SetSupportedTargetsForTest(static_cast<std::int64_t>(target));
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-  const std::vector<std::uint64_t>& all() const { return all_; }
-
- private:
-  std::vector<std::uint64_t> all_;
-};
-
-bool same_report(const DriverReport& a, const DriverReport& b) {
-  return a.splat_records == b.splat_records && a.saturated_records == b.saturated_records && a.sheets == b.sheets &&
-         a.tiles == b.tiles;
-}
-
 TEST(FastUnit, DrawsThePlainUnitsWordsAndCounters) {
-  Targets targets;
-  ASSERT_FALSE(targets.all().empty()) << "no vector instructions here: nothing could be compared";
-  std::size_t combinations = 0, frames = 0, different = 0, words = 0;
-  std::map<std::string, UnitReport> units;
-  std::map<std::string, int> drawn_with;
-  const int threads[] = {1, 2, 3, 8};
-  const int band_rows[] = {0, 1, 1000, 2, 64, 7, 12};  // rounded up to blocks of 2 to 16 pixels; tiles of 32 to 128
+  UnitsCompared compared;
   for (const auto& name : config_names()) {
-    const auto config = load_config(name);
     for (const Setting& method : kMethods) {
       for (const Setting& view : kViews) {
         for (const char* volume : {"shells:16", "marschner-lobb:18"}) {
@@ -83,54 +46,91 @@ TEST(FastUnit, DrawsThePlainUnitsWordsAndCounters) {
           description.width = 75, description.height = 50;
           method.apply(description);
           view.apply(description);
-          const std::string what = name + " " + method.name + " " + view.name + " " + volume;
-          DeviceRender plain;
-          scene::Scene scene = scene::build_scene(description);
-          try {
-            plain = render(scene, config, {.threads = 1, .unit = Unit::Plain});
-          } catch (const UserError&) {
-            continue;  // a footprint wider than the RLUT
-          }
-          EXPECT_EQ(plain.units.fast, 0u) << what;
-          for (const std::uint64_t target : targets.all()) {
-            targets.choose(target);
-            // Every target and configuration meets every number of threads and every height.
-            const int some = threads[(frames + combinations) % 4], rows = band_rows[frames % 7];
-            const DeviceRender fast = render(scene, config, {.threads = some, .unit = Unit::Fast, .band_rows = rows});
-            ++frames;
-            ++drawn_with[cmodel::fast::vector_target()];
-            words += fast.frame.words.size();
-            UnitReport& sum = units[name];
-            sum.fast += fast.units.fast, sum.plain += fast.units.plain, sum.redone += fast.units.redone;
-            sum.hidden_splats += fast.units.hidden_splats;
-            EXPECT_EQ(fast.units.plain, fast.units.redone) << what << ": the fast unit was not chosen";
-            const char* difference = fast.frame.words != plain.frame.words     ? "words"
-                                     : !(fast.counters == plain.counters)      ? "counters"
-                                     : !same_report(fast.report, plain.report) ? "reports"
-                                                                               : nullptr;
-            if (difference != nullptr && ++different <= 5) {
-              ADD_FAILURE() << what << " on " << cmodel::fast::vector_target() << ", " << some << " threads, bands of "
-                            << rows << " rows: " << difference << " differ";
-            }
-          }
-          ++combinations;
+          compared.frame(name, name + " " + method.name + " " + view.name + " " + volume, description,
+                         load_config(name));
         }
       }
     }
   }
-  std::printf(
-      "[figure] combinations of configuration, method, view and volume = %zu, frames %zu, words %zu, "
-      "different %zu (limit 0)\n",
-      combinations, frames, words, different);
-  for (const auto& [name, unit] : units) {
-    std::printf("[figure] %s: tiles drawn fast %llu, redone by the plain unit %llu, splats hidden %llu\n", name.c_str(),
-                static_cast<unsigned long long>(unit.fast), static_cast<unsigned long long>(unit.redone),
-                static_cast<unsigned long long>(unit.hidden_splats));
-    EXPECT_GT(unit.fast, 0u) << name;
+  compared.finish();
+  EXPECT_GT(compared.combinations(), 300u);
+}
+
+// Footprints of their own, in sheets and sample by sample; kernels that grow in depth; splats that freeze whole blocks.
+const Setting kShapes[] = {
+    {"perspective",
+     [](scene::SceneDescription& d) {
+       d.camera.projection = scene::Projection::Perspective, d.camera.fov = 60;
+       d.footprint.shape = scene::FootprintShape::Ellipse;
+     }},
+    {"antialias", [](scene::SceneDescription& d) { d.footprint.antialias = true, d.camera.zoom = 0.3; }},
+    {"motion",
+     [](scene::SceneDescription& d) {
+       d.motion.translate = {30.0, 11.0, 5.0};
+     }},
+    {"orbit", [](scene::SceneDescription& d) { d.motion.orbit = 14, d.camera.zoom = 1.7; }},
+    {"lens",
+     [](scene::SceneDescription& d) {
+       d.lens.depth_of_field = scene::DepthOfField::Splats, d.lens.aperture = 1.5;
+       d.camera.projection = scene::Projection::Perspective;
+     }},
+    {"mixed",
+     [](scene::SceneDescription& d) {
+       d.camera.projection = scene::Projection::Perspective, d.footprint.shape = scene::FootprintShape::Ellipse;
+       d.footprint.antialias = true, d.motion.orbit = 6, d.opacity_scale = 12;
+     }},
+    {"circles", [](scene::SceneDescription&) {}},
+};
+
+TEST(FastUnit, DrawsEllipsesAndSamplesAsThePlainUnit) {
+  UnitsCompared compared;
+  for (const bool samples : {false, true}) {
+    for (const char* name : {"ellipse", "base", "compact"}) {
+      cmodel::Config config = load_config(name);
+      config.composite_every_sample = samples ? 1 : 0;
+      for (const Setting& method : kMethods) {
+        for (const Setting& shape : kShapes) {
+          scene::SceneDescription description;
+          description.volume = "shells:16";
+          description.width = 150, description.height = 140;  // tiles that the image cuts
+          description.camera.azimuth = 25, description.camera.elevation = 15;
+          method.apply(description);
+          shape.apply(description);
+          if (samples && description.method != scene::Method::ImageAligned) continue;
+          if (samples) description.method = scene::Method::Westover;
+          if (!config.has_ellipses() && (!samples || std::string(shape.name) != "circles")) continue;
+          compared.frame(name + std::string(samples ? ", every sample" : ""),
+                         std::string(name) + " " + method.name + " " + shape.name, description, config);
+        }
+      }
+    }
   }
-  for (const auto& [name, count] : drawn_with) std::printf("[figure] frames drawn with %s = %d\n", name.c_str(), count);
-  EXPECT_EQ(different, 0u);
-  EXPECT_GT(combinations, 300u);
+  compared.finish();
+  EXPECT_GT(compared.combinations(), 60u);
+}
+
+TEST(FastUnit, DrawsGaussiansAsThePlainUnit) {
+  UnitsCompared compared;
+  for (const char* cloud : {"shells:1500", "cloud:400"}) {
+    scene::GaussianDescription description;
+    description.width = 300, description.height = 200;
+    const auto scene = scene::build_gaussian_scene(
+        description, std::make_shared<scene::GaussianCloud>(scene::make_synthetic_gaussians(cloud)));
+    const auto projected = scene::project_all(scene);
+    for (const int colour_bits : {16, 12}) {  // 12: products in lanes of 16 bits, colours that are cut
+      for (const int freeze_below : {0, 7, 4096}) {
+        cmodel::Config config = load_config("ellipse");
+        config.composite_every_sample = 1;
+        config.freeze_below = freeze_below;
+        config.colour_frac_bits = colour_bits;
+        if (colour_bits == 12) config.sheet_frac_bits = 12, config.radial_frac_bits = 12;
+        compared.gaussians(std::string(cloud) + ", freeze below " + std::to_string(freeze_below),
+                           GaussianFrame(scene, projected, config));
+      }
+    }
+  }
+  compared.finish();
+  EXPECT_EQ(compared.combinations(), 12u);
 }
 
 }  // namespace

@@ -213,7 +213,7 @@ TEST(Gaussians, ModelEqualsOracle) {
       const DeviceRender replayed = replay_stream(path, config);
       std::filesystem::remove(path);
       EXPECT_EQ(replayed.counters.splats, report.records);
-      EXPECT_EQ(difference(replayed.frame, render_gaussians(frame, 2).frame).different, 0U);
+      EXPECT_EQ(difference(replayed.frame, render_gaussians(frame, {.threads = 2}).frame).different, 0U);
       total += test::compare(test::run_model(config, bytes), oracle::render(test::symbols_of(config), bytes));
     }
   }

@@ -41,11 +41,25 @@ TEST(WhyPlain, SaysWhichNumbersOfTheConfiguration) {
   auto perspective = view_of("shells:12", 24);
   perspective.camera.projection = scene::Projection::Perspective;
   perspective.footprint.shape = scene::FootprintShape::Ellipse;
-  const auto shaped = render(scene::build_scene(perspective), load_config("ellipse"), {.threads = 1}).units;
-  ASSERT_NE(shaped.why_plain, nullptr);
-  EXPECT_EQ(shaped.why_plain, std::string("splats are ellipses"));
-  EXPECT_EQ(why_plain(load_config("ellipse")), "") << "of circles the fast unit draws those of this device, too";
-  figure("reasons told", 4);
+  auto culling = load_config("ellipse");
+  const auto shaped = [&] {
+    const auto units = render(scene::build_scene(perspective), culling, {.threads = 1}).units;
+    return std::string(units.why_plain == nullptr ? "" : units.why_plain);
+  };
+  EXPECT_EQ(shaped(), "");
+  culling.cull_map = static_cast<int>(cmodel::CullMap::Block);
+  EXPECT_NE(shaped().find("hides windows"), std::string::npos) << shaped();
+
+  perspective.method = scene::Method::Westover;
+  culling = load_config("ellipse");
+  culling.composite_every_sample = 1;
+  EXPECT_EQ(shaped(), "");
+  culling.rounding_light = 2;
+  EXPECT_NE(shaped().find("samples are rounded to even"), std::string::npos) << shaped();
+  culling.rounding_light = 1;
+  culling.composite_frac_bits = 18;
+  EXPECT_NE(shaped().find("too wide for its samples"), std::string::npos) << shaped();
+  figure("reasons told", 6);
 }
 
 }  // namespace

@@ -198,5 +198,40 @@ TEST(Chain, AllRealIsGoldenFloatByFloat) {
   EXPECT_GT(all.compared, 100000u);
 }
 
+/// The same views with every sample composited by itself, once each, and configurations that do.
+std::vector<scene::SceneDescription> sampled(const std::vector<scene::SceneDescription>& views) {
+  std::vector<scene::SceneDescription> all;
+  for (scene::SceneDescription view : views) {
+    if (view.method != scene::Method::ImageAligned) continue;
+    view.method = scene::Method::Westover;
+    view.slab_width = scene::SceneDescription{}.slab_width;
+    all.push_back(view);
+  }
+  return all;
+}
+
+cmodel::Config sampling(const std::string& name) {
+  cmodel::Config config = test::named_config(name);
+  config.composite_lanes = 0;
+  config.composite_every_sample = 1;
+  return config;
+}
+
+TEST(Chain, EverySampleAllDeviceIsTheIntegerModel) {
+  Differences all;
+  for (const std::string& name : test::config_names()) against_device(sampling(name), sampled(views(32)), all);
+  against_device(sampling("ellipse"), sampled(shaped_views(40)), all);
+  all.print("words of frames of every sample");
+  EXPECT_GT(all.compared, 150000u);
+}
+
+TEST(Chain, EverySampleAllRealIsGoldenFloatByFloat) {
+  Differences all;
+  against_golden(sampling("base"), sampled(views(48)), all);
+  against_golden(sampling("ellipse"), sampled(shaped_views(48)), all);
+  all.print("floats of frames of every sample");
+  EXPECT_GT(all.compared, 80000u);
+}
+
 }  // namespace
 }  // namespace fastsplat::stages

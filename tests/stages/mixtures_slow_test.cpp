@@ -69,6 +69,14 @@ void compare(const scene::Scene& scene, const cmodel::Config& config, const Chai
                                        << scene::to_toml(scene.description);
 }
 
+/// The same scene with every sample composited by itself.
+void sample(scene::SceneDescription& description) {
+  description.method = scene::Method::Westover;
+  description.slab_width = scene::SceneDescription{}.slab_width;
+  description.xray_sheets = 1;
+  description.xray_exposure = 0.0;
+}
+
 /// What the random mixtures have met.
 struct Met {
   std::uint64_t drawn = 0, perspective = 0, xray_sheets = 0, carried = 0, light_carried = 0;
@@ -90,10 +98,11 @@ struct Met {
     const auto number = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
     std::printf(
         "[figure] %llu drawn, the configurations of others cannot hold the scene; %llu in "
-        "perspective; %llu image-aligned, %llu axis-aligned, %llu X-rays (%llu of several sheets); carry on in %llu, "
+        "perspective; %llu image-aligned, %llu axis-aligned, %llu of every sample, %llu X-rays (%llu of several "
+        "sheets); carry on in %llu, "
         "xray in %llu X-rays; k < 2^pf: %llu trn, %llu rnd, %llu rnd_conv\n",
-        number(drawn), number(perspective), number(methods[4]), number(methods[3]), number(methods[1]),
-        number(xray_sheets), number(carried), number(light_carried), number(snapped_coarsely[0]),
+        number(drawn), number(perspective), number(methods[4]), number(methods[3]), number(methods[2]),
+        number(methods[1]), number(xray_sheets), number(carried), number(light_carried), number(snapped_coarsely[0]),
         number(snapped_coarsely[1]), number(snapped_coarsely[2]));
   }
 };
@@ -117,7 +126,9 @@ TEST_P(OfAKind, AtRandomTheChainIsItsPage) {
   Met met;
   while (figures.mixtures < wanted) {
     const cmodel::Config config = random_config(random, kind);
-    const scene::Scene scene = scene::build_scene(random_scene(random));
+    scene::SceneDescription description = random_scene(random);
+    if (config.composite_every_sample != 0 && random.once_in(2)) sample(description);
+    const scene::Scene scene = scene::build_scene(description);
     const Mixture mixture = random_mixture(random);
     ++met.drawn;
     try {
@@ -131,13 +142,21 @@ TEST_P(OfAKind, AtRandomTheChainIsItsPage) {
   figures.print("random");
   EXPECT_LE(figures.over_at_edge * 10000, figures.values);
   met.print();
+  EXPECT_GT(met.methods[static_cast<std::size_t>(scene::Method::Westover)], wanted / 20);
 }
 
 TEST(Mixtures, EachStepAloneAndAllButOne) {
   Figures alone, others;
   for (const char* name : {"base", "tiny", "year2000"}) {
-    const cmodel::Config config = named_config(name);
-    for (const scene::SceneDescription& description : small_scenes()) {
+    cmodel::Config config = named_config(name);
+    config.composite_lanes = 0;
+    config.composite_every_sample = 1;
+    std::vector<scene::SceneDescription> scenes = small_scenes();
+    scenes.push_back(scenes[0]);
+    sample(scenes.back());
+    scenes.push_back(scenes[1]);
+    sample(scenes.back());
+    for (const scene::SceneDescription& description : scenes) {
       const scene::Scene scene = scene::build_scene(description);
       const Chain chain(scene, config);
       for (const Step step : all_steps()) {

@@ -59,9 +59,12 @@ class Frame {
     return cut(rounded, 0.0, largest(config_.sheet_int_bits, config_.sheet_frac_bits));
   }
 
-  /// Steps sheet to freeze, at the end of a sheet.
+  /// Every sample is composited: no sums.
+  bool samples() const { return scene_.description.method == scene::Method::Westover; }
+
+  /// Steps sheet to freeze, at the end of a sheet; of one sample from factor on.
   void composite(Values s, Pixel& pixel) const {
-    cut_sum(s);
+    if (!samples()) cut_sum(s);
     if (s == Values{}) return;
     if (xray_) {
       for (std::size_t c = 0; c < 4; ++c) pixel.colour[c] += s[c];
@@ -208,6 +211,10 @@ std::vector<std::array<double, 4>> render(const scene::Scene& scene, const cmode
           for (std::size_t c = 0; c < 4; ++c) {
             if (splat.shares[s][c] != 0.0) sums[s][c] += frame.product(splat.shares[s][c], w, pixel.closeness);
           }
+        }
+        if (frame.samples()) {
+          frame.composite(sums[0], pixel);
+          sums[0] = {};
         }
       }
       for (std::size_t s = 0; s < sheets; ++s) frame.composite(sums[s], pixel);

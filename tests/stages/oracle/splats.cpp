@@ -39,6 +39,8 @@ struct Sheets {
       case scene::Method::XRay:
         if (asked > 1) *this = Sheets(true, false, asked, -half * w, 2.0 * half * w / asked);
         break;
+      case scene::Method::Westover:
+        break;
       default:
         *this = Sheets(false, true, slices, 0.0, 1.0);
     }

@@ -1,0 +1,35 @@
+// The weights of an ellipse's pixels by vector instructions (Highway): cmodel/ellipse_unit.hpp for whole rectangles.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cmodel/config.hpp"
+#include "cmodel/ellipse_unit.hpp"
+
+namespace fastsplat::cmodel::fast {
+
+/// The radial table as the kernel reads it. q goes through 64-bit lanes shifted left so that its word ends with them:
+/// what wraps there wraps as the word does, and the upper half has the sign and, shifted right, the table's index.
+struct EllipseTable {
+  std::vector<std::uint32_t> weights;  ///< N of them, shifted left as those of circles, and a 0 for all that is behind
+  std::uint32_t heaviest = 0;          ///< weight, unshifted
+  int above = 0;                       ///< bits of a lane above the word
+  int index_shift = 0;                 ///< of a lane's upper half
+};
+
+/// `radial` unshifted. Empty where the configuration has no ellipses or an index may be wider than half a lane.
+std::optional<EllipseTable> ellipse_table(const Config& config, std::span<const std::uint32_t> radial,
+                                          int weight_shift);
+
+/// Pixels of a record, from its first one.
+struct EllipseBox {
+  std::int32_t column = 0, row = 0, columns = 0, rows = 0;
+};
+
+/// Their weights, in rows of pitch_of(columns) words, 0 behind the columns; returns how many are above 0.
+std::uint32_t weigh(const EllipseTable& table, const EllipseCoefficients& f, const EllipseBox& box, std::uint16_t* out);
+
+}  // namespace fastsplat::cmodel::fast

@@ -1,0 +1,50 @@
+// Whole frames by the fast unit beside the plain one: words, counters and report, with every kind of vector instruction
+// this processor has.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "driver/gaussian_frame.hpp"
+#include "driver/render.hpp"
+#include "scene/scene.hpp"
+
+namespace fastsplat::driver {
+
+/// The vector targets one by one, and the processor's own choice at the end.
+class Targets {
+ public:
+  Targets();
+  ~Targets() { choose(0); }
+  void choose(std::uint64_t target);
+  const std::vector<std::uint64_t>& all() const { return all_; }
+
+ private:
+  std::vector<std::uint64_t> all_;
+};
+
+class UnitsCompared {
+ public:
+  /// A frame with every target; other threads and heights of bands each time. A scene that the configuration cannot
+  /// draw is passed over.
+  void frame(const std::string& name, const std::string& what, const scene::SceneDescription& description,
+             const cmodel::Config& config);
+  void gaussians(const std::string& what, const GaussianFrame& frame);
+  /// Prints the figures; expects no difference, and tiles that the fast unit drew for every `name`.
+  void finish() const;
+  std::size_t combinations() const { return combinations_; }
+  std::uint64_t redone() const;
+
+ private:
+  void add(const std::string& name, const std::string& what, const char* difference, const cmodel::Frame& frame,
+           const UnitReport& units);
+
+  Targets targets_;
+  std::size_t combinations_ = 0, frames_ = 0, different_ = 0, words_ = 0;
+  std::map<std::string, UnitReport> units_;
+  std::map<std::string, int> drawn_with_;
+};
+
+}  // namespace fastsplat::driver

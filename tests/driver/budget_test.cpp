@@ -60,6 +60,18 @@ TEST(Budget, base_holds_it_additive_thin_thick_and_in_perspective) {
   EXPECT_GE(apart.psnr_db, 48.0);
 }
 
+// What `fine` is worth for colours: its centres lie four times as fine, and its weights have no steps.
+TEST(Budget, fine_errs_less_than_base_from_far_and_near) {
+  for (const double zoom : {1.0, 3.0, 8.0}) {
+    auto description = view_of("shells:32", 128);
+    description.camera.zoom = zoom;
+    std::printf("[figure] zoom %g: ", zoom);
+    const Lsb8 base = measure(description, "base"), fine = measure(description, "fine");
+    figure("fine above base", fine.psnr_db - base.psnr_db, "dB");
+    EXPECT_LE(fine.rms, base.rms / 2.0) << "zoom " << zoom;
+  }
+}
+
 TEST(Budget, every_configuration_errs_more_with_fewer_bits) {
   // splatting.md 5: snapping costs 0.27/(s k) rms of a sheet, so k = 8 against k = 64 must show, and 8-bit weights too.
   const auto description = view_of("shells:32", 128);

@@ -131,6 +131,13 @@ constexpr std::array kKeys{
               .meaning = "the cells of the map by which hidden splats are found; off: they are not",
               .names = kCullMaps,
               .neutral = static_cast<int>(CullMap::Off)},
+    ConfigKey{.name = "radial.interpolate",
+              .member = &Config::radial_interpolate,
+              .min = 0,
+              .max = 1,
+              .power_of_two = false,
+              .meaning = "1: a weight lies on the straight line between two entries of the radial table",
+              .neutral = 0},
 };
 
 ErrorParts violation(const char* key, std::string what, std::string expected, int got, std::string fix) {
@@ -201,6 +208,25 @@ std::optional<ErrorParts> index_violation(const Config& config) {
     case IndexKind::Rlut:
     case IndexKind::Separable:
       break;
+  }
+  return std::nullopt;
+}
+
+/// Limits of interpolation (docs/numerics.md, section 4.7): it has something to do.
+std::optional<ErrorParts> interpolation_violation(const Config& config) {
+  if (!config.interpolates()) return std::nullopt;
+  const IndexKind kind = config.index();
+  if (kind != IndexKind::Rlut && kind != IndexKind::Squared && kind != IndexKind::SquaredElliptic) {
+    return ErrorParts{.where = "radial.interpolate",
+                      .what = "goes between entries of squared distance, which this kind of index does not read",
+                      .expected = "index.kind = rlut, squared or squared_elliptic",
+                      .got = kIndexKinds[config.index_kind],
+                      .fix = "use radial.interpolate = 0, or index.kind = rlut"};
+  }
+  if (config.rlut_guard_bits < 1) {
+    return violation("rlut.guard_bits", "leaves nothing between two radial entries to interpolate over",
+                     "at least 1 with radial.interpolate = 1", config.rlut_guard_bits,
+                     "raise rlut.guard_bits, or use radial.interpolate = 0");
   }
   return std::nullopt;
 }
@@ -376,6 +402,7 @@ std::optional<ErrorParts> first_violation(const Config& config) {
                      config.composite_lanes, "use composite.lanes = 0, or composite.every_sample = 0");
   }
   if (auto found = index_violation(config)) return found;
+  if (auto found = interpolation_violation(config)) return found;
   return ellipse_violation(config);
 }
 

@@ -79,6 +79,7 @@ struct Config {
   int counter_bits = 64;
   int composite_every_sample = 0;  ///< 1: a tile may ask for every sample to be composited
   int cull_map = static_cast<int>(CullMap::Off);
+  int radial_interpolate = 0;  ///< 1: weights lie on straight lines between entries
 
   bool operator==(const Config&) const = default;
 
@@ -95,6 +96,8 @@ struct Config {
   /// A radius set has columns of one memory, from its `base` on.
   bool has_columns() const { return index() == IndexKind::Rlut || index() == IndexKind::Separable; }
   int radial_index_bits() const { return log2_exact(radial_entries); }  ///< nl
+  bool interpolates() const { return radial_interpolate != 0; }
+  int radial_words() const { return radial_entries + radial_interpolate; }  ///< that load_table brings
   /// The rim: RLUT words saturate here, and sums at or above it lie outside the footprint.
   std::int64_t rlut_rim() const { return std::int64_t{1} << (radial_index_bits() + rlut_guard_bits); }
   /// Low bits of a sheet word that interpolate within one segment of the slab factor table (b in numerics.md).

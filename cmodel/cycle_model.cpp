@@ -32,6 +32,7 @@ CycleModel::CycleModel(const Config& config, StreamScope scope, const CycleOptio
       sets_(static_cast<std::size_t>(config.rlut_sets)),
       dirty_(config.lanes),
       delay_(stages::splat_delay(config)),
+      weight_delay_(stages::weight_delay(config)),
       cull_(config),
       next_offer_(options.first_beat),
       check_free_(wipe_cycles(config)),
@@ -257,6 +258,7 @@ void CycleModel::footprint(std::uint64_t at, std::uint32_t tag, std::int32_t x, 
 }
 
 void CycleModel::window(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y) const {
+  at += weight_delay_;
   tap(Tap::Footprint, at + stages::kFootprint, tag, x, y);
   if (every_sample(tile_.mode)) {
     tap(Tap::Composite, at + stages::kSample, tag, x, y);
@@ -331,7 +333,7 @@ void CycleModel::end_sheet(std::uint64_t at) {
   const std::uint64_t blocks = dirty_.count();
   counters_.dirty_blocks += blocks;
   const std::uint64_t slices = static_cast<std::uint64_t>(config_.slices()), picks = blocks * slices;
-  const std::uint64_t first = std::max(at + delay_ + stages::kWalk, walk_free_);
+  const std::uint64_t first = std::max(at + delay_ + weight_delay_ + stages::kWalk, walk_free_);
   const std::uint64_t last = first + std::max<std::uint64_t>(picks, 1) - 1;  // an empty walk is noticed in one cycle
   walk_free_ = last + stages::kNextWalk;
   buffer_free_[buffer_] = last + stages::kFree;

@@ -153,7 +153,8 @@ class CycleModel final : public Device {
   StallCounters stalls_;
   std::vector<Set> sets_;
   DirtyMap dirty_;
-  std::uint64_t delay_;  ///< of the splat path
+  std::uint64_t delay_;         ///< of the splat path
+  std::uint64_t weight_delay_;  ///< of it, from the weights on
 
   CullPipe cull_;
   const CullAnswers* answers_ = nullptr;  ///< of the open tile

@@ -15,6 +15,10 @@ inline constexpr std::uint64_t kJudge = 1;
 inline constexpr std::uint64_t kEllipseDelay = 10;
 inline std::uint64_t splat_delay(const Config& config) { return config.has_ellipses() ? kEllipseDelay : 0; }
 
+// A device that interpolates its radial table: words' product and difference, two registers behind the entries read.
+inline constexpr std::uint64_t kInterpolation = 2;
+inline std::uint64_t weight_delay(const Config& config) { return config.interpolates() ? kInterpolation : 0; }
+
 // A device that culls: registers between check and decode, and when a table of its map is whole.
 inline constexpr std::size_t kCullStages = 4;  ///< t0 .. t3
 /// A fetching source: from a verdict to the first beat asked for after it, the memory's latency aside.

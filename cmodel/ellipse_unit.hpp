@@ -39,8 +39,7 @@ struct EllipseCoefficients {
 
 class EllipseUnit {
  public:
-  explicit EllipseUnit(const Config& config)
-      : config_(config), format_(config.ellipse_format()), index_shift_(config.rlut_guard_bits + format_.frac_bits) {}
+  explicit EllipseUnit(const Config& config) : config_(config), format_(config.ellipse_format()) {}
 
   EllipseCoefficients coefficients(const EllipseShape& shape, std::int64_t dx, std::int64_t dy) const;
   /// q at pixel (i,j), counted from the record's first.
@@ -51,17 +50,22 @@ class EllipseUnit {
     return wrapped(times(1, f.u0) + times(i, f.u1) + times(i * i, f.u2) + times(j, f.v1) + times(j * j, f.v2) +
                    times(i * j, f.e));
   }
+  /// The same, not below 0, in whole steps of 2^-g radial table entries.
+  std::uint64_t steps(const EllipseCoefficients& f, std::int64_t i, std::int64_t j) const {
+    return static_cast<std::uint64_t>(std::max<std::int64_t>(q(f, i, j), 0)) >> format_.frac_bits;
+  }
   /// The radial table's index there; the rim's and above are past the table's end.
   std::uint64_t index(const EllipseCoefficients& f, std::int64_t i, std::int64_t j) const {
-    return static_cast<std::uint64_t>(std::max<std::int64_t>(q(f, i, j), 0)) >> index_shift_;
+    return steps(f, i, j) >> config_.rlut_guard_bits;
   }
   /// The P x P weights, row by row, of the window whose first pixel is pixel (column, row) of the record.
+  template <class Observer>
   void window(const EllipseCoefficients& f, std::uint32_t column, std::uint32_t row, const RadialTable& radial,
-              std::span<std::uint32_t> weights) const {
+              std::span<std::uint32_t> weights, Observer& observer) const {
     const auto lanes = static_cast<std::uint32_t>(config_.lanes);
     std::size_t lane = 0;
     for (std::uint32_t j = row; j < row + lanes; ++j) {
-      for (std::uint32_t i = column; i < column + lanes; ++i) weights[lane++] = radial.at(index(f, i, j));
+      for (std::uint32_t i = column; i < column + lanes; ++i) weights[lane++] = radial.weight(steps(f, i, j), observer);
     }
   }
 
@@ -74,7 +78,6 @@ class EllipseUnit {
 
   Config config_;
   Format format_;
-  int index_shift_;
 };
 
 }  // namespace fastsplat::cmodel

@@ -51,10 +51,10 @@ class LinearUnit {
     scale_ = sets_[set];
   }
   template <class Observer>
-  void window(std::uint32_t column, std::uint32_t row, std::span<std::uint32_t> weights, Observer& /*observer*/) {
+  void window(std::uint32_t column, std::uint32_t row, std::span<std::uint32_t> weights, Observer& observer) {
     const auto squared = scan_.window(column, row);
     for (std::size_t lane = 0; lane < weights.size(); ++lane)
-      weights[lane] = radial_.at(linear_index(linear_distance(squared[lane], guard_bits_), scale_));
+      weights[lane] = radial_.at(linear_index(linear_distance(squared[lane], guard_bits_), scale_), 0, observer);
   }
 
  private:

@@ -179,7 +179,7 @@ void Model::ellipse(const EllipseRecord& record, Observer& observer) {
   for (std::uint32_t row = 0; row < record.windows.rows * lanes; row += lanes) {
     for (std::uint32_t column = 0; column < record.windows.columns * lanes; column += lanes) {
       if (window_hidden(number++)) continue;
-      ellipse_.window(f, column, row, radial_, weights_);
+      ellipse_.window(f, column, row, radial_, weights_, observer);
       window(record, x.origin + static_cast<std::int32_t>(column), y.origin + static_cast<std::int32_t>(row), observer);
     }
   }

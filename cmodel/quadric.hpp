@@ -33,6 +33,12 @@ constexpr std::int64_t step_down(const Quadric& f, std::int64_t dx, std::int64_t
 /// t: the radial table's index at q >= 0.
 constexpr std::uint64_t quadric_index(std::int64_t q, int shift) { return static_cast<std::uint64_t>(q) >> shift; }
 
+/// q in steps of 2^-guard_bits radial table entries, modulo 2^64.
+constexpr std::uint64_t quadric_steps(std::int64_t q, int shift, int guard_bits) {
+  const auto word = static_cast<std::uint64_t>(q);
+  return shift < guard_bits ? word << (guard_bits - shift) : word >> (shift - guard_bits);
+}
+
 /// q at the P x P pixels of a window, made at its first pixel and taken to the next window by q(x+P) = q(x) + step,
 /// step += second difference. Only begin() multiplies.
 class QuadricScan {

@@ -22,8 +22,8 @@ class RlutUnit {
 
   void place(std::uint32_t set, const SnappedAxis& x, const SnappedAxis& y) { set_ = set, x_ = x.phase, y_ = y.phase; }
   template <class Observer>
-  void window(std::uint32_t column, std::uint32_t row, std::span<std::uint32_t> weights, Observer& /*observer*/) {
-    footprint(radial_, rlut_.read(set_, x_, column), rlut_.read(set_, y_, row), weights);
+  void window(std::uint32_t column, std::uint32_t row, std::span<std::uint32_t> weights, Observer& observer) {
+    footprint(radial_, rlut_.read(set_, x_, column), rlut_.read(set_, y_, row), weights, observer);
   }
 
   const Rlut& rlut() const { return rlut_; }

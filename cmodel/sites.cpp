@@ -23,6 +23,9 @@ Narrowing narrowing(const Config& c, Site site) {
       return saturating(c.rounding_snap, c.position_frac_bits, c.snapped_format());
     case Site::AxisProduct:
       return saturating(static_cast<int>(Rounding::RND), 2 * c.axis_weight_format().frac_bits, c.weight_format());
+    case Site::RadialFall:
+      return saturating(static_cast<int>(Rounding::RND), c.radial_frac_bits + c.rlut_guard_bits,
+                        signed_format(c.radial_int_bits + 1, c.radial_frac_bits));
     case Site::Product:
       return saturating(c.rounding_product, c.colour_frac_bits + c.radial_frac_bits, c.sheet_format());
     case Site::Sum:

@@ -16,6 +16,7 @@ namespace fastsplat::cmodel {
 enum class Site : std::uint8_t {
   Snap,          ///< xs, S pi.kl
   AxisProduct,   ///< index.kind separable: g(dx) g(dy), U wi.wf
+  RadialFall,    ///< what interpolation takes off RADIAL[t], S (wi+1).wf
   Product,       ///< p_c, U si.sf
   Sum,           ///< S_c, U si.sf
   Fall,          ///< what interpolation takes off FACTOR[i], One.of
@@ -30,7 +31,7 @@ enum class Site : std::uint8_t {
   PixelOut,      ///< modes 0 and 1: R, G, B, A, U xi.xf
   PixelSum,      ///< mode 2: R, G, B, A, U xi.xf
 };
-constexpr std::size_t kSiteCount = 15;
+constexpr std::size_t kSiteCount = 16;
 
 struct SiteFacts {
   const char* name;                 ///< "slab_colour"; the RTL writes it in capitals
@@ -39,6 +40,7 @@ struct SiteFacts {
 constexpr std::array<SiteFacts, kSiteCount> kSiteFacts{{
     {"snap", &Counters::snap_saturated},
     {"axis_product", nullptr},
+    {"radial_fall", nullptr},
     {"product", &Counters::product_saturated},
     {"sum", &Counters::sheet_saturated},
     {"fall", nullptr},

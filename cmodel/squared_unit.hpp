@@ -56,7 +56,11 @@ class WindowScan {
 class SquaredUnit {
  public:
   explicit SquaredUnit(const Config& config)
-      : places_(config), radial_(config), scan_(config), sets_(static_cast<std::size_t>(config.rlut_sets)) {}
+      : places_(config),
+        radial_(config),
+        scan_(config),
+        guard_bits_(config.rlut_guard_bits),
+        sets_(static_cast<std::size_t>(config.rlut_sets)) {}
 
   void load(const LoadTable& table) {
     places_.load(table.radius);
@@ -71,16 +75,17 @@ class SquaredUnit {
     shift_ = sets_[set].shift;
   }
   template <class Observer>
-  void window(std::uint32_t column, std::uint32_t row, std::span<std::uint32_t> weights, Observer& /*observer*/) {
+  void window(std::uint32_t column, std::uint32_t row, std::span<std::uint32_t> weights, Observer& observer) {
     const auto q = scan_.window(column, row);
     for (std::size_t lane = 0; lane < weights.size(); ++lane)
-      weights[lane] = radial_.at(quadric_index(q[lane], shift_));
+      weights[lane] = radial_.at(quadric_index(q[lane], shift_), quadric_steps(q[lane], shift_, guard_bits_), observer);
   }
 
  private:
   SetPlaces places_;
   RadialTable radial_;
   WindowScan scan_;
+  int guard_bits_;
   std::vector<Quadric> sets_;
   int shift_ = 0;
 };

@@ -154,7 +154,7 @@ void StreamDecode::check(const LoadTable& header, std::uint32_t words) {
       break;
     }
     case Table::Radial:
-      expected_words = config_.radial_entries;
+      expected_words = config_.radial_words();
       break;
     case Table::Factor:
       expected_words = std::int64_t{config_.opacity_segments} + 1;

@@ -68,6 +68,13 @@ std::optional<ErrorParts> rtl_violation(const Config& config) {
                       .got = text_of(config, *find_key("index.kind")),
                       .fix = "use the model for this configuration"};
   }
+  if (config.interpolates()) {
+    return ErrorParts{.where = "radial.interpolate",
+                      .what = "the RTL's lanes read one entry of the radial table",
+                      .expected = "0",
+                      .got = "1",
+                      .fix = "use the model for this configuration"};
+  }
   if (config.culls() && config.has_ellipses()) {
     return ErrorParts{.where = "cull.map",
                       .what = "the RTL walks an ellipse's windows one by one and can leave none out",
@@ -170,7 +177,8 @@ std::string sv_package(const Config& config) {
 
   p.section("narrowing sites: fraction bits dropped, 0 TRN 1 RND 2 RND_CONV, 1 where the word is One.f");
   for (std::size_t i = 0; i < kSiteCount; ++i) {
-    if (static_cast<Site>(i) == Site::AxisProduct) continue;  // of an index.kind that the RTL has not
+    if (const auto site = static_cast<Site>(i); site == Site::AxisProduct || site == Site::RadialFall)
+      continue;  // not in the RTL
     const Narrowing site = narrowing(config, static_cast<Site>(i));
     const std::string name = upper(kSiteFacts[i].name);
     p.number("SHIFT_" + name, site.from_frac() - site.to().frac_bits);

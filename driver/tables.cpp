@@ -87,11 +87,18 @@ cmodel::LoadTable rlut_table(const cmodel::Config& config, std::uint32_t set, do
 }
 
 std::vector<double> radial_samples(const cmodel::Config& config, const scene::Kernel& kernel) {
-  std::vector<double> samples(static_cast<std::size_t>(config.radial_entries));
+  const double fall = kernel.a() * kernel.radius() * kernel.radius();
+  std::vector<double> samples(static_cast<std::size_t>(config.radial_words()));
+  if (config.interpolates()) {
+    const double half = fall / (2.0 * config.radial_entries), scale = std::tanh(half) / half;
+    for (std::size_t t = 0; t < samples.size(); ++t)
+      samples[t] = scale * std::exp(-fall * (static_cast<double>(t) / config.radial_entries));
+    return samples;
+  }
   for (std::size_t t = 0; t < samples.size(); ++t) {
     const double middle = (static_cast<double>(t) + 0.5) / static_cast<double>(samples.size());
     const double u = even_in_distance(config) ? middle * middle : middle;
-    samples[t] = std::exp(-kernel.a() * kernel.radius() * kernel.radius() * u);
+    samples[t] = std::exp(-fall * u);
   }
   return samples;
 }
@@ -119,6 +126,7 @@ cmodel::LoadTable factor_table(const cmodel::Config& config) {
 }
 
 double radial_area(const cmodel::Config& config, std::size_t t) {
+  if (config.interpolates()) return t == 0 || t == static_cast<std::size_t>(config.radial_entries) ? 0.5 : 1.0;
   return even_in_distance(config) ? 2.0 * static_cast<double>(t) + 1.0 : 1.0;
 }
 

@@ -25,6 +25,8 @@ inline std::uint32_t rlut_word(double distance, double rim_distance, const Targe
 cmodel::LoadTable rlut_table(const cmodel::Config& config, std::uint32_t set, double radius, std::uint32_t base);
 
 /// F in the middle of each of the N steps of the radial table: of squared distance, of index.kind linear of distance.
+/// Where the table is interpolated, what its N+1 words stand for: F at the ends of the steps, scaled such that the area
+/// below the lines is that below F.
 std::vector<double> radial_samples(const cmodel::Config& config, const scene::Kernel& kernel);
 
 /// Radial table, U wi.wf, quantised with its sum preserved: the largest remainders are rounded up. Of index.kind linear

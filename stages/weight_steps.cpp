@@ -31,6 +31,7 @@ WeightSteps::WeightSteps(const scene::Kernel& kernel, const cmodel::Config& conf
       axis_(driver::target(driver::Site::Axis, config)),
       footprint_(driver::target(driver::Site::Footprint, config)),
       axis_product_(cmodel::narrowing(config, cmodel::Site::AxisProduct)),
+      radial_fall_(cmodel::narrowing(config, cmodel::Site::RadialFall)),
       grid_(config.grid()),
       entries_(config.radial_entries),
       per_entry_(std::ldexp(1.0, -config.rlut_guard_bits)),
@@ -51,7 +52,21 @@ void WeightSteps::distances(double centre, double radius, int first, int end, bo
   }
 }
 
+double WeightSteps::interpolated(double entries, const Mixture& mixture) const {
+  const auto t = static_cast<std::size_t>(entries);
+  // What lies below a guard step is cut off; that is exact in a double, and so is the words' line.
+  const double steps = std::floor((entries - static_cast<double>(t)) / per_entry_);
+  const double line = real_[t] - (real_[t] - real_[t + 1]) * (steps * per_entry_);
+  const double fall = std::ldexp((words_[t] - words_[t + 1]) * steps, config_.radial_frac_bits);
+  const double word =
+      words_[t] - std::ldexp(static_cast<double>(radial_fall_(std::llround(fall)).word), -config_.radial_frac_bits);
+  if (mixture.device(Step::Index)) return mixture.device(Step::Weight) ? word : line;
+  const double real = std::exp(-fall_ * (entries / entries_));
+  return mixture.device(Step::Weight) ? std::max(0.0, real + (word - line)) : real;
+}
+
 double WeightSteps::weight(double entries, const Mixture& mixture) const {
+  if (config_.interpolates()) return interpolated(entries, mixture);
   const auto t = static_cast<std::size_t>(entries);
   if (mixture.device(Step::Index)) return mixture.device(Step::Weight) ? words_[t] : real_[t];
   // The word's own error, at the place where the real weight is read.

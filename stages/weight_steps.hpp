@@ -42,6 +42,8 @@ class WeightSteps {
   double weight(double entries, const Mixture& mixture) const;
 
  private:
+  /// weight() where the table is interpolated.
+  double interpolated(double entries, const Mixture& mixture) const;
   /// What a radius makes of distances.
   struct Rim {
     double radius = -1.0;  ///< pixels
@@ -65,12 +67,12 @@ class WeightSteps {
   const scene::Kernel& kernel_;
   const cmodel::Config& config_;
   driver::Target rlut_, axis_, footprint_;
-  cmodel::Narrowing axis_product_;
+  cmodel::Narrowing axis_product_, radial_fall_;
   double grid_;                       ///< K
   double entries_;                    ///< N
   double per_entry_;                  ///< 2^-g
   double fall_;                       ///< a R^2
-  std::vector<double> real_, words_;  ///< F in the middle of entry t; RADIAL[t] 2^-wf
+  std::vector<double> real_, words_;  ///< what entry t stands for; RADIAL[t] 2^-wf
   Rim rim_;
   EllipseDistance ellipse_;
   golden::Footprint golden_;

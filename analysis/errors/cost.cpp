@@ -26,6 +26,11 @@ Cost cost(const cmodel::Config& c) {
                    c.lanes * 4.0 * out_word;
   out.multiplier_bits =
       lanes * 4.0 * colour * weight + composited * (factor * rest + 4.0 * sheet * factor + 4.0 * unit * unit);
+  if (c.interpolates()) {  // the fall beside each word; a product and two sums a lane
+    out.storage_bits += lanes * c.radial_entries * (weight + 1.0);
+    out.multiplier_bits += lanes * (weight + 1.0) * c.rlut_guard_bits;
+    out.adder_bits += lanes * (2.0 * weight + 1.0);
+  }
   if (c.has_ellipses()) {
     // Of a record: four products of 22 and 24 bits with X and Y, then two of those sums. A window: its polynomial from
     // the one before, a few sums a column and a row, multiples by constants. A lane: one multiple, and three words.

@@ -15,7 +15,7 @@ struct Cost {
   double total() const { return storage_bits / 6.0 + adder_bits + multiplier_bits; }
 };
 
-/// Of the device of rtl/: index.kind rlut.
+/// Of the device of rtl/: index.kind rlut; and with interpolation, of what that would add to it.
 Cost cost(const cmodel::Config& config);
 
 nlohmann::ordered_json to_json(const Cost& cost);

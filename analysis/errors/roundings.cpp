@@ -33,7 +33,14 @@ double weight_of(const cmodel::Config& config, const scene::Kernel& kernel) {
   double most = 0.0;
   for (std::size_t t = 0; t < real.size(); ++t)
     most = std::max(most, std::abs(std::ldexp(static_cast<double>(words[t]), -config.radial_frac_bits) - real[t]));
-  return most;
+  return config.interpolates() ? most + step_of(config, cmodel::Site::RadialFall) : most;
+}
+
+/// What a line of an interpolated table is above F at most, or below it where its ends were scaled down: in the middle
+/// of a step h a chord of exp(-u) is h^2/8 of it too high, and scale = tanh(h/2)/(h/2) > 1 - h^2/12.
+double chord_of(const cmodel::Config& config, const scene::Kernel& kernel) {
+  const double step = kernel.a() * kernel.radius() * kernel.radius() / config.radial_entries;
+  return step * step / 8.0;
 }
 
 /// With the carry a word differs from its own value by what the splat before left: rest = t - shown(floor(t)) lies
@@ -71,8 +78,9 @@ Roundings::Roundings(const scene::Scene& scene, const cmodel::Config& c, const s
   radius = open(Step::Radius);
   // Two words, each half a guard step off; an entry stands for the middle of its step.
   if (open(Step::Distance)) lookup += std::ldexp(1.0, -c.rlut_guard_bits);
-  if (open(Step::Index)) lookup += 0.5;
-  if (open(Step::Weight)) weight = weight_of(c, scene.kernel);
+  if (open(Step::Index)) lookup += c.interpolates() ? std::ldexp(1.0, -c.rlut_guard_bits) : 0.5;
+  if (open(Step::Index) && c.interpolates()) weight += chord_of(c, scene.kernel);
+  if (open(Step::Weight)) weight += weight_of(c, scene.kernel);
   largest_whole = largest_share = largest_sum = largest_pixel = kEndless;
   if (open(Step::Emission)) {
     emission = emission_of(c, scene.kernel, steps.carries());

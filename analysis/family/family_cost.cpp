@@ -55,7 +55,7 @@ std::uint64_t storage_bits(const cmodel::Config& config, int radius) {
     const auto width = static_cast<std::uint64_t>(bits_of(range.most) + (range.least < 0 ? 1 : 0));
     bits += width * (config.has_phases() ? words : 1);  // words by phase are all alike
   }
-  if (has_radial_table(config.index())) bits += static_cast<std::uint64_t>(config.radial_entries) * weight_bits(config);
+  if (has_radial_table(config.index())) bits += static_cast<std::uint64_t>(config.radial_words()) * weight_bits(config);
   return bits;
 }
 

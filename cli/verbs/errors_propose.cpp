@@ -44,6 +44,13 @@ ExitCode run(const Arguments& arguments) {
                  .got = cmodel::text_of(from, *cmodel::find_key("index.kind")),
                  .fix = "`fastsplat family` compares the kinds"});
   }
+  if (from.interpolates()) {
+    throw_usage({.where = "--from",
+                 .what = "what is weighed is a noise model of tables that are not interpolated",
+                 .expected = "radial.interpolate = 0",
+                 .got = "1",
+                 .fix = "begin with a configuration that does not, such as base"});
+  }
   const auto flags = scenes_of(arguments.scenes);
   check_outputs({.others = {arguments.out, arguments.journal, arguments.common.json},
                  .inputs = joined(inputs_of(arguments.scenes), inputs_of_config(arguments.from))});
@@ -90,7 +97,8 @@ void declare(Options& options, Arguments& to) {
   options.example("fastsplat errors propose --target 'psnr>=50' --volume shells:24 --size 48 -o enough.toml",
                   "the cheapest configuration of 50 dB");
   options.example(
-      "fastsplat errors propose --target 'max<=1' --scenes demo:layer-adding,demo:overlap-adding --from small --journal tried.jsonl",
+      "fastsplat errors propose --target 'max<=1' --scenes demo:layer-adding,demo:overlap-adding --from small "
+      "--journal tried.jsonl",
       "over several scenes, to go on from later", Example::Slow);
 }
 

@@ -73,6 +73,7 @@ void WeightMemo::fill(const Config& config, Unit& unit, std::uint32_t set, int w
 void WeightMemo::fill(const Config& config, RlutUnit& unit, std::uint32_t set, int weight_shift) {
   const Rlut& rlut = unit.rlut();
   const RadialTable& radial = unit.radial();
+  Nothing nobody;
   Shape& shape = shapes_[set];
   shape.rho = rlut.rho(set);
   shape.padded = static_cast<int>(rlut.extent(set));
@@ -103,7 +104,7 @@ void WeightMemo::fill(const Config& config, RlutUnit& unit, std::uint32_t set, i
       for (int j = 0; j < shape.extent; ++j, out += shape.pitch) {
         const std::uint32_t row = word(rlut, set, my, j, lanes_);
         for (int i = 0; i < shape.extent; ++i) {
-          const std::uint32_t weight = radial.weight(row + word(rlut, set, mx, i, lanes_));
+          const std::uint32_t weight = radial.weight(row + word(rlut, set, mx, i, lanes_), nobody);
           weighted += weight != 0 ? 1 : 0;
           shape.heaviest = std::max(shape.heaviest, weight);
           out[i] = static_cast<std::uint16_t>(weight << weight_shift);

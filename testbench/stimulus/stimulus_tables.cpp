@@ -91,7 +91,7 @@ std::int64_t unit_weight(const cmodel::Config& config) {
 cmodel::LoadTable random_radial(const cmodel::Config& config, Random& random, TableStyle style) {
   cmodel::LoadTable table{.table = cmodel::Table::Radial, .radius = {}, .words = {}};
   const std::int64_t unit = unit_weight(config);
-  for (int i = 0; i < config.radial_entries; ++i)
+  for (int i = 0; i < config.radial_words(); ++i)
     table.words.push_back(word(style == TableStyle::Unit ? unit : styled(random, style, config.weight_format().max)));
   return table;
 }

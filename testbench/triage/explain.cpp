@@ -116,7 +116,7 @@ class Walk {
     for (std::uint32_t row = 0; row < extent; row += step) {
       for (std::uint32_t column = 0; column < extent; column += step) {
         const auto columns = rlut_.read(record.set, x.phase, column), rows = rlut_.read(record.set, y.phase, row);
-        cmodel::footprint(radial_, columns, rows, weights);
+        cmodel::footprint(radial_, columns, rows, weights, nobody_);
         const std::int32_t left = x.origin + static_cast<std::int32_t>(column);
         const std::int32_t top = y.origin + static_cast<std::int32_t>(row);
         if (at_.x == left && at_.y == top && here(cmodel::Tap::Footprint, record.tag))
@@ -143,7 +143,7 @@ class Walk {
     const auto step = static_cast<std::uint32_t>(config_.lanes);
     for (std::uint32_t row = 0; row < record.windows.rows * step; row += step) {
       for (std::uint32_t column = 0; column < record.windows.columns * step; column += step) {
-        unit.window(f, column, row, radial_, weights);
+        unit.window(f, column, row, radial_, weights, nobody_);
         const std::int32_t left = x.origin + static_cast<std::int32_t>(column);
         const std::int32_t top = y.origin + static_cast<std::int32_t>(row);
         if (at_.x == left && at_.y == top && here(cmodel::Tap::Footprint, record.tag)) {
@@ -169,7 +169,7 @@ class Walk {
     const bool inside = index < static_cast<std::uint32_t>(config_.radial_entries);
     return name(mx, i) + "=" + hex(column) + " + " + name(my, j) + "=" + hex(row) + ": q=" + hex(q) +
            ", index=" + std::to_string(index) +
-           (inside ? ", RADIAL=" + hex(radial_.weight(q)) : ", at or beyond the rim: 0");
+           (inside ? ", RADIAL=" + hex(radial_.weight(q, nobody_)) : ", at or beyond the rim: 0");
   }
 
   template <class Record>

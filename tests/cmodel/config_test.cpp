@@ -21,8 +21,8 @@ void expect_violation(const cmodel::Config& config, const std::string& key, cons
 }
 
 TEST(ConfigLimits, NamedConfigurationsAreSound) {
-  ASSERT_EQ(config_names(), (std::vector<std::string>{"base", "compact", "ellipse", "exact", "hx8k", "small", "tiny",
-                                                      "wide", "year2000"}));
+  ASSERT_EQ(config_names(), (std::vector<std::string>{"base", "compact", "ellipse", "exact", "fine", "hx8k", "small",
+                                                      "tiny", "wide", "year2000"}));
   for (const std::string& name : config_names()) {
     const auto violation = cmodel::first_violation(named_config(name));
     EXPECT_FALSE(violation) << name << ": " << one_line(*violation);
@@ -183,6 +183,21 @@ const Between kBetween[] = {
      }},
     {"composite.lanes", "a divisor of array.lanes^2 = 64", "3", [](cmodel::Config& c) { c.composite_lanes = 3; }},
     {"composite.lanes", "a divisor of array.lanes^2 = 64", "128", [](cmodel::Config& c) { c.composite_lanes = 128; }},
+    {"radial.interpolate", "rlut, squared or squared_elliptic", "separable",
+     [](cmodel::Config& c) {
+       c.radial_interpolate = 1;
+       c.index_kind = static_cast<int>(cmodel::IndexKind::Separable);
+     }},
+    {"radial.interpolate", "rlut, squared or squared_elliptic", "linear",
+     [](cmodel::Config& c) {
+       c.radial_interpolate = 1;
+       c.index_kind = static_cast<int>(cmodel::IndexKind::Linear);
+     }},
+    {"rlut.guard_bits", "1", "0",
+     [](cmodel::Config& c) {
+       c.radial_interpolate = 1;
+       c.rlut_guard_bits = 0;
+     }},
 };
 
 TEST(ConfigLimits, EveryLimitBetweenKeys) {
@@ -255,7 +270,7 @@ TEST(ConfigSet, EveryKeyTakesItsTextAndGivesItBack) {
     }
   }
   std::printf("[figure] texts set and read back = %d\n", compared);
-  EXPECT_EQ(compared, 23 * 2 + 7 * 3 + 6 + 2 + 4 * 2 + 3);
+  EXPECT_EQ(compared, 23 * 2 + 7 * 3 + 6 + 2 + 5 * 2 + 3);
 }
 
 TEST(ConfigSet, WhatIsWrongIsToldAndNothingChanges) {
@@ -296,8 +311,8 @@ TEST(ConfigHash, ANeutralKeyDoesNotEnterItAndAnyOtherValueDoes) {
     }
   }
   std::printf("[figure] neutral keys = %d, hashes = %zu\n", neutral, hashes.size());
-  EXPECT_EQ(neutral, 14);
-  EXPECT_EQ(hashes.size(), 41U + 1024U + 48U + 1U + 2U);
+  EXPECT_EQ(neutral, 15);
+  EXPECT_EQ(hashes.size(), 41U + 1024U + 48U + 1U + 2U + 1U);
 }
 
 }  // namespace

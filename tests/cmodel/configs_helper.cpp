@@ -41,7 +41,8 @@ std::map<std::string, std::string> read_keys(const std::string& path) {
 constexpr std::array kNumbers{std::pair{"ellipse.frac_bits", &oracle::Symbols::f},
                               std::pair{"composite.lanes", &oracle::Symbols::C},
                               std::pair{"counters.bits", &oracle::Symbols::counter_bits},
-                              std::pair{"composite.every_sample", &oracle::Symbols::every_sample}};
+                              std::pair{"composite.every_sample", &oracle::Symbols::every_sample},
+                              std::pair{"radial.interpolate", &oracle::Symbols::interpolate}};
 
 cmodel::Config named_config(const std::string& name) {
   const auto read = read_keys(std::string(FASTSPLAT_SOURCE_DIR) + "/configs/" + name + ".toml");
@@ -163,6 +164,8 @@ cmodel::Config drawn_config(Random& random, cmodel::IndexKind kind, bool ellipse
     config.counter_bits = static_cast<int>(beside.between(16, 64));
     config.composite_every_sample = static_cast<int>(beside.between(0, 1));
     if (config.composite_every_sample != 0) config.composite_lanes = 0;
+    config.radial_interpolate = static_cast<int>(beside.between(0, 1));
+    if (cmodel::first_violation(config)) config.radial_interpolate = 0;
     return config;
   }
 }

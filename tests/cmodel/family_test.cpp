@@ -75,6 +75,35 @@ TEST_P(Family, ModelEqualsOracleOverPhasesEntriesAndRoundings) {
   EXPECT_EQ(configs, 45U);
 }
 
+// Of interpolated tables, all of whose words are drawn: few entries and many, all that g can be, with ellipses beside.
+TEST(Interpolated, ModelEqualsOracleOverEntriesAndGuardBits) {
+  Random random(seed_or(65));
+  Campaign total;
+  std::uint64_t configs = 0;
+  for (const IndexKind kind : {IndexKind::Rlut, IndexKind::Squared, IndexKind::SquaredElliptic})
+    for (const int entries : {2, 64, 256})
+      for (const int guard : {1, 6, 12})
+        for (const int ellipses : {0, 7}) {
+          cmodel::Config config = named_config("small");
+          config.radial_entries = entries;
+          config.rlut_guard_bits = guard;
+          config.radial_interpolate = 1;
+          config.index_kind = static_cast<int>(kind);
+          config.ellipse_frac_bits = ellipses;
+          config.rlut_columns = 2 * config.lanes;
+          ASSERT_FALSE(cmodel::first_violation(config)) << one_line(*cmodel::first_violation(config));
+          total += compare_streams(config, random, 60, 60);
+          ++configs;
+        }
+  std::printf("[figure] interpolated: configurations = %llu, splats = %llu, words compared = %llu, different = %llu\n",
+              static_cast<unsigned long long>(configs), static_cast<unsigned long long>(total.splats),
+              static_cast<unsigned long long>(total.comparison.total()),
+              static_cast<unsigned long long>(total.comparison.mismatches));
+  EXPECT_EQ(total.comparison.mismatches, 0U) << total.comparison.first;
+  EXPECT_EQ(configs, 54U);
+  EXPECT_GT(total.ellipses.weighted, 1000U);
+}
+
 TEST(FamilySteps, TheRootIsTheLargestWhoseSquareFits) {
   std::uint64_t checked = 0;
   const auto check = [&](std::uint64_t v) {

@@ -30,7 +30,7 @@ class PlainDevice {
  public:
   PlainDevice(const cmodel::Config& config, std::size_t queue)
       : wipe_(static_cast<std::uint64_t>((config.tile_width / config.lanes) * (config.tile_height / config.lanes))),
-        walk_(config.has_ellipses() ? 22 : 12),
+        walk_(12 + (config.has_ellipses() ? 10 : 0) + (config.interpolates() ? 2 : 0)),
         slices_(static_cast<std::uint64_t>(config.slices())),
         places_(queue) {}
 

@@ -36,7 +36,7 @@ class Generator {
   RandomStream run(std::uint64_t splats) {
     // begin_frame names the number of tiles, so the tiles are written first.
     for (std::int64_t i = 0; i < r.between(1, 3) || sets.empty(); ++i) radius_set();
-    table(1, c.N, (std::int64_t{1} << (c.wi + c.wf)) - 1);
+    table(1, c.radial_words(), (std::int64_t{1} << (c.wi + c.wf)) - 1);
     factor();
     if (r.once_in(2)) radius_set();  // perhaps over the columns of another
     const StreamWriter tables = w;

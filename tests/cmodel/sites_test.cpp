@@ -26,6 +26,7 @@ std::vector<Row> page(const oracle::Symbols& c) {
   const int b = c.si + c.sf - oracle::log2_of(c.G);
   return {{Site::Snap, c.Rs, c.pf, oracle::s(c.pi, oracle::log2_of(c.K()))},
           {Site::AxisProduct, oracle::Rounding::Rnd, 2 * (c.wf + c.g), u(c.wi, c.wf)},
+          {Site::RadialFall, oracle::Rounding::Rnd, c.wf + c.g, oracle::s(c.wi + 1, c.wf)},
           {Site::Product, c.Rp, c.cf + c.wf, u(c.si, c.sf)},
           {Site::Sum, oracle::Rounding::Trn, c.sf, u(c.si, c.sf)},
           {Site::Fall, c.Rf, c.of + b, one(c.of)},

@@ -60,6 +60,19 @@ TEST(Budget, base_holds_it_additive_thin_thick_and_in_perspective) {
   EXPECT_GE(apart.psnr_db, 48.0);
 }
 
+// What `fine` is worth for colours: its centres lie four times as fine and its weights have no steps, which of pictures
+// as small as these is the lesser part (products and sums have 16 bits in both), but what shows at its worst pixel.
+TEST(Budget, fine_errs_less_than_base_from_far_and_near) {
+  for (const double zoom : {1.0, 3.0, 8.0}) {
+    auto description = view_of("shells:32", 128);
+    description.camera.zoom = zoom;
+    const Lsb8 base = measure(description, "base"), fine = measure(description, "fine");
+    figure("fine above base, PSNR, zoom " + std::to_string(static_cast<int>(zoom)), fine.psnr_db - base.psnr_db, "dB");
+    EXPECT_LT(fine.rms, base.rms) << "zoom " << zoom;
+    EXPECT_LT(fine.largest, 0.75 * base.largest) << "zoom " << zoom;
+  }
+}
+
 TEST(Budget, every_configuration_errs_more_with_fewer_bits) {
   // splatting.md 5: snapping costs 0.27/(s k) rms of a sheet, so k = 8 against k = 64 must show, and 8-bit weights too.
   const auto description = view_of("shells:32", 128);

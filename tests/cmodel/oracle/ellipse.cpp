@@ -28,8 +28,7 @@ const char* broken_shape(const Symbols& c, const Ellipse& e) {
   return nullptr;
 }
 
-EllipseForm::EllipseForm(const Symbols& c, const Ellipse& r)
-    : words(form_words(c)), step(power_of_two(c.g) * power_of_two(c.f)) {
+EllipseForm::EllipseForm(const Symbols& c, const Ellipse& r) : words(form_words(c)), step(power_of_two(c.f)) {
   const auto n = [&](Wide value) {
     const Narrowed narrowed = narrow(Rounding::Rnd, Overflow::Wrap, value, r.h, words);
     wrapped_ = wrapped_ || narrowed.overflow;
@@ -45,7 +44,7 @@ EllipseForm::EllipseForm(const Symbols& c, const Ellipse& r)
   e = n(pixel * pixel * r.B);
 }
 
-Wide EllipseForm::entry(std::int64_t i, std::int64_t j) const {
+Wide EllipseForm::steps(std::int64_t i, std::int64_t j) const {
   const Wide exact = u0 + i * u1 + Wide{i} * i * u2 + j * v1 + Wide{j} * j * v2 + Wide{i} * j * e;
   const Wide q = narrow(Rounding::Trn, Overflow::Wrap, exact, words.f, words).word;
   return q < 0 ? 0 : floor_divide(q, step);

@@ -31,14 +31,15 @@ const char* broken_shape(const Symbols& c, const Ellipse& e);
 class EllipseForm {
  public:
   EllipseForm(const Symbols& c, const Ellipse& e);
-  /// Of pixel (i, j) from the first one: the radial table's entry, at least 0, perhaps beyond the last one.
-  Wide entry(std::int64_t i, std::int64_t j) const;
+  /// Of pixel (i, j) from the first one, in steps of 2^-g radial table entries: at least 0, perhaps beyond the last
+  /// one.
+  Wide steps(std::int64_t i, std::int64_t j) const;
   /// A coefficient left its word: q does not, where rule 18 holds.
   bool wrapped() const { return wrapped_; }
 
  private:
   Words words;
-  Wide step;  ///< of the radial table, in q's words
+  Wide step;  ///< 2^-g radial table entries, in q's words
   Wide u0, u1, u2, v1, v2, e;
   bool wrapped_ = false;
 };

@@ -139,7 +139,7 @@ class Renderer {
     for (std::int64_t j = 0; j < e.ny; ++j)
       for (std::int64_t i = 0; i < e.nx; ++i)
         window(e, first.x0, first.y0, i * c.P, j * c.P,
-               [&](std::int64_t column, std::int64_t row) { return entry(form.entry(column, row)); });
+               [&](std::int64_t column, std::int64_t row) { return entry(form.steps(column, row), c.g); });
     out.ellipses.windows += static_cast<std::uint64_t>(e.nx) * static_cast<std::uint64_t>(e.ny);
     out.ellipses.weighted += out.counts["lanes_weighted"] - weighted;
   }
@@ -186,19 +186,18 @@ class Renderer {
 
   /// Of pixel (i, j) of the footprint, by the page's formula of the kind.
   Wide weight(const RadiusSet& set, Wide mx, Wide my, std::int64_t i, std::int64_t j) const {
-    if (c.index == "rlut") return entry(floor_divide(column(set, mx, i) + column(set, my, j), power_of_two(c.g)));
+    if (c.index == "rlut") return entry(column(set, mx, i) + column(set, my, j), c.g);
     if (c.index == "separable")
       return narrow(Rounding::Rnd, Overflow::Sat, column(set, mx, i) * column(set, my, j), 2 * (c.wf + c.g),
                     u(c.wi, c.wf))
           .word;
     if (c.index == "blit2d") return stored(set, mx, my, i, j);
     const Wide dx = (i + 1) * Wide{c.K()} - mx - set.rho, dy = (j + 1) * Wide{c.K()} - my - set.rho;
-    if (c.index == "squared")
-      return entry(floor_divide(set.words[0] * (dx * dx + dy * dy), power_of_two(int_of(set, 1))));
+    if (c.index == "squared") return entry(set.words[0] * (dx * dx + dy * dy), int_of(set, 1));
     if (c.index == "squared_elliptic") {
       const Wide B = static_cast<std::int32_t>(set.words[1]);
       const Wide q = set.words[0] * dx * dx + B * dx * dy + set.words[2] * dy * dy;
-      return entry(floor_divide(q, power_of_two(int_of(set, 3))));
+      return entry(q, int_of(set, 3));
     }
     // linear: the largest s whose square does not exceed the squared distance in 2^-g steps.
     const Wide square = (dx * dx + dy * dy) * power_of_two(2 * c.g);
@@ -207,10 +206,20 @@ class Renderer {
       const Wide middle = (low + high) / 2;
       (middle * middle <= square ? low : high) = middle;
     }
-    return entry(floor_divide(low * set.words[0], power_of_two(int_of(set, 1))));
+    return entry(low * set.words[0], int_of(set, 1));
   }
   static int int_of(const RadiusSet& set, std::size_t word) { return static_cast<int>(set.words[word]); }
-  Wide entry(Wide t) const { return t < c.N ? Wide{radial[static_cast<std::size_t>(t)]} : 0; }
+  /// Weight at q entries, f fraction bits.
+  Wide entry(Wide q, int f) const {
+    const Wide t = floor_divide(q, power_of_two(f));
+    if (t >= c.N) return 0;
+    const Wide here = radial[static_cast<std::size_t>(t)];
+    if (c.interpolate == 0) return here;
+    // What is left of q, in steps of 2^-g.
+    const Wide rest = floor_divide(remainder(q, power_of_two(f)) * power_of_two(c.g), power_of_two(f));
+    const Wide next = radial[static_cast<std::size_t>(t) + 1];
+    return here - narrow(Rounding::Rnd, Overflow::Sat, (here - next) * rest, c.wf + c.g, s(c.wi + 1, c.wf)).word;
+  }
 
   /// blit2d. With eightfold symmetry the footprint is looked for: the phases, their mirror images and both exchanged,
   /// until a pair is met that is stored.

@@ -98,7 +98,7 @@ TableLoad table_load(Reader& r) {
     r.rule(count == set_words(c, load.Ea), "words");
   } else {
     r.rule(load.set == 0 && load.rho == 0 && load.base == 0, "a radius set in a table without");
-    r.rule(count == (load.table == 1 ? c.N : c.G + 1), "words");
+    r.rule(count == (load.table == 1 ? c.radial_words() : c.G + 1), "words");
     largest = static_cast<std::int64_t>(load.table == 1 ? u(c.wi, c.wf).largest : one(c.of).largest);
   }
   for (std::int64_t done = 0; done < count; done += std::int64_t{kWords}) {

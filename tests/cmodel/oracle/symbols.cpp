@@ -63,6 +63,7 @@ std::uint64_t hash(const Symbols& symbols) {
   if (symbols.counter_bits != 64) line("counters.bits", std::to_string(symbols.counter_bits));
   if (symbols.every_sample != 0) line("composite.every_sample", "1");
   if (symbols.cull != "off") line("cull.map", symbols.cull);
+  if (symbols.interpolate != 0) line("radial.interpolate", "1");
   return state;
 }
 

@@ -32,6 +32,8 @@ struct Symbols {
   int counter_bits = 64;
   int every_sample = 0;
   std::string cull = "off";  ///< the map's cells
+  int interpolate = 0;       ///< of the radial table
+  int radial_words() const { return N + interpolate; }
 
   /// Weights depend on window phases: centres lie on the snap's grid.
   bool has_phases() const { return index == "rlut" || index == "blit2d" || index == "separable"; }

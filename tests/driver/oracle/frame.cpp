@@ -222,6 +222,7 @@ class Page {
   double shown(Wide V) {
     Wide all = 0;
     const auto area = [&](std::size_t t) {
+      if (symbols_.interpolate != 0) return t == 0 || t + 1 == radial_.size() ? Wide{1} : Wide{2};  // halved
       return symbols_.index == "linear" ? 2 * static_cast<Wide>(t) + 1 : Wide{1};
     };
     for (std::size_t t = 0; t < radial_.size(); ++t) all += radial_[t] * area(t);

@@ -102,10 +102,12 @@ std::vector<std::uint32_t> radial(const Given& given) {
   std::vector<Entry> entries;
   double sum = 0.0;
   std::int64_t floors = 0;
-  for (int t = 0; t < symbols.N; ++t) {
+  const double aRR = given.a * given.R * given.R, half = aRR / (2.0 * symbols.N);
+  for (int t = 0; t < symbols.radial_words(); ++t) {
     const double middle = (t + 0.5) / symbols.N;
-    const double F =
-        std::exp(-given.a * given.R * given.R * (symbols.index == "linear" ? middle * middle : middle)) * one;
+    const double F = symbols.interpolate != 0
+                         ? std::tanh(half) / half * std::exp(-aRR * (static_cast<double>(t) / symbols.N)) * one
+                         : std::exp(-aRR * (symbols.index == "linear" ? middle * middle : middle)) * one;
     entries.push_back({t, static_cast<std::int64_t>(std::floor(F)), F - std::floor(F)});
     sum += F;
     floors += entries.back().word;

@@ -42,6 +42,7 @@ class Frame {
     if (q >= n) return 0.0;
     if (!mixture_.device(Step::Index) && !mixture_.device(Step::Weight)) return footprint(q / n);
     const double t = trn(q, 0, closeness);
+    if (config_.interpolates()) return on_line(q, t, closeness);
     const double at = mixture_.device(Step::Index) ? t + 0.5 : q;
     if (!mixture_.device(Step::Weight)) return footprint(at / n);
     // In this order: where `at` is the entry's own place, nothing but the entry is left.
@@ -104,6 +105,20 @@ class Frame {
  private:
   double footprint(double u) const {
     return std::exp(-scene_.kernel.a() * scene_.kernel.radius() * scene_.kernel.radius() * u);
+  }
+
+  /// Steps index and weight of an interpolated table, of which at least one is the device's.
+  double on_line(double q, double t, Closeness& closeness) const {
+    const double kernel_radius = scene_.kernel.radius(), part = trn(q, config_.rlut_guard_bits, closeness) - t;
+    const auto end = [&](double at) {
+      return line_end(scene_.kernel.a(), kernel_radius, config_, static_cast<int>(at));
+    };
+    const double line = end(t) - (end(t) - end(t + 1)) * part;
+    if (!mixture_.device(Step::Weight)) return line;
+    const auto i = static_cast<std::size_t>(t);
+    const double word = radial_[i] - rnd((radial_[i] - radial_[i + 1]) * part, config_.radial_frac_bits, closeness);
+    if (mixture_.device(Step::Index)) return word;
+    return std::max(0.0, footprint(q / config_.radial_entries) + (word - line));
   }
 
   double distance(double d, double radius, Closeness& closeness) const {

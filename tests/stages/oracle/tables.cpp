@@ -52,13 +52,19 @@ std::vector<double> linear_table(double a, double kernel_radius, const cmodel::C
 
 }  // namespace
 
+double line_end(double a, double kernel_radius, const cmodel::Config& config, int t) {
+  const double fall = a * kernel_radius * kernel_radius, x = fall / (2.0 * config.radial_entries);
+  return std::tanh(x) / x * std::exp(-fall * (static_cast<double>(t) / config.radial_entries));
+}
+
 std::vector<double> radial_table(double a, double kernel_radius, const cmodel::Config& config) {
   if (config.index() == cmodel::IndexKind::Linear) return linear_table(a, kernel_radius, config);
   const int entries = config.radial_entries;
   std::vector<double> words, remainders;
   double sum = 0.0;
-  for (int t = 0; t < entries; ++t) {
-    const double f = std::exp(-a * kernel_radius * kernel_radius * ((t + 0.5) / entries));
+  for (int t = 0; t < entries + config.radial_interpolate; ++t) {
+    const double f = config.interpolates() ? line_end(a, kernel_radius, config, t)
+                                           : std::exp(-a * kernel_radius * kernel_radius * ((t + 0.5) / entries));
     const double scaled = std::ldexp(f, config.radial_frac_bits);
     sum += scaled;
     words.push_back(std::floor(scaled));
@@ -104,7 +110,10 @@ double Shown::operator()(double word) {
   Closeness unused;
   double shown = 0.0, all = 0.0;
   for (std::size_t t = 0; t < radial_.size(); ++t) {
-    const double area = config_.index() == cmodel::IndexKind::Linear ? 2.0 * static_cast<double>(t) + 1.0 : 1.0;
+    const bool half = config_.interpolates() && (t == 0 || t + 1 == radial_.size());
+    const double area = half                                           ? 0.5
+                        : config_.index() == cmodel::IndexKind::Linear ? 2.0 * static_cast<double>(t) + 1.0
+                                                                       : 1.0;
     shown += area * to_unsigned(config_.rounding_product, std::ldexp(word, -config_.colour_frac_bits) * radial_[t],
                                 config_.sheet_int_bits, config_.sheet_frac_bits, unused);
     all += area * radial_[t];

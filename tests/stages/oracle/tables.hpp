@@ -20,6 +20,8 @@ struct Scale {
 };
 Scale scale_of(double v);
 
+/// What RADIAL[t] stands for where it is interpolated.
+double line_end(double a, double kernel_radius, const cmodel::Config& config, int t);
 /// RADIAL[t], as values.
 std::vector<double> radial_table(double a, double kernel_radius, const cmodel::Config& config);
 

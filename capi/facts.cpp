@@ -17,7 +17,7 @@ constexpr const char* kCounters[] = {
         FASTSPLAT_STALL_COUNTERS(X)
 #undef X
 };
-static_assert(std::size(kCounters) == FASTSPLAT_COUNTERS_EVERY_SAMPLE);
+static_assert(std::size(kCounters) == FASTSPLAT_COUNTERS_CULLING);
 static_assert(sizeof(cmodel::Counters) == FASTSPLAT_MODEL_COUNTERS * sizeof(std::uint64_t));
 
 }  // namespace

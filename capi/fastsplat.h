@@ -137,6 +137,8 @@ FASTSPLAT_API fastsplat_status fastsplat_model_next_tile(fastsplat_model* model,
 enum { FASTSPLAT_MODEL_COUNTERS = 16, FASTSPLAT_COUNTERS_ALL = 21 };
 /// Those of a device with composite.every_sample = 1, which counts one more.
 enum { FASTSPLAT_COUNTERS_EVERY_SAMPLE = 22 };
+/// Those of a device whose cull.map is not off.
+enum { FASTSPLAT_COUNTERS_CULLING = 26 };
 
 /// Name of counter `index`, "splats"; FASTSPLAT_NONE behind the last. The text lives as long as the library.
 FASTSPLAT_API fastsplat_status fastsplat_counter_name(size_t index, const char** out);

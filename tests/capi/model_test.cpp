@@ -160,7 +160,7 @@ TEST(CapiModel, NamesAndVersionsAreTold) {
   while (fastsplat_config_name(names.size(), &name) == FASTSPLAT_OK) names.emplace_back(name);
   while (fastsplat_counter_name(counters.size(), &name) == FASTSPLAT_OK) counters.emplace_back(name);
   EXPECT_THAT(names, ::testing::IsSupersetOf({"base", "tiny", "small"}));
-  EXPECT_EQ(counters.size(), static_cast<std::size_t>(FASTSPLAT_COUNTERS_EVERY_SAMPLE));
+  EXPECT_EQ(counters.size(), static_cast<std::size_t>(FASTSPLAT_COUNTERS_CULLING));
   EXPECT_EQ(counters[2], "splats");
   EXPECT_EQ(counters[16], "busy");
 }

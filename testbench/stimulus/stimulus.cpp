@@ -417,8 +417,30 @@ class Generator {
           cmodel::SplatRecord{.set = at.set, .tag = 0, .x = at.x, .y = at.y, .colour = colours()});
     }
     if (hints && random_.chance(2)) sheet.records.emplace_back(cull());
+    if (!hints && walls() && random_.chance(30)) wall(sheet);
     if (!hints) promise(config_, random_, tile_, rho_, sheet);
     return sheet;
+  }
+
+  /// Classes whose sheets mean something by themselves are left as they are.
+  bool walls() const {
+    return which_ != StimulusClass::Thresholds && which_ != StimulusClass::OffTile &&
+           which_ != StimulusClass::EmptySheets && which_ != StimulusClass::SparseSheets;
+  }
+  /// Bright splats side by side over the tile or a part of it, for devices that cull: they freeze what they may.
+  void wall(SheetDocument& sheet) {
+    const std::int64_t from = random_.chance(50) ? 0 : random_.between(0, tile_.height - 1), lanes = config_.lanes;
+    const auto most = static_cast<std::uint32_t>(config_.colour_format().max);
+    for (std::int64_t y = from; y < tile_.height; y += lanes) {
+      for (std::int64_t x = 0; x < tile_.width; x += lanes) {
+        const std::uint32_t set = first_set_ + static_cast<std::uint32_t>(random_.between(0, sets_ - 1));
+        sheet.records.emplace_back(cmodel::SplatRecord{.set = set,
+                                                       .tag = 0,
+                                                       .x = centre(set, x, 0),
+                                                       .y = centre(set, y, 0),
+                                                       .colour = {colour(), colour(), colour(), most}});
+      }
+    }
   }
 
   cmodel::CullBlock cull() {

@@ -89,9 +89,12 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
                   .samples = std::nullopt,
                   .reach = kVectorPixels};
   if (needs.ellipses && !out.ellipses) return none("an ellipse's place in the radial table is wider than its lanes");
-  if (samples) out.samples = SampleTables{*samples, std::move(factor)};
-  for (std::uint32_t set = 0; set < sets; ++set)
+  std::uint32_t heaviest = out.ellipses ? out.ellipses->heaviest : 0;
+  for (std::uint32_t set = 0; set < sets; ++set) {
     out.reach = std::max(out.reach, out.memo.shape(set).extent + kVectorPixels);
+    heaviest = std::max(heaviest, out.memo.shape(set).heaviest);
+  }
+  if (samples) out.samples = SampleTables{*samples, std::move(factor), heaviest << plan->weight_shift};
   return out;
 }
 

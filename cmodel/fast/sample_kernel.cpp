@@ -1,5 +1,7 @@
 #include "cmodel/fast/sample_kernel.hpp"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cmodel/fast/sample_kernel.cpp"
 #include <hwy/foreach_target.h>
@@ -23,7 +25,7 @@ using V = hn::Vec<D>;
 using Wide = hn::Repartition<std::uint64_t, D>;
 
 V narrowed(V value, const Rounded& how) {
-  return hn::ShiftRightSame(hn::Add(value, hn::Set(D{}, how.bias)), how.dropped);
+  return hn::Shr(hn::Add(value, hn::Set(D{}, how.bias)), hn::Set(D{}, static_cast<std::uint32_t>(how.dropped)));
 }
 
 /// A product of 64 bits narrowed; it is known to fit 32 bits then.
@@ -47,19 +49,22 @@ V factor(const SampleTables& tables, V tau) {
   return hn::Sub(near, narrowed(hn::Mul(hn::Sub(near, far), rest), tables.plan.fall));
 }
 
-template <bool kExponential>
-void composite(const SampleTables& tables, std::span<const SplatJob> jobs, std::uint32_t* picture, std::size_t row,
-               SampleCounts& counts) {
-  const D d;
-  const SamplePlan& plan = tables.plan;
-  const Spread<D> spread;
-  constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(std::uint32_t), kEach = Spread<D>::kVectors;
-  const V zero = hn::Zero(d), one = hn::Set(d, plan.one), most = hn::Set(d, plan.most);
-  const V freeze = hn::Set(d, plan.freeze_below);
-  HWY_ALIGN static constexpr std::uint32_t kTake[4] = {0, 0, 0, ~0U};
-  const V take = hn::LoadDup128(d, kTake);  // from transmittance, where others add
-  V frozen = zero, opaque = zero, bright = zero;
-  for (const SplatJob& job : jobs) {
+/// How products become slabs: additive ones as they are where no bit comes or goes.
+enum class Rule { Same, Added, Exponential };
+
+class Compositor {
+ public:
+  explicit Compositor(const SampleTables& tables)
+      : tables_(tables),
+        one_(hn::Set(D{}, tables.plan.one)),
+        most_(hn::Set(D{}, tables.plan.most)),
+        freeze_(hn::Set(D{}, tables.plan.freeze_below)) {}
+
+  /// kSmall: no slab of the job is 1.0.
+  template <Rule kRule, bool kSmall>
+  void draw(const SplatJob& job, std::uint32_t* picture, std::size_t row) {
+    const D d;
+    constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(std::uint32_t), kEach = Spread<D>::kVectors;
     HWY_ALIGN const std::uint32_t words[4] = {job.colour[0], job.colour[1], job.colour[2], job.colour[3]};
     const V colour = hn::LoadDup128(d, words);
     const std::size_t vectors = (job.columns * std::size_t{4} + kLanes - 1) / kLanes, pitch = pitch_of(job.columns);
@@ -69,38 +74,79 @@ void composite(const SampleTables& tables, std::span<const SplatJob> jobs, std::
       for (std::size_t v = 0; v < vectors; ++v) {
         const auto eight =
             hn::BitCast(d, hn::LoadDup128(hn::Repartition<std::uint16_t, D>{}, weights + 8 * (v / kEach)));
-        const V weight = spread(eight, v % kEach);
-        const auto weighted = hn::Ne(weight, zero);
+        const V weight = spread_(eight, v % kEach);
+        const auto weighted = hn::Ne(weight, hn::Zero(d));
         if (hn::AllFalse(d, weighted)) continue;
-        const V product = narrowed(hn::Mul(colour, weight), plan.product);
-        const V slab = kExponential ? narrowed_product(product, factor(tables, hn::Broadcast<3>(product)), plan.slab)
-                                    : narrowed(hn::ShiftLeftSame(product, plan.grown), plan.added);
-        opaque = hn::Sub(opaque, hn::VecFromMask(d, hn::Gt(slab, one)));
+        const V slab = this->slab<kRule>(narrowed(hn::Mul(colour, weight), tables_.plan.product));
         const V before = hn::LoadU(d, out + v * kLanes), seen = hn::Broadcast<3>(before);
-        const auto closed = hn::Lt(seen, freeze);
-        frozen = hn::Sub(frozen, hn::VecFromMask(d, hn::And(closed, weighted)));
-        // 1.0 times transmittance is transmittance, and does not fit a lane.
-        const V light =
-            hn::IfThenElse(hn::Eq(hn::Min(slab, one), one), seen, narrowed(hn::Mul(seen, slab), plan.light));
+        const auto closed = hn::Lt(seen, freeze_);
+        frozen_ = hn::Sub(frozen_, hn::VecFromMask(d, hn::And(closed, weighted)));
+        V light = narrowed(hn::Mul(seen, slab), tables_.plan.light);
+        if constexpr (!kSmall) {
+          opaque_ = hn::Sub(opaque_, hn::VecFromMask(d, hn::Gt(slab, one_)));
+          // 1.0 times transmittance is transmittance, and does not fit a lane.
+          light = hn::IfThenElse(hn::Eq(hn::Min(slab, one_), one_), seen, light);
+        }
         const V shown = hn::IfThenZeroElse(closed, light);
-        const V after = hn::Add(before, hn::Sub(hn::Xor(shown, take), take));
-        bright = hn::Sub(bright, hn::VecFromMask(d, hn::Gt(after, most)));
-        hn::StoreU(hn::Min(after, most), d, out + v * kLanes);
+        const V after = hn::Add(before, hn::Sub(hn::Xor(shown, take()), take()));
+        bright_ = hn::Sub(bright_, hn::VecFromMask(d, hn::Gt(after, most_)));
+        hn::StoreU(hn::Min(after, most_), d, out + v * kLanes);
       }
     }
   }
-  const auto sum = [&](V lanes) { return std::uint64_t{hn::GetLane(hn::SumOfLanes(d, lanes))}; };
-  counts.frozen += sum(hn::And(frozen, take));
-  counts.opacity_saturated += sum(opaque);
-  counts.composite_saturated += sum(bright);
-}
+  template <Rule kRule>
+  void draw(std::span<const SplatJob> jobs, std::uint32_t* picture, std::size_t row) {
+    for (const SplatJob& job : jobs) {
+      if (is_small(job))
+        draw<kRule, true>(job, picture, row);
+      else
+        draw<kRule, false>(job, picture, row);
+    }
+  }
+  void count(SampleCounts& counts) const {
+    const auto sum = [](V lanes) { return std::uint64_t{hn::GetLane(hn::SumOfLanes(D{}, lanes))}; };
+    counts.frozen += sum(hn::And(frozen_, take()));
+    counts.opacity_saturated += sum(opaque_);
+    counts.composite_saturated += sum(bright_);
+  }
+
+ private:
+  /// ~0 where light is taken, from transmittance, 0 where it is added.
+  static V take() {
+    HWY_ALIGN static constexpr std::uint32_t kTake[4] = {0, 0, 0, ~0U};
+    return hn::LoadDup128(D{}, kTake);
+  }
+  template <Rule kRule>
+  V slab(V product) const {
+    const SamplePlan& plan = tables_.plan;
+    if constexpr (kRule == Rule::Same) return product;
+    if constexpr (kRule == Rule::Added) return narrowed(hn::ShiftLeftSame(product, plan.grown), plan.added);
+    return narrowed_product(product, factor(tables_, hn::Broadcast<3>(product)), plan.slab);
+  }
+  /// A slab's words are at most those of an additive one: factors are at most 1.0, and both are rounded alike.
+  bool is_small(const SplatJob& job) const {
+    const auto rounded = [](std::uint64_t value, const Rounded& how) { return (value + how.bias) >> how.dropped; };
+    const SamplePlan& plan = tables_.plan;
+    const std::uint64_t brightest = std::max({job.colour[0], job.colour[1], job.colour[2], job.colour[3]});
+    return rounded(rounded(brightest * tables_.heaviest, plan.product) << plan.grown, plan.added) < plan.one;
+  }
+
+  const SampleTables& tables_;
+  const Spread<D> spread_;
+  const V one_, most_, freeze_;
+  V frozen_ = hn::Zero(D{}), opaque_ = hn::Zero(D{}), bright_ = hn::Zero(D{});
+};
 
 void samples(const SampleTables& tables, bool exponential, std::span<const SplatJob> jobs, std::uint32_t* picture,
              std::size_t row, SampleCounts& counts) {
+  Compositor compositor(tables);
   if (exponential)
-    composite<true>(tables, jobs, picture, row, counts);
+    compositor.draw<Rule::Exponential>(jobs, picture, row);
+  else if (tables.plan.grown == 0 && tables.plan.added.dropped == 0)
+    compositor.draw<Rule::Same>(jobs, picture, row);
   else
-    composite<false>(tables, jobs, picture, row, counts);
+    compositor.draw<Rule::Added>(jobs, picture, row);
+  compositor.count(counts);
 }
 
 #endif

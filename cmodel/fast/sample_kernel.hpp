@@ -15,6 +15,7 @@ namespace fastsplat::cmodel::fast {
 struct SampleTables {
   SamplePlan plan;
   std::vector<std::uint32_t> factor;  ///< G+1 words One.of
+  std::uint32_t heaviest = 0;         ///< no weight is larger, shifted as they are
 };
 
 /// What samples add to the counters of the same names.

@@ -1,6 +1,7 @@
 // docs/gallery.md is what docs/gallery.toml generates, its pictures are there and small, its commands run.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <regex>
 #include <sstream>
 
@@ -79,12 +80,18 @@ TEST(Gallery, EveryCommandRunsAndIsWhatItsPictureWasMadeBy) {
   const TempFolder folder;
   const bool scans = fastsplat({"volume", "info", "ch2bet"}).code == 0;
   const auto page = read_bytes(kRoot / "docs/gallery.md");
-  const auto commands = all_in(page, "`fastsplat (render [^`]+)`");
+  const auto commands = all_in(page, "`fastsplat ((?:render|compare) [^`]+)`");
   const auto pictures = all_in(page, R"(\]\((images/gallery/[^)]+)\))");
   ASSERT_EQ(commands.size(), pictures.size());
-  int ran = 0, skipped = 0;
+  int ran = 0, skipped = 0, differences = 0;
   for (std::size_t i = 0; i < commands.size(); ++i) {
     const std::string& command = commands[i];
+    if (command.starts_with("compare ")) {  // of two pictures of this page
+      ++differences;
+      for (const std::string& name : all_in(command, R"(([^ ]+)\.exr)"))
+        EXPECT_NE(std::ranges::find(pictures, "images/gallery/" + name + ".png"), pictures.end()) << command;
+      continue;
+    }
     if (!scans && command.find("ch2") != std::string::npos) {
       ++skipped;
       continue;
@@ -106,9 +113,10 @@ TEST(Gallery, EveryCommandRunsAndIsWhatItsPictureWasMadeBy) {
     }
     ++ran;
   }
-  std::printf("[figure] gallery_commands = %d (limit > 0)%s\n", ran,
+  std::printf("[figure] gallery_commands = %d (limit > 0), differences = %d%s\n", ran, differences,
               skipped > 0 ? ", those on mricron-data's scans skipped: package not installed" : "");
   ASSERT_GT(ran, 0);
+  EXPECT_GT(differences, 0);
 }
 
 TEST(GalleryMustFail, AManifestWithAMistakeIsToldWhere) {

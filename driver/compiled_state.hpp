@@ -94,6 +94,7 @@ struct CompiledFrame::State {
 
   State(const scene::Scene& scene, const cmodel::Config& device, int threads, int band_rows);
 
+  int rim() const { return cmodel::holds_densities(mode) ? 1 : 0; }  ///< pixels around a tile that its sheets hold
   bool sliced() const { return plan.use == scene::SheetUse::Sliced; }
   bool shaped() const { return !projected.ellipses.empty(); }
   int first_sheet(std::uint32_t number) const {

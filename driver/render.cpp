@@ -13,6 +13,7 @@
 #include "cmodel/fast/tile_unit.hpp"
 #include "cmodel/model.hpp"
 #include "driver/compile.hpp"
+#include "driver/density_tables.hpp"
 #include "driver/frame_sink.hpp"
 #include "driver/splat_quantiser.hpp"
 
@@ -129,9 +130,10 @@ UnitReport& operator+=(UnitReport& report, const UnitReport& tile) {
 DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, const RenderOptions& options) {
   const char* why_plain = nullptr;
   const bool shaped = draws_ellipses(scene, config);
-  const char* no_circles_in_sheets = shaped                            ? "splats are ellipses"
-                                     : every_sample(scene.description) ? "every sample is composited"
-                                                                       : nullptr;
+  const char* no_circles_in_sheets = shaped                               ? "splats are ellipses"
+                                     : every_sample(scene.description)    ? "every sample is composited"
+                                     : holds_densities(scene.description) ? "densities are classified by pixel"
+                                                                          : nullptr;
   const bool fast =
       options.unit == Unit::Fast && no_circles_in_sheets == nullptr && cmodel::fast::fast_plan(config, &why_plain);
   if (options.unit == Unit::Fast && no_circles_in_sheets != nullptr) why_plain = no_circles_in_sheets;

@@ -23,6 +23,8 @@ const scene::Scene& drawable(const scene::Scene& scene, const cmodel::Config& co
   if (config.composite_every_sample != 0) offers.engine = "error attribution";
   offers.methods &= ~scene::only(scene::Method::Westover);
   offers.methods_elsewhere = 0u;
+  offers.features &= ~static_cast<unsigned>(scene::Feature::Densities);
+  offers.densities_fix = nullptr;
   scene::check_capability(scene, offers);
   return scene;
 }

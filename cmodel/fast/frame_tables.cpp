@@ -69,6 +69,12 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
         opacity.load(table->words);
         excess = opacity_excess(config, table->words);
         break;
+      case Table::Classify:
+      case Table::Root:
+      case Table::Glint:
+      case Table::Lighting:
+      case Table::Sheets:
+        return none("densities are classified by pixel");
     }
   }
   FrameTables out{.config = config,

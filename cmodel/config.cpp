@@ -138,6 +138,14 @@ constexpr std::array kKeys{
               .power_of_two = false,
               .meaning = "1: a weight lies on the straight line between two entries of the radial table",
               .neutral = 0},
+    ConfigKey{
+        .name = "classify.segment_bits",
+        .member = &Config::classify_segment_bits,
+        .min = 0,
+        .max = 12,
+        .power_of_two = false,
+        .meaning = "log2 of the transfer function's segments in a device that classifies densities by pixel; 0: none",
+        .neutral = 0},
 };
 
 ErrorParts violation(const char* key, std::string what, std::string expected, int got, std::string fix) {
@@ -227,6 +235,35 @@ std::optional<ErrorParts> interpolation_violation(const Config& config) {
     return violation("rlut.guard_bits", "leaves nothing between two radial entries to interpolate over",
                      "at least 1 with radial.interpolate = 1", config.rlut_guard_bits,
                      "raise rlut.guard_bits, or use radial.interpolate = 0");
+  }
+  return std::nullopt;
+}
+
+/// Limits of classification by pixel (docs/numerics.md, section 6.2).
+std::optional<ErrorParts> classify_violation(const Config& config) {
+  if (!config.classifies()) return std::nullopt;
+  const char* key = "classify.segment_bits";
+  if (config.sheet_frac_bits > 16 || config.sheet_int_bits + config.sheet_frac_bits > 18) {
+    return violation("sheet.frac_bits", "makes density words wider than gradients are made of",
+                     "frac_bits <= 16 and int_bits + frac_bits <= 18 with classify.segment_bits",
+                     config.sheet_frac_bits, "lower sheet.frac_bits, or use classify.segment_bits = 0");
+  }
+  if (config.classify_rest_bits() < 0) {
+    return violation(key, "has more segments than densities have words below 1",
+                     "at most sheet.frac_bits = " + std::to_string(config.sheet_frac_bits),
+                     config.classify_segment_bits, "lower classify.segment_bits");
+  }
+  if (config.tile_width < 3 || config.tile_height < 3) {
+    return violation(config.tile_width < 3 ? "tile.width" : "tile.height", "has no room for a rim of densities",
+                     "at least 3 with classify.segment_bits", std::min(config.tile_width, config.tile_height),
+                     "use larger tiles, or classify.segment_bits = 0");
+  }
+  if (config.culls()) {
+    return ErrorParts{.where = "cull.map",
+                      .what = "leaves out splats whose densities a neighbour's gradient would miss",
+                      .expected = "off with classify.segment_bits",
+                      .got = kCullMaps[config.cull_map],
+                      .fix = "use cull.map = off, or classify.segment_bits = 0"};
   }
   return std::nullopt;
 }
@@ -403,6 +440,7 @@ std::optional<ErrorParts> first_violation(const Config& config) {
   }
   if (auto found = index_violation(config)) return found;
   if (auto found = interpolation_violation(config)) return found;
+  if (auto found = classify_violation(config)) return found;
   return ellipse_violation(config);
 }
 

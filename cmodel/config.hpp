@@ -79,7 +79,8 @@ struct Config {
   int counter_bits = 64;
   int composite_every_sample = 0;  ///< 1: a tile may ask for every sample to be composited
   int cull_map = static_cast<int>(CullMap::Off);
-  int radial_interpolate = 0;  ///< 1: weights lie on straight lines between entries
+  int radial_interpolate = 0;     ///< 1: weights lie on straight lines between entries
+  int classify_segment_bits = 0;  ///< log2 Q; 0: densities are not classified
 
   bool operator==(const Config&) const = default;
 
@@ -102,6 +103,10 @@ struct Config {
   std::int64_t rlut_rim() const { return std::int64_t{1} << (radial_index_bits() + rlut_guard_bits); }
   /// Low bits of a sheet word that interpolate within one segment of the slab factor table (b in numerics.md).
   int opacity_remainder_bits() const { return sheet_int_bits + sheet_frac_bits - log2_exact(opacity_segments); }
+  /// A tile's sheets may hold densities, which are classified and shaded pixel by pixel.
+  bool classifies() const { return classify_segment_bits > 0; }
+  /// Low bits of a density within one segment of CLASSIFY.
+  int classify_rest_bits() const { return sheet_frac_bits - classify_segment_bits; }
   bool has_ellipses() const { return ellipse_frac_bits > 0; }
   /// q of an ellipse, in steps of 2^-g radial table entries with f fraction bits: up to 512 P^2 times the rim.
   Format ellipse_format() const {

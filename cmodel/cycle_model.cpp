@@ -17,6 +17,13 @@ std::uint64_t wipe_cycles(const Config& config) {
 }
 
 std::optional<ErrorParts> cycle_violation(const Config& config) {
+  if (config.classifies()) {
+    return ErrorParts{.where = "classify.segment_bits",
+                      .what = "cycles of sheets of densities are not known yet",
+                      .expected = "0",
+                      .got = std::to_string(config.classify_segment_bits),
+                      .fix = "use classify.segment_bits = 0; render and replay do without cycles"};
+  }
   if (config.has_phases()) return std::nullopt;  // a window a cycle, like the RLUT's
   return ErrorParts{.where = "index.kind",
                     .what = "goes along scan lines, and cycles are counted for all P x P pixels at once",

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "cmodel/classify_unit.hpp"
 #include "cmodel/compositor.hpp"
 #include "cmodel/config.hpp"
 #include "cmodel/cull_log.hpp"
 #include "cmodel/cull_sets.hpp"
 #include "cmodel/cull_unit.hpp"
+#include "cmodel/density_ring.hpp"
 #include "cmodel/device.hpp"
 #include "cmodel/ellipse_unit.hpp"
 #include "cmodel/observers.hpp"
@@ -65,6 +67,12 @@ class Model final : public Device {
   void samples(const Record& record, std::int32_t x, std::int32_t y, Observer& observer);
   template <class Observer>
   void end_sheet(Observer& observer);
+  /// Modes of densities: the waiting sheet, between its neighbours, into the picture.
+  template <class Observer>
+  void classify(const DensitySheet& before, const DensitySheet& here, const DensitySheet& behind, Observer& observer);
+  /// Right less left of pixel (x,y) of the tile, below less above, behind less before.
+  DensitySlope slope(const DensitySheet& before, const DensitySheet& here, const DensitySheet& behind, int x,
+                     int y) const;
   template <class Observer>
   void end_tile(Observer& observer);
   void tap(Tap kind, std::uint32_t tag, std::int32_t x, std::int32_t y, std::span<const std::uint32_t> payload) const;
@@ -80,6 +88,8 @@ class Model final : public Device {
   RadialTable radial_;  ///< the ellipses'
   SheetBuffer sheet_;
   Lane lane_;  ///< of every sample
+  DensityRing ring_;
+  ClassifyUnit classify_;
   Compositor compositor_;
   PixelOut pixel_out_;
   CullUnit cull_;
@@ -91,7 +101,9 @@ class Model final : public Device {
   PixelSink& pixels_;
   TapSink* taps_;
   Ranges* ranges_;
+  BeginFrame frame_;
   BeginTile tile_;
+  int rim_ = 0;  ///< pixels around the tile that its sheets hold
   std::uint32_t sheet_number_ = 0;
   std::vector<std::uint32_t> weights_;  ///< of the window in flight, P*P
   std::vector<std::uint32_t> scratch_;  ///< a tap's payload, P*P*4

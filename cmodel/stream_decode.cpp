@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
+#include "cmodel/classify_tables.hpp"
 #include "cmodel/cull_unit.hpp"
 #include "cmodel/ellipse_rule.hpp"
 #include "cmodel/ellipse_unit.hpp"
@@ -15,6 +16,9 @@ namespace {
 
 std::string at_least(std::int64_t bound) { return "at least " + std::to_string(bound); }
 std::string at_most(std::int64_t bound) { return "at most " + std::to_string(bound); }
+
+/// Bits of the tables of densities.
+constexpr std::uint32_t kClassifyTables = 0xF8;
 
 std::string hex(std::uint32_t word) { return "0x" + hash_text(word).substr(8); }
 std::string hex_byte(std::uint32_t byte) { return "0x" + hash_text(byte).substr(14); }
@@ -127,8 +131,9 @@ void StreamDecode::check(const BeginFrame& record, const Beat& beat) {
 void StreamDecode::check(const LoadTable& header, std::uint32_t words) {
   rule_ = StreamRule::Table;
   std::int64_t expected_words = 0;
-  if (header.table > Table::Factor)
-    refuse("unknown table", "0, 1 or 2", std::to_string(static_cast<int>(header.table)));
+  if (header.table > (config_.classifies() ? kLastTable : Table::Factor))
+    refuse("unknown table", config_.classifies() ? "0 to 7" : "0, 1 or 2",
+           std::to_string(static_cast<int>(header.table)));
   if (header.table != Table::Rlut) {
     expect(header.radius.set == 0, "set of a table that has none", 0, header.radius.set);
     expect(header.radius.rho == 0, "rho of a table that has none", 0, header.radius.rho);
@@ -159,6 +164,16 @@ void StreamDecode::check(const LoadTable& header, std::uint32_t words) {
     case Table::Factor:
       expected_words = std::int64_t{config_.opacity_segments} + 1;
       break;
+    case Table::Classify:
+    case Table::Root:
+    case Table::Glint:
+    case Table::Lighting:
+      expected_words = classify_words(config_, header.table);
+      break;
+    case Table::Sheets:  // as many as the frame has
+      expect_least(words, classify::kSheetWords, "scales of no sheet");
+      expected_words = words - words % classify::kSheetWords;
+      break;
   }
   expect(words == expected_words, "wrong number of table words", expected_words, words);
   words_left_ = words;
@@ -178,6 +193,12 @@ const Record* StreamDecode::payload(const Beat& beat) {
     case Table::Factor:
       range.most = config_.factor_format().max;
       break;
+    case Table::Classify:
+    case Table::Root:
+    case Table::Glint:
+    case Table::Lighting:
+    case Table::Sheets:
+      break;  // of each word its own
   }
   for (const std::uint32_t word : beat) {
     if (words_left_ == 0) {
@@ -185,6 +206,7 @@ const Record* StreamDecode::payload(const Beat& beat) {
       continue;
     }
     if (table.table == Table::Rlut) range = set_word_range(config_, table.words.size());
+    if (table.table > Table::Factor) range = classify_word_range(config_, table.table, table.words.size());
     if (range.least < 0) {
       expect_within(static_cast<std::int32_t>(word), range.least, range.most, "table word out of range");
     } else {
@@ -192,6 +214,11 @@ const Record* StreamDecode::payload(const Beat& beat) {
     }
     if (table.table == Table::Factor && !table.words.empty())
       expect_most(word, table.words.back(), "slab factor table rises");
+    if (table.table == Table::Sheets && table.words.size() % classify::kSheetWords == 0) {
+      const std::uint32_t most = std::uint32_t{1} << classify::kScale;
+      expect_most(word & 0xFFFFU, most, "scale of differences too large");
+      expect_most(word >> 16, most, "scale of differences too large");
+    }
     table.words.push_back(word);
     --words_left_;
   }
@@ -207,6 +234,9 @@ const Record* StreamDecode::payload(const Beat& beat) {
   }
   if (table.table == Table::Radial) radial_loaded_ = true;
   if (table.table == Table::Factor) factor_loaded_ = true;
+  if (table.table > Table::Factor) classify_loaded_ |= 1U << static_cast<unsigned>(table.table);
+  if (table.table == Table::Sheets)
+    scaled_sheets_ = static_cast<std::uint32_t>(table.words.size() / classify::kSheetWords);
   return &record_;
 }
 
@@ -214,13 +244,22 @@ void StreamDecode::check(const BeginTile& record) {
   rule_ = StreamRule::Loaded;
   if (!radial_loaded_) refuse("no radial table before the first tile", "load_table 1", "begin_tile");
   if (!factor_loaded_) refuse("no slab factor table before the first tile", "load_table 2", "begin_tile");
+  const bool densities = config_.classifies() && holds_densities(record.mode);
+  if (densities && classify_loaded_ != kClassifyTables)
+    refuse("a table of densities is missing before the first tile of them", "load_table 3 to 7", "begin_tile");
   rule_ = StreamRule::Tile;
-  if (record.mode > Mode::Sum && !(config_.composite_every_sample != 0 && every_sample(record.mode)))
-    refuse("unknown mode", config_.composite_every_sample != 0 ? "0, 1, 2, 4 or 5" : "0, 1 or 2",
+  if (record.mode > Mode::Sum && !(config_.composite_every_sample != 0 && every_sample(record.mode)) && !densities)
+    refuse("unknown mode",
+           std::string("0, 1") + (config_.composite_every_sample != 0 ? ", 2, 4" : "") +
+               (config_.classifies() ? ", 8" : "") + " or " +
+               (config_.classifies()                  ? "9"
+                : config_.composite_every_sample != 0 ? "5"
+                                                      : "2"),
            std::to_string(static_cast<int>(record.mode)));
   expect_most(std::int64_t{record.tile} + 1, frame_.tiles, "more tiles than announced");
-  expect_within(record.width, 1, config_.tile_width, "tile width");
-  expect_within(record.height, 1, config_.tile_height, "tile height");
+  const int rim = densities ? 2 : 0;  // a pixel of each side
+  expect_within(record.width, 1, config_.tile_width - rim, "tile width");
+  expect_within(record.height, 1, config_.tile_height - rim, "tile height");
   expect_least(record.x, 0, "tile begins outside the image in x");
   expect_least(record.y, 0, "tile begins outside the image in y");
   const std::int64_t end_x = std::int64_t{record.x} + record.width, end_y = std::int64_t{record.y} + record.height;
@@ -241,6 +280,8 @@ void StreamDecode::check(const BeginSheet& record) {
   rule_ = StreamRule::Sheet;
   if (sheets_seen_ > 0 && record.sheet <= sheet_)
     refuse("sheet numbers must rise", "more than " + std::to_string(sheet_), std::to_string(record.sheet));
+  if (holds_densities(in_.mode))
+    expect_most(std::int64_t{record.sheet} + 1, scaled_sheets_, "sheet without scales in load_table 7");
   sheet_ = record.sheet;
   ++sheets_seen_;
   splats_seen_ = 0;

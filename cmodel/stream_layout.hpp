@@ -21,14 +21,33 @@ enum class Opcode : std::uint8_t {
   EndFrame = 0x66,
 };
 
-enum class Table : std::uint8_t { Rlut = 0, Radial = 1, Factor = 2 };
-/// What a tile does with sums: of a sheet, or (bit 2) with the products of every window.
-enum class Mode : std::uint8_t { Exponential = 0, Additive = 1, Sum = 2, SampleExponential = 4, SampleAdditive = 5 };
+/// From Classify on of a device that classifies densities.
+enum class Table : std::uint8_t {
+  Rlut = 0,
+  Radial = 1,
+  Factor = 2,
+  Classify = 3,
+  Root = 4,
+  Glint = 5,
+  Lighting = 6,
+  Sheets = 7
+};
+inline constexpr Table kLastTable = Table::Sheets;
+/// What a tile does with sums: of a sheet, or (bit 2) with the products of every window; (bit 3) the sums are
+/// densities.
+enum class Mode : std::uint8_t {
+  Exponential = 0,
+  Additive = 1,
+  Sum = 2,
+  SampleExponential = 4,
+  SampleAdditive = 5,
+  DensityExponential = 8,
+  DensityAdditive = 9
+};
 constexpr bool every_sample(Mode mode) { return mode == Mode::SampleExponential || mode == Mode::SampleAdditive; }
+constexpr bool holds_densities(Mode mode) { return mode == Mode::DensityExponential || mode == Mode::DensityAdditive; }
 /// Exponential, Additive or Sum.
-constexpr Mode slab_mode(Mode mode) {
-  return every_sample(mode) ? static_cast<Mode>(static_cast<unsigned>(mode) & 3U) : mode;
-}
+constexpr Mode slab_mode(Mode mode) { return static_cast<Mode>(static_cast<unsigned>(mode) & 3U); }
 
 constexpr std::uint32_t kStreamMagic = 0x31535346;  // "FSS1"
 constexpr int kStreamVersion = 2;

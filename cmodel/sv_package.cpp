@@ -75,6 +75,9 @@ std::optional<ErrorParts> rtl_violation(const Config& config) {
                       .got = "1",
                       .fix = "use the model for this configuration"};
   }
+  if (config.classifies()) {
+    return refuse("classify.segment_bits", "the RTL has no sheets of densities", "0", config.classify_segment_bits);
+  }
   if (config.culls() && config.has_ellipses()) {
     return ErrorParts{.where = "cull.map",
                       .what = "the RTL walks an ellipse's windows one by one and can leave none out",

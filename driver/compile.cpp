@@ -10,6 +10,7 @@
 #include "cmodel/records.hpp"
 #include "driver/beat_writer.hpp"
 #include "driver/compiled_state.hpp"
+#include "driver/density_tables.hpp"
 #include "driver/index_tables.hpp"
 #include "driver/tables.hpp"
 #include "scene/capability.hpp"
@@ -21,12 +22,15 @@ namespace {
 cmodel::Mode mode_of(const scene::SceneDescription& description) {
   if (description.method == scene::Method::XRay) return cmodel::Mode::Sum;
   const bool exponential = description.slab_opacity == scene::SlabOpacity::Exponential;
+  if (holds_densities(description))
+    return exponential ? cmodel::Mode::DensityExponential : cmodel::Mode::DensityAdditive;
   if (every_sample(description)) return exponential ? cmodel::Mode::SampleExponential : cmodel::Mode::SampleAdditive;
   return exponential ? cmodel::Mode::Exponential : cmodel::Mode::Additive;
 }
 
 const cmodel::Config& checked(const scene::Scene& scene, const cmodel::Config& device) {
   scene::check_capability(scene, offers(device));
+  check_densities(scene);
   return device;
 }
 
@@ -45,7 +49,7 @@ CompiledFrame::State::State(const scene::Scene& scene, const cmodel::Config& dev
       plan(plan_for_device(scene)),
       slices(frame_slices(device, scene, plan)),
       projected(project(scene, device, slices, plan, threads)),
-      grid(device, scene.description.width, scene.description.height),
+      grid(device, scene.description.width, scene.description.height, holds_densities(scene.description) ? 1 : 0),
       bands(grid, band_rows > 0 && !device.culls() ? (band_rows + device.lanes - 1) / device.lanes * device.lanes
                                                    : device.tile_height),
       windows(device, projected.sets),
@@ -66,7 +70,8 @@ TileBins CompiledFrame::State::make_bins(int threads) const {
   return TileBins(
       grid, bands, cells, plan.slabs.count, splats.size(), threads,
       [&](std::size_t i) {
-        return splats[i].set == kOwnShape ? windows(splats[i], projected.ellipses[i].shape) : windows(splats[i]);
+        return grown(splats[i].set == kOwnShape ? windows(splats[i], projected.ellipses[i].shape) : windows(splats[i]),
+                     rim());
       },
       [&](std::size_t i) { return first_sheet(static_cast<std::uint32_t>(i)); });
 }
@@ -80,6 +85,8 @@ void CompiledFrame::State::make_preamble(const scene::Scene& scene) {
     cmodel::append(preamble,
                    set_table(config, scene.kernel, set, projected.sets.radius(set), projected.sets.base(set)));
   }
+  if (!holds_densities(scene.description)) return;
+  for (cmodel::LoadTable& table : density_tables(config, scene, plan.slabs)) cmodel::append(preamble, std::move(table));
 }
 
 std::uint32_t CompiledFrame::State::emit_sheet(int tile, int sheet, std::uint32_t& tag, cmodel::RecordSink& out,
@@ -129,11 +136,13 @@ scene::Offers offers(const cmodel::Config& config) {
                     .features = 0u,
                     .footprints_fix = "choose a configuration with ellipses, ",
                     .methods_elsewhere = only(Method::Westover),
-                    .methods_fix = "set composite.every_sample = 1, "};
+                    .methods_fix = "set composite.every_sample = 1, ",
+                    .densities_fix = "set classify.segment_bits = 9, "};
   if (config.has_ellipses()) {
     out.engine = "device with ellipses";
     out.features = static_cast<unsigned>(scene::Feature::Footprints);
   }
+  if (config.classifies()) out.features |= static_cast<unsigned>(scene::Feature::Densities);
   if (config.composite_every_sample != 0) out.methods |= only(Method::Westover);
   return out;
 }

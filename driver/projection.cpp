@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel/parallel.hpp"
+#include "driver/density_tables.hpp"
 
 namespace fastsplat::driver {
 namespace {
@@ -143,7 +144,8 @@ Projected project(const scene::Scene& scene, const cmodel::Config& config, const
                   const scene::SheetPlan& plan, int threads) {
   Projected out{.splats = {}, .ellipses = {}, .sets = radius_sets(scene, config)};
   const SplatQuantiser quantised(scene, config, out.sets, slices, plan);
-  const scene::Traversal traversal(scene);
+  const scene::Traversal traversal(
+      scene, holds_densities(scene.description) ? scene::SplatKind::Densities : scene::SplatKind::Colours);
   out.carried = quantised.carries();
   const bool shaped = draws_ellipses(scene, config);
 

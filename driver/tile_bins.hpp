@@ -17,8 +17,12 @@ namespace fastsplat::driver {
 struct TileGrid {
   int image_width = 0, image_height = 0, tile_width = 0, tile_height = 0;
 
-  TileGrid(const cmodel::Config& config, int width, int height)
-      : image_width(width), image_height(height), tile_width(config.tile_width), tile_height(config.tile_height) {}
+  /// `rim`: pixels on each side that a device's tile holds beyond those of the picture.
+  TileGrid(const cmodel::Config& config, int width, int height, int rim = 0)
+      : image_width(width),
+        image_height(height),
+        tile_width(config.tile_width - 2 * rim),
+        tile_height(config.tile_height - 2 * rim) {}
   int columns() const { return (image_width + tile_width - 1) / tile_width; }
   int rows() const { return (image_height + tile_height - 1) / tile_height; }
   int count() const { return columns() * rows(); }
@@ -58,6 +62,11 @@ class Bands {
 struct Extent {
   std::int32_t x0 = 0, x1 = 0, y0 = 0, y1 = 0, window_end = 0;
 };
+
+/// What touches these pixels or those around them.
+inline Extent grown(const Extent& e, int rim) {
+  return {e.x0 - rim, e.x1 + rim, e.y0 - rim, e.y1 + rim, e.window_end + rim};
+}
 
 /// A tile cut into square cells, row by row, for sets of splats (docs/numerics.md, section 8); one cell: no sets.
 class Cells {

@@ -47,9 +47,11 @@ std::optional<ErrorParts> refusal(const SceneDescription& description, const Off
     if (!row.on(description)) continue;
     if (auto wrong = contradiction(row, description)) return wrong;
     if (static_cast<unsigned>(row.feature) & ~offers.features) {
-      const bool elsewhere = row.feature == Feature::Footprints && offers.footprints_fix != nullptr;
+      const char* elsewhere = row.feature == Feature::Footprints  ? offers.footprints_fix
+                              : row.feature == Feature::Densities ? offers.densities_fix
+                                                                  : nullptr;
       return parts(row.key, fmt::format("the {} does not have this technique", offers.engine),
-                   fmt::format("{}use --engine golden, or turn it off", elsewhere ? offers.footprints_fix : ""));
+                   fmt::format("{}use --engine golden, or turn it off", elsewhere != nullptr ? elsewhere : ""));
     }
   }
   if (offers.methods & only(description.method)) return std::nullopt;

@@ -20,7 +20,7 @@ constexpr Methods only(Method method) { return 1u << static_cast<unsigned>(metho
 inline constexpr Methods kAllMethods = (1u << 5) - 1;
 
 /// What an engine must have beyond circles of the splats' own scale that are added into sheets.
-enum class Feature : unsigned { None, Footprints = 1, Pixels = 2, Freezing = 4, Details = 8 };
+enum class Feature : unsigned { None, Footprints = 1, Pixels = 2, Freezing = 4, Details = 8, Densities = 16 };
 
 /// What an engine has.
 struct Offers {
@@ -30,8 +30,9 @@ struct Offers {
   const char* footprints_fix = nullptr;  ///< how to have Feature::Footprints, where another of its kind has it
   Methods methods_elsewhere = 0u;        ///< methods that another of its kind has, and how to have it
   const char* methods_fix = "";
+  const char* densities_fix = nullptr;  ///< how to have Feature::Densities, likewise
 };
-inline constexpr Offers kOffersAll{"golden", kAllMethods, 15u};
+inline constexpr Offers kOffersAll{"golden", kAllMethods, 31u};
 
 /// What a scene has or has not, in the order in which an engine is asked for it: rows of the table. Not all are
 /// techniques; the last are what techniques need.

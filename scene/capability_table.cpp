@@ -134,7 +134,7 @@ constexpr std::array kRows{
                  .methods = kImage,
                  .no_method = kNoPixels,
                  .method_fix = kImageFix,
-                 .feature = Feature::Pixels,
+                 .feature = Feature::Densities,
                  .excludes = kPostExcludes},
     TechniqueRow{
         .technique = Technique::GradientSplats,

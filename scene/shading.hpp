@@ -16,6 +16,8 @@ class Shader {
  public:
   Shader(const Shading& shading, const Camera& camera, const volume::Volume& volume);
 
+  const glm::vec3& light() const { return light_; }  ///< world, unit, towards the light
+  const glm::vec3& half() const { return half_; }    ///< world, unit, between light and eye
   /// Every channel of the result is in [0,1].
   glm::vec3 operator()(const glm::vec3& colour, int i, int j, int k) const;
   /// `slope` in value per mm, world.

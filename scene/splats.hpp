@@ -32,11 +32,16 @@ struct GridPart {
   int first_row = 0, end_row = 0;
 };
 
+/// What a voxel's splat carries: emission and extinction as the transfer function says; or, of every voxel above the
+/// volume's least value, as extinction how far above it lies, in parts of the range, over the slab's width W: such that
+/// a slab's sums are densities from 0 (the least value) to about 1 (the largest).
+enum class SplatKind { Colours, Densities };
+
 /// The same in parts, which may be visited by several threads at once.
 class Traversal {
  public:
   /// The scene outlives it.
-  explicit Traversal(const Scene& scene);
+  explicit Traversal(const Scene& scene, SplatKind kind = SplatKind::Colours);
   ~Traversal();
   /// Sheets of the grid, for those who want Splat::sheet.
   int slices() const;

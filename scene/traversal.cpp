@@ -47,18 +47,20 @@ struct Traversal::State {
   Classifier classify;
   Shader shade;
   std::array<Walk, 3> order;
+  SplatKind kind;
 
-  explicit State(const Scene& of)
+  State(const Scene& of, SplatKind what)
       : scene(of),
         classify(of.transfer_function, *of.volume),
         shade(of.shading, of.camera, *of.volume),
-        order(walk_order(of)) {}
+        order(walk_order(of)),
+        kind(what) {}
 
   template <class Each>
   void walk(const GridPart& part, Each each) const;
 };
 
-Traversal::Traversal(const Scene& scene) : state_(std::make_unique<const State>(scene)) {}
+Traversal::Traversal(const Scene& scene, SplatKind kind) : state_(std::make_unique<const State>(scene, kind)) {}
 Traversal::~Traversal() = default;
 
 int Traversal::slices() const { return state_->order[0].extent; }
@@ -73,6 +75,8 @@ void Traversal::State::walk(const GridPart& part, Each each) const {
   const std::array<Walk, 3> axes = order;
   const volume::Volume& volume = *scene.volume;
   const float opacity_scale = static_cast<float>(scene.description.opacity_scale);
+  const bool densities = kind == SplatKind::Densities;
+  const double density = 1.0 / ((static_cast<double>(volume.max) - volume.min) * scene.description.slab_width);
   glm::ivec3 at;
   for (int slice = part.first_slice; slice < part.end_slice; ++slice) {
     at[axes[0].axis] = axes[0].index(slice);
@@ -80,8 +84,10 @@ void Traversal::State::walk(const GridPart& part, Each each) const {
       at[axes[1].axis] = axes[1].index(row);
       for (int step = 0; step < axes[2].extent; ++step) {
         at[axes[2].axis] = axes[2].index(step);
-        const Material material = classifier(volume.at(at.x, at.y, at.z));
-        const float extinction = material.extinction * opacity_scale;
+        const float value = volume.at(at.x, at.y, at.z);
+        const Material material = densities ? Material{} : classifier(value);
+        const float extinction = densities ? static_cast<float>((static_cast<double>(value) - volume.min) * density)
+                                           : material.extinction * opacity_scale;
         if (extinction > 0.0f)
           each(at, slice, static_cast<std::uint32_t>(row * axes[2].extent + step), material, extinction);
       }
@@ -101,7 +107,7 @@ void Traversal::visit(const GridPart& part, const std::function<void(const Splat
   const volume::Volume& volume = *scene.volume;
   const Texture& texture = scene.description.texture;
   const bool textured = texture.kind != SolidKind::None && texture.where == TextureWhere::Voxel;
-  const bool shaded = scene.shading.on;
+  const bool shaded = scene.shading.on && state_->kind == SplatKind::Colours;
   state_->walk(part,
                [&](const glm::ivec3& at, int slice, std::uint32_t line, const Material& material, float extinction) {
                  const glm::dvec3 position = volume.position(at.x, at.y, at.z);

@@ -18,7 +18,11 @@ namespace {
 constexpr int kRows = 16;  ///< of a band: its sheets stay in the cache
 
 const scene::Scene& drawable(const scene::Scene& scene, const cmodel::Config& config) {
-  scene::check_capability(scene, driver::offers(config));
+  scene::Offers offers = driver::offers(config);
+  // Steps are of sheets of light.
+  offers.features &= ~static_cast<unsigned>(scene::Feature::Densities);
+  offers.densities_fix = nullptr;
+  scene::check_capability(scene, offers);
   return scene;
 }
 

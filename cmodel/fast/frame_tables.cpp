@@ -76,6 +76,12 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
         opacity.load(table->words);
         factor = table->words;
         break;
+      case Table::Classify:
+      case Table::Root:
+      case Table::Glint:
+      case Table::Lighting:
+      case Table::Sheets:
+        return none("densities are classified by pixel");
     }
   }
   const auto excess = factor.empty() ? std::nullopt : opacity_excess(config, factor);

@@ -193,6 +193,27 @@ const Between kBetween[] = {
        c.radial_interpolate = 1;
        c.index_kind = static_cast<int>(cmodel::IndexKind::Linear);
      }},
+    {"sheet.frac_bits", "18", "17",
+     [](cmodel::Config& c) {
+       c.classify_segment_bits = 9;
+       c.sheet_frac_bits = 17;
+       c.sheet_int_bits = 1;
+     }},
+    {"classify.segment_bits", "8", "9",
+     [](cmodel::Config& c) {
+       c.classify_segment_bits = 9;
+       c.sheet_frac_bits = 8;
+     }},
+    {"tile.width", "3", "2",
+     [](cmodel::Config& c) {
+       c.classify_segment_bits = 9;
+       c.lanes = c.tile_width = c.tile_height = 2;
+     }},
+    {"cull.map", "off", "block",
+     [](cmodel::Config& c) {
+       c.classify_segment_bits = 9;
+       c.cull_map = static_cast<int>(cmodel::CullMap::Block);
+     }},
     {"rlut.guard_bits", "1", "0",
      [](cmodel::Config& c) {
        c.radial_interpolate = 1;
@@ -270,7 +291,7 @@ TEST(ConfigSet, EveryKeyTakesItsTextAndGivesItBack) {
     }
   }
   std::printf("[figure] texts set and read back = %d\n", compared);
-  EXPECT_EQ(compared, 23 * 2 + 7 * 3 + 6 + 2 + 5 * 2 + 3);
+  EXPECT_EQ(compared, 23 * 2 + 7 * 3 + 6 + 2 + 6 * 2 + 3);
 }
 
 TEST(ConfigSet, WhatIsWrongIsToldAndNothingChanges) {
@@ -311,8 +332,8 @@ TEST(ConfigHash, ANeutralKeyDoesNotEnterItAndAnyOtherValueDoes) {
     }
   }
   std::printf("[figure] neutral keys = %d, hashes = %zu\n", neutral, hashes.size());
-  EXPECT_EQ(neutral, 15);
-  EXPECT_EQ(hashes.size(), 41U + 1024U + 48U + 1U + 2U + 1U);
+  EXPECT_EQ(neutral, 16);
+  EXPECT_EQ(hashes.size(), 41U + 1024U + 48U + 1U + 2U + 1U + 12U);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "tests/cmodel/oracle/classify.hpp"
 #include "tests/cmodel/random_ellipse_helper.hpp"
 #include "tests/cmodel/stream_writer_helper.hpp"
 
@@ -38,6 +39,7 @@ class Generator {
     for (std::int64_t i = 0; i < r.between(1, 3) || sets.empty(); ++i) radius_set();
     table(1, c.radial_words(), (std::int64_t{1} << (c.wi + c.wf)) - 1);
     factor();
+    if (c.segment_bits > 0) density_tables();
     if (r.once_in(2)) radius_set();  // perhaps over the columns of another
     const StreamWriter tables = w;
     std::uint32_t tiles = 0;
@@ -58,6 +60,7 @@ class Generator {
 
  private:
   static constexpr int image_width = 65535, image_height = 4096;
+  static constexpr std::int64_t kScaledSheets = 128;
 
   /// A word of 0..largest: an end, next to one, small, or anything.
   std::uint32_t word(std::int64_t largest) {
@@ -176,7 +179,30 @@ class Generator {
     w.load_table(2, 0, 0, 0, words);
   }
 
+  /// Of densities: words anywhere in their ranges, some of them as a driver makes them.
+  void density_tables() {
+    for (const int id : {3, 4, 5, 6, 7}) {
+      const std::int64_t count = id == 7 ? 2 * kScaledSheets : oracle::density_table_words(c, id);
+      std::vector<std::uint32_t> words;
+      for (std::int64_t i = 0; i < count; ++i) {
+        const auto any = static_cast<std::uint32_t>(r.next());
+        if (id == 3) words.push_back(word(i % 4 == 3 ? (std::int64_t{1} << (c.si + c.sf)) - 1 : 16384));
+        if (id == 4) words.push_back(static_cast<std::uint32_t>(16384 * 4 / (4 + i / 16)));
+        if (id == 5) words.push_back(word(4096));
+        if (id == 6)
+          words.push_back(i < 6   ? static_cast<std::uint32_t>(static_cast<std::int32_t>(r.between(-16384, 16384)))
+                          : i < 9 ? word(65535)
+                          : i % 2 == 1 || r.once_in(4)
+                              ? any
+                              : static_cast<std::uint32_t>(static_cast<std::int32_t>(r.between(-65536, 65536))));
+        if (id == 7) words.push_back(i % 2 == 1 ? any >> r.between(0, 31) : word(4096) | word(4096) << 16);
+      }
+      w.load_table(id, 0, 0, 0, words);
+    }
+  }
+
   int mode() {
+    if (c.segment_bits > 0 && c.W > 2 && c.H > 2 && r.once_in(2)) return static_cast<int>(r.between(8, 9));
     const auto drawn = static_cast<int>(r.between(0, c.every_sample != 0 ? 4 : 2));
     return drawn > 2 ? drawn + 1 : drawn;
   }
@@ -186,8 +212,16 @@ class Generator {
     int height = static_cast<int>(r.between(1, std::min(c.H, 3 * c.P + 8)));
     if (r.once_in(8)) width = height = 1;
     if (r.once_in(8) || c.W * c.H <= 1600) width = c.W, height = c.H;
-    w.begin_tile(mode(), number, static_cast<int>(r.between(0, image_width - width)),
-                 static_cast<int>(r.between(0, image_height - height)), width, height);
+    int y = static_cast<int>(r.between(0, image_height - height)),
+        x = static_cast<int>(r.between(0, image_width - width));
+    const int drawn = mode();
+    if (drawn >= 8) {
+      width = std::min(width, c.W - 2), height = std::min(height, c.H - 2);
+      // At the picture's edges more often than not.
+      if (r.once_in(2)) x = static_cast<int>(r.one_of({0, image_width - width}));
+      if (r.once_in(2)) y = static_cast<int>(r.one_of({0, image_height - height}));
+    }
+    w.begin_tile(drawn, number, x, y, width, height);
     // Bright tiles freeze and saturate; dim ones keep many sheets visible.
     const int dimming = static_cast<int>(r.one_of({0, 1, 2, 4, 6}));
     std::uint32_t sheet = static_cast<std::uint32_t>(r.one_of({0, 0, 1, 77}));

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "tests/cmodel/oracle/classify.hpp"
 #include "tests/cmodel/oracle/number.hpp"
 #include "tests/cmodel/oracle/stream.hpp"
 
@@ -48,6 +49,7 @@ class Renderer {
   void take(const TableLoad& load) {
     if (load.table == 1) radial = load.words;
     if (load.table == 2) factor = load.words;
+    if (load.table > 2) density_tables[load.table] = load.words;
     if (load.table != 0) return;
     sets[load.set] = {load.rho, load.base, load.Ea, load.words};
     if (c.index != "rlut" && c.index != "separable") return;
@@ -66,11 +68,16 @@ class Renderer {
     pixels.assign(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height), fresh);
     frozen.clear();
     promises.clear();
+    density_sheets.clear();
     ++out.counts["tiles"];
   }
 
+  bool densities() const { return tile.mode >= 8; }
+  int rim() const { return densities() ? 1 : 0; }
+
   void take(const SheetStart& start) {
     sheet = start.sheet;
+    if (densities()) density_sheets[sheet];
     for (Pixel& p : pixels) {
       p.S = {};
       p.hit = false;
@@ -154,6 +161,10 @@ class Renderer {
       for (std::int64_t i = i0; i < i0 + c.P; ++i) {
         const Wide w = weight_of(i, j);
         weights.push_back(word(w));
+        if (densities()) {
+          add_density(splat.v, x0 + i, y0 + j, w, sums);
+          continue;
+        }
         if (!inside(x0 + i, y0 + j)) {
           sums.insert(sums.end(), 4, 0);
           continue;
@@ -181,7 +192,71 @@ class Renderer {
         }
       }
     emit(Kind::Footprint, splat.tag, x0 + i0, y0 + j0, std::move(weights));
-    emit(tile.mode >= 4 ? Kind::Composite : Kind::Sheet, splat.tag, x0 + i0, y0 + j0, std::move(sums));
+    emit((tile.mode == 4 || tile.mode == 5) ? Kind::Composite : Kind::Sheet, splat.tag, x0 + i0, y0 + j0,
+         std::move(sums));
+  }
+
+  /// Of a tile of densities: at a pixel of it or its rim.
+  void add_density(const std::uint32_t (&v)[4], Wide x, Wide y, Wide w, std::vector<std::uint32_t>& sums) {
+    if (x < -1 || y < -1 || x > tile.width || y > tile.height) {
+      sums.insert(sums.end(), 4, 0);
+      return;
+    }
+    ++out.counts["lanes_inside"];
+    if (w > 0) ++out.counts["lanes_weighted"];
+    Four& S = density_sheets[sheet][{y, x}];
+    for (std::size_t ch = 0; ch < 4; ++ch) {
+      const Wide p = sat(c.Rp, v[ch] * w, c.cf + c.wf, u(c.si, c.sf), "product_saturated");
+      S[ch] = sat(Rounding::Trn, S[ch] + p, c.sf, u(c.si, c.sf), "sheet_saturated");
+      sums.push_back(inside(x, y) ? word(S[ch]) : 0);
+    }
+  }
+
+  /// Density of a pixel in a sheet, 0 where nothing was splatted.
+  Wide density(std::int64_t of, Wide x, Wide y) const {
+    const auto found = density_sheets.find(of);
+    if (found == density_sheets.end()) return 0;
+    const auto pixel = found->second.find({y, x});
+    return pixel == found->second.end() ? 0 : pixel->second[3];
+  }
+
+  /// Sheet `number` between its neighbours, of which those that the tile has not are empty.
+  void classify_sheet(std::int64_t number) {
+    const std::uint32_t open = sheet;
+    sheet = static_cast<std::uint32_t>(number);
+    for (Wide by = -1; by <= tile.height; by += c.P)
+      for (Wide bx = -1; bx <= tile.width; bx += c.P) classify_block(number, bx, by);
+    sheet = open;
+  }
+
+  void classify_block(std::int64_t number, Wide bx, Wide by) {
+    bool dirty = false;
+    for (const auto& [at, unused] : density_sheets[number])
+      dirty = dirty || (at.second >= bx && at.second < bx + c.P && at.first >= by && at.first < by + c.P);
+    if (!dirty) return;
+    ++out.counts["dirty_blocks"];
+    std::vector<std::uint32_t> words;
+    for (Wide y = by; y < by + c.P; ++y)
+      for (Wide x = bx; x < bx + c.P; ++x) {
+        if (!inside(x, y)) {
+          words.insert(words.end(), 4, 0);
+          continue;
+        }
+        DensityPixel pixel{.density = density(number, x, y), .X = tile.x + x, .Y = tile.y + y, .sheet = sheet};
+        const auto here = [&](Wide i, Wide j) { return density(number, i, j); };
+        // At the picture's edges to one side, twice.
+        const bool left = pixel.X == 0, right = pixel.X == tile.image_width - 1, above = pixel.Y == 0,
+                   below = pixel.Y == tile.image_height - 1;
+        pixel.dx = (here(right ? x : x + 1, y) - here(left ? x : x - 1, y)) * (left || right ? 2 : 1);
+        pixel.dy = (here(x, below ? y : y + 1) - here(x, above ? y : y - 1)) * (above || below ? 2 : 1);
+        pixel.dz = density(number + 1, x, y) - density(number - 1, x, y);
+        Pixel& p = at(x, y);
+        ++out.counts["pixels_composited"];
+        if (p.C[3] < c.eps) ++out.counts["frozen_pixels"];
+        composite(p, oracle::classify(c, density_tables, pixel), tile.mode - 8);
+        for (const Wide value : p.C) words.push_back(word(value));
+      }
+    emit(Kind::Composite, 0, bx, by, std::move(words));
   }
 
   /// Of pixel (i, j) of the footprint, by the page's formula of the kind.
@@ -256,6 +331,10 @@ class Renderer {
 
   void take(const SheetEnd&) {
     ++out.counts["sheets"];
+    if (densities()) {
+      if (density_sheets.size() > 1) classify_sheet(std::prev(density_sheets.end(), 2)->first);
+      return;
+    }
     for (int by = 0; by < tile.height; by += c.P)
       for (int bx = 0; bx < tile.width; bx += c.P) block(bx, by);
     frozen.emplace_back();
@@ -314,6 +393,7 @@ class Renderer {
   }
 
   void take(const TileEnd&) {
+    if (!density_sheets.empty()) classify_sheet(density_sheets.rbegin()->first);
     sheet = 0;  // of the Pixel events
     Picture picture{tile.tile, tile.x, tile.y, tile.width, tile.height, {}};
     const Words pixel = u(c.xi, c.xf);
@@ -339,6 +419,8 @@ class Renderer {
   Rendering out;
   std::map<std::int64_t, RadiusSet> sets;
   std::vector<std::uint32_t> rlut, radial, factor;
+  DensityTables density_tables;
+  std::map<std::int64_t, std::map<std::pair<Wide, Wide>, Four>> density_sheets;  // by number; S at (y, x)
   TileStart tile;
   std::uint32_t sheet = 0;
   std::vector<Pixel> pixels;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "tests/cmodel/oracle/classify.hpp"
 #include "tests/cmodel/oracle/number.hpp"
 
 namespace fastsplat::oracle {
@@ -81,7 +82,7 @@ TableLoad table_load(Reader& r) {
   r.rule(r.w[0] < 65536, "an unnamed bit of w0 is not zero");
   r.empty_from(5);
   load.table = static_cast<int>(r.w[0] / 256);
-  r.rule(load.table <= 2, "unknown table");
+  r.rule(load.table <= (c.segment_bits > 0 ? 7 : 2), "unknown table");
   load.set = r.w[1];
   load.rho = r.w[2];
   const std::int64_t count = r.w[3];
@@ -98,7 +99,14 @@ TableLoad table_load(Reader& r) {
     r.rule(count == set_words(c, load.Ea), "words");
   } else {
     r.rule(load.set == 0 && load.rho == 0 && load.base == 0, "a radius set in a table without");
-    r.rule(count == (load.table == 1 ? c.radial_words() : c.G + 1), "words");
+    if (load.table == 7) {
+      r.rule(count >= 2 && count % 2 == 0, "words");
+    } else {
+      r.rule(count == (load.table == 1   ? c.radial_words()
+                       : load.table == 2 ? c.G + 1
+                                         : density_table_words(c, load.table)),
+             "words");
+    }
     largest = static_cast<std::int64_t>(load.table == 1 ? u(c.wi, c.wf).largest : one(c.of).largest);
   }
   for (std::int64_t done = 0; done < count; done += std::int64_t{kWords}) {
@@ -106,6 +114,11 @@ TableLoad table_load(Reader& r) {
     for (std::size_t i = 0; i < kWords; ++i) {
       if (done + static_cast<std::int64_t>(i) >= count) {
         r.rule(r.w[i] == 0, "padding");
+        continue;
+      }
+      if (load.table > 2) {
+        r.rule(density_word_fits(c, load.table, load.words.size(), r.w[i]), "table word");
+        load.words.push_back(r.w[i]);
         continue;
       }
       if (load.table == 0) largest = largest_set_word(c, load.words.size());
@@ -193,6 +206,8 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
 
   std::set<std::int64_t> sets;
   bool have_radial = false, have_factor = false;
+  std::set<int> of_densities;
+  std::uint64_t scaled_sheets = 0;
   std::uint64_t tiles_seen = 0;
 
   while (true) {
@@ -204,6 +219,8 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
       if (load.table == 0) sets.insert(load.set);
       have_radial |= load.table == 1;
       have_factor |= load.table == 2;
+      if (load.table > 2) of_densities.insert(load.table);
+      if (load.table == 7) scaled_sheets = load.words.size() / 2;
       items.emplace_back(std::move(load));
     } else if (opcode == 0x54) {
       r.rule(have_radial && have_factor, "a tile before its tables");
@@ -211,14 +228,20 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
       r.empty_from(5);
       TileStart tile;
       tile.mode = static_cast<int>(r.w[0] / 256);
-      r.rule(tile.mode <= 2 || (r.c.every_sample != 0 && (tile.mode == 4 || tile.mode == 5)), "mode");
+      const bool densities = r.c.segment_bits > 0 && (tile.mode == 8 || tile.mode == 9);
+      r.rule(!densities || of_densities.size() == 5, "a tile of densities before its tables");
+      r.rule(tile.mode <= 2 || (r.c.every_sample != 0 && (tile.mode == 4 || tile.mode == 5)) || densities, "mode");
       tile.tile = r.w[1];
       r.rule(tile.tile == tiles_seen && tile.tile < tiles, "tile number");
       tile.x = static_cast<std::int32_t>(r.w[2]);
       tile.y = static_cast<std::int32_t>(r.w[3]);
       tile.width = static_cast<int>(r.low(4));
       tile.height = static_cast<int>(r.high(4));
-      r.rule(tile.width >= 1 && tile.width <= symbols.W && tile.height >= 1 && tile.height <= symbols.H, "tile sides");
+      const int rim = densities ? 2 : 0;
+      r.rule(tile.width >= 1 && tile.width <= symbols.W - rim && tile.height >= 1 && tile.height <= symbols.H - rim,
+             "tile sides");
+      tile.image_width = static_cast<int>(image_width);
+      tile.image_height = static_cast<int>(image_height);
       r.rule(tile.x >= 0 && tile.y >= 0 && std::int64_t{tile.x} + tile.width <= image_width &&
                  std::int64_t{tile.y} + tile.height <= image_height,
              "tile outside the image");
@@ -233,6 +256,7 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
         r.empty_from(2);
         const std::uint32_t sheet = r.w[1];
         r.rule(!last_sheet || sheet > *last_sheet, "sheet numbers rise");
+        r.rule(!densities || sheet < scaled_sheets, "a sheet without scales");
         last_sheet = sheet;
         ++sheets;
         items.emplace_back(SheetStart{sheet});

@@ -20,7 +20,7 @@ struct Refusal : std::runtime_error {
 };
 
 struct TableLoad {
-  int table = 0;  ///< 0 RLUT, 1 RADIAL, 2 FACTOR
+  int table = 0;  ///< 0 RLUT, 1 RADIAL, 2 FACTOR, 3 to 7 those of densities
   std::int64_t set = 0, rho = 0, base = 0, Ea = 0;
   std::vector<std::uint32_t> words;
 };
@@ -29,6 +29,7 @@ struct TileStart {
   std::uint32_t tile = 0;
   std::int32_t x = 0, y = 0;
   int width = 0, height = 0;
+  int image_width = 0, image_height = 0;
 };
 struct SheetStart {
   std::uint32_t sheet = 0;

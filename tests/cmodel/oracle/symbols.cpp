@@ -64,6 +64,7 @@ std::uint64_t hash(const Symbols& symbols) {
   if (symbols.every_sample != 0) line("composite.every_sample", "1");
   if (symbols.cull != "off") line("cull.map", symbols.cull);
   if (symbols.interpolate != 0) line("radial.interpolate", "1");
+  if (symbols.segment_bits != 0) line("classify.segment_bits", std::to_string(symbols.segment_bits));
   return state;
 }
 

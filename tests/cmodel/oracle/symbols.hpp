@@ -33,6 +33,7 @@ struct Symbols {
   int every_sample = 0;
   std::string cull = "off";  ///< the map's cells
   int interpolate = 0;       ///< of the radial table
+  int segment_bits = 0;      ///< q, of CLASSIFY; 0: no sheets of densities
   int radial_words() const { return N + interpolate; }
 
   /// Weights depend on window phases: centres lie on the snap's grid.

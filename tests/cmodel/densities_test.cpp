@@ -1,0 +1,54 @@
+// Sheets of densities: every tap, pixel and counter of the model against the oracle on random streams, and rules that
+// only such devices have.
+#include <gtest/gtest.h>
+
+#include "cmodel/cycle_model.hpp"
+#include "cmodel/sv_package.hpp"
+#include "tests/cmodel/campaign_helper.hpp"
+#include "tests/cmodel/configs_helper.hpp"
+
+namespace fastsplat::test {
+namespace {
+
+/// Random, with densities.
+cmodel::Config random_density_config(Random& random) {
+  while (true) {
+    cmodel::Config config = random.once_in(3) ? random_ellipse_config(random) : random_config(random);
+    config.sheet_int_bits = static_cast<int>(random.between(1, 4));
+    config.sheet_frac_bits = static_cast<int>(random.between(4, std::min(16, 18 - config.sheet_int_bits)));
+    config.opacity_segments = std::min(config.opacity_segments, 1 << config.sheet_frac_bits);
+    config.classify_segment_bits =
+        static_cast<int>(random.between(1, std::min(config.sheet_frac_bits, random.once_in(2) ? 4 : 12)));
+    if (!cmodel::first_violation(config)) return config;
+  }
+}
+
+TEST(Densities, ModelEqualsOracleOnRandomConfigurations) {
+  Random random(seed_or(81));
+  Campaign total;
+  int configs = 0;
+  for (; configs < 60 && total.comparison.mismatches == 0; ++configs)
+    total += compare_streams(random_density_config(random), random, 120, 120);
+  print("densities", total.comparison);
+  std::printf("[figure] densities: configurations = %d, splats = %llu, words compared = %llu, different = %llu\n",
+              configs, static_cast<unsigned long long>(total.splats),
+              static_cast<unsigned long long>(total.comparison.total()),
+              static_cast<unsigned long long>(total.comparison.mismatches));
+  EXPECT_EQ(total.comparison.mismatches, 0U) << total.comparison.first;
+  EXPECT_GT(total.comparison.total(), 100000U);
+}
+
+TEST(Densities, NoRtlAndNoCyclesYet) {
+  cmodel::Config config = named_config("tiny");
+  EXPECT_FALSE(cmodel::rtl_violation(config));
+  EXPECT_FALSE(cmodel::cycle_violation(config));
+  config.classify_segment_bits = 4;
+  ASSERT_FALSE(cmodel::first_violation(config));
+  ASSERT_TRUE(cmodel::rtl_violation(config));
+  EXPECT_EQ(cmodel::rtl_violation(config)->where, "classify.segment_bits");
+  ASSERT_TRUE(cmodel::cycle_violation(config));
+  EXPECT_EQ(cmodel::cycle_violation(config)->where, "classify.segment_bits");
+}
+
+}  // namespace
+}  // namespace fastsplat::test

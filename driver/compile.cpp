@@ -70,8 +70,8 @@ TileBins CompiledFrame::State::make_bins(int threads) const {
   return TileBins(
       grid, bands, cells, plan.slabs.count, splats.size(), threads,
       [&](std::size_t i) {
-        return grown(splats[i].set == kOwnShape ? windows(splats[i], projected.ellipses[i].shape) : windows(splats[i]),
-                     rim());
+        return widened(
+            splats[i].set == kOwnShape ? windows(splats[i], projected.ellipses[i].shape) : windows(splats[i]), rim());
       },
       [&](std::size_t i) { return first_sheet(static_cast<std::uint32_t>(i)); });
 }

@@ -64,7 +64,7 @@ struct Extent {
 };
 
 /// What touches these pixels or those around them.
-inline Extent grown(const Extent& e, int rim) {
+inline Extent widened(const Extent& e, int rim) {
   return {e.x0 - rim, e.x1 + rim, e.y0 - rim, e.y1 + rim, e.window_end + rim};
 }
 

@@ -32,8 +32,7 @@ windows_broken second_column "s/seen\[b\] && between_x;/1'b0;/"
 windows_broken row_below "s/(!second_out \&\& !row_below_i\[b\])/1'b0/"
 windows_broken behind_the_last_pixel "s/first_out = row < 0 || .*;/first_out = row < 0;/"
 
-# Tables of two rows are built in two cycles: none waits for another.
-map() { without=table_waits_for_another unit "$1" cull_map "cull_table ram_1r1w" "" "${2:+$2}" "${3-}"; }
+map() { unit "$1" cull_map "cull_table ram_1r1w" "" "${2:+$2}" "${3-}"; }
 map cull_map
 bounded cull_map $depth "cull_map: a test is answered by the blocks that were opaque when the last sheet but one had been composited"
 happens cull_map $depth

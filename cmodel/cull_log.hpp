@@ -53,6 +53,7 @@ class CullLog {
     const auto found = tiles_.find(number);
     return found == tiles_.end() ? nullptr : &found->second;
   }
+  void clear() { tiles_.clear(); }
   void merge(CullLog&& other) { tiles_.merge(other.tiles_); }
   std::size_t size() const { return tiles_.size(); }
   bool operator==(const CullLog&) const = default;

@@ -62,15 +62,13 @@ class CullPipe {
   void composited(std::uint64_t last, int row) {
     opaque_ = opaque_ || row < rows_;
     const std::size_t table = done_++ % 2;
-    whole_[table] = last + 1;
-    if (!opaque_) return;  // no cell of the tile can be opaque yet
-    for (int& first : changed_) first = std::min(first, row);
-    if (changed_[table] < rows_) {
-      built_ = std::max(built_, last + stages::kComposite) +
-               static_cast<std::uint64_t>(rows_ - changed_[table]) * row_cycles_;
-      whole_[table] = built_ + 1;
+    built_ = std::max(built_, last + stages::kComposite);  // only then is it known what there is to be built
+    if (opaque_) {                                         // else no cell of the tile is yet
+      for (int& first : changed_) first = std::min(first, row);
+      built_ += static_cast<std::uint64_t>(rows_ - changed_[table]) * row_cycles_;
+      changed_[table] = rows_;
     }
-    changed_[table] = rows_;
+    whole_[table] = built_ + 1;
   }
 
  private:

@@ -81,6 +81,7 @@ void Model::begin_tile(const BeginTile& tile) {
   cull_.begin_tile(tile.mode, tile.width, tile.height);
   sets_.clear();
   hidden_windows_.clear();
+  if (log_ != nullptr && cull_.on()) log_->tile(tile.tile) = {};
 }
 
 void Model::cull_block(const CullBlock& record) {

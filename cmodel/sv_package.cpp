@@ -6,6 +6,7 @@
 
 #include "base/hash_text.hpp"
 #include "cmodel/counters.hpp"
+#include "cmodel/cull_sets.hpp"
 #include "cmodel/cycle_stages.hpp"
 #include "cmodel/register_fields.hpp"
 #include "cmodel/sites.hpp"
@@ -67,10 +68,10 @@ std::optional<ErrorParts> rtl_violation(const Config& config) {
                       .got = text_of(config, *find_key("index.kind")),
                       .fix = "use the model for this configuration"};
   }
-  if (config.culls()) {
+  if (config.culls() && config.has_ellipses()) {
     return ErrorParts{.where = "cull.map",
-                      .what = "the RTL has no cull unit",
-                      .expected = "off",
+                      .what = "the RTL walks an ellipse's windows one by one and can leave none out",
+                      .expected = "off where ellipse.frac_bits is above 0",
                       .got = text_of(config, *find_key("cull.map")),
                       .fix = "use the model for this configuration"};
   }
@@ -177,6 +178,21 @@ std::string sv_package(const Config& config) {
     const bool is_signed = site.to().min < 0;  // there the RTL knows the format
     if (!is_signed) p.number("UNIT_" + name, site.to().word_bits == 0 ? 1 : 0);
   }
+
+  p.section("culling: 0 off, 1 block, 2 pixel; cells of a tile, words of a table, memory words of a row of them");
+  const int cell = config.culls() ? config.cull_cell() : config.lanes;
+  const std::int64_t cells_x = config.tile_width / cell, cells_y = config.tile_height / cell;
+  const std::int64_t words = cell == config.lanes ? blocks_x : config.lanes;
+  p.number("CULL_MAP", config.cull_map);
+  p.number("CULL_CELL_LOG2", Config::log2_exact(cell));
+  p.number("CULL_CELL_BITS", bits_for(std::max(cells_x, cells_y)));
+  p.number("CULL_ROWS", cells_y);
+  p.number("CULL_BITS", bits_for(cells_x * cells_y));
+  p.number("CULL_WORDS", words);
+  p.number("CULL_CHUNKS", cells_x / words);
+  p.number("CULL_ADDR_BITS", bits_for(cells_y * (cells_x / words) - 1));
+  p.number("CULL_SETS_BITS", bits_for(cull_sets(config) - 1));
+  p.number("WINDOWS_X", std::int64_t{config.rlut_columns / config.lanes});
 
   p.section("stream");
   const std::uint64_t hash = config_hash(config);

@@ -60,6 +60,12 @@ module fastsplat_compositor (
     output logic [fastsplat_pkg::ADDR_BITS-1:0]    tap_block_o,
     output logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::STATE_BITS-1:0] tap_state_o,
     output logic                                   tap_sheet_o,     // pulse: a sheet's walk ended
+    // culling, k6 of a block's last slice: pixels that are frozen now or lie outside the tile, whether one was not before
+    output logic [fastsplat_pkg::BANKS-1:0]        cull_frozen_o,
+    output logic                                   cull_changed_o,
+    // the picture's words that are blanked
+    output logic                                   blank_o,
+    output logic [fastsplat_pkg::ADDR_BITS-1:0]    blank_addr_o,
     // events of a slice, k6
     output logic                                   event_valid_o,
     output logic [fastsplat_pkg::COMPOSITE_LANES-1:0]   event_inside_o,  // the tile; of a window's lanes those of weight
@@ -77,6 +83,7 @@ module fastsplat_compositor (
   localparam int SB = fastsplat_pkg::SHEET_BITS;
   localparam int DB = fastsplat_pkg::STATE_BITS;
   localparam int FB = fastsplat_pkg::FACTOR_BITS;
+  localparam int TB = fastsplat_pkg::TRANS_BITS;
   localparam int SIDE = fastsplat_pkg::SIDE_BITS;
 
   // ---- k0: a slice of a dirty block a cycle. Its first slice reads the block's sums; the banks hold them for the others.
@@ -314,6 +321,39 @@ module fastsplat_compositor (
       logic unused;
       assign unused = &{1'b0, next};
     end
+  end
+
+  // What the cull map is told. A pixel that is frozen now is new to it unless it was before this slab.
+  assign blank_o = wipe_i || sent_q;
+  assign blank_addr_o = wipe_i ? wipe_addr_i : sent_addr_q;
+  if (fastsplat_pkg::CULL_MAP != 0) begin : gen_frozen
+    logic [C-1:0] frozen, changed;
+    logic changed_q;  // by the block's slices before
+    for (genvar c = 0; c < C; c++) begin : gen_pixel
+      // verilator lint_off UNSIGNED
+      assign frozen[c] = states[c][3*DB+:TB] < TB'(fastsplat_pkg::FREEZE_BELOW);
+      // verilator lint_on UNSIGNED
+      assign changed[c] = event_inside_o[c] && frozen[c] && !event_frozen_o[c];
+    end
+    for (genvar b = 0; b < P * P; b++) begin : gen_bank
+      logic now;
+      assign now = frozen[b%C] || !in_tile[b];
+      if (b / C == R - 1) begin : gen_last
+        assign cull_frozen_o[b] = now;
+      end else begin : gen_kept
+        logic now_q;
+        always_ff @(posedge clk_i) if (valid_q[6] && slice_q[6] == LB'(b / C)) now_q <= now;
+        assign cull_frozen_o[b] = now_q;
+      end
+    end
+    always_ff @(posedge clk_i) begin
+      if (valid_q[6]) changed_q <= !tap_valid_o && (changed_q || changed != '0);
+      if (!rst_ni) changed_q <= 1'b0;
+    end
+    assign cull_changed_o = changed != '0 || changed_q;
+  end else begin : gen_no_cull
+    assign cull_frozen_o = '0;
+    assign cull_changed_o = 1'b0;
   end
   always_comb begin
     picture_o = '0;  // verilator lint_off WIDTHCONCAT

@@ -1,6 +1,6 @@
 // The FastSplat device: stream in, pixels out, registers beside (docs/microarchitecture.md).
 //
-//   stream -> check -> decode -> splat array (snap, RLUT, lanes, sheet banks) -> compositor -> pixel out -> pixels
+//   stream -> check -> [cull] -> decode -> splat array (snap, RLUT, lanes, sheet banks) -> compositor -> pixel out -> pixels
 //
 // Synchronous reset, active low. After reset the sheet memories are wiped (BLOCKS cycles) before the first beat is taken.
 `include "assertions.svh"
@@ -20,6 +20,10 @@ module fastsplat_core (
     output logic [fastsplat_pkg::LANES-1:0] m_tkeep_o,
     output logic         m_tlast_o,
     output logic         m_tuser_o,  // the tile was cut short: on all of its beats
+    // culling: of each cull_block that was let through, a pulse: its set is hidden, the device wants none of its splats
+    output logic         verdict_valid_o,
+    output logic [31:0]  verdict_tag_o,
+    output logic         verdict_hidden_o,
     // AXI4-Lite
     input  logic         awvalid_i,
     output logic         awready_o,
@@ -99,7 +103,8 @@ module fastsplat_core (
   logic [fastsplat_pkg::COL_BITS-1:0] set_extent;
   logic [7:0] error_rule, error_opcode;
   logic [31:0] error_beat;
-  assign at_rest = stall_input && compositor_idle && pixel_idle;
+  logic cull_idle;
+  assign at_rest = stall_input && compositor_idle && pixel_idle && cull_idle;
   fastsplat_stream_check u_check (
       .clk_i,
       .rst_ni,
@@ -121,16 +126,123 @@ module fastsplat_core (
       .error_opcode_o(error_opcode),
       .error_beat_o(error_beat)
   );
+  // What decode takes: check's beats, or behind the test unit those with their verdicts.
+  logic tested_valid, tested_ready, tested_payload, tested_aborted, swallowed, hidden, culls, sheet_odd;
+  logic [fastsplat_pkg::BEAT_BITS-1:0] tested;
+  logic [fastsplat_pkg::COL_BITS-1:0] tested_extent;
+  logic signed [fastsplat_pkg::ORG_BITS-1:0] first_x, first_y;
+  logic tile_begin, map_sheet;
+  logic [fastsplat_pkg::BLK_BITS-1:0] map_row;
+  logic [fastsplat_pkg::BLOCKS_X-1:0] opaque_row, opaque_row_below;
+  logic [BANKS-1:0] frozen;
+  logic frozen_changed, blank;
+  logic [fastsplat_pkg::ADDR_BITS-1:0] blank_addr;
+  logic event_test, event_hidden_set, event_hidden;
+  logic [fastsplat_pkg::WINDOWS_X-1:0] event_hidden_windows;
+  if (fastsplat_pkg::CULL_MAP != 0) begin : gen_cull
+    logic whole, look, look_sheet;
+    logic [fastsplat_pkg::CULL_CELL_BITS-1:0] i0, i1, j0, j1;
+    logic [fastsplat_pkg::CULL_BITS-1:0] count;
+    fastsplat_cull_test u_test (
+        .clk_i,
+        .rst_ni,
+        .valid_i(beat_valid),
+        .ready_o(beat_ready),
+        .data_i(beat),
+        .payload_i(beat_payload),
+        .aborted_i(beat_aborted),
+        .extent_i(set_extent),
+        .valid_o(tested_valid),
+        .ready_i(tested_ready),
+        .data_o(tested),
+        .payload_o(tested_payload),
+        .aborted_o(tested_aborted),
+        .extent_o(tested_extent),
+        .swallowed_o(swallowed),
+        .hidden_o(hidden),
+        .culls_o(culls),
+        .sheet_o(sheet_odd),
+        .x_o(first_x),
+        .y_o(first_y),
+        .tile_begin_i(tile_begin),
+        .whole_i(whole),
+        .re_o(look),
+        .re_sheet_o(look_sheet),
+        .i0_o(i0),
+        .i1_o(i1),
+        .j0_o(j0),
+        .j1_o(j1),
+        .count_i(count),
+        .verdict_valid_o,
+        .verdict_tag_o,
+        .verdict_hidden_o,
+        .idle_o(cull_idle),
+        .event_test_o(event_test),
+        .event_hidden_set_o(event_hidden_set)
+    );
+    fastsplat_cull_map u_map (
+        .clk_i,
+        .rst_ni,
+        .tile_begin_i(tile_begin),
+        .tile_end_i(tile_end),
+        .culls_i(mode != 2'd2 && !every_sample),
+        .width_i(width),
+        .height_i(height),
+        .block_valid_i(tap_composite_valid_o),
+        .block_i(tap_composite_block_o),
+        .frozen_i(frozen),
+        .changed_i(frozen_changed),
+        .finish_i(tap_sheet_done_o),
+        .blank_i(blank),
+        .blank_addr_i(blank_addr),
+        .whole_o(whole),
+        .re_i(look),
+        .sheet_i(look_sheet),
+        .i0_i(i0),
+        .i1_i(i1),
+        .j0_i(j0),
+        .j1_i(j1),
+        .count_o(count),
+        .row_sheet_i(map_sheet),
+        .row_i(map_row),
+        .row_o(opaque_row),
+        .row_below_o(opaque_row_below)
+    );
+  end else begin : gen_no_cull
+    assign tested_valid = beat_valid;
+    assign beat_ready = tested_ready;
+    assign tested = beat;
+    assign tested_payload = beat_payload;
+    assign tested_aborted = beat_aborted;
+    assign tested_extent = set_extent;
+    assign {swallowed, hidden, culls, sheet_odd, event_test, event_hidden_set} = '0;
+    assign {first_x, first_y} = '0;
+    assign {opaque_row, opaque_row_below} = '0;
+    assign {verdict_valid_o, verdict_tag_o, verdict_hidden_o} = '0;
+    assign cull_idle = 1'b1;
+    logic unused_cull;
+    assign unused_cull = &{1'b0, tile_begin, map_sheet, map_row, frozen, frozen_changed, blank, blank_addr};
+  end
   logic tile_aborted, frame_end;
   fastsplat_stream_decode u_decode (
       .clk_i,
       .rst_ni,
-      .valid_i(beat_valid),
-      .ready_o(beat_ready),
-      .data_i(beat),
-      .payload_i(beat_payload),
-      .aborted_i(beat_aborted),
-      .extent_i(set_extent),
+      .valid_i(tested_valid),
+      .ready_o(tested_ready),
+      .data_i(tested),
+      .payload_i(tested_payload),
+      .aborted_i(tested_aborted),
+      .extent_i(tested_extent),
+      .swallowed_i(swallowed),
+      .hidden_i(hidden),
+      .culls_i(culls),
+      .sheet_i(sheet_odd),
+      .x_i(first_x),
+      .y_i(first_y),
+      .map_sheet_o(map_sheet),
+      .map_row_o(map_row),
+      .map_row_i(opaque_row),
+      .map_row_below_i(opaque_row_below),
       .rlut_we_o(rlut_we),
       .rlut_wphase_o(rlut_wphase),
       .rlut_wcolumn_o(rlut_wcolumn),
@@ -138,6 +250,7 @@ module fastsplat_core (
       .factor_we_o(factor_we),
       .table_index_o(table_index),
       .table_word_o(table_word),
+      .tile_begin_o(tile_begin),
       .tile_end_o(tile_end),
       .tile_aborted_o(tile_aborted),
       .frame_end_o(frame_end),
@@ -166,6 +279,8 @@ module fastsplat_core (
       .window_colour_o(window_colour),
       .event_splat_o(event_splat),
       .event_cull_o(event_cull),
+      .event_hidden_o(event_hidden),
+      .event_hidden_windows_o(event_hidden_windows),
       .stall_input_o(stall_input),
       .stall_table_o(stall_table),
       .stall_buffer_o(stall_buffer),
@@ -306,6 +421,10 @@ module fastsplat_core (
       .tap_block_o(tap_composite_block_o),
       .tap_state_o(tap_state_o),
       .tap_sheet_o(tap_sheet_done_o),
+      .cull_frozen_o(frozen),
+      .cull_changed_o(frozen_changed),
+      .blank_o(blank),
+      .blank_addr_o(blank_addr),
       .event_valid_o(slice_valid),
       .event_inside_o(slice_inside),
       .event_frozen_o(slice_frozen),
@@ -427,7 +546,7 @@ module fastsplat_core (
       .rready_i,
       .rdata_o,
       .rresp_o,
-      .busy_i(running || check_busy),
+      .busy_i(running || check_busy || !cull_idle),
       .error_i(error_o),
       .error_rule_i(error_rule),
       .error_opcode_i(error_opcode),
@@ -440,7 +559,7 @@ module fastsplat_core (
       .increments_i(increments)
   );
   logic unused;
-  assign unused = &{1'b0, table_index, table_word};
+  assign unused = &{1'b0, table_index, table_word, event_test, event_hidden_set, event_hidden, event_hidden_windows};
   `FASTSPLAT_ASSERT(no_beat_while_wiping, !(wiping_q && s_tready_o))
   `FASTSPLAT_ASSERT(pixel_beat_not_empty, !m_tvalid_o || m_tkeep_o[0])
 

@@ -339,8 +339,19 @@ module fastsplat_splat_array (
 
   assign tap_snap_valid_o = valid_q[1] && first_c1_q;
   assign tap_snap_tag_o = tag_q[1];
-  assign tap_snap_x_o = x_c1;
-  assign tap_snap_y_o = y_c1;
+  // A splat's first pixel, which is that of its first window unless that one is hidden.
+  if (fastsplat_pkg::CULL_MAP != 0) begin : gen_corner
+    logic signed [ORG-1:0] column_q, row_q;
+    always_ff @(posedge clk_i) begin
+      column_q <= $signed(ORG'(column));
+      row_q <= $signed(ORG'(row));
+    end
+    assign tap_snap_x_o = x_c1 - column_q;
+    assign tap_snap_y_o = y_c1 - row_q;
+  end else begin : gen_first
+    assign tap_snap_x_o = x_c1;
+    assign tap_snap_y_o = y_c1;
+  end
   assign tap_snap_mx_o = way_x_c1;
   assign tap_snap_my_o = way_y_c1;
   assign tap_snap_saturated_o = ellipse_c1 ? '0 : {saturated_y, saturated_x};

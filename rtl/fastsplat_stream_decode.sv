@@ -15,6 +15,17 @@ module fastsplat_stream_decode (
     input  logic                                       payload_i,   // words of the table announced last
     input  logic                                       aborted_i,   // an end_tile that nobody sent
     input  logic [fastsplat_pkg::COL_BITS-1:0]         extent_i,    // padded extent of the set announced last
+    // culling: verdicts of the beat, and a splat's first pixel
+    input  logic                                       swallowed_i,
+    input  logic                                       hidden_i,
+    input  logic                                       culls_i,     // tests are made in its tile
+    input  logic                                       sheet_i,     // its sheet's number in the tile, modulo 2
+    input  logic signed [fastsplat_pkg::ORG_BITS-1:0]  x_i,
+    input  logic signed [fastsplat_pkg::ORG_BITS-1:0]  y_i,
+    output logic                                       map_sheet_o,  // opaque blocks of a row, and of the row below
+    output logic [fastsplat_pkg::BLK_BITS-1:0]         map_row_o,
+    input  logic [fastsplat_pkg::BLOCKS_X-1:0]         map_row_i,
+    input  logic [fastsplat_pkg::BLOCKS_X-1:0]         map_row_below_i,
     // table load
     output logic                                       rlut_we_o,
     output logic [fastsplat_pkg::PHASE_BITS-1:0]       rlut_wphase_o,
@@ -24,6 +35,7 @@ module fastsplat_stream_decode (
     output logic [31:0]                                table_index_o,
     output logic [31:0]                                table_word_o,
     // tile
+    output logic                                       tile_begin_o,  // pulse: begin_tile carried out
     output logic                                       tile_end_o,    // pulse: send the picture
     output logic                                       tile_aborted_o,  // with it: of a tile that was cut short
     output logic                                       frame_end_o,   // pulse: end_frame carried out
@@ -55,6 +67,8 @@ module fastsplat_stream_decode (
     // status
     output logic                                       event_splat_o,
     output logic                                       event_cull_o,
+    output logic                                       event_hidden_o,          // a splat
+    output logic [fastsplat_pkg::WINDOWS_X-1:0]        event_hidden_windows_o,  // of a row
     output logic                                       stall_input_o,   // nothing to decode
     output logic                                       stall_table_o,   // a table word
     output logic                                       stall_buffer_o,  // begin_sheet waits for a buffer
@@ -124,6 +138,8 @@ module fastsplat_stream_decode (
     assign window_shape_o = '0;
   end
   assign last_window = last_column_q && last_row_q;
+  logic issues, window_first;  // a window of the splat in the register goes on; it is its first
+  logic swallowed_q;           // of a hidden set
 
   logic ellipse_next, one_column;  // coming into the register; of the record in it
   assign ellipse_next = fastsplat_pkg::ELLIPSES != 0 && data_i[7:0] == fastsplat_pkg::OP_ELLIPSE;
@@ -185,7 +201,8 @@ module fastsplat_stream_decode (
   assign tile_end_o = accepted && opcode == fastsplat_pkg::OP_END_TILE;
   assign tile_aborted_o = aborted_q;
   assign frame_end_o = accepted && opcode == fastsplat_pkg::OP_END_FRAME;
-  assign event_splat_o = accepted && is_splat;
+  assign tile_begin_o = tile_begin;
+  assign event_splat_o = accepted && is_splat && !swallowed_q;
   assign event_cull_o = accepted && opcode == fastsplat_pkg::OP_CULL_BLOCK;
   assign stall_input_o = !beat_valid_q;
   assign stall_table_o = table_write;
@@ -201,8 +218,6 @@ module fastsplat_stream_decode (
       splat_q <= !payload_i && (data_i[7:0] == fastsplat_pkg::OP_SPLAT || ellipse_next);
       begins_sheet_q <= !payload_i && data_i[7:0] == fastsplat_pkg::OP_BEGIN_SHEET;
       waits_for_rest_q <= !payload_i && (data_i[7:0] == fastsplat_pkg::OP_BEGIN_TILE || data_i[7:0] == fastsplat_pkg::OP_END_TILE);
-      last_column_q <= ellipse_next ? data_i[86+:5] == '0 : single_q[data_i[8+:fastsplat_pkg::SET_BITS]];
-      last_row_q <= ellipse_next ? data_i[91+:5] == '0 : single_q[data_i[8+:fastsplat_pkg::SET_BITS]];
     end
     if (`FASTSPLAT_FAULT(LOST_BEAT) && ready_o && valid_i && is_splat && data_i[7:0] == fastsplat_pkg::OP_SPLAT && w1[2:0] == 3'd5)
       beat_valid_q <= 1'b0;
@@ -251,9 +266,9 @@ module fastsplat_stream_decode (
     if (accepted && opcode == fastsplat_pkg::OP_END_SHEET) buffer_q <= !buffer_q;
 
     // windows
-    window_valid_o <= is_splat && !wait_hazard;
+    window_valid_o <= issues;
     window_last_o <= accepted && opcode == fastsplat_pkg::OP_END_SHEET;
-    window_first_o <= column_q == '0 && row_q == '0;
+    window_first_o <= window_first;
     window_buffer_o <= buffer_q;
     window_tag_o <= w1;
     window_x_o <= w2[fastsplat_pkg::POS_BITS-1:0];
@@ -263,25 +278,115 @@ module fastsplat_stream_decode (
     window_column_o <= column_q;
     window_row_o <= row_q;
     window_colour_o <= {w5[16+:CB], w5[0+:CB], w4[16+:CB], w4[0+:CB]};
-    if (is_splat && !wait_hazard) begin
-      column_q <= last_column_q ? '0 : column_q + WIN'(P);
-      if (last_column_q) row_q <= last_window ? '0 : row_q + WIN'(P);
-      if (!last_window) begin  // so that there are two columns or rows at the least, of a circle both
-        last_column_q <= last_column_q ? one_column : (WIN + 1)'(column_q) + (WIN + 1)'(2 * P) >= (WIN + 1)'(extent_x);
-        if (last_column_q) last_row_q <= (WIN + 1)'(row_q) + (WIN + 1)'(2 * P) >= (WIN + 1)'(extent_y);
-      end
-    end
-
     if (!rst_ni) begin
       beat_valid_q <= 1'b0;
       tile_open_o <= 1'b0;
       busy_q <= '0;
       buffer_q <= 1'b0;
-      column_q <= '0;
-      row_q <= '0;
       window_valid_o <= 1'b0;
       window_last_o <= 1'b0;
     end
+  end
+
+  // ---- which window is next: each of the footprint's, or those that can be seen
+  logic last_row_next;
+  assign last_row_next = (WIN + 1)'(row_q) + (WIN + 1)'(2 * P) >= (WIN + 1)'(extent_y);
+  if (fastsplat_pkg::CULL_MAP != 0) begin : gen_seen
+    localparam int NW = fastsplat_pkg::WINDOWS_X;
+    localparam int ORG = fastsplat_pkg::ORG_BITS;
+    logic [NW-1:0] there_q[0:fastsplat_pkg::RLUT_SETS-1];  // by set: windows of a row
+    logic [NW-1:0] there, seen, seen_q, rest, next;
+    logic culls_q, sheet_q, gone_q, hidden_q, new_row_q, issued_q, enters, new_row;
+    logic signed [ORG-1:0] x_q, y_q;
+    logic [WIN-1:0] column;
+    assign enters = ready_o && valid_i;
+    assign new_row = enters || (is_splat && !wait_hazard && last_column_q && !last_row_q);
+    assign there = there_q[enters ? data_i[8+:fastsplat_pkg::SET_BITS] : set];
+    assign map_sheet_o = enters ? sheet_i : sheet_q;
+    fastsplat_cull_windows u_windows (
+        .culls_i(enters ? culls_i : culls_q),
+        .x_i(enters ? x_i : x_q),
+        .y_i(enters ? y_i : y_q + ORG'(P)),
+        .width_i(width_o),
+        .height_i(height_o),
+        .there_i(there),
+        .row_o(map_row_o),
+        .row_i(map_row_i),
+        .row_below_i(map_row_below_i),
+        .seen_o(seen)
+    );
+    assign rest = seen_q & (seen_q - NW'(1));
+    assign next = new_row ? (enters && (swallowed_i || hidden_i)) ? '0 : seen : rest;
+    always_comb begin
+      column = '0;
+      for (int w = 0; w < NW; w++) if (next[w] && (next & ((NW'(1) << w) - NW'(1))) == '0) column = column | WIN'(w * P);
+    end
+    assign issues = is_splat && !wait_hazard && seen_q != '0;
+    assign window_first = !issued_q;
+    assign event_hidden_o = accepted && is_splat && hidden_q && !swallowed_q;
+    assign event_hidden_windows_o = (is_splat && new_row_q && !gone_q) ? there_q[set] & ~seen_q : '0;
+    always_ff @(posedge clk_i) begin
+      new_row_q <= new_row;
+      if (accepted && opcode == fastsplat_pkg::OP_LOAD_TABLE && w0[15:8] == fastsplat_pkg::TABLE_RLUT)
+        for (int w = 0; w < NW; w++) there_q[w1[fastsplat_pkg::SET_BITS-1:0]][w] <= extent_i > COL'(w * P);
+      if (enters) begin
+        swallowed_q <= swallowed_i;
+        hidden_q <= hidden_i;
+        gone_q <= swallowed_i || hidden_i;
+        culls_q <= culls_i;
+        sheet_q <= sheet_i;
+        x_q <= x_i;
+        y_q <= y_i;
+        row_q <= '0;
+        last_row_q <= swallowed_i || hidden_i || single_q[data_i[8+:fastsplat_pkg::SET_BITS]];
+        issued_q <= 1'b0;
+      end else begin
+        if (issues) issued_q <= 1'b1;
+        if (new_row) begin
+          row_q <= row_q + WIN'(P);
+          y_q <= y_q + ORG'(P);
+          last_row_q <= last_row_next;
+        end
+      end
+      // Of a row without any a cycle is spent all the same.
+      if (new_row || issues) begin
+        seen_q <= next;
+        column_q <= column;
+        last_column_q <= (next & (next - NW'(1))) == '0;
+      end
+    end
+    logic unused_way;
+    assign unused_way = &{1'b0, one_column, extent_x};
+    `FASTSPLAT_ASSERT(seen_splat_has_windows, !(take && is_splat && !gone_q) || issued_q || issues)
+    `FASTSPLAT_ASSERT(last_column_foretold, !is_splat || (last_column_q == (rest == '0) && (gone_q || last_row_q == (row_q + WIN'(P) >= extent_y))))
+    `FASTSPLAT_COVER(row_of_hidden_windows, is_splat && !gone_q && seen_q == '0)
+    `FASTSPLAT_COVER(windows_left_out, is_splat && new_row_q && !gone_q && seen_q != '0 && seen_q != there_q[set])
+  end else begin : gen_all
+    assign issues = is_splat && !wait_hazard;
+    assign window_first = column_q == '0 && row_q == '0;
+    assign swallowed_q = 1'b0;
+    assign {map_sheet_o, map_row_o, event_hidden_o, event_hidden_windows_o} = '0;
+    logic unused_verdict;
+    assign unused_verdict = &{1'b0, swallowed_i, hidden_i, culls_i, sheet_i, x_i, y_i, map_row_i, map_row_below_i};
+    always_ff @(posedge clk_i) begin
+      if (ready_o) begin
+        last_column_q <= ellipse_next ? data_i[86+:5] == '0 : single_q[data_i[8+:fastsplat_pkg::SET_BITS]];
+        last_row_q <= ellipse_next ? data_i[91+:5] == '0 : single_q[data_i[8+:fastsplat_pkg::SET_BITS]];
+      end
+      if (is_splat && !wait_hazard) begin
+        column_q <= last_column_q ? '0 : column_q + WIN'(P);
+        if (last_column_q) row_q <= last_window ? '0 : row_q + WIN'(P);
+        if (!last_window) begin  // so that there are two columns or rows at the least, of a circle both
+          last_column_q <= last_column_q ? one_column : (WIN + 1)'(column_q) + (WIN + 1)'(2 * P) >= (WIN + 1)'(extent_x);
+          if (last_column_q) last_row_q <= last_row_next;
+        end
+      end
+      if (!rst_ni) begin
+        column_q <= '0;
+        row_q <= '0;
+      end
+    end
+    `FASTSPLAT_ASSERT(last_window_foretold, !is_splat || (last_column_q == (column_q + WIN'(P) >= extent_x) && last_row_q == (row_q + WIN'(P) >= extent_y)))
   end
   `FASTSPLAT_ASSUME_HELD(input_held, valid_i && !ready_o, valid_i, data_i)
   `FASTSPLAT_ASSERT_NEXT(accepted_beat_arrives, valid_i && ready_o, beat_valid_q)
@@ -293,7 +398,6 @@ module fastsplat_stream_decode (
   `FASTSPLAT_ASSERT(kind_foretold, !beat_valid_q || {splat_q, begins_sheet_q, waits_for_rest_q} ==
                     {!payload_q && (opcode == fastsplat_pkg::OP_SPLAT || is_ellipse), !payload_q && opcode == fastsplat_pkg::OP_BEGIN_SHEET,
                      !payload_q && (opcode == fastsplat_pkg::OP_BEGIN_TILE || opcode == fastsplat_pkg::OP_END_TILE)})
-  `FASTSPLAT_ASSERT(last_window_foretold, !is_splat || (last_column_q == (column_q + WIN'(P) >= extent_x) && last_row_q == (row_q + WIN'(P) >= extent_y)))
   `FASTSPLAT_COVER(sheet_waits_for_buffer, wait_buffer)
   `FASTSPLAT_COVER(both_buffers_busy, busy_q == 2'b11)
 endmodule

@@ -34,6 +34,10 @@ module fastsplat_top (
     input  logic         s_axil_rready,
     output logic [31:0]  s_axil_rdata,
     output logic [1:0]   s_axil_rresp,
+    // culling: of each cull_block a pulse, for who fetches the stream
+    output logic         verdict_valid_o,
+    output logic [31:0]  verdict_tag_o,
+    output logic         verdict_hidden_o,
     output logic         irq
 );
   localparam int P = fastsplat_pkg::LANES;
@@ -99,6 +103,9 @@ module fastsplat_top (
       .rready_i(s_axil_rready),
       .rdata_o(s_axil_rdata),
       .rresp_o(s_axil_rresp),
+      .verdict_valid_o,
+      .verdict_tag_o,
+      .verdict_hidden_o,
       .irq_o(irq)
   );
   // verilator lint_on PINMISSING

@@ -31,12 +31,14 @@ Checker::Checker(const cmodel::Config& config, cmodel::StreamScope scope, cmodel
       assembly_(config, device_tiles_, board_.rtl()),
       model_(config, scope, model_tiles_, &board_.model()) {
   board_.keep(options.keep);
+  model_.log_culls(&culls_);
 }
 
 void Checker::start(std::uint64_t first_beat) {
   cycle_model_.emplace(
       config_, scope_,
-      cmodel::CycleOptions{.input = options_.source, .output = options_.sink, .first_beat = first_beat});
+      cmodel::CycleOptions{
+          .input = options_.source, .output = options_.sink, .first_beat = first_beat, .culls = &culls_});
 }
 
 void Checker::accept(const cmodel::Beat& beat) {
@@ -44,6 +46,7 @@ void Checker::accept(const cmodel::Beat& beat) {
   // A record is expected before the device can show it, and no earlier than that.
   model_.consume({&beat, 1});
   if (cycle_model_) cycle_model_->consume({&beat, 1});
+  if (beat[0] % 256 == static_cast<std::uint32_t>(cmodel::Opcode::EndTile)) culls_.clear();  // or a word of a table
   assembly_.accept(beat);
   if (board_.backlog() > kBacklogWords) {
     silent_ = true;

@@ -109,6 +109,7 @@ class Checker final : public RawTapSink {
   DeviceTiles device_tiles_{this};
   TapAssembly assembly_;
   cmodel::Model model_;
+  cmodel::CullLog culls_;  ///< of the open tile: the cycle model is told each answer by the beat that it needs it for
   std::optional<cmodel::CycleModel> cycle_model_;  ///< from start() on
   std::optional<std::uint64_t> cycles_rtl_, cycles_model_;
   bool silent_ = false;

@@ -2,6 +2,9 @@
 
 #include "Vfs_rtl_faulty.h"
 #include "Vfs_rtl_faulty___024root.h"
+#include "Vfs_rtl_faulty_cull.h"
+#include "Vfs_rtl_faulty_cull___024root.h"
+#include "Vfs_rtl_faulty_cull_fastsplat_fault_pkg.h"
 #include "Vfs_rtl_faulty_fastsplat_fault_pkg.h"
 #include "Vfs_rtl_faulty_samples.h"
 #include "Vfs_rtl_faulty_samples___024root.h"
@@ -39,6 +42,7 @@ std::unique_ptr<RtlDevice> make_breakable_device(const cmodel::Config& config, c
   next_assertions = assertions;
   if (config.composite_every_sample != 0)
     return std::make_unique<VerilatedDevice<FaultyTop<Vfs_rtl_faulty_samples>>>(config, pixels, options);
+  if (config.culls()) return std::make_unique<VerilatedDevice<FaultyTop<Vfs_rtl_faulty_cull>>>(config, pixels, options);
   return std::make_unique<VerilatedDevice<FaultyTop<Vfs_rtl_faulty>>>(config, pixels, options);
 }
 

@@ -15,11 +15,12 @@ enum class RtlFault : std::uint32_t {
 
 enum class Assertions { Off, On };
 
-/// Configurations of configs/faults whose RTL can be broken: of every fault but SAMPLE_..., of SAMPLE_...
+/// Configurations of configs/faults whose RTL can be broken: of every fault but the next ones, of SAMPLE_..., of CULL_...
 constexpr const char* kBreakableConfig = "mustfail";
 constexpr const char* kBreakableSamples = "westover";
+constexpr const char* kBreakableCull = "cull";
 
-/// `config` has the numbers of kBreakableConfig or kBreakableSamples, else UserError (Simulation). With assertions on,
+/// `config` has the numbers of one of them, else UserError (Simulation). With assertions on,
 /// one that fires ends the run. Devices on several threads may have different faults.
 std::unique_ptr<RtlDevice> make_breakable_device(const cmodel::Config& config, cmodel::PixelSink& pixels,
                                                  const RtlOptions& options, RtlFault fault, Assertions assertions);

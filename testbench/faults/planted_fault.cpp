@@ -30,7 +30,8 @@ constexpr std::size_t kInRtl = static_cast<std::size_t>(
 }  // namespace
 
 const char* breakable_config(const PlantedFault& fault) {
-  return std::string_view(fault.name).starts_with("SAMPLE_") ? kBreakableSamples : kBreakableConfig;
+  const std::string_view name = fault.name;
+  return name.starts_with("SAMPLE_") ? kBreakableSamples : name.starts_with("CULL_") ? kBreakableCull : kBreakableConfig;
 }
 
 std::span<const PlantedFault> planted_faults() { return kFaults; }

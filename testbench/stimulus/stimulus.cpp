@@ -7,6 +7,7 @@
 #include "cmodel/stream_decode.hpp"
 #include "cmodel/window_geometry.hpp"
 #include "testbench/stimulus/ellipse_stimulus.hpp"
+#include "testbench/stimulus/promises.hpp"
 #include "testbench/stimulus/random.hpp"
 #include "testbench/stimulus/stimulus_tables.hpp"
 
@@ -176,6 +177,7 @@ class Generator {
 
   TileDocument make_tile() {
     tile_ = begin_tile();
+    tag_ = 0;
     TileDocument tile{tile_, {}};
     // What happens once in a pixel's life wants many tiles.
     const bool many_tiles = which_ == StimulusClass::Thresholds;
@@ -402,8 +404,9 @@ class Generator {
 
   SheetDocument make_sheet(std::uint32_t number, std::uint64_t count) {
     SheetDocument sheet{number, {}};
+    const bool hints = !config_.culls();
     for (std::uint64_t i = 0; i < count; ++i) {
-      if (random_.chance(2)) sheet.records.emplace_back(cull());
+      if (hints && random_.chance(2)) sheet.records.emplace_back(cull());
       const Place at = next_place(i);
       if (ellipses() && random_.chance(40)) {
         cmodel::EllipseRecord shaped = random_ellipse(config_, random_, at.x, at.y, most_ellipse_windows());
@@ -414,7 +417,9 @@ class Generator {
       sheet.records.emplace_back(
           cmodel::SplatRecord{.set = at.set, .tag = 0, .x = at.x, .y = at.y, .colour = colours()});
     }
-    if (random_.chance(2)) sheet.records.emplace_back(cull());
+    if (hints && random_.chance(2)) sheet.records.emplace_back(cull());
+    if (!hints) promise(config_, random_, tile_, rho_, tag_, sheet);
+    tag_ += static_cast<std::uint32_t>(count);
     return sheet;
   }
 
@@ -435,6 +440,7 @@ class Generator {
   std::array<std::uint32_t, 256> rho_{};
   cmodel::BeginTile tile_;
   Place hot_, before_, last_;
+  std::uint32_t tag_ = 0;  ///< of the sheet's first splat
   std::uint64_t left_ = 0, distance_ = 1;
   std::int64_t phase_ = 0;
   std::array<std::int64_t, 4> missing_{};  ///< of the words that a sheet aims at; negative: any colour will do

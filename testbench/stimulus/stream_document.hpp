@@ -12,9 +12,11 @@
 
 namespace fastsplat::testbench {
 
+using SheetRecord = std::variant<cmodel::SplatRecord, cmodel::EllipseRecord, cmodel::CullBlock>;
+
 struct SheetDocument {
   std::uint32_t number = 0;
-  std::vector<std::variant<cmodel::SplatRecord, cmodel::EllipseRecord, cmodel::CullBlock>> records;
+  std::vector<SheetRecord> records;
 };
 
 struct TileDocument {

@@ -187,6 +187,8 @@ PlainCullClock plain_cull_clock(const cmodel::Config& config, std::span<const cm
   std::vector<int> order;  // beats as they were sent
   for (std::uint64_t c = wipe; done < sent; ++c) {
     // A table's row, or P words of it, is written in this cycle.
+    for (; !jobs.empty() && jobs.front().units == 0 && jobs.front().after < c; jobs.pop_front())
+      --to_build[jobs.front().table];
     std::array<std::size_t, 2> not_whole = to_build;
     if (!jobs.empty() && jobs.front().after < c && --jobs.front().units == 0) {
       --to_build[jobs.front().table];
@@ -228,15 +230,17 @@ PlainCullClock plain_cull_clock(const cmodel::Config& config, std::span<const cm
           const std::size_t table = ended++ % 2;
           ++all_ended;
           walk_end[table] = f + 1;
-          if (mode < 2 && opaque_yet) {
-            for (int& row : first_row) row = std::min(row, item.row);
-            const auto changed = static_cast<std::uint64_t>(rows - first_row[table]);
+          if (mode < 2) {
+            // Where nothing has to be written the table is whole when the sheet has left k6 and the one before is.
+            if (opaque_yet)
+              for (int& row : first_row) row = std::min(row, item.row);
+            const auto changed = opaque_yet ? static_cast<std::uint64_t>(rows - first_row[table]) : 0;
             const std::uint64_t each = config.cull_cell() == 1
                                            ? static_cast<std::uint64_t>(config.lanes) *
                                                  static_cast<std::uint64_t>((width + config.lanes - 1) / config.lanes)
                                            : 1;
-            if (changed > 0) jobs.push_back({f + 6, changed * each, table}), ++to_build[table], ++not_whole[table];
-            first_row[table] = rows;
+            jobs.push_back({f + 6, changed * each, table}), ++to_build[table], ++not_whole[table];
+            if (opaque_yet) first_row[table] = rows;
           }
         }
         if (record && item.opcode == Opcode::EndTile) {

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <deque>
 
+#include "cmodel/model.hpp"
 #include "testbench/device/rtl_device.hpp"
 #include "testbench/device/tap_assembly.hpp"
 
@@ -123,10 +124,22 @@ CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmo
   rtl_options.taps = &taps;
   const auto rtl = make(config, pixels, rtl_options);
 
+  cmodel::CullLog culls;
+  if (config.culls()) {
+    cmodel::Model tested(config, cmodel::StreamScope::Subset, pixels);
+    tested.log_culls(&culls);
+    tested.consume(beats);
+  }
+
   // Making the device took some cycles already: it read the configuration's hash.
   cmodel::CycleModel model(
       config, cmodel::StreamScope::Subset,
-      {.input = &input, .output = &output, .first_beat = rtl->cycles(), .taps = &expected, .spans = &ideal});
+      {.input = &input,
+       .output = &output,
+       .first_beat = rtl->cycles(),
+       .taps = &expected,
+       .spans = &ideal,
+       .culls = &culls});
   model.consume(beats);
   model.finish();
   rtl->consume(beats);

@@ -157,12 +157,13 @@ bool CycleModel::answer() { return answers_ != nullptr && (*answers_)[answered_+
 
 void CycleModel::cull_block(const CullBlock& record) {
   ++counters_.cull_blocks;
-  if (tile_open_ && culls_in(tile_.mode)) cull_sets_.announce(record.splats, {answer(), last_verdict_});
+  if (tile_open_ && culls_in(tile_.mode)) cull_sets_.announce(record.tag, record.splats, {answer(), last_verdict_});
 }
 
 bool CycleModel::swallowed(const Record& record) {
-  const bool splat = std::holds_alternative<SplatRecord>(record) || std::holds_alternative<EllipseRecord>(record);
-  const Verdict* set = splat ? cull_sets_.next() : nullptr;
+  const Verdict* set = nullptr;
+  if (const auto* circle = std::get_if<SplatRecord>(&record)) set = cull_sets_.next(circle->tag);
+  if (const auto* ellipse = std::get_if<EllipseRecord>(&record)) set = cull_sets_.next(ellipse->tag);
   if (set == nullptr) {
     if (behind_set_ && cull_sets_.waiting() > 0) refuse_parted_sets(decode_.beats() - 1, cull_sets_.waiting());
     if (behind_set_) fetch_behind(last_verdict_);  // of the last set

@@ -16,7 +16,7 @@ using testbench::Pattern;
 
 constexpr std::uint64_t kAddress = 0x8'0000'0fa0;              ///< three beats before a page ends
 constexpr unsigned kResponse = 1, kVerdict = 2, kCommand = 3;  ///< errors
-constexpr unsigned kLatencies[] = {1, 2, 7, 40};
+constexpr unsigned kLatencies[] = {1, 7, 40, 45};              ///< the last: all that 64 beats of room hide
 
 FetchStream stream_of(const char* name, std::uint64_t seed, std::uint64_t splats,
                       cmodel::CullMap map = cmodel::CullMap::Block) {
@@ -74,6 +74,22 @@ TEST(Fetch, IsExactWhereTheMemoryIsRegular) {
               static_cast<unsigned long long>(unsent));
   EXPECT_GT(unsent, 100U);
   EXPECT_GT(waited, 100U);
+}
+
+// Beyond that requests wait for room: the same beats, later.
+TEST(Fetch, IsLateWhereThereIsNoRoomForTheLatency) {
+  const FetchStream stream = stream_of("tiny", 11, 600, cmodel::CullMap::Off);
+  for (const unsigned latency : {45U, 60U}) {
+    const FetchResult seen = run_fetch(stream, {.memory = {.latency = latency}});
+    ASSERT_EQ(seen.finding, "");
+    ASSERT_TRUE(seen.all_sent);
+    const auto times = due(stream, seen, latency);
+    std::uint64_t late = 0;
+    for (std::size_t i = 0; i < times.size(); ++i) late += seen.offered[i] - times[i];
+    std::printf("[figure] latency %u: cycles late = %llu of %llu\n", latency, static_cast<unsigned long long>(late),
+                static_cast<unsigned long long>(seen.cycles));
+    EXPECT_EQ(late == 0, latency == 45);
+  }
 }
 
 TEST(Fetch, SendsTheSameBeatsFromAnyMemory) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
+#include <utility>
 
 #include "cmodel/cycle_stages.hpp"
 #include "cmodel/ellipse_unit.hpp"
@@ -102,7 +103,7 @@ void CycleModel::take(const Beat& beat) {
   const auto opcode = static_cast<Opcode>(get(beat, layout::kOpcode));
   const Record* record = decode_.feed(beat);
   const bool gone = !payload && record != nullptr && swallowed(*record);
-  if (gone && options_.fetch) return;
+  if (gone && options_.fetch && !trusts_) return;
   beat_.payload = payload;
   beat_.opcode = payload ? Opcode::LoadTable : opcode;
   const std::uint64_t at = enter(opcode, payload);
@@ -157,7 +158,10 @@ bool CycleModel::answer() { return answers_ != nullptr && (*answers_)[answered_+
 
 void CycleModel::cull_block(const CullBlock& record) {
   ++counters_.cull_blocks;
-  if (tile_open_ && culls_in(tile_.mode)) cull_sets_.announce(record.tag, record.splats, {answer(), last_verdict_});
+  if (!tile_open_ || !culls_in(tile_.mode)) return;
+  const bool hidden = answer();
+  hides_ = hides_ || (hidden && record.splats > 0);
+  cull_sets_.announce(record.tag, record.splats, {hidden, last_verdict_});
 }
 
 bool CycleModel::swallowed(const Record& record) {
@@ -170,8 +174,9 @@ bool CycleModel::swallowed(const Record& record) {
     behind_set_ = false;
     return false;
   }
+  if (!behind_set_) trusts_ = !std::exchange(hid_, std::exchange(hides_, false));
   behind_set_ = options_.fetch.has_value();
-  if (behind_set_ && !set->hidden) fetch_behind(set->cycle);
+  if (behind_set_ && !set->hidden && !trusts_) fetch_behind(set->cycle);
   return set->hidden;
 }
 

@@ -120,6 +120,7 @@ class Bench {
       const int set = stream_.set_of[beat];
       if (set < 0) continue;
       const auto number = static_cast<std::size_t>(set);
+      if (stream_.trusted[number]) continue;
       if (stream_.hidden[number]) {
         say("beat " + std::to_string(beat) + " is of a hidden set");
       } else if (number >= judged_) {
@@ -204,14 +205,20 @@ class Bench {
 std::vector<std::size_t> FetchStream::wanted() const {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < beats.size(); ++i) {
-    if (set_of[i] < 0 || !hidden[static_cast<std::size_t>(set_of[i])]) out.push_back(i);
+    const auto set = static_cast<std::size_t>(set_of[i]);
+    if (set_of[i] < 0 || trusted[set] || !hidden[set]) out.push_back(i);
   }
   return out;
 }
 
 FetchStream fetch_stream(const cmodel::Config& config, std::vector<Beat> beats, std::uint64_t address) {
-  FetchStream out{
-      .beats = std::move(beats), .commands = {}, .address = address, .set_of = {}, .block = {}, .hidden = {}};
+  FetchStream out{.beats = std::move(beats),
+                  .commands = {},
+                  .address = address,
+                  .set_of = {},
+                  .block = {},
+                  .hidden = {},
+                  .trusted = {}};
   out.commands = cmodel::fetch_commands(config, out.beats, address);
   cmodel::NullPixels nowhere;
   cmodel::Model model(config, cmodel::StreamScope::Whole, nowhere);
@@ -240,6 +247,18 @@ FetchStream fetch_stream(const cmodel::Config& config, std::vector<Beat> beats, 
     if (!splat || covers.empty()) continue;
     out.set_of.back() = covers.front();
     covers.pop_front();
+  }
+  // Sets with splats, command by command.
+  std::size_t number = 0;
+  bool hid = false;
+  for (const cmodel::FetchCommand& command : out.commands) {
+    bool hides = false;
+    for (const std::size_t end = number + command.sets; number < end; ++number) {
+      out.trusted.push_back(!hid);
+      const auto splats = std::ranges::count(out.set_of, static_cast<int>(number));
+      hides = hides || (out.hidden[number] && splats > 0);
+    }
+    if (command.splats > 0) hid = hides;
   }
   return out;
 }

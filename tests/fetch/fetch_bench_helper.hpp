@@ -30,6 +30,8 @@ struct FetchStream {
   std::vector<int> set_of;   ///< by beat: the cull_block that judges it, by number; -1: none
   std::vector<int> block;    ///< by beat: its number, if it is a cull_block that is judged; else -1
   std::vector<bool> hidden;  ///< by cull_block
+  /// By cull_block: its splats are asked for whatever the verdict, for no set of the command before was hidden.
+  std::vector<bool> trusted;
   /// The beats that the device is to get, in order.
   std::vector<std::size_t> wanted() const;
 };

@@ -62,7 +62,12 @@ TEST(FetchedStream, IsTheModelsToo) {
       config.cull_map = static_cast<int>(seed % 2 == 0 ? cmodel::CullMap::Block : cmodel::CullMap::Pixel);
       const Expected expected = expect(config, 40 + seed, 200);
       std::vector<cmodel::Beat> sent;
-      for (const std::size_t beat : expected.stream.wanted()) sent.push_back(expected.stream.beats[beat]);
+      std::uint64_t swallowed = 0;  // of commands whose sets are not asked about
+      for (const std::size_t beat : expected.stream.wanted()) {
+        sent.push_back(expected.stream.beats[beat]);
+        const int set = expected.stream.set_of[beat];
+        swallowed += set >= 0 && expected.stream.hidden[static_cast<std::size_t>(set)] ? 1 : 0;
+      }
       Tiles seen;
       cmodel::Model fetched(config, cmodel::StreamScope::Subset, seen);
       cmodel::CullLog log;
@@ -70,7 +75,7 @@ TEST(FetchedStream, IsTheModelsToo) {
       fetched.consume(sent);
       fetched.finish();
       EXPECT_EQ(different(seen.tiles, expected.picture.tiles, words), 0U) << name;
-      EXPECT_EQ(fetched.culls().swallowed, 0U);
+      EXPECT_EQ(fetched.culls().swallowed, swallowed);
       EXPECT_EQ(log, expected.log);
       left_out += expected.stream.beats.size() - sent.size();
     }
@@ -113,7 +118,7 @@ TEST(FetchedDevice, TakesTheCycleModelsCycles) {
       "%llu\n",
       static_cast<unsigned long long>(busy), static_cast<unsigned long long>(waited),
       static_cast<unsigned long long>(unsent), static_cast<unsigned long long>(words));
-  EXPECT_GT(unsent, 100U);
+  EXPECT_GT(unsent, 30U);
 }
 
 TEST(FetchedDevice, DrawsTheModelsPictureFromAnyMemory) {
@@ -139,7 +144,7 @@ TEST(FetchedDevice, DrawsTheModelsPictureFromAnyMemory) {
   std::printf("[figure] words equal = %llu, cycles = %llu, beats never sent = %llu\n",
               static_cast<unsigned long long>(words), static_cast<unsigned long long>(cycles),
               static_cast<unsigned long long>(unsent));
-  EXPECT_GT(unsent, 100U);
+  EXPECT_GT(unsent, 30U);
 }
 
 }  // namespace

@@ -160,6 +160,8 @@ void CycleModel::cull_block(const CullBlock& record) {
   ++counters_.cull_blocks;
   if (!tile_open_ || !culls_in(tile_.mode)) return;
   const bool hidden = answer();
+  if (answers_ != nullptr) ++stalls_.cull_tests;
+  if (hidden) ++stalls_.hidden_sets;
   hides_ = hides_ || (hidden && record.splats > 0);
   cull_sets_.announce(record.tag, record.splats, {hidden, last_verdict_});
 }
@@ -225,13 +227,16 @@ void CycleModel::footprint(std::uint64_t at, std::uint32_t tag, std::int32_t x, 
   const std::uint64_t windows =
       static_cast<std::uint64_t>(width / config_.lanes) * static_cast<std::uint64_t>(height / config_.lanes);
   if (answers_ != nullptr) {
+    ++stalls_.cull_tests;
     if (answer()) {
+      ++stalls_.hidden_splats;
       hide(at);
       return;
     }
     if (windows > 1) {
       std::vector<bool> hidden;
       for (std::uint64_t i = 0; i < windows; ++i) hidden.push_back(answer());
+      stalls_.hidden_windows += static_cast<std::uint64_t>(std::ranges::count(hidden, true));
       if (std::ranges::find(hidden, true) != hidden.end()) {
         some_windows(at, tag, x, y, width, height, hidden);
         return;

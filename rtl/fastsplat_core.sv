@@ -140,10 +140,7 @@ module fastsplat_core (
   logic event_test, event_hidden_set, event_hidden;
   logic [fastsplat_pkg::WINDOWS_X-1:0] event_hidden_windows;
   if (fastsplat_pkg::CULL_MAP != 0) begin : gen_cull
-    logic whole, look, look_sheet;
-    logic [fastsplat_pkg::CULL_CELL_BITS-1:0] i0, i1, j0, j1;
-    logic [fastsplat_pkg::CULL_BITS-1:0] count;
-    fastsplat_cull_test u_test (
+    fastsplat_cull u_cull (
         .clk_i,
         .rst_ni,
         .valid_i(beat_valid),
@@ -164,28 +161,14 @@ module fastsplat_core (
         .sheet_o(sheet_odd),
         .x_o(first_x),
         .y_o(first_y),
-        .tile_begin_i(tile_begin),
-        .whole_i(whole),
-        .re_o(look),
-        .re_sheet_o(look_sheet),
-        .i0_o(i0),
-        .i1_o(i1),
-        .j0_o(j0),
-        .j1_o(j1),
-        .count_i(count),
-        .verdict_valid_o,
-        .verdict_tag_o,
-        .verdict_hidden_o,
-        .idle_o(cull_idle),
-        .event_test_o(event_test),
-        .event_hidden_set_o(event_hidden_set)
-    );
-    fastsplat_cull_map u_map (
-        .clk_i,
-        .rst_ni,
+        .row_sheet_i(map_sheet),
+        .row_i(map_row),
+        .row_o(opaque_row),
+        .row_below_o(opaque_row_below),
         .tile_begin_i(tile_begin),
         .tile_end_i(tile_end),
-        .culls_i(mode != 2'd2 && !every_sample),
+        .mode_i(mode),
+        .every_sample_i(every_sample),
         .width_i(width),
         .height_i(height),
         .block_valid_i(tap_composite_valid_o),
@@ -195,18 +178,12 @@ module fastsplat_core (
         .finish_i(tap_sheet_done_o),
         .blank_i(blank),
         .blank_addr_i(blank_addr),
-        .whole_o(whole),
-        .re_i(look),
-        .sheet_i(look_sheet),
-        .i0_i(i0),
-        .i1_i(i1),
-        .j0_i(j0),
-        .j1_i(j1),
-        .count_o(count),
-        .row_sheet_i(map_sheet),
-        .row_i(map_row),
-        .row_o(opaque_row),
-        .row_below_o(opaque_row_below)
+        .verdict_valid_o,
+        .verdict_tag_o,
+        .verdict_hidden_o,
+        .idle_o(cull_idle),
+        .event_test_o(event_test),
+        .event_hidden_set_o(event_hidden_set)
     );
   end else begin : gen_no_cull
     assign tested_valid = beat_valid;
@@ -470,9 +447,16 @@ module fastsplat_core (
   assign running = !stall_input || tile_open || !pixel_idle;
 
   // What a counter counts: bits set in a cycle.
-  logic [4*BANKS-1:0] events[0:fastsplat_pkg::COUNTERS-1];
+  localparam int MOST = (fastsplat_pkg::CULL_MAP != 0 && fastsplat_pkg::WINDOWS_X > 4 * BANKS) ? fastsplat_pkg::WINDOWS_X : 4 * BANKS;
+  logic [MOST-1:0] events[0:fastsplat_pkg::COUNTERS-1];
   always_comb begin
-    for (int n = 0; n < fastsplat_pkg::COUNTERS; n++) events[n] = (4 * BANKS)'(n == fastsplat_pkg::CNT_STALL_HAZARD && stall_hazard);
+    // Those that not every device has.
+    for (int n = 0; n < fastsplat_pkg::COUNTERS; n++) begin
+      events[n] = (n == fastsplat_pkg::CNT_HIDDEN_WINDOWS) ? MOST'(event_hidden_windows)
+                  : MOST'((n == fastsplat_pkg::CNT_STALL_HAZARD && stall_hazard) || (n == fastsplat_pkg::CNT_CULL_TESTS && event_test) ||
+                          (n == fastsplat_pkg::CNT_HIDDEN_SETS && event_hidden_set) ||
+                          (n == fastsplat_pkg::CNT_HIDDEN_SPLATS && event_hidden));
+    end
     events[fastsplat_pkg::CNT_SHEETS][0] = tap_sheet_done_o;
     events[fastsplat_pkg::CNT_SPLATS][0] = event_splat;
     events[fastsplat_pkg::CNT_CULL_BLOCKS][0] = event_cull;
@@ -481,9 +465,9 @@ module fastsplat_core (
     if (tap_window_valid_o) begin
       events[fastsplat_pkg::CNT_LANES_INSIDE][BANKS-1:0] = window_inside;
       events[fastsplat_pkg::CNT_LANES_WEIGHTED][BANKS-1:0] = weighted;
-      events[fastsplat_pkg::CNT_PRODUCT_SATURATED] = product_saturated;
+      events[fastsplat_pkg::CNT_PRODUCT_SATURATED][4*BANKS-1:0] = product_saturated;
     end
-    if (tap_sheet_valid_o && !`FASTSPLAT_FAULT(LOST_COUNT)) events[fastsplat_pkg::CNT_SHEET_SATURATED] = sheet_saturated;
+    if (tap_sheet_valid_o && !`FASTSPLAT_FAULT(LOST_COUNT)) events[fastsplat_pkg::CNT_SHEET_SATURATED][4*BANKS-1:0] = sheet_saturated;
     events[fastsplat_pkg::CNT_DIRTY_BLOCKS][0] = tap_composite_valid_o && !every_sample;
     if (slice_valid) begin
       events[fastsplat_pkg::CNT_PIXELS_COMPOSITED][COMPOSITED-1:0] = slice_inside;
@@ -512,6 +496,7 @@ module fastsplat_core (
                         : OfPixels ? COMPOSITED
                         : OfSlabs ? 4 * COMPOSITED
                         : n == fastsplat_pkg::CNT_PIXEL_SATURATED ? 4 * fastsplat_pkg::LANES
+                        : n == fastsplat_pkg::CNT_HIDDEN_WINDOWS ? fastsplat_pkg::WINDOWS_X
                         : n == fastsplat_pkg::CNT_SNAP_SATURATED ? 2 : 1;
     fastsplat_popcount #(.BITS(Bits)) u_count (
         .clk_i,

@@ -193,7 +193,7 @@ module fastsplat_cull_map (
     sums = '0;
     for (int k = 0; k < K; k++) begin
       sums[k*B+:B] = above[k*B+:B] + (b1_first_q ? '0 : count_q);
-      for (int l = 0; l <= k; l++) sums[k*B+:B] = sums[k*B+:B] + B'(bits[l]);
+      for (int l = 0; l < K; l++) if (l <= k) sums[k*B+:B] = sums[k*B+:B] + B'(bits[l]);
     end
   end
   always_ff @(posedge clk_i) begin

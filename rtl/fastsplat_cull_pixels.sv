@@ -47,15 +47,17 @@ module fastsplat_cull_pixels (
   );
   for (genvar s = 0; s < 2; s++) begin : gen_sheet
     logic found;
+    logic [PP-1:0] pixels;
     assign found = frozen_valid_i && frozen_sheet_i == 1'(s);
     fastsplat_ram_1r1w #(.BITS(PP), .WORDS(NB), .ADDR(AB)) u_fresh (
         .clk_i,
         .re_i,
         .raddr_i(block_i),
-        .rdata_o(fresh[s]),
+        .rdata_o(pixels),
         .we_i(blank_i || found),
         .waddr_i(blank_i ? blank_addr_i : frozen_block_i),
         .wdata_i(blank_i ? '0 : frozen_i)
     );
+    assign fresh[s] = pixels;
   end
 endmodule

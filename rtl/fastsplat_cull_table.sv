@@ -33,10 +33,12 @@ module fastsplat_cull_table (
   logic [K*B-1:0] rows[0:COPIES-1];
   logic [B-1:0] words[0:3];
   for (genvar m = 0; m < COPIES; m++) begin : gen_copy
+    localparam bit FIRST = m == 0;
     localparam bit RIGHT = COPIES == 2 || m % 2 == 1;
     localparam bit BELOW = (COPIES == 2) ? m == 1 : m >= 2;
     logic [CB-1:0] i, j;
     logic [AB-1:0] address;
+    logic [K*B-1:0] row;
     assign i = (RIGHT ? i1_i : i0_i) - CB'(1);
     assign j = (BELOW ? j1_i : j0_i) - CB'(1);
     logic unused;
@@ -44,13 +46,14 @@ module fastsplat_cull_table (
     assign address = (AB'(j) << NL) | ((NC > 1) ? AB'(i) >> KL : '0);
     fastsplat_ram_1r1w #(.BITS(K * B), .WORDS(fastsplat_pkg::CULL_ROWS * NC), .ADDR(AB)) u_words (
         .clk_i,
-        .re_i((m == 0 && build_re_i) || re_i),
-        .raddr_i((m == 0 && build_re_i) ? build_raddr_i : address),
-        .rdata_o(rows[m]),
+        .re_i((FIRST && build_re_i) || re_i),
+        .raddr_i((FIRST && build_re_i) ? build_raddr_i : address),
+        .rdata_o(row),
         .we_i,
         .waddr_i,
         .wdata_i
     );
+    assign rows[m] = row;
   end
   assign build_o = rows[0];
 

@@ -55,10 +55,14 @@ void CoverageCollector::interrupted(std::span<const cmodel::Beat> beats, std::ui
 }
 
 void CoverageCollector::start(std::uint64_t first_beat) {
-  cycles_.emplace(
-      config_, scope_,
-      cmodel::CycleOptions{
-          .input = run_.source, .output = run_.sink, .first_beat = first_beat, .taps = &times_, .spans = &times_});
+  cycles_.emplace(config_, scope_,
+                  cmodel::CycleOptions{.input = run_.source,
+                                       .output = run_.sink,
+                                       .first_beat = first_beat,
+                                       .taps = &times_,
+                                       .spans = &times_,
+                                       .culls = &culls_});
+  model_.log_culls(&culls_);
 }
 
 void CoverageCollector::before(const cmodel::Record& record) {

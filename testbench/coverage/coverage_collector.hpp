@@ -67,6 +67,7 @@ class CoverageCollector {
   ModelTaps taps_{this};
   cmodel::NullPixels pixels_;
   cmodel::Model model_;
+  cmodel::CullLog culls_;
   std::optional<cmodel::CycleModel> cycles_;
 };
 

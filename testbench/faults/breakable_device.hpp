@@ -15,7 +15,8 @@ enum class RtlFault : std::uint32_t {
 
 enum class Assertions { Off, On };
 
-/// Configurations of configs/faults whose RTL can be broken: of every fault but the next ones, of SAMPLE_..., of CULL_...
+/// Configurations of configs/faults whose RTL can be broken: of every fault but the next ones, of SAMPLE_..., of
+/// CULL_...
 constexpr const char* kBreakableConfig = "mustfail";
 constexpr const char* kBreakableSamples = "westover";
 constexpr const char* kBreakableCull = "cull";

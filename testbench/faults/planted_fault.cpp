@@ -31,7 +31,9 @@ constexpr std::size_t kInRtl = static_cast<std::size_t>(
 
 const char* breakable_config(const PlantedFault& fault) {
   const std::string_view name = fault.name;
-  return name.starts_with("SAMPLE_") ? kBreakableSamples : name.starts_with("CULL_") ? kBreakableCull : kBreakableConfig;
+  return name.starts_with("SAMPLE_") ? kBreakableSamples
+         : name.starts_with("CULL_") ? kBreakableCull
+                                     : kBreakableConfig;
 }
 
 std::span<const PlantedFault> planted_faults() { return kFaults; }

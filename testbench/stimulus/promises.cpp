@@ -38,7 +38,7 @@ PixelBox around(const PixelBox& a, const PixelBox& b) {
 }  // namespace
 
 void promise(const cmodel::Config& config, Random& random, const cmodel::BeginTile& tile,
-             const std::array<std::uint32_t, 256>& rho, std::uint32_t tag, SheetDocument& sheet) {
+             const std::array<std::uint32_t, 256>& rho, SheetDocument& sheet) {
   const std::vector<SheetRecord> splats = std::exchange(sheet.records, {});
   const bool in_front = random.chance(50);  // all that there is room for
   const auto room = static_cast<std::size_t>(cmodel::cull_sets(config));
@@ -55,7 +55,7 @@ void promise(const cmodel::Config& config, Random& random, const cmodel::BeginTi
         box = around(box, box_of(config, rho, splats[i]).clipped(tile.width, tile.height));
       if (random.chance(10)) box = around(box, {0, 0, tile.width, tile.height});
       if (box.empty()) box = {-5, 3, -4, 4};
-      sheet.records.emplace_back(cmodel::CullBlock{.tag = tag + static_cast<std::uint32_t>(promised),
+      sheet.records.emplace_back(cmodel::CullBlock{.tag = 0,
                                                    .x = static_cast<std::int32_t>(box.x0),
                                                    .y = static_cast<std::int32_t>(box.y0),
                                                    .width = static_cast<int>(box.x1 - box.x0),

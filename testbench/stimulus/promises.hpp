@@ -11,8 +11,8 @@
 namespace fastsplat::testbench {
 
 /// Puts cull_blocks among the sheet's splats: rectangles around those that each covers, now and then a wider one, one of
-/// none, or one beside the tile. rho by radius set, 1/k pixel; `tag` is that of the sheet's first splat.
+/// none, or one beside the tile. rho by radius set, 1/k pixel.
 void promise(const cmodel::Config& config, Random& random, const cmodel::BeginTile& tile,
-             const std::array<std::uint32_t, 256>& rho, std::uint32_t tag, SheetDocument& sheet);
+             const std::array<std::uint32_t, 256>& rho, SheetDocument& sheet);
 
 }  // namespace fastsplat::testbench

@@ -177,7 +177,6 @@ class Generator {
 
   TileDocument make_tile() {
     tile_ = begin_tile();
-    tag_ = 0;
     TileDocument tile{tile_, {}};
     // What happens once in a pixel's life wants many tiles.
     const bool many_tiles = which_ == StimulusClass::Thresholds;
@@ -418,9 +417,30 @@ class Generator {
           cmodel::SplatRecord{.set = at.set, .tag = 0, .x = at.x, .y = at.y, .colour = colours()});
     }
     if (hints && random_.chance(2)) sheet.records.emplace_back(cull());
-    if (!hints) promise(config_, random_, tile_, rho_, tag_, sheet);
-    tag_ += static_cast<std::uint32_t>(count);
+    if (!hints && walls() && random_.chance(30)) wall(sheet);
+    if (!hints) promise(config_, random_, tile_, rho_, sheet);
     return sheet;
+  }
+
+  /// Classes whose sheets mean something by themselves are left as they are.
+  bool walls() const {
+    return which_ != StimulusClass::Thresholds && which_ != StimulusClass::OffTile &&
+           which_ != StimulusClass::EmptySheets && which_ != StimulusClass::SparseSheets;
+  }
+  /// Bright splats side by side over the tile or a part of it, for devices that cull: they freeze what they may.
+  void wall(SheetDocument& sheet) {
+    const std::int64_t from = random_.chance(50) ? 0 : random_.between(0, tile_.height - 1), lanes = config_.lanes;
+    const auto most = static_cast<std::uint32_t>(config_.colour_format().max);
+    for (std::int64_t y = from; y < tile_.height; y += lanes) {
+      for (std::int64_t x = 0; x < tile_.width; x += lanes) {
+        const std::uint32_t set = first_set_ + static_cast<std::uint32_t>(random_.between(0, sets_ - 1));
+        sheet.records.emplace_back(cmodel::SplatRecord{.set = set,
+                                                       .tag = 0,
+                                                       .x = centre(set, x, 0),
+                                                       .y = centre(set, y, 0),
+                                                       .colour = {colour(), colour(), colour(), most}});
+      }
+    }
   }
 
   cmodel::CullBlock cull() {
@@ -440,7 +460,6 @@ class Generator {
   std::array<std::uint32_t, 256> rho_{};
   cmodel::BeginTile tile_;
   Place hot_, before_, last_;
-  std::uint32_t tag_ = 0;  ///< of the sheet's first splat
   std::uint64_t left_ = 0, distance_ = 1;
   std::int64_t phase_ = 0;
   std::array<std::int64_t, 4> missing_{};  ///< of the words that a sheet aims at; negative: any colour will do

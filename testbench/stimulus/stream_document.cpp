@@ -89,6 +89,7 @@ std::vector<cmodel::Beat> write_document(const cmodel::Config& config, const Str
     for (const auto& sheet : tile.sheets) {
       append(beats, cmodel::BeginSheet{sheet.number});
       const std::uint32_t first = tag;
+      std::uint32_t promised = tag;  // the first splat that no cull_block covers
       for (const auto& record : sheet.records) {
         if (const auto* splat = std::get_if<cmodel::SplatRecord>(&record)) {
           cmodel::SplatRecord numbered = *splat;
@@ -99,7 +100,12 @@ std::vector<cmodel::Beat> write_document(const cmodel::Config& config, const Str
           numbered.tag = tag++;
           beats.push_back(to_beat(numbered));
         } else {
-          append(beats, std::get<cmodel::CullBlock>(record));
+          cmodel::CullBlock set = std::get<cmodel::CullBlock>(record);
+          if (config.culls()) {
+            set.tag = std::max(promised, tag);
+            promised = set.tag + set.splats;
+          }
+          append(beats, set);
         }
       }
       append(beats, cmodel::EndSheet{sheet.number, tag - first});

@@ -69,7 +69,12 @@ FailureReport investigate(const BeatSource& source, const VerifyOptions& options
     VerifyOptions run = trial;
     const auto beats = write_document(options.config, candidate);
     run.reset_after = std::min<std::uint64_t>(run.reset_after, beats.size());
-    return same_failure(failed, verify(source_of(beats), run));
+    try {
+      return same_failure(failed, verify(source_of(beats), run));
+    } catch (const UserError& error) {
+      if (error.code() != ExitCode::Input) throw;
+      return false;  // a cull_block covers fewer splats than it says
+    }
   };
   report.original = first_divergence(failed, options.config);
   report.document = shrink(start(source, options.config, failed, fails), fails, most_runs, report.shrink);

@@ -29,6 +29,8 @@ module icarus_bench;
   logic [11:0] awaddr_i, araddr_i;
   logic [31:0] wdata_i, rdata_o;
   logic [1:0] bresp_o, rresp_o;
+  logic verdict_valid_o, verdict_hidden_o;
+  logic [31:0] verdict_tag_o;
   logic tap_snap_valid_o, tap_window_valid_o, tap_sheet_valid_o, tap_composite_valid_o, tap_sheet_done_o, error_o;
   logic [31:0] tap_snap_tag_o, tap_window_tag_o, tap_sheet_tag_o, tap_tile_o;
   logic signed [fastsplat_pkg::ORG_BITS-1:0] tap_snap_x_o, tap_snap_y_o, tap_window_x_o, tap_window_y_o;
@@ -50,7 +52,7 @@ module icarus_bench;
 
   // Transfers are decided by known values, and carry known values.
   task automatic look;
-    if (^{s_tready_o, error_o, irq_o} === 1'bx) wrong("unknown", "s_tready, error, irq");
+    if (^{s_tready_o, error_o, irq_o, verdict_valid_o} === 1'bx) wrong("unknown", "s_tready, error, irq");
     if (m_tvalid_o === 1'bx) wrong("unknown", "m_tvalid");
     if (^{awready_o, wready_o, bvalid_o, arready_o, rvalid_o} === 1'bx) wrong("unknown", "register handshake");
     if (^{tap_snap_valid_o, tap_window_valid_o, tap_sheet_valid_o, tap_composite_valid_o, tap_sheet_done_o} === 1'bx)

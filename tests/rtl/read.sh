@@ -16,10 +16,12 @@ yosys -q -l "$work/yosys.log" -p "read_verilog -sv -I$source/rtl $work/fastsplat
 # Every module of rtl/ must be in the elaborated design, as itself or with parameters.
 modules=0
 ellipses=$(sed -n 's/.* ELLIPSES = \([01]\);/\1/p' "$work/fastsplat_pkg.sv")
+culls=$(sed -n 's/.* CULL_MAP = \([012]\);/\1/p' "$work/fastsplat_pkg.sv")
 samples=$(sed -n 's/.* EVERY_SAMPLE = \([01]\);/\1/p' "$work/fastsplat_pkg.sv")
 for module in $(sed -n 's/^module \([a-z0-9_]*\).*/\1/p' "$source"/rtl/*.sv "$source"/rtl/top/*.sv); do
   case $ellipses$module in 0fastsplat_ellipse*) continue ;; esac  # the configuration has none
   case $samples$module in 0fastsplat_overlap | 0fastsplat_sample_places) continue ;; esac
+  case $culls$module in 0fastsplat_cull* | 1fastsplat_cull_pixels) continue ;; esac
   grep -q "^=== \(\$paramod.*\\\\\)\?$module\(\\\\.*\)\? ===" "$work/stat.txt" || { echo "$config: module $module is not in the design"; exit 1; }
   modules=$((modules + 1))
 done

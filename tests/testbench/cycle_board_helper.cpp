@@ -132,14 +132,13 @@ CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmo
   }
 
   // Making the device took some cycles already: it read the configuration's hash.
-  cmodel::CycleModel model(
-      config, cmodel::StreamScope::Subset,
-      {.input = &input,
-       .output = &output,
-       .first_beat = rtl->cycles(),
-       .taps = &expected,
-       .spans = &ideal,
-       .culls = &culls});
+  cmodel::CycleModel model(config, cmodel::StreamScope::Subset,
+                           {.input = &input,
+                            .output = &output,
+                            .first_beat = rtl->cycles(),
+                            .taps = &expected,
+                            .spans = &ideal,
+                            .culls = &culls});
   model.consume(beats);
   model.finish();
   rtl->consume(beats);

@@ -59,8 +59,8 @@ class CycleSink {
   virtual void on_tile(const TileCycles& tile) = 0;
 };
 
-/// The source is a master that reads the stream from a memory and never asks for the splats of a hidden set
-/// (rtl/fetch). It refuses, with UserError (Input), sets that cull_blocks lie between (cmodel/fetch_commands.hpp).
+/// The source is a master that reads the stream from a memory and does not ask for the splats of hidden sets, where any
+/// are (rtl/fetch). It refuses, with UserError (Input), sets that cull_blocks lie between (cmodel/fetch_commands.hpp).
 struct Fetch {
   std::uint64_t latency = 1;  ///< of the memory: cycles from an address taken to its first beat; 0 is taken for 1
 };

@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "driver/config_file.hpp"
-#include "driver/cull_table.hpp"
+#include "driver/culling_comparison.hpp"
 #include "driver/render.hpp"
 #include "tests/driver/scenes_helper.hpp"
 #include "volume/volume_file.hpp"
@@ -41,7 +41,7 @@ TEST(CulledHead, IsTheSamePictureInFewerCycles) {
   if (!volume) GTEST_SKIP() << "the scan is not installed: " << why_not;
   for (const int size : {256, 512}) {
     const auto scene = scene::build_scene(view_of("ch2bet", size, "mri-head"), volume);
-    const auto rows = cull_table(scene, load_config("base"), kLatency, 0);
+    const auto rows = compare_culling(scene, load_config("base"), kLatency, 0);
     tell("head, " + std::to_string(size), rows);
     EXPECT_GT(static_cast<double>(rows[0].cycles), (size == 512 ? 2.5 : 2.4) * static_cast<double>(rows[2].cycles));
   }
@@ -63,10 +63,12 @@ const Goal kGoals[] = {
     {"opaque", "shells:128", "default", 512, 20.0, 1.0, 2.2, 0.01},
     {"fibres", "fire:128", "fire", 512, 1.0, 1.0, 0.99, 0.01},
     {"transparent", "shells:128", "default", 512, 0.05, 1.0, 0.99, 0.01},
-    {"wall 3", "binary-cube:256", "binary", 128, 20.0, 6.0, 1.0, 0.01},
-    {"wall 10", "binary-cube:256", "binary", 128, 2.0, 6.0, 1.0, 0.01},
-    {"wall 21", "binary-cube:256", "binary", 128, 1.0, 6.0, 1.0, 0.01},
-    {"wall 37", "binary-cube:256", "binary", 128, 0.5, 6.0, 1.0, 0.01},
+    // The deck's shares of visible voxels, and how many times less it took for them (54.6 s to 12.7 s at 3 %). A wall
+    // of 128 sheets that fills the picture; every set of it is as small as sets are, so its records cost a hundredth.
+    {"wall, 3 %", "binary-cube:256", "binary", 128, 20.0, 6.0, 54.6 / 12.7, 0.02},
+    {"wall, 10 %", "binary-cube:256", "binary", 128, 0.69, 6.0, 17.6 / 8.4, 0.02},
+    {"wall, 21 %", "binary-cube:256", "binary", 128, 0.28, 6.0, 35.8 / 14.8, 0.02},
+    {"wall, 37 %", "binary-cube:256", "binary", 128, 0.15, 6.0, 36.8 / 15.5, 0.02},
 };
 
 class CulledScenes : public ::testing::TestWithParam<Goal> {};
@@ -76,7 +78,7 @@ TEST_P(CulledScenes, TakeFewerCyclesOrHardlyMore) {
   auto description = view_of(goal.volume, goal.size, goal.transfer_function);
   description.opacity_scale = goal.opacity_scale;
   description.camera.zoom = goal.zoom;
-  const auto rows = cull_table(scene::build_scene(description), load_config("base"), kLatency, 0);
+  const auto rows = compare_culling(scene::build_scene(description), load_config("base"), kLatency, 0);
   tell(goal.name, rows);
   ASSERT_EQ(rows.size(), 5U);
   const auto off = static_cast<double>(rows[0].cycles);

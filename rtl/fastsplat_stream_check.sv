@@ -39,9 +39,7 @@ module fastsplat_stream_check (
   localparam logic [RULES:0] COUNTED = (RULES + 1)'(1) << fastsplat_pkg::RULE_SHEET | (RULES + 1)'(1) << fastsplat_pkg::RULE_TAG |
                                        (RULES + 1)'(1) << fastsplat_pkg::RULE_END_NUMBER | (RULES + 1)'(1) << fastsplat_pkg::RULE_END_COUNT;
   // Comparisons of order, not of equality, with words that are no constants.
-  localparam logic [RULES:0] RISING = (RULES + 1)'(1) << fastsplat_pkg::RULE_TAG | (RULES + 1)'(1) << fastsplat_pkg::RULE_END_COUNT;
-  localparam logic [RULES:0] LATE = (RULES + 1)'(1) << fastsplat_pkg::RULE_TILE | (RULES + 1)'(1) << fastsplat_pkg::RULE_SHEET |
-                                    (fastsplat_pkg::CULL_MAP != 0 ? RISING : '0);
+  localparam logic [RULES:0] LATE = (RULES + 1)'(1) << fastsplat_pkg::RULE_TILE | (RULES + 1)'(1) << fastsplat_pkg::RULE_SHEET;
 
   // Where in the grammar the beat stands.
   typedef enum logic [2:0] {PlStart, PlTables, PlWords, PlTile, PlSheet} place_e;

@@ -270,6 +270,4 @@ module fastsplat_cull_map (
   end
   `FASTSPLAT_ASSERT(no_third_table, !(leaves && waits_q))
   `FASTSPLAT_ASSERT(no_test_while_built, !(re_i && work_q && table_q == sheet_i))
-  `FASTSPLAT_COVER(table_waits_for_another, start_waiting)
-  `FASTSPLAT_COVER(table_needs_nothing, leaves && !left_any && any_q)
 endmodule

@@ -70,5 +70,4 @@ module fastsplat_cull_sets (
     end
   end
   `FASTSPLAT_ASSERT(oldest_set_in_front, valid_q || behind_q == '0)
-  `FASTSPLAT_COVER(set_behind_another, pops)
 endmodule

@@ -257,6 +257,4 @@ module fastsplat_cull_test (
 
   `FASTSPLAT_ASSERT_HELD(tested_beat_held, valid_o && !ready_i, valid_o, {data_o, payload_o, aborted_o, swallowed_o, hidden_o})
   `FASTSPLAT_ASSERT(tables_two_behind, !(begins_sheet && valid_q[0] && tile_culls_q && second_q) || begun_q - whole_q != 2'd3)
-  `FASTSPLAT_COVER(sheet_waits_for_table, valid_q[0] && holds && !valid_q[1])
-  `FASTSPLAT_COVER(set_is_hidden, verdict_valid_o && verdict_hidden_o)
 endmodule

@@ -359,8 +359,6 @@ module fastsplat_stream_decode (
     assign unused_way = &{1'b0, one_column, extent_x};
     `FASTSPLAT_ASSERT(seen_splat_has_windows, !(take && is_splat && !gone_q) || issued_q || issues)
     `FASTSPLAT_ASSERT(last_column_foretold, !is_splat || (last_column_q == (rest == '0) && (gone_q || last_row_q == (row_q + WIN'(P) >= extent_y))))
-    `FASTSPLAT_COVER(row_of_hidden_windows, is_splat && !gone_q && seen_q == '0)
-    `FASTSPLAT_COVER(windows_left_out, is_splat && new_row_q && !gone_q && seen_q != '0 && seen_q != there_q[set])
   end else begin : gen_all
     assign issues = is_splat && !wait_hazard;
     assign window_first = column_q == '0 && row_q == '0;

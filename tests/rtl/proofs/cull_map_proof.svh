@@ -111,4 +111,5 @@ always @(posedge clk_i) begin
     for (int b = 0; b < F_BLOCKS; b++) assert (copy[(sheet_i ? BY : 0)+b/BX][b%BX] == f_after_q[sheet_i][b]);
   cover (f_read_q && f_count_q == B'(1) && f_whole_q >= 3'd2 && f_after_q[0] != f_after_q[1]);
   cover (f_read_q && f_count_q == B'(4));
+  cover (rst_ni && leaves && !left_any && any_q);
 end

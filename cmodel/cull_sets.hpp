@@ -24,37 +24,39 @@ inline std::int64_t cull_sets(const Config& config) {
   return std::int64_t{(config.tile_width + side - 1) / side} * ((config.tile_height + side - 1) / side);
 }
 
-/// A queue of sets with splats to come, oldest first, each with what its owner wants to know of it.
+/// A queue of sets with splats to come, oldest first, each with what its owner wants to know of it. It goes by tags,
+/// for a source may leave out the splats of hidden sets, and tags go on as if they had come.
 template <class Note>
 class CullSets {
  public:
-  void announce(std::uint32_t splats, const Note& note) {
+  /// Of `splats` splats, the first of which has the tag `tag`: the one behind those announced before.
+  void announce(std::uint32_t tag, std::uint32_t splats, const Note& note) {
     if (splats == 0) return;
-    open_.push_back({splats, note});
-    waiting_ += splats;
+    if (open_.empty()) next_ = tag;
+    open_.push_back({tag + splats, note});
   }
-  /// The next splat's set, one splat less; null if it belongs to none. The pointer lives until the next call.
-  const Note* next() {
+  /// A splat came: its set; null if it belongs to none. The pointer lives until the next call.
+  const Note* next(std::uint32_t tag) {
+    const auto passed = [&] { return static_cast<std::int32_t>(tag - open_.front().end) >= 0; };
+    while (!open_.empty() && passed()) open_.pop_front();
     if (open_.empty()) return nullptr;
+    next_ = tag + 1;
     last_ = open_.front().note;
-    --waiting_;
-    if (--open_.front().left == 0) open_.pop_front();
+    if (next_ == open_.front().end) open_.pop_front();
     return &last_;
   }
-  std::uint64_t waiting() const { return waiting_; }  ///< splats of sets to come
+  /// Splats of sets to come, if none is left out.
+  std::uint32_t waiting() const { return open_.empty() ? 0 : open_.back().end - next_; }
   std::size_t open() const { return open_.size(); }
-  void clear() {
-    open_.clear();
-    waiting_ = 0;
-  }
+  void clear() { open_.clear(); }
 
  private:
   struct Open {
-    std::uint32_t left;
+    std::uint32_t end;  ///< tag behind its last splat
     Note note;
   };
   std::deque<Open> open_;
-  std::uint64_t waiting_ = 0;
+  std::uint32_t next_ = 0;  ///< tag of the next splat to come
   Note last_{};
 };
 

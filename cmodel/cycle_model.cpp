@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
+#include <utility>
 
 #include "cmodel/cycle_stages.hpp"
 #include "cmodel/ellipse_unit.hpp"
@@ -110,7 +111,7 @@ void CycleModel::take(const Beat& beat) {
   const auto opcode = static_cast<Opcode>(get(beat, layout::kOpcode));
   const Record* record = decode_.feed(beat);
   const bool gone = !payload && record != nullptr && swallowed(*record);
-  if (gone && options_.fetch) return;
+  if (gone && options_.fetch && !trusts_) return;
   beat_.payload = payload;
   beat_.opcode = payload ? Opcode::LoadTable : opcode;
   const std::uint64_t at = enter(opcode, payload);
@@ -169,20 +170,23 @@ void CycleModel::cull_block(const CullBlock& record) {
   const bool hidden = answer();
   if (answers_ != nullptr) ++stalls_.cull_tests;
   if (hidden) ++stalls_.hidden_sets;
-  cull_sets_.announce(record.splats, {hidden, last_verdict_});
+  hides_ = hides_ || (hidden && record.splats > 0);
+  cull_sets_.announce(record.tag, record.splats, {hidden, last_verdict_});
 }
 
 bool CycleModel::swallowed(const Record& record) {
-  const bool splat = std::holds_alternative<SplatRecord>(record) || std::holds_alternative<EllipseRecord>(record);
-  const Verdict* set = splat ? cull_sets_.next() : nullptr;
+  const Verdict* set = nullptr;
+  if (const auto* circle = std::get_if<SplatRecord>(&record)) set = cull_sets_.next(circle->tag);
+  if (const auto* ellipse = std::get_if<EllipseRecord>(&record)) set = cull_sets_.next(ellipse->tag);
   if (set == nullptr) {
     if (behind_set_ && cull_sets_.waiting() > 0) refuse_parted_sets(decode_.beats() - 1, cull_sets_.waiting());
     if (behind_set_) fetch_behind(last_verdict_);  // of the last set
     behind_set_ = false;
     return false;
   }
+  if (!behind_set_) trusts_ = !std::exchange(hid_, std::exchange(hides_, false));
   behind_set_ = options_.fetch.has_value();
-  if (behind_set_ && !set->hidden) fetch_behind(set->cycle);
+  if (behind_set_ && !set->hidden && !trusts_) fetch_behind(set->cycle);
   return set->hidden;
 }
 

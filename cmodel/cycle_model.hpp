@@ -59,8 +59,8 @@ class CycleSink {
   virtual void on_tile(const TileCycles& tile) = 0;
 };
 
-/// The source is a master that reads the stream from a memory and never asks for the splats of a hidden set
-/// (rtl/fetch). It refuses, with UserError (Input), sets that cull_blocks lie between (cmodel/fetch_commands.hpp).
+/// The source is a master that reads the stream from a memory and does not ask for the splats of hidden sets, where any
+/// are (rtl/fetch). It refuses, with UserError (Input), sets that cull_blocks lie between (cmodel/fetch_commands.hpp).
 struct Fetch {
   std::uint64_t latency = 1;  ///< of the memory: cycles from an address taken to its first beat; 0 is taken for 1
 };
@@ -165,7 +165,9 @@ class CycleModel final : public Device {
   };
   CullSets<Verdict> cull_sets_;
   std::uint64_t last_verdict_ = 0, sent_ = 0;
-  bool behind_set_ = false;  ///< a fetching source has passed a splat of a set, and nothing behind the last set yet
+  // A fetching source: it has passed a splat of a set, and nothing behind the last set yet; a set with splats is hidden
+  // of those announced together now, and before; it sends all splats of them.
+  bool behind_set_ = false, hides_ = false, hid_ = false, trusts_ = false;
 
   std::uint64_t payload_words_ = 0;  ///< of the open table
   std::uint64_t next_offer_ = 0;     ///< earliest cycle in which the next beat can be offered

@@ -14,7 +14,8 @@ namespace fastsplat::cmodel {
 
 /// `beats` beats from `address` on are read and sent. The last `sets` of them are cull_blocks; these are all that there
 /// are. If `splats` is not 0, the splats of these sets lie behind, in order and without a gap, so many in all: of each
-/// set those are read that the device does not answer to be hidden. If it is 0, answers change nothing.
+/// set those are read that the device does not answer to be hidden, or all of them where it hid nothing of the command
+/// before. If it is 0, answers change nothing.
 struct FetchCommand {
   std::uint64_t address = 0;  ///< bytes; a multiple of a beat's
   std::uint32_t beats = 0, sets = 0, splats = 0;

@@ -103,12 +103,12 @@ void Model::cull_block(const CullBlock& record) {
   ++culls_.set_tests;
   culls_.hidden_sets += hidden ? 1 : 0;
   log(hidden);
-  sets_.announce(record.splats, hidden);
+  sets_.announce(record.tag, record.splats, hidden);
 }
 
-bool Model::swallowed() {
+bool Model::swallowed(std::uint32_t tag) {
   if (!cull_.on()) return false;
-  const bool* hidden = sets_.next();
+  const bool* hidden = sets_.next(tag);
   if (hidden == nullptr || !*hidden) return false;
   ++culls_.swallowed;
   return true;
@@ -141,7 +141,7 @@ void Model::splat(const SplatRecord& record, Observer& observer) {
 
 template <class Unit, class Observer>
 void Model::splat(const SplatRecord& record, Unit& unit, Observer& observer) {
-  if (swallowed()) return;
+  if (swallowed(record.tag)) return;
   const std::uint32_t rho = unit.rho(record.set);
   const std::uint32_t extent = unit.extent(record.set);
   const auto lanes = static_cast<std::uint32_t>(config_.lanes);
@@ -174,7 +174,7 @@ void Model::splat(const SplatRecord& record, Unit& unit, Observer& observer) {
 
 template <class Observer>
 void Model::ellipse(const EllipseRecord& record, Observer& observer) {
-  if (swallowed()) return;
+  if (swallowed(record.tag)) return;
   const EllipseAxis x = ellipse_axis(config_, record.x, record.windows.left);
   const EllipseAxis y = ellipse_axis(config_, record.y, record.windows.top);
   ++counters_.splats;

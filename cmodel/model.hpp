@@ -54,7 +54,7 @@ class Model final : public Device {
   void window(const Record& record, std::int32_t x, std::int32_t y, Observer& observer);
   void cull_block(const CullBlock& record);
   /// The next splat belongs to a hidden set.
-  bool swallowed();
+  bool swallowed(std::uint32_t tag);
   /// All windows of a splat: columns x rows of them from pixel (x,y) on. True if it is hidden; else asks for each.
   bool hidden(std::int32_t x, std::int32_t y, std::uint32_t columns, std::uint32_t rows);
   /// Of a splat that is not hidden, after hidden().

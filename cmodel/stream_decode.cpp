@@ -30,6 +30,7 @@ StreamDecode::StreamDecode(const Config& config, StreamScope scope)
       scope_(scope),
       config_hash_(config_hash(config)),
       sets_loaded_(static_cast<std::size_t>(config.rlut_sets), false),
+      jumps_(scope == StreamScope::Subset && config.culls()),
       rho_(static_cast<std::size_t>(config.rlut_sets), 0) {}
 
 void StreamDecode::refuse(const std::string& what, const std::string& expected, const std::string& got,
@@ -295,7 +296,7 @@ void StreamDecode::check(const SplatRecord& record) {
   check_splat(record.x, record.y, record.colour, record.tag);
   if (sets_.open() == 0) return;
   const std::uint32_t rho = rho_[record.set], windows = window_geometry(config_, rho).windows;
-  check_promise(snap(config_, record.x, rho).origin, snap(config_, record.y, rho).origin, windows, windows);
+  check_promise(record.tag, snap(config_, record.x, rho).origin, snap(config_, record.y, rho).origin, windows, windows);
 }
 
 void StreamDecode::check_splat(std::int32_t x, std::int32_t y, const std::array<std::uint32_t, 4>& colour,
@@ -307,9 +308,9 @@ void StreamDecode::check_splat(std::int32_t x, std::int32_t y, const std::array<
   for (const std::uint32_t word : colour)
     expect_most(word, config_.colour_format().max, "colour does not fit its format");
   rule_ = StreamRule::Tag;
-  expect(tag == next_tag_, "tags out of order", next_tag_, tag);
-  ++next_tag_;
-  ++splats_seen_;
+  expect(tag == next_tag_ || (jumps_ && tag > next_tag_), "tags out of order", next_tag_, tag);
+  splats_seen_ += tag - next_tag_ + 1;
+  next_tag_ = tag + 1;
 }
 
 void StreamDecode::check(const EllipseRecord& record) {
@@ -318,7 +319,7 @@ void StreamDecode::check(const EllipseRecord& record) {
   if (const auto wrong = ellipse_violation(config_, record)) refuse(wrong->what.c_str(), wrong->expected, wrong->got);
   if (sets_.open() == 0) return;
   const EllipseWindows& windows = record.windows;
-  check_promise(ellipse_axis(config_, record.x, windows.left).origin,
+  check_promise(record.tag, ellipse_axis(config_, record.x, windows.left).origin,
                 ellipse_axis(config_, record.y, windows.top).origin, windows.columns, windows.rows);
 }
 
@@ -334,14 +335,18 @@ void StreamDecode::check_promise(const CullBlock& record) {
   expect(record.tag == static_cast<std::uint32_t>(next_tag_ + sets_.waiting()),
          "cull_block has not the tag of the first splat it covers",
          static_cast<std::int64_t>(next_tag_ + sets_.waiting()), record.tag);
-  expect_most(static_cast<std::int64_t>(sets_.open()) + (record.splats > 0 ? 1 : 0), cull_sets(config_),
+  // (Sets that were jumped over show when the next splat comes.)
+  expect_most(jumps_ ? 0 : static_cast<std::int64_t>(sets_.open()) + (record.splats > 0 ? 1 : 0), cull_sets(config_),
               "more cull_blocks with splats to come than the device has room for");
-  sets_.announce(record.splats, record);
+  sets_.announce(record.tag, record.splats, record);
 }
 
-void StreamDecode::check_promise(std::int32_t x, std::int32_t y, std::uint32_t columns, std::uint32_t rows) {
+void StreamDecode::check_promise(std::uint32_t tag, std::int32_t x, std::int32_t y, std::uint32_t columns,
+                                 std::uint32_t rows) {
   rule_ = StreamRule::Promise;
-  const CullBlock set = *sets_.next();
+  const CullBlock* one = sets_.next(tag);
+  if (one == nullptr) return;
+  const CullBlock& set = *one;
   const std::int64_t lanes = config_.lanes;
   const PixelBox windows = PixelBox{x, y, x + columns * lanes, y + rows * lanes}.clipped(in_.width, in_.height);
   const PixelBox promised = box_of(set);
@@ -359,10 +364,12 @@ void StreamDecode::check(const EndSheet& record) {
   rule_ = StreamRule::EndNumber;
   expect(record.sheet == sheet_, "end of another sheet", sheet_, record.sheet);
   rule_ = StreamRule::EndCount;
-  expect(record.splats == splats_seen_, "end_sheet counts other splats than the sheet has", splats_seen_,
-         record.splats);
+  expect(record.splats == splats_seen_ || (jumps_ && record.splats > splats_seen_),
+         "end_sheet counts other splats than the sheet has", splats_seen_, record.splats);
   rule_ = StreamRule::Promise;
-  if (missing > 0)
+  next_tag_ += record.splats - splats_seen_;
+  if (jumps_) sets_.clear();
+  if (missing > 0 && !jumps_)
     refuse("end_sheet before the splats that cull_block promised", "none to come", std::to_string(missing));
   state_ = State::Tile;
 }

@@ -13,7 +13,8 @@
 
 namespace fastsplat::cmodel {
 
-/// Whether the beats are a whole recorded stream (tiles, beats and CRC checked) or any subset of one's tiles.
+/// Whether the beats are a whole recorded stream (tiles, beats and CRC checked) or any subset of one's tiles, from which,
+/// for a device that culls, splats of hidden sets may be missing.
 enum class StreamScope { Whole, Subset };
 
 class StreamDecode {
@@ -54,7 +55,7 @@ class StreamDecode {
   void check(const CullBlock& record);
   void check_promise(const CullBlock& record);
   /// The next splat, of columns x rows windows from pixel (x,y) on, against the promise of the set that it belongs to.
-  void check_promise(std::int32_t x, std::int32_t y, std::uint32_t columns, std::uint32_t rows);
+  void check_promise(std::uint32_t tag, std::int32_t x, std::int32_t y, std::uint32_t columns, std::uint32_t rows);
   void check(const EndSheet& record);
   void check(const EndTile& record);
   void check(const EndFrame& record);
@@ -76,6 +77,7 @@ class StreamDecode {
   std::uint32_t scaled_sheets_ = 0;    ///< that SHEETS speaks of
   std::uint32_t tiles_seen_ = 0, tile_ = 0, sheets_seen_ = 0, sheet_ = 0, splats_seen_ = 0;
   std::uint32_t next_tag_ = 0;
+  bool jumps_;                      ///< splats of hidden sets may be missing
   BeginTile in_;                    ///< the open tile
   std::vector<std::uint32_t> rho_;  ///< of each radius set; kept where promises are checked
   CullSets<CullBlock> sets_;

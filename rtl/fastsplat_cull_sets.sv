@@ -1,62 +1,73 @@
-// Sets of splats that cull_block records announced and whose splats are still to come, oldest first (docs/stream.md, cull_block;
-// cmodel/cull_sets.hpp). A set can be announced and a splat taken in every cycle: the oldest set lies in a register; of those behind it
-// the newest lies in another one, for the memory has it two cycles later.
+// Sets of splats that cull_block records announced, and whether a splat that comes belongs to a hidden one (docs/stream.md, cull_block;
+// cmodel/cull_sets.hpp). It goes by tags, for a source need not send what is hidden: kept are the sets that can be seen, oldest first, and how
+// far sets were announced; what lies before that and in none of them is hidden. A set can be announced and a splat taken in every cycle: the oldest
+// set lies in a register; of those behind it the newest lies in another one, for the memory has it two cycles later.
 `include "assertions.svh"
 
 module fastsplat_cull_sets (
     input  logic        clk_i,
     input  logic        rst_ni,
     input  logic        clear_i,   // a tile begins
+    input  logic [31:0] tag_i,     // of the set's first splat, or of the splat
     // a set of at least one splat
     input  logic        push_i,
     input  logic [31:0] splats_i,
     input  logic        hidden_i,
-    // a splat came: it is the oldest set's, if there is one
+    // a splat came
     input  logic        splat_i,
     output logic        hidden_o   // the splat that comes belongs to a hidden set
 );
   localparam int AB = fastsplat_pkg::CULL_SETS_BITS;
 
-  logic valid_q, hidden_q;
-  logic [31:0] left_q;  // splats of the oldest set
+  logic [31:0] announced_q;  // tag behind the sets announced
+  logic valid_q;
+  logic [31:0] first_q, last_q;  // tags of the oldest set
   logic [AB:0] behind_q;  // sets behind it, in the memory
-  logic [AB-1:0] first_q, first_next, end_q;  // of those
-  logic [32:0] newest_q, stored, second;
-  logic ends, pops, stores;
-  assign ends = splat_i && valid_q && left_q == 32'd1;
+  logic [AB-1:0] read_q, read_next, end_q;  // of those
+  logic [63:0] newest_q, stored, second, set;
+  logic seen, ends, pops, stores;
+  assign set = {tag_i, tag_i + splats_i - 32'd1};
+  assign seen = push_i && !hidden_i;
+  assign ends = splat_i && valid_q && tag_i == last_q;
   assign pops = ends && behind_q != '0;
-  assign stores = push_i && valid_q && !(ends && behind_q == '0);
-  assign first_next = first_q + AB'(pops);
+  assign stores = seen && valid_q && !(ends && behind_q == '0);
+  assign read_next = read_q + AB'(pops);
   assign second = (behind_q == (AB + 1)'(1)) ? newest_q : stored;
-  fastsplat_ram_1r1w #(.BITS(33), .WORDS(1 << AB), .ADDR(AB)) u_sets (
+  fastsplat_ram_1r1w #(.BITS(64), .WORDS(1 << AB), .ADDR(AB)) u_sets (
       .clk_i,
       .re_i(1'b1),
-      .raddr_i(first_next),
+      .raddr_i(read_next),
       .rdata_o(stored),
       .we_i(stores),
       .waddr_i(end_q),
-      .wdata_i({hidden_i, splats_i})
+      .wdata_i(set)
   );
-  assign hidden_o = valid_q && hidden_q;
+  // Differences of tags, below 0 or not.
+  logic [31:0] past_announced, past_first;
+  assign past_announced = tag_i - announced_q;
+  assign past_first = tag_i - first_q;
+  assign hidden_o = past_announced[31] && (!valid_q || past_first[31]);
+  logic unused;
+  assign unused = &{1'b0, past_announced, past_first};
 
   always_ff @(posedge clk_i) begin
-    first_q <= first_next;
+    read_q <= read_next;
     behind_q <= behind_q + (AB + 1)'(stores) - (AB + 1)'(pops);
+    if (push_i) announced_q <= tag_i + splats_i;
     if (stores) begin
-      newest_q <= {hidden_i, splats_i};
+      newest_q <= set;
       end_q <= end_q + AB'(1);
     end
-    if (splat_i && valid_q) left_q <= left_q - 32'd1;
-    if (pops) {hidden_q, left_q} <= second;
-    else if (push_i && !stores) {hidden_q, left_q} <= {hidden_i, splats_i};
-    valid_q <= (valid_q && !(ends && !pops)) || push_i;
+    if (pops) {first_q, last_q} <= second;
+    else if (seen && !stores) {first_q, last_q} <= set;
+    valid_q <= (valid_q && !(ends && !pops)) || seen;
     if (!rst_ni || clear_i) begin
+      announced_q <= '0;
       valid_q <= 1'b0;
       behind_q <= '0;
-      first_q <= '0;
+      read_q <= '0;
       end_q <= '0;
     end
   end
   `FASTSPLAT_ASSERT(oldest_set_in_front, valid_q || behind_q == '0)
-  `FASTSPLAT_ASSERT(set_has_splats, !valid_q || left_q != '0)
 endmodule

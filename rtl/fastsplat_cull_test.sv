@@ -230,6 +230,7 @@ module fastsplat_cull_test (
       .rst_ni,
       .clear_i(moves[3] && !payload_o && data_o[7:0] == fastsplat_pkg::OP_BEGIN_TILE),
       .push_i(moves[3] && of_set && data_o[160+:32] != '0),
+      .tag_i(data_o[32+:32]),
       .splats_i(data_o[160+:32]),
       .hidden_i(hidden_q),
       .splat_i(moves[3] && of_splat),

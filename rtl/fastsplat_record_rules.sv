@@ -94,6 +94,16 @@ module fastsplat_record_rules (
   assign ellipse_position_good = (w2[EX-1:PB-1] == '0 || w2[EX-1:PB-1] == '1) && (w3[EX-1:PB-1] == '0 || w3[EX-1:PB-1] == '1);
   assign colour_good = (w4[15:0] >> CB) == '0 && (w4[31:16] >> CB) == '0 && (w5[15:0] >> CB) == '0 && (w5[31:16] >> CB) == '0;
 
+  // A device that culls need not get the splats of hidden sets: tags rise, and the count goes on with them.
+  logic tag_good, count_good;
+  if (fastsplat_pkg::CULL_MAP != 0) begin : gen_jumps
+    assign tag_good = w1 >= tag_i;
+    assign count_good = w2 >= splats_i;
+  end else begin : gen_counts
+    assign tag_good = w1 == tag_i;
+    assign count_good = w2 == splats_i;
+  end
+
   // Side by side, not one after another: the long comparisons are late as it is.
   logic begin_frame, load_table, begin_tile, begin_sheet, splat, ellipse, cull_block, end_sheet, end_tile;
   assign begin_frame = opcode == fastsplat_pkg::OP_BEGIN_FRAME;
@@ -117,9 +127,9 @@ module fastsplat_record_rules (
     broken_o[fastsplat_pkg::RULE_SHEET] = begin_sheet && sheets_i != '0 && w1 <= sheet_i;
     broken_o[fastsplat_pkg::RULE_SET] = splat && !set_good;
     broken_o[fastsplat_pkg::RULE_RANGE] = (splat && !position_good) || (ellipse && !ellipse_position_good) || ((splat || ellipse) && !colour_good);
-    broken_o[fastsplat_pkg::RULE_TAG] = (splat || ellipse) && w1 != tag_i;
+    broken_o[fastsplat_pkg::RULE_TAG] = (splat || ellipse) && !tag_good;
     broken_o[fastsplat_pkg::RULE_CULL] = cull_block && !sides_good;
     broken_o[fastsplat_pkg::RULE_END_NUMBER] = (end_sheet && w1 != sheet_i) || (end_tile && w1 != tile_i);
-    broken_o[fastsplat_pkg::RULE_END_COUNT] = (end_sheet && w2 != splats_i) || (end_tile && w2 != sheets_i);
+    broken_o[fastsplat_pkg::RULE_END_COUNT] = (end_sheet && !count_good) || (end_tile && w2 != sheets_i);
   end
 endmodule

@@ -97,6 +97,12 @@ module fastsplat_stream_check (
       default: next_place = PlTables;
     endcase
   end
+  logic [31:0] left_out;  // splats of hidden sets that a source did not send, in front of this record
+  if (fastsplat_pkg::CULL_MAP != 0) begin : gen_left_out
+    assign left_out = (next_opcode == fastsplat_pkg::OP_END_SHEET) ? next_q[95:64] - splats_q : n1 - tag_q;
+  end else begin : gen_none_left_out
+    assign left_out = '0;
+  end
   always_ff @(posedge clk_i) begin
     if (next_moves) word_before_q <= next_q[32*(fastsplat_pkg::BEAT_WORDS-1)+:FB];
     next_new_q <= ready_o && valid_i;
@@ -114,9 +120,10 @@ module fastsplat_stream_check (
           splats_q <= '0;
         end
         fastsplat_pkg::OP_SPLAT, fastsplat_pkg::OP_ELLIPSE: begin
-          tag_q <= tag_q + 32'd1;
-          splats_q <= splats_q + 32'd1;
+          tag_q <= tag_q + 32'd1 + left_out;
+          splats_q <= splats_q + 32'd1 + left_out;
         end
+        fastsplat_pkg::OP_END_SHEET: tag_q <= tag_q + left_out;
         default: ;
       endcase
     end

@@ -10,7 +10,7 @@
 #include "base/version.hpp"
 #include "cli/config_flags.hpp"
 #include "cli/config_json.hpp"
-#include "cli/cull_table.hpp"
+#include "cli/culling_comparison.hpp"
 #include "cli/cycle_timeline.hpp"
 #include "cli/cycle_trace.hpp"
 #include "cli/frame_scaling.hpp"
@@ -307,8 +307,9 @@ ExitCode run(const Arguments& arguments) {
     }
     if (arguments.cull_table) {
       ProgressBar bar("cull table", watching(arguments.common));
-      result.cull_table = driver::cull_table(scene, config, static_cast<std::uint64_t>(arguments.fetch >= 0 ? arguments.fetch : kLatency),
-                                             arguments.common.threads, bar.callback());
+      result.cull_table = driver::compare_culling(
+          scene, config, static_cast<std::uint64_t>(arguments.fetch >= 0 ? arguments.fetch : kLatency),
+          arguments.common.threads, bar.callback());
     }
     ProgressBar bar("cycles", watching(arguments.common));
     driver::run_device(

@@ -176,7 +176,7 @@ void TileUnit<T>::splats(std::span<const SplatRecord> records) {
   if (!sound_) return;
   Counting counting{counters_};
   for (const SplatRecord& record : records) {
-    if (const bool* gone = sets_.next(); gone != nullptr && *gone) continue;
+    if (const bool* gone = sets_.next(record.tag); gone != nullptr && *gone) continue;
     const std::uint32_t rho = tables_.memo.shape(record.set).rho;
     if (culls_) {
       Nothing nobody;
@@ -220,7 +220,7 @@ template <class T>
 void TileUnit<T>::cull_blocks(std::span<const CullBlock> records) {
   counters_.cull_blocks += records.size();
   if (!culls_) return;
-  for (const CullBlock& set : records) sets_.announce(set.splats, would_hide(set));
+  for (const CullBlock& set : records) sets_.announce(set.tag, set.splats, would_hide(set));
 }
 
 template <class T>

@@ -1,5 +1,5 @@
-// The source beside a device: an AXI4 read master that reads a stream from memory, command by command, and never asks for the splats
-// of a hidden set (docs/microarchitecture.md, "Fetch"; cmodel/fetch_commands.hpp makes the commands).
+// The source beside a device: an AXI4 read master that reads a stream from memory, command by command, and asks for the splats of a set
+// when the device can see it (docs/microarchitecture.md, "Fetch"; cmodel/fetch_commands.hpp makes the commands).
 // Requests: command -> run of beats -> burst -> address channel. Beats: data channel -> queue -> stream. Verdicts: a set that was sent
 // is judged by the device -> run of beats, or the address goes on without it.
 `include "assertions.svh"
@@ -87,13 +87,15 @@ module fastsplat_fetch #(
   logic [SB-1:0] undecided_q;
   logic [31:0] skipped_q;
   logic judges, last_set, wrong_verdict;
+  // Whether a set of the command was hidden, and whether none of the one before was: then this one's are asked for unjudged.
+  logic hides_q, trusts_q;
   assign wrong_verdict = verdict_valid && !stop && (!judged_valid || (judged_tag != verdict_tag && !`FASTSPLAT_FAULT(FETCH_ANY_TAG)));
   assign judges = verdict_valid && judged_valid && judged_counted;
   assign last_set = undecided_q == SB'(1);
 
   logic run_put, run_valid, run_take, run_last;
   logic [31:0] run_beats, run_skip, seen_splats;
-  assign seen_splats = (verdict_hidden && !`FASTSPLAT_FAULT(FETCH_HIDDEN_TOO)) ? 32'd0 : judged_splats;
+  assign seen_splats = trusts_q || (verdict_hidden && !`FASTSPLAT_FAULT(FETCH_HIDDEN_TOO)) ? 32'd0 : judged_splats;
   assign run_put = judges && (last_set || seen_splats != 32'd0);
   fastsplat_queue #(
       .BITS(65),
@@ -115,6 +117,7 @@ module fastsplat_fetch #(
   logic [AB-1:0] command_address, address_q, body_q, run_address;
   logic [31:0] command_beats, command_sets, command_splats, left_q, burst_left;
   logic [SB-1:0] sets_q;
+  logic [31:0] splats_q;
   logic counted_q, run_valid_q, last_run_q;
   assign {command_splats, command_sets, command_beats} = s_axis_cmd_tdata[159:64];
   assign command_address = s_axis_cmd_tdata[AB-1:0];
@@ -128,13 +131,14 @@ module fastsplat_fetch #(
                    command_sets <= 32'd1 << SETS_LOG2 && (command_splats == '0 || command_sets != '0);
   end
 
-  logic issue, ends_run, wants_sets, wants_run, wants_command, takes_command;
+  logic issue, ends_run, wants_sets, wants_all, wants_run, wants_command, takes_command;
   assign ends_run = issue && burst_left == '0;
   assign wants_sets = phase_q == PhPlain && sets_q != '0;
-  assign wants_run = (phase_q == PhSets && counted_q) || (phase_q == PhRuns && !last_run_q);
+  assign wants_all = phase_q == PhSets && counted_q && trusts_q;
+  assign wants_run = (phase_q == PhSets && counted_q && !trusts_q) || (phase_q == PhRuns && !last_run_q);
   assign run_take = (!run_valid_q || ends_run) && wants_run && run_valid && !failed && !stop;
   // The last set's run may be empty: then the next command's is the next.
-  assign wants_command = (!run_valid_q || ends_run) && !failed && (!(wants_sets || wants_run) || (run_take && run_beats == '0));
+  assign wants_command = (!run_valid_q || ends_run) && !failed && (!(wants_sets || wants_all || wants_run) || (run_take && run_beats == '0));
   assign s_axis_cmd_tready = wants_command || stop;
   assign takes_command = s_axis_cmd_tvalid && wants_command && !stop;
   assign run_address = body_q + (AB'(run_skip) << BEAT_LOG2);
@@ -197,7 +201,7 @@ module fastsplat_fetch #(
   logic waits;  // something was asked for and has not been sent
   assign waits = m_axi_arvalid || outstanding_q != '0 || unsent_q != '0;
   assign forget = stop && !waits;
-  assign busy = waits || ((run_valid_q || wants_sets || wants_run) && !failed);
+  assign busy = waits || ((run_valid_q || wants_sets || wants_all || wants_run) && !failed);
 
   logic [DB-1:0] unsent_q;  // beats that arrived
   always_ff @(posedge clk_i) begin
@@ -220,6 +224,11 @@ module fastsplat_fetch #(
       phase_q <= PhSets;
       left_q <= 32'(sets_q);
     end
+    if ((!run_valid_q || ends_run) && wants_all && !failed) begin  // they lie behind the cull_blocks
+      run_valid_q <= 1'b1;
+      phase_q <= PhRuns;
+      left_q <= splats_q;
+    end
     if (run_take) begin
       run_valid_q <= run_beats != '0;
       phase_q <= PhRuns;
@@ -235,18 +244,22 @@ module fastsplat_fetch #(
       address_q <= command_address;
       left_q <= (command_sets == command_beats) ? command_beats : command_beats - command_sets;
       sets_q <= SB'(command_sets);
+      splats_q <= command_splats;
       counted_q <= command_splats != '0;
       body_q <= command_address + (AB'(command_beats) << BEAT_LOG2);
     end else if (wants_command) begin
       phase_q <= PhNone;
     end
     if (judges) begin
+      if (verdict_hidden && judged_splats != 32'd0) hides_q <= 1'b1;
       undecided_q <= undecided_q - SB'(1);
       skipped_q <= verdict_hidden ? skipped_q + judged_splats - 32'(`FASTSPLAT_FAULT(FETCH_SHORT_JUMP) && judged_splats != 32'd0) : seen_splats != 32'd0 ? 32'd0 : skipped_q;
     end
     if (takes_command && legal && command_splats != '0) begin
       undecided_q <= SB'(command_sets);
       skipped_q <= '0;
+      hides_q <= 1'b0;
+      trusts_q <= !hides_q;
     end
     if (!failed) error <= bad ? RESPONSE : wrong_verdict ? VERDICT : (takes_command && !legal) ? COMMAND : NONE;
     if (!rst_ni || forget) begin
@@ -254,6 +267,7 @@ module fastsplat_fetch #(
       run_valid_q <= 1'b0;
       phase_q <= PhNone;
       last_run_q <= 1'b0;
+      hides_q <= 1'b0;
       room_q <= DB'(1 << DEPTH_LOG2);
     end
     if (!rst_ni) begin

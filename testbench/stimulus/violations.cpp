@@ -68,6 +68,12 @@ class List {
     change(rule, name + " one more", beat, field, right + 1);
     change(rule, name + " one less", beat, field, right - 1);
   }
+  /// The same of splats and their tags: for a device that culls more of them are splats that were not sent.
+  void counted(StreamRule rule, const std::string& name, std::size_t beat, const cmodel::Field& field) {
+    if (!config_.culls()) return beside(rule, name, beat, field);
+    if (beat < beats_.size() && get(beats_[beat], field) > 0)
+      change(rule, name + " one less", beat, field, static_cast<std::uint64_t>(get(beats_[beat], field)) - 1);
+  }
   /// One side 0, the other as it is, and small, large and largest: their product, sum or bits say nothing.
   void without_a_side(StreamRule rule, const std::string& name, std::size_t beat, const cmodel::Field& width,
                       const cmodel::Field& height) {
@@ -317,8 +323,8 @@ class List {
         change(StreamRule::Range, "colour at w" + std::to_string(field.word), splat, field,
                1ULL << config_.colour_frac_bits);
     }
-    beside(StreamRule::Tag, "tag", later, layout::kSplatTag);
-    beside(StreamRule::Tag, "first tag", splat, layout::kSplatTag);
+    counted(StreamRule::Tag, "tag", later, layout::kSplatTag);
+    if (!config_.culls()) beside(StreamRule::Tag, "first tag", splat, layout::kSplatTag);
     without_a_side(StreamRule::Cull, "cull_block", cull, layout::kCullWidth, layout::kCullHeight);
   }
 
@@ -338,13 +344,13 @@ class List {
         change(StreamRule::Range, "ellipse colour at w" + std::to_string(field.word), ellipse, field,
                1ULL << config_.colour_frac_bits);
     }
-    beside(StreamRule::Tag, "ellipse tag", ellipse, layout::kEllipseTag);
+    counted(StreamRule::Tag, "ellipse tag", ellipse, layout::kEllipseTag);
     copy(StreamRule::Order, "ellipse outside a sheet", ellipse, at(Opcode::BeginSheet));
   }
 
   void ends() {
     beside(StreamRule::EndNumber, "end of another sheet", at(Opcode::EndSheet), layout::kEndSheetNumber);
-    beside(StreamRule::EndCount, "splats of the sheet", at(Opcode::EndSheet), layout::kEndSheetSplats);
+    counted(StreamRule::EndCount, "splats of the sheet", at(Opcode::EndSheet), layout::kEndSheetSplats);
     beside(StreamRule::EndNumber, "end of another tile", at(Opcode::EndTile), layout::kEndTileNumber);
     beside(StreamRule::EndCount, "sheets of the tile", at(Opcode::EndTile), layout::kEndTileSheets);
   }

@@ -40,6 +40,7 @@ struct Item {
   bool payload = false;
   std::uint64_t cycles = 1;  ///< in decode, waits aside
   bool skipped = false;      ///< of a hidden set
+  bool trusted = false;      ///< ... that a fetching source sends all the same
   int set = -1;              ///< cull_block: its number
   int waits = -1;            ///< the cull_block whose verdict a fetching source must have
   std::uint64_t blocks = 0;  ///< end_sheet: dirty
@@ -64,6 +65,8 @@ std::vector<Item> items_of(const cmodel::Config& config, std::span<const cmodel:
   std::deque<std::pair<int, bool>> covered;  // the next splats' sets, and whether these are hidden
   std::size_t answer = 0;
   bool behind = false;  // splats of sets, and nothing else yet
+  // A set with splats is hidden, of those announced last, and before; whether what they announce is sent unjudged.
+  bool hides = false, hid = false, trusts = false;
   for (const cmodel::Beat& beat : beats) {
     Item item;
     if (words > 0) {
@@ -87,12 +90,20 @@ std::vector<Item> items_of(const cmodel::Config& config, std::span<const cmodel:
     if (const auto* one = std::get_if<cmodel::BeginSheet>(&record)) sheet = one->sheet;
     const auto next_answer = [&] { return mode < 2 && log.tile(tile)[answer++]; };
     if (const auto* one = std::get_if<cmodel::CullBlock>(&record)) {
-      covered.insert(covered.end(), one->splats, {sets, next_answer()});
+      const bool hidden = next_answer();
+      covered.insert(covered.end(), one->splats, {sets, hidden});
+      hides = hides || (hidden && one->splats > 0);
       item.set = sets++;
     }
     const auto splat = [&](std::uint32_t tag) {
       if (mode < 2 && !covered.empty()) {
+        if (!behind) {
+          trusts = !hid;
+          hid = hides;
+          hides = false;
+        }
         item.waits = covered.front().first;
+        item.trusted = trusts;
         item.skipped = covered.front().second;
         covered.pop_front();
       }
@@ -183,7 +194,7 @@ PlainCullClock plain_cull_clock(const cmodel::Config& config, std::span<const cm
   std::size_t done = 0, sent = 0;
   const auto wipe = static_cast<std::uint64_t>(config.tile_width / config.lanes) *
                     static_cast<std::uint64_t>(config.tile_height / config.lanes);
-  for (const Item& item : items) sent += latency && item.skipped ? 0 : 1;
+  for (const Item& item : items) sent += latency && item.skipped && !item.trusted ? 0 : 1;
   std::vector<int> order;  // beats as they were sent
   for (std::uint64_t c = wipe; done < sent; ++c) {
     // A table's row, or P words of it, is written in this cycle.
@@ -283,10 +294,11 @@ PlainCullClock plain_cull_clock(const cmodel::Config& config, std::span<const cm
       free = held[i] < 0;
     }
     // The source.
-    while (latency && next < static_cast<int>(items.size()) && items[static_cast<std::size_t>(next)].skipped) ++next;
+    const auto left_out = [&](const Item& one) { return one.skipped && !one.trusted; };
+    while (latency && next < static_cast<int>(items.size()) && left_out(items[static_cast<std::size_t>(next)])) ++next;
     if (held[0] >= 0 || next >= static_cast<int>(items.size())) continue;
     const Item& item = items[static_cast<std::size_t>(next)];
-    if (latency && item.waits >= 0 &&
+    if (latency && item.waits >= 0 && !item.trusted &&
         (!verdict.contains(item.waits) || c < verdict.at(item.waits) + std::max<std::uint64_t>(*latency, 1) + 6))
       continue;
     out.beats[static_cast<std::size_t>(next)].taken = c;

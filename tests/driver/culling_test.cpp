@@ -6,7 +6,7 @@
 #include "cmodel/model.hpp"
 #include "driver/config_file.hpp"
 #include "driver/cull_log.hpp"
-#include "driver/cull_table.hpp"
+#include "driver/culling_comparison.hpp"
 #include "driver/frame_sink.hpp"
 #include "driver/run_device.hpp"
 #include "tests/driver/scenes_helper.hpp"
@@ -148,7 +148,7 @@ TEST(CulledFrames, CostNextToNothingWhereNothingHides) {
   // So thin that no pixel freezes.
   auto description = view_of("shells:96", 256);  // whole tiles: what lies beside one is hidden, too
   description.opacity_scale = 0.02;
-  const auto rows = cull_table(scene::build_scene(description), load_config("base"), 40);
+  const auto rows = compare_culling(scene::build_scene(description), load_config("base"), 40);
   ASSERT_EQ(rows.size(), 5U);
   for (const CullRow& row : rows) {
     const double cost = static_cast<double>(row.cycles) / static_cast<double>(rows[0].cycles) - 1.0;

@@ -13,19 +13,9 @@
 namespace fastsplat::driver {
 namespace {
 
-/// The scan; null where it is not installed.
-std::shared_ptr<const volume::Volume> scan(std::string& why_not) {
-  try {
-    return std::make_shared<const volume::Volume>(volume::load_volume("ch2bet"));
-  } catch (const UserError& error) {
-    why_not = error.what();
-    return nullptr;
-  }
-}
-
 TEST(Head, base_at_512_holds_48_db_and_3_lsb8) {
   std::string why_not;
-  const auto volume = scan(why_not);
+  const auto volume = head_scan(why_not);
   if (!volume) GTEST_SKIP() << "the scan is not installed: " << why_not;
   auto description = view_of("ch2bet", 512, "mri-head");
   const auto scene = scene::build_scene(description, volume);
@@ -46,7 +36,7 @@ TEST(Head, base_at_512_holds_48_db_and_3_lsb8) {
 // The shortest words there are: 8 bits of colour, where every voxel of a brain is thinner than a word.
 TEST(Head, an_xray_on_tiny_holds_44_db_at_every_size) {
   std::string why_not;
-  const auto volume = scan(why_not);
+  const auto volume = head_scan(why_not);
   if (!volume) GTEST_SKIP() << "the scan is not installed: " << why_not;
   for (const int size : {128, 256, 512}) {
     auto description = view_of("ch2bet", size, "mri-head");

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/error.hpp"
 #include "driver/render.hpp"
+#include "volume/volume_file.hpp"
 
 namespace fastsplat::driver {
 
@@ -16,6 +18,15 @@ scene::SceneDescription view_of(const std::string& volume, int size, const std::
   description.transfer_function = transfer_function;
   description.width = description.height = size;
   return description;
+}
+
+std::shared_ptr<const volume::Volume> head_scan(std::string& why_not) {
+  try {
+    return std::make_shared<const volume::Volume>(volume::load_volume("ch2bet"));
+  } catch (const UserError& error) {
+    why_not = error.what();
+    return nullptr;
+  }
 }
 
 WordDifference difference(const cmodel::Frame& a, const cmodel::Frame& b) {

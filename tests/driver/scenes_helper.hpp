@@ -2,17 +2,22 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "base/image.hpp"
 #include "cmodel/config.hpp"
 #include "cmodel/frame.hpp"
 #include "scene/scene.hpp"
+#include "volume/volume.hpp"
 
 namespace fastsplat::driver {
 
 /// A square orthographic view of a built-in volume with the papers' kernel.
 scene::SceneDescription view_of(const std::string& volume, int size, const std::string& transfer_function = "default");
+
+/// The scan of a head of Debian's mricron-data; null, and why, where it is not installed.
+std::shared_ptr<const volume::Volume> head_scan(std::string& why_not);
 
 struct WordDifference {
   std::uint64_t compared = 0;

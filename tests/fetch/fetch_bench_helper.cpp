@@ -27,8 +27,12 @@ constexpr std::uint64_t kJudged = 6;         ///< from a beat taken to its verdi
 template <class Top>
 class Bench {
  public:
-  Bench(const FetchStream& stream, const FetchRun& run)
-      : stream_(stream), run_(run), wanted_(stream.wanted()), memory_(stream.beats, stream.address, run.memory) {
+  Bench(const FetchStream& stream, const FetchRun& run, FetchDevice& device)
+      : stream_(stream),
+        run_(run),
+        device_(device),
+        wanted_(stream.wanted()),
+        memory_(stream.beats, stream.address, run.memory) {
     context_.threads(1);
     context_.randReset(2);
     context_.fatalOnError(false);
@@ -37,8 +41,6 @@ class Bench {
     testbench::take_simulator_output();
     top_ = std::make_unique<Top>(&context_);
     if (run.spoiled < stream.beats.size()) memory_.spoil(run.spoiled);
-    out_.verdicts.assign(stream.hidden.size(), 0);
-    judged_.assign(stream.hidden.size(), false);
   }
   ~Bench() {
     Verilated::threadContextp(&context_);
@@ -73,7 +75,7 @@ class Bench {
   }
   bool done() const {
     if (top_->error != 0 || stopping_) return top_->busy == 0;
-    return out_.taken.size() == wanted_.size() && command_ == stream_.commands.size() && verdicts_.empty();
+    return out_.taken.size() == wanted_.size() && command_ == stream_.commands.size() && device_.at_rest();
   }
   void eval(int edge) {
     top_->aclk = static_cast<std::uint8_t>(edge);
@@ -95,12 +97,11 @@ class Bench {
     top_->m_axi_rlast = answer.last ? 1 : 0;
     top_->m_axi_rresp = static_cast<std::uint8_t>(answer.response);
     for (std::size_t i = 0; i < answer.data.size(); ++i) top_->m_axi_rdata[i] = answer.data[i];
-    // A beat in each register between port and verdict.
-    top_->m_axis_tready = run_.ready.at(cycle_) && verdicts_.size() < kJudged ? 1 : 0;
+    top_->m_axis_tready = device_.ready() ? 1 : 0;
     top_->stop = stopping_ ? 1 : 0;
     judge();
     eval(0);
-    take_beat();
+    const Beat* offered = look();
     if (commands && top_->s_axis_cmd_tready != 0) {
       if (command_ == 0) out_.begun = cycle_;
       ++command_;
@@ -119,14 +120,15 @@ class Bench {
       const int set = stream_.set_of[beat];
       if (set < 0) continue;
       const auto number = static_cast<std::size_t>(set);
+      if (stream_.trusted[number]) continue;
       if (stream_.hidden[number]) {
         say("beat " + std::to_string(beat) + " is of a hidden set");
-      } else if (!judged_[number]) {
+      } else if (number >= judged_) {
         say("beat " + std::to_string(beat) + " is asked for before its set was judged");
       }
     }
-    for (const int set : telling_) judged_[static_cast<std::size_t>(set)] = true;
-    telling_.clear();
+    judged_ = out_.verdicts.size();
+    device_.edge(offered);
     eval(1);
     if (run_.stop_after > 0 && out_.taken.size() >= run_.stop_after) stopping_ = true;
     if (out_.error == 0 && top_->error != 0) out_.error = top_->error;
@@ -134,39 +136,38 @@ class Bench {
 
   /// The device's verdict of this cycle.
   void judge() {
-    const bool due = !verdicts_.empty() && verdicts_.front().cycle <= cycle_;
-    top_->verdict_valid = due ? 1 : 0;
-    if (!due) return;
-    const auto [number, tag, from] = verdicts_.front();
-    verdicts_.pop_front();
-    top_->verdict_tag = tag + (static_cast<int>(number) == run_.other_tag ? 1 : 0);
-    top_->verdict_hidden = stream_.hidden[number] ? 1 : 0;
-    out_.verdicts[number] = cycle_;
-    telling_.push_back(static_cast<int>(number));
+    const auto verdict = device_.verdict();
+    top_->verdict_valid = verdict ? 1 : 0;
+    if (!verdict) return;
+    const std::size_t number = out_.verdicts.size();
+    if (number == stream_.hidden.size()) return say("a verdict of nothing");
+    if (verdict->hidden != stream_.hidden[number])
+      say("set " + std::to_string(number) + ": another verdict than the model's");
+    top_->verdict_tag = verdict->tag + (static_cast<int>(number) == run_.other_tag ? 1 : 0);
+    top_->verdict_hidden = verdict->hidden ? 1 : 0;
+    out_.verdicts.push_back(cycle_);
   }
 
-  void take_beat() {
+  /// The beat that is offered, which must be the next one; null: none.
+  const Beat* look() {
     const bool valid = top_->m_axis_tvalid != 0;
-    Beat beat{};
-    for (std::size_t i = 0; i < beat.size(); ++i) beat[i] = top_->m_axis_tdata[i];
-    if (waiting_ && (!valid || beat != waiting_beat_)) say("a beat is withdrawn or changed before it was taken");
+    const bool held = waiting_;
+    const Beat before = beat_;
+    for (std::size_t i = 0; i < beat_.size(); ++i) beat_[i] = top_->m_axis_tdata[i];
+    if (held && (!valid || beat_ != before)) say("a beat is withdrawn or changed before it was taken");
     waiting_ = valid && top_->m_axis_tready == 0;
-    waiting_beat_ = beat;
-    if (!valid) return;
+    if (!valid) return nullptr;
     const std::size_t at = out_.taken.size();
-    if (at == wanted_.size()) return say("a beat behind the last");
+    if (at == wanted_.size()) return say("a beat behind the last"), nullptr;
     if (out_.offered.size() == at) out_.offered.push_back(cycle_);
-    if (wanted_[at] == run_.spoiled) return say("sends what could not be read");
-    if (beat != stream_.beats[wanted_[at]])
-      return say("another beat than number " + std::to_string(wanted_[at]) + " is sent");
-    if (waiting_) return;
-    out_.taken.push_back(cycle_);
-    last_ = cycle_;
-    const int block = stream_.block[wanted_[at]];
-    if (block < 0) return;
-    const std::uint64_t wait = testbench::mix(run_.seed + cycle_) % (run_.verdict_wait + 1ULL);
-    next_verdict_ = std::max(next_verdict_ + 1, cycle_ + kJudged + wait);
-    verdicts_.push_back({static_cast<std::size_t>(block), beat[1], next_verdict_});
+    if (wanted_[at] == run_.spoiled) return say("sends what could not be read"), nullptr;
+    if (beat_ != stream_.beats[wanted_[at]])
+      return say("another beat than number " + std::to_string(wanted_[at]) + " is sent"), nullptr;
+    if (!waiting_) {
+      out_.taken.push_back(cycle_);
+      last_ = cycle_;
+    }
+    return &beat_;
   }
 
   /// When all is at rest.
@@ -184,26 +185,19 @@ class Bench {
     }
   }
 
-  struct Verdict {
-    std::size_t number;
-    std::uint32_t tag;
-    std::uint64_t cycle;
-  };
-
   const FetchStream& stream_;
   const FetchRun& run_;
+  FetchDevice& device_;
   std::vector<std::size_t> wanted_;
   testbench::AxiReadMemory memory_;
   VerilatedContext context_;
   std::unique_ptr<Top> top_;
   FetchResult out_;
-  std::deque<Verdict> verdicts_;
-  std::vector<bool> judged_;  ///< told before this cycle
-  std::vector<int> telling_;  ///< in it
-  std::uint64_t cycle_ = 0, last_ = 0, next_verdict_ = 0;
+  std::size_t judged_ = 0;  ///< sets, before this cycle
+  std::uint64_t cycle_ = 0, last_ = 0;
   std::size_t command_ = 0;
   bool waiting_ = false, offering_ = false, stopping_ = false;
-  Beat waiting_beat_{};
+  Beat beat_{};
 };
 
 }  // namespace
@@ -211,14 +205,20 @@ class Bench {
 std::vector<std::size_t> FetchStream::wanted() const {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < beats.size(); ++i) {
-    if (set_of[i] < 0 || !hidden[static_cast<std::size_t>(set_of[i])]) out.push_back(i);
+    const auto set = static_cast<std::size_t>(set_of[i]);
+    if (set_of[i] < 0 || trusted[set] || !hidden[set]) out.push_back(i);
   }
   return out;
 }
 
 FetchStream fetch_stream(const cmodel::Config& config, std::vector<Beat> beats, std::uint64_t address) {
-  FetchStream out{
-      .beats = std::move(beats), .commands = {}, .address = address, .set_of = {}, .block = {}, .hidden = {}};
+  FetchStream out{.beats = std::move(beats),
+                  .commands = {},
+                  .address = address,
+                  .set_of = {},
+                  .block = {},
+                  .hidden = {},
+                  .trusted = {}};
   out.commands = cmodel::fetch_commands(config, out.beats, address);
   cmodel::NullPixels nowhere;
   cmodel::Model model(config, cmodel::StreamScope::Whole, nowhere);
@@ -248,12 +248,49 @@ FetchStream fetch_stream(const cmodel::Config& config, std::vector<Beat> beats, 
     out.set_of.back() = covers.front();
     covers.pop_front();
   }
+  // Sets with splats, command by command.
+  std::size_t number = 0;
+  bool hid = false;
+  for (const cmodel::FetchCommand& command : out.commands) {
+    bool hides = false;
+    for (const std::size_t end = number + command.sets; number < end; ++number) {
+      out.trusted.push_back(!hid);
+      const auto splats = std::ranges::count(out.set_of, static_cast<int>(number));
+      hides = hides || (out.hidden[number] && splats > 0);
+    }
+    if (command.splats > 0) hid = hides;
+  }
   return out;
 }
 
-FetchResult run_fetch(const FetchStream& stream, const FetchRun& run) {
-  if (run.build == FetchBuild::Narrow) return Bench<Vfs_fetch_narrow>(stream, run).go();
-  return Bench<Vfs_fetch>(stream, run).go();
+bool PlayedDevice::ready() {
+  // A beat in each register between port and verdict.
+  taking_ = run_.ready.at(cycle_) && waiting_.size() < kJudged;
+  return taking_;
+}
+
+std::optional<FetchDevice::Verdict> PlayedDevice::verdict() {
+  if (waiting_.empty() || waiting_.front().cycle > cycle_) return std::nullopt;
+  const Waiting one = waiting_.front();
+  waiting_.pop_front();
+  return Verdict{one.tag, stream_.hidden[one.block]};
+}
+
+void PlayedDevice::edge(const Beat* beat) {
+  if (beat != nullptr && taking_) {
+    const int block = stream_.block[wanted_[taken_++]];
+    if (block >= 0) {
+      const std::uint64_t wait = testbench::mix(run_.seed + cycle_) % (run_.verdict_wait + 1ULL);
+      last_ = std::max(last_ + 1, cycle_ + kJudged + wait);
+      waiting_.push_back({static_cast<std::size_t>(block), (*beat)[1], last_});
+    }
+  }
+  ++cycle_;
+}
+
+FetchResult run_fetch(const FetchStream& stream, const FetchRun& run, FetchDevice& device) {
+  if (run.build == FetchBuild::Narrow) return Bench<Vfs_fetch_narrow>(stream, run, device).go();
+  return Bench<Vfs_fetch>(stream, run, device).go();
 }
 
 }  // namespace fastsplat::test

@@ -1,7 +1,9 @@
-// The fetch master between a memory and a device that is played: takes beats, judges sets, and looks at everything.
+// The fetch master between a memory and a device, which may be played: looks at all that goes on between them.
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,8 @@ struct FetchStream {
   std::vector<int> set_of;   ///< by beat: the cull_block that judges it, by number; -1: none
   std::vector<int> block;    ///< by beat: its number, if it is a cull_block that is judged; else -1
   std::vector<bool> hidden;  ///< by cull_block
+  /// By cull_block: its splats are asked for whatever the verdict, for no set of the command before was hidden.
+  std::vector<bool> trusted;
   /// The beats that the device is to get, in order.
   std::vector<std::size_t> wanted() const;
 };
@@ -48,6 +52,47 @@ struct FetchRun {
   std::size_t stop_after = 0;             ///< beats sent before `stop` is raised; 0: never
 };
 
+/// What the master feeds, cycle by cycle.
+class FetchDevice {
+ public:
+  struct Verdict {
+    std::uint32_t tag = 0;
+    bool hidden = false;
+  };
+  virtual ~FetchDevice() = default;
+  // In the cycle that begins:
+  virtual bool ready() = 0;  ///< asked first
+  virtual std::optional<Verdict> verdict() = 0;
+  /// The cycle ends with this beat on the stream; null: none.
+  virtual void edge(const cmodel::Beat* beat) = 0;
+  /// All that it was sent has been dealt with.
+  virtual bool at_rest() = 0;
+};
+
+/// Takes a beat when `run.ready` says so, and tells verdicts as early as a device can, or `run.verdict_wait` later.
+class PlayedDevice final : public FetchDevice {
+ public:
+  PlayedDevice(const FetchStream& stream, const FetchRun& run) : stream_(stream), run_(run), wanted_(stream.wanted()) {}
+  bool ready() override;
+  std::optional<Verdict> verdict() override;
+  void edge(const cmodel::Beat* beat) override;
+  bool at_rest() override { return waiting_.empty(); }
+
+ private:
+  struct Waiting {
+    std::size_t block;
+    std::uint32_t tag;
+    std::uint64_t cycle;
+  };
+  const FetchStream& stream_;
+  const FetchRun& run_;
+  std::vector<std::size_t> wanted_;
+  std::deque<Waiting> waiting_;
+  std::size_t taken_ = 0;
+  std::uint64_t cycle_ = 0, last_ = 0;
+  bool taking_ = false;  ///< in this cycle
+};
+
 struct FetchResult {
   std::string finding;                        ///< the first thing that was wrong; empty: none
   std::vector<std::uint64_t> offered, taken;  ///< by beat sent
@@ -59,6 +104,10 @@ struct FetchResult {
   bool all_sent = false;
 };
 
-FetchResult run_fetch(const FetchStream& stream, const FetchRun& run);
+FetchResult run_fetch(const FetchStream& stream, const FetchRun& run, FetchDevice& device);
+inline FetchResult run_fetch(const FetchStream& stream, const FetchRun& run) {
+  PlayedDevice device(stream, run);
+  return run_fetch(stream, run, device);
+}
 
 }  // namespace fastsplat::test

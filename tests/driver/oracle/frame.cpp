@@ -8,6 +8,7 @@
 #include <span>
 
 #include "tests/cmodel/oracle/number.hpp"
+#include "tests/driver/oracle/cells.hpp"
 #include "tests/driver/oracle/ellipse.hpp"
 
 namespace fastsplat::scene_oracle {
@@ -304,11 +305,15 @@ class Page {
     }
   }
 
+  /// Of the windows, along one axis.
+  Wide first_pixel(std::int64_t q, const RadiusSet& set) const {
+    const Wide xs = narrow(symbols_.Rs, Overflow::Sat, q, symbols_.pf, oracle::s(60, log2_of(symbols_.K()))).word;
+    return floor_divide(xs - set.rho, symbols_.K()) + 1;  // no end of the format is near
+  }
+
   /// Whether `extent` pixels from the window's first one on meet a whole tile's `side` pixels, along one axis.
   bool meets(std::int64_t q, const RadiusSet& set, std::int64_t extent, std::int64_t first, std::int64_t side) const {
-    const int kl = log2_of(symbols_.K());
-    const Wide xs = narrow(symbols_.Rs, Overflow::Sat, q, symbols_.pf, oracle::s(60, kl)).word;  // no end is near
-    const Wide x0 = floor_divide(xs - set.rho, symbols_.K()) + 1;
+    const Wide x0 = first_pixel(q, set);
     return x0 < first + side && x0 + extent > first;
   }
 
@@ -334,6 +339,87 @@ class Page {
     return beats;
   }
 
+  /// Of one splat in one sheet of one tile.
+  void splat_beats(Splat& splat, std::int64_t tile, std::int64_t s, std::int64_t X, std::int64_t Y, std::uint32_t& tag,
+                   std::vector<Beat>& records) {
+    const auto& [v, cut] = splat.shares[static_cast<std::size_t>(s)];
+    if (v == Words{}) return;
+    std::vector<Beat> made;
+    if (splat.ellipse) {
+      made = ellipse_beats(splat, v, X, Y, tag);
+      met_.ellipse_records += made.size();
+      met_.many_spans += made.size() > 1 ? 1 : 0;
+    } else if (in_tile(splat, X, Y, true)) {
+      const std::int64_t pixel = to_int(power_of_two(symbols_.pf));
+      made.push_back({0x50U | static_cast<std::uint32_t>(splat.set) << 8, tag++, u32(splat.x - X * pixel),
+                      u32(splat.y - Y * pixel), u32(v[0]) | u32(v[1]) << 16, u32(v[2]) | u32(v[3]) << 16});
+      met_.reordered += splat.order < last_order_ ? 1 : 0;
+      last_order_ = splat.order;
+    } else {
+      met_.beyond_E += in_tile(splat, X, Y, false) ? 1 : 0;
+    }
+    records.insert(records.end(), made.begin(), made.end());
+    met_.saturated_records += cut ? made.size() : 0;
+    if (made.empty()) return;
+    if (splat.first_tile < 0) splat.first_tile = tile;
+    met_.other_tiles += splat.first_tile != tile ? made.size() : 0;
+  }
+
+  /// By the extent E, or by Ea.
+  bool in_tile(const Splat& splat, std::int64_t X, std::int64_t Y, bool by_E) const {
+    const RadiusSet& set = sets_.all[splat.set];
+    const std::int64_t extent = by_E ? set.E : set.Ea;
+    return meets(splat.x, set, extent, X, symbols_.W) && meets(splat.y, set, extent, Y, symbols_.H);
+  }
+
+  bool goes_in_sets() const { return symbols_.cull != "off" && sheets_.mode < 2 && !shaped(given_); }
+
+  /// The most sheets that a kernel has beyond its first.
+  std::int64_t reach() const {
+    if (!sheets_.sliced) return 0;
+    const auto M = static_cast<std::int64_t>(phi_.size()) - 1;
+    std::int64_t most = 0;
+    for (std::int64_t first = 0; first < sheets_.S; ++first) {
+      const std::int64_t end = B_[static_cast<std::size_t>(first + 1)] - 1 + M;  // of the deepest that begins there
+      std::int64_t last = first;
+      while (last + 1 < sheets_.S && B_[static_cast<std::size_t>(last + 1)] < end) ++last;
+      most = std::max(most, last - first);
+    }
+    return most;
+  }
+
+  void set_beats(std::int64_t tile, std::int64_t s, std::int64_t X, std::int64_t Y, bool may_hide, std::uint32_t& tag,
+                 std::vector<Beat>& blocks, std::vector<Beat>& records) {
+    const Cells cells = cells_of(symbols_.P, symbols_.W, symbols_.H);
+    std::vector<std::vector<Splat*>> of(static_cast<std::size_t>(cells.columns * cells.rows));
+    std::vector<std::int64_t> candidates(of.size());
+    std::int64_t narrowest = sets_.all[0].Ea, widest = narrowest;
+    for (const RadiusSet& set : sets_.all) narrowest = std::min(narrowest, set.Ea), widest = std::max(widest, set.Ea);
+    const auto place = [&](std::int64_t q, const RadiusSet& set, std::int64_t first, std::int64_t count) {
+      return std::clamp<std::int64_t>(to_int(floor_divide(first_pixel(q, set) - first, cells.side)), 0, count - 1);
+    };
+    for (Splat& splat : splats_) {
+      if (splat.first_sheet < s - reach() || splat.first_sheet > s || !in_tile(splat, X, Y, true)) continue;
+      const RadiusSet& set = sets_.all[splat.set];
+      const auto cell = static_cast<std::size_t>(place(splat.y, set, Y, cells.rows) * cells.columns +
+                                                 place(splat.x, set, X, cells.columns));
+      of[cell].push_back(&splat);
+      ++candidates[cell];
+    }
+    const std::int64_t windows = narrowest / symbols_.P * (narrowest / symbols_.P);
+    const SheetCells split = sheet_cells(cells, candidates, windows, may_hide, widest);
+    const auto take = [&](std::size_t cell) {
+      for (Splat* splat : of[cell]) splat_beats(*splat, tile, s, X, Y, tag, records);
+    };
+    for (const CellSet& set : split.sets) {
+      const std::uint32_t first = tag;
+      std::ranges::for_each(set.cells, take);
+      blocks.push_back({0x43U, first, u32(set.x), u32(set.y), u32(set.width) | u32(set.height) << 16, tag - first});
+      ++met_.sets;
+    }
+    std::ranges::for_each(split.others, take);
+  }
+
   std::vector<Beat> tile_beats(std::int64_t tile) {
     const std::int64_t X = tile % across() * symbols_.W, Y = tile / across() * symbols_.H;
     const std::int64_t width = std::min<std::int64_t>(symbols_.W, given_.width - X);
@@ -342,40 +428,16 @@ class Page {
         {0x54U | u32(sheets_.mode) << 8, u32(tile), u32(X), u32(Y), u32(width) | u32(height) << 16, 0}};
     std::uint32_t tag = 0, sheets = 0;
     for (std::int64_t s = 0; s < sheets_.S; ++s) {
-      std::vector<Beat> records;
-      std::uint64_t last_order = 0;
-      for (Splat& splat : splats_) {
-        const auto& [v, cut] = splat.shares[static_cast<std::size_t>(s)];
-        if (v == Words{}) continue;
-        if (splat.ellipse) {
-          const auto made = ellipse_beats(splat, v, X, Y, tag);
-          records.insert(records.end(), made.begin(), made.end());
-          met_.saturated_records += cut ? made.size() : 0;
-          met_.ellipse_records += made.size();
-          met_.many_spans += made.size() > 1 ? 1 : 0;
-          if (made.empty()) continue;
-          if (splat.first_tile < 0) splat.first_tile = tile;
-          met_.other_tiles += splat.first_tile != tile ? made.size() : 0;
-          continue;
-        }
-        const RadiusSet& set = sets_.all[splat.set];
-        if (!meets(splat.x, set, set.E, X, symbols_.W) || !meets(splat.y, set, set.E, Y, symbols_.H)) {
-          met_.beyond_E +=
-              meets(splat.x, set, set.Ea, X, symbols_.W) && meets(splat.y, set, set.Ea, Y, symbols_.H) ? 1 : 0;
-          continue;
-        }
-        const std::int64_t pixel = to_int(power_of_two(symbols_.pf));
-        records.push_back({0x50U | static_cast<std::uint32_t>(splat.set) << 8, tag++, u32(splat.x - X * pixel),
-                           u32(splat.y - Y * pixel), u32(v[0]) | u32(v[1]) << 16, u32(v[2]) | u32(v[3]) << 16});
-        met_.saturated_records += cut ? 1 : 0;
-        met_.reordered += splat.order < last_order ? 1 : 0;
-        last_order = splat.order;
-        if (splat.first_tile < 0) splat.first_tile = tile;
-        met_.other_tiles += splat.first_tile != tile ? 1 : 0;
-      }
-      if (records.empty()) continue;
+      std::vector<Beat> records, blocks;
+      if (goes_in_sets())
+        set_beats(tile, s, X, Y, sheets >= 2, tag, blocks, records);
+      else
+        for (Splat& splat : splats_) splat_beats(splat, tile, s, X, Y, tag, records);
+      last_order_ = 0;
+      if (records.empty() && blocks.empty()) continue;
       ++sheets;
       beats.push_back({0x53U, u32(s), 0, 0, 0, 0});
+      beats.insert(beats.end(), blocks.begin(), blocks.end());
       beats.insert(beats.end(), records.begin(), records.end());
       beats.push_back({0x73U, u32(s), static_cast<std::uint32_t>(records.size()), 0, 0, 0});
     }
@@ -395,6 +457,7 @@ class Page {
   std::map<std::int64_t, double> shown_;
   std::vector<Splat> splats_;
   std::map<std::pair<int, int>, std::vector<double>> rest_;  ///< per line of voxels, what its channels left
+  std::uint64_t last_order_ = 0;                             ///< of the sheet's records so far
   Met met_;
 };
 
@@ -417,6 +480,7 @@ constexpr MetName kMet[] = {
     {"records in further tiles", &Met::other_tiles},
     {"records out of traversal order", &Met::reordered},
     {"empty tiles", &Met::empty_tiles},
+    {"sets of splats", &Met::sets},
     {"words that the carry changed", &Met::carried_words},
     {"voxels as ellipses", &Met::ellipses},
     {"ellipse records", &Met::ellipse_records},

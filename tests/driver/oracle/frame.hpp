@@ -37,6 +37,7 @@ struct Met {
   std::uint64_t other_tiles = 0;      ///< records of splats that have some in an earlier tile too
   std::uint64_t reordered = 0;        ///< neighbours in a sheet that are not in traversal order
   std::uint64_t empty_tiles = 0;
+  std::uint64_t sets = 0;      ///< cull_blocks
   std::uint64_t ellipses = 0;  ///< voxels that are ellipse records
   std::uint64_t ellipse_records = 0;
   std::uint64_t thin_ellipses = 0;  ///< voxels that grew across

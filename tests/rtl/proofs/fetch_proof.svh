@@ -44,6 +44,7 @@ always @(posedge clk_i) begin
     assert (!m_axi_arvalid || (outstanding_q != '0 && f_due_q >= DB'(m_axi_arlen) + DB'(1)));
     assert ((DB + 2)'(room_q) + (DB + 2)'(f_due_q) + (DB + 2)'(unsent_q) <= (DB + 2)'(1 << DEPTH_LOG2));
     assert (!run_valid_q || left_q != '0);
+    assert (phase_q == PhNone || counted_q == (splats_q != '0));
     assert ((address_q[BEAT_LOG2-1:0] == '0 && body_q[BEAT_LOG2-1:0] == '0) || phase_q == PhNone);
     cover (m_axi_arvalid && !m_axi_arready && outstanding_q == OB'(OUTSTANDING));
     cover (sends && unsent_q == DB'(1) && phase_q == PhRuns);

@@ -25,8 +25,8 @@ struct CullRow {
 };
 
 /// off, block, block with fetch, pixel, pixel with fetch.
-std::vector<CullRow> cull_table(const scene::Scene& scene, const cmodel::Config& config, std::uint64_t latency,
-                                int threads = 1, const Progress& progress = {});
+std::vector<CullRow> compare_culling(const scene::Scene& scene, const cmodel::Config& config, std::uint64_t latency,
+                                     int threads = 1, const Progress& progress = {});
 
 /// Of the splat records that the device without culling, the first row, draws, those that this one does.
 double share_drawn(const CullRow& row, const CullRow& off);

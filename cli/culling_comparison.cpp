@@ -1,4 +1,4 @@
-#include "cli/cull_table.hpp"
+#include "cli/culling_comparison.hpp"
 
 #include <fmt/format.h>
 

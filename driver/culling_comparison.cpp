@@ -1,12 +1,12 @@
-#include "driver/cull_table.hpp"
+#include "driver/culling_comparison.hpp"
 
 #include "cmodel/cycle_model.hpp"
 #include "driver/cull_log.hpp"
 
 namespace fastsplat::driver {
 
-std::vector<CullRow> cull_table(const scene::Scene& scene, const cmodel::Config& config, std::uint64_t latency,
-                                int threads, const Progress& progress) {
+std::vector<CullRow> compare_culling(const scene::Scene& scene, const cmodel::Config& config, std::uint64_t latency,
+                                     int threads, const Progress& progress) {
   std::vector<CullRow> rows;
   for (const auto map : {cmodel::CullMap::Off, cmodel::CullMap::Block, cmodel::CullMap::Pixel}) {
     cmodel::Config device = config;

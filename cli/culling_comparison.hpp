@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "driver/cull_table.hpp"
+#include "driver/culling_comparison.hpp"
 
 namespace fastsplat::cli {
 

@@ -198,10 +198,7 @@ template <class T>
 void TileUnit<T>::ellipses(std::span<const EllipseRecord> records) {
   sound_ = sound_ && (records.empty() || (tables_.ellipses && !culls_));
   if (!sound_) return;
-  for (const EllipseRecord& record : records) {
-    if (const bool* gone = sets_.next(); gone != nullptr && *gone) continue;
-    take(place(record), record.colour);
-  }
+  for (const EllipseRecord& record : records) take(place(record), record.colour);
 }
 
 template <class T>

@@ -57,7 +57,7 @@ TEST(Head, an_xray_on_tiny_holds_44_db_at_every_size) {
 // radial table are what shows.
 TEST(Head, post_classified_holds_45_db_in_base_and_57_db_in_fine) {
   std::string why_not;
-  const auto volume = scan(why_not);
+  const auto volume = head_scan(why_not);
   if (!volume) GTEST_SKIP() << "the scan is not installed: " << why_not;
   auto description = view_of("ch2bet", 96, "mri-head");
   description.camera.zoom = 32.0 / 3.0;

@@ -59,7 +59,9 @@ unit() {
   for other in stream_check pixel_out; do
     case " $beside " in *" $other "*) quiet="$quiet $work/$name.$other.sv" read=$(echo "$read" | sed "s| [^ ]*\.$other\.sv||") ;; esac
   done
-  yosys -q -l "$work/$name.log" -p "read_verilog -sv -I$source/rtl $package_file $quiet; read_verilog -sv -formal ${defines-} -I$source/rtl -I$here $read $work/$name.sv; hierarchy -check -top $(rtl_of "$module"); proc; ${free:+cutpoint $free ${cut_wires-};} flatten; ${connects-} delete -output o:*; memory_map; opt -full -purge; async2sync; dffunmap; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2" >/dev/null 2>&1 ||
+  # Yosys keeps the guard of assertions.svh from one read to the next, and with it the macros as they were without -formal: where modules are cut, those
+  # beside have none of their own assertions and assumptions, which is as it should be, for the specification asks for what they assume. The module has.
+  yosys -q -l "$work/$name.log" -p "read_verilog -sv -I$source/rtl $package_file $quiet; ${read:+read_verilog -sv -formal ${defines-} -I$source/rtl -I$here $read;} verilog_defines -reset; read_verilog -sv -formal ${defines-} -I$source/rtl -I$here $work/$name.sv; hierarchy -check -top $(rtl_of "$module"); proc; ${free:+cutpoint $free ${cut_wires-};} flatten; ${connects-} delete -output o:*; memory_map; opt -full -purge; async2sync; dffunmap; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2" >/dev/null 2>&1 ||
     { tail -5 "$work/$name.log"; echo "$name: Yosys fails"; exit 1; }
   grep -q 'yosys-smt2-assert' "$work/$name.smt2" || { echo "$name: nothing to prove"; exit 1; }
 }

@@ -44,6 +44,7 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
   if (!plan) return {};
   if (!has_vectors()) return none("this processor has none of its vectors");
   if (needs.ellipses && config.culls()) return none("splats are ellipses, and the device hides windows of them");
+  if (needs.ellipses && config.interpolates()) return none("splats are ellipses, and weights lie between table entries");
   const auto samples = sample_plan(config, *plan, needs.samples ? why_not : nullptr);
   if (needs.samples && !samples) return {};
   WeightUnit unit = weight_unit(config);
@@ -91,7 +92,7 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
                   .opacity = opacity,
                   .opacity_holds = excess.has_value(),
                   .opacity_excess = excess.value_or(0),
-                  .ellipses = ellipse_table(config, radial, plan->weight_shift),
+                  .ellipses = config.interpolates() ? std::nullopt : ellipse_table(config, radial, plan->weight_shift),
                   .samples = std::nullopt,
                   .reach = kVectorPixels};
   if (needs.ellipses && !out.ellipses) return none("an ellipse's place in the radial table is wider than its lanes");

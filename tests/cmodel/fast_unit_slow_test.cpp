@@ -151,7 +151,7 @@ TEST(FastUnit, RandomStreams) {
 }
 
 TEST(FastUnit, RandomStreamsOnADeviceThatCulls) {
-  random_streams("on a device that culls", 60, 5, [](Random& random, int round) {
+  random_streams("on a device that culls", 120, 5, [](Random& random, int round) {
     cmodel::Config config = any_config(random, round, 24);
     config.composite_every_sample = 0;
     config.cull_map = static_cast<int>(cmodel::CullMap::Block);

@@ -60,9 +60,7 @@ CompiledFrame::State::State(const scene::Scene& scene, const cmodel::Config& dev
 }
 
 Cells CompiledFrame::State::make_cells() const {
-  // Footprints of their own are no sets' yet: each is tested by itself.
-  return config.culls() && cmodel::culls_in(mode) && !shaped() ? Cells(grid, cmodel::cull_cell_pixels(config))
-                                                               : Cells();
+  return in_sets() ? Cells(grid, cmodel::cull_cell_pixels(config)) : Cells();
 }
 
 TileBins CompiledFrame::State::make_bins(int threads) const {

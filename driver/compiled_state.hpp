@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cmodel/cull_unit.hpp"
 #include "cmodel/record_sink.hpp"
 #include "cmodel/snap.hpp"
 #include "cmodel/window_geometry.hpp"
@@ -130,7 +131,8 @@ struct CompiledFrame::State {
   std::uint32_t emit_sheet(int tile, int sheet, std::uint32_t& tag, cmodel::RecordSink& out, TileReport& report) const;
   /// The same where the tile's splats go in sets; true if the sheet was written.
   bool emit_sets(int tile, int sheet, std::uint32_t& tag, cmodel::RecordSink& out, TileReport& report) const;
-  bool in_sets() const { return cells.count() > 1; }
+  /// Footprints of their own are no sets' yet: each is tested by itself.
+  bool in_sets() const { return config.culls() && cmodel::culls_in(mode) && !shaped(); }
   /// The sets of a tile's sheet, behind `written` others of the tile, and the cells that are in none.
   SheetSets sheet_sets(int tile, int sheet, std::uint64_t written) const;
   /// visit(EllipseRecord) for every record of a splat with kOwnShape that meets the tile, without its tag; none may.

@@ -16,7 +16,10 @@ std::uint32_t support_radius(double radius, const cmodel::Config& config) {
 }
 
 RadiusSets::RadiusSets(const cmodel::Config& config, double smallest, double largest) : smallest_(smallest) {
-  const double widest = config.rlut_columns / 2.0;
+  // On the grid of its radius, so that the set's columns fit: less than half of the RLUT only where that is half a
+  // step.
+  const double widest =
+      std::ldexp(std::floor(std::ldexp(config.rlut_columns, config.grid_bits() - 1)), -config.grid_bits());
   if (!(largest <= widest)) {
     throw_usage(
         {.where = "configuration " + config.name,

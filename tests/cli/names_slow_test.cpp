@@ -59,7 +59,7 @@ TEST(Names, AFileThatIsMissingOrBadIsAFile) {
 TEST(Names, HintsAreNear) {
   const auto hint = [](const std::vector<std::string>& command) { return fastsplat(command).err; };
   for (const auto& command : {still({"--tf", "nope"}), still({"--volume", "nope"}), still({"--index", "rlut"}),
-                              still({"--engine", "cmodel", "--config", "mine"})})
+                              still({"--engine", "cmodel", "--config", "ours"})})
     EXPECT_EQ(hint(command).find("did you mean"), std::string::npos) << hint(command);
   EXPECT_NE(hint(still({"--tf", "bonne"})).find("did you mean 'bone'"), std::string::npos);
   EXPECT_NE(hint(still({"--elevtion", "3"})).find("did you mean '--elevation'"), std::string::npos);

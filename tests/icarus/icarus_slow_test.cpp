@@ -283,7 +283,7 @@ TEST_P(UsedBeforeSet, IsSeenAsUnknown) {
 
 INSTANTIATE_TEST_SUITE_P(
     Planted, UsedBeforeSet,
-    ::testing::Values(Planted{"windows_not_reset", "column_q <= '0;\n      row_q <= '0;", ""},
+    ::testing::Values(Planted{"windows_not_reset", "column_q <= '0;\n        row_q <= '0;", ""},
                       Planted{"sheets_not_wiped",
                               "assign we = (wipe_i && !`FASTSPLAT_FAULT(MISSED_WIPE)) || clear || mine;",
                               "assign we = clear || mine;"},

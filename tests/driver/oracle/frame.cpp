@@ -42,7 +42,8 @@ Sets radius_sets(const Given& given) {
     sets.r_min = std::min(sets.r_min, r);
     r_max = std::max(r_max, r);
   }
-  if (r_max > symbols.columns / 2.0) throw Refused("a support radius beyond half the RLUT's columns");
+  if (2 * std::ceil(r_max * symbols.K()) > symbols.columns * symbols.K())
+    throw Refused("a support radius beyond half the RLUT's columns");
   const RadiusSet largest = radius_set(symbols, r_max);
   if (r_max <= sets.r_min * (1 + 1e-9) || shaped(given)) {
     sets.all = {largest};

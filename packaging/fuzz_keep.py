@@ -2,6 +2,7 @@
 
 RESULTS has a line a target, as `one` in packaging/fuzz writes it. Time and runs add up; edges are the most that a run saw. A target
 with a finding starts again from nothing: what it ran before was of code that is about to change."""
+import datetime
 import json
 import os
 import re
@@ -13,6 +14,7 @@ if os.path.exists(kept):
     with open(kept) as file:
         whole = json.load(file)
 whole["tool"] = tool
+whole["date"] = datetime.date.today().isoformat()
 with open(results) as file:
     for line in file:
         name = line.split()[0]

@@ -1,10 +1,12 @@
 // fastsplat_evidence: what tools other than the simulator said of the device, gathered (./run synth, ./run evidence).
-//   synthesis KEPT WORK_DIR FAMILY-CONFIG...  KEPT (it may be missing) with those named anew, of the files of synth.sh
+//   synthesis KEPT WORK_DIR FAMILY-CONFIG...  KEPT (it may be missing) with those named anew, of the files of synth.sh and,
+//   where there is one, of FAMILY-CONFIG.stamp
 //   ratchet BASELINE WORK_DIR FAMILY-CONFIG...  those against the baseline's: exit code 1 where one moved by more than
 //   2 %
 //   seed BASELINE FAMILY-CONFIG               the placer's seed of which the baseline has it placed; nothing if it is not
-//   figures GTEST_JSON                        the figures of a test program's report, by test page FOLDER
-//   docs/evidence.md of FOLDER's JSON, to standard output
+//   figures GTEST_JSON                        the figures of a test program's report, by test
+//   page FOLDER [STAMP]                       docs/evidence.md of FOLDER's JSON, to standard output. STAMP: the RTL as it is,
+//   of packaging/evidence_stamp.py, which every figure's own is held against
 // Exit codes: 0, 1 moved, 2 usage, 3 a file that is missing or wrong.
 #include <algorithm>
 #include <exception>
@@ -126,7 +128,9 @@ int run(const std::vector<std::string>& words) {
   if (is("synthesis", 3)) {
     Json all = std::filesystem::exists(words[1]) ? read_json(words[1]) : Json::array();
     for (std::size_t i = 3; i < words.size(); ++i) {
-      const Json now = design_of(words[2], words[i]);
+      Json now = design_of(words[2], words[i]);
+      if (const auto stamp = words[2] + "/" + words[i] + ".stamp"; std::filesystem::exists(stamp))
+        now.update(read_json(stamp));
       const auto then = find_design(all, now);
       if (then == all.end()) {
         all.push_back(now);
@@ -148,11 +152,11 @@ int run(const std::vector<std::string>& words) {
     return 0;
   }
   if (is("page", 1)) {
-    std::cout << page(words[1]);
+    std::cout << page(words[1], words.size() > 2 ? read_json(words[2]) : Json());
     return 0;
   }
   std::cerr << "usage: fastsplat_evidence synthesis KEPT WORK_DIR FAMILY-CONFIG... | ratchet BASELINE WORK_DIR "
-               "FAMILY-CONFIG... | seed BASELINE FAMILY-CONFIG | figures TOOL GTEST_JSON | proofs TOOL FILE... | page FOLDER\n";
+               "FAMILY-CONFIG... | seed BASELINE FAMILY-CONFIG | figures TOOL GTEST_JSON | proofs TOOL FILE... | page FOLDER [STAMP]\n";
   return 2;
 }
 

@@ -36,9 +36,21 @@ std::string preface() {
   return text(std::filesystem::path(FASTSPLAT_SOURCE_DIR) / "bench/evidence/preface.md").value_or("");
 }
 
+/// ", 2026-11-24; changed since: csr, lane": the day of a figure, and what of `now` is another than it was or was not there.
+std::string origin(const Json& figure, const Json& now) {
+  if (!figure.contains("date")) return "; of which day and RTL is not kept";
+  std::string out = ", " + figure.at("date").get<std::string>(), changed;
+  if (!figure.contains("rtl") || now.is_null()) return out;
+  for (const auto& [module, hash] : now.at("rtl").items())
+    if (const auto& then = figure.at("rtl"); !then.contains(module) || then.at(module) != hash)
+      changed += (changed.empty() ? "" : ", ") + module;
+  return changed.empty() ? out : out + "; changed since: " + changed;
+}
+
 /// A row for each test, its figures in words.
-std::string figures_table(const Json& json) {
-  std::string out = fmt::format("{}.\n\n| test | figures |\n|---|---|\n", json.at("tool").get<std::string>());
+std::string figures_table(const Json& json, const Json& now) {
+  std::string out = fmt::format("{}{}.\n\n| test | figures |\n|---|---|\n", json.at("tool").get<std::string>(),
+                                origin(json, now));
   for (const auto& [test, figures] : json.at("tests").items()) {
     std::string row;
     for (const auto& [name, value] : figures.items())
@@ -48,9 +60,9 @@ std::string figures_table(const Json& json) {
   return out + "\n";
 }
 
-std::string proofs_table(const Json& json) {
-  std::string out = fmt::format("{}.\n\n| proved | how | seconds | planted faults refuted |\n|---|---|---|---|\n",
-                                json.at("tool").get<std::string>());
+std::string proofs_table(const Json& json, const Json& now) {
+  std::string out = fmt::format("{}{}.\n\n| proved | how | seconds | planted faults refuted |\n|---|---|---|---|\n",
+                                json.at("tool").get<std::string>(), origin(json, now));
   for (const auto& proof : json.at("proofs")) {
     out += fmt::format("| {} | {} | {:.1f} | {} |\n", proof.at("property").get<std::string>(),
                        proof.at("how").get<std::string>(), proof.at("seconds").get<double>(),
@@ -95,13 +107,13 @@ std::string placement(const Json& design) {
 
 constexpr const char* kCells = " LUT | carry | mux | FF | LUT RAM | block RAM | DSP |";
 
-std::string synthesis(const Json& designs) {
+std::string synthesis(const Json& designs, const Json& now) {
   std::string out =
-      fmt::format("| design | family |{} tool | CPU s |\n|---|---|---|---|---|---|---|---|---|---|---|\n", kCells);
+      fmt::format("| design | family |{} tool, day | CPU s |\n|---|---|---|---|---|---|---|---|---|---|---|\n", kCells);
   for (const Json& design : designs)
-    out += fmt::format("| {} | {} |{} {} | {:.0f} |\n", design.at("design").get<std::string>(),
+    out += fmt::format("| {} | {} |{} {}{} | {:.0f} |\n", design.at("design").get<std::string>(),
                        design.at("family").get<std::string>(), cells(design.at("total")), tools(design),
-                       design.at("seconds").get<double>());
+                       origin(design, now), design.at("seconds").get<double>());
   out += "\n";
   for (const Json& design : designs)
     if (design.contains("placement")) out += placement(design);
@@ -136,9 +148,9 @@ int sum(const Json& of) {
 /// Of a sample or of all: those that live are told one by one.
 std::string fuzz(const Json& json) {
   std::string out = fmt::format(
-      "{}, AddressSanitizer, UndefinedBehaviorSanitizer. No finding is open.\n\n| reader | minutes | inputs tried | "
+      "{}, AddressSanitizer, UndefinedBehaviorSanitizer{}. No finding is open.\n\n| reader | minutes | inputs tried | "
       "edges reached |\n|---|---|---|---|\n",
-      json.at("tool").get<std::string>());
+      json.at("tool").get<std::string>(), origin(json, nullptr));
   for (const auto& [name, target] : json.at("targets").items()) {
     out += fmt::format("| {} | {:.0f} | {} | {} |\n", name, target.at("seconds").get<double>() / 60.0,
                        target.at("runs").get<std::int64_t>(), target.at("edges").get<int>());
@@ -146,23 +158,28 @@ std::string fuzz(const Json& json) {
   return out + "\n";
 }
 
-std::string mutants(const Json& json) {
+/// Each module's row has a day of its own; "changed since" where `now` has another hash of it.
+std::string mutants(const Json& json, const Json& now) {
   std::string out = fmt::format(
-      "{}.\n\n| module | mutants | killed | excluded | living | killed by | excluded because |\n"
-      "|---|---|---|---|---|---|---|\n",
+      "{}.\n\n| module | mutants | killed | excluded | living | killed by | excluded because | tried |\n"
+      "|---|---|---|---|---|---|---|---|\n",
       json.at("tool").get<std::string>());
   int all = 0, killed = 0, excluded = 0, living = 0;
   for (const auto& [name, module] : json.at("modules").items()) {
     const int by = sum(module.at("killed")), not_seen = sum(module.at("excluded")),
               lives = module.at("living").get<int>();
-    out += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", name, module.at("mutants").get<int>(), by, not_seen,
-                       lives, counts(module.at("killed")), counts(module.at("excluded")));
+    const std::string file = name.starts_with("fastsplat_") ? name.substr(name.find('_') + 1) : name;
+    std::string tried = module.value("date", "day not kept");
+    if (now.is_object() && (!module.contains("rtl") || module.at("rtl") != now.at("rtl").value(file, "")))
+      tried += ", changed since";
+    out += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", name, module.at("mutants").get<int>(), by, not_seen,
+                       lives, counts(module.at("killed")), counts(module.at("excluded")), tried);
     all += module.at("mutants").get<int>();
     killed += by;
     excluded += not_seen;
     living += lives;
   }
-  out += fmt::format("| **all** | {} | {} | {} | {} | | |\n\n", all, killed, excluded, living);
+  out += fmt::format("| **all** | {} | {} | {} | {} | | | |\n\n", all, killed, excluded, living);
   out += fmt::format("Of those that can be seen, **{:.2f} %** are killed.\n\n",
                      100.0 * killed / std::max(killed + living, 1));
   for (const Json& one : json.at("survivors"))
@@ -174,33 +191,33 @@ std::string mutants(const Json& json) {
 
 }  // namespace
 
-std::string page(const std::filesystem::path& folder) {
+std::string page(const std::filesystem::path& folder, const nlohmann::ordered_json& now) {
   std::string out = preface();
   out += "\n## Proofs\n\n";
   const auto proofs = read(folder / "proofs.json");
-  out += proofs ? proofs_table(*proofs) : missing("the proofs", "./run evidence");
+  out += proofs ? proofs_table(*proofs, now) : missing("the proofs", "./run evidence");
   out += "## A second simulator\n\n";
   const auto icarus = read(folder / "icarus.json");
-  out += icarus ? figures_table(*icarus) : missing("Icarus", "./run evidence");
+  out += icarus ? figures_table(*icarus, now) : missing("Icarus", "./run evidence");
   out += "## The netlist\n\n";
   for (const char* name : {"tiny", "small", "tiny_ice40"}) {
     const auto netlist = read(folder / (std::string("netlist_") + name + ".json"));
     out += fmt::format("### {}\n\n", name);
-    out += netlist ? figures_table(*netlist) : missing("this netlist", "./run netlist");
+    out += netlist ? figures_table(*netlist, now) : missing("this netlist", "./run netlist");
   }
   out += "## Mutants\n\n";
   const auto mutated = read(folder / "mutants.json");
-  out += mutated ? mutants(*mutated) : missing("mutants", "./run mutate --all");
+  out += mutated ? mutants(*mutated, now) : missing("mutants", "./run mutate --all");
   out += "### Model and driver\n\n";
   out += mutated && mutated->contains("cplusplus")
-             ? mutants(mutated->at("cplusplus"))
+             ? mutants(mutated->at("cplusplus"), nullptr)
              : missing("their mutants", "./run mutate --module cmodel --module driver");
   out += "## Files of strangers\n\n";
   const auto fuzzed = read(folder / "fuzz.json");
   out += fuzzed ? fuzz(*fuzzed) : missing("minutes of fuzzing", "./run fuzz --keep");
   out += "## Synthesis\n\n";
   const auto designs = read(folder / "synthesis.json");
-  out += designs ? synthesis(*designs) : missing("synthesis", "./run synth");
+  out += designs ? synthesis(*designs, now) : missing("synthesis", "./run synth");
   out += "## Error, cycles, area\n\n";
   const auto area = text(folder / "area.md");
   out += area ? *area : missing("the plan error-cycles-area", "./run evidence");

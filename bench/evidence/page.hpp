@@ -2,12 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace fastsplat::evidence {
 
-/// Reads `folder`/synthesis.json, icarus.json, netlist.json and proofs.json; what is not there is said to be missing.
+/// Reads the JSON of `folder`; what is not there is said to be missing. `now` is of packaging/evidence_stamp.py, {"rtl": {module: hash}}:
+/// each figure is told with its day and with the modules of the RTL that have changed since; null says nothing of it.
 /// Throws std::runtime_error, or what nlohmann's JSON throws, for a file that is wrong.
-std::string page(const std::filesystem::path& folder);
+std::string page(const std::filesystem::path& folder, const nlohmann::ordered_json& now);
 
 }  // namespace fastsplat::evidence

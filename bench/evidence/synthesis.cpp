@@ -141,7 +141,8 @@ Json read_placement(const std::filesystem::path& report) {
 void compare(const std::string& where, const Json& then, const Json& now, double share, int& compared,
              std::vector<std::string>& out) {
   for (const auto& [key, value] : then.items()) {
-    if (key == "seconds" || key == "worst_paths" || key == "slowest" || key == "seeds_mhz") continue;
+    static constexpr const char* kNoFigures[] = {"seconds", "worst_paths", "slowest", "seeds_mhz", "date", "rtl"};
+    if (std::find(std::begin(kNoFigures), std::end(kNoFigures), key) != std::end(kNoFigures)) continue;
     const std::string place = where + " " + key;
     if (!now.contains(key)) {
       out.push_back(place + ": gone");

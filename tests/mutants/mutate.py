@@ -13,8 +13,10 @@ import subprocess
 import sys
 import time
 
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), "../../packaging"))
 import campaign
 import cpp_campaign
+import evidence_stamp
 import proofs
 from exclusions import Exclusions
 
@@ -31,7 +33,7 @@ def parse(words):
                                      "tests/mutants/exclusions.toml says why it cannot be. Exit code 1: one lives that is not explained there, or one "
                                      "that is explained was killed.")
     parser.add_argument("--module", action="append", metavar="M", help="all mutants of this module (more than once: of these)")
-    parser.add_argument("--all", action="store_true", help="all mutants; what they come to is kept in docs/evidence/mutants.json")
+    parser.add_argument("--all", action="store_true", help="all mutants; what they come to is kept in docs/evidence/mutants.json, of the modules that were tried to the end")
     parser.add_argument("--seed", type=int, default=1, metavar="S", help=f"which {SAMPLE}, without --all or --module (1)")
     parser.add_argument("--budget", type=float, metavar="MIN", help="begin no mutant after so many minutes; what was not tried is told")
     parser.add_argument("--jobs", type=int, default=2, metavar="N", help="mutants at the same time, and proofs of them (2)")
@@ -184,7 +186,7 @@ def tool(root, build, cpp: bool) -> str:
 
 
 def keep(root, build, cpp, rows, mutants, living, exclusions):
-    """Those of C++, a sample, have a part of their own."""
+    """The rows that were tried to the end. Those of C++, a sample, have a part of their own."""
     path = f"{root}/docs/evidence/mutants.json"
     whole = {"modules": {}}
     if os.path.exists(path):
@@ -192,12 +194,17 @@ def keep(root, build, cpp, rows, mutants, living, exclusions):
             whole = json.load(file)
     kept = whole.setdefault("cplusplus", {"modules": {}}) if cpp else whole
     kept["tool"] = tool(root, build, cpp)
+    now = evidence_stamp.stamp(root)
+    for module, row in rows.items():
+        row["date"] = now["date"]
+        if not cpp:
+            row["rtl"] = now["rtl"][module.removeprefix("fastsplat_")]
     kept["modules"].update(rows)
     kept["modules"] = dict(sorted(kept["modules"].items()))
     gone = set(rows)
     survivors = [s for s in kept.get("survivors", []) if s["module"] not in gone]
     for mutant in mutants:
-        if mutant["number"] in living and not exclusions.of(mutant):
+        if mutant["module"] in rows and mutant["number"] in living and not exclusions.of(mutant):
             survivors.append({key: mutant[key] for key in ("module", "line", "source", "what", "original")})
     kept["survivors"] = survivors
     campaign.write(path, json.dumps(whole, indent=1) + "\n")
@@ -227,8 +234,9 @@ def main(words) -> int:
     if untried:
         print(f"not tried: {len(untried)} (the budget is over)")
     campaign.write(f"{build}/mutants/killed.json", json.dumps({str(n): k for n, k in sorted(killed.items())}, indent=0))
-    if (arguments.all or arguments.module) and not untried:
-        keep(root, build, cpp, rows, mutants, set(living), exclusions)
+    if arguments.all or arguments.module:
+        short = {m["module"] for m in mutants if m["number"] in set(untried)}
+        keep(root, build, cpp, {module: row for module, row in rows.items() if module not in short}, mutants, set(living), exclusions)
     return 1 if red else 0
 
 

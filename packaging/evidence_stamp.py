@@ -1,0 +1,45 @@
+"""evidence_stamp.py ROOT [FILE]: of which RTL a figure is, and of which day.
+
+Without FILE, to standard output: {"date": today, "rtl": {module: hash}} of all of rtl/, where comments and blanks do not count. With FILE,
+an object of docs/evidence: both are written into it. docs/evidence.md says of each what has changed since."""
+import datetime
+import glob
+import hashlib
+import json
+import os
+import re
+import sys
+
+
+def rtl(root):
+    """A module's name is its file's, without the prefix."""
+    hashes = {}
+    for path in glob.glob(f"{root}/rtl/**/*.sv*", recursive=True):
+        with open(path) as file:
+            text = re.sub(r"/\*.*?\*/|//[^\n]*", " ", file.read(), flags=re.DOTALL)
+        name = os.path.basename(path).rsplit(".", 1)[0].removeprefix("fastsplat_")
+        hashes[name] = hashlib.sha256(" ".join(text.split()).encode()).hexdigest()[:12]
+    if not hashes:
+        raise SystemExit(f"evidence_stamp: there is no RTL in {root}/rtl")
+    return dict(sorted(hashes.items()))
+
+
+def stamp(root):
+    return {"date": datetime.date.today().isoformat(), "rtl": rtl(root)}
+
+
+def main(root, path=None):
+    if path is None:
+        print(json.dumps(stamp(root)))
+        return
+    with open(path) as file:
+        whole = json.load(file)
+    whole.update(stamp(root))
+    with open(path + ".new", "w") as file:
+        json.dump(whole, file, indent=1)
+        file.write("\n")
+    os.replace(path + ".new", path)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

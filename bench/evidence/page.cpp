@@ -148,7 +148,7 @@ int sum(const Json& of) {
 /// Of a sample or of all: those that live are told one by one.
 std::string fuzz(const Json& json) {
   std::string out = fmt::format(
-      "{}, AddressSanitizer, UndefinedBehaviorSanitizer{}. No finding is open.\n\n| reader | minutes | inputs tried | "
+      "{}, AddressSanitizer, UndefinedBehaviorSanitizer{}. No finding is open.\n\n| reader | processor minutes | inputs tried | "
       "edges reached |\n|---|---|---|---|\n",
       json.at("tool").get<std::string>(), origin(json, nullptr));
   for (const auto& [name, target] : json.at("targets").items()) {

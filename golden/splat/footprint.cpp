@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "golden/splat/textured_splats.hpp"
+#include "scene/textured_splats.hpp"
 
 namespace fastsplat::golden {
 

@@ -3,6 +3,10 @@
 
 #include "scene/shaped_splat.hpp"
 
+namespace fastsplat::scene {
+class TexturePhase;
+}
+
 namespace fastsplat::golden {
 
 /// Sums that a sheet gathers per pixel: red, green, blue (premultiplied emission) and optical depth.
@@ -12,15 +16,13 @@ inline Sums scaled(const Sums& value, double share) {
   return {value[0] * share, value[1] * share, value[2] * share, value[3] * share};
 }
 
-class TexturePhase;
-
 /// `value` is times Kernel::footprint().
 struct ProjectedSplat : scene::ShapedSplat {
-  double x = 0.0, y = 0.0;                ///< pixels; pixel centres are at integers
-  double z = 0.0;                         ///< depth of the centre, kernel units
-  double reach_x = 0.0, reach_y = 0.0;    ///< pixels; the footprint's support is strictly inside
-  int sheet = 0;                          ///< axis-aligned sheet
-  const TexturePhase* texture = nullptr;  ///< of the Projector; null for a plain splat
+  double x = 0.0, y = 0.0;                       ///< pixels; pixel centres are at integers
+  double z = 0.0;                                ///< depth of the centre, kernel units
+  double reach_x = 0.0, reach_y = 0.0;           ///< pixels; the footprint's support is strictly inside
+  int sheet = 0;                                 ///< axis-aligned sheet
+  const scene::TexturePhase* texture = nullptr;  ///< of the Projector; null for a plain splat
   double texture_amplitude = 0.0;
 };
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "golden/splat/projected_splat.hpp"
-#include "golden/splat/textured_splats.hpp"
+#include "scene/textured_splats.hpp"
 #include "scene/scene.hpp"
 #include "scene/splat_shaper.hpp"
 #include "scene/splats.hpp"
@@ -21,7 +21,7 @@ class Projector {
   const scene::Scene& scene_;
   double density_;
   scene::SplatShaper shape_;
-  TexturedSplats textures_;
+  scene::TexturedSplats textures_;
 };
 
 }  // namespace fastsplat::golden

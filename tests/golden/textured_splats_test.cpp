@@ -1,5 +1,5 @@
 // Textured splats: detail that changes nothing but detail, cycles, and can be turned off to the last bit.
-#include "golden/splat/textured_splats.hpp"
+#include "scene/textured_splats.hpp"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ TEST(TexturedSplats, PhasesCancelAndCarryNoEnergy) {
   for (const int count : {2, 8, 24}) {
     auto settings = kTexture;
     settings.phases = count;
-    const TexturedSplats textures(settings, kernel);
+    const scene::TexturedSplats textures(settings, kernel);
     ASSERT_EQ(textures.phases().size(), static_cast<std::size_t>(count));
     const int side = textures.phases().front().side();
     const auto place = [side](int i) { return 2.0 * (2.0 * i / (side - 1) - 1.0); };
@@ -159,10 +159,10 @@ TEST(TexturedSplats, DetailRisesAndTheLowBandStays) {
   // The low band's change, if splats' phases are independent: each splat adds m (G * F t_i), G the blur, and a pixel
   // has as many of them as its ray passes voxels per square pixel.
   const scene::Kernel kernel(lattice.a, lattice.radius);
-  const TexturedSplats textures(kTexture, kernel);
+  const scene::TexturedSplats textures(kTexture, kernel);
   const double s = lattice.pixels_per_mm;
   double per_splat = 0.0;
-  for (const TexturePhase& phase : textures.phases()) {
+  for (const scene::TexturePhase& phase : textures.phases()) {
     Plane one(static_cast<std::size_t>(width) * width, 0.0);
     for (int y = 0; y < width; ++y) {
       for (int x = 0; x < width; ++x) {

@@ -1,4 +1,4 @@
-#include "golden/splat/textured_splats.hpp"
+#include "scene/textured_splats.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -6,7 +6,7 @@
 
 #include "volume/noise.hpp"
 
-namespace fastsplat::golden {
+namespace fastsplat::scene {
 namespace {
 
 constexpr std::uint32_t kSeed = 1993;
@@ -69,7 +69,7 @@ std::vector<double> rising_noise(const Grid& grid, double scale, int phase, int 
 
 /// Takes away what all phases have in common, and what each has on the average under the footprint; then the largest of
 /// all becomes 1.
-void balance(std::vector<std::vector<double>>& phases, const Grid& grid, const scene::Kernel& kernel) {
+void balance(std::vector<std::vector<double>>& phases, const Grid& grid, const Kernel& kernel) {
   for (std::size_t i = 0; i < grid.count(); ++i) {
     double sum = 0.0;
     for (const auto& phase : phases) sum += phase[i];
@@ -111,7 +111,7 @@ double TexturePhase::operator()(double u, double v) const {
   return blend(blend(row[0], row[1], x - left), blend(row[side_], row[side_ + 1], x - left), y - top);
 }
 
-TexturedSplats::TexturedSplats(const scene::SplatTexture& settings, const scene::Kernel& kernel)
+TexturedSplats::TexturedSplats(const SplatTexture& settings, const Kernel& kernel)
     : amplitude_(settings.amplitude), frame_(static_cast<unsigned>(settings.frame)) {
   if (!(amplitude_ > 0.0)) return;
   const double finest = settings.scale / (1 << (kOctaves - 1));
@@ -133,4 +133,4 @@ const TexturePhase* TexturedSplats::phase_of(const glm::vec3& position) const {
   return &phases_[(std::uint64_t{hash} + frame_) % count];
 }
 
-}  // namespace fastsplat::golden
+}  // namespace fastsplat::scene

@@ -8,7 +8,7 @@
 #include "scene/kernel.hpp"
 #include "scene/techniques.hpp"
 
-namespace fastsplat::golden {
+namespace fastsplat::scene {
 
 /// One phase: t(u,v) in [-1,1] on the square |u|,|v| <= R around a splat's centre, kernel units, sampled on a grid and
 /// bilinear between.
@@ -30,7 +30,7 @@ class TexturedSplats {
   /// Makes no phases when the amplitude is 0. The phases are a function of the settings and the kernel's shape alone.
   ///     sum over all phases of t_i(u,v) = 0 at every place,
   ///     integral of F(rho) t_i = 0 for every phase, F the kernel's footprint.
-  TexturedSplats(const scene::SplatTexture& settings, const scene::Kernel& kernel);
+  TexturedSplats(const SplatTexture& settings, const Kernel& kernel);
 
   /// The phase a splat shows now: (hash of its place + frame) mod N. Null when off.
   const TexturePhase* phase_of(const glm::vec3& position) const;
@@ -44,4 +44,4 @@ class TexturedSplats {
   std::vector<TexturePhase> phases_;
 };
 
-}  // namespace fastsplat::golden
+}  // namespace fastsplat::scene

@@ -80,8 +80,8 @@ void CompiledFrame::State::make_preamble(const scene::Scene& scene) {
   cmodel::append(preamble, radial_table(config, scene.kernel));
   cmodel::append(preamble, factor_table(config));
   for (std::uint32_t set = 0; set < projected.sets.size(); ++set) {
-    cmodel::append(preamble,
-                   set_table(config, scene.kernel, set, projected.sets.radius(set), projected.sets.base(set)));
+    cmodel::append(preamble, set_table(config, scene.kernel, set, projected.sets.radius(set), projected.sets.base(set),
+                                       {.textures = &projected.textures, .number = projected.sets.picture(set)}));
   }
   if (!holds_densities(scene.description)) return;
   for (cmodel::LoadTable& table : density_tables(config, scene, plan.slabs)) cmodel::append(preamble, std::move(table));
@@ -135,12 +135,17 @@ scene::Offers offers(const cmodel::Config& config) {
                     .footprints_fix = "choose a configuration with ellipses, ",
                     .methods_elsewhere = only(Method::Westover),
                     .methods_fix = "set composite.every_sample = 1, ",
-                    .densities_fix = "set classify.segment_bits = 9, "};
+                    .densities_fix = "set classify.segment_bits = 9, ",
+                    .details_fix = "set index.kind = blit2d and snap.phases = 8, "};
   if (config.has_ellipses()) {
     out.engine = "device with ellipses";
     out.features = static_cast<unsigned>(scene::Feature::Footprints);
   }
   if (config.classifies()) out.features |= static_cast<unsigned>(scene::Feature::Densities);
+  // A footprint with a picture is none that has mirror images or a radial table.
+  if (config.index() == cmodel::IndexKind::Blit2d &&
+      config.index_symmetry == static_cast<int>(cmodel::IndexSymmetry::Off))
+    out.features |= static_cast<unsigned>(scene::Feature::Details);
   if (config.composite_every_sample != 0) out.methods |= only(Method::Westover);
   return out;
 }

@@ -56,8 +56,27 @@ std::vector<int> stored(const cmodel::Config& config, std::uint32_t rho) {
   return phases;
 }
 
+/// 1 + m t(u,v), what a picture makes of a footprint; without one, 1.
+class Detail {
+ public:
+  Detail(const scene::Kernel& kernel, const Footprint& f, const SetPicture& picture)
+      : to_kernel_(kernel.radius() / f.rim) {
+    if (picture.textures == nullptr || picture.textures->phases().empty()) return;
+    phase_ = &picture.textures->phases()[picture.number];
+    amplitude_ = picture.textures->amplitude();
+  }
+  /// `dx`, `dy`: 1/K pixel
+  double operator()(double dx, double dy) const {
+    return phase_ == nullptr ? 1.0 : 1.0 + amplitude_ * (*phase_)(dx * to_kernel_, dy * to_kernel_);
+  }
+
+ private:
+  const scene::TexturePhase* phase_ = nullptr;
+  double amplitude_ = 0.0, to_kernel_;
+};
+
 std::vector<std::uint32_t> footprint_words(const cmodel::Config& config, const scene::Kernel& kernel,
-                                           const Footprint& f) {
+                                           const Footprint& f, const Detail& detail) {
   const Target word = target(Site::Footprint, config);
   const bool all = config.index_symmetry == static_cast<int>(cmodel::IndexSymmetry::Off);
   const auto phases = stored(config, static_cast<std::uint32_t>(f.rho));
@@ -70,7 +89,7 @@ std::vector<std::uint32_t> footprint_words(const cmodel::Config& config, const s
         for (int i = 0; i < f.padded; ++i) {
           const double dx = f.distance(mx, i), dy = f.distance(my, j);
           const bool outside = i >= f.extent || j >= f.extent;
-          words.push_back(outside ? 0 : footprint_word(kernel, dx * dx + dy * dy, f.rim, word));
+          words.push_back(outside ? 0 : footprint_word(kernel, dx * dx + dy * dy, f.rim, word, detail(dx, dy)));
         }
       }
     }
@@ -85,9 +104,10 @@ std::uint32_t axis_word(const scene::Kernel& kernel, double distance, double rim
   return quantise_to<std::uint32_t>(outside ? 0.0 : gaussian(kernel, distance * distance / (rim * rim)), word);
 }
 
-std::uint32_t footprint_word(const scene::Kernel& kernel, double squared, double rim, const Target& word) {
+std::uint32_t footprint_word(const scene::Kernel& kernel, double squared, double rim, const Target& word,
+                             double detail) {
   const bool outside = squared >= rim * rim;
-  return quantise_to<std::uint32_t>(outside ? 0.0 : gaussian(kernel, squared / (rim * rim)), word);
+  return quantise_to<std::uint32_t>(outside ? 0.0 : gaussian(kernel, squared / (rim * rim)) * detail, word);
 }
 
 Scale scale_of(double v, const cmodel::Config& config) {
@@ -97,7 +117,7 @@ Scale scale_of(double v, const cmodel::Config& config) {
 }
 
 cmodel::LoadTable set_table(const cmodel::Config& config, const scene::Kernel& kernel, std::uint32_t set, double radius,
-                            std::uint32_t base) {
+                            std::uint32_t base, const SetPicture& picture) {
   using cmodel::IndexKind;
   const std::uint32_t rho = support_radius(radius, config);
   const Footprint f(config, radius, rho);
@@ -120,7 +140,7 @@ cmodel::LoadTable set_table(const cmodel::Config& config, const scene::Kernel& k
       break;
     }
     case IndexKind::Blit2d:
-      table.words = footprint_words(config, kernel, f);
+      table.words = footprint_words(config, kernel, f, Detail(kernel, f, picture));
       break;
     case IndexKind::Separable:
       table.words = axis_words(config, kernel, f);

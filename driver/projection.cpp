@@ -120,6 +120,16 @@ void join(std::vector<Piece>& pieces, int slices, int threads, Projected& to) {
   });
 }
 
+/// With detail a footprint is up to 1 + m; a weight that stops at 1 would cut it off.
+void check_weights(const scene::TexturedSplats& textures, const cmodel::Config& config) {
+  if (textures.phases().empty() || config.radial_int_bits > 0) return;
+  throw_usage({.where = "configuration " + config.name,
+               .what = "textured splats have weights above 1",
+               .expected = "radial.int_bits = 1",
+               .got = "0",
+               .fix = "add --set radial.int_bits=1, or use --splat-texture 0"});
+}
+
 }  // namespace
 
 // A device holds footprints as wide as the RLUT, whoever makes their weights.
@@ -134,16 +144,21 @@ void check_reach(double reach, const cmodel::Config& config) {
        .fix = "use a smaller --size, --zoom or blur, or a configuration with more rlut.columns"});
 }
 
-RadiusSets radius_sets(const scene::Scene& scene, const cmodel::Config& config) {
+RadiusSets radius_sets(const scene::Scene& scene, const cmodel::Config& config, std::size_t pictures) {
   const RadiusRange range = radius_range(scene);
   // With shapes of their own, splats of other radii than the largest are ellipses.
-  return RadiusSets(config, draws_ellipses(scene, config) ? range.largest : range.smallest, range.largest);
+  return RadiusSets(config, draws_ellipses(scene, config) ? range.largest : range.smallest, range.largest, pictures);
 }
 
 Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices,
                   const scene::SheetPlan& plan, int threads) {
-  Projected out{.splats = {}, .ellipses = {}, .sets = radius_sets(scene, config)};
-  const SplatQuantiser quantised(scene, config, out.sets, slices, plan);
+  scene::TexturedSplats textures(scene.description.footprint.texture, scene.kernel);
+  check_weights(textures, config);
+  const std::size_t pictures = std::max<std::size_t>(1, textures.phases().size());
+  Projected out{
+      .splats = {}, .ellipses = {}, .sets = radius_sets(scene, config, pictures), .textures = std::move(textures)};
+  const SplatQuantiser quantised(scene, config, out.sets, slices, plan,
+                                 out.textures.phases().empty() ? nullptr : &out.textures);
   const scene::Traversal traversal(
       scene, holds_densities(scene.description) ? scene::SplatKind::Densities : scene::SplatKind::Colours);
   out.carried = quantised.carries();

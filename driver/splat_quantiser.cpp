@@ -22,9 +22,11 @@ bool carries(scene::Method method, const cmodel::Config& config) {
 }
 
 SplatQuantiser::SplatQuantiser(const scene::Scene& scene, const cmodel::Config& config, const RadiusSets& sets,
-                               const Slices& slices, const scene::SheetPlan& plan)
+                               const Slices& slices, const scene::SheetPlan& plan,
+                               const scene::TexturedSplats* textures)
     : scene_(scene),
       sets_(sets),
+      textures_(textures),
       slices_(slices),
       plan_(plan),
       config_(config),

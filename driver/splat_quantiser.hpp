@@ -13,6 +13,7 @@
 #include "scene/real_splat.hpp"
 #include "scene/sheet_plan.hpp"
 #include "scene/splat_shaper.hpp"
+#include "scene/textured_splats.hpp"
 
 namespace fastsplat::driver {
 
@@ -45,9 +46,9 @@ struct SplatEllipse {
 
 class SplatQuantiser {
  public:
-  /// Keeps references to `scene`, `sets` and `slices`.
+  /// Keeps references to `scene`, `sets`, `slices` and, where there are any, `textures`, whose pictures the sets have.
   SplatQuantiser(const scene::Scene& scene, const cmodel::Config& config, const RadiusSets& sets, const Slices& slices,
-                 const scene::SheetPlan& plan);
+                 const scene::SheetPlan& plan, const scene::TexturedSplats* textures = nullptr);
 
   struct Result {
     QuantisedSplat splat;
@@ -92,7 +93,7 @@ class SplatQuantiser {
     Result out{.splat = {.x = quantise_to<std::int32_t>(splat.at.x, position_),
                          .y = quantise_to<std::int32_t>(splat.at.y, position_),
                          .depth = depth(splat),
-                         .set = sets_.nearest(radius),
+                         .set = sets_.nearest(radius, textures_ == nullptr ? 0 : textures_->number_of(splat.place)),
                          .words = {}}};
     // The set's footprint is a little wider or narrower than the splat's own: as much is added in all.
     const double width_ratio = radius / sets_.radius(out.splat.set);
@@ -105,6 +106,7 @@ class SplatQuantiser {
 
   const scene::Scene& scene_;
   const RadiusSets& sets_;
+  const scene::TexturedSplats* textures_;  ///< null: none
   const Slices& slices_;
   scene::SheetPlan plan_;
   const cmodel::Config& config_;

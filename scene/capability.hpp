@@ -31,6 +31,7 @@ struct Offers {
   Methods methods_elsewhere = 0u;        ///< methods that another of its kind has, and how to have it
   const char* methods_fix = "";
   const char* densities_fix = nullptr;  ///< how to have Feature::Densities, likewise
+  const char* details_fix = nullptr;    ///< how to have Feature::Details, likewise
 };
 inline constexpr Offers kOffersAll{"golden", kAllMethods, 31u};
 

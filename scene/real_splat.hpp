@@ -14,6 +14,7 @@ struct RealSplat {
   double depth = 0.0;                ///< at.depth in kernel units
   std::array<double, 4> material{};  ///< emission R, G, B and extinction, per kernel unit
   int sheet = 0;                     ///< of the grid, 0 nearest to the eye
+  glm::vec3 place{};                 ///< in the volume, mm: which picture a textured splat shows
 };
 
 inline RealSplat real_splat(const Scene& scene, const Splat& splat) {
@@ -21,7 +22,8 @@ inline RealSplat real_splat(const Scene& scene, const Splat& splat) {
   return {.at = at,
           .depth = at.depth / scene.volume->kernel_unit(),
           .material = {splat.emission.x, splat.emission.y, splat.emission.z, splat.extinction},
-          .sheet = splat.sheet};
+          .sheet = splat.sheet,
+          .place = splat.position};
 }
 
 }  // namespace fastsplat::scene

@@ -125,12 +125,11 @@ TexturedSplats::TexturedSplats(const SplatTexture& settings, const Kernel& kerne
   for (auto& samples : phases) phases_.emplace_back(grid.side, grid.radius, std::move(samples));
 }
 
-const TexturePhase* TexturedSplats::phase_of(const glm::vec3& position) const {
-  if (phases_.empty()) return nullptr;
+std::size_t TexturedSplats::number_of(const glm::vec3& position) const {
+  if (phases_.empty()) return 0;
   const std::uint32_t hash = volume::hash_of(std::bit_cast<int>(position.x), std::bit_cast<int>(position.y),
                                              std::bit_cast<int>(position.z), kSeed);
-  const auto count = static_cast<std::uint64_t>(phases_.size());
-  return &phases_[(std::uint64_t{hash} + frame_) % count];
+  return (std::uint64_t{hash} + frame_) % phases_.size();
 }
 
 }  // namespace fastsplat::scene

@@ -32,8 +32,11 @@ class TexturedSplats {
   ///     integral of F(rho) t_i = 0 for every phase, F the kernel's footprint.
   TexturedSplats(const SplatTexture& settings, const Kernel& kernel);
 
-  /// The phase a splat shows now: (hash of its place + frame) mod N. Null when off.
-  const TexturePhase* phase_of(const glm::vec3& position) const;
+  /// The phase a splat shows now: (hash of its place + frame) mod N. 0, or null, when off.
+  std::size_t number_of(const glm::vec3& position) const;
+  const TexturePhase* phase_of(const glm::vec3& position) const {
+    return phases_.empty() ? nullptr : &phases_[number_of(position)];
+  }
   /// m in F'(x,y) = F(rho) (1 + m t_i(x,y)).
   double amplitude() const { return amplitude_; }
   const std::vector<TexturePhase>& phases() const { return phases_; }

@@ -19,9 +19,10 @@ constexpr int kRows = 16;  ///< of a band: its sheets stay in the cache
 
 const scene::Scene& drawable(const scene::Scene& scene, const cmodel::Config& config) {
   scene::Offers offers = driver::offers(config);
-  // Steps are of sheets of light.
-  offers.features &= ~static_cast<unsigned>(scene::Feature::Densities);
-  offers.densities_fix = nullptr;
+  // Steps are of sheets of light, and of footprints without pictures.
+  offers.features &=
+      ~static_cast<unsigned>(scene::Feature::Densities) & ~static_cast<unsigned>(scene::Feature::Details);
+  offers.densities_fix = offers.details_fix = nullptr;
   scene::check_capability(scene, offers);
   return scene;
 }

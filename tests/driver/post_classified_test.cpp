@@ -91,6 +91,21 @@ TEST(PostOnDevice, perspective_is_within_50_db_of_golden_where_radius_sets_are_m
   EXPECT_GT(many, few);
 }
 
+// Ellipses have each the radius of their own splat: no steps are left, and no table has to be longer.
+TEST(PostOnDevice, perspective_with_ellipses_is_within_50_db_of_golden) {
+  auto description = post_view("marschner-lobb:24", 64, "ct-head");
+  description.camera.projection = scene::Projection::Perspective;
+  description.camera.fov = 45;
+  description.footprint.shape = scene::FootprintShape::Ellipse;
+  for (const char* name : {"base", "fine"}) {
+    auto config = with_densities(name);
+    config.ellipse_frac_bits = 12;
+    ASSERT_FALSE(cmodel::first_violation(config));
+    const auto apart = measure(description, config, std::string(name) + ", perspective, ellipses");
+    EXPECT_GE(apart.psnr_db, 50.0);
+  }
+}
+
 TEST(PostOnDevice, tiles_never_show) {
   auto description = post_view("shells:20", 60, "ct-head");
   description.camera.zoom = 1.7;

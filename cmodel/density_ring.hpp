@@ -2,11 +2,10 @@
 // be classified between its neighbours (docs/numerics.md, section 6.2).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
-
-#include "cmodel/sheet_buffer.hpp"
 
 namespace fastsplat::cmodel {
 
@@ -17,7 +16,8 @@ class DensitySheet {
   DensitySheet(int width, int height)
       : width_(width), words_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0) {}
   /// Takes what was splatted out of the buffer, which is clear after that.
-  void take(SheetBuffer& from, std::uint32_t number, int lanes) {
+  template <class Buffer>
+  void take(Buffer& from, std::uint32_t number, int lanes) {
     number_ = number;
     blocks_.clear();
     std::fill(words_.begin(), words_.end(), 0);
@@ -56,8 +56,8 @@ class DensityRing {
     waiting_ = false;
   }
   /// The sheet that was splatted has ended: classify(before, here, behind) of the one that waited.
-  template <class Classify>
-  void end_sheet(SheetBuffer& splatted, std::uint32_t number, int lanes, Classify classify) {
+  template <class Buffer, class Classify>
+  void end_sheet(Buffer& splatted, std::uint32_t number, int lanes, Classify classify) {
     behind_.take(splatted, number, lanes);
     const bool next = waiting_ && number == here_.number() + 1;
     if (waiting_) classify(before_, here_, next ? behind_ : empty_);

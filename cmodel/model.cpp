@@ -13,7 +13,7 @@ Model::Model(const Config& config, StreamScope scope, PixelSink& pixels, TapSink
       radial_(config),
       sheet_(config),
       lane_(config),
-      classify_(config),
+      densities_(config),
       compositor_(config),
       pixel_out_(config),
       cull_(config),
@@ -78,7 +78,7 @@ void Model::load(const LoadTable& table) {
     case Table::Glint:
     case Table::Lighting:
     case Table::Sheets:
-      classify_.load(table.table, table.words);
+      densities_.load(table.table, table.words);
       break;
   }
 }
@@ -86,9 +86,9 @@ void Model::load(const LoadTable& table) {
 void Model::begin_tile(const BeginTile& tile) {
   tile_ = tile;
   sheet_number_ = 0;
-  rim_ = holds_densities(tile.mode) ? 1 : 0;
+  rim_ = DensityStage::rim(tile.mode);
   sheet_.begin_tile(tile.width + 2 * rim_, tile.height + 2 * rim_);
-  if (rim_ > 0) ring_.begin_tile(tile.width + 2, tile.height + 2);
+  if (rim_ > 0) densities_.begin_tile(tile, frame_);
   compositor_.begin_tile(tile.mode, tile.width, tile.height);
   cull_.begin_tile(tile.mode, tile.width, tile.height);
   sets_.clear();
@@ -237,8 +237,7 @@ template <class Observer>
 void Model::end_sheet(Observer& observer) {
   ++counters_.sheets;
   if (rim_ > 0) {
-    ring_.end_sheet(sheet_, sheet_number_, config_.lanes,
-                    [&](const auto&... sheets) { classify(sheets..., observer); });
+    classify(observer, [this](auto... takes) { densities_.end_sheet(sheet_, sheet_number_, takes...); });
     return;
   }
   sheet_.drain([&](int bx, int by) {
@@ -256,42 +255,22 @@ void Model::end_sheet(Observer& observer) {
   if (cull_.on() && log_ != nullptr) log_->tile(tile_.tile).add_sheet(cull_.first_changed());
 }
 
-DensitySlope Model::slope(const DensitySheet& before, const DensitySheet& here, const DensitySheet& behind, int x,
-                          int y) const {
-  // At the picture's edges to one side, which counts twice.
-  const bool left = tile_.x + x == 0, right = tile_.x + x == frame_.width - 1;
-  const bool top = tile_.y + y == 0, bottom = tile_.y + y == frame_.height - 1;
-  const int i = x + 1, j = y + 1;
-  const std::int64_t across = here.at(right ? i : i + 1, j) - here.at(left ? i : i - 1, j);
-  const std::int64_t down = here.at(i, bottom ? j : j + 1) - here.at(i, top ? j : j - 1);
-  return {.x = left || right ? 2 * across : across,
-          .y = top || bottom ? 2 * down : down,
-          .z = behind.at(i, j) - before.at(i, j)};
-}
-
-template <class Observer>
-void Model::classify(const DensitySheet& before, const DensitySheet& here, const DensitySheet& behind,
-                     Observer& observer) {
-  sheet_number_ = here.number();
-  for (const auto& [bx, by] : here.blocks()) {
-    ++counters_.dirty_blocks;
-    const int left = bx * config_.lanes - 1, top = by * config_.lanes - 1;
-    const int x1 = std::min(tile_.width, left + config_.lanes), y1 = std::min(tile_.height, top + config_.lanes);
-    for (int y = std::max(top, 0); y < y1; ++y) {
-      for (int x = std::max(left, 0); x < x1; ++x) {
-        const SheetWord sums = classify_(static_cast<std::uint32_t>(here.at(x + 1, y + 1)),
-                                         slope(before, here, behind, x, y), tile_.x + x, tile_.y + y, here.number());
-        compositor_.step(sums, x, y, counters_, observer);
-      }
-    }
-    if (taps_ != nullptr)
-      tap(Tap::Composite, 0, left, top, gather(left, top, [&](int i, int j) { return compositor_.at(i, j).data(); }));
-  }
+template <class Observer, class Step>
+void Model::classify(Observer& observer, Step step) {
+  step([&](const SheetWord& sums, int x, int y) { compositor_.step(sums, x, y, counters_, observer); },
+       [&](int left, int top, std::uint32_t sheet) {
+         ++counters_.dirty_blocks;
+         sheet_number_ = sheet;
+         if (taps_ != nullptr) {
+           tap(Tap::Composite, 0, left, top,
+               gather(left, top, [&](int i, int j) { return compositor_.at(i, j).data(); }));
+         }
+       });
 }
 
 template <class Observer>
 void Model::end_tile(Observer& observer) {
-  if (rim_ > 0) ring_.end_tile([&](const auto&... sheets) { classify(sheets..., observer); });
+  if (rim_ > 0) classify(observer, [this](auto... takes) { densities_.end_tile(takes...); });
   ++counters_.tiles;
   sheet_number_ = 0;  // pixels belong to no sheet
   TilePixels out{

@@ -4,13 +4,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "cmodel/classify_unit.hpp"
 #include "cmodel/compositor.hpp"
 #include "cmodel/config.hpp"
 #include "cmodel/cull_log.hpp"
 #include "cmodel/cull_sets.hpp"
 #include "cmodel/cull_unit.hpp"
-#include "cmodel/density_ring.hpp"
+#include "cmodel/density_stage.hpp"
 #include "cmodel/device.hpp"
 #include "cmodel/ellipse_unit.hpp"
 #include "cmodel/observers.hpp"
@@ -67,12 +66,9 @@ class Model final : public Device {
   void samples(const Record& record, std::int32_t x, std::int32_t y, Observer& observer);
   template <class Observer>
   void end_sheet(Observer& observer);
-  /// Modes of densities: the waiting sheet, between its neighbours, into the picture.
-  template <class Observer>
-  void classify(const DensitySheet& before, const DensitySheet& here, const DensitySheet& behind, Observer& observer);
-  /// Right less left of pixel (x,y) of the tile, below less above, behind less before.
-  DensitySlope slope(const DensitySheet& before, const DensitySheet& here, const DensitySheet& behind, int x,
-                     int y) const;
+  /// Modes of densities: what `step` of densities_ makes of the sheet that waited goes into the picture.
+  template <class Observer, class Step>
+  void classify(Observer& observer, Step step);
   template <class Observer>
   void end_tile(Observer& observer);
   void tap(Tap kind, std::uint32_t tag, std::int32_t x, std::int32_t y, std::span<const std::uint32_t> payload) const;
@@ -88,8 +84,7 @@ class Model final : public Device {
   RadialTable radial_;  ///< the ellipses'
   SheetBuffer sheet_;
   Lane lane_;  ///< of every sample
-  DensityRing ring_;
-  ClassifyUnit classify_;
+  DensityStage densities_;
   Compositor compositor_;
   PixelOut pixel_out_;
   CullUnit cull_;

@@ -50,8 +50,9 @@ CompiledFrame::State::State(const scene::Scene& scene, const cmodel::Config& dev
       slices(frame_slices(device, scene, plan)),
       projected(project(scene, device, slices, plan, threads)),
       grid(device, scene.description.width, scene.description.height, holds_densities(scene.description) ? 1 : 0),
-      bands(grid, band_rows > 0 && !device.culls() ? (band_rows + device.lanes - 1) / device.lanes * device.lanes
-                                                   : device.tile_height),
+      bands(grid, band_rows > 0 && !device.culls() && !holds_densities(scene.description)
+                      ? (band_rows + device.lanes - 1) / device.lanes * device.lanes
+                      : device.tile_height),
       windows(device, projected.sets),
       cells(make_cells()),
       bins(make_bins(threads)) {

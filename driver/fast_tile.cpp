@@ -117,7 +117,8 @@ class BandWalk {
     s_.for_each_ellipse(tile_, number, {}, [&](cmodel::EllipseRecord record) {
       record.y += rows * (1 << pf);
       const int top = (record.y >> pf) + record.windows.top;
-      if (top >= place_.height || top + static_cast<int>(record.windows.rows) * s_.config.lanes <= 0) return;
+      const int rim = s_.rim();
+      if (top >= place_.height + rim || top + static_cast<int>(record.windows.rows) * s_.config.lanes <= -rim) return;
       // Where it is drawn once, its weights need not be kept.
       std::unique_ptr<std::uint16_t[]> weights;
       Ready splat = ready(s_, number, unit_.place(record, s_.reach > 0 ? &weights : nullptr));

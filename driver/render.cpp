@@ -129,9 +129,7 @@ UnitReport& operator+=(UnitReport& report, const UnitReport& tile) {
 
 DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, const RenderOptions& options) {
   const char* why_plain = nullptr;
-  const bool densities = holds_densities(scene.description);
-  const bool fast = options.unit == Unit::Fast && !densities && cmodel::fast::fast_plan(config, &why_plain);
-  if (options.unit == Unit::Fast && densities) why_plain = "densities are classified by pixel";
+  const bool fast = options.unit == Unit::Fast && cmodel::fast::fast_plan(config, &why_plain);
   const int band_rows = !fast ? 0 : options.band_rows > 0 ? options.band_rows : kBandRows;
   const CompiledFrame compiled(scene, config, options.threads, band_rows);
   const cmodel::fast::FrameNeeds needs{.ellipses = draws_ellipses(scene, config),

@@ -44,7 +44,8 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
   if (!plan) return {};
   if (!has_vectors()) return none("this processor has none of its vectors");
   if (needs.ellipses && config.culls()) return none("splats are ellipses, and the device hides windows of them");
-  if (needs.ellipses && config.interpolates()) return none("splats are ellipses, and weights lie between table entries");
+  if (needs.ellipses && config.interpolates())
+    return none("splats are ellipses, and weights lie between table entries");
   const auto samples = sample_plan(config, *plan, needs.samples ? why_not : nullptr);
   if (needs.samples && !samples) return {};
   WeightUnit unit = weight_unit(config);
@@ -52,9 +53,12 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
   std::uint32_t sets = 0;
   std::size_t bytes = 0;
   std::vector<std::uint32_t> radial, factor;
+  std::optional<DensityStage> densities;
+  BeginFrame frame{};
   StreamDecode decode(config, StreamScope::Subset);
   for (const Beat& beat : preamble) {
     const Record* record = decode.feed(beat);
+    if (record != nullptr && std::holds_alternative<BeginFrame>(*record)) frame = std::get<BeginFrame>(*record);
     const auto* table = record == nullptr ? nullptr : std::get_if<LoadTable>(record);
     if (table == nullptr) continue;
     switch (table->table) {
@@ -82,7 +86,9 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
       case Table::Glint:
       case Table::Lighting:
       case Table::Sheets:
-        return none("densities are classified by pixel");
+        if (!densities) densities.emplace(config);
+        densities->load(table->table, table->words);
+        break;
     }
   }
   const auto excess = factor.empty() ? std::nullopt : opacity_excess(config, factor);
@@ -94,6 +100,8 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
                   .opacity_excess = excess.value_or(0),
                   .ellipses = config.interpolates() ? std::nullopt : ellipse_table(config, radial, plan->weight_shift),
                   .samples = std::nullopt,
+                  .densities = std::move(densities),
+                  .frame = frame,
                   .reach = kVectorPixels};
   if (needs.ellipses && !out.ellipses) return none("an ellipse's place in the radial table is wider than its lanes");
   std::uint32_t heaviest = out.ellipses ? out.ellipses->heaviest : 0;

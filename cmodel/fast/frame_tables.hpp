@@ -8,6 +8,7 @@
 #include "cmodel/beat.hpp"
 #include "cmodel/compositor.hpp"
 #include "cmodel/config.hpp"
+#include "cmodel/density_stage.hpp"
 #include "cmodel/fast/ellipse_kernel.hpp"
 #include "cmodel/fast/fast_plan.hpp"
 #include "cmodel/fast/sample_kernel.hpp"
@@ -29,9 +30,11 @@ struct FrameTables {
   /// that is above by no more than opacity_excess.
   bool opacity_holds = false;
   std::uint64_t opacity_excess = 0;
-  std::optional<EllipseTable> ellipses;  ///< none: tiles with ellipses are given up
-  std::optional<SampleTables> samples;   ///< none: tiles whose samples are composited one by one are given up
-  int reach = 0;                         ///< largest extent of a footprint with what vectors write beyond it, pixels
+  std::optional<EllipseTable> ellipses;   ///< none: tiles with ellipses are given up
+  std::optional<SampleTables> samples;    ///< none: tiles whose samples are composited one by one are given up
+  std::optional<DensityStage> densities;  ///< none: tiles of densities are given up
+  BeginFrame frame{};
+  int reach = 0;  ///< largest extent of a footprint with what vectors write beyond it, pixels
 };
 
 /// From the beats before the first tile: begin_frame and the tables. Empty where only the plain unit will do;

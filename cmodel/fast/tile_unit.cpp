@@ -29,7 +29,10 @@ TileUnit<T>::TileUnit(const FrameTables& tables, PixelSink& pixels)
       colour_shift_(tables.plan.colour_shift),
       dropped_(narrowing(tables.config, Site::Product).dropped_bits()),
       ellipse_(tables.config),
+      densities_(tables.densities),
+      compositor_(tables.config),
       slots_(1) {
+  compositor_.opacity() = tables.opacity;
   const std::uint64_t brightest = (std::uint64_t{1} << tables.config.colour_frac_bits) - 1;
   for (std::uint32_t set = 0; set < tables.memo.sets(); ++set) heaviest_.push_back(tables.memo.shape(set).heaviest);
   heaviest_.push_back(tables.ellipses ? tables.ellipses->heaviest : 0);
@@ -43,12 +46,15 @@ void TileUnit<T>::begin_band(const BeginTile& tile, bool first, int ahead) {
   tile_ = tile;
   first_band_ = first;
   samples_ = every_sample(tile.mode);
-  if (!samples_) sheet_.resize(tile.width, tile.height, tables_.reach);
+  rim_ = DensityStage::rim(tile.mode);
+  width_ = tile.width + 2 * rim_;
+  height_ = tile.height + 2 * rim_;
+  if (!samples_) sheet_.resize(width_, height_, tables_.reach);
   const std::uint32_t one = std::uint32_t{1} << tables_.config.composite_frac_bits;
   picture_.assign(static_cast<std::size_t>(tile.width) * tile.height + kVectorPixels,
                   PixelState{0, 0, 0, tile.mode == Mode::Sum ? 0 : one});
-  room_.resize(std::max(kRoom, std::size_t{pitch_of(static_cast<std::uint32_t>(tile.width))} * tile.height));
-  const auto rows = static_cast<std::size_t>((tile.height + lanes_ - 1) >> lane_bits_);
+  room_.resize(std::max(kRoom, std::size_t{pitch_of(static_cast<std::uint32_t>(width_))} * height_));
+  const auto rows = static_cast<std::size_t>((height_ + lanes_ - 1) >> lane_bits_);
   dirty_.assign(rows, 0);
   frozen_.assign(rows, 0);
   culls_ = tables_.config.culls() && culls_in(tile.mode);
@@ -60,7 +66,11 @@ void TileUnit<T>::begin_band(const BeginTile& tile, bool first, int ahead) {
   most_excess_ = 0;
   now_ = waiting_jobs_ = room_taken_ = 0;
   any_frozen_ = false;
-  sound_ = !samples_ || tables_.samples;
+  sound_ = (!samples_ || tables_.samples) && (rim_ == 0 || densities_);
+  if (rim_ > 0 && densities_) {
+    densities_->begin_tile(tile, tables_.frame);
+    compositor_.begin_tile(tile.mode, tile.width, tile.height);
+  }
   bound_ = waiting_ = 0;
   before_ = counters_;
 }
@@ -75,8 +85,8 @@ std::uint16_t* TileUnit<T>::room(std::size_t words) {
 
 template <class T>
 void TileUnit<T>::clip(Placed& placed, int x, int y) {
-  const int i0 = std::max(0, -x), i1 = std::min<int>(placed.across, tile_.width - x);
-  const int j0 = std::max(0, -y), j1 = std::min<int>(placed.down, tile_.height - y);
+  const int i0 = std::max(0, -x), i1 = std::min<int>(placed.across, width_ - x);
+  const int j0 = std::max(0, -y), j1 = std::min<int>(placed.down, height_ - y);
   const std::size_t pitch = pitch_of(placed.across);
   placed.weighted = 0;
   for (int j = j0; j < j1; ++j) {
@@ -100,8 +110,8 @@ void TileUnit<T>::clip(Placed& placed, int x, int y) {
 template <class T>
 Placed TileUnit<T>::outline(int x, int y, int width, int height) const {
   Placed out{.counted = first_band_ || y >= 0};
-  const int x0 = std::max(x, 0), x1 = std::min(x + width, tile_.width);
-  const int y0 = std::max(y, 0), y1 = std::min(y + height, tile_.height);
+  const int x0 = std::max(x, 0), x1 = std::min(x + width, width_);
+  const int y0 = std::max(y, 0), y1 = std::min(y + height, height_);
   out.windows = static_cast<std::uint16_t>((width >> lane_bits_) * (height >> lane_bits_));
   if (x0 >= x1 || y0 >= y1) return out;
   out.inside = static_cast<std::uint32_t>(x1 - x0) * static_cast<std::uint32_t>(y1 - y0);
@@ -113,7 +123,7 @@ Placed TileUnit<T>::outline(int x, int y, int width, int height) const {
 
 template <class T>
 Placed TileUnit<T>::place(std::uint32_t set, const SnappedAxis& sx, const SnappedAxis& sy) {
-  const int x = sx.origin, y = sy.origin;
+  const int x = sx.origin + rim_, y = sy.origin + rim_;
   const Shape& shape = tables_.memo.shape(set);
   Placed out = outline(x, y, shape.padded, shape.padded);
   out.set = static_cast<std::uint16_t>(set);
@@ -121,7 +131,7 @@ Placed TileUnit<T>::place(std::uint32_t set, const SnappedAxis& sx, const Snappe
   const std::size_t number = tables_.memo.number(sx.phase, sy.phase);
   out.weights = tables_.memo.words(shape, number);
   out.across = out.down = static_cast<std::uint16_t>(shape.extent);
-  if (x >= 0 && y >= 0 && x + shape.extent <= tile_.width && y + shape.extent <= tile_.height) {
+  if (x >= 0 && y >= 0 && x + shape.extent <= width_ && y + shape.extent <= height_) {
     out.weighted = tables_.memo.weighted(set, number);
     out.at = memory_at(x, y);
     return out;
@@ -136,15 +146,16 @@ Placed TileUnit<T>::place(const EllipseRecord& record, std::unique_ptr<std::uint
   assert(tables_.ellipses);
   const EllipseAxis x = ellipse_axis(tables_.config, record.x, record.windows.left);
   const EllipseAxis y = ellipse_axis(tables_.config, record.y, record.windows.top);
+  const int left = x.origin + rim_, top = y.origin + rim_;
   const int width = static_cast<int>(record.windows.columns) * lanes_,
             height = static_cast<int>(record.windows.rows) * lanes_;
-  Placed out = outline(x.origin, y.origin, width, height);
+  Placed out = outline(left, top, width, height);
   out.set = static_cast<std::uint16_t>(heaviest_.size() - 1);
   if (out.inside == 0) return out;
-  const EllipseBox box{.column = std::max(0, -x.origin),
-                       .row = std::max(0, -y.origin),
-                       .columns = std::min(x.origin + width, tile_.width) - std::max(x.origin, 0),
-                       .rows = std::min(y.origin + height, tile_.height) - std::max(y.origin, 0)};
+  const EllipseBox box{.column = std::max(0, -left),
+                       .row = std::max(0, -top),
+                       .columns = std::min(left + width, width_) - std::max(left, 0),
+                       .rows = std::min(top + height, height_) - std::max(top, 0)};
   const std::size_t words = std::size_t{pitch_of(static_cast<std::uint32_t>(box.columns))} * box.rows;
   std::uint16_t* weights = nullptr;
   if (kept != nullptr) {
@@ -157,7 +168,7 @@ Placed TileUnit<T>::place(const EllipseRecord& record, std::unique_ptr<std::uint
   out.weights = weights;
   out.across = static_cast<std::uint16_t>(box.columns);
   out.down = static_cast<std::uint16_t>(box.rows);
-  out.at = memory_at(x.origin + box.column, y.origin + box.row);
+  out.at = memory_at(left + box.column, top + box.row);
   return out;
 }
 
@@ -258,7 +269,7 @@ void TileUnit<T>::draw() {
     if (!sound_) return;
     SampleCounts counts;
     composite_samples(*tables_.samples, tile_.mode == Mode::SampleExponential, jobs, picture_.front().data(),
-                      static_cast<std::size_t>(tile_.width), counts);
+                      static_cast<std::size_t>(width_), counts);
     counters_.frozen_pixels += counts.frozen;
     counters_.opacity_saturated += counts.opacity_saturated;
     counters_.composite_saturated += counts.composite_saturated;
@@ -277,8 +288,8 @@ void TileUnit<T>::draw() {
 template <class T>
 std::uint32_t TileUnit<T>::largest_word() const {
   std::uint32_t largest = 0;
-  for (int y = 0; y < tile_.height; ++y) {
-    for (int x = 0; x < tile_.width; ++x) {
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
       const SheetWord sums = sheet_.sums(x, y);
       largest = std::max({largest, sums[0], sums[1], sums[2], sums[3]});
     }
@@ -292,6 +303,10 @@ void TileUnit<T>::end_sheet(const EndSheet&) {
   draw();
   Slot& slot = slots_[now_];
   if (!sound_ || samples_) return;
+  if (rim_ > 0) {
+    end_densities();
+    return;
+  }
   for (std::size_t by = 0; by < dirty_.size(); ++by) {
     for (std::uint64_t left = dirty_[by] | slot.dirty[by]; left != 0 && sound_; left &= left - 1)
       composite(std::countr_zero(left), static_cast<int>(by));
@@ -362,6 +377,41 @@ void TileUnit<T>::composite(int bx, int by) {
   }
 }
 
+/// As DensityStage asks for it.
+template <class T>
+struct TileUnit<T>::Splatted {
+  TileUnit& unit;
+  SheetWord at(int x, int y) const {
+    const SheetWord sums = unit.sheet_.sums(x, y);
+    if (std::max({sums[0], sums[1], sums[2], sums[3]}) > unit.largest_whole()) unit.sound_ = false;
+    return sums;
+  }
+  template <class Visit>
+  void drain(Visit visit) const {
+    for (std::size_t by = 0; by < unit.dirty_.size(); ++by) {
+      const int y0 = static_cast<int>(by) << unit.lane_bits_;
+      for (std::uint64_t left = unit.dirty_[by]; left != 0; left &= left - 1) {
+        const int x0 = std::countr_zero(left) << unit.lane_bits_;
+        visit(x0 >> unit.lane_bits_, static_cast<int>(by));
+        unit.sheet_.clear(x0, y0, std::min(unit.width_, x0 + unit.lanes_), std::min(unit.height_, y0 + unit.lanes_));
+      }
+      unit.dirty_[by] = 0;
+    }
+  }
+};
+
+template <class T>
+void TileUnit<T>::end_densities() {
+  Splatted splatted{*this};
+  Counting counting{counters_};
+  densities_->end_sheet(
+      splatted, sheet_number_,
+      [&](const SheetWord& sums, int x, int y) { compositor_.step(sums, x, y, counters_, counting); },
+      [&](int, int, std::uint32_t) { ++counters_.dirty_blocks; });
+  if (tables_.plan.carries) sheet_.clear();
+  bound_ = 0;
+}
+
 template <class T>
 void TileUnit<T>::count_frozen(int x0, int y0, int x1, int y1) {
   Counting counting{counters_};
@@ -406,13 +456,21 @@ void TileUnit<T>::end_tile(const EndTile&) {
     return;
   }
   Counting counting{counters_};
+  if (rim_ > 0) {
+    densities_->end_tile(
+        [&](const SheetWord& sums, int x, int y) { compositor_.step(sums, x, y, counters_, counting); },
+        [&](int, int, std::uint32_t) { ++counters_.dirty_blocks; });
+  }
   TilePixels out{
       .tile = tile_.tile, .x = tile_.x, .y = tile_.y, .width = tile_.width, .height = tile_.height, .words = {}};
-  const auto pixels = std::span(picture_).first(static_cast<std::size_t>(tile_.width) * tile_.height);
-  out.words.reserve(pixels.size() * 4);
-  for (const PixelState& pixel : pixels) {
-    const auto words = pixel_out_(tile_.mode, pixel, counting);
-    out.words.insert(out.words.end(), words.begin(), words.end());
+  out.words.reserve(static_cast<std::size_t>(tile_.width) * tile_.height * 4);
+  for (int y = 0; y < tile_.height; ++y) {
+    for (int x = 0; x < tile_.width; ++x) {
+      const PixelState& pixel =
+          rim_ > 0 ? compositor_.at(x, y) : picture_[static_cast<std::size_t>(y) * tile_.width + x];
+      const auto words = pixel_out_(tile_.mode, pixel, counting);
+      out.words.insert(out.words.end(), words.begin(), words.end());
+    }
   }
   pixels_.on_tile(std::move(out));
 }

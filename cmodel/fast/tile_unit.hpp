@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -49,9 +50,12 @@ class TileUnit final : public RecordSink {
   /// A band of a tile's rows of blocks as if it were a tile: for end_tile() as well. Counters of the bands of a tile
   /// add up to those of the tile, but for `tiles` and `sheets`. A splat goes to all bands its windows touch and is
   /// counted where they begin: `first` is the band that has those that begin above it, too. hide() knows up to `ahead`
-  /// sheets beyond the one begun.
+  /// sheets beyond the one begun. Densities come in whole tiles.
   void begin_band(const BeginTile& band, bool first, int ahead);
-  void begin_sheet(const BeginSheet& sheet) override { now_ = sheet.sheet % slots_.size(); }
+  void begin_sheet(const BeginSheet& sheet) override {
+    sheet_number_ = sheet.sheet;
+    now_ = sheet.sheet % slots_.size();
+  }
   void splats(std::span<const SplatRecord> records) override;
   void ellipses(std::span<const EllipseRecord> records) override;
   void cull_blocks(std::span<const CullBlock> records) override;
@@ -73,7 +77,7 @@ class TileUnit final : public RecordSink {
   }
   /// No picture depends on what the splat adds to this sheet or to any later one: hide() will do instead of add().
   bool hidden(const Placed& placed) const {
-    if (samples_) return false;
+    if (samples_ || rim_ > 0) return false;
     if (placed.weighted == 0) return true;
     bool frozen = any_frozen_ && tables_.plan.hides;
     for (std::size_t by = placed.first; by <= placed.last; ++by)
@@ -149,7 +153,7 @@ class TileUnit final : public RecordSink {
   Placed outline(int x, int y, int width, int height) const;
   /// Of the picture or of the sheet.
   std::uint32_t memory_at(int x, int y) const {
-    return static_cast<std::uint32_t>(samples_ ? static_cast<std::size_t>(y) * tile_.width + x : sheet_.at(x, y));
+    return static_cast<std::uint32_t>(samples_ ? static_cast<std::size_t>(y) * width_ + x : sheet_.at(x, y));
   }
   /// Counts the weights inside the tile; where every sample is composited only these are kept.
   void clip(Placed& placed, int x, int y);
@@ -159,6 +163,9 @@ class TileUnit final : public RecordSink {
   void draw();
   std::uint32_t largest_word() const;
   void composite(int bx, int by);
+  struct Splatted;  ///< the sheet, to be taken
+  /// Of densities: the sheet that waited for this one goes into the picture.
+  void end_densities();
   /// Range checks of a frozen block's sums, seen and unseen.
   void count_frozen(int x0, int y0, int x1, int y1);
   /// No sum of a slab's tau and no colour beside it is cut to 1.0, if some of it is hidden.
@@ -179,7 +186,11 @@ class TileUnit final : public RecordSink {
   std::vector<std::uint32_t> heaviest_;         ///< weight, per set, and of ellipses
   std::vector<std::uint32_t> largest_product_;  ///< likewise
   BeginTile tile_;
-  bool samples_ = false;  ///< every one is composited
+  int rim_ = 0, width_ = 0, height_ = 0;  ///< of the sheet: the tile's and the rim's pixels
+  std::uint32_t sheet_number_ = 0;
+  std::optional<DensityStage> densities_;
+  Compositor compositor_;  ///< of what they become
+  bool samples_ = false;   ///< every one is composited
   Sheet<T> sheet_;
   std::vector<PixelState> picture_;            ///< row by row, and some more for what vectors write behind
   std::vector<std::uint64_t> dirty_, frozen_;  ///< a word per row of blocks

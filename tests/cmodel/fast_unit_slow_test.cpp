@@ -31,12 +31,15 @@ std::vector<std::uint64_t> values(const Counters& counters) {
 
 struct Tally {
   std::uint64_t tiles = 0, redone = 0, mismatches = 0, hidden = 0;
-  // Of tiles not given up: records of ellipses; of every sample: those, frozen ones, words cut to 1.0 or to the largest.
+  // Of tiles not given up: records of ellipses; of every sample: those, frozen ones, words cut to 1.0 or to the
+  // largest.
   std::uint64_t ellipses = 0, samples = 0, frozen = 0, cut = 0;
+  std::uint64_t classified = 0;  ///< pixels of densities, likewise
 
   Tally& operator+=(const Tally& more) {
     tiles += more.tiles, redone += more.redone, mismatches += more.mismatches, hidden += more.hidden;
     ellipses += more.ellipses, samples += more.samples, frozen += more.frozen, cut += more.cut;
+    classified += more.classified;
     return *this;
   }
 };
@@ -54,7 +57,7 @@ void compare(const cmodel::Config& config, const FrameTables& tables, std::span<
   for (const auto& beat : beats.first(first)) decode.feed(beat);
   std::vector<std::uint64_t> plain_before, fast_before;
   std::uint64_t ellipses = 0;
-  bool samples = false;
+  bool samples = false, densities = false;
   Counters before;
   for (const auto& beat : beats.subspan(first)) {
     const cmodel::Record* record = decode.feed(beat);
@@ -71,6 +74,7 @@ void compare(const cmodel::Config& config, const FrameTables& tables, std::span<
       fast.begin_tile(*tile);
       ellipses = 0;
       samples = cmodel::every_sample(tile->mode);
+      densities = cmodel::holds_densities(tile->mode);
       before = plain.counters();
     }
     if (const auto* sheet = std::get_if<cmodel::BeginSheet>(record)) fast.begin_sheet(*sheet);
@@ -87,6 +91,7 @@ void compare(const cmodel::Config& config, const FrameTables& tables, std::span<
       continue;
     }
     tally.ellipses += ellipses;
+    if (densities) tally.classified += plain.counters().pixels_composited - before.pixels_composited;
     if (samples) {
       const Counters& now = plain.counters();
       tally.samples += now.pixels_composited - before.pixels_composited;
@@ -128,9 +133,9 @@ Tally random_streams(const char* name, int rounds, std::uint64_t least_planned, 
   const auto number = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
   std::printf(
       "[figure] %s: streams the fast unit takes = %llu of %d; tiles %llu, given up %llu, splats hidden %llu, ellipses "
-      "%llu, samples %llu (frozen %llu, words cut %llu), different %llu (limit 0)\n",
+      "%llu, samples %llu (frozen %llu, words cut %llu), densities %llu, different %llu (limit 0)\n",
       name, number(planned), rounds, number(all.tiles), number(all.redone), number(all.hidden), number(all.ellipses),
-      number(all.samples), number(all.frozen), number(all.cut), number(all.mismatches));
+      number(all.samples), number(all.frozen), number(all.cut), number(all.classified), number(all.mismatches));
   EXPECT_GT(planned, least_planned);
   EXPECT_GT(all.tiles, all.redone) << "all given up: nothing was compared";
   return all;
@@ -166,6 +171,17 @@ TEST(FastUnit, RandomStreamsOfEllipses) {
     return config;
   });
   EXPECT_GT(all.ellipses, 500u);
+}
+
+TEST(FastUnit, RandomStreamsOfDensities) {
+  const Tally all = random_streams("densities", 160, 30, [](Random& random, int round) {
+    cmodel::Config config = any_config(random, round, 60);
+    config.cull_map = 0;
+    config.composite_every_sample = 0;
+    config.classify_segment_bits = std::min(config.sheet_frac_bits, round % 7 + 2);
+    return cmodel::first_violation(config) ? named_config("base") : config;
+  });
+  EXPECT_GT(all.classified, 50000u);
 }
 
 TEST(FastUnit, RandomStreamsOfSamples) {

@@ -109,6 +109,46 @@ TEST(FastUnit, DrawsEllipsesAndSamplesAsThePlainUnit) {
   EXPECT_GT(compared.combinations(), 60u);
 }
 
+// Densities: blocks of the rim, tiles that see each other's edges, ellipses, pictures in the footprints.
+TEST(FastUnit, DrawsDensitiesAsThePlainUnit) {
+  const Setting densities[] = {
+      {"whole slabs", [](scene::SceneDescription&) {}},
+      {"thin slabs", [](scene::SceneDescription& d) { d.slab_width = 0.5; }},
+      {"additive", [](scene::SceneDescription& d) { d.slab_opacity = scene::SlabOpacity::Additive; }},
+      {"ellipses", [](scene::SceneDescription& d) { d.footprint.shape = scene::FootprintShape::Ellipse; }},
+      {"textured",
+       [](scene::SceneDescription& d) {
+         d.footprint.texture = {8, 0.7, 0, 0.4};
+       }},
+  };
+  UnitsCompared compared;
+  for (const char* name : {"base", "small", "fine", "tiny"}) {
+    for (const Setting& what : densities) {
+      for (const Setting& view : {kViews[0], kViews[3]}) {
+        scene::SceneDescription description;
+        description.volume = "marschner-lobb:18";
+        description.transfer_function = "ct-head";
+        description.classify = scene::ClassifyOrder::Post;
+        description.width = 75, description.height = 50;
+        what.apply(description);
+        view.apply(description);
+        auto config = load_config(name);
+        config.classify_segment_bits = std::min(9, config.sheet_frac_bits);
+        const bool shaped = std::string(what.name) == "ellipses", textured = std::string(what.name) == "textured";
+        if (shaped) config.ellipse_frac_bits = 12, config.radial_interpolate = 0;
+        if (textured) {
+          config.index_kind = static_cast<int>(cmodel::IndexKind::Blit2d), config.radial_interpolate = 0;
+          config.phases = 8, config.radial_int_bits = 1;
+        }
+        if (cmodel::first_violation(config)) continue;
+        compared.frame(name, std::string(name) + " " + what.name + " " + view.name, description, config);
+      }
+    }
+  }
+  compared.finish();
+  EXPECT_GT(compared.combinations(), 30u);
+}
+
 TEST(FastUnit, DrawsGaussiansAsThePlainUnit) {
   UnitsCompared compared;
   for (const char* cloud : {"shells:1500", "cloud:400"}) {

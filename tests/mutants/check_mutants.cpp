@@ -21,6 +21,9 @@
 #include "testbench/stimulus/directed.hpp"
 #include "tests/mustfail/campaign_helper.hpp"
 
+/// What fastsplat_mutant_pkg asks for.
+extern "C" int fastsplat_mutant() { return fastsplat::test::selected_mutant; }
+
 namespace fastsplat::testbench {
 
 /// No source of rtl/ is in this program.

@@ -99,8 +99,8 @@ void count_anew(const Config& config, Frames& frames, const Beats& beats, Check&
   }
 }
 
-/// The first tile as a frame of its own, and as large as a tile can be: without cull_blocks, for what they promise is of the pixels of
-/// the tile as it was.
+/// The first tile as a frame of its own, and as large as a tile can be: without cull_blocks, for what they promise is
+/// of the pixels of the tile as it was.
 Beats large_tile(const Config& config, const Beats& beats) {
   Beats out(beats.begin(), beats.begin() + static_cast<std::ptrdiff_t>(behind_first(beats, Opcode::EndTile)));
   out.push_back(beats.back());

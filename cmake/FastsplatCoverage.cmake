@@ -2,7 +2,8 @@
 #   tiny      the smallest named configuration
 #   mustfail  what tiny does not have: centres that are rounded, two radius sets, early freezing
 #   westover  what neither has: every sample composited
-set(FASTSPLAT_COVERED_CONFIGS tiny mustfail westover)
+#   cull      what none of these has: hidden splats left out
+set(FASTSPLAT_COVERED_CONFIGS tiny mustfail westover cull)
 set(declarations "")
 set(entries "")
 add_library(fastsplat_covered_rtl STATIC EXCLUDE_FROM_ALL)

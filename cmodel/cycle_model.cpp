@@ -319,6 +319,7 @@ void CycleModel::begin_tile(const BeginTile& record, std::uint64_t at) {
   answered_ = 0;
   cull_sheet_ = 0;
   if (!config_.culls()) return;
+  cull_sets_.clear();  // whose splats a source left out
   cull_.begin_tile(record.width, record.height);
   if (options_.culls == nullptr || !culls_in(record.mode)) return;
   // A tile without a cull_block and a splat has no answers; who misses any is told by CullAnswers.

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -71,10 +73,11 @@ std::string proofs_table(const Json& json, const Json& now) {
   return out + "\n";
 }
 
+constexpr const char* kKinds[] = {"lut", "carry", "mux", "ff", "lutram", "bram", "dsp"};
+
 std::string cells(const Json& of) {
   std::string out;
-  for (const char* kind : {"lut", "carry", "mux", "ff", "lutram", "bram", "dsp"})
-    out += fmt::format(" {} |", of.at(kind).get<std::int64_t>());
+  for (const char* kind : kKinds) out += fmt::format(" {} |", of.at(kind).get<std::int64_t>());
   return out;
 }
 
@@ -107,6 +110,82 @@ std::string placement(const Json& design) {
 
 constexpr const char* kCells = " LUT | carry | mux | FF | LUT RAM | block RAM | DSP |";
 
+/// Of the devices that tell what a key costs, the one without any, and those with one each.
+constexpr const char* kPlain = "plain";
+constexpr std::pair<const char*, const char*> kKeys[] = {{"ellipses", "`ellipse.frac_bits = 5`"},
+                                                         {"samples", "`composite.every_sample = 1`"},
+                                                         {"cull_block", "`cull.map = \"block\"`"},
+                                                         {"cull_pixel", "`cull.map = \"pixel\"`"}};
+
+const Json* design_of(const Json& designs, const std::string& name, const std::string& family) {
+  for (const Json& design : designs)
+    if (design.at("design") == name && design.at("family") == family) return &design;
+  return nullptr;
+}
+
+/// `a` beside `b`, by cells: the differences, with their signs.
+std::string more(const Json& a, const Json& b) {
+  std::string out;
+  for (const char* kind : kKinds)
+    out += fmt::format(" {:+} |", a.at(kind).get<std::int64_t>() - b.at(kind).get<std::int64_t>());
+  return out;
+}
+
+/// Cells by module, all of its instances and sizes together.
+std::map<std::string, Json> by_module(const Json& design) {
+  std::map<std::string, Json> out;
+  for (const auto& [name, module] : design.at("modules").items()) {
+    // "$paramod$HASH\\fastsplat_delay", "$paramod\\fastsplat_popcount\\BITS=...": of a size of its own.
+    const auto from = name.find("fastsplat_");
+    Json& sum = out[name.substr(from, name.find('\\', from) - from)];
+    if (sum.is_null()) sum = Json::object();
+    for (const char* kind : kKinds)
+      sum[kind] = sum.value(kind, std::int64_t{0}) +
+                  module.at(kind).get<std::int64_t>() * module.at("instances").get<std::int64_t>();
+  }
+  return out;
+}
+
+/// What each key adds to the same small device: in all, and module by module where more than a few cells differ.
+std::string keys(const Json& designs, const std::string& family) {
+  constexpr std::int64_t kFew = 8;
+  const Json* plain = design_of(designs, kPlain, family);
+  if (plain == nullptr) return {};
+  const auto before = by_module(*plain);
+  std::string table, modules;
+  for (const auto& [name, key] : kKeys) {
+    const Json* design = design_of(designs, name, family);
+    if (design == nullptr) continue;
+    table += fmt::format("| {} |{}\n", key, more(design->at("total"), plain->at("total")));
+    for (const auto& [module, now] : by_module(*design)) {
+      const auto found = before.find(module);
+      Json then = now;
+      for (const char* kind : kKinds) then[kind] = found == before.end() ? Json(0) : found->second.at(kind);
+      std::int64_t differs = 0;
+      for (const char* kind : kKinds)
+        differs += std::abs(now.at(kind).get<std::int64_t>() - then.at(kind).get<std::int64_t>());
+      if (differs > kFew)
+        modules +=
+            fmt::format("| {} | {} | {} |{}\n", key, module, found == before.end() ? "new" : "", more(now, then));
+    }
+  }
+  if (table.empty()) return {};
+  return fmt::format(
+      "### What a key costs, {}\n\n`configs/faults/westover.toml` (2 x 2 lanes, a tile of 16 x 16) with one of its "
+      "keys beside the same device "
+      "with none: cells more. The device with none:\n\n| key |{}\n|---|---|---|---|---|---|---|---|\n| none "
+      "|{}\n\nWith one:\n\n"
+      "| key |{}\n|---|---|---|---|---|---|---|---|\n{}\nAnd where, all instances of a module together:\n\n| key | "
+      "module | |{}\n"
+      "|---|---|---|---|---|---|---|---|---|---|\n{}\n",
+      family, kCells, cells(plain->at("total")), kCells, table, kCells, modules);
+}
+
+bool tells_of_a_key(const Json& design) {
+  const auto is = [&](const char* name) { return design.at("design") == name; };
+  return is(kPlain) || std::ranges::any_of(kKeys, [&](const auto& key) { return is(key.first); });
+}
+
 std::string synthesis(const Json& designs, const Json& now) {
   std::string out =
       fmt::format("| design | family |{} tool, day | CPU s |\n|---|---|---|---|---|---|---|---|---|---|---|\n", kCells);
@@ -117,8 +196,9 @@ std::string synthesis(const Json& designs, const Json& now) {
   out += "\n";
   for (const Json& design : designs)
     if (design.contains("placement")) out += placement(design);
+  out += keys(designs, "xc7");
   for (const Json& design : designs) {
-    if (!design.contains("modules")) continue;
+    if (!design.contains("modules") || tells_of_a_key(design)) continue;
     out += fmt::format("### {}, {}\n\n| module | times | levels |{}\n|---|---|---|---|---|---|---|---|---|---|\n",
                        design.at("design").get<std::string>(), design.at("family").get<std::string>(), kCells);
     for (const auto& [name, module] : design.at("modules").items())
@@ -200,7 +280,7 @@ std::string page(const std::filesystem::path& folder, const nlohmann::ordered_js
   const auto icarus = read(folder / "icarus.json");
   out += icarus ? figures_table(*icarus, now) : missing("Icarus", "./run evidence");
   out += "## The netlist\n\n";
-  for (const char* name : {"tiny", "small", "tiny_ice40"}) {
+  for (const char* name : {"tiny", "small", "tiny_ice40", "westover", "cull"}) {
     const auto netlist = read(folder / (std::string("netlist_") + name + ".json"));
     out += fmt::format("### {}\n\n", name);
     out += netlist ? figures_table(*netlist, now) : missing("this netlist", "./run netlist");

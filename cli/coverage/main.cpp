@@ -38,6 +38,7 @@ struct Run {
 constexpr Run kRuns[] = {{"tiny", {.splats = 36000, .seeds = 18, .resets = 480}, true},
                          {"mustfail", {.splats = 36000, .seeds = 18, .resets = 480}, false},
                          {"westover", {.splats = 36000, .seeds = 18, .resets = 480}, false},
+                         {"cull", {.splats = 36000, .seeds = 18, .resets = 480}, false},
                          {"small", {.splats = 36000, .seeds = 18, .resets = 480}, true},
                          {"base", {.splats = 7200, .seeds = 24, .resets = 180}, true}};
 

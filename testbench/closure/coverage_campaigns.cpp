@@ -1,6 +1,7 @@
 #include "testbench/closure/coverage_campaigns.hpp"
 
 #include "testbench/coverage/coverage_collector.hpp"
+#include "testbench/stimulus/left_out.hpp"
 
 namespace fastsplat::testbench {
 namespace {
@@ -11,6 +12,9 @@ std::string what_failed(const std::string& campaign, const VerifyResult& result)
   if (!result.check.differences.empty()) text += ": " + result.check.differences.front();
   return text;
 }
+
+/// Enough for sets that are hidden in front of, between and behind others.
+constexpr std::uint64_t kLeftOutSplats = 150, kLeftOutStreams = 24;
 
 class Runner {
  public:
@@ -54,6 +58,29 @@ class Runner {
       campaign.verify.fill = fill;
       const auto result = add(run_campaign(campaign), std::string("resets, memories filled with ") + to_string(fill));
       for (const auto& [which, part] : result.coverage) coverage.merge(part);
+    }
+  }
+
+  /// Of devices that cull: random streams from a source that leaves out what is hidden.
+  void left_out() {
+    if (!order_.config.culls()) return;
+    begin("left out");
+    CampaignOptions campaign{.verify = options(),
+                             .splats = kLeftOutSplats,
+                             .seeds = kLeftOutStreams,
+                             .classes = {StimulusClass::Mixed},
+                             .threads = 1,
+                             .progress = {}};
+    campaign.verify.ready = campaign.verify.input = "all";
+    Coverage& coverage = runs_.book.campaigns["left out"];
+    for (std::size_t i = 0; i < run_count(campaign); ++i) {
+      CampaignRun run = make_run(campaign, i);
+      run.options.scope = cmodel::StreamScope::Subset;
+      CampaignResult result;
+      result.total = verify(source_of(without_hidden_sets(order_.config, run.beats)), run.options);
+      result.streams = 1;
+      add(result, "left out");
+      if (result.total.coverage) coverage.merge(*result.total.coverage);
     }
   }
 
@@ -116,6 +143,7 @@ CoverageRuns run_coverage(const CoverageOrder& order) {
   Runner runner(order);
   runner.classes();
   runner.resets();
+  runner.left_out();
   runner.scenes();
   runner.directed();
   return runner.take();

@@ -30,7 +30,8 @@ struct CoverageOrder {
 };
 
 /// Names that a testpoint may give as campaigns, besides the stimulus classes.
-inline constexpr const char* kOtherCampaigns[] = {"scene", "resets", "registers", "refusals", "short resets"};
+inline constexpr const char* kOtherCampaigns[] = {"scene",     "resets",   "left out",
+                                                  "registers", "refusals", "short resets"};
 /// Stands for the sum of all, in a plan.
 inline constexpr const char* kAllCampaigns = "all";
 

@@ -36,6 +36,7 @@ CoverageCollector::CoverageCollector(const cmodel::Config& config, cmodel::Strea
   cmodel::Counters{}.for_each([&](const char* name, std::uint64_t, const char*) {
     if (reachable(config_, name)) coverage_.declare("counter", name);
   });
+  if (config_.culls()) cull_.emplace(config_, coverage_);
   for (const ResetFill fill : kFills) coverage_.declare("fill", to_string(fill));
   for (const auto& pattern : Pattern::examples()) coverage_.declare("ready", pattern);
   for (const auto& pattern : Pattern::examples()) coverage_.declare("input", pattern);
@@ -83,8 +84,10 @@ void CoverageCollector::before(const cmodel::Record& record) {
 
 void CoverageCollector::consume(std::span<const cmodel::Beat> beats) {
   for (const auto& beat : beats) {
-    if (const cmodel::Record* record = decode_.feed(beat)) before(*record);
+    const cmodel::Record* record = decode_.feed(beat);
+    if (record != nullptr) before(*record);
     model_.consume({&beat, 1});
+    if (cull_ && record != nullptr) cull_->after(*record, model_.culls(), culls_);
     cycles_->consume({&beat, 1});
   }
 }
@@ -94,6 +97,7 @@ void CoverageCollector::finish() {
   model_.finish();
   cycles_->finish();
   times_.stalls(cycles_->stalls());
+  if (cull_) cull_->finish(cycles_->account());
   run_bins();
 }
 

@@ -11,6 +11,7 @@
 #include "cmodel/model.hpp"
 #include "testbench/coverage/coverage.hpp"
 #include "testbench/coverage/coverage_composite.hpp"
+#include "testbench/coverage/coverage_cull.hpp"
 #include "testbench/coverage/coverage_cycles.hpp"
 #include "testbench/coverage/coverage_splat.hpp"
 #include "testbench/coverage/coverage_stream.hpp"
@@ -64,6 +65,7 @@ class CoverageCollector {
   CompositeCoverage composite_;
   CycleCoverage times_;
   ResetCoverage resets_;
+  std::optional<CullCoverage> cull_;
   ModelTaps taps_{this};
   cmodel::NullPixels pixels_;
   cmodel::Model model_;

@@ -2,11 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 #include "cmodel/cycle_stages.hpp"
 
 namespace fastsplat::testbench {
 namespace {
+
+/// A device that culls has the counter of hazards for its place; none is counted where no sample waits.
+bool can_rise(const cmodel::Config& config, std::string_view counter) {
+  return counter != "stall_hazard" || config.composite_every_sample != 0;
+}
 
 /// Beyond four cycles a word is read from memory again; twice that is looked at.
 constexpr std::uint64_t kDistances = 8;
@@ -93,8 +99,9 @@ CycleCoverage::CycleCoverage(const cmodel::Config& config, Coverage& coverage)
   one_beat_ = coverage.declare("output", "tile_of_one_beat");
   hold_length_ = lengths(coverage, "output", "held_");
   stall_ = coverage.bins().size();
-  cmodel::StallCounters{}.for_each(
-      config, [&](const char* name, std::uint64_t, const char*) { coverage.declare("counter", name); });
+  cmodel::StallCounters{}.for_each(config, [&](const char* name, std::uint64_t, const char*) {
+    if (can_rise(config, name)) coverage.declare("counter", name);
+  });
   if (config.composite_every_sample != 0) samples_.emplace(config, coverage);
 }
 
@@ -210,7 +217,9 @@ void CycleCoverage::on_tile(const cmodel::TileCycles& tile) {
 
 void CycleCoverage::stalls(const cmodel::StallCounters& stalls) {
   Id id = stall_;
-  stalls.for_each(config_, [&](const char*, std::uint64_t count, const char*) { coverage_.hit(id++, count); });
+  stalls.for_each(config_, [&](const char* name, std::uint64_t count, const char*) {
+    if (can_rise(config_, name)) coverage_.hit(id++, count);
+  });
 }
 
 ResetCoverage::ResetCoverage(const cmodel::Config&, Coverage& coverage) : coverage_(coverage) {

@@ -38,7 +38,9 @@ void TapAssembly::accept(const cmodel::Beat& beat) {
     sheets_.back().begun.push_back(
         {static_cast<std::uint32_t>(get(beat, cmodel::layout::kSheetNumber)), sheets_.back().tags});
   } else if (opcode == cmodel::Opcode::Splat || opcode == cmodel::Opcode::Ellipse) {
-    ++sheets_.back().tags;
+    // Not counted: a source may leave hidden ones out, and tags go on as if they had come.
+    const auto& field = opcode == cmodel::Opcode::Splat ? cmodel::layout::kSplatTag : cmodel::layout::kEllipseTag;
+    sheets_.back().tags = static_cast<std::uint32_t>(get(beat, field)) + 1;
   }
 }
 

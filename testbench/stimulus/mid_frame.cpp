@@ -99,7 +99,8 @@ void count_anew(const Config& config, Frames& frames, const Beats& beats, Check&
   }
 }
 
-/// The first tile as a frame of its own, and as large as a tile can be.
+/// The first tile as a frame of its own, and as large as a tile can be: without cull_blocks, for what they promise is
+/// of the pixels of the tile as it was.
 Beats large_tile(const Config& config, const Beats& beats) {
   Beats out(beats.begin(), beats.begin() + static_cast<std::ptrdiff_t>(behind_first(beats, Opcode::EndTile)));
   out.push_back(beats.back());
@@ -116,6 +117,9 @@ Beats large_tile(const Config& config, const Beats& beats) {
   append(changed, tile);
   out[0] = changed[0];
   tile_beat = changed[1];
+  const auto records = records_of(out);
+  for (auto record = records.rbegin(); record != records.rend(); ++record)
+    if (record->opcode == Opcode::CullBlock) out.erase(out.begin() + static_cast<std::ptrdiff_t>(record->at));
   return out;
 }
 

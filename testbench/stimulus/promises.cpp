@@ -50,9 +50,13 @@ void promise(const cmodel::Config& config, Random& random, const cmodel::BeginTi
     while (ends.size() < room && random.chance(in_front && promised < splats.size() ? 95 : 10)) {
       const std::size_t count =
           std::min(splats.size() - promised, static_cast<std::size_t>(random.between(0, random.between(1, 12))));
+      // A promise is of pixels of the tile; every third rectangle has those outside, too.
+      const bool across = (promised + count) % 3 == 0;
       PixelBox box;
-      for (std::size_t i = promised; i < promised + count; ++i)
-        box = around(box, box_of(config, rho, splats[i]).clipped(tile.width, tile.height));
+      for (std::size_t i = promised; i < promised + count; ++i) {
+        const PixelBox whole = box_of(config, rho, splats[i]), clipped = whole.clipped(tile.width, tile.height);
+        if (!clipped.empty()) box = around(box, across ? whole : clipped);
+      }
       if (random.chance(10)) box = around(box, {0, 0, tile.width, tile.height});
       if (box.empty()) box = {-5, 3, -4, 4};
       sheet.records.emplace_back(cmodel::CullBlock{.tag = 0,

@@ -118,14 +118,17 @@ Named must_fail(const cmodel::Config& config) {
 }
 
 std::vector<Named> checks_of(const cmodel::Config& config) {
-  return {streams("random", config, {StimulusClass::Mixed}, 40, 3),
-          streams("hazards", config, {StimulusClass::Hazards, StimulusClass::SwapHazards}, 60, 2),
-          directed("registers", config, testbench::check_registers),
-          directed("refusals", config, testbench::check_refusals),
-          streams("resets", config, {StimulusClass::Reset}, 60, 4),
-          must_fail(config),
-          directed("short resets", config, testbench::check_short_resets),
-          streams("all classes", config, testbench::stimulus_classes(), 60, 3)};
+  std::vector<Named> checks{streams("random", config, {StimulusClass::Mixed}, 40, 3),
+                            streams("hazards", config, {StimulusClass::Hazards, StimulusClass::SwapHazards}, 60, 2),
+                            directed("registers", config, testbench::check_registers),
+                            directed("refusals", config, testbench::check_refusals),
+                            streams("resets", config, {StimulusClass::Reset}, 60, 4),
+                            must_fail(config),
+                            directed("short resets", config, testbench::check_short_resets),
+                            streams("all classes", config, testbench::stimulus_classes(), 60, 3)};
+  // Sheets that freeze pixels while the table of the one before is built are rare.
+  if (config.culls()) checks.push_back(streams("culling", config, testbench::stimulus_classes(), 400, 4));
+  return checks;
 }
 
 double processor_seconds() {

@@ -1,7 +1,7 @@
 """mutate.py ROOT BUILD [FLAGS]: what `./run mutate` does; its flags are told by --help.
 
-Every mutant of rtl/ runs on the smallest device there can be (corners.toml) through the checks of check_mutants.cpp, cheapest
-first. What lives goes on to the must-fail configurations, to three corners more, to `tiny`, and to the proof of its module where there is one. A mutant that lives
+Every mutant of rtl/ runs on the smallest device that has its module (devices.py) through the checks of check_mutants.cpp, cheapest
+first. What lives goes on to the devices behind it, and to the proof of its module where there is one. A mutant that lives
 through all of it is in exclusions.toml with the reason why nobody can see it, or the campaign is red."""
 import argparse
 import collections
@@ -16,7 +16,9 @@ import time
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "../../packaging"))
 import campaign
 import cpp_campaign
+import devices
 import evidence_stamp
+import generate
 import proofs
 from exclusions import Exclusions
 
@@ -67,24 +69,24 @@ def program(root, build, name, kind="check_mutants_"):
 
 def run_all(arguments, root, build, until):
     """{number: (where, what was said)} of the killed, those that live, those not tried."""
-    binary = program(root, build, "corners")
-    with open(f"{build}/mutants/corners/mutants.json") as file:
-        mutants = chosen(arguments, json.load(file))
+    mutants = chosen(arguments, [vars(m) for _, _, listed in generate.mutate(f"{root}/rtl")[0] for m in listed])
+    module = {m["number"]: m["module"] for m in mutants}
     killed, untried = {}, []
-    living = [m["number"] for m in mutants]
-    corner = "tests/mutants/{}.toml"
-    for name, config in [("corners", corner), ("mustfail", "configs/faults/{}.toml"), ("westover", "configs/faults/{}.toml"),
-                         ("ties", corner), ("halves", corner), ("truncating", corner), ("tiny", "configs/{}.toml")]:
-        if name != "corners":
-            campaign.write(f"{build}/mutants/living.txt", "".join(f"{number}\n" for number in living))
-            binary = program(root, build, name)
-        results = campaign.run(binary, f"{root}/{config.format(name)}", living, arguments.jobs, until)
-        untried += [number for number in living if number not in results]
+    living = list(module)
+    for device in devices.devices(root, build):
+        tried = [number for number in living if module[number] in device.modules]
+        if not tried:
+            continue
+        if device.name != devices.FIRST:
+            campaign.write(f"{build}/mutants/living.txt", "".join(f"{number}\n" for number in tried))
+        results = campaign.run(program(root, build, device.name), device.config, tried, arguments.jobs, until)
+        untried += [number for number in tried if number not in results]
         for number, (verdict, said) in results.items():
             if verdict == "killed":
-                killed[number] = (said if name == "corners" else f"{name}/{said}")
-        living = [number for number, (verdict, _) in results.items() if verdict == "lives"]
-        say(f"{name}: {len(results)} tried, {len(living)} live")
+                killed[number] = (said if device.name == devices.FIRST else f"{device.name}/{said}")
+        gone = {*killed, *untried}
+        living = [number for number in living if number not in gone]
+        say(f"{device.name}: {len(results)} tried, {len(tried) - len(gone.intersection(tried))} live")
         if not living:
             break
     return mutants, killed, living, untried

@@ -396,7 +396,7 @@ class Mutator:
     def _assignment(self, drop: bool):
         start = self.at
         target = self._until("=", "<=")
-        unused = joined(self.tokens[start:target]) == "unused"
+        unused = joined(self.tokens[start:target]).startswith("unused")
         self.at = target + 1
         end = self._until(";")
         if unused:

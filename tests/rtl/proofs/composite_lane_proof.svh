@@ -102,3 +102,11 @@ for (genvar c = 0; c < 4; c++) begin : gen_f_channel
     always @(posedge clk_i) if (f_started && f_k6_q && f_mode == 2'd0) cover (saturated_o[c]);
   end
 end
+// Every sample: what is forwarded out of k5 is what k6 will hold (samples_proof.svh assumes it).
+logic f_next_known_q = 1'b0;
+logic [4*DB-1:0] f_next_q;
+always @(posedge clk_i) begin
+  f_next_known_q <= fastsplat_pkg::EVERY_SAMPLE != 0 && f_mode != 2'd2 && valid_i[5];
+  f_next_q <= next_o;
+  if (f_started && f_next_known_q) assert (state_o == f_next_q);
+end

@@ -18,6 +18,11 @@ assign f_passed_extent = extent_i;
 `define F_PROMISE(ALWAYS) assume (ALWAYS)
 `include "judged_beats.svh"
 
+`ifdef F_FEW_BEATS
+// To see a fault of the wait a source and a compositor that are always ready will do.
+always @* if (f_started) assume (rst_ni && valid_i && !aborted_i && tile_idle_i && !free_i);
+`endif
+
 // The beat in the register.
 logic f_have_q, f_payload_q, f_aborted_q;
 logic [fastsplat_pkg::BEAT_BITS-1:0] f_beat_q;
@@ -58,14 +63,31 @@ assign f_last_x = f_x_q + COL'(P) == f_ea;
 assign f_last_y = f_y_q + COL'(P) == f_ea;
 logic [1:0] f_busy_q;
 logic f_buffer_q;
+// Every sample: a record's first window waits a cycle if it lies over the window that was issued in the cycle before.
+logic f_every_q, f_over, f_issue;
+logic signed [31:0] f_column, f_row, f_was_column_q, f_was_row_q;  // the window's first pixel
+function automatic logic signed [31:0] f_first_pixel(input logic signed [fastsplat_pkg::POS_BITS-1:0] centre, input logic [fastsplat_pkg::RHO_BITS-1:0] rho);
+  logic signed [31:0] grid;  // steps of 1/K, halves up
+  grid = (32'(centre) + 32'sd1 * (1 << fastsplat_pkg::SHIFT_SNAP) / 2) >>> fastsplat_pkg::SHIFT_SNAP;
+  if (grid >= 1 << (fastsplat_pkg::POS_INT + fastsplat_pkg::PHASE_LOG2 - 1)) grid = (1 << (fastsplat_pkg::POS_INT + fastsplat_pkg::PHASE_LOG2 - 1)) - 1;
+  f_first_pixel = ((grid - $signed(32'(rho))) >>> fastsplat_pkg::PHASE_LOG2) + 32'sd1;
+endfunction
+function automatic logic f_beside(input logic signed [31:0] a, b);
+  f_beside = a - b >= $signed(32'(P)) || b - a >= $signed(32'(P));
+endfunction
+assign f_column = f_first_pixel(f_beat_q[64+:fastsplat_pkg::POS_BITS], f_rho_q[f_beat_q[8+:fastsplat_pkg::SET_BITS]]) + $signed(32'(f_x_q));
+assign f_row = f_first_pixel(f_beat_q[96+:fastsplat_pkg::POS_BITS], f_rho_q[f_beat_q[8+:fastsplat_pkg::SET_BITS]]) + $signed(32'(f_y_q));
+assign f_over = fastsplat_pkg::EVERY_SAMPLE != 0 && f_every_q && f_splat && f_was_splat_q && f_x_q == '0 && f_y_q == '0 &&
+                !f_beside(f_column, f_was_column_q) && !f_beside(f_row, f_was_row_q);
+assign f_issue = f_splat && !f_over;
 assign f_waits = f_opcode == 8'h53 ? f_busy_q[f_buffer_q] :
                  (f_opcode == 8'h54 || f_opcode == 8'h74) && !(tile_idle_i && f_busy_q == 2'd0);
-assign f_done = f_have_q && (f_payload ? f_left_q == 32'd1 || f_word_q == 3'd7 : f_splat ? f_last_x && f_last_y : !f_waits);
+assign f_done = f_have_q && (f_payload ? f_left_q == 32'd1 || f_word_q == 3'd7 : f_splat ? f_last_x && f_last_y && !f_over : !f_waits);
 
 // Any window of the splat: how often it was issued.
 (* anyconst *) logic [COL-1:0] f_any_x, f_any_y;
 logic [1:0] f_seen_q, f_seen;
-assign f_seen = f_seen_q + 2'(f_splat && f_x_q == f_any_x && f_y_q == f_any_y);
+assign f_seen = f_seen_q + 2'(f_issue && f_x_q == f_any_x && f_y_q == f_any_y);
 
 always @(posedge clk_i) begin
   if (f_have_q) begin
@@ -89,14 +111,17 @@ always @(posedge clk_i) begin
             f_first_q[f_beat_q[32+:fastsplat_pkg::SET_BITS]] <= f_beat_q[128+:COL];
           end
         end
-        8'h54: f_place_q <= 2'd1;
+        8'h54: begin
+          f_place_q <= 2'd1;
+          f_every_q <= f_beat_q[10];
+        end
         8'h53: f_place_q <= 2'd2;
         8'h73: f_place_q <= 2'd1;
         8'h74: f_place_q <= 2'd0;
         default: ;
       endcase
     end
-    if (f_splat) begin
+    if (f_issue) begin
       f_x_q <= f_last_x ? '0 : f_x_q + COL'(P);
       if (f_last_x) f_y_q <= f_last_y ? '0 : f_y_q + COL'(P);
       f_seen_q <= f_done ? 2'd0 : f_seen;
@@ -114,6 +139,7 @@ always @(posedge clk_i) begin
     f_seen_q <= '0;
     f_busy_q <= '0;
     f_buffer_q <= 1'b0;
+    f_every_q <= 1'b0;
     f_loaded_q <= '0;
   end
 end
@@ -128,15 +154,21 @@ logic [COL-1:0] f_was_x_q, f_was_y_q, f_was_first_q;
 logic [fastsplat_pkg::RHO_BITS-1:0] f_was_rho_q;
 logic [fastsplat_pkg::BEAT_BITS-1:0] f_was_q;
 always @(posedge clk_i) begin
-  f_was_splat_q <= f_splat && rst_ni;
+  f_was_splat_q <= f_issue && rst_ni;
   f_was_end_q <= f_done && !f_payload && f_opcode == 8'h73 && rst_ni;
   f_was_buffer_q <= f_buffer_q;
   f_was_rho_q <= f_rho_q[f_beat_q[8+:fastsplat_pkg::SET_BITS]];
   f_was_first_q <= f_first_q[f_beat_q[8+:fastsplat_pkg::SET_BITS]];
+  f_was_column_q <= f_column;
+  f_was_row_q <= f_row;
   f_was_x_q <= f_x_q;
   f_was_y_q <= f_y_q;
   f_was_q <= f_beat_q;
 end
+
+// Places as the register of every sample has them (tied by prove_samples.sh).
+logic signed [fastsplat_pkg::ORG_BITS-1:0] f_x_here, f_y_here, f_x_last, f_y_last;
+logic f_fresh;
 
 logic f_now;  // outside reset
 assign f_now = f_started && rst_ni;
@@ -158,6 +190,10 @@ always @(posedge clk_i) begin
     assert (stall_table_o == (f_have_q && f_payload));
     assert (stall_buffer_o == (f_have_q && !f_payload && f_opcode == 8'h53 && f_waits));
     assert (stall_tile_o == (f_have_q && !f_payload && f_opcode != 8'h53 && f_waits));
+    assert (stall_hazard_o == f_over);
+    // No two windows of every sample that follow one another share a pixel.
+    if (f_issue && f_was_splat_q && f_every_q && fastsplat_pkg::EVERY_SAMPLE != 0)
+      assert (f_beside(f_column, f_was_column_q) || f_beside(f_row, f_was_row_q));
     // Windows.
     assert (window_valid_o == f_was_splat_q);
     assert (window_last_o == f_was_end_q);
@@ -227,6 +263,15 @@ always @(posedge clk_i) begin
         assert (f_left_q + f_index_q == 32'(f_padded_q) * 32'(fastsplat_pkg::PHASES));
       end
     end
+    if (fastsplat_pkg::EVERY_SAMPLE != 0) begin
+      assert (f_place_q == 2'd0 || every_sample_o == f_every_q);
+      assert (!(f_splat && f_was_splat_q && !f_fresh) || f_x_q != '0 || f_y_q != '0);
+      if (f_splat) assert (32'(f_x_here) + $signed(32'(f_x_q)) == f_column && 32'(f_y_here) + $signed(32'(f_y_q)) == f_row);
+      if (f_was_splat_q) assert (32'(f_x_last) == f_was_column_q && 32'(f_y_last) == f_was_row_q);
+      if (f_splat && f_fresh) assert (f_x_q == '0 && f_y_q == '0);
+      // Windows of one record: to the right, or the next row.
+      if (f_issue && f_was_splat_q && (f_x_q != '0 || f_y_q != '0)) assert (f_beside(f_column, f_was_column_q) || f_beside(f_row, f_was_row_q));
+    end
     assert (busy_q == f_busy_q && buffer_q == f_buffer_q);
     assert (column_q == f_x_q && row_q == f_y_q);
     if (f_place_q == 2'd2) assert (f_busy_q[f_buffer_q]);
@@ -247,5 +292,6 @@ always @(posedge clk_i) begin
     cover (f_done && f_payload && f_index_q == 32'd9);
     cover (f_done && !f_payload && f_opcode == 8'h46 && f_left_q != '0);
     cover (tile_end_o && tile_aborted_o);
+    if (fastsplat_pkg::EVERY_SAMPLE != 0) cover (f_over && f_last_x && f_column < 0);
   end
 end

@@ -1,0 +1,15 @@
+// What a source sends that is told verdicts: the stream without the splats of hidden sets (docs/microarchitecture.md,
+// "Source").
+#pragma once
+
+#include <vector>
+
+#include "cmodel/beat.hpp"
+#include "cmodel/config.hpp"
+
+namespace fastsplat::testbench {
+
+/// Of a legal stream; sets are hidden as the model says.
+std::vector<cmodel::Beat> without_hidden_sets(const cmodel::Config& config, const std::vector<cmodel::Beat>& beats);
+
+}  // namespace fastsplat::testbench

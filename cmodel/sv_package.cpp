@@ -68,13 +68,6 @@ std::optional<ErrorParts> rtl_violation(const Config& config) {
                       .got = text_of(config, *find_key("index.kind")),
                       .fix = "use the model for this configuration"};
   }
-  if (config.interpolates()) {
-    return ErrorParts{.where = "radial.interpolate",
-                      .what = "the RTL's lanes read one entry of the radial table",
-                      .expected = "0",
-                      .got = "1",
-                      .fix = "use the model for this configuration"};
-  }
   if (config.classifies()) {
     return refuse("classify.segment_bits", "the RTL has no sheets of densities", "0", config.classify_segment_bits);
   }
@@ -148,6 +141,10 @@ std::string sv_package(const Config& config) {
   p.number("RADIAL_ENTRIES", config.radial_entries);
   p.number("RADIAL_LOG2", config.radial_index_bits());
   p.number("WEIGHT_BITS", config.radial_int_bits + config.radial_frac_bits);
+  p.number("RADIAL_WORDS", config.radial_words());
+  p.number("INTERPOLATE", config.radial_interpolate);
+  p.number("RADIAL_BITS", (config.interpolates() ? 2 : 1) * (config.radial_int_bits + config.radial_frac_bits));
+  p.number("WEIGHT_DELAY", static_cast<std::int64_t>(stages::weight_delay(config)));
   p.number("TABLE_BITS", std::max(bits_for(config.rlut_rim()), config.radial_int_bits + config.radial_frac_bits));
   p.number("COLOUR_BITS", config.colour_frac_bits);
 
@@ -180,8 +177,7 @@ std::string sv_package(const Config& config) {
 
   p.section("narrowing sites: fraction bits dropped, 0 TRN 1 RND 2 RND_CONV, 1 where the word is One.f");
   for (std::size_t i = 0; i < kSiteCount; ++i) {
-    if (const auto site = static_cast<Site>(i); site == Site::AxisProduct || site == Site::RadialFall)
-      continue;  // not in the RTL
+    if (static_cast<Site>(i) == Site::AxisProduct) continue;  // not in the RTL
     const Narrowing site = narrowing(config, static_cast<Site>(i));
     const std::string name = upper(kSiteFacts[i].name);
     p.number("SHIFT_" + name, site.from_frac() - site.to().frac_bits);
@@ -232,7 +228,7 @@ std::string sv_package(const Config& config) {
   p.vector("FACTOR_WORD_MOST", 32, static_cast<std::uint64_t>(config.factor_format().max));
   p.number("WORDS_BITS",
            bits_for(std::max({std::int64_t{kBeatWords}, std::int64_t{config.rlut_columns} * config.phases,
-                              std::int64_t{config.radial_entries}, std::int64_t{config.opacity_segments} + 1})));
+                              std::int64_t{config.radial_words()}, std::int64_t{config.opacity_segments} + 1})));
 
   p.section("counters, in the model's order, then cycles");
   std::int64_t counters = 0;

@@ -285,7 +285,7 @@ module fastsplat_core (
       .rlut_wphase_i(rlut_wphase),
       .rlut_wcolumn_i(rlut_wcolumn),
       .radial_we_i(radial_we),
-      .radial_waddr_i(table_index[fastsplat_pkg::RADIAL_LOG2-1:0]),
+      .radial_waddr_i(table_index[fastsplat_pkg::RADIAL_LOG2:0]),
       .table_word_i(table_word[fastsplat_pkg::TABLE_BITS-1:0]),
       .width_i(width),
       .height_i(height),

@@ -64,7 +64,7 @@ module fastsplat_record_rules (
       fastsplat_pkg::TABLE_RLUT:
       table_good = w1 < 32'(fastsplat_pkg::RLUT_SETS) && w2 != '0 && w2 <= 32'(fastsplat_pkg::RHO_MOST) && base_good &&
                    w3 == 32'(extent_o) << fastsplat_pkg::PHASE_LOG2;
-      fastsplat_pkg::TABLE_RADIAL: table_good = w1 == '0 && w2 == '0 && w4 == '0 && w3 == 32'(fastsplat_pkg::RADIAL_ENTRIES);
+      fastsplat_pkg::TABLE_RADIAL: table_good = w1 == '0 && w2 == '0 && w4 == '0 && w3 == 32'(fastsplat_pkg::RADIAL_WORDS);
       fastsplat_pkg::TABLE_FACTOR: table_good = w1 == '0 && w2 == '0 && w4 == '0 && w3 == 32'(fastsplat_pkg::SEGMENTS + 1);
       default: table_good = 1'b0;
     endcase

@@ -18,6 +18,7 @@ module fastsplat_splat_array (
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]             width_i,
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]             height_i,
     input  logic                                            every_sample_i,  // windows are composited, not summed up
+    input  logic                                            densities_i,     // sheets have a rim of a pixel
     // c0
     input  logic                                            valid_i,     // a window
     input  logic                                            last_i,      // an end-of-sheet token; needs no window
@@ -181,6 +182,7 @@ module fastsplat_splat_array (
         .clk_i,
         .first_i(first_window_i),
         .new_row_i(column_i == '0),
+        .densities_i,
         .x_i,
         .y_i,
         .shape_i,
@@ -230,15 +232,31 @@ module fastsplat_splat_array (
       .words_o(rlut_y)
   );
 
-  // c3
+  // c3. A rim moves windows a pixel to the right and down, and what counts as inside is two pixels longer.
+  localparam int SIDE = fastsplat_pkg::SIDE_BITS;
+  logic [SIDE-1:0] held_width, held_height;
+  logic signed [ORG-1:0] held_x, held_y;
+  if (fastsplat_pkg::DENSITIES != 0) begin : gen_rim
+    assign held_width = width_i + (densities_i ? SIDE'(2) : '0);
+    assign held_height = height_i + (densities_i ? SIDE'(2) : '0);
+    assign held_x = x_q[2] + $signed(ORG'({1'b0, densities_i}));
+    assign held_y = y_q[2] + $signed(ORG'({1'b0, densities_i}));
+  end else begin : gen_no_rim
+    assign held_width = width_i;
+    assign held_height = height_i;
+    assign held_x = x_q[2];
+    assign held_y = y_q[2];
+    logic unused_rim;
+    assign unused_rim = &{1'b0, densities_i};
+  end
   logic [P*RB-1:0] columns_c3, rows_c3;
   logic [P*BLK-1:0] block_x_c3, block_y_c3;
   logic [P-1:0] inside_x_c3, inside_y_c3;
   fastsplat_axis u_axis_x (
       .clk_i,
       .valid_i(valid_q[2]),
-      .origin_i(x_q[2]),
-      .side_i(width_i),
+      .origin_i(held_x),
+      .side_i(held_width),
       .words_i(rlut_x),
       .words_o(columns_c3),
       .block_o(block_x_c3),
@@ -247,8 +265,8 @@ module fastsplat_splat_array (
   fastsplat_axis u_axis_y (
       .clk_i,
       .valid_i(valid_q[2]),
-      .origin_i(y_q[2]),
-      .side_i(height_i),
+      .origin_i(held_y),
+      .side_i(held_height),
       .words_i(rlut_y),
       .words_o(rows_c3),
       .block_o(block_y_c3),

@@ -136,5 +136,4 @@ module fastsplat_density_walk (
   `FASTSPLAT_ASSERT(nothing_copied_meanwhile, !(hold_o && (copy_i || finish_i)))
   `FASTSPLAT_ASSERT(list_has_room, !copy_i || copied_q < (AB + 1)'(fastsplat_pkg::BLOCKS))
   `FASTSPLAT_ASSERT(flush_finds_no_copy, !flush_i || hold_o || copied_q == '0)
-  `FASTSPLAT_COVER(sheet_without_a_next_one, advances && !next)
 endmodule

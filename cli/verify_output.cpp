@@ -255,9 +255,10 @@ std::string fault_list_text() {
   TextTable table{.columns = {"fault", "where", "what is broken"}, .rows = {}};
   for (const auto& fault : testbench::planted_faults()) table.rows.push_back({fault.name, where(fault), fault.meaning});
   return to_text(table) + fmt::format(
-                              "rtl: in the RTL of configuration {0}, SAMPLE_ of {1}, which --config then is; ports: of "
-                              "any configuration\n",
-                              testbench::kBreakableConfig, testbench::kBreakableSamples);
+                              "rtl: in the RTL of configuration {0}, SAMPLE_ of {1}, CULL_ of {2}, POST_ of {3}, which "
+                              "--config then is; ports: of any configuration\n",
+                              testbench::kBreakableConfig, testbench::kBreakableSamples,
+                              testbench::kBreakableCull, testbench::kBreakablePost);
 }
 
 nlohmann::ordered_json fault_list_json() {

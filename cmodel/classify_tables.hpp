@@ -35,6 +35,7 @@ inline constexpr std::size_t kAmbient = 6, kDiffuse = 7, kSpecular = 8;
 inline constexpr std::size_t kTilts = 9;  ///< TX, DX, TY, DY
 inline constexpr std::size_t kLightWords = 13;
 inline constexpr std::size_t kSheetWords = 2;  ///< of SHEETS, of each sheet: scales; 1/floor
+inline constexpr int kSheetsBits = 12;         ///< SHEETS speaks of at most 2^this sheets
 
 }  // namespace classify
 

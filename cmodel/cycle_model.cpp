@@ -18,13 +18,6 @@ std::uint64_t wipe_cycles(const Config& config) {
 }
 
 std::optional<ErrorParts> cycle_violation(const Config& config) {
-  if (config.classifies()) {
-    return ErrorParts{.where = "classify.segment_bits",
-                      .what = "cycles of sheets of densities are not known yet",
-                      .expected = "0",
-                      .got = std::to_string(config.classify_segment_bits),
-                      .fix = "use classify.segment_bits = 0; render and replay do without cycles"};
-  }
   if (config.has_phases()) return std::nullopt;  // a window a cycle, like the RLUT's
   return ErrorParts{.where = "index.kind",
                     .what = "goes along scan lines, and cycles are counted for all P x P pixels at once",
@@ -251,7 +244,7 @@ void CycleModel::footprint(std::uint64_t at, std::uint32_t tag, std::int32_t x, 
       }
     }
   }
-  if (!every_sample(tile_.mode)) dirty_.mark(x, y, width, height);
+  if (!every_sample(tile_.mode)) dirty_.mark(x + rim_, y + rim_, width, height);
   counters_.windows += windows;
   sheet_.windows += windows;
   const std::uint64_t since = at;
@@ -311,7 +304,8 @@ void CycleModel::begin_tile(const BeginTile& record, std::uint64_t at) {
   leave(at, done);
   tile_ = record;
   tile_open_ = true;
-  dirty_.begin_tile(record.width, record.height);
+  rim_ = holds_densities(record.mode) ? 1 : 0;
+  dirty_.begin_tile(record.width + 2 * rim_, record.height + 2 * rim_);
   span_ = {.tile = record.tile, .begun = done};
   sheet_ = {};
   window_issued_ = 0;
@@ -343,14 +337,22 @@ void CycleModel::end_sheet(std::uint64_t at) {
   leave(at, at);
   ++counters_.sheets;
   const std::uint64_t blocks = dirty_.count();
-  counters_.dirty_blocks += blocks;
-  const std::uint64_t slices = static_cast<std::uint64_t>(config_.slices()), picks = blocks * slices;
+  if (rim_ == 0) counters_.dirty_blocks += blocks;
+  // Densities are only copied here, a block a cycle.
+  const std::uint64_t slices = rim_ > 0 ? 1 : static_cast<std::uint64_t>(config_.slices()), picks = blocks * slices;
   const std::uint64_t first = std::max(at + delay_ + weight_delay_ + stages::kWalk, walk_free_);
   const std::uint64_t last = first + std::max<std::uint64_t>(picks, 1) - 1;  // an empty walk is noticed in one cycle
   walk_free_ = last + stages::kNextWalk;
-  buffer_free_[buffer_] = last + stages::kFree;
-  compositor_idle_ = last + (blocks > 0 ? stages::kIdle : stages::kIdleAfterEmpty);
-  accountant_.sheet(buffer_, sheet_.windows, first, first + picks);
+  std::uint64_t done = last, worked = first + picks;  // a walk's last cycle, and the one behind its work
+  if (rim_ > 0) {
+    if (waits_) worked = (done = classify(last)) + 1;
+    waits_ = {.number = sheet_.sheet, .blocks = {}};
+    dirty_.each([&](int column, int row) { waits_->blocks.emplace_back(column, row); });
+  } else {
+    compositor_idle_ = last + (blocks > 0 ? stages::kIdle : stages::kIdleAfterEmpty);
+  }
+  buffer_free_[buffer_] = done + stages::kFree;
+  accountant_.sheet(buffer_, sheet_.windows, first, worked);
   if (config_.culls() && culls_in(tile_.mode)) {
     const int row = answers_ == nullptr ? cull_.rows() : answers_->first_row(cull_sheet_++);
     cull_.composited(last, row);
@@ -359,9 +361,10 @@ void CycleModel::end_sheet(std::uint64_t at) {
   sheet_.closed = at;
   sheet_.blocks = blocks;
   sheet_.walk_from = first;
-  sheet_.walk_to = last + 1;
+  sheet_.walk_to = done + 1;
+  sheet_.picks = worked - first;
   if (options_.spans != nullptr) options_.spans->on_sheet(sheet_);
-  if (options_.taps != nullptr) {
+  if (options_.taps != nullptr && rim_ == 0) {
     std::uint64_t pick = first + slices - 1;  // of a block's last slice
     dirty_.each([&](int column, int row) {
       tap(Tap::Composite, pick + stages::kComposite, 0, column * config_.lanes, row * config_.lanes);
@@ -371,10 +374,43 @@ void CycleModel::end_sheet(std::uint64_t at) {
   dirty_.clear();
 }
 
+std::uint64_t CycleModel::classify(std::uint64_t at) {
+  const std::uint64_t blocks = waits_->blocks.size(), steps = stages::density_steps(config_);
+  const std::uint64_t first = at + stages::kClassify, last = first + std::max<std::uint64_t>(blocks * steps, 1) - 1;
+  walk_free_ = std::max(walk_free_, last + stages::kAfterClassify);
+  // A sheet without blocks may be over before the pipe has left the one before.
+  compositor_idle_ = std::max(compositor_idle_, last + stages::density_late(config_) +
+                                                    (blocks > 0 ? stages::kIdle : stages::kIdleAfterEmpty));
+  counters_.dirty_blocks += blocks;
+  if (options_.taps == nullptr) return last;
+  const std::uint32_t open = std::exchange(sheet_.sheet, waits_->number);
+  std::uint64_t pick = first + stages::density_pick(config_);
+  for (const auto& [column, row] : waits_->blocks) {
+    tap(Tap::Composite, pick + stages::kComposite, 0, column * config_.lanes - rim_, row * config_.lanes - rim_);
+    pick += steps;
+  }
+  sheet_.sheet = open;
+  return last;
+}
+
 void CycleModel::end_tile(std::uint64_t at) {
-  const std::uint64_t done = std::max(at, compositor_idle_);
+  std::uint64_t done = std::max(at, compositor_idle_);
+  span_.picks = 0;
+  std::uint64_t drained = at;
+  if (waits_) {
+    // Its turn comes when the sheet before it has been classified, and it was copied.
+    const std::uint64_t turn = std::max(at, buffer_free_[1 - buffer_]);
+    const std::uint64_t from = turn + stages::kClassify, to = classify(turn) + 1;
+    accountant_.pause(Pause::Drain, at, from);
+    accountant_.settle(buffer_);
+    accountant_.sheet(buffer_, 0, from, to);
+    drained = from;
+    span_.picks = to - from;
+    waits_.reset();
+    done = compositor_idle_;
+  }
   stalls_.stall_tile += done - at;
-  accountant_.pause(Pause::Drain, at, done);
+  accountant_.pause(Pause::Drain, drained, done);
   accountant_.settle(0);
   accountant_.settle(1);
   accountant_.pause(Pause::Records, done, done + 1);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "cmodel/config.hpp"
@@ -32,6 +33,7 @@ struct SheetCycles {
   std::uint64_t begun = 0, closed = 0;       ///< begin_sheet and end_sheet carried out
   std::uint64_t windows = 0, blocks = 0;     ///< P x P windows; dirty blocks
   std::uint64_t walk_from = 0, walk_to = 0;  ///< the compositor picks blocks, slice by slice
+  std::uint64_t picks = 0;                   ///< of these cycles; of densities all, for the sheet before is classified
 };
 
 /// A tile's. `picture_to` is the cycle after the one in which its last pixels were taken.
@@ -39,6 +41,7 @@ struct TileCycles {
   std::uint32_t tile = 0;
   std::uint64_t begun = 0, closed = 0;  ///< begin_tile and end_tile carried out
   std::uint64_t picture_from = 0, picture_to = 0;
+  std::uint64_t picks = 0;  ///< of densities: cycles in which the last sheet is classified
 };
 
 /// A beat's way through check and decode.
@@ -142,6 +145,9 @@ class CycleModel final : public Device {
   void begin_sheet(const BeginSheet& record, std::uint64_t at);
   void end_sheet(std::uint64_t at);
   void end_tile(std::uint64_t at);
+  /// Densities. The sheet that waits is classified from cycle `at` on, when the one behind it was copied or there is
+  /// none; the last cycle of its walk.
+  std::uint64_t classify(std::uint64_t at);
   void picture(std::uint64_t at);
   void tap(Tap kind, std::uint64_t cycle, std::uint32_t tag, std::int32_t x, std::int32_t y) const;
 
@@ -189,6 +195,14 @@ class CycleModel final : public Device {
   std::uint64_t walk_free_ = 0;                 ///< earliest first pick of the next sheet
   std::uint64_t compositor_idle_ = 0;           ///< cycle from which it has nothing to do
   std::uint64_t picture_from_ = 0, picture_to_ = 0;
+
+  // Of a tile of densities.
+  struct DensitySheet {
+    std::uint32_t number = 0;
+    std::vector<std::pair<int, int>> blocks;  ///< dirty ones: column, row
+  };
+  int rim_ = 0;                       ///< pixels around the tile that its sheets hold
+  std::optional<DensitySheet> waits_;  ///< for the sheet behind it
 };
 
 }  // namespace fastsplat::cmodel

@@ -173,6 +173,7 @@ void StreamDecode::check(const LoadTable& header, std::uint32_t words) {
       break;
     case Table::Sheets:  // as many as the frame has
       expect_least(words, classify::kSheetWords, "scales of no sheet");
+      expect_most(words, std::int64_t{classify::kSheetWords} << classify::kSheetsBits, "scales of too many sheets");
       expected_words = words - words % classify::kSheetWords;
       break;
   }

@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "base/hash_text.hpp"
+#include "cmodel/classify_tables.hpp"
 #include "cmodel/counters.hpp"
 #include "cmodel/cull_sets.hpp"
 #include "cmodel/cycle_stages.hpp"
@@ -17,6 +18,9 @@
 
 namespace fastsplat::cmodel {
 namespace {
+
+/// Of densities: numerics.md cuts what lies between two entries to S 8.f, and the RTL has no bits for more.
+constexpr int kDensityMostInt = 7;
 
 /// Bits that hold 0..largest, at least one.
 int bits_for(std::int64_t largest) {
@@ -68,15 +72,13 @@ std::optional<ErrorParts> rtl_violation(const Config& config) {
                       .got = text_of(config, *find_key("index.kind")),
                       .fix = "use the model for this configuration"};
   }
-  if (config.interpolates()) {
-    return ErrorParts{.where = "radial.interpolate",
-                      .what = "the RTL's lanes read one entry of the radial table",
-                      .expected = "0",
-                      .got = "1",
-                      .fix = "use the model for this configuration"};
+  if (config.classifies() && config.composite_every_sample != 0) {
+    return refuse("composite.every_sample", "the RTL has no device of every sample that classifies densities",
+                  "0 with classify.segment_bits", config.composite_every_sample);
   }
-  if (config.classifies()) {
-    return refuse("classify.segment_bits", "the RTL has no sheets of densities", "0", config.classify_segment_bits);
+  if (config.classifies() && config.sheet_int_bits > kDensityMostInt) {
+    return refuse("sheet.int_bits", "the RTL's transfer function falls by less than 2^7 between two entries",
+                  "at most " + std::to_string(kDensityMostInt) + " with classify.segment_bits", config.sheet_int_bits);
   }
   if (config.culls() && config.has_ellipses()) {
     return ErrorParts{.where = "cull.map",
@@ -148,6 +150,10 @@ std::string sv_package(const Config& config) {
   p.number("RADIAL_ENTRIES", config.radial_entries);
   p.number("RADIAL_LOG2", config.radial_index_bits());
   p.number("WEIGHT_BITS", config.radial_int_bits + config.radial_frac_bits);
+  p.number("RADIAL_WORDS", config.radial_words());
+  p.number("INTERPOLATE", config.radial_interpolate);
+  p.number("RADIAL_BITS", (config.interpolates() ? 2 : 1) * (config.radial_int_bits + config.radial_frac_bits));
+  p.number("WEIGHT_DELAY", static_cast<std::int64_t>(stages::weight_delay(config)));
   p.number("TABLE_BITS", std::max(bits_for(config.rlut_rim()), config.radial_int_bits + config.radial_frac_bits));
   p.number("COLOUR_BITS", config.colour_frac_bits);
 
@@ -180,8 +186,7 @@ std::string sv_package(const Config& config) {
 
   p.section("narrowing sites: fraction bits dropped, 0 TRN 1 RND 2 RND_CONV, 1 where the word is One.f");
   for (std::size_t i = 0; i < kSiteCount; ++i) {
-    if (const auto site = static_cast<Site>(i); site == Site::AxisProduct || site == Site::RadialFall)
-      continue;  // not in the RTL
+    if (static_cast<Site>(i) == Site::AxisProduct) continue;  // not in the RTL
     const Narrowing site = narrowing(config, static_cast<Site>(i));
     const std::string name = upper(kSiteFacts[i].name);
     p.number("SHIFT_" + name, site.from_frac() - site.to().frac_bits);
@@ -205,6 +210,18 @@ std::string sv_package(const Config& config) {
   p.number("CULL_SETS_BITS", bits_for(cull_sets(config) - 1));
   p.number("WINDOWS_X", std::int64_t{config.rlut_columns / config.lanes});
 
+  p.section("densities: 0, or there are some; where there are none, words of one bit");
+  const bool densities = config.classifies();
+  p.number("DENSITIES", densities ? 1 : 0);
+  p.number("CLASSIFY_LOG2", densities ? config.classify_segment_bits : 1);
+  p.number("SHEET_FRAC", config.sheet_frac_bits);
+  p.number("DENSITY_WORD", std::max(classify::kColour + 1, sheet_bits));
+  p.number("DENSITY_ADDR", std::max(7, densities ? config.classify_segment_bits : 1));
+  p.number("DENSITY_STEPS", static_cast<std::int64_t>(stages::density_steps(config)));
+  p.number("DENSITY_STAGES", stages::kPixelStage);
+  p.number("DENSITY_LATE", static_cast<std::int64_t>(stages::density_late(config)));
+  p.number("SHEETS_LOG2", densities ? classify::kSheetsBits : 1);
+
   p.section("stream");
   const std::uint64_t hash = config_hash(config);
   p.vector("HASH_LOW", 32, hash & 0xffffffffU);
@@ -218,6 +235,11 @@ std::string sv_package(const Config& config) {
   p.vector("TABLE_RLUT", 8, static_cast<std::uint64_t>(Table::Rlut));
   p.vector("TABLE_RADIAL", 8, static_cast<std::uint64_t>(Table::Radial));
   p.vector("TABLE_FACTOR", 8, static_cast<std::uint64_t>(Table::Factor));
+  p.vector("TABLE_CLASSIFY", 8, static_cast<std::uint64_t>(Table::Classify));
+  p.vector("TABLE_ROOT", 8, static_cast<std::uint64_t>(Table::Root));
+  p.vector("TABLE_GLINT", 8, static_cast<std::uint64_t>(Table::Glint));
+  p.vector("TABLE_LIGHTING", 8, static_cast<std::uint64_t>(Table::Lighting));
+  p.vector("TABLE_SHEETS", 8, static_cast<std::uint64_t>(Table::Sheets));
 
   p.section(
       "what a beat may hold: bits with a name, the last word first; rules in the order in which a record is judged");
@@ -230,9 +252,12 @@ std::string sv_package(const Config& config) {
   p.vector("RLUT_WORD_MOST", 32, static_cast<std::uint64_t>(config.rlut_rim()));
   p.vector("RADIAL_WORD_MOST", 32, static_cast<std::uint64_t>(config.weight_format().max));
   p.vector("FACTOR_WORD_MOST", 32, static_cast<std::uint64_t>(config.factor_format().max));
+  p.vector("DENSITY_WORD_MOST", 32, static_cast<std::uint64_t>(config.sheet_format().max));
+  const std::int64_t density_words =
+      densities ? std::max(classify_words(config, Table::Classify), std::int64_t{2} << classify::kSheetsBits) : 0;
   p.number("WORDS_BITS",
-           bits_for(std::max({std::int64_t{kBeatWords}, std::int64_t{config.rlut_columns} * config.phases,
-                              std::int64_t{config.radial_entries}, std::int64_t{config.opacity_segments} + 1})));
+           bits_for(std::max({std::int64_t{kBeatWords}, density_words, std::int64_t{config.rlut_columns} * config.phases,
+                              std::int64_t{config.radial_words()}, std::int64_t{config.opacity_segments} + 1})));
 
   p.section("counters, in the model's order, then cycles");
   std::int64_t counters = 0;

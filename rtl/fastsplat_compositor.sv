@@ -4,6 +4,8 @@
 // k0 pick -> k1 sums -> k2 factor -> k3 slope, picture -> k4 slab, state -> k5 products -> k6 new state, written.
 // In a tile that composites every sample the splat array's windows go down the same pipe, their products in place of sums, each bank
 // at an address of its own (fastsplat_sample_places.sv); nothing is dirty then.
+// In a tile of densities dirty blocks are only handed on, a block a cycle, and come back classified (fastsplat_densities.sv); the picture
+// then lies a pixel further to the right and down, as the sheets do.
 `include "assertions.svh"
 `include "fault.svh"
 
@@ -12,8 +14,8 @@ module fastsplat_compositor (
     input  logic                                   rst_ni,
     // factor table load, one word a cycle
     input  logic                                   factor_we_i,
-    input  logic [fastsplat_pkg::SEG_LOG2:0]       factor_index_i,  // 0..G
-    input  logic [fastsplat_pkg::FACTOR_BITS-1:0]  table_word_i,
+    input  logic [31:0]                            table_index_i,   // 0..G
+    input  logic [31:0]                            table_word_i,
     // picture memory after reset: a word a cycle to blank
     input  logic                                   wipe_i,
     input  logic [fastsplat_pkg::ADDR_BITS-1:0]    wipe_addr_i,
@@ -30,6 +32,13 @@ module fastsplat_compositor (
     input  logic [fastsplat_pkg::LANES-1:0]        sample_inside_x_i,
     input  logic [fastsplat_pkg::LANES-1:0]        sample_inside_y_i,
     input  logic [fastsplat_pkg::BANKS-1:0]        sample_weighted_i,
+    // densities: their tables, the tile's place in the image, the number of a finished sheet, and that no sheet comes any more
+    input  logic                                   densities_i,
+    input  logic                                   density_we_i,
+    input  logic [7:0]                             table_i,
+    input  logic [63:0]                            place_i,
+    input  logic [31:0]                            sheet_number_i,
+    input  logic                                   flush_i,
     // dirty marks from the splat path
     input  logic                                   dirty_valid_i,
     input  logic                                   dirty_buffer_i,
@@ -90,9 +99,49 @@ module fastsplat_compositor (
   logic issue, finish, walk_idle;
   logic [AB-1:0] pick;
   logic [LB-1:0] slice;
+  logic classified;  // densities are composited
+  assign classified = fastsplat_pkg::DENSITIES != 0 && densities_i;
+  // Between the walk of dirty blocks and the pipe: they go out in k0, slices come back in k0, their sums in k1.
+  logic density_hold, density_free, density_idle, density_valid, density_done;
+  logic [AB-1:0] density_block;
+  logic [LB-1:0] density_slice;
+  logic [C*4*SB-1:0] density_sums;
+  if (fastsplat_pkg::DENSITIES != 0) begin : gen_densities
+    fastsplat_densities u_densities (
+        .clk_i,
+        .rst_ni,
+        .table_we_i(density_we_i),
+        .table_i,
+        .table_index_i,
+        .table_word_i,
+        .place_i,
+        .copy_i(classified && issue),
+        .copy_block_i(pick),
+        .finish_i(classified && finish),
+        .number_i(sheet_number_i),
+        .sheet_data_i,
+        .flush_i,
+        .hold_o(density_hold),
+        .free_o(density_free),
+        .idle_o(density_idle),
+        .valid_o(density_valid),
+        .slice_o(density_slice),
+        .block_o(density_block),
+        .done_o(density_done),
+        .sums_o(density_sums)
+    );
+  end else begin : gen_colours
+    assign {density_hold, density_free, density_valid, density_done, density_block, density_slice, density_sums} = '0;
+    assign density_idle = 1'b1;
+    logic unused_densities;
+    assign unused_densities = &{1'b0, densities_i, density_we_i, table_i, table_index_i, table_word_i, place_i, sheet_number_i, flush_i,
+                                density_free, density_done, density_valid, density_block, density_slice, density_sums};
+  end
   fastsplat_dirty_map u_dirty (
       .clk_i,
       .rst_ni,
+      .whole_i(classified),
+      .hold_i(density_hold),
       .mark_i(dirty_valid_i),
       .mark_buffer_i(dirty_buffer_i),
       .mark_column_i(dirty_column_i),
@@ -112,9 +161,17 @@ module fastsplat_compositor (
   );
   assign sheet_re_o = issue && (R == 1 || slice == '0);
   assign sheet_addr_o = pick;
-  assign free_o = finish;
-  assign free_buffer_o = sheet_buffer_o;
-  assign tap_sheet_o = finish;
+  // Of densities a buffer is free when the sheet before the copied one has been classified.
+  if (fastsplat_pkg::DENSITIES != 0) begin : gen_late_free
+    logic buffer_q;
+    always_ff @(posedge clk_i) if (finish) buffer_q <= sheet_buffer_o;
+    assign free_o = classified ? density_free : finish;
+    assign free_buffer_o = finish ? sheet_buffer_o : buffer_q;
+  end else begin : gen_free
+    assign free_o = finish;
+    assign free_buffer_o = sheet_buffer_o;
+  end
+  assign tap_sheet_o = classified ? density_done : finish;
 
   // ---- every sample
   logic sampling;
@@ -122,7 +179,7 @@ module fastsplat_compositor (
 
   // ---- pipe control
   logic picked;
-  assign picked = issue || (sampling && sample_valid_i);
+  assign picked = classified ? density_valid : issue || (sampling && sample_valid_i);
   logic [6:1] valid_q;
   logic [AB-1:0] addr_q[1:6];
   logic [LB-1:0] slice_q[1:6];
@@ -131,24 +188,28 @@ module fastsplat_compositor (
     valid_q <= {valid_q[5:1], picked};
     still_q <= !rst_ni || {valid_q[5:1], picked} == '0;
     if (!rst_ni) valid_q <= '0;
-    addr_q[1] <= pick;
-    slice_q[1] <= slice;
+    addr_q[1] <= classified ? density_block : pick;
+    slice_q[1] <= classified ? density_slice : slice;
     for (int s = 2; s <= 6; s++) begin
       addr_q[s] <= addr_q[s-1];
       slice_q[s] <= slice_q[s-1];
     end
   end
-  assign idle_o = walk_idle && still_q;
+  assign idle_o = walk_idle && still_q && density_idle;
 
   // ---- factor table: word j closes segment j-1
-  logic [FB-1:0] previous_q;
+  localparam int SEG = fastsplat_pkg::SEG_LOG2;
+  logic [FB-1:0] previous_q, factor_word;
+  logic [SEG:0] factor_index;
+  assign factor_word = table_word_i[FB-1:0];
+  assign factor_index = table_index_i[SEG:0];
   logic segment_we;
   logic [fastsplat_pkg::SEG_LOG2-1:0] segment;
   logic [2*FB-1:0] segment_word;
-  always_ff @(posedge clk_i) if (factor_we_i) previous_q <= table_word_i;
-  assign segment_we = factor_we_i && factor_index_i != '0;
-  assign segment = fastsplat_pkg::SEG_LOG2'(factor_index_i - (fastsplat_pkg::SEG_LOG2 + 1)'(1));
-  assign segment_word = {previous_q, previous_q - table_word_i};
+  always_ff @(posedge clk_i) if (factor_we_i) previous_q <= factor_word;
+  assign segment_we = factor_we_i && factor_index != '0;
+  assign segment = fastsplat_pkg::SEG_LOG2'(factor_index - (fastsplat_pkg::SEG_LOG2 + 1)'(1));
+  assign segment_word = {previous_q, previous_q - factor_word};
 
   // ---- which pixels of the block lie in the tile, k5
   logic [SIDE+1:0] block_x, block_y;
@@ -166,6 +227,10 @@ module fastsplat_compositor (
       for (int g = 0; g < P; g++) begin
         inside_x_q[g] <= (block_x + (SIDE + 2)'(g)) < (SIDE + 2)'(width_i);
         inside_y_q[g] <= !sampling && (block_y + (SIDE + 2)'(g)) < (SIDE + 2)'(height_i);
+        if (classified) begin  // without the rim
+          inside_x_q[g] <= (block_x + (SIDE + 2)'(g)) <= (SIDE + 2)'(width_i) && (g != 0 || block_x != '0);
+          inside_y_q[g] <= (block_y + (SIDE + 2)'(g)) <= (SIDE + 2)'(height_i) && (g != 0 || block_y != '0);
+        end
       end
     end
   end
@@ -178,6 +243,15 @@ module fastsplat_compositor (
   logic [AB-1:0] picture_raddr, picture_waddr, sent_addr_q;
   logic sent_q;
   logic [4*DB-1:0] transparent;
+  // Of densities a beat begins in bank column 1: column 0 is that of the next block, if there is one.
+  logic [AB-1:0] beside_addr, beside_sent_q;
+  if (fastsplat_pkg::DENSITIES != 0) begin : gen_beside
+    assign beside_addr = picture_addr_i + AB'(classified && (picture_addr_i & AB'(BX - 1)) != AB'(BX - 1));
+    always_ff @(posedge clk_i) beside_sent_q <= beside_addr;
+  end else begin : gen_aligned
+    assign beside_addr = picture_addr_i;
+    assign beside_sent_q = sent_addr_q;
+  end
   assign picture_raddr = picture_re_i ? picture_addr_i : addr_q[2];
   assign picture_waddr = wipe_i ? wipe_addr_i : sent_q ? sent_addr_q : addr_q[6];
   assign transparent = (mode_i == 2'd2) ? '0 : {DB'(1) << fastsplat_pkg::TRANS_FRAC, {(3 * DB) {1'b0}}};
@@ -230,16 +304,17 @@ module fastsplat_compositor (
     for (genvar g = 0; g < P; g++) begin : gen_bank
       localparam int B = h * P + g;
       localparam int LANE = B % C;
+      localparam bit BESIDE = fastsplat_pkg::DENSITIES != 0 && g == 0;
       logic read, written;
       assign read = valid_q[2] && (R == 1 || slice_q[2] == LB'(B / C));
       assign written = valid_q[6] && (R == 1 || slice_q[6] == LB'(B / C));
       fastsplat_ram_1r1w #(.BITS(4 * DB), .WORDS(NB), .ADDR(AB)) u_picture (
           .clk_i,
           .re_i(read || picture_re_i),
-          .raddr_i((sampling && !picture_re_i) ? sample_raddr[B*AB+:AB] : picture_raddr),
+          .raddr_i((sampling && !picture_re_i) ? sample_raddr[B*AB+:AB] : (BESIDE && picture_re_i) ? beside_addr : picture_raddr),
           .rdata_o(picture[B]),
-          .we_i(wipe_i || (sent_q && picture_row_i[h]) || (written && inside_y_q[h]) || sample_written[B]),
-          .waddr_i((sampling && !wipe_i && !sent_q) ? sample_waddr[B*AB+:AB] : picture_waddr),
+          .we_i(wipe_i || (sent_q && picture_row_i[h]) || ((written && inside_y_q[h]) && (!classified || inside_x_q[g])) || sample_written[B]),
+          .waddr_i((sampling && !wipe_i && !sent_q) ? sample_waddr[B*AB+:AB] : (BESIDE && !wipe_i && sent_q) ? beside_sent_q : picture_waddr),
           .wdata_i((wipe_i || sent_q) ? '0 : states[LANE] ^ transparent)
       );
       // The tap shows a whole block: what was made of it in slices before the last is kept.
@@ -271,6 +346,7 @@ module fastsplat_compositor (
         if (slice_q[3] == LB'(r) && !(`FASTSPLAT_FAULT(STALE_SLICE) && r == 1)) stored = picture[r*C+c];
         if (slice_q[6] == LB'(r)) event_inside_o[c] = in_tile[r*C+c];
       end
+      if (classified) sums = density_sums[c*4*SB+:4*SB];
       if (sampling) begin
         sums = sample_products_i[c*4*SB+:4*SB];
         event_inside_o[c] = sample_weighted[c];
@@ -359,7 +435,7 @@ module fastsplat_compositor (
     picture_o = '0;  // verilator lint_off WIDTHCONCAT
     for (int h = 0; h < P; h++) begin  // verilator lint_on WIDTHCONCAT
       for (int g = 0; g < P; g++) begin
-        if (picture_row_i[h]) picture_o[g*4*DB+:4*DB] = picture[h*P+g] ^ transparent;
+        if (picture_row_i[h]) picture_o[g*4*DB+:4*DB] = picture[h*P+(classified?(g+1)%P:g)] ^ transparent;
       end
     end
   end

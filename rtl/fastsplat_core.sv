@@ -79,13 +79,16 @@ module fastsplat_core (
     end
   end
 
-  logic rlut_we, radial_we, factor_we;
+  logic rlut_we, radial_we, factor_we, density_we;
+  logic [7:0] table_number;
   logic [fastsplat_pkg::PHASE_BITS-1:0] rlut_wphase;
   logic [fastsplat_pkg::COL_BITS-1:0] rlut_wcolumn;
   logic [31:0] table_index, table_word;
   logic tile_end, tile_open, compositor_idle, pixel_idle;
   logic [1:0] mode;
-  logic every_sample;
+  logic every_sample, densities, tile_flush;
+  logic [63:0] place;
+  logic [31:0] sheet_number;
   logic [fastsplat_pkg::SIDE_BITS-1:0] width, height;
   logic free, free_buffer;
   logic window_valid, window_last, window_first, window_buffer;
@@ -225,6 +228,8 @@ module fastsplat_core (
       .rlut_wcolumn_o(rlut_wcolumn),
       .radial_we_o(radial_we),
       .factor_we_o(factor_we),
+      .density_we_o(density_we),
+      .table_o(table_number),
       .table_index_o(table_index),
       .table_word_o(table_word),
       .tile_begin_o(tile_begin),
@@ -235,6 +240,10 @@ module fastsplat_core (
       .tile_idle_i(compositor_idle && pixel_idle),
       .mode_o(mode),
       .every_sample_o(every_sample),
+      .densities_o(densities),
+      .tile_flush_o(tile_flush),
+      .place_o(place),
+      .sheet_number_o(sheet_number),
       .tile_number_o(tap_tile_o),
       .width_o(width),
       .height_o(height),
@@ -285,11 +294,12 @@ module fastsplat_core (
       .rlut_wphase_i(rlut_wphase),
       .rlut_wcolumn_i(rlut_wcolumn),
       .radial_we_i(radial_we),
-      .radial_waddr_i(table_index[fastsplat_pkg::RADIAL_LOG2-1:0]),
+      .radial_waddr_i(table_index[fastsplat_pkg::RADIAL_LOG2:0]),
       .table_word_i(table_word[fastsplat_pkg::TABLE_BITS-1:0]),
       .width_i(width),
       .height_i(height),
       .every_sample_i(every_sample),
+      .densities_i(densities),
       .valid_i(window_valid),
       .last_i(window_last),
       .first_window_i(window_first),
@@ -358,8 +368,6 @@ module fastsplat_core (
       .clk_i,
       .rst_ni,
       .factor_we_i(factor_we),
-      .factor_index_i(table_index[fastsplat_pkg::SEG_LOG2:0]),
-      .table_word_i(table_word[fastsplat_pkg::FACTOR_BITS-1:0]),
       .wipe_i(wiping_q),
       .wipe_addr_i(wipe_addr_q),
       .mode_i(mode),
@@ -373,6 +381,14 @@ module fastsplat_core (
       .sample_inside_x_i(window_inside_x),
       .sample_inside_y_i(window_inside_y),
       .sample_weighted_i(weighted),
+      .densities_i(densities),
+      .density_we_i(density_we),
+      .table_i(table_number),
+      .table_index_i(table_index),
+      .table_word_i(table_word),
+      .place_i(place),
+      .sheet_number_i(sheet_number),
+      .flush_i(tile_flush),
       .dirty_valid_i(dirty_valid),
       .dirty_buffer_i(dirty_buffer),
       .dirty_column_i(dirty_column),
@@ -417,6 +433,7 @@ module fastsplat_core (
       .aborted_i(tile_aborted),
       .idle_o(pixel_idle),
       .mode_i(mode),
+      .densities_i(densities),
       .width_i(width),
       .height_i(height),
       .picture_re_o(picture_re),

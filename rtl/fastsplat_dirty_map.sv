@@ -9,6 +9,8 @@
 module fastsplat_dirty_map (
     input  logic                                   clk_i,
     input  logic                                   rst_ni,
+    input  logic                                   whole_i,   // a block is one slice, whatever it is else; held over a tile
+    input  logic                                   hold_i,    // no walk begins
     // c3: a window marks the blocks it meets inside the tile, at most two block columns and two block rows
     input  logic                                   mark_i,
     input  logic                                   mark_buffer_i,
@@ -62,8 +64,8 @@ module fastsplat_dirty_map (
   logic [2:0] finish_q;
   logic [fastsplat_pkg::SLICE_BITS-1:0] slice_q;
   assign start = state_q == StIdle && marked_q[buffer_q];
-  assign walking = state_q == StWalk && full_q[buffer_q];
-  assign go = walking && (fastsplat_pkg::SLICES == 1 || slice_q == fastsplat_pkg::SLICE_BITS'(fastsplat_pkg::SLICES - 1) || f3_row_q == '0);
+  assign walking = state_q == StWalk && full_q[buffer_q] && !(fastsplat_pkg::DENSITIES != 0 && hold_i);
+  assign go = walking && (fastsplat_pkg::SLICES == 1 || (fastsplat_pkg::DENSITIES != 0 && whole_i) || slice_q == fastsplat_pkg::SLICE_BITS'(fastsplat_pkg::SLICES - 1) || f3_row_q == '0);
   assign f2_rest = f2_row_q & (f2_row_q - BX'(1));
   assign rest = f3_rest_q & (f3_rest_q - BX'(1));
   // Rows follow one another without a gap: where f2 is empty there are no more.

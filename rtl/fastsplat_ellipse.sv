@@ -6,6 +6,7 @@ module fastsplat_ellipse (
     // c0 as decode issues it
     input  logic                                      first_i,
     input  logic                                      new_row_i,
+    input  logic                                      densities_i,  // the tile's memory begins a pixel before it
     input  logic signed [fastsplat_pkg::POS_BITS-1:0] x_i,
     input  logic signed [fastsplat_pkg::POS_BITS-1:0] y_i,
     input  logic [fastsplat_pkg::SHAPE_BITS-1:0]      shape_i,
@@ -23,8 +24,8 @@ module fastsplat_ellipse (
   // The first pixel modulo P, at every window of a record; and where in the record a window is.
   logic [LOG2-1:0] offset_x, offset_y, offset_x_e9, offset_y_e9;
   logic first_e8, new_row_e8;
-  assign offset_x = x_i[PF+:LOG2] + shape_i[74+:LOG2];  // left
-  assign offset_y = y_i[PF+:LOG2] + shape_i[84+:LOG2];  // top
+  assign offset_x = x_i[PF+:LOG2] + shape_i[74+:LOG2] + LOG2'(fastsplat_pkg::DENSITIES != 0 && densities_i);  // left
+  assign offset_y = y_i[PF+:LOG2] + shape_i[84+:LOG2] + LOG2'(fastsplat_pkg::DENSITIES != 0 && densities_i);  // top
   fastsplat_delay #(.BITS(2 * LOG2), .STAGES(9)) u_offsets (
       .clk_i, .rst_ni(1'b1), .data_i({offset_y, offset_x}), .data_o({offset_y_e9, offset_x_e9})
   );

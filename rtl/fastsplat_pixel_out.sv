@@ -10,6 +10,7 @@ module fastsplat_pixel_out (
     input  logic                                 aborted_i, // with it: the tile was cut short
     output logic                                 idle_o,
     input  logic [1:0]                           mode_i,
+    input  logic                                 densities_i,  // the picture begins at column and row 1
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]  width_i,
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]  height_i,
     // picture
@@ -44,7 +45,9 @@ module fastsplat_pixel_out (
   logic [AB-1:0] address;
   assign enable = !valid_r2_q || ready_i;
   localparam int BXL = $clog2(fastsplat_pkg::BLOCKS_X);
-  assign address = AB'(((SIDE + AB)'(y_q) >> LOG2) << BXL) | AB'((SIDE + AB)'(x_q) >> LOG2);
+  logic [SIDE-1:0] row;
+  assign row = y_q + SIDE'(fastsplat_pkg::DENSITIES != 0 && densities_i);
+  assign address = AB'(((SIDE + AB)'(row) >> LOG2) << BXL) | AB'((SIDE + AB)'(x_q) >> LOG2);
   assign last = x_q + SIDE'(P) >= width_i && y_q + SIDE'(1) >= height_i;
   assign picture_re_o = running_q && enable;
   assign picture_addr_o = address;
@@ -69,7 +72,7 @@ module fastsplat_pixel_out (
       valid_r1_q <= running_q;
       last_r1_q <= last;
       x_r1_q <= x_q;
-      row_r1_q <= y_q[LB-1:0];
+      row_r1_q <= row[LB-1:0];
       valid_r2_q <= valid_r1_q;
       last_r2_q <= last_r1_q;
     end

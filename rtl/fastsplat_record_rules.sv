@@ -15,6 +15,8 @@ module fastsplat_record_rules (
     input  logic [31:0]  sheets_i,        // begun in the tile
     input  logic [31:0]  splats_i,        // in the sheet
     input  logic [31:0]  tag_i,           // due next
+    input  logic         densities_i,     // the tile is of densities
+    input  logic [fastsplat_pkg::SHEETS_LOG2:0] scaled_sheets_i,  // that SHEETS speaks of
     output logic [fastsplat_pkg::RULE_END_COUNT:0] broken_o,  // by number of the rule
     output logic [fastsplat_pkg::COL_BITS-1:0] extent_o  // of load_table: the set's, padded to whole windows
 );
@@ -56,7 +58,8 @@ module fastsplat_record_rules (
   logic [RHO2-1:0] pixels;
   assign pixels = (RHO2'({w2[fastsplat_pkg::RHO_BITS-1:0], 1'b0}) + RHO2'(fastsplat_pkg::PHASES - 1)) >> fastsplat_pkg::PHASE_LOG2;
   assign extent_o = COL'((pixels + RHO2'(P - 1)) >> fastsplat_pkg::LANE_LOG2) << fastsplat_pkg::LANE_LOG2;
-  logic table_good, base_good;
+  logic table_good, base_good, densities;
+  assign densities = fastsplat_pkg::DENSITIES != 0;
   assign base_good = w4[31:COL] == '0 && w4[fastsplat_pkg::LANE_LOG2-1:0] == '0 &&
                      (COL + 1)'(w4[COL-1:0]) + (COL + 1)'(extent_o) <= (COL + 1)'(fastsplat_pkg::RLUT_COLUMNS);
   always_comb begin
@@ -64,15 +67,23 @@ module fastsplat_record_rules (
       fastsplat_pkg::TABLE_RLUT:
       table_good = w1 < 32'(fastsplat_pkg::RLUT_SETS) && w2 != '0 && w2 <= 32'(fastsplat_pkg::RHO_MOST) && base_good &&
                    w3 == 32'(extent_o) << fastsplat_pkg::PHASE_LOG2;
-      fastsplat_pkg::TABLE_RADIAL: table_good = w1 == '0 && w2 == '0 && w4 == '0 && w3 == 32'(fastsplat_pkg::RADIAL_ENTRIES);
+      fastsplat_pkg::TABLE_RADIAL: table_good = w1 == '0 && w2 == '0 && w4 == '0 && w3 == 32'(fastsplat_pkg::RADIAL_WORDS);
       fastsplat_pkg::TABLE_FACTOR: table_good = w1 == '0 && w2 == '0 && w4 == '0 && w3 == 32'(fastsplat_pkg::SEGMENTS + 1);
+      fastsplat_pkg::TABLE_CLASSIFY:
+      table_good = densities && w1 == '0 && w2 == '0 && w4 == '0 && w3 == 32'(4 << fastsplat_pkg::CLASSIFY_LOG2) + 32'd4;
+      fastsplat_pkg::TABLE_ROOT: table_good = densities && w1 == '0 && w2 == '0 && w4 == '0 && w3 == 32'd97;
+      fastsplat_pkg::TABLE_GLINT: table_good = densities && w1 == '0 && w2 == '0 && w4 == '0 && w3 == 32'd129;
+      fastsplat_pkg::TABLE_LIGHTING: table_good = densities && w1 == '0 && w2 == '0 && w4 == '0 && w3 == 32'd13;
+      fastsplat_pkg::TABLE_SHEETS:
+      table_good = densities && w1 == '0 && w2 == '0 && w4 == '0 && !w3[0] && w3 != '0 && w3 <= 32'(2 << fastsplat_pkg::SHEETS_LOG2);
       default: table_good = 1'b0;
     endcase
   end
 
   logic tile_good, set_good, position_good, ellipse_position_good, colour_good, sides_good;
-  logic mode_good;  // 4 and 5: of every sample
-  assign mode_good = w0[11:8] <= 4'd2 || (fastsplat_pkg::EVERY_SAMPLE != 0 && w0[11:9] == 3'd2);
+  logic mode_good, rimmed;  // 4 and 5: of every sample; 8 and 9: of densities, two pixels smaller
+  assign rimmed = densities && w0[11:9] == 3'd4;
+  assign mode_good = w0[11:8] <= 4'd2 || (fastsplat_pkg::EVERY_SAMPLE != 0 && w0[11:9] == 3'd2) || rimmed;
   // x + w <= W is x + w + (2^16 - 1 - W) < 2^16: three numbers made two by a carry-save adder, then one long carry instead of two.
   logic [15:0] sum_x, carry_x, sum_y, carry_y, unused_x, unused_y;
   logic [1:0] right, bottom;  // of the image: 0 inside
@@ -83,8 +94,10 @@ module fastsplat_record_rules (
   assign {right, unused_x} = 18'(sum_x) + {1'b0, carry_x, 1'b0};
   assign {bottom, unused_y} = 18'(sum_y) + {1'b0, carry_y, 1'b0};
   logic unused;
-  assign unused = &{1'b0, unused_x, unused_y};
-  assign tile_good = mode_good && w1 < tiles_i && w4[15:0] <= 16'(fastsplat_pkg::TILE_WIDTH) &&
+  assign unused = &{1'b0, unused_x, unused_y, densities_i, scaled_sheets_i};
+  logic rim_fits;
+  assign rim_fits = !rimmed || (w4[15:0] <= 16'(fastsplat_pkg::TILE_WIDTH - 2) && w4[31:16] <= 16'(fastsplat_pkg::TILE_HEIGHT - 2));
+  assign tile_good = mode_good && rim_fits && w1 < tiles_i && w4[15:0] <= 16'(fastsplat_pkg::TILE_WIDTH) &&
                      w4[31:16] <= 16'(fastsplat_pkg::TILE_HEIGHT) && w2[31:16] == '0 && w3[31:16] == '0 &&
                      right == '0 && bottom == '0;
   assign sides_good = w4[15:0] != '0 && w4[31:16] != '0;
@@ -103,6 +116,9 @@ module fastsplat_record_rules (
     assign tag_good = w1 == tag_i;
     assign count_good = w2 == splats_i;
   end
+
+  logic unscaled;  // SHEETS says nothing of it
+  assign unscaled = densities && densities_i && w1 >= 32'(scaled_sheets_i);
 
   // Side by side, not one after another: the long comparisons are late as it is.
   logic begin_frame, load_table, begin_tile, begin_sheet, splat, ellipse, cull_block, end_sheet, end_tile;
@@ -124,7 +140,7 @@ module fastsplat_record_rules (
     broken_o[fastsplat_pkg::RULE_IMAGE] = begin_frame && !sides_good;
     broken_o[fastsplat_pkg::RULE_TABLE] = load_table && !table_good;
     broken_o[fastsplat_pkg::RULE_TILE] = begin_tile && (!tile_good || !sides_good);
-    broken_o[fastsplat_pkg::RULE_SHEET] = begin_sheet && sheets_i != '0 && w1 <= sheet_i;
+    broken_o[fastsplat_pkg::RULE_SHEET] = begin_sheet && ((sheets_i != '0 && w1 <= sheet_i) || unscaled);
     broken_o[fastsplat_pkg::RULE_SET] = splat && !set_good;
     broken_o[fastsplat_pkg::RULE_RANGE] = (splat && !position_good) || (ellipse && !ellipse_position_good) || ((splat || ellipse) && !colour_good);
     broken_o[fastsplat_pkg::RULE_TAG] = (splat || ellipse) && !tag_good;

@@ -1,5 +1,6 @@
 // The splat path: one window a cycle, always moving (docs/microarchitecture.md, "Splat path").
-// c0 window in -> c1 snapped -> c2 RLUT words -> c3 bank order -> c4 q -> c5 weight -> c6 products = A -> B -> C -> W.
+// c0 window in -> c1 snapped -> c2 RLUT words -> c3 bank order -> c4 q -> c5 weight -> c6 products = A -> B -> C -> W. With
+// interpolated weights i1 and i2 lie between c5 and c6.
 `include "assertions.svh"
 `include "fault.svh"
 
@@ -11,12 +12,13 @@ module fastsplat_splat_array (
     input  logic [fastsplat_pkg::PHASE_BITS-1:0]            rlut_wphase_i,
     input  logic [fastsplat_pkg::COL_BITS-1:0]              rlut_wcolumn_i,
     input  logic                                            radial_we_i,
-    input  logic [fastsplat_pkg::RADIAL_LOG2-1:0]           radial_waddr_i,
+    input  logic [fastsplat_pkg::RADIAL_LOG2:0]             radial_waddr_i,
     input  logic [fastsplat_pkg::TABLE_BITS-1:0]            table_word_i,  // RLUT or radial word
     // tile, held
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]             width_i,
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]             height_i,
     input  logic                                            every_sample_i,  // windows are composited, not summed up
+    input  logic                                            densities_i,     // sheets have a rim of a pixel
     // c0
     input  logic                                            valid_i,     // a window
     input  logic                                            last_i,      // an end-of-sheet token; needs no window
@@ -89,6 +91,28 @@ module fastsplat_splat_array (
   localparam int ORG = fastsplat_pkg::ORG_BITS;
   localparam int COL = fastsplat_pkg::COL_BITS;
   localparam int QB = fastsplat_pkg::ELLIPSE_BITS;
+  // Numbers of stages: of the weight, of the products, and of W.
+  localparam int WEIGHT = 5 + fastsplat_pkg::WEIGHT_DELAY;
+  localparam int PRODUCTS = WEIGHT + 1;
+  localparam int WRITTEN = PRODUCTS + 3;
+
+  // Radial table: where weights lie between entries word j closes step j-1.
+  logic radial_we;
+  logic [fastsplat_pkg::RADIAL_LOG2-1:0] radial_waddr;
+  logic [fastsplat_pkg::RADIAL_BITS-1:0] radial_word;
+  if (fastsplat_pkg::INTERPOLATE != 0) begin : gen_steps
+    logic [WB-1:0] before_q;
+    always_ff @(posedge clk_i) if (radial_we_i) before_q <= table_word_i[WB-1:0];
+    assign radial_we = radial_we_i && radial_waddr_i != '0;
+    assign radial_waddr = fastsplat_pkg::RADIAL_LOG2'(radial_waddr_i - (fastsplat_pkg::RADIAL_LOG2 + 1)'(1));
+    assign radial_word = {before_q, `FASTSPLAT_FAULT(POST_LAST) && radial_waddr == '1 ? before_q : table_word_i[WB-1:0]};
+  end else begin : gen_entries
+    assign radial_we = radial_we_i;
+    assign radial_waddr = radial_waddr_i[fastsplat_pkg::RADIAL_LOG2-1:0];
+    assign radial_word = table_word_i[WB-1:0];
+    logic unused_index;
+    assign unused_index = &{1'b0, radial_waddr_i[fastsplat_pkg::RADIAL_LOG2]};
+  end
 
   // c0, later by what an ellipse's words take.
   logic valid, last, first_window, buffer, ellipse;
@@ -111,13 +135,13 @@ module fastsplat_splat_array (
       .data_o({first_window, buffer, ellipse, tag, x, y, rho, base, column, row, colour})
   );
 
-  // What rides along: index = stage (1..9).
-  logic [9:1] valid_q, last_q, buffer_q;
+  // What rides along: index = stage (1..9, more with interpolation).
+  logic [WRITTEN:1] valid_q, last_q, buffer_q;
   logic first_c1_q;
-  logic [31:0] tag_q[1:9];
-  logic [CB4-1:0] colour_q[1:5];
+  logic [31:0] tag_q[1:WRITTEN];
+  logic [CB4-1:0] colour_q[1:WEIGHT];
   logic [COL-1:0] column_c1_q, row_c1_q;
-  logic signed [ORG-1:0] x_q[2:6], y_q[2:6];
+  logic signed [ORG-1:0] x_q[2:PRODUCTS], y_q[2:PRODUCTS];
 
   // c1
   logic signed [ORG-1:0] x_c1, y_c1, circle_x, circle_y;
@@ -158,6 +182,7 @@ module fastsplat_splat_array (
         .clk_i,
         .first_i(first_window_i),
         .new_row_i(column_i == '0),
+        .densities_i,
         .x_i,
         .y_i,
         .shape_i,
@@ -207,15 +232,31 @@ module fastsplat_splat_array (
       .words_o(rlut_y)
   );
 
-  // c3
+  // c3. A rim moves windows a pixel to the right and down, and what counts as inside is two pixels longer.
+  localparam int SIDE = fastsplat_pkg::SIDE_BITS;
+  logic [SIDE-1:0] held_width, held_height;
+  logic signed [ORG-1:0] held_x, held_y;
+  if (fastsplat_pkg::DENSITIES != 0) begin : gen_rim
+    assign held_width = width_i + (densities_i ? SIDE'(2) : '0);
+    assign held_height = height_i + (densities_i ? SIDE'(2) : '0);
+    assign held_x = x_q[2] + $signed(ORG'({1'b0, densities_i}));
+    assign held_y = y_q[2] + $signed(ORG'({1'b0, densities_i}));
+  end else begin : gen_no_rim
+    assign held_width = width_i;
+    assign held_height = height_i;
+    assign held_x = x_q[2];
+    assign held_y = y_q[2];
+    logic unused_rim;
+    assign unused_rim = &{1'b0, densities_i};
+  end
   logic [P*RB-1:0] columns_c3, rows_c3;
   logic [P*BLK-1:0] block_x_c3, block_y_c3;
   logic [P-1:0] inside_x_c3, inside_y_c3;
   fastsplat_axis u_axis_x (
       .clk_i,
       .valid_i(valid_q[2]),
-      .origin_i(x_q[2]),
-      .side_i(width_i),
+      .origin_i(held_x),
+      .side_i(held_width),
       .words_i(rlut_x),
       .words_o(columns_c3),
       .block_o(block_x_c3),
@@ -224,8 +265,8 @@ module fastsplat_splat_array (
   fastsplat_axis u_axis_y (
       .clk_i,
       .valid_i(valid_q[2]),
-      .origin_i(y_q[2]),
-      .side_i(height_i),
+      .origin_i(held_y),
+      .side_i(held_height),
       .words_i(rlut_y),
       .words_o(rows_c3),
       .block_o(block_y_c3),
@@ -242,22 +283,22 @@ module fastsplat_splat_array (
   assign dirty_inside_y_o = inside_y_c3;
 
   // A bank's block is its column's and its row's: they ride along by axis.
-  logic [P*BLK-1:0] block_x_q[4:6], block_y_q[4:6];
-  logic [P-1:0] inside_x_q[4:6], inside_y_q[4:6];
+  logic [P*BLK-1:0] block_x_q[4:PRODUCTS], block_y_q[4:PRODUCTS];
+  logic [P-1:0] inside_x_q[4:PRODUCTS], inside_y_q[4:PRODUCTS];
   always_ff @(posedge clk_i) begin
     block_x_q[4] <= block_x_c3;
     block_y_q[4] <= block_y_c3;
     inside_x_q[4] <= inside_x_c3;
     inside_y_q[4] <= inside_y_c3;
-    for (int s = 5; s <= 6; s++) begin
+    for (int s = 5; s <= PRODUCTS; s++) begin
       block_x_q[s] <= block_x_q[s-1];
       block_y_q[s] <= block_y_q[s-1];
       inside_x_q[s] <= inside_x_q[s-1];
       inside_y_q[s] <= inside_y_q[s-1];
     end
   end
-  assign tap_inside_x_o = inside_x_q[6];
-  assign tap_inside_y_o = inside_y_q[6];
+  assign tap_inside_x_o = inside_x_q[PRODUCTS];
+  assign tap_inside_y_o = inside_y_q[PRODUCTS];
 
   logic [WB-1:0] weights[0:P*P-1];
   logic [4*SB-1:0] sums[0:P*P-1];
@@ -267,21 +308,21 @@ module fastsplat_splat_array (
       logic [4*SB-1:0] products;
       logic [3:0] saturated;
       // Lanes outside the tile work, too, but count nothing.
-      assign tap_weighted_o[B] = inside_x_q[6][g] && inside_y_q[6][h] && weights[B] != '0;
+      assign tap_weighted_o[B] = inside_x_q[PRODUCTS][g] && inside_y_q[PRODUCTS][h] && weights[B] != '0;
       assign tap_product_saturated_o[4*B+:4] = tap_weighted_o[B] ? saturated : '0;
       fastsplat_lane u_lane (
           .clk_i,
-          .we_i(radial_we_i),
-          .waddr_i(radial_waddr_i),
-          .wdata_i(table_word_i[WB-1:0]),
-          .valid_i(valid_q[5:3]),
+          .we_i(radial_we),
+          .waddr_i(radial_waddr),
+          .wdata_i(radial_word),
+          .valid_i(valid_q[WEIGHT:3]),
           .column_i(columns_c3[g*RB+:RB]),
           .row_i(rows_c3[h*RB+:RB]),
           .ellipse_i(ellipse_c3),
           .ellipse_column_i(ellipse_columns[((second_y[h]?P:0)+g)*QB+:QB]),
           .ellipse_row_i(ellipse_rows[((second_x[g]?P:0)+h)*QB+:QB]),
           .ellipse_cross_i(ellipse_cross[B*QB+:QB]),
-          .colour_i(colour_q[5]),
+          .colour_i(colour_q[WEIGHT]),
           .weight_o(weights[B]),
           .products_o(products),
           .saturated_o(saturated)
@@ -291,9 +332,9 @@ module fastsplat_splat_array (
           .rst_ni,
           .wipe_i,
           .wipe_addr_i,
-          .valid_i(valid_q[6] && (summing || `FASTSPLAT_FAULT(SAMPLE_SUMMED)) && inside_x_q[6][g] && inside_y_q[6][h]),
-          .buffer_i(buffer_q[6]),
-          .addr_i(AB'(block_y_q[6][h*BLK+:BLK]) * AB'(fastsplat_pkg::BLOCKS_X) + AB'(block_x_q[6][g*BLK+:BLK])),
+          .valid_i(valid_q[PRODUCTS] && (summing || `FASTSPLAT_FAULT(SAMPLE_SUMMED)) && inside_x_q[PRODUCTS][g] && inside_y_q[PRODUCTS][h]),
+          .buffer_i(buffer_q[PRODUCTS]),
+          .addr_i(AB'(block_y_q[PRODUCTS][h*BLK+:BLK]) * AB'(fastsplat_pkg::BLOCKS_X) + AB'(block_x_q[PRODUCTS][g*BLK+:BLK])),
           .products_i(products),
           .sum_o(sums[B]),
           .saturated_o(tap_sheet_saturated_o[4*B+:4]),
@@ -305,14 +346,14 @@ module fastsplat_splat_array (
       assign sample_products_o[B*4*SB+:4*SB] = (fastsplat_pkg::EVERY_SAMPLE != 0) ? products : '0;
     end
   end
-  assign sample_valid_o = valid_q[5] && !summing;
-  assign sample_column_o = block_x_q[6];
-  assign sample_row_o = block_y_q[6];
+  assign sample_valid_o = valid_q[WEIGHT] && !summing;
+  assign sample_column_o = block_x_q[PRODUCTS];
+  assign sample_row_o = block_y_q[PRODUCTS];
 
   always_ff @(posedge clk_i) begin
-    valid_q <= {valid_q[8:1], valid};
-    last_q <= {last_q[8:1], last};
-    buffer_q <= {buffer_q[8:1], buffer};
+    valid_q <= {valid_q[WRITTEN-1:1], valid};
+    last_q <= {last_q[WRITTEN-1:1], last};
+    buffer_q <= {buffer_q[WRITTEN-1:1], buffer};
     if (!rst_ni) begin
       valid_q <= '0;
       last_q <= '0;
@@ -324,9 +365,9 @@ module fastsplat_splat_array (
     row_c1_q <= base + row[COL-1:0];
     x_q[2] <= x_c1;
     y_q[2] <= y_c1;
-    for (int s = 2; s <= 9; s++) tag_q[s] <= tag_q[s-1];
-    for (int s = 2; s <= 5; s++) colour_q[s] <= colour_q[s-1];
-    for (int s = 3; s <= 6; s++) begin
+    for (int s = 2; s <= WRITTEN; s++) tag_q[s] <= tag_q[s-1];
+    for (int s = 2; s <= WEIGHT; s++) colour_q[s] <= colour_q[s-1];
+    for (int s = 3; s <= PRODUCTS; s++) begin
       x_q[s] <= x_q[s-1];
       y_q[s] <= y_q[s-1];
     end
@@ -334,8 +375,8 @@ module fastsplat_splat_array (
 
   assign marked_o = `FASTSPLAT_FAULT(EARLY_SWAP) ? last_q[3] : last_q[4];
   assign marked_buffer_o = `FASTSPLAT_FAULT(EARLY_SWAP) ? buffer_q[3] : buffer_q[4];
-  assign done_o = `FASTSPLAT_FAULT(EARLY_SWAP) ? last_q[3] : last_q[9];
-  assign done_buffer_o = `FASTSPLAT_FAULT(EARLY_SWAP) ? buffer_q[3] : buffer_q[9];
+  assign done_o = `FASTSPLAT_FAULT(EARLY_SWAP) ? last_q[3] : last_q[WRITTEN];
+  assign done_buffer_o = `FASTSPLAT_FAULT(EARLY_SWAP) ? buffer_q[3] : buffer_q[WRITTEN];
 
   assign tap_snap_valid_o = valid_q[1] && first_c1_q;
   assign tap_snap_tag_o = tag_q[1];
@@ -355,25 +396,25 @@ module fastsplat_splat_array (
   assign tap_snap_mx_o = way_x_c1;
   assign tap_snap_my_o = way_y_c1;
   assign tap_snap_saturated_o = ellipse_c1 ? '0 : {saturated_y, saturated_x};
-  assign tap_window_valid_o = valid_q[6];
-  assign tap_window_tag_o = tag_q[6];
-  assign tap_window_x_o = x_q[6];
-  assign tap_window_y_o = y_q[6];
-  assign tap_sheet_valid_o = valid_q[9] && summing;
-  assign tap_sheet_tag_o = tag_q[9];
+  assign tap_window_valid_o = valid_q[PRODUCTS];
+  assign tap_window_tag_o = tag_q[PRODUCTS];
+  assign tap_window_x_o = x_q[PRODUCTS];
+  assign tap_window_y_o = y_q[PRODUCTS];
+  assign tap_sheet_valid_o = valid_q[WRITTEN] && summing;
+  assign tap_sheet_tag_o = tag_q[WRITTEN];
   always_comb begin
     // verilator lint_off WIDTHCONCAT
     tap_weights_o = '0;
     tap_sums_o = '0;
     // verilator lint_on WIDTHCONCAT
     for (int b = 0; b < P * P; b++) begin
-      if (valid_q[6]) tap_weights_o[b*WB+:WB] = weights[b];
+      if (valid_q[PRODUCTS]) tap_weights_o[b*WB+:WB] = weights[b];
       if (tap_sheet_valid_o) tap_sums_o[b*4*SB+:4*SB] = sums[b];
     end
   end
   // The compositor reads and clears a memory that no window is on its way to: A to W.
-  for (genvar s = 6; s <= 9; s++) begin : gen_owner
+  for (genvar s = PRODUCTS; s <= WRITTEN; s++) begin : gen_owner
     `FASTSPLAT_ASSERT(sheet_has_one_owner, !(comp_re_i && valid_q[s] && summing && buffer_q[s] == comp_buffer_i))
   end
-  `FASTSPLAT_ASSERT(nothing_moves_while_wiping, !wipe_i || (!valid_q[6] && !comp_re_i))
+  `FASTSPLAT_ASSERT(nothing_moves_while_wiping, !wipe_i || (!valid_q[PRODUCTS] && !comp_re_i))
 endmodule

@@ -55,11 +55,13 @@ module fastsplat_stream_check (
   assign next_opcode = next_q[7:0];
   assign n1 = next_q[63:32];
   logic [31:0] tile_q, sheets_q, sheet_q, splats_q, tag_q;
+  logic densities_q;
   logic [FB-1:0] word_before_q;
   // of begin_frame and load_table, which are never the beat before one that asks for them
   logic [15:0] image_width_q, image_height_q;
   logic [31:0] tiles_q;
   logic [fastsplat_pkg::RLUT_SETS-1:0] sets_loaded_q;
+  logic [fastsplat_pkg::SHEETS_LOG2:0] scaled_sheets_q;
 
   logic [RULES:0] next_broken, found_broken, counted_broken_q;
   assign next_broken = next_new_q ? found_broken : (found_broken & ~COUNTED) | counted_broken_q;
@@ -75,10 +77,13 @@ module fastsplat_stream_check (
       .sheets_i(sheets_q),
       .splats_i(splats_q),
       .tag_i(tag_q),
+      .densities_i(densities_q),
+      .scaled_sheets_i(scaled_sheets_q),
       .broken_o(found_broken),
       .extent_o(next_extent)
   );
   logic [fastsplat_pkg::BEAT_WORDS-1:0] next_zero, next_rlut, next_radial, next_factor, next_falls;
+  logic [fastsplat_pkg::BEAT_WORDS-1:0] next_classify, next_root, next_glint, next_vectors, next_tilts, next_sheets;
   fastsplat_word_rules u_words (
       .beat_i(next_q),
       .before_i(word_before_q),
@@ -86,7 +91,13 @@ module fastsplat_stream_check (
       .rlut_o(next_rlut),
       .radial_o(next_radial),
       .factor_o(next_factor),
-      .falls_o(next_falls)
+      .falls_o(next_falls),
+      .classify_o(next_classify),
+      .root_o(next_root),
+      .glint_o(next_glint),
+      .vectors_o(next_vectors),
+      .tilts_o(next_tilts),
+      .sheets_o(next_sheets)
   );
   place_e next_place;  // the one in which the record may come
   always_comb begin
@@ -111,6 +122,7 @@ module fastsplat_stream_check (
       case (next_opcode)
         fastsplat_pkg::OP_BEGIN_TILE: begin
           tile_q <= n1;
+          densities_q <= next_q[11];
           sheets_q <= '0;
           tag_q <= '0;
         end
@@ -165,14 +177,55 @@ module fastsplat_stream_check (
   logic first_words_q;   // the beat before it is no word
   assign words_left_next = (place_q == PlWords) ? words_left_q - WB'(fastsplat_pkg::BEAT_WORDS) : beat_q[96+:WB];
 
+  logic leaves;
+  // Tables of densities: which are loaded, and which words are fit for the one that is.
+  logic [fastsplat_pkg::BEAT_WORDS-1:0] density_good;
+  logic densities_loaded;
+  if (fastsplat_pkg::DENSITIES != 0) begin : gen_densities
+    logic [fastsplat_pkg::BEAT_WORDS-1:0] classify_q, root_q, glint_q, vectors_q, tilts_q, sheets_good_q;
+    logic [4:0] loaded_q;
+    always_ff @(posedge clk_i) begin
+      if (next_moves) begin
+        classify_q <= next_classify;
+        root_q <= next_root;
+        glint_q <= next_glint;
+        vectors_q <= next_vectors;
+        tilts_q <= next_tilts;
+        sheets_good_q <= next_sheets;
+      end
+      if (leaves && place_q == PlWords && last_words_q && table_q > fastsplat_pkg::TABLE_FACTOR)
+        loaded_q[3'(table_q - fastsplat_pkg::TABLE_CLASSIFY)] <= 1'b1;
+      if (leaves && place_q != PlWords && opcode == fastsplat_pkg::OP_BEGIN_FRAME) loaded_q <= '0;
+      if (leaves && place_q != PlWords && opcode == fastsplat_pkg::OP_LOAD_TABLE && beat_q[15:8] == fastsplat_pkg::TABLE_SHEETS)
+        scaled_sheets_q <= beat_q[97+:fastsplat_pkg::SHEETS_LOG2+1];
+    end
+    always_comb begin
+      case (table_q)
+        fastsplat_pkg::TABLE_CLASSIFY: density_good = classify_q;
+        fastsplat_pkg::TABLE_ROOT: density_good = root_q;
+        fastsplat_pkg::TABLE_GLINT: density_good = glint_q;
+        fastsplat_pkg::TABLE_LIGHTING: density_good = first_words_q ? vectors_q : tilts_q;
+        default: density_good = sheets_good_q;
+      endcase
+    end
+    assign densities_loaded = beat_q[11:9] != 3'd4 || loaded_q == '1;
+  end else begin : gen_colours
+    assign density_good = '0;
+    assign densities_loaded = 1'b1;
+    assign scaled_sheets_q = '0;
+    logic unused_words;
+    assign unused_words = &{1'b0, next_classify, next_root, next_glint, next_vectors, next_tilts, next_sheets};
+  end
+
   logic in_order, loaded, is_tile;
   assign is_tile = opcode == fastsplat_pkg::OP_BEGIN_TILE;
   assign in_order = place_q == record_place_q && !(tile_seen_q && opcode == fastsplat_pkg::OP_LOAD_TABLE);
-  assign loaded = radial_loaded_q && factor_loaded_q;
+  assign loaded = radial_loaded_q && factor_loaded_q && densities_loaded;
   logic [fastsplat_pkg::BEAT_WORDS-1:0] word_good;
   for (genvar i = 0; i < fastsplat_pkg::BEAT_WORDS; i++) begin : gen_word
     logic of_table;
     assign of_table = (table_q == fastsplat_pkg::TABLE_RLUT) ? rlut_q[i] : (table_q == fastsplat_pkg::TABLE_RADIAL) ? radial_q[i]
+                      : (fastsplat_pkg::DENSITIES != 0 && table_q != fastsplat_pkg::TABLE_FACTOR) ? density_good[i]
                       : factor_q[i] && (falls_q[i] || (i == 0 && first_words_q));
     assign word_good[i] = there_q[i] ? of_table : zero_q[i];
   end
@@ -197,7 +250,7 @@ module fastsplat_stream_check (
   // ---- passing on, or ending what is open
   // No enable of a register waits for the verdict: where decode is ready a beat leaves, and the one behind it follows, be it broken or
   // not. A refusal empties both, and what else was written in that cycle counts for nothing: the next begin_frame begins anew.
-  logic reset_q, stopped, judged, refused, leaves, ends;
+  logic reset_q, stopped, judged, refused, ends;
   assign stopped = error_o || (reset_q && !next_valid_q && !beat_valid_q);  // beats that are here are judged still
   assign judged = beat_valid_q && !error_o;
   assign refused = judged && broken;

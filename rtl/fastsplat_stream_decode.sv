@@ -32,6 +32,8 @@ module fastsplat_stream_decode (
     output logic [fastsplat_pkg::COL_BITS-1:0]         rlut_wcolumn_o,
     output logic                                       radial_we_o,
     output logic                                       factor_we_o,
+    output logic                                       density_we_o,
+    output logic [7:0]                                 table_o,
     output logic [31:0]                                table_index_o,
     output logic [31:0]                                table_word_o,
     // tile
@@ -43,6 +45,10 @@ module fastsplat_stream_decode (
     input  logic                                       tile_idle_i,   // compositor and pixel out have nothing to do
     output logic [1:0]                                 mode_o,
     output logic                                       every_sample_o,  // mode bit 2
+    output logic                                       densities_o,     // mode bit 3
+    output logic                                       tile_flush_o,    // end_tile is here, and all sheets have left their buffers
+    output logic [63:0]                                place_o,         // of densities, as what follows: {image height, width, tile y, x}
+    output logic [31:0]                                sheet_number_o,  // of the sheet in the buffer that is given back
     output logic [31:0]                                tile_number_o,
     output logic [fastsplat_pkg::SIDE_BITS-1:0]        width_o,
     output logic [fastsplat_pkg::SIDE_BITS-1:0]        height_o,
@@ -112,6 +118,8 @@ module fastsplat_stream_decode (
   assign rlut_we_o = table_write && table_q == fastsplat_pkg::TABLE_RLUT;
   assign radial_we_o = table_write && table_q == fastsplat_pkg::TABLE_RADIAL && !(`FASTSPLAT_FAULT(STALE_TABLE) && index_q[3:0] == 4'd5);
   assign factor_we_o = table_write && table_q == fastsplat_pkg::TABLE_FACTOR;
+  assign density_we_o = fastsplat_pkg::DENSITIES != 0 && table_write && table_q > fastsplat_pkg::TABLE_FACTOR;
+  assign table_o = table_q;
   assign rlut_wphase_o = table_phase_q;
   assign rlut_wcolumn_o = table_base_q + table_column_q;
   assign table_index_o = index_q;
@@ -164,6 +172,8 @@ module fastsplat_stream_decode (
     if (wait_hazard) take = 1'b0;
   end
 
+  logic accepted;  // the record in the register is carried out in this cycle
+  logic tile_begin;
   // Every sample: a window over that of the cycle before would read a state that is not there yet (docs/microarchitecture.md,
   // "Hazard"). Windows of one record never meet, so only a record's first one waits, a cycle.
   if (fastsplat_pkg::EVERY_SAMPLE != 0) begin : gen_samples
@@ -194,8 +204,24 @@ module fastsplat_stream_decode (
   end
   assign stall_hazard_o = wait_hazard;
 
-  logic accepted;  // the record in the register is carried out in this cycle
-  logic tile_begin;
+  // Densities: what their classification has to know.
+  if (fastsplat_pkg::DENSITIES != 0) begin : gen_densities
+    logic [31:0] number_q[0:1];  // by buffer
+    always_ff @(posedge clk_i) begin
+      if (accepted && opcode == fastsplat_pkg::OP_BEGIN_FRAME) place_o[63:32] <= w4;
+      if (accepted && opcode == fastsplat_pkg::OP_BEGIN_SHEET) number_q[buffer_q] <= w1;
+      if (tile_begin) begin
+        densities_o <= w0[11];
+        place_o[31:0] <= {w3[15:0], w2[15:0]};
+      end
+      if (!rst_ni) densities_o <= 1'b0;
+    end
+    assign tile_flush_o = beat_valid_q && waits_for_rest_q && opcode == fastsplat_pkg::OP_END_TILE && busy_q == '0;
+    assign sheet_number_o = number_q[free_buffer_i];
+  end else begin : gen_colours
+    assign {densities_o, tile_flush_o, place_o, sheet_number_o} = '0;
+  end
+
   assign accepted = take && !payload_q;
   assign tile_begin = accepted && opcode == fastsplat_pkg::OP_BEGIN_TILE;
   assign tile_end_o = accepted && opcode == fastsplat_pkg::OP_END_TILE;
@@ -390,7 +416,7 @@ module fastsplat_stream_decode (
   `FASTSPLAT_ASSERT_NEXT(accepted_beat_arrives, valid_i && ready_o, beat_valid_q)
   `FASTSPLAT_ASSERT_HELD(waiting_beat_stays, beat_valid_q && !take, beat_valid_q, beat_q)
   `FASTSPLAT_ASSERT(one_thing_at_a_time,
-                    $onehot0({tile_begin, tile_end_o, event_splat_o, event_cull_o, rlut_we_o, radial_we_o, factor_we_o}))
+                    $onehot0({tile_begin, tile_end_o, event_splat_o, event_cull_o, rlut_we_o, radial_we_o, factor_we_o, density_we_o}))
   `FASTSPLAT_ASSERT(window_in_open_sheet, !window_valid_o || busy_q[window_buffer_o])
   `FASTSPLAT_ASSERT(only_busy_buffers_come_back, !free_i || busy_q[free_buffer_i])
   `FASTSPLAT_ASSERT(kind_foretold, !beat_valid_q || {splat_q, begins_sheet_q, waits_for_rest_q} ==

@@ -8,7 +8,14 @@ module fastsplat_word_rules (
     output logic [fastsplat_pkg::BEAT_WORDS-1:0] rlut_o,     // a word of RLUT, RADIAL, FACTOR
     output logic [fastsplat_pkg::BEAT_WORDS-1:0] radial_o,
     output logic [fastsplat_pkg::BEAT_WORDS-1:0] factor_o,
-    output logic [fastsplat_pkg::BEAT_WORDS-1:0] falls_o     // no larger than the word before
+    output logic [fastsplat_pkg::BEAT_WORDS-1:0] falls_o,    // no larger than the word before
+    // a word of CLASSIFY, ROOT, GLINT, of LIGHTING in its first beat and in its second, of SHEETS
+    output logic [fastsplat_pkg::BEAT_WORDS-1:0] classify_o,
+    output logic [fastsplat_pkg::BEAT_WORDS-1:0] root_o,
+    output logic [fastsplat_pkg::BEAT_WORDS-1:0] glint_o,
+    output logic [fastsplat_pkg::BEAT_WORDS-1:0] vectors_o,
+    output logic [fastsplat_pkg::BEAT_WORDS-1:0] tilts_o,
+    output logic [fastsplat_pkg::BEAT_WORDS-1:0] sheets_o
 );
   localparam int FB = fastsplat_pkg::FACTOR_BITS;
   // word <= most: a constant, 2^n or 2^n - 1, which cost no comparison.
@@ -31,5 +38,17 @@ module fastsplat_word_rules (
     assign radial_o[i] = at_most(word, fastsplat_pkg::RADIAL_WORD_MOST);
     assign factor_o[i] = at_most(word, fastsplat_pkg::FACTOR_WORD_MOST);
     assign falls_o[i] = word[FB-1:0] <= previous;
+    if (fastsplat_pkg::DENSITIES != 0) begin : gen_densities
+      logic vector;  // -2^14..2^14
+      assign vector = word[31:14] == '0 || word[31:14] == '1 || word == 32'h4000;
+      assign classify_o[i] = at_most(word, (i % 4 == 3) ? fastsplat_pkg::DENSITY_WORD_MOST : 32'h4000);
+      assign root_o[i] = at_most(word, 32'h4000);
+      assign glint_o[i] = at_most(word, 32'h1000);
+      assign vectors_o[i] = (i < 6) ? vector : word[31:16] == '0;
+      assign tilts_o[i] = i > 0 || word[31:16] == '0;
+      assign sheets_o[i] = i % 2 == 1 || (at_most(32'(word[15:0]), 32'h1000) && at_most(32'(word[31:16]), 32'h1000));
+    end else begin : gen_colours
+      assign {classify_o[i], root_o[i], glint_o[i], vectors_o[i], tilts_o[i], sheets_o[i]} = '0;
+    end
   end
 endmodule

@@ -31,4 +31,18 @@
     overflow = rounded > NAME``_LARGEST; \
     NAME = {overflow, (overflow && !`FASTSPLAT_FAULT(NO_SATURATION)) ? NAME``_LARGEST[(OUT_BITS)-1:0] : rounded[(OUT_BITS)-1:0]}; \
   endfunction
+
+//   FASTSPLAT_NARROW_SIGNED(NAME, IN_BITS, OUT_BITS, SHIFT)
+//                               the same of two's complement, SHIFT bits less: nearest, halves up, saturating; returns the word
+`define FASTSPLAT_NARROW_SIGNED(NAME, IN_BITS, OUT_BITS, SHIFT) \
+  localparam int NAME``_WIDE = (((IN_BITS) > (OUT_BITS)) ? (IN_BITS) : (OUT_BITS)) + 2; \
+  localparam logic signed [NAME``_WIDE-1:0] NAME``_BIAS = (NAME``_WIDE'(1) << (SHIFT)) >> 1; \
+  localparam logic signed [NAME``_WIDE-1:0] NAME``_LARGEST = (NAME``_WIDE'(1) << ((OUT_BITS) - 1)) - NAME``_WIDE'(1); \
+  function automatic logic signed [(OUT_BITS)-1:0] NAME(input logic signed [(IN_BITS)-1:0] value); \
+    logic signed [NAME``_WIDE-1:0] rounded; \
+    rounded = (NAME``_WIDE'(value) + NAME``_BIAS) >>> (SHIFT); \
+    if (rounded > NAME``_LARGEST) rounded = NAME``_LARGEST; \
+    if (rounded < ~NAME``_LARGEST) rounded = ~NAME``_LARGEST; \
+    NAME = rounded[(OUT_BITS)-1:0]; \
+  endfunction
 `endif

@@ -13,6 +13,9 @@ namespace {
 constexpr cmodel::BeginTile kNone{.mode = {}, .tile = kNoTile, .x = 0, .y = 0, .width = 0, .height = 0};
 constexpr std::size_t kWords = 4;  ///< of a pixel
 
+/// Pixels beside the tile that its sheets and picture begin with: bank 0 holds column and row -1 of densities.
+int rim_of(const cmodel::BeginTile& tile) { return cmodel::holds_densities(tile.mode) ? 1 : 0; }
+
 }  // namespace
 
 TapAssembly::TapAssembly(const cmodel::Config& config, cmodel::PixelSink& pixels, cmodel::TapSink& taps)
@@ -100,26 +103,26 @@ void TapAssembly::window(const RawTap& tap) {
   const Place at{.x = origin(tap.x), .y = origin(tap.y)};
   windows_.push_back({at, tap.tag});
   weight_fields_.unpack(tap.words.data(), banks_, banked_.data());
-  const int mask = lanes_ - 1;
+  const int mask = lanes_ - 1, rim = rim_of(tile());
   std::uint32_t* out = payload_.data();
   for (int j = 0; j < lanes_; ++j) {
-    const std::uint32_t* row = &banked_[static_cast<std::size_t>((at.y + j) & mask) * lanes_];
-    for (int i = 0; i < lanes_; ++i) *out++ = row[(at.x + i) & mask];
+    const std::uint32_t* row = &banked_[static_cast<std::size_t>((at.y + rim + j) & mask) * lanes_];
+    for (int i = 0; i < lanes_; ++i) *out++ = row[(at.x + rim + i) & mask];
   }
   emit(cmodel::Tap::Footprint, tap.cycle, sheet_of(tap.tag), tap.tag, at, {payload_.data(), banks_});
 }
 
 void TapAssembly::arrange(Place at, const cmodel::BeginTile& begin) {
-  const int mask = lanes_ - 1;
+  const int mask = lanes_ - 1, rim = rim_of(begin);
   // A window that crosses the tile's edge keeps 0 where nothing is copied.
   const int left = std::clamp(-at.x, 0, lanes_), right = std::clamp(begin.width - at.x, 0, lanes_);
   const int top = std::clamp(-at.y, 0, lanes_), bottom = std::clamp(begin.height - at.y, 0, lanes_);
   if (right - left < lanes_ || bottom - top < lanes_) std::ranges::fill(payload_, 0);
   for (int j = top; j < bottom; ++j) {
-    const std::uint32_t* row = &banked_[kWords * static_cast<std::size_t>((at.y + j) & mask) * lanes_];
+    const std::uint32_t* row = &banked_[kWords * static_cast<std::size_t>((at.y + rim + j) & mask) * lanes_];
     std::uint32_t* out = &payload_[kWords * static_cast<std::size_t>(j) * lanes_];
     for (int i = left; i < right; ++i)
-      std::copy_n(row + kWords * ((at.x + i) & mask), kWords, out + kWords * static_cast<std::size_t>(i));
+      std::copy_n(row + kWords * ((at.x + rim + i) & mask), kWords, out + kWords * static_cast<std::size_t>(i));
   }
 }
 
@@ -146,8 +149,9 @@ void TapAssembly::composite(const RawTap& tap) {
     return;
   }
   pass_sheets(tap.cycle);
-  const Place at{.x = static_cast<std::int32_t>(tap.block % columns_) * lanes_,
-                 .y = static_cast<std::int32_t>(tap.block / columns_) * lanes_};
+  const int rim = rim_of(tile());
+  const Place at{.x = static_cast<std::int32_t>(tap.block % columns_) * lanes_ - rim,
+                 .y = static_cast<std::int32_t>(tap.block / columns_) * lanes_ - rim};
   state_fields_.unpack(tap.words.data(), kWords * banks_, banked_.data());
   arrange(at, tile());
   emit(cmodel::Tap::Composite, tap.cycle, composited_sheet(), 0, at, payload_);

@@ -6,6 +6,9 @@
 #include "Vfs_rtl_faulty_cull___024root.h"
 #include "Vfs_rtl_faulty_cull_fastsplat_fault_pkg.h"
 #include "Vfs_rtl_faulty_fastsplat_fault_pkg.h"
+#include "Vfs_rtl_faulty_post.h"
+#include "Vfs_rtl_faulty_post___024root.h"
+#include "Vfs_rtl_faulty_post_fastsplat_fault_pkg.h"
 #include "Vfs_rtl_faulty_samples.h"
 #include "Vfs_rtl_faulty_samples___024root.h"
 #include "Vfs_rtl_faulty_samples_fastsplat_fault_pkg.h"
@@ -43,6 +46,8 @@ std::unique_ptr<RtlDevice> make_breakable_device(const cmodel::Config& config, c
   if (config.composite_every_sample != 0)
     return std::make_unique<VerilatedDevice<FaultyTop<Vfs_rtl_faulty_samples>>>(config, pixels, options);
   if (config.culls()) return std::make_unique<VerilatedDevice<FaultyTop<Vfs_rtl_faulty_cull>>>(config, pixels, options);
+  if (config.interpolates())
+    return std::make_unique<VerilatedDevice<FaultyTop<Vfs_rtl_faulty_post>>>(config, pixels, options);
   return std::make_unique<VerilatedDevice<FaultyTop<Vfs_rtl_faulty>>>(config, pixels, options);
 }
 

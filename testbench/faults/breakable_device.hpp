@@ -16,10 +16,11 @@ enum class RtlFault : std::uint32_t {
 enum class Assertions { Off, On };
 
 /// Configurations of configs/faults whose RTL can be broken: of every fault but the next ones, of SAMPLE_..., of
-/// CULL_...
+/// CULL_..., of POST_...
 constexpr const char* kBreakableConfig = "mustfail";
 constexpr const char* kBreakableSamples = "westover";
 constexpr const char* kBreakableCull = "cull";
+constexpr const char* kBreakablePost = "post";
 
 /// `config` has the numbers of one of them, else UserError (Simulation). With assertions on,
 /// one that fires ends the run. Devices on several threads may have different faults.

@@ -33,6 +33,7 @@ const char* breakable_config(const PlantedFault& fault) {
   const std::string_view name = fault.name;
   return name.starts_with("SAMPLE_") ? kBreakableSamples
          : name.starts_with("CULL_") ? kBreakableCull
+         : name.starts_with("POST_") ? kBreakablePost
                                      : kBreakableConfig;
 }
 

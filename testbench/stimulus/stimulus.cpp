@@ -142,6 +142,11 @@ class Generator {
       document.tables.push_back(random_rlut(config_, random_, style(), first_set_ + i, least, most));
     document.tables.push_back(random_radial(config_, random_, style()));
     document.tables.push_back(random_factor(config_, random_, style()));
+    if (config_.classifies()) {
+      for (const auto table : {cmodel::Table::Classify, cmodel::Table::Root, cmodel::Table::Glint,
+                               cmodel::Table::Lighting, cmodel::Table::Sheets})
+        document.tables.push_back(random_density_table(config_, random_, table));
+    }
     if (random_.chance(30)) {
       // What was loaded last counts.
       const std::uint32_t again = first_set_ + static_cast<std::uint32_t>(random_.between(0, sets_ - 1));
@@ -172,7 +177,21 @@ class Generator {
           tile.mode == cmodel::Mode::Exponential ? cmodel::Mode::SampleExponential : cmodel::Mode::SampleAdditive;
     tile.x = static_cast<std::int32_t>(random_.between(0, 3 * config_.tile_width));
     tile.y = static_cast<std::int32_t>(random_.between(0, 3 * config_.tile_height));
+    if (config_.classifies() && tile.mode != cmodel::Mode::Sum && random_.chance(70)) densities(tile);
     return tile;
+  }
+
+  /// A tile of densities: smaller by the rim, at the picture's edges more often than not, for there is no neighbour.
+  void densities(cmodel::BeginTile& tile) {
+    tile.mode =
+        tile.mode == cmodel::Mode::Exponential ? cmodel::Mode::DensityExponential : cmodel::Mode::DensityAdditive;
+    tile.width = std::min(tile.width, config_.tile_width - 2);
+    tile.height = std::min(tile.height, config_.tile_height - 2);
+    const std::int64_t edge = random_.between(0, 8);
+    if (edge % 3 == 1) tile.x = 0;
+    if (edge % 3 == 2) tile.x = 4 * config_.tile_width - tile.width;
+    if (edge / 3 == 1) tile.y = 0;
+    if (edge / 3 == 2) tile.y = 4 * config_.tile_height - tile.height;
   }
 
   TileDocument make_tile() {
@@ -190,6 +209,12 @@ class Generator {
       const std::uint64_t count = std::min(in_tile, sheet_size(sheet++));
       tile.sheets.push_back(make_sheet(number, count));
       in_tile -= count;
+      if (cmodel::holds_densities(tile_.mode)) {
+        number += static_cast<std::uint32_t>(random_.chance(90) ? 1 : random_.between(1, 3));
+        if (number < kScaledSheets) continue;
+        left_ += in_tile;  // no more sheets have scales
+        break;
+      }
       number += static_cast<std::uint32_t>(random_.chance(90) ? 1 : random_.between(1, 1000));
     }
     return tile;

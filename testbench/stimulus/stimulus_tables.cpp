@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "cmodel/classify_tables.hpp"
+
 namespace fastsplat::testbench {
 namespace {
 
@@ -103,6 +105,28 @@ cmodel::LoadTable random_factor(const cmodel::Config& config, Random& random, Ta
     table.words.push_back(word(styled(random, style, style == TableStyle::Any && random.chance(50) ? most / 2 : most)));
   std::sort(table.words.begin(), table.words.end(), std::greater<>());
   return table;
+}
+
+cmodel::LoadTable random_density_table(const cmodel::Config& config, Random& random, cmodel::Table table) {
+  cmodel::LoadTable out{.table = table, .radius = {}, .words = {}};
+  const bool sheets = table == cmodel::Table::Sheets;
+  const std::int64_t count = sheets ? std::int64_t{cmodel::classify::kSheetWords} * kScaledSheets
+                                    : cmodel::classify_words(config, table);
+  const std::int64_t scale = std::int64_t{1} << cmodel::classify::kScale;
+  for (std::int64_t i = 0; i < count; ++i) {
+    const auto range = cmodel::classify_word_range(config, table, static_cast<std::size_t>(i));
+    std::int64_t value = 0;
+    if (sheets && i % 2 == 0) {
+      value = any_word(random, scale) | any_word(random, scale) << 16;
+    } else if (range.least < 0) {  // directions, and tilts, of which most are gentle
+      value = random.between(range.least, range.most);
+      if (i > 6 && random.chance(70)) value >>= 12;
+    } else {
+      value = any_word(random, range.most);
+    }
+    out.words.push_back(word(value));
+  }
+  return out;
 }
 
 }  // namespace fastsplat::testbench

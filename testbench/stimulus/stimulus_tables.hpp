@@ -1,6 +1,7 @@
 // Random tables, legal by docs/stream.md and as odd as that allows.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "cmodel/config.hpp"
@@ -24,5 +25,9 @@ cmodel::LoadTable random_rlut(const cmodel::Config& config, Random& random, Tabl
 std::int64_t unit_weight(const cmodel::Config& config);
 cmodel::LoadTable random_radial(const cmodel::Config& config, Random& random, TableStyle style);
 cmodel::LoadTable random_factor(const cmodel::Config& config, Random& random, TableStyle style);
+
+/// Of densities: one of CLASSIFY to SHEETS, which speaks of so many sheets.
+constexpr std::uint32_t kScaledSheets = 300;
+cmodel::LoadTable random_density_table(const cmodel::Config& config, Random& random, cmodel::Table table);
 
 }  // namespace fastsplat::testbench

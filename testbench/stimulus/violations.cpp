@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "cmodel/records.hpp"
+#include "testbench/stimulus/stimulus_tables.hpp"
 
 namespace fastsplat::testbench {
 namespace {
@@ -36,6 +37,7 @@ class List {
     splat();
     ellipse();
     ends();
+    if (config_.classifies()) densities();
   }
 
  private:
@@ -293,6 +295,79 @@ class List {
       }
       first = record.at;
     }
+  }
+
+  /// Tables of densities and what a tile of them asks for, whatever the stream's own tile is.
+  void densities() {
+    using cmodel::Table;
+    const std::size_t tile = at(Opcode::BeginTile), sheet = at(Opcode::BeginSheet);
+    const auto of_densities = [=](Beats& b) {
+      set(b[tile], layout::kTileMode, 8);
+      set(b[tile], layout::kTileWidth, 1);
+      set(b[tile], layout::kTileHeight, 1);
+    };
+    for (const auto& [name, which] :
+         {std::pair{"CLASSIFY", Table::Classify}, std::pair{"ROOT", Table::Root}, std::pair{"GLINT", Table::Glint},
+          std::pair{"LIGHTING", Table::Lighting}, std::pair{"SHEETS", Table::Sheets}}) {
+      const std::size_t beat = table(which);
+      if (beat == beats_.size()) continue;
+      beside(StreamRule::Table, std::string(name) + " words", beat, layout::kTableWords);
+      change(StreamRule::Table, std::string(name) + " words 0", beat, layout::kTableWords, 0);
+      change(StreamRule::Table, std::string(name) + " with a set", beat, layout::kTableSet, 1);
+      change(StreamRule::Table, std::string(name) + " with a rho", beat, layout::kTableRho, 1);
+      change(StreamRule::Table, std::string(name) + " with a base", beat, layout::kTableBase,
+             static_cast<std::uint64_t>(config_.lanes));
+      add(StreamRule::Loaded, std::string("no ") + name, [=, count = 1 + payload(beat)](Beats& b) {
+        of_densities(b);
+        const auto first = b.begin() + static_cast<std::ptrdiff_t>(beat);
+        b.erase(first, first + static_cast<std::ptrdiff_t>(count));
+      });
+    }
+    change(StreamRule::Table, "SHEETS of too many", table(Table::Sheets), layout::kTableWords, 2 * 4096 + 2);
+    density_words();
+    for (const std::uint64_t mode : {6U, 7U, 10U, 12U, 15U})
+      change(StreamRule::Tile, "mode " + std::to_string(mode), tile, layout::kTileMode, mode);
+    for (const auto& [side, most] : {std::pair{layout::kTileWidth, config_.tile_width},
+                                     std::pair{layout::kTileHeight, config_.tile_height}}) {
+      add(StreamRule::Tile, "tile of densities without room for a rim", [=, w = side, m = most](Beats& b) {
+        of_densities(b);
+        set(b[0], layout::kFrameWidth, 0xffff);
+        set(b[0], layout::kFrameHeight, 0xffff);
+        set(b[tile], w, static_cast<std::uint64_t>(m) - 1);
+      });
+    }
+    if (sheet == beats_.size()) return;
+    for (const std::uint64_t number : {std::uint64_t{kScaledSheets}, std::uint64_t{0xffffffffU}}) {
+      add(StreamRule::Sheet, "sheet without scales " + std::to_string(number), [=](Beats& b) {
+        of_densities(b);
+        set(b[sheet], layout::kSheetNumber, number);
+      });
+    }
+  }
+
+  void density_words() {
+    using cmodel::Table;
+    const auto above = [&](Table which, const char* name, std::size_t at, std::uint32_t value) {
+      const std::size_t header = table(which);
+      if (header == beats_.size()) return;
+      word(StreamRule::Words, std::string(name) + " word " + std::to_string(at) + " " + std::to_string(value),
+           header + 1 + at / cmodel::kBeatWords, at % cmodel::kBeatWords, value);
+    };
+    const auto tau = static_cast<std::uint32_t>(config_.sheet_format().max) + 1;
+    for (const std::size_t i : {0U, 1U, 2U, 4U, 9U}) above(Table::Classify, "CLASSIFY", i, 16385);
+    for (const std::size_t i : {3U, 7U, 11U}) above(Table::Classify, "CLASSIFY", i, tau);
+    for (const std::size_t i : {0U, 5U, 96U}) above(Table::Root, "ROOT", i, 16385);
+    for (const std::size_t i : {0U, 5U, 128U}) above(Table::Glint, "GLINT", i, 4097);
+    for (const std::size_t i : {0U, 1U, 2U, 3U, 4U, 5U}) {
+      for (const std::uint32_t value : {16385U, 0x80000000U, 0xffffbfffU}) above(Table::Lighting, "LIGHTING", i, value);
+    }
+    for (const std::size_t i : {6U, 7U, 8U}) above(Table::Lighting, "LIGHTING", i, 65536);
+    for (const std::size_t i : {0U, 2U, 10U}) {
+      above(Table::Sheets, "SHEETS", i, 4097);
+      above(Table::Sheets, "SHEETS", i, 4097U << 16);
+    }
+    for (const std::size_t i : {97U, 103U}) above(Table::Root, "ROOT padding", i, 1);
+    for (const std::size_t i : {13U, 15U}) above(Table::Lighting, "LIGHTING padding", i, 1);
   }
 
   void not_loaded(std::int64_t set) {

@@ -38,16 +38,24 @@ TEST(Densities, ModelEqualsOracleOnRandomConfigurations) {
   EXPECT_GT(total.comparison.total(), 100000U);
 }
 
-TEST(Densities, NoRtlAndNoCyclesYet) {
+TEST(Densities, WhatTheRtlRefuses) {
   cmodel::Config config = named_config("tiny");
-  EXPECT_FALSE(cmodel::rtl_violation(config));
-  EXPECT_FALSE(cmodel::cycle_violation(config));
   config.classify_segment_bits = 4;
   ASSERT_FALSE(cmodel::first_violation(config));
-  ASSERT_TRUE(cmodel::rtl_violation(config));
-  EXPECT_EQ(cmodel::rtl_violation(config)->where, "classify.segment_bits");
-  ASSERT_TRUE(cmodel::cycle_violation(config));
-  EXPECT_EQ(cmodel::cycle_violation(config)->where, "classify.segment_bits");
+  EXPECT_FALSE(cmodel::rtl_violation(config));
+  EXPECT_FALSE(cmodel::cycle_violation(config));
+  const auto refused = [](cmodel::Config wrong, const char* key) {
+    ASSERT_FALSE(cmodel::first_violation(wrong)) << cmodel::first_violation(wrong)->where;
+    ASSERT_TRUE(cmodel::rtl_violation(wrong)) << key;
+    EXPECT_EQ(cmodel::rtl_violation(wrong)->where, key);
+    EXPECT_FALSE(cmodel::cycle_violation(wrong));
+  };
+  cmodel::Config wrong = config;
+  wrong.composite_every_sample = 1;
+  refused(wrong, "composite.every_sample");
+  wrong = config;
+  wrong.sheet_int_bits = 8;
+  refused(wrong, "sheet.int_bits");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ struct Tables {
   Tables(const oracle::Symbols& c, Random& random, int dimming)
       : rho(static_cast<std::uint32_t>(c.P * c.k / 2)),
         rlut(static_cast<std::size_t>(c.k) * static_cast<std::size_t>(c.P)),
-        radial(static_cast<std::size_t>(c.N)),
+        radial(static_cast<std::size_t>(c.radial_words())),
         factor(static_cast<std::size_t>(c.G) + 1) {
     for (auto& word : rlut) word = static_cast<std::uint32_t>(random.between(0, (std::int64_t{c.N} << c.g) / 4));
     for (auto& word : radial) word = static_cast<std::uint32_t>(random.between(1, (1 << (c.wf - dimming)) - 1));

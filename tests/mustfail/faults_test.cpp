@@ -83,7 +83,7 @@ void passes(const char* what, const std::string& config, const MakeDevice& make)
 }
 
 TEST(MustPass, TheBreakableDeviceWithNoFaultSelected) {
-  for (const char* fault : {"FORWARD_1", "SAMPLE_STALL", "CULL_CORNER"})
+  for (const char* fault : {"FORWARD_1", "SAMPLE_STALL", "CULL_CORNER", "POST_STEPS"})
     passes("no fault selected", config_of(fault), faulty(Fault::None, Assertions::On));
 }
 TEST(MustPass, TheDeviceItself) { passes("the device itself, tiny", "tiny", testbench::make_rtl_device); }

@@ -55,7 +55,7 @@ TEST(Release, TheVerilatedDeviceHoldsNoFault) {
   int files = 0, faulty_files = 0;
   EXPECT_EQ(files_with_faults("rtl_tiny", files), 0);
   EXPECT_GT(files, 5);
-  for (const char* library : {"rtl_faulty", "rtl_faulty_samples", "rtl_faulty_cull"})
+  for (const char* library : {"rtl_faulty", "rtl_faulty_samples", "rtl_faulty_cull", "rtl_faulty_post"})
     EXPECT_GT(files_with_faults(library, faulty_files), 0) << "the search would find nothing anywhere";
   std::printf("[figure] generated files of the device searched = %d (limit > 5)\n", files);
 }

@@ -42,6 +42,10 @@ lint hx8k composite.lanes=2 counters.bits=33
 lint hx8k composite.lanes=4 counters.bits=64
 lint faults/westover tile.width=2 tile.height=2 ellipse.frac_bits=0
 lint faults/westover array.lanes=4 composite.freeze_below=0
+lint faults/post radial.entries=2 rlut.guard_bits=1 ellipse.frac_bits=0
+lint faults/post array.lanes=4 radial.int_bits=0 ellipse.frac_bits=0 composite.lanes=16
+lint faults/post tile.width=4 tile.height=36 classify.segment_bits=10
+lint faults/post sheet.int_bits=7 sheet.frac_bits=4 classify.segment_bits=1 composite.lanes=1 radial.interpolate=0
 for map in '"block"' '"pixel"'; do
   lint faults/cull cull.map="$map" tile.width=2 tile.height=2
   lint faults/cull cull.map="$map" tile.width=4 tile.height=36
@@ -49,4 +53,4 @@ for map in '"block"' '"pixel"'; do
   lint faults/cull cull.map="$map" array.lanes=4 rlut.columns=4 composite.lanes=16 composite.freeze_below=0
 done
 echo "[figure] configurations at the ends of the limits, without a warning = $read_count"
-(( read_count == 23 ))
+(( read_count == 27 ))

@@ -18,9 +18,11 @@ modules=0
 ellipses=$(sed -n 's/.* ELLIPSES = \([01]\);/\1/p' "$work/fastsplat_pkg.sv")
 culls=$(sed -n 's/.* CULL_MAP = \([012]\);/\1/p' "$work/fastsplat_pkg.sv")
 samples=$(sed -n 's/.* EVERY_SAMPLE = \([01]\);/\1/p' "$work/fastsplat_pkg.sv")
+densities=$(sed -n 's/.* DENSITIES = \([01]\);/\1/p' "$work/fastsplat_pkg.sv")
 for module in $(sed -n 's/^module \([a-z0-9_]*\).*/\1/p' "$source"/rtl/*.sv "$source"/rtl/top/*.sv); do
   case $ellipses$module in 0fastsplat_ellipse*) continue ;; esac  # the configuration has none
   case $samples$module in 0fastsplat_overlap | 0fastsplat_sample_places) continue ;; esac
+  case $densities$module in 0fastsplat_densit* | 0fastsplat_classify*) continue ;; esac
   case $culls$module in 0fastsplat_cull* | 1fastsplat_cull_pixels) continue ;; esac
   grep -q "^=== \(\$paramod.*\\\\\)\?$module\(\\\\.*\)\? ===" "$work/stat.txt" || { echo "$config: module $module is not in the design"; exit 1; }
   modules=$((modules + 1))

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <deque>
+#include <optional>
+#include <set>
 
 #include "cmodel/model.hpp"
+#include "cmodel/stream_decode.hpp"
 #include "testbench/device/rtl_device.hpp"
 #include "testbench/device/tap_assembly.hpp"
 
@@ -68,19 +71,37 @@ struct Checker final : cmodel::TapSink {
 
 /// The ideal by its formula, from each sheet's windows and its blocks' slices.
 struct Ideal final : cmodel::CycleSink {
-  explicit Ideal(int slices) : slices_(static_cast<std::uint64_t>(slices)) {}
+  Ideal(const cmodel::Config& config, std::span<const cmodel::Beat> beats)
+      : slices_(static_cast<std::uint64_t>(config.slices())), steps_(std::max<std::uint64_t>(5, slices_)) {
+    cmodel::StreamDecode decode(config, cmodel::StreamScope::Subset);
+    for (const cmodel::Beat& beat : beats) {
+      const cmodel::Record* record = decode.feed(beat);
+      if (record == nullptr) continue;
+      if (const auto* tile = std::get_if<cmodel::BeginTile>(record); tile != nullptr && holds_densities(tile->mode))
+        densities_.insert(tile->tile);
+    }
+  }
   std::uint64_t cycles = 0;
   void on_sheet(const cmodel::SheetCycles& sheet) override {
     cycles += std::max(sheet.windows, picks_before_);
     picks_before_ = sheet.blocks * slices_;
+    if (!densities_.contains(sheet.tile)) return;
+    // Copied, a cycle later the sheet before is classified.
+    picks_before_ = waits_ ? std::max<std::uint64_t>(sheet.blocks, 1) + 1 + classified(*waits_) : sheet.blocks;
+    waits_ = sheet.blocks;
   }
   void on_tile(const cmodel::TileCycles&) override {
-    cycles += picks_before_;
+    cycles += picks_before_ + (waits_ ? classified(*waits_) : 0);
     picks_before_ = 0;
+    waits_.reset();
   }
 
  private:
-  std::uint64_t slices_, picks_before_ = 0;
+  std::uint64_t classified(std::uint64_t blocks) const { return std::max<std::uint64_t>(blocks * steps_, 1); }
+
+  std::uint64_t slices_, steps_, picks_before_ = 0;
+  std::optional<std::uint64_t> waits_;  ///< blocks of the sheet of densities that was not classified yet
+  std::set<std::uint32_t> densities_;   ///< tiles
 };
 
 }  // namespace
@@ -116,7 +137,7 @@ CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmo
   Expected expected;
   Checker checker(expected, result);
   cmodel::NullPixels pixels;
-  Ideal ideal(config.slices());
+  Ideal ideal(config, beats);
   testbench::RtlOptions rtl_options;
   rtl_options.input = input;
   rtl_options.output = output;

@@ -15,7 +15,7 @@ here="$source/tests/rtl/proofs"
 
 # --- check: two radius sets of two phases and up to 8 columns, tables of a few words; words of any value
 package_file="$work/check_pkg.sv"
-package RLUT_SETS=2 RLUT_COLUMNS=8 COL_BITS=4 PHASES=2 PHASE_LOG2=1 PHASE_BITS=1 RHO_MOST=8 RADIAL_ENTRIES=2 RADIAL_LOG2=1 SEGMENTS=8 SEG_LOG2=3 >"$package_file"
+package RLUT_SETS=2 RLUT_COLUMNS=8 COL_BITS=4 PHASES=2 PHASE_LOG2=1 PHASE_BITS=1 RHO_MOST=8 RADIAL_ENTRIES=2 RADIAL_WORDS=2 RADIAL_LOG2=1 SEGMENTS=8 SEG_LOG2=3 >"$package_file"
 check() { without=FASTSPLAT_ASS unit "$1" stream_check "record_rules word_rules" "" "${2:+stream_check}" "${2-}"; }
 check stream_check
 holds stream_check 1 "stream_check: of any beats those that keep the rules, in order, once; the first other is told, and what is open is closed"
@@ -123,6 +123,6 @@ core core
 holds core 15 "$core_shares; something moves within 12 cycles"
 happens core 31
 core_broken() { core "core_$1" "$2" "$3"; refuted "core_$1" "$4"; }
-core_broken early_swap splat_array 's/: last_q\[9\];/: last_q[6];/; s/: buffer_q\[9\];/: buffer_q[6];/' 18:25
+core_broken early_swap splat_array 's/: last_q\[WRITTEN\];/: last_q[6];/; s/: buffer_q\[WRITTEN\];/: buffer_q[6];/' 18:25
 core_broken marked_late splat_array 's/: last_q\[4\];/: last_q[5];/; s/: buffer_q\[4\];/: buffer_q[5];/' 18:25
 core_broken waits_for_its_own_buffer stream_decode "s/(!tile_idle_i || busy_q != '0)/(!tile_idle_i || busy_q == '0)/" 20:27

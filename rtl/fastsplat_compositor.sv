@@ -131,7 +131,8 @@ module fastsplat_compositor (
         .sums_o(density_sums)
     );
   end else begin : gen_colours
-    assign {density_hold, density_free, density_valid, density_done, density_block, density_slice, density_sums} = '0;
+    assign {density_hold, density_free, density_valid, density_done, density_block, density_slice} = '0;
+    assign density_sums = '0;
     assign density_idle = 1'b1;
     logic unused_densities;
     assign unused_densities = &{1'b0, densities_i, density_we_i, table_i, table_index_i, table_word_i, place_i, sheet_number_i, flush_i,

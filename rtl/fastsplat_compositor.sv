@@ -132,7 +132,9 @@ module fastsplat_compositor (
     );
   end else begin : gen_colours
     assign {density_hold, density_free, density_valid, density_done, density_block, density_slice} = '0;
-    assign density_sums = '0;
+    for (genvar lane = 0; lane < C; lane++) begin : gen_none
+      assign density_sums[lane*4*SB+:4*SB] = '0;
+    end
     assign density_idle = 1'b1;
     logic unused_densities;
     assign unused_densities = &{1'b0, densities_i, density_we_i, table_i, table_index_i, table_word_i, place_i, sheet_number_i, flush_i,

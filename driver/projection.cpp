@@ -120,9 +120,19 @@ void join(std::vector<Piece>& pieces, int slices, int threads, Projected& to) {
   });
 }
 
-/// With detail a footprint is up to 1 + m; a weight that stops at 1 would cut it off.
-void check_weights(const scene::TexturedSplats& textures, const cmodel::Config& config) {
-  if (textures.phases().empty() || config.radial_int_bits > 0) return;
+/// Pictures are in sets of footprints: a shape of its own has none. With detail a footprint is up to 1 + m; a weight
+/// that stops at 1 would cut it off.
+void check_textures(const scene::TexturedSplats& textures, const scene::Scene& scene, const cmodel::Config& config) {
+  if (textures.phases().empty()) return;
+  if (draws_ellipses(scene, config)) {
+    throw_usage(
+        {.where = "splat_texture.amplitude",
+         .what = "the device has no pictures in ellipses",
+         .expected = "circles, or plain splats",
+         .got = "splats with shapes of their own",
+         .fix = "use --splat-texture 0, or circles without anti-aliasing, motion and lens, or --engine golden"});
+  }
+  if (config.radial_int_bits > 0) return;
   throw_usage({.where = "configuration " + config.name,
                .what = "textured splats have weights above 1",
                .expected = "radial.int_bits = 1",
@@ -153,7 +163,7 @@ RadiusSets radius_sets(const scene::Scene& scene, const cmodel::Config& config, 
 Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices,
                   const scene::SheetPlan& plan, int threads) {
   scene::TexturedSplats textures(scene.description.footprint.texture, scene.kernel);
-  check_weights(textures, config);
+  check_textures(textures, scene, config);
   const std::size_t pictures = std::max<std::size_t>(1, textures.phases().size());
   Projected out{
       .splats = {}, .ellipses = {}, .sets = radius_sets(scene, config, pictures), .textures = std::move(textures)};

@@ -167,6 +167,13 @@ TEST(TexturedOnDevice, WhatADeviceCannotIsRefused) {
   config = with_pictures();
   config.radial_int_bits = 0;
   EXPECT_THAT(refused(description, config), HasSubstr("radial.int_bits=1"));
+  config = with_pictures();
+  config.ellipse_frac_bits = 12;
+  ASSERT_FALSE(cmodel::first_violation(config));
+  EXPECT_EQ(refused(description, config), "") << "circles on a device that has ellipses, too";
+  auto shaped = description;
+  shaped.footprint.antialias = true;
+  EXPECT_THAT(refused(shaped, config), AllOf(StartsWith("splat_texture.amplitude"), HasSubstr("ellipses")));
   EXPECT_EQ(refused(description, with_pictures()), "");
 }
 

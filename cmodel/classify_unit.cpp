@@ -15,12 +15,6 @@ std::int64_t signed_word(std::uint32_t word) { return static_cast<std::int32_t>(
 
 }  // namespace
 
-struct ClassifyUnit::Normal {
-  std::array<std::int64_t, 3> g;  ///< right, down, ahead; S 4.16
-  int half_shift;                 ///< e/2: |g| is sqrt(m) 2^(e/2) words
-  std::int64_t root;              ///< 1/sqrt(m), One.14
-};
-
 ClassifyUnit::Lines::Lines(int frac_bits, int rest_bits)
     : rest_bits_(rest_bits), fall_(nearest(frac_bits + rest_bits, signed_format(8, frac_bits))) {}
 
@@ -46,9 +40,15 @@ ClassifyUnit::ClassifyUnit(const Config& config)
       share_(nearest(kLength + kFloor, unit_format(kShare))),
       matt_(nearest(kPhong + kLight, unsigned_format(5, kPhong))),
       lit_(nearest(kColour + kPhong + kShare, unit_format(kLit))),
-      product_(nearest(kLit + config.sheet_frac_bits, config.sheet_format())) {}
+      product_(nearest(kLit + config.sheet_frac_bits, config.sheet_format())),
+      leant_(nearest(kLength + kSlope, signed_format(pattern::kLeantInt, kSlope))),
+      pattern_(config) {}
 
 void ClassifyUnit::load(Table table, std::span<const std::uint32_t> words) {
+  if (table == Table::Nodes || table == Table::Pattern) {
+    pattern_.load(table, words);
+    return;
+  }
   std::vector<std::uint32_t>& to = table == Table::Classify   ? classify_
                                    : table == Table::Root     ? root_
                                    : table == Table::Glint    ? glint_
@@ -69,6 +69,33 @@ std::int64_t ClassifyUnit::facing(const Normal& normal, std::size_t vector) cons
   return nearest(2 * kLight + normal.half_shift, unit_format(kLight))(std::abs(along) * normal.root).word;
 }
 
+bool ClassifyUnit::measure(Normal& normal) const {
+  std::int64_t square = 0;
+  for (const std::int64_t g : normal.g) square += g * g;
+  if (square == 0) return false;
+  const int even = (std::bit_width(static_cast<std::uint64_t>(square)) - 1) & ~1;
+  normal.m = even >= kSlope ? square >> (even - kSlope) : square << (kSlope - even);
+  normal.half_shift = even / 2;
+  normal.root = root_lines_.at(root_, normal.m - (std::int64_t{1} << kSlope));
+  return true;
+}
+
+std::int64_t ClassifyUnit::length(const Normal& normal) const {
+  return length_(normal.m * normal.root * (std::int64_t{1} << normal.half_shift)).word;
+}
+
+void ClassifyUnit::lean(Normal& normal, const std::array<std::int64_t, 3>& by) const {
+  std::int64_t dot = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) dot += normal.g[axis] * by[axis];
+  const Narrowing along =
+      nearest(pattern::kAmount + kRoot + normal.half_shift, signed_format(pattern::kAmountInt, pattern::kAmount));
+  const std::int64_t p = along(dot * normal.root).word, l = length(normal);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::int64_t g = normal.g[axis];
+    normal.g[axis] = leant_((g << kLength) + l * by[axis] - p * g * (std::int64_t{1} << (kLength - kSlope))).word;
+  }
+}
+
 SheetWord ClassifyUnit::operator()(std::uint32_t density, const DensitySlope& slope, std::int32_t x, std::int32_t y,
                                    std::uint32_t sheet) const {
   const std::int64_t value = std::min<std::int64_t>(density, top_);
@@ -76,26 +103,29 @@ SheetWord ClassifyUnit::operator()(std::uint32_t density, const DensitySlope& sl
   if (tau == 0) return {};
   std::array<std::int64_t, 3> colour;
   for (std::size_t c = 0; c < 3; ++c) colour[c] = colour_lines_.at(classify_, value, c, 4);
+  PatternUnit::Sample solid{};
+  if (pattern_.loaded()) {
+    solid = pattern_({.x = x, .y = y, .sheet = sheet});
+    for (std::size_t c = 0; c < 3; ++c) colour[c] = pattern_.tinted(colour[c], solid.tint[c]);
+  }
 
   const std::uint32_t scales = sheets_[kSheetWords * sheet];
   const std::int64_t scale = scales & 0xFFFFU, depth_scale = scales >> 16, per_floor = sheets_[kSheetWords * sheet + 1];
-  Normal normal;
+  Normal normal{};
   normal.g[0] = across_(slope.x * scale).word;
   normal.g[1] = across_(slope.y * scale).word;
   normal.g[2] = along_(slope.z * depth_scale * (std::int64_t{1} << (kSlope - sheet_frac_bits_)) -
                        tilt(0, x) * normal.g[0] - tilt(1, y) * normal.g[1])
                     .word;
-  std::int64_t square = 0;
-  for (const std::int64_t g : normal.g) square += g * g;
+  bool steep = measure(normal);
+  if (steep && pattern_.loaded()) {
+    lean(normal, solid.lean);
+    steep = measure(normal);
+  }
 
   std::int64_t share = 0, matt = 0, glint = 0;
-  if (square > 0) {
-    const int even = (std::bit_width(static_cast<std::uint64_t>(square)) - 1) & ~1;
-    const std::int64_t m = even >= kSlope ? square >> (even - kSlope) : square << (kSlope - even);
-    normal.half_shift = even / 2;
-    normal.root = root_lines_.at(root_, m - (std::int64_t{1} << kSlope));
-    const std::int64_t length = length_(m * normal.root * (std::int64_t{1} << normal.half_shift)).word;
-    share = share_(length * per_floor - (std::int64_t{1} << (kLength + kFloor))).word;
+  if (steep) {
+    share = share_(length(normal) * per_floor - (std::int64_t{1} << (kLength + kFloor))).word;
     matt = matt_((std::int64_t{light_[kAmbient]} << kLight) + std::int64_t{light_[kDiffuse]} * facing(normal, 0)).word;
     glint = glint_lines_.at(glint_, facing(normal, 1)) * light_[kSpecular];
   }

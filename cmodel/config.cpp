@@ -146,6 +146,13 @@ constexpr std::array kKeys{
         .power_of_two = false,
         .meaning = "log2 of the transfer function's segments in a device that classifies densities by pixel; 0: none",
         .neutral = 0},
+    ConfigKey{.name = "pattern.node_bits",
+              .member = &Config::pattern_node_bits,
+              .min = 0,
+              .max = kMostPatternNodeBits,
+              .power_of_two = false,
+              .meaning = "log2 of the nodes along a side of a solid pattern's table; 0: the device has no patterns",
+              .neutral = 0},
 };
 
 ErrorParts violation(const char* key, std::string what, std::string expected, int got, std::string fix) {

@@ -31,6 +31,8 @@ inline constexpr int kEllipseWindows = 32;  ///< along a side
 inline constexpr int kEllipseReach = 510;   ///< pixels from the centre to the first or last one
 inline constexpr int kEllipseMostBits = 60;
 
+inline constexpr int kMostPatternNodeBits = 7;  ///< 16 MB of nodes, in one record
+
 struct Config {
   std::string name;         ///< not hashed
   std::string description;  ///< not hashed
@@ -81,6 +83,7 @@ struct Config {
   int cull_map = static_cast<int>(CullMap::Off);
   int radial_interpolate = 0;     ///< 1: weights lie on straight lines between entries
   int classify_segment_bits = 0;  ///< log2 Q; 0: densities are not classified
+  int pattern_node_bits = 0;      ///< log2 M; 0: no solid patterns
 
   bool operator==(const Config&) const = default;
 
@@ -107,6 +110,8 @@ struct Config {
   bool classifies() const { return classify_segment_bits > 0; }
   /// Low bits of a density within one segment of CLASSIFY.
   int classify_rest_bits() const { return sheet_frac_bits - classify_segment_bits; }
+  /// Sheets may be tinted, and normals lean, by a solid pattern.
+  bool has_patterns() const { return pattern_node_bits > 0; }
   bool has_ellipses() const { return ellipse_frac_bits > 0; }
   /// q of an ellipse, in steps of 2^-g radial table entries with f fraction bits: up to 512 P^2 times the rim.
   Format ellipse_format() const {

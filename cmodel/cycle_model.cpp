@@ -18,6 +18,13 @@ std::uint64_t wipe_cycles(const Config& config) {
 }
 
 std::optional<ErrorParts> cycle_violation(const Config& config) {
+  if (config.has_patterns()) {
+    return ErrorParts{.where = "pattern.node_bits",
+                      .what = "solid patterns are the model's alone, and no cycles are counted for them",
+                      .expected = "0",
+                      .got = std::to_string(config.pattern_node_bits),
+                      .fix = "use pattern.node_bits = 0"};
+  }
   if (config.has_phases()) return std::nullopt;  // a window a cycle, like the RLUT's
   return ErrorParts{.where = "index.kind",
                     .what = "goes along scan lines, and cycles are counted for all P x P pixels at once",
@@ -379,8 +386,8 @@ std::uint64_t CycleModel::classify(std::uint64_t at) {
   const std::uint64_t first = at + stages::kClassify, last = first + std::max<std::uint64_t>(blocks * steps, 1) - 1;
   walk_free_ = std::max(walk_free_, last + stages::kAfterClassify);
   // A sheet without blocks may be over before the pipe has left the one before.
-  compositor_idle_ = std::max(compositor_idle_, last + stages::density_late(config_) +
-                                                    (blocks > 0 ? stages::kIdle : stages::kIdleAfterEmpty));
+  compositor_idle_ = std::max(
+      compositor_idle_, last + stages::density_late(config_) + (blocks > 0 ? stages::kIdle : stages::kIdleAfterEmpty));
   counters_.dirty_blocks += blocks;
   if (options_.taps == nullptr) return last;
   const std::uint32_t open = std::exchange(sheet_.sheet, waits_->number);

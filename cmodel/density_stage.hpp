@@ -20,6 +20,8 @@ class DensityStage {
 
   /// The words of a checked load_table record of one of its tables.
   void load(Table table, std::span<const std::uint32_t> words) { classify_.load(table, words); }
+  /// The frame's solid pattern, which sheets of colours have, too.
+  const PatternUnit& pattern() const { return classify_.pattern(); }
   /// Pixels that a sheet holds around those of the tile.
   static int rim(Mode mode) { return holds_densities(mode) ? 1 : 0; }
   void begin_tile(const BeginTile& tile, const BeginFrame& frame) {

@@ -78,6 +78,8 @@ void Model::load(const LoadTable& table) {
     case Table::Glint:
     case Table::Lighting:
     case Table::Sheets:
+    case Table::Nodes:
+    case Table::Pattern:
       densities_.load(table.table, table.words);
       break;
   }
@@ -233,6 +235,12 @@ void Model::samples(const Record& record, std::int32_t x, std::int32_t y, Observ
   }
 }
 
+SheetWord Model::sums(int x, int y) const {
+  const PatternUnit& pattern = densities_.pattern();
+  if (!pattern.loaded() || tile_.mode == Mode::Sum) return sheet_.at(x, y);
+  return pattern.tinted(sheet_.at(x, y), {.x = tile_.x + x, .y = tile_.y + y, .sheet = sheet_number_});
+}
+
 template <class Observer>
 void Model::end_sheet(Observer& observer) {
   ++counters_.sheets;
@@ -245,7 +253,7 @@ void Model::end_sheet(Observer& observer) {
     const int x0 = bx * config_.lanes, x1 = std::min(tile_.width, x0 + config_.lanes);
     const int y0 = by * config_.lanes, y1 = std::min(tile_.height, y0 + config_.lanes);
     for (int y = y0; y < y1; ++y) {
-      for (int x = x0; x < x1; ++x) compositor_.step(sheet_.at(x, y), x, y, counters_, observer);
+      for (int x = x0; x < x1; ++x) compositor_.step(sums(x, y), x, y, counters_, observer);
     }
     cull_.composited(bx, by, [&](int x, int y) { return compositor_.frozen(x, y); });
     if (taps_ != nullptr)

@@ -64,6 +64,8 @@ class Model final : public Device {
   /// Mode bit "every sample": the window's products into the picture, at once.
   template <class Record, class Observer>
   void samples(const Record& record, std::int32_t x, std::int32_t y, Observer& observer);
+  /// What is composited of a pixel of the sheet that has ended: its sums, tinted where the frame has a pattern.
+  SheetWord sums(int x, int y) const;
   template <class Observer>
   void end_sheet(Observer& observer);
   /// Modes of densities: what `step` of densities_ makes of the sheet that waited goes into the picture.

@@ -7,6 +7,7 @@
 #include "cmodel/ellipse_rule.hpp"
 #include "cmodel/ellipse_unit.hpp"
 #include "cmodel/index_set.hpp"
+#include "cmodel/pattern_tables.hpp"
 #include "cmodel/snap.hpp"
 #include "cmodel/stream_advice.hpp"
 #include "cmodel/window_geometry.hpp"
@@ -17,8 +18,16 @@ namespace {
 std::string at_least(std::int64_t bound) { return "at least " + std::to_string(bound); }
 std::string at_most(std::int64_t bound) { return "at most " + std::to_string(bound); }
 
-/// Bits of the tables of densities.
-constexpr std::uint32_t kClassifyTables = 0xF8;
+/// Bits of the tables of densities, and of patterns.
+constexpr std::uint32_t kClassifyTables = 0xF8, kPatternTables = 0x300;
+
+bool of_patterns(Table table) { return table > Table::Sheets; }
+
+/// The tables that a device knows, as a refusal says it.
+std::string known_tables(const Config& config) {
+  if (!config.has_patterns()) return config.classifies() ? "0 to 7" : "0, 1 or 2";
+  return config.classifies() ? "0 to 9" : "0, 1, 2, 8 or 9";
+}
 
 std::string hex(std::uint32_t word) { return "0x" + hash_text(word).substr(8); }
 std::string hex_byte(std::uint32_t byte) { return "0x" + hash_text(byte).substr(14); }
@@ -132,9 +141,9 @@ void StreamDecode::check(const BeginFrame& record, const Beat& beat) {
 void StreamDecode::check(const LoadTable& header, std::uint32_t words) {
   rule_ = StreamRule::Table;
   std::int64_t expected_words = 0;
-  if (header.table > (config_.classifies() ? kLastTable : Table::Factor))
-    refuse("unknown table", config_.classifies() ? "0 to 7" : "0, 1 or 2",
-           std::to_string(static_cast<int>(header.table)));
+  const bool known = of_patterns(header.table) ? config_.has_patterns() && header.table <= Table::Pattern
+                                               : config_.classifies() || header.table <= Table::Factor;
+  if (!known) refuse("unknown table", known_tables(config_), std::to_string(static_cast<int>(header.table)));
   if (header.table != Table::Rlut) {
     expect(header.radius.set == 0, "set of a table that has none", 0, header.radius.set);
     expect(header.radius.rho == 0, "rho of a table that has none", 0, header.radius.rho);
@@ -176,6 +185,10 @@ void StreamDecode::check(const LoadTable& header, std::uint32_t words) {
       expect_most(words, std::int64_t{classify::kSheetWords} << classify::kSheetsBits, "scales of too many sheets");
       expected_words = words - words % classify::kSheetWords;
       break;
+    case Table::Nodes:
+    case Table::Pattern:
+      expected_words = pattern_words(config_, header.table);
+      break;
   }
   expect(words == expected_words, "wrong number of table words", expected_words, words);
   words_left_ = words;
@@ -200,6 +213,8 @@ const Record* StreamDecode::payload(const Beat& beat) {
     case Table::Glint:
     case Table::Lighting:
     case Table::Sheets:
+    case Table::Nodes:
+    case Table::Pattern:
       break;  // of each word its own
   }
   for (const std::uint32_t word : beat) {
@@ -208,7 +223,10 @@ const Record* StreamDecode::payload(const Beat& beat) {
       continue;
     }
     if (table.table == Table::Rlut) range = set_word_range(config_, table.words.size());
-    if (table.table > Table::Factor) range = classify_word_range(config_, table.table, table.words.size());
+    if (of_patterns(table.table))
+      range = pattern_word_range(table.table, table.words.size());
+    else if (table.table > Table::Factor)
+      range = classify_word_range(config_, table.table, table.words.size());
     if (range.least < 0) {
       expect_within(static_cast<std::int32_t>(word), range.least, range.most, "table word out of range");
     } else {
@@ -236,7 +254,7 @@ const Record* StreamDecode::payload(const Beat& beat) {
   }
   if (table.table == Table::Radial) radial_loaded_ = true;
   if (table.table == Table::Factor) factor_loaded_ = true;
-  if (table.table > Table::Factor) classify_loaded_ |= 1U << static_cast<unsigned>(table.table);
+  if (table.table > Table::Factor) loaded_ |= 1U << static_cast<unsigned>(table.table);
   if (table.table == Table::Sheets)
     scaled_sheets_ = static_cast<std::uint32_t>(table.words.size() / classify::kSheetWords);
   return &record_;
@@ -247,8 +265,11 @@ void StreamDecode::check(const BeginTile& record) {
   if (!radial_loaded_) refuse("no radial table before the first tile", "load_table 1", "begin_tile");
   if (!factor_loaded_) refuse("no slab factor table before the first tile", "load_table 2", "begin_tile");
   const bool densities = config_.classifies() && holds_densities(record.mode);
-  if (densities && classify_loaded_ != kClassifyTables)
+  if (densities && (loaded_ & kClassifyTables) != kClassifyTables)
     refuse("a table of densities is missing before the first tile of them", "load_table 3 to 7", "begin_tile");
+  if (const std::uint32_t of_pattern = loaded_ & kPatternTables; of_pattern != 0 && of_pattern != kPatternTables)
+    refuse("one table of a pattern without the other before the first tile", "load_table 8 and 9, or neither",
+           "begin_tile");
   rule_ = StreamRule::Tile;
   if (record.mode > Mode::Sum && !(config_.composite_every_sample != 0 && every_sample(record.mode)) && !densities)
     refuse("unknown mode",

@@ -13,8 +13,8 @@
 
 namespace fastsplat::cmodel {
 
-/// Whether the beats are a whole recorded stream (tiles, beats and CRC checked) or any subset of one's tiles, from which,
-/// for a device that culls, splats of hidden sets may be missing.
+/// Whether the beats are a whole recorded stream (tiles, beats and CRC checked) or any subset of one's tiles, from
+/// which, for a device that culls, splats of hidden sets may be missing.
 enum class StreamScope { Whole, Subset };
 
 class StreamDecode {
@@ -73,8 +73,8 @@ class StreamDecode {
   std::uint32_t words_left_ = 0;
   std::vector<bool> sets_loaded_;
   bool radial_loaded_ = false, factor_loaded_ = false;
-  std::uint32_t classify_loaded_ = 0;  ///< bit n: table n, of those of densities
-  std::uint32_t scaled_sheets_ = 0;    ///< that SHEETS speaks of
+  std::uint32_t loaded_ = 0;         ///< bit n: table n, of those of densities and patterns
+  std::uint32_t scaled_sheets_ = 0;  ///< that SHEETS speaks of
   std::uint32_t tiles_seen_ = 0, tile_ = 0, sheets_seen_ = 0, sheet_ = 0, splats_seen_ = 0;
   std::uint32_t next_tag_ = 0;
   bool jumps_;                      ///< splats of hidden sets may be missing

@@ -21,7 +21,7 @@ enum class Opcode : std::uint8_t {
   EndFrame = 0x66,
 };
 
-/// From Classify on of a device that classifies densities.
+/// From Classify on of a device that classifies densities, from Nodes on of one with solid patterns.
 enum class Table : std::uint8_t {
   Rlut = 0,
   Radial = 1,
@@ -30,9 +30,10 @@ enum class Table : std::uint8_t {
   Root = 4,
   Glint = 5,
   Lighting = 6,
-  Sheets = 7
+  Sheets = 7,
+  Nodes = 8,
+  Pattern = 9
 };
-inline constexpr Table kLastTable = Table::Sheets;
 /// What a tile does with sums: of a sheet, or (bit 2) with the products of every window; (bit 3) the sums are
 /// densities.
 enum class Mode : std::uint8_t {

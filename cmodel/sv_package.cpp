@@ -72,6 +72,8 @@ std::optional<ErrorParts> rtl_violation(const Config& config) {
                       .got = text_of(config, *find_key("index.kind")),
                       .fix = "use the model for this configuration"};
   }
+  if (config.has_patterns())
+    return refuse("pattern.node_bits", "the RTL has no solid patterns", "0", config.pattern_node_bits);
   if (config.classifies() && config.composite_every_sample != 0) {
     return refuse("composite.every_sample", "the RTL has no device of every sample that classifies densities",
                   "0 with classify.segment_bits", config.composite_every_sample);
@@ -255,9 +257,10 @@ std::string sv_package(const Config& config) {
   p.vector("DENSITY_WORD_MOST", 32, static_cast<std::uint64_t>(config.sheet_format().max));
   const std::int64_t density_words =
       densities ? std::max(classify_words(config, Table::Classify), std::int64_t{2} << classify::kSheetsBits) : 0;
-  p.number("WORDS_BITS",
-           bits_for(std::max({std::int64_t{kBeatWords}, density_words, std::int64_t{config.rlut_columns} * config.phases,
-                              std::int64_t{config.radial_words()}, std::int64_t{config.opacity_segments} + 1})));
+  p.number(
+      "WORDS_BITS",
+      bits_for(std::max({std::int64_t{kBeatWords}, density_words, std::int64_t{config.rlut_columns} * config.phases,
+                         std::int64_t{config.radial_words()}, std::int64_t{config.opacity_segments} + 1})));
 
   p.section("counters, in the model's order, then cycles");
   std::int64_t counters = 0;

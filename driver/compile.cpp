@@ -12,6 +12,7 @@
 #include "driver/compiled_state.hpp"
 #include "driver/density_tables.hpp"
 #include "driver/index_tables.hpp"
+#include "driver/pattern_tables.hpp"
 #include "driver/tables.hpp"
 #include "scene/capability.hpp"
 #include "scene/sheet_plan.hpp"
@@ -57,7 +58,7 @@ CompiledFrame::State::State(const scene::Scene& scene, const cmodel::Config& dev
       cells(make_cells()),
       bins(make_bins(threads)) {
   if (sliced()) reach = shaped() ? slices.reach(slices.growth(projected.least_shrink)) : slices.reach();
-  make_preamble(scene);
+  make_preamble(scene, threads);
 }
 
 Cells CompiledFrame::State::make_cells() const {
@@ -75,7 +76,7 @@ TileBins CompiledFrame::State::make_bins(int threads) const {
       [&](std::size_t i) { return first_sheet(static_cast<std::uint32_t>(i)); });
 }
 
-void CompiledFrame::State::make_preamble(const scene::Scene& scene) {
+void CompiledFrame::State::make_preamble(const scene::Scene& scene, int threads) {
   cmodel::append(preamble, cmodel::BeginFrame{cmodel::config_hash(config), grid.image_width, grid.image_height,
                                               static_cast<std::uint32_t>(grid.count())});
   cmodel::append(preamble, radial_table(config, scene.kernel));
@@ -84,8 +85,11 @@ void CompiledFrame::State::make_preamble(const scene::Scene& scene) {
     cmodel::append(preamble, set_table(config, scene.kernel, set, projected.sets.radius(set), projected.sets.base(set),
                                        {.textures = &projected.textures, .number = projected.sets.picture(set)}));
   }
-  if (!holds_densities(scene.description)) return;
-  for (cmodel::LoadTable& table : density_tables(config, scene, plan.slabs)) cmodel::append(preamble, std::move(table));
+  const auto append_all = [this](std::vector<cmodel::LoadTable> tables) {
+    for (cmodel::LoadTable& table : tables) cmodel::append(preamble, std::move(table));
+  };
+  if (holds_densities(scene.description)) append_all(density_tables(config, scene, plan.slabs));
+  if (has_pattern(scene.description)) append_all(pattern_tables(config, scene, plan.slabs, threads));
 }
 
 std::uint32_t CompiledFrame::State::emit_sheet(int tile, int sheet, std::uint32_t& tag, cmodel::RecordSink& out,
@@ -137,12 +141,14 @@ scene::Offers offers(const cmodel::Config& config) {
                     .methods_elsewhere = only(Method::Westover),
                     .methods_fix = "set composite.every_sample = 1, ",
                     .densities_fix = "set classify.segment_bits = 9, ",
-                    .details_fix = "set index.kind = blit2d and snap.phases = 8, "};
+                    .details_fix = "set index.kind = blit2d and snap.phases = 8, ",
+                    .patterns_fix = "set pattern.node_bits = 6, "};
   if (config.has_ellipses()) {
     out.engine = "device with ellipses";
     out.features = static_cast<unsigned>(scene::Feature::Footprints);
   }
   if (config.classifies()) out.features |= static_cast<unsigned>(scene::Feature::Densities);
+  if (config.has_patterns()) out.features |= static_cast<unsigned>(scene::Feature::Patterns);
   // A footprint with a picture is none that has mirror images or a radial table.
   if (config.index() == cmodel::IndexKind::Blit2d &&
       config.index_symmetry == static_cast<int>(cmodel::IndexSymmetry::Off))

@@ -158,7 +158,7 @@ struct CompiledFrame::State {
  private:
   Cells make_cells() const;
   TileBins make_bins(int threads) const;
-  void make_preamble(const scene::Scene& scene);
+  void make_preamble(const scene::Scene& scene, int threads);
 };
 
 }  // namespace fastsplat::driver

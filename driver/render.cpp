@@ -15,6 +15,7 @@
 #include "driver/compile.hpp"
 #include "driver/density_tables.hpp"
 #include "driver/frame_sink.hpp"
+#include "driver/pattern_tables.hpp"
 #include "driver/splat_quantiser.hpp"
 
 namespace fastsplat::driver {
@@ -133,7 +134,8 @@ DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, con
   const int band_rows = !fast ? 0 : options.band_rows > 0 ? options.band_rows : kBandRows;
   const CompiledFrame compiled(scene, config, options.threads, band_rows);
   const cmodel::fast::FrameNeeds needs{.ellipses = draws_ellipses(scene, config),
-                                       .samples = every_sample(scene.description)};
+                                       .samples = every_sample(scene.description),
+                                       .tints = has_pattern(scene.description) && !holds_densities(scene.description)};
   const auto tables = fast ? cmodel::fast::frame_tables(config, compiled.preamble(), needs, &why_plain)
                            : std::optional<cmodel::fast::FrameTables>{};
   FrameSink frame(config, compiled.grid().image_width, compiled.grid().image_height);

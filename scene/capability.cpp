@@ -50,6 +50,7 @@ std::optional<ErrorParts> refusal(const SceneDescription& description, const Off
       const char* elsewhere = row.feature == Feature::Footprints  ? offers.footprints_fix
                               : row.feature == Feature::Densities ? offers.densities_fix
                               : row.feature == Feature::Details   ? offers.details_fix
+                              : row.feature == Feature::Patterns  ? offers.patterns_fix
                                                                   : nullptr;
       return parts(row.key, fmt::format("the {} does not have this technique", offers.engine),
                    fmt::format("{}use --engine golden, or turn it off", elsewhere != nullptr ? elsewhere : ""));

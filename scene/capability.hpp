@@ -20,7 +20,15 @@ constexpr Methods only(Method method) { return 1u << static_cast<unsigned>(metho
 inline constexpr Methods kAllMethods = (1u << 5) - 1;
 
 /// What an engine must have beyond circles of the splats' own scale that are added into sheets.
-enum class Feature : unsigned { None, Footprints = 1, Pixels = 2, Freezing = 4, Details = 8, Densities = 16 };
+enum class Feature : unsigned {
+  None,
+  Footprints = 1,
+  Pixels = 2,
+  Freezing = 4,
+  Details = 8,
+  Densities = 16,
+  Patterns = 32
+};
 
 /// What an engine has.
 struct Offers {
@@ -32,8 +40,9 @@ struct Offers {
   const char* methods_fix = "";
   const char* densities_fix = nullptr;  ///< how to have Feature::Densities, likewise
   const char* details_fix = nullptr;    ///< how to have Feature::Details, likewise
+  const char* patterns_fix = nullptr;   ///< how to have Feature::Patterns, likewise
 };
-inline constexpr Offers kOffersAll{"golden", kAllMethods, 31u};
+inline constexpr Offers kOffersAll{"golden", kAllMethods, 63u};
 
 /// What a scene has or has not, in the order in which an engine is asked for it: rows of the table. Not all are
 /// techniques; the last are what techniques need.

@@ -21,11 +21,14 @@ constexpr std::array<Tints, 6> kTints{{
 
 }  // namespace
 
-glm::dvec3 tint(const Texture& texture, const glm::dvec3& position) {
+glm::dvec3 tint_of_value(const Texture& texture, double value) {
   const Tints& tints = kTints[static_cast<std::size_t>(texture.kind)];
-  const double at = solid_field(texture.kind, position / texture.scale);
-  const glm::dvec3 colour = tints.at_0 + at * (tints.at_1 - tints.at_0);
+  const glm::dvec3 colour = tints.at_0 + value * (tints.at_1 - tints.at_0);
   return 1.0 - texture.amplitude * (1.0 - colour);
+}
+
+glm::dvec3 tint(const Texture& texture, const glm::dvec3& position) {
+  return tint_of_value(texture, solid_field(texture.kind, position / texture.scale));
 }
 
 }  // namespace fastsplat::scene

@@ -26,4 +26,7 @@ struct Bump {
 /// two tints of the kind.
 glm::dvec3 tint(const Texture& texture, const glm::dvec3& position);
 
+/// The same of a pattern's value, linear in it.
+glm::dvec3 tint_of_value(const Texture& texture, double value);
+
 }  // namespace fastsplat::scene

@@ -19,10 +19,10 @@ constexpr int kRows = 16;  ///< of a band: its sheets stay in the cache
 
 const scene::Scene& drawable(const scene::Scene& scene, const cmodel::Config& config) {
   scene::Offers offers = driver::offers(config);
-  // Steps are of sheets of light, and of footprints without pictures.
-  offers.features &=
-      ~static_cast<unsigned>(scene::Feature::Densities) & ~static_cast<unsigned>(scene::Feature::Details);
-  offers.densities_fix = offers.details_fix = nullptr;
+  // Steps are of sheets of light without a pattern, and of footprints without pictures.
+  for (const auto feature : {scene::Feature::Densities, scene::Feature::Details, scene::Feature::Patterns})
+    offers.features &= ~static_cast<unsigned>(feature);
+  offers.densities_fix = offers.details_fix = offers.patterns_fix = nullptr;
   scene::check_capability(scene, offers);
   return scene;
 }

@@ -46,6 +46,7 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
   if (needs.ellipses && config.culls()) return none("splats are ellipses, and the device hides windows of them");
   if (needs.ellipses && config.interpolates())
     return none("splats are ellipses, and weights lie between table entries");
+  if (needs.tints) return none("sheets of colours are tinted by a pattern");
   const auto samples = sample_plan(config, *plan, needs.samples ? why_not : nullptr);
   if (needs.samples && !samples) return {};
   WeightUnit unit = weight_unit(config);
@@ -86,6 +87,8 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
       case Table::Glint:
       case Table::Lighting:
       case Table::Sheets:
+      case Table::Nodes:
+      case Table::Pattern:
         if (!densities) densities.emplace(config);
         densities->load(table->table, table->words);
         break;

@@ -19,6 +19,7 @@ namespace fastsplat::cmodel::fast {
 /// What a frame has besides circles in sheets.
 struct FrameNeeds {
   bool ellipses = false, samples = false;
+  bool tints = false;  ///< sheets of colours are tinted by a solid pattern
 };
 
 struct FrameTables {
@@ -33,6 +34,8 @@ struct FrameTables {
   std::optional<EllipseTable> ellipses;   ///< none: tiles with ellipses are given up
   std::optional<SampleTables> samples;    ///< none: tiles whose samples are composited one by one are given up
   std::optional<DensityStage> densities;  ///< none: tiles of densities are given up
+  /// Tiles of colours are given up: the picture's kernel knows no tint.
+  bool tints() const { return densities && densities->pattern().loaded(); }
   BeginFrame frame{};
   int reach = 0;  ///< largest extent of a footprint with what vectors write beyond it, pixels
 };

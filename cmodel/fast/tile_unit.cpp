@@ -66,7 +66,8 @@ void TileUnit<T>::begin_band(const BeginTile& tile, bool first, int ahead) {
   most_excess_ = 0;
   now_ = waiting_jobs_ = room_taken_ = 0;
   any_frozen_ = false;
-  sound_ = (!samples_ || tables_.samples) && (rim_ == 0 || densities_);
+  sound_ = (!samples_ || tables_.samples) &&
+           (rim_ == 0 ? !tables_.tints() || tile.mode == Mode::Sum || samples_ : densities_.has_value());
   if (rim_ > 0 && densities_) {
     densities_->begin_tile(tile, tables_.frame);
     compositor_.begin_tile(tile.mode, tile.width, tile.height);

@@ -43,7 +43,8 @@ constexpr std::array kNumbers{std::pair{"ellipse.frac_bits", &oracle::Symbols::f
                               std::pair{"counters.bits", &oracle::Symbols::counter_bits},
                               std::pair{"composite.every_sample", &oracle::Symbols::every_sample},
                               std::pair{"radial.interpolate", &oracle::Symbols::interpolate},
-                              std::pair{"classify.segment_bits", &oracle::Symbols::segment_bits}};
+                              std::pair{"classify.segment_bits", &oracle::Symbols::segment_bits},
+                              std::pair{"pattern.node_bits", &oracle::Symbols::node_bits}};
 
 cmodel::Config named_config(const std::string& name) {
   const auto read = read_keys(std::string(FASTSPLAT_SOURCE_DIR) + "/configs/" + name + ".toml");

@@ -179,6 +179,7 @@ TEST(FastUnit, RandomStreamsOfDensities) {
     config.cull_map = 0;
     config.composite_every_sample = 0;
     config.classify_segment_bits = std::min(config.sheet_frac_bits, round % 7 + 2);
+    config.pattern_node_bits = round % 5;
     return cmodel::first_violation(config) ? named_config("base") : config;
   });
   EXPECT_GT(all.classified, 50000u);

@@ -57,7 +57,8 @@ TEST(Limits, WidestAndNarrowestDevice) {
     widest.*key.member = key.max;
     narrowest.*key.member = key.min;
     const std::string name = key.name;
-    if (name.starts_with("index.") || name.starts_with("ellipse.") || name.starts_with("classify."))
+    if (name.starts_with("index.") || name.starts_with("ellipse.") || name.starts_with("classify.") ||
+        name.starts_with("pattern."))
       widest.*key.member = narrowest.*key.member = *key.neutral;
   }
   widest.name = "widest";

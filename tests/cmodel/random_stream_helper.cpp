@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "tests/cmodel/oracle/classify.hpp"
+#include "tests/cmodel/oracle/pattern.hpp"
 #include "tests/cmodel/random_ellipse_helper.hpp"
 #include "tests/cmodel/stream_writer_helper.hpp"
 
@@ -40,6 +41,7 @@ class Generator {
     table(1, c.radial_words(), (std::int64_t{1} << (c.wi + c.wf)) - 1);
     factor();
     if (c.segment_bits > 0) density_tables();
+    if (c.node_bits > 0 && !r.once_in(4)) pattern_tables();
     if (r.once_in(2)) radius_set();  // perhaps over the columns of another
     const StreamWriter tables = w;
     std::uint32_t tiles = 0;
@@ -198,6 +200,30 @@ class Generator {
         if (id == 7) words.push_back(i % 2 == 1 ? any >> r.between(0, 31) : word(4096) | word(4096) << 16);
       }
       w.load_table(id, 0, 0, 0, words);
+    }
+  }
+
+  /// Of patterns: places near the tiles' and far from them, steps as a driver makes them and any.
+  void pattern_tables() {
+    std::vector<std::uint32_t> nodes, words;
+    for (std::int64_t i = 0; i < oracle::pattern_table_words(c, 8); ++i)
+      nodes.push_back(word(65535) | word(65535) << 16);
+    for (const int most : {image_width, image_height, 128})
+      words.push_back(r.once_in(2) ? 0 : static_cast<std::uint32_t>(r.between(0, most)));
+    for (const int most : {image_width, image_height, 16}) {
+      const std::int64_t spread = (std::int64_t{1} << (24 + c.node_bits)) / most;  // over all of it
+      words.push_back(r.once_in(4)   ? static_cast<std::uint32_t>(r.next())
+                      : r.once_in(4) ? std::uint32_t{1} << 24
+                                     : static_cast<std::uint32_t>(r.between(spread / 2, 2 * spread)));
+    }
+    for (int i = 0; i < 6; ++i) words.push_back(word(65536));
+    words.push_back(r.once_in(3) ? word((std::int64_t{1} << 26) - 1) : word(131072));
+    if (r.once_in(2)) {
+      w.load_table(8, 0, 0, 0, nodes);
+      w.load_table(9, 0, 0, 0, words);
+    } else {
+      w.load_table(9, 0, 0, 0, words);
+      w.load_table(8, 0, 0, 0, nodes);
     }
   }
 

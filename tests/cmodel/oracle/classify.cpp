@@ -31,7 +31,8 @@ bool density_word_fits(const Symbols& c, int table, std::size_t at, std::uint32_
   return at % 2 == 1 || (word % 65536 <= one(12).largest && word / 65536 <= one(12).largest);
 }
 
-std::array<Wide, 4> classify(const Symbols& c, const DensityTables& tables, const DensityPixel& pixel) {
+std::array<Wide, 4> classify(const Symbols& c, const DensityTables& tables, const PatternTables& patterns,
+                             const DensityPixel& pixel) {
   const auto table = [&](int number, Wide at) { return Wide{tables.at(number)[static_cast<std::size_t>(at)]}; };
   const auto light = [&](int at) { return two_complement(tables.at(6)[static_cast<std::size_t>(at)]); };
 
@@ -55,15 +56,32 @@ std::array<Wide, 4> classify(const Symbols& c, const DensityTables& tables, cons
   g[1] = rnd(pixel.dy * across, c.sf + 12, slope);
   g[2] = rnd(pixel.dz * along * power_of_two(16 - c.sf) - tx * g[0] - ty * g[1], 28, slope);
 
-  const Wide n = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+  // m2, e, m, r and len of g as it is.
+  Wide n = 0, m = 0, root = 0, length = 0;
+  int e = 0;
+  const auto measure = [&] {
+    n = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+    if (n == 0) return;
+    for (e = 0; power_of_two(e + 2) <= n;) e += 2;
+    m = floor_divide(n * power_of_two(16), power_of_two(e));
+    const Wide at = floor_divide(m - 65536, 2048), left = remainder(m - 65536, 2048);
+    root = left == 0 ? table(4, at) : line(table(4, at), table(4, at + 1), left, 11, 14);
+    length = rnd(m * root * power_of_two(e / 2), 46, u(5, 24));
+  };
+  measure();
+  Solid solid{};
+  if (patterns.loaded()) {
+    solid = solid_at(c, patterns, pixel.X, pixel.Y, pixel.sheet);
+    if (n > 0) {
+      const auto& lean = solid.lean;
+      const Wide p = rnd((g[0] * lean[0] + g[1] * lean[1] + g[2] * lean[2]) * root, 30 + e / 2, s(10, 16));
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        g[axis] = rnd(g[axis] * power_of_two(24) + length * lean[axis] - p * g[axis] * power_of_two(8), 40, s(14, 16));
+      measure();
+    }
+  }
   Wide share = 0, matt = 0, glint = 0;
   if (n > 0) {
-    int e = 0;
-    while (power_of_two(e + 2) <= n) e += 2;
-    const Wide m = floor_divide(n * power_of_two(16), power_of_two(e));
-    const Wide at = floor_divide(m - 65536, 2048), left = remainder(m - 65536, 2048);
-    const Wide root = left == 0 ? table(4, at) : line(table(4, at), table(4, at + 1), left, 11, 14);
-    const Wide length = rnd(m * root * power_of_two(e / 2), 46, u(5, 24));
     share = rnd(length * per_floor - power_of_two(32), 32, one(8));
     const auto facing = [&](int vector) {
       const Wide dot = g[0] * light(vector) + g[1] * light(vector + 1) + g[2] * light(vector + 2);
@@ -75,7 +93,8 @@ std::array<Wide, 4> classify(const Symbols& c, const DensityTables& tables, cons
   }
   std::array<Wide, 4> out;
   for (int channel = 0; channel < 3; ++channel) {
-    const Wide E = classified(channel, 14);
+    Wide E = classified(channel, 14);
+    if (patterns.loaded()) E = rnd(E * solid.tint[static_cast<std::size_t>(channel)], 30, one(14));
     const Wide shaded = E * matt + 4 * glint;
     const Wide lit = rnd(E * power_of_two(20) + share * (shaded - E * power_of_two(12)), 34, one(16));
     out[static_cast<std::size_t>(channel)] = rnd(lit * tau, 16 + c.sf, u(c.si, c.sf));

@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "tests/cmodel/oracle/pattern.hpp"
 #include "tests/cmodel/oracle/symbols.hpp"
 
 namespace fastsplat::oracle {
@@ -26,7 +27,8 @@ std::int64_t density_table_words(const Symbols& c, int table);
 /// Whether the word may stand there.
 bool density_word_fits(const Symbols& c, int table, std::size_t at, std::uint32_t word);
 
-/// S_R, S_G, S_B, S_tau of the pixel.
-std::array<Wide, 4> classify(const Symbols& c, const DensityTables& tables, const DensityPixel& pixel);
+/// S_R, S_G, S_B, S_tau of the pixel, with the frame's pattern if it has one.
+std::array<Wide, 4> classify(const Symbols& c, const DensityTables& tables, const PatternTables& patterns,
+                             const DensityPixel& pixel);
 
 }  // namespace fastsplat::oracle

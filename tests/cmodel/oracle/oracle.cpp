@@ -7,6 +7,7 @@
 
 #include "tests/cmodel/oracle/classify.hpp"
 #include "tests/cmodel/oracle/number.hpp"
+#include "tests/cmodel/oracle/pattern.hpp"
 #include "tests/cmodel/oracle/stream.hpp"
 
 namespace fastsplat::oracle {
@@ -49,7 +50,9 @@ class Renderer {
   void take(const TableLoad& load) {
     if (load.table == 1) radial = load.words;
     if (load.table == 2) factor = load.words;
-    if (load.table > 2) density_tables[load.table] = load.words;
+    if (load.table > 2 && load.table < 8) density_tables[load.table] = load.words;
+    if (load.table == 8) patterns.nodes = load.words;
+    if (load.table == 9) patterns.pattern = load.words;
     if (load.table != 0) return;
     sets[load.set] = {load.rho, load.base, load.Ea, load.words};
     if (c.index != "rlut" && c.index != "separable") return;
@@ -253,7 +256,7 @@ class Renderer {
         Pixel& p = at(x, y);
         ++out.counts["pixels_composited"];
         if (p.C[3] < c.eps) ++out.counts["frozen_pixels"];
-        composite(p, oracle::classify(c, density_tables, pixel), tile.mode - 8);
+        composite(p, oracle::classify(c, density_tables, patterns, pixel), tile.mode - 8);
         for (const Wide value : p.C) words.push_back(word(value));
       }
     emit(Kind::Composite, 0, bx, by, std::move(words));
@@ -356,12 +359,21 @@ class Renderer {
         Pixel& p = at(x, y);
         if (dirty) ++out.counts["pixels_composited"];
         if (dirty && tile.mode != 2 && p.C[3] < c.eps) ++out.counts["frozen_pixels"];
-        composite(p, p.S, tile.mode);
+        composite(p, tinted(p.S, x, y), tile.mode);
         for (const Wide value : p.C) words.push_back(word(value));
       }
     if (!dirty) return;
     ++out.counts["dirty_blocks"];
     emit(Kind::Composite, 0, bx, by, std::move(words));
+  }
+
+  /// What is composited of a sheet's sums at a pixel of the tile.
+  Four tinted(Four S, Wide x, Wide y) const {
+    if (!patterns.loaded() || tile.mode > 1) return S;
+    const Solid solid = solid_at(c, patterns, tile.x + x, tile.y + y, sheet);
+    for (std::size_t ch = 0; ch < 3; ++ch)
+      S[ch] = narrow(Rounding::Rnd, Overflow::Sat, S[ch] * solid.tint[ch], c.sf + 16, u(c.si, c.sf)).word;
+    return S;
   }
 
   /// S of a sheet or a sample, by mode 0, 1 or 2.
@@ -420,6 +432,7 @@ class Renderer {
   std::map<std::int64_t, RadiusSet> sets;
   std::vector<std::uint32_t> rlut, radial, factor;
   DensityTables density_tables;
+  PatternTables patterns;
   std::map<std::int64_t, std::map<std::pair<Wide, Wide>, Four>> density_sheets;  // by number; S at (y, x)
   TileStart tile;
   std::uint32_t sheet = 0;

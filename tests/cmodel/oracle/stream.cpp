@@ -8,6 +8,7 @@
 
 #include "tests/cmodel/oracle/classify.hpp"
 #include "tests/cmodel/oracle/number.hpp"
+#include "tests/cmodel/oracle/pattern.hpp"
 
 namespace fastsplat::oracle {
 namespace {
@@ -82,7 +83,8 @@ TableLoad table_load(Reader& r) {
   r.rule(r.w[0] < 65536, "an unnamed bit of w0 is not zero");
   r.empty_from(5);
   load.table = static_cast<int>(r.w[0] / 256);
-  r.rule(load.table <= (c.segment_bits > 0 ? 7 : 2), "unknown table");
+  const bool pattern = load.table == 8 || load.table == 9;
+  r.rule(pattern ? c.node_bits > 0 : load.table <= (c.segment_bits > 0 ? 7 : 2), "unknown table");
   load.set = r.w[1];
   load.rho = r.w[2];
   const std::int64_t count = r.w[3];
@@ -104,6 +106,7 @@ TableLoad table_load(Reader& r) {
     } else {
       r.rule(count == (load.table == 1   ? c.radial_words()
                        : load.table == 2 ? c.G + 1
+                       : pattern         ? pattern_table_words(c, load.table)
                                          : density_table_words(c, load.table)),
              "words");
     }
@@ -117,7 +120,9 @@ TableLoad table_load(Reader& r) {
         continue;
       }
       if (load.table > 2) {
-        r.rule(density_word_fits(c, load.table, load.words.size(), r.w[i]), "table word");
+        r.rule(pattern ? pattern_word_fits(load.table, load.words.size(), r.w[i])
+                       : density_word_fits(c, load.table, load.words.size(), r.w[i]),
+               "table word");
         load.words.push_back(r.w[i]);
         continue;
       }
@@ -206,7 +211,7 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
 
   std::set<std::int64_t> sets;
   bool have_radial = false, have_factor = false;
-  std::set<int> of_densities;
+  std::set<int> of_densities, of_patterns;
   std::uint64_t scaled_sheets = 0;
   std::uint64_t tiles_seen = 0;
 
@@ -219,7 +224,8 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
       if (load.table == 0) sets.insert(load.set);
       have_radial |= load.table == 1;
       have_factor |= load.table == 2;
-      if (load.table > 2) of_densities.insert(load.table);
+      if (load.table > 7) of_patterns.insert(load.table);
+      if (load.table > 2 && load.table < 8) of_densities.insert(load.table);
       if (load.table == 7) scaled_sheets = load.words.size() / 2;
       items.emplace_back(std::move(load));
     } else if (opcode == 0x54) {
@@ -230,6 +236,7 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
       tile.mode = static_cast<int>(r.w[0] / 256);
       const bool densities = r.c.segment_bits > 0 && (tile.mode == 8 || tile.mode == 9);
       r.rule(!densities || of_densities.size() == 5, "a tile of densities before its tables");
+      r.rule(of_patterns.size() != 1, "one table of a pattern without the other");
       r.rule(tile.mode <= 2 || (r.c.every_sample != 0 && (tile.mode == 4 || tile.mode == 5)) || densities, "mode");
       tile.tile = r.w[1];
       r.rule(tile.tile == tiles_seen && tile.tile < tiles, "tile number");

@@ -20,7 +20,7 @@ struct Refusal : std::runtime_error {
 };
 
 struct TableLoad {
-  int table = 0;  ///< 0 RLUT, 1 RADIAL, 2 FACTOR, 3 to 7 those of densities
+  int table = 0;  ///< 0 RLUT, 1 RADIAL, 2 FACTOR, 3 to 7 those of densities, 8 and 9 of patterns
   std::int64_t set = 0, rho = 0, base = 0, Ea = 0;
   std::vector<std::uint32_t> words;
 };

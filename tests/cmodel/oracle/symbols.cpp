@@ -65,6 +65,7 @@ std::uint64_t hash(const Symbols& symbols) {
   if (symbols.cull != "off") line("cull.map", symbols.cull);
   if (symbols.interpolate != 0) line("radial.interpolate", "1");
   if (symbols.segment_bits != 0) line("classify.segment_bits", std::to_string(symbols.segment_bits));
+  if (symbols.node_bits != 0) line("pattern.node_bits", std::to_string(symbols.node_bits));
   return state;
 }
 

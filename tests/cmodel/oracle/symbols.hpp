@@ -34,6 +34,7 @@ struct Symbols {
   std::string cull = "off";  ///< the map's cells
   int interpolate = 0;       ///< of the radial table
   int segment_bits = 0;      ///< q, of CLASSIFY; 0: no sheets of densities
+  int node_bits = 0;         ///< of NODES; 0: no solid patterns
   int radial_words() const { return N + interpolate; }
 
   /// Weights depend on window phases: centres lie on the snap's grid.

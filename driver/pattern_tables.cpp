@@ -28,7 +28,8 @@ float least_seen(const cmodel::Config& config, const scene::Scene& scene) {
   const double base = scene.volume->min, range = static_cast<double>(scene.volume->max) - base;
   const int segments = 1 << config.classify_segment_bits;
   int first = 1;
-  while (first < segments && !(classify.evaluate(base + range * first / segments).extinction > 0.0F)) ++first;
+  while (first <= segments && !(classify.evaluate(base + range * first / segments).extinction > 0.0F)) ++first;
+  if (first > segments) return std::numeric_limits<float>::infinity();
   // Less than a tenth of a value is what kernels' sums over voxels ripple.
   return static_cast<float>(base + 0.9 * range * (first - 1) / segments);
 }

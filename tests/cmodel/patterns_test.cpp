@@ -104,7 +104,8 @@ TEST(Patterns, TablesAreJudged) {
 }
 
 /// A pattern of 2 x 2 x 2 nodes: v = B_x = 0 at x = 0 and `most` at x = 1, over 4 pixels.
-cmodel::PatternUnit slope(const cmodel::Config& config, std::uint32_t most, std::uint32_t high, std::uint32_t amount) {
+cmodel::PatternUnit slope(const cmodel::Config& config, std::uint32_t most, std::uint32_t high, std::uint32_t amount,
+                          std::uint32_t step = 1U << 22) {
   cmodel::PatternUnit unit(config);
   std::vector<std::uint32_t> nodes;
   for (int node = 0; node < 8; ++node) {
@@ -112,7 +113,7 @@ cmodel::PatternUnit slope(const cmodel::Config& config, std::uint32_t most, std:
     nodes.push_back(0);
   }
   const std::uint32_t one = 1U << 24;
-  const std::vector<std::uint32_t> words{100, 0, 0, one / 4, one, one, 0, 65536, 65536, high, 65536, 65536, amount};
+  const std::vector<std::uint32_t> words{100, 0, 0, step, one, one, 0, 65536, 65536, high, 65536, 65536, amount};
   EXPECT_FALSE(unit.loaded());
   unit.load(cmodel::Table::Nodes, nodes);
   unit.load(cmodel::Table::Pattern, words);
@@ -133,6 +134,15 @@ TEST(Patterns, LieInStraightLinesAndEndAtTheirNodes) {
     EXPECT_NEAR(static_cast<double>(at.lean[0]), 4.0 * static_cast<double>(red[i]), 4.0) << i;
     EXPECT_EQ(at.lean[1], 0);
   }
+}
+
+TEST(Patterns, PlacesAreCountedTo65535) {
+  cmodel::Config config = named_config("tiny");
+  config.pattern_node_bits = 1;
+  const auto unit = slope(config, 65534, 65536, 0, 1);  // 2^-24 of the way a pixel: 16 of 4096 at the end
+  EXPECT_EQ(unit({.x = 100, .y = 0, .sheet = 0}).tint[0], 0);
+  EXPECT_EQ(unit({.x = 65635, .y = 0, .sheet = 0}).tint[0], 256);
+  EXPECT_EQ(unit({.x = 400000, .y = 0, .sheet = 0}).tint[0], 256);
 }
 
 TEST(Patterns, NoTintChangesNoBit) {

@@ -75,5 +75,29 @@ TEST(Head, post_classified_holds_45_db_in_base_and_57_db_in_fine) {
   }
 }
 
+// Marble of 30 mm on the head, a millimetre a pixel: what lies between nodes is what shows.
+TEST(Head, marble_holds_45_db_with_128_nodes_a_side) {
+  std::string why_not;
+  const auto volume = head_scan(why_not);
+  if (!volume) GTEST_SKIP() << "the scan is not installed: " << why_not;
+  auto description = view_of("ch2bet", 200, "mri-head");
+  description.camera.zoom = 1.8;
+  description.classify = scene::ClassifyOrder::Post;
+  description.texture = {scene::SolidKind::Marble, scene::TextureWhere::Pixel, 30.0, 1.0};
+  const auto scene = scene::build_scene(description, volume);
+  const Image reference = golden::render(scene);
+  EXPECT_GT(*std::max_element(reference.data.begin(), reference.data.end()), 0.5f);
+  for (const auto& [bits, limit] : {std::pair{6, 35.0}, {7, 45.0}}) {
+    auto config = load_config("fine");
+    config.classify_segment_bits = 9;
+    config.pattern_node_bits = bits;
+    const Lsb8 apart = distance(reference, to_image(render(scene, config).frame));
+    const std::string name = "ch2bet marble, " + std::to_string(1 << bits) + " nodes a side";
+    figure(name + ": PSNR", apart.psnr_db, "dB");
+    figure(name + ": max", apart.largest, "LSB8");
+    EXPECT_GE(apart.psnr_db, limit) << name;
+  }
+}
+
 }  // namespace
 }  // namespace fastsplat::driver

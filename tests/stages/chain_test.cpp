@@ -242,5 +242,14 @@ TEST(Chain, StepsAreNotOfDensities) {
   EXPECT_THROW(Chain(scene, config), UserError);
 }
 
+TEST(Chain, StepsAreNotOfPatterns) {
+  auto description = views(24).front();
+  description.texture.kind = scene::SolidKind::Marble;
+  const scene::Scene scene = scene::build_scene(description);
+  cmodel::Config config = test::named_config("base");
+  config.pattern_node_bits = 4;
+  EXPECT_THROW(Chain(scene, config), UserError);
+}
+
 }  // namespace
 }  // namespace fastsplat::stages

@@ -142,7 +142,7 @@ scene::Offers offers(const cmodel::Config& config) {
                     .methods_fix = "set composite.every_sample = 1, ",
                     .densities_fix = "set classify.segment_bits = 9, ",
                     .details_fix = "set index.kind = blit2d and snap.phases = 8, ",
-                    .patterns_fix = "set pattern.node_bits = 6, "};
+                    .patterns_fix = "set pattern.node_bits = 7, "};
   if (config.has_ellipses()) {
     out.engine = "device with ellipses";
     out.features = static_cast<unsigned>(scene::Feature::Footprints);

@@ -250,8 +250,8 @@ TEST(PatternsOnDevice, WhatADeviceCannotIsRefused) {
   EXPECT_EQ(refused(bumps, config), "");
   config.pattern_node_bits = 0;
   using testing::AllOf, testing::HasSubstr, testing::StartsWith;
-  EXPECT_THAT(refused(texture, config), AllOf(StartsWith("texture.where"), HasSubstr("set pattern.node_bits = 6")));
-  EXPECT_THAT(refused(bumps, config), AllOf(StartsWith("bump.kind"), HasSubstr("set pattern.node_bits = 6")));
+  EXPECT_THAT(refused(texture, config), AllOf(StartsWith("texture.where"), HasSubstr("set pattern.node_bits = 7")));
+  EXPECT_THAT(refused(bumps, config), AllOf(StartsWith("bump.kind"), HasSubstr("set pattern.node_bits = 7")));
 }
 
 // Nothing of an empty picture is seen: its nodes are at places that exist.

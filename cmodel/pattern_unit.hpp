@@ -48,7 +48,7 @@ class PatternUnit {
 
   int node_bits_;
   Narrowing place_, line_, tint_, lean_, colour_, sum_;
-  std::shared_ptr<const std::vector<std::uint32_t>> nodes_;  ///< what is copied with the unit is not these
+  std::shared_ptr<const std::vector<std::uint32_t>> nodes_;  ///< NODES, shared by copies of the unit
   std::vector<std::uint32_t> words_;                         ///< PATTERN
 };
 

@@ -1,4 +1,5 @@
 """Mutants through a check_mutants program, several at a time."""
+import hashlib
 import os
 import subprocess
 import sys
@@ -50,9 +51,37 @@ class Server:
         self.process.wait()
 
 
-def run(binary: str, config: str, numbers: list[int], jobs: int, until=None) -> dict[int, tuple[str, str]]:
+class Journal:
+    """What this very program said of mutants on this configuration: a campaign that was stopped goes on where it was."""
+
+    def __init__(self, binary: str, config: str, folder: str):
+        of = hashlib.sha256()
+        for path in (binary, config):
+            with open(path, "rb") as file:
+                of.update(file.read())
+        os.makedirs(folder, exist_ok=True)
+        self.path = f"{folder}/{os.path.basename(binary)}-{of.hexdigest()[:16]}.txt"
+        self.file = open(self.path, "a+")
+        self.file.seek(0)
+        # A line that was cut off where the campaign was killed counts for nothing.
+        whole = self.file.read().rpartition("\n")[0]
+        self.file.truncate(len(whole.encode()) + 1 if whole else 0)
+        self.said = {}
+        for line in whole.split("\n") if whole else []:
+            number, verdict, said = line.split(" ", 2)
+            self.said[int(number)] = (verdict, said)
+
+    def add(self, number: int, verdict: tuple[str, str]):
+        self.file.write(f"{number} {verdict[0]} {verdict[1]}\n")
+        self.file.flush()
+
+
+def run(binary: str, config: str, numbers: list[int], jobs: int, until=None, journal=None) -> dict[int, tuple[str, str]]:
     """{number: (killed or lives, what was said)}, without those not begun when the time was over."""
-    results, errors, left, lock = {}, [], list(numbers), threading.Lock()
+    results = {number: journal.said[number] for number in numbers if number in journal.said} if journal else {}
+    errors, left, lock = [], [number for number in numbers if number not in results], threading.Lock()
+    if results:
+        print(f"mutate: {len(results)} of {len(numbers)} were tried before: {journal.path}", file=sys.stderr, flush=True)
     began, shown = time.monotonic(), [0.0]
 
     def work():
@@ -66,6 +95,8 @@ def run(binary: str, config: str, numbers: list[int], jobs: int, until=None) -> 
                 verdict = server.judge(number)
                 with lock:
                     results[number] = verdict
+                    if journal:
+                        journal.add(number, verdict)
                     if sys.stderr.isatty() and time.monotonic() - shown[0] > 0.2:
                         shown[0] = time.monotonic()
                         print(f"\rmutate: {len(results)} of {len(numbers)}, {time.monotonic() - began:.0f} s ", end="", file=sys.stderr, flush=True)
@@ -73,7 +104,7 @@ def run(binary: str, config: str, numbers: list[int], jobs: int, until=None) -> 
         except Exception as error:  # told by the thread that asked
             errors.append(error)
 
-    threads = [threading.Thread(target=work) for _ in range(max(1, min(jobs, len(numbers))))]
+    threads = [threading.Thread(target=work) for _ in range(min(max(1, jobs), len(left)))]
     for thread in threads:
         thread.start()
     for thread in threads:

@@ -79,7 +79,10 @@ def run_all(arguments, root, build, until):
             continue
         if device.name != devices.FIRST:
             campaign.write(f"{build}/mutants/living.txt", "".join(f"{number}\n" for number in tried))
-        results = campaign.run(program(root, build, device.name), device.config, tried, arguments.jobs, until)
+        binary = program(root, build, device.name)
+        # Of all modules only: a few are tried in seconds, and one alone is asked for to be seen.
+        journal = campaign.Journal(binary, device.config, f"{build}/mutants/journal") if arguments.all else None
+        results = campaign.run(binary, device.config, tried, arguments.jobs, until, journal)
         untried += [number for number in tried if number not in results]
         for number, (verdict, said) in results.items():
             if verdict == "killed":

@@ -2,6 +2,7 @@
 there for it; one that changes nothing lives and is red; the generator finds its mutants, and each exclusion one of them."""
 import json
 import sys
+import tempfile
 
 import campaign
 import generate
@@ -62,6 +63,21 @@ verdict, said = results[planted["number"]]
 print(f"[figure] a mutant that changes nothing: {verdict} {said}")
 if verdict != "lives":
     failures.append("the mutant that changes nothing is killed")
+
+# A campaign that was stopped in the middle of a line goes on behind the last whole one.
+with tempfile.TemporaryDirectory() as folder:
+    told_before = next(iter(chosen))
+    program = [f"{build}/bin/check_mutants_sample", f"{source}/tests/mutants/corners.toml"]
+    journal = campaign.Journal(*program, folder)
+    journal.add(told_before, ("killed", "before: the campaign was stopped"))
+    journal.file.write(f"{planted['number']} kil")
+    journal.file.close()
+    again = campaign.run(*program, [told_before, planted["number"]], 1, None, campaign.Journal(*program, folder))
+    kept = campaign.Journal(*program, folder).said
+print(f"[figure] of a journal of one whole line and half of one: {again[told_before][1]}; the other {again[planted['number']][0]}; kept {len(kept)}")
+if again[told_before][1] != "before: the campaign was stopped" or again[planted["number"]][0] != "lives" or kept != again:
+    failures.append(f"a campaign that was stopped does not go on: {again}, kept {kept}")
+
 killed = {number: said for number, (verdict, said) in results.items() if verdict == "killed"}
 print("the verdict on it:")
 if not mutate.judged([planted, *[m for m in sample if m["number"] in chosen]], killed, {planted["number"]}, exclusions):

@@ -256,7 +256,7 @@ module fastsplat_cull_map (
         .frozen_i,
         .re_i(work_q),
         .sheet_i(table_q),
-        .block_i((AB'(row_q) >> PL << BXL) | AB'(chunk_q)),
+        .block_i((AB'(row_q >> PL) << BXL) | AB'(chunk_q)),
         .line_i(row_q[PL-1:0]),
         .bits_o(bits)
     );

@@ -24,8 +24,11 @@ module fastsplat_cull_pixels (
   localparam int NB = fastsplat_pkg::BLOCKS;
   localparam int AB = fastsplat_pkg::ADDR_BITS;
 
-  logic [PP-1:0] earlier, fresh[0:1], frozen;
+  logic [PP-1:0] earlier, stored, fresh[0:1], frozen;
   logic put_q, sheet_q;  // the block's last row: all of it is put to the rest
+  // Right behind a table that waited for it comes the next one, and may begin with the block that is being put: its word is passed on.
+  logic passed_q;
+  logic [PP-1:0] passed_word_q;
   logic [AB-1:0] block_q;
   logic [fastsplat_pkg::LANE_LOG2-1:0] line_q;
   always_ff @(posedge clk_i) begin
@@ -33,8 +36,11 @@ module fastsplat_cull_pixels (
     sheet_q <= sheet_i;
     block_q <= block_i;
     line_q <= line_i;
+    passed_q <= put_q && block_i == block_q;
+    passed_word_q <= frozen;
   end
-  assign frozen = earlier | (sheet_q ? fresh[1] : fresh[0]);
+  assign stored = passed_q ? passed_word_q : earlier;
+  assign frozen = stored | (sheet_q ? fresh[1] : fresh[0]);
   assign bits_o = frozen[line_q*P+:P];
   fastsplat_ram_1r1w #(.BITS(PP), .WORDS(NB), .ADDR(AB)) u_before (
       .clk_i,

@@ -46,14 +46,15 @@ module fastsplat_density_walk (
   logic [CB-1:0] step_q;
   logic [AB:0] left_q;
   logic [AB-1:0] index_q;
-  logic ends_block;
+  logic ends_block, fetches;
   assign starts = (finish_i || (flush_i && state_q == StIdle)) && waiting_q;
   assign ends_block = step_q == CB'(STEPS - 1);
+  assign fetches = state_q == StFetch || (state_q == StWalk && ends_block);
   assign last = state_q == StWalk && (left_q == '0 || (left_q == (AB + 1)'(1) && ends_block));
 
   fastsplat_ram_1r1w #(.BITS(AB), .WORDS(2 << AB), .ADDR(AB + 1)) u_list (
       .clk_i,
-      .re_i(state_q == StFetch || (state_q == StWalk && ends_block)),
+      .re_i(fetches),
       .raddr_i({!half_q, index_q}),
       .rdata_o(block_o),
       .we_i(copy_i),

@@ -107,6 +107,43 @@ std::vector<cmodel::Beat> hot_samples(const cmodel::Config& config, std::uint64_
   return to_beats(w.bytes());
 }
 
+/// Tiles whose sheets follow each other faster than a table is built: each freezes the pixels of a splat or two, of any
+/// block row, at once; sets of any rows ask about what was frozen. Every second tile is one block wide, and there the
+/// table that waits begins in the cycle behind the one that is built. Devices that do not cull get the splats alone.
+std::vector<cmodel::Beat> early_freeze(const cmodel::Config& config, std::uint64_t seed) {
+  const oracle::Symbols c = symbols_of(config);
+  constexpr std::uint32_t kTiles = 60;
+  Random random(seed);
+  StreamWriter w(c);
+  Tables tables(c, random, 0);
+  // The least density is opaque.
+  for (std::size_t j = 1; j < tables.factor.size(); ++j) tables.factor[j] = 0;
+  w.begin_frame(c.W, c.H * static_cast<int>(kTiles), kTiles);
+  tables.write(w);
+  const std::int32_t one = 1 << c.pf;
+  for (std::uint32_t tile = 0; tile < kTiles; ++tile) {
+    const int width = tile % 2 == 0 ? c.P : c.W, blocks_x = width / c.P, blocks_y = c.H / c.P;
+    w.begin_tile(0, tile, 0, c.H * static_cast<int>(tile), width, c.H);
+    for (std::uint32_t sheet = 0; sheet < 12; ++sheet) {
+      w.begin_sheet(sheet);
+      const std::int64_t splats = random.once_in(5) ? 0 : random.between(1, 2);
+      for (std::int64_t i = 0; i < splats; ++i) {
+        const auto bx = static_cast<std::int32_t>(random.between(0, blocks_x - 1)),
+                   by = static_cast<std::int32_t>(random.once_in(3) ? blocks_y - 1 : random.between(0, blocks_y - 1));
+        const auto rows = static_cast<int>(random.between(1, 2 * c.P));
+        const auto from = static_cast<std::int32_t>(random.between(0, c.H - 1));
+        // All of a set's splats have to lie in it: it holds none, or the tile.
+        if (c.cull != "off") w.cull_block(w.next_tag(), 0, from, width, rows, 0);
+        w.splat(0, (bx * c.P + c.P / 2) * one, (by * c.P + c.P / 2) * one, {(1U << c.cf) - 1, 1, 2, 3});
+      }
+      w.end_sheet();
+    }
+    w.end_tile();
+  }
+  w.end_frame();
+  return to_beats(w.bytes());
+}
+
 std::vector<cmodel::Beat> random_beats(const cmodel::Config& config, std::uint64_t seed) {
   Random random(seed);
   return to_beats(random_stream(symbols_of(config), random, 300).bytes);

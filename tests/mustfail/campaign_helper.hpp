@@ -24,14 +24,16 @@ enum class Detector { Snap, Footprint, Sheet, Composite, Pixel, Tiles, Counters,
 const char* to_string(Detector detector);
 
 enum class Stimulus {
-  Random,      ///< random streams, bubbles on the input, back-pressure on the output
-  HotSpot,     ///< sheet after sheet on a few words, without a stall and with bubbles
-  Bright,      ///< the same with colours and weights that saturate the sheet
-  HotSamples,  ///< every sample composited: tile after tile on a few pixels, at every distance
-  WarmReset,   ///< a reset in the middle of a sheet, then the stream from its beginning; memories power up as zero
+  Random,       ///< random streams, bubbles on the input, back-pressure on the output
+  HotSpot,      ///< sheet after sheet on a few words, without a stall and with bubbles
+  Bright,       ///< the same with colours and weights that saturate the sheet
+  HotSamples,   ///< every sample composited: tile after tile on a few pixels, at every distance
+  EarlyFreeze,  ///< sheets of few splats freeze pixels at once, so that tables wait for each other; tiles of one
+                ///< block's width, too
+  WarmReset,    ///< a reset in the middle of a sheet, then the stream from its beginning; memories power up as zero
 };
-constexpr Stimulus kStimuli[] = {Stimulus::Random, Stimulus::HotSpot, Stimulus::Bright, Stimulus::HotSamples,
-                                 Stimulus::WarmReset};
+constexpr Stimulus kStimuli[] = {Stimulus::Random,     Stimulus::HotSpot,     Stimulus::Bright,
+                                 Stimulus::HotSamples, Stimulus::EarlyFreeze, Stimulus::WarmReset};
 const char* to_string(Stimulus stimulus);
 
 /// Who noticed, and what it said.

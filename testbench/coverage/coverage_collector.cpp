@@ -73,6 +73,7 @@ void CoverageCollector::before(const cmodel::Record& record) {
   } else if (const auto* ellipse = std::get_if<cmodel::EllipseRecord>(&record)) {
     splats_.ellipse(*ellipse);
   } else if (const auto* tile = std::get_if<cmodel::BeginTile>(&record)) {
+    mode_ = tile->mode;
     splats_.begin_tile(*tile);
     composite_.begin_tile(*tile);
     times_.begin_tile(*tile);

@@ -47,7 +47,9 @@ class CoverageCollector {
   struct ModelTaps final : cmodel::TapSink {
     explicit ModelTaps(CoverageCollector* collector) : owner(collector) {}
     CoverageCollector* owner;
+    // Words of densities, and of the pictures that are made of them, are of other shapes: they have no bins.
     void on_tap(const cmodel::TapRecord& record) override {
+      if (cmodel::holds_densities(owner->mode_)) return;
       owner->splats_.on_tap(record);
       owner->composite_.on_tap(record);
     }
@@ -60,6 +62,7 @@ class CoverageCollector {
   CoverageRun run_;
   Coverage coverage_;
   cmodel::StreamDecode decode_;
+  cmodel::Mode mode_ = cmodel::Mode::Exponential;  ///< of the tile
   StreamCoverage stream_;
   SplatCoverage splats_;
   CompositeCoverage composite_;

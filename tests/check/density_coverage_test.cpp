@@ -1,0 +1,57 @@
+// Tiles of densities have no bins of words, of whatever a stream of them holds; tiles of colours beside them keep
+// theirs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "testbench/coverage/coverage_collector.hpp"
+#include "testbench/stimulus/stimulus.hpp"
+#include "tests/cmodel/configs_helper.hpp"
+
+namespace fastsplat::testbench {
+namespace {
+
+/// Bins that are sampled from taps: words, and where they lie.
+constexpr const char* kGroups[] = {"factor.", "slab.",   "light.",   "picture.", "transmittance.", "block.", "pixel.",
+                                   "rlut.",   "radial.", "product.", "sum.",     "bank.",          "edge.",  "phase."};
+
+/// Hits of such bins in the tiles that are of densities, or that are not; and how many tiles those are.
+struct Hits {
+  std::uint64_t hits = 0, tiles = 0;
+};
+Hits of_tiles(const cmodel::Config& config, bool densities) {
+  Hits all;
+  for (const StimulusClass which : stimulus_classes()) {
+    auto document = make_stimulus(config, which, 3, 120).document;
+    std::erase_if(document.tiles,
+                  [&](const auto& tile) { return cmodel::holds_densities(tile.begin.mode) != densities; });
+    if (document.tiles.empty()) continue;
+    all.tiles += document.tiles.size();
+    CoverageCollector collector(config, cmodel::StreamScope::Subset, {});
+    collector.start(0);
+    collector.consume(write_document(config, document));
+    collector.finish();
+    for (const auto& bin : collector.coverage().bins()) {
+      const bool word = std::any_of(std::begin(kGroups), std::end(kGroups),
+                                    [&](const char* group) { return bin.name.starts_with(group); });
+      if (word) all.hits += bin.hits;
+    }
+  }
+  return all;
+}
+
+TEST(DensityCoverage, TilesOfDensitiesHitNoBinOfWords) {
+  const auto config = test::named_config("faults/post");
+  const Hits densities = of_tiles(config, true), colours = of_tiles(config, false);
+  std::printf(
+      "[figure] bins of words hit by %llu tiles of densities = %llu (limit 0), by %llu of colours = %llu (limit > 0)\n",
+      static_cast<unsigned long long>(densities.tiles), static_cast<unsigned long long>(densities.hits),
+      static_cast<unsigned long long>(colours.tiles), static_cast<unsigned long long>(colours.hits));
+  EXPECT_GT(densities.tiles, 10U);
+  EXPECT_EQ(densities.hits, 0U);
+  EXPECT_GT(colours.hits, 0U);
+}
+
+}  // namespace
+}  // namespace fastsplat::testbench

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <cstdio>
+#include <string>
 
 namespace fastsplat::testbench {
 
@@ -22,10 +24,17 @@ void expect_all(const DirectedResult& result) {
 
 int refused_streams(const DirectedResult& result) {
   int all = 0;
+  // Also into the report of --gtest_output, which docs/evidence.md is made from.
+  const auto keep = [](const std::string& name, std::uint64_t value) {
+    ::testing::Test::RecordProperty(name, std::to_string(value));
+  };
   for (const auto& [rule, streams] : result.refused) {
     std::printf("[figure] %s: %d streams refused at the model's beat by the model's rule\n", rule.c_str(), streams);
+    keep(rule, static_cast<std::uint64_t>(streams));
     all += streams;
   }
+  keep("streams", static_cast<std::uint64_t>(all));
+  keep("comparisons", result.comparisons);
   std::printf("[figure] streams refused as the model refuses them = %d\n", all);
   return all;
 }

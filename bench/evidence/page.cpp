@@ -38,7 +38,8 @@ std::string preface() {
   return text(std::filesystem::path(FASTSPLAT_SOURCE_DIR) / "bench/evidence/preface.md").value_or("");
 }
 
-/// ", 2026-11-24; changed since: csr, lane": the day of a figure, and what of `now` is another than it was or was not there.
+/// ", 2026-11-24; changed since: csr, lane": the day of a figure, and what of `now` is another than it was or was not
+/// there.
 std::string origin(const Json& figure, const Json& now) {
   if (!figure.contains("date")) return "; of which day and RTL is not kept";
   std::string out = ", " + figure.at("date").get<std::string>(), changed;
@@ -51,8 +52,8 @@ std::string origin(const Json& figure, const Json& now) {
 
 /// A row for each test, its figures in words.
 std::string figures_table(const Json& json, const Json& now) {
-  std::string out = fmt::format("{}{}.\n\n| test | figures |\n|---|---|\n", json.at("tool").get<std::string>(),
-                                origin(json, now));
+  std::string out =
+      fmt::format("{}{}.\n\n| test | figures |\n|---|---|\n", json.at("tool").get<std::string>(), origin(json, now));
   for (const auto& [test, figures] : json.at("tests").items()) {
     std::string row;
     for (const auto& [name, value] : figures.items())
@@ -114,6 +115,7 @@ constexpr const char* kCells = " LUT | carry | mux | FF | LUT RAM | block RAM | 
 constexpr const char* kPlain = "plain";
 constexpr std::pair<const char*, const char*> kKeys[] = {{"ellipses", "`ellipse.frac_bits = 5`"},
                                                          {"samples", "`composite.every_sample = 1`"},
+                                                         {"densities", "`classify.segment_bits = 4`"},
                                                          {"cull_block", "`cull.map = \"block\"`"},
                                                          {"cull_pixel", "`cull.map = \"pixel\"`"}};
 
@@ -228,7 +230,8 @@ int sum(const Json& of) {
 /// Of a sample or of all: those that live are told one by one.
 std::string fuzz(const Json& json) {
   std::string out = fmt::format(
-      "{}, AddressSanitizer, UndefinedBehaviorSanitizer{}. No finding is open.\n\n| reader | processor minutes | inputs tried | "
+      "{}, AddressSanitizer, UndefinedBehaviorSanitizer{}. No finding is open.\n\n| reader | processor minutes | "
+      "inputs tried | "
       "edges reached |\n|---|---|---|---|\n",
       json.at("tool").get<std::string>(), origin(json, nullptr));
   for (const auto& [name, target] : json.at("targets").items()) {
@@ -252,8 +255,8 @@ std::string mutants(const Json& json, const Json& now) {
     std::string tried = module.value("date", "day not kept");
     if (now.is_object() && (!module.contains("rtl") || module.at("rtl") != now.at("rtl").value(file, "")))
       tried += ", changed since";
-    out += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", name, module.at("mutants").get<int>(), by, not_seen,
-                       lives, counts(module.at("killed")), counts(module.at("excluded")), tried);
+    out += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", name, module.at("mutants").get<int>(), by,
+                       not_seen, lives, counts(module.at("killed")), counts(module.at("excluded")), tried);
     all += module.at("mutants").get<int>();
     killed += by;
     excluded += not_seen;
@@ -280,10 +283,19 @@ std::string page(const std::filesystem::path& folder, const nlohmann::ordered_js
   const auto icarus = read(folder / "icarus.json");
   out += icarus ? figures_table(*icarus, now) : missing("Icarus", "./run evidence");
   out += "## The netlist\n\n";
-  for (const char* name : {"tiny", "small", "tiny_ice40", "westover", "cull"}) {
+  for (const char* name : {"tiny", "small", "tiny_ice40", "westover", "cull", "post"}) {
     const auto netlist = read(folder / (std::string("netlist_") + name + ".json"));
     out += fmt::format("### {}\n\n", name);
     out += netlist ? figures_table(*netlist, now) : missing("this netlist", "./run netlist");
+  }
+  out +=
+      "## Streams that break the rules\n\nEach rule that the device judges, broken in every way that a small stream "
+      "has: refused at the model's beat by the "
+      "model's rule, by rule; the open tile closed as the model closes it; a good frame, right in every tap and cycle, "
+      "behind each.\n\n";
+  for (const char* name : {"refusals", "refusals_base"}) {
+    const auto refusals = read(folder / (std::string(name) + ".json"));
+    out += refusals ? figures_table(*refusals, now) : missing("such streams", "./run evidence");
   }
   out += "## Mutants\n\n";
   const auto mutated = read(folder / "mutants.json");

@@ -7,7 +7,7 @@
 #   FAMILY-CONFIG.report, .place   placed (FAMILY hx8k only): nextpnr's report and its log
 #   FAMILY-CONFIG.bin     the bitstream of what is a device as it is, where icepack is at hand
 # FAMILY: ice40, xc7, ecp5; hx8k: flattened, mapped by delay (abc9) and placed: of tiny tiny_hx8k.toml in ice40_wrap, of others the
-# configuration itself, whole, in ice40_whole. CONFIG plain, ellipses, samples, cull_block, cull_pixel: configs/faults/westover.toml with none of these keys, or
+# configuration itself, whole, in ice40_whole. CONFIG plain, ellipses, samples, densities, cull_block, cull_pixel: configs/faults/westover.toml with none of these keys, or
 # with that one alone, to tell what it costs. SEEDS: those of the placer (1 to 8).
 set -eu
 family=$1 config=$2 emit=$3 source=$4 work=$5
@@ -35,12 +35,13 @@ if [ "$top" = ice40_wrap ]; then
 else
   from=$config
   case $config in
-    plain | ellipses | samples | cull_block | cull_pixel)
+    plain | ellipses | samples | densities | cull_block | cull_pixel)
       from="$base.toml"
       sed -e '/^\[ellipse\]/,/^$/d' -e '/^every_sample/d' "$source/configs/faults/westover.toml" >"$from"
       case $config in
         ellipses) sed -n '/^\[ellipse\]/,/^$/p' "$source/configs/faults/westover.toml" >>"$from" ;;
         samples) sed -i 's/^freeze_below = .*/&\nevery_sample = 1/' "$from" ;;
+        densities) printf '\n[classify]\nsegment_bits = 4\n' >>"$from" ;;
         cull_*) printf '\n[cull]\nmap = "%s"\n' "${config#cull_}" >>"$from" ;;
       esac ;;
   esac

@@ -125,4 +125,4 @@ happens core 31
 core_broken() { core "core_$1" "$2" "$3"; refuted "core_$1" "$4"; }
 core_broken early_swap splat_array 's/: last_q\[WRITTEN\];/: last_q[6];/; s/: buffer_q\[WRITTEN\];/: buffer_q[6];/' 18:25
 core_broken marked_late splat_array 's/: last_q\[4\];/: last_q[5];/; s/: buffer_q\[4\];/: buffer_q[5];/' 18:25
-core_broken waits_for_its_own_buffer stream_decode "s/(!tile_idle_i || busy_q != '0)/(!tile_idle_i || busy_q == '0)/" 20:27
+core_broken end_frame_stays stream_decode "s/if (wait_hazard) take = 1'b0;/if (wait_hazard || (!payload_q \&\& opcode == fastsplat_pkg::OP_END_FRAME)) take = 1'b0;/" 19:26

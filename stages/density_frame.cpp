@@ -12,7 +12,7 @@ DensityBand::DensityBand(const Frame& frame, golden::Rows rows)
       with_rim_{std::max(rows.first - kRim, 0), std::min(rows.end + kRim, frame.scene.description.height)},
       width_(frame.scene.description.width),
       height_(frame.scene.description.height),
-      all_real_(frame.golden_units && frame.mixture.real(Step::Transfer, Step::Colour)),
+      all_real_(frame.mixture == Mixture{}),
       cut_(frame.mixture.device(Step::Sheet)),
       sum_(frame.config, cmodel::Site::Sum),
       weights_(frame.scene.kernel, frame.config),

@@ -33,8 +33,8 @@ struct Frames {
 
   void print(const char* what) const {
     const auto number = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
-    std::printf("[figure] %s: %llu frames, %llu words (%llu not 0; %llu frames all 0), %llu different\n", what, number(frames),
-                number(words), number(lit), number(dark), number(different));
+    std::printf("[figure] %s: %llu frames, %llu words (%llu not 0; %llu frames all 0), %llu different\n", what,
+                number(frames), number(words), number(lit), number(dark), number(different));
     std::printf(
         "[figure] of them %llu of several tiles, %llu in perspective, %llu additive, %llu shaded, %llu with the carry, "
         "%llu with ellipses, %llu of interpolated tables\n",
@@ -104,8 +104,7 @@ TEST(DensityChain, AllDeviceIsTheIntegerModelBitForBit) {
 TEST(DensityChain, AllDeviceIsTheIntegerModelForEveryKindOfIndex) {
   Frames all;
   Random random(seed_or(2111));
-  for (int kind = 0; kind < 6; ++kind)
-    against_device_at_random(random, static_cast<cmodel::IndexKind>(kind), 6, all);
+  for (int kind = 0; kind < 6; ++kind) against_device_at_random(random, static_cast<cmodel::IndexKind>(kind), 6, all);
   all.print("six kinds of index");
   EXPECT_EQ(all.frames, 36u);
   EXPECT_GT(all.lit, all.words / 20);

@@ -4,12 +4,15 @@
 
 #include "base/parallel/parallel.hpp"
 #include "driver/compile.hpp"
+#include "driver/density_tables.hpp"
 #include "golden/settled_pixels.hpp"
 #include "golden/sheet.hpp"
 #include "scene/capability.hpp"
 #include "stages/add_products.hpp"
 #include "stages/band_bins.hpp"
+#include "stages/density_frame.hpp"
 #include "stages/pixel_steps.hpp"
+#include "stages/product_rule.hpp"
 #include "stages/weight_steps.hpp"
 
 namespace fastsplat::stages {
@@ -19,29 +22,15 @@ constexpr int kRows = 16;  ///< of a band: its sheets stay in the cache
 
 const scene::Scene& drawable(const scene::Scene& scene, const cmodel::Config& config) {
   scene::Offers offers = driver::offers(config);
-  // Steps are of sheets of light without a pattern, and of footprints without pictures.
-  for (const auto feature : {scene::Feature::Densities, scene::Feature::Details, scene::Feature::Patterns})
-    offers.features &= ~static_cast<unsigned>(feature);
-  offers.densities_fix = offers.details_fix = offers.patterns_fix = nullptr;
   scene::check_capability(scene, offers);
+  // Steps are of sheets without a pattern, and of footprints without pictures.
+  for (const auto feature : {scene::Feature::Details, scene::Feature::Patterns})
+    offers.features &= ~static_cast<unsigned>(feature);
+  offers.engine = "error attribution";
+  offers.details_fix = offers.patterns_fix = nullptr;
+  scene::check_capability(scene, offers);
+  driver::check_densities(scene);
   return scene;
-}
-
-ProductRule product_rule(const cmodel::Config& config, const Mixture& mixture) {
-  if (!mixture.device(Step::Product)) return {};
-  const cmodel::Narrowing site = cmodel::narrowing(config, cmodel::Site::Product);
-  const auto kind = [&] {
-    switch (site.rounding()) {
-      case cmodel::Rounding::TRN:
-        return ProductRule::Kind::Down;
-      case cmodel::Rounding::RND:
-        return ProductRule::Kind::HalfUp;
-      case cmodel::Rounding::RND_CONV:
-        break;
-    }
-    return ProductRule::Kind::HalfEven;
-  };
-  return {kind(), std::ldexp(1.0, site.to().frac_bits), static_cast<double>(site.to().max)};
 }
 
 }  // namespace
@@ -140,7 +129,10 @@ class Chain::Band {
 };
 
 Chain::Chain(const scene::Scene& scene, const cmodel::Config& config)
-    : scene_(drawable(scene, config)), config_(config), steps_(scene, config), list_(scene) {}
+    : scene_(drawable(scene, config)), config_(config), steps_(scene, config), list_(scene) {
+  if (driver::holds_densities(scene.description))
+    densities_.emplace(scene, config, driver::plan_for_device(scene).slabs);
+}
 
 Picture Chain::operator()(const Mixture& mixture, int threads) const {
   // Where nothing is rounded before the sheets are full, the order of the factors is free, and golden's is taken.
@@ -150,16 +142,26 @@ Picture Chain::operator()(const Mixture& mixture, int threads) const {
   const driver::TileGrid bands = band_grid(config_, width, height, kRows);
   const BandBins bins(
       bands, steps_.sheets(), splats.splats.size(), threads,
-      [&](std::size_t i) { return extent_of(splats.splats[i], splats.shape(i), more_reach(config_)); },
+      [&](std::size_t i) {
+        return driver::widened(extent_of(splats.splats[i], splats.shape(i), more_reach(config_)),
+                               densities_ ? DensityBand::kRim : 0);
+      },
       [&](std::size_t i) { return splats.splats[i].first; });
 
   Picture picture{width, height, std::vector<golden::Sums>(static_cast<std::size_t>(width) * height)};
   parallel_for(bins.work(), threads, [&](std::size_t number) {
     const int band = static_cast<int>(number);
     const golden::Rows rows{bands.y(band), bands.y(band) + bands.height(band)};
-    Band sweep(*this, mixture, splats, golden_units, rows, width);
-    sweep.run(bins, band);
-    sweep.store(&picture.pixels[static_cast<std::size_t>(rows.first) * width]);
+    golden::Sums* const out = &picture.pixels[static_cast<std::size_t>(rows.first) * width];
+    const auto draw = [&](auto sweep) {
+      sweep.run(bins, band);
+      sweep.store(out);
+    };
+    if (densities_) {
+      draw(DensityBand({scene_, config_, steps_, *densities_, mixture, splats, golden_units}, rows));
+    } else {
+      draw(Band(*this, mixture, splats, golden_units, rows, width));
+    }
   });
   return picture;
 }

@@ -2,10 +2,12 @@
 // model's, bit for bit: words are exact in a double, so one chain serves both (docs/errors.md).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "cmodel/config.hpp"
 #include "scene/scene.hpp"
+#include "stages/density_steps.hpp"
 #include "stages/splat_steps.hpp"
 #include "stages/step.hpp"
 
@@ -19,7 +21,7 @@ struct Picture {
 };
 
 /// Every sheet adds its splats in the order of their first sheet, those of one first sheet in traversal order: golden's
-/// own order. The device's sums do not depend on it.
+/// own order (of densities in the order of memory). The device's sums do not depend on it.
 class Chain {
  public:
   /// Throws UserError (Usage) where the device cannot draw the scene. Keeps references to both.
@@ -29,7 +31,8 @@ class Chain {
   Picture operator()(const Mixture& mixture, int threads = 1) const;
 
   /// The frame's steps as they are told.
-  std::vector<StepSet> sets() const { return step_sets(config_, steps_.carries()); }
+  std::vector<StepSet> sets() const { return step_sets(config_, steps_.carries(), holds_densities()); }
+  bool holds_densities() const { return densities_.has_value(); }
   const SplatSteps& steps() const { return steps_; }
   const SplatList& list() const { return list_; }
   const scene::Scene& scene() const { return scene_; }
@@ -43,6 +46,7 @@ class Chain {
   const cmodel::Config& config_;
   SplatSteps steps_;
   SplatList list_;
+  std::optional<DensitySteps> densities_;  ///< of a frame whose sheets hold them
 };
 
 }  // namespace fastsplat::stages

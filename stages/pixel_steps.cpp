@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "driver/compile.hpp"
+#include "driver/density_tables.hpp"
 #include "driver/tables.hpp"
 #include "golden/splat/composite.hpp"
 
@@ -19,7 +20,8 @@ PixelSteps::PixelSteps(const scene::Scene& scene, const cmodel::Config& config, 
                        bool golden_units)
     : xray_(scene.description.method == scene::Method::XRay),
       additive_(scene.description.slab_opacity == scene::SlabOpacity::Additive),
-      sheet_(mixture.device(Step::Sheet) && !driver::every_sample(scene.description)),
+      sheet_(mixture.device(Step::Sheet) && !driver::every_sample(scene.description) &&
+             !driver::holds_densities(scene.description)),
       factor_(mixture.device(Step::Factor)),
       slab_(mixture.device(Step::Slab)),
       composite_(mixture.device(Step::Composite)),

@@ -20,7 +20,7 @@ struct RealSlab {
 
 class PixelSteps {
  public:
-  /// With `golden_units`, an X-ray's exposure is still to be applied.
+  /// With `golden_units`, an X-ray's exposure is still to be applied. Sums that were densities have passed step sheet.
   PixelSteps(const scene::Scene& scene, const cmodel::Config& config, const Mixture& mixture, bool golden_units);
 
   /// A pixel before the first sheet: C and T, or an X-ray's sums.

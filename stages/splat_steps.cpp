@@ -6,6 +6,7 @@
 
 #include "base/parallel/parallel.hpp"
 #include "driver/compile.hpp"
+#include "driver/density_tables.hpp"
 #include "driver/projection.hpp"
 #include "driver/tables.hpp"
 #include "golden/splat/projection.hpp"
@@ -24,13 +25,40 @@ cmodel::Config without_end(cmodel::Config config) {
 }  // namespace
 
 SplatList::SplatList(const scene::Scene& scene) {
-  const scene::Traversal traversal(scene);
+  const bool densities = driver::holds_densities(scene.description);
+  const scene::Traversal traversal(scene, densities ? scene::SplatKind::Densities : scene::SplatKind::Colours);
   rows = traversal.rows();
   columns = traversal.columns();
   traversal.visit(traversal.all(), [this](const scene::Splat& splat, std::uint32_t line) {
     splats.push_back(splat);
     lines.push_back(line);
   });
+  if (densities) order_densities(*scene.volume);
+}
+
+void SplatList::order_densities(const volume::Volume& volume) {
+  const auto voxel_of = [&](const scene::Splat& splat) {
+    // Positions are floats, far nearer to their voxel than to any other.
+    const glm::ivec3 at(
+        glm::round(volume.to_grid(glm::dvec3(splat.position)) / volume.spacing + 0.5 * glm::dvec3(volume.dims - 1)));
+    return volume.index(at.x, at.y, at.z);
+  };
+  std::vector<std::pair<std::size_t, std::uint32_t>> order;  // voxel, number in the traversal
+  order.reserve(splats.size());
+  for (const scene::Splat& splat : splats)
+    order.emplace_back(voxel_of(splat), static_cast<std::uint32_t>(order.size()));
+  std::ranges::sort(order);
+  std::vector<scene::Splat> sorted;
+  std::vector<std::uint32_t> sorted_lines;
+  traversed.resize(order.size());
+  for (const auto& [voxel, number] : order) {
+    traversed[number] = static_cast<std::uint32_t>(sorted.size());
+    sorted.push_back(splats[number]);
+    sorted_lines.push_back(lines[number]);
+    above.push_back(volume.voxels[voxel] - volume.min);
+  }
+  splats = std::move(sorted);
+  lines = std::move(sorted_lines);
 }
 
 SplatSteps::SplatSteps(const scene::Scene& scene, const cmodel::Config& config)
@@ -48,6 +76,7 @@ SplatSteps::SplatSteps(const scene::Scene& scene, const cmodel::Config& config)
       phi_word_(driver::target(driver::Site::Phi, config)),
       snap_(without_end(config), cmodel::Site::Snap),
       xray_(scene.description.method == scene::Method::XRay),
+      density_(1.0 / ((static_cast<double>(scene.volume->max) - scene.volume->min) * scene.description.slab_width)),
       whole_ulp_(1.0 / whole_.scale),
       largest_share_(static_cast<double>(config.colour_format().max) * whole_ulp_),
       depth_ulp_(1.0 / depth_.scale) {
@@ -155,7 +184,10 @@ Staged SplatSteps::staged(const SplatList& list, const Mixture& mixture, bool go
   out.splats.resize(list.splats.size());
   if (shaped()) out.shapes.resize(list.splats.size());
   const auto stage = [&](std::size_t i) {
-    const scene::RealSplat real = scene::real_splat(scene_, list.splats[i]);
+    scene::RealSplat real = scene::real_splat(scene_, list.splats[i]);
+    // Step emission takes the driver's densities, which are floats.
+    if (!list.above.empty() && !emission)
+      real.material[3] = golden_units ? static_cast<double>(list.above[i]) : list.above[i] * density_;
     StagedSplat& splat = out.splats[i];
     circle(real, mixture, unit_value, splat);
     if (shaped()) out.shapes[i] = shape(list.splats[i], real, mixture, unit_value, splat);
@@ -172,7 +204,7 @@ Staged SplatSteps::staged(const SplatList& list, const Mixture& mixture, bool go
     splat.first = first_sheet(real, splat.z, mixture, growth);
   };
   if (carry) {  // what rounding left goes from splat to splat
-    for (std::size_t i = 0; i < out.splats.size(); ++i) stage(i);
+    for (std::size_t i = 0; i < out.splats.size(); ++i) stage(list.traversed.empty() ? i : list.traversed[i]);
   } else {
     constexpr std::size_t kPiece = 1 << 14;
     parallel_for((out.splats.size() + kPiece - 1) / kPiece, threads, [&](std::size_t piece) {

@@ -50,12 +50,19 @@ struct Staged {
   const StagedShape* shape(std::size_t i) const { return shapes.empty() ? nullptr : &shapes[i]; }
 };
 
-/// The splats of a scene in traversal order, and the line of voxels that each lies on (scene::Traversal).
+/// The splats of a scene in the order in which golden adds those of one nearest sheet, and the line of voxels that each
+/// lies on (scene::Traversal): in traversal order, but densities in that of memory.
 struct SplatList {
   explicit SplatList(const scene::Scene& scene);
   std::vector<scene::Splat> splats;
   std::vector<std::uint32_t> lines;
   int rows = 0, columns = 0;
+  // Of densities only:
+  std::vector<float> above;              ///< value less the volume's least: golden's "extinction" of each
+  std::vector<std::uint32_t> traversed;  ///< traversal order
+
+ private:
+  void order_densities(const volume::Volume& volume);
 };
 
 /// What a frame's splats have in common, on either side. Keeps references to `scene` and `config`.
@@ -64,7 +71,8 @@ class SplatSteps {
   SplatSteps(const scene::Scene& scene, const cmodel::Config& config);
 
   /// In the order of the list. With `golden_units`, values are golden's: material times density, which golden's weights
-  /// multiply by the kernel's peak; else the device's, X-ray exposure in them.
+  /// multiply by the kernel's peak; else the device's, X-ray exposure in them. Values of densities are parts of the
+  /// volume's range over the slabs' width, in golden's units the volume's own.
   Staged staged(const SplatList& list, const Mixture& mixture, bool golden_units, int threads) const;
 
   /// What each sheet gets, from splat.first on.
@@ -102,6 +110,7 @@ class SplatSteps {
   std::optional<scene::SplatShaper> shaper_;
   RealNarrowing snap_;
   bool xray_;
+  double density_;  ///< 1 over the volume's range times the slabs' width
   double whole_ulp_, largest_share_, depth_ulp_;
   std::vector<double> boundary_;   ///< B_s 2^-zf
   std::vector<double> phi_table_;  ///< PHI 2^-hf

@@ -19,6 +19,14 @@ constexpr std::array<StepFacts, kStepCount> kFacts{{
     {"weight", Group::Footprint, true, "radial weights as words", "radial.frac_bits, radial.int_bits"},
     {"product", Group::Sheets, false, "products as sheet words", "sheet.frac_bits, rounding.product"},
     {"sheet", Group::Sheets, false, "sums cut at the largest sheet word", "sheet.int_bits"},
+    {"transfer", Group::Classification, false, "the transfer function in straight lines", "classify.segment_bits"},
+    {"slope", Group::Classification, false, "gradients as words", ""},
+    {"normal", Group::Classification, false, "lengths of gradients from a table", ""},
+    {"facing", Group::Classification, false, "cosines to light and half vector as words", ""},
+    {"phong", Group::Classification, false, "matt light and glint as words", ""},
+    {"blend", Group::Classification, false, "share of shading as a word", ""},
+    {"shaded", Group::Classification, false, "shaded colours as words", ""},
+    {"colour", Group::Classification, false, "shaded colours times optical depth as sheet words", "sheet.frac_bits"},
     {"factor", Group::Picture, false, "slab factor from a table", "opacity.segments, opacity.frac_bits, rounding.fall"},
     {"slab", Group::Picture, false, "slab colour and opacity as words", "composite.frac_bits, rounding.slab"},
     {"composite", Group::Picture, false, "transmittance times slab as words", "composite.frac_bits, rounding.light"},
@@ -31,7 +39,7 @@ constexpr std::array<StepFacts, kStepCount> kFacts{{
 const StepFacts& facts(Step step) { return kFacts[static_cast<std::size_t>(step)]; }
 
 const char* to_string(Group group) {
-  constexpr const char* kNames[kGroupCount] = {"place", "material", "footprint", "sheets", "picture"};
+  constexpr const char* kNames[kGroupCount] = {"place", "material", "footprint", "sheets", "classification", "picture"};
   return kNames[static_cast<std::size_t>(group)];
 }
 
@@ -45,12 +53,13 @@ std::string Mixture::text() const {
   return text;
 }
 
-std::vector<StepSet> step_sets(const cmodel::Config& config, bool carried) {
+std::vector<StepSet> step_sets(const cmodel::Config& config, bool carried, bool densities) {
   const bool once = config.grid_bits() == config.position_frac_bits ||
                     driver::target(driver::Site::Position, config).rounding == driver::Target::Rounding::Down;
   const auto by = [](Step step) { return facts(step).driver ? "driver" : "device"; };
   std::vector<StepSet> sets;
   for (const Step step : all_steps()) {
+    if (of_densities(step) && !densities) continue;
     if (step == Step::Snap && once) {
       if (config.grid_bits() < config.position_frac_bits) sets.back().by = "both";
       sets.back().name += std::string("+") + facts(step).name;
@@ -65,9 +74,10 @@ std::vector<StepSet> step_sets(const cmodel::Config& config, bool carried) {
   return sets;
 }
 
-std::vector<StepSet> group_sets() {
+std::vector<StepSet> group_sets(bool densities) {
   std::vector<StepSet> sets;
   for (std::size_t group = 0; group < kGroupCount; ++group) {
+    if (static_cast<Group>(group) == Group::Classification && !densities) continue;
     sets.push_back({to_string(static_cast<Group>(group)), {}, ""});
     for (const Step step : all_steps()) {
       if (facts(step).group == static_cast<Group>(group)) sets.back().steps.push_back(step);

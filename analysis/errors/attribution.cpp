@@ -51,8 +51,8 @@ class Frames {
 };
 
 /// Shapley values of the groups, of v(S) = E[(S's error) e] / E[e^2]: v of all is 1.
-std::vector<GroupShare> shapley(const Picture& real, const Picture& error, Frames& frames) {
-  const std::vector<stages::StepSet> groups = stages::group_sets();
+std::vector<GroupShare> shapley(const std::vector<stages::StepSet>& groups, const Picture& real, const Picture& error,
+                                Frames& frames) {
   const std::size_t n = groups.size(), all = (std::size_t{1} << n) - 1;
   std::vector<double> worth(all + 1, 0.0);
   for (std::size_t coalition = 1; coalition < all; ++coalition) {
@@ -165,9 +165,11 @@ Attribution attribute(const stages::Chain& chain, const AttributionOptions& opti
   out.quick = options.quick;
   const std::vector<stages::StepSet> sets = chain.sets();
   const auto n = static_cast<int>(sets.size());
+  const std::vector<stages::StepSet> groups = stages::group_sets(chain.holds_densities());
+  const int coalitions = (1 << groups.size()) - 2;  // neither nobody nor all
   // Both ends, what lies between them one after the other, each alone (the first is the first increment), each left
   // out (the last is the last but one of the chain).
-  Frames frames(chain, 2 + (n - 1) + (options.quick ? 0 : 2 * (n - 1)) + (options.shapley ? 30 : 0), options);
+  Frames frames(chain, 2 + (n - 1) + (options.quick ? 0 : 2 * (n - 1)) + (options.shapley ? coalitions : 0), options);
   out.real = frames(Mixture{});
   out.device = frames(Mixture::all_device());
   const Picture error = difference(out.device, out.real);
@@ -210,7 +212,7 @@ Attribution attribute(const stages::Chain& chain, const AttributionOptions& opti
     if (step >= 0) out.steps[static_cast<std::size_t>(step)].pixels_ruled += 1.0 / static_cast<double>(wrong);
   }
   out.stories = stories_of(out, error);
-  if (options.shapley && out.total.rms > 0.0) out.groups = shapley(out.real, error, frames);
+  if (options.shapley && out.total.rms > 0.0) out.groups = shapley(groups, out.real, error, frames);
   out.chains = frames.done();
   return out;
 }

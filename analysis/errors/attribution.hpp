@@ -64,7 +64,7 @@ struct Attribution {
 
 struct AttributionOptions {
   bool quick = false;    ///< increments only: a third of the frames
-  bool shapley = false;  ///< over the five groups: 30 frames more
+  bool shapley = false;  ///< over the groups: of five 30 frames more, of six 62
   int threads = 0;       ///< 0: all cores; never changes the result
   Progress progress{};   ///< counts frames
 };

@@ -14,24 +14,12 @@ namespace {
 constexpr Colour kPaper{255, 255, 255}, kInk{32, 32, 32}, kNoError{236, 236, 236};
 
 /// As far apart as seventeen colours can be; in pipeline order warm to cold, so that neighbours in the pipeline are
-/// kin.
-constexpr std::array<Colour, stages::kStepCount> kColours{{{166, 30, 30},
-                                                           {230, 90, 40},
-                                                           {245, 160, 50},
-                                                           {240, 215, 60},
-                                                           {190, 200, 50},
-                                                           {120, 170, 50},
-                                                           {50, 140, 60},
-                                                           {30, 160, 130},
-                                                           {60, 190, 200},
-                                                           {40, 140, 220},
-                                                           {40, 80, 190},
-                                                           {90, 60, 190},
-                                                           {150, 80, 210},
-                                                           {205, 90, 200},
-                                                           {225, 120, 160},
-                                                           {130, 80, 60},
-                                                           {90, 90, 90}}};
+/// kin. The eight of densities, where they are met, are paler and darker ones in between.
+constexpr std::array<Colour, stages::kStepCount> kColours{
+    {{166, 30, 30},  {230, 90, 40},   {245, 160, 50}, {240, 215, 60},  {190, 200, 50}, {120, 170, 50},  {50, 140, 60},
+     {30, 160, 130}, {60, 190, 200},  {40, 140, 220}, {40, 80, 190},   {90, 60, 190},  {0, 0, 110},     {150, 190, 255},
+     {0, 90, 90},    {170, 240, 220}, {110, 0, 80},   {250, 190, 210}, {90, 50, 0},    {255, 235, 170}, {150, 80, 210},
+     {205, 90, 200}, {225, 120, 160}, {130, 80, 60},  {90, 90, 90}}};
 
 Colour colour_of(const StepError& step) { return kColours[static_cast<std::size_t>(step.set.steps.back())]; }
 

@@ -56,12 +56,16 @@ Bound bound(const stages::Chain& chain, const stages::Picture& real, Known known
   return bound(chain, real, known_steps(known), stages::Mixture::all_device(), threads);
 }
 
+void check_bounded(const stages::Chain& chain) {
+  // What is proved is proved of circles in sheets of colours.
+  const scene::Methods methods = driver::offers(chain.config()).methods & ~scene::only(scene::Method::Westover);
+  scene::check_capability(chain.scene(), {"error bound", methods, 0u});
+}
+
 Bound bound(const stages::Chain& chain, const stages::Picture& real, const stages::Mixture& mixture,
             const stages::Mixture& device, int threads) {
+  check_bounded(chain);
   const scene::Scene& scene = chain.scene();
-  // What is proved is proved of circles in sheets.
-  const scene::Methods methods = driver::offers(chain.config()).methods & ~scene::only(scene::Method::Westover);
-  scene::check_capability(scene, {"error bound", methods, 0u});
   const Roundings roundings(scene, chain.config(), chain.steps(), mixture, device);
   const auto splats = chain.steps().staged(chain.list(), mixture, false, threads).splats;
   const int width = real.width, height = real.height;

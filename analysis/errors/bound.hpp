@@ -51,6 +51,9 @@ struct Bound {
   Term dominant() const;
 };
 
+/// Throws UserError (Usage) where nothing is proved of such frames: of ellipses, of every sample, of densities.
+void check_bounded(const stages::Chain& chain);
+
 /// `threads` (0: all cores) never change the result.
 Bound bound(const stages::Chain& chain, const stages::Picture& real, Known known, int threads = 0);
 /// The same on the distance to the picture of which only the steps of `device` are the device's, `known` among them:

@@ -36,6 +36,7 @@ bool BoundReport::holds() const {
 }
 
 BoundReport bounds(const stages::Chain& chain, int threads, const Progress& progress) {
+  check_bounded(chain);
   BoundReport out{chain(stages::Mixture{}, threads), chain(stages::Mixture::all_device(), threads), {}};
   for (const Known known : kLevels) {
     // What a place that is not known does to a weight was worked out for the RLUT alone.

@@ -60,6 +60,19 @@ void apply(Step step, Config& config) {
     case Step::Sheet:
       config.sheet_int_bits += 1;
       return;
+    case Step::Transfer:
+      config.classify_segment_bits += 2;
+      return;
+    case Step::Colour:  // the words of densities with it
+      config.sheet_frac_bits += 2;
+      return;
+    case Step::Slope:
+    case Step::Normal:
+    case Step::Facing:
+    case Step::Phong:
+    case Step::Blend:
+    case Step::Shaded:  // no key decides their formats
+      return;
     case Step::Factor:
       return finer_factor(config);
     case Step::Slab:

@@ -11,6 +11,7 @@
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "cli/volume_json.hpp"
+#include "driver/density_tables.hpp"
 #include "driver/splat_quantiser.hpp"
 
 namespace fastsplat::cli {
@@ -68,7 +69,9 @@ void write_maps(const Arguments& arguments, const scene::Scene& scene, const Res
 ExitCode run(const Arguments& arguments) {
   const Output output(arguments.common);
   const cmodel::Config config = load(arguments.config);
-  const auto sets = stages::step_sets(config, driver::carries(describe(arguments.scene).method, config));
+  const scene::SceneDescription described = describe(arguments.scene);
+  const auto sets =
+      stages::step_sets(config, driver::carries(described.method, config), driver::holds_densities(described));
   check_outputs({.images = map_names(arguments.maps, sets, ".exr"),
                  .maps = joined(map_names(arguments.maps, sets, ".png"), {arguments.blame}),
                  .raws = {},
@@ -102,7 +105,9 @@ void declare(Options& options, Arguments& to) {
   options.group("Analysis");
   options.integer("--lsb-bits", to.lsb_bits, 1, 24, "N", "one LSB is 1/(2^N - 1)");
   options.flag("--quick", to.quick, "no step alone, none left out: a third of the frames");
-  options.flag("--shapley", to.shapley, "shares of the five groups of steps, whatever the order: 30 frames more");
+  options.flag(
+      "--shapley", to.shapley,
+      "shares of the five groups of steps, whatever the order: 30 frames more (of densities six groups, 62 frames)");
   options.group("Output");
   options.word("--blame", to.blame, "FILE", "which step rules each pixel, with legend, .png");
   options.word("--maps", to.maps, "PREFIX",

@@ -180,4 +180,17 @@ cmodel::Config random_ellipse_config(Random& random, cmodel::IndexKind kind) {
   return drawn_config(random, kind, true);
 }
 
+cmodel::Config random_density_config(Random& random, cmodel::IndexKind kind) {
+  while (true) {
+    const bool ellipses = random.once_in(3) && kind != cmodel::IndexKind::Linear;
+    cmodel::Config config = drawn_config(random, kind, ellipses);
+    config.sheet_int_bits = static_cast<int>(random.between(1, 4));
+    config.sheet_frac_bits = static_cast<int>(random.between(4, std::min(16, 18 - config.sheet_int_bits)));
+    config.opacity_segments = std::min(config.opacity_segments, 1 << config.sheet_frac_bits);
+    config.classify_segment_bits =
+        static_cast<int>(random.between(1, std::min(config.sheet_frac_bits, random.once_in(2) ? 4 : 12)));
+    if (!cmodel::first_violation(config)) return config;
+  }
+}
+
 }  // namespace fastsplat::test

@@ -27,5 +27,7 @@ cmodel::Config config_of(const oracle::Symbols& symbols, const std::string& name
 cmodel::Config random_config(Random& random, cmodel::IndexKind kind = cmodel::IndexKind::Rlut);
 /// The same with ellipses, so not linear.
 cmodel::Config random_ellipse_config(Random& random, cmodel::IndexKind kind = cmodel::IndexKind::Rlut);
+/// With densities, one in three with ellipses as well (but of linear, which has none).
+cmodel::Config random_density_config(Random& random, cmodel::IndexKind kind = cmodel::IndexKind::Rlut);
 
 }  // namespace fastsplat::test

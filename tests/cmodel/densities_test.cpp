@@ -10,19 +10,6 @@
 namespace fastsplat::test {
 namespace {
 
-/// Random, with densities.
-cmodel::Config random_density_config(Random& random) {
-  while (true) {
-    cmodel::Config config = random.once_in(3) ? random_ellipse_config(random) : random_config(random);
-    config.sheet_int_bits = static_cast<int>(random.between(1, 4));
-    config.sheet_frac_bits = static_cast<int>(random.between(4, std::min(16, 18 - config.sheet_int_bits)));
-    config.opacity_segments = std::min(config.opacity_segments, 1 << config.sheet_frac_bits);
-    config.classify_segment_bits =
-        static_cast<int>(random.between(1, std::min(config.sheet_frac_bits, random.once_in(2) ? 4 : 12)));
-    if (!cmodel::first_violation(config)) return config;
-  }
-}
-
 TEST(Densities, ModelEqualsOracleOnRandomConfigurations) {
   Random random(seed_or(81));
   Campaign total;

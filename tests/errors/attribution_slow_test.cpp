@@ -113,6 +113,26 @@ TEST(Attribution, AHeadIsRuledByPositionAndFreezeAndItsBiasByFreeze) {
   EXPECT_NEAR(std::abs(a.stories.back().error), a.total.greatest, 1e-12);
 }
 
+TEST(Attribution, DensitiesOfAHeadAreRuledByPositionAndThePixelStageIsNothing) {
+  const auto head = scan("ch2bet");
+  if (!head) GTEST_SKIP() << "the scan is not installed";
+  scene::SceneDescription description = view_of("ch2bet", 128);
+  description.transfer_function = "mri-head";
+  description.classify = scene::ClassifyOrder::Post;
+  const scene::Scene scene = scene::build_scene(description, head);
+  cmodel::Config config = test::named_config("fine");
+  config.classify_segment_bits = 9;
+  const Attribution a = attribute(Chain(scene, config), {.quick = true, .threads = 2});
+  double classified = 0.0;
+  for (const StepError& one : a.steps) {
+    if (stages::of_densities(one.set.steps.front())) classified += one.share;
+  }
+  std::printf("[figure] ch2bet 128 fine, densities: RMS %.4f LSB8, position+snap %.1f %%, transfer to colour %.2f %%\n",
+              a.total.rms * lsb_per_unit(8), 100.0 * step(a, "position+snap").share, 100.0 * classified);
+  EXPECT_GT(step(a, "position+snap").share, 0.7);
+  EXPECT_LT(std::abs(classified), 0.05);
+}
+
 TEST(Attribution, CompactIsRuledByItsEightPhases) {
   const Attribution a = attributed(view_of("shells:32", 64), test::named_config("compact"));
   std::printf("[figure] shells:32 64 compact: position+snap %.1f %%\n", 100.0 * step(a, "position+snap").share);

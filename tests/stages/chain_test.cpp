@@ -233,15 +233,6 @@ TEST(Chain, EverySampleAllRealIsGoldenFloatByFloat) {
   EXPECT_GT(all.compared, 80000u);
 }
 
-TEST(Chain, StepsAreNotOfDensities) {
-  auto description = views(24).front();
-  description.classify = scene::ClassifyOrder::Post;
-  const scene::Scene scene = scene::build_scene(description);
-  cmodel::Config config = test::named_config("base");
-  config.classify_segment_bits = 9;
-  EXPECT_THROW(Chain(scene, config), UserError);
-}
-
 TEST(Chain, StepsAreNotOfPatterns) {
   auto description = views(24).front();
   description.texture.kind = scene::SolidKind::Marble;

@@ -47,10 +47,51 @@ scene::SceneDescription random_scene(fastsplat::test::Random& random) {
   return scene;
 }
 
-Mixture random_mixture(fastsplat::test::Random& random) {
+scene::SceneDescription random_density_scene(fastsplat::test::Random& random) {
+  scene::SceneDescription scene = random_scene(random);
+  scene.method = scene::Method::ImageAligned;
+  scene.xray_exposure = 0.0;
+  scene.xray_sheets = 1;
+  scene.classify = scene::ClassifyOrder::Post;
+  // Two volumes of many values, one of two.
+  const char* const volumes[] = {"shells:", "marschner-lobb:", "binary-cube:"};
+  scene.volume = volumes[random.between(0, 2)] + std::to_string(random.between(8, 12));
+  // All of them begin clear; "terrain" and "ct-head" are shaded by themselves.
+  const char* const functions[] = {"ct-head", "bone", "soft-tissue", "linear", "terrain", "default"};
+  scene.transfer_function = functions[random.between(0, 5)];
+  scene.shading = static_cast<int>(random.between(-1, 1));
+  scene.opacity_scale = std::exp2(real_between(random, 0.0, random.once_in(4) ? 12.0 : 5.0));
+  if (scene.camera.projection == scene::Projection::Orthographic) scene.camera.zoom = real_between(random, 0.8, 2.5);
+  return scene;
+}
+
+std::vector<scene::SceneDescription> small_density_scenes() {
+  std::vector<scene::SceneDescription> scenes(3);
+  for (scene::SceneDescription& scene : scenes) {
+    scene.volume = "marschner-lobb:12";
+    scene.transfer_function = "ct-head";
+    scene.classify = scene::ClassifyOrder::Post;
+    scene.shading = 1;
+    scene.width = 20;
+    scene.height = 18;
+    scene.camera.azimuth = 37.0;
+    scene.camera.elevation = 21.0;
+  }
+  scenes[0].camera.projection = scene::Projection::Perspective;
+  scenes[0].slab_width = 0.7;
+  scenes[1].volume = "shells:10";
+  scenes[1].transfer_function = "terrain";  // with a gradient floor
+  scenes[2].slab_opacity = scene::SlabOpacity::Additive;
+  scenes[2].camera.zoom = 2.0;
+  return scenes;
+}
+
+Mixture random_mixture(fastsplat::test::Random& random, bool densities) {
   const std::int64_t in_eight = random.one_of({1, 4, 4, 7});
   Mixture mixture;
-  for (const Step step : all_steps()) mixture.set(step, random.between(1, 8) <= in_eight);
+  for (const Step step : all_steps()) {
+    if (densities || !of_densities(step)) mixture.set(step, random.between(1, 8) <= in_eight);
+  }
   return mixture;
 }
 

@@ -16,8 +16,13 @@ scene::SceneDescription random_scene(fastsplat::test::Random& random);
 /// Small scenes of three kinds.
 std::vector<scene::SceneDescription> small_scenes();
 
-/// Of few steps, of half of them, of nearly all.
-Mixture random_mixture(fastsplat::test::Random& random);
+/// Sheets of densities: both projections, ramps and isosurfaces, shaded and not, whole and cropped, faint and opaque.
+scene::SceneDescription random_density_scene(fastsplat::test::Random& random);
+/// Three such scenes.
+std::vector<scene::SceneDescription> small_density_scenes();
+
+/// Of few steps, of half of them, of nearly all; those of densities among them only if asked for.
+Mixture random_mixture(fastsplat::test::Random& random, bool densities = false);
 
 /// All keys, to have a configuration again.
 std::string text_of(const cmodel::Config& config);

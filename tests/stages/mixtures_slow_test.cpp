@@ -17,16 +17,24 @@ namespace fastsplat::stages {
 namespace {
 
 using fastsplat::test::Random, fastsplat::test::named_config, fastsplat::test::random_config, fastsplat::test::seed_or;
-using test::random_mixture, test::random_scene, test::small_scenes, test::text_of;
+using fastsplat::test::random_density_config;
+using test::random_density_scene, test::random_mixture, test::random_scene, test::small_density_scenes,
+    test::small_scenes, test::text_of;
 
 /// What two orders of the same sums may differ by: some thousand terms at a pixel, n 2^-53 of a sum of n, and as much
 /// again for the steps behind. Where a rounding hangs on that a word may differ: oracle::Closeness says at which
 /// pixels.
 constexpr double kBound = 1e-12;
 
+/// Of densities, where all steps are real, golden itself draws them: in floats behind the gradient
+/// (density_steps_test.cpp counts what that takes, 110 2^-24 of the most that shows).
+constexpr double kGoldensFloats = 1e-5;
+
 struct Figures {
   std::uint64_t mixtures = 0, values = 0, close = 0;
   std::uint64_t over = 0;          ///< beyond the bound where nothing explains it
+  std::uint64_t lit = 0;           ///< values that are not 0
+  std::uint64_t floats = 0;        ///< mixtures that golden draws in floats
   std::uint64_t over_at_edge = 0;  ///< beyond it at a pixel that hangs on the last bits of a double
   double largest = 0.0;            ///< of all others
 
@@ -49,18 +57,22 @@ void compare(const scene::Scene& scene, const cmodel::Config& config, const Chai
   ++figures.mixtures;
   const std::uint64_t over_before = figures.over;
   double worst = 0.0;
+  const bool floats = chain.holds_densities() && mixture == Mixture{};
+  const double bound = floats ? kGoldensFloats : kBound;
+  figures.floats += floats ? 1 : 0;
   for (std::size_t i = 0; i < expected.size(); ++i) {
+    for (std::size_t c = 0; c < 4; ++c) figures.lit += expected[i][c] != 0.0 ? 1 : 0;
     figures.close += close[i] ? 1 : 0;
     for (std::size_t c = 0; c < 4; ++c) {
       const double difference = std::abs(picture.pixels[i][c] - expected[i][c]);
-      const bool over = !(difference <= kBound * std::max(1.0, std::abs(expected[i][c])));
+      const bool over = !(difference <= bound * std::max(1.0, std::abs(expected[i][c])));
       ++figures.values;
       if (over && close[i]) {
         ++figures.over_at_edge;
         continue;
       }
       figures.over += over ? 1 : 0;
-      worst = std::max(worst, difference);
+      worst = std::max(worst, floats ? 0.0 : difference);
     }
   }
   figures.largest = std::max(figures.largest, worst);
@@ -143,6 +155,46 @@ TEST_P(OfAKind, AtRandomTheChainIsItsPage) {
   EXPECT_LE(figures.over_at_edge * 10000, figures.values);
   met.print();
   EXPECT_GT(met.methods[static_cast<std::size_t>(scene::Method::Westover)], wanted / 20);
+}
+
+TEST(Mixtures, OfDensitiesAtRandomTheChainIsItsPage) {
+  Random random(seed_or(2130));
+  Figures figures;
+  while (figures.mixtures < 200) {
+    const cmodel::Config config = random_density_config(random);
+    const scene::Scene scene = scene::build_scene(random_density_scene(random));
+    const Mixture mixture = random_mixture(random, true);
+    try {
+      const Chain chain(scene, config);
+      compare(scene, config, chain, mixture, figures);
+    } catch (const UserError&) {
+      continue;  // the configuration cannot hold the scene
+    }
+  }
+  figures.print("densities");
+  std::printf("[figure] %llu values not 0; %llu mixtures in golden's floats\n",
+              static_cast<unsigned long long>(figures.lit), static_cast<unsigned long long>(figures.floats));
+  EXPECT_GT(figures.lit, figures.values / 4);
+  EXPECT_LE(figures.over_at_edge * 1000, figures.values);
+}
+
+TEST(Mixtures, OfDensitiesEachStepAloneAndAllButOne) {
+  Figures alone, others;
+  for (const char* name : {"base", "fine"}) {
+    cmodel::Config config = named_config(name);
+    config.classify_segment_bits = 6;
+    for (const scene::SceneDescription& description : small_density_scenes()) {
+      const scene::Scene scene = scene::build_scene(description);
+      const Chain chain(scene, config);
+      for (const Step step : all_steps()) {
+        compare(scene, config, chain, Mixture{step}, alone);
+        compare(scene, config, chain, Mixture::all_device().with({&step, 1}, false), others);
+      }
+    }
+  }
+  alone.print("densities, each step alone");
+  others.print("densities, all but one step");
+  EXPECT_GT(alone.lit, alone.values / 4);
 }
 
 TEST(Mixtures, EachStepAloneAndAllButOne) {

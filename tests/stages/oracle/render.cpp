@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/stages/oracle/densities.hpp"
 #include "tests/stages/oracle/rounding.hpp"
 #include "tests/stages/oracle/splats.hpp"
 #include "tests/stages/oracle/tables.hpp"
@@ -63,9 +64,16 @@ class Frame {
   /// Every sample is composited: no sums.
   bool samples() const { return scene_.description.method == scene::Method::Westover; }
 
-  /// Steps sheet to freeze, at the end of a sheet; of one sample from factor on.
+  void cut_sum(Values& sums) const {
+    if (!mixture_.device(Step::Sheet)) return;
+    for (double& sum : sums) sum = cut(sum, 0.0, largest(config_.sheet_int_bits, config_.sheet_frac_bits));
+  }
+
+  bool densities() const { return scene_.description.classify == scene::ClassifyOrder::Post; }
+
+  /// Steps sheet to freeze, at the end of a sheet; of one sample, and of what was a density, from factor on.
   void composite(Values s, Pixel& pixel) const {
-    if (!samples()) cut_sum(s);
+    if (!samples() && !densities()) cut_sum(s);
     if (s == Values{}) return;
     if (xray_) {
       for (std::size_t c = 0; c < 4; ++c) pixel.colour[c] += s[c];
@@ -167,11 +175,6 @@ class Frame {
                                std::pow(2.0L, -wf));
   }
 
-  void cut_sum(Values& sums) const {
-    if (!mixture_.device(Step::Sheet)) return;
-    for (double& sum : sums) sum = cut(sum, 0.0, largest(config_.sheet_int_bits, config_.sheet_frac_bits));
-  }
-
   /// Steps factor and slab: colour, and last the opacity.
   Values slab_of(const Values& s, Closeness& closeness) const {
     const double tau = s[3];
@@ -202,6 +205,56 @@ class Frame {
   std::vector<double> radial_, factor_;
 };
 
+/// All sheets of all pixels first: what a pixel becomes hangs on its neighbours.
+std::vector<std::array<double, 4>> of_densities(const scene::Scene& scene, const cmodel::Config& config,
+                                                const Mixture& mixture, const Frame& frame,
+                                                const std::vector<Splat>& splats, std::size_t sheets,
+                                                std::vector<bool>* close) {
+  const int width = scene.description.width, height = scene.description.height;
+  const auto at = [width](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  };
+  std::vector<std::vector<Values>> sums(sheets, std::vector<Values>(at(0, height), Values{}));
+  std::vector<Closeness> doubts(at(0, height));
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (const Splat& splat : splats) {
+        const double dx = x - splat.x, dy = y - splat.y, reach = splat.radius + frame.beyond();
+        if (std::abs(dx) >= reach || std::abs(dy) >= reach) continue;
+        Closeness& doubt = doubts[at(x, y)];
+        doubt |= splat.closeness;
+        const double w = frame.weight(dx, dy, splat.radius, doubt);
+        for (std::size_t s = 0; s < sheets; ++s) {
+          if (splat.shares[s][3] != 0.0) sums[s][at(x, y)][3] += frame.product(splat.shares[s][3], w, doubt);
+        }
+      }
+      for (std::size_t s = 0; s < sheets; ++s) frame.cut_sum(sums[s][at(x, y)]);
+    }
+  }
+  const Densities colours(scene, config, mixture, static_cast<int>(sheets));
+  std::vector<std::array<double, 4>> picture;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      Pixel pixel;
+      const auto d = [&](std::size_t s, int i, int j) { return s < sheets ? sums[s][at(i, j)][3] : 0.0; };
+      // Beyond the picture a pixel stands for its neighbour, and what is left counts twice.
+      const int left = x == 0 ? 0 : x - 1, right = x + 1 == width ? x : x + 1, above = y == 0 ? 0 : y - 1,
+                below = y + 1 == height ? y : y + 1;
+      for (const std::size_t i : {at(x, y), at(left, y), at(right, y), at(x, above), at(x, below)})
+        pixel.closeness |= doubts[i];
+      for (std::size_t s = 0; s < sheets; ++s) {
+        const double across = (d(s, right, y) - d(s, left, y)) * (right - left == 2 ? 1.0 : 2.0);
+        const double down = (d(s, x, below) - d(s, x, above)) * (below - above == 2 ? 1.0 : 2.0);
+        const double along = d(s + 1, x, y) - (s == 0 ? 0.0 : d(s - 1, x, y));
+        frame.composite(colours(d(s, x, y), {across, down, along}, x, y, static_cast<int>(s), pixel.closeness), pixel);
+      }
+      picture.push_back(frame.out(pixel));
+      if (close != nullptr) close->push_back(pixel.closeness.close);
+    }
+  }
+  return picture;
+}
+
 }  // namespace
 
 std::vector<std::array<double, 4>> render(const scene::Scene& scene, const cmodel::Config& config,
@@ -212,6 +265,7 @@ std::vector<std::array<double, 4>> render(const scene::Scene& scene, const cmode
   const std::size_t sheets = splats.empty() ? 0 : splats.front().shares.size();
   std::vector<std::array<double, 4>> picture;
   if (close != nullptr) close->clear();
+  if (frame.densities()) return of_densities(scene, config, mixture, frame, splats, sheets, close);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       Pixel pixel;

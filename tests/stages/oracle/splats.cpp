@@ -69,10 +69,25 @@ class Steps {
     const double peak = a / (std::numbers::pi * (1.0 - std::exp(-a * r * r)));
     const double exposure = scene.description.method == scene::Method::XRay ? scene.xray_scale : 1.0;
     amplitude_ = peak * cell.x * cell.y * cell.z * exposure;
+    if (scene.description.classify == scene::ClassifyOrder::Pre) return;
+    const volume::Volume& volume = *scene.volume;
+    for (int z = 0; z < volume.dims.z; ++z) {
+      for (int y = 0; y < volume.dims.y; ++y) {
+        for (int x = 0; x < volume.dims.x; ++x) {
+          const glm::vec3 at(volume.position(x, y, z));
+          above_[{at.x, at.y, at.z}] = static_cast<double>(volume.at(x, y, z) - volume.min);
+        }
+      }
+    }
   }
 
   Splat operator()(const scene::Splat& voxel, std::uint32_t line) {
-    const scene::RealSplat real = scene::real_splat(scene_, voxel);
+    scene::RealSplat real = scene::real_splat(scene_, voxel);
+    if (!above_.empty() && !mixture_.device(Step::Emission)) {
+      const double range = static_cast<double>(scene_.volume->max) - scene_.volume->min;
+      real.material[3] =
+          above_.at({voxel.position.x, voxel.position.y, voxel.position.z}) / (range * scene_.description.slab_width);
+    }
     Splat splat;
     splat.x = place(real.at.x, splat.closeness);
     splat.y = place(real.at.y, splat.closeness);
@@ -176,12 +191,14 @@ class Steps {
   Shown shown_;
   double amplitude_ = 0.0;
   std::map<std::uint32_t, Rest> rests_;
+  std::map<std::array<float, 3>, double> above_;  ///< of densities: a voxel's value less the least, by its place
 };
 
 }  // namespace
 
 std::vector<Splat> splats_of(const scene::Scene& scene, const cmodel::Config& config, const Mixture& mixture) {
-  const scene::Traversal traversal(scene);
+  const bool densities = scene.description.classify == scene::ClassifyOrder::Post;
+  const scene::Traversal traversal(scene, densities ? scene::SplatKind::Densities : scene::SplatKind::Colours);
   const Sheets sheets(scene, traversal.slices());
   Steps steps(scene, config, mixture, sheets, traversal.columns());
   std::vector<Splat> all;

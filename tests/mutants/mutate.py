@@ -30,8 +30,13 @@ def say(text: str):
     print(f"mutate: {text}", file=sys.stderr, flush=True)
 
 
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        campaign.usage(f"{message}; expected flags of ./run mutate --help")
+
+
 def parse(words):
-    parser = argparse.ArgumentParser(prog="./run mutate", allow_abbrev=False, description="Mutants of rtl/ against the checks: each is killed, or "
+    parser = Parser(prog="./run mutate", allow_abbrev=False, description="Mutants of rtl/ against the checks: each is killed, or "
                                      "tests/mutants/exclusions.toml says why it cannot be. Exit code 1: one lives that is not explained there, or one "
                                      "that is explained was killed.")
     parser.add_argument("--module", action="append", metavar="M", help="all mutants of this module (more than once: of these)")
@@ -70,6 +75,7 @@ def program(root, build, name, kind="check_mutants_"):
 def run_all(arguments, root, build, until):
     """{number: (where, what was said)} of the killed, those that live, those not tried."""
     mutants = chosen(arguments, [vars(m) for _, _, listed in generate.mutate(f"{root}/rtl")[0] for m in listed])
+    program(root, build, "emit_package", "fastsplat_")
     module = {m["number"]: m["module"] for m in mutants}
     killed, untried = {}, []
     living = list(module)

@@ -1,0 +1,197 @@
+// ./run, the script: every verb tells itself, and what a verb does not know is refused, before anything is installed,
+// configured or built. It lies in a tree of its own, among programs that only write down that they were called.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "tests/cli/process_helper.hpp"
+#include "tests/paths.hpp"
+
+namespace fastsplat::cli_test {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+/// A copy of ./run with what it reads beside it, and nothing that could be built.
+class Tree {
+ public:
+  Tree() {
+    fs::copy_file(kSource / "run", folder_ / "run");
+    for (const char* part : {"packaging", "docs", "tests", "rtl", "CMakePresets.json"})
+      fs::create_symlink(kSource / part, folder_ / part);
+    fs::create_directory(folder_ / "tools");
+    for (const char* tool : {"cmake", "ninja", "apt-get", "apt-cache", "dpkg-query", "sudo"}) put(tool, "exit 1");
+    before_ = folder_.entries();
+  }
+
+  /// Puts a program in the way of the system's; it writes its name into `called` first.
+  void put(const std::string& tool, const std::string& script) const {
+    const std::string path = folder_.write(
+        "tools/" + tool, "#!/bin/sh\necho " + tool + " >>'" + (folder_ / "called") + "'\n" + script + "\n");
+    fs::permissions(path, fs::perms::owner_all);
+  }
+
+  Result run(const Words& words) const {
+    Surroundings here;
+    here.folder = folder_.path();
+    here.environment = {"PATH=" + (folder_ / "tools") + ":" + std::getenv("PATH"), "FASTSPLAT_RTL_CONFIGS="};
+    Words all{folder_ / "run"};
+    all.insert(all.end(), words.begin(), words.end());
+    return run_words(all, here);
+  }
+
+  /// Nothing was made in it, and none of the programs called.
+  void expect_untouched() const { EXPECT_EQ(folder_.entries(), before_); }
+  std::string operator/(const std::string& name) const { return folder_ / name; }
+
+ private:
+  inline static const fs::path kSource = FASTSPLAT_SOURCE_DIR;
+  TempFolder folder_;
+  Words before_;
+};
+
+std::string joined(const Words& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+void expect_refusal(const Result& result, const Words& parts) {
+  EXPECT_EQ(result.code, 2) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_NE(result.err.find("error: "), std::string::npos) << result.err;
+  for (const auto& part : parts)
+    EXPECT_NE(result.err.find(part), std::string::npos) << "'" << part << "' is not in: " << result.err;
+}
+
+/// Verb and line, as ./run help lists them.
+std::vector<std::pair<std::string, std::string>> listed(const Tree& tree) {
+  std::vector<std::pair<std::string, std::string>> verbs;
+  std::istringstream lines(tree.run({"help"}).out);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string door, verb;
+    words >> door >> verb;
+    if (door == "./run") verbs.emplace_back(verb, line);
+  }
+  return verbs;
+}
+
+TEST(RunVerbs, EachTellsItselfAndNothingIsBuilt) {
+  const Tree tree;
+  const auto verbs = listed(tree);
+  for (const auto& [verb, line] : verbs) {
+    SCOPED_TRACE(verb);
+    const auto result = tree.run({verb, "--help"});
+    expect_success(result);
+    EXPECT_EQ(result.err, "");
+    EXPECT_EQ(result.out.rfind(line + "\n", 0), 0U) << result.out;
+    if (verb == "help") continue;
+    for (const char* part : {"usage:", "\n    writes: ", "\n    takes:  "})
+      EXPECT_NE(result.out.find(part), std::string::npos) << "no '" << part << "' in " << result.out;
+    EXPECT_EQ(result.out.find("\n./run "), std::string::npos) << "another verb's line in " << result.out;
+  }
+  tree.expect_untouched();
+  std::printf("[figure] verbs of ./run that tell themselves = %zu (limit > 10)\n", verbs.size());
+  EXPECT_GT(verbs.size(), 10U);
+}
+
+TEST(RunVerbs, TheScriptHasThoseThatItLists) {
+  const Tree tree;
+  std::set<std::string> told, had;
+  for (const auto& [verb, line] : listed(tree)) told.insert(verb);
+  const std::string script = read_bytes(tree / "run");
+  const std::string doors = script.substr(script.rfind("\ncase $verb in\n"));
+  static const std::regex door(R"(\n  ([a-z]+)\) )");
+  for (auto at = std::sregex_iterator(doors.begin(), doors.end(), door); at != std::sregex_iterator(); ++at)
+    had.insert((*at)[1]);
+  EXPECT_EQ(told, had);
+}
+
+TEST(RunVerbs, HelpBehindOtherArgumentsIsHelp) {
+  const Tree tree;
+  EXPECT_EQ(tree.run({"test", "-L", "fast", "-h"}).out, tree.run({"test", "--help"}).out);
+  tree.expect_untouched();
+}
+
+TEST(RunVerbs, WhatIsNotKnownIsRefusedAndNothingIsBuilt) {
+  const Tree tree;
+  const std::vector<std::pair<Words, Words>> wrong{
+      {{"nosuch"}, {"verb 'nosuch'", "./run help"}},
+      {{"nosuch", "--help"}, {"verb 'nosuch'", "./run help"}},
+      {{"help", "nosuch"}, {"help", "no arguments", "nosuch"}},
+      {{"evidence", "nosuch"}, {"evidence", "no arguments", "nosuch"}},
+      {{"test", "--nosuch"}, {"test", "--nosuch", "ctest --help"}},
+      {{"test", "base_fast"}, {"test", "base_fast", "-R NAME"}},
+      {{"test", "-L", "fast", "base"}, {"test", "'base'", "-R NAME"}},
+      {{"bench", "rtl"}, {"bench", "rtl", "--benchmark_filter"}},
+      {{"performance", "--nosuch"}, {"performance", "--nosuch", "--benchmark_filter"}},
+      {{"peers", "vtk"}, {"peers", "vtk", "--benchmark_filter"}},
+      {{"netlist", "nosuch"}, {"netlist", "nosuch", "westover"}},
+      {{"netlist", "small", "--nosuch"}, {"netlist", "--nosuch", "westover"}},
+      {{"synth", "ice40"}, {"synth", "ice40", "xc7-cull_pixel"}},
+      {{"synth", "xc7-base", "xc7-nosuch"}, {"synth", "xc7-nosuch", "hx8k-hx8k"}},
+      {{"mutate", "--nosuch"}, {"mutate", "--nosuch", "./run mutate --help"}},
+      {{"mutate", "--seed", "x"}, {"mutate", "--seed", "x"}},
+      {{"mutate", "--module", "nosuch"}, {"mutate", "nosuch", "compositor"}},
+      {{"build", "--nosuch"}, {"build", "--nosuch", "-jN"}},
+      {{"fuzz", "--nosuch"}, {"fuzz", "--nosuch", "--seconds"}},
+      {{"fuzz", "--seconds", "0"}, {"fuzz", "--seconds", "'0'"}},
+      {{"fuzz", "nosuch"}, {"fuzz", "nosuch", "transfer_function"}},
+      {{"sanitize", "base"}, {"sanitize", "'base'", "base_fast"}},
+      {{"sanitize", "base_slow"}, {"sanitize", "base_slow", "base_fast"}},  // base has no slow tests
+      {{"gallery", "nosuch"}, {"gallery", "nosuch", "terrain"}},
+      {{"gallery", "terrain", "nosuch"}, {"gallery", "nosuch", "terrain"}},
+      {{"coverage", "nosuch.json"}, {"coverage", "nosuch.json", "files"}},
+  };
+  for (const auto& [words, parts] : wrong) {
+    SCOPED_TRACE(joined(words));
+    expect_refusal(tree.run(words), parts);
+  }
+  tree.expect_untouched();
+}
+
+/// A build of Ninja's with one target, and a second once the file `more` is there.
+void put_build(const Tree& tree) {
+  tree.put("dpkg-query", R"(for name; do case $name in -*) ;; *) echo "$name installed" ;; esac; done)");
+  tree.put("cmake", R"(while [ "$1" != -B ]; do shift; done
+cat >"$2/configure" <<'TEXT'
+{ cat <<'RULES'
+rule configure
+  command = sh ./configure
+  generator = 1
+rule make
+  command = touch $out
+build build.ninja: configure | ../more
+build one: make
+RULES
+[ ! -s ../more ] || echo 'build two: make'; } >build.ninja
+TEXT
+: >"$2/../more"
+cd "$2" && sh ./configure)");
+  fs::remove(tree / "tools/ninja");  // the system's own
+}
+
+TEST(RunVerbs, WhatIsNoTargetIsRefusedBeforeAnotherIsBuilt) {
+  const Tree tree;
+  put_build(tree);
+  expect_success(tree.run({"build", "-j1", "one"}));
+  EXPECT_TRUE(fs::exists(tree / "build/one"));
+  fs::remove(tree / "build/one");
+  expect_refusal(tree.run({"build", "one", "two"}), {"build", "'two'", "targets"});
+  EXPECT_FALSE(fs::exists(tree / "build/one"));
+  // Of files that the build has not looked at since they changed.
+  std::ofstream(tree / "more") << "a target\n";
+  expect_success(tree.run({"build", "one", "two"}));
+  EXPECT_TRUE(fs::exists(tree / "build/two"));
+}
+
+}  // namespace
+}  // namespace fastsplat::cli_test

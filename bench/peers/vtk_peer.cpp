@@ -4,8 +4,13 @@
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
+#include <initializer_list>
+#include <map>
 #include <stdexcept>
+#include <string>
+#include <tuple>
 
+#include "bench/peers/filtered_volume.hpp"
 #include "bench/peers/peer_main.hpp"
 #include "bench/peers/same_picture.hpp"
 #include "bench/peers/vtk_ray_caster.hpp"
@@ -18,6 +23,7 @@ namespace fastsplat::bench {
 namespace {
 
 constexpr int kSize = 512;
+constexpr int kSegmentBits = 9;  ///< classify.segment_bits of a device that classifies densities, as the guide has it
 
 struct Subject {
   const char* name;
@@ -73,10 +79,11 @@ void alike(benchmark::State& state, const Image& a, const Image& b, double least
 }
 
 /// The scene in VTK's order: interpolated, then classified, and neither shades.
-scene::Scene unshaded(const Subject& subject, scene::ClassifyOrder order) {
+scene::Scene unshaded(const Subject& subject, scene::ClassifyOrder order, double slab_width = 1.0) {
   scene::SceneDescription description = description_of(subject.volume, kSize);
   description.shading = 0;
   description.classify = order;
+  description.slab_width = slab_width;
   return scene::build_scene(description, scene(subject).whole ? scene(subject).whole : scene(subject).volume);
 }
 
@@ -104,6 +111,70 @@ void register_pictures(const Subject& subject) {
   });
 }
 
+/// Classified by pixel and unshaded: VTK with `samples` kernel units between samples on a volume of `points` points a
+/// voxel, ours with sheets `sheets` apart. One point a voxel: the volume as it is; more: the field that splats
+/// reconstruct, between whose points VTK interpolates.
+struct PostClassified {
+  int points;
+  double samples, sheets;
+};
+
+const Image& vtk_post(const Subject& subject, int points, double samples) {
+  static std::map<std::tuple<std::string, int, double>, Image> pictures;
+  const auto [found, fresh] = pictures.try_emplace({subject.name, points, samples});
+  if (fresh) {
+    const scene::Scene post = unshaded(subject, scene::ClassifyOrder::Post);
+    VtkRayCaster caster(post, points == 1 ? *post.volume : filtered(*post.volume, post.kernel, points), samples);
+    caster.draw();
+    found->second = caster.picture();
+  }
+  return found->second;
+}
+
+/// `who` is golden or a configuration.
+const Image& our_post(const Subject& subject, const std::string& who, double sheets) {
+  static std::map<std::tuple<std::string, std::string, double>, Image> pictures;
+  const auto [found, fresh] = pictures.try_emplace({subject.name, who, sheets});
+  if (fresh) {
+    const scene::Scene post = unshaded(subject, scene::ClassifyOrder::Post, sheets);
+    if (who == "golden") return found->second = golden_of(post);
+    cmodel::Config device = driver::load_config(who);
+    device.classify_segment_bits = kSegmentBits;
+    found->second = driver::to_image(driver::render(post, device, {.threads = 1}).frame);
+  }
+  return found->second;
+}
+
+/// VTK's picture of the filtered volume is to be nearer to each of ours than that of the volume itself: if the filter
+/// is not what they differ by, something else is wrong.
+void post_classified(benchmark::State& state, const Subject& subject, const PostClassified& as) {
+  for (auto _ : state) {
+  }
+  const Image& theirs = vtk_post(subject, as.points, as.samples);
+  for (const char* who : {"golden", "base", "fine"}) {
+    const Image& ours = our_post(subject, who, as.sheets);
+    const double db = psnr(theirs, ours);
+    state.counters[who] = db;
+    if (as.points > 1 && !(db > psnr(vtk_post(subject, 1, as.samples), ours)))
+      throw std::runtime_error("VTK's picture of the filtered volume is not nearer to ours than that of the volume");
+  }
+  state.counters["overlap"] = silhouette_overlap(theirs, our_post(subject, "golden", as.sheets));
+  state.counters["points"] = as.points;
+  state.counters["samples"] = as.samples;
+  state.counters["sheets"] = as.sheets;
+}
+
+void register_post_classified(const Subject& subject) {
+  int row = 0;
+  for (const PostClassified& as : std::initializer_list<PostClassified>{
+           {1, 1.0, 1.0}, {1, 0.25, 0.25}, {2, 0.25, 0.25}, {3, 1.0, 1.0}, {3, 0.25, 1.0}, {3, 0.25, 0.25}}) {
+    benchmark::RegisterBenchmark((std::string("post/") + subject.name + "/" + std::to_string(++row)).c_str(),
+                                 [subject, as](benchmark::State& state) { post_classified(state, subject, as); })
+        ->Iterations(1)
+        ->Repetitions(1);
+  }
+}
+
 void register_frames(const Subject& subject) {
   const auto line = [&](const std::string& who, auto draw) {
     benchmark::RegisterBenchmark((who + "/" + subject.name).c_str(), draw)
@@ -126,6 +197,7 @@ int main(int count, char** arguments) {
   return run_peer(count, arguments, [] {
     if (std::filesystem::exists(kHead)) {
       register_pictures({"head512", kHead});
+      register_post_classified({"head512", kHead});
       register_frames({"head512", kHead});
     }
     register_pictures({"shells256", "shells:256"});

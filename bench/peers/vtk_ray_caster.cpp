@@ -94,20 +94,23 @@ struct VtkRayCaster::Pipeline {
   vtkNew<vtkLight> light;
 };
 
-VtkRayCaster::VtkRayCaster(const scene::Scene& scene) : pipeline_(std::make_unique<Pipeline>()) {
+VtkRayCaster::VtkRayCaster(const scene::Scene& scene) : VtkRayCaster(scene, *scene.volume, 1.0) {}
+
+VtkRayCaster::VtkRayCaster(const scene::Scene& scene, const volume::Volume& densities, double step)
+    : pipeline_(std::make_unique<Pipeline>()) {
   Pipeline& p = *pipeline_;
-  fill(*scene.volume, *p.grid);
+  fill(densities, *p.grid);
   classify(scene, *p.property);
   place(scene, *p.renderer->GetActiveCamera());
   aim(scene, *p.light);
 
-  const double step = scene.volume->kernel_unit();
+  const auto distance = static_cast<float>(step * scene.volume->kernel_unit());
   p.mapper->SetInputData(p.grid);
   p.mapper->SetNumberOfThreads(1);
   p.mapper->SetAutoAdjustSampleDistances(0);
   p.mapper->SetLockSampleDistanceToInputSpacing(0);
-  p.mapper->SetSampleDistance(static_cast<float>(step));
-  p.mapper->SetInteractiveSampleDistance(static_cast<float>(step));
+  p.mapper->SetSampleDistance(distance);
+  p.mapper->SetInteractiveSampleDistance(distance);
   p.mapper->SetImageSampleDistance(1.0f);
   p.mapper->SetBlendModeToComposite();
 

@@ -15,6 +15,9 @@ class VtkRayCaster {
  public:
   /// The scene outlives it: orthographic, unrolled or not, of an unturned grid.
   explicit VtkRayCaster(const scene::Scene& scene);
+  /// `densities` in the place of the scene's volume, around the same centre and in its units; a sample every `step`
+  /// kernel units. They are copied.
+  VtkRayCaster(const scene::Scene& scene, const volume::Volume& densities, double step);
   ~VtkRayCaster();
 
   void draw();

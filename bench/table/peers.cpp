@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
+#include <utility>
 
 #include "bench/table/results.hpp"
 
@@ -83,6 +84,27 @@ void print_pictures(const Results& results) {
   }
 }
 
+std::string voxels(double length) { return length == 1.0 ? "voxel" : fmt::format("1/{:.0f} voxel", 1.0 / length); }
+
+/// Nothing where there is no head to draw.
+void print_post_classified(const Results& results) {
+  bool any = false;
+  for (const auto& [name, line] : results.lines) {
+    if (!name.starts_with("post/")) continue;
+    if (!std::exchange(any, true))
+      std::cout
+          << "\n## Classified by pixel, as VTK does it\n\n| VTK draws | its samples, every | our sheets, every | "
+             "golden, dB | `base`, dB | `fine`, dB | golden's silhouette in common |\n|---|---|---|---|---|---|---|\n";
+    const auto& figure = line.counters;
+    const double points = figure.at("points");
+    std::cout << fmt::format(
+        "| {} | {} | {} | {:.1f} | {:.1f} | {:.1f} | {:.1f} % |\n",
+        points == 1.0 ? "the volume" : fmt::format("the filtered volume, {:.0f} points a voxel", points),
+        voxels(figure.at("samples")), voxels(figure.at("sheets")), figure.at("golden"), figure.at("base"),
+        figure.at("fine"), 100 * figure.at("overlap"));
+  }
+}
+
 void print_rows(const Results& results) {
   print_heading("ratio of medians, CPU time");
   for (const Row& row : kRows) {
@@ -95,7 +117,7 @@ void print_rows(const Results& results) {
 void print_lines(const Results& results) {
   std::cout << "\n| line | CPU ms, median | least | greatest |\n|---|---|---|---|\n";
   for (const auto& [name, line] : results.lines) {
-    if (name.starts_with("picture/") || name.starts_with("words/")) continue;
+    if (name.starts_with("picture/") || name.starts_with("words/") || name.starts_with("post/")) continue;
     std::cout << fmt::format("| {} | {:.3g} | {:.3g} | {:.3g} |\n", name, median(line.cpu),
                              *std::ranges::min_element(line.cpu), *std::ranges::max_element(line.cpu));
   }
@@ -116,6 +138,7 @@ int main(int count, char** arguments) try {
   print_rows(results);
   std::cout << "\n## The same pictures, the same words\n\n";
   print_pictures(results);
+  print_post_classified(results);
   std::cout << "\n## Lines\n";
   print_lines(results);
   return 0;

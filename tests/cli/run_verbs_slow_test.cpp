@@ -23,7 +23,7 @@ class Tree {
  public:
   Tree() {
     fs::copy_file(kSource / "run", folder_ / "run");
-    for (const char* part : {"packaging", "docs", "tests", "rtl", "CMakePresets.json"})
+    for (const char* part : {"packaging", "docs", "tests", "rtl", "bench", "CMakePresets.json"})
       fs::create_symlink(kSource / part, folder_ / part);
     fs::create_directory(folder_ / "tools");
     for (const char* tool : {"cmake", "ninja", "apt-get", "apt-cache", "dpkg-query", "sudo"}) put(tool, "exit 1");
@@ -130,6 +130,7 @@ TEST(RunVerbs, WhatIsNotKnownIsRefusedAndNothingIsBuilt) {
       {{"evidence", "nosuch"}, {"evidence", "no arguments", "nosuch"}},
       {{"test", "--nosuch"}, {"test", "--nosuch", "ctest --help"}},
       {{"test", "base_fast"}, {"test", "base_fast", "-R NAME"}},
+      {{"test", "-j2", "--nosuch"}, {"test", "--nosuch", "ctest --help"}},
       {{"test", "-L", "fast", "base"}, {"test", "'base'", "-R NAME"}},
       {{"bench", "rtl"}, {"bench", "rtl", "--benchmark_filter"}},
       {{"performance", "--nosuch"}, {"performance", "--nosuch", "--benchmark_filter"}},
@@ -147,8 +148,8 @@ TEST(RunVerbs, WhatIsNotKnownIsRefusedAndNothingIsBuilt) {
       {{"fuzz", "nosuch"}, {"fuzz", "nosuch", "transfer_function"}},
       {{"sanitize", "base"}, {"sanitize", "'base'", "base_fast"}},
       {{"sanitize", "base_slow"}, {"sanitize", "base_slow", "base_fast"}},  // base has no slow tests
-      {{"gallery", "nosuch"}, {"gallery", "nosuch", "terrain"}},
-      {{"gallery", "terrain", "nosuch"}, {"gallery", "nosuch", "terrain"}},
+      {{"gallery", "nosuch"}, {"gallery", "nosuch", "docs/gallery.toml"}},
+      {{"gallery", "terrain", "nosuch"}, {"gallery", "nosuch", "docs/gallery.toml"}},
       {{"coverage", "nosuch.json"}, {"coverage", "nosuch.json", "files"}},
   };
   for (const auto& [words, parts] : wrong) {
@@ -156,6 +157,30 @@ TEST(RunVerbs, WhatIsNotKnownIsRefusedAndNothingIsBuilt) {
     expect_refusal(tree.run(words), parts);
   }
   tree.expect_untouched();
+}
+
+// Those that are known get as far as the packages, of which there are none here.
+TEST(RunVerbs, WhatIsKnownGoesOn) {
+  const std::vector<Words> right{{"test", "-L", "fast", "-R", "Name", "-j2", "--timeout=9", "-VV"},
+                                 {"bench", "--benchmark_filter=rtl"},
+                                 {"netlist", "small", "cull"},
+                                 {"synth", "xc7-cull_pixel", "hx8k-tiny"},
+                                 {"mutate", "--module", "csr", "--seed", "3"},
+                                 {"build", "-j1", "-k0", "fastsplat"},
+                                 {"fuzz", "--seconds", "1", "volume", "--jobs", "2", "--keep"},
+                                 {"sanitize", "base_fast", "cmodel_slow"},
+                                 {"gallery", "terrain"},
+                                 {"coverage", "run"},
+                                 {"demo", "--size", "64"},
+                                 {"fastsplat", "render", "--help"}};
+  for (const Words& words : right) {
+    SCOPED_TRACE(joined(words));
+    const Tree tree;
+    const auto result = tree.run(words);
+    EXPECT_NE(result.code, 2) << result.err;
+    ASSERT_TRUE(fs::exists(tree / "called")) << result.err;
+    EXPECT_NE(read_bytes(tree / "called").find("dpkg-query"), std::string::npos);
+  }
 }
 
 /// A build of Ninja's with one target, and a second once the file `more` is there.

@@ -162,6 +162,8 @@ std::vector<Run> runs_of(const cmodel::Config& config, Stimulus stimulus) {
       return {{hot_spot(config, 4, 0), "always", "always", 4}};
     case Stimulus::HotSamples:
       return {{hot_samples(config, 5), "always", "always", 5}, {hot_samples(config, 6), "random-50", "always", 6}};
+    case Stimulus::EarlyFreeze:
+      return {{early_freeze(config, 7), "always", "always", 7}, {early_freeze(config, 8), "burst-16", "always", 8}};
     case Stimulus::WarmReset: {
       auto beats = hot_spot(config, 3);
       const std::size_t tables = beats.size() / 2;
@@ -217,7 +219,7 @@ const char* to_string(Detector detector) {
 }
 
 const char* to_string(Stimulus stimulus) {
-  constexpr const char* kNames[] = {"random", "hot spot", "bright", "hot samples", "warm reset"};
+  constexpr const char* kNames[] = {"random", "hot spot", "bright", "hot samples", "early freeze", "warm reset"};
   return kNames[static_cast<int>(stimulus)];
 }
 

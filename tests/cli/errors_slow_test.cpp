@@ -59,6 +59,46 @@ TEST(Errors, EveryKindOfIndexIsAttributed) {
   }
 }
 
+/// A small scene that classifies after splatting.
+const Words kDensities{"--volume", "marschner-lobb:12", "--tf", "ct-head", "--classify", "post", "--size", "24"};
+const Words kClassifies{"--config", "fine", "--set", "classify.segment_bits=9"};
+
+TEST(Errors, OfDensitiesHasEightStepsMoreAndTheSameErrorAsCompare) {
+  const TempFolder folder;
+  const auto result = fastsplat(with(
+      {"errors", "--shapley", "--json", folder / "e.json", "--blame", folder / "blame.png", "--maps", folder / "m"},
+      with(kDensities, kClassifies)));
+  expect_success(result);
+  EXPECT_NE(result.out.find("sum 100.0 %"), std::string::npos) << result.out;
+  const Json json = Json::parse(read_bytes(folder / "e.json"));
+  EXPECT_EQ(json.at("schema"), "fastsplat.errors/1");
+  double shares = 0.0, groups = 0.0;
+  std::string names;
+  for (const Json& step : json.at("steps")) {
+    shares += step.at("share").get<double>();
+    names += step.at("name").get<std::string>() + " ";
+  }
+  for (const Json& group : json.at("groups")) groups += group.get<double>();
+  EXPECT_EQ(names,
+            "position+snap radius emission depth phi share distance index weight product sheet transfer slope normal "
+            "facing phong blend shaded colour factor slab composite freeze pixel ");
+  EXPECT_NEAR(shares, 1.0, 1e-9);
+  EXPECT_NEAR(groups, 1.0, 1e-9);
+  EXPECT_EQ(json.at("groups").size(), 6u);
+  EXPECT_EQ(folder.entries().size(), 2u + 2u * 25u);  // 24 sets of steps and the whole error, each as .png and .exr
+
+  expect_success(fastsplat(with({"render", "--engine", "golden", "-o", folder / "golden.exr", "--quiet"}, kDensities)));
+  expect_success(fastsplat(
+      with({"render", "--engine", "cmodel", "-o", folder / "cmodel.exr", "--quiet"}, with(kDensities, kClassifies))));
+  const auto compared = fastsplat({"compare", folder / "golden.exr", folder / "cmodel.exr", "--json", "-", "--quiet"});
+  expect_success(compared);
+  const double rms = Json::parse(compared.out).at("rmse_lsb").get<double>();
+  std::printf("[figure] densities: RMS %.6f LSB8, of compare %.6f\n", json.at("total").at("rms_lsb8").get<double>(),
+              rms);
+  EXPECT_GT(rms, 0.0);
+  EXPECT_NEAR(json.at("total").at("rms_lsb8").get<double>(), rms, 1e-4);  // golden's floats against its doubles
+}
+
 TEST(ErrorsBound, HoldsAndSaysSo) {
   const TempFolder folder;
   const auto result = fastsplat(
@@ -91,7 +131,14 @@ TEST(Errors, BadInputIsOneLine) {
     EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
   };
   refused(with({"errors", "--method", "westover"}, kSmall), 2, "composite.every_sample");
-  refused(with({"errors", "bound", "--method", "westover", "--set", "composite.every_sample=1"}, kSmall), 2, "westover");
+  refused(with({"errors", "bound", "--method", "westover", "--set", "composite.every_sample=1"}, kSmall), 2,
+          "westover");
+  refused(with({"errors"}, kDensities), 2, "classify.segment_bits");
+  refused(with({"errors", "bound"}, with(kDensities, kClassifies)), 2, "error bound");
+  refused(with({"errors", "--texture", "marble", "--set", "pattern.node_bits=4"}, with(kDensities, kClassifies)), 2,
+          "error attribution");
+  refused(with({"errors", "--bump", "noise", "--set", "pattern.node_bits=4"}, with(kDensities, kClassifies)), 2,
+          "error attribution");
   refused({"errors", "--volume", "no-such-volume"}, 2, "no-such-volume");
   refused(with({"errors", "--config", "no-such"}, kSmall), 2, "no-such");
   refused(with({"errors", "--blame", folder / "b.jpg"}, kSmall), 2, "b.jpg");

@@ -162,7 +162,8 @@ TEST(Mixtures, OfDensitiesAtRandomTheChainIsItsPage) {
   Figures figures;
   while (figures.mixtures < 200) {
     const cmodel::Config config = random_density_config(random);
-    const scene::Scene scene = scene::build_scene(random_density_scene(random));
+    scene::Scene scene = scene::build_scene(random_density_scene(random));
+    scene.shading.gradient_floor *= static_cast<double>(1U << figures.mixtures % 6);
     const Mixture mixture = random_mixture(random, true);
     try {
       const Chain chain(scene, config);
@@ -184,7 +185,8 @@ TEST(Mixtures, OfDensitiesEachStepAloneAndAllButOne) {
     cmodel::Config config = named_config(name);
     config.classify_segment_bits = 6;
     for (const scene::SceneDescription& description : small_density_scenes()) {
-      const scene::Scene scene = scene::build_scene(description);
+      scene::Scene scene = scene::build_scene(description);
+      scene.shading.gradient_floor = 0.1;  // such that many pixels are between it and twice that
       const Chain chain(scene, config);
       for (const Step step : all_steps()) {
         compare(scene, config, chain, Mixture{step}, alone);

@@ -39,7 +39,8 @@ class DensitySteps {
   /// R, G, B (premultiplied) and optical depth: what a sheet of colours would hold there.
   golden::Sums operator()(const DensityPixel& pixel, const Mixture& mixture) const;
 
-  /// All steps of the frame real, sums in golden's units: golden itself, float by float. Pixels begin, begin+1, ... of row y.
+  /// All steps of the frame real, sums in golden's units: golden itself, float by float. Pixels begin, begin+1, ... of
+  /// row y.
   void golden_row(const golden::SheetWindow& window, int y, int begin, std::span<golden::Sums> pixels) const {
     classified_.row(window, y, begin, pixels);
   }

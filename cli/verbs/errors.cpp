@@ -105,9 +105,8 @@ void declare(Options& options, Arguments& to) {
   options.group("Analysis");
   options.integer("--lsb-bits", to.lsb_bits, 1, 24, "N", "one LSB is 1/(2^N - 1)");
   options.flag("--quick", to.quick, "no step alone, none left out: a third of the frames");
-  options.flag(
-      "--shapley", to.shapley,
-      "shares of the five groups of steps, whatever the order: 30 frames more (of densities six groups, 62 frames)");
+  options.flag("--shapley", to.shapley,
+               "shares of the groups of steps, whatever the order: 30 frames more, of densities 62");
   options.group("Output");
   options.word("--blame", to.blame, "FILE", "which step rules each pixel, with legend, .png");
   options.word("--maps", to.maps, "PREFIX",

@@ -53,6 +53,7 @@ module fastsplat_cull_map (
   localparam int TA = fastsplat_pkg::CULL_ADDR_BITS;
   localparam bit PIXELS = fastsplat_pkg::CULL_MAP == 2;
   localparam int WR = PIXELS ? RB + PL : RB;  // a row of cells
+  localparam int AW = AB + WR;  // a row of cells has more bits than its block's address, or fewer
 
   // ---- today's block map
   logic parity_q;  // of the sheet in k6
@@ -246,6 +247,8 @@ module fastsplat_cull_map (
 
   // ---- the map's bits of b1
   if (PIXELS) begin : gen_pixels
+    logic [AB-1:0] blocks_above;  // rows of blocks
+    assign blocks_above = AB'(AW'(row_q) >> PL);
     fastsplat_cull_pixels u_pixels (
         .clk_i,
         .blank_i,
@@ -256,7 +259,7 @@ module fastsplat_cull_map (
         .frozen_i,
         .re_i(work_q),
         .sheet_i(table_q),
-        .block_i((AB'(row_q >> PL) << BXL) | AB'(chunk_q)),
+        .block_i((blocks_above << BXL) | AB'(chunk_q)),
         .line_i(row_q[PL-1:0]),
         .bits_o(bits)
     );

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "testbench/check/verify.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/cmodel/random_stream_helper.hpp"
@@ -112,29 +114,38 @@ std::vector<cmodel::Beat> hot_samples(const cmodel::Config& config, std::uint64_
 /// table that waits begins in the cycle behind the one that is built. Devices that do not cull get the splats alone.
 std::vector<cmodel::Beat> early_freeze(const cmodel::Config& config, std::uint64_t seed) {
   const oracle::Symbols c = symbols_of(config);
-  constexpr std::uint32_t kTiles = 60;
+  constexpr std::uint32_t kTiles = 120;
   Random random(seed);
   StreamWriter w(c);
   Tables tables(c, random, 0);
   // The least density is opaque.
   for (std::size_t j = 1; j < tables.factor.size(); ++j) tables.factor[j] = 0;
+  for (auto& word : tables.radial) word |= 1U << (c.wf - 1);
   w.begin_frame(c.W, c.H * static_cast<int>(kTiles), kTiles);
   tables.write(w);
   const std::int32_t one = 1 << c.pf;
   for (std::uint32_t tile = 0; tile < kTiles; ++tile) {
-    const int width = tile % 2 == 0 ? c.P : c.W, blocks_x = width / c.P, blocks_y = c.H / c.P;
+    const int width = tile % 4 != 0 ? c.P : c.W, blocks_x = width / c.P, blocks_y = c.H / c.P;
     w.begin_tile(0, tile, 0, c.H * static_cast<int>(tile), width, c.H);
-    for (std::uint32_t sheet = 0; sheet < 12; ++sheet) {
+    for (std::uint32_t sheet = 0; sheet < 8; ++sheet) {
       w.begin_sheet(sheet);
-      const std::int64_t splats = random.once_in(5) ? 0 : random.between(1, 2);
+      // The first freezes, the second, long enough for the first's table to be whole, the last row of blocks alone;
+      // behind it comes a short one, whose table waits and begins there; those behind ask.
+      const std::int64_t splats = sheet == 0   ? random.between(1, 2)
+                                  : sheet == 1 ? random.between(1, 24)
+                                  : sheet == 2 ? random.between(0, 1)
+                                               : random.between(0, 4);
+      const std::int64_t row =
+          sheet == 1 || sheet > 3 ? blocks_y - 1 : random.between(0, std::int64_t{std::max(blocks_y - 2, 0)});
+      const std::int32_t up = random.once_in(4) ? one : 0;  // else its window is a block
       for (std::int64_t i = 0; i < splats; ++i) {
-        const auto bx = static_cast<std::int32_t>(random.between(0, blocks_x - 1)),
-                   by = static_cast<std::int32_t>(random.once_in(3) ? blocks_y - 1 : random.between(0, blocks_y - 1));
-        const auto rows = static_cast<int>(random.between(1, 2 * c.P));
-        const auto from = static_cast<std::int32_t>(random.between(0, c.H - 1));
+        const auto bx = static_cast<std::int32_t>(random.between(0, blocks_x - 1)), by = static_cast<std::int32_t>(row);
+        const auto rows = static_cast<int>(random.once_in(2) ? 1 : random.between(1, 2 * c.P));
+        const auto from = static_cast<std::int32_t>(random.once_in(2) ? c.H - c.P : random.between(0, c.H - 1));
         // All of a set's splats have to lie in it: it holds none, or the tile.
-        if (c.cull != "off") w.cull_block(w.next_tag(), 0, from, width, rows, 0);
-        w.splat(0, (bx * c.P + c.P / 2) * one, (by * c.P + c.P / 2) * one, {(1U << c.cf) - 1, 1, 2, 3});
+        if (c.cull != "off" && random.once_in(2)) w.cull_block(w.next_tag(), 0, from, width, rows, 0);
+        w.splat(0, (bx * c.P + c.P / 2) * one - one / 2, (by * c.P + c.P / 2) * one - one / 2 + up,
+                {1, 2, 3, (1U << c.cf) - 1});
       }
       w.end_sheet();
     }
@@ -163,7 +174,10 @@ std::vector<Run> runs_of(const cmodel::Config& config, Stimulus stimulus) {
     case Stimulus::HotSamples:
       return {{hot_samples(config, 5), "always", "always", 5}, {hot_samples(config, 6), "random-50", "always", 6}};
     case Stimulus::EarlyFreeze:
-      return {{early_freeze(config, 7), "always", "always", 7}, {early_freeze(config, 8), "burst-16", "always", 8}};
+      return {{early_freeze(config, 7), "always", "always", 7},
+              {early_freeze(config, 8), "burst-16", "always", 8},
+              {early_freeze(config, 9), "random-50", "always", 9},
+              {early_freeze(config, 10), "always", "always", 10}};
     case Stimulus::WarmReset: {
       auto beats = hot_spot(config, 3);
       const std::size_t tables = beats.size() / 2;

@@ -109,18 +109,18 @@ std::vector<cmodel::Beat> hot_samples(const cmodel::Config& config, std::uint64_
   return to_beats(w.bytes());
 }
 
-/// Tiles whose sheets follow each other faster than a table is built: each freezes the pixels of a splat or two, of any
-/// block row, at once; sets of any rows ask about what was frozen. Every second tile is one block wide, and there the
-/// table that waits begins in the cycle behind the one that is built. Devices that do not cull get the splats alone.
+/// Tiles of which sheets make whole blocks opaque at once, three of four one block wide, where a table that waits
+/// begins in the cycle behind the one before it, in the block that is being put. Sets without splats, and splats, ask
+/// about what was frozen. Devices that do not cull get the splats alone.
 std::vector<cmodel::Beat> early_freeze(const cmodel::Config& config, std::uint64_t seed) {
   const oracle::Symbols c = symbols_of(config);
   constexpr std::uint32_t kTiles = 120;
   Random random(seed);
   StreamWriter w(c);
   Tables tables(c, random, 0);
-  // The least density is opaque.
-  for (std::size_t j = 1; j < tables.factor.size(); ++j) tables.factor[j] = 0;
-  for (auto& word : tables.radial) word |= 1U << (c.wf - 1);
+  // One splat is opaque: FACTOR is what a depth is multiplied by.
+  for (auto& word : tables.factor) word = 1U << c.of;
+  for (auto& word : tables.radial) word = (1U << c.wf) - 1;
   w.begin_frame(c.W, c.H * static_cast<int>(kTiles), kTiles);
   tables.write(w);
   const std::int32_t one = 1 << c.pf;
@@ -142,7 +142,6 @@ std::vector<cmodel::Beat> early_freeze(const cmodel::Config& config, std::uint64
         const auto bx = static_cast<std::int32_t>(random.between(0, blocks_x - 1)), by = static_cast<std::int32_t>(row);
         const auto rows = static_cast<int>(random.once_in(2) ? 1 : random.between(1, 2 * c.P));
         const auto from = static_cast<std::int32_t>(random.once_in(2) ? c.H - c.P : random.between(0, c.H - 1));
-        // All of a set's splats have to lie in it: it holds none, or the tile.
         if (c.cull != "off" && random.once_in(2)) w.cull_block(w.next_tag(), 0, from, width, rows, 0);
         w.splat(0, (bx * c.P + c.P / 2) * one - one / 2, (by * c.P + c.P / 2) * one - one / 2 + up,
                 {1, 2, 3, (1U << c.cf) - 1});

@@ -101,7 +101,7 @@ module fastsplat_classify_normal (
   assign padded = {1'b0, square_q, 16'b0};
   always_comb begin
     power = '0;
-    m = '0;
+    m = 18'h10000;  // without a slope: ROOT's first word, which there is, times nothing
     for (int i = 0; i < GB; i++) begin
       if (square_q[2*i+:2] != '0) begin
         power = 5'(i);

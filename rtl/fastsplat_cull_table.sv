@@ -68,12 +68,14 @@ module fastsplat_cull_table (
         i_q <= i - CB'(1) + ((c == 1 && `FASTSPLAT_FAULT(CULL_CORNER)) ? CB'(1) : '0);
       end
     end
+    logic [B-1:0] word;  // of this corner alone: blocks that read and write one array wake each other in event-driven simulators
     always_comb begin
-      words[c] = '0;
+      word = '0;
       for (int k = 0; k < K; k++) begin
-        if (!none_q && (i_q & CB'(K - 1)) == CB'(k)) words[c] = words[c] | rows[(COPIES == 2) ? c / 2 : c][k*B+:B];
+        if (!none_q && (i_q & CB'(K - 1)) == CB'(k)) word = word | rows[(COPIES == 2) ? c / 2 : c][k*B+:B];
       end
     end
+    assign words[c] = word;
   end
   assign count_o = words[3] - words[2] - words[1] + words[0];
 endmodule

@@ -15,6 +15,8 @@ namespace fs = std::filesystem;
 
 /// As in icarus_bench.sv.
 constexpr std::uint64_t kPatternCycles = 32768;
+/// Of a bench that stands still in one moment of time; one that goes on needs a tenth of it.
+constexpr int kSeconds = 600;
 
 std::string text_of(const fs::path& path) {
   std::ifstream in(path);
@@ -88,7 +90,7 @@ std::string Icarus::version() {
 }
 
 Icarus::Icarus(const cmodel::Config& config, const std::string& name,
-               const std::vector<std::pair<std::string, std::string>>& edits)
+               const std::vector<std::pair<std::string, std::string>>& edits, Combinational combinational)
     : folder_(fs::path(FASTSPLAT_BINARY_DIR) / "icarus" / name) {
   fs::remove_all(folder_);
   fs::create_directories(folder_ / "rtl");
@@ -97,6 +99,7 @@ Icarus::Icarus(const cmodel::Config& config, const std::string& name,
   for (const auto& entry : fs::directory_iterator(source / "rtl")) {
     std::string text = text_of(entry.path());
     for (std::size_t i = 0; i < edits.size(); ++i) found[i] += replace_all(text, edits[i].first, edits[i].second);
+    if (combinational == Combinational::AlwaysStar) replace_all(text, "always_comb", "always @*");
     std::ofstream(folder_ / "rtl" / entry.path().filename()) << text;
   }
   for (std::size_t i = 0; i < edits.size(); ++i) {
@@ -127,8 +130,8 @@ Transcript Icarus::play(const Played& played) const {
     for (const auto& play : played.plays)
       plays << play.reset << " " << play.beats << " " << play.linger << " " << play.input << " " << play.ready << "\n";
   }
-  shell("cd '" + folder_.string() +
-            "' && vvp -n bench.vvp +beats=beats +beat_count=" + std::to_string(played.beats.size()) +
+  shell("cd '" + folder_.string() + "' && timeout -s KILL " + std::to_string(kSeconds) +
+            " vvp -n bench.vvp +beats=beats +beat_count=" + std::to_string(played.beats.size()) +
             " +willing=willing +pattern_count=" + std::to_string(played.patterns.size()) + " +plays=plays",
         folder_ / "transcript");
   Transcript out = read_transcript(folder_ / "transcript");

@@ -49,6 +49,11 @@ struct Transcript {
   bool ended = false;  ///< all plays were played
 };
 
+/// How always_comb is read. Icarus 11 gives all such blocks one event in common, so that each of them runs when any of
+/// them does: two that pass an intermediate value to others (a default, then the case that holds) wake each other for
+/// ever, in one moment of time (its issue 508, mended behind 11.0). As `always @*` each waits for what it reads alone.
+enum class Combinational { AsWritten, AlwaysStar };
+
 class Icarus {
  public:
   /// Empty where both iverilog and vvp can be run; otherwise what to say.
@@ -57,7 +62,8 @@ class Icarus {
 
   /// Compiles the device of `config`. `edits`: texts of rtl/*.sv that are replaced, each found exactly once.
   Icarus(const cmodel::Config& config, const std::string& name,
-         const std::vector<std::pair<std::string, std::string>>& edits = {});
+         const std::vector<std::pair<std::string, std::string>>& edits = {},
+         Combinational combinational = Combinational::AsWritten);
 
   Transcript play(const Played& played) const;
 

@@ -1,11 +1,13 @@
 """generate.py RTL_DIR OUT_DIR [--only FILE] [--modules A,B] [--plant-nothing]: rtl/ with all its mutants in it, chosen at run time.
 
 OUT_DIR gets the files of RTL_DIR, fastsplat_mutant_pkg.sv, whose `selected` chooses (0: none), and mutants.json: what each number
-is. A mutant's number does not depend on the flags. --only: those whose numbers FILE has, one a line; --modules: theirs;
+is. A mutant's number does not depend on the flags, nor on the modules beside its own: programs of devices without a module that
+changes stay the same, and the campaign's journal of them holds. --only: those whose numbers FILE has, one a line; --modules: theirs;
 --plant-nothing adds one, the last, that changes nothing: it has to survive, and whoever counts has to notice."""
 import json
 import os
 import sys
+import zlib
 
 from systemverilog import SELECTED, Mutant, Mutator
 
@@ -20,7 +22,7 @@ endpackage
 
 
 def files_of(rtl: str) -> list[str]:
-    """In the order of their numbers: modules by name, then the narrowing."""
+    """Modules by name, then the narrowing."""
     return sorted(name for name in os.listdir(rtl) if name.endswith(".sv")) + ["narrow.svh"]
 
 
@@ -34,12 +36,20 @@ def file_of(module: str) -> str:
     return "narrow.svh" if module == "narrow" else f"fastsplat_{module.removeprefix('fastsplat_')}.sv"
 
 
+def first_of(name: str) -> int:
+    """The number of a file's first mutant; room for 10,000, all below 2^31."""
+    return 10000 * (zlib.crc32(name.encode()) % 200000) + 1
+
+
 def mutate(rtl: str, wanted=lambda module, number: True, planted=False):
     """[(file, text, mutants)] of all files that have any, and the number after the last."""
-    out, number = [], 1
-    for name in files_of(rtl):
+    out, number = [], 0
+    names = files_of(rtl)
+    if len({first_of(name) for name in names}) < len(names):
+        raise RuntimeError("the mutants of two files would have the same numbers; give one of the files another name")
+    for name in names:
         with open(f"{rtl}/{name}") as file:
-            mutator = Mutator(module_of(name), file.read(), number, wanted, planted)
+            mutator = Mutator(module_of(name), file.read(), first_of(name), wanted, planted)
         text = mutator.result()
         number = mutator.number
         out.append((name, text, mutator.mutants))

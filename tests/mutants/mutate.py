@@ -52,7 +52,7 @@ def chosen(arguments, mutants):
     if arguments.one is not None:
         found = [m for m in mutants if m["number"] == arguments.one]
         if not found:
-            campaign.usage(f"--one {arguments.one}: there are {len(mutants)} mutants, {mutants[0]['number']} to {mutants[-1]['number']}")
+            campaign.usage(f"--one {arguments.one}: none of {len(mutants)} mutants; their numbers are told where they live, and in build/mutants/corners/mutants.json")
         return found
     if arguments.module:
         known = sorted({m["module"] for m in mutants}) + ["cmodel and driver (without others)"]
@@ -86,8 +86,8 @@ def run_all(arguments, root, build, until):
         if device.name != devices.FIRST:
             campaign.write(f"{build}/mutants/living.txt", "".join(f"{number}\n" for number in tried))
         binary = program(root, build, device.name)
-        # Of all modules only: a few are tried in seconds, and one alone is asked for to be seen.
-        journal = campaign.Journal(binary, device.config, f"{build}/mutants/journal") if arguments.all else None
+        # Not of a few, which are tried in seconds, nor of one, which is asked for to be seen.
+        journal = campaign.Journal(binary, device.config, f"{build}/mutants/journal") if arguments.all or arguments.module else None
         results = campaign.run(binary, device.config, tried, arguments.jobs, until, journal)
         untried += [number for number in tried if number not in results]
         for number, (verdict, said) in results.items():

@@ -23,11 +23,14 @@ FIXED = [
 
 source, build = sys.argv[1:]
 failures = []
-found, after = generate.mutate(f"{source}/rtl")
+found, _ = generate.mutate(f"{source}/rtl")
 mutants = [vars(m) for _, _, listed in found for m in listed]
 print(f"[figure] mutants of rtl = {len(mutants)} (limit >= {FEWEST})")
-if len(mutants) < FEWEST or [m["number"] for m in mutants] != list(range(1, after)):
-    failures.append("too few mutants, or numbers left out")
+if len(mutants) < FEWEST or len({m["number"] for m in mutants}) != len(mutants):
+    failures.append("too few mutants, or a number twice")
+for name, _, listed in found:
+    if [m.number for m in listed] != list(range(generate.first_of(name), generate.first_of(name) + len(listed))):
+        failures.append(f"{name}: numbers left out")
 exclusions = Exclusions(f"{source}/tests/mutants/exclusions.toml")
 for entry in exclusions.unused(mutants):
     failures.append(f"excludes nothing: {entry['module']}: {entry['line']}: {entry['mutants']}")

@@ -9,6 +9,7 @@
 #include "golden/sheet.hpp"
 #include "scene/capability.hpp"
 #include "stages/add_products.hpp"
+#include "stages/add_to_sheets.hpp"
 #include "stages/band_bins.hpp"
 #include "stages/density_frame.hpp"
 #include "stages/pixel_steps.hpp"
@@ -79,14 +80,7 @@ class Chain::Band {
     weights_.rasterise(splat, shape, mixture_, golden_units_, open, width_);
     chain_.steps_.shares(splat, mixture_, shares_, shape != nullptr ? shape->growth : Growth{});
     if (samples_) return composite();
-    for (std::size_t s = 0; s < shares_.size(); ++s) {
-      if (shares_[s] == golden::Sums{}) continue;
-      golden::Sheet& sheet = at(splat.first + static_cast<int>(s));
-      for (const auto& span : weights_.spans()) {
-        add_products(weights_.weights(span), shares_[s], product_, sheet.row(span.y) + span.x);
-        sheet.touch(span.y, {span.x, span.x + span.width});
-      }
-    }
+    add_to_sheets(splat, weights_, shares_, product_, [this](int sheet) -> golden::Sheet& { return at(sheet); });
   }
 
   /// Each sample of the splat by itself.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "stages/add_to_sheets.hpp"
 #include "stages/product_rule.hpp"
 
 namespace fastsplat::stages {
@@ -51,14 +52,7 @@ void DensityBand::add(const StagedSplat& splat, const StagedShape* shape) {
   const Mixture& mixture = frame_.mixture;
   weights_.rasterise(splat, shape, mixture, frame_.golden_units, with_rim_, width_);
   frame_.steps.shares(splat, mixture, shares_, shape != nullptr ? shape->growth : Growth{});
-  for (std::size_t s = 0; s < shares_.size(); ++s) {
-    if (shares_[s] == golden::Sums{}) continue;
-    golden::Sheet& sheet = at(splat.first + static_cast<int>(s));
-    for (const auto& span : weights_.spans()) {
-      add_products(weights_.weights(span), shares_[s], product_, sheet.row(span.y) + span.x);
-      sheet.touch(span.y, {span.x, span.x + span.width});
-    }
-  }
+  add_to_sheets(splat, weights_, shares_, product_, [this](int sheet) -> golden::Sheet& { return at(sheet); });
 }
 
 void DensityBand::end(golden::Sheet& sheet) const {

@@ -19,6 +19,8 @@ constexpr int kWait = 3;
 constexpr std::uint64_t kTimeout = 20000;
 /// Cycles after the end of a sheet or a tile in which a reset comes: the pipe, a walk of some blocks.
 constexpr int kWaits = 24;
+/// The same of densities: a walk of some blocks, the pixel stage and the compositor behind it.
+constexpr int kDensityWaits = 80;
 
 /// Reads for which the source is late; and more than the windows of a splat and a sheet's walk take.
 constexpr int kLateReads = 24, kManyReads = 256;
@@ -190,15 +192,25 @@ DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& m
 
 DirectedResult check_short_resets(const cmodel::Config& config, const MakeDevice& make) {
   Check check;
-  const auto beats = small_stream(config);
   VerifyOptions options;
   options.config = config;
   options.reset_cycles = 1;
   options.device = make;
   options.timeout = kTimeout;
+  const auto reset_at = [&](const std::vector<cmodel::Beat>& beats, std::size_t at, const ResetBin& reset) {
+    options.reset_after = at + 1;
+    options.ready = at % 2 == 0 ? "always" : "every-3";
+    const auto result = verify(source_of(beats), options);
+    check.result.comparisons += result.check.comparisons;
+    check.equal(std::string("a reset of one cycle ") + reset.name + ", beat " + std::to_string(at) + ", " +
+                    std::to_string(options.reset_wait) + " cycles behind it: passes" +
+                    (result.error.empty() ? "" : " (" + result.error + ")"),
+                1, result.verdict == Verdict::Pass ? 1 : 0, check.bin("short_reset", reset.name));
+  };
+  const auto beats = small_stream(config);
   const auto records = records_of(beats);
   for (const ResetBin& reset : kResetBins) {
-    const auto bin = check.bin("short_reset", reset.name);
+    check.bin("short_reset", reset.name);
     std::vector<std::size_t> all;
     for (const auto& [at, opcode] : records) {
       if (opcode == reset.after) all.push_back(at);
@@ -207,17 +219,15 @@ DirectedResult check_short_resets(const cmodel::Config& config, const MakeDevice
     // The first of each kind, its last, and one between: more of the same are more of the same.
     for (const std::size_t at : std::set{all.front(), all[all.size() / 2], all.back()}) {
       const int last_wait = reset.goes_on && at == all.back() ? kWaits : 0;
-      for (options.reset_wait = 0; options.reset_wait <= last_wait; options.reset_wait += 3) {
-        options.reset_after = at + 1;
-        options.ready = at % 2 == 0 ? "always" : "every-3";
-        const auto result = verify(source_of(beats), options);
-        check.result.comparisons += result.check.comparisons;
-        check.equal(std::string("a reset of one cycle ") + reset.name + ", beat " + std::to_string(at) + ": passes" +
-                        (result.error.empty() ? "" : " (" + result.error + ")"),
-                    1, result.verdict == Verdict::Pass ? 1 : 0, bin);
-      }
+      for (options.reset_wait = 0; options.reset_wait <= last_wait; options.reset_wait += 3) reset_at(beats, at, reset);
     }
   }
+  // A tile of densities that ends: copy, walk and pixel stage, cycle by cycle.
+  if (!config.classifies()) return check.result;
+  const auto [densities, end_of_tile] = small_densities(config);
+  const ResetBin& end = *std::ranges::find(kResetBins, cmodel::Opcode::EndTile, &ResetBin::after);
+  for (options.reset_wait = 0; options.reset_wait <= kDensityWaits; ++options.reset_wait)
+    reset_at(densities, end_of_tile, end);
   return check.result;
 }
 

@@ -1,6 +1,7 @@
 #include "testbench/stimulus/directed_stream.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "cmodel/records.hpp"
 #include "testbench/stimulus/stimulus.hpp"
@@ -29,6 +30,20 @@ std::vector<cmodel::Beat> small_stream(const cmodel::Config& config) {
     if (culls && most >= 2) break;
   }
   return beats;
+}
+
+std::pair<std::vector<cmodel::Beat>, std::size_t> small_densities(const cmodel::Config& config) {
+  constexpr std::uint64_t kMostSeeds = 200;
+  for (std::uint64_t seed = 1; seed <= kMostSeeds; ++seed) {
+    const auto document = make_stimulus(config, StimulusClass::Mixed, seed, 40).document;
+    const TileDocument& tile = document.tiles.front();
+    if (!cmodel::holds_densities(tile.begin.mode) || tile.sheets.size() < 2) continue;
+    auto beats = write_document(config, document);
+    const auto records = records_of(beats);
+    const auto end = std::ranges::find(records, cmodel::Opcode::EndTile, &Record::opcode);
+    return {std::move(beats), end->at};
+  }
+  throw std::logic_error("no stream of densities in " + std::to_string(kMostSeeds) + " seeds");
 }
 
 }  // namespace fastsplat::testbench

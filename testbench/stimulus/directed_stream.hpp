@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cmodel/config.hpp"
@@ -18,9 +19,13 @@ struct Record {
 };
 std::vector<Record> records_of(const std::vector<cmodel::Beat>& beats);
 
-/// The first of the small streams that has a cull block and a tile of two sheets: not every one has, and every record is wanted. The last that
-/// is looked at where none has, whose bins then stay empty.
+/// The first of the small streams that has a cull block and a tile of two sheets: not every one has, and every record
+/// is wanted. The last that is looked at where none has, whose bins then stay empty.
 std::vector<cmodel::Beat> small_stream(const cmodel::Config& config);
+
+/// A small stream whose first tile is one of densities in two sheets and more, and the beat of that tile's end_tile.
+/// Of configurations that classify; throws std::logic_error where no seed makes one.
+std::pair<std::vector<cmodel::Beat>, std::size_t> small_densities(const cmodel::Config& config);
 
 class Check {
  public:

@@ -105,13 +105,12 @@ Beats large_tile(const Config& config, const Beats& beats) {
   Beats out(beats.begin(), beats.begin() + static_cast<std::ptrdiff_t>(behind_first(beats, Opcode::EndTile)));
   out.push_back(beats.back());
   auto frame = std::get<BeginFrame>(from_beat(out[0]));
-  frame.width = config.tile_width;
-  frame.height = config.tile_height;
   auto& tile_beat = out[behind_first(beats, Opcode::BeginTile) - 1];
   auto tile = std::get<BeginTile>(from_beat(tile_beat));
+  const int rim = cmodel::holds_densities(tile.mode) ? 2 : 0;
   tile.x = tile.y = 0;
-  tile.width = config.tile_width;
-  tile.height = config.tile_height;
+  tile.width = frame.width = config.tile_width - rim;
+  tile.height = frame.height = config.tile_height - rim;
   Beats changed;
   append(changed, frame);
   append(changed, tile);

@@ -56,7 +56,9 @@ class Generator {
     Stimulus out;
     auto& document = out.document;
     document.width = config_.tile_width * 4;
-    document.height = config_.tile_height * 4;
+    // The picture's edges matter to densities: its sides differ.
+    image_height_ = config_.tile_height * (config_.classifies() ? 5 : 4);
+    document.height = image_height_;
     make_tables(document);
     left_ = std::max<std::uint64_t>(splats, 1);
     while (left_ > 0) document.tiles.push_back(make_tile());
@@ -143,9 +145,12 @@ class Generator {
     document.tables.push_back(random_radial(config_, random_, style()));
     document.tables.push_back(random_factor(config_, random_, style()));
     if (config_.classifies()) {
-      for (const auto table : {cmodel::Table::Classify, cmodel::Table::Root, cmodel::Table::Glint,
-                               cmodel::Table::Lighting, cmodel::Table::Sheets})
-        document.tables.push_back(random_density_table(config_, random_, table));
+      // In any order: what one table's words are must not reach another's.
+      std::array tables{cmodel::Table::Classify, cmodel::Table::Root, cmodel::Table::Glint, cmodel::Table::Lighting,
+                        cmodel::Table::Sheets};
+      for (std::size_t last = tables.size() - 1; last > 0; --last)
+        std::swap(tables[last], tables[static_cast<std::size_t>(random_.between(0, static_cast<std::int64_t>(last)))]);
+      for (const auto table : tables) document.tables.push_back(random_density_table(config_, random_, table));
     }
     if (random_.chance(30)) {
       // What was loaded last counts.
@@ -191,7 +196,7 @@ class Generator {
     if (edge % 3 == 1) tile.x = 0;
     if (edge % 3 == 2) tile.x = 4 * config_.tile_width - tile.width;
     if (edge / 3 == 1) tile.y = 0;
-    if (edge / 3 == 2) tile.y = 4 * config_.tile_height - tile.height;
+    if (edge / 3 == 2) tile.y = image_height_ - tile.height;
   }
 
   TileDocument make_tile() {
@@ -485,6 +490,7 @@ class Generator {
   std::array<std::uint32_t, 256> rho_{};
   cmodel::BeginTile tile_;
   Place hot_, before_, last_;
+  int image_height_ = 0;
   std::uint64_t left_ = 0, distance_ = 1;
   std::int64_t phase_ = 0;
   std::array<std::int64_t, 4> missing_{};  ///< of the words that a sheet aims at; negative: any colour will do

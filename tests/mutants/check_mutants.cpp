@@ -128,6 +128,8 @@ std::vector<Named> checks_of(const cmodel::Config& config) {
                             streams("all classes", config, testbench::stimulus_classes(), 60, 3)};
   // Sheets that freeze pixels while the table of the one before is built are rare.
   if (config.culls()) checks.push_back(streams("culling", config, testbench::stimulus_classes(), 400, 4));
+  // A pixel of densities is rounded some forty times, and what a last bit decides is rare: many tables, many pixels.
+  if (config.classifies()) checks.push_back(streams("densities", config, {StimulusClass::Mixed}, 10000, 12));
   return checks;
 }
 

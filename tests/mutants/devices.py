@@ -9,8 +9,8 @@ import generate
 
 _CORNER, _FAULTS, _PRODUCT = "tests/mutants/{}.toml", "configs/faults/{}.toml", "configs/{}.toml"
 # The smallest there can be, of all mutants; then, of what lives, one that rounds more and has more sets, those that composite every sample, that
-# cull by blocks and by pixels and that classify densities, three corners more and the smallest product.
-_PLACES = {"corners": _CORNER, "mustfail": _FAULTS, "westover": _FAULTS, "cull": _FAULTS, "cull_pixel": _CORNER, "post": _FAULTS, "ties": _CORNER,
+# cull by blocks and by pixels and that classify densities, the last with a corner of its own, three corners more and the smallest product.
+_PLACES = {"corners": _CORNER, "mustfail": _FAULTS, "westover": _FAULTS, "cull": _FAULTS, "cull_pixel": _CORNER, "post": _FAULTS, "densities": _CORNER, "ties": _CORNER,
            "halves": _CORNER, "truncating": _CORNER, "tiny": _PRODUCT}
 FIRST = "corners"  # its program holds all mutants, and is the same for every run
 

@@ -22,7 +22,7 @@ target_link_libraries(verilated_runtime PUBLIC ZLIB::ZLIB Threads::Threads)
 # ASSERT: checks the assertions of rtl/; WAVE: can write waveforms. Without either it is fastest. What can write waveforms keeps every signal
 # (a fifth of the time of `base`) and runs short streams only, so it is compiled fast instead of to be fast.
 # RTL <folder>: the source is there, generated from rtl/ (tests/mutants); QUICK: compiled rather than run quickly.
-# TOP <module>: of rtl/top/, around the device, or of rtl/fetch/, beside it. NETLIST <kind>: not the source but what Yosys makes of it (cmake/netlist.sh); CUT <net>: with that net tied to 0.
+# TOP <module>: of rtl/top/, around the device, of rtl/fetch/, beside it, or one of its units. NETLIST <kind>: not the source but what Yosys makes of it (cmake/netlist.sh); CUT <net>: with that net tied to 0.
 function(fastsplat_verilate target config)
   cmake_parse_arguments(arg "ASSERT;WAVE;QUICK" "NETLIST;CUT;RTL;TOP" "DEFINES;SOURCES;ARGS" ${ARGN})
   set(abilities "")
@@ -38,13 +38,17 @@ function(fastsplat_verilate target config)
   file(GLOB RTL_SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.sv)
   file(GLOB RTL_INCLUDES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.svh)
   set(rtl_folder ${PROJECT_SOURCE_DIR}/rtl)
+  set(warnings -Wall)
   set(top fastsplat_core)
   if(arg_TOP)
     set(top ${arg_TOP})
-    file(GLOB around CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/top/*.sv ${PROJECT_SOURCE_DIR}/rtl/fetch/*.sv)
-    list(APPEND RTL_SOURCES ${around})
+    if(EXISTS ${PROJECT_SOURCE_DIR}/rtl/${arg_TOP}.sv)
+      list(APPEND warnings -Wno-UNUSEDPARAM)  # a unit needs some of the package
+    else()
+      file(GLOB around CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/top/*.sv ${PROJECT_SOURCE_DIR}/rtl/fetch/*.sv)
+      list(APPEND RTL_SOURCES ${around})
+    endif()
   endif()
-  set(warnings -Wall)
   if(arg_RTL)
     list(TRANSFORM RTL_SOURCES REPLACE "^.*/" "${arg_RTL}/")
     set(RTL_INCLUDES ${arg_RTL}/mutants.json)

@@ -1,4 +1,4 @@
-// What generated sources give the program check_mutants_<name>, and the mutant that its devices have.
+// What generated sources give the program check_mutants_<name>.
 #pragma once
 
 #include <memory>
@@ -7,10 +7,7 @@
 
 namespace fastsplat::test {
 
-/// Of every device made from now on; 0: none.
-inline int selected_mutant = 0;
-
-/// Generated, one for each program.
+/// One for each program, with the mutant that is selected.
 std::unique_ptr<testbench::RtlDevice> make_mutant(const cmodel::Config& config, cmodel::PixelSink& pixels,
                                                   const testbench::RtlOptions& options);
 

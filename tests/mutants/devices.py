@@ -9,32 +9,34 @@ import generate
 
 _CORNER, _FAULTS, _PRODUCT = "tests/mutants/{}.toml", "configs/faults/{}.toml", "configs/{}.toml"
 # The smallest there can be, of all mutants; then, of what lives, one that rounds more and has more sets, those that composite every sample, that
-# cull by blocks and by pixels and that classify densities, the last with a corner of its own, three corners more and the smallest product.
-_PLACES = {"corners": _CORNER, "mustfail": _FAULTS, "westover": _FAULTS, "cull": _FAULTS, "cull_pixel": _CORNER, "post": _FAULTS, "densities": _CORNER, "ties": _CORNER,
+# cull by blocks and by pixels; the pixel stage's lane by itself, devices of densities, three corners more and the smallest product.
+_PLACES = {"corners": _CORNER, "mustfail": _FAULTS, "westover": _FAULTS, "cull": _FAULTS, "cull_pixel": _CORNER, "density_lane": "tests/mutants/densities.toml",
+           "post": _FAULTS, "densities": _CORNER, "ties": _CORNER,
            "halves": _CORNER, "truncating": _CORNER, "tiny": _PRODUCT}
+_TOPS = {"density_lane": "fastsplat_classify_lane"}  # of the others the core
 FIRST = "corners"  # its program holds all mutants, and is the same for every run
 
 
 class Device:
     def __init__(self, root: str, build: str, name: str):
         self.name, self.config = name, f"{root}/{_PLACES[name].format(name)}"
-        self.modules = _modules_of(root, build, self.config)
+        self.modules = _modules_of(root, build, self.config, _TOPS.get(name, "fastsplat_core"))
 
 
 def devices(root: str, build: str) -> list[Device]:
     return [Device(root, build, name) for name in _PLACES]
 
 
-def _modules_of(root: str, build: str, config: str) -> set[str]:
-    """What Verilator finds below the core once generate conditions are decided; the narrowing is everywhere."""
+def _modules_of(root: str, build: str, config: str, top: str) -> set[str]:
+    """What Verilator finds below the top once generate conditions are decided; the narrowing is everywhere."""
     with tempfile.TemporaryDirectory() as folder:
         with open(f"{folder}/fastsplat_pkg.sv", "w") as file:
             subprocess.run([f"{build}/bin/fastsplat_emit_package", config], stdout=file, check=True)
         rtl = sorted(f"{root}/rtl/{name}" for name in os.listdir(f"{root}/rtl") if name.endswith(".sv"))
         subprocess.run(["verilator", "--xml-only", "--xml-output", f"{folder}/tree.xml", "--Mdir", folder, "-Wno-lint", "-Wno-fatal", "--top-module",
-                        "fastsplat_core", f"-I{root}/rtl", f"{folder}/fastsplat_pkg.sv", *rtl], check=True)
+                        top, f"-I{root}/rtl", f"{folder}/fastsplat_pkg.sv", *rtl], check=True)
         with open(f"{folder}/tree.xml") as file:
             found = set(re.findall(r'<module [^>]*origName="(\w+)"', file.read()))
-    if "fastsplat_core" not in found:
+    if top not in found:
         raise RuntimeError(f"{config}: Verilator tells no modules")
     return {generate.module_of(name) for name in found} | {"narrow"}

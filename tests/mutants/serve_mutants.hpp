@@ -1,0 +1,29 @@
+// check_mutants programs: `PROGRAM CONFIG.toml` reads numbers of mutants from standard input, one a line, and answers
+// each with a line
+//   NUMBER killed CHECK: WHAT IT SAID   or   NUMBER lives COMPARISONS SECONDS
+// The checks come cheapest first; the first that speaks ends it. Each mutant has a process and a limit of processor
+// time of its own. Number 0 is the source as it is: it has to live, and its time makes the limit.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace fastsplat::test {
+
+/// What a check said; empty: nothing is wrong.
+struct Said {
+  std::string text;
+  std::uint64_t comparisons = 0;
+};
+struct Named {
+  std::string name;
+  std::function<Said()> check;
+};
+
+/// The program, until standard input ends, with the checks of a configuration's path. Exit code: 1 where number 0 does
+/// not live, 2 usage, 3 an error.
+int mutants_main(int argc, char** argv, const std::function<std::vector<Named>(const char*)>& checks_of);
+
+}  // namespace fastsplat::test

@@ -52,7 +52,8 @@ fi
 ends="t:FD* t:SRL* t:RAM* t:TRELLIS_FF t:TRELLIS_DPR* t:DP16KD t:SB_DFF* t:SB_RAM* t:*fastsplat_ram_1r1w"
 for module in $modules; do ends="$ends t:$module"; done
 
-yosys -q -l "$base.log" -p "read_verilog -sv -I$source/rtl $base.pkg.sv $source/rtl/*.sv $files; hierarchy -check -top $top; $pass; tee -o $base.stat.new stat; delete $ends; tee -o $base.levels ltp -noff" >/dev/null 2>&1 ||
+# Deferred: only modules of this device are made, so names, by which cells are mapped and placed, do not move with modules that it has not.
+yosys -q -l "$base.log" -p "read_verilog -defer -sv -I$source/rtl $base.pkg.sv $source/rtl/*.sv $files; hierarchy -check -top $top; $pass; tee -o $base.stat.new stat; delete $ends; tee -o $base.levels ltp -noff" >/dev/null 2>&1 ||
   { tail -5 "$base.log"; echo "$family $config: Yosys fails"; exit 1; }
 {
   sed -n 's/^\(Yosys [^ ]*\) .*/yosys \1/p' "$base.log" | tail -1

@@ -45,6 +45,7 @@ class LaneStimulus {
 
  private:
   std::uint32_t near(std::uint32_t word);
+  void edge_tables(int which);
 
   const cmodel::Config& config_;
   testbench::Random random_;
@@ -52,6 +53,8 @@ class LaneStimulus {
   std::optional<cmodel::ClassifyUnit> unit_;
   std::int32_t width_ = 1, height_ = 1;
   std::int64_t step_ = 0;  ///< neighbours differ by this at most
+  int sets_ = 0;
+  std::optional<std::uint32_t> rise_{};  ///< of all pixels from left to right, and no other slope
 };
 
 struct LaneResult {

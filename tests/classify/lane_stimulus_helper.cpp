@@ -1,9 +1,44 @@
+#include <iterator>
+
 #include "tests/classify/lane_bench_helper.hpp"
 
 namespace fastsplat::test {
 
 using cmodel::Table;
 namespace classify = cmodel::classify;
+
+namespace {
+
+/// Tables of one value each, for which a rounding lies just on its edge: one part more of a word would be another
+/// result.
+struct Edge {
+  double slope;  ///< gx, S 4.16 words
+  std::uint32_t root, per_floor, colour, ambient, glint, specular;
+};
+constexpr Edge kEdges[] = {
+    {1, 448, 614765129, 16384, 0, 0, 0},       // length 7: the share is just not 1 of 256
+    {1 << 15, 16384, 513, 16384, 0, 0, 0},     // length 2^23: it just is
+    {1 << 15, 16384, 522, 1, 4099, 4, 21299},  // a lit colour just below the half
+};
+
+}  // namespace
+
+/// gx = dx scale 2^(4 - sf); tau is 1.0.
+void LaneStimulus::edge_tables(int which) {
+  const Edge& edge = kEdges[which];
+  const auto one = std::uint32_t{1} << config_.sheet_frac_bits;
+  for (std::size_t i = 0; i < classify_.size(); ++i) classify_[i] = i % 4 == 3 ? one : edge.colour;
+  std::ranges::fill(root_, edge.root);
+  std::ranges::fill(glint_, edge.glint);
+  std::ranges::fill(lighting_, 0U);
+  lighting_[classify::kAmbient] = edge.ambient;
+  lighting_[classify::kSpecular] = edge.specular;
+  const double product = std::ldexp(edge.slope, config_.sheet_frac_bits - 4);
+  const double scale = std::min(product, std::ldexp(1.0, classify::kScale));
+  rise_ = static_cast<std::uint32_t>(product / scale);
+  sheets_ = {static_cast<std::uint32_t>(scale), edge.per_floor};
+  width_ = height_ = 65535;
+}
 
 void LaneStimulus::next_tables() {
   const auto words = [&](Table table) { return testbench::random_density_table(config_, random_, table).words; };
@@ -35,6 +70,8 @@ void LaneStimulus::next_tables() {
                                                                   : static_cast<std::uint32_t>(random_.next())};
   width_ = static_cast<std::int32_t>(random_.between(1, random_.chance(50) ? 8 : 65535));
   height_ = static_cast<std::int32_t>(random_.between(1, random_.chance(50) ? 8 : 65535));
+  rise_.reset();
+  if (sets_++ % 16 == 15) edge_tables(sets_ / 16 % static_cast<int>(std::size(kEdges)));
   unit_.emplace(config_);
   unit_->load(Table::Classify, classify_);
   unit_->load(Table::Root, root_);
@@ -65,6 +102,12 @@ LanePixel LaneStimulus::pixel() {
   };
   out.x = place(width_);
   out.y = place(height_);
+  if (rise_) {
+    out.above = out.below = out.before = out.behind = out.here;
+    out.left = 0;
+    out.right = *rise_;
+    out.x = out.y = 1;
+  }
   return out;
 }
 

@@ -35,10 +35,11 @@ testbench::MakeDevice mutant_of(const cmodel::Config& config) {
 
 /// Streams of some classes; made once, for they are the same for each mutant.
 Named streams(const std::string& name, const cmodel::Config& config, std::vector<StimulusClass> classes,
-              std::uint64_t splats, std::uint64_t seeds) {
+              std::uint64_t splats, std::uint64_t seeds, const std::string& input = "all") {
   testbench::CampaignOptions options;
   options.verify.config = config;
-  options.verify.ready = options.verify.input = "all";
+  options.verify.ready = "all";
+  options.verify.input = input;
   options.verify.timeout = kTimeout;
   options.verify.stop_after = 1;
   options.verify.device = mutant_of(config);
@@ -95,7 +96,8 @@ std::vector<Named> checks_of(const cmodel::Config& config) {
                             streams("resets", config, {StimulusClass::Reset}, 60, 4),
                             must_fail(config),
                             directed("short resets", config, testbench::check_short_resets),
-                            streams("all classes", config, testbench::stimulus_classes(), 60, 3)};
+                            streams("all classes", config, testbench::stimulus_classes(), 60, 3),
+                            streams("late source", config, {StimulusClass::Mixed}, 20, 4, "every-97")};
   // Sheets that freeze pixels while the table of the one before is built are rare.
   if (config.culls()) checks.push_back(streams("culling", config, testbench::stimulus_classes(), 400, 4));
   return checks;

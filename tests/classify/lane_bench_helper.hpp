@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cmodel/classify_unit.hpp"
+#include "cmodel/cycle_stages.hpp"
 #include "testbench/stimulus/random.hpp"
 #include "testbench/stimulus/stimulus_tables.hpp"
 #include "verilated.h"
@@ -85,7 +86,7 @@ class LaneBench {
   }
 
  private:
-  static constexpr int kStages = 23;  // d1 to d23
+  static constexpr int kStages = static_cast<int>(cmodel::stages::kPixelStage);
 
   void clock() {
     top_->clk_i = 0;

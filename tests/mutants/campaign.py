@@ -1,6 +1,7 @@
 """Mutants through a check_mutants program, several at a time."""
 import hashlib
 import os
+import re
 import subprocess
 import sys
 import threading
@@ -26,6 +27,19 @@ def write(path: str, text: str):
 def name_of(mutant) -> str:
     """As exclusions.toml has it: alone on its line, nearly always."""
     return mutant["what"] if mutant["what"] == "dropped" else f"{mutant['what']} of {mutant['original']}"
+
+
+def built(folder: str) -> set[int]:
+    """The numbers that a Verilated program in this folder asks for, and constants that are none. A mutant that is not among them stands where the
+    device's parameters decide against it: there is no code of it, and nothing to try."""
+    sources = [name for name in os.listdir(folder) if name.endswith((".cpp", ".h"))]
+    numbers = set()
+    for name in sources:
+        with open(f"{folder}/{name}") as file:
+            numbers.update(int(constant, 0) for constant in re.findall(r"\b(?:0x[0-9a-f]+|[1-9][0-9]*)(?=U|L|\b)", file.read()))
+    if not numbers:
+        raise RuntimeError(f"{folder}: no Verilated source")
+    return numbers
 
 
 class Server:

@@ -88,6 +88,9 @@ def run_all(arguments, root, build, until):
         binary = program(root, build, device.name)
         # Not of a few, which are tried in seconds, nor of one, which is asked for to be seen.
         journal = campaign.Journal(binary, device.config, f"{build}/mutants/journal") if arguments.all or arguments.module else None
+        built = campaign.built(f"{build}/verilated/mutants_{device.name}/obj")
+        absent = [number for number in tried if number not in built]
+        tried = [number for number in tried if number in built]
         results = campaign.run(binary, device.config, tried, arguments.jobs, until, journal)
         untried += [number for number in tried if number not in results]
         for number, (verdict, said) in results.items():
@@ -95,7 +98,7 @@ def run_all(arguments, root, build, until):
                 killed[number] = (said if device.name == devices.FIRST else f"{device.name}/{said}")
         gone = {*killed, *untried}
         living = [number for number in living if number not in gone]
-        say(f"{device.name}: {len(results)} tried, {len(tried) - len(gone.intersection(tried))} live")
+        say(f"{device.name}: {len(absent)} are not in it, {len(results)} tried, {len(tried) - len(gone.intersection(tried))} live")
         if not living:
             break
     return mutants, killed, living, untried

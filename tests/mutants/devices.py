@@ -14,6 +14,11 @@ _CORNER, _FAULTS, _PRODUCT = "tests/mutants/{}.toml", "configs/faults/{}.toml", 
 _PLACES = {"corners": _CORNER, "mustfail": _FAULTS, "westover": _FAULTS, "density_lane": "tests/mutants/densities.toml", "post": _FAULTS, "densities": _CORNER,
            "cull": _FAULTS, "cull_pixel": _CORNER, "ties": _CORNER, "halves": _CORNER, "truncating": _CORNER, "tiny": _PRODUCT}
 _TOPS = {"density_lane": "fastsplat_classify_lane"}  # of the others the core
+# Devices that are like one before but for one thing are for the modules (what their names begin with) that have to do with it, beside those that only
+# they have: one row of blocks and eight slices, a map of pixels, the rounding of centres.
+_ONLY = {"densities": ("classify", "densit", "compositor", "dirty_map", "ellipse", "pixel_out"),
+         "cull_pixel": ("cull", "compositor", "fastsplat_core", "stream_decode"),
+         "ties": ("snap", "narrow"), "halves": ("snap", "narrow"), "truncating": ("snap", "narrow")}
 FIRST = "corners"  # its program holds all mutants, and is the same for every run
 
 
@@ -21,6 +26,7 @@ class Device:
     def __init__(self, root: str, build: str, name: str):
         self.name, self.config = name, f"{root}/{_PLACES[name].format(name)}"
         self.modules = _modules_of(root, build, self.config, _TOPS.get(name, "fastsplat_core"))
+        self.modules = {module for module in self.modules if module.startswith(_ONLY.get(name, ""))}
 
 
 def devices(root: str, build: str) -> list[Device]:

@@ -66,15 +66,16 @@ class Server:
 
 
 class Journal:
-    """What this very program said of mutants on this configuration: a campaign that was stopped goes on where it was."""
+    """What was said of mutants by what is made of these very files (a program and its configuration, proofs): a campaign that was stopped goes
+    on where it was."""
 
-    def __init__(self, binary: str, config: str, folder: str):
+    def __init__(self, name: str, paths: list[str], folder: str):
         of = hashlib.sha256()
-        for path in (binary, config):
+        for path in paths:
             with open(path, "rb") as file:
                 of.update(file.read())
         os.makedirs(folder, exist_ok=True)
-        self.path = f"{folder}/{os.path.basename(binary)}-{of.hexdigest()[:16]}.txt"
+        self.path = f"{folder}/{name}-{of.hexdigest()[:16]}.txt"
         self.file = open(self.path, "a+")
         self.file.seek(0)
         # A line that was cut off where the campaign was killed counts for nothing.

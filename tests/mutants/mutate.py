@@ -11,6 +11,7 @@ import os
 import random
 import subprocess
 import sys
+import threading
 import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "../../packaging"))
@@ -87,7 +88,7 @@ def run_all(arguments, root, build, until):
             campaign.write(f"{build}/mutants/living.txt", "".join(f"{number}\n" for number in tried))
         binary = program(root, build, device.name)
         # Not of a few, which are tried in seconds, nor of one, which is asked for to be seen.
-        journal = campaign.Journal(binary, device.config, f"{build}/mutants/journal") if arguments.all or arguments.module else None
+        journal = campaign.Journal(os.path.basename(binary), [binary, device.config], f"{build}/mutants/journal") if arguments.all or arguments.module else None
         built = campaign.built(f"{build}/verilated/mutants_{device.name}/obj")
         absent = [number for number in tried if number not in built]
         tried = [number for number in tried if number in built]
@@ -130,10 +131,17 @@ def run_cpp(arguments, root, build, until):
 
 def hand_to_proofs(root, build, mutants, living, exclusions, jobs):
     """What the proofs say of those that nobody has explained, as many at the same time as mutants."""
+    journal, lock = campaign.Journal("proofs", proofs.sources(root, build), f"{build}/mutants/journal"), threading.Lock()
 
     def refuted(mutant):
-        say(f"{mutant['number']} goes to the proof of {mutant['module']}")
-        return proofs.refutes(root, build, mutant)
+        number = mutant["number"]
+        if number not in journal.said:
+            say(f"{number} goes to the proof of {mutant['module']}")
+            text = proofs.refutes(root, build, mutant)
+            with lock:
+                journal.said[number] = ("killed", text) if text else ("lives", "")
+                journal.add(number, journal.said[number])
+        return journal.said[number][1]
 
     handed = [m for m in mutants if m["number"] in living and not exclusions.of(m) and proofs.has(m["module"])]
     with concurrent.futures.ThreadPoolExecutor(max(1, jobs)) as pool:

@@ -22,6 +22,12 @@ def has(module: str) -> bool:
     return module in _SCRIPTS
 
 
+def sources(root: str, build: str) -> list[str]:
+    """All that a proof is made of, but for the mutant."""
+    inside = (f"{folder}/{name}" for top in (f"{root}/rtl", f"{root}/tests/rtl") for folder, _, names in os.walk(top) for name in names)
+    return [f"{build}/bin/fastsplat_emit_package", f"{root}/tests/mutants/proofs.py", *sorted(inside)]
+
+
 def plant(rtl: str, out: str, mutant):
     """OUT becomes RTL with the mutant in it for good."""
     shutil.copytree(rtl, out, dirs_exist_ok=True)

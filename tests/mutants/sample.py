@@ -71,12 +71,12 @@ if verdict != "lives":
 with tempfile.TemporaryDirectory() as folder:
     told_before = next(iter(chosen))
     program = [f"{build}/bin/check_mutants_sample", f"{source}/tests/mutants/corners.toml"]
-    journal = campaign.Journal(*program, folder)
+    journal = campaign.Journal("sample", program, folder)
     journal.add(told_before, ("killed", "before: the campaign was stopped"))
     journal.file.write(f"{planted['number']} kil")
     journal.file.close()
-    again = campaign.run(*program, [told_before, planted["number"]], 1, None, campaign.Journal(*program, folder))
-    kept = campaign.Journal(*program, folder).said
+    again = campaign.run(*program, [told_before, planted["number"]], 1, None, campaign.Journal("sample", program, folder))
+    kept = campaign.Journal("sample", program, folder).said
 print(f"[figure] of a journal of one whole line and half of one: {again[told_before][1]}; the other {again[planted['number']][0]}; kept {len(kept)}")
 if again[told_before][1] != "before: the campaign was stopped" or again[planted["number"]][0] != "lives" or kept != again:
     failures.append(f"a campaign that was stopped does not go on: {again}, kept {kept}")

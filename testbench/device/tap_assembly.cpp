@@ -145,7 +145,9 @@ void TapAssembly::composite(const RawTap& tap) {
     const Window window = next_window();
     state_fields_.unpack(tap.words.data(), kWords * banks_, banked_.data());
     arrange(window.at, tile());
-    emit(cmodel::Tap::Composite, tap.cycle, sheet_of(window.tag), window.tag, window.at, payload_);
+    // The port's block is 0 here; where it is not, the tap tells another place.
+    const Place told{.x = window.at.x + static_cast<std::int32_t>(tap.block), .y = window.at.y};
+    emit(cmodel::Tap::Composite, tap.cycle, sheet_of(window.tag), window.tag, told, payload_);
     return;
   }
   pass_sheets(tap.cycle);

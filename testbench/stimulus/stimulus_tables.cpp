@@ -8,6 +8,10 @@
 namespace fastsplat::testbench {
 namespace {
 
+constexpr std::int64_t kLooksLikeSheets =
+                           static_cast<int>(cmodel::Opcode::LoadTable) | static_cast<int>(cmodel::Table::Sheets) << 8,
+                       kLooksLikeFrame = static_cast<int>(cmodel::Opcode::BeginFrame);
+
 std::uint32_t word(std::int64_t value) { return static_cast<std::uint32_t>(value); }
 
 /// A word 0..most: uniform, near an end, or of any magnitude.
@@ -113,6 +117,7 @@ cmodel::LoadTable random_density_table(const cmodel::Config& config, Random& ran
   const std::int64_t count = sheets ? std::int64_t{cmodel::classify::kSheetWords} * kScaledSheets
                                     : cmodel::classify_words(config, table);
   const std::int64_t scale = std::int64_t{1} << cmodel::classify::kScale;
+  const std::int64_t beat_words = cmodel::kBeatWords, last_beat = (count - 1) / beat_words * beat_words;
   for (std::int64_t i = 0; i < count; ++i) {
     const auto range = cmodel::classify_word_range(config, table, static_cast<std::size_t>(i));
     std::int64_t value = 0;
@@ -121,9 +126,14 @@ cmodel::LoadTable random_density_table(const cmodel::Config& config, Random& ran
     } else if (range.least < 0) {  // directions, and tilts, of which most are gentle
       value = random.between(range.least, range.most);
       if (i > 6 && random.chance(70)) value >>= 12;
+      if (i < 6 && value % 4 == 0) value = range.most;  // the one that has a bit to itself
     } else {
       value = any_word(random, range.most);
     }
+    // A last beat that looks like a record, for it may lie there when the table has ended: of SHEETS like the header of
+    // one without words, of others like begin_frame.
+    if (value % 4 < 2 && i == last_beat && range.least >= 0) value = sheets ? kLooksLikeSheets : kLooksLikeFrame;
+    if (sheets && i == last_beat + 3) value = 0;
     out.words.push_back(word(value));
   }
   return out;

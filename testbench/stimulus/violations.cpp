@@ -245,7 +245,8 @@ class List {
     if (tile == beats_.size()) return;
     const auto& frame = beats_[0];
     const auto width = get(beats_[tile], layout::kTileWidth), height = get(beats_[tile], layout::kTileHeight);
-    change(rule, "mode 3", tile, layout::kTileMode, 3);
+    for (const std::uint64_t mode : {3U, 6U, 7U})
+      change(rule, "mode " + std::to_string(mode), tile, layout::kTileMode, mode);
     change(rule, "tile number beyond the count", tile, layout::kTileNumber,
            static_cast<std::uint64_t>(get(frame, layout::kFrameTiles)));
     change(rule, "tile number 2^32 - 1", tile, layout::kTileNumber, 0xffffffffU);
@@ -324,11 +325,22 @@ class List {
       });
     }
     change(StreamRule::Table, "SHEETS of too many", table(Table::Sheets), layout::kTableWords, 2 * 4096 + 2);
+    // The most there can be is a legal header: its first word is what is wrong.
+    if (const std::size_t beat = table(Table::Sheets); beat < beats_.size())
+      add(StreamRule::Words, "SHEETS of the most, a word too large",
+          [=](Beats& b) { set(b[beat], layout::kTableWords, 2 * 4096), b[beat + 1][0] = 4097; });
     density_words();
-    for (const std::uint64_t mode : {6U, 7U, 10U, 12U, 15U})
+    // A mode that there is not is said before what it would ask for.
+    if (const std::size_t beat = table(Table::Root); beat < beats_.size())
+      add(StreamRule::Tile, "mode 10 without ROOT", [=, count = 1 + payload(beat)](Beats& b) {
+        set(b[tile], layout::kTileMode, 10);
+        const auto first = b.begin() + static_cast<std::ptrdiff_t>(beat);
+        b.erase(first, first + static_cast<std::ptrdiff_t>(count));
+      });
+    for (const std::uint64_t mode : {10U, 12U, 15U})
       change(StreamRule::Tile, "mode " + std::to_string(mode), tile, layout::kTileMode, mode);
-    for (const auto& [side, most] : {std::pair{layout::kTileWidth, config_.tile_width},
-                                     std::pair{layout::kTileHeight, config_.tile_height}}) {
+    for (const auto& [side, most] :
+         {std::pair{layout::kTileWidth, config_.tile_width}, std::pair{layout::kTileHeight, config_.tile_height}}) {
       add(StreamRule::Tile, "tile of densities without room for a rim", [=, w = side, m = most](Beats& b) {
         of_densities(b);
         set(b[0], layout::kFrameWidth, 0xffff);
@@ -361,7 +373,9 @@ class List {
     for (const std::size_t i : {0U, 1U, 2U, 3U, 4U, 5U}) {
       for (const std::uint32_t value : {16385U, 0x80000000U, 0xffffbfffU}) above(Table::Lighting, "LIGHTING", i, value);
     }
-    for (const std::size_t i : {6U, 7U, 8U}) above(Table::Lighting, "LIGHTING", i, 65536);
+    for (const std::size_t i : {6U, 7U, 8U}) {
+      for (const std::uint32_t value : {65536U, 0x80000000U}) above(Table::Lighting, "LIGHTING", i, value);
+    }
     for (const std::size_t i : {0U, 2U, 10U}) {
       above(Table::Sheets, "SHEETS", i, 4097);
       above(Table::Sheets, "SHEETS", i, 4097U << 16);

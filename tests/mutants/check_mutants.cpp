@@ -1,6 +1,7 @@
 // check_mutants CONFIG.toml: the checks of a whole device (serve_mutants.hpp).
 #include "tests/mutants/check_mutants.hpp"
 
+#include <span>
 #include <utility>
 
 #include "base/error.hpp"
@@ -8,6 +9,7 @@
 #include "testbench/device/rtl_registry.hpp"
 #include "testbench/stimulus/campaign.hpp"
 #include "testbench/stimulus/directed.hpp"
+#include "testbench/stimulus/left_out.hpp"
 #include "tests/mustfail/campaign_helper.hpp"
 #include "tests/mutants/serve_mutants.hpp"
 
@@ -35,7 +37,7 @@ testbench::MakeDevice mutant_of(const cmodel::Config& config) {
 
 /// Streams of some classes; made once, for they are the same for each mutant.
 Named streams(const std::string& name, const cmodel::Config& config, std::vector<StimulusClass> classes,
-              std::uint64_t splats, std::uint64_t seeds, const std::string& input = "all") {
+              std::uint64_t splats, std::uint64_t seeds, const std::string& input = "all", bool left_out = false) {
   testbench::CampaignOptions options;
   options.verify.config = config;
   options.verify.ready = "all";
@@ -48,6 +50,10 @@ Named streams(const std::string& name, const cmodel::Config& config, std::vector
   options.classes = std::move(classes);
   std::vector<testbench::CampaignRun> runs;
   for (std::size_t i = 0; i < run_count(options); ++i) runs.push_back(make_run(options, i));
+  for (auto& run : std::span(runs).first(left_out ? runs.size() : 0)) {
+    run.beats = testbench::without_hidden_sets(config, run.beats);
+    run.options.scope = cmodel::StreamScope::Subset;
+  }
   return {name, [runs = std::move(runs)] {
             Said said;
             for (const auto& run : runs) {
@@ -99,7 +105,10 @@ std::vector<Named> checks_of(const cmodel::Config& config) {
                             streams("all classes", config, testbench::stimulus_classes(), 60, 3),
                             streams("late source", config, {StimulusClass::Mixed}, 20, 4, "every-97")};
   // Sheets that freeze pixels while the table of the one before is built are rare.
-  if (config.culls()) checks.push_back(streams("culling", config, testbench::stimulus_classes(), 400, 4));
+  if (config.culls()) {
+    checks.push_back(streams("culling", config, testbench::stimulus_classes(), 400, 4));
+    checks.push_back(streams("left out", config, {StimulusClass::Mixed}, 300, 8, "all", true));
+  }
   return checks;
 }
 

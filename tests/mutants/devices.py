@@ -14,8 +14,8 @@ _CORNER, _FAULTS, _PRODUCT = "tests/mutants/{}.toml", "configs/faults/{}.toml", 
 _PLACES = {"corners": _CORNER, "mustfail": _FAULTS, "westover": _FAULTS, "density_lane": "tests/mutants/densities.toml", "post": _FAULTS, "densities": _CORNER,
            "cull": _FAULTS, "cull_pixel": _CORNER, "ties": _CORNER, "halves": _CORNER, "truncating": _CORNER, "tiny": _PRODUCT}
 _TOPS = {"density_lane": "fastsplat_classify_lane"}  # of the others the core
-# Devices that are like one before but for one thing are for the modules (what their names begin with) that have to do with it, beside those that only
-# they have: one row of blocks and eight slices, a map of pixels, the rounding of centres.
+# Devices that are like one before but for one thing are for the modules (what their names begin with) that have to do with it: one row of blocks and
+# eight slices, a map of pixels, the rounding of centres.
 _ONLY = {"densities": ("classify", "densit", "compositor", "dirty_map", "ellipse", "pixel_out"),
          "cull_pixel": ("cull", "compositor", "fastsplat_core", "stream_decode"),
          "ties": ("snap", "narrow"), "halves": ("snap", "narrow"), "truncating": ("snap", "narrow")}

@@ -13,6 +13,10 @@ void CycleTimeline::on_beat(const cmodel::BeatCycles& beat) {
   if (next_ != nullptr) next_->on_beat(beat);
 }
 
+void CycleTimeline::on_verdict(const cmodel::VerdictCycles& verdict) {
+  if (next_ != nullptr) next_->on_verdict(verdict);
+}
+
 void CycleTimeline::on_sheet(const cmodel::SheetCycles& sheet) {
   sheets_.size() < kMostSheets ? sheets_.push_back(sheet) : void(++more_sheets_);
   if (next_ != nullptr) next_->on_sheet(sheet);

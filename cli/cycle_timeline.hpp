@@ -18,6 +18,7 @@ class CycleTimeline final : public cmodel::CycleSink {
   explicit CycleTimeline(cmodel::CycleSink* next = nullptr) : next_(next) {}
 
   void on_beat(const cmodel::BeatCycles& beat) override;
+  void on_verdict(const cmodel::VerdictCycles& verdict) override;
   void on_sheet(const cmodel::SheetCycles& sheet) override;
   void on_tile(const cmodel::TileCycles& tile) override;
 

@@ -166,8 +166,11 @@ bool CycleModel::answer() { return answers_ != nullptr && (*answers_)[answered_+
 
 void CycleModel::cull_block(const CullBlock& record) {
   ++counters_.cull_blocks;
-  if (!tile_open_ || !culls_in(tile_.mode)) return;
-  const bool hidden = answer();
+  const bool tested = tile_open_ && culls_in(tile_.mode);
+  const bool hidden = tested && answer();
+  if (config_.culls() && options_.spans != nullptr)
+    options_.spans->on_verdict({.tag = record.tag, .hidden = hidden, .told = last_verdict_});
+  if (!tested) return;
   if (answers_ != nullptr) ++stalls_.cull_tests;
   if (hidden) ++stalls_.hidden_sets;
   hides_ = hides_ || (hidden && record.splats > 0);

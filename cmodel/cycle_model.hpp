@@ -54,10 +54,19 @@ struct BeatCycles {
   std::uint64_t left = 0;                ///< its last cycle there
 };
 
+/// What the device tells its source of a cull_block, and the cycle in which it does.
+struct VerdictCycles {
+  std::uint32_t tag = 0;
+  bool hidden = false;
+  std::uint64_t told = 0;
+  bool operator==(const VerdictCycles&) const = default;
+};
+
 class CycleSink {
  public:
   virtual ~CycleSink() = default;
   virtual void on_beat(const BeatCycles&) {}
+  virtual void on_verdict(const VerdictCycles&) {}  ///< of devices that cull
   virtual void on_sheet(const SheetCycles& sheet) = 0;
   virtual void on_tile(const TileCycles& tile) = 0;
 };
@@ -201,7 +210,7 @@ class CycleModel final : public Device {
     std::uint32_t number = 0;
     std::vector<std::pair<int, int>> blocks;  ///< dirty ones: column, row
   };
-  int rim_ = 0;                       ///< pixels around the tile that its sheets hold
+  int rim_ = 0;                        ///< pixels around the tile that its sheets hold
   std::optional<DensitySheet> waits_;  ///< for the sheet behind it
 };
 

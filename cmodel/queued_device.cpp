@@ -39,6 +39,10 @@ void QueuedDevice::on_beat(const BeatCycles& beat) {
   if (listener_ != nullptr) listener_->on_beat(beat);
 }
 
+void QueuedDevice::on_verdict(const VerdictCycles& verdict) {
+  if (listener_ != nullptr) listener_->on_verdict(verdict);
+}
+
 void QueuedDevice::on_sheet(const SheetCycles& sheet) {
   if (listener_ != nullptr) listener_->on_sheet(sheet);
 }

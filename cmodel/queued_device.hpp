@@ -53,6 +53,7 @@ class QueuedDevice final : private CycleSink {
   };
 
   void on_beat(const BeatCycles& beat) override;
+  void on_verdict(const VerdictCycles& verdict) override;
   void on_sheet(const SheetCycles& sheet) override;
   void on_tile(const TileCycles& tile) override;
   static CycleOptions with(const CycleOptions& options, const Willing& arrival, CycleSink& spans);

@@ -17,8 +17,8 @@ Detector detector_of(const Divergence& divergence) {
 }  // namespace
 
 const char* to_string(Detector detector) {
-  constexpr const char* kNames[] = {"tap snap",  "tap footprint", "tap sheet", "tap composite",
-                                    "tap pixel", "tiles",         "counters",  "cycles"};
+  constexpr const char* kNames[] = {"tap snap", "tap footprint", "tap sheet", "tap composite", "tap pixel",
+                                    "tiles",    "counters",      "cycles",    "verdicts"};
   return kNames[static_cast<std::size_t>(detector)];
 }
 
@@ -35,10 +35,23 @@ Checker::Checker(const cmodel::Config& config, cmodel::StreamScope scope, cmodel
 }
 
 void Checker::start(std::uint64_t first_beat) {
-  cycle_model_.emplace(
-      config_, scope_,
-      cmodel::CycleOptions{
-          .input = options_.source, .output = options_.sink, .first_beat = first_beat, .culls = &culls_});
+  cycle_model_.emplace(config_, scope_,
+                       cmodel::CycleOptions{.input = options_.source,
+                                            .output = options_.sink,
+                                            .first_beat = first_beat,
+                                            .spans = &verdicts_,
+                                            .culls = &culls_});
+}
+
+void Checker::on_raw(const RawTap& tap) {
+  if (tap.port == RawPort::Verdict) return check_verdict(tap);
+  assembly_.on_raw(tap);
+}
+
+void Checker::check_verdict(const RawTap& tap) {
+  if (!cycle_model_ || stopped()) return;
+  ++comparisons_;
+  if (const auto difference = verdicts_.told(tap)) differ(Detector::Verdicts, *difference);
 }
 
 void Checker::accept(const cmodel::Beat& beat) {
@@ -70,6 +83,7 @@ CheckReport Checker::finish() {
   for (const auto& tile : model_tiles_.tiles)
     differ(Detector::Tiles, "tile " + std::to_string(tile.tile) + " never came out");
   model_tiles_.tiles.clear();
+  while (const auto missing = verdicts_.missing()) differ(Detector::Verdicts, *missing);
   return report();
 }
 

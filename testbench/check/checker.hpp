@@ -12,6 +12,7 @@
 #include "cmodel/cycle_model.hpp"
 #include "cmodel/model.hpp"
 #include "testbench/check/scoreboard.hpp"
+#include "testbench/check/verdict_check.hpp"
 #include "testbench/device/raw_taps.hpp"
 #include "testbench/device/tap_assembly.hpp"
 
@@ -27,19 +28,20 @@ enum class Detector : std::uint8_t {
   Tiles,     ///< whole tiles: cut short, too long, never there
   Counters,  ///< the device's own, but for the next
   Cycles,    ///< its cycle counters
+  Verdicts,  ///< what it tells its source of cull_blocks
 };
 const char* to_string(Detector detector);
 
 /// What passed the checker.
 struct CheckReport {
-  std::uint64_t comparisons = 0;  ///< tap records, pixel words, counters and cycles
+  std::uint64_t comparisons = 0;  ///< tap records, pixel words, counters, cycles and verdicts
   std::uint64_t mismatches = 0;
   std::optional<Detector> detector;                       ///< that saw the first of them
   std::array<std::uint64_t, cmodel::kTapCount> by_tap{};  ///< records compared
   std::optional<Divergence> first;                        ///< of the taps
   std::vector<Divergence> kept;                           ///< of the taps, in their order, as many as were asked for
   std::array<std::uint64_t, cmodel::kTapCount> mismatches_by_tap{};  ///< records; all that were seen
-  std::vector<std::string> differences;  ///< tiles, counters and cycles that differ, in words
+  std::vector<std::string> differences;  ///< tiles, counters, cycles and verdicts that differ, in words
   /// Busy cycles of the device and of the cycle model; absent of a run that did not reach its end.
   std::optional<std::uint64_t> cycles_rtl, cycles_model;
 };
@@ -60,7 +62,7 @@ class Checker final : public RawTapSink {
   Checker(const cmodel::Config& config, cmodel::StreamScope scope, cmodel::PixelSink& pixels,
           const CheckOptions& options = {});
 
-  /// The cycle after reset from which the source has the first beat. Without it cycles are not compared.
+  /// The cycle after reset from which the source has the first beat. Without it cycles and verdicts are not compared.
   void start(std::uint64_t first_beat);
   bool started() const { return cycle_model_.has_value(); }
   /// By the cycle model, of a beat that breaks a rule and is taken in that cycle; 0 where cycles are not compared.
@@ -68,7 +70,7 @@ class Checker final : public RawTapSink {
 
   /// Throws UserError (Input) for a beat that breaks docs/stream.md. After stopped() nothing more is expected.
   void accept(const cmodel::Beat& beat) override;
-  void on_raw(const RawTap& tap) override { assembly_.on_raw(tap); }
+  void on_raw(const RawTap& tap) override;
 
   /// Throws UserError (Input) if the stream ended where it may not.
   void end_of_stream() { model_.finish(); }
@@ -95,6 +97,7 @@ class Checker final : public RawTapSink {
   void check_tile(cmodel::TilePixels&& tile);
   void check_counters(const cmodel::Counters& rtl);
   void check_cycles(const cmodel::StallCounters& rtl);
+  void check_verdict(const RawTap& tap);
   void equal(Detector detector, const std::string& what, std::uint64_t model, std::uint64_t rtl);
   void differ(Detector detector, std::string text);
   /// Of the first difference so far, `next` if there is none.
@@ -109,11 +112,12 @@ class Checker final : public RawTapSink {
   DeviceTiles device_tiles_{this};
   TapAssembly assembly_;
   cmodel::Model model_;
+  VerdictCheck verdicts_;
   cmodel::CullLog culls_;  ///< of the open tile: the cycle model is told each answer by the beat that it needs it for
   std::optional<cmodel::CycleModel> cycle_model_;  ///< from start() on
   std::optional<std::uint64_t> cycles_rtl_, cycles_model_;
   bool silent_ = false;
-  std::uint64_t comparisons_ = 0, mismatches_ = 0;  ///< of tiles, counters and cycles
+  std::uint64_t comparisons_ = 0, mismatches_ = 0;  ///< of tiles, counters, cycles and verdicts
   std::optional<Detector> detector_;                ///< of the first difference, once one of those differed
   std::vector<std::string> differences_;
 };

@@ -10,7 +10,7 @@
 
 namespace fastsplat::testbench {
 
-/// The tap ports of rtl/fastsplat_core.sv and its pixel output, where they are valid.
+/// The tap ports of rtl/fastsplat_core.sv, its pixel output and its verdicts, where they are valid.
 enum class RawPort : std::uint8_t {
   Snap,       ///< tag, x, y, mx, my
   Sheet,      ///< tag; BANKS x 4 sums of the earliest window that had none yet
@@ -18,6 +18,7 @@ enum class RawPort : std::uint8_t {
   Composite,  ///< block; BANKS x 4 words
   SheetDone,  ///< the walk of a sheet picked its last block
   Pixels,     ///< a pixel beat was taken: P pixels of 4 words of 32 bits; last
+  Verdict,    ///< what the source is told of a cull_block: tag; hidden
 };
 
 struct RawTap {
@@ -28,6 +29,7 @@ struct RawTap {
   std::uint32_t mx = 0, my = 0;
   std::uint32_t block = 0;  ///< number in the tile, row by row
   bool last = false;        ///< ends the tile
+  bool hidden = false;      ///< of a verdict
   /// Of a pixel beat: which of its pixels lie in the tile, the first in bit 0. Absent where a bench does not show it.
   std::optional<std::uint32_t> keep = std::nullopt;
   std::optional<std::uint32_t> tile = std::nullopt;  ///< number of the tile at hand; absent where it is not shown

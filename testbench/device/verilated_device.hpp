@@ -349,10 +349,20 @@ class VerilatedDevice : public RtlDevice {
     return taken;
   }
 
-  /// Taps of this cycle and the pixel beat, if one is taken.
+  /// Taps of this cycle, the pixel beat, if one is taken, and the verdict, if one is told.
   void sample() {
     if (options_.taps != nullptr) sample_taps(*options_.taps);
-    if (!top_->m_tvalid_o || !top_->m_tready_i) return;
+    if (top_->m_tvalid_o && top_->m_tready_i) sample_pixels();
+    if (options_.taps != nullptr && top_->verdict_valid_o) {
+      options_.taps->on_raw({.port = RawPort::Verdict,
+                             .cycle = cycle_,
+                             .tag = top_->verdict_tag_o,
+                             .hidden = top_->verdict_hidden_o != 0,
+                             .words = {}});
+    }
+  }
+
+  void sample_pixels() {
     std::array<std::uint32_t, 2> small;
     const auto words = port_words(top_->m_tdata_o, small);
     const bool last = top_->m_tlast_o != 0, aborted = top_->m_tuser_o != 0;

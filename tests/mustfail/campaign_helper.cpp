@@ -186,7 +186,7 @@ std::vector<Run> runs_of(const cmodel::Config& config, Stimulus stimulus) {
   return {};
 }
 
-static_assert(static_cast<int>(Detector::Cycles) == static_cast<int>(testbench::Detector::Cycles));
+static_assert(static_cast<int>(Detector::Verdicts) == static_cast<int>(testbench::Detector::Verdicts));
 
 Outcome run_one(const cmodel::Config& config, const Run& run, Stimulus stimulus, const MakeDevice& make) {
   testbench::VerifyOptions options;

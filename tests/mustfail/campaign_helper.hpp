@@ -20,7 +20,20 @@ using Fault = testbench::RtlFault;
 using testbench::Assertions;
 
 /// Those of testbench::Detector, in its order, then how a simulation may end.
-enum class Detector { Snap, Footprint, Sheet, Composite, Pixel, Tiles, Counters, Cycles, Timeout, Assertion, Other };
+enum class Detector {
+  Snap,
+  Footprint,
+  Sheet,
+  Composite,
+  Pixel,
+  Tiles,
+  Counters,
+  Cycles,
+  Verdicts,
+  Timeout,
+  Assertion,
+  Other
+};
 const char* to_string(Detector detector);
 
 enum class Stimulus {

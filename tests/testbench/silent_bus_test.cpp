@@ -32,6 +32,8 @@ struct SilentTop {
   std::uint32_t tap_tile_o = 0;
   std::uint8_t tap_snap_valid_o = 0, tap_sheet_valid_o = 0, tap_window_valid_o = 0, tap_composite_valid_o = 0,
                tap_sheet_done_o = 0;
+  std::uint8_t verdict_valid_o = 0, verdict_hidden_o = 0;
+  std::uint32_t verdict_tag_o = 0;
   std::uint32_t tap_snap_tag_o = 0, tap_snap_x_o = 0, tap_snap_y_o = 0, tap_snap_mx_o = 0, tap_snap_my_o = 0;
   std::uint32_t tap_sheet_tag_o = 0, tap_window_tag_o = 0, tap_window_x_o = 0, tap_window_y_o = 0,
                 tap_composite_block_o = 0;

@@ -1,0 +1,32 @@
+// What the source was told of cull_blocks: each verdict once, in order, in its cycle (docs/microarchitecture.md,
+// "Culling").
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "cmodel/cycle_model.hpp"
+#include "testbench/device/raw_taps.hpp"
+
+namespace fastsplat::testbench {
+
+/// Listens to a cycle model, which says what is to be told before the device can tell it. Of a device that does not
+/// cull nothing is expected.
+class VerdictCheck final : public cmodel::CycleSink {
+ public:
+  void on_verdict(const cmodel::VerdictCycles& verdict) override { expected_.push_back(verdict); }
+  void on_sheet(const cmodel::SheetCycles& /*sheet*/) override {}
+  void on_tile(const cmodel::TileCycles& /*tile*/) override {}
+
+  /// What differs of a verdict that was told, in words.
+  std::optional<std::string> told(const RawTap& tap);
+  /// The next one that was not, in words, and goes on behind it.
+  std::optional<std::string> missing();
+
+ private:
+  std::deque<cmodel::VerdictCycles> expected_;
+};
+
+}  // namespace fastsplat::testbench

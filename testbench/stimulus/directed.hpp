@@ -38,7 +38,8 @@ DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& m
 /// Each rule that a device judges, broken in every way the small stream has: refused at the model's beat by the model's
 /// rule, which ERROR and ERROR_BEAT tell; an open tile comes out as if it had ended there, marked, every tap and cycle
 /// the model's; the rest is swallowed; behind each of them, after a soft reset or a hard one, a good frame comes out
-/// right. Soft resets within a tile, and what goes on in the middle of a frame (mid_frame.hpp).
+/// right. Soft resets within a tile, what goes on in the middle of a frame (mid_frame.hpp), and what one frame may not
+/// leave to the next (frame_after_frame.hpp).
 DirectedResult check_refusals(const cmodel::Config& config, const MakeDevice& make);
 
 /// A reset of one cycle with each record of a stream but begin_frame in the device's register, then the whole stream

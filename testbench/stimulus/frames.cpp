@@ -81,20 +81,18 @@ void Frames::good(const std::string& what, const Beats& beats, Coverage::Id bin,
   begin();
   const auto all = std::span(beats);
   device_->consume(all.first(meanwhile.at));
-  if (meanwhile.what) {
-    const std::uint64_t from = device_->cycles();
-    meanwhile.what();
-    source_.pause(from, device_->cycles());
-  }
+  if (meanwhile.what) pause(meanwhile.what);
   device_->consume(all.subspan(meanwhile.at));
   end(what, bin, false);
 }
 
-bool Frames::bad(const std::string& what, const Beats& beats, const Refused& expected, Coverage::Id bin) {
+bool Frames::bad(const std::string& what, const Beats& beats, const Refused& expected, Coverage::Id bin,
+                 const std::function<void()>& meanwhile) {
   const std::size_t failures = check_.result.failures.size();
   begin();
   const auto before = std::span(beats).first(expected.beat);
   device_->consume(before);
+  if (meanwhile) pause(meanwhile);
   const std::uint64_t aborted = device_->aborted_tiles();
   const auto refusal = device_->refuse(beats[expected.beat]);
   check_.equal(what + ": refused", 1, refusal ? 1 : 0, bin);
@@ -176,6 +174,12 @@ void Frames::begin() {
   relay_.to = &*checker_;
   relay_.tiles_left = 0;
   checker_->start(device_->cycles());
+}
+
+void Frames::pause(const std::function<void()>& meanwhile) {
+  const std::uint64_t from = device_->cycles();
+  meanwhile();
+  source_.pause(from, device_->cycles());
 }
 
 void Frames::end(const std::string& what, Coverage::Id bin, bool in_table) {

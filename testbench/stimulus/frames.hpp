@@ -46,7 +46,9 @@ class Frames {
   /// A frame that nothing is wrong with.
   void good(const std::string& what, const Beats& beats, Coverage::Id bin, const Meanwhile& meanwhile = {});
   /// A frame of which the model refuses a beat: whether the device did all that it has to. It is left with its error.
-  bool bad(const std::string& what, const Beats& beats, const Refused& expected, Coverage::Id bin);
+  /// `meanwhile` is done before that beat, while the source pauses.
+  bool bad(const std::string& what, const Beats& beats, const Refused& expected, Coverage::Id bin,
+           const std::function<void()>& meanwhile = {});
   /// A soft reset behind some beats of a frame; `wait`: cycles, about, before it. With a frame to come, its beats are
   /// offered at once, whatever the reset still has to do.
   void cut(const std::string& what, std::span<const cmodel::Beat> beats, int wait, Coverage::Id bin,
@@ -87,6 +89,7 @@ class Frames {
   };
 
   void begin();
+  void pause(const std::function<void()>& meanwhile);
   void end(const std::string& what, Coverage::Id bin, bool in_table);
   /// Behind a soft reset, with the tables or tile of the cut frame closed.
   void follow(const std::string& what, const Beats& next, bool in_table, Coverage::Id bin);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "cmodel/cycle_stages.hpp"
 #include "cmodel/records.hpp"
 #include "cmodel/register_fields.hpp"
 
@@ -63,10 +64,11 @@ void refuse_writes(const Config& config, Frames& frames, const Beats& beats, Che
   }
 }
 
-/// Read in the cycle after begin_frame was taken, when it lies in check, and in the one after.
-void be_busy_while_judging(Frames& frames, const Beats& beats, Check& check) {
+/// Read in the cycle after begin_frame was taken, when it lies in check, and in those after, in which it passes the
+/// test unit where there is one.
+void be_busy_while_judging(const Config& config, Frames& frames, const Beats& beats, Check& check) {
   const auto bin = check.bin("refusal", kBins[1]);
-  for (const int later : {0, 1}) {
+  for (int later = 0; later < (config.culls() ? 2 + static_cast<int>(stages::kCullStages) : 2); ++later) {
     frames.device().consume(std::span(beats).first(1));
     if (later > 0) frames.device().takes_half_write(WriteHalf::Address, kRegControl.address, 0, later);
     const std::string what = "STATUS behind begin_frame, " + std::to_string(later) + " cycles later";
@@ -162,7 +164,7 @@ std::span<const char* const> mid_frame_bins() { return kBins; }
 
 void check_mid_frame(const Config& config, const MakeDevice& make, Frames& frames, const Beats& beats, Check& check) {
   refuse_writes(config, frames, beats, check);
-  be_busy_while_judging(frames, beats, check);
+  be_busy_while_judging(config, frames, beats, check);
   count_anew(config, frames, beats, check);
   wait_for_the_last_pixels(config, make, beats, check);
 }

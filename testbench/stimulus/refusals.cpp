@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "cmodel/register_map.hpp"
+#include "testbench/stimulus/frame_after_frame.hpp"
 #include "testbench/stimulus/frames.hpp"
 #include "testbench/stimulus/mid_frame.hpp"
 #include "testbench/stimulus/random.hpp"
@@ -46,6 +47,7 @@ Coverage refusal_bins() {
   }
   for (const char* name : kOtherBins) bins.declare("refusal", name);
   for (const char* name : mid_frame_bins()) bins.declare("refusal", name);
+  for (const char* name : frame_after_frame_bins()) bins.declare("refusal", name);
   return bins;
 }
 
@@ -132,6 +134,7 @@ DirectedResult check_refusals(const cmodel::Config& config, const MakeDevice& ma
   }
   frames.good("a frame after all that", beats, soft);
   check_mid_frame(config, make, frames, beats, check);
+  check_frame_after_frame(config, frames, beats, check);
   return check.result;
 }
 

@@ -10,6 +10,7 @@
 #include "testbench/stimulus/promises.hpp"
 #include "testbench/stimulus/random.hpp"
 #include "testbench/stimulus/stimulus_tables.hpp"
+#include "testbench/stimulus/window_centre.hpp"
 
 namespace fastsplat::testbench {
 namespace {
@@ -281,10 +282,7 @@ class Generator {
 
   /// The centre word whose window starts at pixel `origin` with phase `phase`, within the position format.
   std::int32_t centre(std::uint32_t set, std::int64_t origin, std::int64_t phase) const {
-    const auto format = config_.position_format();
-    const std::int64_t snapped = (origin - 1) * config_.phases + phase + rho_[set];
-    const std::int64_t word = snapped * (std::int64_t{1} << (config_.position_frac_bits - config_.phase_bits()));
-    return static_cast<std::int32_t>(std::clamp(word, format.min, format.max));
+    return window_centre(config_, rho_[set], origin, phase);
   }
 
   std::int64_t extent(std::uint32_t set) const { return cmodel::window_geometry(config_, rho_[set]).padded; }

@@ -11,12 +11,13 @@ _CORNER, _FAULTS, _PRODUCT = "tests/mutants/{}.toml", "configs/faults/{}.toml", 
 # The smallest there can be, of all mutants; then, of what lives, one that rounds more and has more sets, one that composites every sample, the pixel
 # stage's lane by itself and devices of densities (which have the most that the first have not), those that cull by blocks and by pixels, three corners
 # more and the smallest product.
-_PLACES = {"corners": _CORNER, "mustfail": _FAULTS, "westover": _FAULTS, "density_lane": "tests/mutants/densities.toml", "post": _FAULTS, "densities": _CORNER,
-           "cull": _FAULTS, "cull_pixel": _CORNER, "ties": _CORNER, "halves": _CORNER, "truncating": _CORNER, "tiny": _PRODUCT}
+_PLACES = {"corners": _CORNER, "mustfail": _FAULTS, "westover": _FAULTS, "density_lane": "tests/mutants/densities.toml", "post": _FAULTS, "densities": _CORNER, "density_rows": _CORNER,
+           "cull": _FAULTS, "cull_pixel": _CORNER, "cull_samples": _CORNER, "ties": _CORNER, "halves": _CORNER, "truncating": _CORNER, "tiny": _PRODUCT}
 _TOPS = {"density_lane": "fastsplat_classify_lane"}  # of the others the core
 # Devices that are like one before but for one thing are for the modules (what their names begin with) that have to do with it: one row of blocks and
-# eight slices, a map of pixels, the rounding of centres.
+# eight slices; two rows, one slice and many radius sets; a map of pixels; samples beside culling; the rounding of centres.
 _ONLY = {"densities": ("classify", "densit", "compositor", "dirty_map", "ellipse", "pixel_out"),
+         "density_rows": ("density_ring", "stream_check"), "cull_samples": ("fastsplat_core", "stream_decode"),
          "cull_pixel": ("cull", "compositor", "fastsplat_core", "stream_decode"),
          "ties": ("snap", "narrow"), "halves": ("snap", "narrow"), "truncating": ("snap", "narrow")}
 FIRST = "corners"  # its program holds all mutants, and is the same for every run

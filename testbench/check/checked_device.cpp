@@ -1,10 +1,19 @@
 #include "testbench/check/checked_device.hpp"
 
 namespace fastsplat::testbench {
+namespace {
+
+/// An RtlDevice tells them.
+CheckOptions with_verdicts(CheckOptions options) {
+  options.verdicts = true;
+  return options;
+}
+
+}  // namespace
 
 CheckedDevice::CheckedDevice(const cmodel::Config& config, cmodel::StreamScope scope, cmodel::PixelSink& pixels,
                              const Factory& make, const CheckOptions& options)
-    : checker_(config, scope, pixels, options), device_(make(none_, gate_)) {}
+    : checker_(config, scope, pixels, with_verdicts(options)), device_(make(none_, gate_)) {}
 
 void CheckedDevice::unchecked(const std::function<void(RtlDevice&)>& action) {
   gate_.open = false;

@@ -39,7 +39,7 @@ void Checker::start(std::uint64_t first_beat) {
                        cmodel::CycleOptions{.input = options_.source,
                                             .output = options_.sink,
                                             .first_beat = first_beat,
-                                            .spans = &verdicts_,
+                                            .spans = options_.verdicts ? &verdicts_ : nullptr,
                                             .culls = &culls_});
 }
 
@@ -49,7 +49,7 @@ void Checker::on_raw(const RawTap& tap) {
 }
 
 void Checker::check_verdict(const RawTap& tap) {
-  if (!cycle_model_ || stopped()) return;
+  if (!options_.verdicts || !cycle_model_ || stopped()) return;
   ++comparisons_;
   if (const auto difference = verdicts_.told(tap)) differ(Detector::Verdicts, *difference);
 }

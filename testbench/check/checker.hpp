@@ -51,6 +51,7 @@ struct CheckOptions {
   std::size_t keep = 0;                     ///< divergences told in CheckReport::kept
   const cmodel::Willing* source = nullptr;  ///< when beats are offered to the device; null: always
   const cmodel::Willing* sink = nullptr;    ///< when its pixels are taken; null: always
+  bool verdicts = false;                    ///< the device's verdicts are told, too; else those told are passed over
 };
 
 /// Told everything in the order of the device's cycles (RawTapSink): start(), then beats and taps as they pass,
@@ -62,7 +63,8 @@ class Checker final : public RawTapSink {
   Checker(const cmodel::Config& config, cmodel::StreamScope scope, cmodel::PixelSink& pixels,
           const CheckOptions& options = {});
 
-  /// The cycle after reset from which the source has the first beat. Without it cycles and verdicts are not compared.
+  /// The cycle after reset from which the source has the first beat. Without it neither cycles nor verdicts are
+  /// compared.
   void start(std::uint64_t first_beat);
   bool started() const { return cycle_model_.has_value(); }
   /// By the cycle model, of a beat that breaks a rule and is taken in that cycle; 0 where cycles are not compared.

@@ -43,13 +43,15 @@ class Generator {
   }
 
  private:
-  /// Two sets, of one window and of as many as there are up to two; weights and factors as large as can be.
+  /// Two sets, of one window and of as many as there are up to two; weights and factors as large as can be. No pixel of
+  /// a window asks for the first two entries of RADIAL, so they may be anything.
   std::vector<LoadTable> tables() {
     std::vector<LoadTable> out;
     for (std::uint32_t set = 0; set < sets(); ++set) {
       const int windows = static_cast<int>(set) + 1;
       out.push_back(random_rlut(config_, random_, TableStyle::Powers, set, windows, windows));
       rho_[set] = out.back().radius.rho;
+      for (std::uint32_t& word : out.back().words) word = std::max(word, std::uint32_t{1} << config_.rlut_guard_bits);
     }
     out.push_back(random_radial(config_, random_, TableStyle::Any));
     std::ranges::fill(out.back().words, static_cast<std::uint32_t>(config_.weight_format().max));
@@ -108,7 +110,7 @@ class Generator {
 
   TileDocument with_sets() {
     TileDocument out = tile(config_.tile_width, config_.tile_height);
-    const int half = config_.tile_height / 2;
+    const int half = std::max(config_.lanes, config_.tile_height / 2);
     std::vector<SheetRecord> first = many(), over = many();
     hide(first, first.size());
     hide(first, 0);

@@ -1,4 +1,5 @@
-// Frames for devices that cull, in which everything is as opaque as it can be: what is hidden is known by its place.
+// Frames for devices that cull, in which everything is as opaque as it can be: what is hidden is known by its place,
+// whatever the first two words of RADIAL are.
 #pragma once
 
 #include "testbench/stimulus/random.hpp"

@@ -15,6 +15,16 @@ std::vector<Record> records_of(const std::vector<cmodel::Beat>& beats) {
   return out;
 }
 
+std::size_t first_of(const std::vector<cmodel::Beat>& beats, cmodel::Opcode wanted) {
+  const auto records = records_of(beats);
+  return std::ranges::find(records, wanted, &Record::opcode)->at;
+}
+
+void overwrite(cmodel::Beat& beat, const cmodel::Field& field, std::uint64_t value) {
+  beat[static_cast<std::size_t>(field.word)] &= ~field_mask(field);
+  put(beat, field, value);
+}
+
 std::vector<cmodel::Beat> small_stream(const cmodel::Config& config) {
   constexpr std::uint64_t kMostSeeds = 32;
   std::vector<cmodel::Beat> beats;

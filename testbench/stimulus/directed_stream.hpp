@@ -18,6 +18,10 @@ struct Record {
   cmodel::Opcode opcode;
 };
 std::vector<Record> records_of(const std::vector<cmodel::Beat>& beats);
+/// The beat of the first record of a kind that the stream has.
+std::size_t first_of(const std::vector<cmodel::Beat>& beats, cmodel::Opcode wanted);
+/// Writes a field that holds something else.
+void overwrite(cmodel::Beat& beat, const cmodel::Field& field, std::uint64_t value);
 
 /// The first of the small streams that has a cull block and a tile of two sheets: not every one has, and every record
 /// is wanted. The last that is looked at where none has, whose bins then stay empty.

@@ -167,10 +167,16 @@ void Frames::drop(std::span<const cmodel::Beat> beats, int reset_cycles, int wai
   device_->warm_reset(reset_cycles);
 }
 
+void Frames::forgive() {
+  write(cmodel::kRegIrq, cmodel::kIrqError);
+  device_->soft_reset();
+}
+
 void Frames::begin() {
   write(cmodel::kRegControl, cmodel::kControlClear);
   source_.begin();
-  checker_.emplace(config_, cmodel::StreamScope::Subset, none_, CheckOptions{.source = &source_, .sink = &sink_});
+  checker_.emplace(config_, cmodel::StreamScope::Subset, none_,
+                   CheckOptions{.source = &source_, .sink = &sink_, .verdicts = true});
   relay_.to = &*checker_;
   relay_.tiles_left = 0;
   checker_->start(device_->cycles());

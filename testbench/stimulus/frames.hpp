@@ -55,6 +55,8 @@ class Frames {
            const Beats& next = {});
   /// A hard reset behind some beats of a frame; `wait`: cycles, about, before it.
   void drop(std::span<const cmodel::Beat> beats, int reset_cycles, int wait = 0);
+  /// Its error is cleared and left behind by a soft reset.
+  void forgive();
 
  private:
   /// When the source is willing: always, but for its pauses, which come in their order.

@@ -35,10 +35,7 @@ std::set<std::uint32_t> refused_addresses(const Config& config) {
   return out;
 }
 
-std::size_t behind_first(const Beats& beats, Opcode wanted) {
-  const auto records = records_of(beats);
-  return std::ranges::find(records, wanted, &testbench::Record::opcode)->at + 1;
-}
+std::size_t behind_first(const Beats& beats, Opcode wanted) { return first_of(beats, wanted) + 1; }
 
 /// In a tile, and between two words of a table, where a soft reset or cleared counters would show in what comes out.
 void refuse_writes(const Config& config, Frames& frames, const Beats& beats, Check& check) {
@@ -92,12 +89,10 @@ void count_anew(const Config& config, Frames& frames, const Beats& beats, Check&
     const std::string what = "rule " + std::to_string(static_cast<int>(rule)) + " in the frame after one given up";
     frames.drop(part, 1);
     frames.bad(what + " by a hard reset", spoiled, *expected, hard);
-    frames.write(kRegIrq, kIrqError);
-    frames.device().soft_reset();
+    frames.forgive();
     frames.cut("a frame given up", part, 1, soft);
     frames.bad(what + " by a soft reset", spoiled, *expected, soft);
-    frames.write(kRegIrq, kIrqError);
-    frames.device().soft_reset();
+    frames.forgive();
   }
 }
 

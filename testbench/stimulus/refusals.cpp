@@ -187,8 +187,7 @@ DirectedResult check_damage(const cmodel::Config& config, const MakeDevice& make
     if (const auto expected = refused_by_model(config, damaged)) {
       if (!judged(expected->rule)) continue;  // an ellipse's shape: nobody asks the device
       check.result.refused[bin_of(expected->rule)] += frames.bad(what, damaged, *expected, refused) ? 1 : 0;
-      frames.write(cmodel::kRegIrq, cmodel::kIrqError);
-      frames.device().soft_reset();
+      frames.forgive();
     } else if (end) {
       frames.good(what, damaged, legal);
     } else {  // it was cut: a soft reset ends it

@@ -13,11 +13,6 @@ using cmodel::Opcode;
 using cmodel::StreamRule;
 namespace layout = cmodel::layout;
 
-void set(Beat& beat, const cmodel::Field& field, std::uint64_t value) {
-  beat[static_cast<std::size_t>(field.word)] &= ~field_mask(field);
-  put(beat, field, value);
-}
-
 class List {
  public:
   List(const cmodel::Config& config, const Beats& beats)
@@ -61,7 +56,7 @@ class List {
   }
   void change(StreamRule rule, const std::string& name, std::size_t beat, const cmodel::Field& field,
               std::uint64_t value) {
-    if (beat < beats_.size()) add(rule, name, [=](Beats& b) { set(b[beat], field, value); });
+    if (beat < beats_.size()) add(rule, name, [=](Beats& b) { overwrite(b[beat], field, value); });
   }
   /// One more and one less: whoever compares with less than equality believes one of them.
   void beside(StreamRule rule, const std::string& name, std::size_t beat, const cmodel::Field& field) {
@@ -84,9 +79,9 @@ class List {
     if (beat >= beats_.size()) return;
     for (const std::uint64_t other : {0x1U, 0x8000U, 0xffffU}) {
       add(rule, name + " of 0 x " + std::to_string(other),
-          [=](Beats& b) { set(b[beat], width, 0), set(b[beat], height, other); });
+          [=](Beats& b) { overwrite(b[beat], width, 0), overwrite(b[beat], height, other); });
       add(rule, name + " of " + std::to_string(other) + " x 0",
-          [=](Beats& b) { set(b[beat], width, other), set(b[beat], height, 0); });
+          [=](Beats& b) { overwrite(b[beat], width, other), overwrite(b[beat], height, 0); });
     }
   }
   void word(StreamRule rule, const std::string& name, std::size_t beat, std::size_t which, std::uint32_t value) {
@@ -174,7 +169,7 @@ class List {
     change(rule, "rho 2^31 + 1", rlut, layout::kTableRho, (1ULL << 31) + 1);
     if (rlut < beats_.size())
       add(rule, "rho 0 with no words",
-          [=](Beats& b) { set(b[rlut], layout::kTableRho, 0), set(b[rlut], layout::kTableWords, 0); });
+          [=](Beats& b) { overwrite(b[rlut], layout::kTableRho, 0), overwrite(b[rlut], layout::kTableWords, 0); });
     // Bits above those that a column's number needs.
     for (int bit = std::bit_width(static_cast<std::uint32_t>(config_.rlut_columns)); bit < 32; ++bit)
       change(rule, "base 2^" + std::to_string(bit), rlut, layout::kTableBase, 1ULL << bit);
@@ -253,12 +248,12 @@ class List {
     without_a_side(rule, "tile", tile, layout::kTileWidth, layout::kTileHeight);
     // An image that would hold it: the tile's own limit is what refuses.
     add(rule, "tile too wide", [=, w = config_.tile_width](Beats& b) {
-      set(b[0], layout::kFrameWidth, 0xffff);
-      set(b[tile], layout::kTileWidth, static_cast<std::uint64_t>(w) + 1);
+      overwrite(b[0], layout::kFrameWidth, 0xffff);
+      overwrite(b[tile], layout::kTileWidth, static_cast<std::uint64_t>(w) + 1);
     });
     add(rule, "tile too high", [=, h = config_.tile_height](Beats& b) {
-      set(b[0], layout::kFrameHeight, 0xffff);
-      set(b[tile], layout::kTileHeight, static_cast<std::uint64_t>(h) + 1);
+      overwrite(b[0], layout::kFrameHeight, 0xffff);
+      overwrite(b[tile], layout::kTileHeight, static_cast<std::uint64_t>(h) + 1);
     });
     for (const std::uint64_t far : {0xffffffffULL, 0x80000000ULL, 0x7fffffffULL, 0x10000ULL}) {
       change(rule, "tile x " + std::to_string(far), tile, layout::kTileX, far);
@@ -278,7 +273,7 @@ class List {
     for (const std::uint64_t size : {most / 2, most - 1}) {
       if (size > 0)
         add(StreamRule::Tile, "image " + how + " than the tile: " + std::to_string(size),
-            [=](Beats& b) { set(b[0], side, size), set(b[tile], begin, 0); });
+            [=](Beats& b) { overwrite(b[0], side, size), overwrite(b[tile], begin, 0); });
     }
   }
 
@@ -303,9 +298,9 @@ class List {
     using cmodel::Table;
     const std::size_t tile = at(Opcode::BeginTile), sheet = at(Opcode::BeginSheet);
     const auto of_densities = [=](Beats& b) {
-      set(b[tile], layout::kTileMode, 8);
-      set(b[tile], layout::kTileWidth, 1);
-      set(b[tile], layout::kTileHeight, 1);
+      overwrite(b[tile], layout::kTileMode, 8);
+      overwrite(b[tile], layout::kTileWidth, 1);
+      overwrite(b[tile], layout::kTileHeight, 1);
     };
     for (const auto& [name, which] :
          {std::pair{"CLASSIFY", Table::Classify}, std::pair{"ROOT", Table::Root}, std::pair{"GLINT", Table::Glint},
@@ -328,12 +323,12 @@ class List {
     // The most there can be is a legal header: its first word is what is wrong.
     if (const std::size_t beat = table(Table::Sheets); beat < beats_.size())
       add(StreamRule::Words, "SHEETS of the most, a word too large",
-          [=](Beats& b) { set(b[beat], layout::kTableWords, 2 * 4096), b[beat + 1][0] = 4097; });
+          [=](Beats& b) { overwrite(b[beat], layout::kTableWords, 2 * 4096), b[beat + 1][0] = 4097; });
     density_words();
     // A mode that there is not is said before what it would ask for.
     if (const std::size_t beat = table(Table::Root); beat < beats_.size())
       add(StreamRule::Tile, "mode 10 without ROOT", [=, count = 1 + payload(beat)](Beats& b) {
-        set(b[tile], layout::kTileMode, 10);
+        overwrite(b[tile], layout::kTileMode, 10);
         const auto first = b.begin() + static_cast<std::ptrdiff_t>(beat);
         b.erase(first, first + static_cast<std::ptrdiff_t>(count));
       });
@@ -343,16 +338,16 @@ class List {
          {std::pair{layout::kTileWidth, config_.tile_width}, std::pair{layout::kTileHeight, config_.tile_height}}) {
       add(StreamRule::Tile, "tile of densities without room for a rim", [=, w = side, m = most](Beats& b) {
         of_densities(b);
-        set(b[0], layout::kFrameWidth, 0xffff);
-        set(b[0], layout::kFrameHeight, 0xffff);
-        set(b[tile], w, static_cast<std::uint64_t>(m) - 1);
+        overwrite(b[0], layout::kFrameWidth, 0xffff);
+        overwrite(b[0], layout::kFrameHeight, 0xffff);
+        overwrite(b[tile], w, static_cast<std::uint64_t>(m) - 1);
       });
     }
     if (sheet == beats_.size()) return;
     for (const std::uint64_t number : {std::uint64_t{kScaledSheets}, std::uint64_t{0xffffffffU}}) {
       add(StreamRule::Sheet, "sheet without scales " + std::to_string(number), [=](Beats& b) {
         of_densities(b);
-        set(b[sheet], layout::kSheetNumber, number);
+        overwrite(b[sheet], layout::kSheetNumber, number);
       });
     }
   }

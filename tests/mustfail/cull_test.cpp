@@ -11,6 +11,7 @@
 #include "tests/cmodel/stream_writer_helper.hpp"
 #include "tests/mustfail/campaign_helper.hpp"
 #include "tests/testbench/cycle_board_helper.hpp"
+#include "tests/testbench/directed_helper.hpp"
 
 namespace fastsplat::test {
 namespace {
@@ -60,6 +61,20 @@ TEST(Culling, RandomStreamsOfEveryClass) {
       static_cast<unsigned long long>(result.total.check.mismatches));
   EXPECT_GT(result.total.check.comparisons, 50000U);
   EXPECT_EQ(result.total.check.mismatches, 0U);
+}
+
+// Frames behind each other as well, whose sets are hidden, sent and left out.
+TEST(Culling, RefusesWhatTheModelRefuses) {
+  const cmodel::Config config = culling();
+  const auto result =
+      testbench::check_refusals(config, [&](cmodel::PixelSink& pixels, const testbench::RtlOptions& rtl) {
+        return faulty(Fault::None, Assertions::On)(config, pixels, rtl);
+      });
+  testbench::expect_all(result);
+  const int refused = testbench::refused_streams(result);
+  std::printf("[figure] culling: streams that break a rule, refused as the model refuses them = %d (limit >= 250)\n",
+              refused);
+  EXPECT_GE(refused, 250);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ class VerilatedDevice : public RtlDevice {
     top_->clk_i = 0;
     quiet();
     top_->rst_ni = 0;
-    top_->eval();
+    eval();
     if constexpr (requires(Top & top, VerilatedFstC * wave) { top.trace(wave, 99); }) {
       if (!options_.wave.empty()) {
         wave_ = std::make_unique<VerilatedFstC>();
@@ -157,7 +157,7 @@ class VerilatedDevice : public RtlDevice {
     top_->rready_i = wait == 0 ? 1 : 0;
     for (int i = 0; i < wait; ++i) {
       top_->arvalid_i = 1;
-      top_->eval();
+      eval();
       if (top_->arready_o) taken_too_early("read");
       top_->arvalid_i = 0;
       cycle();
@@ -175,7 +175,7 @@ class VerilatedDevice : public RtlDevice {
     top_->awvalid_i = top_->wvalid_i = 1;
     writing_ = true;
     wait_for("no register write taken", [this] {
-      top_->eval();  // ready answers valid within the cycle
+      eval();  // ready answers valid within the cycle
       return top_->awready_o != 0;
     });
     top_->awvalid_i = top_->wvalid_i = 0;
@@ -184,7 +184,7 @@ class VerilatedDevice : public RtlDevice {
     top_->bready_i = wait == 0 ? 1 : 0;
     for (int i = 0; i < wait; ++i) {
       top_->awvalid_i = top_->wvalid_i = 1;
-      top_->eval();
+      eval();
       if (top_->awready_o || top_->wready_o) taken_too_early("write");
       top_->awvalid_i = top_->wvalid_i = 0;
       cycle();
@@ -203,7 +203,7 @@ class VerilatedDevice : public RtlDevice {
     writing_ = true;  // whether it is one shows here
     bool taken = false;
     for (int i = 0; i < cycles; ++i) {
-      top_->eval();  // ready answers valid within the cycle
+      eval();  // ready answers valid within the cycle
       taken = taken || (half == WriteHalf::Address ? top_->awready_o : top_->wready_o) != 0;
       cycle();
       taken = taken || top_->bvalid_o != 0;
@@ -267,12 +267,19 @@ class VerilatedDevice : public RtlDevice {
     top_->rready_i = 1;
   }
 
+  /// What is printed meanwhile, of an assertion that fails, goes by the thread's context: another device's that came
+  /// after this one, and may be gone.
+  void eval() {
+    Verilated::threadContextp(&context_);
+    top_->eval();
+  }
+
   void edge() {
     top_->clk_i = 1;
-    top_->eval();
+    eval();
     dump(1);
     top_->clk_i = 0;
-    top_->eval();
+    eval();
     dump(2);
   }
 
@@ -289,7 +296,7 @@ class VerilatedDevice : public RtlDevice {
     top_->rst_ni = 0;
     for (int i = 0; i < cycles; ++i) edge();
     top_->rst_ni = 1;
-    top_->eval();
+    eval();
     cycle_ = 0;
     offering_ = pending_ = refused_ = reading_ = writing_ = expecting_ = resetting_ = false;
     aborted_tiles_ = 0;

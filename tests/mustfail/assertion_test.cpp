@@ -75,5 +75,22 @@ TEST(SimulatorOutput, FindsTheFirstFailedAssertion) {
   EXPECT_EQ(testbench::first_failed_assertion("nothing of the kind").name, "");
 }
 
+// What Verilator prints goes by the thread's simulation, which was that of a device that is gone.
+TEST(AssertionOfADevice, IsToldWhenALaterDeviceIsGone) {
+  const auto options = broken(Fault::EARLY_SWAP, Assertions::On);
+  cmodel::NullPixels pixels;
+  const auto device = options.device(pixels, {});
+  options.device(pixels, {}).reset();
+  std::string told;
+  try {
+    swaps(options.config)([&](std::span<const cmodel::Beat> beats) { device->consume(beats); });
+    device->finish();
+  } catch (const UserError& error) {
+    told = error.what();
+  }
+  std::printf("[figure] of a device older than one that is gone: %s\n", told.c_str());
+  EXPECT_NE(told.find("assertion sheet_has_one_owner of the RTL failed in "), std::string::npos) << told;
+}
+
 }  // namespace
 }  // namespace fastsplat::test

@@ -25,6 +25,8 @@ namespace {
 
 /// Processor seconds of a mutant, beside so many times what the healthy device takes.
 constexpr double kSeconds = 2.0, kTimes = 5.0;
+/// Seconds for one of processor time, beside a minute: whoever takes none any more waits for ever.
+constexpr double kPatience = 20.0;
 
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -72,6 +74,7 @@ std::string judge(int number, const std::vector<Named>& checks, double limit) {
     const auto seconds = static_cast<rlim_t>(limit) + 1;
     const rlimit time{seconds, seconds}, core{0, 0}, memory{rlim_t{4} << 30, rlim_t{4} << 30};
     setrlimit(RLIMIT_CPU, &time);
+    alarm(60 + static_cast<unsigned>(kPatience * limit));
     setrlimit(RLIMIT_CORE, &core);
     setrlimit(RLIMIT_AS, &memory);
     selected_mutant = number;
@@ -93,6 +96,7 @@ std::string judge(int number, const std::vector<Named>& checks, double limit) {
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   return "killed " + last + ": " +
          (signal == SIGXCPU || signal == SIGKILL ? "no end within " + std::to_string(limit) + " s of processor time"
+          : signal == SIGALRM                    ? "it waits, and takes no processor time"
                                                  : "the simulation dies of signal " + std::to_string(signal));
 }
 

@@ -26,7 +26,7 @@ struct Times final : cmodel::CycleSink {
 };
 
 struct Tally {
-  std::uint64_t beats = 0, unsent = 0, waited = 0, hidden = 0, map = 0, later = 0;
+  std::uint64_t beats = 0, unsent = 0, waited = 0, hidden = 0, map = 0, starved = 0, later = 0;
 };
 
 /// Every beat sent, and a source that fetches from memories of these latencies.
@@ -57,6 +57,8 @@ void compare(const cmodel::Config& config, std::span<const cmodel::Beat> beats,
           << times.opcodes[i] << " behind " << times.opcodes[i - 1] << " of " << text(times.beats[i - 1]);
     }
     EXPECT_EQ(cycles.account().total(), cycles.stalls().busy);
+    EXPECT_EQ(cycles.stalls().stall_input, clock.starved);
+    tally.starved += clock.starved;
     EXPECT_EQ(cycles.counters().splats, model.counters().splats);
     EXPECT_EQ(cycles.counters().windows, model.counters().windows);
     EXPECT_EQ(cycles.counters().dirty_blocks, model.counters().dirty_blocks);
@@ -93,11 +95,11 @@ TEST(CullCycles, AreThoseOfAClock) {
     }
   }
   std::printf(
-      "[figure] beats compared = %llu, not sent = %llu, cycles begin_sheet waited for a table = %llu, of the "
-      "account: hidden = %llu, map = %llu\n",
+      "[figure] beats compared = %llu, not sent = %llu, cycles begin_sheet waited for a table = %llu, without "
+      "a beat = %llu, of the account: hidden = %llu, map = %llu\n",
       static_cast<unsigned long long>(tally.beats), static_cast<unsigned long long>(tally.unsent),
-      static_cast<unsigned long long>(tally.waited), static_cast<unsigned long long>(tally.hidden),
-      static_cast<unsigned long long>(tally.map));
+      static_cast<unsigned long long>(tally.waited), static_cast<unsigned long long>(tally.starved),
+      static_cast<unsigned long long>(tally.hidden), static_cast<unsigned long long>(tally.map));
   EXPECT_GT(tally.unsent, 500U);
   EXPECT_GT(tally.waited, 500U);
   EXPECT_GT(tally.hidden, 500U);

@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "cmodel/sheet_buffer.hpp"
+#include "tests/cmodel/configs_helper.hpp"
 #include "tests/cmodel/random_helper.hpp"
 
 namespace fastsplat::test {
@@ -48,6 +50,19 @@ TEST(DirtyMap, HasEveryBlockThatAFootprintMeetsOnceAndInOrder) {
   }
   std::printf("[figure] tiles = %zu, dirty blocks = %zu (limit > 10000)\n", tiles, blocks);
   EXPECT_GT(blocks, 10000u);
+}
+
+TEST(SheetBuffer, SaysWhichPixelsAreTheTiles) {
+  cmodel::SheetBuffer sheet(named_config("tiny"));
+  sheet.begin_tile(5, 3);
+  std::set<std::pair<int, int>> inside;
+  for (int y = -2; y < 8; ++y)
+    for (int x = -2; x < 8; ++x)
+      if (sheet.inside(x, y)) inside.emplace(x, y);
+  std::printf("[figure] pixels inside of 5 x 3 = %zu (limit 15)\n", inside.size());
+  EXPECT_EQ(inside.size(), 15u);
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 5; ++x) EXPECT_TRUE(inside.contains({x, y})) << x << ", " << y;
 }
 
 }  // namespace

@@ -192,11 +192,14 @@ PlainCullClock plain_cull_clock(const cmodel::Config& config, std::span<const cm
   bool opaque_yet = false;
   int rows = 0, width = 0, mode = 0;
   std::size_t done = 0, sent = 0;
+  bool open = false;  // a tile
   const auto wipe = static_cast<std::uint64_t>(config.tile_width / config.lanes) *
                     static_cast<std::uint64_t>(config.tile_height / config.lanes);
   for (const Item& item : items) sent += latency && item.skipped && !item.trusted ? 0 : 1;
   std::vector<int> order;  // beats as they were sent
-  for (std::uint64_t c = wipe; done < sent; ++c) {
+  std::uint64_t c = wipe;
+  for (; done < sent; ++c) {
+    if (held[6] < 0 && (open || c < picture_to)) ++out.starved;
     // A table's row, or P words of it, is written in this cycle.
     for (; !jobs.empty() && jobs.front().units == 0 && jobs.front().after < c; jobs.pop_front())
       --to_build[jobs.front().table];
@@ -222,6 +225,7 @@ PlainCullClock plain_cull_clock(const cmodel::Config& config, std::span<const cm
         out.beats[static_cast<std::size_t>(held[6])].left = c;
         ++done;
         if (record && item.opcode == Opcode::BeginTile) {
+          open = true;
           rows = (item.height + config.lanes - 1) / config.lanes, width = item.width, mode = item.mode;
           first_row = {0, 0};
           ended = 0;
@@ -255,6 +259,7 @@ PlainCullClock plain_cull_clock(const cmodel::Config& config, std::span<const cm
           }
         }
         if (record && item.opcode == Opcode::EndTile) {
+          open = false;
           int of = held[6];
           while (items[static_cast<std::size_t>(of)].opcode != Opcode::BeginTile ||
                  items[static_cast<std::size_t>(of)].payload)
@@ -305,6 +310,7 @@ PlainCullClock plain_cull_clock(const cmodel::Config& config, std::span<const cm
     order.push_back(next);
     held[0] = next++;
   }
+  out.starved += picture_to > c ? picture_to - c : 0;
   std::vector<BeatTimes> kept;
   for (const int at : order) kept.push_back(out.beats[static_cast<std::size_t>(at)]);
   out.beats = std::move(kept);

@@ -22,6 +22,7 @@ struct BeatTimes {
 struct PlainCullClock {
   std::vector<BeatTimes> beats;  ///< that were sent, in order
   std::uint64_t waited = 0;      ///< cycles of begin_sheet in t0 for a table
+  std::uint64_t starved = 0;     ///< cycles of an open tile, or of a picture going out, in which decode holds nothing
 };
 
 /// A whole stream. `latency`: of a source that does not send hidden sets; none: it sends all.

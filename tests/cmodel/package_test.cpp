@@ -1,0 +1,97 @@
+// The package that the RTL is made with: whether it has every name that rtl/ reads, and what has no device.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+
+#include "base/error.hpp"
+#include "cmodel/sv_package.hpp"
+#include "tests/cmodel/configs_helper.hpp"
+#include "tests/paths.hpp"
+
+namespace fastsplat::test {
+namespace {
+
+/// Names of `fastsplat_pkg::` in rtl/; what narrow.svh puts together of a site's name is not among them.
+std::set<std::string> names_read() {
+  std::set<std::string> names;
+  static const std::regex use(R"(fastsplat_pkg::([A-Za-z_0-9]*[A-Za-z0-9])\b)");
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(FASTSPLAT_SOURCE_DIR) + "/rtl")) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream file(entry.path());
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    for (std::sregex_iterator match(text.begin(), text.end(), use), end; match != end; ++match)
+      names.insert((*match)[1].str());
+  }
+  return names;
+}
+
+/// The number that the package gives a name; -1 if it has none.
+long number_of(const std::string& package, const std::string& name) {
+  std::smatch match;
+  return std::regex_search(package, match, std::regex("localparam int " + name + " = ([0-9]+);"))
+             ? std::stol(match[1].str())
+             : -1;
+}
+
+TEST(Package, HasEveryNameThatTheRtlReads) {
+  const std::set<std::string> names = names_read();
+  EXPECT_GT(names.size(), 100U);
+  std::size_t checked = 0;
+  for (const char* config : {"tiny", "small", "base"}) {
+    ASSERT_FALSE(cmodel::rtl_violation(named_config(config)));
+    const std::string package = cmodel::sv_package(named_config(config));
+    static const std::regex word("[A-Za-z_0-9]+");
+    std::set<std::string> words;
+    for (std::sregex_iterator match(package.begin(), package.end(), word), end; match != end; ++match)
+      words.insert(match->str());
+    for (const std::string& name : names) {
+      EXPECT_TRUE(words.contains(name)) << config << ": rtl/ reads " << name << ", which the package does not have";
+      ++checked;
+    }
+  }
+  std::printf("[figure] names of the package that rtl/ reads = %zu, looked up = %zu\n", names.size(), checked);
+}
+
+// Tables are indexed by bits, so that one phase, lane or segment is none that the RTL can have.
+TEST(Package, IsNotMadeForASingleLanePhaseOrSegment) {
+  int refused = 0;
+  const auto refuses = [&](int cmodel::Config::*key, int value, const char* where) {
+    cmodel::Config config = named_config("small");
+    config.*key = value;
+    const auto violation = cmodel::rtl_violation(config);
+    ASSERT_TRUE(violation) << where;
+    EXPECT_EQ(violation->where, where) << one_line(*violation);
+    EXPECT_EQ(violation->got, std::to_string(value));
+    ++refused;
+  };
+  refuses(&cmodel::Config::phases, 1, "snap.phases");
+  refuses(&cmodel::Config::lanes, 1, "array.lanes");
+  refuses(&cmodel::Config::opacity_segments, 1, "opacity.segments");
+  std::printf("[figure] configurations refused = %d\n", refused);
+}
+
+// A block of densities is read for max(5, slices) cycles, and its last slice is in k0 5 + 23 + slices - 1 behind the
+// first (docs/microarchitecture.md, "Densities").
+TEST(Package, SaysWhenTheLastSliceOfABlockOfDensitiesComes) {
+  cmodel::Config config = named_config("small");
+  config.classify_segment_bits = 4;
+  int checked = 0;
+  const auto late = [&](int lanes, long expected) {
+    config.composite_lanes = lanes;
+    ASSERT_FALSE(cmodel::first_violation(config));
+    EXPECT_EQ(number_of(cmodel::sv_package(config), "DENSITY_LATE"), expected) << lanes;
+    ++checked;
+  };
+  late(0, 28 - 4);  // a whole block at once: five cycles, the last slice 28 behind the first of them
+  late(4, 31 - 4);  // four slices
+  late(2, 35 - 7);  // eight
+  std::printf("[figure] numbers of lanes = %d\n", checked);
+}
+
+}  // namespace
+}  // namespace fastsplat::test

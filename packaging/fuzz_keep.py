@@ -1,7 +1,7 @@
 """fuzz_keep.py KEPT RESULTS TOOL: adds a run of packaging/fuzz to docs/evidence/fuzz.json.
 
 RESULTS has a line a target, as `one` in packaging/fuzz writes it. Processor time and runs add up; edges are the most that a run saw. A target
-with a finding starts again from nothing: what it ran before was of code that is about to change."""
+with a finding starts again from nothing: what it ran before was of code that is about to change. One that was interrupted keeps what it has."""
 import datetime
 import json
 import os
@@ -19,6 +19,8 @@ with open(results) as file:
     for line in file:
         name = line.split()[0]
         fine = re.fullmatch(r"\S+ +(\d+) runs, +(\d+) edges, +(\d+) s of processor, no finding\n", line)
+        if line.endswith(" interrupted, not counted\n"):
+            continue
         if not fine:
             whole["targets"].pop(name, None)
             continue

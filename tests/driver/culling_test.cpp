@@ -100,7 +100,16 @@ TEST(CulledFrames, LogsAreThoseOfTheWholeStream) {
   for (const CullMap map : {CullMap::Off, CullMap::Block, CullMap::Pixel}) {
     const cmodel::Config config = culling("small", map);
     const CompiledFrame compiled(scene, config);
-    const CullRun one = run_culls(compiled, 1), three = run_culls(compiled, 3);
+    std::size_t told = 0, tiles = 0;
+    const CullRun one = run_culls(compiled, 1, [&](std::size_t done, std::size_t all) {
+      EXPECT_EQ(done, ++told);
+      tiles = all;
+    });
+    const CullRun three = run_culls(compiled, 3);
+    // Tile by tile, to the last one; a device that does not cull has nothing to do.
+    figure("tiles told of", static_cast<double>(told));
+    EXPECT_EQ(told, config.culls() ? static_cast<std::size_t>(compiled.grid().count()) : 0U);
+    EXPECT_EQ(told, tiles);
     cmodel::NullPixels nowhere;
     cmodel::CullLog log;
     cmodel::Model model(config, cmodel::StreamScope::Subset, nowhere);
@@ -142,6 +151,18 @@ TEST(CulledFrames, CycleModelCountsWhatTheModelCounts) {
       }
     }
   }
+}
+
+// Drawn is what the device took, without those it then hid one by one.
+TEST(CulledFrames, ShareDrawnLeavesOutHiddenSplats) {
+  CullRow off, row;
+  off.counters.splats = 100;
+  row.counters.splats = 60, row.culls.hidden_splats = 35;
+  figure("share drawn, 60 of 100 taken and 35 of them hidden", share_drawn(row, off));
+  EXPECT_EQ(share_drawn(off, off), 1.0);
+  EXPECT_EQ(share_drawn(row, off), 0.25);
+  off.counters.splats = 0;
+  EXPECT_EQ(share_drawn({}, off), 0.0) << "of nothing, nothing";
 }
 
 TEST(CulledFrames, CostNextToNothingWhereNothingHides) {

@@ -222,6 +222,69 @@ TEST(Gaussians, ModelEqualsOracle) {
   EXPECT_GT(total.total(), 500000U);
 }
 
+// A device whose positions are short: a record's centre fits S pi.pf in every tile that it is drawn in, and in the
+// farthest such tile it is the last pixel but one of what fits (docs/numerics.md, section 8, "Reach").
+TEST(Gaussians, CentresOfRecordsFitThePositionFormat) {
+  auto config = usual_config();
+  config.position_int_bits = 10;  // pixels -512..511
+  ASSERT_FALSE(cmodel::first_violation(config));
+  const auto scene = scene_of("cloud:3", 1000, 64);
+  auto splat = scene::project_all(scene).front();
+  splat.shape = {.xx = 1e6, .xy = 0.0, .yy = 1e6};  // all of the picture lies in it
+  const double steps = std::ldexp(1.0, config.position_frac_bits);
+  int farthest_right = -1, farthest_left = -1;
+  std::uint64_t records = 0;
+  for (int centre = 370; centre <= 530; ++centre) {
+    splat.x = centre + 0.25, splat.y = 30.5;
+    const GaussianFrame frame(scene, {splat}, config);
+    for (int tile = 0; tile < frame.grid().count(); ++tile) {
+      const int left = frame.grid().x(tile);
+      const std::uint64_t before = records;
+      frame.emit_tile(tile, [&](std::span<const cmodel::Beat> beats) {
+        for (const cmodel::Beat& beat : beats) {
+          const cmodel::Record record = cmodel::from_beat(beat);
+          const auto* const ellipse = std::get_if<cmodel::EllipseRecord>(&record);
+          if (ellipse == nullptr) continue;
+          ++records;
+          EXPECT_EQ(ellipse->x, std::lround((splat.x - left) * steps)) << "centre " << centre << ", tile " << tile;
+          EXPECT_LT(ellipse->x, std::lround(512.0 * steps));
+        }
+      });
+      if (records == before) continue;
+      if (left <= centre) farthest_right = std::max(farthest_right, centre - left);
+      if (left > centre) farthest_left = std::max(farthest_left, left - centre);
+    }
+  }
+  // L = 2^9 - 1 - 128 = 383, and drawn is what lies within -L .. L-1 of the centre's pixel: a tile's last pixel, 127,
+  // is L before a centre in pixel 510, and its first L - 1 behind one in pixel -382.
+  figure("records", static_cast<double>(records));
+  figure("farthest centre from a tile's first pixel, to the right", farthest_right);
+  figure("farthest centre from a tile's first pixel, to the left", farthest_left);
+  EXPECT_EQ(farthest_right, 510);
+  EXPECT_EQ(farthest_left, 382);
+  EXPECT_EQ(gaussian_reach(config), 383);
+  config.position_int_bits = 12;
+  EXPECT_EQ(gaussian_reach(config), 510 - 8) << "what a record's windows have room for";
+}
+
+// A footprint over all of a tile of 384 pixels: each row of windows is 32 and then 16 of them.
+TEST(Gaussians, LongRowsAreCutInto32WindowsAtATime) {
+  auto config = usual_config();
+  config.tile_width = 384;
+  ASSERT_FALSE(cmodel::first_violation(config));
+  const auto shape = ellipse_words(config, {1e6, 0.0, 1e6});
+  const auto all = gaussian_windows(config, shape, 192 * 256, 24 * 256, 384, 48);
+  figure("records of six rows", static_cast<double>(all.size()));
+  ASSERT_EQ(all.size(), 12U);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool first = i % 2 == 0;
+    EXPECT_EQ(all[i].left, first ? -192 : -192 + 256);
+    EXPECT_EQ(all[i].top, -24 + 8 * static_cast<int>(i / 2));
+    EXPECT_EQ(all[i].columns, first ? 32U : 16U);
+    EXPECT_EQ(all[i].rows, 1U);
+  }
+}
+
 // The device's work in its own unit: windows, of which one is begun a cycle but for what waits for a pixel.
 TEST(Gaussians, WindowsAreWhatTheRecordsSay) {
   const auto config = usual_config();
@@ -259,6 +322,24 @@ TEST(Gaussians, WindowsAreWhatTheRecordsSay) {
     figure(std::string(name) + ": lanes used",
            100.0 * static_cast<double>(device.counters.lanes_weighted) / (64.0 * all), "%");
     EXPECT_LT(static_cast<double>(empty), 0.002 * all);
+  }
+}
+
+// What each unit says of itself; their words on more scenes, fast_unit_slow_test.cpp.
+TEST(Gaussians, BothUnitsDrawAndCountTheSame) {
+  const auto scene = scene_of("shells:300", 150, 100);
+  const GaussianFrame frame(scene, scene::project_all(scene), usual_config());
+  const GaussianRender fast = render_gaussians(frame), plain = render_gaussians(frame, {.unit = Unit::Plain});
+  const std::uint64_t tiles = static_cast<std::uint64_t>(frame.grid().count());
+  EXPECT_EQ(fast.units.fast, tiles);
+  EXPECT_EQ(plain.units.plain, tiles);
+  EXPECT_EQ(fast.frame.words, plain.frame.words);
+  EXPECT_EQ(fast.counters, plain.counters);
+  figure("records", static_cast<double>(plain.report.records));
+  EXPECT_GT(plain.report.records, 300U);
+  for (const GaussianRender& one : {fast, plain}) {
+    EXPECT_EQ(one.counters.splats, one.report.records);
+    EXPECT_EQ(one.counters.tiles, tiles);
   }
 }
 

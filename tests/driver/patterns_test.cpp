@@ -15,6 +15,7 @@
 #include "golden/render.hpp"
 #include "golden/sheet_geometry.hpp"
 #include "tests/driver/scenes_helper.hpp"
+#include "tests/volume/volume_testing.hpp"
 
 namespace fastsplat::driver {
 namespace {
@@ -149,6 +150,75 @@ TEST(PatternTables, NodesLieWhereSomethingIsSeen) {
       }
     }
   }
+}
+
+// A haze that is not seen fills the volume, and in its middle is a cube that is: nodes lie about the cube. A column
+// more on each side is what a place is rounded outwards.
+TEST(PatternTables, NodesLieAboutWhatIsSeenInAHaze) {
+  auto description = with_texture(post_view(100), SolidKind::Marble, 6.0);
+  auto scene = scene::build_scene(description,
+                                  std::make_shared<const volume::Volume>(volume::make_volume(
+                                      glm::ivec3(24), glm::dvec3(1.0), volume::VoxelType::U8, [](int i, int j, int k) {
+                                        const bool cube = std::min({i, j, k}) >= 9 && std::max({i, j, k}) < 15;
+                                        return cube ? 200 : i + j + k == 0 ? 0 : 50;
+                                      })));
+  scene.transfer_function.domain = scene::Domain::Range;
+  scene.transfer_function.points = {
+      {0.0, glm::dvec3(1.0), 0.0}, {0.5, glm::dvec3(1.0), 0.0}, {1.0, glm::dvec3(1.0), 0.9}};
+  const auto words = pattern_tables(with_nodes("base", 3), scene, plan_for_device(scene).slabs, 1)[1].words;
+  glm::dvec2 low(100.0), high(0.0);
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto at = scene.camera.project(
+        scene.volume->position((corner & 1) != 0 ? 14 : 9, (corner & 2) != 0 ? 14 : 9, (corner & 4) != 0 ? 14 : 9));
+    const double reach = scene.kernel.radius() * scene.volume->kernel_unit() * at.scale;
+    low = glm::min(low, glm::dvec2(at.x, at.y) - reach);
+    high = glm::max(high, glm::dvec2(at.x, at.y) + reach);
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    const double begin = words[static_cast<std::size_t>(axis)];
+    const double end = begin + 7.0 / std::ldexp(words[static_cast<std::size_t>(3 + axis)], -24);
+    figure("columns or rows from " + std::to_string(low[axis]) + " to " + std::to_string(high[axis]) + ": nodes from",
+           begin, "to " + std::to_string(end));
+    EXPECT_LE(begin, low[axis]);
+    EXPECT_GT(begin, low[axis] - 1.0);
+    EXPECT_GE(end, high[axis] - 1e-3);
+    EXPECT_LT(end, high[axis] + 1.0);
+  }
+}
+
+// Nodes are levelled between others, and at an end there is no other: at the corners they are the pattern itself.
+TEST(PatternTables, NodesAtTheCornersAreThePattern) {
+  const auto description = with_texture(post_view(300), SolidKind::Stripes, 6.0);
+  const auto scene = scene::build_scene(description);
+  const auto tables = pattern_tables(with_nodes("base", 6), scene, plan_for_device(scene).slabs, 1);
+  const auto &nodes = tables[0].words, &words = tables[1].words;
+  const golden::SheetGeometry geometry(scene);
+  const auto place = [&](std::size_t axis, int node) {
+    return words[axis] + node / std::ldexp(static_cast<double>(words[3 + axis]), -24);
+  };
+  ASSERT_LT(words[3], 1U << 24) << "nodes are farther apart than pixels";
+  ASSERT_LT(words[4], 1U << 24);
+  ASSERT_EQ(words[5], 1U << 24) << "and a sheet each";
+  int compared = 0, bright = 0;
+  double farthest = 0.0;
+  for (const int k : {0, 10, 20, 31, 63}) {
+    for (const int j : {0, 63}) {
+      for (const int i : {0, 63}) {
+        const glm::dvec3 at = geometry.position(place(0, i), place(1, j), static_cast<int>(words[2]) + k);
+        const double want = std::min(65536.0 * scene::solid_field(SolidKind::Stripes, at / 6.0), 65535.0);
+        const double got = nodes[static_cast<std::size_t>(2 * ((k * 64 + j) * 64 + i))] & 0xFFFFU;
+        // The nearest word, of a place that is worked out in another order.
+        farthest = std::max(farthest, std::abs(got - want));
+        bright += got > 32768.0 ? 1 : 0;
+        ++compared;
+      }
+    }
+  }
+  figure("corners compared", compared);
+  figure("farthest from the pattern", farthest, "words (limit 0.501)");
+  EXPECT_LE(farthest, 0.501);
+  EXPECT_GT(bright, 2) << "not all of one colour";
+  EXPECT_LT(bright, compared - 2);
 }
 
 // As many nodes as pixels along the picture's sides: what is left are nodes between sheets, and words.

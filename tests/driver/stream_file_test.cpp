@@ -3,12 +3,15 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <fstream>
 #include <functional>
 
 #include "base/error.hpp"
+#include "base/hash_text.hpp"
 #include "cmodel/crc32.hpp"
 #include "cmodel/cycle_model.hpp"
 #include "cmodel/records.hpp"
@@ -191,6 +194,40 @@ TEST_F(StreamFile, a_dump_tells_the_end_that_is_wrong) {
   EXPECT_THAT(dumped(wrong), ::testing::HasSubstr("nothing after end_frame"));
   // A reader that has enough asks for no more.
   EXPECT_EQ(refusal([&] { dump_stream(path_, [](const std::string&) { return false; }); }), "");
+}
+
+// The first beat in words: all that docs/stream.md has in it.
+TEST_F(StreamFile, a_dump_tells_what_begins_the_stream) {
+  const auto config = load_config("tiny");
+  auto description = view_of("shells:8", 40);
+  description.height = 24;
+  record_stream(scene::build_scene(description), config, path_);
+  std::string first;
+  dump_stream(path_, [&](const std::string& line) {
+    first = line;
+    return false;
+  });
+  std::printf("[figure] first line of a dump = %s\n", first.c_str());
+  EXPECT_EQ(first, "       0 begin_frame version=2 magic=0x31535346 hash=" + hash_text(cmodel::config_hash(config)) +
+                       " width=40 height=24 tiles=2");
+}
+
+// Of a short stream nothing is written before the file is closed: what fails then is told, too, and the old file stays.
+TEST_F(StreamFile, a_disk_that_fills_up_in_the_end_is_told) {
+  const std::vector<cmodel::Beat> beats(10);  // 320 bytes
+  driver::write_beats(path_, std::span(beats).first(1));
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{.rlim_cur = 100, .rlim_max = before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const std::string told = refusal([&] { driver::write_beats(path_, std::span(beats)); });
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  const auto left = std::filesystem::file_size(path_);
+  figure("bytes of the file after a write that failed", static_cast<double>(left));
+  EXPECT_THAT(told, ::testing::HasSubstr("cannot write"));
+  EXPECT_EQ(left, 32U);
 }
 
 TEST_F(StreamFile, what_no_replay_takes_is_not_recorded) {

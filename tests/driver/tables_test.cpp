@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "driver/config_file.hpp"
+#include "driver/density_tables.hpp"
 #include "tests/driver/scenes_helper.hpp"
 
 namespace fastsplat::driver {
@@ -88,6 +89,40 @@ TEST(FactorTable, interpolation_error_is_within_the_second_derivative_bound) {
     figure("slab factor error, " + name, largest);
     EXPECT_LE(largest, bound * (1.0 + 1e-9)) << name;
   }
+}
+
+// Two materials, red and blue, with nothing between them, before and behind: 129..179 of 512 and 333..383.
+TEST(ClassifyTable, clear_entries_have_the_colour_of_the_nearest_that_is_seen) {
+  auto description = view_of("shells:8", 16);
+  description.classify = scene::ClassifyOrder::Post;
+  auto scene = scene::build_scene(description);
+  auto config = load_config("base");
+  config.classify_segment_bits = 9;
+  ASSERT_FALSE(cmodel::first_violation(config));
+  const glm::dvec3 red(1.0, 0.0, 0.0), green(0.0, 1.0, 0.0), blue(0.0, 0.0, 1.0);
+  scene.transfer_function.domain = scene::Domain::Range;
+  scene.transfer_function.points = {{0.0, green, 0.0}, {0.25, red, 0.0},  {0.3, red, 0.5},
+                                    {0.35, red, 0.0},  {0.5, green, 0.0}, {0.65, blue, 0.0},
+                                    {0.7, blue, 0.5},  {0.75, blue, 0.0}, {1.0, green, 0.0}};
+  const auto words_of = [&] { return density_tables(config, scene, scene::sheet_plan(scene).slabs)[0].words; };
+  const auto words = words_of();
+  ASSERT_EQ(words.size(), 4U * 513U);
+  constexpr std::uint32_t kOne = 1U << 14;
+  int seen = 0, wrong = 0;
+  for (std::size_t i = 0; i <= 512; ++i) {
+    const bool first = i > 128 && i<180, second = i> 332 && i < 384;
+    seen += words[4 * i + 3] != 0 ? 1 : 0;
+    EXPECT_EQ(words[4 * i + 3] != 0, first || second) << i;
+    // As far from 179 as from 333 is 256: of two the higher one only where it is nearer.
+    const bool is_red = i <= 256;
+    wrong += words[4 * i] != (is_red ? kOne : 0) || words[4 * i + 1] != 0 || words[4 * i + 2] != (is_red ? 0 : kOne);
+  }
+  figure("entries that are seen", seen);
+  figure("entries of another colour", wrong);
+  EXPECT_EQ(seen, 51 + 51);
+  EXPECT_EQ(wrong, 0);
+  for (auto& point : scene.transfer_function.points) point.opacity = 0.0;
+  for (const std::uint32_t word : words_of()) EXPECT_EQ(word, 0U) << "nothing is seen: black";
 }
 
 }  // namespace

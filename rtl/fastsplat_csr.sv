@@ -1,6 +1,6 @@
 // Configuration and status registers behind AXI4-Lite (docs/microarchitecture.md, "Registers").
-// Reads answer one cycle after the address is taken; writes take address and data together. Counters count an event in
-// the third cycle after it.
+// A read's address is taken, registers are read in the next cycle, the answer is there in the one behind; writes take address
+// and data together and answer in the next. Counters count an event in the third cycle after it.
 `include "assertions.svh"
 
 module fastsplat_csr (
@@ -78,26 +78,31 @@ module fastsplat_csr (
   logic writable;
   assign writable = awaddr_i == fastsplat_pkg::REG_CONTROL || awaddr_i == fastsplat_pkg::REG_IRQ || awaddr_i == fastsplat_pkg::REG_IRQ_MASK;
 
-  logic [11:0] number;
+  // Which counter is meant is known before counters are looked at.
+  logic reading_q;
+  logic [11:0] address_q, number;
+  logic [N-1:0] chosen_q;
+  assign number = (araddr_i - fastsplat_pkg::REG_COUNTERS) >> 3;
+  assign arready_o = !reading_q && !rvalid_o;
+  always_ff @(posedge clk_i) begin
+    reading_q <= rst_ni && arvalid_i && arready_o;
+    address_q <= araddr_i;
+    for (int n = 0; n < N; n++) chosen_q[n] <= araddr_i >= fastsplat_pkg::REG_COUNTERS && number == 12'(n) && araddr_i[1:0] == 2'b00;
+  end
   // The two words of a counter are of one moment: reading the low one keeps the high one.
   logic [63:0] counter;
   logic [31:0] high_q;
   always_comb begin
     counter = '0;
-    for (int n = 0; n < N; n++) if (number == 12'(n)) counter = counter | 64'(counter_q[n]);
+    for (int n = 0; n < N; n++) if (chosen_q[n]) counter = counter | 64'(counter_q[n]);
   end
 
-  logic is_counter;
-  assign number = (araddr_i - fastsplat_pkg::REG_COUNTERS) >> 3;
-  assign is_counter = araddr_i >= fastsplat_pkg::REG_COUNTERS && number < 12'(N) && araddr_i[1:0] == 2'b00;
-
-  assign arready_o = !rvalid_o;
   always_ff @(posedge clk_i) begin
-    if (arvalid_i && arready_o) begin
+    if (reading_q) begin
       rvalid_o <= 1'b1;
       rdata_o <= '0;
       rresp_o <= OKAY;
-      case (araddr_i)
+      case (address_q)
         fastsplat_pkg::REG_MAGIC: rdata_o <= fastsplat_pkg::STREAM_MAGIC;
         fastsplat_pkg::REG_VERSION: rdata_o <= 32'(fastsplat_pkg::STREAM_VERSION);
         fastsplat_pkg::REG_HASH_LOW: rdata_o <= fastsplat_pkg::HASH_LOW;
@@ -117,11 +122,11 @@ module fastsplat_csr (
         fastsplat_pkg::REG_CAP_SHEET: rdata_o <= fastsplat_pkg::CAP_SHEET;
         fastsplat_pkg::REG_CAP_PIXEL: rdata_o <= fastsplat_pkg::CAP_PIXEL;
         default: begin
-          if (!is_counter) begin
+          if (chosen_q == '0) begin
             rresp_o <= SLVERR;
           end else begin
-            rdata_o <= araddr_i[2] ? high_q : counter[31:0];
-            if (!araddr_i[2]) high_q <= counter[63:32];
+            rdata_o <= address_q[2] ? high_q : counter[31:0];
+            if (!address_q[2]) high_q <= counter[63:32];
           end
         end
       endcase

@@ -83,6 +83,7 @@ module fastsplat_bench;
       tick(0, unused);
     end
     arvalid_i = 0;
+    while (!rvalid_o) tick(0, unused);
     word = rdata_o;
     tick(0, unused);
   endtask

@@ -25,7 +25,7 @@ class PassingDevice : public RtlDevice {
   bool takes_half_write(WriteHalf half, std::uint32_t address, std::uint32_t word, int cycles) override {
     return device_->takes_half_write(half, address, word, cycles);
   }
-  void leave_answers_waiting() override { device_->leave_answers_waiting(); }
+  void leave_answers_waiting(bool read_too) override { device_->leave_answers_waiting(read_too); }
   void warm_reset(int cycles) override { device_->warm_reset(cycles); }
   std::optional<Refusal> refuse(const cmodel::Beat& beat) override { return device_->refuse(beat); }
   void soft_reset(bool wait) override { device_->soft_reset(wait); }

@@ -64,13 +64,14 @@ class RtlDevice : public cmodel::Device {
   /// Read through AXI4-Lite.
   virtual cmodel::StallCounters cycle_counters() = 0;
   /// One AXI4-Lite access; the answer is taken `wait` cycles after it came. The stream side goes on by its patterns. No
-  /// answer in the cycle after the access was taken is UserError (Simulation).
+  /// answer when the page has it, or one before, is UserError (Simulation).
   virtual RegisterAnswer read_register(std::uint32_t address, int wait = 0) = 0;
   virtual RegisterAnswer write_register(std::uint32_t address, std::uint32_t word, int wait = 0) = 0;
   /// Offers one half of a write for so many cycles, then withdraws it: true if the device took it or answered.
   virtual bool takes_half_write(WriteHalf half, std::uint32_t address, std::uint32_t word, int cycles) = 0;
-  /// Has a read and a write taken and their answers left waiting: what follows is a reset.
-  virtual void leave_answers_waiting() = 0;
+  /// Has a read and a write taken and their answers left waiting, or only the write's, the read under way: what
+  /// follows is a reset.
+  virtual void leave_answers_waiting(bool read_too) = 0;
   /// Resets again in the middle of whatever is going on, for so many cycles; memories keep what they hold, counters
   /// restart. Nobody takes answers or pixels meanwhile; one that is still there afterwards is UserError (Simulation).
   virtual void warm_reset(int cycles = kResetCycles) = 0;

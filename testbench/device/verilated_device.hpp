@@ -151,8 +151,7 @@ class VerilatedDevice : public RtlDevice {
     top_->arvalid_i = 1;
     reading_ = true;
     wait_for("no register read taken", [this] { return top_->arready_o != 0; });
-    top_->arvalid_i = 0;
-    if (!top_->rvalid_o) unanswered("read");
+    read_in_a_cycle();
     if (top_->rresp_o != kOkay && top_->rresp_o != kSlverr) unknown_response(top_->rresp_o);
     top_->rready_i = wait == 0 ? 1 : 0;
     for (int i = 0; i < wait; ++i) {
@@ -213,14 +212,14 @@ class VerilatedDevice : public RtlDevice {
     return taken;
   }
 
-  void leave_answers_waiting() override {
+  void leave_answers_waiting(bool read_too) override {
     top_->rready_i = top_->bready_i = 0;
     reading_ = writing_ = true;
     top_->arvalid_i = top_->awvalid_i = top_->wvalid_i = 1;
     cycle();
     top_->arvalid_i = top_->awvalid_i = top_->wvalid_i = 0;
-    if (!top_->rvalid_o) unanswered("read");
     if (!top_->bvalid_o) unanswered("write");
+    if (read_too) read_in_a_cycle();
   }
 
   void warm_reset(int cycles) override {
@@ -244,6 +243,18 @@ class VerilatedDevice : public RtlDevice {
     for (std::uint64_t waited = 0; (read_status() & cmodel::kStatusBusy) != 0 || !tiles_.complete(); ++waited) {
       if (waited > options_.timeout) time_out("the device does not come to rest");
     }
+  }
+
+  /// The cycle behind that in which a read's address was taken: another one offered meanwhile is not.
+  void read_in_a_cycle() {
+    if (top_->rvalid_o) answered_too_early();
+    top_->araddr_i = ~top_->araddr_i & 0xFFF;
+    top_->arvalid_i = 1;
+    eval();
+    if (top_->arready_o) taken_too_early("read");
+    cycle();
+    top_->arvalid_i = 0;
+    if (!top_->rvalid_o) unanswered("read");
   }
 
   /// Clocks up to and with the first cycle in which `taken` holds.
@@ -452,7 +463,14 @@ class VerilatedDevice : public RtlDevice {
   [[noreturn]] void unanswered(const char* access) const {
     throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_),
                                            .what = std::string("no answer to a register ") + access,
-                                           .expected = "one in the cycle after it was taken",
+                                           .expected = "a read's two cycles after it was taken, a write's one",
+                                           .got = {},
+                                           .fix = "look at the waveform of the last cycles"});
+  }
+  [[noreturn]] void answered_too_early() const {
+    throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_),
+                                           .what = "a register read is answered in the cycle after it was taken",
+                                           .expected = "in the one behind that",
                                            .got = {},
                                            .fix = "look at the waveform of the last cycles"});
   }

@@ -59,9 +59,9 @@ std::uint64_t read_counter(RtlDevice& device, int number) {
 }
 
 /// In a tile that waits for input each cycle is a busy one without input. A clear taken in cycle t counts t, and a read
-/// taken in cycle r tells what happened up to r - 3: both words of that, the high one too.
+/// taken in cycle r tells what happened up to r - 2: both words of that, the high one too.
 void count_cycles(RtlDevice& device, Check& check) {
-  constexpr std::uint64_t kSeenAfter = 3;
+  constexpr std::uint64_t kSeenAfter = 2;
   const auto pair = check.bin("register", "counter_of_one_moment");
   int number = 0;
 #define X(name, meaning) ++number;
@@ -176,8 +176,8 @@ DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& m
                 device->takes_half_write(which, cmodel::kRegControl.address, 1, kWait) ? 1 : 0, half);
   }
   check.equal("half a write clears the counters", 0, read_counter(*device, 0) == 0 ? 1 : 0, half);
-  for (const int cycles : {1, kResetCycles}) {
-    device->leave_answers_waiting();
+  for (const auto& [cycles, read_too] : {std::pair{1, true}, {kResetCycles, true}, {1, false}}) {
+    device->leave_answers_waiting(read_too);
     bool gone = true;
     try {
       device->warm_reset(cycles);

@@ -109,6 +109,8 @@ module icarus_bench;
     #1 while (arready_o !== 1'b1) step;
     step;
     arvalid_i = 1'b0;
+    if (rvalid_o !== 1'b0) wrong("stray", "register answered too early");
+    step;
     word = rdata_o;
     if (rvalid_o !== 1'b1 || rresp_o !== 2'b00) wrong("stray", "register not answered");
     step;

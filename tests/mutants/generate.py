@@ -88,8 +88,8 @@ def main(words: list[str]) -> int:
     if "--plant-nothing" in flags:
         found = "  assign arready_o = "
         assert found in texts["fastsplat_csr.sv"]
-        texts["fastsplat_csr.sv"] = texts["fastsplat_csr.sv"].replace(found, f"{found}{SELECTED} == {number} ? !rvalid_o : ", 1)
-        listed.append(Mutant(number, "csr", 0, "planted", "changes nothing", "!rvalid_o", "!rvalid_o"))
+        texts["fastsplat_csr.sv"] = texts["fastsplat_csr.sv"].replace(found, f"{found}{SELECTED} == {number} ? !reading_q && !rvalid_o : ", 1)
+        listed.append(Mutant(number, "csr", 0, "planted", "changes nothing", "!reading_q && !rvalid_o", "!reading_q && !rvalid_o"))
     for name, text in texts.items():
         write(f"{out}/{name}", text)
     write(f"{out}/fastsplat_mutant_pkg.sv", PACKAGE)

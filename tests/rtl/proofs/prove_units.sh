@@ -29,7 +29,9 @@ holds csr 3 "csr: every read, write, answer, counter, interrupt and pulse is the
 happens csr 12
 csr_broken() { smt "csr_$1" csr "$work/csr_pkg.sv" "$2"; refuted "csr_$1" 8; }
 csr_broken never_answers "s/rvalid_o <= 1'b1;/rvalid_o <= 1'b0;/"
-csr_broken counter_refused 's/if (!is_counter) begin/if (is_counter) begin/'
+csr_broken counter_refused "s/if (chosen_q == '0) begin/if (chosen_q != '0) begin/"
+csr_broken another_address 's/case (address_q)/case (araddr_i)/'
+csr_broken read_survives_reset 's/reading_q <= rst_ni \&\& /reading_q <= /'
 csr_broken half_write 's/assign write = awvalid_i && wvalid_i/assign write = (awvalid_i || wvalid_i)/'
 csr_broken reset_with_answer "s/^      bvalid_o <= 1'b0;$/      bvalid_o <= 1'b1;/"
 csr_broken any_write_clears 's/ && wdata_i\[0\];/;/'

@@ -102,10 +102,14 @@ std::string placement(const Json& design) {
   out += ".\n\n";
   const Json& slowest = placed.at("slowest");
   out += fmt::format(
-      "Its slowest path, {} elements from `{}` to `{}`; the ten latest arrivals:\n\n| ns | at |\n|---|---|\n",
+      "Its slowest path, {} elements from `{}` to `{}`; the ten latest arrivals of what comes from a register:\n\n"
+      "| ns | at |\n|---|---|\n",
       slowest.at("elements").get<int>(), slowest.at("from").get<std::string>(), slowest.at("to").get<std::string>());
   for (const auto& path : placed.at("worst_paths"))
     out += fmt::format("| {:.1f} | `{}` |\n", path.at("ns").get<double>(), path.at("to").get<std::string>());
+  for (const auto& path : placed.at("from_pins"))
+    out += fmt::format("\nFrom a pin, which a system has a register of its own at, the latest: {:.1f} ns at `{}`.\n",
+                       path.at("ns").get<double>(), path.at("to").get<std::string>());
   return out + "\n";
 }
 

@@ -100,16 +100,19 @@ std::map<std::string, int> read_levels(const std::filesystem::path& path) {
 /// "u_core.u_compositor.touched_q_SB_DFFESR_Q_95_D_SB_LUT4_O_LC": the register that a cell was named after.
 std::string short_name(const std::string& cell) { return cell.substr(0, cell.find("_SB_")); }
 
-/// The ten latest arrivals at a register, each register's cells once by how late they are.
-Json worst_paths(const Json& report) {
+/// The latest arrivals at registers of what comes from one (`from` "posedge") or from a pin ("<async>"), latest first.
+Json latest_arrivals(const Json& report, const char* from, std::size_t count) {
   std::vector<std::pair<double, std::string>> ends;
-  for (const auto& net : report.at("detailed_net_timings"))
+  const auto is = [](const Json& event, const char* what) { return event.get<std::string>().starts_with(what); };
+  for (const auto& net : report.at("detailed_net_timings")) {
+    if (!is(net.at("event"), from)) continue;
     for (const auto& end : net.at("endpoints"))
-      if (end.at("event").get<std::string>().starts_with("posedge"))
+      if (is(end.at("event"), "posedge"))
         ends.emplace_back(end.at("delay").get<double>(), end.at("cell").get<std::string>());
+  }
   std::sort(ends.begin(), ends.end(), std::greater<>());
   Json out = Json::array();
-  for (std::size_t i = 0; i < ends.size() && out.size() < 10; ++i)
+  for (std::size_t i = 0; i < ends.size() && out.size() < count; ++i)
     out.push_back({{"ns", std::round(ends[i].first * 10) / 10}, {"to", short_name(ends[i].second)}});
   return out;
 }
@@ -134,14 +137,16 @@ Json read_placement(const std::filesystem::path& report) {
                      {"from", short_name(steps.front().at("to").at("cell"))},
                      {"to", short_name(steps.back().at("to").at("cell"))}};
   }
-  to["worst_paths"] = worst_paths(from);
+  to["worst_paths"] = latest_arrivals(from, "posedge", 10);
+  to["from_pins"] = latest_arrivals(from, "<async>", 1);
   return to;
 }
 
 void compare(const std::string& where, const Json& then, const Json& now, double share, int& compared,
              std::vector<std::string>& out) {
   for (const auto& [key, value] : then.items()) {
-    static constexpr const char* kNoFigures[] = {"seconds", "worst_paths", "slowest", "seeds_mhz", "date", "rtl"};
+    static constexpr const char* kNoFigures[] = {"seconds",   "worst_paths", "from_pins", "slowest",
+                                                 "seeds_mhz", "date",        "rtl"};
     if (std::find(std::begin(kNoFigures), std::end(kNoFigures), key) != std::end(kNoFigures)) continue;
     const std::string place = where + " " + key;
     if (!now.contains(key)) {

@@ -27,7 +27,6 @@ Host::Host(const SystemTimings& timings, Sink sink) : timings_(timings), sink_(s
   context_.randReset(2);
   top_ = std::make_unique<Vfs_system>(&context_);
   top_->aresetn = 0;
-  top_->s_axil_wstrb = 0xf;
   top_->s_axil_bready = top_->s_axil_rready = 1;
   for (int i = 0; i < kResetCycles; ++i) clock();
   top_->aresetn = 1;
@@ -94,8 +93,13 @@ std::uint32_t Host::read(std::uint32_t address) {
 }
 
 void Host::write(std::uint32_t address, std::uint32_t word) {
+  expect(write_bytes(address, word, 0xf), "a register write is answered with SLVERR");
+}
+
+bool Host::write_bytes(std::uint32_t address, std::uint32_t word, unsigned strobe) {
   top_->s_axil_awaddr = static_cast<std::uint16_t>(address);
   top_->s_axil_wdata = word;
+  top_->s_axil_wstrb = static_cast<std::uint8_t>(strobe);
   top_->s_axil_awvalid = top_->s_axil_wvalid = 1;
   int waited = 0;
   for (bool taken = false; !taken; expect(++waited < kBusPatience, "no register write is taken")) {
@@ -108,8 +112,9 @@ void Host::write(std::uint32_t address, std::uint32_t word) {
     clock();
     expect(++waited < kBusPatience, "a register write is not answered");
   }
-  expect(top_->s_axil_bresp == 0, "a register write is answered with SLVERR");
+  const bool okay = top_->s_axil_bresp == 0;
   clock();
+  return okay;
 }
 
 void Host::start(std::vector<cmodel::Beat> memory) {

@@ -38,6 +38,8 @@ class Host {
   /// The register's word. Throws UserError (Simulation) for a bus that does not answer, or answers SLVERR.
   std::uint32_t read(std::uint32_t address);
   void write(std::uint32_t address, std::uint32_t word);
+  /// A write of the bytes that `strobe` names; true if it was answered with OKAY.
+  bool write_bytes(std::uint32_t address, std::uint32_t word, unsigned strobe);
 
   /// Lets the source read these beats; the clock goes on in read(), write() and wait_for_interrupt().
   void start(std::vector<cmodel::Beat> memory);

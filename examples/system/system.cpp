@@ -47,6 +47,19 @@ void meet(Host& host, const Config& config) {
   }
 }
 
+/// A host that writes single bytes is told that it cannot.
+void write_a_byte(Host& host) {
+  const bool okay = host.write_bytes(kRegIrqMask.address, kIrqFrame | kIrqError, 0x1);
+  const std::uint32_t mask = host.read(kRegIrqMask.address);
+  say("device: a write of one byte: {}, IRQ_MASK {:#x}", okay ? "OKAY" : "SLVERR", mask);
+  if (!okay && mask == 0) return;
+  throw UserError(ExitCode::Simulation, {.where = "IRQ_MASK",
+                                         .what = "a write of one byte was taken",
+                                         .expected = "SLVERR, and 0 as before",
+                                         .got = {},
+                                         .fix = "look at WSTRB in fastsplat_top"});
+}
+
 /// A beat of a tile with a bit that has no name: refused. The host reads why, and resets.
 void spoil(Host& host, std::vector<Beat> beats) {
   std::size_t at = 0;  // of the first end_sheet; words of tables are passed over
@@ -95,6 +108,7 @@ int run(std::span<char*> args) {
   });
 
   meet(host, config);
+  write_a_byte(host);
   host.write(kRegIrqMask.address, kIrqFrame | kIrqError);
   if (args.size() == 4) {
     spoil(host, beats);

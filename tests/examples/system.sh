@@ -14,6 +14,7 @@ cat plain.log
 grep -q 'picture: 36864 words, 0 differ' plain.log || fail "not a whole picture compared"
 grep -q 'counters: 16 read, 0 differ' plain.log || fail "not all counters compared"
 [ -s shells.png ] || fail "no picture"
+grep -q 'a write of one byte: SLVERR, IRQ_MASK 0x0' plain.log || fail "half a write is taken"
 
 "$system" shells.fss again.png --break >broken.log || { cat broken.log; fail "no recovery"; }
 cat broken.log

@@ -54,7 +54,7 @@ RtlOptions rtl_options(const VerifyOptions& options) {
           .output = patterns.ready,
           .fill = options.fill,
           .seed = options.seed,
-          .timeout = options.timeout,
+          .timeout = options.timeout + patterns.input.longest_wait() + patterns.ready.longest_wait(),
           .taps = nullptr,
           .wave = options.wave,
           .wave_from = options.wave_from,

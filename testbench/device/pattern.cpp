@@ -64,4 +64,19 @@ std::uint64_t Pattern::next(std::uint64_t cycle) const {
   return cycle;
 }
 
+std::uint64_t Pattern::longest_wait() const {
+  switch (kind_) {
+    case Kind::Always:
+    case Kind::Random:
+      return 0;
+    case Kind::Every:
+      return number_;
+    case Kind::Alternate:
+      return number_ + 1;
+    case Kind::Burst:
+      return 2 * number_;  // the end of one stretch and the beginning of the next
+  }
+  return 0;
+}
+
 }  // namespace fastsplat::testbench

@@ -21,6 +21,8 @@ class Pattern final : public cmodel::Willing {
   bool at(std::uint64_t cycle) const;
   std::uint64_t next(std::uint64_t cycle) const override;
   const std::string& text() const { return text_; }
+  /// So many cycles from one in which it is willing to the next; 0 where chance decides, which is soon.
+  std::uint64_t longest_wait() const;
   static std::vector<std::string> examples();
 
  private:

@@ -83,8 +83,8 @@ class VerilatedDevice : public RtlDevice {
   void consume(std::span<const cmodel::Beat> beats) override {
     for (const auto& beat : beats) {
       offer(beat);
-      for (std::uint64_t waited = 0; !cycle(); ++waited) {
-        if (waited > options_.timeout) time_out("no beat taken");
+      for (const std::uint64_t since = cycle_; !cycle();) {
+        if (hangs(since)) time_out("no beat taken");
       }
     }
   }
@@ -101,12 +101,12 @@ class VerilatedDevice : public RtlDevice {
   std::optional<Refusal> refuse(const cmodel::Beat& beat) override {
     expecting_ = true;
     offer(beat);
-    for (std::uint64_t waited = 0; !cycle(); ++waited) {
-      if (waited > options_.timeout) time_out("no beat taken");
+    for (const std::uint64_t since = cycle_; !cycle();) {
+      if (hangs(since)) time_out("no beat taken");
     }
     const std::uint64_t taken = cycle_ - 1;
     // It may lie behind a beat that waits in decode.
-    for (std::uint64_t waited = 0; !top_->error_o && waited < options_.timeout; ++waited) cycle();
+    for (const std::uint64_t since = cycle_; !top_->error_o && !hangs(since);) cycle();
     if (!top_->error_o) return std::nullopt;
     return Refusal{.taken = taken, .judged = cycle_ - 1};
   }
@@ -240,10 +240,13 @@ class VerilatedDevice : public RtlDevice {
   }
 
   void come_to_rest() {
-    for (std::uint64_t waited = 0; (read_status() & cmodel::kStatusBusy) != 0 || !tiles_.complete(); ++waited) {
-      if (waited > options_.timeout) time_out("the device does not come to rest");
+    for (const std::uint64_t since = cycle_; (read_status() & cmodel::kStatusBusy) != 0 || !tiles_.complete();) {
+      if (hangs(since)) time_out("the device does not come to rest");
     }
   }
+
+  /// Who waits since then has waited too long without anything having been taken of either stream: a sink may be slow.
+  bool hangs(std::uint64_t since) const { return cycle_ - std::max(since, moved_) > options_.timeout; }
 
   /// The cycle behind that in which a read's address was taken: another one offered meanwhile is not.
   void read_in_a_cycle() {
@@ -260,11 +263,11 @@ class VerilatedDevice : public RtlDevice {
   /// Clocks up to and with the first cycle in which `taken` holds.
   template <class Taken>
   void wait_for(const char* missing, Taken taken) {
-    for (std::uint64_t waited = 0;; ++waited) {
+    for (const std::uint64_t since = cycle_;;) {
       const bool last = taken();
       cycle();
       if (last) return;
-      if (waited > options_.timeout) time_out(missing);
+      if (cycle_ - since > options_.timeout) time_out(missing);  // the bus waits for no stream
     }
   }
 
@@ -308,7 +311,7 @@ class VerilatedDevice : public RtlDevice {
     for (int i = 0; i < cycles; ++i) edge();
     top_->rst_ni = 1;
     eval();
-    cycle_ = 0;
+    cycle_ = moved_ = 0;
     offering_ = pending_ = refused_ = reading_ = writing_ = expecting_ = resetting_ = false;
     aborted_tiles_ = 0;
     if (top_->rvalid_o || top_->bvalid_o || top_->m_tvalid_o) {
@@ -336,6 +339,7 @@ class VerilatedDevice : public RtlDevice {
     top_->m_tready_i = options_.output.at(cycle_) ? 1 : 0;
     const bool taken = offering_ && top_->s_tready_o != 0;
     sample();
+    if (taken || (top_->m_tvalid_o && top_->m_tready_i)) moved_ = cycle_;
     if (taken) {
       if (resetting_) end_soft_reset();  // none is taken before
       if (!expecting_) {
@@ -514,6 +518,7 @@ class VerilatedDevice : public RtlDevice {
   std::unique_ptr<Top> top_;
   std::unique_ptr<VerilatedFstC> wave_;
   std::uint64_t cycle_ = 0;
+  std::uint64_t moved_ = 0;  ///< the cycle in which a beat or pixels were taken last
   cmodel::Beat beat_{};
   bool pending_ = false;    ///< a beat waits to be offered
   bool offering_ = false;   ///< and has been: valid stays up until taken

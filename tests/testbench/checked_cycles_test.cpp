@@ -87,6 +87,20 @@ TEST(CheckedCycles, AreAbsentOfARunThatDidNotEnd) {
   EXPECT_FALSE(result.check.cycles_model);
 }
 
+// A sink that is willing now and then takes a picture in a hundred times what a device may stand still.
+TEST(CheckedCycles, ASlowSinkIsNoHang) {
+  VerifyOptions options = tiny();
+  options.ready = "every-100";
+  options.timeout = 400;
+  const auto result = verify(mixed(options.config), options);
+  EXPECT_EQ(result.verdict, Verdict::Pass) << result.error;
+  ASSERT_TRUE(result.check.cycles_rtl);
+  std::printf("[figure] cycles for a sink willing every 100th = %llu, without a transfer at most %llu\n",
+              static_cast<unsigned long long>(*result.check.cycles_rtl),
+              static_cast<unsigned long long>(options.timeout + 100));
+  EXPECT_GT(*result.check.cycles_rtl, 20 * options.timeout);
+}
+
 // Devices in one thread do not lean on each other: the simulator keeps a context by thread.
 TEST(VerilatedDevices, MayGoInAnyOrder) {
   const auto config = driver::load_config("tiny");

@@ -1,4 +1,4 @@
-// A device whose register bus never answers is told, not waited for.
+// A device whose register bus never answers is told, not waited for; so is one that answers a read in another cycle.
 #include <gtest/gtest.h>
 
 #include "driver/config_file.hpp"
@@ -7,20 +7,29 @@
 namespace fastsplat::testbench {
 namespace {
 
-/// Ports as Verilator has them, over a device with a register bus of which one side may be dead.
+/// What a device does with reads; it takes no write.
+enum class Reads { Never, AsThePageSays, ACycleEarly, OneBehindTheOther };
+
+/// Ports as Verilator has them, over a device with a register bus and nothing else.
 struct SilentTop {
   explicit SilentTop(VerilatedContext*) {}
   void eval() {
-    arready_o = reads_answered ? 1 : 0;
-    awready_o = 0;
-    if (clk_i != 0 && !was_high) rvalid_o = rst_ni & arvalid_i & arready_o;
+    if (clk_i != 0 && !was_high) {
+      const bool takes = rst_ni != 0 && arvalid_i != 0 && arready_o != 0;
+      rvalid_o = reads == Reads::ACycleEarly ? takes : taken;
+      taken = takes;
+      const auto hash = config_hash(driver::load_config("tiny"));
+      if (takes) word = static_cast<std::uint32_t>(araddr_i == cmodel::kRegHashHigh.address ? hash >> 32 : hash);
+      rdata_o = word;
+    }
     was_high = clk_i != 0;
-    const auto hash = config_hash(driver::load_config("tiny"));
-    rdata_o = static_cast<std::uint32_t>(araddr_i == cmodel::kRegHashHigh.address ? hash >> 32 : hash);
+    arready_o = reads != Reads::Never && (reads == Reads::OneBehindTheOther || (!taken && rvalid_o == 0)) ? 1 : 0;
+    awready_o = 0;
   }
   void final() {}
-  static inline bool reads_answered = false;
-  bool was_high = false;
+  static inline Reads reads = Reads::Never;
+  bool was_high = false, taken = false;
+  std::uint32_t word = 0;
 
   std::uint8_t clk_i = 0, rst_ni = 0, s_tvalid_i = 0, s_tready_o = 0, m_tready_i = 0, m_tvalid_o = 0, m_tlast_o = 0;
   std::uint8_t awvalid_i = 0, awready_o = 0, wvalid_i = 0, bready_i = 0, bvalid_o = 0, bresp_o = 0;
@@ -59,16 +68,30 @@ void expect_hang(const std::function<void()>& action, const char* told) {
 
 TEST(SilentBus, AReadThatIsNeverTakenEndsTheRun) {
   cmodel::NullPixels none;
-  SilentTop::reads_answered = false;
+  SilentTop::reads = Reads::Never;
   expect_hang([&] { VerilatedDevice<SilentTop>(driver::load_config("tiny"), none, patient()); },
               "no register read taken");
 }
 
 TEST(SilentBus, AWriteThatIsNeverTakenEndsTheRun) {
   cmodel::NullPixels none;
-  SilentTop::reads_answered = true;
+  SilentTop::reads = Reads::AsThePageSays;
   VerilatedDevice<SilentTop> device(driver::load_config("tiny"), none, patient());
   expect_hang([&] { device.write_register(0, 1, 0); }, "no register write taken");
+}
+
+TEST(SilentBus, AReadThatIsAnsweredEarlyEndsTheRun) {
+  cmodel::NullPixels none;
+  SilentTop::reads = Reads::ACycleEarly;
+  expect_hang([&] { VerilatedDevice<SilentTop>(driver::load_config("tiny"), none, patient()); },
+              "answered in the cycle after it was taken");
+}
+
+TEST(SilentBus, AReadThatIsTakenBesideAnotherEndsTheRun) {
+  cmodel::NullPixels none;
+  SilentTop::reads = Reads::OneBehindTheOther;
+  expect_hang([&] { VerilatedDevice<SilentTop>(driver::load_config("tiny"), none, patient()); },
+              "a second register read is taken");
 }
 
 }  // namespace

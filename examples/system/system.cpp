@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
 #include "cmodel/model.hpp"
@@ -80,22 +83,52 @@ void spoil(Host& host, std::vector<Beat> beats) {
       host.read(kRegError.address));
 }
 
-int run(std::span<char*> args) {
-  if (args.size() < 3 || (args.size() == 4 && std::string_view(args[3]) != "--break") || args.size() > 4)
+struct Words {
+  std::filesystem::path stream, picture;
+  bool spoiled = false;
+};
+
+/// Everything that can be said without a simulation is said before it.
+Words words_of(std::span<char*> args) {
+  Words words;
+  int files = 0;
+  const auto refuse = [](const char* what, const std::string& got) {
     throw_usage({.where = "fastsplat_system",
-                 .what = "needs two files",
+                 .what = what,
                  .expected = "STREAM.fss PICTURE.png [--break]",
-                 .got = {},
-                 .fix = {}});
+                 .got = got,
+                 .fix = "`fastsplat stream record --config small` writes a stream"});
+  };
+  for (const std::string_view arg : args.subspan(1)) {
+    if (arg == "--break")
+      words.spoiled = true;
+    else if (arg.starts_with("-"))
+      refuse("unknown flag", std::string(arg));
+    else if (++files <= 2)
+      (files == 1 ? words.stream : words.picture) = arg;
+  }
+  if (files != 2) refuse("needs two files", std::to_string(files));
+  std::error_code none;
+  if (std::filesystem::equivalent(words.stream, words.picture, none)) refuse("would write what it reads", args[1]);
+  const auto ending = words.picture.extension();
+  if (ending != ".png" && ending != ".exr" && ending != ".tif") refuse("no kind of picture", words.picture.string());
+  images::require_library();
+  const AtomicFile probe(words.picture);  // whether it could be written
+  return words;
+}
+
+int run(std::span<char*> args) {
+  const Words words = words_of(args);
   const Config config = driver::load_config("small");
   std::vector<Beat> beats;
-  driver::read_beats(args[1], [&](std::span<const Beat> some) { beats.insert(beats.end(), some.begin(), some.end()); });
+  driver::read_beats(words.stream,
+                     [&](std::span<const Beat> some) { beats.insert(beats.end(), some.begin(), some.end()); });
   const auto frame = std::get<BeginFrame>(from_beat(beats.at(0)));
 
   // The model's picture, to compare with; a stream that breaks a rule is refused here.
   driver::FrameSink expected(config, frame.width, frame.height);
   Model model(config, StreamScope::Whole, expected);
-  driver::naming(args[1], [&] { model.consume(beats), model.finish(); });
+  driver::naming(words.stream.string(), [&] { model.consume(beats), model.finish(); });
 
   driver::FrameSink shown(config, frame.width, frame.height);
   testbench::TileAssembly tiles(config, shown);
@@ -110,7 +143,7 @@ int run(std::span<char*> args) {
   meet(host, config);
   write_a_byte(host);
   host.write(kRegIrqMask.address, kIrqFrame | kIrqError);
-  if (args.size() == 4) {
+  if (words.spoiled) {
     spoil(host, beats);
     say("cycle {}: tiles that came out marked as cut short: {}", host.cycle(), aborted);
   }
@@ -146,9 +179,9 @@ int run(std::span<char*> args) {
   const Frame picture = shown.take(), truth = expected.take();
   std::size_t different = 0;
   for (std::size_t i = 0; i < truth.words.size(); ++i) different += picture.words[i] != truth.words[i] ? 1 : 0;
-  say("picture: {} words, {} differ from the model: {}", truth.words.size(), different, args[2]);
-  images::write_image(args[2], driver::to_image(picture), {{"engine", "rtl"}, {"config", config.name}},
-                      {.display = std::string_view(args[2]).ends_with(".png")});
+  images::write_image(words.picture, driver::to_image(picture), {{"engine", "rtl"}, {"config", config.name}},
+                      {.display = words.picture.extension() == ".png"});
+  say("picture: {} words, {} differ from the model: {}", truth.words.size(), different, words.picture.string());
   return different == 0 && wrong == 0 && tiles.complete() ? 0 : 1;
 }
 

@@ -91,6 +91,7 @@ TEST(CheckedCycles, AreAbsentOfARunThatDidNotEnd) {
 TEST(CheckedCycles, ASlowSinkIsNoHang) {
   VerifyOptions options = tiny();
   options.ready = "every-100";
+  options.input = "always";
   options.timeout = 400;
   const auto result = verify(mixed(options.config), options);
   EXPECT_EQ(result.verdict, Verdict::Pass) << result.error;

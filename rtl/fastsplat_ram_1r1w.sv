@@ -1,5 +1,6 @@
 // Memory with one registered read port and one write port. What a read of the word being written returns is undefined:
-// nobody may depend on it.
+// nobody may depend on it. Every memory of the device is one of these: here a vendor's macro takes its place, by BITS and WORDS, with
+// its self-test and its error correction, which have no cycle of their own (docs/integration.md, "Memories").
 module fastsplat_ram_1r1w #(
     parameter int BITS  = 8,
     parameter int WORDS = 16,

@@ -3,8 +3,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <array>
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -22,39 +20,7 @@ namespace {
                .fix = "choose a writable folder with enough free space"});
 }
 
-// Temporary files that exist now, where a signal handler can read them: fixed storage, no locks.
-enum SlotState : int { Free, Claimed, Live };
-struct Slot {
-  std::atomic<int> state{Free};
-  std::array<char, 4096> path{};
-};
-std::array<Slot, 64> unfinished;
-
-// When all slots are taken or the path is too long, only an interrupt leaves the file behind.
-void remember(const std::string& path) {
-  if (path.size() >= unfinished[0].path.size()) return;
-  for (auto& slot : unfinished) {
-    int expected = Free;
-    if (!slot.state.compare_exchange_strong(expected, Claimed)) continue;
-    std::memcpy(slot.path.data(), path.c_str(), path.size() + 1);
-    slot.state = Live;
-    return;
-  }
-}
-
-void forget(const std::string& path) {
-  for (auto& slot : unfinished) {
-    if (slot.state == Live && path == slot.path.data()) slot.state = Free;
-  }
-}
-
 }  // namespace
-
-void remove_unfinished_files() noexcept {
-  for (auto& slot : unfinished) {
-    if (slot.state == Live) ::unlink(slot.path.data());
-  }
-}
 
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
   std::error_code ignored;
@@ -73,21 +39,10 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
   if (!std::filesystem::is_directory(folder, ignored))
     cannot_write(path_, "the folder " + folder.string() + " does not exist");
   temporary_ = folder / (".tmp" + std::to_string(::getpid()) + "." + path_.filename().string());
-  remember(temporary_.string());
+  unfinished_.emplace(temporary_);
   const int descriptor = ::open(temporary_.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0666);
-  if (descriptor < 0) {
-    const int reason = errno;
-    forget(temporary_.string());
-    cannot_write(path_, std::strerror(reason));
-  }
+  if (descriptor < 0) cannot_write(path_, std::strerror(errno));
   ::close(descriptor);
-}
-
-AtomicFile::~AtomicFile() {
-  if (committed_) return;
-  std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
-  forget(temporary_.string());
 }
 
 void AtomicFile::commit() {
@@ -100,8 +55,7 @@ void AtomicFile::commit() {
   std::error_code error;
   std::filesystem::rename(temporary_, path_, error);
   if (error) cannot_write(path_, error.message());
-  committed_ = true;
-  forget(temporary_.string());
+  unfinished_->keep();
 }
 
 void write_text_file(const std::filesystem::path& path, const std::string& text) {

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+
+#include "base/unfinished.hpp"
 
 namespace fastsplat {
 
@@ -13,7 +16,6 @@ namespace fastsplat {
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);
-  ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
@@ -26,11 +28,8 @@ class AtomicFile {
  private:
   std::filesystem::path path_;
   std::filesystem::path temporary_;
-  bool committed_ = false;
+  std::optional<UnfinishedPath> unfinished_;  ///< the temporary file, until it is committed
 };
-
-/// Removes the temporary files of every AtomicFile alive. Async-signal-safe: for the handler that ends the process.
-void remove_unfinished_files() noexcept;
 
 /// `text` to `path`, atomically; straight into it when it is a device or a pipe (/dev/null, /dev/stdout).
 void write_text_file(const std::filesystem::path& path, const std::string& text);

@@ -5,7 +5,7 @@
 
 #include <csignal>
 
-#include "base/atomic_file.hpp"
+#include "base/unfinished.hpp"
 
 namespace fastsplat::cli {
 namespace {

@@ -7,11 +7,11 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <filesystem>
 #include <vector>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/unfinished.hpp"
 
 namespace fastsplat::testbench {
 namespace {
@@ -50,7 +50,8 @@ void drive(std::span<const cmodel::Beat> beats, const VerifyOptions& options) {
 
 /// In the child: neither the parent's buffers nor its handlers are its business.
 [[noreturn]] void write_and_leave(const BeatSource& source, std::span<const cmodel::Beat> beats,
-                                  const VerifyOptions& options, const WantedRun& wanted_run) {
+                                  const VerifyOptions& options, const WantedRun& wanted_run, pid_t parent) {
+  end_with_parent(parent);
   for (const int signal : {SIGBUS, SIGSEGV, SIGABRT, SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
   int code = 1;
   try {
@@ -77,12 +78,11 @@ std::string write_waveform(const BeatSource& source, const VerifyOptions& option
     VerifyOptions run = options;
     run.wave = file.temporary();
     const std::vector<cmodel::Beat> beats = wanted_run ? std::vector<cmodel::Beat>{} : wanted_beats(source, options);
-    const pid_t child = ::fork();
+    const UnfinishedPath names(file.temporary().string() + ".hier");  // the writer has it beside until it is done
+    const pid_t parent = ::getpid(), child = ::fork();
     if (child < 0) return cannot_write(options.wave, std::strerror(errno));
-    if (child == 0) write_and_leave(source, beats, run, wanted_run);
-    int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
+    if (child == 0) write_and_leave(source, beats, run, wanted_run, parent);
+    const int status = HelperProcess(child).wait();
     if (WIFEXITED(status) && WEXITSTATUS(status) == kUnwanted) {
       return one_line({.where = options.wave.string(),
                        .what = "no waveform: the simulation that writes it does not fail so",
@@ -91,11 +91,7 @@ std::string write_waveform(const BeatSource& source, const VerifyOptions& option
                        .fix = "registers hold other words there before reset: look for what is never reset, and try "
                               "--fill zero or one"});
     }
-    if (status != 0) {
-      std::error_code ignored;
-      std::filesystem::remove(file.temporary().string() + ".hier", ignored);  // what the writer leaves half-way
-      return cannot_write(options.wave, "the writer ended early");
-    }
+    if (status != 0) return cannot_write(options.wave, "the writer ended early");
     file.commit();
     return {};
   } catch (const UserError& error) {

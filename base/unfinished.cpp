@@ -1,0 +1,110 @@
+#include "base/unfinished.hpp"
+
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+namespace fastsplat {
+namespace {
+
+// What there is now, where a signal handler can read it: fixed storage, no locks.
+enum SlotState : int { Free, Claimed, Live };
+struct Slot {
+  std::atomic<int> state{Free};
+  std::array<char, 4096> path{};
+};
+std::array<Slot, 64> unfinished;
+std::array<std::atomic<pid_t>, 8> helpers;
+
+// When all slots are taken or the path is too long, only an interrupt leaves the file behind.
+void remember(const std::string& path) {
+  if (path.size() >= unfinished[0].path.size()) return;
+  for (auto& slot : unfinished) {
+    int expected = Free;
+    if (!slot.state.compare_exchange_strong(expected, Claimed)) continue;
+    std::memcpy(slot.path.data(), path.c_str(), path.size() + 1);
+    slot.state = Live;
+    return;
+  }
+}
+
+void forget(const std::string& path) {
+  for (auto& slot : unfinished) {
+    if (slot.state == Live && path == slot.path.data()) slot.state = Free;
+  }
+}
+
+}  // namespace
+
+UnfinishedPath::UnfinishedPath(std::filesystem::path path) : path_(std::move(path)) { remember(path_.string()); }
+
+UnfinishedPath::~UnfinishedPath() {
+  if (kept_) return;
+  std::error_code ignored;
+  std::filesystem::remove(path_, ignored);
+  forget(path_.string());
+}
+
+void UnfinishedPath::keep() {
+  kept_ = true;
+  forget(path_.string());
+}
+
+HelperProcess::HelperProcess(pid_t child) : child_(child) {
+  for (auto& helper : helpers) {
+    pid_t none = 0;
+    if (helper.compare_exchange_strong(none, child)) return;
+  }
+}
+
+HelperProcess::~HelperProcess() {
+  for (auto& helper : helpers) {
+    pid_t mine = child_;
+    helper.compare_exchange_strong(mine, 0);
+  }
+}
+
+int HelperProcess::wait() {
+  // Forgotten before its number is free for another process, which a signal would otherwise end.
+  siginfo_t ended{};
+  while (::waitid(P_PID, static_cast<id_t>(child_), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+  }
+  for (auto& helper : helpers) {
+    pid_t mine = child_;
+    helper.compare_exchange_strong(mine, 0);
+  }
+  int status = 0;
+  while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+void end_with_parent(pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (::getppid() != parent) ::_exit(128 + SIGTERM);  // it ended before that was asked for
+}
+
+void remove_unfinished_files() noexcept {
+  for (auto& helper : helpers) {
+    const pid_t child = helper;
+    if (child <= 0) continue;
+    ::kill(child, SIGKILL);
+    while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+  for (auto& slot : unfinished) {
+    if (slot.state == Live) ::unlink(slot.path.data());
+  }
+  // Folders once nothing of ours is in them.
+  for (auto& slot : unfinished) {
+    if (slot.state == Live) ::rmdir(slot.path.data());
+  }
+}
+
+}  // namespace fastsplat

@@ -190,6 +190,24 @@ class Scribe final : public cmodel::Device, private cmodel::TapSink, private cmo
   cmodel::Model model_;
 };
 
+/// True if it was not there. Where it lies has to be there, as for every other result: a name with a slip of the pen
+/// makes no tree of folders.
+bool make_folder(const std::filesystem::path& folder) {
+  const auto plain = folder.has_filename() ? folder : folder.parent_path();  // without a slash at its end
+  const auto parent = plain.has_parent_path() ? plain.parent_path() : std::filesystem::path(".");
+  std::error_code error;
+  const bool lies = std::filesystem::is_directory(parent, error);
+  const bool made = lies && std::filesystem::create_directory(plain, error);
+  if (lies && !error && std::filesystem::is_directory(plain)) return made;
+  throw_input({.where = folder.string(),
+               .what = "cannot be made a folder: " + (!lies   ? "the folder " + parent.string() + " does not exist"
+                                                      : error ? error.message()
+                                                              : "it is a file"),
+               .expected = {},
+               .got = {},
+               .fix = "choose another name"});
+}
+
 }  // namespace
 
 std::vector<std::string> vector_file_names() {
@@ -201,23 +219,13 @@ std::vector<std::string> vector_file_names() {
 
 VectorReport write_vectors(const std::filesystem::path& stream, const cmodel::Config& config,
                            const std::filesystem::path& folder, const RenderOptions& options) {
-  std::error_code error;
-  const bool made = std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) {
-    throw_input({.where = folder.string(),
-                 .what = "cannot be made a folder" + (error ? ": " + error.message() : std::string()),
-                 .expected = {},
-                 .got = {},
-                 .fix = "choose another name"});
-  }
-  try {
-    Scribe scribe(config, folder);
-    feed_stream(stream, scribe, options);
-    return scribe.commit(stream, folder);
-  } catch (...) {
-    if (made) std::filesystem::remove(folder, error);
-    throw;
-  }
+  std::optional<UnfinishedPath> made;  // before the files in it, so that it goes after them
+  if (make_folder(folder)) made.emplace(folder);
+  Scribe scribe(config, folder);
+  feed_stream(stream, scribe, options);
+  const VectorReport report = scribe.commit(stream, folder);
+  if (made) made->keep();
+  return report;
 }
 
 }  // namespace fastsplat::driver

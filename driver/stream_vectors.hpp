@@ -32,8 +32,9 @@ struct VectorReport {
 std::vector<std::string> vector_file_names();
 
 /// Feeds the stream to the model and writes beats.hex, output.hex and a .hex file a tap, records.json with the same
-/// records, and last vectors.json, which names them all with their checksums. The folder is made if it is not there;
-/// files of these names in it are replaced, all or none. UserError (Input) as replay_stream's. Memory stays bounded.
+/// records, and last vectors.json, which names them all with their checksums. The folder is made if it is not there
+/// (what it lies in has to be); files of these names in it are replaced, all or none. UserError (Input) as
+/// replay_stream's. Memory stays bounded.
 VectorReport write_vectors(const std::filesystem::path& stream, const cmodel::Config& config,
                            const std::filesystem::path& folder, const RenderOptions& options = {});
 

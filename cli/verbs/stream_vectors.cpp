@@ -28,7 +28,7 @@ void declare(Options& options, Arguments& to) {
   options.group("Engine");
   declare(options, to.config, "the configuration it was recorded for");
   options.group("Output");
-  options.required("-o,--out", to.out, "FOLDER", "where the files go; made if it is not there");
+  options.required("-o,--out", to.out, "FOLDER", "where the files go; made if it is not there, in a folder that is");
   declare(options, to.common);
   options.example("fastsplat stream vectors shells.fss --config tiny -o vectors",
                   "beats and taps for a bench of yours");

@@ -49,5 +49,28 @@ TEST(Signals, CtrlCWhileRenderingIsExit130) {
   EXPECT_TRUE(folder.entries().empty());
 }
 
+// The folder that it made goes, too; one that was there stays.
+TEST(Signals, CtrlCWhileWritingVectorsRemovesTheFolder) {
+  const TempFolder folder;
+  expect_success(fastsplat(
+      {"stream", "record", "--volume", "shells:64", "--size", "256", "--config", "tiny", "-o", folder / "s.fss"}));
+  std::filesystem::create_directory(folder / "there");
+  for (const std::string name : {"made", "there"}) {
+    Surroundings interrupted;
+    interrupted.signal = SIGINT;
+    interrupted.when = [&](pid_t) {
+      std::error_code ignored;
+      for (const auto& entry : std::filesystem::directory_iterator(folder / name, ignored))
+        if (entry.file_size(ignored) > 0) return true;
+      return false;
+    };
+    const auto result =
+        fastsplat({"stream", "vectors", folder / "s.fss", "--config", "tiny", "-o", folder / name}, interrupted);
+    EXPECT_EQ(result.code, 130) << result.err;
+  }
+  EXPECT_EQ(folder.entries(), (std::vector<std::string>{"s.fss", "there"}));
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "there"));
+}
+
 }  // namespace
 }  // namespace fastsplat::cli_test

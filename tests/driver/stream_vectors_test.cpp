@@ -6,6 +6,7 @@
 
 #include <fstream>
 
+#include "base/error.hpp"
 #include "driver/config_file.hpp"
 #include "driver/stream_file.hpp"
 #include "tests/driver/scenes_helper.hpp"
@@ -81,6 +82,32 @@ TEST_F(StreamVectors, PixelBeatsAreTheReplayedPicture) {
     EXPECT_GT(lit, 500U);
     EXPECT_EQ(wrong, 0U);
   }
+}
+
+// As every other result: what the folder lies in has to be there, and a run that fails leaves no folder of its own.
+TEST_F(StreamVectors, AFolderIsMadeInOneThatIsThere) {
+  const auto config = load_config("tiny");
+  const auto stream = folder_ / "scene.fss";
+  record_stream(scene::build_scene(view_of("shells:8", 16)), config, stream);
+  int refused = 0;
+  const auto refuse = [&](const std::filesystem::path& of, const std::filesystem::path& folder, const char* why) {
+    try {
+      write_vectors(of, config, folder);
+      ADD_FAILURE() << folder << " was made";
+    } catch (const UserError& error) {
+      ++refused;
+      EXPECT_EQ(error.code(), ExitCode::Input);
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    }
+  };
+  refuse(stream, folder_ / "no" / "v", "no does not exist");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "no"));
+  refuse(stream, stream, "it is a file");
+  refuse(folder_ / "none.fss", folder_ / "v", "none.fss");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "v")) << "nothing was written there";
+  figure("folders refused", refused);
+  EXPECT_GT(write_vectors(stream, config, (folder_ / "v").string() + "/").beats, 0u) << "a slash at its end";
+  EXPECT_EQ(write_vectors(stream, config, folder_ / "v").files.size() + 1, vector_file_names().size()) << "again";
 }
 
 }  // namespace

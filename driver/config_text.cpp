@@ -41,9 +41,25 @@ std::string value_text(const std::string& file, const toml::node& node, const cm
                .fix = fmt::format("{} is {}", key.name, key.meaning)});
 }
 
+/// A name stands in lines of text, between other words.
+void refuse_unspeakable(const std::string& file, const toml::node& node, const std::string& name) {
+  const auto odd = std::find_if(name.begin(), name.end(), [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < 0x20 || byte == 0x7f;
+  });
+  const bool blank = name.find_first_not_of(' ') == std::string::npos;
+  if (!blank && odd == name.end()) return;
+  throw_input({.where = place(file, node.source()),
+               .what = "name is no name",
+               .expected = "at least one character, and none that ends or moves a line",
+               .got = blank ? "nothing" : fmt::format("character {:#04x}", static_cast<unsigned char>(*odd)),
+               .fix = "for example name = \"mine\""});
+}
+
 void take(const std::string& file, const toml::node& node, const std::string& name, cmodel::Config& config) {
   if (name == "name") {
     config.name = text_value(file, node, name);
+    refuse_unspeakable(file, node, config.name);
   } else if (name == "description") {
     config.description = text_value(file, node, name);
   } else if (name == "verified") {

@@ -58,10 +58,31 @@ TEST_F(ConfigFile, keys_off_their_neutral_value_are_read_back) {
 
 TEST_F(ConfigFile, texts_of_any_kind_are_read_back) {
   auto config = load_config("tiny");
-  config.name = "a \"name\" with \\ and \t and \x01";
-  config.description = "# no comment = \"x\"\n[table]";
+  config.name = "a \"name\" with \\ and = #";
+  config.description = "# no comment = \"x\"\n[table] \t and \x01";
   config.verified = "";
   EXPECT_EQ(read_back(config), config);
+}
+
+// A name stands in lines of text: what would split them, or be nothing there, is refused where it is written.
+TEST_F(ConfigFile, names_that_split_a_line_are_refused) {
+  auto config = load_config("tiny");
+  int refused = 0;
+  for (const std::string name : {"", "   ", "two\nlines", "a\ttab", "\x01", "back\r", "gone\x7f"}) {
+    config.name = name;
+    try {
+      read_back(config);
+      ADD_FAILURE() << "'" << name << "' was taken";
+    } catch (const UserError& error) {
+      ++refused;
+      const std::string said = error.what();
+      EXPECT_EQ(error.code(), ExitCode::Input);
+      EXPECT_NE(said.find(":2:8: name is no name"), std::string::npos) << said;
+      EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+    }
+  }
+  std::printf("[figure] names refused = %d of 7\n", refused);
+  EXPECT_EQ(refused, 7);
 }
 
 }  // namespace

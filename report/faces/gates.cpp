@@ -84,16 +84,18 @@ std::vector<Gate> verify(const Figures& f) {
     }
     failed->command = f.text("failure/replay");
   }
-  if (failed != gates.end() && f.find("planted_fault") != nullptr) {
-    failed->message = fmt::format("planted fault {} ({}): {}", f.text("planted_fault/name"),
-                                  f.text("planted_fault/meaning"), failed->message);
-  }
   const Json &rtl = f.at("cycles_rtl"), &model = f.at("cycles_model");
   if (!rtl.is_null() && !model.is_null()) {
     gates.push_back({.name = f.text("config") + " cycles",
                      .status = held(f.count("cycles_rtl") == f.count("cycles_model")),
                      .message = fmt::format("{} cycles of the RTL, {} of the model", rtl.dump(), model.dump()),
                      .command = {}});
+  }
+  if (f.find("planted_fault") != nullptr) {
+    const std::string planted =
+        fmt::format("planted fault {} ({}): ", f.text("planted_fault/name"), f.text("planted_fault/meaning"));
+    for (Gate& gate : gates)
+      if (gate.status != Status::Pass) gate.message = planted + gate.message;
   }
   return gates;
 }

@@ -106,6 +106,20 @@ TEST(Faces, JunitTellsWhyAndHowToSeeItAgain) {
       holds(plan, "<error message=\"timeout\" type=\"error\">timeout&#10;after 5 s&#10;reproduce: fastsplat verify"));
 }
 
+// A build server shows its cases one by one: none of them may look like a defect of the device.
+TEST(Faces, JunitSaysOfEveryFailingCaseThatItsFaultWasPlanted) {
+  Result planted = kind("verify");
+  planted.json["planted_fault"] = {{"name", "PORT_SNAP"}, {"where", "ports"}, {"meaning", "centres"}};
+  std::size_t failing = 0, told = 0;
+  for (const Gate& gate : gates_of(planted)) {
+    failing += gate.status == Status::Pass ? 0 : 1;
+    told += gate.message.starts_with("planted fault PORT_SNAP (centres): ") ? 1 : 0;
+  }
+  std::printf("[figure] failing cases = %zu, told as planted = %zu (expected 3)\n", failing, told);
+  EXPECT_EQ(failing, 3u);
+  EXPECT_EQ(told, failing);
+}
+
 TEST(Faces, JunitIsWhatBuildServersRead) {
   if (std::system("command -v xmllint > /dev/null 2>&1") != 0)
     GTEST_SKIP() << "xmllint (libxml2-utils) is not installed";

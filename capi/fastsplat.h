@@ -232,7 +232,7 @@ typedef struct fastsplat_report {
   int32_t detector;                 ///< which saw the first difference: FASTSPLAT_TAP_..., 5 tiles, 6 counters,
                                     ///< 7 cycles; -1: none
   uint64_t comparisons;             ///< tap records, pixel words, counters and cycles
-  uint64_t mismatches;              ///<
+  uint64_t mismatches;              ///< there may be more once the checker has stopped
   uint64_t by_tap[FASTSPLAT_TAPS];  ///< records compared
   int32_t cycles_compared;          ///< 1: the two that follow are there
   uint64_t cycles_device;           ///< busy cycles

@@ -49,6 +49,10 @@ driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config&
   });
 }
 
+std::string mismatches_text(const testbench::CheckReport& check) {
+  return grouped(check.mismatches) + " mismatches" + (check.stopped ? ", stopped there" : "");
+}
+
 nlohmann::ordered_json optional_json(const std::optional<std::uint64_t>& value) {
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
 }
@@ -72,8 +76,7 @@ Wave write_wave(const WaveFlags& flags, const scene::Scene& scene, const cmodel:
 std::string to_text(const RtlRun& run) {
   std::string text = fmt::format("rtl: {} cycles\n", grouped(run.stalls.busy));
   if (!run.check) return text;
-  text += fmt::format("check: {} comparisons, {} mismatches\n", grouped(run.check->comparisons),
-                      grouped(run.check->mismatches));
+  text += fmt::format("check: {} comparisons, {}\n", grouped(run.check->comparisons), mismatches_text(*run.check));
   return run.difference.empty() ? text : text + run.difference + "\n";
 }
 
@@ -85,6 +88,7 @@ nlohmann::ordered_json to_json(const RtlRun& run) {
   if (!run.check) return json;
   json["check"] = {{"comparisons", run.check->comparisons},
                    {"mismatches", run.check->mismatches},
+                   {"stopped", run.check->stopped},
                    {"by_tap", by_tap_json(*run.check)}};
   if (!run.difference.empty()) json["check"]["first"] = run.difference;
   return json;

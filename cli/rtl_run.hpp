@@ -36,6 +36,9 @@ std::string to_text(const RtlRun& run);
 /// Keys for the JSON of a verb.
 nlohmann::ordered_json to_json(const RtlRun& run);
 
+/// "222 mismatches"; "1,000 mismatches, stopped there" where there may be more.
+std::string mismatches_text(const testbench::CheckReport& check);
+
 /// null where there is none
 nlohmann::ordered_json optional_json(const std::optional<std::uint64_t>& value);
 /// {"snap": n, ...}

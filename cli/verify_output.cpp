@@ -170,7 +170,7 @@ std::string to_text(const VerifyReport& result) {
   return planted_text(result.arguments) +
          fmt::format("{}: configuration {} {}, {} comparisons, {} mismatches\n", testbench::to_string(run.verdict),
                      result.config.name, hash_text(cmodel::config_hash(result.config)), grouped(run.check.comparisons),
-                     grouped(run.check.mismatches)) +
+                     mismatches_text(run.check)) +
          fmt::format("{}, {}, {}, {}\n", counted(result.streams, "stream"), counted(run.counters.splats, "splat"),
                      counted(run.counters.windows, "window"),
                      counted(run.check.cycles_rtl.value_or(run.last_cycle), "cycle"));
@@ -217,6 +217,7 @@ nlohmann::ordered_json to_json(const VerifyReport& result) {
             {"verdict", testbench::to_string(run.verdict)},
             {"comparisons", run.check.comparisons},
             {"mismatches", run.check.mismatches},
+            {"stopped", run.check.stopped},
             {"streams", result.streams},
             {"splats", run.counters.splats},
             {"windows", run.counters.windows},

@@ -145,6 +145,7 @@ void Checker::differ(Detector detector, std::string text) {
 CheckReport Checker::report() const {
   return {.comparisons = board_.comparisons() + comparisons_,
           .mismatches = board_.mismatches() + mismatches_,
+          .stopped = board_.mismatches() + mismatches_ >= options_.stop_after,
           .detector = first_detector(std::nullopt),
           .by_tap = board_.by_tap(),
           .first = board_.first() != nullptr ? std::optional(*board_.first()) : std::nullopt,

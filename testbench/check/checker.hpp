@@ -36,6 +36,7 @@ const char* to_string(Detector detector);
 struct CheckReport {
   std::uint64_t comparisons = 0;  ///< tap records, pixel words, counters, cycles and verdicts
   std::uint64_t mismatches = 0;
+  bool stopped = false;                                   ///< after the last of these: there may be more
   std::optional<Detector> detector;                       ///< that saw the first of them
   std::array<std::uint64_t, cmodel::kTapCount> by_tap{};  ///< records compared
   std::optional<Divergence> first;                        ///< of the taps

@@ -13,6 +13,7 @@ namespace {
 void add(VerifyResult& total, const VerifyResult& part) {
   total.check.comparisons += part.check.comparisons;
   total.check.mismatches += part.check.mismatches;
+  total.check.stopped = total.check.stopped || part.check.stopped;
   for (std::size_t i = 0; i < part.check.by_tap.size(); ++i) {
     total.check.by_tap[i] += part.check.by_tap[i];
     total.check.mismatches_by_tap[i] += part.check.mismatches_by_tap[i];

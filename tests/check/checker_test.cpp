@@ -146,6 +146,28 @@ TEST_P(Checked, EveryFieldOfASnap) {
   }
 }
 
+// A number that was counted to the end and one that was not are told apart.
+TEST_P(Checked, SaysWhetherItStoppedCounting) {
+  const Truth right = truth();
+  const auto at = some(right, RawPort::Snap, 2);
+  ASSERT_EQ(at.size(), 2u);
+  Truth wrong = right;
+  for (const std::size_t event : at) wrong.events[event].tap.tag ^= 1;
+  for (const std::uint64_t most : {1, 2, 3}) {
+    Pixels pixels;
+    Checker checker(wrong.config, cmodel::StreamScope::Whole, pixels, {.stop_after = most});
+    checker.start(kFirstBeat);
+    play(wrong.events, checker);
+    const CheckReport report = checker.finish(wrong.counters, wrong.cycles);
+    std::printf("[figure] stopping after %llu: mismatches = %llu, stopped = %d\n",
+                static_cast<unsigned long long>(most), static_cast<unsigned long long>(report.mismatches),
+                report.stopped ? 1 : 0);
+    // Here the taps go on when it no longer listens.
+    EXPECT_GE(report.mismatches, std::min<std::uint64_t>(most, 2));
+    EXPECT_EQ(report.stopped, most <= 2);
+  }
+}
+
 TEST_P(Checked, EveryBankOfAWindow) {
   const Truth right = truth();
   const auto lanes = static_cast<std::size_t>(right.config.lanes);

@@ -1,6 +1,7 @@
 // fastsplat cycles: how long the device takes and where the cycles go.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -115,9 +116,11 @@ std::string to_text(const Counts& counts, int slices, bool culls) {
   const auto& account = counts.account;
   const std::uint64_t composited = counts.counters.dirty_blocks * static_cast<std::uint64_t>(slices);
   std::string text;
+  // Of a sink that is hardly ever ready the last share is a million times the ideal: as wide as that takes.
+  const auto share = [&](std::uint64_t cycles) { return fmt::format("{:.3f}", 100.0 * ratio(cycles, account.ideal)); };
+  const std::size_t wide = std::max<std::size_t>(8, share(counts.stalls.busy).size());
   const auto row = [&](char sign, std::string_view name, std::uint64_t cycles, std::string_view meaning) {
-    text += fmt::format("{} {:<14}{:>18}{:>9.3f} %  {}\n", sign, name, grouped(cycles),
-                        100.0 * ratio(cycles, account.ideal), meaning);
+    text += fmt::format("{} {:<14}{:>18} {:>{}} %  {}\n", sign, name, grouped(cycles), share(cycles), wide, meaning);
   };
   bool first = true;
   account.for_each([&](std::string_view name, std::uint64_t cycles, std::string_view meaning) {
@@ -126,8 +129,8 @@ std::string to_text(const Counts& counts, int slices, bool culls) {
     first = false;
   });
   row('=', "actual", counts.stalls.busy, "cycles the device was busy");
-  text += fmt::format("  {:<14}{:>18}             waiting for the frame after reset, memories being cleared\n", "idle",
-                      grouped(counts.idle));
+  text += fmt::format("  {:<14}{:>18} {:{}}    waiting for the frame after reset, memories being cleared\n", "idle",
+                      grouped(counts.idle), "", wide);
   text +=
       fmt::format("actual/ideal {:.4f}, splat array used {:.1f} %, compositor used {:.1f} %, {:.3f} splats/cycle\n",
                   ratio(counts.stalls.busy, account.ideal), 100.0 * ratio(counts.counters.windows, counts.stalls.busy),

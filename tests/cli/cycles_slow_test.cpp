@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
 #include "tests/cli/process_helper.hpp"
 #include "tests/cli/words_helper.hpp"
@@ -127,6 +130,33 @@ TEST(Cycles, MisuseIsToldBeforeAnyWork) {
   expect_error(fastsplat({"cycles", "--stream", "a.fss", "--volume", "shells:8"}), 2, {"--stream", "scene"});
   expect_error(fastsplat({"cycles", "--volume", "shells:8", "--ready", "sometimes"}), 2, {"sometimes", "every-N"});
   expect_error(fastsplat({"cycles", "--stream", folder / "none.fss"}), 3, {"none.fss"});
+}
+
+TEST(Cycles, ColumnsStayApartHoweverLongItTakes) {
+  const auto run =
+      fastsplat({"cycles", "--volume", "shells:8", "--size", "16", "--config", "tiny", "--ready", "every-1000000"});
+  expect_success(run);
+  // "+ output  127,859,352 12119369.858 %  a pixel beat waits": every row's words begin in one column.
+  std::set<std::size_t> columns;
+  int rows = 0;
+  std::istringstream lines(run.out);
+  for (std::string line; std::getline(lines, line);) {
+    const auto end = line.find(" %  ");
+    if (end == std::string::npos || line.find("frozen") != std::string::npos) continue;
+    std::istringstream words(line);
+    std::string first, name, cycles, share, sign;
+    if (line[0] == ' ') {
+      words >> name >> cycles >> share >> sign;
+    } else {
+      words >> first >> name >> cycles >> share >> sign;
+    }
+    EXPECT_EQ(sign, "%") << line;
+    columns.insert(end);
+    ++rows;
+  }
+  std::printf("[figure] rows = %d, columns in which their words begin = %zu (expected 1)\n", rows, columns.size());
+  EXPECT_GE(rows, 9);
+  EXPECT_EQ(columns.size(), 1u) << run.out;
 }
 
 }  // namespace

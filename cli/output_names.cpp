@@ -117,6 +117,15 @@ void check_outputs(const OutputNames& names) {
   }
 }
 
+void require_file(const char* flag, const std::string& path) {
+  if (path != "-") return;
+  throw_usage({.where = std::string(flag) + " -",
+               .what = "only --json goes to standard output",
+               .expected = {},
+               .got = {},
+               .fix = "name a file"});
+}
+
 std::vector<std::string> inputs_of(const SceneFlags& flags) {
   const scene::SceneFile file = flags.file ? scene::read_scene_file(*flags.file) : scene::SceneFile{};
   auto inputs = inputs_of_volume(flags.volume.value_or(file.description.volume));

@@ -24,6 +24,9 @@ std::string ending(const std::string& path);
 /// name (links, hard links); else a UserError, before any time is spent.
 void check_outputs(const OutputNames& names);
 
+/// UserError (Usage) for "-": a file, not standard output, which only --json writes to.
+void require_file(const char* flag, const std::string& path);
+
 /// What a command reads, as far as its words tell; names that are no files do no harm. A scene's file is read for what
 /// it names.
 std::vector<std::string> inputs_of(const SceneFlags& scene);

@@ -171,6 +171,17 @@ scene::SceneDescription describe(const SceneFlags& flags, const scene::Sequence*
   return to;
 }
 
+void refuse_display(const SceneFlags& flags) {
+  for (const char* flag : {"--background", "--xray-invert"}) {
+    if (!flags.settings.contains(flag)) continue;
+    throw_usage({.where = flag,
+                 .what = "means nothing here: no picture is made",
+                 .expected = {},
+                 .got = {},
+                 .fix = "leave it out; `fastsplat render` makes pictures"});
+  }
+}
+
 scene::Scene build(const SceneFlags& flags) { return scene::build_scene(describe(flags)); }
 
 std::string summary(const scene::Scene& scene) {

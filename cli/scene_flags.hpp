@@ -31,6 +31,10 @@ volume::ReadOptions reading(const std::optional<double>& nan_as);
 /// A key may also have its meaning in the file's own scene, before the flags.
 scene::SceneDescription describe(const SceneFlags& flags, const scene::Sequence* sequence = nullptr);
 
+/// UserError (Usage) for flags that only say how a picture is shown, of a verb that makes none. A file's keys stay: the
+/// scene is the same.
+void refuse_display(const SceneFlags& flags);
+
 /// Reads the volume and resolves all names.
 scene::Scene build(const SceneFlags& flags);
 

@@ -41,6 +41,29 @@ Checked verify_one(cmodel::BeatSource source, const testbench::VerifyOptions& op
   return out;
 }
 
+constexpr auto kLastSeed = static_cast<std::uint64_t>(std::numeric_limits<long>::max());
+/// A stream is built whole before it runs, at some 150 bytes a splat.
+constexpr int kMostSplats = 10'000'000;
+
+void check_numbers(const VerifyArguments& arguments) {
+  // Every seed of a run is one that --seed takes: a failure's replay line names it.
+  const auto more = static_cast<std::uint64_t>(arguments.seeds) - 1;
+  if (arguments.seed > kLastSeed - more) {
+    throw_usage({.where = fmt::format("--seed {} --seeds {}", arguments.seed, arguments.seeds),
+                 .what = "the last seeds are larger than --seed takes",
+                 .expected = fmt::format("--seed of at most {}", kLastSeed - more),
+                 .got = std::to_string(arguments.seed),
+                 .fix = "lower --seed or --seeds"});
+  }
+  if (arguments.random.value_or(0) > kMostSplats) {
+    throw_usage({.where = "--random",
+                 .what = "streams of so many splats are not held in memory",
+                 .expected = fmt::format("at most {}", kMostSplats),
+                 .got = std::to_string(*arguments.random),
+                 .fix = "lower --random, raise --seeds"});
+  }
+}
+
 }  // namespace
 
 void declare(Options& options, VerifyArguments& to) {
@@ -114,6 +137,7 @@ Source source_from(const VerifyArguments& arguments) {
                  .got = {},
                  .fix = "add --random N, or leave them out"});
   }
+  check_numbers(arguments);
   if (!arguments.random && !arguments.save_stream.empty()) {
     throw_usage({.where = "--save-stream",
                  .what = "only random streams are not in a file yet",

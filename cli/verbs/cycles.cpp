@@ -229,8 +229,17 @@ ExitCode run(const Arguments& arguments) {
                  .got = {},
                  .fix = "give either --stream or a scene's flags"});
   }
+  refuse_display(arguments.scene);
+  require_file("--trace", arguments.trace);
   check(arguments.scaling, arguments.trace.empty() ? "" : "--trace");
   check(arguments.scaling, arguments.timeline ? "--timeline" : "");
+  if (arguments.timeline && arguments.common.json.empty()) {
+    throw_usage({.where = "--timeline",
+                 .what = "goes into the JSON, and there is none",
+                 .expected = {},
+                 .got = {},
+                 .fix = "add --json FILE, or --trace FILE for a timeline of its own"});
+  }
   check_outputs({.images = {},
                  .maps = {},
                  .raws = {},

@@ -122,6 +122,7 @@ void require_saveable(const scene::SceneDescription& description) {
 
 ExitCode run_still(const RenderArguments& arguments, const Renderer& renderer, const Output& output) {
   const scene::SceneDescription description = describe(arguments.scene);
+  require_file("--save-scene", arguments.save_scene);
   if (!arguments.save_scene.empty()) require_saveable(description);
   const scene::Scene scene = scene::build_scene(description);
   output.remark(remarks(*scene.volume));

@@ -50,6 +50,9 @@ void check(const Arguments& arguments, const std::vector<report::NamedPicture>& 
                  .got = {},
                  .fix = "add -o report.html, or leave it out"});
   }
+  require_file("--junit", arguments.junit);
+  require_file("--csv", arguments.csv);
+  require_file("--markdown", arguments.markdown);
   const auto end = ending(arguments.out);
   if (!arguments.out.empty() && end != ".html" && end != ".htm") {
     throw_usage({.where = arguments.out,

@@ -103,6 +103,7 @@ ExitCode run(const Arguments& arguments) {
                  .got = {},
                  .fix = "for example --out scene.fss"});
   }
+  refuse_display(arguments.scene);
   check_outputs(
       {.images = {},
        .maps = {},

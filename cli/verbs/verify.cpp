@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.hpp"
@@ -166,15 +167,17 @@ Checked check(const VerifyArguments& arguments, Source source, const testbench::
                                   : verify_random(arguments, options, bar.callback());
 }
 
-ExitCode run(const VerifyArguments& arguments) {
-  if (arguments.fault == "list") return list_faults(arguments);
+ExitCode verify_and_tell(const VerifyArguments& arguments) {
   const Output output(arguments.common);
   const Source source = source_from(arguments);
   const ConfigFlags config_flags = config_of(arguments);
   const std::string prefix = failure_prefix(arguments);
   const auto saved = saved_names(arguments, source);
   check_wave(arguments, source);
-  check_files(arguments, config_flags, source, prefix, saved);
+  refuse_display(arguments.scene);
+  require_file("--junit", arguments.junit);
+  require_file("--coverage", arguments.coverage);
+  check_files(arguments, config_flags, source, named);
   const auto config = load(config_flags);
   const auto options = options_from(arguments, config);
   check_coverage(arguments.coverage, config);
@@ -231,6 +234,27 @@ ExitCode run(const VerifyArguments& arguments) {
   output.json(json);
   arguments.common.json == "-" ? output.note(seed) : output.line(seed);
   return code;
+}
+
+ExitCode run(const VerifyArguments& arguments) {
+  if (arguments.fault == "list") return list_faults(arguments);
+  try {
+    return verify_and_tell(arguments);
+  } catch (const std::bad_alloc&) {
+    if (!arguments.stream.empty()) {
+      throw_input({.where = arguments.stream,
+                   .what = "not enough memory to verify it",
+                   .expected = {},
+                   .got = {},
+                   .fix = "record it at a smaller --size"});
+    }
+    if (!arguments.random) throw;  // a scene is what takes memory: told as everywhere
+    throw_input({.where = fmt::format("--random {}", *arguments.random),
+                 .what = "not enough memory for streams of so many splats",
+                 .expected = {},
+                 .got = {},
+                 .fix = "lower --random, raise --seeds; with fewer --jobs fewer of them are held at a time"});
+  }
 }
 
 }  // namespace

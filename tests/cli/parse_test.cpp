@@ -94,6 +94,45 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{"integer_with_fraction", {"render", "--xray-sheets", "2.5"}, {"--xray-sheets", "integer"}},
         Misuse{"threads_negative", {"render", "--threads", "-1"}, {"--threads", "'-1'"}}));
 
+INSTANTIATE_TEST_SUITE_P(
+    Verify, Usage,
+    ::testing::Values(
+        Misuse{"seeds_past_the_last",
+               {"verify", "--random", "9", "--config", "tiny", "--seed", "9223372036854775807", "--seeds", "2"},
+               {"--seed 9223372036854775807 --seeds 2", "at most 9223372036854775806"}},
+        Misuse{"more_splats_than_fit",
+               {"verify", "--random", "10000001", "--config", "tiny"},
+               {"--random", "at most 10000000", "lower --random, raise --seeds"}},
+        Misuse{"junit_to_stdout",
+               {"verify", "--random", "9", "--config", "tiny", "--junit", "-"},
+               {"--junit -", "only --json", "name a file"}},
+        Misuse{"coverage_to_stdout",
+               {"verify", "--random", "9", "--config", "tiny", "--coverage", "-"},
+               {"--coverage -", "name a file"}},
+        Misuse{"background_of_no_picture",
+               {"verify", "--volume", "shells:8", "--config", "tiny", "--background", "1,1,1"},
+               {"--background", "no picture is made", "render"}},
+        Misuse{"negative_of_no_picture",
+               {"verify", "--volume", "shells:8", "--config", "tiny", "--method", "xray", "--xray-invert", "on"},
+               {"--xray-invert", "no picture is made"}}));
+
+INSTANTIATE_TEST_SUITE_P(
+    OtherVerbs, Usage,
+    ::testing::Values(
+        Misuse{"cycles_background",
+               {"cycles", "--volume", "shells:8", "--background", "1,1,1"},
+               {"--background", "no picture is made"}},
+        Misuse{"record_background",
+               {"stream", "record", "--volume", "shells:8", "--background", "1,1,1", "-o", "/nonexistent/a.fss"},
+               {"--background", "no picture is made"}},
+        Misuse{"timeline_without_json",
+               {"cycles", "--volume", "shells:8", "--timeline"},
+               {"--timeline", "--json FILE", "--trace FILE"}},
+        Misuse{"trace_to_stdout", {"cycles", "--volume", "shells:8", "--trace", "-"}, {"--trace -", "name a file"}},
+        Misuse{"report_junit_to_stdout", {"report", "a.json", "--junit", "-"}, {"--junit -", "name a file"}},
+        Misuse{"report_csv_to_stdout", {"report", "a.json", "--csv", "-"}, {"--csv -", "name a file"}},
+        Misuse{"report_markdown_to_stdout", {"report", "a.json", "--markdown", "-"}, {"--markdown -", "name a file"}}));
+
 TEST(Parse, FlagsReachTheirFields) {
   const auto render = filled<RenderArguments, declare>({"verb",
                                                         "--volume",

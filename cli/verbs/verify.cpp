@@ -97,7 +97,7 @@ void check_files(const VerifyArguments& arguments, const ConfigFlags& config, So
 /// What the coverage file holds may be of another configuration, or no coverage: told before any work.
 void check_coverage(const std::string& path, const cmodel::Config& config) {
   if (path.empty() || !std::filesystem::exists(path)) return;
-  testbench::CoverageBook::of(config).merge(testbench::read_book(path));
+  testbench::read_book_for(path, config.name, cmodel::config_hash(config));
 }
 
 Gain save_coverage(const Checked& checked, const std::string& path, const cmodel::Config& config) {
@@ -213,8 +213,10 @@ ExitCode verify_and_tell(const VerifyArguments& arguments) {
   if (failed(verdict)) result.failure = look_into(checked, arguments, config_flags, prefix, output);
   if (const std::string rows = mismatches_text(result); !rows.empty()) output.line(rows);
   if (result.resets_late > 0) {
-    output.warn(fmt::format("--reset-after {}: {} of {} is shorter, and was reset after its last beat",
-                            *arguments.reset_after, grouped(result.resets_late), counted(result.streams, "stream")));
+    output.warn(fmt::format("--reset-after {}: {} of {} {}", *arguments.reset_after, grouped(result.resets_late),
+                            counted(result.streams, "stream"),
+                            result.resets_late == 1 ? "is shorter, and was reset after its last beat"
+                                                    : "are shorter, and were reset after their last beat"));
   }
   if (!arguments.coverage.empty() && verdict == testbench::Verdict::Pass) {
     result.coverage = save_coverage(checked, arguments.coverage, config);

@@ -90,11 +90,21 @@ CoverageBook read_book(const std::filesystem::path& path) {
       book_from);
 }
 
+CoverageBook read_book_for(const std::filesystem::path& path, const std::string& config, std::uint64_t hash) {
+  CoverageBook book = read_book(path);
+  if (book.config_hash == hash) return book;
+  throw UserError(ExitCode::NotComparable, {.where = path.string(),
+                                            .what = "holds coverage of another configuration",
+                                            .expected = config + " " + hash_text(hash),
+                                            .got = book.config + " " + hash_text(book.config_hash),
+                                            .fix = "name another file with --coverage"});
+}
+
 CoverageBook add_to_book(const std::filesystem::path& path, const CoverageBook& more) {
   const FolderLock lock(path);
   CoverageBook sum = more;
   if (std::filesystem::exists(path)) {
-    sum = read_book(path);
+    sum = read_book_for(path, more.config, more.config_hash);
     sum.merge(more);
   }
   write_book(path, sum);

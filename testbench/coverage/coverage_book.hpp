@@ -30,5 +30,7 @@ void write_book(const std::filesystem::path& path, const CoverageBook& book);
 CoverageBook add_to_book(const std::filesystem::path& path, const CoverageBook& more);
 /// Throws UserError (Input) for a file that is no coverage of this program.
 CoverageBook read_book(const std::filesystem::path& path);
+/// ... and (NotComparable) for one of another configuration than the run's, which `config` and `hash` name.
+CoverageBook read_book_for(const std::filesystem::path& path, const std::string& config, std::uint64_t hash);
 
 }  // namespace fastsplat::testbench

@@ -37,11 +37,28 @@ TEST(VerifyCoverage, AddsUpOverRuns) {
   EXPECT_GT(hits(book(file), "scene", "record.splat"), 0u);
   const auto other = random("small");
   EXPECT_EQ(other.code, 4);
-  EXPECT_NE(other.err.find("was taken with another configuration"), std::string::npos) << other.err;
+  EXPECT_NE(other.err.find("holds coverage of another configuration"), std::string::npos) << other.err;
   folder.write("d.json", "{}");
   const auto foreign = fastsplat({"verify", "--random", "50", "--config", "tiny", "--coverage", folder / "d.json"});
   EXPECT_EQ(foreign.code, 3);
   EXPECT_NE(foreign.err.find("is no coverage file"), std::string::npos) << foreign.err;
+}
+
+// Which file, what it should hold and what it holds, in that order, and the way out.
+TEST(VerifyCoverage, AnotherConfigurationsFileIsNamed) {
+  const TempFolder folder;
+  const std::string file = folder / "c.json";
+  const std::vector<std::string> run{"verify",   "--random", "50",         "--class", "hazards",
+                                     "--config", "tiny",     "--coverage", file};
+  ASSERT_EQ(fastsplat(run).code, 0);
+  auto other = book(file);
+  const std::string ours = other.at("config_hash");
+  other["config"] = "other";
+  other["config_hash"] = "00000000000000ff";
+  folder.write("c.json", other.dump());
+  expect_error(fastsplat(run), 4,
+               {file + ": holds coverage of another configuration",
+                "expected tiny " + ours + ", got other 00000000000000ff", "name another file with --coverage"});
 }
 
 // Processes that add to one file at the same time: the sum is that of all of them.

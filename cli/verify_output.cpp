@@ -124,13 +124,18 @@ Json mismatch_json(const VerifyReport& report, const testbench::StreamDivergence
 
 Failure investigate(const Checked& checked, const VerifyArguments& arguments, const ConfigFlags& config,
                     const std::string& prefix) {
-  Failure failure{.report = {}, .stream = prefix + ".fss", .waveform = prefix + ".fst", .replay = {}, .unwritten = {}};
+  Failure failure;
+  if (!prefix.empty()) {
+    failure.stream = prefix + ".fss";
+    failure.waveform = prefix + ".fst";
+  }
   failure.report =
       testbench::investigate(checked.source, checked.options, checked.failed, failure.waveform, kShrinkRuns);
   if (!failure.report.no_waveform.empty()) {
     failure.unwritten.push_back(failure.report.no_waveform);
     failure.waveform.clear();
   }
+  if (failure.stream.empty()) return failure;
   try {
     driver::write_beats(failure.stream, testbench::write_document(checked.options.config, failure.report.document));
     failure.replay = replay_line(failure.stream, config, failure.report.options, arguments.fault);
@@ -154,6 +159,15 @@ std::string to_text(const Failure& failure) {
          (failure.replay.empty() ? "" : "replay: " + failure.replay + "\n");
 }
 
+std::string in_short(testbench::Verdict verdict, const Failure& failure, const std::string& fault) {
+  std::string text = fault.empty() ? "" : "planted fault " + fault + ": ";
+  text += fmt::format("{}: {}", testbench::to_string(verdict), failure.report.original);
+  for (const auto& why : failure.unwritten) text += "; " + why;
+  if (!failure.waveform.empty()) text += "; waveform: " + failure.waveform;
+  if (!failure.replay.empty()) text += "; replay: " + failure.replay;
+  return text;
+}
+
 std::string to_text(const Gain& gain) {
   return fmt::format("coverage: {} of {} bins hit, in {}\n", gain.hit, gain.bins, gain.path);
 }
@@ -168,7 +182,7 @@ std::string planted_text(const VerifyArguments& arguments) {
 std::string to_text(const VerifyReport& result) {
   const auto& run = result.run;
   return planted_text(result.arguments) +
-         fmt::format("{}: configuration {} {}, {} comparisons, {} mismatches\n", testbench::to_string(run.verdict),
+         fmt::format("{}: configuration {} {}, {} comparisons, {}\n", testbench::to_string(run.verdict),
                      result.config.name, hash_text(cmodel::config_hash(result.config)), grouped(run.check.comparisons),
                      mismatches_text(run.check)) +
          fmt::format("{}, {}, {}, {}\n", counted(result.streams, "stream"), counted(run.counters.splats, "splat"),

@@ -18,7 +18,7 @@ struct Failure {
   std::vector<std::string> unwritten;    ///< why there is none
 };
 
-/// What cannot be written does not take the failure away.
+/// What cannot be written does not take the failure away. No files where the prefix is empty.
 Failure investigate(const Checked& checked, const VerifyArguments& arguments, const ConfigFlags& config,
                     const std::string& prefix);
 
@@ -50,6 +50,8 @@ struct VerifyReport {
 };
 
 std::string to_text(const Failure& failure);
+/// Verdict, first divergence and what shows it again, in one line. `fault`: that was planted; empty for none.
+std::string in_short(testbench::Verdict verdict, const Failure& failure, const std::string& fault);
 std::string to_text(const Gain& gain);
 /// The fault that was planted; empty for none.
 std::string planted_text(const VerifyArguments& arguments);

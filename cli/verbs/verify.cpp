@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "cli/failure_name.hpp"
 #include "cli/frame_names.hpp"
 #include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
@@ -20,20 +22,11 @@
 namespace fastsplat::cli {
 namespace {
 
-/// Where a failure's files go, without ending: never onto the stream that is verified, and not onto those of an earlier
-/// failure unless they were named.
-std::string failure_prefix(const VerifyArguments& arguments) {
-  if (!arguments.failure.empty()) return arguments.failure;
-  const std::string stem = arguments.stream.empty()
-                               ? "verify-failure"
-                               : std::filesystem::path(arguments.stream).replace_extension().string() + "-smaller";
-  std::error_code ignored;
-  const auto is_there = [&](const std::string& name) {
-    return std::filesystem::exists(name + ".fss", ignored) || std::filesystem::exists(name + ".fst", ignored);
-  };
-  std::string name = stem;
-  for (int number = 2; is_there(name); ++number) name = fmt::format("{}-{}", stem, number);
-  return name;
+/// Where a failure's files go, without ending and number, when they were not named: never onto the stream that is
+/// verified.
+std::string failure_stem(const VerifyArguments& arguments) {
+  return arguments.stream.empty() ? "verify-failure"
+                                  : std::filesystem::path(arguments.stream).replace_extension().string() + "-smaller";
 }
 
 /// A fault of the RTL brings the configuration that it is in.
@@ -82,12 +75,17 @@ void check_wave(const VerifyArguments& arguments, Source source) {
   }
 }
 
-void check_files(const VerifyArguments& arguments, const ConfigFlags& config, Source source, const std::string& prefix,
-                 const std::vector<std::string>& saved) {
+/// The results that were named. Those of a failure are only tried beforehand where they are among them: a run that
+/// passes writes none.
+std::vector<std::string> named_files(const VerifyArguments& arguments, const std::vector<std::string>& saved) {
+  auto names = joined({arguments.common.json, arguments.coverage, arguments.junit, arguments.wave.file}, saved);
+  return arguments.failure.empty() ? names : joined(names, failure_files(arguments.failure));
+}
+
+void check_files(const VerifyArguments& arguments, const ConfigFlags& config, Source source,
+                 const std::vector<std::string>& named) {
   OutputNames names;
-  names.others = {prefix + ".fss",    prefix + ".fst", arguments.common.json,
-                  arguments.coverage, arguments.junit, arguments.wave.file};
-  names.others.insert(names.others.end(), saved.begin(), saved.end());
+  names.others = named;
   names.inputs = inputs_of_config(config.config.value_or(""));
   if (source == Source::Stream) names.inputs.push_back(arguments.stream);
   if (source == Source::Scene) names.inputs = joined(names.inputs, inputs_of(arguments.scene));
@@ -132,17 +130,29 @@ bool failed(testbench::Verdict verdict) {
   return verdict == testbench::Verdict::Mismatch || verdict == testbench::Verdict::Simulation;
 }
 
-/// The first divergence as it was, then small, with its files.
+/// The first divergence as it was, then small, with its files; where they cannot be, that is told and takes nothing
+/// away. `named`: what the command writes besides.
 Failure look_into(const Checked& checked, const VerifyArguments& arguments, const ConfigFlags& config,
-                  const std::string& prefix, const Output& output) {
+                  const std::vector<std::string>& named, const Output& output) {
+  std::string prefix = arguments.failure, no_place;
+  std::optional<FailureName> name;
+  try {
+    if (prefix.empty()) prefix = name.emplace(failure_stem(arguments), named).prefix();
+  } catch (const UserError& error) {
+    no_place = error.what();
+  }
   std::error_code ignored;
-  for (const std::string& name : {prefix + ".fss", prefix + ".fst"}) {
-    if (std::filesystem::exists(name, ignored)) output.note(name + " of an earlier failure is replaced");
+  for (const std::string& file : failure_files(prefix)) {
+    if (!prefix.empty() && std::filesystem::exists(file, ignored))
+      output.note(file + " of an earlier failure is replaced");
   }
   output.line("first divergence: " + testbench::first_divergence(checked.failed, checked.options.config));
   Failure failure = investigate(checked, arguments, config, prefix);
+  if (!no_place.empty()) failure.unwritten.push_back(no_place);
   output.line(to_text(failure));
   for (const auto& why : failure.unwritten) output.warn(why);
+  // A verdict without a word is no use to whoever reads the log: errors are said, quiet or not.
+  if (arguments.common.quiet) print_error(in_short(checked.failed.verdict, failure, arguments.fault));
   return failure;
 }
 
@@ -171,8 +181,8 @@ ExitCode verify_and_tell(const VerifyArguments& arguments) {
   const Output output(arguments.common);
   const Source source = source_from(arguments);
   const ConfigFlags config_flags = config_of(arguments);
-  const std::string prefix = failure_prefix(arguments);
   const auto saved = saved_names(arguments, source);
+  const auto named = named_files(arguments, saved);
   check_wave(arguments, source);
   refuse_display(arguments.scene);
   require_file("--junit", arguments.junit);
@@ -210,7 +220,7 @@ ExitCode verify_and_tell(const VerifyArguments& arguments) {
   if (verdict == testbench::Verdict::FaultUnseen)
     output.warn(
         "this stimulus does not show the fault; try more splats, every --class, --ready all or --reset-after N");
-  if (failed(verdict)) result.failure = look_into(checked, arguments, config_flags, prefix, output);
+  if (failed(verdict)) result.failure = look_into(checked, arguments, config_flags, named, output);
   if (const std::string rows = mismatches_text(result); !rows.empty()) output.line(rows);
   if (result.resets_late > 0) {
     output.warn(fmt::format("--reset-after {}: {} of {} {}", *arguments.reset_after, grouped(result.resets_late),

@@ -1,0 +1,165 @@
+// The files of a failing verify: whose they are when several runs fail at once, that nothing of them stays when a run
+// is interrupted, and that where they cannot be written a verdict is a verdict.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <thread>
+
+#include "tests/cli/process_helper.hpp"
+
+namespace fastsplat::cli_test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+class VerifyFiles : public ::testing::Test {
+ protected:
+  void SetUp() override { here_.folder = folder_.path(); }
+  nlohmann::json told(const std::string& name) const { return nlohmann::json::parse(read_bytes(folder_ / name)); }
+
+  TempFolder folder_;
+  Surroundings here_;
+};
+
+Words failing(const std::string& seed, const Words& more) {
+  Words words{"verify", "--random", "500",       "--class", "mixed", "--config",
+              "tiny",   "--fault",  "PORT_SNAP", "--seed",  seed};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+TEST_F(VerifyFiles, OfRunsThatFailAtOnceAreEachItsOwn) {
+  const Words seeds{"1", "2", "3", "4", "5", "6"};
+  std::vector<std::thread> runs;
+  for (const auto& seed : seeds)
+    runs.emplace_back([&, seed] { fastsplat(failing(seed, {"--json", "told-" + seed + ".json"}), here_); });
+  for (auto& run : runs) run.join();
+  std::set<std::string> streams;
+  std::size_t alike = 0;
+  for (const auto& seed : seeds) {
+    const auto failure = told("told-" + seed + ".json").at("failure");
+    streams.insert(failure.at("stream"));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / failure.at("waveform").get<std::string>()));
+    // The line that was printed, run: it fails as the run did that printed it.
+    std::istringstream line(failure.at("replay").get<std::string>());
+    Words words{std::istream_iterator<std::string>(line), {}};
+    words.erase(words.begin());
+    words.insert(words.end(), {"--json", "again.json", "--failure", "again"});
+    EXPECT_EQ(fastsplat(words, here_).code, 1);
+    alike += told("again.json").at("failure").at("first") == failure.at("smallest") ? 1 : 0;
+  }
+  std::printf("[figure] streams = %zu, replay lines that are true = %zu (expected %zu)\n", streams.size(), alike,
+              seeds.size());
+  EXPECT_EQ(streams.size(), seeds.size());
+  EXPECT_EQ(alike, seeds.size());
+  EXPECT_TRUE(streams.contains("verify-failure.fss"));
+  EXPECT_TRUE(streams.contains("verify-failure-6.fss")) << "no number is left out";
+  for (const auto& name : folder_.entries()) EXPECT_FALSE(name.starts_with(".")) << name;
+}
+
+TEST_F(VerifyFiles, DoNotTakeANameOfTheSameCommand) {
+  const auto run = fastsplat(failing("1", {"--wave", "verify-failure.fst", "--json", "told.json"}), here_);
+  EXPECT_EQ(run.code, 1) << run.err;
+  EXPECT_EQ(told("told.json").at("failure").at("waveform"), "verify-failure-2.fst");
+  EXPECT_EQ(told("told.json").at("wave").at("file"), "verify-failure.fst");
+}
+
+// /proc takes no file of anybody's.
+TEST_F(VerifyFiles, AreNotNeededToPass) {
+  here_.folder = "/proc";
+  const auto run = fastsplat({"verify", "--random", "100", "--config", "tiny"}, here_);
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("pass: "), std::string::npos) << run.out;
+}
+
+TEST_F(VerifyFiles, ThatCannotBeLeaveTheVerdict) {
+  here_.folder = "/proc";
+  const auto run = fastsplat(failing("1", {"--json", "-"}), here_);
+  EXPECT_EQ(run.code, 1) << run.err;
+  EXPECT_NE(run.err.find("warning: verify-failure.fss: cannot write"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("--failure PREFIX"), std::string::npos) << run.err;
+  const auto failure = nlohmann::json::parse(run.out).at("failure");
+  EXPECT_EQ(failure.at("stream"), "");
+  EXPECT_EQ(failure.at("waveform"), "");
+  EXPECT_EQ(failure.at("unwritten").size(), 1u);
+  EXPECT_NE(failure.at("smallest"), "") << "it is made small all the same";
+  // A place that was named is tried before the run.
+  expect_error(fastsplat(failing("1", {"--failure", "mine"}), here_), 3, {"mine.fss"});
+}
+
+TEST_F(VerifyFiles, AreNamedOnStderrByAQuietRun) {
+  const auto run = fastsplat(failing("1", {"--quiet"}), here_);
+  EXPECT_EQ(run.code, 1);
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  for (const char* word : {"fastsplat: error: planted fault PORT_SNAP: mismatch: stage snap",
+                           "waveform: verify-failure.fst", "replay: fastsplat verify --stream verify-failure.fss"})
+    EXPECT_NE(run.err.find(word), std::string::npos) << word << run.err;
+}
+
+TEST_F(VerifyFiles, MismatchesThatAreNotCountedToTheEndSaySo) {
+  const auto verify = [&](const Words& more) {
+    Words words = {"verify", "--random", "20000", "--class", "mixed", "--config", "tiny", "--fault", "PORT_SHEET"};
+    words.insert(words.end(), more.begin(), more.end());
+    return fastsplat(words, here_);
+  };
+  const auto stopped = verify({"--json", "stopped.json"}),
+             all = verify({"--json", "all.json", "--all-mismatches", "1"});
+  EXPECT_NE(stopped.out.find("1,000 mismatches, stopped there"), std::string::npos) << stopped.out;
+  EXPECT_EQ(told("stopped.json").at("mismatches"), 1000);
+  EXPECT_EQ(told("stopped.json").at("stopped"), true);
+  const std::uint64_t number = told("all.json").at("mismatches");
+  std::printf("[figure] mismatches to the end = %llu (limit > 1000)\n", static_cast<unsigned long long>(number));
+  EXPECT_GT(number, 1000u);
+  EXPECT_EQ(told("all.json").at("stopped"), false);
+  EXPECT_EQ(all.out.find("stopped there"), std::string::npos) << all.out;
+}
+
+/// True once the simulator writes a waveform in the folder.
+bool waveform_begun(const TempFolder& folder) {
+  const auto names = folder.entries();
+  return std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.ends_with(".hier"); });
+}
+
+// The signal goes to the program alone, as `kill` sends it: what writes the waveform has to end with it, and is waited
+// for by whoever reads its stdout.
+TEST_F(VerifyFiles, OfAnInterruptedWaveformAreGone) {
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    here_.signal = signal;
+    auto begin = std::chrono::steady_clock::now();
+    here_.when = [&](pid_t) {
+      begin = std::chrono::steady_clock::now();
+      return waveform_begun(folder_);
+    };
+    const auto run =
+        fastsplat({"verify", "--random", "20000", "--class", "mixed", "--config", "tiny", "--wave", "run.fst"}, here_);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    std::printf("[figure] signal %d: the last writer of stdout was gone after %.1f s (limit 5)\n", signal, seconds);
+    EXPECT_LT(seconds, 5.0) << "the waveform was written to its end";
+    EXPECT_FALSE(run.timed_out);
+    EXPECT_EQ(run.out.find("waveform:"), std::string::npos) << "the signal came too late";
+    if (signal == SIGKILL) continue;  // nobody is left to remove anything
+    EXPECT_EQ(run.code, 128 + signal) << run.err;
+    ::usleep(100'000);
+    EXPECT_EQ(folder_.entries(), Words{});
+  }
+}
+
+// A stream is held whole: where memory does not take it, the line says what makes it smaller.
+TEST_F(VerifyFiles, AStreamThatMemoryDoesNotTakeIsRefused) {
+  const auto run = run_words(
+      {"sh", "-c", "ulimit -v 700000; exec \"$0\" verify --random 10000000 --class mixed --config tiny", program()},
+      here_);
+  EXPECT_EQ(run.code, 3) << run.err;
+  EXPECT_NE(run.err.find("--random 10000000: not enough memory"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("lower --random, raise --seeds"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace fastsplat::cli_test

@@ -199,10 +199,13 @@ bool make_folder(const std::filesystem::path& folder) {
   const bool lies = std::filesystem::is_directory(parent, error);
   const bool made = lies && std::filesystem::create_directory(plain, error);
   if (lies && !error && std::filesystem::is_directory(plain)) return made;
+  // Of a file that is in the way libraries say either nothing or that there is one.
+  std::error_code ignored;
+  const bool in_the_way = lies && std::filesystem::exists(plain, ignored);
   throw_input({.where = folder.string(),
-               .what = "cannot be made a folder: " + (!lies   ? "the folder " + parent.string() + " does not exist"
-                                                      : error ? error.message()
-                                                              : "it is a file"),
+               .what = "cannot be made a folder: " + (!lies        ? "the folder " + parent.string() + " does not exist"
+                                                      : in_the_way ? "it is a file"
+                                                                   : error.message()),
                .expected = {},
                .got = {},
                .fix = "choose another name"});

@@ -105,6 +105,7 @@ class VerilatedCore final : public CoreDevice {
     top_->arvalid_i = 1;
     cycle();
     top_->arvalid_i = 0;
+    cycle();  // in which it is read
     const std::uint32_t word = top_->rdata_o;
     cycle();
     return word;

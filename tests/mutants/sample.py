@@ -16,7 +16,7 @@ FIXED = [
     ("rvalid_o <= 1'b1;", "1'b1 becomes 0 of 1'b1", "random"),
     ("rresp_o <= OKAY;", "dropped", "random"),
     ("rdata_o <= '0;", "dropped", "registers"),
-    ("if (!is_counter) begin", "always of !is_counter", "random"),
+    ("if (chosen_q == '0) begin", "always of chosen_q == '0", "random"),
     ("assign write = awvalid_i && wvalid_i && !bvalid_o;", "&& becomes || of awvalid_i && wvalid_i", "registers"),
     ("else counter_q[n] <= counter_q[n] + CB'(increments_i[16*n+:16]);", "dropped", "random"),
 ]

@@ -2,6 +2,7 @@
 #include "driver/config_file.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -18,7 +19,9 @@ class ConfigFile : public ::testing::Test {
   }
   void TearDown() override { std::filesystem::remove(path_); }
 
-  std::filesystem::path path_ = std::filesystem::path(::testing::TempDir()) / "fastsplat_config_file_test.toml";
+  /// Its own of every process: tests run side by side.
+  std::filesystem::path path_ = std::filesystem::path(::testing::TempDir()) /
+                                ("fastsplat_config_file_test-" + std::to_string(::getpid()) + ".toml");
 };
 
 TEST_F(ConfigFile, every_named_configuration_is_read_back) {

@@ -1,6 +1,7 @@
 // The driver against docs/numerics.md, section 8: every beat of random frames, over all configurations, methods and
 // both projections; and the ends of the formats, exactly.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -267,7 +268,8 @@ TEST(DriverOracle, ARecordedStreamIsTheWholePage) {
     std::vector<scene_oracle::Beat> expected = frame.preamble;
     for (const auto& tile : frame.tiles) expected.insert(expected.end(), tile.begin(), tile.end());
     expected.push_back(scene_oracle::end_frame(frame));
-    const auto path = std::filesystem::path(::testing::TempDir()) / ("oracle_" + name + ".fss");
+    const auto path =
+        std::filesystem::path(::testing::TempDir()) / ("oracle_" + std::to_string(::getpid()) + name + ".fss");
     record_stream(scene, config, path);
     std::vector<cmodel::Beat> got;
     read_beats(path, [&](std::span<const cmodel::Beat> beats) { got.insert(got.end(), beats.begin(), beats.end()); });

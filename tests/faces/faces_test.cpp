@@ -2,6 +2,7 @@
 #include "report/faces/faces.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -81,7 +82,7 @@ TEST(Faces, JunitHasACasePerGate) {
   std::printf("[figure] gates = %zu, failures = %zu, errors = %zu (limit > 0)\n", gates, failures, errors);
   EXPECT_EQ(gates, 3u + 1 + 2 + 1 + 1 + 1 + 1 + 3 + 1 + 1 + 1 + 4 + 1 + 5);
   EXPECT_EQ(failures, 1u + 1 + 1 + 3 + 2);  // compare, propose, plan, verify, closure
-  EXPECT_EQ(errors, 1u);                // plan
+  EXPECT_EQ(errors, 1u);                    // plan
   EXPECT_EQ(count(xml, "<testcase "), gates);
   EXPECT_EQ(count(xml, "<failure "), failures);
   EXPECT_EQ(count(xml, "<error "), errors);
@@ -127,7 +128,7 @@ TEST(Faces, JunitIsWhatBuildServersRead) {
   Json odd = results.front().json;
   odd["limits"][0]["name"] = "ctl \x01 & <tag> \"quoted\" \xEF\xBF\xBF \xC3\xA4";
   results.push_back({.file = "odd <&>.json", .verb = "compare", .json = odd});
-  const std::string file = ::testing::TempDir() + "fastsplat-faces-junit.xml";
+  const std::string file = ::testing::TempDir() + "fastsplat-faces-junit-" + std::to_string(::getpid()) + ".xml";
   std::ofstream(file, std::ios::binary) << to_junit(results);
   const auto lint = [&] {
     return std::system(

@@ -212,17 +212,21 @@ TEST(FastUnit, RandomStreamsOfSamples) {
   EXPECT_GT(all.frozen, 1000u);
 }
 
+/// Tables of one set of one window, whose every pixel weighs 1.0, or the most that a weight can be.
+void load_flat_footprint(StreamWriter& stream, const cmodel::Config& config) {
+  const auto extent = static_cast<std::uint32_t>(config.lanes), phases = static_cast<std::uint32_t>(config.phases);
+  stream.load_table(0, 0, extent * phases / 2, 0, std::vector<std::uint32_t>(std::size_t{phases} * extent, 0));
+  const auto weight =
+      static_cast<std::uint32_t>(std::min(config.weight_format().max, std::int64_t{1} << config.radial_frac_bits));
+  stream.load_table(1, 0, 0, 0, std::vector<std::uint32_t>(static_cast<std::size_t>(config.radial_entries), weight));
+}
+
 /// A tile that freezes whole, and then `splats` on one place behind it, each of two fifths of the largest red and of
 /// `above` sixteenths less tau.
 std::vector<std::uint8_t> hidden_stream(const cmodel::Config& config, int mode, int splats, std::uint32_t above) {
   StreamWriter stream(symbols_of(config));
-  const auto size = [](std::int64_t n) { return static_cast<std::size_t>(n); };
-  const auto extent = static_cast<std::uint32_t>(config.lanes), phases = static_cast<std::uint32_t>(config.phases);
   stream.begin_frame(config.tile_width, config.tile_height, 1);
-  stream.load_table(0, 0, extent * phases / 2, 0, std::vector<std::uint32_t>(size(phases) * extent, 0));
-  const auto weight =
-      static_cast<std::uint32_t>(std::min(config.weight_format().max, std::int64_t{1} << config.radial_frac_bits));
-  stream.load_table(1, 0, 0, 0, std::vector<std::uint32_t>(size(config.radial_entries), weight));
+  load_flat_footprint(stream, config);
   std::vector<std::uint32_t> factor;
   for (int i = 0; i <= config.opacity_segments; ++i) {
     const double tau = std::ldexp(i, config.sheet_int_bits) / config.opacity_segments;
@@ -292,16 +296,11 @@ TEST(FastUnit, SetsLeftOutEndWithTheirTile) {
     cmodel::Config config = named_config(name);
     config.cull_map = static_cast<int>(cmodel::CullMap::Block);
     StreamWriter stream(symbols_of(config));
-    const auto size = [](std::int64_t n) { return static_cast<std::size_t>(n); };
-    const auto extent = static_cast<std::uint32_t>(config.lanes), phases = static_cast<std::uint32_t>(config.phases);
     const auto largest = static_cast<std::uint32_t>(config.colour_format().max);
     const auto word = [&](int pixel) { return pixel * (1 << config.position_frac_bits); };
     stream.begin_frame(2 * config.tile_width, config.tile_height, 2);
-    stream.load_table(0, 0, extent * phases / 2, 0, std::vector<std::uint32_t>(size(phases) * extent, 0));
-    stream.load_table(1, 0, 0, 0,
-                      std::vector<std::uint32_t>(size(config.radial_entries),
-                                                 static_cast<std::uint32_t>(config.weight_format().max)));
-    stream.load_table(2, 0, 0, 0, std::vector<std::uint32_t>(size(config.opacity_segments + 1), 1));
+    load_flat_footprint(stream, config);
+    stream.load_table(2, 0, 0, 0, std::vector<std::uint32_t>(static_cast<std::size_t>(config.opacity_segments) + 1, 1));
     // A box without a pixel of the tile is hidden.
     stream.begin_tile(1, 0, 0, 0, config.tile_width, config.tile_height);
     stream.begin_sheet(0);

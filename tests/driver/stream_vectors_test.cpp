@@ -103,6 +103,7 @@ TEST_F(StreamVectors, AFolderIsMadeInOneThatIsThere) {
   refuse(stream, folder_ / "no" / "v", "no does not exist");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "no"));
   refuse(stream, stream, "it is a file");
+  refuse(stream, folder_ / std::string(300, 'v'), "name too long");
   refuse(folder_ / "none.fss", folder_ / "v", "none.fss");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "v")) << "nothing was written there";
   figure("folders refused", refused);

@@ -91,7 +91,9 @@ std::string tools(const Json& design) {
 
 std::string placement(const Json& design) {
   const Json& placed = design.at("placement");
-  std::string out = fmt::format("Placed ({}): **{} MHz**", tools(design), placed.at("fmax_mhz").get<double>());
+  std::string out =
+      fmt::format("### {}, {}, placed\n\n{}: **{} MHz**", design.at("design").get<std::string>(),
+                  design.at("family").get<std::string>(), tools(design), placed.at("fmax_mhz").get<double>());
   for (const auto& [kind, used] : placed.at("used").items())
     out += fmt::format(", {} {} of {}", kind, used.at(0).get<int>(), used.at(1).get<int>());
   if (placed.contains("bitstream_bytes"))
@@ -297,7 +299,7 @@ std::string page(const std::filesystem::path& folder, const nlohmann::ordered_js
       "has: refused at the model's beat by the "
       "model's rule, by rule; the open tile closed as the model closes it; a good frame, right in every tap and cycle, "
       "behind each.\n\n";
-  for (const char* name : {"refusals", "refusals_base"}) {
+  for (const char* name : {"refusals", "refusals_base", "refusals_features"}) {
     const auto refusals = read(folder / (std::string(name) + ".json"));
     out += refusals ? figures_table(*refusals, now) : missing("such streams", "./run evidence");
   }

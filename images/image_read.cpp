@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/read_file.hpp"
 #include "images/codec.hpp"
+#include "images/exr_check.hpp"
 #include "images/image_file.hpp"
 #include "images/png_check.hpp"
 
@@ -50,9 +51,15 @@ LoadedImage read_image(const std::filesystem::path& path) {
     if (format == nullptr) {
       refuse({{}, "not an image", "EXR, PNG, TIFF or JPEG", {}, "name an image file, or write it again"});
     }
-    if (std::strcmp(format, "png") == 0) {
-      const std::string defect = png_defect(bytes);
-      if (!defect.empty()) refuse({{}, "corrupt or truncated PNG: " + defect, {}, {}, "write the file again"});
+    const bool png = std::strcmp(format, "png") == 0;
+    if (png || std::strcmp(format, "openexr") == 0) {
+      const std::string defect = png ? png_defect(bytes) : exr_defect(bytes);
+      if (!defect.empty())
+        refuse({{},
+                std::string("corrupt or truncated ") + (png ? "PNG: " : "EXR: ") + defect,
+                {},
+                {},
+                "write the file again"});
     }
     // The decoder fills up with grey what a cut file lacks.
     if (std::strcmp(format, "jpeg") == 0 && file.rfind("\xff\xd9") == std::string::npos)

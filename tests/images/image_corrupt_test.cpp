@@ -159,6 +159,26 @@ TEST(DamagedImage, SizeThatLiesCostsNoMemory) {
   EXPECT_LT(grown, 272);
 }
 
+TEST(DamagedImage, LengthOfAnAttributeThatLiesCostsNoMemory) {
+  const TempFolder folder;
+  write(folder / "a.exr", PixelKind::Float);
+  std::string bytes = file_text(folder / "a.exr");
+  const std::string name = std::string("fastsplat:engine") + '\0' + "string" + '\0';
+  const std::size_t at = bytes.find(name);
+  ASSERT_NE(at, std::string::npos);
+  const std::int32_t length = 0x7fffffff;
+  bytes.replace(at + name.size(), sizeof(length), reinterpret_cast<const char*>(&length), sizeof(length));
+  write_bytes(folder / "lie.exr", bytes);
+  std::ofstream("/proc/self/clear_refs") << "5";
+  const long before = peak_resident_mib();
+  const std::string message = refusal(ExitCode::Input, [&] { read_image(folder / "lie.exr"); });
+  const long grown = peak_resident_mib() - before;
+  EXPECT_THAT(message, HasSubstr("corrupt or truncated EXR: an attribute of 2147483647 bytes"));
+  std::printf("[figure] memory for an attribute that promises 2 GiB = %ld MiB (limit 1)\n", grown);
+  EXPECT_GT(before, 0);
+  EXPECT_LE(grown, 1);
+}
+
 /// Soft limit on file sizes; without the signal, writing beyond it fails as on a full disk.
 class SmallDisk {
  public:

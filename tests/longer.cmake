@@ -1,26 +1,112 @@
-# Tests of fast files that take more than a second and a half of a processor: `./run test` has them, `./run test -L fast`, which is to
-# stay under a minute, does not. (ctest says nothing of names that no test has; the test of the tree does.)
-set_tests_properties(
+# Tests of fast files that take more than some half a second of a processor: they are labelled slow. `./run test` has them,
+# `./run test -L fast`, which is to stay under a minute of wall on two processors, does not.
+set(fastsplat_longer_tests
+  cli.Index.IsRefusedInOneLineWhereItCannotBe
+  cmodel.Configs/Culling.ModelEqualsOracle/base_pixel
+  cmodel.Configs/Culling.ModelEqualsOracle/ellipse_block
+  cmodel.Configs/Culling.ModelEqualsOracle/ellipse_pixel
+  cmodel.Configs/EverySample.ModelEqualsOracle/ellipse
+  cmodel.Configs/NamedFrames.ModelEqualsOracle/base
+  cmodel.Configs/NamedFrames.ModelEqualsOracle/compact
+  cmodel.Configs/NamedFrames.ModelEqualsOracle/ellipse
+  cmodel.Configs/NamedFrames.ModelEqualsOracle/exact
+  cmodel.Configs/NamedFrames.ModelEqualsOracle/fine
+  cmodel.Configs/NamedFrames.ModelEqualsOracle/wide
+  cmodel.Configs/NamedFrames.ModelEqualsOracle/year2000
+  cmodel.CullCycles.AreThoseOfAClock
+  cmodel.CullingRandom.ModelEqualsOracleOnRandomConfigurations
+  cmodel.CullingRandom.NoWordOfThePictureDependsOnTheMap
+  cmodel.Densities.ModelEqualsOracleOnRandomConfigurations
+  cmodel.EllipseLimits.WidestAndNarrowestWords
+  cmodel.Kinds/EllipseFrames.ModelEqualsOracleOnRandomConfigurations/blit2d
+  cmodel.Kinds/EllipseFrames.ModelEqualsOracleOnRandomConfigurations/rlut
+  cmodel.Kinds/EllipseFrames.ModelEqualsOracleOnRandomConfigurations/separable
+  cmodel.Kinds/EllipseFrames.ModelEqualsOracleOnRandomConfigurations/squared_elliptic
+  cmodel.Kinds/Family.ModelEqualsOracleOnRandomConfigurations/blit2d
+  cmodel.Kinds/Family.ModelEqualsOracleOnRandomConfigurations/linear
+  cmodel.Kinds/Family.ModelEqualsOracleOnRandomConfigurations/squared
+  cmodel.Kinds/Family.ModelEqualsOracleOverPhasesEntriesAndRoundings/blit2d
+  cmodel.Limits.EveryCornerOfTheWordLengths
+  cmodel.Limits.WidestAndNarrowestDevice
+  cmodel.Patterns.ModelEqualsOracleOnRandomConfigurations
+  cmodel.RandomFrames.ModelEqualsOracleOnRandomConfigurations
+  cmodel.StreamFuzz.DamagedPartsNeverDoWorseThanAUserError
+  cmodel.StreamFuzz.DamagedStreamsMeetTheSameVerdict
+  cmodel.StreamRules.EverySingleBitCountsAsTheOracleSays
+  cmodel.Units.AccumulateEveryColourWeightAndSum
+  cmodel.Units.CompositeEveryTransmittanceColourAndOpacity
+  cmodel.Units.SlabEverySumAndTable
   driver.Budget.fine_errs_less_than_base_from_far_and_near
   driver.CulledFrames.AreTheFramesWithout
   driver.CulledFrames.CostNextToNothingWhereNothingHides
+  driver.CulledFrames.CycleModelCountsWhatTheModelCounts
+  driver.DriverOracle.EveryBeatOfEveryConfigurationMethodAndProjection
+  driver.EllipseOracle.EveryBeatOfEveryTechniqueAndMethod
   driver.EllipseOracle.EveryBeatOfRandomConfigurations
+  driver.Frames.threads_do_not_matter
   driver.Frames.tiled_equals_untiled_bit_for_bit
+  driver.Kinds/DriverFamily.EveryBeatIsThePages/blit2d
+  driver.Kinds/DriverFamily.EveryBeatIsThePages/linear
+  driver.Kinds/DriverFamily.EveryBeatIsThePages/separable
+  driver.Kinds/DriverFamily.EveryBeatIsThePages/squared
+  driver.Kinds/DriverFamily.EveryBeatIsThePages/squared_elliptic
+  driver.Oblique.APitchedScanStandsUprightInEveryMethodAndEngine
+  driver.PatternTables.StripesAreAsNearAsTheirNodesAllow
+  driver.PatternsOnDevice.AmplitudeZeroChangesNoBit
   driver.PatternsOnDevice.BumpsAreWithin60DbOfGoldens
+  driver.PatternsOnDevice.SheetsOfColoursAreTinted
+  driver.PatternsOnDevice.TexturesAreWithin60DbOfGoldens
   driver.PostOnDevice.fine_is_within_57_db_of_golden
   driver.PostOnDevice.perspective_is_within_50_db_of_golden_where_radius_sets_are_many
+  driver.RoundingCarry.DoesNotDependOnThreads
+  driver.TexturedOnDevice.PerspectiveHasPicturesOfSeveralRadii
+  driver.TexturedOnDevice.TheMorePlacesTheNearerToGolden
+  driver.TexturedOnDevice.WhatADeviceCannotIsRefused
+  driver.View.FitContentFillsThePictureWithWhatIsNotEmpty
   errors.Ranges.OfAFrameSaturateAsOftenAsTheDeviceCounts
+  fetch.FetchedDevice.DrawsTheModelsPictureFromAnyMemory
+  golden.Antialias.PixelsBeforeTheCrossoverKeepEveryBit
+  golden.Antialias.TunnelAliasesFiftyTimesLess
+  golden.BumpMapping.ChangesTheLightOnlyAndNothingAtAmplitudeZero
+  golden.Convergence.OrderInTheSlabWidth
+  golden.Convergence.ThinSlabsAgreeWithRays
+  golden.Convergence.ThinSlabsAgreeWithRaysOnAnAnisotropicGrid
   golden.DemoScenes.TheFireMovesAndComesBack
+  golden.DemoScenes.TheTerrainIsTheSameOnEveryMachine
+  golden.Flatness.FieldOfSummedKernels
+  golden.FrameSweep.RefusesMoreSheetsThanMemoryHolds
+  golden.FrameSweep.WithoutStagesItIsTheBandSweep
+  golden.OcclusionCulling.NotABitOfThePictureChanges
+  golden.Popping.RayCasterDoesNotPop
+  golden.PostClassified.NormalsOfABall
+  golden.PostClassified.VoxelsThatCannotMatterAreNotSplatted
+  golden.SolidTexture.AmplitudeZeroIsNoTexture
+  golden.TexturedSplats.AmplitudeZeroIsOffToTheLastBit
+  golden.TexturedSplats.AnyNumberOfThreadsGivesTheSameBits
+  golden.TexturedSplats.MeanOverTheCycleIsThePlainSplat
+  golden.TexturedSplats.StandStillUnlessCycledAndComeBack
+  golden.XRay.ManySheetsInAWideImage
+  mustfail.Culling.EachEventHappensInItsCycle
+  mustfail.Culling.RandomStreamsOfEveryClass
   mustfail.Culling.RefusesWhatTheModelRefuses
+  mustfail.EllipseFrames.TheDeviceEqualsTheModel
+  mustfail.EverySample.EachEventHappensInItsCycle
   mustfail.EverySample.RandomStreamsOfEveryClass
   mustfail.MustPass.TheBreakableDeviceWithNoFaultSelected
   mustfail.PlantedFault.IsSeenByRandomStreams
+  mustfail.PlantedFault.WithoutOneTheSameStreamsPass
   mustfail.PostClassified.DamagedStreamsMeetTheModelsVerdict
   mustfail.PostClassified.EachEventHappensInItsCycle
   mustfail.PostClassified.FramesEqualTheModel
   mustfail.PostClassified.RandomStreamsOfEveryClass
   mustfail.PostClassified.RefusesWhatTheModelRefuses
   plan.PlanRun.AFailingCaseIsAResultAndTheOthersGoOn
+  plan.PlanRun.TwoCopiesAtOnceDoNoHarm
   stages.Chain.AllDeviceIsTheIntegerModelBitForBit
+  stages.Chain.AllDeviceIsTheIntegerModelForEveryKindOfIndex
+  stages.Chain.EverySampleAllDeviceIsTheIntegerModel
   stages.DensityChain.AllDeviceIsTheIntegerModelBitForBit
-  PROPERTIES LABELS slow)
+  stages.DensityChain.AllDeviceIsTheIntegerModelForEveryKindOfIndex
+  testbench.Configurations/DirectedRefusals.StreamsThatBreakARuleAreRefusedAsTheModelRefusesThem/small
+  testbench.Rtl/EachConfig.RandomStreamsUnderPairsOfPatterns/base
+  volume.VolumeFuzz.LoadsOrRefuses)

@@ -204,32 +204,6 @@ TEST(Architecture, EveryFileSaysWhatItIsFor) {
 }
 
 // The checks above are only worth something if they notice: each against a small tree that breaks its rule.
-
-// tests/longer.cmake labels tests by their names; of names that no test has ctest says nothing.
-TEST(Architecture, LongerTestsAreTestsThatThereAre) {
-  const auto text_of = [](const std::filesystem::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-  };
-  const std::filesystem::path tests = std::filesystem::path(FASTSPLAT_SOURCE_DIR) / "tests";
-  const std::string list = text_of(tests / "longer.cmake");
-  static const std::regex name(R"(\n  ([a-z]+)\.(\w+)\.(\w+))");
-  int names = 0;
-  for (std::sregex_iterator match(list.begin(), list.end(), name), end; match != end; ++match, ++names) {
-    const std::string folder = (*match)[1], declared = "TEST(" + (*match)[2].str() + ", " + (*match)[3].str() + ")";
-    bool found = false;
-    for (const auto& entry : std::filesystem::directory_iterator(tests / folder)) {
-      const std::string file = entry.path().filename();
-      found = found || (file.ends_with("_test.cpp") && !file.ends_with("_slow_test.cpp") &&
-                        text_of(entry.path()).find(declared) != std::string::npos);
-    }
-    EXPECT_TRUE(found) << folder << ": no " << declared << " in a fast file, but tests/longer.cmake names it";
-  }
-  std::printf("[figure] longer tests looked up = %d\n", names);
-  EXPECT_GT(names, 0);
-}
-
 TEST(ArchitectureMustFail, AnIncludeAgainstTheArrowIsNamed) {
   int checked = 0;
   const auto offences = arrow_offences(

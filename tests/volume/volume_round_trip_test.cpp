@@ -29,7 +29,9 @@ class RoundTrip : public TemporaryFolder, public ::testing::WithParamInterface<s
 };
 
 TEST_P(RoundTrip, KeepsEveryVoxelAndTheSpacing) {
-  const auto& [kind, ending] = GetParam();
+  // Names of their own: Clang 14 takes no structured binding into a lambda.
+  const auto& kind = std::get<0>(GetParam());
+  const auto& ending = std::get<1>(GetParam());
   const float step = (kind.high - kind.low) / 59.0f;
   const Volume out = make_volume({3, 4, 5}, {0.5, 1.25, 3.0}, kind.type, [&](int i, int j, int k) {
     const int n = i + 3 * j + 12 * k;
@@ -76,14 +78,15 @@ class SaveVolume : public TemporaryFolder {
 };
 
 TEST_F(SaveVolume, RefusesValuesThatDoNotFit) {
-  for (const auto& [value, type] : {std::pair{256.0f, VoxelType::U8},
-                                    {-1.0f, VoxelType::U8},
-                                    {0.5f, VoxelType::U16},
-                                    {128.0f, VoxelType::I8},
-                                    {65536.0f, VoxelType::U16},
-                                    {-32769.0f, VoxelType::I16}}) {
+  for (const auto& wrong : {std::pair{256.0f, VoxelType::U8},
+                            {-1.0f, VoxelType::U8},
+                            {0.5f, VoxelType::U16},
+                            {128.0f, VoxelType::I8},
+                            {65536.0f, VoxelType::U16},
+                            {-32769.0f, VoxelType::I16}}) {
     const auto path = folder_ / "out.nrrd";
-    EXPECT_THAT(refusal([&] { save_volume(with(value, VoxelType::F32), path, type); }), HasSubstr("at (1, 1, 1)"));
+    EXPECT_THAT(refusal([&] { save_volume(with(wrong.first, VoxelType::F32), path, wrong.second); }),
+                HasSubstr("at (1, 1, 1)"));
     EXPECT_FALSE(std::filesystem::exists(path));
   }
 }

@@ -28,6 +28,7 @@ CheckerSetup setup_of(const char* call, const cmodel::Config& config, const fast
   require_scope(call, options->scope);
   if (options->scope == FASTSPLAT_SUBSET) setup.scope = cmodel::StreamScope::Subset;
   if (options->stop_after > 0) setup.stop_after = options->stop_after;
+  setup.verdicts = options->verdicts != 0;
   const auto text = [](const char* pattern) { return pattern == nullptr ? "always" : pattern; };
   setup.patterns = testbench::patterns_of(text(options->input_pattern), text(options->output_pattern), options->seed);
   return setup;
@@ -101,7 +102,7 @@ extern "C" FASTSPLAT_API fastsplat_status fastsplat_checker_port_words(const fas
   return guarded(__func__, [&](const char* call) {
     const auto& of = live(call, checker);
     require(call, "out", out);
-    if (port >= FASTSPLAT_PORTS) misuse(call, "unknown port", "at most 5", std::to_string(port));
+    if (port >= FASTSPLAT_PORTS) unknown_port(call, port);
     *out = port_words(of.setup.config, port);
     return FASTSPLAT_OK;
   });

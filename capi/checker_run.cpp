@@ -11,7 +11,7 @@
 namespace fastsplat::capi {
 namespace {
 
-static_assert(FASTSPLAT_PORT_PIXELS == static_cast<int>(testbench::RawPort::Pixels));
+static_assert(FASTSPLAT_PORT_VERDICT == static_cast<int>(testbench::RawPort::Verdict));
 static_assert(FASTSPLAT_TAPS == static_cast<int>(testbench::Detector::Tiles));
 
 std::uint32_t blocks(const cmodel::Config& config) {
@@ -40,10 +40,17 @@ std::size_t port_words(const cmodel::Config& config, std::uint32_t port) {
   }
 }
 
+void unknown_port(const char* call, std::uint32_t port) {
+  misuse(call, "unknown port", "at most " + number(FASTSPLAT_PORTS - 1), number(port));
+}
+
 CheckerRun::CheckerRun(CheckerSetup setup)
     : setup_(std::move(setup)),
       checker_(setup_.config, setup_.scope, pixels_,
-               {.stop_after = setup_.stop_after, .source = &setup_.patterns.input, .sink = &setup_.patterns.ready}) {}
+               {.stop_after = setup_.stop_after,
+                .source = &setup_.patterns.input,
+                .sink = &setup_.patterns.ready,
+                .verdicts = setup_.verdicts}) {}
 
 void CheckerRun::require_open(const char* call) const {
   if (finished_) misuse(call, "the checker is finished; reset it for another stream");
@@ -75,7 +82,7 @@ void CheckerRun::took(const char* call, const std::uint32_t* words, std::size_t 
 
 void CheckerRun::showed(const char* call, const fastsplat_shown& shown) {
   require_open(call);
-  if (shown.port >= FASTSPLAT_PORTS) misuse(call, "unknown port", "at most 5", number(shown.port));
+  if (shown.port >= FASTSPLAT_PORTS) unknown_port(call, shown.port);
   if (shown.cycle < cycle_) misuse(call, "cycles went back", "at least " + number(cycle_), number(shown.cycle));
   const std::size_t words = port_words(setup_.config, shown.port);
   if (shown.word_count != words)
@@ -85,6 +92,9 @@ void CheckerRun::showed(const char* call, const fastsplat_shown& shown) {
     misuse(call, "no such block in a tile", "below " + number(blocks(setup_.config)), number(shown.block));
   cycle_ = shown.cycle;
   if (stopped()) return;
+  const auto given = [&](std::uint32_t bit, std::uint32_t value) {
+    return (shown.given & bit) != 0 ? std::optional(value) : std::nullopt;
+  };
   checker_.on_raw({.port = static_cast<testbench::RawPort>(shown.port),
                    .cycle = shown.cycle,
                    .tag = shown.tag,
@@ -94,6 +104,10 @@ void CheckerRun::showed(const char* call, const fastsplat_shown& shown) {
                    .my = shown.my,
                    .block = shown.block,
                    .last = shown.last != 0,
+                   .cut = shown.cut != 0,
+                   .hidden = shown.hidden != 0,
+                   .keep = given(FASTSPLAT_GIVEN_KEEP, shown.keep),
+                   .tile = given(FASTSPLAT_GIVEN_TILE, shown.tile),
                    .words = {shown.words, words}});
 }
 

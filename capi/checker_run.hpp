@@ -17,10 +17,12 @@ struct CheckerSetup {
   cmodel::StreamScope scope = cmodel::StreamScope::Whole;
   std::uint64_t stop_after = 1000;
   testbench::Patterns patterns;
+  bool verdicts = false;
 };
 
 /// 32-bit words of the port's vector; 0 where there is none. `port` is one of FASTSPLAT_PORT_...
 std::size_t port_words(const cmodel::Config& config, std::uint32_t port);
+[[noreturn]] void unknown_port(const char* call, std::uint32_t port);
 
 /// `call` names the C function in the UserError (Usage) that is thrown for a call out of order or a wrong size.
 class CheckerRun {

@@ -18,8 +18,16 @@ fastsplat_shown at(std::uint32_t port, std::uint64_t cycle) {
   return shown;
 }
 
-fastsplat_shown at(std::uint32_t port, std::uint64_t cycle, const std::uint32_t* vector, std::uint32_t words) {
+fastsplat_shown in_tile(std::uint32_t port, std::uint64_t cycle, std::uint32_t tile) {
   fastsplat_shown shown = at(port, cycle);
+  shown.given = FASTSPLAT_GIVEN_TILE;
+  shown.tile = tile;
+  return shown;
+}
+
+fastsplat_shown in_tile(std::uint32_t port, std::uint64_t cycle, std::uint32_t tile, const std::uint32_t* vector,
+                        std::uint32_t words) {
+  fastsplat_shown shown = in_tile(port, cycle, tile);
   shown.word_count = words;
   shown.words = vector;
   return shown;
@@ -48,7 +56,8 @@ extern "C" FASTSPLAT_API void* fastsplat_dpi_checker(const char* config, std::ui
                                             .stop_after = 0,
                                             .input_pattern = require(call, "input", input),
                                             .output_pattern = require(call, "output", output),
-                                            .seed = seed};
+                                            .seed = seed,
+                                            .verdicts = 1};
     born(&parsed, Kind::Config);
     fastsplat_checker* checker = nullptr;
     const auto status = fastsplat_checker_create(&parsed, &options, &checker);
@@ -63,10 +72,10 @@ extern "C" FASTSPLAT_API fastsplat_status fastsplat_dpi_took(void* checker, cons
   return fastsplat_checker_took(static_cast<fastsplat_checker*>(checker), beat, 1);
 }
 
-extern "C" FASTSPLAT_API fastsplat_status fastsplat_dpi_snap(void* checker, std::uint64_t cycle, std::uint32_t tag,
-                                                             std::uint32_t x, std::uint32_t y, std::uint32_t mx,
-                                                             std::uint32_t my) {
-  fastsplat_shown shown = at(FASTSPLAT_PORT_SNAP, cycle);
+extern "C" FASTSPLAT_API fastsplat_status fastsplat_dpi_snap(void* checker, std::uint64_t cycle, std::uint32_t tile,
+                                                             std::uint32_t tag, std::uint32_t x, std::uint32_t y,
+                                                             std::uint32_t mx, std::uint32_t my) {
+  fastsplat_shown shown = in_tile(FASTSPLAT_PORT_SNAP, cycle, tile);
   shown.tag = tag;
   shown.x = x;
   shown.y = y;
@@ -75,17 +84,18 @@ extern "C" FASTSPLAT_API fastsplat_status fastsplat_dpi_snap(void* checker, std:
   return show(checker, shown);
 }
 
-extern "C" FASTSPLAT_API fastsplat_status fastsplat_dpi_sheet(void* checker, std::uint64_t cycle, std::uint32_t tag,
-                                                              const std::uint32_t* sums, std::uint32_t words) {
-  fastsplat_shown shown = at(FASTSPLAT_PORT_SHEET, cycle, sums, words);
+extern "C" FASTSPLAT_API fastsplat_status fastsplat_dpi_sheet(void* checker, std::uint64_t cycle, std::uint32_t tile,
+                                                              std::uint32_t tag, const std::uint32_t* sums,
+                                                              std::uint32_t words) {
+  fastsplat_shown shown = in_tile(FASTSPLAT_PORT_SHEET, cycle, tile, sums, words);
   shown.tag = tag;
   return show(checker, shown);
 }
 
-extern "C" FASTSPLAT_API fastsplat_status fastsplat_dpi_window(void* checker, std::uint64_t cycle, std::uint32_t tag,
-                                                               std::uint32_t x, std::uint32_t y,
+extern "C" FASTSPLAT_API fastsplat_status fastsplat_dpi_window(void* checker, std::uint64_t cycle, std::uint32_t tile,
+                                                               std::uint32_t tag, std::uint32_t x, std::uint32_t y,
                                                                const std::uint32_t* weights, std::uint32_t words) {
-  fastsplat_shown shown = at(FASTSPLAT_PORT_WINDOW, cycle, weights, words);
+  fastsplat_shown shown = in_tile(FASTSPLAT_PORT_WINDOW, cycle, tile, weights, words);
   shown.tag = tag;
   shown.x = x;
   shown.y = y;
@@ -93,9 +103,9 @@ extern "C" FASTSPLAT_API fastsplat_status fastsplat_dpi_window(void* checker, st
 }
 
 extern "C" FASTSPLAT_API fastsplat_status fastsplat_dpi_composite(void* checker, std::uint64_t cycle,
-                                                                  std::uint32_t block, const std::uint32_t* state,
-                                                                  std::uint32_t words) {
-  fastsplat_shown shown = at(FASTSPLAT_PORT_COMPOSITE, cycle, state, words);
+                                                                  std::uint32_t tile, std::uint32_t block,
+                                                                  const std::uint32_t* state, std::uint32_t words) {
+  fastsplat_shown shown = in_tile(FASTSPLAT_PORT_COMPOSITE, cycle, tile, state, words);
   shown.block = block;
   return show(checker, shown);
 }
@@ -104,11 +114,23 @@ extern "C" FASTSPLAT_API fastsplat_status fastsplat_dpi_sheet_done(void* checker
   return show(checker, at(FASTSPLAT_PORT_SHEET_DONE, cycle));
 }
 
-extern "C" FASTSPLAT_API fastsplat_status fastsplat_dpi_pixels(void* checker, std::uint64_t cycle,
+extern "C" FASTSPLAT_API fastsplat_status fastsplat_dpi_pixels(void* checker, std::uint64_t cycle, std::uint32_t tile,
                                                                const std::uint32_t* pixels, std::uint32_t words,
-                                                               std::int32_t last) {
-  fastsplat_shown shown = at(FASTSPLAT_PORT_PIXELS, cycle, pixels, words);
+                                                               std::uint32_t keep, std::int32_t last,
+                                                               std::int32_t cut) {
+  fastsplat_shown shown = in_tile(FASTSPLAT_PORT_PIXELS, cycle, tile, pixels, words);
+  shown.given |= FASTSPLAT_GIVEN_KEEP;
+  shown.keep = keep;
   shown.last = last;
+  shown.cut = cut;
+  return show(checker, shown);
+}
+
+extern "C" FASTSPLAT_API fastsplat_status fastsplat_dpi_verdict(void* checker, std::uint64_t cycle, std::uint32_t tag,
+                                                                std::int32_t hidden) {
+  fastsplat_shown shown = at(FASTSPLAT_PORT_VERDICT, cycle);
+  shown.tag = tag;
+  shown.hidden = hidden;
   return show(checker, shown);
 }
 

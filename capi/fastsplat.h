@@ -1,5 +1,5 @@
 // The C interface of libfastsplat: the integer device model and the passive checker, for benches in any language.
-// docs/capi.md is its page: the contract, an example, every status. Version 2.0; C99 and C++.
+// docs/capi.md is its page: the contract, an example, every status. Version 3.0; C99 and C++.
 //
 // Every function that can fail returns a fastsplat_status; fastsplat_last_error() then has one line of text. A call
 // that fails changes nothing but that text, and no C++ exception leaves the library.
@@ -26,7 +26,7 @@ extern "C" {
 
 // ---- version and errors
 
-#define FASTSPLAT_API_MAJOR 2
+#define FASTSPLAT_API_MAJOR 3
 #define FASTSPLAT_API_MINOR 0
 
 /// Of the library that runs: major << 16 | minor. A program runs with its own major and any minor from its own on.
@@ -165,9 +165,10 @@ typedef struct fastsplat_checker_options {
   const char* input_pattern;   ///< when beats are offered, for fastsplat_checker_start; NULL: always
   const char* output_pattern;  ///< when pixels are taken, for fastsplat_checker_start; NULL: always
   uint64_t seed;               ///< of the run: 2 seed is the input pattern's, 2 seed + 1 the output pattern's
+  int32_t verdicts;            ///< not 0: FASTSPLAT_PORT_VERDICT is shown, too; one that never comes is a mismatch
 } fastsplat_checker_options;
 
-/// `options` may be NULL: a whole stream, 1000 mismatches, both patterns always.
+/// `options` may be NULL: a whole stream, 1000 mismatches, both patterns always, no verdicts.
 FASTSPLAT_API fastsplat_status fastsplat_checker_create(const fastsplat_config* config,
                                                         const fastsplat_checker_options* options,
                                                         fastsplat_checker** out);
@@ -175,8 +176,9 @@ FASTSPLAT_API fastsplat_status fastsplat_checker_destroy(fastsplat_checker* chec
 /// As after create: for a warm reset of the device.
 FASTSPLAT_API fastsplat_status fastsplat_checker_reset(fastsplat_checker* checker);
 
-/// Cycles are compared as well: from cycle `first_beat` after reset on beats are offered, and pixels taken, exactly
-/// when the patterns are willing (an offered beat stays until it is taken). Before the first beat, once.
+/// Cycles, and verdicts where they are shown, are compared as well: from cycle `first_beat` after reset on beats are
+/// offered, and pixels taken, exactly when the patterns are willing (an offered beat stays until it is taken). Before
+/// the first beat, once.
 FASTSPLAT_API fastsplat_status fastsplat_checker_start(fastsplat_checker* checker, uint64_t first_beat);
 
 /// Beats that the device took. After what its ports showed up to and in that cycle.
@@ -189,18 +191,30 @@ enum {
   FASTSPLAT_PORT_WINDOW = 2,      ///< tag, x, y; words: tap_weights_o
   FASTSPLAT_PORT_COMPOSITE = 3,   ///< block; words: tap_state_o
   FASTSPLAT_PORT_SHEET_DONE = 4,  ///<
-  FASTSPLAT_PORT_PIXELS = 5,      ///< last; words: m_tdata_o of a beat that was taken
-  FASTSPLAT_PORTS = 6,            ///< how many there are
+  FASTSPLAT_PORT_PIXELS = 5,      ///< last, cut, keep; words: m_tdata_o of a beat that was taken
+  FASTSPLAT_PORT_VERDICT = 6,     ///< tag, hidden; passed over where `verdicts` or fastsplat_checker_start is missing
+  FASTSPLAT_PORTS = 7,            ///< how many there are
+};
+
+/// Bits of fastsplat_shown's `given`: what is compared only where the bench has it.
+enum {
+  FASTSPLAT_GIVEN_KEEP = 1,  ///<
+  FASTSPLAT_GIVEN_TILE = 2,  ///<
 };
 
 typedef struct fastsplat_shown {
   size_t struct_size;
   uint32_t port;          ///< FASTSPLAT_PORT_...; the fields it does not have are not read
+  uint32_t given;         ///< FASTSPLAT_GIVEN_... of the next two
+  uint32_t keep;          ///< m_tkeep_o: which of a beat's pixels lie in the tile, the first in bit 0
+  uint32_t tile;          ///< tap_tile_o in that cycle: of a tap's port, and of pixels
   uint64_t cycle;         ///< since reset was released; never falling
   uint32_t tag, x, y;     ///< as the ports have them: x and y two's complement in ORG_BITS
   uint32_t mx, my;        ///<
   uint32_t block;         ///< number in the tile, row by row
   int32_t last;           ///< not 0: ends the tile
+  int32_t cut;            ///< m_tuser_o; not 0: marked as of a tile that was cut short, which a whole stream has not
+  int32_t hidden;         ///< of a verdict; not 0: nothing of the set is to be seen
   size_t word_count;      ///< fastsplat_checker_port_words() of the port
   const uint32_t* words;  ///< the port's vector, least significant word first; read during the call
 } fastsplat_shown;
@@ -230,8 +244,8 @@ typedef struct fastsplat_report {
   size_t struct_size;
   int32_t verdict;                  ///< FASTSPLAT_VERDICT_...
   int32_t detector;                 ///< which saw the first difference: FASTSPLAT_TAP_..., 5 tiles, 6 counters,
-                                    ///< 7 cycles; -1: none
-  uint64_t comparisons;             ///< tap records, pixel words, counters and cycles
+                                    ///< 7 cycles, 8 verdicts; -1: none
+  uint64_t comparisons;             ///< tap records, pixel words, counters, cycles and verdicts
   uint64_t mismatches;              ///< there may be more once the checker has stopped
   uint64_t by_tap[FASTSPLAT_TAPS];  ///< records compared
   int32_t cycles_compared;          ///< 1: the two that follow are there

@@ -21,9 +21,9 @@ WHOLE, SUBSET = 0, 1
 BEAT_WORDS = 8
 STREAM_VERSION = 2
 TAPS = ("snap", "footprint", "sheet", "composite", "pixel")
-_DETECTORS = TAPS + ("tiles", "counters", "cycles")
+_DETECTORS = TAPS + ("tiles", "counters", "cycles", "verdicts")
 _VERDICTS = ("pass", "mismatch", "nothing compared", "open")
-_API_MAJOR = 2
+_API_MAJOR = 3
 _STREAM_MAGIC = 0x31535346
 
 
@@ -54,14 +54,16 @@ class _Tile(ctypes.Structure):
 
 class _Options(ctypes.Structure):
     _fields_ = [("struct_size", ctypes.c_size_t), ("scope", ctypes.c_uint32), ("stop_after", ctypes.c_uint64),
-                ("input_pattern", ctypes.c_char_p), ("output_pattern", ctypes.c_char_p), ("seed", ctypes.c_uint64)]
+                ("input_pattern", ctypes.c_char_p), ("output_pattern", ctypes.c_char_p), ("seed", ctypes.c_uint64),
+                ("verdicts", ctypes.c_int32)]
 
 
 class _Shown(ctypes.Structure):
-    _fields_ = [("struct_size", ctypes.c_size_t), ("port", ctypes.c_uint32), ("cycle", ctypes.c_uint64),
-                ("tag", ctypes.c_uint32), ("x", ctypes.c_uint32), ("y", ctypes.c_uint32), ("mx", ctypes.c_uint32),
-                ("my", ctypes.c_uint32), ("block", ctypes.c_uint32), ("last", ctypes.c_int32),
-                ("word_count", ctypes.c_size_t), ("words", ctypes.c_void_p)]
+    _fields_ = [("struct_size", ctypes.c_size_t), ("port", ctypes.c_uint32), ("given", ctypes.c_uint32),
+                ("keep", ctypes.c_uint32), ("tile", ctypes.c_uint32), ("cycle", ctypes.c_uint64), ("tag", ctypes.c_uint32),
+                ("x", ctypes.c_uint32), ("y", ctypes.c_uint32), ("mx", ctypes.c_uint32), ("my", ctypes.c_uint32),
+                ("block", ctypes.c_uint32), ("last", ctypes.c_int32), ("cut", ctypes.c_int32),
+                ("hidden", ctypes.c_int32), ("word_count", ctypes.c_size_t), ("words", ctypes.c_void_p)]
 
 
 class _Report(ctypes.Structure):
@@ -74,8 +76,8 @@ class _Report(ctypes.Structure):
 def _load():
     beside = os.path.join(os.path.dirname(os.path.abspath(__file__)), *[os.pardir] * 3)
     names = [os.environ.get("FASTSPLAT_LIBRARY")]
-    names += [os.path.join(beside, lib, "libfastsplat.so.2") for lib in ("lib", "lib64", "lib/" + os.uname().machine + "-linux-gnu")]
-    names = [name for name in names if name and os.path.exists(name)] + ["libfastsplat.so.2"]
+    names += [os.path.join(beside, lib, "libfastsplat.so.3") for lib in ("lib", "lib64", "lib/" + os.uname().machine + "-linux-gnu")]
+    names = [name for name in names if name and os.path.exists(name)] + ["libfastsplat.so.3"]
     library = ctypes.CDLL(names[0])
     for name in ("fastsplat_version", "fastsplat_last_error", "fastsplat_checker_first_mismatch",
                  "fastsplat_checker_summary"):
@@ -223,12 +225,14 @@ class Model(_Handle):
 class Checker(_Handle):
     """Told what a device took and showed; see fastsplat.h for the order."""
     _destroy = "fastsplat_checker_destroy"
-    PORTS = ("snap", "sheet", "window", "composite", "sheet_done", "pixels")
+    PORTS = ("snap", "sheet", "window", "composite", "sheet_done", "pixels", "verdict")
+    _GIVEN = {"keep": 1, "tile": 2}
 
-    def __init__(self, config, scope=WHOLE, stop_after=0, input_pattern="always", output_pattern="always", seed=0):
+    def __init__(self, config, scope=WHOLE, stop_after=0, input_pattern="always", output_pattern="always", seed=0,
+                 verdicts=False):
         super().__init__()
         options = _Options(ctypes.sizeof(_Options), scope, stop_after, input_pattern.encode(),
-                           output_pattern.encode(), seed)
+                           output_pattern.encode(), seed, verdicts)
         _call("fastsplat_checker_create", config._pointer, ctypes.byref(options), ctypes.byref(self._pointer))
 
     def start(self, first_beat):
@@ -240,8 +244,10 @@ class Checker(_Handle):
               ctypes.c_size_t(len(beats)))
 
     def showed(self, port, cycle, words=(), **fields):
+        """`fields` are those of fastsplat_shown that the port has; keep and tile are compared where they are named."""
         words = np.ascontiguousarray(words, dtype=np.uint32)
-        shown = _Shown(struct_size=ctypes.sizeof(_Shown), port=self.PORTS.index(port), cycle=cycle,
+        given = sum(bit for name, bit in self._GIVEN.items() if name in fields)
+        shown = _Shown(struct_size=ctypes.sizeof(_Shown), port=self.PORTS.index(port), given=given, cycle=cycle,
                        word_count=words.size, words=words.ctypes.data, **fields)
         _call("fastsplat_checker_showed", self._pointer, ctypes.byref(shown))
 

@@ -2,7 +2,7 @@
 // fastsplat_pkg, the package of the device's configuration, first. Every int is a status: 0 is well, fastsplat_last_error()
 // has the line that says why not.
 package fastsplat_dpi_pkg;
-  localparam int API_MAJOR = 2;  // of fastsplat_api_version() >> 16
+  localparam int API_MAJOR = 3;  // of fastsplat_api_version() >> 16
 
   import "DPI-C" function int unsigned fastsplat_api_version();
   import "DPI-C" function string fastsplat_last_error();
@@ -18,24 +18,27 @@ package fastsplat_dpi_pkg;
   import "DPI-C" function string fastsplat_checker_first_mismatch(input chandle judge);
   import "DPI-C" function string fastsplat_checker_summary(input chandle judge);
 
-  // What the device takes and shows, in the order of its cycles, of one cycle in the order of these.
+  // What the device shows and takes, in the order of its cycles, of one cycle in the order of these; tile: tap_tile_o.
   import "DPI-C" function int fastsplat_dpi_snap(
-    input chandle judge, input longint unsigned cycle, input int unsigned tag, input int unsigned x,
-    input int unsigned y, input int unsigned mx, input int unsigned my);
+    input chandle judge, input longint unsigned cycle, input int unsigned tile, input int unsigned tag,
+    input int unsigned x, input int unsigned y, input int unsigned mx, input int unsigned my);
   import "DPI-C" function int fastsplat_dpi_sheet(
-    input chandle judge, input longint unsigned cycle, input int unsigned tag,
+    input chandle judge, input longint unsigned cycle, input int unsigned tile, input int unsigned tag,
     input bit [fastsplat_pkg::BANKS*4*fastsplat_pkg::SHEET_BITS-1:0] sums, input int unsigned words);
   import "DPI-C" function int fastsplat_dpi_window(
-    input chandle judge, input longint unsigned cycle, input int unsigned tag, input int unsigned x,
-    input int unsigned y, input bit [fastsplat_pkg::BANKS*fastsplat_pkg::WEIGHT_BITS-1:0] weights,
+    input chandle judge, input longint unsigned cycle, input int unsigned tile, input int unsigned tag,
+    input int unsigned x, input int unsigned y, input bit [fastsplat_pkg::BANKS*fastsplat_pkg::WEIGHT_BITS-1:0] weights,
     input int unsigned words);
   import "DPI-C" function int fastsplat_dpi_composite(
-    input chandle judge, input longint unsigned cycle, input int unsigned block,
+    input chandle judge, input longint unsigned cycle, input int unsigned tile, input int unsigned block,
     input bit [fastsplat_pkg::BANKS*4*fastsplat_pkg::STATE_BITS-1:0] state, input int unsigned words);
   import "DPI-C" function int fastsplat_dpi_sheet_done(input chandle judge, input longint unsigned cycle);
   import "DPI-C" function int fastsplat_dpi_pixels(
-    input chandle judge, input longint unsigned cycle, input bit [fastsplat_pkg::LANES*128-1:0] pixels,
-    input int unsigned words, input int last);
+    input chandle judge, input longint unsigned cycle, input int unsigned tile,
+    input bit [fastsplat_pkg::LANES*128-1:0] pixels, input int unsigned words, input int unsigned keep, input int last,
+    input int cut);
+  import "DPI-C" function int fastsplat_dpi_verdict(
+    input chandle judge, input longint unsigned cycle, input int unsigned tag, input int hidden);
   import "DPI-C" function int fastsplat_dpi_took(input chandle judge, input bit [fastsplat_pkg::BEAT_BITS-1:0] beat);
 
   // The device has come to rest; 0 is a pass. Counter n at bits 64 n and up.

@@ -9,7 +9,13 @@ module fastsplat_monitor (
     input logic         m_tvalid_o,
     input logic         m_tready_i,
     input logic [fastsplat_pkg::LANES*128-1:0] m_tdata_o,
+    input logic [fastsplat_pkg::LANES-1:0] m_tkeep_o,
     input logic         m_tlast_o,
+    input logic         m_tuser_o,
+    input logic         verdict_valid_o,
+    input logic [31:0]  verdict_tag_o,
+    input logic         verdict_hidden_o,
+    input logic [31:0]  tap_tile_o,
     input logic         tap_snap_valid_o,
     input logic [31:0]  tap_snap_tag_o,
     input logic signed [fastsplat_pkg::ORG_BITS-1:0] tap_snap_x_o,
@@ -62,19 +68,21 @@ module fastsplat_monitor (
     end else begin
       if (judge != null && refused == 0) begin
         if (tap_snap_valid_o)
-          tell(fastsplat_dpi_snap(judge, cycle, tap_snap_tag_o, 32'(tap_snap_x_o), 32'(tap_snap_y_o),
+          tell(fastsplat_dpi_snap(judge, cycle, tap_tile_o, tap_snap_tag_o, 32'(tap_snap_x_o), 32'(tap_snap_y_o),
                                   32'(tap_snap_mx_o), 32'(tap_snap_my_o)));
         if (tap_sheet_valid_o)
-          tell(fastsplat_dpi_sheet(judge, cycle, tap_sheet_tag_o, tap_sums_o, words_of($bits(tap_sums_o))));
+          tell(fastsplat_dpi_sheet(judge, cycle, tap_tile_o, tap_sheet_tag_o, tap_sums_o, words_of($bits(tap_sums_o))));
         if (tap_window_valid_o)
-          tell(fastsplat_dpi_window(judge, cycle, tap_window_tag_o, 32'(tap_window_x_o), 32'(tap_window_y_o),
+          tell(fastsplat_dpi_window(judge, cycle, tap_tile_o, tap_window_tag_o, 32'(tap_window_x_o), 32'(tap_window_y_o),
                                     tap_weights_o, words_of($bits(tap_weights_o))));
         if (tap_composite_valid_o)
-          tell(fastsplat_dpi_composite(judge, cycle, 32'(tap_composite_block_o), tap_state_o,
+          tell(fastsplat_dpi_composite(judge, cycle, tap_tile_o, 32'(tap_composite_block_o), tap_state_o,
                                        words_of($bits(tap_state_o))));
         if (tap_sheet_done_o) tell(fastsplat_dpi_sheet_done(judge, cycle));
         if (m_tvalid_o && m_tready_i)
-          tell(fastsplat_dpi_pixels(judge, cycle, m_tdata_o, words_of($bits(m_tdata_o)), int'(m_tlast_o)));
+          tell(fastsplat_dpi_pixels(judge, cycle, tap_tile_o, m_tdata_o, words_of($bits(m_tdata_o)), 32'(m_tkeep_o),
+                                    int'(m_tlast_o), int'(m_tuser_o)));
+        if (verdict_valid_o) tell(fastsplat_dpi_verdict(judge, cycle, verdict_tag_o, int'(verdict_hidden_o)));
         if (s_tvalid_i && s_tready_o) begin
           tell(fastsplat_dpi_took(judge, s_tdata_i));
           told = 1;

@@ -45,6 +45,8 @@ void Checker::start(std::uint64_t first_beat) {
 
 void Checker::on_raw(const RawTap& tap) {
   if (tap.port == RawPort::Verdict) return check_verdict(tap);
+  if (tap.cut)
+    differ(Detector::Tiles, "the pixel beat of cycle " + std::to_string(tap.cycle) + " is marked as of a tile cut short");
   assembly_.on_raw(tap);
 }
 
@@ -100,7 +102,7 @@ void Checker::check_counters(const cmodel::Counters& rtl) {
 void Checker::check_cycles(const cmodel::StallCounters& rtl) {
   cycle_model_->finish();
   const cmodel::StallCounters& model = cycle_model_->stalls();
-  cycles_model_ = model.busy;
+  cycles_model_ = config_.counter_word(model.busy);  // a counter of few bits goes round
   cycles_rtl_ = rtl.busy;
 #define X(name, counter, meaning)                                       \
   if (cmodel::has_counter(config_, #counter) || model.name != rtl.name) \

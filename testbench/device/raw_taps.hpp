@@ -29,6 +29,7 @@ struct RawTap {
   std::uint32_t mx = 0, my = 0;
   std::uint32_t block = 0;  ///< number in the tile, row by row
   bool last = false;        ///< ends the tile
+  bool cut = false;         ///< marked as of a tile that was cut short, where none was
   bool hidden = false;      ///< of a verdict
   /// Of a pixel beat: which of its pixels lie in the tile, the first in bit 0. Absent where a bench does not show it.
   std::optional<std::uint32_t> keep = std::nullopt;

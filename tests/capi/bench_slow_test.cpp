@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "tests/capi/recorded_helper.hpp"
 
@@ -52,6 +53,36 @@ TEST(CapiBench, FailsWithAFaultPlantedAndNamesItsFirstMismatch) {
                 number_before(result.out, " mismatches"));
     EXPECT_GT(number_before(result.out, " mismatches"), 0);
   }
+}
+
+/// Its verdicts are told, and looked at: a wrong one is the first thing seen of a corner read wrongly.
+TEST(CapiBench, ChecksTheVerdictsOfADeviceThatCulls) {
+  const auto culling = [](const std::string& fault) {
+    auto result = cli_test::run_words({FASTSPLAT_CAPI_BENCH_CULL,
+                                       "+beats=" + recorded_that_culls().vectors + "/beats.hex",
+                                       std::string("+config=") + kCulling, "+input=every-6", "+output=every-3",
+                                       "+fault=" + fault});
+    std::printf("%s", result.out.c_str());
+    return result;
+  };
+  const auto right = culling("0");
+  EXPECT_EQ(right.code, 0) << right.err;
+  EXPECT_NE(right.out.find("PASS: pass: configuration cull"), std::string::npos);
+  // Its counters have 16 bits and have gone round; what was expected is told as the device counts it.
+  const auto busy = right.out.find("busy cycles ");
+  ASSERT_NE(busy, std::string::npos);
+  const auto cycles = right.out.substr(busy + 12, right.out.find(',', busy) - busy - 12);
+  EXPECT_NE(right.out.find(", expected " + cycles + "\n"), std::string::npos);
+  EXPECT_LT(std::stol(cycles), 65536);
+  const auto contents = nlohmann::json::parse(cli_test::read_bytes(recorded_that_culls().vectors + "/vectors.json"));
+  EXPECT_GT(contents.at("beats").get<long>() * 6, 65536);
+  const int sets = contents.at("counters").at("cull_blocks");
+  std::printf("[figure] bench_verdicts = %d (limit > 0)\n", sets);
+  EXPECT_GT(sets, 0);
+  // The line of CULL_CORNER in testbench/faults/faults.def.
+  const auto wrong = culling("40");
+  EXPECT_NE(wrong.code, 0);
+  EXPECT_NE(wrong.out.find("first mismatch: verdict: expected tag"), std::string::npos);
 }
 
 TEST(CapiBench, RefusesWhatItCannotCheck) {

@@ -1,6 +1,7 @@
 // The checker through the C interface: passes a right device, names what a wrong one does first.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "tests/capi/truth_helper.hpp"
@@ -15,9 +16,9 @@ fastsplat_report report_of(const Checker& checker) {
   return report;
 }
 
-fastsplat_status run(const Truth& truth, const Checker& checker) {
+fastsplat_status run(const Truth& truth, const Checker& checker, std::uint32_t given = ~0U) {
   EXPECT_EQ(fastsplat_checker_start(checker.handle, kFirstBeat), FASTSPLAT_OK) << fastsplat_last_error();
-  EXPECT_EQ(tell(truth.events, checker.handle), FASTSPLAT_OK) << fastsplat_last_error();
+  EXPECT_EQ(tell(truth.events, checker.handle, given), FASTSPLAT_OK) << fastsplat_last_error();
   return fastsplat_checker_finish(checker.handle, truth.counters.data(), truth.counters.size());
 }
 
@@ -49,6 +50,22 @@ RawEvent& event_at(Truth& truth, testbench::RawPort port) {
   throw std::runtime_error("no such event");
 }
 
+/// Of a device that has none to tell.
+void show_a_verdict(Truth& truth) {
+  const auto at = std::ranges::find_if(truth.events, [](const RawEvent& event) { return !event.beat; });
+  const std::uint64_t cycle = at->tap.cycle;
+  truth.events.insert(at + 1, {.beat = std::nullopt,
+                               .tap = {.port = testbench::RawPort::Verdict, .cycle = cycle, .tag = 7, .hidden = true, .words = {}},
+                               .words = {}});
+}
+
+fastsplat_checker_options with_verdicts() {
+  fastsplat_checker_options options{};
+  options.struct_size = sizeof options;
+  options.verdicts = 1;
+  return options;
+}
+
 TEST(CapiChecker, NamesWhatIsWrongFirst) {
   using testbench::RawPort;
   struct Case {
@@ -61,6 +78,10 @@ TEST(CapiChecker, NamesWhatIsWrongFirst) {
       {"snap", [](Truth& t) { event_at(t, RawPort::Snap).tap.mx ^= 1; }, FASTSPLAT_TAP_SNAP, "stage snap"},
       {"weight", [](Truth& t) { event_at(t, RawPort::Window).words[0] ^= 1; }, FASTSPLAT_TAP_FOOTPRINT, "footprint"},
       {"pixel", [](Truth& t) { event_at(t, RawPort::Pixels).words[0] ^= 1; }, FASTSPLAT_TAP_PIXEL, "pixel"},
+      {"keep", [](Truth& t) { *event_at(t, RawPort::Pixels).tap.keep ^= 1; }, FASTSPLAT_TAP_PIXEL, "stage pixel"},
+      {"tile", [](Truth& t) { ++*event_at(t, RawPort::Window).tap.tile; }, FASTSPLAT_TAP_FOOTPRINT, "tile"},
+      {"cut", [](Truth& t) { event_at(t, RawPort::Pixels).tap.cut = true; }, 5, "marked as of a tile cut short"},
+      {"verdict", show_a_verdict, 8, "verdict: expected none, RTL tag 7 hidden in cycle"},
       {"counter", [](Truth& t) { ++t.counters[2]; }, 6, "counter splats: expected"},
       {"cycles", [](Truth& t) { ++t.counters[16]; }, 7, "cycles: expected"},
   };
@@ -68,7 +89,8 @@ TEST(CapiChecker, NamesWhatIsWrongFirst) {
   for (const auto& one : cases) {
     Truth wrong = truth_of("tiny");
     one.spoil(wrong);
-    const Checker checker(config);
+    const auto options = with_verdicts();
+    const Checker checker(config, &options);
     EXPECT_EQ(run(wrong, checker), FASTSPLAT_FAILED) << one.what;
     const auto report = report_of(checker);
     EXPECT_EQ(report.verdict, FASTSPLAT_VERDICT_MISMATCH) << one.what;
@@ -78,6 +100,20 @@ TEST(CapiChecker, NamesWhatIsWrongFirst) {
     EXPECT_NE(std::string(fastsplat_last_error()).find(first), std::string::npos);
     std::printf("[figure] seen_%s = %s (limit one line)\n", one.what, first.c_str());
   }
+}
+
+TEST(CapiChecker, WhatABenchDoesNotHaveIsNotCompared) {
+  const Config config("tiny");
+  Truth wrong = truth_of("tiny");
+  *event_at(wrong, testbench::RawPort::Pixels).tap.keep ^= 1;
+  ++*event_at(wrong, testbench::RawPort::Window).tap.tile;
+  show_a_verdict(wrong);
+  const Checker without(config), keep(config), tile(config);
+  EXPECT_EQ(run(wrong, without, 0), FASTSPLAT_OK) << fastsplat_last_error();
+  EXPECT_EQ(run(wrong, keep, FASTSPLAT_GIVEN_KEEP), FASTSPLAT_FAILED);
+  EXPECT_EQ(report_of(keep).detector, FASTSPLAT_TAP_PIXEL);
+  EXPECT_EQ(run(wrong, tile, FASTSPLAT_GIVEN_TILE), FASTSPLAT_FAILED);
+  EXPECT_EQ(report_of(tile).detector, FASTSPLAT_TAP_FOOTPRINT);
 }
 
 TEST(CapiChecker, APassThatComparedNothingIsAFailure) {

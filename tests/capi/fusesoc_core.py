@@ -1,6 +1,7 @@
 """fusesoc_core.py SOURCE BUILD FOLDER: fastsplat.core against rtl/ and the keys of CAPI2; its generator, then Verilator's lint."""
 import glob
 import os
+import re
 import subprocess
 import sys
 
@@ -37,8 +38,21 @@ fetch = {os.path.relpath(path, source) for path in glob.glob(f"{source}/rtl/fetc
 assert set(files["fetch"]) - rtl == fetch, (set(files["fetch"]) - rtl) ^ fetch
 includes = {next(iter(file)) for file in core["filesets"]["rtl"]["files"] if not isinstance(file, str)}
 assert includes == {file for file in rtl if file.endswith(".svh")}
-for target in core["targets"].values():
-    assert set(target["filesets"]) <= set(core["filesets"]) and set(target.get("generate", [])) <= set(core["generate"])
+def generated(target, toplevel):
+    """Its instances of generators, where the core is the top of a design or another core depends on it."""
+    names = []
+    for name in core["targets"][target].get("generate", []):
+        condition = re.fullmatch(r"is_toplevel \? \((.*)\)", name)
+        if not condition or toplevel:
+            names.append(condition[1] if condition else name)
+    assert set(names) <= set(core["generate"]), names
+    return names
+
+
+for name, target in core["targets"].items():
+    assert set(target["filesets"]) <= set(core["filesets"])
+    assert generated(name, True) == (["package"] if "rtl" in target["filesets"] else []), name
+assert generated("default", False) == [], "a core of another configuration would get two packages"
 for instance in core["generate"].values():
     assert instance["generator"] in core["generators"]
 

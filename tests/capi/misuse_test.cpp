@@ -155,7 +155,7 @@ TEST_F(CapiMisuse, WrongSizesAndNumbersAreRefused) {
   std::int64_t value = 0;
   refused(fastsplat_config_value(config_.handle, "array.lines", &value), "unknown key 'array.lines'");
   std::size_t words = 0;
-  refused(fastsplat_checker_port_words(checker.handle, 6, &words), "unknown port");
+  refused(fastsplat_checker_port_words(checker.handle, FASTSPLAT_PORTS, &words), "unknown port (expected at most 6, got 7)");
 
   std::vector<std::uint32_t> ones(1000, ~0U);
   fastsplat_shown shown{};
@@ -263,7 +263,7 @@ TEST_F(CapiMisuse, NonsenseNeverEndsTheProcess) {
         break;
       }
       for (auto& word : noise) word = static_cast<std::uint32_t>(random.next());
-      shown.port = static_cast<std::uint32_t>(random.between(0, 5));
+      shown.port = static_cast<std::uint32_t>(random.between(0, FASTSPLAT_PORTS - 1));
       ASSERT_EQ(fastsplat_checker_port_words(checker.handle, shown.port, &shown.word_count), FASTSPLAT_OK);
       shown.words = noise.data();
       shown.tag = noise[0];
@@ -273,6 +273,11 @@ TEST_F(CapiMisuse, NonsenseNeverEndsTheProcess) {
       shown.my = noise[4];
       shown.block = noise[5] % 256;
       shown.last = static_cast<std::int32_t>(noise[6] & 1);
+      shown.cut = static_cast<std::int32_t>(noise[6] & 2);
+      shown.hidden = static_cast<std::int32_t>(noise[6] & 4);
+      shown.given = noise[7];
+      shown.keep = noise[8];
+      shown.tile = noise[9];
       ++shown.cycle;
       ASSERT_EQ(fastsplat_checker_showed(checker.handle, &shown), FASTSPLAT_OK) << fastsplat_last_error();
       ++accepted;

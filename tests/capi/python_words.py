@@ -50,6 +50,19 @@ for wrong, status in ((lambda: fastsplat.Config("tinny"), fastsplat.INPUT),
 checker = fastsplat.Checker(fastsplat.Config("tiny"))
 checker.took(beats)
 assert not checker.finish() and checker.report().verdict == "mismatch" and checker.first_mismatch()
+# Each field gets to where it belongs.
+tiny = fastsplat.Config("tiny")
+for port, fields, detector in (("verdict", {"tag": 7, "hidden": 1}, "verdicts"), ("pixels", {"keep": 1, "tile": 3, "cut": 1}, "tiles")):
+    checker = fastsplat.Checker(tiny, verdicts=True)
+    checker.start(0)
+    checker.showed(port, 1, np.zeros(4 * tiny["array.lanes"] if port == "pixels" else 0), **fields)
+    assert checker.report().detector == detector, checker.report()
+    print(f"[figure] python_{port} = {checker.first_mismatch()} (limit one line)")
+checker = fastsplat.Checker(tiny)
+checker.took(beats)
+checker.showed("pixels", 1, np.zeros(4 * tiny["array.lanes"]), keep=2, tile=3)
+checker.finish()
+assert "RTL has stage pixel, tile 3, pixel (1,0)" in checker.first_mismatch(), checker.first_mismatch()
 print(f"[figure] python_records = {len(records)} (limit > 1000)")
 print(f"[figure] python_tiles = {len(pictures)} (limit > 1)")
 assert len(records) > 1000 and len(pictures) > 1

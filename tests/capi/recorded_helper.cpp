@@ -4,17 +4,28 @@
 
 namespace fastsplat::test {
 
+namespace {
+
+std::unique_ptr<const Recorded> record(const std::string& config, const std::string& opacity) {
+  auto made = std::make_unique<Recorded>();
+  made->stream = made->folder / "scene.fss";
+  made->vectors = made->folder / "vectors";
+  cli_test::expect_success(cli_test::fastsplat(
+      {"stream", "record", "--volume", "shells:20", "--opacity-scale", opacity, "--size", "44x40", "--config", config, "-o", made->stream}));
+  cli_test::expect_success(
+      cli_test::fastsplat({"stream", "vectors", made->stream, "--config", config, "-o", made->vectors}));
+  return made;
+}
+
+}  // namespace
+
 const Recorded& recorded() {
-  static const std::unique_ptr<const Recorded> once = [] {
-    auto made = std::make_unique<Recorded>();
-    made->stream = made->folder / "scene.fss";
-    made->vectors = made->folder / "vectors";
-    cli_test::expect_success(cli_test::fastsplat(
-        {"stream", "record", "--volume", "shells:20", "--size", "44x40", "--config", "tiny", "-o", made->stream}));
-    cli_test::expect_success(
-        cli_test::fastsplat({"stream", "vectors", made->stream, "--config", "tiny", "-o", made->vectors}));
-    return made;
-  }();
+  static const std::unique_ptr<const Recorded> once = record("tiny", "1");
+  return *once;
+}
+
+const Recorded& recorded_that_culls() {
+  static const std::unique_ptr<const Recorded> once = record(kCulling, "40");
   return *once;
 }
 

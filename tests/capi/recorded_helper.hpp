@@ -1,9 +1,10 @@
-// One recorded stream of a small scene for tiny and its vectors, made once by the program for all tests of a run.
+// One recorded stream of a small scene for a configuration and its vectors, made once by the program for all tests of a run.
 #pragma once
 
 #include <string>
 
 #include "tests/cli/process_helper.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::test {
 
@@ -11,7 +12,9 @@ struct Recorded {
   cli_test::TempFolder folder;
   std::string stream, vectors;  ///< scene.fss and the folder
 };
-const Recorded& recorded();
+const Recorded& recorded();             ///< of tiny
+const Recorded& recorded_that_culls();  ///< of configs/faults/cull.toml, with sets that the device tells to be hidden
+inline const char* const kCulling = FASTSPLAT_SOURCE_DIR "/configs/faults/cull.toml";
 
 /// A Python that has `module`; empty for none.
 std::string python_with(const std::string& module);

@@ -32,7 +32,7 @@ const Truth& truth_of(const std::string& name) {
 
 const std::uint32_t* words_of(const std::vector<cmodel::Beat>& beats) { return beats.front().data(); }
 
-fastsplat_status tell(const std::vector<RawEvent>& events, fastsplat_checker* checker) {
+fastsplat_status tell(const std::vector<RawEvent>& events, fastsplat_checker* checker, std::uint32_t given) {
   for (const auto& event : events) {
     fastsplat_status status = FASTSPLAT_OK;
     if (event.beat) {
@@ -48,7 +48,13 @@ fastsplat_status tell(const std::vector<RawEvent>& events, fastsplat_checker* ch
       shown.mx = event.tap.mx;
       shown.my = event.tap.my;
       shown.block = event.tap.block;
+      if (event.tap.keep) shown.given |= given & FASTSPLAT_GIVEN_KEEP;
+      if (event.tap.tile) shown.given |= given & FASTSPLAT_GIVEN_TILE;
+      shown.keep = event.tap.keep.value_or(0);
+      shown.tile = event.tap.tile.value_or(0);
       shown.last = event.tap.last ? 1 : 0;
+      shown.cut = event.tap.cut ? 1 : 0;
+      shown.hidden = event.tap.hidden ? 1 : 0;
       shown.word_count = event.words.size();
       shown.words = event.words.data();
       status = fastsplat_checker_showed(checker, &shown);

@@ -23,8 +23,9 @@ const Truth& truth_of(const std::string& name);
 
 const std::uint32_t* words_of(const std::vector<cmodel::Beat>& beats);
 
-/// Tells the checker everything in order; the first status that is not FASTSPLAT_OK, or that.
-fastsplat_status tell(const std::vector<RawEvent>& events, fastsplat_checker* checker);
+/// Tells the checker everything in order, of what may be left out FASTSPLAT_GIVEN_...; the first status that is not
+/// FASTSPLAT_OK, or that.
+fastsplat_status tell(const std::vector<RawEvent>& events, fastsplat_checker* checker, std::uint32_t given = ~0U);
 
 /// Handles that destroy themselves; creating one that cannot be created is a failure of the test.
 struct Config {

@@ -80,7 +80,12 @@ class Replay final : public cmodel::TapSink, public cmodel::PixelSink {
         std::vector<std::uint32_t> words(4 * lanes_, ~0U);
         const auto from = tile.words.begin() + static_cast<std::ptrdiff_t>((y * width + x) * 4);
         std::copy_n(from, 4 * std::min(lanes_, width - x), words.begin());
-        show({.port = RawPort::Pixels, .last = y + 1 == height && x + lanes_ >= width, .words = {}}, std::move(words));
+        const auto kept = static_cast<std::uint32_t>(std::min(lanes_, width - x));
+        show({.port = RawPort::Pixels,
+              .last = y + 1 == height && x + lanes_ >= width,
+              .keep = (1U << kept) - 1,
+              .words = {}},
+             std::move(words));
       }
     }
   }
@@ -140,6 +145,7 @@ class Replay final : public cmodel::TapSink, public cmodel::PixelSink {
 
   void show(testbench::RawTap tap, std::vector<std::uint32_t> words) {
     tap.cycle = ++cycle_;
+    tap.tile = tile_.tile;
     events.push_back({.beat = std::nullopt, .tap = tap, .words = std::move(words)});
   }
 

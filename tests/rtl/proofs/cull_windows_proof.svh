@@ -27,4 +27,10 @@ always @* begin
     end
   end
 end
-always @* assert (seen_o == (there_i & (culls_i ? f_seen : '1)));
+always @* begin
+  assert (seen_o == (there_i & (culls_i ? f_seen : '1)));
+  // One of two windows of a tile that ends within a block; all of a row, by an opaque block and the tile's edge.
+  cover (culls_i && &there_i && seen_o != '0 && seen_o != '1 && 32'(width_i) % F_P != 0);
+  cover (culls_i && &there_i && seen_o == '0 && f_map != '1 && f_y < 0);
+  cover (!culls_i && &there_i && &seen_o && &f_map);
+end

@@ -27,6 +27,7 @@ bounded() {
 windows() { unit "$1" cull_windows "" "" "${2:+cull_windows}" "${2-}"; }
 windows cull_windows
 holds cull_windows 1 "cull_windows: a window is left out if and only if each of its pixels in the tile lies in an opaque block"
+happens cull_windows 1
 windows_broken() { windows "cull_windows_$1" "$2"; refuted "cull_windows_$1" 1; }
 windows_broken second_column "s/seen\[b\] && between_x;/1'b0;/"
 windows_broken row_below "s/(!second_out \&\& !row_below_i\[b\])/1'b0/"

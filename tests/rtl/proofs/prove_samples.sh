@@ -47,6 +47,7 @@ specification=composite_lane
 composite() { unit "$1" composite_lane "" "" "${2:+composite_lane}" "${2-}"; }
 composite composite_samples
 holds composite_samples 2 "composite_lane, every sample: what is forwarded out of k5 is what k6 will hold; words of 5 bits"
+happens composite_samples 10
 composite composite_samples_thawed "s/stepped(1'b0, frozen_k5_q, c == 3/stepped(1'b0, 1'b0, c == 3/"
 refuted composite_samples_thawed 6
 

@@ -1,14 +1,16 @@
-"""fuzz_keep.py KEPT RESULTS TOOL: adds a run of packaging/fuzz to docs/evidence/fuzz.json.
+"""fuzz_keep.py KEPT RESULTS TARGETS TOOL: adds a run of packaging/fuzz to docs/evidence/fuzz.json.
 
 RESULTS has a line a target, as `one` in packaging/fuzz writes it. Processor time and runs add up; edges are the most that a run saw. A target
-with a finding starts again from nothing: what it ran before was of code that is about to change. One that was interrupted keeps what it has."""
+with a finding starts again from nothing, the finding beside it until a run has none: what it ran before was of code that is about to change.
+One that was interrupted keeps what it has, one that never ran has nothing, and what TARGETS (targets.def) does not name is forgotten."""
 import datetime
 import json
 import os
 import re
 import sys
 
-kept, results, tool = sys.argv[1:]
+kept, results, targets, tool = sys.argv[1:]
+NOTHING = {"seconds": 0, "runs": 0, "edges": 0}
 whole = {"targets": {}}
 if os.path.exists(kept):
     with open(kept) as file:
@@ -22,13 +24,16 @@ with open(results) as file:
         if line.endswith(" interrupted, not counted\n"):
             continue
         if not fine:
-            whole["targets"].pop(name, None)
+            whole["targets"][name] = dict(NOTHING, finding=line.split(None, 2)[2].strip())
             continue
-        target = whole["targets"].setdefault(name, {"seconds": 0, "runs": 0, "edges": 0})
+        target = whole["targets"].setdefault(name, dict(NOTHING))
+        target.pop("finding", None)
         target["seconds"] += int(fine[3])
         target["runs"] += int(fine[1])
         target["edges"] = max(target["edges"], int(fine[2]))
-whole["targets"] = dict(sorted(whole["targets"].items()))
+with open(targets) as file:
+    names = re.findall(r"^FASTSPLAT_FUZZ_TARGET\(([a-z_]*),", file.read(), re.M)
+whole["targets"] = {name: whole["targets"].get(name, dict(NOTHING)) for name in sorted(names)}
 with open(kept + ".new", "w") as file:
     json.dump(whole, file, indent=1)
     file.write("\n")

@@ -21,7 +21,7 @@ check stream_check
 holds stream_check 1 "stream_check: of any beats those that keep the rules, in order, once; the first other is told, and what is open is closed"
 check_broken() { defines=-DF_FEW_BEATS check "stream_check_$1" "$2"; refuted "stream_check_$1" "${3:-8}"; }
 if [ -z "$short" ]; then
-  defines=-DF_FEW_BEATS check stream_check_few
+  without="FASTSPLAT_ASS\\|FASTSPLAT_COVER" defines=-DF_FEW_BEATS unit stream_check_few stream_check "record_rules word_rules" ""
   happens stream_check_few 8
   check_broken taken_back_beat_passes_twice "s/^    if (leaves) beat_valid_q <= 1'b0;.*//"
 fi

@@ -64,9 +64,9 @@ std::string figures_table(const Json& json, const Json& now) {
 }
 
 std::string proofs_table(const Json& json, const Json& now) {
-  const std::string all = json.contains("seconds")
-                              ? fmt::format(" All, with covers and planted faults: {} s.", json.at("seconds").get<int>())
-                              : "";
+  const std::string all = json.contains("seconds") ? fmt::format(" All, with covers and planted faults: {} s.",
+                                                                 json.at("seconds").get<int>())
+                                                   : "";
   std::string out = fmt::format("{}{}.{}\n\n| proved | how | seconds | planted faults refuted |\n|---|---|---|---|\n",
                                 json.at("tool").get<std::string>(), origin(json, now), all);
   for (const auto& proof : json.at("proofs")) {
@@ -240,13 +240,15 @@ int sum(const Json& of) {
 std::string fuzz(const Json& json) {
   std::string open;
   for (const auto& [name, target] : json.at("targets").items())
-    if (target.contains("finding")) open += fmt::format("- open: {}: {}\n", name, target.at("finding").get<std::string>());
+    if (target.contains("finding"))
+      open += fmt::format("- open: {}: {}\n", name, target.at("finding").get<std::string>());
   std::string out = fmt::format(
-      "{}, AddressSanitizer, UndefinedBehaviorSanitizer{}. Minutes add up from version to version of the program, since "
+      "{}, AddressSanitizer, UndefinedBehaviorSanitizer{}. Minutes add up from version to version of the program, "
+      "since "
       "a reader's last finding. {}\n\n{}| reader | processor minutes | inputs tried | edges reached |\n"
       "|---|---|---|---|\n",
-      json.at("tool").get<std::string>(), origin(json, nullptr), open.empty() ? "No finding is open." : "Open findings:",
-      open.empty() ? open : open + "\n");
+      json.at("tool").get<std::string>(), origin(json, nullptr),
+      open.empty() ? "No finding is open." : "Open findings:", open.empty() ? open : open + "\n");
   for (const auto& [name, target] : json.at("targets").items()) {
     out += fmt::format("| {} | {:.0f} | {} | {} |\n", name, target.at("seconds").get<double>() / 60.0,
                        target.at("runs").get<std::int64_t>(), target.at("edges").get<int>());
@@ -254,7 +256,8 @@ std::string fuzz(const Json& json) {
   return out + "\n";
 }
 
-/// Of a sample or of all: those that live are told one by one. Each module's row has a day of its own; "changed since" where `now` has another hash of it.
+/// Of a sample or of all: those that live are told one by one. Each module's row has a day of its own; "changed since"
+/// where `now` has another hash of it.
 std::string mutants(const Json& json, const Json& now) {
   std::string out = fmt::format(
       "{}.\n\n| module | mutants | killed | excluded | living | killed by | excluded because | tried |\n"

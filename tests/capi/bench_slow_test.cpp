@@ -44,7 +44,8 @@ TEST(CapiBench, FailsWithAFaultPlantedAndNamesItsFirstMismatch) {
     const char *fault, *first;
   };
   // Lines of testbench/faults/faults.def: ROUND_TRN, SNAP_OFF_BY_ONE, MISSED_DIRTY.
-  for (const Case one : {Case{"1", "stage sheet"}, Case{"4", "expected stage snap"}, Case{"15", "expected stage composite"}}) {
+  for (const Case one :
+       {Case{"1", "stage sheet"}, Case{"4", "expected stage snap"}, Case{"15", "expected stage composite"}}) {
     const auto result = bench({std::string("+fault=") + one.fault});
     EXPECT_NE(result.code, 0) << one.fault;
     EXPECT_NE(result.out.find("FAIL: mismatch: configuration tiny"), std::string::npos) << one.fault;
@@ -58,10 +59,9 @@ TEST(CapiBench, FailsWithAFaultPlantedAndNamesItsFirstMismatch) {
 /// Its verdicts are told, and looked at: a wrong one is the first thing seen of a corner read wrongly.
 TEST(CapiBench, ChecksTheVerdictsOfADeviceThatCulls) {
   const auto culling = [](const std::string& fault) {
-    auto result = cli_test::run_words({FASTSPLAT_CAPI_BENCH_CULL,
-                                       "+beats=" + recorded_that_culls().vectors + "/beats.hex",
-                                       std::string("+config=") + kCulling, "+input=every-6", "+output=every-3",
-                                       "+fault=" + fault});
+    auto result = cli_test::run_words(
+        {FASTSPLAT_CAPI_BENCH_CULL, "+beats=" + recorded_that_culls().vectors + "/beats.hex",
+         std::string("+config=") + kCulling, "+input=every-6", "+output=every-3", "+fault=" + fault});
     std::printf("%s", result.out.c_str());
     return result;
   };

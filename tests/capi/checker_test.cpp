@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "capi/fastsplat_dpi.h"
 #include "tests/capi/truth_helper.hpp"
 
 namespace fastsplat::test {
@@ -54,9 +55,10 @@ RawEvent& event_at(Truth& truth, testbench::RawPort port) {
 void show_a_verdict(Truth& truth) {
   const auto at = std::ranges::find_if(truth.events, [](const RawEvent& event) { return !event.beat; });
   const std::uint64_t cycle = at->tap.cycle;
-  truth.events.insert(at + 1, {.beat = std::nullopt,
-                               .tap = {.port = testbench::RawPort::Verdict, .cycle = cycle, .tag = 7, .hidden = true, .words = {}},
-                               .words = {}});
+  truth.events.insert(
+      at + 1, {.beat = std::nullopt,
+               .tap = {.port = testbench::RawPort::Verdict, .cycle = cycle, .tag = 7, .hidden = true, .words = {}},
+               .words = {}});
 }
 
 fastsplat_checker_options with_verdicts() {
@@ -100,6 +102,63 @@ TEST(CapiChecker, NamesWhatIsWrongFirst) {
     EXPECT_NE(std::string(fastsplat_last_error()).find(first), std::string::npos);
     std::printf("[figure] seen_%s = %s (limit one line)\n", one.what, first.c_str());
   }
+}
+
+/// As SystemVerilog tells it: each argument of a port gets to where it is compared.
+TEST(CapiChecker, WhatSystemVerilogTellsIsCompared) {
+  using testbench::RawPort;
+  const Truth& truth = truth_of("tiny");
+  const auto tell_all = [&](RawPort wrong, const char* what, auto spoil) {
+    void* checker = fastsplat_dpi_checker("tiny", cmodel::config_hash(truth.config), "always", "always", 1);
+    ASSERT_NE(checker, nullptr) << fastsplat_last_error();
+    const auto owner = static_cast<fastsplat_checker*>(checker);
+    EXPECT_EQ(fastsplat_checker_start(owner, kFirstBeat), FASTSPLAT_OK);
+    for (const auto& event : truth.events) {
+      auto tap = event.tap;
+      if (!event.beat && tap.port == wrong) spoil(tap);
+      const std::uint32_t tile = tap.tile.value_or(0), words = static_cast<std::uint32_t>(event.words.size());
+      const std::uint32_t* vector = event.words.data();
+      fastsplat_status status = FASTSPLAT_OK;
+      if (event.beat)
+        status = fastsplat_dpi_took(checker, event.beat->data());
+      else if (tap.port == RawPort::Snap)
+        status = fastsplat_dpi_snap(checker, tap.cycle, tile, tap.tag, tap.x, tap.y, tap.mx, tap.my);
+      else if (tap.port == RawPort::Sheet)
+        status = fastsplat_dpi_sheet(checker, tap.cycle, tile, tap.tag, vector, words);
+      else if (tap.port == RawPort::Window)
+        status = fastsplat_dpi_window(checker, tap.cycle, tile, tap.tag, tap.x, tap.y, vector, words);
+      else if (tap.port == RawPort::Composite)
+        status = fastsplat_dpi_composite(checker, tap.cycle, tile, tap.block, vector, words);
+      else if (tap.port == RawPort::SheetDone)
+        status = fastsplat_dpi_sheet_done(checker, tap.cycle);
+      else
+        status = fastsplat_dpi_pixels(checker, tap.cycle, tile, vector, words, tap.keep.value_or(0), tap.last, tap.cut);
+      ASSERT_EQ(status, FASTSPLAT_OK) << fastsplat_last_error();
+    }
+    if (wrong == RawPort::Verdict) {
+      EXPECT_EQ(fastsplat_dpi_verdict(checker, 1'000'000, 7, 1), FASTSPLAT_OK);
+    }
+    std::vector<std::uint32_t> counters;
+    for (const auto value : truth.counters)
+      counters.insert(counters.end(), {static_cast<std::uint32_t>(value), static_cast<std::uint32_t>(value >> 32)});
+    EXPECT_EQ(fastsplat_dpi_finish(checker, counters.data(), static_cast<std::uint32_t>(counters.size())),
+              *what == '\0' ? FASTSPLAT_OK : FASTSPLAT_FAILED)
+        << what;
+    const std::string first = fastsplat_checker_first_mismatch(owner);
+    std::printf("[figure] dpi_first = %s (limit %s)\n", first.c_str(), what);
+    EXPECT_NE(first.find(what), std::string::npos) << first;
+    EXPECT_EQ(fastsplat_checker_destroy(owner), FASTSPLAT_OK);
+  };
+  tell_all(RawPort::SheetDone, "", [](auto&) {});
+  for (const auto& [port, what] : {std::pair{RawPort::Snap, "stage snap, tile 9"},
+                                   {RawPort::Sheet, "stage sheet, tile 9"},
+                                   {RawPort::Window, "stage footprint, tile 9"},
+                                   {RawPort::Composite, "stage composite, tile 9"},
+                                   {RawPort::Pixels, "stage pixel, tile 9"}})
+    tell_all(port, what, [](auto& tap) { tap.tile = 9; });
+  tell_all(RawPort::Pixels, "RTL has stage pixel", [](auto& tap) { *tap.keep ^= 1; });
+  tell_all(RawPort::Pixels, "marked as of a tile cut short", [](auto& tap) { tap.cut = true; });
+  tell_all(RawPort::Verdict, "verdict: expected none, RTL tag 7 hidden", [](auto&) {});
 }
 
 TEST(CapiChecker, WhatABenchDoesNotHaveIsNotCompared) {

@@ -38,6 +38,8 @@ fetch = {os.path.relpath(path, source) for path in glob.glob(f"{source}/rtl/fetc
 assert set(files["fetch"]) - rtl == fetch, (set(files["fetch"]) - rtl) ^ fetch
 includes = {next(iter(file)) for file in core["filesets"]["rtl"]["files"] if not isinstance(file, str)}
 assert includes == {file for file in rtl if file.endswith(".svh")}
+
+
 def generated(target, toplevel):
     """Its instances of generators, where the core is the top of a design or another core depends on it."""
     names = []

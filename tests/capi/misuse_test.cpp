@@ -155,7 +155,8 @@ TEST_F(CapiMisuse, WrongSizesAndNumbersAreRefused) {
   std::int64_t value = 0;
   refused(fastsplat_config_value(config_.handle, "array.lines", &value), "unknown key 'array.lines'");
   std::size_t words = 0;
-  refused(fastsplat_checker_port_words(checker.handle, FASTSPLAT_PORTS, &words), "unknown port (expected at most 6, got 7)");
+  refused(fastsplat_checker_port_words(checker.handle, FASTSPLAT_PORTS, &words),
+          "unknown port (expected at most 6, got 7)");
 
   std::vector<std::uint32_t> ones(1000, ~0U);
   fastsplat_shown shown{};

@@ -1,5 +1,5 @@
-// The lines that the pages tell to type for Verilator: what they name is there, and is read. As --lint-only, which takes
-// the same options and files.
+// The lines that the pages tell to type for Verilator: what they name is there, and is read. As --lint-only, which
+// takes the same options and files.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -39,7 +39,8 @@ class Pages : public ::testing::Test {
     command = replaced(command, mode, "--lint-only --quiet-exit");
     command = replaced(command, "fastsplat_pkg.sv", package_);
     const auto made = cli_test::run_words(
-        {"/bin/sh", "-c", "cd " FASTSPLAT_SOURCE_DIR " && " FASTSPLAT_EMIT_PACKAGE " tiny >" + package_ + " && " + command});
+        {"/bin/sh", "-c",
+         "cd " FASTSPLAT_SOURCE_DIR " && " FASTSPLAT_EMIT_PACKAGE " tiny >" + package_ + " && " + command});
     std::printf("[figure] %s: exit code %d (limit 0) of%s\n", page.c_str(), made.code, command.c_str());
     EXPECT_EQ(made.code, 0) << made.out << made.err;
   }

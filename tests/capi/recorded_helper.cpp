@@ -6,12 +6,12 @@ namespace fastsplat::test {
 
 namespace {
 
-std::unique_ptr<const Recorded> record(const std::string& config, const std::string& opacity) {
+std::unique_ptr<const Recorded> record(const std::string& config, const std::string& size, const std::string& opacity) {
   auto made = std::make_unique<Recorded>();
   made->stream = made->folder / "scene.fss";
   made->vectors = made->folder / "vectors";
-  cli_test::expect_success(cli_test::fastsplat(
-      {"stream", "record", "--volume", "shells:20", "--opacity-scale", opacity, "--size", "44x40", "--config", config, "-o", made->stream}));
+  cli_test::expect_success(cli_test::fastsplat({"stream", "record", "--volume", "shells:20", "--opacity-scale", opacity,
+                                                "--size", size, "--config", config, "-o", made->stream}));
   cli_test::expect_success(
       cli_test::fastsplat({"stream", "vectors", made->stream, "--config", config, "-o", made->vectors}));
   return made;
@@ -20,12 +20,12 @@ std::unique_ptr<const Recorded> record(const std::string& config, const std::str
 }  // namespace
 
 const Recorded& recorded() {
-  static const std::unique_ptr<const Recorded> once = record("tiny", "1");
+  static const std::unique_ptr<const Recorded> once = record("tiny", "44x40", "1");
   return *once;
 }
 
 const Recorded& recorded_that_culls() {
-  static const std::unique_ptr<const Recorded> once = record(kCulling, "40");
+  static const std::unique_ptr<const Recorded> once = record(kCulling, "45x40", "40");
   return *once;
 }
 

@@ -191,7 +191,8 @@ TEST(NumericsPage, KeysAndBaseValuesAreTheConfigurations) {
   }
   for (const auto& [key, value] : base) {
     if (key.find('.') == std::string::npos) continue;  // name, description, verified
-    EXPECT_TRUE(std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row[0] == key; })) << key;
+    EXPECT_TRUE(std::any_of(rows.begin(), rows.end(), [&name = key](const auto& row) { return row[0] == name; }))
+        << key;
   }
   std::printf("[figure] configuration keys compared = %zu\n", rows.size());
 }
@@ -341,7 +342,8 @@ TEST(MicroarchitecturePage, CapabilitiesArePackedAsTheirRowsSay) {
   int fields = 0, words = 0;
   for (const cmodel::Config& config : configs) {
     for (const auto& [reg, word] : cmodel::capabilities(config)) {
-      const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& one) { return one[1] == reg.name; });
+      const auto row =
+          std::find_if(rows.begin(), rows.end(), [&name = reg.name](const auto& one) { return one[1] == name; });
       ASSERT_NE(row, rows.end()) << reg.name;
       std::uint32_t expected = 0;
       for (const std::string& part : split((*row)[2])) {

@@ -90,8 +90,8 @@ TEST_F(Oblique, APitchedScanStandsUprightInEveryMethodAndEngine) {
     for (const auto& [name, method] : kMethods) {
       if (std::string(ending) != ".nii" && method != scene::Method::ImageAligned) continue;
       SCOPED_TRACE(std::string(name) + ending);
-      const auto picture = [&](const std::shared_ptr<const volume::Volume>& volume) {
-        return golden::render(scene_of(method, volume, *straight));
+      const auto picture = [&, its_method = method](const std::shared_ptr<const volume::Volume>& volume) {
+        return golden::render(scene_of(its_method, volume, *straight));
       };
       const Image truth = picture(straight);
       const double upright = distance(picture(turned), truth).psnr_db;
@@ -101,8 +101,8 @@ TEST_F(Oblique, APitchedScanStandsUprightInEveryMethodAndEngine) {
       EXPECT_GT(upright, 54.0);
       EXPECT_GT(upright, lying + 15.0);
       if (method == scene::Method::Westover || method == scene::Method::RayCast) continue;
-      const auto words = [&](const std::shared_ptr<const volume::Volume>& volume) {
-        return to_image(render(scene_of(method, volume, *straight), config).frame);
+      const auto words = [&, its_method = method](const std::shared_ptr<const volume::Volume>& volume) {
+        return to_image(render(scene_of(its_method, volume, *straight), config).frame);
       };
       const double device = distance(words(turned), words(straight)).psnr_db;
       const double engines = distance(words(turned), picture(turned)).psnr_db;

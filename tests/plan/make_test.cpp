@@ -94,7 +94,7 @@ TEST(PlanMake, RefusesWithTheLineWhatMeansNothing) {
       {"kind = \"cycles\"\n[axes]\nn = [1\n", "not valid TOML"},
   };
   for (const auto& [spec, words] : wrong)
-    EXPECT_THAT(error_of([&] { plan_of(folder, spec); }), HasSubstr(words)) << spec;
+    EXPECT_THAT(error_of([&, &text = spec] { plan_of(folder, text); }), HasSubstr(words)) << spec;
   std::printf("[figure] wrong_specifications = %zu (limit > 0)\n", std::size(wrong));
 }
 

@@ -168,7 +168,7 @@ TEST(RunVerbs, WhatIsKnownGoesOn) {
                                  {"mutate", "--module", "csr", "--seed", "3"},
                                  {"build", "-j1", "-k0", "fastsplat"},
                                  {"fuzz", "--seconds", "1", "volume", "--jobs", "2", "--keep"},
-                                 {"sanitize", "base_fast", "cmodel_slow"},
+                                 {"sanitize", "fast", "cmodel_slow"},
                                  {"gallery", "terrain"},
                                  {"coverage", "run"},
                                  {"demo", "--size", "64"},

@@ -327,8 +327,9 @@ std::string page(const std::filesystem::path& folder, const nlohmann::ordered_js
   const auto designs = read(folder / "synthesis.json");
   out += designs ? synthesis(*designs, now) : missing("synthesis", "./run synth");
   out += "## Error, cycles, area\n\n";
-  const auto area = text(folder / "area.md");
-  out += area ? *area : missing("the plan error-cycles-area", "./run evidence");
+  const auto area = read(folder / "area.json");
+  out += area ? fmt::format("Model and golden{}.\n\n{}", origin(*area, now), area->at("text").get<std::string>())
+              : missing("the plan error-cycles-area", "./run evidence");
   while (out.ends_with("\n\n")) out.pop_back();
   return out;
 }

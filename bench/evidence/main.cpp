@@ -81,7 +81,9 @@ int seed(const Json& baseline, const std::string& name) {
   return 0;
 }
 
-Json proofs(const std::string& tool, const std::string& seconds, std::span<const std::string> files) {
+/// `seconds` of them all, on as many `processors`.
+Json proofs(const std::string& tool, const std::string& seconds, const std::string& processors,
+            std::span<const std::string> files) {
   Json all = Json::array();
   for (const auto& file : files) {
     std::ifstream in(file);
@@ -100,7 +102,7 @@ Json proofs(const std::string& tool, const std::string& seconds, std::span<const
                      {"refuted", std::stoi(fields[3])}});
     }
   }
-  return {{"tool", tool}, {"seconds", std::stoi(seconds)}, {"proofs", all}};
+  return {{"tool", tool}, {"seconds", std::stoi(seconds)}, {"processors", std::stoi(processors)}, {"proofs", all}};
 }
 
 Json figures(const Json& report) {
@@ -147,8 +149,8 @@ int run(const std::vector<std::string>& words) {
     std::cout << Json{{"tool", words[1]}, {"tests", figures(read_json(words[2]))}}.dump(1) << "\n";
     return 0;
   }
-  if (is("proofs", 3)) {
-    std::cout << proofs(words[1], words[2], std::span(words).subspan(3)).dump(1) << "\n";
+  if (is("proofs", 4)) {
+    std::cout << proofs(words[1], words[2], words[3], std::span(words).subspan(4)).dump(1) << "\n";
     return 0;
   }
   if (is("page", 1)) {
@@ -156,7 +158,8 @@ int run(const std::vector<std::string>& words) {
     return 0;
   }
   std::cerr << "usage: fastsplat_evidence synthesis KEPT WORK_DIR FAMILY-CONFIG... | ratchet BASELINE WORK_DIR "
-               "FAMILY-CONFIG... | seed BASELINE FAMILY-CONFIG | figures TOOL GTEST_JSON | proofs TOOL SECONDS FILE... | page FOLDER [STAMP]\n";
+               "FAMILY-CONFIG... | seed BASELINE FAMILY-CONFIG | figures TOOL GTEST_JSON | proofs TOOL SECONDS "
+               "PROCESSORS FILE... | page FOLDER [STAMP]\n";
   return 2;
 }
 

@@ -64,9 +64,10 @@ std::string figures_table(const Json& json, const Json& now) {
 }
 
 std::string proofs_table(const Json& json, const Json& now) {
-  const std::string all = json.contains("seconds") ? fmt::format(" All, with covers and planted faults: {} s.",
-                                                                 json.at("seconds").get<int>())
-                                                   : "";
+  const std::string all = json.contains("seconds")
+                              ? fmt::format(" All, with covers and planted faults: {} s on {} processors.",
+                                            json.at("seconds").get<int>(), json.at("processors").get<int>())
+                              : "";
   std::string out = fmt::format("{}{}.{}\n\n| proved | how | seconds | planted faults refuted |\n|---|---|---|---|\n",
                                 json.at("tool").get<std::string>(), origin(json, now), all);
   for (const auto& proof : json.at("proofs")) {

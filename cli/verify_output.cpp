@@ -172,6 +172,13 @@ std::string to_text(const Gain& gain) {
   return fmt::format("coverage: {} of {} bins hit, in {}\n", gain.hit, gain.bins, gain.path);
 }
 
+std::string saved_text(const std::vector<SavedStream>& saved, std::size_t streams) {
+  const std::string count = counted(streams, "stream");
+  return fmt::format("saved: {}; replay of {}: {}",
+                     saved.size() == streams ? count : fmt::format("{} of {}", grouped(saved.size()), count),
+                     saved.back().file, saved.back().replay);
+}
+
 std::string planted_text(const VerifyArguments& arguments) {
   if (arguments.fault.empty()) return {};
   const auto& fault = testbench::planted_fault_from(arguments.fault);
@@ -260,6 +267,7 @@ nlohmann::ordered_json to_json(const VerifyReport& result) {
   }
   if (result.failure) json["failure"] = failure_json(*result.failure);
   for (const auto& [file, replay] : result.saved) json["saved"].push_back({{"stream", file}, {"replay", replay}});
+  if (!result.unwritten.empty()) json["unwritten"] = result.unwritten;
   if (!result.wave.file.empty()) json["wave"] = to_json(result.wave);
   if (const auto& coverage = result.coverage) json["coverage"] = {{"bins", coverage->bins}, {"hit", coverage->hit}};
   json["seconds"] = result.seconds;
@@ -272,8 +280,8 @@ std::string fault_list_text() {
   return to_text(table) + fmt::format(
                               "rtl: in the RTL of configuration {0}, SAMPLE_ of {1}, CULL_ of {2}, POST_ of {3}, which "
                               "--config then is; ports: of any configuration\n",
-                              testbench::kBreakableConfig, testbench::kBreakableSamples,
-                              testbench::kBreakableCull, testbench::kBreakablePost);
+                              testbench::kBreakableConfig, testbench::kBreakableSamples, testbench::kBreakableCull,
+                              testbench::kBreakablePost);
 }
 
 nlohmann::ordered_json fault_list_json() {

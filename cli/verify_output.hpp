@@ -46,6 +46,7 @@ struct VerifyReport {
   std::optional<Gain> coverage;
   std::vector<SavedStream> saved;
   Wave wave;
+  std::vector<std::string> unwritten;  ///< why coverage or streams are not written
   double seconds = 0.0;
 };
 
@@ -57,6 +58,8 @@ std::string to_text(const Gain& gain);
 std::string planted_text(const VerifyArguments& arguments);
 /// Verdict and counts.
 std::string to_text(const VerifyReport& report);
+/// How many of `streams` were saved, and the replay of the last.
+std::string saved_text(const std::vector<SavedStream>& saved, std::size_t streams);
 /// The rows of --all-mismatches; empty without it.
 std::string mismatches_text(const VerifyReport& report);
 nlohmann::ordered_json to_json(const VerifyReport& report);

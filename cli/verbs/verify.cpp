@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "cli/failure_name.hpp"
 #include "cli/frame_names.hpp"
+#include "cli/late_results.hpp"
 #include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/replay_line.hpp"
@@ -112,17 +113,20 @@ Gain save_coverage(const Checked& checked, const std::string& path, const cmodel
 }
 
 /// The streams that were run, as they were run: those of a passing campaign, or up to the one that failed.
+/// Nothing behind the first that cannot be written.
 std::vector<SavedStream> save_streams(const VerifyArguments& arguments, const Checked& checked,
                                       const ConfigFlags& config, const testbench::VerifyOptions& options,
-                                      const std::vector<std::string>& names) {
+                                      const std::vector<std::string>& names, LateResults& results) {
   std::vector<SavedStream> saved;
   if (names.empty()) return saved;
   const auto campaign = campaign_from(arguments, options);
-  for (std::size_t i = 0; i < checked.by_stream.size(); ++i) {
-    const auto run = testbench::make_run(campaign, i);
-    driver::write_beats(names[i], run.beats);
-    saved.push_back({.file = names[i], .replay = replay_line(names[i], config, run.options, arguments.fault)});
-  }
+  results.write([&] {
+    for (std::size_t i = 0; i < checked.by_stream.size(); ++i) {
+      const auto run = testbench::make_run(campaign, i);
+      driver::write_beats(names[i], run.beats);
+      saved.push_back({.file = names[i], .replay = replay_line(names[i], config, run.options, arguments.fault)});
+    }
+  });
   return saved;
 }
 
@@ -207,7 +211,8 @@ ExitCode verify_and_tell(const VerifyArguments& arguments) {
                       .failure = {},
                       .coverage = {},
                       .saved = {},
-                      .wave = {}};
+                      .wave = {},
+                      .unwritten = {}};
   if (!arguments.fault.empty() && result.run.verdict == testbench::Verdict::Pass)
     result.run.verdict = testbench::Verdict::FaultUnseen;
   const auto verdict = result.run.verdict;
@@ -228,22 +233,20 @@ ExitCode verify_and_tell(const VerifyArguments& arguments) {
                             result.resets_late == 1 ? "is shorter, and was reset after its last beat"
                                                     : "are shorter, and were reset after their last beat"));
   }
-  if (!arguments.coverage.empty() && verdict == testbench::Verdict::Pass) {
-    result.coverage = save_coverage(checked, arguments.coverage, config);
-    output.line(to_text(*result.coverage));
-  }
-  result.saved = save_streams(arguments, checked, config_flags, options, saved);
-  if (!result.saved.empty()) {
-    const auto& last = result.saved.back();
-    output.line(
-        fmt::format("saved: {}; replay of {}: {}", counted(result.saved.size(), "stream"), last.file, last.replay));
-  }
+  LateResults results;
+  if (!arguments.coverage.empty() && verdict == testbench::Verdict::Pass)
+    results.write([&] { result.coverage = save_coverage(checked, arguments.coverage, config); });
+  if (result.coverage) output.line(to_text(*result.coverage));
+  result.saved = save_streams(arguments, checked, config_flags, options, saved, results);
+  if (!result.saved.empty()) output.line(saved_text(result.saved, checked.by_stream.size()));
   result.wave = write_wave(arguments.wave, checked.source, checked.options, checked.result.last_cycle);
-  const ExitCode code = tell(result.wave, testbench::exit_code(verdict), output);
+  ExitCode code = tell(result.wave, testbench::exit_code(verdict), output);
+  result.unwritten = results.unwritten();
   result.seconds = output.seconds();
   const auto json = to_json(result);
-  write_junit(arguments.junit, json);
-  output.json(json);
+  results.write([&] { write_junit(arguments.junit, json); });
+  results.write([&] { output.json(json); });
+  code = results.tell(code, output);
   arguments.common.json == "-" ? output.note(seed) : output.line(seed);
   return code;
 }

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -91,6 +93,59 @@ TEST_F(VerifyFiles, ThatCannotBeLeaveTheVerdict) {
   EXPECT_NE(failure.at("smallest"), "") << "it is made small all the same";
   // A place that was named is tried before the run.
   expect_error(fastsplat(failing("1", {"--failure", "mine"}), here_), 3, {"mine.fss"});
+}
+
+TEST_F(VerifyFiles, OneThatCannotBeLeavesTheOthersAndTheVerdict) {
+  const auto run =
+      fastsplat(failing("1", {"--junit", "/dev/full", "--json", "told.json", "--save-stream", "run.fss"}), here_);
+  EXPECT_EQ(run.code, 1) << run.err;
+  EXPECT_NE(run.err.find("warning: /dev/full: cannot write"), std::string::npos) << run.err;
+  EXPECT_EQ(told("told.json").at("verdict"), "mismatch");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "run.fss"));
+
+  here_.largest_file = 6000;  // the JSON has two thousand, the stream eight
+  const auto small =
+      fastsplat(failing("1", {"--junit", "small.xml", "--json", "small.json", "--save-stream", "small.fss"}), here_);
+  EXPECT_EQ(small.code, 1) << small.err;
+  EXPECT_NE(small.err.find("warning: small.fss: cannot write"), std::string::npos) << small.err;
+  EXPECT_NE(read_bytes(folder_ / "small.xml").find("failures=\"1\""), std::string::npos);
+  EXPECT_FALSE(told("small.json").contains("saved"));
+  EXPECT_NE(told("small.json").at("unwritten").at(0).get<std::string>().find("small.fss"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "small.fss"));
+}
+
+// Behind a pass it is an error, and says how much of a numbered set is there.
+TEST_F(VerifyFiles, OneThatCannotBeLeavesTheOthersOfAPass) {
+  Words words{"verify", "--random", "4000", "--config", "tiny", "--save-stream", "run-##.fss", "--json"};
+  auto first = words;
+  first.push_back("first.json");
+  ASSERT_EQ(fastsplat(first, here_).code, 0);
+  std::uintmax_t largest = 0;
+  const auto before = told("first.json");
+  for (const auto& saved : before.at("saved")) {
+    const auto file = folder_.path() / saved.at("stream").get<std::string>();
+    largest = std::max(largest, std::filesystem::file_size(file));
+    std::filesystem::remove(file);
+  }
+  here_.largest_file = largest - 1;
+  words.insert(words.end(), {"told.json", "--junit", "told.xml", "--coverage", "covered.json"});
+  const auto run = fastsplat(words, here_);
+  EXPECT_EQ(run.code, 3) << run.err;
+  const auto result = told("told.json");
+  const auto saved = result.value("saved", nlohmann::json::array()).size();
+  const auto streams = result.at("streams").get<std::size_t>();
+  EXPECT_GT(saved, 0u);
+  EXPECT_LT(saved, streams);
+  EXPECT_NE(run.out.find("saved: " + std::to_string(saved) + " of " + std::to_string(streams) + " streams"),
+            std::string::npos)
+      << run.out;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "covered.json"));
+  std::printf("[figure] streams saved of a set of which one is too large = %zu of %zu\n", saved, streams);
+  EXPECT_EQ(result.at("verdict"), "pass");
+  EXPECT_EQ(result.at("unwritten").size(), 2u) << "coverage and a stream";
+  for (const auto& why : result.at("unwritten"))
+    EXPECT_NE(run.err.find("error: " + why.get<std::string>()), std::string::npos) << run.err;
+  EXPECT_NE(read_bytes(folder_ / "told.xml").find("failures=\"0\""), std::string::npos);
 }
 
 TEST_F(VerifyFiles, AreNamedOnStderrByAQuietRun) {

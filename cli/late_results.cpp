@@ -1,0 +1,19 @@
+#include "cli/late_results.hpp"
+
+namespace fastsplat::cli {
+
+void LateResults::write(const std::function<void()>& write) {
+  try {
+    write();
+  } catch (const UserError& error) {
+    if (unwritten_.empty()) first_ = error.code();
+    unwritten_.emplace_back(error.what());
+  }
+}
+
+ExitCode LateResults::tell(ExitCode run, const Output& output) const {
+  for (const std::string& why : unwritten_) run == ExitCode::Pass ? print_error(why) : output.warn(why);
+  return run == ExitCode::Pass ? first_ : run;
+}
+
+}  // namespace fastsplat::cli

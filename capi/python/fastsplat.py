@@ -75,16 +75,19 @@ class _Report(ctypes.Structure):
 
 def _load():
     beside = os.path.join(os.path.dirname(os.path.abspath(__file__)), *[os.pardir] * 3)
-    names = [os.environ.get("FASTSPLAT_LIBRARY")]
-    names += [os.path.join(beside, lib, "libfastsplat.so.3") for lib in ("lib", "lib64", "lib/" + os.uname().machine + "-linux-gnu")]
-    names = [name for name in names if name and os.path.exists(name)] + ["libfastsplat.so.3"]
-    library = ctypes.CDLL(names[0])
+    places = [os.path.join(beside, lib, "libfastsplat.so.3") for lib in ("lib", "lib64", "lib/" + os.uname().machine + "-linux-gnu")]
+    found = [place for place in places if os.path.exists(place)] + ["libfastsplat.so.3"]
+    chosen = os.environ.get("FASTSPLAT_LIBRARY") or found[0]  # one that was named is the one that is meant, or none
+    try:
+        library = ctypes.CDLL(chosen)
+    except OSError as error:
+        raise ImportError(f"{error}; FASTSPLAT_LIBRARY is to name libfastsplat.so.3") from None
     for name in ("fastsplat_version", "fastsplat_last_error", "fastsplat_checker_first_mismatch",
                  "fastsplat_checker_summary"):
         getattr(library, name).restype = ctypes.c_char_p
     library.fastsplat_api_version.restype = ctypes.c_uint32
     if library.fastsplat_api_version() >> 16 != _API_MAJOR:
-        raise ImportError(f"{names[0]}: another version of the interface than this fastsplat.py")
+        raise ImportError(f"{chosen}: another version of the interface than this fastsplat.py")
     return library
 
 
@@ -120,16 +123,27 @@ def _names(function):
 
 def read_stream(path):
     """The beats of a recorded stream (.fss): uint32, (beats, BEAT_WORDS). Its contents are checked when they are fed."""
-    words = np.fromfile(path, dtype="<u4")
+    octets = np.fromfile(path, dtype=np.uint8)
+    words = octets[: octets.size // 4 * 4].view("<u4")
     if words.size > 1 and words[1] == _STREAM_MAGIC and words[0] >> 16 != STREAM_VERSION:
         raise ValueError(f"{path}: stream version {words[0] >> 16}, this library reads version {STREAM_VERSION}: record it again")
-    if words.size == 0 or words.size % BEAT_WORDS:
-        raise ValueError(f"{path}: not whole beats of {4 * BEAT_WORDS} bytes")
+    if octets.size == 0 or octets.size % (4 * BEAT_WORDS):
+        raise ValueError(f"{path}: {octets.size} bytes are not whole beats of {4 * BEAT_WORDS}")
     return words.reshape(-1, BEAT_WORDS)
 
 
+def _whole(what, values, dtype):
+    """`values` as they are: numbers that `dtype` has not are refused, not cut."""
+    values = np.asarray(values)
+    if values.size and values.dtype.kind not in "ui":
+        raise ValueError(f"{what}: expected whole numbers, got {values.dtype}")
+    if values.size and (values.min() < 0 or int(values.max()) > np.iinfo(dtype).max):
+        raise ValueError(f"{what}: expected 0 to {np.iinfo(dtype).max}, got {values.min()} to {values.max()}")
+    return np.ascontiguousarray(values, dtype=dtype)
+
+
 def _beats(beats):
-    beats = np.ascontiguousarray(beats, dtype=np.uint32)
+    beats = _whole("beats", beats, np.uint32)
     if beats.ndim == 1 and beats.size == BEAT_WORDS:
         beats = beats.reshape(1, BEAT_WORDS)
     if beats.ndim != 2 or beats.shape[1] != BEAT_WORDS:
@@ -227,6 +241,7 @@ class Checker(_Handle):
     _destroy = "fastsplat_checker_destroy"
     PORTS = ("snap", "sheet", "window", "composite", "sheet_done", "pixels", "verdict")
     _GIVEN = {"keep": 1, "tile": 2}
+    _FIELDS = [name for name, _ in _Shown._fields_ if name not in ("struct_size", "port", "given", "word_count", "words")]
 
     def __init__(self, config, scope=WHOLE, stop_after=0, input_pattern="always", output_pattern="always", seed=0,
                  verdicts=False):
@@ -245,7 +260,11 @@ class Checker(_Handle):
 
     def showed(self, port, cycle, words=(), **fields):
         """`fields` are those of fastsplat_shown that the port has; keep and tile are compared where they are named."""
-        words = np.ascontiguousarray(words, dtype=np.uint32)
+        words = _whole("words", words, np.uint32)
+        for name, value in dict(fields, cycle=cycle).items():
+            if name not in self._FIELDS:
+                raise TypeError(f"showed: no field {name}; there are {', '.join(self._FIELDS)}")
+            _whole(name, int(value), np.uint64 if name == "cycle" else np.uint32)
         given = sum(bit for name, bit in self._GIVEN.items() if name in fields)
         shown = _Shown(struct_size=ctypes.sizeof(_Shown), port=self.PORTS.index(port), given=given, cycle=cycle,
                        word_count=words.size, words=words.ctypes.data, **fields)
@@ -253,7 +272,7 @@ class Checker(_Handle):
 
     def finish(self, counters=()):
         """True is a pass; of a device that failed report() and first_mismatch() say how."""
-        values = np.ascontiguousarray(counters, dtype=np.uint64)
+        values = _whole("counters", counters, np.uint64)
         try:
             _call("fastsplat_checker_finish", self._pointer, values.ctypes.data_as(ctypes.c_void_p),
                   ctypes.c_size_t(values.size))

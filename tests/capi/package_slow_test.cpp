@@ -82,6 +82,11 @@ TEST(CapiPackage, PythonGetsTheProgramsWords) {
   std::printf("%s", result.out.c_str());
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.out.find("[figure] python_records ="), std::string::npos);
+  // A library that was named is the one that is meant: no other takes its place.
+  here.environment.push_back("FASTSPLAT_LIBRARY=/proc/libfastsplat.so.3");
+  const auto elsewhere = cli_test::run_words({python, "-c", "import fastsplat"}, here);
+  EXPECT_NE(elsewhere.code, 0);
+  EXPECT_NE(elsewhere.err.find("ImportError: /proc/libfastsplat.so.3: "), std::string::npos) << elsewhere.err;
 }
 
 }  // namespace

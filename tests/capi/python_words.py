@@ -47,6 +47,29 @@ for wrong, status in ((lambda: fastsplat.Config("tinny"), fastsplat.INPUT),
         assert error.status == status, error
     else:
         raise AssertionError("not refused")
+# What is no such number, name or file is refused here, before a cast makes something else of it.
+damaged = stream + ".damaged"
+with open(stream, "rb") as whole, open(damaged, "wb") as file:
+    file.write(whole.read() + b"xyz")
+checker, fresh = fastsplat.Checker(fastsplat.Config("tiny")), fastsplat.Model(fastsplat.Config("tiny"))
+for wrong, kind, words in ((lambda: fastsplat.read_stream(damaged), ValueError, "are not whole beats of 32"),
+                           (lambda: fresh.feed(beats.astype(float)), ValueError, "whole numbers"),
+                           (lambda: fresh.feed(beats.astype(np.int64) + 2**32), ValueError, "0 to 4294967295"),
+                           (lambda: fresh.feed(beats.astype(np.int64) - 2**32), ValueError, "0 to 4294967295"),
+                           (lambda: checker.showed("snap", 0, keeps=3), TypeError, "no field keeps"),
+                           (lambda: checker.showed("snap", 0, words_count=3), TypeError, "no field words_count"),
+                           (lambda: checker.showed("snap", 0, tag=2**33), ValueError, "0 to 4294967295"),
+                           (lambda: checker.showed("snap", -1, tag=1), ValueError, "cycle: expected 0 to 18446744073709551615"),
+                           (lambda: checker.finish([0.5] * 16), ValueError, "whole numbers")):
+    try:
+        wrong()
+    except kind as error:
+        assert words in str(error), error
+    else:
+        raise AssertionError(f"not refused: {words}")
+fresh.feed(beats.astype(np.int64).tolist())
+fresh.finish()
+assert fresh.counters == model.counters, "whole numbers of another type are the same beats"
 checker = fastsplat.Checker(fastsplat.Config("tiny"))
 checker.took(beats)
 assert not checker.finish() and checker.report().verdict == "mismatch" and checker.first_mismatch()
@@ -55,12 +78,12 @@ tiny = fastsplat.Config("tiny")
 for port, fields, detector in (("verdict", {"tag": 7, "hidden": 1}, "verdicts"), ("pixels", {"keep": 1, "tile": 3, "cut": 1}, "tiles")):
     checker = fastsplat.Checker(tiny, verdicts=True)
     checker.start(0)
-    checker.showed(port, 1, np.zeros(4 * tiny["array.lanes"] if port == "pixels" else 0), **fields)
+    checker.showed(port, 1, np.zeros(4 * tiny["array.lanes"] if port == "pixels" else 0, dtype=int), **fields)
     assert checker.report().detector == detector, checker.report()
     print(f"[figure] python_{port} = {checker.first_mismatch()} (limit one line)")
 checker = fastsplat.Checker(tiny)
 checker.took(beats)
-checker.showed("pixels", 1, np.zeros(4 * tiny["array.lanes"]), keep=2, tile=3)
+checker.showed("pixels", 1, np.zeros(4 * tiny["array.lanes"], dtype=int), keep=2, tile=3)
 checker.finish()
 assert "RTL has stage pixel, tile 3, pixel (1,0)" in checker.first_mismatch(), checker.first_mismatch()
 print(f"[figure] python_records = {len(records)} (limit > 1000)")

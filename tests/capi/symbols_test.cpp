@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "capi/fastsplat.h"
 #include "tests/paths.hpp"
 
 namespace fastsplat::test {
@@ -38,15 +39,15 @@ std::set<std::string> declared() {
 
 TEST(CapiSymbols, ShowsExactlyWhatItsHeadersDeclare) {
   std::istringstream lines(output_of("nm -D --defined-only '" FASTSPLAT_LIBRARY "'"));
-  std::set<std::string> shown;
+  std::set<std::string> shown, versions;
   for (std::string line; std::getline(lines, line);) {
     const std::string kind = line.substr(17, 1), name = line.substr(19, line.find('@') - 19);
-    if (kind == "A") continue;  // the version's own name
-    shown.insert(name);
+    (kind == "A" ? versions : shown).insert(name);
   }
   std::printf("[figure] symbols = %zu (limit > 30)\n", shown.size());
   EXPECT_GT(shown.size(), 30u);
   EXPECT_EQ(shown, declared());
+  EXPECT_EQ(versions, (std::set<std::string>{"FASTSPLAT_" + std::to_string(FASTSPLAT_API_MAJOR)}));
 }
 
 TEST(CapiSymbols, NeedsNoPictureVolumeOrSimulator) {

@@ -20,6 +20,7 @@ function(example_bench out name config)
     COMMENT "Package of the example bench")
   add_custom_command(
     OUTPUT ${program}
+    COMMAND ${CMAKE_COMMAND} -E rm -f ${program}  # Verilator's makefile does not know that the library is another
     COMMAND ${PROJECT_SOURCE_DIR}/cmake/verilate.sh ${folder}/verilator.log ${CMAKE_COMMAND} -E env OBJCACHE=${FASTSPLAT_CCACHE} ${VERILATOR} --binary --timing ${ARGN} -j 1 --quiet-exit
             --top-module fastsplat_bench --Mdir ${folder}/obj -DFASTSPLAT_FAULT_SELECT=fastsplat_fault_pkg::selected -I${PROJECT_SOURCE_DIR}/rtl
             -MAKEFLAGS OPT_FAST=-O1 -MAKEFLAGS OPT_SLOW=-O0 -MAKEFLAGS OPT_GLOBAL=-O0

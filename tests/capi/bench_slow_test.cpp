@@ -3,6 +3,8 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
 
 #include "tests/capi/recorded_helper.hpp"
 
@@ -83,6 +85,37 @@ TEST(CapiBench, ChecksTheVerdictsOfADeviceThatCulls) {
   const auto wrong = culling("40");
   EXPECT_NE(wrong.code, 0);
   EXPECT_NE(wrong.out.find("first mismatch: verdict: expected tag"), std::string::npos);
+}
+
+TEST(CapiBench, SaysWhatThePageSays) {
+  const std::string page = cli_test::read_bytes(FASTSPLAT_SOURCE_DIR "/docs/capi.md");
+  ASSERT_NE(page.find("stream record --volume shells:20 --size 44x40 --config tiny -o"), std::string::npos)
+      << "recorded() is another scene's";
+  ASSERT_NE(page.find("+input=random-60 +output=burst-16 +seed=5"), std::string::npos);
+  const auto said = bench({"+input=random-60", "+output=burst-16", "+seed=5"});
+  const auto broken = bench({"+fault=1"});
+  int lines = 0;
+  for (const auto* result : {&said, &broken}) {
+    std::istringstream out(result->out);
+    for (std::string line; std::getline(out, line);) {
+      if (!line.starts_with("PASS") && !line.starts_with("FAIL") && !line.starts_with("first mismatch")) continue;
+      EXPECT_NE(page.find("    " + line + "\n"), std::string::npos) << "docs/capi.md has not: " << line;
+      ++lines;
+    }
+  }
+  std::printf("[figure] bench_lines_on_the_page = %d (limit 3)\n", lines);
+  EXPECT_EQ(lines, 3);
+}
+
+TEST(CapiBench, SaysWhyThereIsNoVerdict) {
+  const cli_test::TempFolder folder;
+  const std::string whole = cli_test::read_bytes(recorded().vectors + "/beats.hex");
+  const std::string cut = folder.write("cut.hex", whole.substr(0, 20 * 65));  // 20 lines of 64 digits
+  const auto result = cli_test::run_words({FASTSPLAT_CAPI_BENCH, "+beats=" + cut});
+  EXPECT_NE(result.code, 0);
+  EXPECT_EQ(result.out.find("first mismatch"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("stream ends too early"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("FAIL: not finished: configuration tiny"), std::string::npos) << result.out;
 }
 
 TEST(CapiBench, RefusesWhatItCannotCheck) {

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <filesystem>
 #include <memory>
+#include <system_error>
 
 #include "capi/config_handle.hpp"
 #include "capi/guard.hpp"
@@ -62,6 +64,14 @@ extern "C" FASTSPLAT_API fastsplat_status fastsplat_config_file(const char* path
     require(call, "out", out);
     // A file that is called as a built-in one is called stays a file.
     const std::string named = path;
+    std::error_code ignored;
+    if (!std::filesystem::exists(named, ignored)) {
+      throw_input({.where = named,
+                   .what = "no such file",
+                   .expected = "a configuration's .toml file",
+                   .got = {},
+                   .fix = "fastsplat_config_named knows those built in"});
+    }
     return hand_out(driver::load_config(named.find('/') == std::string::npos ? "./" + named : named), out);
   });
 }

@@ -26,17 +26,18 @@ void check_still_name(const std::string& path) {
                .fix = "add --orbit A..B --frames N or --sequence, or leave the # out"});
 }
 
-FrameNames::FrameNames(const std::string& pattern, int frames) {
+FrameNames::FrameNames(const std::string& pattern, int frames, const std::string& of) {
   const auto folder = pattern.size() - std::filesystem::path(pattern).filename().string().size();
   const auto first = pattern.find('#', folder);
   const auto end = first == std::string::npos ? first : pattern.find_first_not_of('#', first);
+  const auto extension = std::filesystem::path(pattern).extension().string();
   if (first == std::string::npos || (end != std::string::npos && pattern.find('#', end) != std::string::npos)) {
     throw_usage(
         {.where = pattern,
-         .what = first == std::string::npos ? "no place for the frame number" : "two places for the frame number",
+         .what = fmt::format("{} for the {} number", first == std::string::npos ? "no place" : "two places", of),
          .expected = "one run of # in the file's name",
          .got = {},
-         .fix = "for example frame.####.png"});
+         .fix = fmt::format("for example {}.####{}", of, of == "frame" ? ".png" : extension)});
   }
   before_ = pattern.substr(0, first);
   after_ = end == std::string::npos ? "" : pattern.substr(end);
@@ -44,7 +45,7 @@ FrameNames::FrameNames(const std::string& pattern, int frames) {
   const auto last = fmt::format("{}", frames - 1);
   if (static_cast<int>(last.size()) > digits_) {
     throw_usage({.where = pattern,
-                 .what = fmt::format("{} # cannot number {} frames", digits_, frames),
+                 .what = fmt::format("{} # cannot number {} {}s", digits_, frames, of),
                  .expected = {},
                  .got = {},
                  .fix = fmt::format("write {}", std::string(last.size(), '#'))});

@@ -50,7 +50,8 @@ driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config&
 }
 
 std::string mismatches_text(const testbench::CheckReport& check) {
-  return grouped(check.mismatches) + " mismatches" + (check.stopped ? ", stopped there" : "");
+  return grouped(check.mismatches) + (check.mismatches == 1 ? " mismatch" : " mismatches") +
+         (check.stopped ? ", stopped there" : "");
 }
 
 nlohmann::ordered_json optional_json(const std::optional<std::uint64_t>& value) {

@@ -59,7 +59,7 @@ std::vector<std::string> saved_names(const VerifyArguments& arguments, Source so
                  .got = {},
                  .fix = "add --class NAME and leave --seeds at 1, or name random-####.fss"});
   }
-  const FrameNames names(arguments.save_stream, static_cast<int>(count));
+  const FrameNames names(arguments.save_stream, static_cast<int>(count), "stream");
   std::vector<std::string> files;
   for (std::uint64_t i = 0; i < count; ++i) files.push_back(names(static_cast<int>(i)));
   return files;

@@ -233,7 +233,8 @@ TEST_F(CapiMisuse, ConfigurationsThatBreakTheirRulesAreRefused) {
   fastsplat_config* out = nullptr;
   refused(fastsplat_config_named("tinny", &out), "no such built-in configuration", FASTSPLAT_INPUT);
   refused(fastsplat_config_named("/etc/passwd", &out), "no such built-in configuration", FASTSPLAT_INPUT);
-  refused(fastsplat_config_file("tiny", &out), "no such configuration", FASTSPLAT_INPUT);
+  refused(fastsplat_config_file("tiny", &out),
+          "tiny: no such file (expected a configuration's .toml file); fastsplat_config_named", FASTSPLAT_INPUT);
   refused(fastsplat_config_file("/", &out), "is a directory", FASTSPLAT_INPUT);
   const std::string text = "lanes = ";
   refused(fastsplat_config_text(text.data(), text.size(), "mine.toml", &out), "mine.toml:1:9", FASTSPLAT_INPUT);

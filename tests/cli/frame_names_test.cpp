@@ -37,5 +37,22 @@ TEST(FrameNames, WithoutOneFittingRunAreRefusedWithAFix) {
   }
 }
 
+TEST(FrameNames, SayWhatIsNumbered) {
+  try {
+    FrameNames("s#.fss", 18, "stream");
+    ADD_FAILURE();
+  } catch (const UserError& error) {
+    EXPECT_STREQ(error.what(), "s#.fss: 1 # cannot number 18 streams; write ##");
+  }
+  try {
+    FrameNames("a#b#.fss", 18, "stream");
+    ADD_FAILURE();
+  } catch (const UserError& error) {
+    EXPECT_STREQ(error.what(),
+                 "a#b#.fss: two places for the stream number (expected one run of # in the file's name); for example "
+                 "stream.####.fss");
+  }
+}
+
 }  // namespace
 }  // namespace fastsplat::cli

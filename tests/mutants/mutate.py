@@ -230,7 +230,7 @@ def keep(root, build, cpp, rows, mutants, living, exclusions):
             survivors.append({key: mutant[key] for key in ("module", "line", "source", "what", "original")})
     kept["survivors"] = survivors
     campaign.write(path, json.dumps(whole, indent=1) + "\n")
-    say(f"{path}; `./run evidence` makes docs/evidence.md of it")
+    say(f"{path}; `./run evidence page` makes docs/evidence.md of it")
 
 
 def main(words) -> int:

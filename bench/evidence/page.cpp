@@ -245,8 +245,7 @@ std::string fuzz(const Json& json) {
       open += fmt::format("- open: {}: {}\n", name, target.at("finding").get<std::string>());
   std::string out = fmt::format(
       "{}, AddressSanitizer, UndefinedBehaviorSanitizer{}. Minutes add up from version to version of the program, "
-      "since "
-      "a reader's last finding. {}\n\n{}| reader | processor minutes | inputs tried | edges reached |\n"
+      "since a reader's last finding. {}\n\n{}| reader | processor minutes | inputs tried | edges reached |\n"
       "|---|---|---|---|\n",
       json.at("tool").get<std::string>(), origin(json, nullptr),
       open.empty() ? "No finding is open." : "Open findings:", open.empty() ? open : open + "\n");

@@ -7,15 +7,15 @@ import subprocess
 import generate
 
 # By module: the script, and the unit in it that is proved.
-_CONTROL, _UNITS, _BOUNDS = "proofs/prove_control.sh", "proofs/prove_units.sh", "proofs/prove_bounds.sh"
+_CONTROL, _CORE, _UNITS, _BOUNDS = (f"proofs/prove_{part}.sh" for part in ("control", "core", "units", "bounds"))
 _SAMPLES, _CULL = "proofs/prove_samples.sh", "proofs/prove_cull.sh"
 _SCRIPTS = {"sheet_bank": ("prove.sh", "sheet_bank"), "csr": (_UNITS, "csr"), "pixel_out": (_UNITS, "pixel_out"), "narrow": (_UNITS, "narrow"),
             "stream_check": (_CONTROL, "stream_check"), "record_rules": (_CONTROL, "stream_check"), "word_rules": (_CONTROL, "stream_check"),
             "stream_decode": (_CONTROL, "stream_decode"), "dirty_map": (_CONTROL, "dirty_map"), "compositor": (_CONTROL, "compositor"),
-            "fastsplat_core": (_CONTROL, "core"), "slab_opacity": (_BOUNDS, "slab_opacity"), "composite_lane": (_BOUNDS, "composite_lane"),
+            "fastsplat_core": (_CORE, "core"), "slab_opacity": (_BOUNDS, "slab_opacity"), "composite_lane": (_BOUNDS, "composite_lane"),
             "overlap": (_SAMPLES, "decode_samples"), "sample_places": (_SAMPLES, "samples"),
             "cull_windows": (_CULL, "cull_windows"), "cull_map": (_CULL, "cull_map"), "cull_table": (_CULL, "cull_map")}
-_MORE = {"prove.sh": ["generated/mustfail/fastsplat_fault_pkg.sv"], _CONTROL: ["short"], _SAMPLES: ["short"]}
+_MORE = {"prove.sh": ["generated/mustfail/fastsplat_fault_pkg.sv"], _CONTROL: ["short"], _CORE: ["short"], _SAMPLES: ["short"]}
 
 
 def has(module: str) -> bool:

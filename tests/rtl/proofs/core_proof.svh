@@ -1,5 +1,5 @@
 // How check, decode, splat path, compositor and pixel out share the sheet buffers (docs/microarchitecture.md), put inside fastsplat_core
-// by prove_control.sh: a memory has one owner at a time, which sheet_bank_proof.svh assumes; what dirty_map_proof.svh,
+// by prove_core.sh: a memory has one owner at a time, which sheet_bank_proof.svh assumes; what dirty_map_proof.svh,
 // compositor_proof.svh and stream_decode_proof.svh assume of each other; and no deadlock. The source sends what it will and soft resets
 // come at any time. Data is cut off: any pixel may lie inside, and check may call any field of a record right or wrong, in its place or
 // out of it (which fields are: stream_check_proof.svh); the walk picks what it will, in the cycles that dirty_map_proof.svh has.

@@ -143,7 +143,7 @@ always @(posedge clk_i) begin
     f_loaded_q <= '0;
   end
 end
-// What comes back was out, and the open sheet's buffer does not: prove_control.sh, core.
+// What comes back was out, and the open sheet's buffer does not: prove_core.sh.
 always @* begin
   if (free_i) assume (f_busy_q[free_buffer_i] && !(f_place_q == 2'd2 && free_buffer_i == f_buffer_q));
 end

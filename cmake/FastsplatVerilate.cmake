@@ -110,8 +110,8 @@ function(fastsplat_verilate target config)
   target_link_libraries(${target} INTERFACE ${archive} verilated_runtime)
 endfunction()
 
-# fastsplat_fault_package(<list> <package>): <package>, generated now: the faults of <list>, lines FAULT(NAME, ...), by the number of the line, and the one
-# that is selected (rtl/fault.svh).
+# fastsplat_fault_package(<list> <package>): <package>, generated now: the faults of <list>, lines FAULT(NAME, ...), by the number of the line, how many
+# they are, and the one that is selected (rtl/fault.svh).
 function(fastsplat_fault_package list package)
   file(STRINGS ${list} lines REGEX "^FAULT\\(")
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${list})
@@ -126,7 +126,10 @@ function(fastsplat_fault_package list package)
   file(CONFIGURE OUTPUT ${package} @ONLY CONTENT [=[
 // Generated from @source@; do not edit.
 package fastsplat_fault_pkg;
-@numbers@`ifdef VERILATOR
+@numbers@  // verilator lint_off UNUSEDPARAM
+  localparam int FAULTS = @number@;
+  // verilator lint_on UNUSEDPARAM
+`ifdef VERILATOR
   int selected  /* verilator public_flat_rw */;
 `endif
 endpackage

@@ -111,6 +111,7 @@ module fastsplat_bench;
     if ($value$plusargs("seed=%d", seed)) $display("seed %0d", seed);
     if ($value$plusargs("fault=%d", fault)) $display("fault %0d", fault);
 `ifdef FASTSPLAT_FAULT_SELECT
+    if (fault < 0 || fault > fastsplat_fault_pkg::FAULTS) fail($sformatf("no fault %0d: 1 to %0d, or 0 for none", fault, fastsplat_fault_pkg::FAULTS));
     fastsplat_fault_pkg::selected = fault;
 `else
     if (fault != 0) fail("+fault needs a build with FASTSPLAT_FAULT_SELECT");

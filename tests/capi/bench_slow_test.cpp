@@ -58,6 +58,14 @@ TEST(CapiBench, FailsWithAFaultPlantedAndNamesItsFirstMismatch) {
   }
 }
 
+/// A number that no fault has: nothing is planted, and a pass would be of another device than was asked for.
+TEST(CapiBench, RefusesAFaultThatThereIsNot) {
+  const auto result = bench({"+fault=999"});
+  EXPECT_NE(result.code, 0);
+  EXPECT_EQ(result.out.find("PASS"), std::string::npos);
+  EXPECT_NE(result.out.find("no fault 999: 1 to "), std::string::npos);
+}
+
 /// Its verdicts are told, and looked at: a wrong one is the first thing seen of a corner read wrongly.
 TEST(CapiBench, ChecksTheVerdictsOfADeviceThatCulls) {
   const auto culling = [](const std::string& fault) {

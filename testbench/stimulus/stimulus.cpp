@@ -68,6 +68,7 @@ class Generator {
       TileDocument empty{begin_tile(), {}};
       empty.begin.width = static_cast<int>(random_.between(1, config_.lanes));
       empty.begin.height = 1;
+      empty.begin.x = std::min(empty.begin.x, document.width - empty.begin.width);  // at the edge it may have grown
       document.tiles.insert(document.tiles.begin(), 3, empty);
       document.tiles.push_back(empty);
     }

@@ -3,7 +3,8 @@
 #   mustfail  what tiny does not have: centres that are rounded, two radius sets, early freezing
 #   westover  what neither has: every sample composited
 #   cull      what none of these has: hidden splats left out
-set(FASTSPLAT_COVERED_CONFIGS tiny mustfail westover cull)
+#   post      nor of those: weights between entries of the radial table, densities that are classified by pixel
+set(FASTSPLAT_COVERED_CONFIGS tiny mustfail westover cull post)
 set(declarations "")
 set(entries "")
 add_library(fastsplat_covered_rtl STATIC EXCLUDE_FROM_ALL)

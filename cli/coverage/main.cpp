@@ -39,6 +39,7 @@ constexpr Run kRuns[] = {{"tiny", {.splats = 36000, .seeds = 18, .resets = 480},
                          {"mustfail", {.splats = 36000, .seeds = 18, .resets = 480}, false},
                          {"westover", {.splats = 36000, .seeds = 18, .resets = 480}, false},
                          {"cull", {.splats = 36000, .seeds = 18, .resets = 480}, false},
+                         {"post", {.splats = 36000, .seeds = 18, .resets = 480}, false},
                          {"small", {.splats = 36000, .seeds = 18, .resets = 480}, true},
                          {"base", {.splats = 7200, .seeds = 24, .resets = 180}, true}};
 

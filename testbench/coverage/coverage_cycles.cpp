@@ -18,11 +18,13 @@ bool can_rise(const cmodel::Config& config, std::string_view counter) {
 constexpr std::uint64_t kDistances = 8;
 /// end_sheet, begin_sheet, window: no word is met sooner across a swap.
 constexpr std::uint64_t kLeastSwap = 3;
+/// How much later than of a device of circles and entries as they are a window comes down the splat path.
+std::uint64_t path_delay(const cmodel::Config& config) {
+  return cmodel::stages::splat_delay(config) + cmodel::stages::weight_delay(config);
+}
 /// The most windows that a sheet can issue before the walk of the one before begins: a walk that is late because of an
 /// earlier one holds back the sheet's own begin_sheet as well.
-std::uint64_t walk_begins(const cmodel::Config& config) {
-  return cmodel::stages::splat_delay(config) + cmodel::stages::kWalk - 2;
-}
+std::uint64_t walk_begins(const cmodel::Config& config) { return path_delay(config) + cmodel::stages::kWalk - 2; }
 constexpr std::uint64_t kWalkEnds = 16;
 constexpr std::uint64_t kSheetSizes = 41;
 
@@ -132,7 +134,7 @@ void CycleCoverage::on_tap(const cmodel::TapRecord& record) {
 }
 
 void CycleCoverage::window(const cmodel::TapRecord& record) {
-  const std::uint64_t issued = record.cycle - cmodel::stages::splat_delay(config_) - cmodel::stages::kSheet;
+  const std::uint64_t issued = record.cycle - path_delay(config_) - cmodel::stages::kSheet;
   if (walk_known_) {
     if (issued < before_.walk_from) ++windows_before_walk_;
     if (issued < before_.walk_to) ++windows_before_end_;
@@ -171,7 +173,7 @@ void CycleCoverage::on_sheet(const cmodel::SheetCycles& sheet) {
   if (every_sample_) return;  // nothing is swapped or walked
   if (sheet.windows < kSheetSizes) coverage_.hit(windows_in_sheet_ + sheet.windows);
   if (sheet.begun > sheet.offered) coverage_.hit(buffer_wait_ + length(sheet.begun - sheet.offered));
-  const std::uint64_t soonest = sheet.closed + cmodel::stages::splat_delay(config_) + cmodel::stages::kWalk;
+  const std::uint64_t soonest = sheet.closed + path_delay(config_) + cmodel::stages::kWalk;
   coverage_.hit(sheet.walk_from > soonest ? walk_waits_ : walk_at_once_);
   if (sheet.blocks == 0) coverage_.hit(empty_walk_);
   if (walk_known_) {

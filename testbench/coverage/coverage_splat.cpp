@@ -55,6 +55,11 @@ SplatCoverage::SplatCoverage(const cmodel::Config& config, Coverage& coverage)
   index_furthest_ = coverage.declare("radial", "q_at_twice_the_rim");
   weight_zero_ = coverage.declare("radial", "weight_zero_inside");
   weight_largest_ = coverage.declare("radial", "weight_largest");
+  if (config.interpolates()) {
+    on_entry_ = coverage.declare("interpolation", "on_an_entry");
+    between_ = coverage.declare("interpolation", "between_entries");
+    behind_last_ = coverage.declare("interpolation", "behind_the_last_entry");
+  }
   const std::int64_t product = config.colour_format().max * config.weight_format().max;
   for (std::size_t c = 0; c < 4; ++c)
     product_[c] =
@@ -163,6 +168,11 @@ void SplatCoverage::footprint(const cmodel::TapRecord& record) {
       if (index == 0) coverage_.hit(index_first_);
       if (index + 1 == static_cast<std::uint32_t>(config_.radial_entries)) coverage_.hit(index_last_);
       if (q + 1 == rim) coverage_.hit(index_last_inside_);
+      if (config_.interpolates()) {
+        const bool last = index + 1 == static_cast<std::uint32_t>(config_.radial_entries);
+        const bool entry = q == index << config_.rlut_guard_bits;
+        coverage_.hit(entry ? on_entry_ : last ? behind_last_ : between_);
+      }
       if (weight == 0) coverage_.hit(weight_zero_);
       if (weight == largest) coverage_.hit(weight_largest_);
     }

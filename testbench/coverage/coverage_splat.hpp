@@ -66,6 +66,7 @@ class SplatCoverage {
   Id rlut_zero_ = 0, rlut_rim_ = 0, rlut_first_ = 0, rlut_last_ = 0;
   Id index_first_ = 0, index_last_ = 0, index_last_inside_ = 0, index_at_rim_ = 0, index_beyond_ = 0,
      index_furthest_ = 0;
+  Id on_entry_ = 0, between_ = 0, behind_last_ = 0;  ///< of devices that interpolate
   Id weight_zero_ = 0, weight_largest_ = 0;
   std::array<RoundingPoint, 4> product_;
   Id sum_saturated_ = 0, sum_alone_ = 0, sum_all_ = 0, sum_exactly_ = 0, sum_stays_ = 0;

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "cmodel/classify_tables.hpp"
+#include "cmodel/pattern_tables.hpp"
 #include "cmodel/window_geometry.hpp"
 #include "testbench/device/words.hpp"
 
@@ -10,12 +12,47 @@ namespace {
 
 std::size_t words_in_last_beat(std::size_t words) { return (words + cmodel::kBeatWords - 1) % cmodel::kBeatWords; }
 
-/// Fills of a table's last beat (0: one word, 1: two ...) that the configuration's tables can have.
+template <class Kind>
+using Names = std::vector<std::pair<Kind, const char*>>;
+
+Names<cmodel::Table> tables_of(const cmodel::Config& config) {
+  using cmodel::Table;
+  Names<Table> out{{Table::Rlut, "rlut"}, {Table::Radial, "radial"}, {Table::Factor, "factor"}};
+  const Names<Table> densities{{Table::Classify, "classify"},
+                               {Table::Root, "root"},
+                               {Table::Glint, "glint"},
+                               {Table::Lighting, "lighting"},
+                               {Table::Sheets, "sheets"}};
+  const Names<Table> patterns{{Table::Nodes, "nodes"}, {Table::Pattern, "pattern"}};
+  if (config.classifies()) out.insert(out.end(), densities.begin(), densities.end());
+  if (config.has_patterns()) out.insert(out.end(), patterns.begin(), patterns.end());
+  return out;
+}
+
+Names<cmodel::Mode> modes_of(const cmodel::Config& config) {
+  using cmodel::Mode;
+  Names<Mode> out{{Mode::Exponential, "exponential"}, {Mode::Additive, "additive"}, {Mode::Sum, "sum"}};
+  const Names<Mode> samples{{Mode::SampleExponential, "every_sample_exponential"},
+                            {Mode::SampleAdditive, "every_sample_additive"}};
+  const Names<Mode> densities{{Mode::DensityExponential, "density_exponential"},
+                              {Mode::DensityAdditive, "density_additive"}};
+  if (config.composite_every_sample != 0) out.insert(out.end(), samples.begin(), samples.end());
+  if (config.classifies()) out.insert(out.end(), densities.begin(), densities.end());
+  return out;
+}
+
+/// Fills of a table's last beat (0: one word, 1: two ...) that the configuration's tables can have. SHEETS, which has
+/// as many words as its frame has sheets, is not asked.
 std::set<std::size_t> last_beats(const cmodel::Config& config) {
-  std::set<std::size_t> out{words_in_last_beat(static_cast<std::size_t>(config.radial_entries)),
+  std::set<std::size_t> out{words_in_last_beat(static_cast<std::size_t>(config.radial_words())),
                             words_in_last_beat(static_cast<std::size_t>(config.opacity_segments) + 1)};
   for (int columns = config.lanes; columns <= config.rlut_columns; columns += config.lanes)
     out.insert(words_in_last_beat(static_cast<std::size_t>(columns) * static_cast<std::size_t>(config.phases)));
+  for (const auto& [table, name] : tables_of(config)) {
+    const bool pattern = table == cmodel::Table::Nodes || table == cmodel::Table::Pattern;
+    const auto words = pattern ? cmodel::pattern_words(config, table) : cmodel::classify_words(config, table);
+    if (words > 0) out.insert(words_in_last_beat(static_cast<std::size_t>(words)));  // else: above, or SHEETS
+  }
   return out;
 }
 
@@ -30,19 +67,15 @@ StreamCoverage::StreamCoverage(const cmodel::Config& config, Coverage& coverage)
   // In the order of cmodel::Record, as they are.
   for (const auto& record : cmodel::record_layouts())
     if (record.opcode != cmodel::Opcode::Ellipse || config.has_ellipses()) coverage.declare("record", record.name);
-  table_kind_ = coverage.bins().size();
-  for (const char* name : {"rlut", "radial", "factor"}) coverage.declare("table", name);
+  for (const auto& [table, name] : tables_of(config))
+    table_kind_.at(static_cast<std::size_t>(table)) = coverage.declare("table", name);
   for (const std::size_t words : last_beats(config))
     coverage.declare("table", "last_beat_of_" + std::to_string(words + 1));
   loaded_again_ = coverage.declare("table", "set_loaded_again");
   first_columns_ = coverage.declare("table", "set_in_first_columns");
   last_columns_ = coverage.declare("table", "set_in_last_columns");
-  mode_ = coverage.bins().size();
-  for (const char* name : {"exponential", "additive", "sum"}) coverage.declare("tile", name);
-  if (config.composite_every_sample != 0) {
-    sample_mode_ = coverage.bins().size();
-    for (const char* name : {"every_sample_exponential", "every_sample_additive"}) coverage.declare("tile", name);
-  }
+  for (const auto& [mode, name] : modes_of(config))
+    mode_.at(static_cast<std::size_t>(mode)) = coverage.declare("tile", name);
   full_width_ = coverage.declare("tile", "full_width");
   full_height_ = coverage.declare("tile", "full_height");
   partial_width_ = coverage.declare("tile", "partial_block_width");
@@ -95,9 +128,10 @@ void StreamCoverage::on_record(const cmodel::Record& record) {
 }
 
 void StreamCoverage::table(const cmodel::LoadTable& table) {
-  coverage_.hit(table_kind_ + static_cast<std::size_t>(table.table));
-  coverage_.hit(
-      coverage_.declare("table", "last_beat_of_" + std::to_string(words_in_last_beat(table.words.size()) + 1)));
+  coverage_.hit(table_kind_.at(static_cast<std::size_t>(table.table)));
+  if (table.table != cmodel::Table::Sheets)
+    coverage_.hit(
+        coverage_.declare("table", "last_beat_of_" + std::to_string(words_in_last_beat(table.words.size()) + 1)));
   if (table.table != cmodel::Table::Rlut) return;
   const auto extent = cmodel::window_geometry(config_, table.radius.rho).padded;
   const std::uint32_t base = table.radius.base, end = base + extent;
@@ -113,11 +147,7 @@ void StreamCoverage::table(const cmodel::LoadTable& table) {
 }
 
 void StreamCoverage::tile(const cmodel::BeginTile& tile) {
-  if (cmodel::every_sample(tile.mode)) {
-    coverage_.hit(sample_mode_ + static_cast<std::size_t>(cmodel::slab_mode(tile.mode)));
-  } else {
-    coverage_.hit(mode_ + static_cast<std::size_t>(tile.mode));
-  }
+  coverage_.hit(mode_.at(static_cast<std::size_t>(tile.mode)));
   if (tile.width == config_.tile_width) coverage_.hit(full_width_);
   if (tile.height == config_.tile_height) coverage_.hit(full_height_);
   if (tile.width % config_.lanes != 0) coverage_.hit(partial_width_);

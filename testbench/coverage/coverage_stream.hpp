@@ -1,6 +1,8 @@
 // Coverage of what a stream says: record kinds, tables, tiles, sheets, culling hints, colours (docs/stream.md).
 #pragma once
 
+#include <array>
+
 #include "cmodel/config.hpp"
 #include "cmodel/records.hpp"
 #include "testbench/coverage/coverage.hpp"
@@ -25,10 +27,10 @@ class StreamCoverage {
 
   cmodel::Config config_;
   Coverage& coverage_;
-  Id record_ = 0, last_beat_ = 0, table_kind_ = 0;
+  Id record_ = 0, last_beat_ = 0;
+  std::array<Id, 10> table_kind_{}, mode_{};  ///< by cmodel::Table and cmodel::Mode, those of the configuration
   Id loaded_again_ = 0, overlap_ = 0, first_columns_ = 0, last_columns_ = 0;
-  Id mode_ = 0, sample_mode_ = 0, full_width_ = 0, full_height_ = 0, partial_width_ = 0, partial_height_ = 0,
-     one_pixel_ = 0;
+  Id full_width_ = 0, full_height_ = 0, partial_width_ = 0, partial_height_ = 0, one_pixel_ = 0;
   Id no_sheet_ = 0, next_tile_ = 0;
   Id empty_sheet_ = 0, one_splat_ = 0, number_gap_ = 0, number_zero_ = 0;
   Id cull_first_ = 0, cull_between_ = 0, cull_last_ = 0;

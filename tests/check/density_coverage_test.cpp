@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string>
+#include <tuple>
+#include <utility>
 
 #include "testbench/coverage/coverage_collector.hpp"
 #include "testbench/stimulus/stimulus.hpp"
@@ -52,6 +55,40 @@ TEST(DensityCoverage, TilesOfDensitiesHitNoBinOfWords) {
   EXPECT_GT(densities.tiles, 10U);
   EXPECT_EQ(densities.hits, 0U);
   EXPECT_GT(colours.hits, 0U);
+}
+
+/// Bins of a group that a record hits, with commas between.
+std::string bins_of(const std::string& group, const cmodel::Record& record) {
+  Coverage coverage;
+  StreamCoverage stream(test::named_config("faults/post"), coverage);
+  stream.on_record(record);
+  std::string out;
+  for (const auto& bin : coverage.bins())
+    if (bin.hits > 0 && bin.name.starts_with(group)) out += (out.empty() ? "" : ", ") + bin.name;
+  return out;
+}
+
+TEST(DensityCoverage, EachTableAndModeHasItsBin) {
+  using cmodel::Mode;
+  using cmodel::Table;
+  for (const auto& [table, words, bins] : {std::tuple{Table::Factor, 9, "table.factor, table.last_beat_of_1"},
+                                           {Table::Classify, 68, "table.classify, table.last_beat_of_4"},
+                                           {Table::Root, 769, "table.root, table.last_beat_of_1"},
+                                           {Table::Glint, 129, "table.glint, table.last_beat_of_1"},
+                                           {Table::Lighting, 13, "table.lighting, table.last_beat_of_5"},
+                                           {Table::Sheets, 6, "table.sheets"}}) {
+    cmodel::LoadTable record{.table = table, .radius = {}, .words = {}};
+    record.words.assign(static_cast<std::size_t>(words), 0);
+    EXPECT_EQ(bins_of("table.", record), bins);
+  }
+  for (const auto& [mode, bin] : {std::pair{Mode::Sum, "tile.sum"},
+                                  {Mode::DensityExponential, "tile.density_exponential"},
+                                  {Mode::DensityAdditive, "tile.density_additive"}}) {
+    cmodel::BeginTile record{};
+    record.mode = mode;
+    record.width = record.height = 2;
+    EXPECT_EQ(bins_of("tile.", record), bin);
+  }
 }
 
 }  // namespace

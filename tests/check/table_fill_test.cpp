@@ -57,6 +57,9 @@ TEST(TableFill, IsDeclaredWhereATableOfTheConfigurationHasIt) {
   // 16 words, 9, and 4 rows of 4, 8, 12, 16 columns.
   const auto mustfail = testbench::CoverageCollector::declare(named_config("faults/mustfail"));
   EXPECT_EQ(fills(mustfail, false), (std::set<int>{1, 8}));
+  // 17 words, 9, 4 rows of 2, 4, ... 16 columns, and CLASSIFY's 68, ROOT's 3 2^k + 1, GLINT's 129, LIGHTING's 13.
+  const auto post = testbench::CoverageCollector::declare(named_config("faults/post"));
+  EXPECT_EQ(fills(post, false), (std::set<int>{1, 4, 5, 8}));
   std::printf("[figure] fills of tiny = %zu of 8, of mustfail = %zu of 8\n", fills(tiny, false).size(),
               fills(mustfail, false).size());
 }

@@ -118,22 +118,27 @@ void CheckerRun::finish(const char* call, std::span<const std::uint64_t> counter
     misuse(call, "wrong number of counters", "0, 16 or " + number(all), number(count));
   if (checker_.started() && count != all)
     misuse(call, "cycles are compared, and their counters are missing", number(all) + " counters", number(count));
-  if (count == 0) {
-    checker_.finish();
-  } else {
-    auto value = counters.begin();
-    cmodel::Counters work;
-    cmodel::StallCounters cycles;
+  try {
+    if (count == 0) {
+      checker_.finish();
+    } else {
+      auto value = counters.begin();
+      cmodel::Counters work;
+      cmodel::StallCounters cycles;
 #define X(name, meaning) work.name = *value++;
-    FASTSPLAT_COUNTERS(X)
+      FASTSPLAT_COUNTERS(X)
 #undef X
-    if (count == all) {
+      if (count == all) {
 #define X(name, counter, meaning) \
   if (cmodel::has_counter(setup_.config, #counter)) cycles.name = *value++;
-      FASTSPLAT_STALL_COUNTERS(X)
+        FASTSPLAT_STALL_COUNTERS(X)
 #undef X
+      }
+      checker_.finish(work, cycles);
     }
-    checker_.finish(work, cycles);
+  } catch (const UserError& error) {  // of a stream that is not whole
+    broken_ = error.what();
+    throw;
   }
   finished_ = true;
 }

@@ -38,7 +38,12 @@ class Run final : private cmodel::TapSink, private cmodel::PixelSink {
   void finish(const char* call) {
     if (finished_) misuse(call, "the model is finished already");
     if (!broken_.empty()) misuse(call, "the stream broke before (" + broken_ + "); reset the model");
-    model_.finish();
+    try {
+      model_.finish();
+    } catch (const UserError& error) {
+      broken_ = error.what();
+      throw;
+    }
     finished_ = true;
   }
 

@@ -10,6 +10,7 @@
 module fastsplat_bench;
   import fastsplat_dpi_pkg::*;
 
+  localparam int DIGITS = fastsplat_pkg::BEAT_BITS / 4;
   localparam int TIMEOUT = 1 << 20;  // cycles without a transfer
 
   bit clk_i = 0;
@@ -100,16 +101,22 @@ module fastsplat_bench;
   endtask
 
   initial begin
-    int file;
-    string first, why;
+    int file, line = 0;
+    string first, why, text, rest_of_line;
     bit [fastsplat_pkg::BEAT_BITS-1:0] beat;
     bit [64*fastsplat_pkg::COUNTERS-1:0] counters;
     if (!$value$plusargs("beats=%s", beats_file)) fail("no +beats=FILE");
     if ($value$plusargs("config=%s", config_name)) $display("config %s", config_name);
     if ($value$plusargs("input=%s", input_pattern)) $display("input %s", input_pattern);
     if ($value$plusargs("output=%s", output_pattern)) $display("output %s", output_pattern);
-    if ($value$plusargs("seed=%d", seed)) $display("seed %0d", seed);
-    if ($value$plusargs("fault=%d", fault)) $display("fault %0d", fault);
+    if ($value$plusargs("seed=%s", text)) begin
+      if ($sscanf(text, "%d%s", seed, rest_of_line) != 1) fail({"+seed: no number: ", text});
+      $display("seed %0d", seed);
+    end
+    if ($value$plusargs("fault=%s", text)) begin
+      if ($sscanf(text, "%d%s", fault, rest_of_line) != 1) fail({"+fault: no number: ", text});
+      $display("fault %0d", fault);
+    end
 `ifdef FASTSPLAT_FAULT_SELECT
     if (fault < 0 || fault > fastsplat_fault_pkg::FAULTS) fail($sformatf("no fault %0d: 1 to %0d, or 0 for none", fault, fastsplat_fault_pkg::FAULTS));
     fastsplat_fault_pkg::selected = fault;
@@ -125,7 +132,13 @@ module fastsplat_bench;
     #1 rst_ni = 1;
     file = $fopen(beats_file, "r");
     if (file == 0) fail({"cannot read ", beats_file});
-    while ($fscanf(file, "%h", beat) == 1) send(beat);
+    while ($fgets(text, file) != 0) begin
+      line++;
+      // A line's end, and nothing else, behind the digits.
+      if ($sscanf(text, "%h%s", beat, rest_of_line) != 1 || text.getc(DIGITS - 1) <= " " || text.getc(DIGITS) > " ")
+        fail($sformatf("%s, line %0d: no beat of %0d hex digits", beats_file, line, DIGITS));
+      send(beat);
+    end
     $fclose(file);
     rest();
     for (int n = 0; n < fastsplat_pkg::COUNTERS; n++) begin
@@ -140,6 +153,7 @@ module fastsplat_bench;
       else $display("%s", why);
       fail(fastsplat_checker_summary(u_core.u_monitor.judge));
     end
+    if (fault != 0) fail($sformatf("fault %0d was not seen", fault));  // or the device has none of what it breaks
     $display("PASS: %s", fastsplat_checker_summary(u_core.u_monitor.judge));
     $finish;
   end

@@ -142,6 +142,27 @@ def _whole(what, values, dtype):
     return np.ascontiguousarray(values, dtype=dtype)
 
 
+def _number(what, value, dtype):
+    """One such number, for ctypes would cut it."""
+    limits = np.iinfo(dtype)
+    if not isinstance(value, (int, np.integer, np.bool_)) or not limits.min <= value <= limits.max:
+        raise ValueError(f"{what}: expected {limits.min} to {limits.max}, got {value!r}")
+    return int(value)
+
+
+def _text(what, value):
+    """For C, where a text ends at the first NUL."""
+    if "\0" in value:
+        raise ValueError(f"{what}: there is a NUL in {value!r}")
+    return value.encode()
+
+
+def _place(what, choices, name):
+    if name not in choices:
+        raise ValueError(f"no {what} {name!r}; there are {', '.join(choices)}")
+    return choices.index(name)
+
+
 def _beats(beats):
     beats = _whole("beats", beats, np.uint32)
     if beats.ndim == 1 and beats.size == BEAT_WORDS:
@@ -178,7 +199,7 @@ class Config(_Handle):
         elif path is not None:
             _call("fastsplat_config_file", os.fsencode(path), out)
         else:
-            _call("fastsplat_config_named", name.encode(), out)
+            _call("fastsplat_config_named", _text("name", name), out)
 
     @property
     def hash(self):
@@ -188,7 +209,7 @@ class Config(_Handle):
 
     def __getitem__(self, key):
         out = ctypes.c_int64()
-        _call("fastsplat_config_value", self._pointer, key.encode(), ctypes.byref(out))
+        _call("fastsplat_config_value", self._pointer, _text("key", key), ctypes.byref(out))
         return out.value
 
 
@@ -198,7 +219,7 @@ class Model(_Handle):
 
     def __init__(self, config, taps=TAPS, scope=WHOLE):
         super().__init__()
-        mask = sum(1 << TAPS.index(name) for name in set(taps))
+        mask = sum(1 << _place("tap", TAPS, name) for name in set(taps))
         _call("fastsplat_model_create", config._pointer, ctypes.c_uint32(scope), ctypes.c_uint32(mask),
               ctypes.byref(self._pointer))
 
@@ -246,12 +267,13 @@ class Checker(_Handle):
     def __init__(self, config, scope=WHOLE, stop_after=0, input_pattern="always", output_pattern="always", seed=0,
                  verdicts=False):
         super().__init__()
-        options = _Options(ctypes.sizeof(_Options), scope, stop_after, input_pattern.encode(),
-                           output_pattern.encode(), seed, verdicts)
+        options = _Options(ctypes.sizeof(_Options), scope, _number("stop_after", stop_after, np.uint64),
+                           _text("input_pattern", input_pattern), _text("output_pattern", output_pattern),
+                           _number("seed", seed, np.uint64), verdicts)
         _call("fastsplat_checker_create", config._pointer, ctypes.byref(options), ctypes.byref(self._pointer))
 
     def start(self, first_beat):
-        _call("fastsplat_checker_start", self._pointer, ctypes.c_uint64(first_beat))
+        _call("fastsplat_checker_start", self._pointer, ctypes.c_uint64(_number("first_beat", first_beat, np.uint64)))
 
     def took(self, beats):
         beats = _beats(beats)
@@ -264,9 +286,9 @@ class Checker(_Handle):
         for name, value in dict(fields, cycle=cycle).items():
             if name not in self._FIELDS:
                 raise TypeError(f"showed: no field {name}; there are {', '.join(self._FIELDS)}")
-            _whole(name, int(value), np.uint64 if name == "cycle" else np.uint32)
+            _number(name, value, np.uint64 if name == "cycle" else np.uint32)
         given = sum(bit for name, bit in self._GIVEN.items() if name in fields)
-        shown = _Shown(struct_size=ctypes.sizeof(_Shown), port=self.PORTS.index(port), given=given, cycle=cycle,
+        shown = _Shown(struct_size=ctypes.sizeof(_Shown), port=_place("port", self.PORTS, port), given=given, cycle=cycle,
                        word_count=words.size, words=words.ctypes.data, **fields)
         _call("fastsplat_checker_showed", self._pointer, ctypes.byref(shown))
 

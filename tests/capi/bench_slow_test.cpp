@@ -58,12 +58,34 @@ TEST(CapiBench, FailsWithAFaultPlantedAndNamesItsFirstMismatch) {
   }
 }
 
-/// A number that no fault has: nothing is planted, and a pass would be of another device than was asked for.
+/// A fault that there is not, or that this device has not: a pass would be of another device than was asked for.
 TEST(CapiBench, RefusesAFaultThatThereIsNot) {
-  const auto result = bench({"+fault=999"});
-  EXPECT_NE(result.code, 0);
-  EXPECT_EQ(result.out.find("PASS"), std::string::npos);
-  EXPECT_NE(result.out.find("no fault 999: 1 to "), std::string::npos);
+  for (const auto& [fault, why] : {std::pair{"999", "FAIL: no fault 999: 1 to "},
+                                   {"abc", "FAIL: +fault: no number: abc"},
+                                   {"1 2", "FAIL: +fault: no number: 1 2"},
+                                   {"40", "FAIL: fault 40 was not seen"}}) {
+    const auto result = bench({std::string("+fault=") + fault});
+    EXPECT_NE(result.code, 0) << fault;
+    EXPECT_EQ(result.out.find("PASS"), std::string::npos) << fault;
+    EXPECT_NE(result.out.find(why), std::string::npos) << fault;
+  }
+  EXPECT_NE(bench({"+seed=abc"}).out.find("FAIL: +seed: no number: abc"), std::string::npos);
+}
+
+/// A line that is no beat: told, not left out with all behind it.
+TEST(CapiBench, RefusesALineThatIsNoBeat) {
+  const cli_test::TempFolder folder;
+  const std::string whole = cli_test::read_bytes(recorded().vectors + "/beats.hex");
+  const std::string beat = whole.substr(0, 64);
+  for (const std::string& last :
+       {std::string("this is not hex\n"), beat + "00\n", beat.substr(0, 63) + "\n", beat + " 0\n", std::string("\n")}) {
+    const auto result =
+        cli_test::run_words({FASTSPLAT_CAPI_BENCH, "+beats=" + folder.write("damaged.hex", whole + last)});
+    EXPECT_NE(result.code, 0) << last;
+    EXPECT_NE(result.out.find(": no beat of 64 hex digits"), std::string::npos) << last << result.out;
+  }
+  const auto plain = cli_test::run_words({FASTSPLAT_CAPI_BENCH, "+beats=" + folder.write("dos.hex", beat + "\r\n")});
+  EXPECT_EQ(plain.out.find("no beat of"), std::string::npos) << plain.out;
 }
 
 /// Its verdicts are told, and looked at: a wrong one is the first thing seen of a corner read wrongly.

@@ -189,7 +189,11 @@ TEST_F(CapiMisuse, WrongSizesAndNumbersAreRefused) {
 
 TEST_F(CapiMisuse, CallsOutOfOrderAreRefused) {
   const Model model(config_);
+  // A stream that is not whole is over all the same.
   refused(fastsplat_model_finish(model.handle), "stream", FASTSPLAT_INPUT);
+  refused(fastsplat_model_feed(model.handle, words_of(truth_.beats), 1), "the stream broke before");
+  refused(fastsplat_model_finish(model.handle), "the stream broke before");
+  ASSERT_EQ(fastsplat_model_reset(model.handle), FASTSPLAT_OK);
   ASSERT_EQ(fastsplat_model_feed(model.handle, words_of(truth_.beats), truth_.beats.size()), FASTSPLAT_OK);
   ASSERT_EQ(fastsplat_model_finish(model.handle), FASTSPLAT_OK) << fastsplat_last_error();
   refused(fastsplat_model_finish(model.handle), "finished already");
@@ -207,6 +211,9 @@ TEST_F(CapiMisuse, CallsOutOfOrderAreRefused) {
   ASSERT_EQ(fastsplat_checker_reset(checker.handle), FASTSPLAT_OK);
   ASSERT_EQ(fastsplat_checker_took(checker.handle, words_of(truth_.beats), 1), FASTSPLAT_OK);
   refused(fastsplat_checker_start(checker.handle, 0), "beats were taken already");
+  refused(fastsplat_checker_finish(checker.handle, nullptr, 0), "stream", FASTSPLAT_INPUT);
+  refused(fastsplat_checker_took(checker.handle, words_of(truth_.beats), 1), "the stream broke before");
+  refused(fastsplat_checker_finish(checker.handle, nullptr, 0), "the stream broke before");
 }
 
 TEST_F(CapiMisuse, AStreamThatBreaksIsRefusedAtItsBeatAndThenAltogether) {

@@ -225,6 +225,10 @@ ExitCode verify_and_tell(const VerifyArguments& arguments) {
   if (verdict == testbench::Verdict::FaultUnseen)
     output.warn(
         "this stimulus does not show the fault; try more splats, every --class, --ready all or --reset-after N");
+  // As of a failure: quiet or not, why there is no pass is said.
+  if (arguments.common.quiet && verdict != testbench::Verdict::Pass && !failed(verdict))
+    print_error(fmt::format("{}{}{}; {}", testbench::to_string(verdict), arguments.fault.empty() ? "" : ": ",
+                            arguments.fault, seed));
   if (failed(verdict)) result.failure = look_into(checked, arguments, config_flags, named, output);
   if (const std::string rows = mismatches_text(result); !rows.empty()) output.line(rows);
   if (result.resets_late > 0) {

@@ -15,7 +15,9 @@ class WrongTaps final : public RawTapSink {
 
   void on_raw(const RawTap& tap) override {
     const bool seventh = tap.tag % kEvery == kEvery - 1;
-    const bool second = tap.block == 1;
+    if (tap.port == RawPort::Composite) ++blocks_;
+    const bool second = tap.port == RawPort::Composite && blocks_ == 2;
+    if (tap.port == RawPort::Pixels && tap.last) blocks_ = 0;
     RawTap told = tap;
     switch (fault_) {
       case PortFault::PORT_SNAP:
@@ -26,11 +28,11 @@ class WrongTaps final : public RawTapSink {
       case PortFault::PORT_SHEET:
         return flipped(tap, tap.port == RawPort::Sheet && seventh);
       case PortFault::PORT_COMPOSITE:
-        return flipped(tap, tap.port == RawPort::Composite && second);
+        return flipped(tap, second);
       case PortFault::PORT_PIXEL:
         return flipped(tap, tap.port == RawPort::Pixels && tap.last);
       case PortFault::PORT_LOST:
-        if (tap.port != RawPort::Composite || !second) to_->on_raw(tap);
+        if (!second) to_->on_raw(tap);
         return;
       case PortFault::PORT_TWICE:
         if (tap.port == RawPort::Snap && seventh) to_->on_raw(tap);
@@ -54,6 +56,7 @@ class WrongTaps final : public RawTapSink {
 
   PortFault fault_;
   RawTapSink* to_;
+  std::uint64_t blocks_ = 0;  ///< composited in this tile
 };
 
 /// Holds the taps for as long as the device lives: a base of the device's own base class.

@@ -68,6 +68,10 @@ TEST_F(VerifyComforts, AFaultThatNothingShowsIsNoPass) {
   const auto junit = read_bytes(folder_ / "told.xml");
   EXPECT_NE(junit.find("failures=\"1\""), std::string::npos) << junit;
   EXPECT_NE(junit.find("planted fault MISSED_WIPE"), std::string::npos) << junit;
+  const auto quiet =
+      verify({"--random", "60", "--class", "hazards", "--fill", "zero", "--fault", "MISSED_WIPE", "--quiet"});
+  EXPECT_EQ(quiet.code, 1);
+  EXPECT_NE(quiet.err.find("fault not seen: MISSED_WIPE; seed 1\n"), std::string::npos) << quiet.err;
 }
 
 TEST_F(VerifyComforts, FaultsAreListedAndRefused) {

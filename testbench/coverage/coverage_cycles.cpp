@@ -224,7 +224,8 @@ void CycleCoverage::stalls(const cmodel::StallCounters& stalls) {
   });
 }
 
-ResetCoverage::ResetCoverage(const cmodel::Config&, Coverage& coverage) : coverage_(coverage) {
+ResetCoverage::ResetCoverage(const cmodel::Config& config, Coverage& coverage)
+    : coverage_(coverage), delay_(path_delay(config)) {
   between_ = coverage.declare("reset", "between_tiles");
   payload_ = coverage.declare("reset", "inside_a_table");
   tile_ = coverage.declare("reset", "inside_a_tile");
@@ -270,8 +271,9 @@ void ResetCoverage::on_tile(const cmodel::TileCycles& tile) {
 }
 
 void ResetCoverage::reset(std::uint64_t cycle) {
-  coverage_.hit(in_sheet_ ? sheet_ : in_tile_ ? tile_ : last_.payload ? payload_ : between_);
-  if (last_splat_ > 0 && cycle <= last_splat_ + cmodel::stages::kSheet) coverage_.hit(windows_);
+  const bool in_table = last_.payload || last_.opcode == cmodel::Opcode::LoadTable;
+  coverage_.hit(in_sheet_ ? sheet_ : in_tile_ ? tile_ : in_table ? payload_ : between_);
+  if (last_splat_ > 0 && cycle <= last_splat_ + delay_ + cmodel::stages::kSheet) coverage_.hit(windows_);
   if (cycle >= walk_from_ && cycle < walk_to_) coverage_.hit(walk_);
   if (cycle >= picture_from_ && cycle < picture_to_) coverage_.hit(picture_);
 }

@@ -71,6 +71,7 @@ class ResetCoverage final : public cmodel::CycleSink {
 
  private:
   Coverage& coverage_;
+  std::uint64_t delay_;  ///< of the splat path
   Coverage::Id between_ = 0, payload_ = 0, tile_ = 0, sheet_ = 0, windows_ = 0, walk_ = 0, picture_ = 0;
   cmodel::BeatCycles last_;
   bool in_tile_ = false, in_sheet_ = false;

@@ -44,12 +44,13 @@ void EllipseCoverage::record(const cmodel::EllipseRecord& record, bool behind_a_
   if (rest == std::int64_t{1} << (dropped - 1)) coverage_.hit(tie_);
 }
 
-void EllipseCoverage::window(std::uint32_t column, std::uint32_t row) {
+void EllipseCoverage::window(std::uint32_t column, std::uint32_t row, InterpolationCoverage* interpolation) {
   const auto lanes = static_cast<std::uint32_t>(config_.lanes);
   const auto entries = static_cast<std::uint64_t>(config_.radial_entries);
   for (std::uint32_t j = row; j < row + lanes; ++j) {
     for (std::uint32_t i = column; i < column + lanes; ++i) {
       const std::uint64_t index = unit_.index(f_, i, j);
+      if (interpolation != nullptr) interpolation->weight(InterpolationCoverage::Ellipse, unit_.steps(f_, i, j));
       if (index == 0) coverage_.hit(unit_.q(f_, i, j) < 0 ? negative_ : first_);
       if (index + 1 == entries) coverage_.hit(last_);
       if (index >= entries) coverage_.hit(index >= 16 * entries ? far_ : beyond_);

@@ -5,6 +5,7 @@
 #include "cmodel/ellipse_unit.hpp"
 #include "cmodel/records.hpp"
 #include "testbench/coverage/coverage.hpp"
+#include "testbench/coverage/coverage_interpolation.hpp"
 
 namespace fastsplat::testbench {
 
@@ -13,8 +14,8 @@ class EllipseCoverage {
   EllipseCoverage(const cmodel::Config& config, Coverage& coverage);
   void record(const cmodel::EllipseRecord& record, bool behind_a_circle);
   void circle_follows() { coverage_.hit(before_circle_); }
-  /// The window at pixel (column, row) of the record.
-  void window(std::uint32_t column, std::uint32_t row);
+  /// The window at pixel (column, row) of the record; `interpolation`: null of a device that does not.
+  void window(std::uint32_t column, std::uint32_t row, InterpolationCoverage* interpolation);
 
  private:
   using Id = Coverage::Id;

@@ -55,11 +55,7 @@ SplatCoverage::SplatCoverage(const cmodel::Config& config, Coverage& coverage)
   index_furthest_ = coverage.declare("radial", "q_at_twice_the_rim");
   weight_zero_ = coverage.declare("radial", "weight_zero_inside");
   weight_largest_ = coverage.declare("radial", "weight_largest");
-  if (config.interpolates()) {
-    on_entry_ = coverage.declare("interpolation", "on_an_entry");
-    between_ = coverage.declare("interpolation", "between_entries");
-    behind_last_ = coverage.declare("interpolation", "behind_the_last_entry");
-  }
+  if (config.interpolates()) interpolation_.emplace(config, coverage);
   const std::int64_t product = config.colour_format().max * config.weight_format().max;
   for (std::size_t c = 0; c < 4; ++c)
     product_[c] =
@@ -78,6 +74,7 @@ SplatCoverage::SplatCoverage(const cmodel::Config& config, Coverage& coverage)
 }
 
 void SplatCoverage::load(const cmodel::LoadTable& table) {
+  if (interpolation_) interpolation_->load(table);
   if (table.table != cmodel::Table::Rlut) return;
   rlut_.load(table);
   base_[table.radius.set] = table.radius.base;
@@ -142,7 +139,7 @@ void SplatCoverage::footprint(const cmodel::TapRecord& record) {
   place(record.x, record.y);
   weights_.assign(record.payload.begin(), record.payload.end());
   const auto column = static_cast<std::uint32_t>(record.x - x0_), row = static_cast<std::uint32_t>(record.y - y0_);
-  if (in_ellipse_) return ellipses_->window(column, row);
+  if (in_ellipse_) return ellipses_->window(column, row, interpolation_ ? &*interpolation_ : nullptr);
   const auto columns = rlut_.read(record_.set, mx_, column), rows = rlut_.read(record_.set, my_, row);
   const auto rim = static_cast<std::uint32_t>(config_.rlut_rim());
   for (const auto words : {columns, rows}) {
@@ -168,11 +165,7 @@ void SplatCoverage::footprint(const cmodel::TapRecord& record) {
       if (index == 0) coverage_.hit(index_first_);
       if (index + 1 == static_cast<std::uint32_t>(config_.radial_entries)) coverage_.hit(index_last_);
       if (q + 1 == rim) coverage_.hit(index_last_inside_);
-      if (config_.interpolates()) {
-        const bool last = index + 1 == static_cast<std::uint32_t>(config_.radial_entries);
-        const bool entry = q == index << config_.rlut_guard_bits;
-        coverage_.hit(entry ? on_entry_ : last ? behind_last_ : between_);
-      }
+      if (interpolation_) interpolation_->weight(InterpolationCoverage::Circle, q);
       if (weight == 0) coverage_.hit(weight_zero_);
       if (weight == largest) coverage_.hit(weight_largest_);
     }

@@ -14,6 +14,7 @@
 #include "cmodel/taps.hpp"
 #include "testbench/coverage/coverage.hpp"
 #include "testbench/coverage/coverage_ellipse.hpp"
+#include "testbench/coverage/coverage_interpolation.hpp"
 
 namespace fastsplat::testbench {
 
@@ -52,7 +53,8 @@ class SplatCoverage {
   cmodel::Rlut rlut_;
   std::array<std::uint32_t, 256> base_{};  ///< first RLUT column of each set
   cmodel::BeginTile tile_;
-  cmodel::SplatRecord record_;               ///< or an ellipse's colours
+  cmodel::SplatRecord record_;  ///< or an ellipse's colours
+  std::optional<InterpolationCoverage> interpolation_;
   std::optional<EllipseCoverage> ellipses_;  ///< of a configuration with ellipses
   bool in_ellipse_ = false, after_circle_ = false;
   std::int32_t x0_ = 0, y0_ = 0;
@@ -66,7 +68,6 @@ class SplatCoverage {
   Id rlut_zero_ = 0, rlut_rim_ = 0, rlut_first_ = 0, rlut_last_ = 0;
   Id index_first_ = 0, index_last_ = 0, index_last_inside_ = 0, index_at_rim_ = 0, index_beyond_ = 0,
      index_furthest_ = 0;
-  Id on_entry_ = 0, between_ = 0, behind_last_ = 0;  ///< of devices that interpolate
   Id weight_zero_ = 0, weight_largest_ = 0;
   std::array<RoundingPoint, 4> product_;
   Id sum_saturated_ = 0, sum_alone_ = 0, sum_all_ = 0, sum_exactly_ = 0, sum_stays_ = 0;

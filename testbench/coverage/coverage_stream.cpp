@@ -76,6 +76,16 @@ StreamCoverage::StreamCoverage(const cmodel::Config& config, Coverage& coverage)
   last_columns_ = coverage.declare("table", "set_in_last_columns");
   for (const auto& [mode, name] : modes_of(config))
     mode_.at(static_cast<std::size_t>(mode)) = coverage.declare("tile", name);
+  if (config.classifies()) {
+    left_ = coverage.declare("density", "tile_at_the_left_edge");
+    right_ = coverage.declare("density", "tile_at_the_right_edge");
+    top_ = coverage.declare("density", "tile_at_the_top_edge");
+    bottom_ = coverage.declare("density", "tile_at_the_bottom_edge");
+    within_ = coverage.declare("density", "tile_at_no_edge");
+    neighbours_ = coverage.declare("density", "sheet_behind_its_neighbour");
+    missing_ = coverage.declare("density", "sheet_behind_a_missing_one");
+    alone_ = coverage.declare("density", "sheet_alone");
+  }
   full_width_ = coverage.declare("tile", "full_width");
   full_height_ = coverage.declare("tile", "full_height");
   partial_width_ = coverage.declare("tile", "partial_block_width");
@@ -110,9 +120,12 @@ void StreamCoverage::on_record(const cmodel::Record& record) {
   if (const auto* splat_record = std::get_if<cmodel::SplatRecord>(&record)) {
     splat(*splat_record);
   } else if (const auto* ellipse = std::get_if<cmodel::EllipseRecord>(&record)) {
-    colours(ellipse->colour);
+    shape(ellipse->colour);
   } else if (const auto* load = std::get_if<cmodel::LoadTable>(&record)) {
     table(*load);
+  } else if (const auto* frame = std::get_if<cmodel::BeginFrame>(&record)) {
+    frame_width_ = frame->width;
+    frame_height_ = frame->height;
   } else if (const auto* begin = std::get_if<cmodel::BeginTile>(&record)) {
     tile(*begin);
   } else if (const auto* begin_sheet = std::get_if<cmodel::BeginSheet>(&record)) {
@@ -121,6 +134,7 @@ void StreamCoverage::on_record(const cmodel::Record& record) {
     end_sheet(*end);
   } else if (const auto* end_tile = std::get_if<cmodel::EndTile>(&record)) {
     if (end_tile->sheets == 0) coverage_.hit(no_sheet_);
+    if (densities_ && end_tile->sheets == 1) coverage_.hit(alone_);
   } else if (std::holds_alternative<cmodel::CullBlock>(record)) {
     if (splats_ == 0) coverage_.hit(cull_first_);
     cull_pending_ = true;
@@ -155,29 +169,42 @@ void StreamCoverage::tile(const cmodel::BeginTile& tile) {
   if (tile.width == 1 && tile.height == 1) coverage_.hit(one_pixel_);
   if (tiles_++ > 0) coverage_.hit(next_tile_);
   sheets_ = 0;
+  densities_ = cmodel::holds_densities(tile.mode);
+  if (!densities_) return;
+  const bool left = tile.x == 0, right = tile.x + tile.width == frame_width_;
+  const bool top = tile.y == 0, bottom = tile.y + tile.height == frame_height_;
+  if (left) coverage_.hit(left_);
+  if (right) coverage_.hit(right_);
+  if (top) coverage_.hit(top_);
+  if (bottom) coverage_.hit(bottom_);
+  if (!left && !right && !top && !bottom) coverage_.hit(within_);
 }
 
 void StreamCoverage::sheet(const cmodel::BeginSheet& sheet) {
   if (sheet.sheet == 0) coverage_.hit(number_zero_);
-  if (sheets_++ > 0 && sheet.sheet != number_ + 1) coverage_.hit(number_gap_);
+  const bool gap = sheet.sheet != number_ + 1;
+  if (sheets_ > 0 && gap) coverage_.hit(number_gap_);
+  if (sheets_ > 0 && densities_) coverage_.hit(gap ? missing_ : neighbours_);
+  ++sheets_;
   number_ = sheet.sheet;
   splats_ = 0;
-  cull_pending_ = false;
+  cull_pending_ = circle_ = false;
 }
 
 void StreamCoverage::splat(const cmodel::SplatRecord& splat) {
-  if (cull_pending_ && splats_ > 0) coverage_.hit(cull_between_);
-  cull_pending_ = false;
   if (config_.rlut_sets > 1) {
     if (splat.set == 0) coverage_.hit(first_set_);
     if (splat.set + 1 == sets_.size()) coverage_.hit(last_set_);
-    if (splats_ > 0 && splat.set != set_) coverage_.hit(other_set_);
+    if (circle_ && splat.set != set_) coverage_.hit(other_set_);
   }
+  circle_ = true;
   set_ = splat.set;
-  colours(splat.colour);
+  shape(splat.colour);
 }
 
-void StreamCoverage::colours(const std::array<std::uint32_t, 4>& colour) {
+void StreamCoverage::shape(const std::array<std::uint32_t, 4>& colour) {
+  if (cull_pending_ && splats_ > 0) coverage_.hit(cull_between_);
+  cull_pending_ = false;
   ++splats_;
   const auto largest = static_cast<std::uint32_t>(config_.colour_format().max);
   for (std::size_t c = 0; c < colour.size(); ++c) {

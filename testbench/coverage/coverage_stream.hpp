@@ -22,7 +22,7 @@ class StreamCoverage {
   void tile(const cmodel::BeginTile& tile);
   void sheet(const cmodel::BeginSheet& sheet);
   void splat(const cmodel::SplatRecord& splat);
-  void colours(const std::array<std::uint32_t, 4>& colour);
+  void shape(const std::array<std::uint32_t, 4>& colour);  ///< a circle or an ellipse
   void end_sheet(const cmodel::EndSheet& end);
 
   cmodel::Config config_;
@@ -37,11 +37,16 @@ class StreamCoverage {
   Id first_set_ = 0, last_set_ = 0, other_set_ = 0;
   Id colour_zero_ = 0, colour_largest_ = 0;
 
+  /// Tiles and sheets of densities.
+  Id left_ = 0, right_ = 0, top_ = 0, bottom_ = 0, within_ = 0, neighbours_ = 0, missing_ = 0, alone_ = 0;
+
   std::vector<cmodel::RadiusSet> sets_;  ///< loaded ones; rho 0: none
   std::vector<std::uint32_t> extents_;
   std::uint64_t tiles_ = 0, sheets_ = 0, splats_ = 0;
   std::uint32_t number_ = 0, set_ = 0;
-  bool cull_pending_ = false;
+  std::int64_t frame_width_ = 0, frame_height_ = 0;
+  bool densities_ = false;
+  bool cull_pending_ = false, circle_ = false;  ///< in this sheet
 };
 
 }  // namespace fastsplat::testbench

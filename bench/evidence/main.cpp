@@ -150,10 +150,13 @@ int run(const std::vector<std::string>& words) {
     return 0;
   }
   if (is("proofs", 4)) {
-    std::cout << proofs(words[1], words[2], words[3], std::span(words).subspan(4)).dump(1) << "\n";
+    const Json proved = proofs(words[1], words[2], words[3], std::span(words).subspan(4));
+    if (proved.at("proofs").empty()) throw std::runtime_error("nothing proved in any of the files");
+    std::cout << proved.dump(1) << "\n";
     return 0;
   }
   if (is("page", 1)) {
+    if (!std::filesystem::is_directory(words[1])) throw std::runtime_error(words[1] + ": no folder");
     std::cout << page(words[1], words.size() > 2 ? read_json(words[2]) : Json());
     return 0;
   }

@@ -2,7 +2,8 @@
 // by prove_core.sh: a memory has one owner at a time, which sheet_bank_proof.svh assumes; what dirty_map_proof.svh,
 // compositor_proof.svh and stream_decode_proof.svh assume of each other; and no deadlock. The source sends what it will and soft resets
 // come at any time. Data is cut off: any pixel may lie inside, and check may call any field of a record right or wrong, in its place or
-// out of it (which fields are: stream_check_proof.svh); the walk picks what it will, in the cycles that dirty_map_proof.svh has.
+// out of it (which fields are: stream_check_proof.svh); the walk picks what it will, in the cycles that dirty_map_proof.svh has,
+// a block in as many cycles as it has slices, and is read in the first.
 // Names that nothing drives are tied to registers below by the script; stage 0 of the pipe is decode's output.
 logic f_started = 1'b0;
 always @(posedge clk_i) f_started <= 1'b1;
@@ -17,7 +18,7 @@ logic f_pixel_running, f_pixel_r1, f_pixel_r2;  // of pixel out
 logic f_next_here, f_here, f_soft;  // of check: beats, a soft reset
 logic [2:0] f_check_place;  // 0 before begin_frame, 1 in the frame, 2 in a table, 3 in a tile, 4 in a sheet
 logic [1:0] f_busy;
-logic f_buffer, f_idle_walk, f_still;
+logic f_buffer, f_idle_walk, f_issue, f_still;
 logic [8:0] f_valid_below, f_last_below, f_buffer_below;
 logic [5:0] f_blocks;  // in the compositor's pipe
 logic [9:0] f_valid, f_last, f_of;
@@ -59,7 +60,7 @@ end
 logic f_moves, f_fair;
 logic [4:0] f_still_q;
 localparam int F_LONGEST = 11;  // cycles between end_sheet, when the beat behind it moves to decode, and the first pick of its walk
-assign f_moves = wiping_q || (s_tvalid_i && s_tready_o && !error_o) || (beat_valid && beat_ready) || f_splat || f_table || sheet_re || free || (m_tvalid_o && m_tready_i);
+assign f_moves = wiping_q || (s_tvalid_i && s_tready_o && !error_o) || (beat_valid && beat_ready) || f_splat || f_table || sheet_re || f_slice_q != 0 || free || (m_tvalid_o && m_tready_i);
 assign f_fair = m_tready_i && !soft_reset && ((s_tvalid_i && !error_o) || check_busy || f_beat || !f_idle_pixel);
 always @(posedge clk_i) f_still_q <= (!rst_ni || f_moves || !f_fair) ? '0 : f_still_q + 5'(f_still_q != '1);
 
@@ -68,11 +69,14 @@ logic [1:0] f_full;        // handed over and not walked to its end
 logic [1:0] f_age_q[0:1];  // cycles since the hand-over
 logic [1:0] f_since_q;     // and since the last pick
 logic f_turn, f_walking, f_begun_q;
+localparam int F_SLICES = fastsplat_pkg::SLICES;
+integer f_slice_q;         // of the block that is walked
 assign f_walking = f_full[f_turn] && (f_begun_q || ((f_turn ? f_age_q[1] : f_age_q[0]) >= 2'd2 && f_since_q == 2'd3));
 always @(posedge clk_i) begin
   for (int m = 0; m < 2; m++) if (f_age_q[m] != 2'd3) f_age_q[m] <= f_age_q[m] + 2'd1;
   if (f_since_q != 2'd3) f_since_q <= f_since_q + 2'd1;
   f_begun_q <= f_walking && !free;
+  if (sheet_re || f_slice_q != 0) f_slice_q <= f_slice_q == F_SLICES - 1 ? 0 : f_slice_q + 1;
   if (free) begin
     f_full[free_buffer] <= 1'b0;
     f_since_q <= '0;
@@ -87,12 +91,15 @@ always @(posedge clk_i) begin
     f_since_q <= 2'd3;
     f_turn <= 1'b0;
     f_begun_q <= 1'b0;
+    f_slice_q <= 0;
   end
 end
 always @* begin
   if (rst_ni) begin
-    assume ((sheet_re || free) == f_walking);
-    assume (!f_begun_q || sheet_re);
+    assume (f_slice_q != 0 ? !sheet_re : (sheet_re || free) == f_walking);
+    assume (!f_begun_q || f_slice_q != 0 || sheet_re);
+    assume (f_issue == (sheet_re || f_slice_q != 0));
+    assume (!free || f_slice_q == F_SLICES - 1 || (f_slice_q == 0 && !sheet_re));
     assume (!(sheet_re || free) || sheet_buffer == f_turn);
     assume (f_idle_walk == (f_full == '0 && f_since_q >= 2'd2));
   end
@@ -165,6 +172,7 @@ always @(posedge clk_i) begin
     assert (f_full == '0 || f_full[f_turn]);
     // The walk.
     assert (!f_begun_q || (f_full[f_turn] && f_since_q == 2'd3));
+    assert (f_slice_q >= 0 && f_slice_q < F_SLICES && (f_slice_q == 0 || f_begun_q));
     for (int m = 0; m < 2; m++) assert (!f_full[m] || f_age_q[m] != '0);
     for (int s = 1; s <= 5; s++) assert (f_marked_way_q[s] == f_last[s+4]);
     assert (!(f_cleared_q && f_valid[0] && f_of[0] == f_cleared_of_q && !f_full[f_cleared_of_q]));

@@ -74,6 +74,17 @@ TEST_F(VerifyComforts, AFaultThatNothingShowsIsNoPass) {
   EXPECT_NE(quiet.err.find("fault not seen: MISSED_WIPE; seed 1\n"), std::string::npos) << quiet.err;
 }
 
+TEST_F(VerifyComforts, AFaultAtThePortsIsSeenInAScene) {
+  // It lies in the middle of its tile: block 1 is never composited.
+  for (const char* fault : {"PORT_LOST", "PORT_COMPOSITE"}) {
+    const auto run = verify(
+        {"--volume", "shells:12", "--size", "24x24", "--config", "tiny", "--fault", fault, "--json", "told.json"});
+    EXPECT_EQ(run.code, 1) << fault << run.err;
+    EXPECT_EQ(told().at("verdict"), "mismatch") << fault;
+    EXPECT_GT(told().at("mismatches"), 0) << fault;
+  }
+}
+
 TEST_F(VerifyComforts, FaultsAreListedAndRefused) {
   const auto list = verify({"--fault", "list"});
   expect_success(list);

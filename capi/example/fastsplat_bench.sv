@@ -4,7 +4,8 @@
 //   +beats=FILE    the stream, a beat of 64 hex digits a line: beats.hex of `fastsplat stream vectors`
 //   +config=NAME   its configuration, built-in or a TOML file; the device's own
 //   +input=PATTERN +output=PATTERN +seed=S   when beats are offered and pixels taken; always, always, 1
-//   +fault=N       breaks the device on purpose: a line of testbench/faults/faults.def, in a build with FASTSPLAT_FAULT_SELECT
+//   +fault=N       breaks the device on purpose: a line of testbench/faults/faults.def, in a build with FASTSPLAT_FAULT_SELECT;
+//                  one that is not seen is a FAIL
 //
 // Prints PASS or FAIL with the checker's summary and the first mismatch; ends by $finish, or $fatal when it failed.
 module fastsplat_bench;

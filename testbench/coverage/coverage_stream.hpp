@@ -28,7 +28,9 @@ class StreamCoverage {
   cmodel::Config config_;
   Coverage& coverage_;
   Id record_ = 0, last_beat_ = 0;
-  std::array<Id, 10> table_kind_{}, mode_{};  ///< by cmodel::Table and cmodel::Mode, those of the configuration
+  /// By cmodel::Table and cmodel::Mode, those of the configuration.
+  std::array<Id, static_cast<std::size_t>(cmodel::Table::Pattern) + 1> table_kind_{};
+  std::array<Id, static_cast<std::size_t>(cmodel::Mode::DensityAdditive) + 1> mode_{};
   Id loaded_again_ = 0, overlap_ = 0, first_columns_ = 0, last_columns_ = 0;
   Id full_width_ = 0, full_height_ = 0, partial_width_ = 0, partial_height_ = 0, one_pixel_ = 0;
   Id no_sheet_ = 0, next_tile_ = 0;

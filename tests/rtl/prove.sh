@@ -4,11 +4,7 @@
 # fifty times faster than its arrays.
 set -eu
 emit=$1 source=$2 work=$3 faults=$4
-mkdir -p "$work"
-here="$source/tests/rtl/proofs"
-. "$here/common.sh"
-: >"$work/proofs.txt"
-"$emit" "$source/configs/tiny.toml" >"$work/tiny.sv"
+. "$source/tests/rtl/proofs/common.sh"
 package STATE_BITS=3 TRANS_BITS=3 SHEET_BITS=2 TRANS_FRAC=2 PIXEL_BITS=2 ADDR_BITS=2 SIDE_BITS=3 BLOCKS_X=2 BLOCKS_Y=2 BLOCKS=4 BLK_BITS=1 >"$work/fastsplat_pkg.sv"
 
 # smt NAME TOP FILES DEFINES...: writes NAME.smt2

@@ -1,5 +1,10 @@
-# common.sh: what the proof scripts share; sourced by them with `source` (the repository), `work` (a folder) and `here` (this
-# one) set. A proof is a module with its specification inside, SMT of it by Yosys, and z3 (yosys-smtbmc).
+# common.sh: what the proof scripts share; sourced by them with `source` (the repository) and `work` (a folder) set, `emit` of those that need the
+# package of tiny, and `short` of those that take it. A proof is a module with its specification inside, SMT of it by Yosys, and z3 (yosys-smtbmc).
+[ -z "${short-}" ] || [ "$short" = short ] || { echo "$0: not '$short' but short" >&2; exit 2; }
+mkdir -p "$work"
+here="$source/tests/rtl/proofs"
+: >"$work/proofs.txt"
+[ -z "${emit-}" ] || "$emit" "$source/configs/tiny.toml" >"$work/tiny.sv"
 
 # FASTSPLAT_PROVE_ONLY=NAME: only the unit NAME; what belongs to another one (not NAME nor NAME_...) is passed over.
 # passed_over NAME: that is so of NAME.

@@ -57,6 +57,8 @@ end
 
 // Something moves: a beat that is not swallowed, a window, a table word, a block, a sheet given back, pixels, the wipe; if there is
 // something to do, the sink is willing, and no soft reset is asked for just now.
+localparam int F_SLICES = fastsplat_pkg::SLICES;
+integer f_slice_q;  // of the block that is walked
 logic f_moves, f_fair;
 logic [4:0] f_still_q;
 localparam int F_LONGEST = 11;  // cycles between end_sheet, when the beat behind it moves to decode, and the first pick of its walk
@@ -69,8 +71,6 @@ logic [1:0] f_full;        // handed over and not walked to its end
 logic [1:0] f_age_q[0:1];  // cycles since the hand-over
 logic [1:0] f_since_q;     // and since the last pick
 logic f_turn, f_walking, f_begun_q;
-localparam int F_SLICES = fastsplat_pkg::SLICES;
-integer f_slice_q;         // of the block that is walked
 assign f_walking = f_full[f_turn] && (f_begun_q || ((f_turn ? f_age_q[1] : f_age_q[0]) >= 2'd2 && f_since_q == 2'd3));
 always @(posedge clk_i) begin
   for (int m = 0; m < 2; m++) if (f_age_q[m] != 2'd3) f_age_q[m] <= f_age_q[m] + 2'd1;

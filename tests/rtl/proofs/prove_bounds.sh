@@ -4,11 +4,7 @@
 # WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS | FAULTS REFUTED, one a line.
 set -eu
 emit=$1 source=$2 work=$3
-mkdir -p "$work"
-here="$source/tests/rtl/proofs"
-. "$here/common.sh"
-: >"$work/proofs.txt"
-"$emit" "$source/configs/tiny.toml" >"$work/tiny.sv"
+. "$source/tests/rtl/proofs/common.sh"
 
 # --- slab opacity: tiny's own words, of 11 bits; the factor table may hold what a stream may load
 package_file="$work/tiny.sv"

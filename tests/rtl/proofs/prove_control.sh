@@ -6,12 +6,7 @@
 # of the faults.
 set -eu
 emit=$1 source=$2 work=$3 short=${4-}
-[ -z "$short" ] || [ "$short" = short ] || { echo "prove_control.sh: not '$short' but short" >&2; exit 2; }
-mkdir -p "$work"
-here="$source/tests/rtl/proofs"
-. "$here/common.sh"
-: >"$work/proofs.txt"
-"$emit" "$source/configs/tiny.toml" >"$work/tiny.sv"
+. "$source/tests/rtl/proofs/common.sh"
 
 # --- check: two radius sets of two phases and up to 8 columns, tables of a few words; words of any value
 package_file="$work/check_pkg.sv"

@@ -5,12 +5,7 @@
 # Leaves WORK_DIR/proofs.txt as prove_control.sh does. short: without the deadlock's proof, the covers and the faults, which take minutes.
 set -eu
 emit=$1 source=$2 work=$3 short=${4-}
-[ -z "$short" ] || [ "$short" = short ] || { echo "prove_core.sh: not '$short' but short" >&2; exit 2; }
-mkdir -p "$work"
-here="$source/tests/rtl/proofs"
-. "$here/common.sh"
-: >"$work/proofs.txt"
-"$emit" "$source/configs/tiny.toml" >"$work/tiny.sv"
+. "$source/tests/rtl/proofs/common.sh"
 
 # 2 x 2 blocks, the data path cut off
 core_package() { # OTHER VALUES

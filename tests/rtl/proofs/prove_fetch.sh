@@ -3,10 +3,7 @@
 # what is asked about happens; planted faults are noticed. Leaves WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS | FAULTS REFUTED, one a line.
 set -eu
 source=$1 work=$2
-mkdir -p "$work"
-here="$source/tests/rtl/proofs"
-. "$here/common.sh"
-: >"$work/proofs.txt"
+. "$source/tests/rtl/proofs/common.sh"
 
 # smt NAME MODULE PARAMETERS [EDIT]: NAME.smt2 of MODULE with its specification inside, the modules in it with free outputs; EDIT breaks a line of it.
 smt() {

@@ -4,11 +4,7 @@
 # short: with two of the loop's eight faults and one of decode's four, without the covers of decode: the others take minutes. Leaves WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS | FAULTS REFUTED, one a line.
 set -eu
 emit=$1 source=$2 work=$3 short=${4-}
-mkdir -p "$work"
-here="$source/tests/rtl/proofs"
-. "$here/common.sh"
-: >"$work/proofs.txt"
-"$emit" "$source/configs/tiny.toml" >"$work/tiny.sv"
+. "$source/tests/rtl/proofs/common.sh"
 
 # --- the loop; memories give anything when they read what is written
 package_file="$work/samples_pkg.sv"

@@ -4,12 +4,7 @@
 # proof notices planted faults. Leaves WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS | FAULTS REFUTED, one a line.
 set -eu
 emit=$1 source=$2 work=$3
-mkdir -p "$work"
-here="$source/tests/rtl/proofs"
-: >"$work/proofs.txt"
-"$emit" "$source/configs/tiny.toml" >"$work/tiny.sv"
-
-. "$here/common.sh"
+. "$source/tests/rtl/proofs/common.sh"
 
 # smt NAME MODULE PACKAGE [EDIT]: NAME.smt2 of MODULE with its specification inside; EDIT, a sed command, breaks a line of it.
 smt() {

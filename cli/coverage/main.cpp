@@ -131,7 +131,7 @@ std::map<std::string, bool> tests_of(const std::string& path, std::vector<std::s
   return results;
 }
 
-/// Coverage of one of the configurations that are run, as they are now: told before hours of campaigns, and never left
+/// Coverage of one of the configurations that are run, as they are now: told before minutes of campaigns, and never left
 /// out.
 tb::CoverageBook book_of(const std::string& path) {
   auto book = tb::read_book(path);

@@ -1,6 +1,7 @@
 // Which handles are alive, and of what kind: a pointer that is none of them is refused, never followed.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "capi/fastsplat.h"

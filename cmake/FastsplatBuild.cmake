@@ -10,7 +10,8 @@ if(NOT CMAKE_BUILD_TYPE)
 endif()
 
 option(FASTSPLAT_WERROR "Warnings are errors (set by the ci preset only: a newer compiler must not break a user's build)" OFF)
-option(FASTSPLAT_PEERS "Programs that race other renderers (bench/peers; packaging/peers.txt): ./run peers" OFF)
+option(FASTSPLAT_TESTS "Tests, examples and benchmarks; need the packages of [tests] in packaging/debian.txt" ON)
+option(FASTSPLAT_PEERS "Programs that race other renderers (bench/peers): ./run peers" OFF)
 option(FASTSPLAT_ASAN "AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
 option(FASTSPLAT_FUZZ "The fuzz targets of tests/fuzz and all they call, under libFuzzer and the sanitizers; needs Clang" OFF)
 

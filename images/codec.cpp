@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <array>
+#include <cstdarg>
 #include <cstring>
 
 namespace fastsplat::images {
@@ -31,6 +32,15 @@ fs::path find_module() {
          "build again (./run build), or copy it together with the program");
 }
 
+/// libtiff prints to stderr what is wrong with a file; our message reports it. OpenImageIO 2.4 replaces the functions that
+/// print, 2.5 does not for files in memory.
+void silence_libtiff(void* module) {
+  using Handler = void (*)(const char* place, const char* format, std::va_list);
+  for (const char* setter : {"TIFFSetErrorHandler", "TIFFSetWarningHandler"}) {
+    if (auto* set = reinterpret_cast<Handler (*)(Handler)>(::dlsym(module, setter))) set(nullptr);
+  }
+}
+
 const Codec& open_module() {
   const fs::path path = find_module();
   // Lazily, as the program itself is: hundreds of libraries hold far more functions than a picture calls.
@@ -46,6 +56,7 @@ const Codec& open_module() {
     refuse(path, "belongs to another build of this program", FASTSPLAT_CODEC_TAG, tag == nullptr ? "no tag" : tag,
            "build again (./run build), or copy it together with the program");
   }
+  silence_libtiff(module);
   return *table;  // never closed: the library's own threads outlive any picture
 }
 

@@ -96,7 +96,7 @@ module icarus_bench;
     end
     if (idle > TIMEOUT) begin
       $display("hangs %0d %0d", play, cycle);
-      $finish;
+      $finish(0);
     end
     edge_of_clock;
     cycle = cycle + 1;
@@ -136,7 +136,7 @@ module icarus_bench;
         !$value$plusargs("willing=%s", willing_file) || !$value$plusargs("pattern_count=%d", pattern_count) ||
         !$value$plusargs("plays=%s", plays_file)) begin
       $display("stray 0 0 missing plusarg");
-      $finish;
+      $finish(0);
     end
     $readmemh(beats_file, beats, 0, beat_count - 1);
     $readmemb(willing_file, willing, 0, pattern_count * LENGTH - 1);
@@ -174,6 +174,6 @@ module icarus_bench;
       $display("played %0d %0d", play, cycle);
       play = play + 1;
     end
-    $finish;
+    $finish(0);
   end
 endmodule

@@ -149,9 +149,13 @@ TEST(Completion, FishOffersWhatItsScriptSays) {
     here.environment = {"HOME=" + folder.path().string(), "XDG_CONFIG_HOME=" + folder.path().string()};
     const auto result = run_words({"fish", "-c", "source " + file + "; complete -C '" + line + "'"}, here);
     EXPECT_EQ(result.err, "");
+    // Fish 4 also offers words that hold the letters in this order, --slab-width of --sh; the script decides on these
+    // only.
+    const std::string begun = line.substr(line.rfind(' ') + 1);
     std::set<std::string> words;
     std::istringstream lines(result.out);
-    for (std::string one; std::getline(lines, one);) words.insert(one.substr(0, one.find('\t')));
+    for (std::string one; std::getline(lines, one);)
+      if (one.starts_with(begun)) words.insert(one.substr(0, one.find('\t')));
     return words;
   };
   EXPECT_EQ(offers("fastsplat re"), (std::set<std::string>{"render", "report"}));

@@ -1,11 +1,13 @@
 #include "tests/slurm/cluster_helper.hpp"
 
 #include <arpa/inet.h>
+#include <netdb.h>
 #include <netinet/in.h>
 #include <pwd.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -91,6 +93,11 @@ std::string why_no_cluster() {
            "): apt-get install --no-install-recommends slurmctld slurmd slurm-client munge";
   }
   if (user_name().empty()) return "no Slurm here: the calling user has no name";
+  std::array<char, 256> host{};
+  addrinfo* found = nullptr;
+  if (::gethostname(host.data(), host.size() - 1) != 0 || ::getaddrinfo(host.data(), nullptr, nullptr, &found) != 0)
+    return std::string("no Slurm here: this machine's own name, ") + host.data() + ", has no address (/etc/hosts)";
+  ::freeaddrinfo(found);
   // A unix socket's name has 107 characters at most, and munge's lies some folders below.
   if (fs::temp_directory_path().string().size() > 60) return "no Slurm here: TMPDIR is too long for munge's socket";
   return {};

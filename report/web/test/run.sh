@@ -31,7 +31,7 @@ stamp=$(cksum <"$web/package-lock.json")
 if [[ ! -f $folder/.installed || $(<"$folder/.installed") != "$stamp" ]]; then
   cp -- "$web/package.json" "$web/package-lock.json" "$web/.npmrc" "$folder"
   if ! (cd -- "$folder" && npm ci --no-update-notifier >npm.log 2>&1); then
-    grep -qE 'ENOTFOUND|ECONNREFUSED|ECONNRESET|ETIMEDOUT|EAI_AGAIN|ENETUNREACH|ENOTCACHED' "$folder/npm.log" &&
+    grep -qE 'ENOTFOUND|CERT_|_CERT|ECONNREFUSED|ECONNRESET|ETIMEDOUT|EAI_AGAIN|ENETUNREACH|ENOTCACHED' "$folder/npm.log" &&
       skip "npm cannot reach its registry: see $folder/npm.log"
     cat -- "$folder/npm.log" >&2
     exit 1

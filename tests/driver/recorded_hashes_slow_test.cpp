@@ -71,10 +71,11 @@ struct Content {
 };
 const Content kContents[] = {{"marschner-lobb:20", "default"}, {"shells:18", "ct-head"}};
 
-/// The hashes are recorded under Debian 12's compiler and C library. In perspective two splats of marschner-lobb are
-/// equally far, and the last bit of a double decides which comes first; it differs elsewhere.
-bool same_everywhere(const Method& view, const Content& content) {
-  return std::string(view.name) != "perspective" || std::string(content.volume) != "marschner-lobb:20";
+/// The hashes are recorded under Debian 12's compiler. Where values of marschner-lobb lie on the edge between two words
+/// (in perspective; a green of compact from the front), the last bit of a float decides, and it differs elsewhere.
+bool same_everywhere(const std::string& config, const std::string& view, const Content& content) {
+  return std::string(content.volume) != "marschner-lobb:20" ||
+         (view != "perspective" && (config != "compact" || view != "front"));
 }
 #if defined(__clang__) || __GNUC__ > 12
 constexpr bool kAsRecorded = false;
@@ -145,7 +146,7 @@ TEST(RecordedHashes, StreamsFramesCountersAndCycles) {
           const std::string key = name + " " + method.name + " " + view.name + " " + content.volume;
           list << key << " | " << measured << "\n";
           const auto expected = recorded.find(key);
-          const bool compares = kAsRecorded || same_everywhere(view, content);
+          const bool compares = kAsRecorded || same_everywhere(name, view.name, content);
           ++(compares ? compared : passed_over);
           if (compares && (expected == recorded.end() || expected->second != measured)) {
             if (++different <= 5)
@@ -160,7 +161,7 @@ TEST(RecordedHashes, StreamsFramesCountersAndCycles) {
   for (const auto& [key, unused] : recorded) ADD_FAILURE() << key << " is recorded and no longer measured";
   std::printf(
       "[figure] recorded runs compared = %zu, different %zu, refused by the configuration %zu, distinct %zu, "
-      "passed over (marschner-lobb in perspective, another compiler than recorded) %zu\n",
+      "passed over (marschner-lobb, another compiler than recorded) %zu\n",
       compared, different, refused, frames.size(), passed_over);
   EXPECT_EQ(different, 0u) << "where numbers change on purpose: copy " << kMeasured << " to " << kRecorded;
   EXPECT_GT(compared, 300u);

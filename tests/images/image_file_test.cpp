@@ -14,6 +14,7 @@
 #include "base/srgb.hpp"
 #include "base/version.hpp"
 #include "tests/images/image_helper.hpp"
+#include "tests/paths.hpp"
 
 namespace fastsplat::images {
 namespace {
@@ -254,14 +255,8 @@ TEST(ImageFile, RefusesWhatItCannotMeasure) {
   EXPECT_THAT(read_refusal(folder / "parts.exr"), HasSubstr("several images"));
   write_foreign(folder / "double.tif", [](auto& spec) { spec.set_format(OIIO::TypeDesc::DOUBLE); });
   EXPECT_THAT(read_refusal(folder / "double.tif"), HasSubstr("sample type"));
-  write_foreign(folder / "lossy.tif", [](auto& spec) {
-    spec.set_format(OIIO::TypeDesc::UINT8);
-    spec.nchannels = 3;
-    spec.channelnames = {"R", "G", "B"};
-    spec.alpha_channel = -1;
-    spec.attribute("compression", "jpeg");
-  });
-  EXPECT_THAT(read_refusal(folder / "lossy.tif"), HasSubstr("got jpeg"));
+  // Written by OpenImageIO 2.4; 2.5 writes none.
+  EXPECT_THAT(read_refusal(FASTSPLAT_SOURCE_DIR "/tests/images/files/lossy.tif"), HasSubstr("got jpeg"));
 }
 
 TEST(ImageFile, ReadsJpegOfOtherPrograms) {

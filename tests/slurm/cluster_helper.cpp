@@ -147,7 +147,10 @@ void Cluster::write_settings() {
       // back that was set down. MinJobAge: ended jobs stay known.
       << "JobRequeue=0\nReturnToService=1\nSlurmdTimeout=10\nKillWait=2\nMinJobAge=3600\nMailProg=/bin/true\n"
       << "MaxArraySize=" << array_max_ << "\n";
+  // Slurm 23 and newer look for cgroups even where no plugin uses them.
+  std::ofstream(d + "/cgroup.conf") << "CgroupPlugin=disabled\n";
   for (int i = 0; i < nodes_; ++i) {
+    fs::create_directories(home_ / "spool" / node_name(i));
     out << "NodeName=" << node_name(i) << " NodeHostname=localhost NodeAddr=127.0.0.1 Port=" << port_ + 1 + i
         << " CPUs=1 Sockets=1 CoresPerSocket=1 ThreadsPerCore=1 RealMemory=1000 State=UNKNOWN\n";
   }

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 
 namespace fastsplat {
 namespace {
@@ -56,16 +57,19 @@ void UnfinishedPath::keep() {
   forget(path_.string());
 }
 
-HelperProcess::HelperProcess(pid_t child) : child_(child) {
+HelperProcess::HelperProcess(pid_t child, Leads leads)
+    : child_(child), signalled_(leads == Leads::Group ? -child : child) {
   for (auto& helper : helpers) {
     pid_t none = 0;
-    if (helper.compare_exchange_strong(none, child)) return;
+    if (helper.compare_exchange_strong(none, signalled_)) return;
   }
 }
 
-HelperProcess::~HelperProcess() {
+HelperProcess::~HelperProcess() { forget(); }
+
+void HelperProcess::forget() {
   for (auto& helper : helpers) {
-    pid_t mine = child_;
+    pid_t mine = signalled_;
     helper.compare_exchange_strong(mine, 0);
   }
 }
@@ -75,10 +79,7 @@ int HelperProcess::wait() {
   siginfo_t ended{};
   while (::waitid(P_PID, static_cast<id_t>(child_), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
   }
-  for (auto& helper : helpers) {
-    pid_t mine = child_;
-    helper.compare_exchange_strong(mine, 0);
-  }
+  forget();
   int status = 0;
   while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
   }
@@ -92,10 +93,20 @@ void end_with_parent(pid_t parent) {
 
 void remove_unfinished_files() noexcept {
   for (auto& helper : helpers) {
-    const pid_t child = helper;
-    if (child <= 0) continue;
-    ::kill(child, SIGKILL);
-    while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+    const pid_t signalled = helper;
+    if (signalled == 0) continue;
+    const pid_t child = signalled < 0 ? -signalled : signalled;
+    bool ended = false;
+    if (signalled < 0) {
+      ::kill(signalled, SIGTERM);
+      for (int tenths = 0; tenths < 50 && !ended; ++tenths) {
+        ended = ::waitpid(child, nullptr, WNOHANG) != 0;
+        constexpr timespec kTenth{0, 100'000'000};
+        if (!ended) ::nanosleep(&kTenth, nullptr);
+      }
+    }
+    ::kill(signalled, SIGKILL);
+    while (!ended && ::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
     }
   }
   for (auto& slot : unfinished) {

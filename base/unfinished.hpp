@@ -26,10 +26,11 @@ class UnfinishedPath {
 };
 
 /// A child that works for this process: a signal that ends this one ends it first, so that it neither writes on nor
-/// holds our stdout.
+/// holds our stdout. One that leads a process group has five seconds to clean up; the whole group ends.
 class HelperProcess {
  public:
-  explicit HelperProcess(pid_t child);
+  enum class Leads { Nothing, Group };
+  explicit HelperProcess(pid_t child, Leads leads = Leads::Nothing);
   ~HelperProcess();
   HelperProcess(const HelperProcess&) = delete;
   HelperProcess& operator=(const HelperProcess&) = delete;
@@ -38,7 +39,10 @@ class HelperProcess {
   int wait();
 
  private:
+  void forget();
+
   pid_t child_;
+  pid_t signalled_;  ///< as kill() takes it: of a group negative
 };
 /// In the child, first of all: it ends with its parent, however that ends.
 void end_with_parent(pid_t parent);

@@ -13,7 +13,7 @@
 #include <optional>
 #include <sstream>
 
-#include "cli/programs.hpp"
+#include "base/programs.hpp"
 
 namespace fastsplat::cli {
 namespace {

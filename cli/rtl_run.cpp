@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/progress_bar.hpp"
 #include "driver/compile.hpp"
 #include "driver/run_device.hpp"
 
@@ -12,6 +13,18 @@ namespace fastsplat::cli {
 ExitCode RtlRun::exit_code() const {
   if (!check) return ExitCode::Pass;
   return check->mismatches == 0 && check->comparisons > 0 ? ExitCode::Pass : ExitCode::Failed;
+}
+
+void prepare_rtl(const cmodel::Config& config, const std::vector<testbench::RtlAbilities>& abilities,
+                 const Common& common, const std::string& otherwise) {
+  static std::unique_ptr<ProgressBar> bar;
+  const auto begin = [&common](const std::string& line) {
+    Output(common).note(line);
+    bar = std::make_unique<ProgressBar>("compiling", watching(common));
+    return bar->callback();
+  };
+  testbench::watch_rtl_builds({.begin = begin, .end = [] { bar.reset(); }});
+  testbench::require_rtl(config, abilities, otherwise);
 }
 
 driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config& config,
@@ -29,7 +42,7 @@ driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config&
       return checked;
     }
     testbench::RtlOptions unchecked;
-    unchecked.build = testbench::RtlBuild::Plain;
+    unchecked.assertions = testbench::Assertions::Off;
     auto plain = testbench::make_rtl_device(config, pixels, unchecked);
     rtl = plain.get();
     return plain;

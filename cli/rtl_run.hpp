@@ -4,14 +4,21 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
 #include "cli/output.hpp"
 #include "cli/wave_flags.hpp"
 #include "driver/render.hpp"
 #include "testbench/check/verify.hpp"
+#include "testbench/device/rtl_module.hpp"
 
 namespace fastsplat::cli {
+
+/// Finds the simulators of `config` with these abilities, or builds them, with a note and a progress bar; those that
+/// are built later in this process have them too. `otherwise`: the way out where RTL cannot be built.
+void prepare_rtl(const cmodel::Config& config, const std::vector<testbench::RtlAbilities>& abilities,
+                 const Common& common, const std::string& otherwise = {});
 
 enum class Checking { Off, EveryTap };
 

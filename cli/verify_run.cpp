@@ -183,7 +183,6 @@ testbench::VerifyOptions options_from(const VerifyArguments& arguments, const cm
     options.stop_after = std::numeric_limits<std::uint64_t>::max();
     options.keep = static_cast<std::size_t>(*arguments.all_mismatches);
   }
-  if (!options.device) testbench::require_rtl(config);
   if (options.ready != "all") testbench::Pattern(options.ready, 0);  // an unknown pattern is told before any work
   testbench::Pattern(options.input, 0);
   if (arguments.stimulus != "all") testbench::stimulus_class_from(arguments.stimulus);

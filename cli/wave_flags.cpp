@@ -22,6 +22,12 @@ void declare(Options& options, WaveFlags& to) {
   options.word("--cycles", to.cycles, "A..B", "of the waveform: these cycles after reset, both included (all)");
 }
 
+std::vector<testbench::RtlAbilities> wanted_abilities(const WaveFlags& flags) {
+  std::vector<testbench::RtlAbilities> abilities(1);
+  if (!flags.file.empty()) abilities.push_back({.wave = true});
+  return abilities;
+}
+
 WaveRange range_of(const WaveFlags& flags) {
   if (flags.file.empty()) {
     if (flags.cycles)

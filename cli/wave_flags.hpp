@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
 #include "cli/options.hpp"
@@ -19,6 +20,9 @@ struct WaveFlags {
 };
 
 void declare(Options& options, WaveFlags& to);
+
+/// The simulators that a run needs: one that writes waveforms beside the fast one where a waveform is wanted.
+std::vector<testbench::RtlAbilities> wanted_abilities(const WaveFlags& flags);
 
 /// Cycles after reset: [from, to).
 struct WaveRange {

@@ -9,6 +9,7 @@ set(declarations "")
 set(entries "")
 add_library(fastsplat_covered_rtl STATIC EXCLUDE_FROM_ALL)
 target_link_libraries(fastsplat_covered_rtl PUBLIC fastsplat_testbench)
+target_compile_definitions(fastsplat_covered_rtl PRIVATE VM_COVERAGE=1)
 foreach(config ${FASTSPLAT_COVERED_CONFIGS})
   set(file ${PROJECT_SOURCE_DIR}/configs/${config}.toml)
   if(NOT EXISTS ${file})
@@ -22,10 +23,12 @@ foreach(config ${FASTSPLAT_COVERED_CONFIGS})
 // Generated; do not edit.
 #include "Vfs_covered_@config@.h"
 #include "testbench/device/covered_device.hpp"
+#include "testbench/device/verilated_device.hpp"
+#include "testbench/module/verilated_top.hpp"
 
 namespace fastsplat::testbench {
 std::unique_ptr<RtlDevice> make_covered_@config@(const cmodel::Config& config, cmodel::PixelSink& pixels, const RtlOptions& options, const CoverageDat& dat) {
-  return std::make_unique<CoveredDevice<Vfs_covered_@config@>>(config, pixels, options, dat);
+  return make_covered_device(std::make_unique<VerilatedTop<Vfs_covered_@config@>>(simulator_options(options)), config, pixels, options, dat);
 }
 }  // namespace fastsplat::testbench
 ]=])

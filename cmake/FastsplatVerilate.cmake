@@ -1,4 +1,5 @@
-# Verilates rtl/ for one configuration. Verilator runs at build time, after the package of the configuration was generated.
+# Verilates rtl/ into a program: what tests and tools simulate that is no module of a configuration (testbench/device/rtl_module.hpp).
+# Verilator runs at build time, after the package of the configuration was generated.
 find_program(VERILATOR verilator REQUIRED)
 execute_process(COMMAND ${VERILATOR} --getenv VERILATOR_ROOT OUTPUT_VARIABLE VERILATOR_ROOT OUTPUT_STRIP_TRAILING_WHITESPACE)
 if(NOT EXISTS ${VERILATOR_ROOT}/include/verilated.cpp)
@@ -7,33 +8,28 @@ endif()
 
 # The simulator's own runtime, shared by all configurations.
 find_package(Threads REQUIRED)
-add_library(verilated_runtime STATIC ${VERILATOR_ROOT}/include/verilated.cpp ${VERILATOR_ROOT}/include/verilated_fst_c.cpp
-                                     ${VERILATOR_ROOT}/include/verilated_threads.cpp ${VERILATOR_ROOT}/include/verilated_cov.cpp
-                                     ${PROJECT_SOURCE_DIR}/testbench/device/simulator_output.cpp)
+add_library(verilated_runtime STATIC ${VERILATOR_ROOT}/include/verilated.cpp ${VERILATOR_ROOT}/include/verilated_threads.cpp
+                                      ${VERILATOR_ROOT}/include/verilated_cov.cpp
+                                     ${PROJECT_SOURCE_DIR}/testbench/module/simulator_output.cpp)
 target_include_directories(verilated_runtime SYSTEM PUBLIC ${VERILATOR_ROOT}/include ${VERILATOR_ROOT}/include/vltstd)
 target_include_directories(verilated_runtime PRIVATE ${PROJECT_SOURCE_DIR})
 target_compile_features(verilated_runtime PRIVATE cxx_std_20)
 target_compile_definitions(verilated_runtime PRIVATE VL_PRINTF=fastsplat::testbench::simulator_print)
-target_compile_options(verilated_runtime PRIVATE -w -include ${PROJECT_SOURCE_DIR}/testbench/device/simulator_output.hpp)
-target_link_libraries(verilated_runtime PUBLIC ZLIB::ZLIB Threads::Threads)
+target_compile_options(verilated_runtime PRIVATE -w -include ${PROJECT_SOURCE_DIR}/testbench/module/simulator_output.hpp)
+target_link_libraries(verilated_runtime PUBLIC Threads::Threads)
 
-# fastsplat_verilate(<target> <config> [ASSERT] [WAVE] [DEFINES ...] [SOURCES ...] [ARGS ...]): library <target> with class Vfs_<target>
+# fastsplat_verilate(<target> <config> [ASSERT] [DEFINES ...] [SOURCES ...] [ARGS ...]): library <target> with class Vfs_<target>
 # and its headers. <config> names a file of configs/ or is the path of one. DEFINES and SOURCES are of the must-fail build (rtl/fault.svh); release builds have none.
-# ASSERT: checks the assertions of rtl/; WAVE: can write waveforms. Without either it is fastest. What can write waveforms keeps every signal
-# (a fifth of the time of `base`) and runs short streams only, so it is compiled fast instead of to be fast.
+# ASSERT: checks the assertions of rtl/.
 # RTL <folder>: the source is there, generated from rtl/ (tests/mutants); QUICK: compiled rather than run quickly.
 # TOP <module>: of rtl/top/, around the device, of rtl/fetch/, beside it, or one of its units. NETLIST <kind>: not the source but what Yosys makes of it (cmake/netlist.sh); CUT <net>: with that net tied to 0.
 function(fastsplat_verilate target config)
-  cmake_parse_arguments(arg "ASSERT;WAVE;QUICK" "NETLIST;CUT;RTL;TOP" "DEFINES;SOURCES;ARGS" ${ARGN})
+  cmake_parse_arguments(arg "ASSERT;QUICK" "NETLIST;CUT;RTL;TOP" "DEFINES;SOURCES;ARGS" ${ARGN})
   set(abilities "")
   set(optimise -O2)
   set(optimise_runtime -O2)
   if(arg_ASSERT)
     list(APPEND abilities --assert)
-  endif()
-  if(arg_WAVE)
-    list(APPEND abilities --trace-fst)
-    set(optimise -O0)
   endif()
   file(GLOB RTL_SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.sv)
   file(GLOB RTL_INCLUDES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.svh)
@@ -108,30 +104,4 @@ function(fastsplat_verilate target config)
   add_dependencies(${target} verilate_${target})
   target_include_directories(${target} SYSTEM INTERFACE ${folder}/obj)
   target_link_libraries(${target} INTERFACE ${archive} verilated_runtime)
-endfunction()
-
-# fastsplat_fault_package(<list> <package>): <package>, generated now: the faults of <list>, lines FAULT(NAME, ...), by the number of the line, how many
-# they are, and the one that is selected (rtl/fault.svh).
-function(fastsplat_fault_package list package)
-  file(STRINGS ${list} lines REGEX "^FAULT\\(")
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${list})
-  set(numbers "")
-  set(number 0)
-  foreach(line ${lines})
-    string(REGEX MATCH "^FAULT\\(([A-Z0-9_]+)," unused "${line}")
-    math(EXPR number "${number} + 1")
-    string(APPEND numbers "  localparam int ${CMAKE_MATCH_1} = ${number};\n")
-  endforeach()
-  file(RELATIVE_PATH source ${PROJECT_SOURCE_DIR} ${list})
-  file(CONFIGURE OUTPUT ${package} @ONLY CONTENT [=[
-// Generated from @source@; do not edit.
-package fastsplat_fault_pkg;
-@numbers@  // verilator lint_off UNUSEDPARAM
-  localparam int FAULTS = @number@;
-  // verilator lint_on UNUSEDPARAM
-`ifdef VERILATOR
-  int selected  /* verilator public_flat_rw */;
-`endif
-endpackage
-]=])
 endfunction()

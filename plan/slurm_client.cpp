@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "plan/called.hpp"
+#include "base/called.hpp"
 
 namespace fastsplat::plan {
 namespace {

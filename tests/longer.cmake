@@ -1,6 +1,5 @@
 # Tests of fast files that take more than some half a second of a processor: they are labelled slow. `./run test` has them,
 # `./run test -L fast`, which is to stay under a minute of wall on two processors, does not.
-# Of every build: no test of a configuration whose RTL FASTSPLAT_RTL_CONFIGS can leave out.
 set(fastsplat_longer_tests
   cli.Index.IsRefusedInOneLineWhereItCannotBe
   cmodel.Configs/Culling.ModelEqualsOracle/base_pixel

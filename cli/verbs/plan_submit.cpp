@@ -12,7 +12,7 @@
 #include "cli/output_names.hpp"
 #include "cli/plan_arguments.hpp"
 #include "cli/plan_vocabulary.hpp"
-#include "cli/programs.hpp"
+#include "base/programs.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "plan/lost_tasks.hpp"
 #include "plan/script_engines.hpp"

@@ -182,7 +182,8 @@ ExitCode run(const RenderArguments& arguments) {
   }
   if (renderer.engine != Engine::Golden) renderer.config = load(arguments.config);
   if (renderer.engine == Engine::Rtl)
-    testbench::require_rtl(*renderer.config, "use --engine cmodel, its bit-accurate model");
+    prepare_rtl(*renderer.config, wanted_abilities(arguments.wave), arguments.common,
+                "use --engine cmodel, its bit-accurate model");
   return sequence ? run_animation(arguments, renderer, describe(arguments.scene, &*sequence), *sequence, output)
                   : run_still(arguments, renderer, output);
 }

@@ -14,6 +14,7 @@
 #include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/replay_line.hpp"
+#include "cli/rtl_run.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "cli/verify_output.hpp"
 #include "driver/stream_file.hpp"
@@ -30,12 +31,17 @@ std::string failure_stem(const VerifyArguments& arguments) {
                                   : std::filesystem::path(arguments.stream).replace_extension().string() + "-smaller";
 }
 
+bool has_rtl_fault(const VerifyArguments& arguments) {
+  return !arguments.fault.empty() &&
+         testbench::planted_fault_from(arguments.fault).where == testbench::PlantedFault::Where::Rtl;
+}
+
 /// A fault of the RTL brings the configuration that it is in.
 ConfigFlags config_of(const VerifyArguments& arguments) {
   ConfigFlags config = arguments.config;
   if (arguments.fault.empty() || config.config) return config;
-  const auto& fault = testbench::planted_fault_from(arguments.fault);
-  if (fault.where == testbench::PlantedFault::Where::Rtl) config.config = testbench::breakable_config(fault);
+  if (has_rtl_fault(arguments))
+    config.config = testbench::breakable_config(testbench::planted_fault_from(arguments.fault));
   return config;
 }
 
@@ -194,6 +200,9 @@ ExitCode verify_and_tell(const VerifyArguments& arguments) {
   check_files(arguments, config_flags, source, named);
   const auto config = load(config_flags);
   const auto options = options_from(arguments, config);
+  auto abilities = wanted_abilities(arguments.wave);
+  for (auto& with : abilities) with.faults = has_rtl_fault(arguments);
+  prepare_rtl(config, abilities, arguments.common);
   check_coverage(arguments.coverage, config);
   const std::string seed = fmt::format("seed {}", arguments.seed);
   // The seed comes first, so that it is known whatever happens next, and last, where the eye is.

@@ -1,39 +1,13 @@
-// The Verilated device with its line counts handed over at its end. Included by generated sources only.
+// A device whose line counts are handed over when it goes.
 #pragma once
 
-#include <verilated_cov.h>
-
-#include <filesystem>
-
-#include "base/read_file.hpp"
 #include "testbench/device/covered_registry.hpp"
-#include "testbench/device/verilated_device.hpp"
+#include "testbench/module/simulated_top.hpp"
 
 namespace fastsplat::testbench {
 
-template <class Top>
-class CoveredDevice final : public VerilatedDevice<Top> {
- public:
-  CoveredDevice(const cmodel::Config& config, cmodel::PixelSink& pixels, const RtlOptions& options, CoverageDat dat)
-      : VerilatedDevice<Top>(config, pixels, options), dat_(std::move(dat)) {}
-
-  ~CoveredDevice() override {
-    // Verilator only writes files.
-    const auto path =
-        std::filesystem::temp_directory_path() / ("fastsplat-coverage-" + std::to_string(::getpid()) + "-" +
-                                                  std::to_string(reinterpret_cast<std::uintptr_t>(this)) + ".dat");
-    try {
-      this->context().coveragep()->write(path.c_str());
-      dat_(read_text_file(path, std::size_t{1} << 26));
-    } catch (const UserError&) {
-      dat_({});  // no counts: what was to be covered stays uncovered
-    }
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-  }
-
- private:
-  CoverageDat dat_;
-};
+std::unique_ptr<RtlDevice> make_covered_device(std::unique_ptr<SimulatedTop> top, const cmodel::Config& config,
+                                               cmodel::PixelSink& pixels, const RtlOptions& options,
+                                               const CoverageDat& dat);
 
 }  // namespace fastsplat::testbench

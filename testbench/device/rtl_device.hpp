@@ -15,16 +15,15 @@
 #include "testbench/device/pattern.hpp"
 #include "testbench/device/raw_taps.hpp"
 #include "testbench/device/reset_fill.hpp"
+#include "testbench/device/rtl_module.hpp"
 
 namespace fastsplat::testbench {
 
 /// Length of a reset, unless somebody asks for another.
 constexpr int kResetCycles = 4;
 
-/// Which simulation of the RTL runs. All behave the same; a plain one neither checks assertions nor writes waveforms. A
-/// device that is to write one (RtlOptions::wave) is a third simulation, which is slow: of ResetFill::Random it draws
-/// other words than the others.
-enum class RtlBuild { Checked, Plain };
+/// Whether the RTL's assertions are checked; without, a device is a little faster.
+enum class Assertions { Off, On };
 
 struct RtlOptions {
   Pattern input;   ///< when the source offers a beat (an offered beat stays until taken)
@@ -37,7 +36,7 @@ struct RtlOptions {
   std::filesystem::path wave;
   std::uint64_t wave_from = 0, wave_to = 0;
   bool wave_after_reset = false;  ///< only behind the first warm_reset(), with which the cycles begin again
-  RtlBuild build = RtlBuild::Checked;
+  Assertions assertions = Assertions::On;
 };
 
 /// What a register access was answered with.
@@ -49,8 +48,8 @@ struct RegisterAnswer {
 /// Half of a write's offer.
 enum class WriteHalf { Address, Data };
 
-/// Of a beat that breaks a rule. Judged: the cycle before that in which error rises; that of the transfer, for one that is
-/// swallowed because another was refused before.
+/// Of a beat that breaks a rule. Judged: the cycle before that in which error rises; that of the transfer, for one that
+/// is swallowed because another was refused before.
 struct Refusal {
   std::uint64_t taken = 0, judged = 0;
 };
@@ -75,8 +74,8 @@ class RtlDevice : public cmodel::Device {
   /// Resets again in the middle of whatever is going on, for so many cycles; memories keep what they hold, counters
   /// restart. Nobody takes answers or pixels meanwhile; one that is still there afterwards is UserError (Simulation).
   virtual void warm_reset(int cycles = kResetCycles) = 0;
-  /// Offers a beat that breaks a rule: when it was taken and judged, or nothing if the device does not refuse it. Neither
-  /// it nor what is taken after it is told to anybody, until a reset.
+  /// Offers a beat that breaks a rule: when it was taken and judged, or nothing if the device does not refuse it.
+  /// Neither it nor what is taken after it is told to anybody, until a reset.
   virtual std::optional<Refusal> refuse(const cmodel::Beat& beat) = 0;
   /// Asks CONTROL for a soft reset. With `wait` until the device is at rest; without, the beats that are offered next
   /// wait for that.
@@ -87,15 +86,15 @@ class RtlDevice : public cmodel::Device {
   virtual std::uint64_t aborted_tiles() const = 0;
 };
 
-/// Built-in configurations with RTL in this build; files of the user's are not among them.
-std::vector<std::string> rtl_config_names();
+/// Makes the simulators of `config` with these abilities ready, built if need be: throws what rtl_module() throws.
+/// `otherwise` is the way out that the caller has without RTL.
+void require_rtl(const cmodel::Config& config, const std::vector<RtlAbilities>& abilities,
+                 const std::string& otherwise = {});
 
-/// Throws UserError (Usage) for a configuration whose hash no RTL of this build has; what it is called says nothing.
-void require_rtl(const cmodel::Config& config, const std::string& otherwise = {});
-
-/// The RTL of the configuration's hash. Throws as require_rtl() does, and UserError (Simulation) when the configuration
-/// hash in the device's registers is not `config`'s. While the device runs, UserError (Simulation) tells that it hangs,
-/// that it refused the stream, or which assertion of the RTL failed, where and in which cycle.
+/// The RTL of the configuration, whatever it is called; built if need be (rtl_module.hpp). Throws as require_rtl()
+/// does, and UserError (Simulation) when the configuration hash in the device's registers is not `config`'s. While the
+/// device runs, UserError (Simulation) reports that it hangs, that it refused the stream, or which assertion of the RTL
+/// failed, where and in which cycle.
 std::unique_ptr<RtlDevice> make_rtl_device(const cmodel::Config& config, cmodel::PixelSink& pixels,
                                            const RtlOptions& options = {});
 

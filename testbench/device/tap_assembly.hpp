@@ -34,7 +34,7 @@ class TapAssembly final : public RawTapSink {
   struct Sheets {
     std::vector<Sheet> begun;
     std::size_t composited = 0;  ///< whose blocks have all passed
-    std::uint32_t tags = 0;  ///< behind the last splat that came
+    std::uint32_t tags = 0;      ///< behind the last splat that came
   };
   struct Place {
     std::int32_t x = 0, y = 0;

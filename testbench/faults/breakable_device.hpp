@@ -13,8 +13,6 @@ enum class RtlFault : std::uint32_t {
 #undef FAULT
 };
 
-enum class Assertions { Off, On };
-
 /// Configurations of configs/faults whose RTL can be broken: of every fault but the next ones, of SAMPLE_..., of
 /// CULL_..., of POST_...
 constexpr const char* kBreakableConfig = "mustfail";
@@ -22,8 +20,8 @@ constexpr const char* kBreakableSamples = "westover";
 constexpr const char* kBreakableCull = "cull";
 constexpr const char* kBreakablePost = "post";
 
-/// `config` has the numbers of one of them, else UserError (Simulation). With assertions on,
-/// one that fires ends the run. Devices on several threads may have different faults.
+/// Built if need be, as make_rtl_device() does. A fault of what `config` has not shows nowhere. With assertions on, one
+/// that fires ends the run. Devices on several threads may have different faults.
 std::unique_ptr<RtlDevice> make_breakable_device(const cmodel::Config& config, cmodel::PixelSink& pixels,
                                                  const RtlOptions& options, RtlFault fault, Assertions assertions);
 

@@ -252,6 +252,12 @@ TEST(Install, PutsProgramModulePagesAndCompletionInPlace) {
   expect_success(
       run_words({folder / "bin/fastsplat", "render", "--volume", "shells:8", "--size", "8", "-o", folder / "a.png"}));
   EXPECT_TRUE(fs::exists(folder / "a.png"));
+  // It has the sources of the RTL, too.
+  Surroundings cache;
+  cache.environment = {"XDG_CACHE_HOME=" + (folder / "cache")};
+  const auto verified = run_words({folder / "bin/fastsplat", "verify", "--random", "100", "--config", "tiny"}, cache);
+  expect_success(verified);
+  EXPECT_NE(verified.err.find("building the simulator of configuration tiny"), std::string::npos) << verified.err;
   if (!has("man")) return;
   Surroundings here;
   here.environment = {"MANPAGER=cat", "MANWIDTH=80"};

@@ -40,7 +40,7 @@ class Tree {
   Result run(const Words& words) const {
     Surroundings here;
     here.folder = folder_.path();
-    here.environment = {"PATH=" + (folder_ / "tools") + ":" + std::getenv("PATH"), "FASTSPLAT_RTL_CONFIGS="};
+    here.environment = {"PATH=" + (folder_ / "tools") + ":" + std::getenv("PATH")};
     Words all{folder_ / "run"};
     all.insert(all.end(), words.begin(), words.end());
     return run_words(all, here);

@@ -13,7 +13,8 @@
 #include "Vfs_fetch_narrow_fastsplat_fault_pkg.h"
 #include "cmodel/cull_unit.hpp"
 #include "cmodel/model.hpp"
-#include "testbench/device/simulator_output.hpp"
+#include "testbench/device/failed_assertion.hpp"
+#include "testbench/module/simulator_output.hpp"
 
 namespace fastsplat::test {
 namespace {

@@ -1,17 +1,13 @@
 #include "tests/fetch/fetch_core_helper.hpp"
 
-#include <limits>
+#include <array>
 
-#include "Vfs_rtl_faulty_cull.h"
-#include "Vfs_rtl_faulty_cull___024root.h"
-#include "Vfs_rtl_faulty_cull_fastsplat_fault_pkg.h"
 #include "cmodel/register_map.hpp"
+#include "testbench/device/rtl_module.hpp"
 #include "testbench/device/tile_assembly.hpp"
 
 namespace fastsplat::test {
 namespace {
-
-using Top = Vfs_rtl_faulty_cull;
 
 struct Kept final : cmodel::PixelSink {
   std::vector<cmodel::TilePixels> tiles;
@@ -21,35 +17,27 @@ struct Kept final : cmodel::PixelSink {
 class VerilatedCore final : public CoreDevice {
  public:
   VerilatedCore(const cmodel::Config& config, const testbench::Pattern& output)
-      : config_(config), output_(output), assembly_(config, kept_) {
-    context_.threads(1);
-    context_.randReset(2);
-    context_.fatalOnError(false);
-    context_.errorLimit(std::numeric_limits<int>::max());
-    top_ = std::make_unique<Top>(&context_);
-    top_->rst_ni = 0;
-    top_->s_tvalid_i = top_->awvalid_i = top_->wvalid_i = top_->arvalid_i = top_->m_tready_i = 0;
-    top_->bready_i = top_->rready_i = 1;
+      : config_(config),
+        output_(output),
+        assembly_(config, kept_),
+        top_(testbench::open_rtl(config, {}, {})),
+        ports_(top_->ports()) {
+    ports_.rst_ni = 0;
+    ports_.s_tvalid_i = ports_.awvalid_i = ports_.wvalid_i = ports_.arvalid_i = ports_.m_tready_i = 0;
+    ports_.bready_i = ports_.rready_i = 1;
     for (int i = 0; i < 3; ++i) eval(0), eval(1);
-    top_->rst_ni = 1;
+    ports_.rst_ni = 1;
     eval(0);
   }
-  ~VerilatedCore() override {
-    Verilated::threadContextp(&context_);
-    top_->final();
-    top_.reset();
-  }
-
-  bool ready() override { return top_->s_tready_o != 0; }
+  bool ready() override { return ports_.s_tready_o != 0; }
   std::optional<Verdict> verdict() override {
-    if (top_->verdict_valid_o == 0) return std::nullopt;
-    return Verdict{top_->verdict_tag_o, top_->verdict_hidden_o != 0};
+    if (ports_.verdict_valid_o == 0) return std::nullopt;
+    return Verdict{ports_.verdict_tag_o.value(), ports_.verdict_hidden_o != 0};
   }
   void edge(const cmodel::Beat* beat) override {
-    Verilated::threadContextp(&context_);
     const bool taken = beat != nullptr && ready();
-    top_->s_tvalid_i = beat != nullptr ? 1 : 0;
-    for (std::size_t i = 0; beat != nullptr && i < beat->size(); ++i) top_->s_tdata_i[i] = (*beat)[i];
+    ports_.s_tvalid_i = beat != nullptr ? 1 : 0;
+    for (std::size_t i = 0; beat != nullptr && i < beat->size(); ++i) ports_.s_tdata_i.data()[i] = (*beat)[i];
     if (taken) assembly_.accept(*beat);
     cycle();
   }
@@ -80,33 +68,32 @@ class VerilatedCore final : public CoreDevice {
 
  private:
   void eval(int clock) {
-    top_->clk_i = static_cast<std::uint8_t>(clock);
-    top_->rootp->__PVT__fastsplat_fault_pkg->selected = 0;
+    ports_.clk_i = static_cast<std::uint8_t>(clock);
     top_->eval();
   }
   void cycle() {
-    top_->m_tready_i = output_.at(cycle_++) ? 1 : 0;
+    ports_.m_tready_i = output_.at(cycle_++) ? 1 : 0;
     eval(0);
-    if (top_->m_tvalid_o != 0 && top_->m_tready_i != 0) {
-      std::vector<std::uint32_t> words(sizeof(top_->m_tdata_o) / sizeof(std::uint32_t));
-      for (std::size_t i = 0; i < words.size(); ++i) words[i] = top_->m_tdata_o[i];
+    if (ports_.m_tvalid_o != 0 && ports_.m_tready_i != 0) {
+      std::array<std::uint32_t, 1> small;
+      const auto port = ports_.m_tdata_o.words(small);
+      std::vector<std::uint32_t> words(port.begin(), port.end());
       std::size_t pixels = 0;
-      while (pixels < words.size() / 4 && (top_->m_tkeep_o >> pixels & 1) != 0) ++pixels;
+      while (pixels < words.size() / 4 && (ports_.m_tkeep_o.value() >> pixels & 1) != 0) ++pixels;
       words.resize(pixels * 4);
-      assembly_.pixels(words, top_->m_tlast_o != 0);
+      assembly_.pixels(words, ports_.m_tlast_o != 0);
     }
     eval(1);
     eval(0);
   }
   std::uint32_t read(std::uint32_t address) {
-    Verilated::threadContextp(&context_);
-    top_->s_tvalid_i = 0;
-    top_->araddr_i = static_cast<std::uint16_t>(address);
-    top_->arvalid_i = 1;
+    ports_.s_tvalid_i = 0;
+    ports_.araddr_i.drive(address);
+    ports_.arvalid_i = 1;
     cycle();
-    top_->arvalid_i = 0;
+    ports_.arvalid_i = 0;
     cycle();  // in which it is read
-    const std::uint32_t word = top_->rdata_o;
+    const std::uint32_t word = ports_.rdata_o.value();
     cycle();
     return word;
   }
@@ -120,8 +107,8 @@ class VerilatedCore final : public CoreDevice {
   testbench::Pattern output_;
   Kept kept_;
   testbench::TileAssembly assembly_;
-  VerilatedContext context_;
-  std::unique_ptr<Top> top_;
+  std::unique_ptr<testbench::SimulatedTop> top_;
+  testbench::Ports ports_;
   std::uint64_t cycle_ = 0;
 };
 

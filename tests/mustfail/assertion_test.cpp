@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "testbench/device/simulator_output.hpp"
+#include "testbench/device/failed_assertion.hpp"
 #include "testbench/stimulus/stimulus.hpp"
 #include "testbench/triage/failure.hpp"
 #include "tests/cmodel/configs_helper.hpp"

@@ -1,16 +1,8 @@
 // check_mutants_density_lane CONFIG.toml: the pixel stage's lane by itself, whose last bits whole streams are too short for.
 #include "Vfs_mutants_density_lane.h"
 #include "driver/config_file.hpp"
-#include "testbench/device/rtl_registry.hpp"
 #include "tests/classify/lane_bench_helper.hpp"
 #include "tests/mutants/serve_mutants.hpp"
-
-namespace fastsplat::testbench {
-
-/// No source of rtl/ is in this program.
-std::span<const RtlEntry> rtl_registry() { return {}; }
-
-}  // namespace fastsplat::testbench
 
 namespace fastsplat::test {
 namespace {

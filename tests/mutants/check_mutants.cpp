@@ -6,19 +6,11 @@
 
 #include "base/error.hpp"
 #include "driver/config_file.hpp"
-#include "testbench/device/rtl_registry.hpp"
 #include "testbench/stimulus/campaign.hpp"
 #include "testbench/stimulus/directed.hpp"
 #include "testbench/stimulus/left_out.hpp"
 #include "tests/mustfail/campaign_helper.hpp"
 #include "tests/mutants/serve_mutants.hpp"
-
-namespace fastsplat::testbench {
-
-/// No source of rtl/ is in this program.
-std::span<const RtlEntry> rtl_registry() { return {}; }
-
-}  // namespace fastsplat::testbench
 
 namespace fastsplat::test {
 namespace {

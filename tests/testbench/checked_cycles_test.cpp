@@ -107,7 +107,7 @@ TEST(VerilatedDevices, MayGoInAnyOrder) {
   const auto config = driver::load_config("tiny");
   cmodel::NullPixels pixels;
   RtlOptions plain;
-  plain.build = RtlBuild::Plain;
+  plain.assertions = Assertions::Off;
   for (int turn = 0; turn < 8; ++turn) {
     auto first = make_rtl_device(config, pixels), second = make_rtl_device(config, pixels, plain),
          third = make_rtl_device(config, pixels);

@@ -1,6 +1,7 @@
 // A device whose register bus never answers is told, not waited for; so is one that answers a read in another cycle.
 #include <gtest/gtest.h>
 
+#include "cmodel/register_map.hpp"
 #include "driver/config_file.hpp"
 #include "testbench/device/verilated_device.hpp"
 
@@ -10,10 +11,10 @@ namespace {
 /// What a device does with reads; it takes no write.
 enum class Reads { Never, AsThePageSays, ACycleEarly, OneBehindTheOther };
 
-/// Ports as Verilator has them, over a device with a register bus and nothing else.
-struct SilentTop {
-  explicit SilentTop(VerilatedContext*) {}
-  void eval() {
+/// Ports as a simulator has them, over a device with a register bus and nothing else.
+struct SilentTop final : SimulatedTop {
+  explicit SilentTop(Reads how) : reads(how) {}
+  void eval() override {
     if (clk_i != 0 && !was_high) {
       const bool takes = rst_ni != 0 && arvalid_i != 0 && arready_o != 0;
       rvalid_o = reads == Reads::ACycleEarly ? takes : taken;
@@ -26,8 +27,23 @@ struct SilentTop {
     arready_o = reads != Reads::Never && (reads == Reads::OneBehindTheOther || (!taken && rvalid_o == 0)) ? 1 : 0;
     awready_o = 0;
   }
-  void final() {}
-  static inline Reads reads = Reads::Never;
+  Ports ports() override {
+    return {
+#define X(name) name,
+        FASTSPLAT_NARROW_PORTS(X)
+#undef X
+#define X(name) WidePort(name),
+            FASTSPLAT_WIDE_PORTS(X)
+#undef X
+    };
+  }
+  bool failed() const override { return false; }
+  std::string take_output() override { return {}; }
+  bool trace(const char*) override { return false; }
+  void dump(std::uint64_t) override {}
+  void write_coverage(const char*) override {}
+
+  Reads reads;
   bool was_high = false, taken = false;
   std::uint32_t word = 0;
 
@@ -49,10 +65,11 @@ struct SilentTop {
   std::uint64_t tap_sums_o = 0, tap_weights_o = 0, tap_state_o = 0;
 };
 
-RtlOptions patient() {
+std::unique_ptr<RtlDevice> make(Reads reads) {
+  static cmodel::NullPixels none;
   RtlOptions options;
   options.timeout = 500;
-  return options;
+  return make_verilated_device(std::make_unique<SilentTop>(reads), driver::load_config("tiny"), none, options);
 }
 
 void expect_hang(const std::function<void()>& action, const char* told) {
@@ -67,31 +84,20 @@ void expect_hang(const std::function<void()>& action, const char* told) {
 }
 
 TEST(SilentBus, AReadThatIsNeverTakenEndsTheRun) {
-  cmodel::NullPixels none;
-  SilentTop::reads = Reads::Never;
-  expect_hang([&] { VerilatedDevice<SilentTop>(driver::load_config("tiny"), none, patient()); },
-              "no register read taken");
+  expect_hang([] { make(Reads::Never); }, "no register read taken");
 }
 
 TEST(SilentBus, AWriteThatIsNeverTakenEndsTheRun) {
-  cmodel::NullPixels none;
-  SilentTop::reads = Reads::AsThePageSays;
-  VerilatedDevice<SilentTop> device(driver::load_config("tiny"), none, patient());
-  expect_hang([&] { device.write_register(0, 1, 0); }, "no register write taken");
+  const auto device = make(Reads::AsThePageSays);
+  expect_hang([&] { device->write_register(0, 1, 0); }, "no register write taken");
 }
 
 TEST(SilentBus, AReadThatIsAnsweredEarlyEndsTheRun) {
-  cmodel::NullPixels none;
-  SilentTop::reads = Reads::ACycleEarly;
-  expect_hang([&] { VerilatedDevice<SilentTop>(driver::load_config("tiny"), none, patient()); },
-              "answered in the cycle after it was taken");
+  expect_hang([] { make(Reads::ACycleEarly); }, "answered in the cycle after it was taken");
 }
 
 TEST(SilentBus, AReadThatIsTakenBesideAnotherEndsTheRun) {
-  cmodel::NullPixels none;
-  SilentTop::reads = Reads::OneBehindTheOther;
-  expect_hang([&] { VerilatedDevice<SilentTop>(driver::load_config("tiny"), none, patient()); },
-              "a second register read is taken");
+  expect_hang([] { make(Reads::OneBehindTheOther); }, "a second register read is taken");
 }
 
 }  // namespace

@@ -11,12 +11,4 @@ int simulator_print(const char* format, ...) __attribute__((format(printf, 1, 2)
 /// What was printed since the last call.
 std::string take_simulator_output();
 
-/// A failed assertion as the simulator words it: "%Error: FILE:LINE: Assertion failed in PATH.NAME: NAME".
-struct FailedAssertion {
-  std::string name;   ///< empty if there was none
-  std::string path;   ///< of the instance
-  std::string place;  ///< FILE:LINE
-};
-FailedAssertion first_failed_assertion(const std::string& output);
-
 }  // namespace fastsplat::testbench

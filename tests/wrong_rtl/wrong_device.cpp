@@ -1,13 +1,17 @@
 // The RTL of tiny with a lie at one tap: of every seventh splat of a tile the sheet's words come out inverted.
-#include "driver/config_file.hpp"
-#include "testbench/device/rtl_registry.hpp"
 #include "testbench/device/passing_device.hpp"
+#include "testbench/device/rtl_module.hpp"
+#include "testbench/device/verilated_device.hpp"
 
 namespace fastsplat::testbench {
 
-std::unique_ptr<RtlDevice> make_tiny(const cmodel::Config&, cmodel::PixelSink&, const RtlOptions&);
-
 namespace {
+
+std::unique_ptr<RtlDevice> make_true(const cmodel::Config& config, cmodel::PixelSink& pixels,
+                                     const RtlOptions& options) {
+  return make_verilated_device(open_rtl(config, {.wave = !options.wave.empty()}, simulator_options(options)), config,
+                               pixels, options);
+}
 
 class LyingTaps final : public RawTapSink {
  public:
@@ -38,19 +42,16 @@ struct Lies {
 class WrongDevice final : private Lies, public PassingDevice {
  public:
   WrongDevice(const cmodel::Config& config, cmodel::PixelSink& pixels, const RtlOptions& given)
-      : Lies{LyingTaps(given.taps)}, PassingDevice(make_tiny(config, pixels, told(given))) {}
+      : Lies{LyingTaps(given.taps)}, PassingDevice(make_true(config, pixels, told(given))) {}
 };
-
-std::unique_ptr<RtlDevice> make_wrong(const cmodel::Config& config, cmodel::PixelSink& pixels,
-                                      const RtlOptions& options) {
-  return std::make_unique<WrongDevice>(config, pixels, options);
-}
 
 }  // namespace
 
-std::span<const RtlEntry> rtl_registry() {
-  static const RtlEntry entry{"tiny", cmodel::config_hash(driver::load_config("tiny")), make_wrong};
-  return {&entry, 1};
+void require_rtl(const cmodel::Config&, const std::vector<RtlAbilities>&, const std::string&) {}
+
+std::unique_ptr<RtlDevice> make_rtl_device(const cmodel::Config& config, cmodel::PixelSink& pixels,
+                                           const RtlOptions& options) {
+  return std::make_unique<WrongDevice>(config, pixels, options);
 }
 
 }  // namespace fastsplat::testbench

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace fastsplat::cli {
+namespace fastsplat {
 
 /// Where the shell would find it; empty: nowhere.
 std::string path_of(const std::string& program);
@@ -11,4 +11,4 @@ std::string path_of(const std::string& program);
 /// Whether the shell would find it.
 bool in_path(const std::string& program);
 
-}  // namespace fastsplat::cli
+}  // namespace fastsplat

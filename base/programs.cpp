@@ -1,4 +1,4 @@
-#include "cli/programs.hpp"
+#include "base/programs.hpp"
 
 #include <unistd.h>
 
@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-namespace fastsplat::cli {
+namespace fastsplat {
 
 namespace fs = std::filesystem;
 
@@ -26,4 +26,4 @@ std::string path_of(const std::string& program) {
 
 bool in_path(const std::string& program) { return !path_of(program).empty(); }
 
-}  // namespace fastsplat::cli
+}  // namespace fastsplat

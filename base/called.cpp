@@ -1,8 +1,7 @@
-#include "plan/called.hpp"
+#include "base/called.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,16 +11,19 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <optional>
 
 #include "base/error.hpp"
+#include "base/unfinished.hpp"
 
-namespace fastsplat::plan {
+namespace fastsplat {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-[[noreturn]] void become(char* const* words, int out, int err) {
-  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+[[noreturn]] void become(char* const* words, pid_t parent, int out, int err) {
+  ::setpgid(0, 0);
+  end_with_parent(parent);
   const int nothing = ::open("/dev/null", O_RDONLY);
   ::dup2(nothing, STDIN_FILENO);
   ::dup2(out, STDOUT_FILENO);
@@ -52,30 +54,38 @@ std::string Called::last_words() const {
   return code == 127 ? "it is not installed" : code == 124 ? "no answer" : "exit code " + std::to_string(code);
 }
 
-Called call(const std::vector<std::string>& words, int seconds) {
+Called call(const std::vector<std::string>& words, int seconds, const Heard& heard) {
   std::vector<char*> argv;
   for (const auto& word : words) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
   std::array<int, 2> out{-1, -1}, err{-1, -1};
   const bool piped = ::pipe2(out.data(), O_CLOEXEC) == 0 && ::pipe2(err.data(), O_CLOEXEC) == 0;
-  const pid_t child = piped ? ::fork() : -1;
-  if (child == 0) become(argv.data(), out[1], err[1]);
+  const pid_t parent = ::getpid(), child = piped ? ::fork() : -1;
+  if (child == 0) become(argv.data(), parent, out[1], err[1]);
   const int reason = errno;
+  std::optional<HelperProcess> helper;
+  if (child > 0) {
+    ::setpgid(child, child);  // it may not have come so far itself
+    helper.emplace(child, HelperProcess::Leads::Group);
+  }
   for (const int end : {out[1], err[1]}) ::close(end);
 
   Called called;
   bool late = false;
   std::array<pollfd, 2> ends{{{out[0], POLLIN, 0}, {err[0], POLLIN, 0}}};
-  const auto deadline = Clock::now() + std::chrono::seconds(seconds);
+  const auto deadline = Clock::now() + (seconds == 0 ? std::chrono::hours(1000) : std::chrono::seconds(seconds));
   while (child > 0 && (ends[0].fd >= 0 || ends[1].fd >= 0)) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
     if (left <= 0) {
       late = true;
-      ::kill(child, SIGKILL);
+      ::kill(-child, SIGKILL);
       break;
     }
     ::poll(ends.data(), ends.size(), static_cast<int>(std::min<long long>(left, 1000)));
-    if (ends[0].revents != 0 && !drain(out[0], called.out)) ends[0].fd = -1;
+    if (ends[0].revents != 0) {
+      if (!drain(out[0], called.out)) ends[0].fd = -1;
+      if (heard) heard(called.out);
+    }
     if (ends[1].revents != 0 && !drain(err[0], called.err)) ends[1].fd = -1;
   }
   for (const int end : {out[0], err[0]}) ::close(end);
@@ -86,11 +96,9 @@ Called call(const std::vector<std::string>& words, int seconds) {
                  .got = {},
                  .fix = "end other programs first"});
   }
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  const int status = helper->wait();
   called.code = late ? 124 : WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return called;
 }
 
-}  // namespace fastsplat::plan
+}  // namespace fastsplat

@@ -1,0 +1,464 @@
+#include "testbench/device/verilated_device.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/hash_text.hpp"
+#include "cmodel/register_map.hpp"
+#include "testbench/device/failed_assertion.hpp"
+#include "testbench/device/tile_assembly.hpp"
+
+namespace fastsplat::testbench {
+namespace {
+
+class VerilatedDevice final : public RtlDevice {
+ public:
+  VerilatedDevice(std::unique_ptr<SimulatedTop> top, const cmodel::Config& config, cmodel::PixelSink& pixels,
+                  const RtlOptions& options)
+      : config_(config), options_(options), tiles_(config, pixels), top_(std::move(top)), ports_(top_->ports()) {
+    ports_.clk_i = 0;
+    quiet();
+    ports_.rst_ni = 0;
+    top_->eval();
+    if (!options_.wave.empty() && !top_->trace(options_.wave.c_str())) {
+      throw_input({.where = options_.wave.string(),
+                   .what = "cannot write the waveform",
+                   .expected = {},
+                   .got = {},
+                   .fix = "choose a writable folder with enough free space"});
+    }
+    pulse_reset(kResetCycles);
+    const std::uint64_t hash =
+        read(cmodel::kRegHashLow.address) | static_cast<std::uint64_t>(read(cmodel::kRegHashHigh.address)) << 32;
+    if (hash != config_hash(config)) {
+      throw UserError(ExitCode::Simulation, {.where = "configuration register",
+                                             .what = "the RTL was built for another configuration",
+                                             .expected = hash_text(config_hash(config)),
+                                             .got = hash_text(hash),
+                                             .fix = "build again"});
+    }
+  }
+  void consume(std::span<const cmodel::Beat> beats) override {
+    for (const auto& beat : beats) {
+      offer(beat);
+      for (const std::uint64_t since = cycle_; !cycle();) {
+        if (hangs(since)) time_out("no beat taken");
+      }
+    }
+  }
+
+  void finish() override {
+    ports_.s_tvalid_i = 0;
+    offering_ = false;
+    pending_ = false;
+    come_to_rest();
+    // A few cycles more: pipelines behind the last busy cycle deliver their taps.
+    for (int i = 0; i < 16; ++i) cycle();
+  }
+
+  std::optional<Refusal> refuse(const cmodel::Beat& beat) override {
+    expecting_ = true;
+    offer(beat);
+    for (const std::uint64_t since = cycle_; !cycle();) {
+      if (hangs(since)) time_out("no beat taken");
+    }
+    const std::uint64_t taken = cycle_ - 1;
+    // It may lie behind a beat that waits in decode.
+    for (const std::uint64_t since = cycle_; !ports_.error_o && !hangs(since);) cycle();
+    if (!ports_.error_o) return std::nullopt;
+    return Refusal{.taken = taken, .judged = cycle_ - 1};
+  }
+
+  void soft_reset(bool wait) override {
+    expecting_ = resetting_ = true;  // of an open tile
+    write_register(cmodel::kRegControl.address, cmodel::kControlReset, 0);
+    if (!wait) return;
+    come_to_rest();
+    end_soft_reset();
+  }
+
+  bool interrupt() const override { return ports_.irq_o != 0; }
+  std::uint64_t aborted_tiles() const override { return aborted_tiles_; }
+
+  const cmodel::Counters& counters() const override {
+    auto* self = const_cast<VerilatedDevice*>(this);
+    int number = 0;
+#define X(name, meaning) self->counters_.name = self->counter(number++);
+    FASTSPLAT_COUNTERS(X)
+#undef X
+    return counters_;
+  }
+
+  cmodel::StallCounters cycle_counters() override {
+    int number = 0;
+#define X(name, meaning) ++number;
+    FASTSPLAT_COUNTERS(X)
+#undef X
+    cmodel::StallCounters out;
+#define X(name, counter_name, meaning) \
+  if (cmodel::has_counter(config_, #counter_name)) out.name = counter(number++);
+    FASTSPLAT_STALL_COUNTERS(X)
+#undef X
+    return out;
+  }
+
+  std::uint64_t cycles() const override { return cycle_; }
+
+  RegisterAnswer read_register(std::uint32_t address, int wait) override {
+    ports_.araddr_i.drive(address);
+    ports_.arvalid_i = 1;
+    reading_ = true;
+    wait_for("no register read taken", [this] { return ports_.arready_o != 0; });
+    read_in_a_cycle();
+    if (ports_.rresp_o != kOkay && ports_.rresp_o != kSlverr) unknown_response(ports_.rresp_o);
+    ports_.rready_i = wait == 0 ? 1 : 0;
+    for (int i = 0; i < wait; ++i) {
+      ports_.arvalid_i = 1;
+      top_->eval();
+      if (ports_.arready_o) taken_too_early("read");
+      ports_.arvalid_i = 0;
+      cycle();
+    }
+    const RegisterAnswer answer{ports_.rdata_o.value(), ports_.rresp_o == kOkay};
+    ports_.rready_i = 1;
+    reading_ = false;
+    cycle();
+    return answer;
+  }
+
+  RegisterAnswer write_register(std::uint32_t address, std::uint32_t word, int wait) override {
+    ports_.awaddr_i.drive(address);
+    ports_.wdata_i.drive(word);
+    ports_.awvalid_i = ports_.wvalid_i = 1;
+    writing_ = true;
+    wait_for("no register write taken", [this] {
+      top_->eval();  // ready answers valid within the cycle
+      return ports_.awready_o != 0;
+    });
+    ports_.awvalid_i = ports_.wvalid_i = 0;
+    if (!ports_.bvalid_o) unanswered("write");
+    if (ports_.bresp_o != kOkay && ports_.bresp_o != kSlverr) unknown_response(ports_.bresp_o);
+    ports_.bready_i = wait == 0 ? 1 : 0;
+    for (int i = 0; i < wait; ++i) {
+      ports_.awvalid_i = ports_.wvalid_i = 1;
+      top_->eval();
+      if (ports_.awready_o || ports_.wready_o) taken_too_early("write");
+      ports_.awvalid_i = ports_.wvalid_i = 0;
+      cycle();
+    }
+    const RegisterAnswer answer{0, ports_.bresp_o == kOkay};
+    ports_.bready_i = 1;
+    writing_ = false;
+    cycle();
+    return answer;
+  }
+
+  bool takes_half_write(WriteHalf half, std::uint32_t address, std::uint32_t word, int cycles) override {
+    ports_.awaddr_i.drive(address);
+    ports_.wdata_i.drive(word);
+    (half == WriteHalf::Address ? ports_.awvalid_i : ports_.wvalid_i) = 1;
+    writing_ = true;  // whether it is one shows here
+    bool taken = false;
+    for (int i = 0; i < cycles; ++i) {
+      top_->eval();  // ready answers valid within the cycle
+      taken = taken || (half == WriteHalf::Address ? ports_.awready_o : ports_.wready_o) != 0;
+      cycle();
+      taken = taken || ports_.bvalid_o != 0;
+    }
+    ports_.awvalid_i = ports_.wvalid_i = 0;
+    writing_ = false;
+    return taken;
+  }
+
+  void leave_answers_waiting(bool read_too) override {
+    ports_.rready_i = ports_.bready_i = 0;
+    reading_ = writing_ = true;
+    ports_.arvalid_i = ports_.awvalid_i = ports_.wvalid_i = 1;
+    cycle();
+    ports_.arvalid_i = ports_.awvalid_i = ports_.wvalid_i = 0;
+    if (!ports_.bvalid_o) unanswered("write");
+    if (read_too) read_in_a_cycle();
+  }
+
+  void warm_reset(int cycles) override {
+    pulse_reset(cycles);
+    was_reset_ = true;
+    tiles_.reset();
+  }
+
+ private:
+  static constexpr int kOkay = 0, kSlverr = 2;  ///< of AXI4-Lite
+
+  void end_soft_reset() {
+    tiles_.reset();  // of a table that was cut short
+    expecting_ = resetting_ = refused_ = false;
+  }
+
+  void come_to_rest() {
+    for (const std::uint64_t since = cycle_; (read_status() & cmodel::kStatusBusy) != 0 || !tiles_.complete();) {
+      if (hangs(since)) time_out("the device does not come to rest");
+    }
+  }
+
+  /// Who waits since then has waited too long without anything having been taken of either stream: a sink may be slow.
+  bool hangs(std::uint64_t since) const { return cycle_ - std::max(since, moved_) > options_.timeout; }
+
+  /// The cycle behind that in which a read's address was taken: another one offered meanwhile is not.
+  void read_in_a_cycle() {
+    if (ports_.rvalid_o) wrong("a register read is answered in the cycle after it was taken", "in the one behind that");
+    ports_.araddr_i.drive(~ports_.araddr_i.value() & 0xFFF);
+    ports_.arvalid_i = 1;
+    top_->eval();
+    if (ports_.arready_o) taken_too_early("read");
+    cycle();
+    ports_.arvalid_i = 0;
+    if (!ports_.rvalid_o) unanswered("read");
+  }
+
+  /// Clocks up to and with the first cycle in which `taken` holds.
+  template <class Taken>
+  void wait_for(const char* missing, Taken taken) {
+    for (const std::uint64_t since = cycle_;;) {
+      const bool last = taken();
+      cycle();
+      if (last) return;
+      if (cycle_ - since > options_.timeout) time_out(missing);  // the bus waits for no stream
+    }
+  }
+
+  void quiet() {
+    ports_.s_tvalid_i = 0;
+    ports_.m_tready_i = 0;
+    ports_.awvalid_i = 0;
+    ports_.wvalid_i = 0;
+    ports_.bready_i = 1;
+    ports_.arvalid_i = 0;
+    ports_.rready_i = 1;
+  }
+
+  void edge() {
+    ports_.clk_i = 1;
+    top_->eval();
+    dump(1);
+    ports_.clk_i = 0;
+    top_->eval();
+    dump(2);
+  }
+
+  void dump(int half) {
+    if (options_.wave.empty() || (options_.wave_after_reset && !was_reset_)) return;
+    if (cycle_ < options_.wave_from || cycle_ >= options_.wave_to) return;
+    top_->dump(2 * cycle_ + static_cast<std::uint64_t>(half));
+  }
+
+  void pulse_reset(int cycles) {
+    quiet();
+    // What only drains away while it is taken has not been reset.
+    ports_.rready_i = ports_.bready_i = 0;
+    ports_.rst_ni = 0;
+    for (int i = 0; i < cycles; ++i) edge();
+    ports_.rst_ni = 1;
+    top_->eval();
+    cycle_ = moved_ = 0;
+    offering_ = pending_ = refused_ = reading_ = writing_ = expecting_ = resetting_ = false;
+    aborted_tiles_ = 0;
+    if (ports_.rvalid_o || ports_.bvalid_o || ports_.m_tvalid_o) {
+      throw UserError(ExitCode::Simulation, {.where = "after a reset of " + std::to_string(cycles) + " cycles",
+                                             .what = ports_.m_tvalid_o ? "a pixel beat is offered"
+                                                                       : "an answer of the register bus is offered",
+                                             .expected = {},
+                                             .got = {},
+                                             .fix = "look at what the reset leaves out"});
+    }
+    ports_.rready_i = ports_.bready_i = 1;
+  }
+
+  void offer(const cmodel::Beat& beat) {
+    for (std::size_t i = 0; i < beat.size(); ++i) ports_.s_tdata_i.data()[i] = beat[i];
+    beat_ = beat;
+    pending_ = true;
+    offering_ = false;
+  }
+
+  /// One clock; true when the offered beat was taken.
+  bool cycle() {
+    offering_ = pending_ && (offering_ || options_.input.at(cycle_));
+    ports_.s_tvalid_i = offering_ ? 1 : 0;
+    ports_.m_tready_i = options_.output.at(cycle_) ? 1 : 0;
+    const bool taken = offering_ && ports_.s_tready_o != 0;
+    sample();
+    if (taken || (ports_.m_tvalid_o && ports_.m_tready_i)) moved_ = cycle_;
+    if (taken) {
+      if (resetting_) end_soft_reset();  // none is taken before
+      if (!expecting_) {
+        tiles_.accept(beat_);
+        if (options_.taps != nullptr) options_.taps->accept(beat_);
+      }
+      pending_ = offering_ = false;
+    }
+    edge();
+    ++cycle_;
+    if (top_->failed()) assertion_failed();
+    if ((ports_.rvalid_o && !reading_) || (ports_.bvalid_o && !writing_)) {
+      wrong(std::string("the register bus answers a ") + (ports_.rvalid_o ? "read" : "write") + " that nobody began");
+    }
+    if (ports_.error_o && !refused_ && !expecting_) {
+      refused_ = true;
+      ports_.arvalid_i = ports_.awvalid_i = ports_.wvalid_i = 0;
+      throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_),
+                                             .what = "the device refused the stream",
+                                             .expected = "beats that keep the rules of docs/stream.md",
+                                             .got = "error status; ERROR and ERROR_BEAT say more",
+                                             .fix = "check the stream with 'fastsplat stream dump'"});
+    }
+    return taken;
+  }
+
+  /// Taps of this cycle, the pixel beat, if one is taken, and the verdict, if one is told.
+  void sample() {
+    if (options_.taps != nullptr) sample_taps(*options_.taps);
+    if (ports_.m_tvalid_o && ports_.m_tready_i) sample_pixels();
+    if (options_.taps != nullptr && ports_.verdict_valid_o) {
+      options_.taps->on_raw({.port = RawPort::Verdict,
+                             .cycle = cycle_,
+                             .tag = ports_.verdict_tag_o.value(),
+                             .hidden = ports_.verdict_hidden_o != 0,
+                             .words = {}});
+    }
+  }
+
+  void sample_pixels() {
+    std::array<std::uint32_t, 1> small;
+    const auto words = ports_.m_tdata_o.words(small);
+    const bool last = ports_.m_tlast_o != 0, aborted = ports_.m_tuser_o != 0;
+    if (aborted && !expecting_)
+      wrong("a tile comes out marked as cut short", "no mark: nothing was refused", "m_tuser_o = 1");
+    if (last && aborted) ++aborted_tiles_;
+    if (options_.taps != nullptr)
+      options_.taps->on_raw({.port = RawPort::Pixels,
+                             .cycle = cycle_,
+                             .last = last,
+                             .keep = ports_.m_tkeep_o.value(),
+                             .tile = ports_.tap_tile_o.value(),
+                             .words = words});
+    tiles_.pixels(words, last);
+  }
+
+  void sample_taps(RawTapSink& taps) {
+    std::array<std::uint32_t, 1> small;
+    if (ports_.tap_snap_valid_o) {
+      taps.on_raw({.port = RawPort::Snap,
+                   .cycle = cycle_,
+                   .tag = ports_.tap_snap_tag_o.value(),
+                   .x = ports_.tap_snap_x_o.value(),
+                   .y = ports_.tap_snap_y_o.value(),
+                   .mx = ports_.tap_snap_mx_o.value(),
+                   .my = ports_.tap_snap_my_o.value(),
+                   .tile = ports_.tap_tile_o.value(),
+                   .words = {}});
+    }
+    if (ports_.tap_sheet_valid_o) {
+      taps.on_raw({.port = RawPort::Sheet,
+                   .cycle = cycle_,
+                   .tag = ports_.tap_sheet_tag_o.value(),
+                   .tile = ports_.tap_tile_o.value(),
+                   .words = ports_.tap_sums_o.words(small)});
+    }
+    if (ports_.tap_window_valid_o) {
+      taps.on_raw({.port = RawPort::Window,
+                   .cycle = cycle_,
+                   .tag = ports_.tap_window_tag_o.value(),
+                   .x = ports_.tap_window_x_o.value(),
+                   .y = ports_.tap_window_y_o.value(),
+                   .tile = ports_.tap_tile_o.value(),
+                   .words = ports_.tap_weights_o.words(small)});
+    }
+    if (ports_.tap_composite_valid_o) {
+      taps.on_raw({.port = RawPort::Composite,
+                   .cycle = cycle_,
+                   .block = ports_.tap_composite_block_o.value(),
+                   .tile = ports_.tap_tile_o.value(),
+                   .words = ports_.tap_state_o.words(small)});
+    }
+    if (ports_.tap_sheet_done_o) taps.on_raw({.port = RawPort::SheetDone, .cycle = cycle_, .words = {}});
+  }
+
+  std::uint32_t read(std::uint32_t address) {
+    const RegisterAnswer answer = read_register(address, 0);
+    if (!answer.okay) {
+      wrong("the device refuses to tell a register", "OKAY", "SLVERR of address " + std::to_string(address));
+    }
+    return answer.word;
+  }
+  std::uint32_t read_status() { return read(cmodel::kRegStatus.address); }
+  std::uint64_t counter(int number) {
+    const auto address = cmodel::kRegCounters.address + 8 * static_cast<std::uint32_t>(number);
+    const std::uint64_t low = read(address);
+    return low | static_cast<std::uint64_t>(read(address + 4)) << 32;
+  }
+
+  [[noreturn]] void wrong(const std::string& what, const std::string& expected = {}, const std::string& got = {},
+                          std::uint64_t before = 0) const {
+    throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_ - before),
+                                           .what = what,
+                                           .expected = expected,
+                                           .got = got,
+                                           .fix = "look at the waveform of the last cycles"});
+  }
+  [[noreturn]] void unanswered(const std::string& access) const {
+    wrong("no answer to a register " + access, "a read's two cycles after it was taken, a write's one");
+  }
+  [[noreturn]] void taken_too_early(const std::string& access) const {
+    wrong("a second register " + access + " is taken before the first was answered");
+  }
+  [[noreturn]] void unknown_response(int got) const {
+    wrong("a register access is answered with what the page does not know", "OKAY (0) or SLVERR (2)",
+          std::to_string(got));
+  }
+  [[noreturn]] void assertion_failed() const {
+    const FailedAssertion failed = first_failed_assertion(top_->take_output());
+    wrong("assertion " + failed.name + " of the RTL failed in " + failed.path + " (" + failed.place + ")", {}, {}, 1);
+  }
+  [[noreturn]] void time_out(const std::string& what) const {
+    wrong("the device hangs: " + what, "a transfer within " + std::to_string(options_.timeout) + " cycles");
+  }
+
+  cmodel::Config config_;
+  RtlOptions options_;
+  TileAssembly tiles_;
+  std::unique_ptr<SimulatedTop> top_;
+  Ports ports_;
+  std::uint64_t cycle_ = 0;
+  std::uint64_t moved_ = 0;  ///< the cycle in which a beat or pixels were taken last
+  cmodel::Beat beat_{};
+  bool pending_ = false;    ///< a beat waits to be offered
+  bool offering_ = false;   ///< and has been: valid stays up until taken
+  bool refused_ = false;    ///< the device said so since reset
+  bool expecting_ = false;  ///< that it does, or that it cuts a tile short
+  bool resetting_ = false;  ///< a soft reset that nobody saw the end of
+  std::uint64_t aborted_tiles_ = 0;
+  bool reading_ = false, writing_ = false;  ///< an access was begun whose answer was not taken
+  bool was_reset_ = false;                  ///< warm
+  cmodel::Counters counters_;
+};
+
+}  // namespace
+
+SimulatorOptions simulator_options(const RtlOptions& options) {
+  return {.fill = options.fill == ResetFill::Zero  ? 0
+                  : options.fill == ResetFill::One ? 1
+                                                   : 2,
+          .seed = static_cast<int>(options.seed % 0x7fffffff) + 1,
+          .assertions = options.assertions == Assertions::On,
+          .trace = !options.wave.empty(),
+          .fault = 0};
+}
+
+std::unique_ptr<RtlDevice> make_verilated_device(std::unique_ptr<SimulatedTop> top, const cmodel::Config& config,
+                                                 cmodel::PixelSink& pixels, const RtlOptions& options) {
+  return std::make_unique<VerilatedDevice>(std::move(top), config, pixels, options);
+}
+
+}  // namespace fastsplat::testbench

@@ -1,0 +1,38 @@
+#!/bin/sh
+# build.sh SHARE PACKAGE MODULE [wave] [faults]: builds the simulator of one configuration as a shared library.
+# SHARE holds rtl/ and testbench/module/; PACKAGE is the configuration's fastsplat_pkg.sv; MODULE the file to write, last of
+# all and at once. `wave`: it can write waveforms; `faults`: it holds every fault of SHARE/fastsplat_fault_pkg.sv, one of
+# them selected at run time. Prints "files N", then a line for each of the N files as it is compiled. CXX names the compiler, JOBS how many run at a time.
+set -eu
+share=$1 package=$2 module=$3
+shift 3
+work=$module.building
+trap 'rm -rf "$work"' EXIT
+trap 'exit 130' INT TERM HUP
+rm -rf "$work"
+mkdir -p "$work"
+
+source=$share/testbench/module
+flags="-std=c++20 -fPIC -fvisibility=hidden -I$share -include $source/simulator_output.hpp -DVL_PRINTF=fastsplat::testbench::simulator_print"
+# Assertions are compiled in and switched at run time. Unset bits are drawn when a device is made (x-assign, x-initial).
+set -- "$@" --
+for ability; do
+  shift
+  case $ability in
+    wave) set -- "$@" --trace-fst ;;
+    faults)
+      flags="$flags -DFASTSPLAT_FAULTS"
+      set -- "$@" -DFASTSPLAT_FAULT_SELECT=fastsplat_fault_pkg::selected "$share/fastsplat_fault_pkg.sv" ;;
+  esac
+done
+# A simulator that writes waveforms keeps every signal and runs briefly: it is compiled fast instead of to be fast.
+speed=-O2
+case " $* " in *" --trace-fst "*) speed=-O0 ;; esac
+
+verilator --cc --exe --quiet-exit -Wno-fatal -Wno-lint -O3 --assert --x-assign unique --x-initial unique \
+  --prefix Vfs --top-module fastsplat_core --Mdir "$work" "-I$share/rtl" \
+  -CFLAGS "$flags" -LDFLAGS "-shared" -o module.so \
+  "$@" "$package" "$share"/rtl/*.sv "$source/module.cpp" "$source/simulator_output.cpp"
+echo "files $(grep -c . "$work/Vfs_classes.mk")"
+make -C "$work" -f Vfs.mk -j "${JOBS:-1}" OPT_FAST="$speed" OPT_SLOW=-O0 OPT_GLOBAL="$speed" ${CXX:+CXX="$CXX" LINK="$CXX"}
+mv "$work/module.so" "$module"

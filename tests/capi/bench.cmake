@@ -3,7 +3,7 @@
 file(GLOB rtl CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.sv ${PROJECT_SOURCE_DIR}/rtl/*.svh)
 set(modules ${rtl})
 list(FILTER modules INCLUDE REGEX "\\.sv$")
-set(faults ${PROJECT_BINARY_DIR}/generated/mustfail/fastsplat_fault_pkg.sv)
+set(faults ${PROJECT_BINARY_DIR}/share/fastsplat/fastsplat_fault_pkg.sv)
 set(bench ${PROJECT_SOURCE_DIR}/capi/sv/fastsplat_dpi_pkg.sv ${PROJECT_SOURCE_DIR}/capi/sv/fastsplat_monitor.sv ${PROJECT_SOURCE_DIR}/capi/example/fastsplat_bench.sv)
 
 # example_bench(OUT FOLDER CONFIG [FLAG...]): the program, and what makes it.

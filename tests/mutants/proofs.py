@@ -15,7 +15,7 @@ _SCRIPTS = {"sheet_bank": ("prove.sh", "sheet_bank"), "csr": (_UNITS, "csr"), "p
             "fastsplat_core": (_CORE, "core"), "slab_opacity": (_BOUNDS, "slab_opacity"), "composite_lane": (_BOUNDS, "composite_lane"),
             "overlap": (_SAMPLES, "decode_samples"), "sample_places": (_SAMPLES, "samples"),
             "cull_windows": (_CULL, "cull_windows"), "cull_map": (_CULL, "cull_map"), "cull_table": (_CULL, "cull_map")}
-_MORE = {"prove.sh": ["generated/mustfail/fastsplat_fault_pkg.sv"], _CONTROL: ["short"], _CORE: ["short"], _SAMPLES: ["short"]}
+_MORE = {"prove.sh": ["share/fastsplat/fastsplat_fault_pkg.sv"], _CONTROL: ["short"], _CORE: ["short"], _SAMPLES: ["short"]}
 
 
 def has(module: str) -> bool:

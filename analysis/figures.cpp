@@ -9,9 +9,9 @@
 namespace fastsplat::analysis {
 namespace {
 
-constexpr std::size_t kBlock = 65536;
+constexpr std::size_t kSumBlock = 65536;
 constexpr std::size_t kMostBins = 257;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t bin_of(double magnitude) {
   return magnitude + 0.5 >= static_cast<double>(kMostBins) ? kMostBins - 1 : static_cast<std::size_t>(magnitude + 0.5);
@@ -52,8 +52,8 @@ void add(ErrorSums& total, const ErrorSums& block) {
 }  // namespace
 
 ErrorSums sum_errors(const std::vector<double>& errors, int threads) {
-  std::vector<ErrorSums> blocks((errors.size() + kBlock - 1) / kBlock);
-  for_blocks(errors.size(), kBlock, threads, [&](std::size_t block, std::size_t begin, std::size_t end) {
+  std::vector<ErrorSums> blocks((errors.size() + kSumBlock - 1) / kSumBlock);
+  for_blocks(errors.size(), kSumBlock, threads, [&](std::size_t block, std::size_t begin, std::size_t end) {
     blocks[block] = sum_block(errors, begin, end);
   });
   ErrorSums total;
@@ -80,7 +80,7 @@ std::array<double, 6> percentile_values(const std::vector<double>& errors) {
     if (!std::isnan(error)) magnitudes.push_back(std::abs(error));
   }
   std::array<double, 6> values{};
-  values.fill(kNaN);
+  values.fill(kUndefined);
   const std::uint64_t count = magnitudes.size();
   if (count == 0) return values;
   // From the highest down, each selection only has to look below the last one.
@@ -100,7 +100,7 @@ Figures figures_of(const std::vector<double>& errors, const ErrorSums& sums, con
   Figures figures;
   figures.percentiles_lsb = percentile_values(errors);
   if (sums.count == 0) {
-    figures.psnr_db = figures.max_abs_lsb = figures.mean_abs_lsb = figures.rmse_lsb = figures.bias_lsb = kNaN;
+    figures.psnr_db = figures.max_abs_lsb = figures.mean_abs_lsb = figures.rmse_lsb = figures.bias_lsb = kUndefined;
     return figures;
   }
   const double count = static_cast<double>(sums.count);

@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kFramesASecond = 24.0;
 
-[[noreturn]] void misused(const std::string& where, const std::string& what, const std::string& fix) {
+[[noreturn]] void refuse_animation(const std::string& where, const std::string& what, const std::string& fix) {
   throw_usage({.where = where, .what = what, .expected = {}, .got = {}, .fix = fix});
 }
 
@@ -80,7 +80,7 @@ const std::string& video_source(const RenderArguments& arguments) {
   const auto png = std::find_if(arguments.out.begin(), arguments.out.end(),
                                 [](const std::string& path) { return path.ends_with(".png"); });
   if (png == arguments.out.end())
-    misused("--video", "a video is made of PNG frames, and none are written", "add --out frame.####.png");
+    refuse_animation("--video", "a video is made of PNG frames, and none are written", "add --out frame.####.png");
   return *png;
 }
 
@@ -121,16 +121,19 @@ Json to_json(const Result& result) {
 }  // namespace
 
 std::optional<scene::Sequence> sequence_of(const RenderArguments& arguments) {
-  if (arguments.rate && arguments.video.empty()) misused("--rate", "the rate of which video?", "add --video FILE.mp4");
+  if (arguments.rate && arguments.video.empty())
+    refuse_animation("--rate", "the rate of which video?", "add --video FILE.mp4");
   if (!arguments.orbit && !arguments.sequence) {
-    if (arguments.frames) misused("--frames", "frames of what?", "add --orbit A..B or --sequence");
-    if (!arguments.video.empty()) misused("--video", "a still has no video", "add --orbit A..B --frames N");
+    if (arguments.frames) refuse_animation("--frames", "frames of what?", "add --orbit A..B or --sequence");
+    if (!arguments.video.empty()) refuse_animation("--video", "a still has no video", "add --orbit A..B --frames N");
     for (const auto& path : arguments.out) check_still_name(path);
     check_still_name(arguments.raw);
     return std::nullopt;
   }
-  if (arguments.orbit && arguments.sequence) misused({}, "--orbit and --sequence exclude each other", "give one");
-  if (arguments.out.empty() && arguments.raw.empty()) misused({}, "no frames to write", "add --out frame.####.png");
+  if (arguments.orbit && arguments.sequence)
+    refuse_animation({}, "--orbit and --sequence exclude each other", "give one");
+  if (arguments.out.empty() && arguments.raw.empty())
+    refuse_animation({}, "no frames to write", "add --out frame.####.png");
   if (arguments.rate && !(*arguments.rate >= 0.1 && *arguments.rate <= 1000.0)) {
     throw_usage({.where = "--rate",
                  .what = "out of range",
@@ -139,15 +142,17 @@ std::optional<scene::Sequence> sequence_of(const RenderArguments& arguments) {
                  .fix = "24 is the default"});
   }
   if (!arguments.save_scene.empty()) {
-    misused("--save-scene", "an animation is many scenes", "each frame carries its own; leave --save-scene out");
+    refuse_animation("--save-scene", "an animation is many scenes",
+                     "each frame carries its own; leave --save-scene out");
   }
   if (arguments.orbit) {
-    if (!arguments.frames) misused("--orbit", "how many frames?", "add --frames N");
+    if (!arguments.frames) refuse_animation("--orbit", "how many frames?", "add --frames N");
     if (arguments.scene.settings.contains("--azimuth"))
-      misused("--azimuth", "--orbit sets the azimuth", "leave --azimuth out");
+      refuse_animation("--azimuth", "--orbit sets the azimuth", "leave --azimuth out");
     return orbit_from(*arguments.orbit, *arguments.frames);
   }
-  if (!arguments.scene.file) misused("--sequence", "the frames of which scene?", "add --scene FILE with a [sequence]");
+  if (!arguments.scene.file)
+    refuse_animation("--sequence", "the frames of which scene?", "add --scene FILE with a [sequence]");
   auto sequence = scene::load_sequence(*arguments.scene.file);
   if (arguments.frames) sequence.frames = *arguments.frames;
   return sequence;

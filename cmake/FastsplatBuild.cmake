@@ -12,6 +12,7 @@ endif()
 option(FASTSPLAT_WERROR "Warnings are errors (set by the ci preset only: a newer compiler must not break a user's build)" OFF)
 option(FASTSPLAT_TESTS "Tests, examples and benchmarks; need the packages of [tests] in packaging/debian.txt" ON)
 option(FASTSPLAT_PEERS "Programs that race other renderers (bench/peers): ./run peers" OFF)
+option(FASTSPLAT_UNITY "Compile the libraries' sources eight at a time; off: one by one, for who edits them" ON)
 option(FASTSPLAT_ASAN "AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
 option(FASTSPLAT_FUZZ "The fuzz targets of tests/fuzz and all they call, under libFuzzer and the sanitizers; needs Clang" OFF)
 
@@ -28,6 +29,10 @@ target_compile_options(fastsplat_settings INTERFACE -Wall -Wextra -Wpedantic -Ws
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC 12 warns falsely about "literal" + std::string (GCC bug 105651).
   target_compile_options(fastsplat_settings INTERFACE -Wno-restrict)
+endif()
+if(FASTSPLAT_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # Says of each class that it lies in an included file, which the sources of a batch are.
+  target_compile_options(fastsplat_settings INTERFACE -Wno-subobject-linkage)
 endif()
 if(FASTSPLAT_WERROR)
   target_compile_options(fastsplat_settings INTERFACE -Werror)
@@ -53,6 +58,15 @@ function(fastsplat_library name)
   cmake_parse_arguments(arg "" "" "DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_library(fastsplat_${name} STATIC ${sources})
+  # Eight sources are compiled as one: headers are most of what a compiler reads. Vector kernels stay alone, for Highway
+  # includes them once for each instruction set.
+  foreach(source ${sources})
+    file(STRINGS ${source} kernel REGEX "define HWY_TARGET_INCLUDE")
+    if(kernel)
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+  endforeach()
+  set_target_properties(fastsplat_${name} PROPERTIES UNITY_BUILD ${FASTSPLAT_UNITY} UNITY_BUILD_BATCH_SIZE 8)
   target_link_libraries(fastsplat_${name} PUBLIC fastsplat_settings ${arg_DEPENDS} PRIVATE ${arg_PRIVATE_DEPENDS})
 endfunction()
 

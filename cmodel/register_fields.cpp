@@ -50,7 +50,7 @@ constexpr RegisterField kTables[] = {
     built_for<&Config::radial_entries>("RADIAL", 15, 0, "entries of the radial table; 0: 65536"),
     built_for<&Config::opacity_segments>("SEGMENTS", 31, 16, "segments of the slab factor; 0: 65536"),
 };
-constexpr RegisterField kSplat[] = {
+constexpr RegisterField kSplatFields[] = {
     built_for<&Config::position_int_bits>("POSITION_INT", 7, 0, "integer bits of x and y, the sign among them"),
     built_for<&Config::position_frac_bits>("POSITION_FRAC", 15, 8, "fraction bits of x and y"),
     built_for<&Config::colour_frac_bits>("COLOUR_FRAC", 23, 16, "fraction bits of R, G, B and tau"),
@@ -86,7 +86,7 @@ constexpr RegisterEntry kEntries[] = {
     {kRegCapLanes, Access::Read, "built for: lanes, radius sets", kLanes},
     {kRegCapRlut, Access::Read, "built for: RLUT", kRlut},
     {kRegCapTables, Access::Read, "built for: tables", kTables},
-    {kRegCapSplat, Access::Read, "built for: a splat's words", kSplat},
+    {kRegCapSplat, Access::Read, "built for: a splat's words", kSplatFields},
     {kRegCapWeight, Access::Read, "built for: weights", kWeight},
     {kRegCapSheet, Access::Read, "built for: sheets, compositing", kSheet},
     {kRegCapPixel, Access::Read, "built for: pixels", kPixel},

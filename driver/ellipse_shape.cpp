@@ -11,10 +11,10 @@ namespace fastsplat::driver {
 namespace {
 
 /// The pixels strictly between two places: [first, end).
-struct Pixels {
+struct PixelRange {
   std::int32_t first = 0, end = 0;
 };
-Pixels between(double from, double to) {
+PixelRange between(double from, double to) {
   return {static_cast<std::int32_t>(std::floor(from)) + 1, static_cast<std::int32_t>(std::ceil(to))};
 }
 
@@ -61,11 +61,11 @@ EllipseSpans::EllipseSpans(const cmodel::Config& config, const cmodel::EllipseSh
   const Rim rim(config, shape);
   const std::int32_t mask = (1 << config.position_frac_bits) - 1, lanes = config.lanes;
   const double pixel = mask + 1.0, at_x = x & mask, at_y = y & mask, height = rim.half_height();
-  const Pixels rows = between((at_y - height) / pixel, (at_y + height) / pixel);
+  const PixelRange rows = between((at_y - height) / pixel, (at_y + height) / pixel);
   for (std::int32_t top = rows.first; top < rows.end; top += lanes) {
     const std::int32_t bottom = std::min(top + lanes, rows.end);
     const double from = std::max(top * pixel - at_y, -height), to = std::min((bottom - 1) * pixel - at_y, height);
-    const Pixels columns = between((at_x + rim.left(from, to)) / pixel, (at_x + rim.right(from, to)) / pixel);
+    const PixelRange columns = between((at_x + rim.left(from, to)) / pixel, (at_x + rim.right(from, to)) / pixel);
     if (columns.first >= columns.end) continue;
     const auto across = static_cast<std::uint32_t>((columns.end - columns.first + lanes - 1) / lanes);
     EllipseSpan* last = count_ > 0 ? &spans_[count_ - 1] : nullptr;

@@ -17,8 +17,8 @@
 #include "cmodel/model.hpp"
 #include "cmodel/stream_advice.hpp"
 #include "driver/compile.hpp"
-#include "driver/gaussian_frame.hpp"
 #include "driver/frame_sink.hpp"
+#include "driver/gaussian_frame.hpp"
 #include "driver/tile_cover.hpp"
 
 namespace fastsplat::driver {

@@ -11,7 +11,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kVerb = "plan";
-constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+constexpr std::size_t kMostMergedBytes = std::size_t{1} << 30;
 
 Json to_json(const Metric& metric) {
   Json json{{"name", metric.name}, {"title", metric.title}, {"unit", metric.unit}};
@@ -116,7 +116,7 @@ Merged read_merged(const std::filesystem::path& path) {
                               {.what = "holds no merged results",
                                .expected = "what `fastsplat plan merge` writes",
                                .fix = {},
-                               .most_bytes = kMostBytes},
+                               .most_bytes = kMostMergedBytes},
                               merged_from);
 }
 

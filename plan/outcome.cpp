@@ -15,12 +15,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+constexpr std::size_t kMostOutcomeBytes = std::size_t{1} << 28;
 
 Json read_json(const fs::path& path) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return nullptr;
-  Json json = Json::parse(read_text_file(path, kMostBytes));
+  Json json = Json::parse(read_text_file(path, kMostOutcomeBytes));
   fs::remove(path, ignored);
   return json;
 }

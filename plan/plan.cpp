@@ -19,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kVerb = "plan make";
-constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+constexpr std::size_t kMostPlanBytes = std::size_t{1} << 30;
 
 Json to_json(const Settings& settings) {
   Json json = Json::object();
@@ -171,7 +171,7 @@ Plan read_plan(const std::filesystem::path& path) {
                               {.what = "is no plan",
                                .expected = "what `fastsplat plan make` writes",
                                .fix = "make it again from its specification",
-                               .most_bytes = kMostBytes},
+                               .most_bytes = kMostPlanBytes},
                               plan_from);
 }
 

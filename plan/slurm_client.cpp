@@ -4,9 +4,9 @@
 #include <cctype>
 #include <sstream>
 
+#include "base/called.hpp"
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "base/called.hpp"
 
 namespace fastsplat::plan {
 namespace {

@@ -14,7 +14,7 @@
 namespace fastsplat::volume {
 namespace {
 
-constexpr std::size_t kChunk = std::size_t{1} << 16;
+constexpr std::size_t kValuesChunk = std::size_t{1} << 16;
 constexpr std::size_t kLongestWord = 512;  // a double printed in full has 325 characters
 
 template <typename T>
@@ -75,7 +75,7 @@ StoredValues::StoredValues(const std::filesystem::path& path, std::uint64_t offs
       packing_(packing),
       component_(component),
       swap_(order != std::endian::native),
-      chunk_(kChunk) {
+      chunk_(kValuesChunk) {
   for (std::uint64_t skipped = 0; skipped < skip;) {
     const std::size_t got =
         reader_.read(chunk_.data(), static_cast<std::size_t>(std::min<std::uint64_t>(chunk_.size(), skip - skipped)));
@@ -108,7 +108,7 @@ std::span<const double> StoredValues::next_bytes(std::uint64_t most) {
 }
 
 std::span<const double> StoredValues::next_words(std::uint64_t most) {
-  while (values_.size() < most && values_.size() < kChunk) {
+  while (values_.size() < most && values_.size() < kValuesChunk) {
     while (at_ < end_ && is_blank(chunk_[at_])) ++at_;
     auto* const begin = chunk_.data() + at_;
     auto* const stop = chunk_.data() + end_;

@@ -13,12 +13,12 @@ namespace {
 
 using cmodel::IndexKind;
 
-constexpr int kEntries = 1024, kFine = 64, kCoarse = 4;
+constexpr int kClaimEntries = 1024, kFine = 64, kCoarse = 4;
 
 class Cells {
  public:
   explicit Cells(const std::vector<FamilyCell>& cells) : cells_(cells) {}
-  const FamilyCell& operator()(IndexKind kind, int radius = 4, int grid = kFine, int entries = kEntries) const {
+  const FamilyCell& operator()(IndexKind kind, int radius = 4, int grid = kFine, int entries = kClaimEntries) const {
     for (const FamilyCell& cell : cells_) {
       if (cell.config.index() == kind && cell.radius == radius && cell.config.grid() == grid &&
           (!cell.has_table || cell.config.radial_entries == entries))
@@ -127,16 +127,16 @@ Claim one_set(const Cells& at) {
 
 Claim linear(const Cells& at) {
   const auto &own = at(IndexKind::Linear), &squared = at(IndexKind::Squared), &rlut = at(IndexKind::Rlut);
-  return {
-      .slide = 80,
-      .sentence = "1D Linear very accurate, compact, slow",
-      .figures = fmt::format("max {:.2f} of {:.2f} for the square's table (aligned, N = {}), but {:.2f} and {:.2f} "
-                             "rms turned, where places rule; {} bits; {} cycles a splat where squared takes {} "
-                             "and rlut {} (r = 4), with {} root steps a pixel",
-                             own.aligned.largest, squared.aligned.largest, kEntries, own.turned.rms, squared.turned.rms,
-                             own.bits, own.cycles, squared.cycles, rlut.cycles, own.operations.root_steps),
-      .verdict = judged({(own.aligned.largest < 0.75 * squared.aligned.largest), own.bits <= rlut.bits,
-                         (own.cycles > 4 * squared.cycles)})};
+  return {.slide = 80,
+          .sentence = "1D Linear very accurate, compact, slow",
+          .figures = fmt::format("max {:.2f} of {:.2f} for the square's table (aligned, N = {}), but {:.2f} and {:.2f} "
+                                 "rms turned, where places rule; {} bits; {} cycles a splat where squared takes {} "
+                                 "and rlut {} (r = 4), with {} root steps a pixel",
+                                 own.aligned.largest, squared.aligned.largest, kClaimEntries, own.turned.rms,
+                                 squared.turned.rms, own.bits, own.cycles, squared.cycles, rlut.cycles,
+                                 own.operations.root_steps),
+          .verdict = judged({(own.aligned.largest < 0.75 * squared.aligned.largest), own.bits <= rlut.bits,
+                             (own.cycles > 4 * squared.cycles)})};
 }
 
 Claim squared(const Cells& at) {

@@ -18,18 +18,18 @@
 namespace fastsplat::analysis {
 namespace {
 
-constexpr int kEntries = 1024, kGrid = 64;
-constexpr int kSide = 160;      // pixels of the square that a splat is drawn in, its centre near the middle
-constexpr int kVoxels = 32;     // of the volume's side
-constexpr int kPicture = 128;   // pixels
-constexpr int kSplats = 500;    // of one row, about
-constexpr double kWidest = 64;  // pixels: base's rlut.columns / 2
+constexpr int kEllipseEntries = 1024, kEllipseGrid = 64;
+constexpr int kSide = 160;            // pixels of the square that a splat is drawn in, its centre near the middle
+constexpr int kVoxels = 32;           // of the volume's side
+constexpr int kEllipsePicture = 128;  // pixels
+constexpr int kSplats = 500;          // of one row, about
+constexpr double kWidest = 64;        // pixels: base's rlut.columns / 2
 
 /// The i-th of numbers that fill 0..1 evenly, whatever their number; each `line` by itself (Kronecker).
 double spread(int i, double line) { return (i + 1) * std::sqrt(line) - std::floor((i + 1) * std::sqrt(line)); }
 
 cmodel::Config config_of(cmodel::IndexKind kind) {
-  return family_config(kind, kGrid, static_cast<int>(kWidest), kEntries);
+  return family_config(kind, kEllipseGrid, static_cast<int>(kWidest), kEllipseEntries);
 }
 
 /// The model's unit, a set at a time.
@@ -96,8 +96,8 @@ class Comparison {
 
   void add(const scene::ScreenShape& shape, double circle_radius, double energy) {
     const int i = static_cast<int>(out_.splats++);
-    const auto x = static_cast<std::int32_t>(kSide / 2 * kGrid + spread(i, 2.0) * kGrid);
-    const auto y = static_cast<std::int32_t>(kSide / 2 * kGrid + spread(i, 3.0) * kGrid);
+    const auto x = static_cast<std::int32_t>(kSide / 2 * kEllipseGrid + spread(i, 2.0) * kEllipseGrid);
+    const auto y = static_cast<std::int32_t>(kSide / 2 * kEllipseGrid + spread(i, 3.0) * kEllipseGrid);
     draw_exact(shape, x, y);
     const double R2 = kernel_.radius() * kernel_.radius();
     const auto table = driver::ellipse_table(elliptic_, 0, {R2 * shape.xx, R2 * shape.xy, R2 * shape.yy});
@@ -118,7 +118,7 @@ class Comparison {
     const double aspect = std::sqrt((middle + apart) / (middle - apart));
     out_.aspect = std::max(out_.aspect, aspect);
     out_.longest = std::max(out_.longest, kernel_.radius() * std::sqrt(middle + apart));
-    out_.entries_bound = std::max(out_.entries_bound, 1.5 * kEntries * aspect * aspect * 0x1p-23);
+    out_.entries_bound = std::max(out_.entries_bound, 1.5 * kEllipseEntries * aspect * aspect * 0x1p-23);
   }
   EllipseErrors result() {
     out_.ellipse = ellipse_sum_.over(out_.pixels);
@@ -132,8 +132,8 @@ class Comparison {
   /// Golden's own weights.
   void draw_exact(const scene::ScreenShape& shape, std::int32_t x, std::int32_t y) {
     golden::ProjectedSplat splat;
-    splat.x = static_cast<double>(x) / kGrid;
-    splat.y = static_cast<double>(y) / kGrid;
+    splat.x = static_cast<double>(x) / kEllipseGrid;
+    splat.y = static_cast<double>(y) / kEllipseGrid;
     splat.shape = shape;
     splat.reach_x = kernel_.radius() * std::sqrt(shape.xx);
     splat.reach_y = kernel_.radius() * std::sqrt(shape.yy);
@@ -149,17 +149,17 @@ class Comparison {
   void follow_q(const scene::ScreenShape& shape, const cmodel::LoadTable& table, std::int32_t x, std::int32_t y) {
     const cmodel::Quadric f = cmodel::quadric_of(table.words);
     const double R2 = kernel_.radius() * kernel_.radius(), determinant = shape.determinant();
-    const int reach = static_cast<int>(table.radius.rho / kGrid) + 1;
+    const int reach = static_cast<int>(table.radius.rho / kEllipseGrid) + 1;
     for (int py = kSide / 2 - reach; py <= kSide / 2 + reach; ++py) {
       for (int px = kSide / 2 - reach; px <= kSide / 2 + reach; ++px) {
-        const std::int64_t dx = std::int64_t{px} * kGrid - x, dy = std::int64_t{py} * kGrid - y;
+        const std::int64_t dx = std::int64_t{px} * kEllipseGrid - x, dy = std::int64_t{py} * kEllipseGrid - y;
         const std::int64_t q = cmodel::quadric(f, dx, dy);
         out_.least_q = std::min(out_.least_q, q);
-        const double ux = static_cast<double>(dx) / kGrid, uy = static_cast<double>(dy) / kGrid;
+        const double ux = static_cast<double>(dx) / kEllipseGrid, uy = static_cast<double>(dy) / kEllipseGrid;
         const double exact = (shape.yy * ux * ux - 2.0 * shape.xy * ux * uy + shape.xx * uy * uy) / (determinant * R2);
         if (exact >= 1.0) continue;
-        out_.entries_off =
-            std::max(out_.entries_off, std::abs(std::ldexp(static_cast<double>(q), -f.shift) - exact * kEntries));
+        out_.entries_off = std::max(out_.entries_off,
+                                    std::abs(std::ldexp(static_cast<double>(q), -f.shift) - exact * kEllipseEntries));
       }
     }
   }
@@ -178,7 +178,7 @@ class Comparison {
 EllipseErrors perspective_ellipses(double fov) {
   scene::SceneDescription description;
   description.volume = "shells:" + std::to_string(kVoxels);
-  description.width = description.height = kPicture;
+  description.width = description.height = kEllipsePicture;
   description.camera.projection = scene::Projection::Perspective;
   description.camera.fov = fov;
   description.footprint.shape = scene::FootprintShape::Ellipse;

@@ -68,11 +68,11 @@ std::string errors(const char* title, const std::vector<FamilyCell>& cells, bool
   return std::string("## ") + title + "\n\n" + family_text(some) + "\n";
 }
 
-constexpr int kEntries = 1024, kRadius = 4, kGrid = 64;
+constexpr int kPageEntries = 1024, kPageRadius = 4, kPageGrid = 64;
 
-bool of_the_grids(const FamilyCell& cell) { return !cell.has_table || cell.config.radial_entries == kEntries; }
+bool of_the_grids(const FamilyCell& cell) { return !cell.has_table || cell.config.radial_entries == kPageEntries; }
 bool of_the_lengths(const FamilyCell& cell) {
-  return cell.has_table && cell.radius == kRadius && cell.config.grid() == kGrid &&
+  return cell.has_table && cell.radius == kPageRadius && cell.config.grid() == kPageGrid &&
          cell.config.index() != IndexKind::SquaredElliptic;
 }
 
@@ -150,10 +150,10 @@ std::string family_text(const std::vector<FamilyCell>& cells) {
 
 std::vector<FamilyCell> page_cells() {
   FamilyRange grids = whole_family(), lengths = grids;
-  grids.entries = {kEntries};
-  std::erase(lengths.entries, kEntries);
+  grids.entries = {kPageEntries};
+  std::erase(lengths.entries, kPageEntries);
   lengths.kinds = {IndexKind::Linear, IndexKind::Squared, IndexKind::SquaredElliptic, IndexKind::Rlut};
-  lengths.radii = {kRadius};
+  lengths.radii = {kPageRadius};
   auto cells = family_table(grids);
   const auto more = family_table(lengths);
   cells.insert(cells.end(), more.begin(), more.end());

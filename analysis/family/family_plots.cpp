@@ -7,13 +7,13 @@
 namespace fastsplat::analysis {
 namespace {
 
-constexpr int kRadius = 4, kEntries = 1024;
+constexpr int kPlotRadius = 4, kPlotEntries = 1024;
 
 /// Cells of one kind at one radius.
 std::vector<const FamilyCell*> of_kind(const std::vector<FamilyCell>& cells, cmodel::IndexKind kind) {
   std::vector<const FamilyCell*> out;
   for (const FamilyCell& cell : cells) {
-    if (cell.config.index() == kind && cell.radius == kRadius) out.push_back(&cell);
+    if (cell.config.index() == kind && cell.radius == kPlotRadius) out.push_back(&cell);
   }
   return out;
 }
@@ -36,7 +36,7 @@ PlotSeries front(cmodel::IndexKind kind, std::vector<const FamilyCell*> cells) {
 PlotSeries over_grids(cmodel::IndexKind kind, const std::vector<const FamilyCell*>& cells) {
   PlotSeries series{.name = name_of(kind), .points = {}};
   for (const FamilyCell* cell : cells) {
-    if (!cell->has_table || cell->config.radial_entries == kEntries)
+    if (!cell->has_table || cell->config.radial_entries == kPlotEntries)
       series.points.emplace_back(cell->config.grid(), cell->turned.rms);
   }
   return series;

@@ -12,7 +12,7 @@ namespace {
 // Pixels.
 constexpr double kWidth = 760, kHeight = 460, kLeft = 76, kRight = 588, kTop = 48, kBottom = 400;
 constexpr const char* kInk = "#24292f";
-constexpr const char* kGrid = "#d8dee4";
+constexpr const char* kGridColour = "#d8dee4";
 
 /// How one series differs from the others: colours that the colour-blind tell apart (Okabe and Ito), dashes, marks.
 struct Look {
@@ -77,11 +77,11 @@ std::string frame(const Plot& plot, const Axis& across, const Axis& up) {
   std::string out;
   const auto x_ticks = plot.x_ticks.empty() ? ticks_of(across) : plot.x_ticks;
   for (const double tick : x_ticks) {
-    out += fmt::format("<path d=\"M{0:.1f} {1}V{2}\" stroke=\"{3}\"/>\n", across(tick), kTop, kBottom, kGrid);
+    out += fmt::format("<path d=\"M{0:.1f} {1}V{2}\" stroke=\"{3}\"/>\n", across(tick), kTop, kBottom, kGridColour);
     out += text(across(tick), kBottom + 20, "middle", number(tick));
   }
   for (const double tick : ticks_of(up)) {
-    out += fmt::format("<path d=\"M{1} {0:.1f}H{2}\" stroke=\"{3}\"/>\n", up(tick), kLeft, kRight, kGrid);
+    out += fmt::format("<path d=\"M{1} {0:.1f}H{2}\" stroke=\"{3}\"/>\n", up(tick), kLeft, kRight, kGridColour);
     out += text(kLeft - 8, up(tick) + 4, "end", number(tick));
   }
   out +=

@@ -5,7 +5,7 @@
 namespace fastsplat::cli {
 namespace {
 
-const char* const kHead = R"(# fish completion of fastsplat, made by `fastsplat completion fish`; do not edit.
+const char* const kFishHead = R"(# fish completion of fastsplat, made by `fastsplat completion fish`; do not edit.
 # For one session: fastsplat completion fish | source
 
 # Whether the verb typed so far is just what is given: none, "render", "stream record".
@@ -66,7 +66,7 @@ std::string flag_line(const Description& verb, const Flag& flag) {
 }  // namespace
 
 std::string fish_script(const std::vector<Description>& all) {
-  std::string text = kHead;
+  std::string text = kFishHead;
   text += "set -g __fastsplat_inner";
   for (const Description& verb : all) {
     if (verb.name.find(' ') != verb.name.npos) text += " " + in_quotes(verb.name);

@@ -14,7 +14,7 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct CompareArguments {
   Common common;
   std::string ref, test, map, heat;
   int lsb_bits = 8;
@@ -27,7 +27,7 @@ struct Arguments {
 
 using Json = nlohmann::ordered_json;
 
-void check(const Arguments& arguments) {
+void check(const CompareArguments& arguments) {
   const auto at_least = [](const char* flag, const std::optional<double>& value, double least) {
     if (!value || *value >= least) return;
     throw_usage({.where = flag,
@@ -55,7 +55,7 @@ void check(const Arguments& arguments) {
                  .inputs = {arguments.ref, arguments.test}});
 }
 
-analysis::CompareOptions options_from(const Arguments& arguments) {
+analysis::CompareOptions options_from(const CompareArguments& arguments) {
   analysis::CompareOptions options;
   options.lsb_bits = arguments.lsb_bits;
   options.peak = arguments.peak;
@@ -86,7 +86,8 @@ bool is_display(const images::LoadedImage& loaded) {
 }
 
 // A picture made for looking (sRGB curve, over black) has other numbers than a measurement of the same scene.
-void check_comparable(const Arguments& arguments, const images::LoadedImage& ref, const images::LoadedImage& test) {
+void check_comparable(const CompareArguments& arguments, const images::LoadedImage& ref,
+                      const images::LoadedImage& test) {
   if (arguments.srgb) {
     for (const auto* picture : {&ref, &test}) {
       if (picture->kind == images::PixelKind::Uint8 || picture->kind == images::PixelKind::Uint16) continue;
@@ -140,13 +141,13 @@ struct Origin {
 };
 
 /// The measurement and of what.
-struct Result {
+struct CompareResult {
   analysis::CompareReport report;
   Origin ref, test;
   std::string all_black;  ///< the one of the two that is, where the other is not; else empty
 };
 
-std::vector<Remark> remarks(const Result& result) {
+std::vector<Remark> remarks(const CompareResult& result) {
   if (result.all_black.empty()) return {};
   return {
       {Remark::Warning, result.all_black + " is all black, the other is not: whatever the figures, it shows nothing"}};
@@ -158,7 +159,7 @@ Json to_json(const Origin& origin) {
   return {{"file", origin.file}, {"format", images::to_string(origin.kind)}, {"metadata", metadata}};
 }
 
-Json to_json(const Result& result) {
+Json to_json(const CompareResult& result) {
   Json json{{"verb", "compare"}, {"version", program_version()}};
   json.update(Json::parse(analysis::to_json(result.report)));
   json["all_black"] = result.all_black.empty() ? Json(nullptr) : Json(result.all_black);
@@ -167,7 +168,7 @@ Json to_json(const Result& result) {
   return json;
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const CompareArguments& arguments) {
   const Output output(arguments.common);
   check(arguments);
   auto ref = images::read_image(arguments.ref);
@@ -179,12 +180,12 @@ ExitCode run(const Arguments& arguments) {
   }
   const bool black = all_black(ref.image);
   const auto options = options_from(arguments);
-  const Result result{.report = analysis::compare(ref.image, test.image, options),
-                      .ref = {arguments.ref, ref.kind, ref.metadata},
-                      .test = {arguments.test, test.kind, test.metadata},
-                      .all_black = black == all_black(test.image) ? ""
-                                   : black                        ? arguments.ref
-                                                                  : arguments.test};
+  const CompareResult result{.report = analysis::compare(ref.image, test.image, options),
+                             .ref = {arguments.ref, ref.kind, ref.metadata},
+                             .test = {arguments.test, test.kind, test.metadata},
+                             .all_black = black == all_black(test.image) ? ""
+                                          : black                        ? arguments.ref
+                                                                         : arguments.test};
 
   if (!arguments.map.empty()) {
     images::write_image(arguments.map, analysis::lsb_map(ref.image, test.image, options), {{"display", "srgb"}},
@@ -200,7 +201,7 @@ ExitCode run(const Arguments& arguments) {
   return result.report.pass ? ExitCode::Pass : ExitCode::Failed;
 }
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, CompareArguments& to) {
   options.positional("REF", to.ref, "the reference image");
   options.positional("TEST", to.test, "the image under test");
   options.group("Measure");
@@ -229,6 +230,7 @@ void declare(Options& options, Arguments& to) {
 
 }  // namespace
 
-const Verb verbs::compare{"compare", "two images: metrics in LSB and dB, maps, limits", verb<Arguments, declare, run>};
+const Verb verbs::compare{"compare", "two images: metrics in LSB and dB, maps, limits",
+                          verb<CompareArguments, declare, run>};
 
 }  // namespace fastsplat::cli

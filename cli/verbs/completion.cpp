@@ -8,16 +8,16 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct CompletionArguments {
   std::string shell;
 };
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const CompletionArguments& arguments) {
   write_stdout(completion_script(arguments.shell, describe()));
   return ExitCode::Pass;
 }
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, CompletionArguments& to) {
   options.positional("SHELL", to.shell, "bash, zsh or fish");
   options.only_values(completion_shells);
   options.example("fastsplat completion bash > fastsplat.bash",
@@ -29,6 +29,6 @@ void declare(Options& options, Arguments& to) {
 }  // namespace
 
 const Verb verbs::completion{"completion", "a script that lets bash, zsh or fish complete verbs, flags and names",
-                             verb<Arguments, declare, run>};
+                             verb<CompletionArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -17,13 +17,13 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct ConfigCheckArguments {
   Common common;
   std::string file;
   std::vector<std::string> changes;
 };
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, ConfigCheckArguments& to) {
   options.positional("FILE", to.file, "a TOML file (or a name)");
   options.values(driver::config_names);
   options.group("Configuration");
@@ -33,7 +33,7 @@ void declare(Options& options, Arguments& to) {
   options.example("fastsplat config check base --set array.lanes=16", "whether a change would be");
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const ConfigCheckArguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.others = {arguments.common.json}, .inputs = inputs_of_config(arguments.file)});
   const auto config = load(arguments.file, arguments.changes);
@@ -55,6 +55,6 @@ ExitCode run(const Arguments& arguments) {
 }  // namespace
 
 const Verb verbs::config_check{"config check", "every key there, known and within its limits?",
-                               verb<Arguments, declare, run>};
+                               verb<ConfigCheckArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -17,12 +17,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Arguments {
+struct ConfigDiffArguments {
   Common common;
   std::string a, b;
 };
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, ConfigDiffArguments& to) {
   options.positional("A", to.a, "a name or a TOML file");
   options.values(driver::config_names);
   options.positional("B", to.b, "a name or a TOML file");
@@ -33,13 +33,13 @@ void declare(Options& options, Arguments& to) {
 }
 
 /// What the device would see; names and descriptions are none of that.
-struct Result {
+struct ConfigDiffResult {
   cmodel::Config a, b;
   std::vector<const cmodel::ConfigKey*> differ;
 };
 
-Result compared(const cmodel::Config& a, const cmodel::Config& b) {
-  Result result{.a = a, .b = b, .differ = {}};
+ConfigDiffResult compared(const cmodel::Config& a, const cmodel::Config& b) {
+  ConfigDiffResult result{.a = a, .b = b, .differ = {}};
   for (const auto& key : cmodel::config_keys()) {
     if (a.*key.member != b.*key.member) result.differ.push_back(&key);
   }
@@ -50,7 +50,7 @@ std::string identity(const cmodel::Config& config) {
   return config.name + " " + hash_text(cmodel::config_hash(config));
 }
 
-std::string to_text(const Result& result) {
+std::string to_text(const ConfigDiffResult& result) {
   if (result.differ.empty()) return fmt::format("equal: {} and {}\n", identity(result.a), identity(result.b));
   std::string text = fmt::format("{} and {} differ in {}\n", identity(result.a), identity(result.b),
                                  counted(result.differ.size(), "key"));
@@ -61,7 +61,7 @@ std::string to_text(const Result& result) {
   return text;
 }
 
-Json to_json(const Result& result) {
+Json to_json(const ConfigDiffResult& result) {
   Json json{{"verb", "config diff"},
             {"equal", result.differ.empty()},
             {"a", config_identity_json(result.a)},
@@ -73,11 +73,11 @@ Json to_json(const Result& result) {
   return json;
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const ConfigDiffArguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.others = {arguments.common.json},
                  .inputs = joined(inputs_of_config(arguments.a), inputs_of_config(arguments.b))});
-  const Result result = compared(load(arguments.a, {}), load(arguments.b, {}));
+  const ConfigDiffResult result = compared(load(arguments.a, {}), load(arguments.b, {}));
   output.line(to_text(result));
   output.json(to_json(result));
   return result.differ.empty() ? ExitCode::Pass : ExitCode::Failed;
@@ -86,6 +86,6 @@ ExitCode run(const Arguments& arguments) {
 }  // namespace
 
 const Verb verbs::config_diff{"config diff", "the keys in which two differ; exit 1 when there are any",
-                              verb<Arguments, declare, run>};
+                              verb<ConfigDiffArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -13,11 +13,11 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct ConfigListArguments {
   Common common;
 };
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, ConfigListArguments& to) {
   declare(options, to.common);
   options.example("fastsplat config list", "names, hashes and what each is for");
   options.example("fastsplat config list --json configs.json", "every key of all, for programs");
@@ -39,7 +39,7 @@ nlohmann::ordered_json to_json(const std::vector<cmodel::Config>& configs) {
   return json;
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const ConfigListArguments& arguments) {
   const Output output(arguments.common);
   std::vector<cmodel::Config> configs;
   for (const auto& name : driver::config_names()) configs.push_back(driver::load_config(name));
@@ -50,6 +50,6 @@ ExitCode run(const Arguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::config_list{"config list", "the built-in ones", verb<Arguments, declare, run>};
+const Verb verbs::config_list{"config list", "the built-in ones", verb<ConfigListArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -12,13 +12,13 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct ConfigShowArguments {
   Common common;
   std::string config;
   std::vector<std::string> changes;
 };
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, ConfigShowArguments& to) {
   options.positional("CONFIG", to.config, "a name or a TOML file");
   options.values(driver::config_names);
   options.group("Configuration");
@@ -28,7 +28,7 @@ void declare(Options& options, Arguments& to) {
   options.example("fastsplat config show tiny --set radial.entries=128", "with a key changed");
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const ConfigShowArguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.others = {arguments.common.json}, .inputs = inputs_of_config(arguments.config)});
   const auto config = load(arguments.config, arguments.changes);
@@ -40,6 +40,6 @@ ExitCode run(const Arguments& arguments) {
 }  // namespace
 
 const Verb verbs::config_show{"config show", "every key of one, as TOML that --config takes",
-                              verb<Arguments, declare, run>};
+                              verb<ConfigShowArguments, declare, run>};
 
 }  // namespace fastsplat::cli

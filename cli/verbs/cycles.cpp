@@ -35,7 +35,7 @@ namespace {
 
 constexpr int kLatency = 40;  ///< of the memory in a table of culling, cycles
 
-struct Arguments {
+struct CyclesArguments {
   Common common;
   SceneFlags scene;
   std::string stream;  ///< a recorded stream instead of a scene
@@ -74,7 +74,7 @@ struct Counts {
   }
 };
 
-struct Result {
+struct CyclesResult {
   std::string scene;                   ///< its summary; empty for a stream
   std::optional<double> hidden_share;  ///< of a scene's splats, see hidden_share()
   cmodel::Config config;
@@ -138,7 +138,7 @@ std::string to_text(const Counts& counts, int slices, bool culls) {
   return text;
 }
 
-std::string to_text(const Result& result) {
+std::string to_text(const CyclesResult& result) {
   const auto& counters = result.counts.counters;
   return (result.scene.empty() ? "" : result.scene + "\n") +
          fmt::format("configuration {} {}, {} splats, {} windows, {} sheets, {} tiles\n", result.config.name,
@@ -171,7 +171,7 @@ Json to_json(const Counts& counts, bool culls) {
   return json;
 }
 
-Json to_json(const Result& result) {
+Json to_json(const CyclesResult& result) {
   const auto& [account, stalls, counters, idle, end] = result.counts;
   Json json{{"verb", "cycles"},
             {"version", program_version()},
@@ -208,7 +208,7 @@ Json to_json(const Result& result) {
   return json;
 }
 
-void check_culling(const Arguments& arguments, const cmodel::Config& config) {
+void check_culling(const CyclesArguments& arguments, const cmodel::Config& config) {
   const auto refuse = [](std::string where, std::string what, std::string fix) {
     throw_usage({.where = std::move(where), .what = std::move(what), .expected = {}, .got = {}, .fix = std::move(fix)});
   };
@@ -220,7 +220,7 @@ void check_culling(const Arguments& arguments, const cmodel::Config& config) {
     refuse("--fetch", "several devices share a link, which sends every beat", "leave --fetch or --devices out");
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const CyclesArguments& arguments) {
   const Output output(arguments.common);
   if (!arguments.stream.empty() && !(arguments.scene == SceneFlags{})) {
     throw_usage({.where = "--stream",
@@ -270,19 +270,19 @@ ExitCode run(const Arguments& arguments) {
   if (arguments.fetch >= 0 && config.culls())
     options.fetch = cmodel::Fetch{static_cast<std::uint64_t>(arguments.fetch)};
 
-  Result result{.scene = {},
-                .hidden_share = {},
-                .config = config,
-                .input = arguments.input,
-                .ready = arguments.ready,
-                .seed = arguments.seed,
-                .counts = {},
-                .scalings = {},
-                .trace = arguments.trace,
-                .timeline = {},
-                .culls = {},
-                .fetch = {},
-                .cull_table = {}};
+  CyclesResult result{.scene = {},
+                      .hidden_share = {},
+                      .config = config,
+                      .input = arguments.input,
+                      .ready = arguments.ready,
+                      .seed = arguments.seed,
+                      .counts = {},
+                      .scalings = {},
+                      .trace = arguments.trace,
+                      .timeline = {},
+                      .culls = {},
+                      .fetch = {},
+                      .cull_table = {}};
   if (config.culls() && arguments.fetch >= 0) result.fetch = arguments.fetch;
   const auto make = [&](cmodel::StreamScope scope) -> std::unique_ptr<cmodel::Device> {
     if (arguments.scaling.any()) return std::make_unique<ScalingRun>(config, scope, arguments.scaling, options);
@@ -338,7 +338,7 @@ ExitCode run(const Arguments& arguments) {
   return ExitCode::Pass;
 }
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, CyclesArguments& to) {
   declare(options, to.scene);
   options.group("Scene");
   options.word("--stream", to.stream, "FILE", "a recorded stream instead of a scene");
@@ -372,6 +372,6 @@ void declare(Options& options, Arguments& to) {
 }  // namespace
 
 const Verb verbs::cycles{"cycles", "clock cycles of a scene or stream on the device, and where they go",
-                         verb<Arguments, declare, run>};
+                         verb<CyclesArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -21,7 +21,7 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct DoctorArguments {
   Common common;
 };
 
@@ -66,7 +66,7 @@ struct Missing {
 };
 
 /// What the program is and what it found.
-struct Result {
+struct DoctorResult {
   int processors = 0;
   double memory_gb = 0.0;
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
@@ -77,7 +77,7 @@ struct Result {
 };
 
 /// Loaded on purpose: whether pictures can be read and written here is what is asked.
-std::string image_library(Result& result) {
+std::string image_library(DoctorResult& result) {
   try {
     return images::library_version();
   } catch (const UserError& error) {
@@ -86,17 +86,17 @@ std::string image_library(Result& result) {
   }
 }
 
-Result look() {
-  Result result{.processors = usable_processors(),
-                .memory_gb = memory_gb(),
-                .libraries = {},
-                .programs = look_for_programs(),
-                .scans = {},
-                .synthetics = volume::synthetic_names(),
-                .transfer_functions = scene::transfer_function_presets(),
-                .demos = scene::demo_names(),
-                .configurations = driver::config_names(),
-                .missing = {}};
+DoctorResult look() {
+  DoctorResult result{.processors = usable_processors(),
+                      .memory_gb = memory_gb(),
+                      .libraries = {},
+                      .programs = look_for_programs(),
+                      .scans = {},
+                      .synthetics = volume::synthetic_names(),
+                      .transfer_functions = scene::transfer_function_presets(),
+                      .demos = scene::demo_names(),
+                      .configurations = driver::config_names(),
+                      .missing = {}};
   for (const auto& [name, version] : kLibraries) {
     const std::string text = version == nullptr ? image_library(result) : version;
     result.libraries.emplace_back(name, text.empty() ? "unknown" : text);
@@ -124,7 +124,7 @@ Result look() {
   return result;
 }
 
-std::string to_text(const Result& result) {
+std::string to_text(const DoctorResult& result) {
   std::string text = fmt::format("fastsplat {} ({} build, {}, CMake {})\n", program_version(), VERSION_BUILD,
                                  VERSION_COMPILER, VERSION_CMAKE);
   text += fmt::format("machine: {} processors, {:.1f} GB memory\n", result.processors, result.memory_gb);
@@ -165,7 +165,7 @@ Json to_json(const OtherProgram& program) {
   return json;
 }
 
-Json to_json(const Result& result) {
+Json to_json(const DoctorResult& result) {
   Json json{{"version", program_version()}, {"build", VERSION_BUILD},          {"compiler", VERSION_COMPILER},
             {"cmake", VERSION_CMAKE},       {"processors", result.processors}, {"memory_gb", result.memory_gb}};
   for (const auto& [name, version] : result.libraries) json["libraries"][name] = version;
@@ -181,15 +181,15 @@ Json to_json(const Result& result) {
   return json;
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const DoctorArguments& arguments) {
   const Output output(arguments.common);
-  const Result result = look();
+  const DoctorResult result = look();
   output.line(to_text(result));
   output.json(to_json(result));
   return ExitCode::Pass;
 }
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, DoctorArguments& to) {
   declare(options, to.common);
   options.example("fastsplat doctor", "what this program is made of and what is missing");
   options.example("fastsplat doctor --json doctor.json", "for programs");
@@ -198,6 +198,6 @@ void declare(Options& options, Arguments& to) {
 }  // namespace
 
 const Verb verbs::doctor{"doctor", "versions, processors, programs, scans; what is missing and how to get it",
-                         verb<Arguments, declare, run>};
+                         verb<DoctorArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -17,7 +17,7 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct ErrorsArguments {
   Common common;
   SceneFlags scene;
   ConfigFlags config;
@@ -26,7 +26,7 @@ struct Arguments {
   std::string blame, maps;  ///< a file and a prefix; empty for none
 };
 
-struct Result {
+struct ErrorsResult {
   std::string scene;  ///< its summary
   cmodel::Config config;
   analysis::Attribution attribution;
@@ -34,7 +34,7 @@ struct Result {
   std::string blame;  ///< the map's file; empty for none
 };
 
-nlohmann::ordered_json to_json(const Result& result) {
+nlohmann::ordered_json to_json(const ErrorsResult& result) {
   auto json = errors_identity("errors", result.scene, result.config);
   json.update(analysis::to_json(result.attribution, result.tried));
   if (!result.blame.empty()) json["blame"] = result.blame;
@@ -50,7 +50,7 @@ std::vector<std::string> map_names(const std::string& prefix, const std::vector<
   return names;
 }
 
-void write_maps(const Arguments& arguments, const scene::Scene& scene, const Result& result,
+void write_maps(const ErrorsArguments& arguments, const scene::Scene& scene, const ErrorsResult& result,
                 const std::vector<stages::StepSet>& sets) {
   const analysis::Attribution& a = result.attribution;
   const auto pngs = map_names(arguments.maps, sets, ".png"), exrs = map_names(arguments.maps, sets, ".exr");
@@ -66,7 +66,7 @@ void write_maps(const Arguments& arguments, const scene::Scene& scene, const Res
   for (std::size_t k = 0; k < a.increments.size(); ++k) write(k + 1, a.increments[k]);
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const ErrorsArguments& arguments) {
   const Output output(arguments.common);
   const cmodel::Config config = load(arguments.config);
   const scene::SceneDescription described = describe(arguments.scene);
@@ -79,7 +79,8 @@ ExitCode run(const Arguments& arguments) {
                  .inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")))});
   const scene::Scene scene = build(arguments.scene);
   output.remark(remarks(*scene.volume));
-  Result result{.scene = summary(scene), .config = config, .attribution = {}, .tried = {}, .blame = arguments.blame};
+  ErrorsResult result{
+      .scene = summary(scene), .config = config, .attribution = {}, .tried = {}, .blame = arguments.blame};
   {
     const stages::Chain chain(scene, config);
     ProgressBar bar("errors", watching(arguments.common));
@@ -98,7 +99,7 @@ ExitCode run(const Arguments& arguments) {
   return ExitCode::Pass;
 }
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, ErrorsArguments& to) {
   declare(options, to.scene);
   options.group("Device");
   declare(options, to.config, "hardware configuration, a name or a TOML file");
@@ -121,6 +122,6 @@ void declare(Options& options, Arguments& to) {
 }  // namespace
 
 const Verb verbs::errors{"errors", "because of which step the device's picture is not the true one",
-                         verb<Arguments, declare, run>};
+                         verb<ErrorsArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -16,7 +16,7 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct ErrorsBoundArguments {
   Common common;
   SceneFlags scene;
   ConfigFlags config;
@@ -24,13 +24,13 @@ struct Arguments {
   std::string maps;  ///< prefix, empty for none
 };
 
-struct Result {
+struct ErrorsBoundResult {
   std::string scene;  ///< its summary
   cmodel::Config config;
   analysis::BoundReport report;
 };
 
-nlohmann::ordered_json to_json(const Result& result) {
+nlohmann::ordered_json to_json(const ErrorsBoundResult& result) {
   auto json = errors_identity("errors bound", result.scene, result.config);
   json.update(analysis::to_json(result.report));
   return json;
@@ -44,7 +44,7 @@ std::vector<std::string> map_names(const std::string& prefix, const char* ending
   return names;
 }
 
-void write_maps(const Arguments& arguments, const scene::Scene& scene, const Result& result) {
+void write_maps(const ErrorsBoundArguments& arguments, const scene::Scene& scene, const ErrorsBoundResult& result) {
   const Image real = analysis::to_image(result.report.real);
   for (const analysis::BoundResult& level : result.report.levels) {
     const std::string name = arguments.maps + "." + analysis::to_string(level.known);
@@ -56,7 +56,7 @@ void write_maps(const Arguments& arguments, const scene::Scene& scene, const Res
   }
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const ErrorsBoundArguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.images = map_names(arguments.maps, ".exr"),
                  .maps = map_names(arguments.maps, ".png"),
@@ -66,7 +66,7 @@ ExitCode run(const Arguments& arguments) {
   const cmodel::Config config = load(arguments.config);
   const scene::Scene scene = build(arguments.scene);
   output.remark(remarks(*scene.volume));
-  Result result{.scene = summary(scene), .config = config, .report = {}};
+  ErrorsBoundResult result{.scene = summary(scene), .config = config, .report = {}};
   {
     const stages::Chain chain(scene, config);
     ProgressBar bar("bound", watching(arguments.common));
@@ -79,7 +79,7 @@ ExitCode run(const Arguments& arguments) {
   return result.report.holds() ? ExitCode::Pass : ExitCode::Failed;
 }
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, ErrorsBoundArguments& to) {
   declare(options, to.scene);
   options.group("Device");
   declare(options, to.config, "hardware configuration, a name or a TOML file");
@@ -98,6 +98,6 @@ void declare(Options& options, Arguments& to) {
 
 const Verb verbs::errors_bound{"errors bound",
                                "a proved worst case of every pixel's error (exit 1 if it does not hold)",
-                               verb<Arguments, declare, run>};
+                               verb<ErrorsBoundArguments, declare, run>};
 
 }  // namespace fastsplat::cli

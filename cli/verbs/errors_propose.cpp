@@ -18,7 +18,7 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct ErrorsProposeArguments {
   Common common;
   SceneList scenes;
   std::string target, from = "base", out, journal;
@@ -33,7 +33,7 @@ std::string name_of(const analysis::Target& target) {
   return name;
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const ErrorsProposeArguments& arguments) {
   const Output output(arguments.common);
   const analysis::Target target = analysis::parse_target(arguments.target);
   const cmodel::Config from = load(arguments.from, {});
@@ -82,7 +82,7 @@ ExitCode run(const Arguments& arguments) {
   return proposal.search.met ? ExitCode::Pass : ExitCode::Failed;
 }
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, ErrorsProposeArguments& to) {
   declare(options, to.scenes);
   options.group("Search");
   options.required("--target", to.target, "TARGET",
@@ -105,6 +105,6 @@ void declare(Options& options, Arguments& to) {
 }  // namespace
 
 const Verb verbs::errors_propose{"errors propose", "the cheapest configuration that is good enough",
-                                 verb<Arguments, declare, run>};
+                                 verb<ErrorsProposeArguments, declare, run>};
 
 }  // namespace fastsplat::cli

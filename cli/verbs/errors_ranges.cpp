@@ -17,13 +17,13 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct ErrorsRangesArguments {
   Common common;
   SceneList scenes;
   ConfigFlags config;
 };
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const ErrorsRangesArguments& arguments) {
   const Output output(arguments.common);
   const cmodel::Config config = load(arguments.config);
   const auto flags = scenes_of(arguments.scenes);
@@ -62,7 +62,7 @@ ExitCode run(const Arguments& arguments) {
   return ExitCode::Pass;
 }
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, ErrorsRangesArguments& to) {
   declare(options, to.scenes);
   options.group("Device");
   declare(options, to.config, "hardware configuration, a name or a TOML file");
@@ -77,6 +77,6 @@ void declare(Options& options, Arguments& to) {
 }  // namespace
 
 const Verb verbs::errors_ranges{"errors ranges", "how large each signal gets, and the format it would need",
-                                verb<Arguments, declare, run>};
+                                verb<ErrorsRangesArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -19,7 +19,7 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct FamilyArguments {
   Common common;
   std::string kind;
   std::optional<int> entries;
@@ -65,7 +65,7 @@ Json to_json(const std::vector<analysis::FamilyCell>& cells) {
 }
 
 /// --page, --head and --plots each stand alone: what they make is one thing.
-void check(const Arguments& arguments) {
+void check(const FamilyArguments& arguments) {
   const bool part = !arguments.kind.empty() || arguments.entries || !arguments.common.json.empty();
   const int things = (arguments.page ? 1 : 0) + (arguments.head ? 1 : 0) + (arguments.plots.empty() ? 0 : 1);
   if (things == 0 || (things == 1 && !part)) return;
@@ -77,14 +77,14 @@ void check(const Arguments& arguments) {
                .fix = "leave out --kind, --entries, --json and the others of --page, --head and --plots"});
 }
 
-std::string head_section(const Arguments& arguments) {
+std::string head_section(const FamilyArguments& arguments) {
   const auto head = analysis::head_scene();
   ProgressBar bar("head", watching(arguments.common));
   return analysis::head_section(
       head, analysis::head_table(head, analysis::whole_head(), arguments.common.threads, bar.callback()));
 }
 
-ExitCode write_plots(const Arguments& arguments, const Output& output) {
+ExitCode write_plots(const FamilyArguments& arguments, const Output& output) {
   std::vector<std::string> names;
   for (const char* file : analysis::kFamilyPictures) names.push_back(arguments.plots + "/" + file);
   check_outputs({.others = names});
@@ -96,7 +96,7 @@ ExitCode write_plots(const Arguments& arguments, const Output& output) {
   return ExitCode::Pass;
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const FamilyArguments& arguments) {
   const Output output(arguments.common);
   check(arguments);
   check_outputs({.others = {arguments.common.json}});
@@ -118,7 +118,7 @@ ExitCode run(const Arguments& arguments) {
   return ExitCode::Pass;
 }
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, FamilyArguments& to) {
   options.group("What");
   options.word("--kind", to.kind, "KIND", "one kind of index only: what `config show` says of index.kind");
   options.values(index_kinds);
@@ -135,6 +135,6 @@ void declare(Options& options, Arguments& to) {
 }  // namespace
 
 const Verb verbs::family{"family", "every kind of index: weights against the exact ones, bits, operations, cycles",
-                         verb<Arguments, declare, run>};
+                         verb<FamilyArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -10,7 +10,7 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct HelpArguments {
   std::vector<std::string> verb;
   bool man = false;
   std::string pages;  ///< a folder; empty for none
@@ -22,7 +22,7 @@ void write_pages(const std::string& folder) {
     write_text_file((std::filesystem::path(folder) / (man_page_name(verb) + ".1")).string(), man_page(verb, all));
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const HelpArguments& arguments) {
   if (!arguments.pages.empty()) {
     if (arguments.man || !arguments.verb.empty()) {
       throw_usage({.where = "--man-pages",
@@ -53,7 +53,7 @@ std::vector<std::string> verb_words() {
   return words;
 }
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, HelpArguments& to) {
   options.positionals("VERB", to.verb, 0, "a verb, of two words where it has two");
   options.only_values(verb_words);
   options.flag("--man", to.man, "the manual page, in roff: `fastsplat help --man render | man -l -`");
@@ -64,6 +64,6 @@ void declare(Options& options, Arguments& to) {
 
 }  // namespace
 
-const Verb verbs::help{"help", "help on a verb, and manual pages", verb<Arguments, declare, run>};
+const Verb verbs::help{"help", "help on a verb, and manual pages", verb<HelpArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -14,14 +14,14 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct PlanCsvArguments {
   Common common;
   RowFlags rows;
   std::string out;
 };
 
 /// Every column there is, unless some were named.
-plan::TableOptions options_from(const Arguments& arguments, const plan::Merged& merged) {
+plan::TableOptions options_from(const PlanCsvArguments& arguments, const plan::Merged& merged) {
   auto options = arguments.rows.options();
   if (!options.columns.empty()) return options;
   options.columns = {"id", "kind", "status", "message"};
@@ -31,7 +31,7 @@ plan::TableOptions options_from(const Arguments& arguments, const plan::Merged& 
   return options;
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const PlanCsvArguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.others = {arguments.out, arguments.common.json}, .inputs = {arguments.rows.merged}});
   const auto merged = plan::read_merged(arguments.rows.merged);
@@ -50,7 +50,7 @@ ExitCode run(const Arguments& arguments) {
   return ExitCode::Pass;
 }
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, PlanCsvArguments& to) {
   declare(options, to.rows);
   options.group("Output");
   options.word("-o,--out", to.out, "FILE", "to a file instead of stdout");
@@ -62,6 +62,6 @@ void declare(Options& options, Arguments& to) {
 }  // namespace
 
 const Verb verbs::plan_csv{"plan csv", "merged results as comma-separated values, numbers in full",
-                           verb<Arguments, declare, run>};
+                           verb<PlanCsvArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -16,12 +16,12 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct PlanMakeArguments {
   Common common;
   std::string spec, out;
 };
 
-std::string to_text(const plan::Made& made, const Arguments& arguments) {
+std::string to_text(const plan::Made& made, const PlanMakeArguments& arguments) {
   std::string axes;
   for (const auto& axis : made.plan.axes)
     axes += fmt::format("{}{} ({})", axes.empty() ? "" : ", ", axis.name, axis.values.size());
@@ -31,7 +31,7 @@ std::string to_text(const plan::Made& made, const Arguments& arguments) {
 }
 
 /// The specification and what its settings name; words that are no files do no harm.
-std::vector<std::string> inputs_of(const Arguments& arguments, const plan::Plan& plan) {
+std::vector<std::string> inputs_of(const PlanMakeArguments& arguments, const plan::Plan& plan) {
   std::set<std::string> words;
   for (const auto& one : plan.cases) {
     for (const auto& setting : one.settings) {
@@ -41,7 +41,7 @@ std::vector<std::string> inputs_of(const Arguments& arguments, const plan::Plan&
   return joined({arguments.spec}, {words.begin(), words.end()});
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const PlanMakeArguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.others = {arguments.out, arguments.common.json}, .inputs = {arguments.spec}});
   const auto made = plan::make(plan::read_spec(arguments.spec), plan_vocabulary());
@@ -57,7 +57,7 @@ ExitCode run(const Arguments& arguments) {
   return ExitCode::Pass;
 }
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, PlanMakeArguments& to) {
   options.positional("SPEC", to.spec, "a specification, .toml: kind of case, axes, constants (docs/plan.md)");
   options.group("Output");
   options.word("-o,--out", to.out, "FILE", "the plan, .json: what the other verbs take");
@@ -69,6 +69,6 @@ void declare(Options& options, Arguments& to) {
 }  // namespace
 
 const Verb verbs::plan_make{"plan make", "expand the axes of a specification into cases",
-                            verb<Arguments, declare, run>};
+                            verb<PlanMakeArguments, declare, run>};
 
 }  // namespace fastsplat::cli

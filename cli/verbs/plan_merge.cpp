@@ -17,7 +17,7 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct PlanMergeArguments {
   Common common;
   PlanFlags plan;
   std::string out;
@@ -45,7 +45,7 @@ void refuse_among_results(const std::string& path, const std::string& results) {
                .fix = "give it another name"});
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const PlanMergeArguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.others = {arguments.out, arguments.common.json}, .inputs = {arguments.plan.plan}});
   for (const auto& path : {arguments.out, arguments.common.json}) refuse_among_results(path, arguments.plan.folder());
@@ -60,7 +60,7 @@ ExitCode run(const Arguments& arguments) {
   return ExitCode::Pass;
 }
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, PlanMergeArguments& to) {
   declare(options, to.plan);
   options.flag("--partial", to.partial, "merge what is there; the rest is listed as missing");
   options.flag("--allow-foreign", to.allow_foreign, "pass over results that are no case of this plan");
@@ -75,6 +75,6 @@ void declare(Options& options, Arguments& to) {
 }  // namespace
 
 const Verb verbs::plan_merge{"plan merge", "the results of a plan in one file, whatever order they came in",
-                             verb<Arguments, declare, run>};
+                             verb<PlanMergeArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -16,7 +16,7 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct PlanParetoArguments {
   Common common;
   RowFlags rows;
   std::string x, y;
@@ -25,7 +25,7 @@ struct Arguments {
 
 using Json = nlohmann::ordered_json;
 
-struct Result {
+struct PlanParetoResult {
   plan::Merged merged;
   plan::Pareto pareto;
   plan::Table front, beaten;  ///< as they are shown
@@ -33,8 +33,8 @@ struct Result {
 
 /// Rows in their order with, in front, the two metrics; and at the end what `last` says of each.
 template <class Last>
-plan::Table table_of(const Result& result, const std::vector<const plan::Row*>& rows, const plan::TableOptions& options,
-                     const char* title, const Last& last) {
+plan::Table table_of(const PlanParetoResult& result, const std::vector<const plan::Row*>& rows,
+                     const plan::TableOptions& options, const char* title, const Last& last) {
   plan::Merged some = result.merged;
   some.rows.clear();
   for (const auto* row : rows) some.rows.push_back(*row);
@@ -55,8 +55,8 @@ plan::Table table_of(const Result& result, const std::vector<const plan::Row*>& 
   return table;
 }
 
-Result result_of(const Arguments& arguments) {
-  Result result{.merged = plan::read_merged(arguments.rows.merged), .pareto = {}, .front = {}, .beaten = {}};
+PlanParetoResult result_of(const PlanParetoArguments& arguments) {
+  PlanParetoResult result{.merged = plan::read_merged(arguments.rows.merged), .pareto = {}, .front = {}, .beaten = {}};
   const auto options = arguments.rows.options();
   result.pareto =
       plan::pareto(plan::chosen_rows(result.merged, options), plan::metric_of(result.merged, arguments.x, "--x"),
@@ -78,7 +78,7 @@ Result result_of(const Arguments& arguments) {
   return result;
 }
 
-std::string to_text(const Result& result, const Arguments& arguments) {
+std::string to_text(const PlanParetoResult& result, const PlanParetoArguments& arguments) {
   const auto text_of = [&](const plan::Table& table) {
     return arguments.markdown ? plan::to_markdown(table) : plan::to_text(table);
   };
@@ -93,7 +93,7 @@ std::string to_text(const Result& result, const Arguments& arguments) {
               : "");
 }
 
-Json to_json(const Result& result) {
+Json to_json(const PlanParetoResult& result) {
   const auto& [x, y, front, beaten, without] = result.pareto;
   const auto entry = [&](const plan::Row* row) {
     return Json{{"id", row->id}, {x.name, *row->metric(x.name)}, {y.name, *row->metric(y.name)}};
@@ -120,16 +120,16 @@ Json to_json(const Result& result) {
   return json;
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const PlanParetoArguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.others = {arguments.common.json}, .inputs = {arguments.rows.merged}});
-  const Result result = result_of(arguments);
+  const PlanParetoResult result = result_of(arguments);
   output.line(to_text(result, arguments));
   output.json(to_json(result));
   return ExitCode::Pass;
 }
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, PlanParetoArguments& to) {
   declare(options, to.rows);
   options.group("Metrics");
   options.required("--x", to.x, "METRIC", "a metric, with - before it where less is better, + where more is");
@@ -146,6 +146,6 @@ void declare(Options& options, Arguments& to) {
 }  // namespace
 
 const Verb verbs::plan_pareto{"plan pareto", "which rows are worth having by two metrics, and what beats the others",
-                              verb<Arguments, declare, run>};
+                              verb<PlanParetoArguments, declare, run>};
 
 }  // namespace fastsplat::cli

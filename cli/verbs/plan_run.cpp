@@ -18,7 +18,7 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct PlanRunArguments {
   Common common;
   PlanFlags plan;
   std::string shard = "1/1";
@@ -35,7 +35,7 @@ std::string to_text(const plan::RunSummary& summary, const std::string& folder) 
                      summary.skipped);
 }
 
-Json to_json(const plan::RunSummary& summary, const Arguments& arguments, double seconds) {
+Json to_json(const plan::RunSummary& summary, const PlanRunArguments& arguments, double seconds) {
   return {{"verb", "plan run"},         {"version", program_version()},
           {"shard", arguments.shard},   {"cases", summary.cases},
           {"skipped", summary.skipped}, {"passed", summary.passed},
@@ -49,7 +49,7 @@ ExitCode exit_code(const plan::RunSummary& summary) {
   return summary.failed + summary.errors > 0 ? ExitCode::Failed : ExitCode::Pass;
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const PlanRunArguments& arguments) {
   const Output output(arguments.common);
   const plan::Shard shard = plan::shard_from(arguments.shard);
   check_outputs({.others = {arguments.common.json}, .inputs = {arguments.plan.plan}});
@@ -81,7 +81,7 @@ ExitCode run(const Arguments& arguments) {
   return exit_code(summary);
 }
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, PlanRunArguments& to) {
   declare(options, to.plan);
   options.flag("--retry", to.retry, "run cases that failed again, too");
   options.flag("--again", to.again, "replace results of another program or of other content");
@@ -97,6 +97,7 @@ void declare(Options& options, Arguments& to) {
 
 }  // namespace
 
-const Verb verbs::plan_run{"plan run", "run the cases of a plan that are not done yet", verb<Arguments, declare, run>};
+const Verb verbs::plan_run{"plan run", "run the cases of a plan that are not done yet",
+                           verb<PlanRunArguments, declare, run>};
 
 }  // namespace fastsplat::cli

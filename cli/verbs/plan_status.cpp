@@ -15,7 +15,7 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct PlanStatusArguments {
   Common common;
   PlanFlags plan;
   int shards = 0;
@@ -60,7 +60,7 @@ Json to_json(const plan::PlanStatus& status) {
   return json;
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const PlanStatusArguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.others = {arguments.common.json}, .inputs = {arguments.plan.plan}});
   const auto status = plan::status_of(plan::read_plan(arguments.plan.plan), arguments.plan.folder(), program_hash(),
@@ -70,7 +70,7 @@ ExitCode run(const Arguments& arguments) {
   return ExitCode::Pass;
 }
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, PlanStatusArguments& to) {
   declare(options, to.plan);
   options.integer("--shards", to.shards, 0, 100'000, "N", "by shard, as `plan run --shard I/N` divides the cases");
   declare(options, to.common);
@@ -81,6 +81,6 @@ void declare(Options& options, Arguments& to) {
 }  // namespace
 
 const Verb verbs::plan_status{"plan status", "how many cases of a plan are done, failed, missing",
-                              verb<Arguments, declare, run>};
+                              verb<PlanStatusArguments, declare, run>};
 
 }  // namespace fastsplat::cli

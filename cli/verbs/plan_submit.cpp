@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/atomic_file.hpp"
+#include "base/programs.hpp"
 #include "base/shell_word.hpp"
 #include "base/version.hpp"
 #include "cli/common.hpp"
@@ -12,7 +13,6 @@
 #include "cli/output_names.hpp"
 #include "cli/plan_arguments.hpp"
 #include "cli/plan_vocabulary.hpp"
-#include "base/programs.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "plan/lost_tasks.hpp"
 #include "plan/script_engines.hpp"
@@ -28,7 +28,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kMostTasks = 1000;      ///< of a submission, unless --shards says another number
 constexpr std::size_t kUsualArrayMax = 1001;  ///< Slurm's own, where a dry run cannot ask
 
-struct Arguments {
+struct PlanSubmitArguments {
   Common common;
   PlanFlags plan;
   std::string engine;
@@ -43,7 +43,7 @@ struct Arguments {
 };
 
 /// What was sent, or would be.
-struct Result {
+struct PlanSubmitResult {
   plan::Submission submission;
   std::vector<plan::JobArray> arrays;
   std::vector<plan::ScriptFile> files;
@@ -63,7 +63,7 @@ struct Result {
 }
 
 /// Directives are lines of a script: what would be more than one, or none, is refused.
-void check(const Arguments& arguments) {
+void check(const PlanSubmitArguments& arguments) {
   if (arguments.engine.empty()) {
     throw_usage({.where = "--engine",
                  .what = "is missing",
@@ -91,11 +91,11 @@ void check(const Arguments& arguments) {
     throw_usage({.where = "--sbatch", .what = "is for Slurm", .expected = {}, .got = {}, .fix = "add --engine slurm"});
 }
 
-std::string merged_name(const Arguments& arguments) {
+std::string merged_name(const PlanSubmitArguments& arguments) {
   return arguments.out.value_or(fs::path(arguments.plan.plan).replace_extension(".merged.json").string());
 }
 
-std::size_t array_max(const Arguments& arguments) {
+std::size_t array_max(const PlanSubmitArguments& arguments) {
   if (arguments.array_max) return *arguments.array_max;
   if (!arguments.slurm()) return 1000;  // LSF's usual limit, the smaller one
   // A task's merge may look at what was lost on a machine without clients, and a dry run may be anywhere.
@@ -103,7 +103,7 @@ std::size_t array_max(const Arguments& arguments) {
   return plan::slurm_array_max();
 }
 
-plan::Submission describe(const Arguments& arguments, const plan::Plan& plan) {
+plan::Submission describe(const PlanSubmitArguments& arguments, const plan::Plan& plan) {
   const auto whole = [](const std::string& path) { return fs::weakly_canonical(fs::absolute(path)); };
   plan::Submission submission{.name = {},
                               .what = fmt::format("plan {}, {}", plan.name, counted(plan.cases.size(), "case")),
@@ -124,7 +124,7 @@ plan::Submission describe(const Arguments& arguments, const plan::Plan& plan) {
   return submission;
 }
 
-void write_files(const Result& result) {
+void write_files(const PlanSubmitResult& result) {
   std::error_code error;
   fs::create_directories(result.submission.logs(), error);
   if (error) {
@@ -138,7 +138,7 @@ void write_files(const Result& result) {
 }
 
 /// All of it or nothing: what was queued before sbatch refused is taken back.
-void send(Result& result) {
+void send(PlanSubmitResult& result) {
   const auto& s = result.submission;
   const std::string names = s.name + "," + s.merge_name();
   if (const auto queued = plan::slurm_queued(names); !queued.empty()) {
@@ -158,20 +158,20 @@ void send(Result& result) {
 }
 
 /// In a dry run there are no numbers yet.
-std::vector<std::string> job_numbers(const Result& result) {
+std::vector<std::string> job_numbers(const PlanSubmitResult& result) {
   if (!result.jobs.empty()) return result.jobs;
   std::vector<std::string> names;
   for (const auto& array : result.arrays) names.push_back(fmt::format("JOB{}", array.number));
   return names;
 }
 
-std::string head(const Result& result) {
+std::string head(const PlanSubmitResult& result) {
   const auto& s = result.submission;
   return fmt::format("{}: {} of {} to do, in {} of {}\n", result.plan_name, result.cases - result.done,
                      counted(result.cases, "case"), s.to_do.size(), counted(s.shards, "task"));
 }
 
-std::string to_text(const Result& result, const Arguments& arguments) {
+std::string to_text(const PlanSubmitResult& result, const PlanSubmitArguments& arguments) {
   const auto& s = result.submission;
   std::string text = head(result);
   if (arguments.dry_run) {
@@ -193,7 +193,7 @@ std::string to_text(const Result& result, const Arguments& arguments) {
                             result.arrays.empty() ? "" : " when they have ended");
 }
 
-Json to_json(const Result& result, const Arguments& arguments) {
+Json to_json(const PlanSubmitResult& result, const PlanSubmitArguments& arguments) {
   const auto& s = result.submission;
   const auto or_null = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
   Json json{{"verb", "plan submit"},
@@ -237,7 +237,7 @@ ExitCode tell_lost(const Output& output, const plan::Plan& plan, const plan::Sub
   return lost.empty() ? ExitCode::Pass : ExitCode::Failed;
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const PlanSubmitArguments& arguments) {
   const Output output(arguments.common);
   check(arguments);
   const bool writes = !arguments.dry_run && !arguments.lost;
@@ -248,14 +248,14 @@ ExitCode run(const Arguments& arguments) {
     for (const char* client : {"sbatch", "scontrol", "squeue", "scancel"})
       if (!in_path(client)) no_slurm(client);
   }
-  Result result{.submission = describe(arguments, plan),
-                .arrays = {},
-                .files = {},
-                .jobs = {},
-                .merge_job = {},
-                .cases = plan.cases.size(),
-                .plan_name = plan.name,
-                .plan_hash = plan.hash};
+  PlanSubmitResult result{.submission = describe(arguments, plan),
+                          .arrays = {},
+                          .files = {},
+                          .jobs = {},
+                          .merge_job = {},
+                          .cases = plan.cases.size(),
+                          .plan_name = plan.name,
+                          .plan_hash = plan.hash};
   if (arguments.lost) return tell_lost(output, plan, result.submission);
   require_content(plan, arguments.plan.plan);
   auto& s = result.submission;
@@ -273,7 +273,7 @@ ExitCode run(const Arguments& arguments) {
   return ExitCode::Pass;
 }
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, PlanSubmitArguments& to) {
   declare(options, to.plan);
   options.word("-o,--out", to.out, "FILE", "the merged rows; PLAN.json: PLAN.merged.json");
   options.group("Cluster");
@@ -300,6 +300,6 @@ void declare(Options& options, Arguments& to) {
 }  // namespace
 
 const Verb verbs::plan_submit{"plan submit", "give a plan to a cluster: Slurm, LSF, SGE, GNU parallel",
-                              verb<Arguments, declare, run>};
+                              verb<PlanSubmitArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -12,7 +12,7 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct PlanTableArguments {
   Common common;
   RowFlags rows;
   std::string out;
@@ -33,7 +33,7 @@ Json to_json(const plan::Table& table) {
   return json;
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const PlanTableArguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.others = {arguments.out, arguments.common.json}, .inputs = {arguments.rows.merged}});
   const auto table = plan::table_of(plan::read_merged(arguments.rows.merged), arguments.rows.options());
@@ -47,7 +47,7 @@ ExitCode run(const Arguments& arguments) {
   return ExitCode::Pass;
 }
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, PlanTableArguments& to) {
   declare(options, to.rows);
   options.group("Output");
   options.flag("--markdown", to.markdown, "a Markdown table");
@@ -61,6 +61,6 @@ void declare(Options& options, Arguments& to) {
 }  // namespace
 
 const Verb verbs::plan_table{"plan table", "merged results as a table: chosen rows and columns, sorted",
-                             verb<Arguments, declare, run>};
+                             verb<PlanTableArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -72,7 +72,7 @@ void check(const RenderArguments& arguments, Engine engine) {
 }
 
 /// A picture in words; its pixels are in the files.
-struct Result {
+struct RenderResult {
   std::string engine;
   scene::Scene scene;
   FrameReport frame;
@@ -99,7 +99,7 @@ Json to_json(const scene::Scene& scene) {
   return json;
 }
 
-Json to_json(const Result& result) {
+Json to_json(const RenderResult& result) {
   Json json{
       {"verb", "render"}, {"version", program_version()}, {"engine", result.engine}, {"scene", to_json(result.scene)}};
   json.update(to_json(result.frame));
@@ -131,11 +131,11 @@ ExitCode run_still(const RenderArguments& arguments, const Renderer& renderer, c
     ProgressBar bar(arguments.engine, watching(arguments.common));
     frame = render_frame(renderer, scene, bar.callback());
   }
-  Result result{.engine = arguments.engine,
-                .scene = scene,
-                .frame = report_of(renderer, scene, frame),
-                .files = {.out = arguments.out, .raw = arguments.raw},
-                .wave = {}};
+  RenderResult result{.engine = arguments.engine,
+                      .scene = scene,
+                      .frame = report_of(renderer, scene, frame),
+                      .files = {.out = arguments.out, .raw = arguments.raw},
+                      .wave = {}};
   output.line(to_text(result.frame));
   output.remark(remarks(result.frame));
   write_frame(frame, scene, result.files, metadata_of(renderer, scene), output);

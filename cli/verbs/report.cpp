@@ -15,7 +15,7 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct ReportArguments {
   Common common;
   std::vector<std::string> results, pictures;
   std::string out;                   ///< empty for none
@@ -23,11 +23,11 @@ struct Arguments {
   double most_megabytes = 5.0;
 };
 
-std::vector<std::string> written_by(const Arguments& arguments) {
+std::vector<std::string> written_by(const ReportArguments& arguments) {
   return {arguments.out, arguments.junit, arguments.csv, arguments.markdown, arguments.common.json};
 }
 
-void check(const Arguments& arguments, const std::vector<report::NamedPicture>& pictures) {
+void check(const ReportArguments& arguments, const std::vector<report::NamedPicture>& pictures) {
   const bool faces = !(arguments.junit.empty() && arguments.csv.empty() && arguments.markdown.empty());
   if (arguments.results.empty() && (pictures.empty() || faces)) {
     throw_usage({.where = {},
@@ -74,7 +74,7 @@ void check(const Arguments& arguments, const std::vector<report::NamedPicture>& 
 }
 
 /// The faces that are asked for. All texts are there before the first file is.
-void write_faces(const Arguments& arguments, const std::vector<report::Result>& results) {
+void write_faces(const ReportArguments& arguments, const std::vector<report::Result>& results) {
   const std::string junit = arguments.junit.empty() ? "" : report::to_junit(results);
   const std::string csv = arguments.csv.empty() ? "" : report::to_csv(results);
   const std::string markdown = arguments.markdown.empty() ? "" : report::to_markdown(results);
@@ -89,7 +89,7 @@ report::Verdict verdict_of_all(const std::vector<report::Result>& results) {
   return verdicts.empty() ? report::Verdict{} : report::verdict_of(verdicts);
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const ReportArguments& arguments) {
   const Output output(arguments.common);
   report::Request request{
       .results = {}, .pictures = {}, .most_bytes = static_cast<std::size_t>(arguments.most_megabytes * 1e6)};
@@ -133,7 +133,7 @@ ExitCode run(const Arguments& arguments) {
   return ExitCode::Pass;
 }
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, ReportArguments& to) {
   options.positionals("RESULT", to.results, 0, "what verbs wrote with --json, of any verb, in the page's order");
   options.group("Report");
   options.word("-o,--out", to.out, "FILE", "the page, .html: one file that opens from disk");
@@ -158,6 +158,6 @@ void declare(Options& options, Arguments& to) {
 
 const Verb verbs::report{"report",
                          "results and their pictures as one page that opens from disk; JUnit XML, CSV, Markdown",
-                         verb<Arguments, declare, run>};
+                         verb<ReportArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -12,13 +12,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Arguments {
+struct StreamDumpArguments {
   Common common;
   std::string stream;
   std::optional<int> limit;
 };
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, StreamDumpArguments& to) {
   options.positional("STREAM", to.stream, "a stream file");
   options.group("Output");
   options.integer("--limit", to.limit, 0, 2'000'000'000, "N", "stops after N records");
@@ -27,7 +27,7 @@ void declare(Options& options, Arguments& to) {
   options.example("fastsplat stream dump shells.fss | grep -c splat", "how many records of a kind there are");
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const StreamDumpArguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.others = {arguments.common.json}, .inputs = {arguments.stream}});
   const auto limit = static_cast<std::uint64_t>(arguments.limit.value_or(INT32_MAX));
@@ -65,6 +65,6 @@ ExitCode run(const Arguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::stream_dump{"stream dump", "one line of text per record", verb<Arguments, declare, run>};
+const Verb verbs::stream_dump{"stream dump", "one line of text per record", verb<StreamDumpArguments, declare, run>};
 
 }  // namespace fastsplat::cli

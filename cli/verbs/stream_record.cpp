@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Arguments {
+struct StreamRecordArguments {
   Common common;
   SceneFlags scene;
   GaussianFlags gaussians;
@@ -30,7 +30,7 @@ struct Arguments {
   std::string out;
 };
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, StreamRecordArguments& to) {
   declare(options, to.scene);
   declare(options, to.gaussians);
   options.group("Engine");
@@ -46,18 +46,18 @@ void declare(Options& options, Arguments& to) {
 }
 
 /// What was recorded, in words.
-struct Result {
+struct StreamRecordResult {
   std::string scene;  ///< its summary
   std::string stream;
   cmodel::Config config;
   driver::DriverReport driver;
 };
 
-std::string to_text(const Result& result) {
+std::string to_text(const StreamRecordResult& result) {
   return result.scene + "\n" + cli::to_text(result.driver) + result.stream + "\n";
 }
 
-Json to_json(const Result& result) {
+Json to_json(const StreamRecordResult& result) {
   Json json{{"verb", "stream record"},
             {"version", program_version()},
             {"stream", result.stream},
@@ -67,7 +67,7 @@ Json to_json(const Result& result) {
 }
 
 /// 3-D Gaussians instead of a volume.
-ExitCode record_gaussians(const Arguments& arguments, const cmodel::Config& config, const Output& output) {
+ExitCode record_gaussians(const StreamRecordArguments& arguments, const cmodel::Config& config, const Output& output) {
   if (arguments.gaussians.order) {
     throw_usage({.where = "--order",
                  .what = "the device has one order, that of its records",
@@ -94,7 +94,7 @@ ExitCode record_gaussians(const Arguments& arguments, const cmodel::Config& conf
   return ExitCode::Pass;
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const StreamRecordArguments& arguments) {
   const Output output(arguments.common);
   if (!arguments.out.ends_with(".fss")) {
     throw_usage({.where = arguments.out,
@@ -119,7 +119,7 @@ ExitCode run(const Arguments& arguments) {
   const auto scene = scene::build_scene(description);
   output.remark(remarks(*scene.volume));
 
-  Result result{.scene = summary(scene), .stream = arguments.out, .config = config, .driver = {}};
+  StreamRecordResult result{.scene = summary(scene), .stream = arguments.out, .config = config, .driver = {}};
   {
     ProgressBar bar("recording", watching(arguments.common));
     result.driver = driver::record_stream(scene, config, arguments.out,
@@ -134,6 +134,7 @@ ExitCode run(const Arguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::stream_record{"stream record", "compiles a scene into a stream file", verb<Arguments, declare, run>};
+const Verb verbs::stream_record{"stream record", "compiles a scene into a stream file",
+                                verb<StreamRecordArguments, declare, run>};
 
 }  // namespace fastsplat::cli

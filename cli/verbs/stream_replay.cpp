@@ -18,14 +18,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Arguments {
+struct StreamReplayArguments {
   Common common;
   ConfigFlags config;
   std::string stream, raw;
   std::vector<std::string> out;
 };
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, StreamReplayArguments& to) {
   options.positional("STREAM", to.stream, "a stream file");
   options.group("Engine");
   declare(options, to.config, "the configuration it was recorded for");
@@ -37,7 +37,7 @@ void declare(Options& options, Arguments& to) {
 }
 
 /// What was replayed, in words; its pixels are in the files.
-struct Result {
+struct StreamReplayResult {
   std::string stream;
   int width = 0, height = 0;
   DeviceReport device;
@@ -46,7 +46,7 @@ struct Result {
   double seconds = 0.0;
 };
 
-Json to_json(const Result& result) {
+Json to_json(const StreamReplayResult& result) {
   Json json{{"verb", "stream replay"},
             {"version", program_version()},
             {"stream", result.stream},
@@ -59,7 +59,7 @@ Json to_json(const Result& result) {
   return json;
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const StreamReplayArguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.images = arguments.out,
                  .maps = {},
@@ -73,12 +73,12 @@ ExitCode run(const Arguments& arguments) {
     frame = driver::replay_stream(arguments.stream, config,
                                   {.threads = arguments.common.threads, .progress = bar.callback()});
   }
-  Result result{.stream = arguments.stream,
-                .width = frame.frame.width,
-                .height = frame.frame.height,
-                .device = {config, frame.report, frame.counters},
-                .outputs = arguments.out,
-                .raw = arguments.raw};
+  StreamReplayResult result{.stream = arguments.stream,
+                            .width = frame.frame.width,
+                            .height = frame.frame.height,
+                            .device = {config, frame.report, frame.counters},
+                            .outputs = arguments.out,
+                            .raw = arguments.raw};
   output.line(to_text(result.device));
   output.remark(remarks(result.device));
   const images::Metadata metadata{{"engine", "cmodel"},
@@ -95,6 +95,7 @@ ExitCode run(const Arguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::stream_replay{"stream replay", "feeds a stream to the integer device", verb<Arguments, declare, run>};
+const Verb verbs::stream_replay{"stream replay", "feeds a stream to the integer device",
+                                verb<StreamReplayArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -17,13 +17,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Arguments {
+struct StreamVectorsArguments {
   Common common;
   ConfigFlags config;
   std::string stream, out;
 };
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, StreamVectorsArguments& to) {
   options.positional("STREAM", to.stream, "a stream file");
   options.group("Engine");
   declare(options, to.config, "the configuration it was recorded for");
@@ -37,13 +37,13 @@ void declare(Options& options, Arguments& to) {
 }
 
 /// What was written, in words.
-struct Result {
+struct StreamVectorsResult {
   std::string stream, folder;
   cmodel::Config config;
   driver::VectorReport vectors;
 };
 
-std::string to_text(const Result& result) {
+std::string to_text(const StreamVectorsResult& result) {
   std::uint64_t records = 0, bytes = 0;
   for (const auto count : result.vectors.taps) records += count;
   for (const auto& file : result.vectors.files) bytes += file.bytes;
@@ -52,7 +52,7 @@ std::string to_text(const Result& result) {
          counted(result.vectors.files.size(), "file") + " it names, " + grouped(bytes) + " bytes\n";
 }
 
-Json to_json(const Result& result) {
+Json to_json(const StreamVectorsResult& result) {
   Json json{{"verb", "stream vectors"},
             {"version", program_version()},
             {"stream", result.stream},
@@ -75,11 +75,12 @@ std::vector<std::string> outputs_in(const std::string& folder) {
   return names;
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const StreamVectorsArguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.others = joined({arguments.common.json}, outputs_in(arguments.out)),
                  .inputs = joined(inputs_of_config(arguments.config.config.value_or("")), {arguments.stream})});
-  Result result{.stream = arguments.stream, .folder = arguments.out, .config = load(arguments.config), .vectors = {}};
+  StreamVectorsResult result{
+      .stream = arguments.stream, .folder = arguments.out, .config = load(arguments.config), .vectors = {}};
   {
     ProgressBar bar("writing", watching(arguments.common));
     result.vectors =
@@ -94,6 +95,6 @@ ExitCode run(const Arguments& arguments) {
 }  // namespace
 
 const Verb verbs::stream_vectors{"stream vectors", "a stream and its expected taps as plain text",
-                                 verb<Arguments, declare, run>};
+                                 verb<StreamVectorsArguments, declare, run>};
 
 }  // namespace fastsplat::cli

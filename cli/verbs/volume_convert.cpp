@@ -16,14 +16,14 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct VolumeConvertArguments {
   Common common;
   std::string volume, out;
   std::optional<std::string> type;
   std::optional<double> nan_as;
 };
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, VolumeConvertArguments& to) {
   options.positional("VOLUME", to.volume, "a file or a name");
   options.values(volume::known_volume_names);
   options.positional("OUT", to.out, "the file to write");
@@ -47,25 +47,25 @@ volume::VoxelType type_from(const std::string& name) {
 }
 
 /// What was written.
-struct Result {
+struct VolumeConvertResult {
   volume::Volume volume;
   std::string out;
   volume::VoxelType type;
 };
 
-std::string to_text(const Result& result) {
+std::string to_text(const VolumeConvertResult& result) {
   const auto& dims = result.volume.dims;
   return fmt::format("{}: {} x {} x {}, {}\n", result.out, dims.x, dims.y, dims.z, volume::to_string(result.type));
 }
 
-nlohmann::ordered_json to_json(const Result& result) {
+nlohmann::ordered_json to_json(const VolumeConvertResult& result) {
   auto json = volume_json(result.volume);
   json["out"] = result.out;
   json["out_type"] = volume::to_string(result.type);
   return json;
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const VolumeConvertArguments& arguments) {
   const Output output(arguments.common);
   check_volume_name(arguments.volume);
   check_outputs({.others = {arguments.out, volume::data_file_of(arguments.out).string(), arguments.common.json},
@@ -73,7 +73,7 @@ ExitCode run(const Arguments& arguments) {
   auto volume = volume::load_volume(arguments.volume, reading(arguments.nan_as));
   const auto type = arguments.type ? type_from(*arguments.type) : volume.stored;
   volume::save_volume(volume, arguments.out, type);
-  const Result result{.volume = std::move(volume), .out = arguments.out, .type = type};
+  const VolumeConvertResult result{.volume = std::move(volume), .out = arguments.out, .type = type};
   output.line(to_text(result));
   output.remark(remarks(result.volume));
   output.json(to_json(result));
@@ -83,6 +83,6 @@ ExitCode run(const Arguments& arguments) {
 }  // namespace
 
 const Verb verbs::volume_convert{"volume convert", "to .nrrd, .nhdr, .nii, .nii.gz, .mha or .mhd",
-                                 verb<Arguments, declare, run>};
+                                 verb<VolumeConvertArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -16,13 +16,13 @@
 namespace fastsplat::cli {
 namespace {
 
-struct Arguments {
+struct VolumeInfoArguments {
   Common common;
   std::string volume;
   std::optional<double> nan_as;
 };
 
-void declare(Options& options, Arguments& to) {
+void declare(Options& options, VolumeInfoArguments& to) {
   options.positional("VOLUME", to.volume, "a file or a name");
   options.values(volume::known_volume_names);
   options.group("Input");
@@ -65,7 +65,7 @@ std::string to_text(const volume::Volume& volume) {
       volume.max, place_text(volume));
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const VolumeInfoArguments& arguments) {
   const Output output(arguments.common);
   check_volume_name(arguments.volume);
   check_outputs({.others = {arguments.common.json}, .inputs = inputs_of_volume(arguments.volume)});
@@ -78,6 +78,6 @@ ExitCode run(const Arguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::volume_info{"volume info", "size, spacing, type, range", verb<Arguments, declare, run>};
+const Verb verbs::volume_info{"volume info", "size, spacing, type, range", verb<VolumeInfoArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t kMemoBytes = std::size_t{1} << 28;
 /// Of kinds of index other than rlut, whose footprints take longer to fill in than to draw a few splats with.
 constexpr std::size_t kOtherMemoBytes = std::size_t{1} << 25;
-constexpr int kWidest = 128;      ///< pixels of a footprint
-constexpr int kVectorPixels = 8;  ///< what the widest vector writes
+constexpr int kWidest = 128;    ///< pixels of a footprint
+constexpr int kTableSlack = 8;  ///< what the widest vector writes
 
 /// The most that (tau + excess) * factor(tau) stays within 1.0 with, for every tau: within a segment the factor is at
 /// most its first word. Nothing if it is not so even without an excess.
@@ -105,11 +105,11 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
                   .samples = std::nullopt,
                   .densities = std::move(densities),
                   .frame = frame,
-                  .reach = kVectorPixels};
+                  .reach = kTableSlack};
   if (needs.ellipses && !out.ellipses) return none("an ellipse's place in the radial table is wider than its lanes");
   std::uint32_t heaviest = out.ellipses ? out.ellipses->heaviest : 0;
   for (std::uint32_t set = 0; set < sets; ++set) {
-    out.reach = std::max(out.reach, out.memo.shape(set).extent + kVectorPixels);
+    out.reach = std::max(out.reach, out.memo.shape(set).extent + kTableSlack);
     heaviest = std::max(heaviest, out.memo.shape(set).heaviest);
   }
   if (samples) out.samples = SampleTables{*samples, std::move(factor), heaviest << plan->weight_shift};

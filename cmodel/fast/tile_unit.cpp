@@ -9,7 +9,7 @@
 namespace fastsplat::cmodel::fast {
 namespace {
 
-constexpr std::size_t kVectorPixels = 8;  ///< what the widest vector writes
+constexpr std::size_t kPictureSlack = 8;  ///< what the widest vector writes
 constexpr std::size_t kRoom = 16384;      ///< words: half a first-level cache
 
 /// Bits a..b-1.
@@ -51,7 +51,7 @@ void TileUnit<T>::begin_band(const BeginTile& tile, bool first, int ahead) {
   height_ = tile.height + 2 * rim_;
   if (!samples_) sheet_.resize(width_, height_, tables_.reach);
   const std::uint32_t one = std::uint32_t{1} << tables_.config.composite_frac_bits;
-  picture_.assign(static_cast<std::size_t>(tile.width) * tile.height + kVectorPixels,
+  picture_.assign(static_cast<std::size_t>(tile.width) * tile.height + kPictureSlack,
                   PixelState{0, 0, 0, tile.mode == Mode::Sum ? 0 : one});
   room_.resize(std::max(kRoom, std::size_t{pitch_of(static_cast<std::uint32_t>(width_))} * height_));
   const auto rows = static_cast<std::size_t>((height_ + lanes_ - 1) >> lane_bits_);

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* to_string(TestOutcome outcome) {
+const char* json_word(TestOutcome outcome) {
   switch (outcome) {
     case TestOutcome::Passed:
       return "passed";
@@ -53,7 +53,7 @@ Json to_json(const Testpoint& point, const Closure& closure) {
   for (const ClosureTest& test : closure.tests) {
     if (test.testpoint != point.name) continue;
     tests.push_back(&test);
-    listed.push_back({{"test", test.test}, {"runs", test.runs}, {"outcome", to_string(test.outcome)}});
+    listed.push_back({{"test", test.test}, {"runs", test.runs}, {"outcome", json_word(test.outcome)}});
   }
   return {{"name", point.name},
           {"proves", point.proves},

@@ -8,7 +8,7 @@
 namespace fastsplat::testbench {
 namespace {
 
-const char* to_string(TestOutcome outcome) {
+const char* page_word(TestOutcome outcome) {
   switch (outcome) {
     case TestOutcome::NotRun:
       return "not run here";
@@ -50,7 +50,7 @@ std::string closure_markdown(const ClosureReport& report) {
   }
   out << "\n## Tests\n\n| testpoint | test | runs | |\n|---|---|---|---|\n";
   for (const ClosureTest& test : report.closure.tests)
-    out << "| " << test.testpoint << " | " << test.test << " | " << test.runs << " | " << to_string(test.outcome)
+    out << "| " << test.testpoint << " | " << test.test << " | " << test.runs << " | " << page_word(test.outcome)
         << " |\n";
   if (!report.lines.points.empty()) {
     out << "\n## Lines and branches: " << report.lines.points.size() - report.lines.unreached.size() << " of "

@@ -16,7 +16,7 @@ namespace {
 /// Cycles for which an answer is left waiting.
 constexpr int kWait = 3;
 /// Cycles beyond any wait within a small stream.
-constexpr std::uint64_t kTimeout = 20000;
+constexpr std::uint64_t kDirectedTimeout = 20000;
 /// Cycles after the end of a sheet or a tile in which a reset comes: the pipe, a walk of some blocks.
 constexpr int kWaits = 24;
 /// The same of densities: a walk of some blocks, the pixel stage and the compositor behind it.
@@ -196,7 +196,7 @@ DirectedResult check_short_resets(const cmodel::Config& config, const MakeDevice
   options.config = config;
   options.reset_cycles = 1;
   options.device = make;
-  options.timeout = kTimeout;
+  options.timeout = kDirectedTimeout;
   const auto reset_at = [&](const std::vector<cmodel::Beat>& beats, std::size_t at, const ResetBin& reset) {
     options.reset_after = at + 1;
     options.ready = at % 2 == 0 ? "always" : "every-3";

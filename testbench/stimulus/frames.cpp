@@ -5,7 +5,7 @@ namespace {
 
 using cmodel::Opcode;
 
-constexpr std::uint64_t kTimeout = 200000;  ///< beyond any wait within a small stream
+constexpr std::uint64_t kFrameTimeout = 200000;  ///< beyond any wait within a small stream
 
 /// What ends the tile that is open after these beats; nothing if none is.
 struct Closers {
@@ -73,7 +73,7 @@ Frames::Frames(const cmodel::Config& config, const MakeDevice& make, Check& chec
   RtlOptions options;
   options.output = sink;
   options.taps = &relay_;
-  options.timeout = kTimeout;
+  options.timeout = kFrameTimeout;
   device_ = make(none_, options);
 }
 

@@ -114,8 +114,8 @@ cmodel::LoadTable random_factor(const cmodel::Config& config, Random& random, Ta
 cmodel::LoadTable random_density_table(const cmodel::Config& config, Random& random, cmodel::Table table) {
   cmodel::LoadTable out{.table = table, .radius = {}, .words = {}};
   const bool sheets = table == cmodel::Table::Sheets;
-  const std::int64_t count = sheets ? std::int64_t{cmodel::classify::kSheetWords} * kScaledSheets
-                                    : cmodel::classify_words(config, table);
+  const std::int64_t count =
+      sheets ? std::int64_t{cmodel::classify::kSheetWords} * kScaledSheets : cmodel::classify_words(config, table);
   const std::int64_t scale = std::int64_t{1} << cmodel::classify::kScale;
   const std::int64_t beat_words = cmodel::kBeatWords, last_beat = (count - 1) / beat_words * beat_words;
   for (std::int64_t i = 0; i < count; ++i) {

@@ -63,6 +63,17 @@ std::string tail(const fs::path& file) {
   return text.size() < 2000 ? text : "..." + text.substr(text.size() - 2000);
 }
 
+/// 22 of "slurm 22.05.8"; 0 where it does not say.
+int slurm_release() {
+  cli_test::Surroundings with_daemons;
+  with_daemons.environment = {path_setting()};
+  std::istringstream words(cli_test::run_words({"slurmd", "-V"}, with_daemons).out);
+  std::string name;
+  int release = 0;
+  words >> name >> release;
+  return release;
+}
+
 /// "JobId=1 JobState=PENDING Command=..." as a map. A value may hold blanks; a name never does.
 Job job_from(const std::string& line) {
   static const std::regex name(R"((^| )([A-Za-z/:]+)=)");
@@ -147,8 +158,8 @@ void Cluster::write_settings() {
       // back that was set down. MinJobAge: ended jobs stay known.
       << "JobRequeue=0\nReturnToService=1\nSlurmdTimeout=10\nKillWait=2\nMinJobAge=3600\nMailProg=/bin/true\n"
       << "MaxArraySize=" << array_max_ << "\n";
-  // Slurm 23 and newer look for cgroups even where no plugin uses them.
-  std::ofstream(d + "/cgroup.conf") << "CgroupPlugin=disabled\n";
+  // Slurm 23 and newer look for cgroups even where no plugin uses them, and older ones do not know this word.
+  if (slurm_release() >= 23) std::ofstream(d + "/cgroup.conf") << "CgroupPlugin=disabled\n";
   for (int i = 0; i < nodes_; ++i) {
     fs::create_directories(home_ / "spool" / node_name(i));
     out << "NodeName=" << node_name(i) << " NodeHostname=localhost NodeAddr=127.0.0.1 Port=" << port_ + 1 + i

@@ -1,5 +1,5 @@
 // Whole frames, and rows of footprints: the fast unit beside the plain one, in one run. The head is Debian's
-// (mricron-data); without it those lines are missing. Ratios within one run mean something; ./run performance makes
+// (mricron-data); without it those lines are missing. Ratios within one run mean something; tools/performance makes
 // docs/performance.md of them.
 #include <benchmark/benchmark.h>
 

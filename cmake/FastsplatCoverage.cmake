@@ -1,4 +1,4 @@
-# The RTL with line coverage and cover points counted. Built only for the program that closes coverage (`./run coverage`).
+# The RTL with line coverage and cover points counted. Built only for the program that closes coverage (`tools/coverage`).
 #   tiny      the smallest named configuration
 #   mustfail  what tiny does not have: centres that are rounded, two radius sets, early freezing
 #   westover  what neither has: every sample composited

@@ -1,4 +1,4 @@
-// fastsplat_evidence: what tools other than the simulator said of the device, gathered (./run synth, ./run evidence).
+// fastsplat_evidence: what tools other than the simulator said of the device, gathered (tools/synth, tools/evidence).
 //   synthesis KEPT WORK_DIR FAMILY-CONFIG...  KEPT (it may be missing) with those named anew, of the files of synth.sh and,
 //   where there is one, of FAMILY-CONFIG.stamp
 //   ratchet BASELINE WORK_DIR FAMILY-CONFIG...  those against the baseline's: exit code 1 where one moved by more than
@@ -54,11 +54,11 @@ int ratchet(const Json& baseline, const std::string& work, std::span<const std::
   for (const auto& name : names) {
     const Json now = design_of(work, name);
     const auto then = find_design(baseline, now);
-    if (then == baseline.end()) throw std::runtime_error("the baseline has no " + name + ": ./run synth");
+    if (then == baseline.end()) throw std::runtime_error("the baseline has no " + name + ": tools/synth");
     // Another version of a tool maps in another way: nothing of the device has moved.
     if (then->at("tools") != now.at("tools")) {
       std::cout << "skipped: " << name << " by " << now.at("tools").dump() << ", the baseline by "
-                << then->at("tools").dump() << ": ./run synth makes a new one\n";
+                << then->at("tools").dump() << ": tools/synth makes a new one\n";
       return 77;
     }
     for (const auto& line : changes(*then, now, kShare, compared)) {
@@ -68,7 +68,7 @@ int ratchet(const Json& baseline, const std::string& work, std::span<const std::
     std::cout << "[figure] " << name << " total = " << now.at("total").dump() << "\n";
   }
   std::cout << "[figure] figures compared = " << compared << " (limit > 0, each within 2 %)\n";
-  if (moved) std::cout << "the device's size or depth moved; if it was meant to, ./run synth keeps the new figures\n";
+  if (moved) std::cout << "the device's size or depth moved; if it was meant to, tools/synth keeps the new figures\n";
   return moved || compared == 0 ? 1 : 0;
 }
 

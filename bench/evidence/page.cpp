@@ -294,15 +294,15 @@ std::string page(const std::filesystem::path& folder, const nlohmann::ordered_js
   std::string out = preface();
   out += "\n## Proofs\n\n";
   const auto proofs = read(folder / "proofs.json");
-  out += proofs ? proofs_table(*proofs, now) : missing("the proofs", "./run evidence");
+  out += proofs ? proofs_table(*proofs, now) : missing("the proofs", "tools/evidence");
   out += "## A second simulator\n\n";
   const auto icarus = read(folder / "icarus.json");
-  out += icarus ? figures_table(*icarus, now) : missing("Icarus", "./run evidence");
+  out += icarus ? figures_table(*icarus, now) : missing("Icarus", "tools/evidence");
   out += "## The netlist\n\n";
   for (const char* name : {"tiny", "small", "tiny_ice40", "westover", "cull", "post"}) {
     const auto netlist = read(folder / (std::string("netlist_") + name + ".json"));
     out += fmt::format("### {}\n\n", name);
-    out += netlist ? figures_table(*netlist, now) : missing("this netlist", "./run netlist");
+    out += netlist ? figures_table(*netlist, now) : missing("this netlist", "tools/netlist");
   }
   out +=
       "## Streams that break the rules\n\nEach rule that the device judges, broken in every way that a small stream "
@@ -311,25 +311,25 @@ std::string page(const std::filesystem::path& folder, const nlohmann::ordered_js
       "behind each.\n\n";
   for (const char* name : {"refusals", "refusals_base", "refusals_features"}) {
     const auto refusals = read(folder / (std::string(name) + ".json"));
-    out += refusals ? figures_table(*refusals, now) : missing("such streams", "./run evidence");
+    out += refusals ? figures_table(*refusals, now) : missing("such streams", "tools/evidence");
   }
   out += "## Mutants\n\n";
   const auto mutated = read(folder / "mutants.json");
-  out += mutated ? mutants(*mutated, now) : missing("mutants", "./run mutate --all");
+  out += mutated ? mutants(*mutated, now) : missing("mutants", "tools/mutate --all");
   out += "### Model and driver\n\n";
   out += mutated && mutated->contains("cplusplus")
              ? mutants(mutated->at("cplusplus"), nullptr)
-             : missing("their mutants", "./run mutate --module cmodel --module driver");
+             : missing("their mutants", "tools/mutate --module cmodel --module driver");
   out += "## Files of strangers\n\n";
   const auto fuzzed = read(folder / "fuzz.json");
-  out += fuzzed ? fuzz(*fuzzed) : missing("minutes of fuzzing", "./run fuzz --keep");
+  out += fuzzed ? fuzz(*fuzzed) : missing("minutes of fuzzing", "tools/fuzz --keep");
   out += "## Synthesis\n\n";
   const auto designs = read(folder / "synthesis.json");
-  out += designs ? synthesis(*designs, now) : missing("synthesis", "./run synth");
+  out += designs ? synthesis(*designs, now) : missing("synthesis", "tools/synth");
   out += "## Error, cycles, area\n\n";
   const auto area = read(folder / "area.json");
   out += area ? fmt::format("Model and golden{}.\n\n{}", origin(*area, now), area->at("text").get<std::string>())
-              : missing("the plan error-cycles-area", "./run evidence");
+              : missing("the plan error-cycles-area", "tools/evidence");
   while (out.ends_with("\n\n")) out.pop_back();
   return out;
 }

@@ -1,4 +1,4 @@
-// docs/peers.md from the JSON of the peers (./run peers): whether the pictures are the same, then ratios of CPU time.
+// docs/peers.md from the JSON of the peers (tools/peers): whether the pictures are the same, then ratios of CPU time.
 // Prints the page; reads the JSON files that its arguments name.
 #include <fmt/format.h>
 
@@ -130,7 +130,7 @@ int main(int count, char** arguments) try {
   const std::vector<std::string> files(arguments + 1, arguments + count);
   const Results results = read_results(files);
   const Line* gl = results.line("picture/gl16/golden");
-  std::cout << "<!-- Made by ./run peers; the words are in bench/table/peers_preface.md. -->\n"
+  std::cout << "<!-- Made by tools/peers; the words are in bench/table/peers_preface.md. -->\n"
             << std::ifstream(FASTSPLAT_SOURCE_DIR "/bench/table/peers_preface.md").rdbuf() << "\n## Measured\n\n"
             << fmt::format("{}; {}{}{}; {} repetitions, interleaved at random.\n\n", results.machine,
                            FASTSPLAT_COMPILER, gl == nullptr ? "" : "; OpenGL: ", gl == nullptr ? "" : gl->label,

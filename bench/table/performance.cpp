@@ -1,4 +1,4 @@
-// docs/performance.md from the JSON of the benchmarks (./run performance): medians of CPU time, their spread, and the
+// docs/performance.md from the JSON of the benchmarks (tools/performance): medians of CPU time, their spread, and the
 // figures that the goals are about. Prints the page; reads the JSON files that its arguments name.
 #include <fmt/format.h>
 
@@ -141,7 +141,7 @@ int main(int count, char** arguments) try {
   if (count < 2) throw std::runtime_error("expected the JSON of the benchmarks");
   const std::vector<std::string> files(arguments + 1, arguments + count);
   const Results results = read_results(files);
-  std::cout << "<!-- Made by ./run performance; the words are in bench/table/preface.md. -->\n"
+  std::cout << "<!-- Made by tools/performance; the words are in bench/table/preface.md. -->\n"
             << std::ifstream(FASTSPLAT_SOURCE_DIR "/bench/table/preface.md").rdbuf() << "\n## Measured\n\n"
             << fmt::format("{}, {}; {}; {} repetitions, interleaved at random.\n\n", results.machine, results.date,
                            FASTSPLAT_COMPILER, results.repetitions());

@@ -166,11 +166,11 @@ ExitCode run(const std::vector<std::string>& arguments) {
                  .what = "where to?",
                  .expected = "a folder",
                  .got = {},
-                 .fix = "./run coverage knows"});
+                 .fix = "tools/coverage knows"});
   }
   const std::filesystem::path folder = arguments[0];
   tb::ClosureReport report{.version = program_version(),
-                           .command = "./run coverage",
+                           .command = "tools/coverage",
                            .plan = plan,
                            .inputs = {},
                            .closure = {},

@@ -26,7 +26,7 @@ std::vector<std::string> all_in(const std::string& text, const std::string& patt
 TEST(Gallery, PageIsWhatTheManifestGenerates) {
   const auto generated = run_words({kRoot / "packaging/gallery", "--markdown", kRoot});
   ASSERT_EQ(generated.code, 0) << generated.err;
-  EXPECT_EQ(generated.out, read_bytes(kRoot / "docs/gallery.md")) << "run ./run gallery, look at the pictures, commit";
+  EXPECT_EQ(generated.out, read_bytes(kRoot / "docs/gallery.md")) << "run tools/gallery, look at the pictures, commit";
 }
 
 TEST(Gallery, PicturesAndPagesAreThere) {
@@ -109,7 +109,7 @@ TEST(Gallery, EveryCommandRunsAndIsWhatItsPictureWasMadeBy) {
     EXPECT_GT(then.size(), gaussians ? 6u : 10u) << pictures[i] << " does not tell its origin";
     for (const auto& line : then) {
       EXPECT_NE(std::find(now.begin(), now.end(), line), now.end())
-          << pictures[i] << " was made by another command or scene: " << line << "; run ./run gallery";
+          << pictures[i] << " was made by another command or scene: " << line << "; run tools/gallery";
     }
     ++ran;
   }

@@ -1,5 +1,5 @@
-// ./run, the script: every verb tells itself, and what a verb does not know is refused, before anything is installed,
-// configured or built. It lies in a tree of its own, among programs that only write down that they were called.
+// ./run and tools/, the scripts: each prints its help, and unknown arguments are refused before anything is installed,
+// configured or built. They lie in a tree of their own, among programs that only write down that they were called.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,14 +18,15 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-/// A copy of ./run with what it reads beside it, and nothing that could be built.
+/// A copy of ./run and tools/ with what they read beside them, and nothing that could be built.
 class Tree {
  public:
   Tree() {
     fs::copy_file(kSource / "run", folder_ / "run");
     for (const char* part : {"packaging", "docs", "tests", "rtl", "bench", "CMakePresets.json"})
       fs::create_symlink(kSource / part, folder_ / part);
-    fs::create_directory(folder_ / "tools");
+    fs::copy(kSource / "tools", folder_ / "tools");
+    fs::create_directory(folder_ / "stubs");
     for (const char* tool : {"cmake", "ninja", "apt-get", "apt-cache", "dpkg-query", "sudo"}) put(tool, "exit 1");
     before_ = folder_.entries();
   }
@@ -33,16 +34,18 @@ class Tree {
   /// Puts a program in the way of the system's; it writes its name into `called` first.
   void put(const std::string& tool, const std::string& script) const {
     const std::string path = folder_.write(
-        "tools/" + tool, "#!/bin/sh\necho " + tool + " >>'" + (folder_ / "called") + "'\n" + script + "\n");
+        "stubs/" + tool, "#!/bin/sh\necho " + tool + " >>'" + (folder_ / "called") + "'\n" + script + "\n");
     fs::permissions(path, fs::perms::owner_all);
   }
 
   Result run(const Words& words) const {
     Surroundings here;
     here.folder = folder_.path();
-    here.environment = {"PATH=" + (folder_ / "tools") + ":" + std::getenv("PATH")};
-    Words all{folder_ / "run"};
-    all.insert(all.end(), words.begin(), words.end());
+    here.environment = {"PATH=" + (folder_ / "stubs") + ":" + std::getenv("PATH")};
+    // A script of tools/ is called by its name, everything else is a command of run.
+    const bool tool = fs::exists(folder_.path() / "tools" / words.front());
+    Words all{folder_ / (tool ? "tools/" + words.front() : "run")};
+    all.insert(all.end(), words.begin() + (tool ? 1 : 0), words.end());
     return run_words(all, here);
   }
 
@@ -99,8 +102,28 @@ TEST(RunVerbs, EachTellsItselfAndNothingIsBuilt) {
     EXPECT_EQ(result.out.find("\n./run "), std::string::npos) << "another verb's line in " << result.out;
   }
   tree.expect_untouched();
-  std::printf("[figure] verbs of ./run that tell themselves = %zu (limit > 10)\n", verbs.size());
-  EXPECT_GT(verbs.size(), 10U);
+  std::printf("[figure] commands of ./run with help = %zu (limit 5)\n", verbs.size());
+  EXPECT_EQ(verbs.size(), 5U);
+}
+
+TEST(RunVerbs, EachToolPrintsItsHelpAndIsListed) {
+  const Tree tree;
+  const std::string page = read_bytes(tree / "tools/README.md");
+  int tools = 0;
+  for (const auto& entry : fs::directory_iterator(tree / "tools")) {
+    const std::string name = entry.path().filename();
+    if (name == "README.md" || name == "common.sh") continue;
+    SCOPED_TRACE(name);
+    const auto result = tree.run({name, "--help"});
+    expect_success(result);
+    for (const char* part : {"usage:  tools/", "writes: ", "takes:  "})
+      EXPECT_NE(result.out.find(part), std::string::npos) << "no '" << part << "' in " << result.out;
+    EXPECT_NE(page.find("| `tools/" + name + "` |"), std::string::npos);
+    ++tools;
+  }
+  tree.expect_untouched();
+  std::printf("[figure] tools with help = %d (limit > 9)\n", tools);
+  EXPECT_GT(tools, 9);
 }
 
 TEST(RunVerbs, TheScriptHasThoseThatItLists) {
@@ -109,7 +132,7 @@ TEST(RunVerbs, TheScriptHasThoseThatItLists) {
   for (const auto& [verb, line] : listed(tree)) told.insert(verb);
   const std::string script = read_bytes(tree / "run");
   const std::string doors = script.substr(script.rfind("\ncase $verb in\n"));
-  static const std::regex door(R"(\n  ([a-z]+)\) )");
+  static const std::regex door(R"(\n  ([a-z]+)\))");
   for (auto at = std::sregex_iterator(doors.begin(), doors.end(), door); at != std::sregex_iterator(); ++at)
     had.insert((*at)[1]);
   EXPECT_EQ(told, had);
@@ -124,13 +147,13 @@ TEST(RunVerbs, HelpBehindOtherArgumentsIsHelp) {
 TEST(RunVerbs, WhatIsNotKnownIsRefusedAndNothingIsBuilt) {
   const Tree tree;
   const std::vector<std::pair<Words, Words>> wrong{
-      {{"nosuch"}, {"verb 'nosuch'", "./run help"}},
-      {{"nosuch", "--help"}, {"verb 'nosuch'", "./run help"}},
+      {{"nosuch"}, {"command 'nosuch'", "./run help"}},
+      {{"nosuch", "--help"}, {"command 'nosuch'", "./run help"}},
       {{"help", "nosuch"}, {"help", "no arguments", "nosuch"}},
       {{"evidence", "nosuch"}, {"evidence: no part 'nosuch'", "proofs", "page"}},
-      {{"test", "--nosuch"}, {"test", "--nosuch", "ctest --help"}},
+      {{"test", "--nosuch"}, {"test", "--nosuch", "-R NAME"}},
       {{"test", "base_fast"}, {"test", "base_fast", "-R NAME"}},
-      {{"test", "-j2", "--nosuch"}, {"test", "--nosuch", "ctest --help"}},
+      {{"test", "-j2", "--nosuch"}, {"test", "--nosuch", "-R NAME"}},
       {{"test", "-L", "fast", "base"}, {"test", "'base'", "-R NAME"}},
       {{"bench", "rtl"}, {"bench", "rtl", "--benchmark_filter"}},
       {{"performance", "--nosuch"}, {"performance", "--nosuch", "--benchmark_filter"}},
@@ -139,7 +162,7 @@ TEST(RunVerbs, WhatIsNotKnownIsRefusedAndNothingIsBuilt) {
       {{"netlist", "small", "--nosuch"}, {"netlist", "--nosuch", "westover"}},
       {{"synth", "ice40"}, {"synth", "ice40", "xc7-cull_pixel"}},
       {{"synth", "xc7-base", "xc7-nosuch"}, {"synth", "xc7-nosuch", "hx8k-hx8k"}},
-      {{"mutate", "--nosuch"}, {"mutate", "--nosuch", "./run mutate --help"}},
+      {{"mutate", "--nosuch"}, {"mutate", "--nosuch", "tools/mutate --help"}},
       {{"mutate", "--seed", "x"}, {"mutate", "--seed", "x"}},
       {{"mutate", "--module", "nosuch"}, {"mutate", "nosuch", "compositor"}},
       {{"build", "--nosuch"}, {"build", "--nosuch", "-jN"}},
@@ -202,7 +225,7 @@ RULES
 TEXT
 : >"$2/../more"
 cd "$2" && sh ./configure)");
-  fs::remove(tree / "tools/ninja");  // the system's own
+  fs::remove(tree / "stubs/ninja");  // the system's own
 }
 
 TEST(RunVerbs, WhatIsNoTargetIsRefusedBeforeAnotherIsBuilt) {

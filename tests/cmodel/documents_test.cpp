@@ -386,7 +386,7 @@ TEST(MicroarchitecturePage, NamesEveryPort) {
   EXPECT_GT(ports, 40);
 }
 
-// Pages that ./run performance and ./run peers make: their words are those of a file in bench/table, whole.
+// Pages that tools/performance and tools/peers make: their words are those of a file in bench/table, whole.
 TEST(Documents, PagesOfFiguresHaveTheirPrefaces) {
   const auto text = [](const std::string& name) {
     std::ostringstream all;

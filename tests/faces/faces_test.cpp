@@ -212,7 +212,7 @@ TEST(Faces, ClosureIsAGatePerTestpointThatWasLookedAt) {
   const std::string xml = to_junit({kind("closure")});
   EXPECT_TRUE(holds(xml, "name=\"hazards\"")) << xml;
   EXPECT_TRUE(holds(xml, "open: 2 of 3 bins hit, 0 tests")) << xml;
-  EXPECT_TRUE(holds(xml, "hazards, tiny: hazard.distance_1 was never hit&#10;reproduce: ./run coverage")) << xml;
+  EXPECT_TRUE(holds(xml, "hazards, tiny: hazard.distance_1 was never hit&#10;reproduce: tools/coverage")) << xml;
   EXPECT_FALSE(holds(xml, "name=\"proofs\"")) << "nobody ran its tests: neither held nor failed";
   EXPECT_EQ(to_csv({kind("closure")}),
             "testpoint,configuration,hit,bins,fewest_hits\r\nhazards,tiny,1,2,0\r\nhazards,base,1,1,5\r\n");

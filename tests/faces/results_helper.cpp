@@ -5,7 +5,7 @@
 namespace fastsplat::report {
 namespace {
 
-const char* const kClosure = R"({"verb": "closure", "verdict": "open", "command": "./run coverage",
+const char* const kClosure = R"({"verb": "closure", "verdict": "open", "command": "tools/coverage",
   "bins": {"hit": 2, "all": 3}, "lines": {"reached": 8, "excused": 1, "all": 9},
   "tests": {"passed": 1, "failed": 0, "not_run": 1},
   "open": {"campaigns": [], "testpoints": ["hazards, tiny: hazard.distance_1 was never hit"], "lines": []},

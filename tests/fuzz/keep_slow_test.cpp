@@ -1,4 +1,4 @@
-// What `./run fuzz --keep` keeps of a run, with scripts in the fuzzers' place: hours add up only where nothing was
+// What `tools/fuzz --keep` keeps of a run, with scripts in the fuzzers' place: hours add up only where nothing was
 // found.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The fuzz targets without libFuzzer and sanitizers, in every test run: all their seeds, then some thousands of changed
-// ones, always the same. A finding ends the test with its input in a file; `./run fuzz` looks longer and sees more.
+// ones, always the same. A finding ends the test with its input in a file; `tools/fuzz` looks longer and sees more.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -110,7 +110,7 @@ TEST(StandingInputs, AreAlwaysTheSameAndAllDifferent) {
   EXPECT_GT(seen.size(), 800u);
 }
 
-/// Every target of `./run fuzz` stands here.
+/// Every target of `tools/fuzz` stands here.
 TEST(StandingInputs, HaveEveryTarget) {
   std::set<std::string> files, listed;
   for (const auto& entry : fs::directory_iterator(fs::path(FASTSPLAT_SOURCE_DIR) / "tests/fuzz")) {

@@ -1,4 +1,4 @@
-"""mutate.py ROOT BUILD [FLAGS]: what `./run mutate` does; its flags are told by --help.
+"""mutate.py ROOT BUILD [FLAGS]: what `tools/mutate` does; its flags are told by --help.
 
 Every mutant of rtl/ runs on the smallest device that has its module (devices.py) through the checks of check_mutants.cpp, cheapest
 first. What lives goes on to the devices behind it, and to the proof of its module where there is one. A mutant that lives
@@ -33,11 +33,11 @@ def say(text: str):
 
 class Parser(argparse.ArgumentParser):
     def error(self, message):
-        campaign.usage(f"{message}; expected flags of ./run mutate --help")
+        campaign.usage(f"{message}; expected flags of tools/mutate --help")
 
 
 def parse(words):
-    parser = Parser(prog="./run mutate", allow_abbrev=False, description="Mutants of rtl/ against the checks: each is killed, or "
+    parser = Parser(prog="tools/mutate", allow_abbrev=False, description="Mutants of rtl/ against the checks: each is killed, or "
                                      "tests/mutants/exclusions.toml says why it cannot be. Exit code 1: one lives that is not explained there, or one "
                                      "that is explained was killed.")
     parser.add_argument("--module", action="append", metavar="M", help="all mutants of this module (more than once: of these)")
@@ -230,7 +230,7 @@ def keep(root, build, cpp, rows, mutants, living, exclusions):
             survivors.append({key: mutant[key] for key in ("module", "line", "source", "what", "original")})
     kept["survivors"] = survivors
     campaign.write(path, json.dumps(whole, indent=1) + "\n")
-    say(f"{path}; `./run evidence page` makes docs/evidence.md of it")
+    say(f"{path}; `tools/evidence page` makes docs/evidence.md of it")
 
 
 def main(words) -> int:

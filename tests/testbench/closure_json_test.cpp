@@ -53,7 +53,7 @@ Testpoint point_of(const std::string& name, const std::string& proves, std::vect
 ClosureReport made() {
   ClosureReport report{
       .version = "0.1.0",
-      .command = "./run coverage 'more of it.json'",
+      .command = "tools/coverage 'more of it.json'",
       .plan = {{point_of("hazards", "words come back as they were written <soon & late>", {"hazard.distance_*"},
                          {"testbench.Hazards.All"}),
                 point_of("swap", "sheets swap", {"hazard.swap"}, {"mustfail.Swap.IsSeen"}),

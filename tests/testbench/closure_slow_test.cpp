@@ -81,7 +81,7 @@ TEST(Closure, OfTinyCloses) {
   EXPECT_EQ(again.book.config_hash, runs.book.config_hash);
 
   const ClosureReport report{.version = "test",
-                             .command = "./run coverage",
+                             .command = "tools/coverage",
                              .plan = plan(),
                              .inputs = {input},
                              .closure = closure,

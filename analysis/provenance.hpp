@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "images/image_file.hpp"
+#include "base/images/image_file.hpp"
 #include "scene/scene.hpp"
 
 namespace fastsplat::analysis {

@@ -4,7 +4,7 @@
 
 #include "analysis/errors/cost.hpp"
 #include "analysis/errors/synthesised.hpp"
-#include "analysis/family/family_cost.hpp"
+#include "analysis/index_kinds/family_cost.hpp"
 #include "base/hash_text.hpp"
 
 namespace fastsplat::cli {

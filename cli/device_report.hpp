@@ -8,7 +8,7 @@
 
 #include "cli/output.hpp"
 #include "driver/render.hpp"
-#include "images/image_file.hpp"
+#include "base/images/image_file.hpp"
 
 namespace fastsplat::cli {
 

@@ -6,7 +6,7 @@
 
 #include "base/image.hpp"
 #include "cmodel/config.hpp"
-#include "images/image_file.hpp"
+#include "base/images/image_file.hpp"
 #include "scene/scene.hpp"
 
 namespace fastsplat::cli {

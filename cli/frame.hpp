@@ -12,7 +12,7 @@
 #include "cli/rtl_run.hpp"
 #include "driver/render.hpp"
 #include "golden/render.hpp"
-#include "images/image_file.hpp"
+#include "base/images/image_file.hpp"
 
 namespace fastsplat::cli {
 

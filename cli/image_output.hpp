@@ -6,7 +6,7 @@
 
 #include "cli/options.hpp"
 #include "cli/output.hpp"
-#include "images/image_file.hpp"
+#include "base/images/image_file.hpp"
 
 namespace fastsplat::cli {
 

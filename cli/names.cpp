@@ -6,7 +6,7 @@
 #include "base/error.hpp"
 #include "cmodel/config.hpp"
 #include "testbench/stimulus/stimulus.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::cli {
 

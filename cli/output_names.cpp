@@ -10,10 +10,10 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "driver/config_file.hpp"
-#include "images/image_file.hpp"
+#include "base/images/image_file.hpp"
 #include "scene/scene_file.hpp"
 #include "scene/transfer_function.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::cli {
 namespace {

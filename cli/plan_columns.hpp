@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cli/options.hpp"
-#include "plan/columns.hpp"
+#include "analysis/sweep/columns.hpp"
 
 namespace fastsplat::cli {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "plan/make.hpp"
+#include "analysis/sweep/make.hpp"
 
 namespace fastsplat::cli {
 

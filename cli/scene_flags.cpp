@@ -12,7 +12,7 @@
 #include "scene/scene_file.hpp"
 #include "scene/settings.hpp"
 #include "scene/transfer_function.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::cli {
 namespace {

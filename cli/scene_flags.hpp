@@ -7,7 +7,7 @@
 
 #include "cli/options.hpp"
 #include "scene/sequence.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::cli {
 

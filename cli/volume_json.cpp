@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "volume/placement.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/placement.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::cli {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/output.hpp"
-#include "volume/volume.hpp"
+#include "scene/volume/volume.hpp"
 
 namespace fastsplat::cli {
 

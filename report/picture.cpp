@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "images/image_file.hpp"
+#include "base/images/image_file.hpp"
 
 namespace fastsplat::report {
 namespace {

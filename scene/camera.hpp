@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-#include "volume/volume.hpp"
+#include "scene/volume/volume.hpp"
 
 namespace fastsplat::scene {
 

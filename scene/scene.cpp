@@ -10,7 +10,7 @@
 #include "scene/content_fit.hpp"
 #include "scene/settings.hpp"
 #include "scene/xray_exposure.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::scene {
 namespace {

@@ -15,7 +15,7 @@
 #include "scene/techniques.hpp"
 #include "scene/transfer_function.hpp"
 #include "scene/voxel_box.hpp"
-#include "volume/volume.hpp"
+#include "scene/volume/volume.hpp"
 
 namespace fastsplat::scene {
 

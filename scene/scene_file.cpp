@@ -15,8 +15,8 @@
 #include "scene/sequence_table.hpp"
 #include "scene/settings.hpp"
 #include "scene/toml_reader.hpp"
-#include "volume/synthetic.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/synthetic.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::scene {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "scene/camera.hpp"
 #include "scene/transfer_function.hpp"
-#include "volume/volume.hpp"
+#include "scene/volume/volume.hpp"
 
 namespace fastsplat::scene {
 

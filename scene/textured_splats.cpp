@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "volume/noise.hpp"
+#include "scene/volume/noise.hpp"
 
 namespace fastsplat::scene {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "volume/volume.hpp"
+#include "scene/volume/volume.hpp"
 
 namespace fastsplat::scene {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "volume/volume.hpp"
+#include "scene/volume/volume.hpp"
 
 namespace fastsplat::scene {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scene/transfer_function.hpp"
-#include "volume/volume.hpp"
+#include "scene/volume/volume.hpp"
 
 namespace fastsplat::scene {
 

@@ -100,12 +100,12 @@ set(fastsplat_longer_tests
   mustfail.PostClassified.FramesEqualTheModel
   mustfail.PostClassified.RandomStreamsOfEveryClass
   mustfail.PostClassified.RefusesWhatTheModelRefuses
-  plan.PlanRun.AFailingCaseIsAResultAndTheOthersGoOn
-  plan.PlanRun.TwoCopiesAtOnceDoNoHarm
-  stages.Chain.AllDeviceIsTheIntegerModelBitForBit
-  stages.Chain.AllDeviceIsTheIntegerModelForEveryKindOfIndex
-  stages.Chain.EverySampleAllDeviceIsTheIntegerModel
-  stages.DensityChain.AllDeviceIsTheIntegerModelBitForBit
-  stages.DensityChain.AllDeviceIsTheIntegerModelForEveryKindOfIndex
+  pipeline.Chain.AllDeviceIsTheIntegerModelBitForBit
+  pipeline.Chain.AllDeviceIsTheIntegerModelForEveryKindOfIndex
+  pipeline.Chain.EverySampleAllDeviceIsTheIntegerModel
+  pipeline.DensityChain.AllDeviceIsTheIntegerModelBitForBit
+  pipeline.DensityChain.AllDeviceIsTheIntegerModelForEveryKindOfIndex
+  sweep.PlanRun.AFailingCaseIsAResultAndTheOthersGoOn
+  sweep.PlanRun.TwoCopiesAtOnceDoNoHarm
   testbench.Configurations/DirectedRefusals.StreamsThatBreakARuleAreRefusedAsTheModelRefusesThem/small
   volume.VolumeFuzz.LoadsOrRefuses)

@@ -1,4 +1,4 @@
-"""programs.py SOURCE: packaging/debian.txt lists every program that scripts, CMake files and tests call.
+"""programs.py SOURCE: tools/debian.txt lists every program that scripts, CMake files and tests call.
 
 Without that a program counts on what a machine happens to have (make, once). Finds calls by their form: the first word of
 a shell command, find_program and COMMAND of CMake, a literal that a test's helper runs. A program that is listed
@@ -86,7 +86,7 @@ def calls_of(name, text):
 
 source = sys.argv[1]
 listed = {}
-with open(f"{source}/packaging/debian.txt") as file:
+with open(f"{source}/tools/debian.txt") as file:
     for line in file:
         if line[:1].strip() and line[0] not in "#[":
             package, *programs = line.removeprefix("?").split()
@@ -111,9 +111,9 @@ for folder, folders, files in os.walk(source):
             for program, form in CALLED_BY.items():
                 if re.search(form, text):
                     called.setdefault(program, os.path.relpath(path, source))
-wrong = [f"{where}: calls {program}, which packaging/debian.txt does not list"
+wrong = [f"{where}: calls {program}, which tools/debian.txt does not list"
          for program, where in sorted(called.items()) if program not in listed and program not in BUILTINS | functions]
-wrong += [f"packaging/debian.txt: nothing names {program} of {package}" for program, package in listed.items() if program not in words | set(called)]
+wrong += [f"tools/debian.txt: nothing names {program} of {package}" for program, package in listed.items() if program not in words | set(called)]
 print(f"[figure] programs called = {len(set(called) & set(listed))} (limit > 40), not listed or never named = {len(wrong)} (limit 0)")
 print("\n".join(wrong))
 sys.exit(1 if wrong or len(set(called) & set(listed)) <= 40 else 0)

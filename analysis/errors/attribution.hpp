@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/progress.hpp"
-#include "stages/chain.hpp"
-#include "stages/step.hpp"
+#include "analysis/pipeline/chain.hpp"
+#include "analysis/pipeline/step.hpp"
 
 namespace fastsplat::analysis {
 

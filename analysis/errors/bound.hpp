@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "stages/chain.hpp"
-#include "stages/step.hpp"
+#include "analysis/pipeline/chain.hpp"
+#include "analysis/pipeline/step.hpp"
 
 namespace fastsplat::analysis {
 

@@ -8,8 +8,8 @@
 #include "analysis/errors/bound.hpp"
 #include "analysis/errors/roundings.hpp"
 #include "golden/splat/footprint.hpp"
-#include "stages/band_bins.hpp"
-#include "stages/weight_steps.hpp"
+#include "analysis/pipeline/band_bins.hpp"
+#include "analysis/pipeline/weight_steps.hpp"
 
 namespace fastsplat::analysis {
 

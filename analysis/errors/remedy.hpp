@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cmodel/config.hpp"
-#include "stages/step.hpp"
+#include "analysis/pipeline/step.hpp"
 
 namespace fastsplat::analysis {
 

@@ -3,8 +3,8 @@
 
 #include "cmodel/config.hpp"
 #include "scene/scene.hpp"
-#include "stages/splat_steps.hpp"
-#include "stages/step.hpp"
+#include "analysis/pipeline/splat_steps.hpp"
+#include "analysis/pipeline/step.hpp"
 
 namespace fastsplat::analysis {
 

@@ -9,7 +9,7 @@
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "images/image_file.hpp"
+#include "base/images/image_file.hpp"
 
 namespace fastsplat::cli {
 namespace {

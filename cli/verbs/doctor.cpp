@@ -12,11 +12,11 @@
 #include "cli/output.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "driver/config_file.hpp"
-#include "images/image_file.hpp"
+#include "base/images/image_file.hpp"
 #include "scene/scene.hpp"
 #include "scene/transfer_function.hpp"
-#include "volume/synthetic.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/synthetic.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::cli {
 namespace {

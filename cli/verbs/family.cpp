@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "analysis/family/family_page.hpp"
-#include "analysis/family/family_plots.hpp"
-#include "analysis/family/head.hpp"
+#include "analysis/index_kinds/family_page.hpp"
+#include "analysis/index_kinds/family_plots.hpp"
+#include "analysis/index_kinds/head.hpp"
 #include "base/atomic_file.hpp"
 #include "base/hash_text.hpp"
 #include "base/version.hpp"

@@ -11,7 +11,7 @@
 #include "cli/output_names.hpp"
 #include "cli/plan_vocabulary.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "plan/make.hpp"
+#include "analysis/sweep/make.hpp"
 
 namespace fastsplat::cli {
 namespace {

@@ -12,7 +12,7 @@
 #include "cli/output_names.hpp"
 #include "cli/plan_arguments.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "plan/merged.hpp"
+#include "analysis/sweep/merged.hpp"
 
 namespace fastsplat::cli {
 namespace {

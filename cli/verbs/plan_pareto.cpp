@@ -11,7 +11,7 @@
 #include "cli/output_names.hpp"
 #include "cli/plan_columns.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "plan/pareto.hpp"
+#include "analysis/sweep/pareto.hpp"
 
 namespace fastsplat::cli {
 namespace {

@@ -13,7 +13,7 @@
 #include "cli/plan_vocabulary.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "plan/run.hpp"
+#include "analysis/sweep/run.hpp"
 
 namespace fastsplat::cli {
 namespace {

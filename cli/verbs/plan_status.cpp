@@ -10,7 +10,7 @@
 #include "cli/plan_arguments.hpp"
 #include "cli/plan_vocabulary.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "plan/status.hpp"
+#include "analysis/sweep/status.hpp"
 
 namespace fastsplat::cli {
 namespace {

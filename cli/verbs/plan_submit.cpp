@@ -14,10 +14,10 @@
 #include "cli/plan_arguments.hpp"
 #include "cli/plan_vocabulary.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "plan/lost_tasks.hpp"
-#include "plan/script_engines.hpp"
-#include "plan/slurm_client.hpp"
-#include "plan/slurm_script.hpp"
+#include "analysis/sweep/lost_tasks.hpp"
+#include "analysis/sweep/script_engines.hpp"
+#include "analysis/sweep/slurm_client.hpp"
+#include "analysis/sweep/slurm_script.hpp"
 
 namespace fastsplat::cli {
 namespace {

@@ -10,7 +10,7 @@
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "report/faces/faces.hpp"
+#include "report/formats/faces.hpp"
 
 namespace fastsplat::cli {
 namespace {

@@ -18,7 +18,7 @@
 #include "cli/verbs/verbs.hpp"
 #include "cli/verify_output.hpp"
 #include "driver/stream_file.hpp"
-#include "report/faces/faces.hpp"
+#include "report/formats/faces.hpp"
 #include "testbench/coverage/coverage_book.hpp"
 
 namespace fastsplat::cli {

@@ -11,7 +11,7 @@
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "cli/volume_json.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::cli {
 namespace {

@@ -10,8 +10,8 @@
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "cli/volume_json.hpp"
-#include "volume/placement.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/placement.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include "analysis/colour_map.hpp"
 #include "analysis/compare.hpp"
 #include "base/srgb.hpp"
-#include "images/image_file.hpp"
+#include "base/images/image_file.hpp"
 #include "tests/images/image_helper.hpp"
 
 namespace fastsplat::analysis {

@@ -19,36 +19,36 @@ namespace {
 const Arrows kDrawn{
     {"base", {}},
     {"base/parallel", {"base"}},
-    {"volume", {"base"}},
-    {"scene", {"volume"}},
+    {"scene/volume", {"base"}},
+    {"scene", {"scene/volume"}},
     {"scene/gaussians", {"scene"}},
-    {"images", {"base"}},
-    {"images/openimageio", {"images"}},
+    {"base/images", {"base"}},
+    {"base/images/openimageio", {"base/images"}},
     {"golden/splat", {"scene"}},
     {"golden", {"golden/splat", "scene/gaussians", "base/parallel"}},
     {"cmodel", {"base"}},
     {"cmodel/fast", {"cmodel"}},
     {"driver", {"scene/gaussians", "cmodel/fast", "base/parallel"}},
-    {"stages", {"golden", "driver"}},
+    {"analysis/pipeline", {"golden", "driver"}},
     {"testbench/module", {}},
     {"testbench/device", {"cmodel", "testbench/module"}},
     {"testbench/coverage", {"testbench/device"}},
     {"testbench/check", {"testbench/coverage"}},
-    {"capi", {"driver", "testbench/check"}},
+    {"testbench/capi", {"driver", "testbench/check"}},
     {"testbench/faults", {"testbench/device"}},
     {"testbench/stimulus", {"testbench/check", "base/parallel"}},
     {"testbench/triage", {"testbench/stimulus"}},
     {"testbench/closure", {"testbench/stimulus"}},
-    {"analysis", {"images", "scene", "base/parallel"}},
-    {"analysis/errors", {"analysis", "stages"}},
-    {"analysis/family", {"analysis/errors"}},
-    {"plan", {"base"}},
-    {"report", {"images"}},
-    {"report/faces", {"report"}},
+    {"analysis", {"base/images", "scene", "base/parallel"}},
+    {"analysis/errors", {"analysis", "analysis/pipeline"}},
+    {"analysis/index_kinds", {"analysis/errors"}},
+    {"analysis/sweep", {"base"}},
+    {"report", {"base/images"}},
+    {"report/formats", {"report"}},
     {"cli",
      {"golden", "driver", "testbench/triage", "testbench/closure", "testbench/faults", "analysis/errors",
-      "analysis/family", "plan", "report/faces"}},
-    {"examples", {"images", "driver", "testbench/device"}},
+      "analysis/index_kinds", "analysis/sweep", "report/formats"}},
+    {"docs/examples", {"base/images", "driver", "testbench/device"}},
 };
 
 /// `drawn` with everything that is reached by going on; a room on a circle reaches itself.
@@ -84,7 +84,7 @@ std::vector<SourceFile> product() { return read_sources(FASTSPLAT_SOURCE_DIR, pr
 
 std::vector<SourceFile> all_sources() {
   auto folders = product_folders();
-  folders.insert(folders.end(), {"tests", "bench"});
+  folders.insert(folders.end(), {"tests", "tools"});
   return read_sources(FASTSPLAT_SOURCE_DIR, folders);
 }
 
@@ -127,7 +127,7 @@ TEST(Architecture, TheDocumentDrawsTheseArrows) {
   Arrows drawn;
   std::string line;
   // "testbench/check/  tells ...  -> testbench/coverage, base/parallel"
-  const std::regex entry(R"(^([a-z/]+)/\s.*->\s*([a-z/, ]+)$)");
+  const std::regex entry(R"(^([a-z_/]+)/\s.*->\s*([a-z_/, ]+)$)");
   std::smatch match;
   while (std::getline(page, line)) {
     if (!std::regex_match(line, match, entry)) continue;
@@ -139,7 +139,7 @@ TEST(Architecture, TheDocumentDrawsTheseArrows) {
       if (name != "nothing" && name != "all") targets.insert(name);
     }
   }
-  for (const char* not_product : {"tests", "bench", "bench/peers"}) drawn.erase(not_product);
+  for (const char* not_product : {"tests", "tools/benchmarks", "tools/benchmarks/peers"}) drawn.erase(not_product);
   figure("rooms_drawn", static_cast<int>(drawn.size()));
   EXPECT_EQ(drawn, kDrawn);
 }
@@ -165,7 +165,7 @@ TEST(Architecture, TheImageLibraryIsIncludedByItsModuleAlone) {
   for (const auto& file : product()) {
     for (const auto& include : includes_of(file.text)) {
       if (!include.target.starts_with("OpenImageIO/")) continue;
-      if (room_of(file.path, kArrows) == "images/openimageio") {
+      if (room_of(file.path, kArrows) == "base/images/openimageio") {
         ++inside;
       } else {
         ADD_FAILURE() << file.path << ":" << include.line << ": includes " << include.target;

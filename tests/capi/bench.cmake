@@ -1,10 +1,10 @@
-# The example bench of capi/example under Verilator, with the faults of testbench/faults to choose from, as another simulator's user would
+# The example bench of testbench/capi/example under Verilator, with the faults of testbench/faults to choose from, as another simulator's user would
 # build it: of tiny, and of a device that culls.
 file(GLOB rtl CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.sv ${PROJECT_SOURCE_DIR}/rtl/*.svh)
 set(modules ${rtl})
 list(FILTER modules INCLUDE REGEX "\\.sv$")
 set(faults ${PROJECT_BINARY_DIR}/share/fastsplat/fastsplat_fault_pkg.sv)
-set(bench ${PROJECT_SOURCE_DIR}/capi/sv/fastsplat_dpi_pkg.sv ${PROJECT_SOURCE_DIR}/capi/sv/fastsplat_monitor.sv ${PROJECT_SOURCE_DIR}/capi/example/fastsplat_bench.sv)
+set(bench ${PROJECT_SOURCE_DIR}/testbench/capi/sv/fastsplat_dpi_pkg.sv ${PROJECT_SOURCE_DIR}/testbench/capi/sv/fastsplat_monitor.sv ${PROJECT_SOURCE_DIR}/testbench/capi/example/fastsplat_bench.sv)
 
 # example_bench(OUT FOLDER CONFIG [FLAG...]): the program, and what makes it.
 function(example_bench out name config)
@@ -21,7 +21,7 @@ function(example_bench out name config)
   add_custom_command(
     OUTPUT ${program}
     COMMAND ${CMAKE_COMMAND} -E rm -f ${program}  # Verilator's makefile does not know that the library is another
-    COMMAND ${PROJECT_SOURCE_DIR}/cmake/verilate.sh ${folder}/verilator.log ${CMAKE_COMMAND} -E env OBJCACHE=${FASTSPLAT_CCACHE} ${VERILATOR} --binary --timing ${ARGN} -j 1 --quiet-exit
+    COMMAND ${PROJECT_SOURCE_DIR}/tools/cmake/verilate.sh ${folder}/verilator.log ${CMAKE_COMMAND} -E env OBJCACHE=${FASTSPLAT_CCACHE} ${VERILATOR} --binary --timing ${ARGN} -j 1 --quiet-exit
             --top-module fastsplat_bench --Mdir ${folder}/obj -DFASTSPLAT_FAULT_SELECT=fastsplat_fault_pkg::selected -I${PROJECT_SOURCE_DIR}/rtl
             -MAKEFLAGS OPT_FAST=-O1 -MAKEFLAGS OPT_SLOW=-O0 -MAKEFLAGS OPT_GLOBAL=-O0
             -LDFLAGS "-L$<TARGET_FILE_DIR:fastsplat_capi> -Wl,-rpath,$<TARGET_FILE_DIR:fastsplat_capi> -lfastsplat"

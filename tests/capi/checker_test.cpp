@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "capi/fastsplat_dpi.h"
+#include "testbench/capi/fastsplat_dpi.h"
 #include "tests/capi/truth_helper.hpp"
 
 namespace fastsplat::test {

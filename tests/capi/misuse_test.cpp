@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <functional>
 
-#include "capi/fastsplat_dpi.h"
+#include "testbench/capi/fastsplat_dpi.h"
 #include "tests/capi/truth_helper.hpp"
 #include "tests/cmodel/random_helper.hpp"
 

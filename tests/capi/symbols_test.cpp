@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "capi/fastsplat.h"
+#include "testbench/capi/fastsplat.h"
 #include "tests/paths.hpp"
 
 namespace fastsplat::test {
@@ -27,7 +27,7 @@ std::string output_of(const std::string& command) {
 std::set<std::string> declared() {
   std::set<std::string> names;
   for (const char* header : {"fastsplat.h", "fastsplat_dpi.h"}) {
-    std::ifstream in(std::string(FASTSPLAT_SOURCE_DIR "/capi/") + header);
+    std::ifstream in(std::string(FASTSPLAT_SOURCE_DIR "/testbench/capi/") + header);
     std::ostringstream text;
     text << in.rdbuf();
     const std::string all = text.str();

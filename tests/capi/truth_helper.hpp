@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "capi/fastsplat.h"
+#include "testbench/capi/fastsplat.h"
 #include "cmodel/config.hpp"
 #include "tests/check/raw_replay_helper.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "images/image_file.hpp"
+#include "base/images/image_file.hpp"
 #include "tests/cli/process_helper.hpp"
 
 namespace fastsplat::cli_test {

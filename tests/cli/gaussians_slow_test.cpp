@@ -12,8 +12,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::string kShells = FASTSPLAT_SOURCE_DIR "/examples/gaussians/shells.ply";
-const std::string kCloud = FASTSPLAT_SOURCE_DIR "/examples/gaussians/cloud.splat";
+const std::string kShells = FASTSPLAT_SOURCE_DIR "/docs/examples/gaussians/shells.ply";
+const std::string kCloud = FASTSPLAT_SOURCE_DIR "/docs/examples/gaussians/cloud.splat";
 
 TEST(GaussiansRun, TheDeviceIsAbove50dBOfGolden) {
   for (const std::string& file : {kShells, kCloud, std::string("shells:500")}) {

@@ -5,7 +5,7 @@
 
 #include "cli/command_line.hpp"
 #include "cli/render_arguments.hpp"
-#include "images/image_file.hpp"
+#include "base/images/image_file.hpp"
 #include "tests/cli/process_helper.hpp"
 
 namespace fastsplat::cli {

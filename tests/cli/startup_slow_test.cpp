@@ -171,7 +171,7 @@ TEST(StartUp, AModuleThatCannotBeLoadedIsRefused) {
   {
     const Copied copied;
     std::ofstream(copied.bin(kModule)) << "no library";
-    copied.expect_refused(copied.render_for_minutes(), {kModule, "cannot be loaded", "packaging/debian.txt"});
+    copied.expect_refused(copied.render_for_minutes(), {kModule, "cannot be loaded", "tools/debian.txt"});
   }
   // A library that it needs is broken.
   const Copied copied;

@@ -386,7 +386,7 @@ TEST(MicroarchitecturePage, NamesEveryPort) {
   EXPECT_GT(ports, 40);
 }
 
-// Pages that tools/performance and tools/peers make: their words are those of a file in bench/table, whole.
+// Pages that tools/performance and tools/peers make: their words are those of a file in tools/pages/benchmarks, whole.
 TEST(Documents, PagesOfFiguresHaveTheirPrefaces) {
   const auto text = [](const std::string& name) {
     std::ostringstream all;
@@ -394,7 +394,7 @@ TEST(Documents, PagesOfFiguresHaveTheirPrefaces) {
     return all.str();
   };
   for (const auto& [page, words] : {std::pair{"performance", "preface"}, {"peers", "peers_preface"}}) {
-    const std::string preface = text(std::string("bench/table/") + words + ".md");
+    const std::string preface = text(std::string("tools/pages/benchmarks/") + words + ".md");
     ASSERT_GT(preface.size(), 1000u) << words;
     EXPECT_NE(text(std::string("docs/") + page + ".md").find(preface), std::string::npos)
         << "./run " << page << " makes the page";

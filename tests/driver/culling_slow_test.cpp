@@ -11,7 +11,7 @@
 #include "driver/culling_comparison.hpp"
 #include "driver/render.hpp"
 #include "tests/driver/scenes_helper.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::driver {
 namespace {

@@ -8,7 +8,7 @@
 #include "driver/render.hpp"
 #include "golden/render.hpp"
 #include "tests/driver/scenes_helper.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::driver {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "driver/render.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::driver {
 

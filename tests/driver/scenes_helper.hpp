@@ -9,7 +9,7 @@
 #include "cmodel/config.hpp"
 #include "cmodel/frame.hpp"
 #include "scene/scene.hpp"
-#include "volume/volume.hpp"
+#include "scene/volume/volume.hpp"
 
 namespace fastsplat::driver {
 

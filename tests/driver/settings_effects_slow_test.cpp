@@ -10,7 +10,7 @@
 #include "golden/render.hpp"
 #include "tests/driver/scenes_helper.hpp"
 #include "tests/scene/follow_fixes_testing.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::driver {
 namespace {

@@ -10,8 +10,8 @@
 #include "analysis/errors/attribution_report.hpp"
 #include "base/error.hpp"
 #include "tests/cmodel/configs_helper.hpp"
-#include "tests/stages/mixtures_helper.hpp"
-#include "volume/volume_file.hpp"
+#include "tests/pipeline/mixtures_helper.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::analysis {
 namespace {

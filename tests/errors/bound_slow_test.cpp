@@ -7,7 +7,7 @@
 #include "analysis/errors/bound.hpp"
 #include "base/error.hpp"
 #include "tests/cmodel/configs_helper.hpp"
-#include "tests/stages/mixtures_helper.hpp"
+#include "tests/pipeline/mixtures_helper.hpp"
 
 namespace fastsplat::analysis {
 namespace {

@@ -11,7 +11,7 @@
 #include "analysis/errors/bound_report.hpp"
 #include "base/error.hpp"
 #include "tests/cmodel/configs_helper.hpp"
-#include "tests/stages/mixtures_helper.hpp"
+#include "tests/pipeline/mixtures_helper.hpp"
 
 namespace fastsplat::analysis {
 namespace {
@@ -81,7 +81,7 @@ TEST(DensityErrors, EveryStepOfThePixelErrsAlone) {
   scene.shading.gradient_floor = 0.1;  // such that many pixels are between it and twice that
   const cmodel::Config config = with_densities("base");
   const Chain chain(scene, config);
-  // What golden's floats behind the gradient are off the others' doubles (tests/stages/density_steps_test.cpp).
+  // What golden's floats behind the gradient are off the others' doubles (tests/pipeline/density_steps_test.cpp).
   const double floats = 1e-5 / lsb_per_unit(8);
   const Attribution a = attribute(chain, {.threads = 1});
   int steps = 0;

@@ -26,9 +26,9 @@ class Keep : public ::testing::Test {
     std::string name = (fs::temp_directory_path() / "fastsplat-keep.XXXXXX").string();
     ASSERT_NE(::mkdtemp(name.data()), nullptr);
     folder_ = name;
-    for (const char* part : {"root/tests/fuzz", "root/docs/evidence", "root/seeds", "build/bin"})
+    for (const char* part : {"root/tests/fuzz", "root/docs/evidence", "root/seeds", "root/tools", "build/bin"})
       fs::create_directories(folder_ / part);
-    fs::copy(fs::path(FASTSPLAT_SOURCE_DIR) / "packaging", folder_ / "root/packaging");
+    fs::copy(fs::path(FASTSPLAT_SOURCE_DIR) / "tools/helpers", folder_ / "root/tools/helpers");
     targets({"one", "two"});
   }
   void TearDown() override { fs::remove_all(folder_); }
@@ -43,12 +43,12 @@ class Keep : public ::testing::Test {
     std::ofstream(path) << "#!/bin/sh\n" << what << '\n';
     fs::permissions(path, fs::perms::owner_all);
   }
-  /// What packaging/fuzz said, and its exit code.
+  /// What tools/helpers/fuzz_targets said, and its exit code.
   std::pair<std::string, int> run(const std::string& arguments) {
     const fs::path said = folder_ / "said.txt";
     const std::string root = (folder_ / "root").string(), build = (folder_ / "build").string();
     const int status = std::system(
-        ("'" + root + "/packaging/fuzz' '" + root + "' '" + build + "' " + arguments + " >'" + said.string() + "' 2>&1")
+        ("'" + root + "/tools/helpers/fuzz_targets' '" + root + "' '" + build + "' " + arguments + " >'" + said.string() + "' 2>&1")
             .c_str());
     std::ifstream file(said);
     return {std::string(std::istreambuf_iterator<char>(file), {}), WEXITSTATUS(status)};

@@ -1,5 +1,5 @@
 // Pictures: read, or refused; the decoders are OpenImageIO's.
-#include "images/image_file.hpp"
+#include "base/images/image_file.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

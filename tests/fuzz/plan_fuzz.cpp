@@ -1,8 +1,8 @@
 // Plans: a specification is understood or refused; a plan that was read is written so that it reads back the same.
 #include <nlohmann/json.hpp>
 
-#include "plan/plan.hpp"
-#include "plan/spec.hpp"
+#include "analysis/sweep/plan.hpp"
+#include "analysis/sweep/spec.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "golden/render.hpp"
 #include "scenes_helper.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::golden::testing {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "scenes_helper.hpp"
-#include "volume/synthetic.hpp"
+#include "scene/volume/synthetic.hpp"
 
 namespace fastsplat::golden::testing {
 namespace {

@@ -1,5 +1,5 @@
 // EXR headers built attribute by attribute, and those that OpenImageIO writes.
-#include "images/exr_check.hpp"
+#include "base/images/exr_check.hpp"
 
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "images/image_file.hpp"
+#include "base/images/image_file.hpp"
 #include "tests/images/image_helper.hpp"
 
 namespace fastsplat::images {

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <random>
 
-#include "images/image_file.hpp"
+#include "base/images/image_file.hpp"
 #include "tests/images/image_helper.hpp"
 
 namespace fastsplat::images {

@@ -1,5 +1,5 @@
 // What is written is read back: values, words, metadata; what cannot be is refused.
-#include "images/image_file.hpp"
+#include "base/images/image_file.hpp"
 
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>

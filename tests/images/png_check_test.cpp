@@ -1,5 +1,5 @@
 // PNG files whose checksums are right and whose content is not: built chunk by chunk.
-#include "images/png_check.hpp"
+#include "base/images/png_check.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "images/image_file.hpp"
+#include "base/images/image_file.hpp"
 #include "tests/images/image_helper.hpp"
 
 namespace fastsplat::images {

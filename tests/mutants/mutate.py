@@ -14,7 +14,7 @@ import sys
 import threading
 import time
 
-sys.path.insert(0, os.path.join(os.path.dirname(__file__), "../../packaging"))
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), "../../tools/helpers"))
 import campaign
 import cpp_campaign
 import devices

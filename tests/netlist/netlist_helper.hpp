@@ -1,4 +1,4 @@
-// Devices that are not rtl/ itself but what Yosys made of it (cmake/netlist.sh).
+// Devices that are not rtl/ itself but what Yosys made of it (tools/cmake/netlist.sh).
 #pragma once
 
 #include <memory>

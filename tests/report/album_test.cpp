@@ -7,7 +7,7 @@
 #include <random>
 
 #include "base/error.hpp"
-#include "images/image_file.hpp"
+#include "base/images/image_file.hpp"
 #include "report/report.hpp"
 #include "tests/images/image_helper.hpp"
 

@@ -149,7 +149,7 @@ TEST(SyntheticGaussians, AreAsManyAsWereAskedForAndSound) {
 
 // The files that ship are what the generator makes: another look or another compiler's last bit shows here.
 TEST(SyntheticGaussians, TheFilesThatShipAreTheirs) {
-  const std::filesystem::path folder = std::filesystem::path(FASTSPLAT_SOURCE_DIR) / "examples/gaussians";
+  const std::filesystem::path folder = std::filesystem::path(FASTSPLAT_SOURCE_DIR) / "docs/examples/gaussians";
   const GaussianCloud shells = make_synthetic_gaussians("shells:150"), cloud = make_synthetic_gaussians("cloud:200");
   if (std::getenv("FASTSPLAT_WRITE_EXAMPLES") != nullptr) {
     std::filesystem::create_directories(folder);

@@ -4,7 +4,7 @@
 
 #include "scene/scene.hpp"
 #include "tests/scene/scene_testing.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::scene {
 namespace {

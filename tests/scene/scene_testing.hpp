@@ -1,4 +1,4 @@
-// What the tests of scene/ share: the helpers of volume/'s tests under scene's name.
+// What the tests of scene/ share: the helpers of scene/volume/'s tests under scene's name.
 #pragma once
 
 #include "tests/volume/volume_testing.hpp"

@@ -8,7 +8,7 @@
 #include "scene/sheet_plan.hpp"
 #include "scene/splats.hpp"
 #include "tests/scene/scene_testing.hpp"
-#include "volume/synthetic.hpp"
+#include "scene/volume/synthetic.hpp"
 
 namespace fastsplat::scene {
 namespace {

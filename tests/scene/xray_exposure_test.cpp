@@ -9,7 +9,7 @@
 
 #include "scene/splats.hpp"
 #include "tests/scene/scene_testing.hpp"
-#include "volume/synthetic.hpp"
+#include "scene/volume/synthetic.hpp"
 
 namespace fastsplat::scene {
 namespace {

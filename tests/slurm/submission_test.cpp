@@ -6,8 +6,8 @@
 
 #include "base/error.hpp"
 #include "base/shell_word.hpp"
-#include "plan/script_engines.hpp"
-#include "plan/slurm_script.hpp"
+#include "analysis/sweep/script_engines.hpp"
+#include "analysis/sweep/slurm_script.hpp"
 #include "tests/cli/process_helper.hpp"
 
 namespace fastsplat::plan {

@@ -15,7 +15,7 @@
 #include "testbench/stimulus/stimulus.hpp"
 #include "tests/cmodel/random_helper.hpp"
 #include "tests/paths.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::testbench {
 namespace {

@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "tests/volume/volume_testing.hpp"
-#include "volume/byte_reader.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/byte_reader.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::volume {
 namespace {

@@ -1,5 +1,5 @@
 // Where a scan lies in the body, and how its axes run, is kept through every format.
-#include "volume/placement.hpp"
+#include "scene/volume/placement.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "tests/volume/volume_testing.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::volume {
 namespace {

@@ -1,4 +1,4 @@
-#include "volume/synthetic.hpp"
+#include "scene/volume/synthetic.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "tests/volume/volume_testing.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::volume {
 namespace {

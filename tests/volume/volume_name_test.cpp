@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "tests/volume/volume_testing.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::volume {
 namespace {

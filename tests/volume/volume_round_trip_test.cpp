@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "tests/volume/volume_testing.hpp"
-#include "volume/volume_file.hpp"
+#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::volume {
 namespace {

@@ -1,4 +1,4 @@
-// What the tests of volume/ and scene/ share: a folder that goes away, errors as text, small volumes.
+// What the tests of scene/volume/ and scene/ share: a folder that goes away, errors as text, small volumes.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "volume/volume.hpp"
+#include "scene/volume/volume.hpp"
 
 namespace fastsplat::volume {
 

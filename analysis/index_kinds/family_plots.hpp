@@ -1,0 +1,23 @@
+// The pictures of docs/family.md.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/index_kinds/family_table.hpp"
+
+namespace fastsplat::analysis {
+
+/// Their files, in the order of family_plots().
+inline constexpr const char* kFamilyPictures[] = {"family-bits.svg", "family-grid.svg"};
+
+struct NamedPicture {
+  std::string file;
+  std::string svg;
+};
+
+/// Of cells that hold all kinds at r = 4: the least error of the turned field that a kind has with so many bits or
+/// fewer, and its error over K at N = 1024.
+std::vector<NamedPicture> family_plots(const std::vector<FamilyCell>& cells);
+
+}  // namespace fastsplat::analysis

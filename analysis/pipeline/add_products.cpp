@@ -1,0 +1,77 @@
+#include "analysis/pipeline/add_products.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "analysis/pipeline/add_products.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace fastsplat::stages {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// A pixel's four sums at once where vectors hold four, else in parts.
+#if HWY_TARGET == HWY_SCALAR
+using Part = hn::CappedTag<double, 1>;
+constexpr std::size_t kLanes = 1;
+#elif HWY_MAX_BYTES < 32
+using Part = hn::CappedTag<double, 2>;
+constexpr std::size_t kLanes = 2;
+#else
+using Part = hn::CappedTag<double, 4>;
+constexpr std::size_t kLanes = 4;
+#endif
+
+/// What is added, as a value; `product` has 2^sf units where it is rounded.
+template <ProductRule::Kind kKind, class V>
+V rounded(V product, V greatest, V ulp) {
+  const Part d;
+  if constexpr (kKind == ProductRule::Kind::Exact) return product;
+  if constexpr (kKind == ProductRule::Kind::Down) product = hn::Floor(product);
+  if constexpr (kKind == ProductRule::Kind::HalfUp) product = hn::Floor(hn::Add(product, hn::Set(d, 0.5)));
+  if constexpr (kKind == ProductRule::Kind::HalfEven) product = hn::Round(product);
+  return hn::Mul(hn::Min(product, greatest), ulp);
+}
+
+template <ProductRule::Kind kKind>
+void add_row(std::span<const double> weights, const golden::Sums& value, const ProductRule& rule, golden::Sums* sums) {
+  const Part d;
+  const auto greatest = hn::Set(d, rule.greatest), ulp = hn::Set(d, 1.0 / rule.scale);
+  const double scale = kKind == ProductRule::Kind::Exact ? 1.0 : rule.scale;
+  for (std::size_t part = 0; part < 4; part += kLanes) {
+    const auto factor = hn::Mul(hn::LoadU(d, value.data() + part), hn::Set(d, scale));
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      double* at = sums[i].data() + part;
+      const auto product = rounded<kKind>(hn::Mul(hn::Set(d, weights[i]), factor), greatest, ulp);
+      hn::StoreU(hn::Add(hn::LoadU(d, at), product), d, at);
+    }
+  }
+}
+
+void add_any(std::span<const double> weights, const golden::Sums& value, const ProductRule& rule, golden::Sums* sums) {
+  switch (rule.kind) {
+    case ProductRule::Kind::Exact:
+      return add_row<ProductRule::Kind::Exact>(weights, value, rule, sums);
+    case ProductRule::Kind::Down:
+      return add_row<ProductRule::Kind::Down>(weights, value, rule, sums);
+    case ProductRule::Kind::HalfUp:
+      return add_row<ProductRule::Kind::HalfUp>(weights, value, rule, sums);
+    case ProductRule::Kind::HalfEven:
+      return add_row<ProductRule::Kind::HalfEven>(weights, value, rule, sums);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace fastsplat::stages
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace fastsplat::stages {
+HWY_EXPORT(add_any);
+
+void add_products(std::span<const double> weights, const golden::Sums& value, const ProductRule& rule,
+                  golden::Sums* sums) {
+  HWY_DYNAMIC_DISPATCH(add_any)(weights, value, rule, sums);
+}
+}  // namespace fastsplat::stages
+#endif

@@ -1,0 +1,52 @@
+// A frame by any mixture of the device's steps and golden's. All real is golden's picture, all device the integer
+// model's, bit for bit: words are exact in a double, so one chain serves both (docs/errors.md).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "cmodel/config.hpp"
+#include "scene/scene.hpp"
+#include "analysis/pipeline/density_steps.hpp"
+#include "analysis/pipeline/splat_steps.hpp"
+#include "analysis/pipeline/step.hpp"
+
+namespace fastsplat::stages {
+
+/// Premultiplied R, G, B, A of each pixel, row by row.
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<golden::Sums> pixels;
+  bool operator==(const Picture&) const = default;
+};
+
+/// Every sheet adds its splats in the order of their first sheet, those of one first sheet in traversal order: golden's
+/// own order (of densities in the order of memory). The device's sums do not depend on it.
+class Chain {
+ public:
+  /// Throws UserError (Usage) where the device cannot draw the scene. Keeps references to both.
+  Chain(const scene::Scene& scene, const cmodel::Config& config);
+
+  /// `threads` (0: all cores) never change the result.
+  Picture operator()(const Mixture& mixture, int threads = 1) const;
+
+  /// The frame's steps as they are told.
+  std::vector<StepSet> sets() const { return step_sets(config_, steps_.carries(), holds_densities()); }
+  bool holds_densities() const { return densities_.has_value(); }
+  const SplatSteps& steps() const { return steps_; }
+  const SplatList& list() const { return list_; }
+  const scene::Scene& scene() const { return scene_; }
+  const cmodel::Config& config() const { return config_; }
+  std::size_t splats() const { return list_.splats.size(); }
+
+ private:
+  class Band;
+
+  const scene::Scene& scene_;
+  const cmodel::Config& config_;
+  SplatSteps steps_;
+  SplatList list_;
+  std::optional<DensitySteps> densities_;  ///< of a frame whose sheets hold them
+};
+
+}  // namespace fastsplat::stages

@@ -1,0 +1,62 @@
+// Rows of a frame whose sheets are densities, sheet by sheet: what a band of the chain is where sheets are colours. Of
+// sheets three are looked at together, of pixels those around, and none is ever left out of a sheet (docs/numerics.md,
+// section 6.2).
+#pragma once
+
+#include <vector>
+
+#include "golden/sheet.hpp"
+#include "analysis/pipeline/add_products.hpp"
+#include "analysis/pipeline/band_bins.hpp"
+#include "analysis/pipeline/density_steps.hpp"
+#include "analysis/pipeline/pixel_steps.hpp"
+#include "analysis/pipeline/splat_steps.hpp"
+#include "analysis/pipeline/weight_steps.hpp"
+
+namespace fastsplat::stages {
+
+class DensityBand {
+ public:
+  static constexpr int kRim = 1;  ///< pixels around a band whose densities it looks at
+
+  /// What bands have in common; referred to.
+  struct Frame {
+    const scene::Scene& scene;
+    const cmodel::Config& config;
+    const SplatSteps& steps;
+    const DensitySteps& densities;
+    const Mixture& mixture;
+    const Staged& splats;
+    bool golden_units = false;  ///< of `splats` and weights
+  };
+  DensityBand(const Frame& frame, golden::Rows rows);
+
+  /// Bins of splats that reach the band or its rim.
+  void run(const BandBins& bins, int band);
+  /// R, G, B, A of the band's pixels, row by row.
+  void store(golden::Sums* out) const;
+
+ private:
+  golden::Sheet& at(int sheet) { return ring_[static_cast<std::size_t>(sheet) % ring_.size()]; }
+  void add(const StagedSplat& splat, const StagedShape* shape);
+  /// No more splats come to the sheet: step sheet.
+  void end(golden::Sheet& sheet) const;
+  void classify(const golden::SheetWindow& window);
+  DensityPixel pixel_of(const golden::SheetWindow& window, int x, int y) const;
+
+  Frame frame_;
+  golden::Rows rows_, with_rim_;
+  int width_, height_;
+  bool all_real_, cut_;
+  RealNarrowing sum_;
+  WeightSteps weights_;
+  PixelSteps pixels_;
+  ProductRule product_;
+  std::vector<golden::Sheet> ring_;
+  golden::Sheet nothing_;
+  std::vector<golden::Sums> picture_, shares_, material_;
+  std::vector<char> settled_;  ///< pixels that nothing behind can change
+  std::size_t open_;           ///< the others
+};
+
+}  // namespace fastsplat::stages

@@ -1,0 +1,48 @@
+// The steps of a pixel: what a finished sheet does to it, and what is put out: sheet, factor, slab, composite, freeze,
+// pixel.
+#pragma once
+
+#include <vector>
+
+#include "cmodel/config.hpp"
+#include "golden/splat/projected_splat.hpp"
+#include "scene/scene.hpp"
+#include "analysis/pipeline/real_narrowing.hpp"
+#include "analysis/pipeline/step.hpp"
+
+namespace fastsplat::stages {
+
+/// Colour and opacity of a slab at a pixel.
+struct RealSlab {
+  std::array<double, 3> colour{};
+  double opacity = 0.0;
+};
+
+class PixelSteps {
+ public:
+  /// With `golden_units`, an X-ray's exposure is still to be applied. Sums that were densities have passed step sheet.
+  PixelSteps(const scene::Scene& scene, const cmodel::Config& config, const Mixture& mixture, bool golden_units);
+
+  /// A pixel before the first sheet: C and T, or an X-ray's sums.
+  golden::Sums initial() const { return {0.0, 0.0, 0.0, xray_ ? 0.0 : 1.0}; }
+  /// The sheet's sums, or one sample's products, into the pixel; true where nothing behind can be seen in it any more.
+  bool take(const golden::Sums& sums, golden::Sums& pixel) const;
+  /// R, G, B, A.
+  golden::Sums out(const golden::Sums& pixel) const;
+  /// (1-exp(-tau))/tau, of the table or real.
+  double factor(double tau) const;
+
+ private:
+  golden::Sums cut(const golden::Sums& sums) const;
+  RealSlab slab(const golden::Sums& sums) const;
+  bool frozen(double transmittance) const { return transmittance < freeze_below_; }
+
+  bool xray_, additive_;
+  bool sheet_, factor_, slab_, composite_, pixel_;
+  double exposure_, freeze_below_;
+  RealNarrowing sum_, fall_, slab_word_, added_word_, light_, over_, pixel_out_, pixel_sum_;
+  std::vector<double> factors_;
+  double segments_per_tau_, last_segment_;
+};
+
+}  // namespace fastsplat::stages

@@ -1,0 +1,26 @@
+#include "analysis/pipeline/product_rule.hpp"
+
+#include <cmath>
+
+#include "cmodel/sites.hpp"
+
+namespace fastsplat::stages {
+
+ProductRule product_rule(const cmodel::Config& config, const Mixture& mixture) {
+  if (!mixture.device(Step::Product)) return {};
+  const cmodel::Narrowing site = cmodel::narrowing(config, cmodel::Site::Product);
+  const auto kind = [&] {
+    switch (site.rounding()) {
+      case cmodel::Rounding::TRN:
+        return ProductRule::Kind::Down;
+      case cmodel::Rounding::RND:
+        return ProductRule::Kind::HalfUp;
+      case cmodel::Rounding::RND_CONV:
+        break;
+    }
+    return ProductRule::Kind::HalfEven;
+  };
+  return {kind(), std::ldexp(1.0, site.to().frac_bits), static_cast<double>(site.to().max)};
+}
+
+}  // namespace fastsplat::stages

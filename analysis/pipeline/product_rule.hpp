@@ -1,0 +1,12 @@
+// The step `product` of a mixture, as add_products takes it.
+#pragma once
+
+#include "cmodel/config.hpp"
+#include "analysis/pipeline/add_products.hpp"
+#include "analysis/pipeline/step.hpp"
+
+namespace fastsplat::stages {
+
+ProductRule product_rule(const cmodel::Config& config, const Mixture& mixture);
+
+}  // namespace fastsplat::stages

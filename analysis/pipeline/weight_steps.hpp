@@ -1,0 +1,84 @@
+// The steps from a splat's place to the weights of its pixels: distance, index, weight.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cmodel/config.hpp"
+#include "cmodel/sites.hpp"
+#include "driver/index_tables.hpp"
+#include "driver/quantise.hpp"
+#include "driver/tile_bins.hpp"
+#include "golden/splat/footprint.hpp"
+#include "scene/kernel.hpp"
+#include "analysis/pipeline/ellipse_distance.hpp"
+#include "analysis/pipeline/splat_steps.hpp"
+#include "analysis/pipeline/step.hpp"
+
+namespace fastsplat::stages {
+
+/// How far beyond a splat's radius its pixels can have weight: index.kind linear rounds distances down.
+inline double more_reach(const cmodel::Config& config) {
+  return config.index() == cmodel::IndexKind::Linear ? 1.0 / config.grid() : 0.0;
+}
+
+/// Weights are F(u) = exp(-a R^2 u), u the squared distance over the squared radius, 0 from u = 1 on; golden's own,
+/// with the kernel's peak in them, where all steps up to the sheets are real ("golden_units").
+class WeightSteps {
+ public:
+  /// Keeps references.
+  WeightSteps(const scene::Kernel& kernel, const cmodel::Config& config);
+
+  /// Rows and columns of a splat's pixels inside `rows` and an image of `width` columns. `shape`: in a frame with
+  /// ellipses.
+  void rasterise(const StagedSplat& splat, const StagedShape* shape, const Mixture& mixture, bool golden_units,
+                 golden::Rows rows, int width);
+
+  const std::vector<golden::Footprint::Span>& spans() const { return spans_; }
+  std::span<const double> weights(const golden::Footprint::Span& span) const {
+    return {weights_ + span.weights, static_cast<std::size_t>(span.width)};
+  }
+  /// Weight at `entries` radial table entries, below N: of squared distance, of index.kind linear of distance.
+  double weight(double entries, const Mixture& mixture) const;
+
+ private:
+  /// weight() where the table is interpolated.
+  double interpolated(double entries, const Mixture& mixture) const;
+  /// What a radius makes of distances.
+  struct Rim {
+    double radius = -1.0;  ///< pixels
+    driver::Scale scale;   ///< of the kinds that compute
+  };
+  void rasterise_golden(const StagedSplat& splat, const StagedShape* shape, golden::Rows rows, int width);
+  void rasterise_circle(const StagedSplat& splat, const Mixture& mixture, golden::Rows rows, int width);
+  void rasterise_ellipse(const StagedSplat& splat, const StagedShape& shape, const Mixture& mixture, golden::Rows rows,
+                         int width);
+  /// The pixels of row y from x on that lie inside the rim; `entries`(i) of the i-th of `count`.
+  template <class Entries>
+  void add_row(int y, int x, int count, Entries entries, const Mixture& mixture);
+  void rasterise_rlut(const StagedSplat& splat, const Mixture& mixture, const driver::Extent& box);
+  void rasterise_other(const StagedSplat& splat, const Mixture& mixture, const driver::Extent& box);
+  /// RLUT words or what they stand for, in table entries, of the pixels from first to before end.
+  void distances(double centre, double radius, int first, int end, bool words, std::vector<double>& out) const;
+  /// Step distance of the kinds that compute it: radial table entries at (dx, dy) pixels.
+  double computed(double dx, double dy, const Rim& rim, bool device) const;
+  double other_weight(double dx, double dy, const Rim& rim, const Mixture& mixture) const;
+
+  const scene::Kernel& kernel_;
+  const cmodel::Config& config_;
+  driver::Target rlut_, axis_, footprint_;
+  cmodel::Narrowing axis_product_, radial_fall_;
+  double grid_;                       ///< K
+  double entries_;                    ///< N
+  double per_entry_;                  ///< 2^-g
+  double fall_;                       ///< a R^2
+  std::vector<double> real_, words_;  ///< what entry t stands for; RADIAL[t] 2^-wf
+  Rim rim_;
+  EllipseDistance ellipse_;
+  golden::Footprint golden_;
+  std::vector<golden::Footprint::Span> spans_;
+  std::vector<double> across_, down_, own_;
+  const double* weights_ = nullptr;
+};
+
+}  // namespace fastsplat::stages

@@ -1,0 +1,47 @@
+// Rows of merged results as a table: which columns, which rows, in which order, and how each is written.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/sweep/merged.hpp"
+
+namespace fastsplat::plan {
+
+struct TableOptions {
+  /// Names of axes, metrics, or id, kind, status, message, config_hash, scene_hash, program_hash, command. Empty: the
+  /// axes with more than one value, the status where not all pass, the metrics that are not the same in all rows, the
+  /// configuration's hash.
+  std::vector<std::string> columns{};
+  std::vector<std::string> where{};  ///< "NAME=VALUE": rows whose column reads so
+  std::vector<std::string> sort{};   ///< columns, the first one first; "-NAME" from large to small
+  std::size_t most = 0;              ///< rows; 0 all
+};
+
+/// A cell: its text in full, and as a number where it is one.
+struct Cell {
+  std::string text;
+  std::optional<double> number{};
+};
+
+struct Table {
+  std::vector<std::string> columns, titles;  ///< titles with units
+  std::vector<std::vector<Cell>> rows;
+  std::size_t left_out = 0;  ///< rows beyond `most`
+};
+
+/// UserError (Usage) for columns that there are none of.
+Table table_of(const Merged& merged, const TableOptions& options);
+
+/// Throws as table_of does.
+Cell cell_of(const Merged& merged, const Row& row, const std::string& column);
+/// Rows that `where` keeps, in the order of `sort`.
+std::vector<const Row*> chosen_rows(const Merged& merged, const TableOptions& options);
+
+/// Numbers to six digits, right under each other.
+std::string to_text(const Table& table);
+std::string to_markdown(const Table& table);
+/// RFC 4180, numbers in full; the first line names the columns.
+std::string to_csv(const Table& table);
+
+}  // namespace fastsplat::plan

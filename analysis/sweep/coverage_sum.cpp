@@ -1,0 +1,58 @@
+#include "analysis/sweep/coverage_sum.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "base/json_text.hpp"
+
+namespace fastsplat::plan {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kFormat = "fastsplat coverage 1";
+
+/// Adds every count of `from`, however deep; what is no count has to be equal.
+void add_counts(Json& to, const Json& from, const std::string& name) {
+  if (to.is_number_unsigned() && from.is_number_unsigned()) {
+    to = to.get<std::uint64_t>() + from.get<std::uint64_t>();
+  } else if (to.is_object() && from.is_object()) {
+    for (const auto& [key, value] : from.items()) {
+      if (to.contains(key)) {
+        add_counts(to[key], value, key);
+      } else {
+        to[key] = value;
+      }
+    }
+  } else if (to != from) {
+    throw std::runtime_error(name + " is " + json_text(from, -1) + ", and was " + json_text(to, -1));
+  }
+}
+
+}  // namespace
+
+void CoverageSum::add(const Json& book, const std::string& where) {
+  try {
+    if (book.at("format") != kFormat) throw std::runtime_error("another format");
+    const std::string& hash = book.at("config_hash").get_ref<const std::string&>();
+    const auto same = std::ranges::find_if(books_, [&](const Json& one) { return one["config_hash"] == hash; });
+    if (same == books_.end()) {
+      books_.push_back(book);
+    } else {
+      Json sum = *same;
+      // The same numbers under two names are one configuration.
+      Json more = book;
+      more["config"] = sum["config"];
+      add_counts(sum, more, "book");
+      *same = std::move(sum);
+    }
+  } catch (const std::exception& error) {
+    throw_input({.where = where,
+                 .what = "its coverage does not add up",
+                 .expected = std::string("a book of ") + kFormat,
+                 .got = error.what(),
+                 .fix = "run the case again: remove its file, then `fastsplat plan run`"});
+  }
+}
+
+}  // namespace fastsplat::plan

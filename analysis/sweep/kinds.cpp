@@ -1,0 +1,34 @@
+#include "analysis/sweep/kinds.hpp"
+
+#include <algorithm>
+
+namespace fastsplat::plan {
+
+std::vector<StepOfKind> steps_of(const std::string& kind) {
+  if (kind == "compare") {
+    return {{.verb = "render",
+             .files = {},
+             .outputs = {"--engine", "golden", "--out", "{golden.exr}"},
+             .takes_device = false,
+             .has_result = false,
+             .shared = "golden.exr"},
+            {.verb = "render", .files = {}, .outputs = {"--engine", "cmodel", "--out", "{model.exr}"}},
+            {.verb = "compare", .files = {"{golden.exr}", "{model.exr}"}, .outputs = {}}};
+  }
+  if (kind == "render") return {{.verb = "render", .files = {}, .outputs = {"--out", "{picture.exr}"}}};
+  if (kind == "verify") {
+    return {{.verb = "verify",
+             .files = {},
+             .outputs = {"--coverage", "{coverage.json}", "--failure", "{failure}"},
+             .coverage = true}};
+  }
+  return {{.verb = kind, .files = {}, .outputs = {}}};
+}
+
+bool is_given_by_run(const std::string& flag) {
+  constexpr const char* kGiven[] = {"json",    "quiet", "threads", "jobs",        "out", "coverage",
+                                    "failure", "junit", "wave",    "save-stream", "set"};
+  return std::ranges::find(kGiven, flag) != std::end(kGiven);
+}
+
+}  // namespace fastsplat::plan

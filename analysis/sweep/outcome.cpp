@@ -1,0 +1,90 @@
+#include "analysis/sweep/outcome.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "base/error.hpp"
+#include "base/read_file.hpp"
+#include "analysis/sweep/run.hpp"
+
+namespace fastsplat::plan {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostOutcomeBytes = std::size_t{1} << 28;
+
+Json read_json(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return nullptr;
+  Json json = Json::parse(read_text_file(path, kMostOutcomeBytes));
+  fs::remove(path, ignored);
+  return json;
+}
+
+/// Exit 1 in words: the limits of `compare` that are broken, the mismatches of `verify`.
+std::string why_failed(const Json& json, const std::string& verb) {
+  std::string text;
+  if (json.is_object() && json.contains("limits") && json["limits"].is_array()) {
+    for (const Json& limit : json["limits"]) {
+      if (limit.value("ok", true)) continue;
+      text += fmt::format("{}{} {}, limit {}", text.empty() ? "" : ", ", limit.value("name", "?"),
+                          limit.value("got", Json()).dump(), limit.value("limit", Json()).dump());
+    }
+  }
+  if (json.is_object() && json.value("mismatches", Json()).is_number() && json["mismatches"] != 0)
+    text = fmt::format("{} mismatches", json["mismatches"].dump());
+  return text.empty() ? fmt::format("`{}` ended with exit code 1", verb) : verb + ": " + text;
+}
+
+}  // namespace
+
+Outcome outcome_of(const Step& step, const Ended& ended, const Places& places) {
+  Outcome out{.exit_code = ended.exit_code, .signal = ended.signal, .message = {}, .json = {}, .coverage = {}};
+  const std::string verb = step.result.empty() ? step.words.front() : step.result;
+  const std::vector<std::string> folders{places.folder.string(), places.shared.string()};
+  std::string missing;
+  try {
+    if (!step.result.empty()) out.json = read_json(places.folder / kJson);
+    if (step.coverage) out.coverage = read_json(places.folder / "coverage.json");
+    if (!step.shared.empty() && !fs::exists(places.folder / step.shared)) missing = step.shared;
+    if (!step.result.empty() && out.json.is_null()) missing = "JSON";
+  } catch (const std::exception& error) {
+    missing = fmt::format("readable JSON ({})", error.what());
+  }
+  forget_surroundings(out.json, folders);
+  if (ended.signal != 0) {
+    out.status = Status::Error;
+    out.message = fmt::format("`{}` was ended by signal {}", verb, ended.signal);
+  } else if (ended.exit_code == 1 && missing.empty()) {
+    out.status = Status::Fail;
+    out.message = why_failed(out.json, verb);
+  } else if (ended.exit_code != 0) {
+    out.status = Status::Error;
+    out.message = fmt::format("`{}`: {}", verb,
+                              ended.message.empty() ? fmt::format("exit code {}", ended.exit_code) : ended.message);
+  } else if (!missing.empty()) {
+    out.status = Status::Error;
+    out.message = fmt::format("`{}` ended well and left no {}", verb, missing);
+  }
+  out.message = forget_surroundings(out.message, folders);
+  return out;
+}
+
+void write_file(const fs::path& path, const std::string& text) {
+  std::ofstream out(path, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) {
+    throw_input({.where = path.string(),
+                 .what = "cannot write",
+                 .expected = {},
+                 .got = {},
+                 .fix = "choose a folder with enough free space (--results)"});
+  }
+}
+
+}  // namespace fastsplat::plan

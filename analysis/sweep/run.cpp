@@ -1,0 +1,256 @@
+#include "analysis/sweep/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <map>
+#include <set>
+
+#include "base/error.hpp"
+#include "base/json_text.hpp"
+#include "base/read_file.hpp"
+#include "analysis/sweep/child.hpp"
+#include "analysis/sweep/outcome.hpp"
+#include "analysis/sweep/scratch.hpp"
+
+namespace fastsplat::plan {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A case under way.
+struct Going {
+  const Case* one;
+  std::size_t step = 0;
+  fs::path folder;  ///< its own, in the scratch
+  CaseResult result;
+  double cpu_seconds = 0.0;
+};
+
+class Runner {
+ public:
+  Runner(const Plan& plan, const RunOptions& options) : options_(options), scratch_(options.results) {
+    for (const char* folder : {kSharedFolder, kTimesFolder, kFailuresFolder})
+      fs::create_directories(options.results / folder);
+    for (std::size_t at = 0; at < plan.cases.size(); ++at) {
+      if (!options.shard.has(at)) continue;
+      ++summary_.cases;
+      const Case& one = plan.cases[at];
+      if (const auto done = done_before(one)) {
+        ++summary_.skipped;
+        count(*done);
+      } else {
+        waiting_.push_back(&one);
+      }
+    }
+  }
+
+  RunSummary run() {
+    tell_progress();
+    fill();
+    while (!going_.empty()) {
+      const auto ended = children_.wait();
+      if (!ended) {
+        summary_.signal = children_.signal();
+        children_.end_all();
+        break;
+      }
+      summary_.cpu_seconds += ended->cpu_seconds;
+      take(*ended);
+      fill();
+    }
+    return summary_;
+  }
+
+ private:
+  /// The result that stands, if it is one that is not made again.
+  std::optional<CaseResult> done_before(const Case& one) const {
+    const fs::path path = result_path(options_.results, one.id);
+    std::error_code ignored;
+    if (!fs::exists(path, ignored)) return std::nullopt;
+    CaseResult result;
+    try {
+      result = read_result(path);
+    } catch (const UserError& error) {
+      if (options_.note) options_.note(std::string(error.what()) + ": made again");
+      return std::nullopt;
+    }
+    if (const auto why = foreign(result, one, options_.program_hash); !why.empty()) {
+      if (options_.replace_foreign) return std::nullopt;
+      throw_input({.where = path.string(),
+                   .what = why,
+                   .expected = "program " + options_.program_hash,
+                   .got = {},
+                   .fix = "another folder (--results), or --again to make such results anew"});
+    }
+    if (result.signal != 0 || (options_.retry_failed && result.status != Status::Pass)) return std::nullopt;
+    return result;
+  }
+
+  void count(const CaseResult& result) {
+    ++(result.status == Status::Pass   ? summary_.passed
+       : result.status == Status::Fail ? summary_.failed
+                                       : summary_.errors);
+  }
+
+  void tell_progress() const {
+    if (options_.progress) options_.progress(summary_.passed + summary_.failed + summary_.errors, summary_.cases);
+  }
+
+  /// Starts what there is room for.
+  void fill() {
+    while (going_.size() < options_.jobs && !ready_.empty()) {
+      Going next = std::move(ready_.front());
+      ready_.pop_front();
+      advance(std::move(next));
+    }
+    while (going_.size() < options_.jobs && !waiting_.empty()) {
+      const Case* one = waiting_.front();
+      waiting_.pop_front();
+      Going next{.one = one, .folder = scratch_.fresh(one->id), .result = {}};
+      next.result.id = one->id;
+      next.result.kind = one->kind;
+      next.result.content = one->content;
+      next.result.program = options_.program_hash;
+      advance(std::move(next));
+    }
+  }
+
+  fs::path shared_path(const std::string& name) const {
+    // Another program may make another picture of the same scene.
+    return options_.results / kSharedFolder / (options_.program_hash + "-" + name);
+  }
+
+  /// Starts the case's next run, or waits for what another one is making, or ends it.
+  void advance(Going going) {
+    while (going.step < going.one->steps.size()) {
+      const Step& step = going.one->steps[going.step];
+      if (!step.shared.empty()) {
+        std::error_code ignored;
+        if (const auto broken = broken_.find(step.shared); broken != broken_.end()) {
+          take_outcome(going, broken->second);
+          return finish(std::move(going));
+        }
+        if (making_.contains(step.shared)) {
+          parked_[step.shared].push_back(std::move(going));
+          return;
+        }
+        if (fs::exists(shared_path(step.shared), ignored)) {
+          ++going.step;
+          continue;
+        }
+        making_.insert(step.shared);
+      }
+      const pid_t pid = children_.start(options_.program, words_of(going, step));
+      going_.emplace(pid, std::move(going));
+      return;
+    }
+    finish(std::move(going));
+  }
+
+  /// The step's words with real files, and what every run is given.
+  Words words_of(const Going& going, const Step& step) const {
+    std::set<std::string> shared;
+    for (const Step& other : going.one->steps) shared.insert(other.shared);
+    Words words;
+    for (const auto& word : step.words) {
+      const auto file = file_of(word);
+      if (!file) {
+        words.push_back(word);
+      } else if (shared.contains(*file) && *file != step.shared) {
+        words.push_back(shared_path(*file).string());
+      } else {
+        words.push_back((going.folder / *file).string());
+      }
+    }
+    if (!step.result.empty()) words.insert(words.end(), {"--json", (going.folder / kJson).string()});
+    words.insert(words.end(), {"--quiet", "--threads", std::to_string(options_.threads)});
+    return words;
+  }
+
+  void take(const Ended& ended) {
+    auto node = going_.extract(ended.pid);
+    Going going = std::move(node.mapped());
+    const Step& step = going.one->steps[going.step];
+    going.cpu_seconds += ended.cpu_seconds;
+    Outcome outcome = outcome_of(step, ended, {.folder = going.folder, .shared = options_.results / kSharedFolder});
+    if (!step.shared.empty()) {
+      making_.erase(step.shared);
+      if (outcome.status == Status::Pass) {
+        Scratch::publish(going.folder / step.shared, shared_path(step.shared));
+      } else {
+        broken_[step.shared] = outcome;
+      }
+      auto woken = parked_.extract(step.shared);
+      if (!woken.empty()) {
+        for (Going& other : woken.mapped()) ready_.push_back(std::move(other));
+      }
+    }
+    take_outcome(going, outcome);
+    // A limit that is broken says nothing against the figures that come after.
+    if (outcome.status == Status::Error) return finish(std::move(going));
+    ++going.step;
+    advance(std::move(going));
+  }
+
+  static void take_outcome(Going& going, const Outcome& outcome) {
+    CaseResult& result = going.result;
+    if (!outcome.json.is_null()) result.results[going.one->steps[going.step].result] = outcome.json;
+    if (!outcome.coverage.is_null()) result.coverage = outcome.coverage;
+    if (outcome.status == Status::Pass || result.status == Status::Error) return;
+    if (result.status == Status::Fail && outcome.status == Status::Fail) {
+      result.message += "; " + outcome.message;
+      return;
+    }
+    result.status = outcome.status;
+    result.exit_code = outcome.exit_code;
+    result.signal = outcome.signal;
+    result.message = outcome.message;
+  }
+
+  void finish(Going going) {
+    keep_evidence(going);
+    const fs::path written = going.folder / "result";
+    write_file(written, to_text(going.result));
+    Scratch::publish(written, result_path(options_.results, going.one->id));
+    write_file(written, fmt::format("{{\"cpu_seconds\": {:.3f}}}\n", going.cpu_seconds));
+    Scratch::publish(written, options_.results / kTimesFolder / (going.one->id + ".json"));
+    std::error_code ignored;
+    fs::remove_all(going.folder, ignored);
+    count(going.result);
+    if (options_.finished) options_.finished(*going.one, going.result);
+    tell_progress();
+  }
+
+  /// A verification that failed leaves a small stream and a waveform: failures/ID.fss and .fst.
+  void keep_evidence(const Going& going) const {
+    for (const char* ending : {".fss", ".fst"}) {
+      std::error_code ignored;
+      const fs::path made = going.folder / (std::string(kFailure) + ending);
+      if (!fs::exists(made, ignored)) continue;
+      Scratch::publish(made, options_.results / kFailuresFolder / (going.one->id + ending));
+    }
+  }
+
+  const RunOptions& options_;
+  RunSummary summary_;
+  Scratch scratch_;
+  Children children_;
+  std::deque<const Case*> waiting_;  ///< not begun
+  std::deque<Going> ready_;          ///< what they waited for is there
+  std::map<pid_t, Going> going_;
+  std::set<std::string> making_;                      ///< shared files under way
+  std::map<std::string, std::vector<Going>> parked_;  ///< wait for one of them
+  std::map<std::string, Outcome> broken_;             ///< shared files that could not be made, and why
+};
+
+}  // namespace
+
+RunSummary run(const Plan& plan, const RunOptions& options) {
+  std::error_code error;
+  fs::create_directories(options.results, error);
+  return Runner(plan, options).run();
+}
+
+}  // namespace fastsplat::plan

@@ -1,0 +1,74 @@
+#include "base/images/codec.hpp"
+
+#include <dlfcn.h>
+
+#include <array>
+#include <cstdarg>
+#include <cstring>
+
+namespace fastsplat::images {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kWhat = "pictures can be neither read nor written: the module for the image library ";
+
+[[noreturn]] void refuse(const fs::path& where, const std::string& what, std::string expected, std::string got,
+                         std::string fix) {
+  throw_input({where.string(), kWhat + what, std::move(expected), std::move(got), std::move(fix)});
+}
+
+/// By the program's own place: a copied or installed program takes the module that came with it, and no other.
+fs::path find_module() {
+  std::error_code unreadable;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", unreadable).parent_path();
+  const std::array places{folder / FASTSPLAT_CODEC_FILE,
+                          (folder / "../lib/fastsplat" / FASTSPLAT_CODEC_FILE).lexically_normal()};
+  for (const auto& place : places) {
+    std::error_code ignored;
+    if (!unreadable && fs::exists(place, ignored)) return place;
+  }
+  refuse(places[0], "is missing", "it there or as " + places[1].string(), unreadable ? unreadable.message() : "",
+         "build again (./run build), or copy it together with the program");
+}
+
+/// libtiff prints to stderr what is wrong with a file; our message reports it. OpenImageIO 2.4 replaces the functions that
+/// print, 2.5 does not for files in memory.
+void silence_libtiff(void* module) {
+  using Handler = void (*)(const char* place, const char* format, std::va_list);
+  for (const char* setter : {"TIFFSetErrorHandler", "TIFFSetWarningHandler"}) {
+    if (auto* set = reinterpret_cast<Handler (*)(Handler)>(::dlsym(module, setter))) set(nullptr);
+  }
+}
+
+const Codec& open_module() {
+  const fs::path path = find_module();
+  // Lazily, as the program itself is: hundreds of libraries hold far more functions than a picture calls.
+  void* module = ::dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  if (module == nullptr) {
+    const char* reason = ::dlerror();
+    refuse(path, "cannot be loaded", {}, reason == nullptr ? "no reason" : reason,
+           "install the packages of tools/debian.txt, then build again (./run build)");
+  }
+  const auto* tag = static_cast<const char*>(::dlsym(module, kTagSymbol));
+  const auto* table = static_cast<const Codec*>(::dlsym(module, kTableSymbol));
+  if (tag == nullptr || table == nullptr || std::strcmp(tag, FASTSPLAT_CODEC_TAG) != 0) {
+    refuse(path, "belongs to another build of this program", FASTSPLAT_CODEC_TAG, tag == nullptr ? "no tag" : tag,
+           "build again (./run build), or copy it together with the program");
+  }
+  silence_libtiff(module);
+  return *table;  // never closed: the library's own threads outlive any picture
+}
+
+}  // namespace
+
+const Codec& codec() {
+  static const Codec& table = open_module();
+  return table;
+}
+
+void require_library() { codec(); }
+
+std::string library_version() { return codec().version(); }
+
+}  // namespace fastsplat::images

@@ -1,0 +1,149 @@
+#include "base/images/exr_check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace fastsplat::images {
+namespace {
+
+using Bytes = std::span<const unsigned char>;
+
+/// Reads from the front; nothing where the bytes end before.
+class Reader {
+ public:
+  explicit Reader(Bytes bytes) : rest_(bytes) {}
+
+  std::size_t left() const { return rest_.size(); }
+
+  std::optional<Bytes> take(std::size_t count) {
+    if (count > rest_.size()) return {};
+    const Bytes taken = rest_.first(count);
+    rest_ = rest_.subspan(count);
+    return taken;
+  }
+  /// Up to a zero byte, which is taken too.
+  std::optional<std::string_view> name() {
+    const auto end = std::find(rest_.begin(), rest_.end(), 0);
+    if (end == rest_.end()) return {};
+    const auto length = static_cast<std::size_t>(end - rest_.begin());
+    const std::string_view text(reinterpret_cast<const char*>(rest_.data()), length);
+    rest_ = rest_.subspan(length + 1);
+    return text;
+  }
+  std::optional<std::uint32_t> word() {
+    const auto four = take(4);
+    if (!four) return {};
+    const Bytes& b = *four;
+    return b[0] | std::uint32_t{b[1]} << 8 | std::uint32_t{b[2]} << 16 | std::uint32_t{b[3]} << 24;
+  }
+
+ private:
+  Bytes rest_;
+};
+
+/// What OpenEXR reads of a type whatever the length says; 0: it goes by the length.
+std::size_t fixed_size(std::string_view type) {
+  struct Type {
+    std::string_view name;
+    std::size_t size;
+  };
+  static constexpr std::array<Type, 24> kTypes{{{"box2f", 16},
+                                                {"box2i", 16},
+                                                {"chromaticities", 32},
+                                                {"compression", 1},
+                                                {"deepImageState", 1},
+                                                {"double", 8},
+                                                {"envmap", 1},
+                                                {"float", 4},
+                                                {"int", 4},
+                                                {"keycode", 28},
+                                                {"lineOrder", 1},
+                                                {"m33d", 72},
+                                                {"m33f", 36},
+                                                {"m44d", 128},
+                                                {"m44f", 64},
+                                                {"rational", 8},
+                                                {"tiledesc", 9},
+                                                {"timecode", 8},
+                                                {"v2d", 16},
+                                                {"v2f", 8},
+                                                {"v2i", 8},
+                                                {"v3d", 24},
+                                                {"v3f", 12},
+                                                {"v3i", 12}}};
+  const auto* found = std::find_if(kTypes.begin(), kTypes.end(), [type](const Type& t) { return t.name == type; });
+  return found == kTypes.end() ? 0 : found->size;
+}
+
+/// Channels up to an empty name, each of four words behind its name; nothing behind.
+bool is_channel_list(Bytes value) {
+  constexpr std::size_t kChannel = 16;  // sample type, linearity and three reserved bytes, sampling in x and y
+  Reader reader(value);
+  for (auto name = reader.name(); name; name = reader.name()) {
+    if (name->empty()) return reader.left() == 0;
+    if (!reader.take(kChannel)) return false;
+  }
+  return false;
+}
+
+/// Texts, each behind its length.
+bool is_text_list(Bytes value) {
+  Reader reader(value);
+  while (reader.left() > 0) {
+    const auto length = reader.word();
+    if (!length || !reader.take(*length)) return false;
+  }
+  return true;
+}
+
+/// Width and height, then as many pixels of four bytes.
+bool is_preview(Bytes value) {
+  Reader reader(value);
+  const auto width = reader.word();
+  const auto height = reader.word();
+  return width && height && std::uint64_t{*width} * *height == reader.left() / 4 && reader.left() % 4 == 0;
+}
+
+bool fits(std::string_view type, Bytes value) {
+  if (const std::size_t size = fixed_size(type); size != 0) return value.size() == size;
+  if (type == "chlist") return is_channel_list(value);
+  if (type == "floatvector") return value.size() % 4 == 0;
+  if (type == "stringvector") return is_text_list(value);
+  return type != "preview" || is_preview(value);
+}
+
+}  // namespace
+
+std::string exr_defect(Bytes bytes) {
+  constexpr std::uint32_t kMagic = 20000630, kSeveralParts = 1u << 12;
+  Reader reader(bytes);
+  const auto magic = reader.word();
+  const auto version = reader.word();
+  if (!magic || *magic != kMagic || !version) return "bad EXR signature";
+  for (bool first_of_header = true;;) {
+    const std::string where = " at byte " + std::to_string(bytes.size() - reader.left());
+    const auto name = reader.name();
+    if (!name) return "the file ends inside its header" + where;
+    if (name->empty()) {
+      // An empty header is the end of the list of parts.
+      if ((*version & kSeveralParts) == 0 || first_of_header) return {};
+      first_of_header = true;
+      continue;
+    }
+    first_of_header = false;
+    const auto type = reader.name();
+    const auto length = reader.word();
+    if (!type || !length) return "the file ends inside its header" + where;
+    const std::size_t left = reader.left();
+    const auto value = reader.take(*length);
+    if (!value)
+      return "an attribute of " + std::to_string(*length) + " bytes where " + std::to_string(left) + " are left" +
+             where;
+    if (!fits(*type, *value)) return "an attribute whose length its type does not have" + where;
+  }
+}
+
+}  // namespace fastsplat::images

@@ -1,0 +1,17 @@
+// Our metadata as attributes of an OpenImageIO header, whatever the format can carry.
+#pragma once
+
+#include <OpenImageIO/imageio.h>
+
+#include "base/images/image_file.hpp"
+
+namespace fastsplat::images {
+
+/// Each entry becomes the attribute "fastsplat:<key>". Formats without free attributes (TIFF), and values that a format
+/// would drop (empty strings in EXR), go as lines "fastsplat:<key>=<value>" into ImageDescription instead.
+void set_metadata(OIIO::ImageSpec& spec, const std::string& format_name, const Metadata& metadata);
+
+/// The inverse of set_metadata; attributes and lines of others are ignored.
+Metadata get_metadata(const OIIO::ImageSpec& spec);
+
+}  // namespace fastsplat::images

@@ -1,0 +1,212 @@
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <new>
+#include <utility>
+
+#include "base/images/openimageio/attributes.hpp"
+#include "base/images/openimageio/operations.hpp"
+
+namespace fastsplat::images {
+namespace {
+
+using OIIO::TypeDesc;
+
+constexpr int kLargestSide = 1 << 16;
+constexpr std::int64_t kMostValues = std::int64_t{1} << 31;
+constexpr std::int64_t kBlockValues = std::int64_t{1} << 22;  // decoded at once: what a lying header can cost
+
+constexpr const char* kUnnamed = "image";  // what the decoders call it; our message names the path
+constexpr const char* kAgain = "write the file again";
+
+/// Why a picture is not taken; never leaves this file.
+struct Refused {
+  ErrorParts parts;
+};
+
+[[noreturn]] void refuse(std::string what, std::string expected = {}, std::string got = {}, std::string fix = {}) {
+  throw Refused{{{}, std::move(what), std::move(expected), std::move(got), std::move(fix)}};
+}
+
+class Decoder {
+ public:
+  Decoder(const std::string& format, std::string_view bytes)
+      : memory_(bytes.data(), bytes.size()), input_(OIIO::ImageInput::create(format)) {
+    if (!input_) refuse("cannot decode: " + OIIO::geterror(), "OpenImageIO with " + format + " support");
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);  // samples as stored: no multiplication by alpha
+    input_->set_ioproxy(&memory_);
+    if (!input_->open(kUnnamed, spec_, config)) corrupt("header");
+  }
+
+  LoadedImage load() {
+    check_header();
+    LoadedImage loaded;
+    loaded.metadata = get_metadata(spec_);
+    loaded.kind = kind();
+    loaded.image.width = spec_.width;
+    loaded.image.height = spec_.height;
+    loaded.image.channels = spec_.nchannels;
+    auto& values = loaded.image.data;
+    switch (loaded.kind) {
+      case PixelKind::Float:
+      case PixelKind::Half:
+        values = samples<float>(TypeDesc::FLOAT);
+        break;
+      case PixelKind::Uint8:
+        values = unit_values(samples<std::uint8_t>(TypeDesc::UINT8), 255.0);
+        break;
+      case PixelKind::Uint16:
+        values = unit_values(samples<std::uint16_t>(TypeDesc::UINT16), 65535.0);
+        break;
+      case PixelKind::RawWords:
+        loaded.frac_bits = frac_bits(loaded.metadata);
+        loaded.words = samples<std::uint32_t>(TypeDesc::UINT32);
+        values = unit_values(loaded.words, std::ldexp(1.0, loaded.frac_bits));
+        break;
+    }
+    check_single();
+    return loaded;
+  }
+
+ private:
+  [[noreturn]] void corrupt(const std::string& where) {
+    std::string reason = input_->geterror();
+    for (const std::string& noise : {std::string(" image file \"") + kUnnamed + "\"", std::string(kUnnamed) + ": "}) {
+      for (auto at = reason.find(noise); at != std::string::npos; at = reason.find(noise))
+        reason.erase(at, noise.size());
+    }
+    refuse("corrupt or truncated " + where + (reason.empty() ? "" : ": " + reason), {}, {}, kAgain);
+  }
+
+  void check_header() {
+    if (spec_.deep || spec_.depth != 1) refuse("deep or volume image", "a flat image");
+    if (spec_.width < 1 || spec_.height < 1 || spec_.width > kLargestSide || spec_.height > kLargestSide) {
+      refuse("unusable image size", "sides of 1 to " + std::to_string(kLargestSide), size_text());
+    }
+    const int channels = spec_.nchannels;
+    if (channels != 1 && channels != 3 && channels != 4) {
+      refuse("unsupported channels", "1, 3 or 4", std::to_string(channels), "select channels with oiiotool --ch");
+    }
+    if (channels == 4 && spec_.alpha_channel != 3) refuse("four channels of which the fourth is not alpha", "RGBA");
+    if (std::int64_t{spec_.width} * spec_.height * channels > kMostValues) {
+      refuse("image too large", "at most 2^31 values", size_text());
+    }
+    const bool whole = spec_.x == spec_.full_x && spec_.y == spec_.full_y && spec_.width == spec_.full_width &&
+                       spec_.height == spec_.full_height;
+    if (!whole) {
+      refuse("the data window is not the display window", {}, {}, "convert with oiiotool --croptofull");
+    }
+    const std::string compression = spec_.get_string_attribute("compression");
+    static constexpr std::array kLossless{"none", "lzw", "zip", "packbits", "zstd", "lzma"};
+    if (std::strcmp(input_->format_name(), "tiff") == 0 && !compression.empty() &&
+        std::find(kLossless.begin(), kLossless.end(), compression) == kLossless.end()) {
+      refuse("TIFF compression is not supported", "none, lzw, zip, packbits, zstd or lzma", compression);
+    }
+    if (spec_.tile_width != 0 && std::int64_t{spec_.tile_width} * spec_.tile_height * channels > kBlockValues) {
+      refuse("tiles too large", "at most 2^22 values",
+             std::to_string(spec_.tile_width) + " x " + std::to_string(spec_.tile_height));
+    }
+  }
+
+  std::string size_text() const {
+    return std::to_string(spec_.width) + " x " + std::to_string(spec_.height) + " x " + std::to_string(spec_.nchannels);
+  }
+
+  PixelKind kind() const {
+    for (const auto& format : spec_.channelformats) {
+      if (format != TypeDesc::HALF && format != TypeDesc::FLOAT) {
+        refuse("channels of different sample types", "half and float, or one type", format.c_str());
+      }
+    }
+    if (spec_.format == TypeDesc::FLOAT) return PixelKind::Float;
+    if (spec_.format == TypeDesc::HALF) return PixelKind::Half;
+    if (spec_.format == TypeDesc::UINT8) return PixelKind::Uint8;
+    if (spec_.format == TypeDesc::UINT16) return PixelKind::Uint16;
+    if (spec_.format == TypeDesc::UINT32) return PixelKind::RawWords;
+    refuse("unsupported sample type", "half, float, uint8, uint16 or raw uint32", spec_.format.c_str());
+  }
+
+  int frac_bits(const Metadata& metadata) const {
+    const auto found = metadata.find("frac_bits");
+    if (found == metadata.end()) {
+      refuse("integer words of unknown scale", "metadata fastsplat:frac_bits", "none", "write it with this program");
+    }
+    const std::string& text = found->second;
+    int bits = -1;
+    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), bits);
+    if (status != std::errc{} || end != text.data() + text.size() || bits < 0 || bits > 32) {
+      refuse("bad metadata fastsplat:frac_bits", "0 to 32", text);
+    }
+    return bits;
+  }
+
+  /// All samples in `type`, block by block; grows only with what decodes.
+  template <typename T>
+  std::vector<T> samples(TypeDesc type) {
+    const std::int64_t row = std::int64_t{spec_.width} * spec_.nchannels;
+    const bool tiled = spec_.tile_width != 0;
+    std::int64_t rows = std::max<std::int64_t>(1, kBlockValues / row);
+    if (tiled) rows = std::max<std::int64_t>(1, rows / spec_.tile_height) * spec_.tile_height;
+    std::vector<T> out;
+    if (row * spec_.height <= kBlockValues) out.reserve(static_cast<std::size_t>(row) * spec_.height);
+    for (int y = 0; y < spec_.height;) {
+      const int end = static_cast<int>(std::min<std::int64_t>(spec_.height, y + rows));
+      const std::size_t filled = out.size();
+      out.resize(filled + static_cast<std::size_t>(row) * (end - y));
+      const int top = spec_.y + y;
+      const int bottom = spec_.y + end;
+      const bool read =
+          tiled ? input_->read_tiles(0, 0, spec_.x, spec_.x + spec_.width, top, bottom, 0, 1, 0, spec_.nchannels, type,
+                                     out.data() + filled)
+                : input_->read_scanlines(0, 0, top, bottom, 0, 0, spec_.nchannels, type, out.data() + filled);
+      // Some readers say yes and leave a message about the part they could not decode.
+      if (!read || input_->has_error()) corrupt("pixels");
+      y = end;
+    }
+    return out;
+  }
+
+  template <typename T>
+  static std::vector<float> unit_values(const std::vector<T>& samples, double one) {
+    std::vector<float> values(samples.size());
+    std::transform(samples.begin(), samples.end(), values.begin(),
+                   [one](T sample) { return static_cast<float>(sample / one); });
+    return values;
+  }
+
+  void check_single() {
+    if (input_->seek_subimage(1, 0)) {
+      refuse("several images in one file", "one", {}, "select one with oiiotool --subimage");
+    }
+    (void)input_->geterror();  // "no such subimage" is the good case
+  }
+
+  OIIO::Filesystem::IOMemReader memory_;
+  std::unique_ptr<OIIO::ImageInput> input_;
+  OIIO::ImageSpec spec_;
+};
+
+}  // namespace
+
+std::optional<ErrorParts> decode(const std::string& format, std::string_view bytes, LoadedImage& loaded) {
+  try {
+    loaded = Decoder(format, bytes).load();
+    return {};
+  } catch (Refused& refused) {
+    return std::move(refused.parts);
+  } catch (const std::bad_alloc&) {
+    return ErrorParts{{}, "not enough memory to decode", {}, {}, {}};
+  } catch (const std::exception& error) {  // the decoders' own
+    return ErrorParts{{}, std::string("corrupt: ") + error.what(), {}, {}, {}};
+  }
+}
+
+}  // namespace fastsplat::images

@@ -1,0 +1,11 @@
+// The two operations of the module's table: base/images/codec.hpp says what they do.
+#pragma once
+
+#include "base/images/codec.hpp"
+
+namespace fastsplat::images {
+
+std::optional<ErrorParts> decode(const std::string& format, std::string_view bytes, LoadedImage& loaded);
+std::string encode(const Encoding& picture, std::vector<unsigned char>& bytes);
+
+}  // namespace fastsplat::images

@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/json_text.hpp"
+#include "report/formats/face.hpp"
+#include "report/formats/faces.hpp"
+
+namespace fastsplat::report {
+namespace {
+
+/// More, nobody reads in a review; all are in the CSV.
+constexpr std::size_t kMostRows = 50, kMostColumns = 12, kMostText = 100;
+
+/// In a cell: no bar, no line end, no mark of Markdown's or HTML's own.
+std::string cell(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '\n' || c == '\r') {
+      out += "<br>";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else {
+      if (c == '|' || c == '*' || c == '_' || c == '`' || c == '[' || c == '\\') out += '\\';
+      out += c;
+    }
+  }
+  return out;
+}
+
+/// Between marks of code, of which it may hold some itself: a bar would still end a cell, so this is for lines alone.
+std::string code(const std::string& text) {
+  std::string marks = "`";
+  while (text.find(marks) != text.npos) marks += "`";
+  std::string one = text;
+  std::replace(one.begin(), one.end(), '\n', ' ');
+  return marks + (marks.size() > 1 ? " " + one + " " : one) + marks;
+}
+
+std::string shown(const Json& value) {
+  if (value.is_null()) return "";
+  if (value.is_number_float()) return fmt::format("{:.5g}", value.get<double>());
+  const std::string text = value.is_string() ? value.get<std::string>() : json_text(value, -1);
+  if (text.size() <= kMostText) return cell(text);
+  std::size_t end = kMostText;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a letter
+  return cell(text.substr(0, end)) + "...";
+}
+
+std::string row_text(const std::vector<std::string>& cells) { return fmt::format("| {} |\n", fmt::join(cells, " | ")); }
+
+/// Columns that hold something, numbers to the right; long tables are cut.
+std::string table_text(const Table& table) {
+  std::vector<std::size_t> columns;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const bool any =
+        std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) { return !row[c].is_null(); });
+    if (any) columns.push_back(c);
+  }
+  const std::size_t all = columns.size();
+  columns.resize(std::min(all, kMostColumns));
+  if (columns.empty()) return {};
+  std::vector<std::string> head, rule;
+  for (const std::size_t c : columns) {
+    const bool number = std::all_of(table.rows.begin(), table.rows.end(),
+                                    [&](const auto& row) { return row[c].is_number() || row[c].is_null(); });
+    head.push_back(cell(table.columns[c]));
+    rule.emplace_back(number ? "---:" : "---");
+  }
+  std::string text = row_text(head) + row_text(rule);
+  for (std::size_t r = 0; r < std::min(table.rows.size(), kMostRows); ++r) {
+    std::vector<std::string> cells;
+    for (const std::size_t c : columns) cells.push_back(shown(table.rows[r][c]));
+    text += row_text(cells);
+  }
+  if (table.rows.size() > kMostRows || all > kMostColumns) {
+    text += fmt::format("\n{} of {} rows, {} of {} columns; `--csv` has all.\n", std::min(table.rows.size(), kMostRows),
+                        table.rows.size(), columns.size(), all);
+  }
+  return text;
+}
+
+const char* mark(Status status) {
+  return status == Status::Pass       ? "pass"
+         : status == Status::Measured ? "measured"
+         : status == Status::Fail     ? "**fail**"
+                                      : "**error**";
+}
+
+/// Those of a plan are its rows: only what failed is told apart.
+std::string gates_text(const Result& result) {
+  std::string text;
+  std::size_t told = 0, left = 0;
+  for (const Gate& gate : gates_of(result)) {
+    if (result.verb == "plan" && gate.status == Status::Pass) continue;
+    if (told == kMostRows) {
+      ++left;
+      continue;
+    }
+    ++told;
+    text += row_text({cell(gate.name), mark(gate.status), cell(gate.message),
+                      gate.status == Status::Pass ? "" : cell(gate.command)});
+  }
+  if (text.empty()) return {};
+  text = row_text({"gate", "", "", "reproduce"}) + row_text({"---", "---", "---", "---"}) + text;
+  return text + (left > 0 ? fmt::format("\nand {} more.\n", left) : "") + "\n";
+}
+
+std::string section(const Result& result) {
+  const Verdict verdict = verdict_of(result);
+  const std::string command = command_of(result);
+  return fmt::format("### {} {}: {}\n\n{}\n\n", cell(result.verb), code(result.file.string()), mark(verdict.status),
+                     cell(verdict.sentence)) +
+         (command.empty() ? "" : code(command) + "\n\n") + gates_text(result) + table_text(table_of(result));
+}
+
+}  // namespace
+
+std::string to_markdown(const std::vector<Result>& results) {
+  std::string text;
+  for (const Result& result : results) reading(result, [&] { text += (text.empty() ? "" : "\n") + section(result); });
+  return text;
+}
+
+}  // namespace fastsplat::report

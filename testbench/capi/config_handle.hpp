@@ -1,0 +1,16 @@
+// What a configuration's handle holds.
+#pragma once
+
+#include "testbench/capi/fastsplat.h"
+#include "cmodel/config.hpp"
+
+struct fastsplat_config {
+  fastsplat::cmodel::Config config;
+};
+
+namespace fastsplat::capi {
+
+/// Throws UserError (Usage) unless the handle is a live one.
+const cmodel::Config& config_of(const char* function, const fastsplat_config* handle);
+
+}  // namespace fastsplat::capi

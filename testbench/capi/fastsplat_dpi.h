@@ -1,0 +1,40 @@
+// The functions of libfastsplat that SystemVerilog needs beside those of fastsplat.h: no structures, a vector port as
+// DPI-C hands it over (words of 32 bits, the least significant first). testbench/capi/sv/fastsplat_dpi_pkg.sv imports them.
+#pragma once
+
+#include "fastsplat.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// A checker of a whole stream for the built-in configuration, or the TOML file, `config`, which must have the hash
+/// that the device was built with. `input`, `output`, `seed`: fastsplat_checker_options; verdicts are shown. NULL with
+/// fastsplat_last_error().
+FASTSPLAT_API void* fastsplat_dpi_checker(const char* config, uint64_t hash, const char* input, const char* output,
+                                          uint64_t seed);
+
+/// A beat that was taken, 256 bits.
+FASTSPLAT_API fastsplat_status fastsplat_dpi_took(void* checker, const uint32_t* beat);
+
+// What a port shows (fastsplat_shown, everything given); `words`: of the vector; `tile`: tap_tile_o.
+FASTSPLAT_API fastsplat_status fastsplat_dpi_snap(void* checker, uint64_t cycle, uint32_t tile, uint32_t tag,
+                                                  uint32_t x, uint32_t y, uint32_t mx, uint32_t my);
+FASTSPLAT_API fastsplat_status fastsplat_dpi_sheet(void* checker, uint64_t cycle, uint32_t tile, uint32_t tag,
+                                                   const uint32_t* sums, uint32_t words);
+FASTSPLAT_API fastsplat_status fastsplat_dpi_window(void* checker, uint64_t cycle, uint32_t tile, uint32_t tag,
+                                                    uint32_t x, uint32_t y, const uint32_t* weights, uint32_t words);
+FASTSPLAT_API fastsplat_status fastsplat_dpi_composite(void* checker, uint64_t cycle, uint32_t tile, uint32_t block,
+                                                       const uint32_t* state, uint32_t words);
+FASTSPLAT_API fastsplat_status fastsplat_dpi_sheet_done(void* checker, uint64_t cycle);
+FASTSPLAT_API fastsplat_status fastsplat_dpi_pixels(void* checker, uint64_t cycle, uint32_t tile,
+                                                    const uint32_t* pixels, uint32_t words, uint32_t keep, int32_t last,
+                                                    int32_t cut);
+FASTSPLAT_API fastsplat_status fastsplat_dpi_verdict(void* checker, uint64_t cycle, uint32_t tag, int32_t hidden);
+
+/// fastsplat_checker_finish with `words`/2 counters, each two words, the low one first.
+FASTSPLAT_API fastsplat_status fastsplat_dpi_finish(void* checker, const uint32_t* counters, uint32_t words);
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,26 @@
+// Tap records that wait to be taken, in order, in one flat array: no allocation per record.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "testbench/capi/fastsplat.h"
+#include "cmodel/taps.hpp"
+
+namespace fastsplat::capi {
+
+class TapQueue {
+ public:
+  void push(const cmodel::TapRecord& record);
+  /// False when there is none. `out`'s payload lies in the queue until the next push or sweep.
+  bool pop(fastsplat_tap& out);
+  /// Forgets what was taken.
+  void sweep();
+
+ private:
+  std::vector<std::uint32_t> data_;
+  std::size_t head_ = 0;
+};
+
+}  // namespace fastsplat::capi

@@ -1,0 +1,297 @@
+#include "tests/pipeline/oracle/render.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/pipeline/oracle/densities.hpp"
+#include "tests/pipeline/oracle/rounding.hpp"
+#include "tests/pipeline/oracle/splats.hpp"
+#include "tests/pipeline/oracle/tables.hpp"
+
+namespace fastsplat::stages::oracle {
+
+namespace {
+
+struct Pixel {
+  Values colour{};  ///< R, G, B; an X-ray's sums
+  double t = 1.0;
+  Closeness closeness;
+};
+
+class Frame {
+ public:
+  Frame(const scene::Scene& scene, const cmodel::Config& config, const Mixture& mixture)
+      : scene_(scene),
+        config_(config),
+        mixture_(mixture),
+        xray_(scene.description.method == scene::Method::XRay),
+        additive_(scene.description.slab_opacity == scene::SlabOpacity::Additive),
+        radial_(radial_table(scene.kernel.a(), scene.kernel.radius(), config)),
+        factor_(factor_table(config)) {}
+
+  /// Steps distance, index and weight: `dx`, `dy` pixels from the centre, both less than the radius.
+  double weight(double dx, double dy, double radius, Closeness& closeness) const {
+    using cmodel::IndexKind;
+    const IndexKind kind = config_.index();
+    if (kind == IndexKind::Blit2d || kind == IndexKind::Separable) return read(dx, dy, radius, closeness);
+    const int n = config_.radial_entries, g = config_.rlut_guard_bits;
+    const bool linear = kind == IndexKind::Linear;
+    const double q = kind == IndexKind::Rlut ? distance(dx, radius, closeness) + distance(dy, radius, closeness)
+                                             : computed(dx, dy, radius, closeness);
+    const auto footprint = [&](double part) { return this->footprint(linear ? part * part : part); };
+    compare(q, n, g, closeness);
+    if (q >= n) return 0.0;
+    if (!mixture_.device(Step::Index) && !mixture_.device(Step::Weight)) return footprint(q / n);
+    const double t = trn(q, 0, closeness);
+    if (config_.interpolates()) return on_line(q, t, closeness);
+    const double at = mixture_.device(Step::Index) ? t + 0.5 : q;
+    if (!mixture_.device(Step::Weight)) return footprint(at / n);
+    // In this order: where `at` is the entry's own place, nothing but the entry is left.
+    return std::max(0.0, footprint(at / n) - footprint((t + 0.5) / n) + radial_[static_cast<std::size_t>(t)]);
+  }
+
+  /// How far beyond the radius, along an axis, a pixel can have weight.
+  double beyond() const {
+    return config_.index() == cmodel::IndexKind::Linear ? std::ldexp(1.0, -grid_bits(config_)) : 0.0;
+  }
+
+  double product(double v, double w, Closeness& closeness) const {
+    if (!mixture_.device(Step::Product)) return v * w;
+    const double rounded = round_by(config_.rounding_product, v * w, config_.sheet_frac_bits, closeness);
+    return cut(rounded, 0.0, largest(config_.sheet_int_bits, config_.sheet_frac_bits));
+  }
+
+  /// Every sample is composited: no sums.
+  bool samples() const { return scene_.description.method == scene::Method::Westover; }
+
+  void cut_sum(Values& sums) const {
+    if (!mixture_.device(Step::Sheet)) return;
+    for (double& sum : sums) sum = cut(sum, 0.0, largest(config_.sheet_int_bits, config_.sheet_frac_bits));
+  }
+
+  bool densities() const { return scene_.description.classify == scene::ClassifyOrder::Post; }
+
+  /// Steps sheet to freeze, at the end of a sheet; of one sample, and of what was a density, from factor on.
+  void composite(Values s, Pixel& pixel) const {
+    if (!samples() && !densities()) cut_sum(s);
+    if (s == Values{}) return;
+    if (xray_) {
+      for (std::size_t c = 0; c < 4; ++c) pixel.colour[c] += s[c];
+      cut_sum(pixel.colour);
+      return;
+    }
+    const Values slab = slab_of(s, pixel.closeness);
+    const double least = mixture_.device(Step::Freeze) ? std::ldexp(config_.freeze_below, -config_.composite_frac_bits)
+                                                       : scene_.description.culling.freeze;
+    compare(pixel.t, least, config_.composite_frac_bits, pixel.closeness);
+    if (pixel.t < least || pixel.t < 1e-20) return;
+    const double before = pixel.t;
+    if (!mixture_.device(Step::Composite)) {
+      for (std::size_t c = 0; c < 3; ++c) pixel.colour[c] += before * slab[c];
+      pixel.t = before * (1.0 - slab[3]);
+      return;
+    }
+    const int tf = config_.composite_frac_bits;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double light = to_unit(config_.rounding_light, before * slab[c], tf, pixel.closeness);
+      pixel.colour[c] = std::min(pixel.colour[c] + light, largest(1, tf));
+    }
+    pixel.t = before - to_unit(config_.rounding_light, before * slab[3], tf, pixel.closeness);
+  }
+
+  Values out(Pixel& pixel) const {
+    Values values = pixel.colour;
+    if (!xray_) values[3] = 1.0 - pixel.t;
+    if (!mixture_.device(Step::Pixel)) return values;
+    for (double& value : values) {
+      value =
+          to_unsigned(config_.rounding_pixel, value, config_.pixel_int_bits, config_.pixel_frac_bits, pixel.closeness);
+    }
+    return values;
+  }
+
+ private:
+  double footprint(double u) const {
+    return std::exp(-scene_.kernel.a() * scene_.kernel.radius() * scene_.kernel.radius() * u);
+  }
+
+  /// Steps index and weight of an interpolated table, of which at least one is the device's.
+  double on_line(double q, double t, Closeness& closeness) const {
+    const double kernel_radius = scene_.kernel.radius(), part = trn(q, config_.rlut_guard_bits, closeness) - t;
+    const auto end = [&](double at) {
+      return line_end(scene_.kernel.a(), kernel_radius, config_, static_cast<int>(at));
+    };
+    const double line = end(t) - (end(t) - end(t + 1)) * part;
+    if (!mixture_.device(Step::Weight)) return line;
+    const auto i = static_cast<std::size_t>(t);
+    const double word = radial_[i] - rnd((radial_[i] - radial_[i + 1]) * part, config_.radial_frac_bits, closeness);
+    if (mixture_.device(Step::Index)) return word;
+    return std::max(0.0, footprint(q / config_.radial_entries) + (word - line));
+  }
+
+  double distance(double d, double radius, Closeness& closeness) const {
+    const int n = config_.radial_entries, g = config_.rlut_guard_bits;
+    const double q = d * d * n / (radius * radius);
+    return mixture_.device(Step::Distance) ? rnd(q, g, closeness) : q;
+  }
+
+  /// Step distance of linear, squared and squared_elliptic.
+  double computed(double dx, double dy, double radius, Closeness& closeness) const {
+    const int n = config_.radial_entries, g = config_.rlut_guard_bits;
+    const bool linear = config_.index() == cmodel::IndexKind::Linear;
+    const double squared = dx * dx + dy * dy;
+    if (!mixture_.device(Step::Distance))
+      return linear ? std::sqrt(squared) * n / radius : squared * n / (radius * radius);
+    const double grid = std::ldexp(1.0, grid_bits(config_)), rim = radius * grid;
+    const long double d = static_cast<long double>(squared * grid * grid);
+    const Scale scale = scale_of(linear ? n / std::ldexp(rim, g) : n / (rim * rim));
+    long double steps = d;
+    if (linear) {
+      const long double root = std::sqrt(d * std::pow(4.0L, g));
+      steps = std::floor(root);
+      compare(static_cast<double>(root), std::round(static_cast<double>(root)), 0, closeness);
+      // The largest s with s^2 <= D 4^g, whatever the root's own last bit.
+      while (steps * steps > d * std::pow(4.0L, g)) steps -= 1.0L;
+      while ((steps + 1.0L) * (steps + 1.0L) <= d * std::pow(4.0L, g)) steps += 1.0L;
+    }
+    const long double q = steps * static_cast<long double>(scale.c) * std::pow(2.0L, -scale.h);
+    const auto near = static_cast<double>(q);
+    return near >= std::floor(static_cast<double>(std::floor(q))) + 1.0 ? std::nextafter(near, 0.0) : near;
+  }
+
+  /// Steps distance to weight of blit2d and separable: only the last does anything.
+  double read(double dx, double dy, double radius, Closeness& closeness) const {
+    const double u = (dx * dx + dy * dy) / (radius * radius);
+    compare(u, 1.0, 0, closeness);
+    if (!mixture_.device(Step::Weight)) return u < 1.0 ? footprint(u) : 0.0;
+    const int wi = config_.radial_int_bits, wf = config_.radial_frac_bits, g = config_.rlut_guard_bits;
+    if (config_.index() == cmodel::IndexKind::Blit2d)
+      return u < 1.0 ? std::min(rnd(footprint(u), wf, closeness), largest(wi, wf)) : 0.0;
+    const double most = std::min(1.0, largest(wi, wf));
+    const auto along = [&](double d) {
+      return std::min(rnd(footprint(d * d / (radius * radius)), wf + g, closeness), most);
+    };
+    return static_cast<double>(std::floor(static_cast<long double>(along(dx)) * along(dy) * std::pow(2.0L, wf) + 0.5L) *
+                               std::pow(2.0L, -wf));
+  }
+
+  /// Steps factor and slab: colour, and last the opacity.
+  Values slab_of(const Values& s, Closeness& closeness) const {
+    const double tau = s[3];
+    const bool real_factor = !mixture_.device(Step::Factor), device_slab = mixture_.device(Step::Slab);
+    double f = 1.0;
+    if (!additive_ && !real_factor) {
+      f = interpolated(factor_, tau, config_, closeness);
+    } else if (!additive_ && tau != 0.0) {
+      f = -std::expm1(-tau) / tau;
+    }
+    Values slab{};
+    for (std::size_t c = 0; c < 4; ++c) {
+      slab[c] = s[c] * f;
+      if (device_slab) {
+        slab[c] = to_unit(config_.rounding_slab, slab[c], config_.composite_frac_bits, closeness);
+      } else if (additive_) {
+        slab[c] = std::min(1.0, slab[c]);
+      }
+    }
+    if (!device_slab && !additive_ && real_factor) slab[3] = -std::expm1(-tau);
+    return slab;
+  }
+
+  const scene::Scene& scene_;
+  const cmodel::Config& config_;
+  const Mixture& mixture_;
+  bool xray_, additive_;
+  std::vector<double> radial_, factor_;
+};
+
+/// All sheets of all pixels first: what a pixel becomes hangs on its neighbours.
+std::vector<std::array<double, 4>> of_densities(const scene::Scene& scene, const cmodel::Config& config,
+                                                const Mixture& mixture, const Frame& frame,
+                                                const std::vector<Splat>& splats, std::size_t sheets,
+                                                std::vector<bool>* close) {
+  const int width = scene.description.width, height = scene.description.height;
+  const auto at = [width](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  };
+  std::vector<std::vector<Values>> sums(sheets, std::vector<Values>(at(0, height), Values{}));
+  std::vector<Closeness> doubts(at(0, height));
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (const Splat& splat : splats) {
+        const double dx = x - splat.x, dy = y - splat.y, reach = splat.radius + frame.beyond();
+        if (std::abs(dx) >= reach || std::abs(dy) >= reach) continue;
+        Closeness& doubt = doubts[at(x, y)];
+        doubt |= splat.closeness;
+        const double w = frame.weight(dx, dy, splat.radius, doubt);
+        for (std::size_t s = 0; s < sheets; ++s) {
+          if (splat.shares[s][3] != 0.0) sums[s][at(x, y)][3] += frame.product(splat.shares[s][3], w, doubt);
+        }
+      }
+      for (std::size_t s = 0; s < sheets; ++s) frame.cut_sum(sums[s][at(x, y)]);
+    }
+  }
+  const Densities colours(scene, config, mixture, static_cast<int>(sheets));
+  std::vector<std::array<double, 4>> picture;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      Pixel pixel;
+      const auto d = [&](std::size_t s, int i, int j) { return s < sheets ? sums[s][at(i, j)][3] : 0.0; };
+      // Beyond the picture a pixel stands for its neighbour, and what is left counts twice.
+      const int left = x == 0 ? 0 : x - 1, right = x + 1 == width ? x : x + 1, above = y == 0 ? 0 : y - 1,
+                below = y + 1 == height ? y : y + 1;
+      for (const std::size_t i : {at(x, y), at(left, y), at(right, y), at(x, above), at(x, below)})
+        pixel.closeness |= doubts[i];
+      for (std::size_t s = 0; s < sheets; ++s) {
+        const double across = (d(s, right, y) - d(s, left, y)) * (right - left == 2 ? 1.0 : 2.0);
+        const double down = (d(s, x, below) - d(s, x, above)) * (below - above == 2 ? 1.0 : 2.0);
+        const double along = d(s + 1, x, y) - (s == 0 ? 0.0 : d(s - 1, x, y));
+        frame.composite(colours(d(s, x, y), {across, down, along}, x, y, static_cast<int>(s), pixel.closeness), pixel);
+      }
+      picture.push_back(frame.out(pixel));
+      if (close != nullptr) close->push_back(pixel.closeness.close);
+    }
+  }
+  return picture;
+}
+
+}  // namespace
+
+std::vector<std::array<double, 4>> render(const scene::Scene& scene, const cmodel::Config& config,
+                                          const Mixture& mixture, std::vector<bool>* close) {
+  const int width = scene.description.width, height = scene.description.height;
+  const Frame frame(scene, config, mixture);
+  const std::vector<Splat> splats = splats_of(scene, config, mixture);
+  const std::size_t sheets = splats.empty() ? 0 : splats.front().shares.size();
+  std::vector<std::array<double, 4>> picture;
+  if (close != nullptr) close->clear();
+  if (frame.densities()) return of_densities(scene, config, mixture, frame, splats, sheets, close);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      Pixel pixel;
+      std::vector<Values> sums(sheets, Values{});
+      for (const Splat& splat : splats) {
+        const double dx = x - splat.x, dy = y - splat.y;
+        const double reach = splat.radius + frame.beyond();
+        if (std::abs(dx) >= reach || std::abs(dy) >= reach) continue;
+        pixel.closeness |= splat.closeness;
+        const double w = frame.weight(dx, dy, splat.radius, pixel.closeness);
+        for (std::size_t s = 0; s < sheets; ++s) {
+          for (std::size_t c = 0; c < 4; ++c) {
+            if (splat.shares[s][c] != 0.0) sums[s][c] += frame.product(splat.shares[s][c], w, pixel.closeness);
+          }
+        }
+        if (frame.samples()) {
+          frame.composite(sums[0], pixel);
+          sums[0] = {};
+        }
+      }
+      for (std::size_t s = 0; s < sheets; ++s) frame.composite(sums[s], pixel);
+      picture.push_back(frame.out(pixel));
+      if (close != nullptr) close->push_back(pixel.closeness.close);
+    }
+  }
+  return picture;
+}
+
+}  // namespace fastsplat::stages::oracle

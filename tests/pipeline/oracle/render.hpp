@@ -1,0 +1,18 @@
+// A second way to the pictures of docs/errors.md, section 1, written from that page: every splat, sheet and pixel.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "cmodel/config.hpp"
+#include "scene/scene.hpp"
+#include "analysis/pipeline/step.hpp"
+
+namespace fastsplat::stages::oracle {
+
+/// R, G, B, A of each pixel, row by row. With `close`, also which pixels hang on a decision that lies within the last
+/// bits of a double (rounding.hpp).
+std::vector<std::array<double, 4>> render(const scene::Scene& scene, const cmodel::Config& config,
+                                          const Mixture& mixture, std::vector<bool>* close = nullptr);
+
+}  // namespace fastsplat::stages::oracle

@@ -1,0 +1,25 @@
+// The first seven steps once more, for the oracle of the mixtures: from a voxel's splat to what each sheet gets of it.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "cmodel/config.hpp"
+#include "scene/scene.hpp"
+#include "analysis/pipeline/step.hpp"
+#include "tests/pipeline/oracle/rounding.hpp"
+
+namespace fastsplat::stages::oracle {
+
+using Values = std::array<double, 4>;  ///< R, G, B and optical depth
+
+struct Splat {
+  double x = 0.0, y = 0.0, radius = 0.0;  ///< pixels
+  std::vector<Values> shares;             ///< of every sheet of the frame
+  Closeness closeness;
+};
+
+/// In traversal order.
+std::vector<Splat> splats_of(const scene::Scene& scene, const cmodel::Config& config, const Mixture& mixture);
+
+}  // namespace fastsplat::stages::oracle

@@ -1,0 +1,56 @@
+// Small plans of a program that is a shell script, in a folder of their own.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "analysis/sweep/make.hpp"
+#include "analysis/sweep/run.hpp"
+
+namespace fastsplat::plan_test {
+
+/// A fresh folder under the system's temporary folder, removed with all it holds.
+class Folder {
+ public:
+  Folder();
+  ~Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  std::filesystem::path write(const std::string& name, const std::string& text) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string read(const std::filesystem::path& path);
+/// Names and bytes of the results in a folder: ID.json.
+std::vector<std::pair<std::string, std::string>> results_in(const std::filesystem::path& folder);
+
+/// Verbs "cycles" and "verify" with --n, --bad and, for the configuration, --config and --set; "render" and "compare"
+/// as the kind compare has them. A configuration's hash is its words.
+plan::Vocabulary vocabulary();
+
+/// A script that is such a program: its JSON holds "n" and the time; --n 13 is a limit that is broken, --n 99 refused,
+/// --n 66 is ended by a signal. It says in FOLDER/log what it was run with. `before`: shell lines run first.
+std::string script(const Folder& folder, const std::string& before = {});
+
+/// Of a specification's text.
+plan::Plan plan_of(const Folder& folder, const std::string& spec);
+
+plan::RunSummary run(const Folder& folder, const plan::Plan& plan, const std::string& program,
+                     const std::string& results = "results", plan::Shard shard = {}, std::size_t jobs = 1);
+
+/// What the error says that `call` throws; empty where it throws none.
+template <class Call>
+std::string error_of(const Call& call) {
+  try {
+    call();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace fastsplat::plan_test

@@ -1,0 +1,178 @@
+// fastsplat_evidence: what tools other than the simulator said of the device, gathered (tools/synth, tools/evidence).
+//   synthesis KEPT WORK_DIR FAMILY-CONFIG...  KEPT (it may be missing) with those named anew, of the files of synth.sh and,
+//   where there is one, of FAMILY-CONFIG.stamp
+//   ratchet BASELINE WORK_DIR FAMILY-CONFIG...  those against the baseline's: exit code 1 where one moved by more than
+//   2 %
+//   seed BASELINE FAMILY-CONFIG               the placer's seed of which the baseline has it placed; nothing if it is not
+//   figures GTEST_JSON                        the figures of a test program's report, by test
+//   page FOLDER [STAMP]                       docs/evidence.md of FOLDER's JSON, to standard output. STAMP: the RTL as it is,
+//   of tools/helpers/evidence_stamp.py, which every figure's own is held against
+// Exit codes: 0, 1 moved, 2 usage, 3 a file that is missing or wrong.
+#include <algorithm>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "tools/pages/evidence/page.hpp"
+#include "tools/pages/evidence/synthesis.hpp"
+
+namespace {
+
+using namespace fastsplat::evidence;
+using Json = nlohmann::ordered_json;
+
+/// Beyond it a figure has moved.
+constexpr double kShare = 0.02;
+
+Json design_of(const std::string& work, const std::string& name) {
+  const auto dash = name.find('-');
+  if (dash == std::string::npos) throw std::runtime_error(name + " is no FAMILY-CONFIG");
+  return read_synthesis(work, name.substr(0, dash), name.substr(dash + 1));
+}
+
+Json read_json(const std::string& path) {
+  std::ifstream in(path);
+  if (!in) throw std::runtime_error("cannot read " + path);
+  return Json::parse(in);
+}
+
+/// The entry of the same family and design.
+template <class Entries>
+auto find_design(Entries& entries, const Json& like) {
+  return std::find_if(entries.begin(), entries.end(), [&](const Json& entry) {
+    return entry.at("family") == like.at("family") && entry.at("design") == like.at("design");
+  });
+}
+
+int ratchet(const Json& baseline, const std::string& work, std::span<const std::string> names) {
+  int compared = 0;
+  bool moved = false;
+  for (const auto& name : names) {
+    const Json now = design_of(work, name);
+    const auto then = find_design(baseline, now);
+    if (then == baseline.end()) throw std::runtime_error("the baseline has no " + name + ": tools/synth");
+    // Another version of a tool maps in another way: nothing of the device has moved.
+    if (then->at("tools") != now.at("tools")) {
+      std::cout << "skipped: " << name << " by " << now.at("tools").dump() << ", the baseline by "
+                << then->at("tools").dump() << ": tools/synth makes a new one\n";
+      return 77;
+    }
+    for (const auto& line : changes(*then, now, kShare, compared)) {
+      std::cout << line << "\n";
+      moved = true;
+    }
+    std::cout << "[figure] " << name << " total = " << now.at("total").dump() << "\n";
+  }
+  std::cout << "[figure] figures compared = " << compared << " (limit > 0, each within 2 %)\n";
+  if (moved) std::cout << "the device's size or depth moved; if it was meant to, tools/synth keeps the new figures\n";
+  return moved || compared == 0 ? 1 : 0;
+}
+
+int seed(const Json& baseline, const std::string& name) {
+  const auto dash = name.find('-');
+  if (dash == std::string::npos) throw std::runtime_error(name + " is no FAMILY-CONFIG");
+  const auto kept = find_design(baseline, {{"family", name.substr(0, dash)}, {"design", name.substr(dash + 1)}});
+  if (kept != baseline.end() && kept->contains("placement"))
+    std::cout << kept->at("placement").at("seed").get<int>() << "\n";
+  return 0;
+}
+
+/// `seconds` of them all, on as many `processors`.
+Json proofs(const std::string& tool, const std::string& seconds, const std::string& processors,
+            std::span<const std::string> files) {
+  Json all = Json::array();
+  for (const auto& file : files) {
+    std::ifstream in(file);
+    if (!in) throw std::runtime_error("cannot read " + file);
+    for (std::string line; std::getline(in, line);) {
+      std::vector<std::string> fields;
+      for (std::size_t at = 0; at != std::string::npos;) {
+        const auto bar = line.find(" | ", at);
+        fields.push_back(line.substr(at, bar == std::string::npos ? bar : bar - at));
+        at = bar == std::string::npos ? bar : bar + 3;
+      }
+      if (fields.size() != 4) throw std::runtime_error(file + " is no list of proofs");
+      all.push_back({{"property", fields[0]},
+                     {"how", fields[1]},
+                     {"seconds", std::stod(fields[2])},
+                     {"refuted", std::stoi(fields[3])}});
+    }
+  }
+  return {{"tool", tool}, {"seconds", std::stoi(seconds)}, {"processors", std::stoi(processors)}, {"proofs", all}};
+}
+
+Json figures(const Json& report) {
+  Json out = Json::object();
+  for (const auto& suite : report.at("testsuites")) {
+    for (const auto& test : suite.at("testsuite")) {
+      if (test.value("result", "") != "COMPLETED") continue;
+      if (test.contains("failures")) throw std::runtime_error(test.at("name").get<std::string>() + " failed");
+      Json values = Json::object();
+      for (const auto& [key, value] : test.items()) {
+        static constexpr const char* kOwn[] = {"name",      "status", "result", "timestamp",  "time",
+                                               "classname", "file",   "line",   "type_param", "value_param"};
+        if (std::find(std::begin(kOwn), std::end(kOwn), key) == std::end(kOwn)) values[key] = value;
+      }
+      if (!values.empty()) out[suite.at("name").get<std::string>() + "." + test.at("name").get<std::string>()] = values;
+    }
+  }
+  return out;
+}
+
+int run(const std::vector<std::string>& words) {
+  const auto is = [&](const char* verb, std::size_t least) {
+    return !words.empty() && words[0] == verb && words.size() > least;
+  };
+  if (is("synthesis", 3)) {
+    Json all = std::filesystem::exists(words[1]) ? read_json(words[1]) : Json::array();
+    for (std::size_t i = 3; i < words.size(); ++i) {
+      Json now = design_of(words[2], words[i]);
+      if (const auto stamp = words[2] + "/" + words[i] + ".stamp"; std::filesystem::exists(stamp))
+        now.update(read_json(stamp));
+      const auto then = find_design(all, now);
+      if (then == all.end()) {
+        all.push_back(now);
+      } else {
+        *then = now;
+      }
+    }
+    std::cout << all.dump(1) << "\n";
+    return 0;
+  }
+  if (is("ratchet", 3)) return ratchet(read_json(words[1]), words[2], std::span(words).subspan(3));
+  if (is("seed", 2)) return seed(read_json(words[1]), words[2]);
+  if (is("figures", 2)) {
+    std::cout << Json{{"tool", words[1]}, {"tests", figures(read_json(words[2]))}}.dump(1) << "\n";
+    return 0;
+  }
+  if (is("proofs", 4)) {
+    const Json proved = proofs(words[1], words[2], words[3], std::span(words).subspan(4));
+    if (proved.at("proofs").empty()) throw std::runtime_error("nothing proved in any of the files");
+    std::cout << proved.dump(1) << "\n";
+    return 0;
+  }
+  if (is("page", 1)) {
+    if (!std::filesystem::is_directory(words[1])) throw std::runtime_error(words[1] + ": no folder");
+    std::cout << page(words[1], words.size() > 2 ? read_json(words[2]) : Json());
+    return 0;
+  }
+  std::cerr << "usage: fastsplat_evidence synthesis KEPT WORK_DIR FAMILY-CONFIG... | ratchet BASELINE WORK_DIR "
+               "FAMILY-CONFIG... | seed BASELINE FAMILY-CONFIG | figures TOOL GTEST_JSON | proofs TOOL SECONDS "
+               "PROCESSORS FILE... | page FOLDER [STAMP]\n";
+  return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run({argv + 1, argv + argc});
+  } catch (const std::exception& error) {
+    std::cerr << "fastsplat_evidence: error: " << error.what() << "\n";
+    return 3;
+  }
+}

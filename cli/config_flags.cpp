@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "cli/names.hpp"
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 
 namespace fastsplat::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "driver/culling_comparison.hpp"
+#include "driver/tiles/culling_comparison.hpp"
 
 namespace fastsplat::cli {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cmodel/cycle_stages.hpp"
+#include "cmodel/cycles/cycle_stages.hpp"
 
 namespace fastsplat::cli {
 namespace {

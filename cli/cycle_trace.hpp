@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "cmodel/cycle_model.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
 
 namespace fastsplat::cli {
 

@@ -8,8 +8,8 @@
 #include "base/hash_text.hpp"
 #include "cli/config_json.hpp"
 #include "cli/image_output.hpp"
-#include "cmodel/config.hpp"
-#include "cmodel/counters.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/numbers/counters.hpp"
 
 namespace fastsplat::cli {
 namespace {

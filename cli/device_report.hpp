@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/output.hpp"
-#include "driver/render.hpp"
+#include "driver/tiles/render.hpp"
 #include "base/images/image_file.hpp"
 
 namespace fastsplat::cli {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/image.hpp"
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "base/images/image_file.hpp"
 #include "scene/scene.hpp"
 

@@ -9,7 +9,7 @@
 #include "cli/device_report.hpp"
 #include "cli/image_output.hpp"
 #include "cli/scene_flags.hpp"
-#include "driver/splat_quantiser.hpp"
+#include "driver/splats/splat_quantiser.hpp"
 #include "scene/sheet_plan.hpp"
 #include "scene/splats.hpp"
 

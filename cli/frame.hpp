@@ -10,7 +10,7 @@
 #include "cli/device_report.hpp"
 #include "cli/output.hpp"
 #include "cli/rtl_run.hpp"
-#include "driver/render.hpp"
+#include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 #include "base/images/image_file.hpp"
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "cli/options.hpp"
-#include "cmodel/cluster_account.hpp"
-#include "cmodel/cycle_cluster.hpp"
+#include "cmodel/cycles/cluster_account.hpp"
+#include "cmodel/cycles/cycle_cluster.hpp"
 
 namespace fastsplat::cli {
 

@@ -17,7 +17,7 @@
 #include "cli/image_output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
-#include "driver/gaussian_frame.hpp"
+#include "driver/tiles/gaussian_frame.hpp"
 
 namespace fastsplat::cli {
 namespace {

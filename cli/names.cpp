@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "base/error.hpp"
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "testbench/stimulus/stimulus.hpp"
 #include "scene/volume/volume_file.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 #include "base/images/image_file.hpp"
 #include "scene/scene_file.hpp"
 #include "scene/transfer_function.hpp"

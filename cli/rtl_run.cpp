@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/progress_bar.hpp"
-#include "driver/compile.hpp"
-#include "driver/run_device.hpp"
+#include "driver/tiles/compile.hpp"
+#include "driver/tiles/run_device.hpp"
 
 namespace fastsplat::cli {
 

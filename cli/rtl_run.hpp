@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "cli/output.hpp"
 #include "cli/wave_flags.hpp"
-#include "driver/render.hpp"
+#include "driver/tiles/render.hpp"
 #include "testbench/check/verify.hpp"
 #include "testbench/device/rtl_module.hpp"
 

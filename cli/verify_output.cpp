@@ -9,7 +9,7 @@
 #include "cli/replay_line.hpp"
 #include "cli/rtl_run.hpp"
 #include "cli/text_table.hpp"
-#include "driver/stream_file.hpp"
+#include "driver/files/stream_file.hpp"
 
 namespace fastsplat::cli {
 namespace {

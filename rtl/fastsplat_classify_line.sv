@@ -1,4 +1,4 @@
-// A table between whose entries lie straight lines (docs/numerics.md, section 6.2; cmodel/classify_unit.hpp, Lines). A memory word is
+// A table between whose entries lie straight lines (docs/numerics.md, section 6.2; cmodel/classify/classify_unit.hpp, Lines). A memory word is
 // an entry and the next one. Registers: memory -> product -> value; an index of this cycle is a value three cycles later.
 module fastsplat_classify_line #(
     parameter int BITS  = 8,

@@ -1,4 +1,4 @@
-// A pixel's colour under the light, times its optical depth (docs/numerics.md, section 6.2; cmodel/classify_unit.cpp). Registers: d15 share and
+// A pixel's colour under the light, times its optical depth (docs/numerics.md, section 6.2; cmodel/classify/classify_unit.cpp). Registers: d15 share and
 // matt in full -> d16 -> d17 GLINT, colour times matt -> d18 -> d19 shaded less plain -> d20 share of it -> d21 colour -> d22 -> d23 sums.
 module fastsplat_classify_shade (
     input  logic clk_i,

@@ -1,4 +1,4 @@
-// Tables of densities on their way in (docs/numerics.md, section 6.2; cmodel/classify_tables.hpp): words become the segments that lanes
+// Tables of densities on their way in (docs/numerics.md, section 6.2; cmodel/classify/classify_tables.hpp): words become the segments that lanes
 // keep, LIGHTING stays in registers, of SHEETS the words of one sheet are read.
 module fastsplat_classify_tables (
     input  logic        clk_i,

@@ -1,5 +1,5 @@
 // One lane of the compositor: a slab over a pixel, front to back, with freezing; or X-ray sums
-// (docs/numerics.md, section 6; cmodel/composite_lane.hpp). Registers: k5 (products), k6 (new state). A stage without a
+// (docs/numerics.md, section 6; cmodel/composite/composite_lane.hpp). Registers: k5 (products), k6 (new state). A stage without a
 // block holds.
 `include "assertions.svh"
 `include "narrow.svh"

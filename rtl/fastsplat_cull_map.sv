@@ -1,5 +1,5 @@
-// The map of opaque cells and its two tables (docs/numerics.md, section 6.1; docs/microarchitecture.md, "Map"; cmodel/cull_unit.hpp,
-// cmodel/cull_pipe.hpp). Sheets j of a tile have table j mod 2. What the compositor writes while a table is built belongs to the next
+// The map of opaque cells and its two tables (docs/numerics.md, section 6.1; docs/microarchitecture.md, "Map"; cmodel/cull/cull_unit.hpp,
+// cmodel/cycles/cull_pipe.hpp). Sheets j of a tile have table j mod 2. What the compositor writes while a table is built belongs to the next
 // sheet: each table has a block map of its own, taken when its sheet left k6; of pixels, what a sheet froze is kept apart by j mod 2
 // and put to the rest as the table is built.
 `include "assertions.svh"

@@ -1,5 +1,5 @@
 // Sets of splats that cull_block records announced, and whether a splat that comes belongs to a hidden one (docs/stream.md, cull_block;
-// cmodel/cull_sets.hpp). It goes by tags, for a source need not send what is hidden: kept are the sets that can be seen, oldest first, and how
+// cmodel/cull/cull_sets.hpp). It goes by tags, for a source need not send what is hidden: kept are the sets that can be seen, oldest first, and how
 // far sets were announced; what lies before that and in none of them is hidden. A set can be announced and a splat taken in every cycle: the oldest
 // set lies in a register; of those behind it the newest lies in another one, for the memory has it two cycles later.
 `include "assertions.svh"

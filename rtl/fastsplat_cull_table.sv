@@ -1,5 +1,5 @@
 // One of the two summed-area tables of opaque cells, and the four words of a rectangle (docs/numerics.md, section 6.1;
-// cmodel/cull_table.hpp). A memory word is WORDS of them, side by side; the words of row 0 and column 0 are 0 and not stored.
+// cmodel/cull/cull_table.hpp). A memory word is WORDS of them, side by side; the words of row 0 and column 0 are 0 and not stored.
 `include "fault.svh"
 
 module fastsplat_cull_table (

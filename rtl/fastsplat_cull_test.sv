@@ -1,5 +1,5 @@
 // Unit "cull": four registers between check and decode, in which sets and splats are tested (docs/microarchitecture.md, "Test unit";
-// cmodel/cull_pipe.hpp, cmodel/model.cpp).
+// cmodel/cycles/cull_pipe.hpp, cmodel/model.cpp).
 // t0 beat, its centre on the grid -> t1 rectangle, clipped to the tile, in cells -> t2 the table's words -> t3 verdict.
 `include "assertions.svh"
 `include "fault.svh"

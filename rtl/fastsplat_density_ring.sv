@@ -1,5 +1,5 @@
 // The sheets of densities that are live: three parts of one channel, and what the pixels of a block need of them
-// (docs/microarchitecture.md, "Densities"; cmodel/density_ring.hpp). A block is read in five cycles: the rows above and below it, the
+// (docs/microarchitecture.md, "Densities"; cmodel/classify/density_ring.hpp). A block is read in five cycles: the rows above and below it, the
 // columns beside it, then itself, of all three sheets; then it is worked on, slice by slice, while the next one is read.
 // A part's word counts where the block's bit is set: no memory is ever wiped.
 `include "assertions.svh"

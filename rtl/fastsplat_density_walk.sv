@@ -1,4 +1,4 @@
-// Which sheet of densities is worked on, and block by block (docs/microarchitecture.md, "Densities"; cmodel/density_ring.hpp). A finished
+// Which sheet of densities is worked on, and block by block (docs/microarchitecture.md, "Densities"; cmodel/classify/density_ring.hpp). A finished
 // sheet's dirty blocks are noted as they are copied out of its buffer; when the sheet behind it is there, too, they are read again, STEPS
 // cycles each: the first five name what a block's pixels need, the rest wait for the pixel stage's lanes.
 `include "assertions.svh"

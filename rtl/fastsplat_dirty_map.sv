@@ -1,5 +1,5 @@
 // The dirty blocks of both sheet buffers and the walk over those of a finished sheet: lowest number first, one slice of a
-// block a cycle (docs/microarchitecture.md, "Dirty walk" and "Slices"; cmodel/dirty_map.hpp).
+// block a cycle (docs/microarchitecture.md, "Dirty walk" and "Slices"; cmodel/splat/dirty_map.hpp).
 // No cycle looks at the whole map: f1 lowest dirty row -> f2 its blocks -> f3 the row being walked -> k0 block. The three
 // cycles of f1 to f3 pass while the end of the sheet goes down the splat path, or while the last blocks of the sheet
 // before go down the compositor's.

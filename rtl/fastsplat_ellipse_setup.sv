@@ -1,5 +1,5 @@
 // What a record's shape comes to at its first pixel: six coefficients, each exact and then narrowed once
-// (docs/numerics.md, section 4.6; cmodel/ellipse_unit.cpp). A record a cycle; a window's record is made anew with every window.
+// (docs/numerics.md, section 4.6; cmodel/splat/ellipse_unit.cpp). A record a cycle; a window's record is made anew with every window.
 // Registers: e1 way from the centre -> e2 first products -> e3 sums -> e4 second products -> e5 u0 -> e6 shift by eights
 // -> e7 shift by ones -> e8 rounded. All words are two's complement, modulo their width.
 `include "fault.svh"

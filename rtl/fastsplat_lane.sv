@@ -1,5 +1,5 @@
-// One lane of the splat array: q, radial table, four products (docs/numerics.md, sections 4 and 5; cmodel/footprint.hpp,
-// cmodel/lane.hpp).
+// One lane of the splat array: q, radial table, four products (docs/numerics.md, sections 4 and 5; cmodel/splat/footprint.hpp,
+// cmodel/splat/lane.hpp).
 // Registers: c4 (q), c5 (table read), c6 (products); with interpolation two more behind c5. Outputs belong to the inputs of three
 // cycles before, or five, and hold while no window is in the stage before.
 `include "fault.svh"

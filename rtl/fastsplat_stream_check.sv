@@ -1,5 +1,5 @@
 // Unit "check": judges each beat before decode sees it, by every rule of docs/stream.md that a device can judge
-// (cmodel/stream_decode.hpp, StreamScope::Subset; cmodel/stream_rules.hpp). Two beat registers in front of decode's: long comparisons in
+// (cmodel/decode/stream_decode.hpp, StreamScope::Subset; cmodel/stream/stream_rules.hpp). Two beat registers in front of decode's: long comparisons in
 // the first stage, the beat's place in the grammar in the second.
 // A beat that breaks a rule is not passed on, nor is any after it: rule, opcode and number of the beat stay in registers, and
 // a tile that is open is ended by an end_sheet and an end_tile of the device's own, so that its picture goes out, marked, and

@@ -1,5 +1,5 @@
 // Unit "decode": judged beats in (fastsplat_stream_check.sv), table words, windows and sheet tokens out (docs/stream.md;
-// cmodel/cycle_model.hpp).
+// cmodel/cycles/cycle_model.hpp).
 // One beat register; a beat is done in one cycle but for table payload (a cycle per word), splats (a cycle per window),
 // and begin_tile, begin_sheet and end_tile, which wait for the compositor and pixel out.
 `include "assertions.svh"

@@ -5,7 +5,7 @@
 
 #include "analysis/errors/bound_band.hpp"
 #include "base/parallel/parallel.hpp"
-#include "driver/compile.hpp"
+#include "driver/tiles/compile.hpp"
 #include "scene/capability.hpp"
 
 namespace fastsplat::analysis {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "cmodel/sv_package.hpp"
+#include "cmodel/rtl_package/sv_package.hpp"
 
 namespace fastsplat::analysis {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 
 namespace fastsplat::analysis {
 

@@ -6,7 +6,7 @@
 #include "analysis/provenance.hpp"
 #include "base/error.hpp"
 #include "base/fnv1a.hpp"
-#include "driver/render.hpp"
+#include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 
 namespace fastsplat::analysis {

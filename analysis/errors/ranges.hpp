@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "cmodel/config.hpp"
-#include "cmodel/observers.hpp"
-#include "driver/frame_ranges.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/numbers/observers.hpp"
+#include "driver/tiles/frame_ranges.hpp"
 
 namespace fastsplat::analysis {
 

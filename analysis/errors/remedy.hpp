@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "analysis/pipeline/step.hpp"
 
 namespace fastsplat::analysis {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "driver/rounding_carry.hpp"
-#include "driver/tables.hpp"
+#include "driver/splats/rounding_carry.hpp"
+#include "driver/tables/tables.hpp"
 
 namespace fastsplat::analysis {
 namespace {

@@ -1,7 +1,7 @@
 // How far each step of a configuration can move a value: what the bound is made of (docs/errors.md, section 3).
 #pragma once
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "scene/scene.hpp"
 #include "analysis/pipeline/splat_steps.hpp"
 #include "analysis/pipeline/step.hpp"

@@ -11,7 +11,7 @@
 #include "analysis/errors/knobs.hpp"
 #include "analysis/errors/noise_model.hpp"
 #include "base/progress.hpp"
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 
 namespace fastsplat::analysis {
 

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 
 namespace fastsplat::analysis {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "cmodel/index_set.hpp"
-#include "cmodel/window_geometry.hpp"
+#include "cmodel/numbers/index_set.hpp"
+#include "cmodel/numbers/window_geometry.hpp"
 
 namespace fastsplat::analysis {
 namespace {

@@ -6,11 +6,11 @@
 #include <numbers>
 
 #include "analysis/index_kinds/family_table.hpp"
-#include "cmodel/squared_unit.hpp"
-#include "driver/ellipse_set.hpp"
-#include "driver/index_tables.hpp"
-#include "driver/radius_sets.hpp"
-#include "driver/tables.hpp"
+#include "cmodel/splat/squared_unit.hpp"
+#include "driver/tables/ellipse_set.hpp"
+#include "driver/tables/index_tables.hpp"
+#include "driver/tables/radius_sets.hpp"
+#include "driver/tables/tables.hpp"
 #include "golden/splat/footprint.hpp"
 #include "golden/splat/projection.hpp"
 #include "scene/real_splat.hpp"

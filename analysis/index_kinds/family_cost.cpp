@@ -3,8 +3,8 @@
 #include <bit>
 #include <cmath>
 
-#include "cmodel/index_set.hpp"
-#include "cmodel/window_geometry.hpp"
+#include "cmodel/numbers/index_set.hpp"
+#include "cmodel/numbers/window_geometry.hpp"
 
 namespace fastsplat::analysis {
 namespace {

@@ -5,7 +5,7 @@
 #include <map>
 #include <numbers>
 
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 
 namespace fastsplat::analysis {
 namespace {

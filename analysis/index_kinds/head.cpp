@@ -10,7 +10,7 @@
 #include "analysis/error_values.hpp"
 #include "analysis/errors/attribution.hpp"
 #include "base/error.hpp"
-#include "driver/render.hpp"
+#include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 #include "analysis/pipeline/chain.hpp"
 #include "scene/volume/volume_file.hpp"

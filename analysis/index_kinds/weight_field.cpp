@@ -4,10 +4,10 @@
 #include <chrono>
 #include <cmath>
 
-#include "cmodel/weight_unit.hpp"
-#include "driver/index_tables.hpp"
-#include "driver/quantise.hpp"
-#include "driver/tables.hpp"
+#include "cmodel/splat/weight_unit.hpp"
+#include "driver/tables/index_tables.hpp"
+#include "driver/tables/quantise.hpp"
+#include "driver/tables/tables.hpp"
 
 namespace fastsplat::analysis {
 namespace {

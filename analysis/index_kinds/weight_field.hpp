@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "scene/kernel.hpp"
 
 namespace fastsplat::analysis {

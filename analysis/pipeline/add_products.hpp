@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "cmodel/sites.hpp"
+#include "cmodel/numbers/sites.hpp"
 #include "golden/splat/projected_splat.hpp"
 
 namespace fastsplat::stages {

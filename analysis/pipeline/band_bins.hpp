@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "driver/tile_bins.hpp"
+#include "driver/tiles/tile_bins.hpp"
 #include "analysis/pipeline/splat_steps.hpp"
 
 namespace fastsplat::stages {

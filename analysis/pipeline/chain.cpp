@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "base/parallel/parallel.hpp"
-#include "driver/compile.hpp"
-#include "driver/density_tables.hpp"
+#include "driver/tiles/compile.hpp"
+#include "driver/tables/density_tables.hpp"
 #include "golden/settled_pixels.hpp"
 #include "golden/sheet.hpp"
 #include "scene/capability.hpp"

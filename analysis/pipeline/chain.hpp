@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "scene/scene.hpp"
 #include "analysis/pipeline/density_steps.hpp"
 #include "analysis/pipeline/splat_steps.hpp"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cmodel/classify_tables.hpp"
-#include "driver/density_tables.hpp"
+#include "cmodel/classify/classify_tables.hpp"
+#include "driver/tables/density_tables.hpp"
 #include "scene/shading.hpp"
 
 namespace fastsplat::stages {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "golden/frame_sweep.hpp"
 #include "golden/post_classified.hpp"
 #include "golden/sheet_geometry.hpp"

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "cmodel/config.hpp"
-#include "cmodel/ellipse_unit.hpp"
-#include "driver/ellipse_shape.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/splat/ellipse_unit.hpp"
+#include "driver/splats/ellipse_shape.hpp"
 #include "golden/splat/footprint.hpp"
 #include "analysis/pipeline/splat_steps.hpp"
 #include "analysis/pipeline/step.hpp"

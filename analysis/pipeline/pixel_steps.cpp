@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "driver/compile.hpp"
-#include "driver/density_tables.hpp"
-#include "driver/tables.hpp"
+#include "driver/tiles/compile.hpp"
+#include "driver/tables/density_tables.hpp"
+#include "driver/tables/tables.hpp"
 #include "golden/splat/composite.hpp"
 
 namespace fastsplat::stages {

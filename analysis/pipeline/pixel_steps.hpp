@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "golden/splat/projected_splat.hpp"
 #include "scene/scene.hpp"
 #include "analysis/pipeline/real_narrowing.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "cmodel/sites.hpp"
+#include "cmodel/numbers/sites.hpp"
 
 namespace fastsplat::stages {
 

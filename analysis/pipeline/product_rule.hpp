@@ -1,7 +1,7 @@
 // The step `product` of a mixture, as add_products takes it.
 #pragma once
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "analysis/pipeline/add_products.hpp"
 #include "analysis/pipeline/step.hpp"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cmodel/narrow.hpp"
-#include "cmodel/sites.hpp"
+#include "cmodel/numbers/narrow.hpp"
+#include "cmodel/numbers/sites.hpp"
 
 namespace fastsplat::stages {
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "driver/radius_sets.hpp"
-#include "driver/slices.hpp"
-#include "driver/splat_quantiser.hpp"
+#include "driver/tables/radius_sets.hpp"
+#include "driver/splats/slices.hpp"
+#include "driver/splats/splat_quantiser.hpp"
 #include "golden/splat/projected_splat.hpp"
 #include "scene/scene.hpp"
 #include "scene/sheet_plan.hpp"

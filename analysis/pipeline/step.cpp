@@ -1,6 +1,6 @@
 #include "analysis/pipeline/step.hpp"
 
-#include "driver/quantise.hpp"
+#include "driver/tables/quantise.hpp"
 
 namespace fastsplat::stages {
 namespace {

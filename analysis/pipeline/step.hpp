@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 
 namespace fastsplat::stages {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <span>
 
-#include "cmodel/linear_unit.hpp"
-#include "driver/tables.hpp"
+#include "cmodel/splat/linear_unit.hpp"
+#include "driver/tables/tables.hpp"
 
 namespace fastsplat::stages {
 namespace {

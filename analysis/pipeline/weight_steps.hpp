@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "cmodel/config.hpp"
-#include "cmodel/sites.hpp"
-#include "driver/index_tables.hpp"
-#include "driver/quantise.hpp"
-#include "driver/tile_bins.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/numbers/sites.hpp"
+#include "driver/tables/index_tables.hpp"
+#include "driver/tables/quantise.hpp"
+#include "driver/tiles/tile_bins.hpp"
 #include "golden/splat/footprint.hpp"
 #include "scene/kernel.hpp"
 #include "analysis/pipeline/ellipse_distance.hpp"

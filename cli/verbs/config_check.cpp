@@ -11,8 +11,8 @@
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "cmodel/sv_package.hpp"
-#include "driver/config_file.hpp"
+#include "cmodel/rtl_package/sv_package.hpp"
+#include "driver/config/config_file.hpp"
 
 namespace fastsplat::cli {
 namespace {

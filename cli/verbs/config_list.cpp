@@ -8,7 +8,7 @@
 #include "cli/config_json.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 
 namespace fastsplat::cli {
 namespace {

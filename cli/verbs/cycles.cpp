@@ -22,12 +22,12 @@
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "cli/volume_json.hpp"
-#include "cmodel/cycle_model.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
 #include "cmodel/model.hpp"
-#include "driver/cull_log.hpp"
-#include "driver/render.hpp"
-#include "driver/run_device.hpp"
-#include "driver/stream_file.hpp"
+#include "driver/tiles/cull_log.hpp"
+#include "driver/tiles/render.hpp"
+#include "driver/tiles/run_device.hpp"
+#include "driver/files/stream_file.hpp"
 #include "testbench/device/pattern.hpp"
 
 namespace fastsplat::cli {

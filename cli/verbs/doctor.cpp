@@ -11,7 +11,7 @@
 #include "cli/other_programs.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 #include "base/images/image_file.hpp"
 #include "scene/scene.hpp"
 #include "scene/transfer_function.hpp"

@@ -13,7 +13,7 @@
 #include "cli/scene_list.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "cli/volume_json.hpp"
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 
 namespace fastsplat::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "driver/stream_file.hpp"
+#include "driver/files/stream_file.hpp"
 
 namespace fastsplat::cli {
 namespace {

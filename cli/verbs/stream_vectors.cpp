@@ -1,5 +1,5 @@
 // fastsplat stream vectors: a recorded stream and what the device makes of it, as plain text.
-#include "driver/stream_vectors.hpp"
+#include "driver/files/stream_vectors.hpp"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

@@ -17,7 +17,7 @@
 #include "cli/rtl_run.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "cli/verify_output.hpp"
-#include "driver/stream_file.hpp"
+#include "driver/files/stream_file.hpp"
 #include "report/formats/faces.hpp"
 #include "testbench/coverage/coverage_book.hpp"
 

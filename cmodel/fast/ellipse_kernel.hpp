@@ -1,4 +1,4 @@
-// The weights of an ellipse's pixels by vector instructions (Highway): cmodel/ellipse_unit.hpp for whole rectangles.
+// The weights of an ellipse's pixels by vector instructions (Highway): cmodel/splat/ellipse_unit.hpp for whole rectangles.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "cmodel/config.hpp"
-#include "cmodel/ellipse_unit.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/splat/ellipse_unit.hpp"
 
 namespace fastsplat::cmodel::fast {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cmodel/sites.hpp"
+#include "cmodel/numbers/sites.hpp"
 
 namespace fastsplat::cmodel::fast {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 
 namespace fastsplat::cmodel::fast {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "cmodel/fast/row_kernel.hpp"
-#include "cmodel/stream_decode.hpp"
-#include "cmodel/window_geometry.hpp"
+#include "cmodel/decode/stream_decode.hpp"
+#include "cmodel/numbers/window_geometry.hpp"
 
 namespace fastsplat::cmodel::fast {
 namespace {

@@ -5,10 +5,10 @@
 #include <optional>
 #include <span>
 
-#include "cmodel/beat.hpp"
-#include "cmodel/compositor.hpp"
-#include "cmodel/config.hpp"
-#include "cmodel/density_stage.hpp"
+#include "cmodel/stream/beat.hpp"
+#include "cmodel/composite/compositor.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/classify/density_stage.hpp"
 #include "cmodel/fast/ellipse_kernel.hpp"
 #include "cmodel/fast/fast_plan.hpp"
 #include "cmodel/fast/sample_kernel.hpp"

@@ -1,6 +1,6 @@
 #include "cmodel/fast/sample_plan.hpp"
 
-#include "cmodel/sites.hpp"
+#include "cmodel/numbers/sites.hpp"
 
 namespace fastsplat::cmodel::fast {
 namespace {

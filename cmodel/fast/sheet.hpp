@@ -7,7 +7,7 @@
 #include <cstring>
 #include <vector>
 
-#include "cmodel/lane.hpp"
+#include "cmodel/splat/lane.hpp"
 
 namespace fastsplat::cmodel::fast {
 

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cassert>
 
-#include "cmodel/observers.hpp"
+#include "cmodel/numbers/observers.hpp"
 
 namespace fastsplat::cmodel::fast {
 namespace {

@@ -9,18 +9,18 @@
 #include <span>
 #include <vector>
 
-#include "cmodel/compositor.hpp"
-#include "cmodel/counters.hpp"
-#include "cmodel/cull_sets.hpp"
-#include "cmodel/cull_unit.hpp"
-#include "cmodel/device.hpp"
-#include "cmodel/ellipse_unit.hpp"
+#include "cmodel/composite/compositor.hpp"
+#include "cmodel/numbers/counters.hpp"
+#include "cmodel/cull/cull_sets.hpp"
+#include "cmodel/cull/cull_unit.hpp"
+#include "cmodel/stream/device.hpp"
+#include "cmodel/splat/ellipse_unit.hpp"
 #include "cmodel/fast/frame_tables.hpp"
 #include "cmodel/fast/row_kernel.hpp"
 #include "cmodel/fast/sheet.hpp"
-#include "cmodel/pixel_out.hpp"
-#include "cmodel/record_sink.hpp"
-#include "cmodel/snap.hpp"
+#include "cmodel/composite/pixel_out.hpp"
+#include "cmodel/stream/record_sink.hpp"
+#include "cmodel/splat/snap.hpp"
 
 namespace fastsplat::cmodel::fast {
 

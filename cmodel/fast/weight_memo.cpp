@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cmodel/window_geometry.hpp"
+#include "cmodel/numbers/window_geometry.hpp"
 
 namespace fastsplat::cmodel::fast {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "cmodel/config.hpp"
-#include "cmodel/weight_unit.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/splat/weight_unit.hpp"
 
 namespace fastsplat::cmodel::fast {
 

@@ -4,8 +4,8 @@
 #include <exception>
 
 #include "base/hash_text.hpp"
-#include "cmodel/sv_package.hpp"
-#include "driver/config_file.hpp"
+#include "cmodel/rtl_package/sv_package.hpp"
+#include "driver/config/config_file.hpp"
 
 int main(int argc, char** argv) {
   const bool hash_only = argc == 3 && std::strcmp(argv[1], "--hash") == 0;

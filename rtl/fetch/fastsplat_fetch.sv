@@ -1,5 +1,5 @@
 // The source beside a device: an AXI4 read master that reads a stream from memory, command by command, and asks for the splats of a set
-// when the device can see it (docs/microarchitecture.md, "Fetch"; cmodel/fetch_commands.hpp makes the commands).
+// when the device can see it (docs/microarchitecture.md, "Fetch"; cmodel/io/fetch_commands.hpp makes the commands).
 // Requests: command -> run of beats -> burst -> address channel. Beats: data channel -> queue -> stream. Verdicts: a set that was sent
 // is judged by the device -> run of beats, or the address goes on without it.
 `include "assertions.svh"

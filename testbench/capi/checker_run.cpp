@@ -5,7 +5,7 @@
 
 #include "base/hash_text.hpp"
 #include "testbench/capi/handles.hpp"
-#include "cmodel/register_fields.hpp"
+#include "cmodel/io/register_fields.hpp"
 #include "testbench/device/port_bits.hpp"
 
 namespace fastsplat::capi {

@@ -6,9 +6,9 @@
 #include "testbench/capi/config_handle.hpp"
 #include "testbench/capi/guard.hpp"
 #include "testbench/capi/handles.hpp"
-#include "driver/builtin_configs.hpp"
-#include "driver/config_file.hpp"
-#include "driver/config_text.hpp"
+#include "driver/config/builtin_configs.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/config/config_text.hpp"
 
 namespace fastsplat::capi {
 namespace {

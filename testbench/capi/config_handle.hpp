@@ -2,7 +2,7 @@
 #pragma once
 
 #include "testbench/capi/fastsplat.h"
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 
 struct fastsplat_config {
   fastsplat::cmodel::Config config;

@@ -5,7 +5,7 @@
 #include "testbench/capi/fastsplat_dpi.h"
 #include "testbench/capi/guard.hpp"
 #include "testbench/capi/handles.hpp"
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 
 namespace fastsplat::capi {
 namespace {

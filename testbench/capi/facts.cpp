@@ -3,8 +3,8 @@
 #include "testbench/capi/fastsplat.h"
 #include "testbench/capi/guard.hpp"
 #include "testbench/capi/handles.hpp"
-#include "cmodel/counters.hpp"
-#include "cmodel/stall_counters.hpp"
+#include "cmodel/numbers/counters.hpp"
+#include "cmodel/numbers/stall_counters.hpp"
 
 namespace fastsplat::capi {
 namespace {

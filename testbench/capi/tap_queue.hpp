@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "testbench/capi/fastsplat.h"
-#include "cmodel/taps.hpp"
+#include "cmodel/stream/taps.hpp"
 
 namespace fastsplat::capi {
 

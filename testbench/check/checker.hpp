@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "cmodel/cycle_model.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
 #include "cmodel/model.hpp"
 #include "testbench/check/scoreboard.hpp"
 #include "testbench/check/verdict_check.hpp"

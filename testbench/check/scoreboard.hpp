@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "cmodel/config.hpp"
-#include "cmodel/device.hpp"
-#include "cmodel/taps.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/device.hpp"
+#include "cmodel/stream/taps.hpp"
 
 namespace fastsplat::testbench {
 

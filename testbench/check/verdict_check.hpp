@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "cmodel/cycle_model.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
 #include "testbench/device/raw_taps.hpp"
 
 namespace fastsplat::testbench {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cmodel/register_map.hpp"
+#include "cmodel/io/register_map.hpp"
 #include "testbench/coverage/coverage_collector.hpp"
 
 namespace fastsplat::testbench {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cmodel/narrow.hpp"
+#include "cmodel/numbers/narrow.hpp"
 
 namespace fastsplat::testbench {
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "testbench/coverage/coverage.hpp"
 
 namespace fastsplat::testbench {

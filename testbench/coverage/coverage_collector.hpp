@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "cmodel/cycle_model.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
 #include "cmodel/model.hpp"
 #include "testbench/coverage/coverage.hpp"
 #include "testbench/coverage/coverage_composite.hpp"

@@ -5,11 +5,11 @@
 #include <array>
 #include <vector>
 
-#include "cmodel/composite_lane.hpp"
-#include "cmodel/config.hpp"
-#include "cmodel/records.hpp"
-#include "cmodel/sites.hpp"
-#include "cmodel/taps.hpp"
+#include "cmodel/composite/composite_lane.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/records.hpp"
+#include "cmodel/numbers/sites.hpp"
+#include "cmodel/stream/taps.hpp"
 #include "testbench/coverage/coverage.hpp"
 #include "testbench/coverage/coverage_splat.hpp"
 

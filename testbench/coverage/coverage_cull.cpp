@@ -1,6 +1,6 @@
 #include "testbench/coverage/coverage_cull.hpp"
 
-#include "cmodel/cull_unit.hpp"
+#include "cmodel/cull/cull_unit.hpp"
 
 namespace fastsplat::testbench {
 namespace {

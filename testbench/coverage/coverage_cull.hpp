@@ -5,10 +5,10 @@
 
 #include <cstdint>
 
-#include "cmodel/config.hpp"
-#include "cmodel/cull_log.hpp"
-#include "cmodel/cycle_account.hpp"
-#include "cmodel/records.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/cull/cull_log.hpp"
+#include "cmodel/cycles/cycle_account.hpp"
+#include "cmodel/stream/records.hpp"
 #include "testbench/coverage/coverage.hpp"
 
 namespace fastsplat::testbench {

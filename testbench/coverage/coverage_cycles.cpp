@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-#include "cmodel/cycle_stages.hpp"
+#include "cmodel/cycles/cycle_stages.hpp"
 
 namespace fastsplat::testbench {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "cmodel/cycle_model.hpp"
-#include "cmodel/records.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
+#include "cmodel/stream/records.hpp"
 #include "testbench/coverage/coverage.hpp"
 #include "testbench/coverage/coverage_samples.hpp"
 

@@ -1,9 +1,9 @@
 // Coverage of ellipses: shapes, windows and the places in which q ends (docs/numerics.md, section 4.6).
 #pragma once
 
-#include "cmodel/config.hpp"
-#include "cmodel/ellipse_unit.hpp"
-#include "cmodel/records.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/splat/ellipse_unit.hpp"
+#include "cmodel/stream/records.hpp"
 #include "testbench/coverage/coverage.hpp"
 #include "testbench/coverage/coverage_interpolation.hpp"
 

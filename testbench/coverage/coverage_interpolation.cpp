@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "cmodel/sites.hpp"
+#include "cmodel/numbers/sites.hpp"
 
 namespace fastsplat::testbench {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "cmodel/cycle_stages.hpp"
+#include "cmodel/cycles/cycle_stages.hpp"
 
 namespace fastsplat::testbench {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "cmodel/config.hpp"
-#include "cmodel/taps.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/taps.hpp"
 #include "testbench/coverage/coverage.hpp"
 
 namespace fastsplat::testbench {

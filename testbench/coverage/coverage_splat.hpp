@@ -6,12 +6,12 @@
 #include <optional>
 #include <vector>
 
-#include "cmodel/config.hpp"
-#include "cmodel/records.hpp"
-#include "cmodel/rlut.hpp"
-#include "cmodel/sheet_buffer.hpp"
-#include "cmodel/sites.hpp"
-#include "cmodel/taps.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/records.hpp"
+#include "cmodel/splat/rlut.hpp"
+#include "cmodel/splat/sheet_buffer.hpp"
+#include "cmodel/numbers/sites.hpp"
+#include "cmodel/stream/taps.hpp"
 #include "testbench/coverage/coverage.hpp"
 #include "testbench/coverage/coverage_ellipse.hpp"
 #include "testbench/coverage/coverage_interpolation.hpp"

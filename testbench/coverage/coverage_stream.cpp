@@ -2,9 +2,9 @@
 
 #include <set>
 
-#include "cmodel/classify_tables.hpp"
-#include "cmodel/pattern_tables.hpp"
-#include "cmodel/window_geometry.hpp"
+#include "cmodel/classify/classify_tables.hpp"
+#include "cmodel/classify/pattern_tables.hpp"
+#include "cmodel/numbers/window_geometry.hpp"
 #include "testbench/device/words.hpp"
 
 namespace fastsplat::testbench {

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "cmodel/config.hpp"
-#include "cmodel/records.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/records.hpp"
 #include "testbench/coverage/coverage.hpp"
 
 namespace fastsplat::testbench {

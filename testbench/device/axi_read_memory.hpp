@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cmodel/beat.hpp"
+#include "cmodel/stream/beat.hpp"
 #include "testbench/device/pattern.hpp"
 
 namespace fastsplat::testbench {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cmodel/willing.hpp"
+#include "cmodel/cycles/willing.hpp"
 
 namespace fastsplat::testbench {
 

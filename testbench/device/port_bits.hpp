@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 
 namespace fastsplat::testbench {
 

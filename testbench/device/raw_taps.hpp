@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "cmodel/beat.hpp"
+#include "cmodel/stream/beat.hpp"
 
 namespace fastsplat::testbench {
 

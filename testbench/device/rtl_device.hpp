@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "cmodel/config.hpp"
-#include "cmodel/device.hpp"
-#include "cmodel/stall_counters.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/device.hpp"
+#include "cmodel/numbers/stall_counters.hpp"
 #include "testbench/device/pattern.hpp"
 #include "testbench/device/raw_taps.hpp"
 #include "testbench/device/reset_fill.hpp"

@@ -19,7 +19,7 @@
 #include "base/read_file.hpp"
 #include "base/sha256.hpp"
 #include "base/unfinished.hpp"
-#include "cmodel/sv_package.hpp"
+#include "cmodel/rtl_package/sv_package.hpp"
 
 namespace fastsplat::testbench {
 namespace {

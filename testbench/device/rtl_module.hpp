@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/progress.hpp"
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "testbench/module/simulated_top.hpp"
 
 namespace fastsplat::testbench {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "cmodel/cycle_stages.hpp"
-#include "cmodel/records.hpp"
+#include "cmodel/cycles/cycle_stages.hpp"
+#include "cmodel/stream/records.hpp"
 #include "testbench/device/port_bits.hpp"
 
 namespace fastsplat::testbench {

@@ -6,9 +6,9 @@
 #include <deque>
 #include <vector>
 
-#include "cmodel/config.hpp"
-#include "cmodel/device.hpp"
-#include "cmodel/taps.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/device.hpp"
+#include "cmodel/stream/taps.hpp"
 #include "testbench/device/port_fields.hpp"
 #include "testbench/device/raw_taps.hpp"
 #include "testbench/device/tile_assembly.hpp"

@@ -6,9 +6,9 @@
 #include <optional>
 #include <span>
 
-#include "cmodel/config.hpp"
-#include "cmodel/device.hpp"
-#include "cmodel/records.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/device.hpp"
+#include "cmodel/stream/records.hpp"
 
 namespace fastsplat::testbench {
 

@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
-#include "cmodel/register_map.hpp"
+#include "cmodel/io/register_map.hpp"
 #include "testbench/device/failed_assertion.hpp"
 #include "testbench/device/tile_assembly.hpp"
 

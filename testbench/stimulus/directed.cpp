@@ -5,8 +5,8 @@
 
 #include "base/error.hpp"
 #include "cmodel/model.hpp"
-#include "cmodel/register_fields.hpp"
-#include "cmodel/stream_layout.hpp"
+#include "cmodel/io/register_fields.hpp"
+#include "cmodel/stream/stream_layout.hpp"
 #include "testbench/check/verify.hpp"
 #include "testbench/stimulus/directed_stream.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "cmodel/records.hpp"
+#include "cmodel/stream/records.hpp"
 #include "testbench/stimulus/stimulus.hpp"
 
 namespace fastsplat::testbench {

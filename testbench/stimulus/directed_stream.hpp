@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "cmodel/config.hpp"
-#include "cmodel/stream_layout.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/stream_layout.hpp"
 #include "testbench/stimulus/directed.hpp"
 
 namespace fastsplat::testbench {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "cmodel/ellipse_rule.hpp"
+#include "cmodel/splat/ellipse_rule.hpp"
 
 namespace fastsplat::testbench {
 namespace {

@@ -1,8 +1,8 @@
 // A random ellipse that the stream's rules allow.
 #pragma once
 
-#include "cmodel/config.hpp"
-#include "cmodel/records.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/records.hpp"
 #include "testbench/stimulus/random.hpp"
 
 namespace fastsplat::testbench {

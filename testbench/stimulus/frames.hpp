@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "cmodel/register_map.hpp"
+#include "cmodel/io/register_map.hpp"
 #include "testbench/check/checker.hpp"
 #include "testbench/stimulus/violations.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "cmodel/beat.hpp"
-#include "cmodel/config.hpp"
+#include "cmodel/stream/beat.hpp"
+#include "cmodel/numbers/config.hpp"
 
 namespace fastsplat::testbench {
 

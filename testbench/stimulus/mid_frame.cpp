@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <set>
 
-#include "cmodel/cycle_stages.hpp"
-#include "cmodel/records.hpp"
-#include "cmodel/register_fields.hpp"
+#include "cmodel/cycles/cycle_stages.hpp"
+#include "cmodel/stream/records.hpp"
+#include "cmodel/io/register_fields.hpp"
 
 namespace fastsplat::testbench {
 namespace {

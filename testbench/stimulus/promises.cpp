@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "cmodel/cull_sets.hpp"
-#include "cmodel/cull_table.hpp"
-#include "cmodel/ellipse_unit.hpp"
-#include "cmodel/snap.hpp"
-#include "cmodel/window_geometry.hpp"
+#include "cmodel/cull/cull_sets.hpp"
+#include "cmodel/cull/cull_table.hpp"
+#include "cmodel/splat/ellipse_unit.hpp"
+#include "cmodel/splat/snap.hpp"
+#include "cmodel/numbers/window_geometry.hpp"
 
 namespace fastsplat::testbench {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "testbench/stimulus/random.hpp"
 #include "testbench/stimulus/stream_document.hpp"
 

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "cmodel/register_map.hpp"
+#include "cmodel/io/register_map.hpp"
 #include "testbench/stimulus/frame_after_frame.hpp"
 #include "testbench/stimulus/frames.hpp"
 #include "testbench/stimulus/mid_frame.hpp"

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "base/error.hpp"
-#include "cmodel/stream_decode.hpp"
-#include "cmodel/window_geometry.hpp"
+#include "cmodel/decode/stream_decode.hpp"
+#include "cmodel/numbers/window_geometry.hpp"
 #include "testbench/stimulus/ellipse_stimulus.hpp"
 #include "testbench/stimulus/promises.hpp"
 #include "testbench/stimulus/random.hpp"

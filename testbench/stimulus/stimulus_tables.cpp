@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "cmodel/classify_tables.hpp"
+#include "cmodel/classify/classify_tables.hpp"
 
 namespace fastsplat::testbench {
 namespace {

@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "cmodel/config.hpp"
-#include "cmodel/records.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/records.hpp"
 
 namespace fastsplat::testbench {
 

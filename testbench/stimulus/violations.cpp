@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "cmodel/records.hpp"
+#include "cmodel/stream/records.hpp"
 #include "testbench/stimulus/stimulus_tables.hpp"
 
 namespace fastsplat::testbench {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cmodel/stream_rules.hpp"
+#include "cmodel/stream/stream_rules.hpp"
 #include "testbench/stimulus/directed_stream.hpp"
 
 namespace fastsplat::testbench {

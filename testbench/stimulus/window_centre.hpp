@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 
 namespace fastsplat::testbench {
 

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "cmodel/compositor.hpp"
-#include "cmodel/ellipse_unit.hpp"
-#include "cmodel/footprint.hpp"
-#include "cmodel/observers.hpp"
-#include "cmodel/rlut.hpp"
-#include "cmodel/sheet_buffer.hpp"
-#include "cmodel/snap.hpp"
-#include "cmodel/stream_decode.hpp"
+#include "cmodel/composite/compositor.hpp"
+#include "cmodel/splat/ellipse_unit.hpp"
+#include "cmodel/splat/footprint.hpp"
+#include "cmodel/numbers/observers.hpp"
+#include "cmodel/splat/rlut.hpp"
+#include "cmodel/splat/sheet_buffer.hpp"
+#include "cmodel/splat/snap.hpp"
+#include "cmodel/decode/stream_decode.hpp"
 #include "testbench/device/words.hpp"
 
 namespace fastsplat::testbench {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "cmodel/stream_decode.hpp"
+#include "cmodel/decode/stream_decode.hpp"
 #include "testbench/triage/explain.hpp"
 #include "testbench/triage/waveform.hpp"
 

@@ -10,7 +10,7 @@
 namespace fastsplat::architecture {
 
 struct SourceFile {
-  std::string path;  ///< relative to the root, "cmodel/device.cpp"
+  std::string path;  ///< relative to the root, "cmodel/model.cpp"
   std::string text;
   bool is_header() const { return path.ends_with(".hpp") || path.ends_with(".h"); }
 };

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "cmodel/cycle_model.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
 #include "cmodel/model.hpp"
 #include "testbench/stimulus/stimulus.hpp"
 #include "tests/cmodel/configs_helper.hpp"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "testbench/capi/fastsplat.h"
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "tests/check/raw_replay_helper.hpp"
 
 namespace fastsplat::test {

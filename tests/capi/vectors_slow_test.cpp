@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "cmodel/beat.hpp"
+#include "cmodel/stream/beat.hpp"
 #include "tests/capi/recorded_helper.hpp"
 
 namespace fastsplat::test {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <deque>
 
-#include "cmodel/cycle_stages.hpp"
+#include "cmodel/cycles/cycle_stages.hpp"
 #include "cmodel/model.hpp"
-#include "cmodel/stream_decode.hpp"
+#include "cmodel/decode/stream_decode.hpp"
 
 namespace fastsplat::test {
 namespace {

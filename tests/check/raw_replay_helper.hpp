@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "cmodel/config.hpp"
-#include "cmodel/device.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/device.hpp"
 #include "testbench/device/raw_taps.hpp"
 
 namespace fastsplat::test {

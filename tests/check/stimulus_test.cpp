@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "cmodel/stream_decode.hpp"
+#include "cmodel/decode/stream_decode.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 
 namespace fastsplat::testbench {

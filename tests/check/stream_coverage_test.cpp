@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cmodel/cycle_stages.hpp"
+#include "cmodel/cycles/cycle_stages.hpp"
 #include "testbench/coverage/coverage_collector.hpp"
 #include "testbench/coverage/coverage_cycles.hpp"
 #include "testbench/coverage/coverage_interpolation.hpp"

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <set>
 
-#include "cmodel/records.hpp"
+#include "cmodel/stream/records.hpp"
 #include "testbench/coverage/coverage_collector.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 

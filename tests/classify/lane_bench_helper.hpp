@@ -12,8 +12,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "cmodel/classify_unit.hpp"
-#include "cmodel/cycle_stages.hpp"
+#include "cmodel/classify/classify_unit.hpp"
+#include "cmodel/cycles/cycle_stages.hpp"
 #include "testbench/stimulus/random.hpp"
 #include "testbench/stimulus/stimulus_tables.hpp"
 #include "verilated.h"

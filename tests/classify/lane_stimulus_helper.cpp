@@ -112,7 +112,7 @@ LanePixel LaneStimulus::pixel() {
 }
 
 cmodel::SheetWord LaneStimulus::expected(const LanePixel& pixel) const {
-  // As cmodel/density_stage.hpp has it: at the picture's edges to one side, which counts twice.
+  // As cmodel/classify/density_stage.hpp has it: at the picture's edges to one side, which counts twice.
   const auto difference = [&](std::uint32_t after, std::uint32_t before, std::int32_t at, std::int32_t side) {
     const bool first = at == 0, last = at == side - 1;
     const std::int64_t all = std::int64_t{last ? pixel.here : after} - std::int64_t{first ? pixel.here : before};

@@ -5,7 +5,7 @@
 
 #include "Vfs_classify_lane_narrow.h"
 #include "Vfs_classify_lane_wide.h"
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 #include "tests/classify/lane_bench_helper.hpp"
 #include "tests/paths.hpp"
 

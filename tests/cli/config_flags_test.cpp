@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 
 namespace fastsplat::cli {
 namespace {

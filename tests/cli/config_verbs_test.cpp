@@ -7,7 +7,7 @@
 
 #include "base/hash_text.hpp"
 #include "cli/command_line.hpp"
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 #include "base/images/image_file.hpp"
 #include "tests/cli/process_helper.hpp"
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "cmodel/beat.hpp"
+#include "cmodel/stream/beat.hpp"
 #include "tests/cli/process_helper.hpp"
 
 namespace fastsplat::cli_test {

@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "driver/config_file.hpp"
-#include "driver/stream_file.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/files/stream_file.hpp"
 #include "testbench/stimulus/stream_document.hpp"
 #include "tests/cli/process_helper.hpp"
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "driver/stream_file.hpp"
+#include "driver/files/stream_file.hpp"
 #include "tests/cli/process_helper.hpp"
 
 namespace fastsplat::cli_test {

@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "cli/replay_line.hpp"
-#include "driver/config_file.hpp"
-#include "driver/stream_file.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/files/stream_file.hpp"
 #include "testbench/check/verify.hpp"
 #include "tests/cli/process_helper.hpp"
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "cmodel/config.hpp"
-#include "cmodel/device.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/device.hpp"
 #include "tests/cmodel/oracle/oracle.hpp"
 
 namespace fastsplat::test {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "tests/cmodel/oracle/symbols.hpp"
 #include "tests/cmodel/random_helper.hpp"
 

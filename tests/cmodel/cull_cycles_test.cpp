@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "cmodel/cycle_model.hpp"
-#include "cmodel/fetch_commands.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
+#include "cmodel/io/fetch_commands.hpp"
 #include "cmodel/model.hpp"
 #include "tests/cmodel/compare_helper.hpp"
 #include "tests/cmodel/configs_helper.hpp"

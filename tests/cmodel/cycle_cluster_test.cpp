@@ -1,12 +1,12 @@
 // Several devices on one link: one device counts what the cycle model counts, each of many what it would count alone
 // on its tiles, and all of it what a clocked second model counts (docs/scaling.md).
-#include "cmodel/cycle_cluster.hpp"
+#include "cmodel/cycles/cycle_cluster.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 
-#include "cmodel/cluster_account.hpp"
+#include "cmodel/cycles/cluster_account.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/cmodel/plain_cluster_helper.hpp"
 #include "tests/cmodel/random_stream_helper.hpp"

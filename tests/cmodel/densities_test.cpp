@@ -2,8 +2,8 @@
 // only such devices have.
 #include <gtest/gtest.h>
 
-#include "cmodel/cycle_model.hpp"
-#include "cmodel/sv_package.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
+#include "cmodel/rtl_package/sv_package.hpp"
 #include "tests/cmodel/campaign_helper.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 

@@ -1,6 +1,6 @@
 // Dirty blocks against a set of places: tiles of several words of marks a row, footprints over their ends and the
 // tile's.
-#include "cmodel/dirty_map.hpp"
+#include "cmodel/splat/dirty_map.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "cmodel/sheet_buffer.hpp"
+#include "cmodel/splat/sheet_buffer.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/cmodel/random_helper.hpp"
 

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "cmodel/model.hpp"
-#include "cmodel/stream_rules.hpp"
+#include "cmodel/stream/stream_rules.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/cmodel/random_ellipse_helper.hpp"
 #include "tests/cmodel/small_stream_helper.hpp"

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <optional>
 
-#include "cmodel/cycle_model.hpp"
-#include "cmodel/cycle_stages.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
+#include "cmodel/cycles/cycle_stages.hpp"
 #include "tests/cmodel/campaign_helper.hpp"
 #include "tests/cmodel/random_stream_helper.hpp"
 #include "tests/cmodel/stream_writer_helper.hpp"

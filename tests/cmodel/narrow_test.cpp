@@ -1,5 +1,5 @@
 // narrow() against the definition by exact division: every word around every small format, and 62-bit values.
-#include "cmodel/narrow.hpp"
+#include "cmodel/numbers/narrow.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "cmodel/sv_package.hpp"
+#include "cmodel/rtl_package/sv_package.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/paths.hpp"
 

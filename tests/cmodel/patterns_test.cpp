@@ -2,9 +2,9 @@
 // as it is; rules that only such devices have.
 #include <gtest/gtest.h>
 
-#include "cmodel/cycle_model.hpp"
-#include "cmodel/pattern_unit.hpp"
-#include "cmodel/sv_package.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
+#include "cmodel/classify/pattern_unit.hpp"
+#include "cmodel/rtl_package/sv_package.hpp"
 #include "tests/cmodel/campaign_helper.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/cmodel/stream_writer_helper.hpp"

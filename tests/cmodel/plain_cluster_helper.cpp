@@ -5,7 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "cmodel/cycle_model.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
 
 namespace fastsplat::test {
 namespace {

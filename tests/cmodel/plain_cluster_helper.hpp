@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "cmodel/beat.hpp"
-#include "cmodel/config.hpp"
-#include "cmodel/stall_counters.hpp"
-#include "cmodel/stream_layout.hpp"
+#include "cmodel/stream/beat.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/numbers/stall_counters.hpp"
+#include "cmodel/stream/stream_layout.hpp"
 
 namespace fastsplat::test {
 

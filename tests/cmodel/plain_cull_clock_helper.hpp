@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "cmodel/beat.hpp"
-#include "cmodel/config.hpp"
+#include "cmodel/stream/beat.hpp"
+#include "cmodel/numbers/config.hpp"
 
 namespace fastsplat::test {
 

@@ -1,5 +1,5 @@
 // Records into beats and back: nothing is lost on the way, and a table takes the beats that its header announces.
-#include "cmodel/records.hpp"
+#include "cmodel/stream/records.hpp"
 
 #include <gtest/gtest.h>
 

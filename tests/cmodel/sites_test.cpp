@@ -1,5 +1,5 @@
 // The narrowing sites and who watches them: the table against the page's formats, ranges by hand and on random frames.
-#include "cmodel/sites.hpp"
+#include "cmodel/numbers/sites.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "cmodel/cycle_model.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
 #include "cmodel/model.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/cmodel/random_stream_helper.hpp"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 
 namespace fastsplat::test {
 

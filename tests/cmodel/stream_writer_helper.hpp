@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "cmodel/beat.hpp"
+#include "cmodel/stream/beat.hpp"
 #include "tests/cmodel/oracle/ellipse.hpp"
 #include "tests/cmodel/oracle/symbols.hpp"
 

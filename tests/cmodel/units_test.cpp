@@ -2,7 +2,7 @@
 // pixels compared with the oracle.
 #include <gtest/gtest.h>
 
-#include "cmodel/window_geometry.hpp"
+#include "cmodel/numbers/window_geometry.hpp"
 #include "tests/cmodel/compare_helper.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/cmodel/stream_writer_helper.hpp"

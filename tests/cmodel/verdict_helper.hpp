@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "tests/cmodel/compare_helper.hpp"
 
 namespace fastsplat::test {

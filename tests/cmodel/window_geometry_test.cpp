@@ -1,5 +1,5 @@
 // The extents of a radius set against pixels counted one by one.
-#include "cmodel/window_geometry.hpp"
+#include "cmodel/numbers/window_geometry.hpp"
 
 #include <gtest/gtest.h>
 

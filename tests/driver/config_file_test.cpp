@@ -1,5 +1,5 @@
 // A configuration written as TOML is read back as it was.
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

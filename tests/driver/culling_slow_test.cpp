@@ -7,9 +7,9 @@
 #include <ctime>
 
 #include "base/error.hpp"
-#include "driver/config_file.hpp"
-#include "driver/culling_comparison.hpp"
-#include "driver/render.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/culling_comparison.hpp"
+#include "driver/tiles/render.hpp"
 #include "tests/driver/scenes_helper.hpp"
 #include "scene/volume/volume_file.hpp"
 

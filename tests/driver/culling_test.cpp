@@ -2,13 +2,13 @@
 // keep their promise, what is left out changes nothing, and what it costs and brings in cycles.
 #include <gtest/gtest.h>
 
-#include "cmodel/cycle_model.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
 #include "cmodel/model.hpp"
-#include "driver/config_file.hpp"
-#include "driver/cull_log.hpp"
-#include "driver/culling_comparison.hpp"
-#include "driver/frame_sink.hpp"
-#include "driver/run_device.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/cull_log.hpp"
+#include "driver/tiles/culling_comparison.hpp"
+#include "driver/tiles/frame_sink.hpp"
+#include "driver/tiles/run_device.hpp"
 #include "tests/driver/scenes_helper.hpp"
 
 namespace fastsplat::driver {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/driver/oracle_helper.hpp"
 #include "tests/driver/scenes_helper.hpp"

@@ -1,16 +1,16 @@
 // Ellipses as words of squared_elliptic (docs/numerics.md, section 4.3): against the ellipse itself, in reals.
-#include "driver/ellipse_set.hpp"
+#include "driver/tables/ellipse_set.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "cmodel/index_set.hpp"
-#include "cmodel/quadric.hpp"
-#include "cmodel/squared_unit.hpp"
-#include "driver/config_file.hpp"
-#include "driver/index_tables.hpp"
+#include "cmodel/numbers/index_set.hpp"
+#include "cmodel/splat/quadric.hpp"
+#include "cmodel/splat/squared_unit.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tables/index_tables.hpp"
 #include "tests/cmodel/random_helper.hpp"
 #include "tests/driver/scenes_helper.hpp"
 

@@ -6,12 +6,12 @@
 #include <numbers>
 
 #include "base/error.hpp"
-#include "cmodel/ellipse_rule.hpp"
-#include "cmodel/ellipse_unit.hpp"
-#include "driver/compile.hpp"
-#include "driver/config_file.hpp"
-#include "driver/ellipse_shape.hpp"
-#include "driver/render.hpp"
+#include "cmodel/splat/ellipse_rule.hpp"
+#include "cmodel/splat/ellipse_unit.hpp"
+#include "driver/tiles/compile.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/splats/ellipse_shape.hpp"
+#include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 #include "tests/driver/scenes_helper.hpp"
 

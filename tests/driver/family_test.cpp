@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "driver/config_file.hpp"
-#include "driver/index_tables.hpp"
-#include "driver/tables.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tables/index_tables.hpp"
+#include "driver/tables/tables.hpp"
 #include "tests/driver/oracle_helper.hpp"
 #include "tests/driver/scenes_helper.hpp"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "driver/gaussian_frame.hpp"
-#include "driver/render.hpp"
+#include "driver/tiles/gaussian_frame.hpp"
+#include "driver/tiles/render.hpp"
 #include "scene/scene.hpp"
 
 namespace fastsplat::driver {

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
 #include "tests/driver/fast_unit_helper.hpp"
 

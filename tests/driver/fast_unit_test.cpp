@@ -3,8 +3,8 @@
 // fast_unit_slow_test.cpp.)
 #include <gtest/gtest.h>
 
-#include "driver/config_file.hpp"
-#include "driver/render.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/render.hpp"
 #include "tests/driver/scenes_helper.hpp"
 
 namespace fastsplat::driver {

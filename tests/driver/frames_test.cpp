@@ -6,10 +6,10 @@
 #include <random>
 
 #include "cmodel/model.hpp"
-#include "driver/compile.hpp"
-#include "driver/config_file.hpp"
-#include "driver/frame_sink.hpp"
-#include "driver/render.hpp"
+#include "driver/tiles/compile.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/frame_sink.hpp"
+#include "driver/tiles/render.hpp"
 #include "tests/driver/scenes_helper.hpp"
 
 namespace fastsplat::driver {

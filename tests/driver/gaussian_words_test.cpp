@@ -5,9 +5,9 @@
 #include <cmath>
 #include <memory>
 
-#include "cmodel/records.hpp"
-#include "driver/config_file.hpp"
-#include "driver/gaussian_frame.hpp"
+#include "cmodel/stream/records.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/gaussian_frame.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
 #include "tests/driver/scenes_helper.hpp"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "driver/config_file.hpp"
-#include "driver/render.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 #include "tests/driver/scenes_helper.hpp"
 #include "scene/volume/volume_file.hpp"

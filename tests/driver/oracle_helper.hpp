@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "scene/scene.hpp"
 #include "tests/cmodel/random_helper.hpp"
 #include "tests/driver/oracle/frame.hpp"

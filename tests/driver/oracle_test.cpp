@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <functional>
 
-#include "cmodel/records.hpp"
-#include "driver/compile.hpp"
-#include "driver/config_file.hpp"
-#include "driver/stream_file.hpp"
+#include "cmodel/stream/records.hpp"
+#include "driver/tiles/compile.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/files/stream_file.hpp"
 #include "tests/driver/oracle_helper.hpp"
 #include "tests/driver/scenes_helper.hpp"
 

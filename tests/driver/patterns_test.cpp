@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "base/error.hpp"
-#include "cmodel/pattern_unit.hpp"
-#include "driver/compile.hpp"
-#include "driver/config_file.hpp"
-#include "driver/pattern_tables.hpp"
-#include "driver/render.hpp"
+#include "cmodel/classify/pattern_unit.hpp"
+#include "driver/tiles/compile.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tables/pattern_tables.hpp"
+#include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 #include "golden/sheet_geometry.hpp"
 #include "tests/driver/scenes_helper.hpp"

@@ -12,9 +12,9 @@
 
 #include "base/error.hpp"
 #include "cmodel/model.hpp"
-#include "driver/compile.hpp"
-#include "driver/config_file.hpp"
-#include "driver/render.hpp"
+#include "driver/tiles/compile.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/render.hpp"
 #include "golden/density_splats.hpp"
 #include "golden/render.hpp"
 #include "tests/driver/scenes_helper.hpp"

@@ -1,12 +1,12 @@
 // Every site of the driver rounds and saturates as docs/numerics.md, section 8 says.
-#include "driver/quantise.hpp"
+#include "driver/tables/quantise.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "cmodel/snap.hpp"
-#include "driver/config_file.hpp"
+#include "cmodel/splat/snap.hpp"
+#include "driver/config/config_file.hpp"
 #include "tests/cmodel/random_helper.hpp"
 #include "tests/driver/scenes_helper.hpp"
 

@@ -9,11 +9,11 @@
 #include <span>
 #include <sstream>
 
-#include "cmodel/cycle_model.hpp"
-#include "driver/compile.hpp"
-#include "driver/config_file.hpp"
-#include "driver/render.hpp"
-#include "driver/run_device.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
+#include "driver/tiles/compile.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/render.hpp"
+#include "driver/tiles/run_device.hpp"
 #include "scene/scene.hpp"
 #include "tests/paths.hpp"
 

@@ -1,15 +1,15 @@
 // Thin splats: what rounding takes of one goes to the next behind it (docs/numerics.md, section 8, "carry").
-#include "driver/rounding_carry.hpp"
+#include "driver/splats/rounding_carry.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "driver/compile.hpp"
-#include "driver/config_file.hpp"
-#include "driver/projection.hpp"
-#include "driver/render.hpp"
+#include "driver/tiles/compile.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/splats/projection.hpp"
+#include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 #include "scene/sheet_plan.hpp"
 #include "tests/driver/scenes_helper.hpp"

@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "base/error.hpp"
-#include "driver/render.hpp"
+#include "driver/tiles/render.hpp"
 #include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::driver {

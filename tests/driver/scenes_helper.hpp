@@ -6,8 +6,8 @@
 #include <string>
 
 #include "base/image.hpp"
-#include "cmodel/config.hpp"
-#include "cmodel/frame.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/frame.hpp"
 #include "scene/scene.hpp"
 #include "scene/volume/volume.hpp"
 

@@ -4,9 +4,9 @@
 
 #include <set>
 
-#include "driver/compile.hpp"
-#include "driver/config_file.hpp"
-#include "driver/render.hpp"
+#include "driver/tiles/compile.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 #include "tests/driver/scenes_helper.hpp"
 #include "tests/scene/follow_fixes_testing.hpp"

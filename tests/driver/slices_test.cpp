@@ -1,12 +1,12 @@
 // The slices of a splat sum exactly to the splat, whatever its depth within its slab.
-#include "driver/slices.hpp"
+#include "driver/splats/slices.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/error.hpp"
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 #include "tests/driver/scenes_helper.hpp"
 
 namespace fastsplat::driver {

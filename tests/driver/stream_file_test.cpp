@@ -1,5 +1,5 @@
 // Recorded streams: the replayed frame is the rendered frame, and a stream that leaves a hole in the image is refused.
-#include "driver/stream_file.hpp"
+#include "driver/files/stream_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,10 +12,10 @@
 
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
-#include "cmodel/crc32.hpp"
-#include "cmodel/cycle_model.hpp"
-#include "cmodel/records.hpp"
-#include "driver/config_file.hpp"
+#include "cmodel/stream/crc32.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
+#include "cmodel/stream/records.hpp"
+#include "driver/config/config_file.hpp"
 #include "tests/driver/scenes_helper.hpp"
 
 namespace fastsplat::driver {

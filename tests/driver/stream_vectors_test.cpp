@@ -1,14 +1,14 @@
 // The pixel beats of a stream's vectors are the replayed picture, tile by tile, also where the image cuts tiles and
 // where a tile's last beat of a row is not full. (Beats, taps and checksums, tests/capi/vectors_slow_test.cpp.)
-#include "driver/stream_vectors.hpp"
+#include "driver/files/stream_vectors.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "base/error.hpp"
-#include "driver/config_file.hpp"
-#include "driver/stream_file.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/files/stream_file.hpp"
 #include "tests/driver/scenes_helper.hpp"
 #include "tests/volume/volume_testing.hpp"
 

@@ -1,13 +1,13 @@
 // The tables the driver loads: preserved sums, exact squares, rims where the support ends.
-#include "driver/tables.hpp"
+#include "driver/tables/tables.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 
-#include "driver/config_file.hpp"
-#include "driver/density_tables.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tables/density_tables.hpp"
 #include "tests/driver/scenes_helper.hpp"
 
 namespace fastsplat::driver {

@@ -1,5 +1,5 @@
 // The area under rectangles, against every pixel counted.
-#include "driver/tile_cover.hpp"
+#include "driver/files/tile_cover.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "driver/config_file.hpp"
-#include "driver/render.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 #include "tests/driver/scenes_helper.hpp"
 #include "tests/volume/volume_testing.hpp"

@@ -10,8 +10,8 @@
 
 #include "analysis/compare.hpp"
 #include "analysis/errors/propose.hpp"
-#include "driver/config_file.hpp"
-#include "driver/render.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 
 namespace fastsplat::analysis {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 #include "tests/paths.hpp"
 
 namespace fastsplat::analysis {

@@ -11,7 +11,7 @@
 #include "Vfs_fetch_narrow.h"
 #include "Vfs_fetch_narrow___024root.h"
 #include "Vfs_fetch_narrow_fastsplat_fault_pkg.h"
-#include "cmodel/cull_unit.hpp"
+#include "cmodel/cull/cull_unit.hpp"
 #include "cmodel/model.hpp"
 #include "testbench/device/failed_assertion.hpp"
 #include "testbench/module/simulator_output.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cmodel/fetch_commands.hpp"
+#include "cmodel/io/fetch_commands.hpp"
 #include "testbench/device/axi_read_memory.hpp"
 
 namespace fastsplat::test {

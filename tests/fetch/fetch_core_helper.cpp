@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "cmodel/register_map.hpp"
+#include "cmodel/io/register_map.hpp"
 #include "testbench/device/rtl_module.hpp"
 #include "testbench/device/tile_assembly.hpp"
 

@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "cmodel/counters.hpp"
-#include "cmodel/device.hpp"
-#include "cmodel/stall_counters.hpp"
+#include "cmodel/numbers/counters.hpp"
+#include "cmodel/stream/device.hpp"
+#include "cmodel/numbers/stall_counters.hpp"
 #include "tests/fetch/fetch_bench_helper.hpp"
 
 namespace fastsplat::test {

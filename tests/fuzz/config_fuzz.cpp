@@ -1,5 +1,5 @@
 // Configurations: refused, or understood and written so that they read back the same.
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,6 +1,6 @@
 // Recorded streams as files: dumped, replayed, or refused.
-#include "driver/config_file.hpp"
-#include "driver/stream_file.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/files/stream_file.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "cmodel/sv_package.hpp"
+#include "cmodel/rtl_package/sv_package.hpp"
 #include "tests/paths.hpp"
 
 namespace fastsplat::test {

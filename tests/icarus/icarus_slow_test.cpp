@@ -6,10 +6,10 @@
 #include <map>
 #include <random>
 
-#include "cmodel/cull_log.hpp"
-#include "cmodel/cycle_model.hpp"
+#include "cmodel/cull/cull_log.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
 #include "cmodel/model.hpp"
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 #include "testbench/stimulus/stimulus.hpp"
 #include "tests/icarus/icarus_helper.hpp"
 #include "tests/testbench/scene_beats_helper.hpp"

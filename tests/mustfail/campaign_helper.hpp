@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "testbench/check/checker.hpp"
 #include "testbench/device/rtl_device.hpp"
 #include "testbench/faults/breakable_device.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 #include "testbench/stimulus/campaign.hpp"
 #include "testbench/stimulus/directed.hpp"
 #include "testbench/stimulus/left_out.hpp"

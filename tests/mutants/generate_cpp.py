@@ -1,6 +1,7 @@
 """generate_cpp.py SOURCE_DIR MODULE OUT_DIR COUNT SEED: the sources and headers of MODULE (cmodel or driver) with COUNT of their mutants in
 them, as many of each file as its share is; chosen at run time (selected.hpp). mutants.json says what each number is. Which are taken
 does not depend on the others: a change of the sources changes few of them."""
+import glob
 import hashlib
 import json
 import os
@@ -9,14 +10,13 @@ import sys
 from cplusplus import CppMutator
 from generate import write
 
-FOLDERS = {"cmodel": ["cmodel", "cmodel/fast"], "driver": ["driver"]}
 # Highway compiles it once for each processor, by its own name.
 LEFT = {"cmodel/fast/row_kernel.cpp"}
 
 
 def sources(root: str, module: str) -> list[str]:
-    found = [f"{folder}/{name}" for folder in FOLDERS[module] for name in sorted(os.listdir(f"{root}/{folder}")) if name.endswith((".cpp", ".hpp"))]
-    return [path for path in found if path not in LEFT]
+    found = glob.glob(f"{module}/**/*.[ch]pp", root_dir=root, recursive=True)
+    return sorted(path for path in found if path not in LEFT and "/tools/" not in path)
 
 
 def mutate(root: str, module: str, wanted=lambda name: True):

@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 #include "testbench/stimulus/campaign.hpp"
 #include "testbench/triage/failure.hpp"
 #include "tests/netlist/netlist_helper.hpp"

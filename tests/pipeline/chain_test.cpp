@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "driver/render.hpp"
+#include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 

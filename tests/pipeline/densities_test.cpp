@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "driver/compile.hpp"
-#include "driver/render.hpp"
+#include "driver/tiles/compile.hpp"
+#include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 #include "analysis/pipeline/chain.hpp"
 #include "tests/cmodel/configs_helper.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "driver/render.hpp"
+#include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 #include "analysis/pipeline/chain.hpp"
 #include "tests/cmodel/configs_helper.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 #include "testbench/device/rtl_module.hpp"
 
 int main(int argc, char** argv) {

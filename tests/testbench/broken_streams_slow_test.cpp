@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 #include "tests/testbench/directed_helper.hpp"
 
 namespace fastsplat::testbench {

@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 #include "testbench/check/verify.hpp"
 #include "testbench/stimulus/stimulus.hpp"
 #include "testbench/device/passing_device.hpp"

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <mutex>
 
-#include "cmodel/stream_decode.hpp"
-#include "driver/config_file.hpp"
+#include "cmodel/decode/stream_decode.hpp"
+#include "driver/config/config_file.hpp"
 #include "testbench/stimulus/campaign.hpp"
 #include "testbench/triage/failure.hpp"
 

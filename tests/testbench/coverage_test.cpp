@@ -6,7 +6,7 @@
 
 #include <cstdio>
 
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 #include "testbench/coverage/coverage_collector.hpp"
 #include "testbench/stimulus/campaign.hpp"
 #include "tests/testbench/directed_helper.hpp"

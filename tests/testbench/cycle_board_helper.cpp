@@ -9,7 +9,7 @@
 #include <set>
 
 #include "cmodel/model.hpp"
-#include "cmodel/stream_decode.hpp"
+#include "cmodel/decode/stream_decode.hpp"
 #include "testbench/device/rtl_device.hpp"
 #include "testbench/device/tap_assembly.hpp"
 

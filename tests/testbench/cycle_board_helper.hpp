@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "cmodel/cycle_model.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
 #include "testbench/device/pattern.hpp"
 #include "testbench/device/rtl_device.hpp"
 

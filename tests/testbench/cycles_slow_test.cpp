@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "cmodel/cycle_model.hpp"
-#include "driver/config_file.hpp"
-#include "driver/run_device.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/run_device.hpp"
 #include "testbench/device/rtl_device.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/cmodel/random_stream_helper.hpp"

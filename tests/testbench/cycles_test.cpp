@@ -3,8 +3,8 @@
 
 #include <cstdio>
 
-#include "cmodel/cycle_model.hpp"
-#include "driver/config_file.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
+#include "driver/config/config_file.hpp"
 #include "testbench/device/rtl_device.hpp"
 #include "testbench/device/tap_assembly.hpp"
 #include "tests/cmodel/configs_helper.hpp"

@@ -7,9 +7,9 @@
 #include <fstream>
 
 #include "base/error.hpp"
-#include "cmodel/cycle_model.hpp"
-#include "driver/config_file.hpp"
-#include "driver/stream_file.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/files/stream_file.hpp"
 #include "scene/transfer_function.hpp"
 #include "testbench/coverage/coverage_book.hpp"
 #include "testbench/stimulus/stimulus.hpp"

@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/read_file.hpp"
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 #include "testbench/closure/closure_report.hpp"
 #include "testbench/closure/coverage_campaigns.hpp"
 #include "tests/paths.hpp"

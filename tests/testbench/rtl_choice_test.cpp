@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 #include "testbench/device/rtl_device.hpp"
 
 namespace fastsplat::testbench {

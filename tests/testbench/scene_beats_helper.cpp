@@ -1,6 +1,6 @@
 #include "tests/testbench/scene_beats_helper.hpp"
 
-#include "driver/compile.hpp"
+#include "driver/tiles/compile.hpp"
 
 namespace fastsplat::test {
 

@@ -1,8 +1,8 @@
 // A device whose register bus never answers is told, not waited for; so is one that answers a read in another cycle.
 #include <gtest/gtest.h>
 
-#include "cmodel/register_map.hpp"
-#include "driver/config_file.hpp"
+#include "cmodel/io/register_map.hpp"
+#include "driver/config/config_file.hpp"
 #include "testbench/device/verilated_device.hpp"
 
 namespace fastsplat::testbench {

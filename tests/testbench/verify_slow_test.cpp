@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string>
 
-#include "driver/config_file.hpp"
+#include "driver/config/config_file.hpp"
 #include "testbench/stimulus/campaign.hpp"
 #include "tests/testbench/scene_beats_helper.hpp"
 

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "cmodel/compositor.hpp"
+#include "cmodel/composite/compositor.hpp"
 #include "cmodel/model.hpp"
-#include "cmodel/observers.hpp"
-#include "driver/config_file.hpp"
-#include "driver/tables.hpp"
+#include "cmodel/numbers/observers.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tables/tables.hpp"
 #include "scene/kernel.hpp"
 
 namespace fastsplat {

@@ -8,8 +8,8 @@
 
 #include "tools/benchmarks/row_units.hpp"
 #include "tools/benchmarks/scenes.hpp"
-#include "driver/config_file.hpp"
-#include "driver/render.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 #include "scene/scene.hpp"
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "tools/benchmarks/scenes.hpp"
-#include "driver/config_file.hpp"
-#include "driver/render.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/render.hpp"
 
 namespace fastsplat {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "tools/benchmarks/rmw_loop.hpp"
 #include "tools/benchmarks/row_units.hpp"
-#include "cmodel/snap.hpp"
+#include "cmodel/splat/snap.hpp"
 
 namespace fastsplat {
 namespace {

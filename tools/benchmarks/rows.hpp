@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "cmodel/beat.hpp"
-#include "cmodel/config.hpp"
-#include "cmodel/records.hpp"
-#include "driver/config_file.hpp"
-#include "driver/tables.hpp"
+#include "cmodel/stream/beat.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/records.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tables/tables.hpp"
 
 namespace fastsplat::bench {
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <ctime>
 
-#include "cmodel/cycle_model.hpp"
-#include "driver/compile.hpp"
-#include "driver/config_file.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
+#include "driver/tiles/compile.hpp"
+#include "driver/config/config_file.hpp"
 #include "scene/scene.hpp"
 #include "testbench/check/checked_device.hpp"
 #include "testbench/device/rtl_device.hpp"

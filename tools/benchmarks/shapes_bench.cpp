@@ -7,9 +7,9 @@
 #include <string>
 
 #include "tools/benchmarks/scenes.hpp"
-#include "driver/config_file.hpp"
-#include "driver/gaussian_frame.hpp"
-#include "driver/render.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/gaussian_frame.hpp"
+#include "driver/tiles/render.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
 
 namespace fastsplat {

@@ -53,10 +53,12 @@ endif()
 add_library(fastsplat_strict_float INTERFACE)
 target_compile_options(fastsplat_strict_float INTERFACE -ffp-contract=off)
 
-# fastsplat_library(<folder> DEPENDS <targets...>): every .cpp of the folder becomes libfastsplat_<folder>.
+# fastsplat_library(<name> [FOLDERS <sub-folders...>] DEPENDS <targets...>): every .cpp of the folder, and of the
+# sub-folders named, becomes libfastsplat_<name>.
 function(fastsplat_library name)
-  cmake_parse_arguments(arg "" "" "DEPENDS;PRIVATE_DEPENDS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  cmake_parse_arguments(arg "" "" "FOLDERS;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  list(TRANSFORM arg_FOLDERS REPLACE "(.+)" "${CMAKE_CURRENT_SOURCE_DIR}/\\1/*.cpp")
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${arg_FOLDERS})
   add_library(fastsplat_${name} STATIC ${sources})
   # Eight sources are compiled as one: headers are most of what a compiler reads. Vector kernels stay alone, for Highway
   # includes them once for each instruction set.

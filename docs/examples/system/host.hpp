@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "Vfs_system.h"
-#include "cmodel/beat.hpp"
+#include "cmodel/stream/beat.hpp"
 
 namespace fastsplat::examples {
 

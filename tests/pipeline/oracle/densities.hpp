@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "scene/scene.hpp"
 #include "scene/transfer_function.hpp"
 #include "analysis/pipeline/step.hpp"

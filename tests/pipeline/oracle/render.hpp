@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "scene/scene.hpp"
 #include "analysis/pipeline/step.hpp"
 

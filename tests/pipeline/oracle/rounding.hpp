@@ -1,7 +1,7 @@
 // What the oracle of the mixtures rounds with: docs/numerics.md, section 1, for numbers that need not be words.
 #pragma once
 
-#include "cmodel/narrow.hpp"
+#include "cmodel/numbers/narrow.hpp"
 
 namespace fastsplat::stages::oracle {
 

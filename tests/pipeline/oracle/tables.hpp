@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "cmodel/config.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "scene/scene.hpp"
 #include "tests/pipeline/oracle/rounding.hpp"
 

@@ -10,9 +10,9 @@
 #include "tools/benchmarks/peers/peer_main.hpp"
 #include "tools/benchmarks/peers/same_picture.hpp"
 #include "tools/benchmarks/scenes.hpp"
-#include "driver/compile.hpp"
-#include "driver/config_file.hpp"
-#include "driver/render.hpp"
+#include "driver/tiles/compile.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 
 namespace fastsplat::bench {

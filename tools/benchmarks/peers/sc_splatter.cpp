@@ -5,8 +5,8 @@
 #include <systemc>
 #include <vector>
 
-#include "cmodel/rlut.hpp"
-#include "cmodel/snap.hpp"
+#include "cmodel/splat/rlut.hpp"
+#include "cmodel/splat/snap.hpp"
 
 // The library has a main() of its own, which wants it.
 int sc_main(int, char**) { return 0; }

@@ -6,8 +6,8 @@
 #include <memory>
 #include <span>
 
-#include "cmodel/config.hpp"
-#include "cmodel/records.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/records.hpp"
 
 namespace fastsplat::bench {
 

@@ -15,8 +15,8 @@
 #include "tools/benchmarks/peers/same_picture.hpp"
 #include "tools/benchmarks/peers/vtk_ray_caster.hpp"
 #include "tools/benchmarks/scenes.hpp"
-#include "driver/config_file.hpp"
-#include "driver/render.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 
 namespace fastsplat::bench {

@@ -1,0 +1,73 @@
+// Unit "classify": a pixel's density and its differences to the neighbours' become what a sheet of colours would hold
+// there (docs/numerics.md, section 6.2). Pure steps on tables that the driver loads.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cmodel/classify/classify_tables.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/splat/lane.hpp"
+#include "cmodel/classify/pattern_unit.hpp"
+#include "cmodel/stream/stream_layout.hpp"
+
+namespace fastsplat::cmodel {
+
+/// Differences of density words: right less left, below less above, behind less before; to both sides, so that one to
+/// one side counts twice.
+struct DensitySlope {
+  std::int64_t x = 0, y = 0, z = 0;
+};
+
+class ClassifyUnit {
+ public:
+  explicit ClassifyUnit(const Config& config);
+
+  /// The words of a checked load_table record of one of its tables.
+  void load(Table table, std::span<const std::uint32_t> words);
+
+  const PatternUnit& pattern() const { return pattern_; }
+
+  /// Density (U si.sf) of pixel (x,y) of the image in sheet `sheet`: R, G, B, tau as section 6 takes them from a sheet.
+  SheetWord operator()(std::uint32_t density, const DensitySlope& slope, std::int32_t x, std::int32_t y,
+                       std::uint32_t sheet) const;
+
+ private:
+  /// A table in linear segments, words of f fraction bits: its value at segment i, `rest` of 2^rest_bits on.
+  class Lines {
+   public:
+    Lines(int frac_bits, int rest_bits);
+    /// `first` of a table of several channels, `step` words from one entry to the next.
+    std::int64_t at(std::span<const std::uint32_t> words, std::int64_t position, std::size_t first = 0,
+                    std::size_t step = 1) const;
+
+   private:
+    int rest_bits_;
+    Narrowing fall_;
+  };
+  /// g, and what makes its length 1.
+  struct Normal {
+    std::array<std::int64_t, 3> g;  ///< right, down, ahead; S 4.16, S 14.16 where it leans
+    std::int64_t m = 0;             ///< |g| is sqrt(m) 2^half_shift words; 16 fraction bits, 1..4
+    int half_shift = 0;             ///< e/2
+    std::int64_t root = 0;          ///< 1/sqrt(m), One.14
+  };
+  /// Of normal.g what makes its length 1; false where it has none.
+  bool measure(Normal& normal) const;
+  std::int64_t length(const Normal& normal) const;  ///< |g|, U 5.24
+  /// Adds to g, by its length, what of `by` (S 10.16) does not lie along it.
+  void lean(Normal& normal, const std::array<std::int64_t, 3>& by) const;
+  std::int64_t facing(const Normal& normal, std::size_t vector) const;
+  std::int64_t tilt(std::size_t axis, std::int32_t pixel) const;
+
+  int sheet_frac_bits_;
+  std::int64_t top_;  ///< density 1.0
+  std::vector<std::uint32_t> classify_, root_, glint_, light_, sheets_;
+  Lines colour_lines_, tau_lines_, root_lines_, glint_lines_;
+  Narrowing across_, along_, tilt_, length_, share_, matt_, lit_, product_, leant_;
+  PatternUnit pattern_;
+};
+
+}  // namespace fastsplat::cmodel

@@ -1,0 +1,83 @@
+// Unit "density stage": of a tile whose sheets hold densities, the ring of those that are live and what each becomes
+// between its neighbours: sums, pixel by pixel, that are composited like those of a sheet of colours (docs/numerics.md,
+// section 6.2).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+
+#include "cmodel/classify/classify_unit.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/classify/density_ring.hpp"
+#include "cmodel/stream/records.hpp"
+
+namespace fastsplat::cmodel {
+
+class DensityStage {
+ public:
+  explicit DensityStage(const Config& config) : lanes_(config.lanes), classify_(config) {}
+
+  /// The words of a checked load_table record of one of its tables.
+  void load(Table table, std::span<const std::uint32_t> words) { classify_.load(table, words); }
+  /// The frame's solid pattern, which sheets of colours have, too.
+  const PatternUnit& pattern() const { return classify_.pattern(); }
+  /// Pixels that a sheet holds around those of the tile.
+  static int rim(Mode mode) { return holds_densities(mode) ? 1 : 0; }
+  void begin_tile(const BeginTile& tile, const BeginFrame& frame) {
+    tile_ = tile;
+    frame_width_ = frame.width;
+    frame_height_ = frame.height;
+    ring_.begin_tile(tile.width + 2, tile.height + 2);
+  }
+  /// Sheet `number` has ended, in `splatted`: that has drain(visit(bx, by)), at(x, y) with the rim's pixel at (0,0),
+  /// and is clear after it. Of the sheet that waited: pixel(sums, x, y) for the tile's pixels of each of its dirty
+  /// blocks, and then block(x, y, its number), that block's first pixel, in the rim perhaps.
+  template <class Buffer, class Pixel, class Block>
+  void end_sheet(Buffer& splatted, std::uint32_t number, Pixel pixel, Block block) {
+    ring_.end_sheet(splatted, number, lanes_, [&](const auto&... sheets) { visit(sheets..., pixel, block); });
+  }
+  /// The same of the sheet that waits for none any more.
+  template <class Pixel, class Block>
+  void end_tile(Pixel pixel, Block block) {
+    ring_.end_tile([&](const auto&... sheets) { visit(sheets..., pixel, block); });
+  }
+
+ private:
+  DensitySlope slope(const DensitySheet& before, const DensitySheet& here, const DensitySheet& behind, int x,
+                     int y) const {
+    // At the picture's edges to one side, which counts twice.
+    const bool left = tile_.x + x == 0, right = tile_.x + x == frame_width_ - 1;
+    const bool top = tile_.y + y == 0, bottom = tile_.y + y == frame_height_ - 1;
+    const int i = x + 1, j = y + 1;
+    const std::int64_t across = here.at(right ? i : i + 1, j) - here.at(left ? i : i - 1, j);
+    const std::int64_t down = here.at(i, bottom ? j : j + 1) - here.at(i, top ? j : j - 1);
+    return {.x = left || right ? 2 * across : across,
+            .y = top || bottom ? 2 * down : down,
+            .z = behind.at(i, j) - before.at(i, j)};
+  }
+  template <class Pixel, class Block>
+  void visit(const DensitySheet& before, const DensitySheet& here, const DensitySheet& behind, Pixel pixel,
+             Block block) const {
+    for (const auto& [bx, by] : here.blocks()) {
+      const int left = bx * lanes_ - 1, top = by * lanes_ - 1;
+      const int x1 = std::min(tile_.width, left + lanes_), y1 = std::min(tile_.height, top + lanes_);
+      for (int y = std::max(top, 0); y < y1; ++y) {
+        for (int x = std::max(left, 0); x < x1; ++x) {
+          pixel(classify_(static_cast<std::uint32_t>(here.at(x + 1, y + 1)), slope(before, here, behind, x, y),
+                          tile_.x + x, tile_.y + y, here.number()),
+                x, y);
+        }
+      }
+      block(left, top, here.number());
+    }
+  }
+
+  int lanes_;
+  ClassifyUnit classify_;
+  DensityRing ring_;
+  BeginTile tile_;
+  int frame_width_ = 0, frame_height_ = 0;
+};
+
+}  // namespace fastsplat::cmodel

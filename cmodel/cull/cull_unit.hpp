@@ -1,0 +1,86 @@
+// Unit "cull": what of a sheet is hidden by the sheets up to the last but one (docs/numerics.md, section 6.1).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/cull/cull_table.hpp"
+#include "cmodel/stream/records.hpp"
+
+namespace fastsplat::cmodel {
+
+/// Modes 0 and 1: the others have no sheets in which pixels freeze.
+constexpr bool culls_in(Mode mode) { return mode == Mode::Exponential || mode == Mode::Additive; }
+
+inline PixelBox box_of(const CullBlock& set) {
+  return {set.x, set.y, std::int64_t{set.x} + set.width, std::int64_t{set.y} + set.height};
+}
+
+class CullUnit {
+ public:
+  explicit CullUnit(const Config& config);
+
+  void begin_tile(Mode mode, int width, int height);
+  /// The next sheet of the tile; its tests are made against the map as it was two sheets before.
+  void begin_sheet() {
+    now_ = 1 - now_;
+    first_changed_ = blocks_[0].rows();
+  }
+  /// Tests are made in this tile.
+  bool on() const { return on_; }
+
+  /// All cells that the rectangle meets in the tile are opaque.
+  bool hidden(const PixelBox& box) const { return cells()[now_].hidden(box); }
+  /// All blocks that it meets.
+  bool window_hidden(const PixelBox& box) const { return blocks_[now_].hidden(box); }
+
+  /// The sheet was composited; changed block by block, frozen(x, y) of its pixels.
+  template <class Frozen>
+  void composited(int bx, int by, Frozen frozen) {
+    if (!on_) return;
+    const int x0 = bx * lanes_, x1 = std::min(width_, x0 + lanes_), y0 = by * lanes_,
+              y1 = std::min(height_, y0 + lanes_);
+    bool opaque = true, changed = false;
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; ++x) {
+        const bool one = frozen(x, y);
+        opaque = opaque && one;
+        if (!by_pixels_ || !one) continue;
+        auto& was =
+            pixel_map_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+        changed = changed || was == 0;
+        was = 1;
+      }
+    }
+    auto& was = block_map_[static_cast<std::size_t>(by) * static_cast<std::size_t>(blocks_[0].columns()) +
+                           static_cast<std::size_t>(bx)];
+    changed = changed || (opaque && was == 0);
+    was = opaque ? 1 : 0;
+    if (!changed) return;
+    first_changed_ = std::min(first_changed_, by);
+    for (int& row : changed_) row = std::min(row, by);
+  }
+  /// Of the open sheet's blocks that were told, the first row with a cell that became opaque; all rows: none did.
+  int first_changed() const { return first_changed_; }
+  /// All of its blocks were told.
+  void end_sheet();
+
+  const CullTable& table() const { return cells()[now_]; }
+
+ private:
+  const std::array<CullTable, 2>& cells() const { return by_pixels_ ? pixels_ : blocks_; }
+
+  int lanes_;
+  bool by_pixels_, culls_;
+  bool on_ = false;
+  int width_ = 0, height_ = 0;
+  std::array<CullTable, 2> blocks_, pixels_;         ///< after the sheet before the last one, and after the last one
+  std::vector<std::uint8_t> block_map_, pixel_map_;  ///< of today
+  std::array<int, 2> changed_{};                     ///< first row of blocks that a table does not know yet
+  int first_changed_ = 0;
+  std::size_t now_ = 0;
+};
+
+}  // namespace fastsplat::cmodel

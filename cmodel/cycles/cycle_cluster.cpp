@@ -1,0 +1,116 @@
+#include "cmodel/cycles/cycle_cluster.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace fastsplat::cmodel {
+namespace {
+
+constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
+
+template <class Kind>
+bool is(const Record* record) {
+  return record != nullptr && std::holds_alternative<Kind>(*record);
+}
+
+std::uint64_t pixel_beats_of(const Config& config, const BeginTile& tile) {
+  return static_cast<std::uint64_t>((tile.width + config.lanes - 1) / config.lanes) *
+         static_cast<std::uint64_t>(tile.height);
+}
+
+}  // namespace
+
+CycleCluster::CycleCluster(const Config& config, StreamScope scope, const ClusterOptions& options)
+    : config_(config), decode_(config, scope), link_(options.bytes_per_cycle) {
+  for (int i = 0; i < options.devices; ++i)
+    devices_.push_back(std::make_unique<QueuedDevice>(config, options.queue_beats, options.device));
+  last_ = devices_.size() - 1;
+}
+
+void CycleCluster::take(const Beat& beat) {
+  const Record* record = decode_.feed(beat);
+  const bool ends = is<EndTile>(record) || is<EndFrame>(record);
+  if (is<BeginTile>(record)) pixel_beats_ += pixel_beats_of(config_, std::get<BeginTile>(*record));
+  tables_ = tables_ && !ends && !is<BeginTile>(record);
+  if (tables_) return broadcast(beat);
+  arriving_.push_back(beat);
+  if (!ends) return;
+  undealt_.push_back(std::exchange(arriving_, {}));
+  pump();
+}
+
+void CycleCluster::broadcast(const Beat& beat) {
+  link_.wait_until(devices_.front()->room());  // all are alike until the first tile
+  const std::uint64_t arrived = link_.carry();
+  for (const auto& device : devices_) device->arrive(beat, arrived);
+}
+
+bool CycleCluster::deal(std::uint64_t cycle) {
+  while (true) {
+    QueuedDevice* first = nullptr;
+    for (const auto& device : devices_) {
+      if (device->wants() || device->asks() > cycle) continue;
+      if (first == nullptr || device->asks() < first->asks()) first = device.get();
+    }
+    if (first == nullptr) return true;
+    if (undealt_.empty()) return ended_;
+    first->deal(std::move(undealt_.front()));
+    undealt_.pop_front();
+  }
+}
+
+QueuedDevice* CycleCluster::turn(std::uint64_t cycle) {
+  for (std::size_t i = 1; i <= devices_.size(); ++i) {
+    const std::size_t number = (last_ + i) % devices_.size();
+    QueuedDevice& device = *devices_[number];
+    if (!device.wants() || device.room() > cycle) continue;
+    last_ = number;
+    return &device;
+  }
+  return nullptr;
+}
+
+std::uint64_t CycleCluster::wake() const {
+  std::uint64_t first = kNever;
+  for (const auto& device : devices_) {
+    if (device->wants()) first = std::min(first, device->room());
+    // Who asks when there is no tile left never gets one.
+    else if (!ended_ || !undealt_.empty())
+      first = std::min(first, device->asks());
+  }
+  return first;
+}
+
+void CycleCluster::pump() {
+  // All that is sent later arrives at or after the link's cycle, and who takes it asks after that: whoever asks up to
+  // this cycle is known by now, so tiles are dealt in the order of asking.
+  while (deal(link_.cycle())) {
+    if (QueuedDevice* device = turn(link_.cycle())) {
+      device->arrive(link_.carry());
+      continue;
+    }
+    const std::uint64_t next = wake();
+    if (next == kNever) return;
+    link_.wait_until(next);
+  }
+}
+
+void CycleCluster::finish() {
+  decode_.finish();
+  ended_ = true;
+  pump();
+  for (const auto& device : devices_) {
+    device->finish();
+    done_.push_back(device->cycles());
+    counters_ += done_.back().counters;
+  }
+}
+
+std::uint64_t CycleCluster::frame_cycles() const {
+  std::uint64_t end = 0;
+  for (const DeviceCycles& device : done_) end = std::max(end, device.end);
+  return end;
+}
+
+}  // namespace fastsplat::cmodel

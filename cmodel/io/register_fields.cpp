@@ -1,0 +1,129 @@
+#include "cmodel/io/register_fields.hpp"
+
+#include <algorithm>
+
+#include "cmodel/numbers/counters.hpp"
+#include "cmodel/numbers/stall_counters.hpp"
+
+namespace fastsplat::cmodel {
+namespace {
+
+/// The only field of its register or one of several; a capability's value is a member of the configuration.
+template <auto Member>
+constexpr RegisterField built_for(const char* name, int high, int low, const char* says) {
+  return {name, high, low, says, [](const Config& config) -> int { return config.*Member; }};
+}
+
+constexpr RegisterField kStatus[] = {
+    {"BUSY", 0, 0, "work is under way, a beat lies in check, a tile is cut short, or a soft reset lasts"},
+    {"ERROR", 1, 1, "a beat was refused; stays until a reset"},
+};
+constexpr RegisterField kControl[] = {
+    {"CLEAR", 0, 0, "1: all counters to 0"},
+    {"RESET", 1, 1, "1: soft reset; done when STATUS.BUSY is 0"},
+};
+constexpr RegisterField kError[] = {
+    {"RULE", 7, 0, "the rule of docs/stream.md that the first refused beat broke; 0: none was refused"},
+    {"OPCODE", 15, 8, "that beat's opcode byte"},
+};
+constexpr RegisterField kIrq[] = {
+    {"FRAME", 0, 0, "a frame has left"},
+    {"TILE", 1, 1, "a tile's last beat was taken"},
+    {"ERROR", 2, 2, "a beat was refused"},
+};
+static_assert(kStatus[0].mask() == kStatusBusy && kStatus[1].mask() == kStatusError);
+static_assert(kControl[0].mask() == kControlClear && kControl[1].mask() == kControlReset);
+static_assert(kIrq[0].mask() == kIrqFrame && kIrq[1].mask() == kIrqTile && kIrq[2].mask() == kIrqError);
+constexpr RegisterField kTile[] = {
+    built_for<&Config::tile_width>("WIDTH", 15, 0, "pixels of a tile, across"),
+    built_for<&Config::tile_height>("HEIGHT", 31, 16, "pixels of a tile, down"),
+};
+constexpr RegisterField kLanes[] = {
+    built_for<&Config::lanes>("LANES", 15, 0, "P: a window is P x P pixels, a beat of pixels P"),
+    built_for<&Config::rlut_sets>("SETS", 31, 16, "radius sets"),
+};
+constexpr RegisterField kRlut[] = {
+    built_for<&Config::rlut_columns>("COLUMNS", 15, 0, "words of a phase of the RLUT, for all sets"),
+    built_for<&Config::phases>("PHASES", 31, 16, "places of a splat within a pixel, per axis"),
+};
+constexpr RegisterField kTables[] = {
+    built_for<&Config::radial_entries>("RADIAL", 15, 0, "entries of the radial table; 0: 65536"),
+    built_for<&Config::opacity_segments>("SEGMENTS", 31, 16, "segments of the slab factor; 0: 65536"),
+};
+constexpr RegisterField kSplatFields[] = {
+    built_for<&Config::position_int_bits>("POSITION_INT", 7, 0, "integer bits of x and y, the sign among them"),
+    built_for<&Config::position_frac_bits>("POSITION_FRAC", 15, 8, "fraction bits of x and y"),
+    built_for<&Config::colour_frac_bits>("COLOUR_FRAC", 23, 16, "fraction bits of R, G, B and tau"),
+};
+constexpr RegisterField kWeight[] = {
+    built_for<&Config::radial_int_bits>("WEIGHT_INT", 7, 0, "integer bits of a weight"),
+    built_for<&Config::radial_frac_bits>("WEIGHT_FRAC", 15, 8, "fraction bits of a weight"),
+    built_for<&Config::rlut_guard_bits>("GUARD", 23, 16, "guard bits of the RLUT's words"),
+};
+constexpr RegisterField kSheet[] = {
+    built_for<&Config::sheet_int_bits>("SHEET_INT", 7, 0, "integer bits of a sheet's sums"),
+    built_for<&Config::sheet_frac_bits>("SHEET_FRAC", 15, 8, "fraction bits of a sheet's sums"),
+    built_for<&Config::opacity_frac_bits>("OPACITY_FRAC", 23, 16, "fraction bits of the slab factor"),
+    built_for<&Config::composite_frac_bits>("COMPOSITE_FRAC", 31, 24, "fraction bits of colour and transmittance"),
+};
+constexpr RegisterField kPixel[] = {
+    built_for<&Config::pixel_int_bits>("PIXEL_INT", 7, 0, "integer bits of a pixel's words"),
+    built_for<&Config::pixel_frac_bits>("PIXEL_FRAC", 15, 8, "fraction bits of a pixel's words"),
+};
+
+constexpr RegisterEntry kEntries[] = {
+    {kRegMagic, Access::Read, "\"FSS1\", as in begin_frame", {}},
+    {kRegVersion, Access::Read, "version of the stream", {}},
+    {kRegHashLow, Access::Read, "the configuration's hash, low half", {}},
+    {kRegHashHigh, Access::Read, "the configuration's hash, high half", {}},
+    {kRegStatus, Access::Read, "what the device is about", kStatus},
+    {kRegControl, Access::Write, "reads as 0", kControl},
+    {kRegError, Access::Read, "the first refusal since a reset", kError},
+    {kRegErrorBeat, Access::Read, "the refused beat's number in its frame; begin_frame is 0", {}},
+    {kRegIrq, Access::WriteOneToClear, "what happened", kIrq},
+    {kRegIrqMask, Access::ReadWrite, "what of it raises the interrupt; 0 after reset", kIrq},
+    {kRegCapTile, Access::Read, "built for: tile", kTile},
+    {kRegCapLanes, Access::Read, "built for: lanes, radius sets", kLanes},
+    {kRegCapRlut, Access::Read, "built for: RLUT", kRlut},
+    {kRegCapTables, Access::Read, "built for: tables", kTables},
+    {kRegCapSplat, Access::Read, "built for: a splat's words", kSplatFields},
+    {kRegCapWeight, Access::Read, "built for: weights", kWeight},
+    {kRegCapSheet, Access::Read, "built for: sheets, compositing", kSheet},
+    {kRegCapPixel, Access::Read, "built for: pixels", kPixel},
+};
+
+}  // namespace
+
+std::span<const RegisterEntry> register_entries() { return kEntries; }
+
+std::vector<Capability> capabilities(const Config& config) {
+  std::vector<Capability> out;
+  for (const RegisterEntry& entry : kEntries) {
+    if (entry.fields.empty() || entry.fields.front().value == nullptr) continue;
+    std::uint32_t word = 0;
+    for (const RegisterField& field : entry.fields)
+      word |= (static_cast<std::uint32_t>(field.value(config)) << field.low) & field.mask();
+    out.push_back({entry.reg, word});
+  }
+  return out;
+}
+
+std::vector<CounterEntry> counter_entries() {
+  std::vector<CounterEntry> out;
+  const auto upper = [](std::string name) {
+    for (char& c : name) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    return name;
+  };
+  Counters{}.for_each([&](const char* name, std::uint64_t, const char* says) { out.push_back({upper(name), says}); });
+#define X(name, counter, says) out.push_back({#counter, says});
+  FASTSPLAT_STALL_COUNTERS(X)
+#undef X
+  return out;
+}
+
+std::size_t counters_of(const Config& config) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      counter_entries(), [&](const CounterEntry& counter) { return has_counter(config, counter.name); }));
+}
+
+}  // namespace fastsplat::cmodel

@@ -1,0 +1,58 @@
+// The counters of the device whose registers come after those of FASTSPLAT_COUNTERS: how long it worked, for what it
+// waited, and what it left out.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "cmodel/numbers/config.hpp"
+
+namespace fastsplat::cmodel {
+
+// clang-format off
+/// X(name, register, what it counts). From STALL_HAZARD on not every device has them: has_counter().
+#define FASTSPLAT_STALL_COUNTERS(X)                                     \
+  X(busy, CYCLES, "cycles")                                             \
+  X(stall_input, STALL_INPUT, "cycles without input")                   \
+  X(stall_table, STALL_TABLE, "cycles of table words")                  \
+  X(stall_buffer, STALL_BUFFER, "cycles of waiting for a sheet buffer") \
+  X(stall_tile, STALL_TILE, "cycles of waiting between tiles")          \
+  X(stall_hazard, STALL_HAZARD, "cycles of windows that wait for the one before (composite.every_sample = 1)") \
+  X(cull_tests, CULL_TESTS, "sets and splats tested (cull.map not off)") \
+  X(hidden_sets, HIDDEN_SETS, "hidden sets (cull.map not off)")         \
+  X(hidden_splats, HIDDEN_SPLATS, "hidden splats that were sent and are of no hidden set (cull.map not off)") \
+  X(hidden_windows, HIDDEN_WINDOWS, "hidden windows of splats that are not hidden (cull.map not off)")
+// clang-format on
+
+/// The device of this configuration has a counter of that register name. Their numbers have no gaps: one that culls has
+/// STALL_HAZARD, too, and without composite.every_sample it stays 0.
+inline bool has_counter(const Config& config, std::string_view counter) {
+  if (counter == "STALL_HAZARD") return config.composite_every_sample != 0 || config.culls();
+  const bool of_culling = counter == "CULL_TESTS" || counter.starts_with("HIDDEN_");
+  return config.culls() || !of_culling;
+}
+
+struct StallCounters {
+#define X(name, counter, meaning) std::uint64_t name = 0;
+  FASTSPLAT_STALL_COUNTERS(X)
+#undef X
+
+  StallCounters& operator+=(const StallCounters& other) {
+#define X(name, counter, meaning) name += other.name;
+    FASTSPLAT_STALL_COUNTERS(X)
+#undef X
+    return *this;
+  }
+  bool operator==(const StallCounters&) const = default;
+
+  /// visit(name, value, meaning) in the order above, of those that the configuration has.
+  template <class Visit>
+  void for_each(const Config& config, Visit visit) const {
+#define X(name, counter, meaning) \
+  if (has_counter(config, #counter)) visit(#name, name, meaning);
+    FASTSPLAT_STALL_COUNTERS(X)
+#undef X
+  }
+};
+
+}  // namespace fastsplat::cmodel

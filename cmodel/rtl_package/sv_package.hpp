@@ -1,0 +1,17 @@
+// The SystemVerilog package of a configuration: every number the RTL needs, as literals, from the same Config, stream
+// layout and counters that the model uses.
+#pragma once
+
+#include <string>
+
+#include "cmodel/numbers/config.hpp"
+
+namespace fastsplat::cmodel {
+
+/// Text of rtl's `fastsplat_pkg`. The configuration must have passed first_violation() and rtl_violation().
+std::string sv_package(const Config& config);
+
+/// What the RTL does not build although the model does; empty where it does.
+std::optional<ErrorParts> rtl_violation(const Config& config);
+
+}  // namespace fastsplat::cmodel

@@ -1,0 +1,29 @@
+// What everyone who refuses a stream says alike: where, and what to do about it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "cmodel/stream/stream_layout.hpp"
+
+namespace fastsplat::cmodel {
+
+/// "beat 4 (byte offset 128)".
+inline std::string beat_place(std::uint64_t beat) {
+  return "beat " + std::to_string(beat) + " (byte offset " + std::to_string(beat * kBeatBytes) + ")";
+}
+
+/// "stream version 1, this program reads version 2".
+inline std::string version_message(std::int64_t got) {
+  return "stream version " + std::to_string(got) + ", this program reads version " + std::to_string(kStreamVersion);
+}
+
+// By what is wrong: the file, when or by whom it was written, or the configuration it is given to.
+inline constexpr const char* kDamagedStream = "the stream is damaged or cut: copy or record it again";
+inline constexpr const char* kMiswrittenStream =
+    "docs/stream.md has the rule: correct what wrote the stream, or record it again";
+inline constexpr const char* kOtherVersion = "record it again";
+inline constexpr const char* kForeignStream =
+    "give the configuration it was recorded with, or record it again with this one";
+
+}  // namespace fastsplat::cmodel

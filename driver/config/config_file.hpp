@@ -1,0 +1,20 @@
+// Named hardware configurations: configs/*.toml, built into the program, or a file of the user's.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cmodel/numbers/config.hpp"
+
+namespace fastsplat::driver {
+
+/// A built-in name (`base`) or a path to a .toml file. Every key without a neutral value must be present, unknown keys
+/// are refused, limits are checked; each failure is a UserError (Input) with file, line, key and the numbers.
+cmodel::Config load_config(const std::string& name_or_path);
+std::vector<std::string> config_names();  ///< of the products
+
+/// A file that load_config() reads back to the same configuration: each key with its limits and meaning, those at their
+/// neutral value as comments.
+std::string to_toml(const cmodel::Config& config);
+
+}  // namespace fastsplat::driver

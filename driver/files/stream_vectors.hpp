@@ -1,0 +1,41 @@
+// A recorded stream with what the device makes of it, as plain text for any simulator (docs/capi.md, "Vectors").
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/numbers/counters.hpp"
+#include "cmodel/stream/taps.hpp"
+#include "driver/tiles/render.hpp"
+
+namespace fastsplat::driver {
+
+/// One of the files, as it lies there.
+struct VectorFile {
+  std::string name;
+  std::uint64_t lines = 0, bytes = 0;
+  std::uint32_t crc = 0;  ///< CRC-32 (IEEE, as zlib) over all bytes
+};
+
+struct VectorReport {
+  std::vector<VectorFile> files;  ///< without vectors.json, which tells of them
+  std::uint64_t beats = 0, pixel_beats = 0;
+  std::array<std::uint64_t, cmodel::kTapCount> taps{};  ///< records
+  cmodel::Counters counters;
+};
+
+/// The files' names, vectors.json last.
+std::vector<std::string> vector_file_names();
+
+/// Feeds the stream to the model and writes beats.hex, output.hex and a .hex file a tap, records.json with the same
+/// records, and last vectors.json, which names them all with their checksums. The folder is made if it is not there
+/// (what it lies in has to be); files of these names in it are replaced, all or none. UserError (Input) as
+/// replay_stream's. Memory stays bounded.
+VectorReport write_vectors(const std::filesystem::path& stream, const cmodel::Config& config,
+                           const std::filesystem::path& folder, const RenderOptions& options = {});
+
+}  // namespace fastsplat::driver

@@ -1,0 +1,47 @@
+// A splat's shape on the screen as an ellipse's words, and the windows that hold it (docs/numerics.md, section 8).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/records.hpp"
+#include "scene/shaped_splat.hpp"
+
+namespace fastsplat::driver {
+
+/// Half of the thinnest footprint, pixels: thinner ones are drawn as wide, and as much fainter.
+inline constexpr double kThinnest = 0.25;
+
+/// The footprint of a shape: d^T F^-1 d < 1, F = R^2 S. Shapes thinner than kThinnest grow across.
+scene::ScreenShape drawn_footprint(const scene::ScreenShape& shape, double kernel_radius);
+
+/// The words of a footprint; 4 A C >= B^2 whatever the roundings.
+cmodel::EllipseShape ellipse_words(const cmodel::Config& config, const scene::ScreenShape& footprint);
+
+/// A record's part of a footprint: its windows, and the pixels that may be inside, relative as the record's are.
+struct EllipseSpan {
+  cmodel::EllipseWindows windows;
+  std::int32_t right = 0, bottom = 0;  ///< the last pixels of `windows` that matter, exclusive
+};
+
+/// A footprint cut into rows of windows; neighbours in the same columns are one span.
+class EllipseSpans {
+ public:
+  /// `x`, `y`: the centre's words of S pi.pf, of which only the fraction matters.
+  EllipseSpans(const cmodel::Config& config, const cmodel::EllipseShape& shape, std::int32_t x, std::int32_t y);
+  const EllipseSpan* begin() const { return spans_.data(); }
+  const EllipseSpan* end() const { return spans_.data() + count_; }
+
+ private:
+  std::array<EllipseSpan, cmodel::kEllipseWindows> spans_;
+  std::size_t count_ = 0;
+};
+
+/// The half sides of the box that holds the footprint of these words, pixels.
+struct EllipseReach {
+  double x = 0.0, y = 0.0;
+};
+EllipseReach reach(const cmodel::Config& config, const cmodel::EllipseShape& shape);
+
+}  // namespace fastsplat::driver

@@ -1,0 +1,35 @@
+// The splats of a scene as the device's numbers, with the radius sets they use.
+#pragma once
+
+#include <cstdint>
+
+#include "base/uninitialised.hpp"
+#include "driver/splats/splat_quantiser.hpp"
+
+namespace fastsplat::driver {
+
+struct Projected {
+  Uninitialised<QuantisedSplat> splats;  ///< in traversal order, without those that vanished
+  Uninitialised<SplatEllipse> ellipses;  ///< of each, in a frame with ellipses; else none
+  RadiusSets sets;
+  scene::TexturedSplats textures;  ///< whose pictures the sets have; or none
+  std::uint64_t voxels = 0;        ///< non-empty voxels
+  std::uint64_t saturated = 0;     ///< voxels whose colour or optical depth left U 4.cf
+  std::uint64_t vanished = 0;      ///< voxels whose words are all 0
+  double vanished_share = 0.0;  ///< of all colour and opacity, what they had; 0 where it is carried to the next voxel
+  bool carried = false;
+  std::uint64_t widened = 0;             ///< ellipses that were thinner than kThinnest
+  std::uint32_t least_shrink = 1 << 16;  ///< of the kernel that has grown most (DepthGrowth)
+};
+
+/// Throws UserError (Usage) where an ellipse's half sides are more pixels than the device takes.
+void check_reach(double reach, const cmodel::Config& config);
+
+/// Those that the scene's splats need; `pictures` of each radius.
+RadiusSets radius_sets(const scene::Scene& scene, const cmodel::Config& config, std::size_t pictures = 1);
+
+/// Every real splat of the scene, quantised. `threads` (0: all cores) never change the result.
+Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices,
+                  const scene::SheetPlan& plan, int threads);
+
+}  // namespace fastsplat::driver

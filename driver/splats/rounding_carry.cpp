@@ -1,0 +1,44 @@
+#include "driver/splats/rounding_carry.hpp"
+
+#include "cmodel/stream/records.hpp"
+#include "cmodel/numbers/sites.hpp"
+#include "driver/tables/tables.hpp"
+
+namespace fastsplat::driver {
+namespace {
+
+/// 1/2 in the first line, which alone is rounding half up; spread evenly over 0..1 among neighbours (65536 over the
+/// plastic number, and over its square), so that equal lines do not step all at once.
+double start(int row, int column) {
+  const std::uint32_t word =
+      32768U + 49472U * static_cast<std::uint32_t>(row) + 37345U * static_cast<std::uint32_t>(column);
+  return static_cast<double>(word & 0xFFFFU) / 65536.0;
+}
+
+}  // namespace
+
+ShownWords::ShownWords(const cmodel::Config& config, const scene::Kernel& kernel) {
+  const cmodel::LoadTable radial = radial_table(config, kernel);
+  const cmodel::Narrowing product = cmodel::narrowing(config, cmodel::Site::Product);
+  const double unit =
+      std::ldexp(1.0, config.colour_frac_bits + config.radial_frac_bits - config.sheet_frac_bits);  // of a product
+  double all = 0.0;
+  for (std::size_t t = 0; t < radial.words.size(); ++t) all += radial.words[t] * radial_area(config, t);
+  for (std::size_t word = 0; word < shown_.size(); ++word) {
+    double sum = 0.0;
+    for (std::size_t t = 0; t < radial.words.size(); ++t)
+      sum +=
+          static_cast<double>(product(static_cast<std::int64_t>(word) * radial.words[t]).word) * radial_area(config, t);
+    shown_[word] = all > 0.0 ? sum * unit / all : static_cast<double>(word);  // short weights may all be 0
+  }
+}
+
+RoundingCarry::RoundingCarry(const Target& carried, const ShownWords& shown, int first_row, int end_row, int columns)
+    : carried_(carried),
+      shown_(shown),
+      first_(static_cast<std::size_t>(first_row) * static_cast<std::size_t>(columns)) {
+  for (int row = first_row; row < end_row; ++row)
+    for (int column = 0; column < columns; ++column) rest_.emplace_back().fill(start(row, column));
+}
+
+}  // namespace fastsplat::driver

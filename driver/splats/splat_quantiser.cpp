@@ -1,0 +1,101 @@
+#include "driver/splats/splat_quantiser.hpp"
+
+#include <cmath>
+
+namespace fastsplat::driver {
+namespace {
+
+bool is_xray(const scene::Scene& scene) { return scene.description.method == scene::Method::XRay; }
+
+}  // namespace
+
+bool carries(scene::Method method, const cmodel::Config& config) {
+  switch (static_cast<cmodel::Carry>(config.rounding_carry)) {
+    case cmodel::Carry::Off:
+      return false;
+    case cmodel::Carry::XRay:
+      return method == scene::Method::XRay;
+    case cmodel::Carry::On:
+      break;
+  }
+  return true;
+}
+
+SplatQuantiser::SplatQuantiser(const scene::Scene& scene, const cmodel::Config& config, const RadiusSets& sets,
+                               const Slices& slices, const scene::SheetPlan& plan,
+                               const scene::TexturedSplats* textures)
+    : scene_(scene),
+      sets_(sets),
+      textures_(textures),
+      slices_(slices),
+      plan_(plan),
+      config_(config),
+      position_(target(Site::Position, config)),
+      centre_(target(Site::EllipseCentre, config)),
+      whole_(target(Site::Whole, config)),
+      carried_(target(Site::Carried, config)),
+      shrink_(target(Site::Shrink, config)),
+      carries_(driver::carries(scene.description.method, config)),
+      exposed_(scene.amplitude * (is_xray(scene) ? scene.xray_scale : 1.0)) {
+  if (carries_) shown_.emplace(config, scene.kernel);
+  if (draws_ellipses(scene, config)) shaper_.emplace(scene);
+}
+
+SplatQuantiser::Shaped SplatQuantiser::shaped(const scene::Splat& splat, std::uint32_t line,
+                                              RoundingCarry* carry) const {
+  const scene::RealSplat real = scene::real_splat(scene_, splat);
+  std::array<double, 4> values{};
+  for (std::size_t c = 0; c < 4; ++c) values[c] = real.material[c] * exposed_;
+  const scene::ShapedSplat shape = (*shaper_)(splat, real, values);
+
+  Shaped out;
+  out.ellipse.shrink = quantise_to<std::uint32_t>(1.0 / shape.depth_growth, shrink_);
+  const scene::ScreenShape& s = shape.shape;
+  const double radius = scene_.kernel.radius() * std::sqrt(s.xx);
+  const bool circle = s.xy == 0.0 && s.xx == s.yy;
+  if (circle && std::abs(radius - sets_.radius(0)) <= kSameRadius * radius) {
+    out.result = carry != nullptr ? (*this)(real, line, *carry) : (*this)(real);
+    return out;
+  }
+  const scene::ScreenShape footprint = drawn_footprint(s, scene_.kernel.radius());
+  const double square = scene_.kernel.radius() * scene_.kernel.radius();
+  out.widened = footprint.xx != square * s.xx;
+  const double fainter = out.widened ? std::sqrt(square * square * s.determinant() / footprint.determinant()) : 1.0;
+  for (std::size_t c = 0; c < 4; ++c) values[c] = shape.value[c] * fainter;
+  out.ellipse.shape = ellipse_words(config_, footprint);
+  out.reach = reach(config_, out.ellipse.shape);
+  out.result.splat = {.x = quantise_to<std::int32_t>(real.at.x, centre_),
+                      .y = quantise_to<std::int32_t>(real.at.y, centre_),
+                      .depth = depth(real),
+                      .set = kOwnShape,
+                      .words = {}};
+  if (carry != nullptr) {
+    colour(
+        values, [&](double value, std::size_t channel) { return (*carry)(value, line, channel); }, out.result);
+  } else {
+    colour(
+        values, [this](double value, std::size_t) { return quantise(value, whole_); }, out.result);
+  }
+  return out;
+}
+
+bool draws_ellipses(const scene::Scene& scene, const cmodel::Config& config) {
+  const scene::SceneDescription& d = scene.description;
+  return config.has_ellipses() && (d.footprint.shape == scene::FootprintShape::Ellipse || d.footprint.antialias ||
+                                   !d.motion.none() || d.lens.depth_of_field == scene::DepthOfField::Splats);
+}
+
+std::int32_t SplatQuantiser::depth(const scene::RealSplat& splat) const {
+  switch (plan_.use) {
+    case scene::SheetUse::Sliced:
+      return slices_.quantise_depth(splat.depth - plan_.slabs.first);
+    case scene::SheetUse::GridSheet:
+      return splat.sheet;
+    case scene::SheetUse::OneSheet:
+    case scene::SheetUse::None:
+      break;
+  }
+  return 0;
+}
+
+}  // namespace fastsplat::driver

@@ -1,0 +1,120 @@
+// A real splat as the device's numbers (docs/numerics.md, section 8), not yet cut into slabs or tiles.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "cmodel/numbers/config.hpp"
+#include "driver/splats/ellipse_shape.hpp"
+#include "driver/tables/quantise.hpp"
+#include "driver/tables/radius_sets.hpp"
+#include "driver/splats/rounding_carry.hpp"
+#include "driver/splats/slices.hpp"
+#include "scene/real_splat.hpp"
+#include "scene/sheet_plan.hpp"
+#include "scene/splat_shaper.hpp"
+#include "scene/textured_splats.hpp"
+
+namespace fastsplat::driver {
+
+/// r = (R u) s: a splat's support radius in pixels where a mm is `pixels_per_mm` pixels.
+inline double pixel_radius(const scene::Scene& scene, double pixels_per_mm) {
+  return scene.kernel.radius() * scene.volume->kernel_unit() * pixels_per_mm;
+}
+
+/// Whether what rounding takes of a splat goes to the next one behind it (rounding.carry).
+bool carries(scene::Method method, const cmodel::Config& config);
+
+/// Whether splats have shapes of their own, which only a device with ellipses draws: else all are circles of a radius
+/// set.
+bool draws_ellipses(const scene::Scene& scene, const cmodel::Config& config);
+
+/// 32 bytes a voxel, never in two lines of a cache: what a frame keeps in memory.
+struct alignas(32) QuantisedSplat {
+  std::int32_t x = 0, y = 0;  ///< image pixels, pf fraction bits
+  std::int32_t depth = 0;     ///< Slices::quantise_depth, or the sheet number where splats are not sliced
+  std::uint32_t set = 0;      ///< radius set, or kOwnShape
+  SplatWords words{};         ///< whole splat, U 4.cf; all 0: it vanished
+};
+inline constexpr std::uint32_t kOwnShape = ~std::uint32_t{0};
+
+/// What more a splat of a frame with ellipses has.
+struct SplatEllipse {
+  cmodel::EllipseShape shape;  ///< of a splat with kOwnShape
+  std::uint32_t shrink = 0;    ///< DepthGrowth::shrink
+};
+
+class SplatQuantiser {
+ public:
+  /// Keeps references to `scene`, `sets`, `slices` and, where there are any, `textures`, whose pictures the sets have.
+  SplatQuantiser(const scene::Scene& scene, const cmodel::Config& config, const RadiusSets& sets, const Slices& slices,
+                 const scene::SheetPlan& plan, const scene::TexturedSplats* textures = nullptr);
+
+  struct Result {
+    QuantisedSplat splat;
+    bool saturated = false;  ///< a channel left U 4.cf
+    double asked = 0.0;      ///< sum of the four channels before rounding
+  };
+  Result operator()(const scene::RealSplat& splat) const {
+    return quantised(splat, [this](double value, std::size_t) { return quantise(value, whole_); });
+  }
+  /// `line`: of the grid (scene::Traversal). The splats of a line come front to back.
+  Result operator()(const scene::RealSplat& splat, std::uint32_t line, RoundingCarry& carry) const {
+    return quantised(splat, [&](double value, std::size_t channel) { return carry(value, line, channel); });
+  }
+  /// The same where splats have shapes of their own. What is not sliced, or is a circle of a radius set, is as above.
+  struct Shaped {
+    Result result;
+    SplatEllipse ellipse;
+    EllipseReach reach;    ///< pixels; 0 of a circle
+    bool widened = false;  ///< it was thinner than kThinnest
+  };
+  Shaped shaped(const scene::Splat& splat, std::uint32_t line, RoundingCarry* carry) const;
+  /// Whether roundings are carried on: then no splat is lost by being too thin.
+  bool carries() const { return carries_; }
+  RoundingCarry carry(int first_row, int end_row, int columns) const {
+    return {carried_, *shown_, first_row, end_row, columns};
+  }
+
+ private:
+  std::int32_t depth(const scene::RealSplat& splat) const;
+  template <class Round>
+  void colour(const std::array<double, 4>& values, const Round& round, Result& out) const {
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Quantised channel = round(values[c], c);
+      out.saturated = out.saturated || channel.saturated;
+      out.splat.words[c] = static_cast<std::uint32_t>(channel.word);
+      out.asked += values[c];
+    }
+  }
+  template <class Round>
+  Result quantised(const scene::RealSplat& splat, const Round& round) const {
+    const double radius = pixel_radius(scene_, splat.at.scale);
+    Result out{.splat = {.x = quantise_to<std::int32_t>(splat.at.x, position_),
+                         .y = quantise_to<std::int32_t>(splat.at.y, position_),
+                         .depth = depth(splat),
+                         .set = sets_.nearest(radius, textures_ == nullptr ? 0 : textures_->number_of(splat.place)),
+                         .words = {}}};
+    // The set's footprint is a little wider or narrower than the splat's own: as much is added in all.
+    const double width_ratio = radius / sets_.radius(out.splat.set);
+    const double amplitude = exposed_ * width_ratio * width_ratio;
+    std::array<double, 4> values{};
+    for (std::size_t c = 0; c < 4; ++c) values[c] = splat.material[c] * amplitude;
+    colour(values, round, out);
+    return out;
+  }
+
+  const scene::Scene& scene_;
+  const RadiusSets& sets_;
+  const scene::TexturedSplats* textures_;  ///< null: none
+  const Slices& slices_;
+  scene::SheetPlan plan_;
+  const cmodel::Config& config_;
+  Target position_, centre_, whole_, carried_, shrink_;
+  std::optional<scene::SplatShaper> shaper_;  ///< of a frame with ellipses
+  bool carries_;
+  std::optional<ShownWords> shown_;  ///< where roundings are carried
+  double exposed_;                   ///< amplitude times exposure
+};
+
+}  // namespace fastsplat::driver

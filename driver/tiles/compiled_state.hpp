@@ -1,0 +1,164 @@
+// What a compiled frame consists of: for those who emit its tiles or draw them.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "cmodel/cull/cull_unit.hpp"
+#include "cmodel/stream/record_sink.hpp"
+#include "cmodel/splat/snap.hpp"
+#include "cmodel/numbers/window_geometry.hpp"
+#include "driver/tiles/compile.hpp"
+#include "driver/splats/projection.hpp"
+#include "driver/splats/slices.hpp"
+#include "driver/tiles/tile_bins.hpp"
+#include "scene/sheet_plan.hpp"
+
+namespace fastsplat::driver {
+
+/// The snapped window of a splat in image pixels. The image may be larger than a tile, so positions get room;
+/// the tile's origin is a whole number of pixels, so the window is the one the device finds.
+class Windows {
+ public:
+  Windows(const cmodel::Config& config, const RadiusSets& sets) : config_(config), sets_(sets), snap_(wide(config)) {
+    for (std::uint32_t set = 0; set < sets.size(); ++set)
+      extents_.push_back(cmodel::window_geometry(config, sets_.rho(set)));
+  }
+  cmodel::SnappedAxis snapped(std::int32_t centre, std::uint32_t set) const {
+    cmodel::Nothing nobody;
+    return snap_(centre, sets_.rho(set), nobody);
+  }
+  /// Of an ellipse: the box of all its windows.
+  Extent operator()(const QuantisedSplat& splat, const cmodel::EllipseShape& shape) const {
+    const std::int32_t x = splat.x >> config_.position_frac_bits, y = splat.y >> config_.position_frac_bits;
+    Extent out{.x0 = x, .x1 = x, .y0 = y, .y1 = y, .window_end = y};  // of no pixel
+    bool first = true;
+    for (const EllipseSpan& span : EllipseSpans(config_, shape, splat.x, splat.y)) {
+      const std::int32_t top = y + span.windows.top;
+      const std::int32_t end = top + static_cast<std::int32_t>(span.windows.rows) * config_.lanes;
+      const Extent one{x + span.windows.left, x + span.right, top, y + span.bottom, end};
+      out = first ? one
+                  : Extent{std::min(out.x0, one.x0), std::max(out.x1, one.x1), std::min(out.y0, one.y0),
+                           std::max(out.y1, one.y1), std::max(out.window_end, one.window_end)};
+      first = false;
+    }
+    return out;
+  }
+  Extent operator()(const QuantisedSplat& splat) const {
+    const auto extent = static_cast<std::int32_t>(extents_[splat.set].extent);
+    const std::int32_t x0 = snapped(splat.x, splat.set).origin, y0 = snapped(splat.y, splat.set).origin;
+    return {x0, x0 + extent, y0, y0 + extent, y0 + static_cast<std::int32_t>(extents_[splat.set].padded)};
+  }
+
+  /// Sides of the widest and the narrowest footprint, pixels, whole windows.
+  std::int32_t widest() const {
+    return static_cast<std::int32_t>(std::ranges::max(extents_, {}, &cmodel::WindowGeometry::padded).padded);
+  }
+  std::int32_t narrowest() const {
+    return static_cast<std::int32_t>(std::ranges::min(extents_, {}, &cmodel::WindowGeometry::padded).padded);
+  }
+
+ private:
+  static cmodel::Config wide(cmodel::Config config) {
+    config.position_int_bits = 30 - config.position_frac_bits;
+    return config;
+  }
+  const cmodel::Config config_;
+  const RadiusSets& sets_;
+  cmodel::Snap snap_;
+  std::vector<cmodel::WindowGeometry> extents_;  ///< per set
+};
+
+/// Neighbouring cells whose splats go in one set: one cell, two beside one another, or four.
+struct CellSet {
+  cmodel::CullBlock block;  ///< pixels of all windows of the splats that they can have; no tag, no splats yet
+  std::vector<int> cells;   ///< row by row
+};
+struct SheetSets {
+  std::vector<CellSet> sets;
+  std::vector<int> others;  ///< cells with splats in no set
+};
+
+struct CompiledFrame::State {
+  cmodel::Config config;
+  cmodel::Mode mode;
+  scene::SheetPlan plan;
+  Slices slices;
+  Projected projected;
+  TileGrid grid;
+  Bands bands;
+  Windows windows;
+  Cells cells;
+  TileBins bins;
+  DepthGrowth growth(std::uint32_t number) const { return slices.growth(projected.ellipses[number].shrink); }
+  int reach = 0;  ///< a splat reaches at most this many sheets beyond its first
+  std::vector<cmodel::Beat> preamble;
+
+  State(const scene::Scene& scene, const cmodel::Config& device, int threads, int band_rows);
+
+  int rim() const { return cmodel::holds_densities(mode) ? 1 : 0; }  ///< pixels around a tile that its sheets hold
+  bool sliced() const { return plan.use == scene::SheetUse::Sliced; }
+  bool shaped() const { return !projected.ellipses.empty(); }
+  int first_sheet(std::uint32_t number) const {
+    const std::int32_t depth = projected.splats[number].depth;
+    if (!sliced()) return depth;
+    return shaped() ? slices.first(depth, growth(number)) : slices.first(depth);
+  }
+  /// The splat's kernel is deeper than its own: shares are those of a kernel that has grown.
+  bool grown(std::uint32_t number) const {
+    return sliced() && shaped() && projected.ellipses[number].shrink != DepthGrowth{}.shrink;
+  }
+  /// What a splat of a frame with ellipses has of a sheet.
+  Share share(std::uint32_t number, int sheet) const {
+    const QuantisedSplat& splat = projected.splats[number];
+    return sliced() && shaped() ? slices.share(splat.words, splat.depth, sheet, growth(number))
+                                : share(splat.words, splat.depth, sheet);
+  }
+  Share share(const SplatWords& words, std::int32_t depth, int sheet) const {
+    return sliced() ? slices.share(words, depth, sheet) : slices.whole(words);
+  }
+  cmodel::BeginTile begin_tile(int tile) const {
+    return {mode, static_cast<std::uint32_t>(tile), grid.x(tile), grid.y(tile), grid.width(tile), grid.height(tile)};
+  }
+  cmodel::BeginTile begin_band(int tile, int band) const {
+    cmodel::BeginTile out = begin_tile(tile);
+    out.y += bands.first_row(band);
+    out.height = bands.height(band, out.height);
+    return out;
+  }
+  /// Records of one sheet of one tile; begin_sheet only when there is something to say.
+  std::uint32_t emit_sheet(int tile, int sheet, std::uint32_t& tag, cmodel::RecordSink& out, TileReport& report) const;
+  /// The same where the tile's splats go in sets; true if the sheet was written.
+  bool emit_sets(int tile, int sheet, std::uint32_t& tag, cmodel::RecordSink& out, TileReport& report) const;
+  /// Footprints of their own are no sets' yet: each is tested by itself.
+  bool in_sets() const { return config.culls() && cmodel::culls_in(mode) && !shaped(); }
+  /// The sets of a tile's sheet, behind `written` others of the tile, and the cells that are in none.
+  SheetSets sheet_sets(int tile, int sheet, std::uint64_t written) const;
+  /// visit(EllipseRecord) for every record of a splat with kOwnShape that meets the tile, without its tag; none may.
+  template <class Visit>
+  void for_each_ellipse(int tile, std::uint32_t number, const SplatWords& colour, Visit visit) const {
+    const QuantisedSplat& splat = projected.splats[number];
+    const cmodel::EllipseShape& shape = projected.ellipses[number].shape;
+    const int pf = config.position_frac_bits;
+    const std::int32_t x = (splat.x >> pf) - grid.x(tile), y = (splat.y >> pf) - grid.y(tile);
+    for (const EllipseSpan& span : EllipseSpans(config, shape, splat.x, splat.y)) {
+      if (x + span.right <= -rim() || x + span.windows.left >= grid.width(tile) + rim() || y + span.bottom <= -rim() ||
+          y + span.windows.top >= grid.height(tile) + rim())
+        continue;
+      visit(cmodel::EllipseRecord{.tag = 0,
+                                  .x = splat.x - grid.x(tile) * (1 << pf),
+                                  .y = splat.y - grid.y(tile) * (1 << pf),
+                                  .colour = colour,
+                                  .shape = shape,
+                                  .windows = span.windows});
+    }
+  }
+
+ private:
+  Cells make_cells() const;
+  TileBins make_bins(int threads) const;
+  void make_preamble(const scene::Scene& scene, int threads);
+};
+
+}  // namespace fastsplat::driver

@@ -1,0 +1,21 @@
+// What passed every narrowing site of the device in a whole frame.
+#pragma once
+
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/numbers/observers.hpp"
+#include "driver/tiles/render.hpp"
+#include "scene/scene.hpp"
+
+namespace fastsplat::driver {
+
+struct FrameRanges {
+  cmodel::Ranges ranges;
+  cmodel::Counters counters;
+  DriverReport report;
+};
+
+/// By the plain unit, tile after tile, whatever options.unit says: it is the one that can be watched. Throws as
+/// render() does.
+FrameRanges frame_ranges(const scene::Scene& scene, const cmodel::Config& config, const RenderOptions& options = {});
+
+}  // namespace fastsplat::driver

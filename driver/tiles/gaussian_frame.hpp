@@ -1,0 +1,88 @@
+// A view of 3-D Gaussians compiled for a device that composites every sample of ellipses (docs/numerics.md, section 8,
+// "3-D Gaussians").
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/progress.hpp"
+#include "cmodel/stream/beat.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/numbers/counters.hpp"
+#include "cmodel/stream/device.hpp"
+#include "cmodel/stream/frame.hpp"
+#include "cmodel/stream/record_sink.hpp"
+#include "cmodel/stream/records.hpp"
+#include "driver/tiles/render.hpp"
+#include "driver/tiles/tile_bins.hpp"
+#include "scene/gaussians/projected_gaussian.hpp"
+
+namespace fastsplat::driver {
+
+/// What the driver made of a view; `cut` and `saturated` are 0 in a healthy one.
+struct GaussianReport {
+  scene::ProjectionReport projection;
+  std::uint64_t drawn = 0;      ///< Gaussians that have records, or would have where all tiles were written
+  std::uint64_t vanished = 0;   ///< Gaussians whose words are all 0
+  std::uint64_t saturated = 0;  ///< Gaussians brighter than the input format holds
+  std::uint64_t cut = 0;        ///< Gaussians that reach farther into the picture than a record can say
+  std::uint64_t records = 0;    ///< over all tiles
+  std::uint64_t in_tiles = 0;   ///< Gaussians with a record, over all tiles
+  std::uint64_t tiles = 0;
+};
+
+/// The words of a Gaussian in the image's own frame.
+struct QuantisedGaussian {
+  std::int32_t x = 0, y = 0;  ///< 2^-pf pixel
+  std::array<std::uint32_t, 4> colour{};
+  cmodel::EllipseShape shape;
+};
+
+class GaussianFrame {
+ public:
+  /// `projected` from project_all(). UserError (Usage) where the configuration has no ellipses or does not composite
+  /// every sample.
+  GaussianFrame(const scene::GaussianScene& scene, const std::vector<scene::ProjectedGaussian>& projected,
+                const cmodel::Config& config);
+
+  const cmodel::Config& config() const { return config_; }
+  const TileGrid& grid() const { return grid_; }
+  /// begin_frame and the tables.
+  std::span<const cmodel::Beat> preamble() const { return preamble_; }
+  /// begin_tile .. end_tile; what it adds to the report. Tiles may be emitted in parallel.
+  GaussianReport emit_tile(int tile, cmodel::RecordSink& sink) const;
+  /// The same as beats.
+  GaussianReport emit_tile(int tile, const cmodel::BeatSink& sink) const;
+  /// Preamble and all tiles in order: a subset stream, without end_frame.
+  GaussianReport emit(const cmodel::BeatSink& sink, const Progress& progress = {}) const;
+  /// Without what the tiles add.
+  const GaussianReport& report() const { return report_; }
+  /// Gaussians of each tile: a measure of the work it makes.
+  std::vector<std::uint64_t> work() const;
+
+ private:
+  void bin(std::uint32_t number);
+
+  cmodel::Config config_;
+  TileGrid grid_;
+  std::vector<cmodel::Beat> preamble_;
+  std::vector<QuantisedGaussian> gaussians_;      ///< nearest first
+  std::vector<std::vector<std::uint32_t>> bins_;  ///< of each tile, nearest first; some may meet no pixel of it
+  GaussianReport report_;
+};
+
+GaussianReport& operator+=(GaussianReport& report, const GaussianReport& tile);
+
+struct GaussianRender {
+  cmodel::Frame frame;
+  cmodel::Counters counters;
+  GaussianReport report;
+  UnitReport units;
+};
+
+/// Through the integer model, tiles in parallel: bands it has none.
+GaussianRender render_gaussians(const GaussianFrame& frame, const RenderOptions& options = {});
+
+}  // namespace fastsplat::driver

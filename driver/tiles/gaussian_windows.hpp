@@ -1,0 +1,22 @@
+// The windows that a tile needs of a footprint that may be larger than the tile (docs/numerics.md, section 8, "3-D
+// Gaussians").
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/records.hpp"
+
+namespace fastsplat::driver {
+
+/// How far from its centre a footprint can be drawn, pixels: what a record's windows and a position have room for.
+int gaussian_reach(const cmodel::Config& config);
+
+/// Rows of windows, cut to the tile and to the reach, each as long as the footprint is there; neighbours in the same
+/// columns are one. `x`, `y`: the centre's words relative to the tile, which is `width` x `height` pixels. None where
+/// the footprint meets no pixel of it.
+std::vector<cmodel::EllipseWindows> gaussian_windows(const cmodel::Config& config, const cmodel::EllipseShape& shape,
+                                                     std::int32_t x, std::int32_t y, int width, int height);
+
+}  // namespace fastsplat::driver

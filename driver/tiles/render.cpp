@@ -1,0 +1,170 @@
+#include "driver/tiles/render.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/parallel/parallel.hpp"
+#include "cmodel/fast/tile_unit.hpp"
+#include "cmodel/model.hpp"
+#include "driver/tiles/compile.hpp"
+#include "driver/tables/density_tables.hpp"
+#include "driver/tiles/frame_sink.hpp"
+#include "driver/tables/pattern_tables.hpp"
+#include "driver/splats/splat_quantiser.hpp"
+
+namespace fastsplat::driver {
+
+namespace {
+
+/// What a thread draws at once, so that few busy tiles keep several threads busy. Taller bands share fewer splats.
+constexpr int kBandRows = 64;
+
+/// A tile is done.
+using Told = std::function<void()>;
+
+/// One tile's result besides its pixels.
+struct TileResult {
+  cmodel::Counters counters;
+  TileReport report;
+  UnitReport units;
+};
+
+TileResult draw_plain(const CompiledFrame& compiled, int tile, cmodel::PixelSink& pixels) {
+  cmodel::Model device(compiled.config(), cmodel::StreamScope::Subset, pixels);
+  device.consume(compiled.preamble());
+  TileResult out;
+  out.report = compiled.emit_tile(
+      tile, [&](std::span<const cmodel::Beat> beats) { device.consume(beats); },
+      [&](const cmodel::CullBlock& set) { return device.would_hide(set); });
+  device.finish();
+  out.counters = device.counters();
+  out.units.plain = 1;
+  out.units.hidden_splats = device.culls().hidden_splats;
+  return out;
+}
+
+/// The same of one band, and whether it can be believed.
+struct BandResult {
+  cmodel::Counters counters;
+  BandReport report;
+  std::uint64_t hidden_splats = 0;
+  bool sound = true;
+};
+
+template <class Word>
+BandResult draw_fast(const CompiledFrame& compiled, const cmodel::fast::FrameTables& tables, int tile, int band,
+                     cmodel::PixelSink& pixels) {
+  cmodel::fast::TileUnit<Word> unit(tables, pixels);
+  BandReport report = compiled.draw_band(tile, band, unit);
+  return {unit.counters(), std::move(report), unit.hidden_splats(), unit.sound()};
+}
+
+/// The tile that its bands make; none if one of them is not sound.
+std::optional<TileResult> whole_tile(std::span<const BandResult> bands) {
+  TileResult out;
+  std::vector<std::uint8_t> sheets(bands.front().report.sheets.size());
+  for (const BandResult& band : bands) {
+    if (!band.sound) return std::nullopt;
+    out.counters += band.counters;
+    out.report.splat_records += band.report.splat_records;
+    out.report.saturated_records += band.report.saturated_records;
+    out.units.hidden_splats += band.hidden_splats;
+    for (std::size_t sheet = 0; sheet < sheets.size(); ++sheet) sheets[sheet] |= band.report.sheets[sheet];
+  }
+  out.counters.tiles = out.units.fast = 1;
+  out.counters.sheets = out.report.sheets = static_cast<std::uint64_t>(std::ranges::count(sheets, 1));
+  return out;
+}
+
+/// Tiles are independent: each has a device of its own, as several chips would.
+std::vector<TileResult> draw_all_plain(const CompiledFrame& compiled, int threads, cmodel::PixelSink& pixels,
+                                       const Told& told) {
+  std::vector<TileResult> results(static_cast<std::size_t>(compiled.grid().count()));
+  const std::vector<std::uint64_t> bands = compiled.work();
+  std::vector<std::uint64_t> work(results.size());
+  for (std::size_t i = 0; i < bands.size(); ++i) work[i / static_cast<std::size_t>(compiled.bands())] += bands[i];
+  parallel_for(work, threads, [&](std::size_t tile) {
+    results[tile] = draw_plain(compiled, static_cast<int>(tile), pixels);
+    told();
+  });
+  return results;
+}
+
+/// Bands are, too. Whoever ends a tile's last one puts them together, or draws the tile again.
+std::vector<TileResult> draw_all_fast(const CompiledFrame& compiled, const cmodel::fast::FrameTables& tables,
+                                      int threads, cmodel::PixelSink& pixels, const Told& told) {
+  const auto tiles = static_cast<std::size_t>(compiled.grid().count());
+  const auto each = static_cast<std::size_t>(compiled.bands());
+  std::vector<TileResult> results(tiles);
+  std::vector<BandResult> bands(tiles * each);
+  std::vector<std::atomic<std::size_t>> ended(tiles);
+  parallel_for(compiled.work(), threads, [&](std::size_t number) {
+    const std::size_t tile = number / each;
+    const int t = static_cast<int>(tile), band = static_cast<int>(number % each);
+    bands[number] = tables.plan.narrow ? draw_fast<std::uint16_t>(compiled, tables, t, band, pixels)
+                                       : draw_fast<std::uint32_t>(compiled, tables, t, band, pixels);
+    if (++ended[tile] < each) return;
+    const auto whole = whole_tile(std::span(bands).subspan(tile * each, each));
+    results[tile] = whole ? *whole : draw_plain(compiled, t, pixels);
+    if (!whole) results[tile].units.redone = 1;
+    told();
+  });
+  return results;
+}
+
+}  // namespace
+
+UnitReport& operator+=(UnitReport& report, const UnitReport& tile) {
+  report.fast += tile.fast;
+  report.plain += tile.plain;
+  report.redone += tile.redone;
+  report.hidden_splats += tile.hidden_splats;
+  return report;
+}
+
+DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, const RenderOptions& options) {
+  const char* why_plain = nullptr;
+  const bool fast = options.unit == Unit::Fast && cmodel::fast::fast_plan(config, &why_plain);
+  const int band_rows = !fast ? 0 : options.band_rows > 0 ? options.band_rows : kBandRows;
+  const CompiledFrame compiled(scene, config, options.threads, band_rows);
+  const cmodel::fast::FrameNeeds needs{.ellipses = draws_ellipses(scene, config),
+                                       .samples = every_sample(scene.description),
+                                       .tints = has_pattern(scene.description) && !holds_densities(scene.description)};
+  const auto tables = fast ? cmodel::fast::frame_tables(config, compiled.preamble(), needs, &why_plain)
+                           : std::optional<cmodel::fast::FrameTables>{};
+  FrameSink frame(config, compiled.grid().image_width, compiled.grid().image_height);
+  std::atomic<std::size_t> done{0};
+  const Told told = [&] {
+    if (options.progress) options.progress(done.fetch_add(1) + 1, static_cast<std::size_t>(compiled.grid().count()));
+  };
+  const std::vector<TileResult> results = tables ? draw_all_fast(compiled, *tables, options.threads, frame, told)
+                                                 : draw_all_plain(compiled, options.threads, frame, told);
+
+  DeviceRender out;
+  out.report = compiled.report();
+  out.units.vectors = tables ? cmodel::fast::vector_target() : nullptr;
+  out.units.why_plain = why_plain;
+  for (const TileResult& result : results) {
+    out.counters += result.counters;
+    out.report += result.report;
+    out.units += result.units;
+  }
+  out.frame = frame.take();
+  return out;
+}
+
+Image to_image(const cmodel::Frame& frame) {
+  Image image(frame.width, frame.height, 4);
+  for (std::size_t i = 0; i < frame.words.size(); ++i) {
+    image.data[i] = static_cast<float>(std::ldexp(static_cast<double>(frame.words[i]), -frame.frac_bits));
+  }
+  return image;
+}
+
+}  // namespace fastsplat::driver

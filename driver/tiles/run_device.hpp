@@ -1,0 +1,19 @@
+// A scene through any device, tile after tile: what `render --engine rtl` and the checker use.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "cmodel/stream/device.hpp"
+#include "driver/tiles/render.hpp"
+
+namespace fastsplat::driver {
+
+using DeviceFactory = std::function<std::unique_ptr<cmodel::Device>(cmodel::PixelSink& pixels)>;
+
+/// Feeds preamble and tiles (a subset stream: no end_frame) to one device and gathers the frame. `device` receives the
+/// device after it finished, to read what else it has.
+DeviceRender run_device(const scene::Scene& scene, const cmodel::Config& config, const DeviceFactory& make,
+                        const RenderOptions& options = {}, const std::function<void(cmodel::Device&)>& finished = {});
+
+}  // namespace fastsplat::driver

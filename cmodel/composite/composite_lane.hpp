@@ -1,5 +1,5 @@
 // Unit "composite lane": the pure steps of one pixel of a block, a slab over it, front to back, with freezing; or X-ray
-// sums (docs/numerics.md, section 6; rtl/fastsplat_composite_lane.sv).
+// sums (docs/numerics.md, section 6; rtl/composite/fastsplat_composite_lane.sv).
 #pragma once
 
 #include <array>

@@ -72,7 +72,7 @@ class CycleSink {
 };
 
 /// The source is a master that reads the stream from a memory and does not ask for the splats of hidden sets, where any
-/// are (rtl/fetch). It refuses, with UserError (Input), sets that cull_blocks lie between (cmodel/io/fetch_commands.hpp).
+/// are (rtl/io/fastsplat_fetch.sv). It refuses, with UserError (Input), sets that cull_blocks lie between (cmodel/io/fetch_commands.hpp).
 struct Fetch {
   std::uint64_t latency = 1;  ///< of the memory: cycles from an address taken to its first beat; 0 is taken for 1
 };

@@ -22,7 +22,7 @@ struct FetchCommand {
   bool operator==(const FetchCommand&) const = default;
 };
 
-/// Sets of a command at the most: rtl/fetch has room for as many.
+/// Sets of a command at the most: rtl/io/fastsplat_fetch.sv has room for as many.
 inline constexpr std::uint32_t kMostFetchSets = 1024;
 
 /// Of a legal stream, or of whole tiles of one, in memory from `address` on. Where the configuration does not cull a
@@ -33,7 +33,7 @@ std::vector<FetchCommand> fetch_commands(const Config& config, std::span<const B
 /// where these end.
 [[noreturn]] void refuse_parted_sets(std::uint64_t beat, std::uint64_t waiting);
 
-/// A command as rtl/fetch takes it: address in words 0 and 1, then beats, sets, splats.
+/// A command as fastsplat_fetch takes it: address in words 0 and 1, then beats, sets, splats.
 inline std::array<std::uint32_t, 5> words_of(const FetchCommand& command) {
   return {static_cast<std::uint32_t>(command.address), static_cast<std::uint32_t>(command.address >> 32), command.beats,
           command.sets, command.splats};

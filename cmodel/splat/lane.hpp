@@ -1,5 +1,5 @@
 // Unit "lane": the pure steps of one pixel of a window, from squared distance to sum (docs/numerics.md, sections 4 and
-// 5; rtl/fastsplat_lane.sv, and the sum of rtl/fastsplat_sheet_bank.sv).
+// 5; rtl/splat/fastsplat_lane.sv, and the sum of rtl/splat/fastsplat_sheet_bank.sv).
 #pragma once
 
 #include <array>

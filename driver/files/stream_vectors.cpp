@@ -137,7 +137,7 @@ class Scribe final : public cmodel::Device, private cmodel::TapSink, private cmo
                                  array(record.payload)));
   }
 
-  /// The beats of rtl/pixel_out: P pixels of a row, pixel 0 lowest; outside the tile zeros that keep leaves out.
+  /// The beats of fastsplat_pixel_out: P pixels of a row, pixel 0 lowest; outside the tile zeros that keep leaves out.
   void on_tile(cmodel::TilePixels&& tile) override {
     const int lanes = config_.lanes, digits = (lanes + 3) / 4;
     for (int y = 0; y < tile.height; ++y) {

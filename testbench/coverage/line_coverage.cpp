@@ -89,14 +89,23 @@ std::vector<LinePoint> LineCoverage::points() const {
   return out;
 }
 
+std::map<std::string, std::filesystem::path> sources_in(const std::filesystem::path& folder) {
+  std::map<std::string, std::filesystem::path> out;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) out[entry.path().filename()] = entry.path();
+  return out;
+}
+
 LineClosure close_lines(const LineCoverage& coverage, const std::filesystem::path& rtl,
                         const std::vector<LineExclusion>& exclusions) {
   LineClosure out;
+  const auto sources = sources_in(rtl);
   for (const LinePoint& point : coverage.points()) {
-    if (!std::filesystem::exists(rtl / point.file)) continue;  // a generated package
+    const auto source = sources.find(point.file);
+    if (source == sources.end()) continue;  // a generated package
     out.points.push_back(point);
     if (out.sources.contains(point.file)) continue;
-    std::istringstream text(read_text_file(rtl / point.file));
+    std::istringstream text(read_text_file(source->second));
     auto& lines = out.sources[point.file];
     for (std::string line; std::getline(text, line);) lines.push_back(line);
   }

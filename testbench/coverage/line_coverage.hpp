@@ -56,7 +56,10 @@ struct LineClosure {
   std::map<std::string, std::vector<std::string>> sources;  ///< file -> its lines
 };
 
-/// Sources are read from `rtl`, a folder.
+/// The files below a folder, by name; no two have the same name.
+std::map<std::string, std::filesystem::path> sources_in(const std::filesystem::path& folder);
+
+/// Sources are read from `rtl`, a folder, and those in it.
 LineClosure close_lines(const LineCoverage& coverage, const std::filesystem::path& rtl,
                         const std::vector<LineExclusion>& exclusions);
 

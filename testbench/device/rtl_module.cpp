@@ -51,7 +51,7 @@ const std::string& sources_hash() {
     std::vector<fs::path> files{share / "fastsplat_fault_pkg.sv"};
     for (const char* folder : {"rtl", "testbench/module"}) {
       std::error_code missing;
-      for (const auto& entry : fs::directory_iterator(share / folder, missing))
+      for (const auto& entry : fs::recursive_directory_iterator(share / folder, missing))
         if (entry.is_regular_file()) files.push_back(entry.path());
     }
     if (files.size() == 1) {

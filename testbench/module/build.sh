@@ -32,7 +32,7 @@ case " $* " in *" --trace-fst "*) speed=-O0 ;; esac
 verilator --cc --exe --quiet-exit -Wno-fatal -Wno-lint -O3 --assert --x-assign unique --x-initial unique \
   --prefix Vfs --top-module fastsplat_core --Mdir "$work" "-I$share/rtl" \
   -CFLAGS "$flags" -LDFLAGS "-shared" -o module.so \
-  "$@" "$package" "$share"/rtl/*.sv "$source/module.cpp" "$source/simulator_output.cpp"
+  "$@" "$package" "$share"/rtl/*.sv "$share"/rtl/*/*.sv "$source/module.cpp" "$source/simulator_output.cpp"
 echo "files $(grep -c . "$work/Vfs_classes.mk")"
 make -C "$work" -f Vfs.mk -j "${JOBS:-1}" OPT_FAST="$speed" OPT_SLOW=-O0 OPT_GLOBAL="$speed" ${CXX:+CXX="$CXX" LINK="$CXX"}
 mv "$work/module.so" "$module"

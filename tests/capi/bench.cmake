@@ -1,6 +1,6 @@
 # The example bench of testbench/capi/example under Verilator, with the faults of testbench/faults to choose from, as another simulator's user would
 # build it: of tiny, and of a device that culls.
-file(GLOB rtl CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.sv ${PROJECT_SOURCE_DIR}/rtl/*.svh)
+file(GLOB rtl CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.sv ${PROJECT_SOURCE_DIR}/rtl/*/*.sv ${PROJECT_SOURCE_DIR}/rtl/*.svh)
 set(modules ${rtl})
 list(FILTER modules INCLUDE REGEX "\\.sv$")
 set(faults ${PROJECT_BINARY_DIR}/share/fastsplat/fastsplat_fault_pkg.sv)

@@ -30,12 +30,9 @@ for name, fileset in core["filesets"].items():
     files[name] = [file if isinstance(file, str) else next(iter(file)) for file in fileset["files"]]
     for file in files[name]:
         assert os.path.isfile(f"{source}/{file}"), f"{file} is not there"
-rtl = {os.path.relpath(path, source) for path in glob.glob(f"{source}/rtl/*.sv*")}
-assert set(files["rtl"]) == rtl, set(files["rtl"]) ^ rtl
-top = {os.path.relpath(path, source) for path in glob.glob(f"{source}/rtl/top/*.sv")}
-assert set(files["top"]) == top, set(files["top"]) ^ top
-fetch = {os.path.relpath(path, source) for path in glob.glob(f"{source}/rtl/fetch/*.sv")}
-assert set(files["fetch"]) - rtl == fetch, (set(files["fetch"]) - rtl) ^ fetch
+rtl = {os.path.relpath(path, source) for path in glob.glob(f"{source}/rtl/**/*.sv*", recursive=True)}
+named = {file for name in ("rtl", "top", "fetch") for file in files[name]}
+assert named == rtl, named ^ rtl
 includes = {next(iter(file)) for file in core["filesets"]["rtl"]["files"] if not isinstance(file, str)}
 assert includes == {file for file in rtl if file.endswith(".svh")}
 

@@ -20,7 +20,7 @@ namespace {
 std::set<std::string> names_read() {
   std::set<std::string> names;
   static const std::regex use(R"(fastsplat_pkg::([A-Za-z_0-9]*[A-Za-z0-9])\b)");
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(FASTSPLAT_SOURCE_DIR) + "/rtl")) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::string(FASTSPLAT_SOURCE_DIR) + "/rtl")) {
     if (!entry.is_regular_file()) continue;
     std::ifstream file(entry.path());
     const std::string text{std::istreambuf_iterator<char>(file), {}};

@@ -19,7 +19,7 @@ enum class FetchFault {
 #undef FAULT
 };
 
-/// How rtl/fetch is built: by default, or with bursts of 4 beats, two of them under way, room for 8 beats.
+/// How fastsplat_fetch is built: by default, or with bursts of 4 beats, two of them under way, room for 8 beats.
 enum class FetchBuild { Default, Narrow };
 
 /// What lies in memory and what the device answers.

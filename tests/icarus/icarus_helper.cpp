@@ -96,7 +96,8 @@ Icarus::Icarus(const cmodel::Config& config, const std::string& name,
   fs::create_directories(folder_ / "rtl");
   const fs::path source(FASTSPLAT_SOURCE_DIR);
   std::vector<std::size_t> found(edits.size());
-  for (const auto& entry : fs::directory_iterator(source / "rtl")) {
+  for (const auto& entry : fs::recursive_directory_iterator(source / "rtl")) {
+    if (!entry.is_regular_file()) continue;
     std::string text = text_of(entry.path());
     for (std::size_t i = 0; i < edits.size(); ++i) found[i] += replace_all(text, edits[i].first, edits[i].second);
     if (combinational == Combinational::AlwaysStar) replace_all(text, "always_comb", "always @*");

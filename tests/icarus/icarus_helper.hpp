@@ -60,7 +60,7 @@ class Icarus {
   static std::string missing();
   static std::string version();
 
-  /// Compiles the device of `config`. `edits`: texts of rtl/*.sv that are replaced, each found exactly once.
+  /// Compiles the device of `config`. `edits`: texts of rtl/ that are replaced, each found exactly once.
   Icarus(const cmodel::Config& config, const std::string& name,
          const std::vector<std::pair<std::string, std::string>>& edits = {},
          Combinational combinational = Combinational::AsWritten);

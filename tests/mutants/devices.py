@@ -39,7 +39,7 @@ def _modules_of(root: str, build: str, config: str, top: str) -> set[str]:
     with tempfile.TemporaryDirectory() as folder:
         with open(f"{folder}/fastsplat_pkg.sv", "w") as file:
             subprocess.run([f"{build}/bin/fastsplat_emit_package", config], stdout=file, check=True)
-        rtl = sorted(f"{root}/rtl/{name}" for name in os.listdir(f"{root}/rtl") if name.endswith(".sv"))
+        rtl = sorted(path for name, path in generate.paths_of(f"{root}/rtl").items() if name.endswith(".sv"))
         subprocess.run(["verilator", "--xml-only", "--xml-output", f"{folder}/tree.xml", "--Mdir", folder, "-Wno-lint", "-Wno-fatal", "--top-module",
                         top, f"-I{root}/rtl", f"{folder}/fastsplat_pkg.sv", *rtl], check=True)
         with open(f"{folder}/tree.xml") as file:

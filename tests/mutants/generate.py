@@ -1,9 +1,10 @@
 """generate.py RTL_DIR OUT_DIR [--only FILE] [--modules A,B] [--plant-nothing]: rtl/ with all its mutants in it, chosen at run time.
 
-OUT_DIR gets the files of RTL_DIR, fastsplat_mutant_pkg.sv, whose `selected` chooses (0: none), and mutants.json: what each number
+OUT_DIR gets the files of RTL_DIR, without its folders, fastsplat_mutant_pkg.sv, whose `selected` chooses (0: none), and mutants.json: what each number
 is. A mutant's number does not depend on the flags, nor on the modules beside its own: programs of devices without a module that
 changes stay the same, and the campaign's journal of them holds. --only: those whose numbers FILE has, one a line; --modules: theirs;
 --plant-nothing adds one, the last, that changes nothing: it has to survive, and whoever counts has to notice."""
+import glob
 import json
 import os
 import sys
@@ -21,9 +22,19 @@ endpackage
 """
 
 
+# Around the device, not in it.
+AROUND = {f"fastsplat_{name}.sv" for name in ("fetch", "queue", "slice", "top")}
+
+
+def paths_of(rtl: str) -> dict[str, str]:
+    """Where the files of the device lie, by name."""
+    found = {os.path.basename(path): path for path in glob.glob(f"{rtl}/**/*.sv*", recursive=True)}
+    return {name: path for name, path in found.items() if name not in AROUND}
+
+
 def files_of(rtl: str) -> list[str]:
     """Modules by name, then the narrowing."""
-    return sorted(name for name in os.listdir(rtl) if name.endswith(".sv")) + ["narrow.svh"]
+    return sorted(name for name in paths_of(rtl) if name.endswith(".sv")) + ["narrow.svh"]
 
 
 def module_of(name: str) -> str:
@@ -48,7 +59,7 @@ def mutate(rtl: str, wanted=lambda module, number: True, planted=False):
     if len({first_of(name) for name in names}) < len(names):
         raise RuntimeError("the mutants of two files would have the same numbers; give one of the files another name")
     for name in names:
-        with open(f"{rtl}/{name}") as file:
+        with open(paths_of(rtl)[name]) as file:
             mutator = Mutator(module_of(name), file.read(), first_of(name), wanted, planted)
         text = mutator.result()
         number = mutator.number
@@ -76,10 +87,9 @@ def main(words: list[str]) -> int:
             only = {int(line) for line in file}
     os.makedirs(out, exist_ok=True)
     texts, listed = {}, []
-    for name in os.listdir(rtl):
-        if name.endswith((".sv", ".svh")):
-            with open(f"{rtl}/{name}") as file:
-                texts[name] = file.read()
+    for name, path in paths_of(rtl).items():
+        with open(path) as file:
+            texts[name] = file.read()
     mutated, number = mutate(rtl, lambda module, n: (only is None or n in only) and
                              (modules is None or module in modules.split(",")))
     for name, text, mutants in mutated:

@@ -34,7 +34,7 @@ def plant(rtl: str, out: str, mutant):
     name = generate.file_of(mutant["module"])
     mutated, _ = generate.mutate(rtl, lambda module, number: number == mutant["number"], planted=True)
     text = next(text for file, text, _ in mutated if file == name)
-    with open(f"{out}/{name}", "w") as file:
+    with open(generate.paths_of(out)[name], "w") as file:
         file.write(text)
 
 

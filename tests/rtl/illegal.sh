@@ -10,11 +10,11 @@ refused() {
   name=${1%=*} value=${1#*=} text=$2
   "$emit" "$source/configs/tiny.toml" | sed "s/localparam int $name = .*;/localparam int $name = $value;/" >"$work/fastsplat_pkg.sv"
   grep -q "localparam int $name = $value;" "$work/fastsplat_pkg.sv" || { echo "the package has no $name"; exit 1; }
-  if verilator --lint-only --top-module fastsplat_core "-I$source/rtl" "$work/fastsplat_pkg.sv" "$source"/rtl/*.sv >"$work/lint.log" 2>&1; then
+  if verilator --lint-only --top-module fastsplat_core "-I$source/rtl" "$work/fastsplat_pkg.sv" "$source"/rtl/*.sv "$source"/rtl/*/*.sv >"$work/lint.log" 2>&1; then
     echo "$1: Verilator accepts it"; exit 1
   fi
   grep -q "$text" "$work/lint.log" || { cat "$work/lint.log"; echo "$1: Verilator does not say: $text"; exit 1; }
-  if yosys -l "$work/yosys.log" -p "read_verilog -sv -I$source/rtl $work/fastsplat_pkg.sv $source/rtl/*.sv; hierarchy -check -top fastsplat_core" >/dev/null 2>&1; then
+  if yosys -l "$work/yosys.log" -p "read_verilog -sv -I$source/rtl $work/fastsplat_pkg.sv $source/rtl/*.sv $source/rtl/*/*.sv; hierarchy -check -top fastsplat_core" >/dev/null 2>&1; then
     echo "$1: Yosys accepts it"; exit 1
   fi
   grep -q "$text" "$work/yosys.log" || { tail -5 "$work/yosys.log"; echo "$1: Yosys does not say: $text"; exit 1; }

@@ -19,7 +19,7 @@ lint() {
   done
   "$emit" "$toml" > "$scratch/fastsplat_pkg.sv"
   if ! verilator --lint-only -Wall --assert --top-module fastsplat_core -I"$root/rtl" "$scratch/fastsplat_pkg.sv" \
-      "$root"/rtl/*.sv > "$scratch/log" 2>&1; then
+      "$root"/rtl/*.sv "$root"/rtl/*/*.sv > "$scratch/log" 2>&1; then
     echo "$base $*:"
     cat "$scratch/log"
     exit 1

@@ -15,7 +15,7 @@ smt() {
   yosys -q -l "$work/$name.log" -p "read_verilog -sv -formal $* -I$source/rtl -I$source/tests/rtl $work/fastsplat_pkg.sv $faults $files; hierarchy -check -top $(rtl_of "$top"); proc; flatten; delete -output o:*; memory_map; opt -full -purge; async2sync; dffunmap; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2" >/dev/null 2>&1 ||
     { tail -5 "$work/$name.log"; echo "$name: Yosys fails"; exit 1; }
 }
-bank="$source/rtl/fastsplat_sheet_bank.sv $source/rtl/fastsplat_ram_1r1w.sv"
+bank="$(file_of sheet_bank) $(file_of ram_1r1w)"
 
 smt sheet_bank sheet_bank "$bank" -DFASTSPLAT_PROOF
 passed_over sheet_bank || grep -q 'yosys-smt2-assert' "$work/sheet_bank.smt2" || { echo "sheet_bank: nothing to prove"; exit 1; }

@@ -1,9 +1,9 @@
 #!/bin/sh
-# read_fetch.sh SOURCE_DIR WORK_DIR: the tools accept rtl/fetch as it is by default and at the ends of its parameters, and refuse what lies beyond.
+# read_fetch.sh SOURCE_DIR WORK_DIR: the tools accept rtl/io as it is by default and at the ends of its parameters, and refuse what lies beyond.
 set -eu
 source=$1 work=$2
 mkdir -p "$work"
-files="$source/rtl/fastsplat_ram_1r1w.sv $source/rtl/fetch/fastsplat_queue.sv $source/rtl/fetch/fastsplat_fetch.sv"
+files="$source/rtl/fastsplat_ram_1r1w.sv $source/rtl/io/fastsplat_queue.sv $source/rtl/io/fastsplat_fetch.sv"
 lint() { verilator --lint-only -Wall --assert --top-module fastsplat_fetch "-I$source/rtl" "$@" $files >"$work/lint.log" 2>&1; }
 read=0
 for given in "" "-GBURST=1 -GDEPTH_LOG2=1 -GOUTSTANDING=2 -GSETS_LOG2=1 -GADDRESS_BITS=16" "-GBURST=128 -GDEPTH_LOG2=10 -GOUTSTANDING=1024" "-GADDRESS_BITS=40 -GOUTSTANDING=5"; do

@@ -22,7 +22,7 @@ target_link_libraries(verilated_runtime PUBLIC Threads::Threads)
 # and its headers. <config> names a file of configs/ or is the path of one. DEFINES and SOURCES are of the must-fail build (rtl/fault.svh); release builds have none.
 # ASSERT: checks the assertions of rtl/.
 # RTL <folder>: the source is there, generated from rtl/ (tests/mutants); QUICK: compiled rather than run quickly.
-# TOP <module>: of rtl/top/, around the device, of rtl/fetch/, beside it, or one of its units. NETLIST <kind>: not the source but what Yosys makes of it (tools/cmake/netlist.sh); CUT <net>: with that net tied to 0.
+# TOP <module>: another one than the device, fastsplat_core. NETLIST <kind>: not the source but what Yosys makes of it (tools/cmake/netlist.sh); CUT <net>: with that net tied to 0.
 function(fastsplat_verilate target config)
   cmake_parse_arguments(arg "ASSERT;QUICK" "NETLIST;CUT;RTL;TOP" "DEFINES;SOURCES;ARGS" ${ARGN})
   set(abilities "")
@@ -31,21 +31,17 @@ function(fastsplat_verilate target config)
   if(arg_ASSERT)
     list(APPEND abilities --assert)
   endif()
-  file(GLOB RTL_SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.sv)
+  file(GLOB RTL_SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.sv ${PROJECT_SOURCE_DIR}/rtl/*/*.sv)
   file(GLOB RTL_INCLUDES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.svh)
   set(rtl_folder ${PROJECT_SOURCE_DIR}/rtl)
   set(warnings -Wall)
   set(top fastsplat_core)
   if(arg_TOP)
     set(top ${arg_TOP})
-    if(EXISTS ${PROJECT_SOURCE_DIR}/rtl/${arg_TOP}.sv)
-      list(APPEND warnings -Wno-UNUSEDPARAM)  # a unit needs some of the package
-    else()
-      file(GLOB around CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/top/*.sv ${PROJECT_SOURCE_DIR}/rtl/fetch/*.sv)
-      list(APPEND RTL_SOURCES ${around})
-    endif()
+    list(APPEND warnings -Wno-UNUSEDPARAM)  # a unit needs some of the package
   endif()
   if(arg_RTL)
+    list(FILTER RTL_SOURCES EXCLUDE REGEX "fastsplat_(fetch|queue|slice|top)\\.sv$")  # around the device
     list(TRANSFORM RTL_SOURCES REPLACE "^.*/" "${arg_RTL}/")
     set(RTL_INCLUDES ${arg_RTL}/mutants.json)
     set(rtl_folder ${arg_RTL})

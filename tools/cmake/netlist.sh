@@ -26,7 +26,7 @@ case $kind in
     passes="synth_ice40 -noflatten -top fastsplat_core; techmap -autoproc -map $map; opt_clean; splitnets; opt_clean" ;;
   *) echo "netlist.sh: unknown kind $kind (rtl, ice40)" >&2; exit 2 ;;
 esac
-yosys -q -l "$log" -p "read_verilog -sv -I$rtl $package $rtl/*.sv; hierarchy -check -top fastsplat_core; $passes; write_verilog -noattr $out.new" >/dev/null 2>&1 ||
+yosys -q -l "$log" -p "read_verilog -sv -I$rtl $package $rtl/*.sv $rtl/*/*.sv; hierarchy -check -top fastsplat_core; $passes; write_verilog -noattr $out.new" >/dev/null 2>&1 ||
   { tail -20 "$log" >&2; echo "netlist.sh: Yosys fails" >&2; exit 1; }
 if [ -n "$net" ]; then
   # A net is assigned once, as a whole.

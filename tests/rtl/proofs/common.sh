@@ -16,13 +16,14 @@ trap 'status=$?; [ $status -ne 0 ] || [ -s "$work/proofs.txt" ] || { echo "$0: n
 
 seconds() { awk -v from="$1" -v to="$(date +%s.%N)" 'BEGIN { printf "%.1f", to - from }'; }
 
-# A unit's module, and its file: fastsplat_NAME.
+# A unit's module, and its file.
 rtl_of() { echo "fastsplat_${1#fastsplat_}"; }
+file_of() { find "$source/rtl" -name "$(rtl_of "$1").sv"; }
 
-# with_spec MODULE SPECIFICATION [FOLDER/]: the module, of rtl/ or its folder, with the text before its end. (z3 sits still over pixel_payload_held, which
+# with_spec MODULE SPECIFICATION: the module with the text before its end. (z3 sits still over pixel_payload_held, which
 # compares all 256 bits; pixel out's specification says more.)
 with_spec() {
-  awk -v spec="$2" '/pixel_payload_held/ { next } /^endmodule/ { while ((getline line < spec) > 0) print line } { print }' "$source/rtl/${3-}$(rtl_of "$1").sv"
+  awk -v spec="$2" '/pixel_payload_held/ { next } /^endmodule/ { while ((getline line < spec) > 0) print line } { print }' "$(file_of "$1")"
 }
 # broken FILE EDIT: FILE with the sed command EDIT done, which must change it.
 broken() {
@@ -51,13 +52,13 @@ unit() {
   with_spec "$module" "$here/${specification:-$module}_proof.svh" | grep -v "pixel_beat_not_empty${without:+\\|$without}" >"$work/$name.sv"
   [ "$file" != "$module" ] || broken "$work/$name.sv" "$edit"
   for other in $beside; do
-    cp "$source/rtl/$(rtl_of "$other").sv" "$work/$name.$other.sv"
+    cp "$(file_of "$other")" "$work/$name.$other.sv"
     [ "$file" != "$other" ] || broken "$work/$name.$other.sv" "$edit"
     read="$read $work/$name.$other.sv"
   done
   quiet=""
   for other in $cut; do
-    quiet="$quiet $source/rtl/$(rtl_of "$other").sv"
+    quiet="$quiet $(file_of "$other")"
     free="$free t:$(rtl_of "$other") t:*\\$(rtl_of "$other")"
   done
   # Check and pixel out are proved by themselves: neither their assertions nor their assumptions are read here.

@@ -9,10 +9,10 @@ source=$1 work=$2
 smt() {
   if passed_over "$1"; then return; fi
   name=$1 module=$2 parameters=$3 edit=${4-}
-  with_spec "$module" "$here/${module}_proof.svh" fetch/ >"$work/$name.sv"
+  with_spec "$module" "$here/${module}_proof.svh" >"$work/$name.sv"
   [ -z "$edit" ] || broken "$work/$name.sv" "$edit"
-  beside=$source/rtl/fastsplat_ram_1r1w.sv
-  [ "$module" = queue ] || beside="$beside $source/rtl/fetch/fastsplat_queue.sv"
+  beside=$(file_of ram_1r1w)
+  [ "$module" = queue ] || beside="$beside $(file_of queue)"
   yosys -q -l "$work/$name.log" -p "read_verilog -sv -formal -I$source/rtl $work/$name.sv $beside; chparam $parameters fastsplat_$module; hierarchy -check -top fastsplat_$module; proc; cutpoint t:*fastsplat_ram_1r1w* t:*fastsplat_queue*; flatten; delete -output o:*; opt -full; async2sync; dffunmap; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2" >/dev/null 2>&1 ||
     { tail -5 "$work/$name.log"; echo "$name: Yosys fails"; exit 1; }
   grep -q 'yosys-smt2-assert' "$work/$name.smt2" || { echo "$name: nothing to prove"; exit 1; }

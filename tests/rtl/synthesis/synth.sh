@@ -14,7 +14,7 @@ family=$1 config=$2 emit=$3 source=$4 work=$5
 mkdir -p "$work"
 here="$source/tests/rtl/synthesis"
 base="$work/$family-$config"
-modules=$(sed -n 's/^module \([a-z0-9_]*\).*/\1/p' "$source"/rtl/*.sv)
+modules=$(sed -n 's/^module \([a-z0-9_]*\).*/\1/p' "$source"/rtl/*.sv "$source"/rtl/*/*.sv)
 top=fastsplat_core files= place=
 case $family in
   ice40) pass="synth_ice40 -noflatten -top $top" ;;
@@ -53,7 +53,7 @@ ends="t:FD* t:SRL* t:RAM* t:TRELLIS_FF t:TRELLIS_DPR* t:DP16KD t:SB_DFF* t:SB_RA
 for module in $modules; do ends="$ends t:$module"; done
 
 # Deferred: only modules of this device are made, so names, by which cells are mapped and placed, do not move with modules that it has not.
-yosys -q -l "$base.log" -p "read_verilog -defer -sv -I$source/rtl $base.pkg.sv $source/rtl/*.sv $files; hierarchy -check -top $top; $pass; tee -o $base.stat.new stat; delete $ends; tee -o $base.levels ltp -noff" >/dev/null 2>&1 ||
+yosys -q -l "$base.log" -p "read_verilog -defer -sv -I$source/rtl $base.pkg.sv $source/rtl/*.sv $source/rtl/*/*.sv $files; hierarchy -check -top $top; $pass; tee -o $base.stat.new stat; delete $ends; tee -o $base.levels ltp -noff" >/dev/null 2>&1 ||
   { tail -5 "$base.log"; echo "$family $config: Yosys fails"; exit 1; }
 {
   sed -n 's/^\(Yosys [^ ]*\) .*/yosys \1/p' "$base.log" | tail -1

@@ -1,6 +1,7 @@
 // One lane of the pixel stage: a pixel's density and its neighbours' become what a sheet of colours would hold there
 // (docs/numerics.md, section 6.2; cmodel/classify/classify_unit.hpp). Registers: d1 words -> d2 differences, place in CLASSIFY -> d5 its
-// colour and depth, beside them normal and shading to d23.`include "fault.svh"
+// colour and depth, beside them normal and shading to d23.
+`include "fault.svh"
 
 module fastsplat_classify_lane (
     input  logic clk_i,

@@ -1,6 +1,7 @@
 // How a pixel's density rises: from differences to its slope's length and its products with the light and the half vector
 // (docs/numerics.md, section 6.2; cmodel/classify/classify_unit.cpp). No normal is made: what needs one is divided by the length at its end.
 // Registers: d3 products -> d4 slopes -> d5 tilt -> d6 ahead -> d7 squares -> d8 sums -> d9 even power -> d12 root -> d13 -> d14.
+`include "fault.svh"
 `include "narrow.svh"
 
 module fastsplat_classify_normal (

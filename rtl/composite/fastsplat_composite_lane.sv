@@ -2,6 +2,7 @@
 // (docs/numerics.md, section 6; cmodel/composite/composite_lane.hpp). Registers: k5 (products), k6 (new state). A stage without a
 // block holds.
 `include "assertions.svh"
+`include "fault.svh"
 `include "narrow.svh"
 
 module fastsplat_composite_lane (

@@ -6,6 +6,7 @@
 // cycles later is not in the memory yet: distance 1 is forwarded into C, distances 2 (in W) and 3 (just written; the
 // read met the write) into B.
 `include "assertions.svh"
+`include "fault.svh"
 `include "narrow.svh"
 
 module fastsplat_sheet_bank (

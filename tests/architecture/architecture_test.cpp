@@ -199,6 +199,25 @@ TEST(Architecture, NoFileIsLongerThan600Lines) {
   }
 }
 
+/// Else a module can only be read behind another one that includes the file.
+TEST(Architecture, RtlIncludesTheMacrosItUses) {
+  const std::regex use("`FASTSPLAT_(FAULT|NARROW|ASSERT|ASSUME|COVER|INIT)");
+  int uses = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(FASTSPLAT_SOURCE_DIR "/rtl")) {
+    if (entry.path().extension() != ".sv") continue;
+    std::ostringstream text;
+    text << std::ifstream(entry.path()).rdbuf();
+    const std::string source = text.str();
+    for (std::sregex_iterator match(source.begin(), source.end(), use), end; match != end; ++match, ++uses) {
+      const std::string macro = (*match)[1].str();
+      const std::string file = macro == "FAULT" ? "fault" : macro == "NARROW" ? "narrow" : "assertions";
+      EXPECT_NE(source.find("\n`include \"" + file + ".svh\"\n"), std::string::npos)
+          << entry.path() << " uses `FASTSPLAT_" << macro << " without " << file << ".svh";
+    }
+  }
+  figure("uses_of_macros", uses);
+}
+
 TEST(Architecture, EveryHeaderIsIncludedOnce) {
   int headers = 0;
   for (const auto& file : all_sources()) {

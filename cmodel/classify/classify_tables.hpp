@@ -37,6 +37,9 @@ inline constexpr std::size_t kLightWords = 13;
 inline constexpr std::size_t kSheetWords = 2;  ///< of SHEETS, of each sheet: scales; 1/floor
 inline constexpr int kSheetsBits = 12;         ///< SHEETS speaks of at most 2^this sheets
 
+/// How all of the section narrows.
+inline Narrowing nearest(int from_frac, const Format& to) { return {Rounding::RND, Overflow::SAT, from_frac, to}; }
+
 }  // namespace classify
 
 /// Words of CLASSIFY, ROOT, GLINT or LIGHTING.

@@ -9,8 +9,6 @@ namespace {
 
 using namespace classify;
 
-Narrowing nearest(int from_frac, const Format& to) { return {Rounding::RND, Overflow::SAT, from_frac, to}; }
-
 std::int64_t signed_word(std::uint32_t word) { return static_cast<std::int32_t>(word); }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 using namespace pattern;
 
-Narrowing nearest(int from_frac, const Format& to) { return {Rounding::RND, Overflow::SAT, from_frac, to}; }
+using classify::nearest;
 
 /// 0..M-1 nodes.
 Format place_format(const Config& config) {

@@ -24,9 +24,8 @@ const std::vector<std::string> kEngines{"golden", "cmodel", "rtl"};
 
 /// For the techniques that collect no splats: the ray caster, and densities classified after splatting.
 std::uint64_t voxel_count(const scene::Scene& scene) {
-  std::uint64_t count = 0;
-  scene::for_each_splat(scene, [&count](const scene::Splat&) { ++count; });
-  return count;
+  const scene::Traversal traversal(scene);
+  return traversal.count(traversal.all());
 }
 
 std::string to_text(const golden::CullingReport& culling) {

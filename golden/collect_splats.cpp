@@ -22,7 +22,9 @@ std::vector<scene::Splat> collect_splats(const scene::Scene& scene, int threads)
   std::vector<scene::Splat> splats(start[pieces]);
   parallel_for(pieces, threads, [&](std::size_t piece) {
     scene::Splat* next = splats.data() + start[piece];
-    traversal.visit(slab(piece), [&next](const scene::Splat& splat, std::uint32_t) { *next++ = splat; });
+    traversal.visit(slab(piece), [&next](std::span<const scene::Splat> row, std::span<const std::uint32_t>) {
+      next = std::copy(row.begin(), row.end(), next);
+    });
   });
   return splats;
 }

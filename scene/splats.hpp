@@ -6,6 +6,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "scene/scene.hpp"
@@ -20,11 +21,6 @@ struct Splat {
   std::uint16_t sheet;  ///< axis-aligned sheet number, 0 nearest to the eye
 };
 
-/// Visits every voxel with extinction > 0, slice by slice along the volume axis most parallel to the view direction,
-/// nearest slice first; inside a slice by the remaining axes, also nearest first. The order is a function of the scene
-/// only. For Method::XRay the order is the same (it does not matter there).
-void for_each_splat(const Scene& scene, const std::function<void(const Splat&)>& visit);
-
 /// A part of the grid as it is traversed: slices first_slice..end_slice-1, 0 nearest to the eye, and of each the rows
 /// first_row..end_row-1 of its outer loop.
 struct GridPart {
@@ -37,7 +33,9 @@ struct GridPart {
 /// a slab's sums are densities from 0 (the least value) to about 1 (the largest).
 enum class SplatKind { Colours, Densities };
 
-/// The same in parts, which may be visited by several threads at once.
+/// Every voxel with extinction > 0, slice by slice along the volume axis most parallel to the view direction, nearest
+/// slice first; inside a slice by the remaining axes, also nearest first. The order is a function of the scene only. For
+/// Method::XRay the order is the same (it does not matter there). Parts may be visited by several threads at once.
 class Traversal {
  public:
   /// The scene outlives it.
@@ -51,13 +49,24 @@ class Traversal {
   GridPart slab(int first_slice, int end_slice) const { return {first_slice, end_slice, 0, rows()}; }
   /// How many splats visit() would visit: classifies, but shades nothing.
   std::size_t count(const GridPart& part) const;
-  /// `line` is the number of the voxel's line across the slices: row times columns() plus column.
-  void visit(const GridPart& part, const std::function<void(const Splat&, std::uint32_t line)>& visit) const;
+  /// The splats of a row, and of each the number of its voxel's line across the slices: row times columns() plus column.
+  using Visit = std::function<void(std::span<const Splat> splats, std::span<const std::uint32_t> lines)>;
+  /// Once for every row that has any.
+  void visit(const GridPart& part, const Visit& visit) const;
 
  private:
   struct State;
   std::unique_ptr<const State> state_;
 };
+
+/// Visits them one by one.
+template <class Each>
+void for_each_splat(const Scene& scene, Each each) {
+  const Traversal traversal(scene);
+  traversal.visit(traversal.all(), [&each](std::span<const Splat> splats, std::span<const std::uint32_t>) {
+    for (const Splat& splat : splats) each(splat);
+  });
+}
 
 std::vector<Splat> collect_splats(const Scene& scene);
 

@@ -56,8 +56,8 @@ struct Traversal::State {
         order(walk_order(of)),
         kind(what) {}
 
-  template <class Each>
-  void walk(const GridPart& part, Each each) const;
+  template <class Each, class EndRow>
+  void walk(const GridPart& part, Each each, EndRow end_row) const;
 };
 
 Traversal::Traversal(const Scene& scene, SplatKind kind) : state_(std::make_unique<const State>(scene, kind)) {}
@@ -67,9 +67,9 @@ int Traversal::slices() const { return state_->order[0].extent; }
 int Traversal::rows() const { return state_->order[1].extent; }
 int Traversal::columns() const { return state_->order[2].extent; }
 
-/// Every voxel of the part that is not empty: each(at, slice, line, material, extinction).
-template <class Each>
-void Traversal::State::walk(const GridPart& part, Each each) const {
+/// Every voxel of the part that is not empty: each(at, slice, line, material, extinction); after each row end_row().
+template <class Each, class EndRow>
+void Traversal::State::walk(const GridPart& part, Each each, EndRow end_row) const {
   // Copies of one's own: what other code might write to is read again for every voxel.
   const Classifier classifier = classify;
   const std::array<Walk, 3> axes = order;
@@ -91,40 +91,46 @@ void Traversal::State::walk(const GridPart& part, Each each) const {
         if (extinction > 0.0f)
           each(at, slice, static_cast<std::uint32_t>(row * axes[2].extent + step), material, extinction);
       }
+      end_row();
     }
   }
 }
 
 std::size_t Traversal::count(const GridPart& part) const {
   std::size_t splats = 0;
-  state_->walk(part, [&splats](const glm::ivec3&, int, std::uint32_t, const Material&, float) { ++splats; });
+  state_->walk(
+      part, [&splats](const glm::ivec3&, int, std::uint32_t, const Material&, float) { ++splats; }, [] {});
   return splats;
 }
 
-void Traversal::visit(const GridPart& part, const std::function<void(const Splat&, std::uint32_t line)>& visit) const {
+void Traversal::visit(const GridPart& part, const Visit& visit) const {
   const Scene& scene = state_->scene;
   const Shader shade = state_->shade;
   const volume::Volume& volume = *scene.volume;
   const Texture& texture = scene.description.texture;
   const bool textured = texture.kind != SolidKind::None && texture.where == TextureWhere::Voxel;
   const bool shaded = scene.shading.on && state_->kind == SplatKind::Colours;
-  state_->walk(part,
-               [&](const glm::ivec3& at, int slice, std::uint32_t line, const Material& material, float extinction) {
-                 const glm::dvec3 position = volume.position(at.x, at.y, at.z);
-                 glm::vec3 colour = material.colour;
-                 if (textured) colour *= glm::vec3(tint(texture, position));
-                 if (shaded) colour = shade(colour, at.x, at.y, at.z);
-                 visit({.position = glm::vec3(position),
-                        .emission = glm::min(colour * extinction, glm::vec3(extinction)),
-                        .extinction = extinction,
-                        .sheet = static_cast<std::uint16_t>(slice)},
-                       line);
-               });
-}
-
-void for_each_splat(const Scene& scene, const std::function<void(const Splat&)>& visit) {
-  const Traversal traversal(scene);
-  traversal.visit(traversal.all(), [&visit](const Splat& splat, std::uint32_t) { visit(splat); });
+  std::vector<Splat> splats;
+  std::vector<std::uint32_t> lines;
+  state_->walk(
+      part,
+      [&](const glm::ivec3& at, int slice, std::uint32_t line, const Material& material, float extinction) {
+        const glm::dvec3 position = volume.position(at.x, at.y, at.z);
+        glm::vec3 colour = material.colour;
+        if (textured) colour *= glm::vec3(tint(texture, position));
+        if (shaded) colour = shade(colour, at.x, at.y, at.z);
+        splats.push_back({.position = glm::vec3(position),
+                          .emission = glm::min(colour * extinction, glm::vec3(extinction)),
+                          .extinction = extinction,
+                          .sheet = static_cast<std::uint16_t>(slice)});
+        lines.push_back(line);
+      },
+      [&] {
+        if (splats.empty()) return;
+        visit(splats, lines);
+        splats.clear();
+        lines.clear();
+      });
 }
 
 std::vector<Splat> collect_splats(const Scene& scene) {

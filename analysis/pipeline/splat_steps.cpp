@@ -29,10 +29,11 @@ SplatList::SplatList(const scene::Scene& scene) {
   const scene::Traversal traversal(scene, densities ? scene::SplatKind::Densities : scene::SplatKind::Colours);
   rows = traversal.rows();
   columns = traversal.columns();
-  traversal.visit(traversal.all(), [this](const scene::Splat& splat, std::uint32_t line) {
-    splats.push_back(splat);
-    lines.push_back(line);
-  });
+  traversal.visit(traversal.all(),
+                  [this](std::span<const scene::Splat> of_row, std::span<const std::uint32_t> their_lines) {
+                    splats.insert(splats.end(), of_row.begin(), of_row.end());
+                    lines.insert(lines.end(), their_lines.begin(), their_lines.end());
+                  });
   if (densities) order_densities(*scene.volume);
 }
 

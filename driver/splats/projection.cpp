@@ -181,17 +181,19 @@ Projected project(const scene::Scene& scene, const cmodel::Config& config, const
       std::optional<RoundingCarry> carry =
           out.carried ? std::optional(quantised.carry(piece.part.first_row, piece.part.end_row, traversal.columns()))
                       : std::nullopt;
-      traversal.visit(piece.part, [&](const scene::Splat& splat, std::uint32_t line) {
-        piece.add(quantised.shaped(splat, line, carry ? &*carry : nullptr), splat.sheet);
+      traversal.visit(piece.part, [&](std::span<const scene::Splat> row, std::span<const std::uint32_t> lines) {
+        for (std::size_t i = 0; i < row.size(); ++i)
+          piece.add(quantised.shaped(row[i], lines[i], carry ? &*carry : nullptr), row[i].sheet);
       });
     } else if (out.carried) {
       RoundingCarry carry = quantised.carry(piece.part.first_row, piece.part.end_row, traversal.columns());
-      traversal.visit(piece.part, [&](const scene::Splat& splat, std::uint32_t line) {
-        piece.add(quantised(scene::real_splat(scene, splat), line, carry), splat.sheet);
+      traversal.visit(piece.part, [&](std::span<const scene::Splat> row, std::span<const std::uint32_t> lines) {
+        for (std::size_t i = 0; i < row.size(); ++i)
+          piece.add(quantised(scene::real_splat(scene, row[i]), lines[i], carry), row[i].sheet);
       });
     } else {
-      traversal.visit(piece.part, [&](const scene::Splat& splat, std::uint32_t) {
-        piece.add(quantised(scene::real_splat(scene, splat)), splat.sheet);
+      traversal.visit(piece.part, [&](std::span<const scene::Splat> row, std::span<const std::uint32_t>) {
+        for (const scene::Splat& splat : row) piece.add(quantised(scene::real_splat(scene, splat)), splat.sheet);
       });
     }
     piece.end();

@@ -202,8 +202,9 @@ std::vector<Splat> splats_of(const scene::Scene& scene, const cmodel::Config& co
   const Sheets sheets(scene, traversal.slices());
   Steps steps(scene, config, mixture, sheets, traversal.columns());
   std::vector<Splat> all;
-  traversal.visit(traversal.all(),
-                  [&](const scene::Splat& voxel, std::uint32_t line) { all.push_back(steps(voxel, line)); });
+  traversal.visit(traversal.all(), [&](std::span<const scene::Splat> row, std::span<const std::uint32_t> lines) {
+    for (std::size_t i = 0; i < row.size(); ++i) all.push_back(steps(row[i], lines[i]));
+  });
   return all;
 }
 

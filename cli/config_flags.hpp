@@ -19,8 +19,7 @@ struct ConfigFlags {
 void declare(Options& options, ConfigFlags& to, const char* help);
 void declare_changes(Options& options, std::vector<std::string>& to);
 
-/// The configuration with its changes; each key is set once, limits between keys hold after the last. What differs is
-/// in its name, in the order of the keys: "base+radial.entries=256". UserError (Usage) names the --set that is wrong.
+/// The configuration with its changes (driver::changed).
 cmodel::Config load(const std::string& name_or_path, const std::vector<std::string>& changes);
 cmodel::Config load(const ConfigFlags& flags);
 

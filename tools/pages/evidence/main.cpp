@@ -15,6 +15,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/pages/evidence/page.hpp"
@@ -140,7 +141,9 @@ int run(const std::vector<std::string>& words) {
         *then = now;
       }
     }
-    std::cout << all.dump(1) << "\n";
+    const char* before = "[\n";
+    for (const Json& design : all) std::cout << std::exchange(before, ",\n") << design.dump();
+    std::cout << "\n]\n";
     return 0;
   }
   if (is("ratchet", 3)) return ratchet(read_json(words[1]), words[2], std::span(words).subspan(3));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <regex>
@@ -363,6 +364,27 @@ TEST(MicroarchitecturePage, CapabilitiesArePackedAsTheirRowsSay) {
   std::printf("[figure] capability words of all configurations = %d (limit > 0), their fields = %d\n", words, fields);
   EXPECT_GT(words, 0);
   EXPECT_EQ(fields * 8, words * 20);
+}
+
+/// Every file that the page names is there, and every numbered section of the numerics has a row.
+TEST(RulesPage, NamesFilesThatAreThereAndEverySection) {
+  static const std::regex path(R"(`([^` ]+/[^` ]*)`)"), section(R"(^##+ (\d(\.\d)?)\.? .*)");
+  std::string rules;
+  int paths = 0, sections = 0;
+  for (const std::string& line : lines_of("rules.md")) {
+    for (std::sregex_iterator match(line.begin(), line.end(), path), end; match != end; ++match, ++paths)
+      EXPECT_TRUE(std::filesystem::exists(std::string(FASTSPLAT_SOURCE_DIR "/") + (*match)[1].str())) << (*match)[1];
+    rules += cells(line).empty() ? "" : cells(line)[0] + "\n";
+  }
+  std::smatch match;
+  for (const std::string& line : lines_of("numerics.md")) {
+    if (!std::regex_match(line, match, section)) continue;
+    ++sections;
+    EXPECT_TRUE(std::regex_search(rules, std::regex("numerics.*\\b" + match[1].str() + "\\b(?!\\.)"))) << line;
+  }
+  std::printf("[figure] files named = %d (limit > 60), sections of the numerics = %d (limit > 15)\n", paths, sections);
+  EXPECT_GT(paths, 60);
+  EXPECT_GT(sections, 15);
 }
 
 /// Who has only the page can connect the device: every port of the top module is there.

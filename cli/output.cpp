@@ -89,6 +89,10 @@ std::string grouped(unsigned long long number) {
   return digits;
 }
 
+double ratio(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
 std::string counted(unsigned long long number, const std::string& what) {
   return grouped(number) + " " + what + (number == 1 ? "" : "s");
 }

@@ -28,6 +28,9 @@ std::string grouped(unsigned long long number);
 /// "1 tile", "1,234 tiles".
 std::string counted(unsigned long long number, const std::string& what);
 
+/// part / whole; 0 of nothing.
+double ratio(std::uint64_t part, std::uint64_t whole);
+
 /// What a result has to say on stderr.
 struct Remark {
   enum Kind { Note, Warning } kind = Note;

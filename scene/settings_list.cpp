@@ -9,7 +9,7 @@ namespace {
 
 using D = SceneDescription;
 
-constexpr Methods kComposited = only(Method::ImageAligned) | only(Method::AxisAligned) | only(Method::Westover);
+constexpr Methods kWithSheets = only(Method::ImageAligned) | only(Method::AxisAligned) | only(Method::Westover);
 
 constexpr double kDegrees = 3600.0;
 constexpr double kMotion = 1e4;  // mm
@@ -139,7 +139,7 @@ const std::array kSettings{
 
     Setting{"slabs", "opacity", "--slab-opacity", "Method", "NAME", "additive or exponential",
             choice<slab_opacity>(slab_opacity_names),
-            Capability::with_methods(kComposited, "gives no sheet an opacity",
+            Capability::with_methods(kWithSheets, "gives no sheet an opacity",
                                      "use --method image_aligned, axis_aligned or westover", "additive")},
     Setting{"slabs", "width", "--slab-width", "Method", "VOXELS", "image-aligned: slab width in voxels",
             Real{0.01, 64.0, [](D& d) -> double& { return d.slab_width; }},

@@ -38,7 +38,7 @@ std::vector<Remark> remarks(const FamilyCell& cell, const scene::Kernel& kernel)
   std::vector<Remark> out;
   const double turned = cell.turned.rms, aligned = cell.aligned.largest;
   if (off(turned, cell.snap_rms))
-    out.push_back(off(turned, std::hypot(cell.snap_rms, cell.aligned.rms)) ? Remark::Unexplained : Remark::Steps);
+    out.push_back(off(turned, std::hypot(cell.snap_rms, cell.aligned.rms)) ? Remark::Unexplained : Remark::TableSteps);
   if (cell.has_table && off(aligned, cell.index_max)) {
     const AlignedBound bound = aligned_bound(cell, kernel);
     const bool explained = aligned > cell.index_max && aligned <= bound.steps + bound.ripple + bound.rest;
@@ -112,7 +112,7 @@ std::vector<FamilyCell> family_table(const FamilyRange& range) {
 
 char letter(Remark remark) {
   switch (remark) {
-    case Remark::Steps:
+    case Remark::TableSteps:
       return 's';
     case Remark::Ripple:
       return 'r';
@@ -128,7 +128,7 @@ char letter(Remark remark) {
 
 std::string sentence(Remark remark) {
   switch (remark) {
-    case Remark::Steps:
+    case Remark::TableSteps:
       return "the table's steps, which the snap's law leaves out, are larger than the grid's";
     case Remark::Ripple:
       return "the grid moves the whole lattice by up to half a step, and a field of Gaussians ripples: 4 pi "

@@ -23,7 +23,7 @@ FamilyRange whole_family();
 
 /// Why a figure is more than twice, or less than half, of its prediction.
 enum class Remark {
-  Steps,        ///< turned rms: the table's steps, which the law of the snap leaves out
+  TableSteps,   ///< turned rms: the table's steps, which the law of the snap leaves out
   Ripple,       ///< aligned largest: the grid moves the whole lattice, and the field is not quite constant
   Field,        ///< aligned largest: the law is of one splat; a field's steps add up to sqrt(pi a) R / (2N)
   Padding,      ///< bits: footprints of whole windows, words of the device's widths

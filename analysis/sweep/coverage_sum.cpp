@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kFormat = "fastsplat coverage 1";
+constexpr const char* kBookFormat = "fastsplat coverage 1";
 
 /// Adds every count of `from`, however deep; what is no count has to be equal.
 void add_counts(Json& to, const Json& from, const std::string& name) {
@@ -33,7 +33,7 @@ void add_counts(Json& to, const Json& from, const std::string& name) {
 
 void CoverageSum::add(const Json& book, const std::string& where) {
   try {
-    if (book.at("format") != kFormat) throw std::runtime_error("another format");
+    if (book.at("format") != kBookFormat) throw std::runtime_error("another format");
     const std::string& hash = book.at("config_hash").get_ref<const std::string&>();
     const auto same = std::ranges::find_if(books_, [&](const Json& one) { return one["config_hash"] == hash; });
     if (same == books_.end()) {
@@ -49,7 +49,7 @@ void CoverageSum::add(const Json& book, const std::string& where) {
   } catch (const std::exception& error) {
     throw_input({.where = where,
                  .what = "its coverage does not add up",
-                 .expected = std::string("a book of ") + kFormat,
+                 .expected = std::string("a book of ") + kBookFormat,
                  .got = error.what(),
                  .fix = "run the case again: remove its file, then `fastsplat plan run`"});
   }

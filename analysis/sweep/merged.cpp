@@ -37,10 +37,6 @@ Json to_json(const Row& row) {
   return json;
 }
 
-Status status_from(const std::string& text) {
-  return text == "pass" ? Status::Pass : text == "fail" ? Status::Fail : Status::Error;
-}
-
 Row row_from(const Json& json) {
   Row row{.id = json.at("id"),
           .kind = json.at("kind"),

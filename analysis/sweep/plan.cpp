@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kVerb = "plan make";
+constexpr const char* kMakeVerb = "plan make";
 constexpr std::size_t kMostPlanBytes = std::size_t{1} << 30;
 
 Json to_json(const Settings& settings) {
@@ -74,7 +74,7 @@ Case case_from(const Json& json) {
   return one;
 }
 
-Json to_json(const Metric& metric) {
+Json with_path(const Metric& metric) {
   return {{"name", metric.name},
           {"title", metric.title},
           {"unit", metric.unit},
@@ -102,7 +102,7 @@ std::string hash_of(const Json& json) {
 }
 
 Plan plan_from(const Json& json) {
-  if (json.at("verb") != kVerb) throw std::runtime_error("its verb is another one");
+  if (json.at("verb") != kMakeVerb) throw std::runtime_error("its verb is another one");
   Plan plan{.name = json.at("name"),
             .title = json.at("title"),
             .hash = json.at("hash"),
@@ -155,11 +155,11 @@ std::string id_of(const Case& one) {
 }
 
 Json to_json(const Plan& plan) {
-  Json json{{"verb", kVerb}, {"version", program_version()}, {"name", plan.name}, {"title", plan.title}, {"hash", ""}};
+  Json json{{"verb", kMakeVerb}, {"version", program_version()}, {"name", plan.name}, {"title", plan.title}, {"hash", ""}};
   json["axes"] = Json::array();
   for (const Axis& axis : plan.axes) json["axes"].push_back(to_json(axis));
   json["metrics"] = Json::array();
-  for (const Metric& metric : plan.metrics) json["metrics"].push_back(to_json(metric));
+  for (const Metric& metric : plan.metrics) json["metrics"].push_back(with_path(metric));
   json["cases"] = Json::array();
   for (const Case& one : plan.cases) json["cases"].push_back(to_json(one));
   json["hash"] = hash_of(json);

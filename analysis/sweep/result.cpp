@@ -12,17 +12,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kFormat = "fastsplat plan result 1";
-
-Status status_from(const std::string& text) {
-  for (const Status status : {Status::Pass, Status::Fail, Status::Error}) {
-    if (text == to_string(status)) return status;
-  }
-  throw std::runtime_error("status '" + text + "'");
-}
+constexpr const char* kResultFormat = "fastsplat plan result 1";
 
 Json to_json(const CaseResult& result) {
-  Json json{{"format", kFormat},
+  Json json{{"format", kResultFormat},
             {"id", result.id},
             {"kind", result.kind},
             {"status", to_string(result.status)},
@@ -40,7 +33,7 @@ Json to_json(const CaseResult& result) {
 std::string checksum(const Json& json) { return hash_text(fnv1a(kFnv1aStart, json_text(json, -1))); }
 
 CaseResult result_from(Json json) {
-  if (json.at("format") != kFormat) throw std::runtime_error("another format");
+  if (json.at("format") != kResultFormat) throw std::runtime_error("another format");
   const std::string written = json.at("checksum");
   json.erase("checksum");
   if (written != checksum(json)) throw std::runtime_error("its checksum is another one");
@@ -59,6 +52,13 @@ CaseResult result_from(Json json) {
 bool is_time(const std::string& key) { return key == "seconds" || key.ends_with("_seconds") || key == "vectors"; }
 
 }  // namespace
+
+Status status_from(const std::string& text) {
+  for (const Status status : {Status::Pass, Status::Fail, Status::Error}) {
+    if (text == to_string(status)) return status;
+  }
+  throw std::runtime_error("status '" + text + "'");
+}
 
 const char* to_string(Status status) {
   switch (status) {

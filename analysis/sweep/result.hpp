@@ -15,6 +15,7 @@ enum class Status {
   Error,  ///< no result: refused, crashed, ended by a signal
 };
 const char* to_string(Status status);  ///< "pass", "fail", "error"
+Status status_from(const std::string& text);  ///< throws std::runtime_error for another word
 
 struct CaseResult {
   std::string id, kind;

@@ -99,10 +99,6 @@ std::optional<double> hidden_share(const scene::Scene& scene, const cmodel::Conf
   return static_cast<double>(drawn.units.hidden_splats) / static_cast<double>(drawn.counters.splats);
 }
 
-double ratio(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
-}
-
 /// Of devices that cull only.
 bool of_culling(std::string_view cause) { return cause == "hidden" || cause == "map"; }
 

@@ -8,6 +8,7 @@
 
 #include "analysis/provenance.hpp"
 #include "base/version.hpp"
+#include "cli/versions.hpp"
 #include "cli/other_programs.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs/verbs.hpp"

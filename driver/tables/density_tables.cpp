@@ -12,7 +12,7 @@ namespace fastsplat::driver {
 namespace {
 
 using cmodel::Table;
-namespace words = cmodel::classify;
+namespace classify = cmodel::classify;
 
 /// floor(value 2^f + 1/2), cut to low..high.
 std::int64_t nearest(double value, int frac_bits, std::int64_t low, std::int64_t high) {
@@ -46,7 +46,7 @@ cmodel::LoadTable classify_table(const cmodel::Config& config, const scene::Scen
   for (std::size_t i = 0; i < at.size(); ++i) {
     const glm::vec3 colour =
         nearest_seen[i] < 0 ? glm::vec3(0.0F) : at[static_cast<std::size_t>(nearest_seen[i])].colour;
-    for (int c = 0; c < 3; ++c) table.words.push_back(word(colour[c], cmodel::unit_format(words::kColour)));
+    for (int c = 0; c < 3; ++c) table.words.push_back(word(colour[c], cmodel::unit_format(classify::kColour)));
     table.words.push_back(word(static_cast<double>(at[i].extinction) * depth, config.sheet_format()));
   }
   return table;
@@ -55,8 +55,8 @@ cmodel::LoadTable classify_table(const cmodel::Config& config, const scene::Scen
 cmodel::LoadTable root_table(const cmodel::Config& config) {
   cmodel::LoadTable table{.table = Table::Root, .radius = {}, .words = {}};
   for (std::int64_t i = 0; i < cmodel::classify_words(config, Table::Root); ++i) {
-    const double m = 1.0 + std::ldexp(static_cast<double>(i), -words::kRootBits);
-    table.words.push_back(word(1.0 / std::sqrt(m), cmodel::unit_format(words::kRoot)));
+    const double m = 1.0 + std::ldexp(static_cast<double>(i), -classify::kRootBits);
+    table.words.push_back(word(1.0 / std::sqrt(m), cmodel::unit_format(classify::kRoot)));
   }
   return table;
 }
@@ -64,8 +64,8 @@ cmodel::LoadTable root_table(const cmodel::Config& config) {
 cmodel::LoadTable glint_table(const cmodel::Config& config, const scene::Scene& scene) {
   cmodel::LoadTable table{.table = Table::Glint, .radius = {}, .words = {}};
   for (std::int64_t i = 0; i < cmodel::classify_words(config, Table::Glint); ++i) {
-    const double facing = std::ldexp(static_cast<double>(i), -words::kGlintBits);
-    table.words.push_back(word(std::pow(facing, scene.shading.shininess), cmodel::unit_format(words::kPhong)));
+    const double facing = std::ldexp(static_cast<double>(i), -classify::kGlintBits);
+    table.words.push_back(word(std::pow(facing, scene.shading.shininess), cmodel::unit_format(classify::kPhong)));
   }
   return table;
 }
@@ -77,28 +77,28 @@ cmodel::LoadTable lighting_table(const scene::Scene& scene) {
   const auto add = [&](double value, int frac_bits, std::int64_t low, std::int64_t high) {
     table.words.push_back(static_cast<std::uint32_t>(nearest(value, frac_bits, low, high)));
   };
-  const std::int64_t one = std::int64_t{1} << words::kLight;
+  const std::int64_t one = std::int64_t{1} << classify::kLight;
   for (const glm::dvec3 vector : {glm::dvec3(shade.light()), glm::dvec3(shade.half())}) {
     for (const glm::dvec3& axis : {camera.right(), camera.down(), camera.direction()})
-      add(glm::dot(vector, axis), words::kLight, -one, one);
+      add(glm::dot(vector, axis), classify::kLight, -one, one);
   }
   for (const double factor : {scene.shading.ambient, scene.shading.diffuse, scene.shading.specular})
-    table.words.push_back(word(factor, cmodel::unsigned_format(4, words::kPhong)));
+    table.words.push_back(word(factor, cmodel::unsigned_format(4, classify::kPhong)));
   const auto tilt = [&](double x, double y, const glm::dvec3& axis) {
     const scene::Ray ray = camera.ray(x, y);
     return glm::dot(ray.direction, axis) / ray.depth_per_mm;
   };
-  const cmodel::Format steps = cmodel::signed_format(4, words::kTilt);
+  const cmodel::Format steps = cmodel::signed_format(4, classify::kTilt);
   const double x0 = tilt(0.0, 0.0, camera.right()), y0 = tilt(0.0, 0.0, camera.down());
   for (const double value : {x0, tilt(1.0, 0.0, camera.right()) - x0, y0, tilt(0.0, 1.0, camera.down()) - y0})
-    add(value, words::kTilt, steps.min, steps.max);
+    add(value, classify::kTilt, steps.min, steps.max);
   return table;
 }
 
 cmodel::LoadTable sheets_table(const scene::Scene& scene, const scene::SlabGrid& slabs) {
   cmodel::LoadTable table{.table = Table::Sheets, .radius = {}, .words = {}};
   const double unit = scene.volume->kernel_unit();
-  const cmodel::Format scale = cmodel::unit_format(words::kScale);
+  const cmodel::Format scale = cmodel::unit_format(classify::kScale);
   constexpr std::int64_t kMost = 0xFFFFFFFF;
   for (int s = 0; s < slabs.count; ++s) {
     const double depth = (slabs.first + (s + 0.5) * slabs.width) * unit;
@@ -106,7 +106,7 @@ cmodel::LoadTable sheets_table(const scene::Scene& scene, const scene::SlabGrid&
     const double across = pixels / 2.0, along = 1.0 / (2.0 * slabs.width), most = std::max(across, along);
     table.words.push_back(word(across / most, scale) | word(along / most, scale) << 16);
     const double floor = scene.shading.gradient_floor;
-    const std::int64_t per_floor = floor > 0.0 ? nearest(most / floor, words::kFloor, 0, kMost) : kMost;
+    const std::int64_t per_floor = floor > 0.0 ? nearest(most / floor, classify::kFloor, 0, kMost) : kMost;
     table.words.push_back(static_cast<std::uint32_t>(scene.shading.on ? per_floor : 0));
   }
   return table;

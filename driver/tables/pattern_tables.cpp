@@ -16,7 +16,7 @@ namespace fastsplat::driver {
 namespace {
 
 using cmodel::Table;
-namespace words = cmodel::pattern;
+namespace pattern = cmodel::pattern;
 
 std::uint32_t near_word(double value, const cmodel::Format& format) {
   return quantise_to<std::uint32_t>(value, {Target::Rounding::Nearest, Target::Overflow::Saturates, format});
@@ -75,15 +75,15 @@ std::array<Range, 3> seen(const cmodel::Config& config, const scene::Scene& scen
 /// Where nodes lie along one axis.
 struct Axis {
   std::uint32_t first = 0, step = 0;                                         ///< words
-  bool between() const { return step != std::uint32_t{1} << words::kStep; }  ///< pixels lie between nodes
-  double at(int node) const { return first + node / std::ldexp(static_cast<double>(step), -words::kStep); }
+  bool between() const { return step != std::uint32_t{1} << pattern::kStep; }  ///< pixels lie between nodes
+  double at(int node) const { return first + node / std::ldexp(static_cast<double>(step), -pattern::kStep); }
 };
 
 Axis axis_of(const Range& range, int nodes) {
   const auto length = static_cast<double>(range.last - range.first);
   const double step = length > 0.0 ? std::min(1.0, (nodes - 1) / length) : 1.0;
   return {.first = static_cast<std::uint32_t>(range.first),
-          .step = near_word(step, cmodel::unsigned_format(8, words::kStep))};
+          .step = near_word(step, cmodel::unsigned_format(8, pattern::kStep))};
 }
 
 /// A pattern and its lean at a node.
@@ -170,12 +170,12 @@ std::vector<cmodel::LoadTable> pattern_tables(const cmodel::Config& config, cons
     for (int axis = 0; axis < 3; ++axis) steepest = std::max(steepest, std::abs(node.lean[axis]));
   const auto amount = quantise_to<std::uint32_t>(
       steepest,
-      {Target::Rounding::Up, Target::Overflow::Saturates, cmodel::unsigned_format(words::kAmountInt, words::kAmount)});
-  const double unit_lean = amount == 0 ? 0.0 : std::ldexp(1.0 / amount, words::kAmount);
+      {Target::Rounding::Up, Target::Overflow::Saturates, cmodel::unsigned_format(pattern::kAmountInt, pattern::kAmount)});
+  const double unit_lean = amount == 0 ? 0.0 : std::ldexp(1.0 / amount, pattern::kAmount);
 
   cmodel::LoadTable table{.table = Table::Nodes, .radius = {}, .words = {}};
-  table.words.reserve(words::kNodeWords * nodes.size());
-  const cmodel::Format value = cmodel::unsigned_format(0, words::kValue), lean = cmodel::signed_format(1, words::kLean);
+  table.words.reserve(pattern::kNodeWords * nodes.size());
+  const cmodel::Format value = cmodel::unsigned_format(0, pattern::kValue), lean = cmodel::signed_format(1, pattern::kLean);
   for (const Node& node : nodes) {
     const auto half = [&](int axis) { return near_word(node.lean[axis] * unit_lean, lean) & 0xFFFFU; };
     table.words.push_back(near_word(node.value, value) | half(0) << 16);
@@ -185,7 +185,7 @@ std::vector<cmodel::LoadTable> pattern_tables(const cmodel::Config& config, cons
   for (const Axis& axis : axes) pattern.words.push_back(axis.first);
   for (const Axis& axis : axes) pattern.words.push_back(axis.step);
   for (const glm::dvec3& tint : tints_of(scene.description.texture))
-    for (int c = 0; c < 3; ++c) pattern.words.push_back(near_word(tint[c], cmodel::unit_format(words::kTint)));
+    for (int c = 0; c < 3; ++c) pattern.words.push_back(near_word(tint[c], cmodel::unit_format(pattern::kTint)));
   pattern.words.push_back(amount);
   return {std::move(table), std::move(pattern)};
 }

@@ -9,6 +9,8 @@
 
 namespace fastsplat::scene {
 
+inline constexpr std::size_t kMostGaussianBytes = std::size_t{16} << 30;  ///< of a file
+
 /// A built-in scene "name[:count]", or a file by its ending. Every failure is a UserError (Input) with the fix.
 GaussianCloud load_gaussians(const std::string& name_or_path);
 /// The files that load_gaussians would read: none for a built-in scene.

@@ -20,8 +20,6 @@
 namespace fastsplat::scene {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{16} << 30;
-
 /// Where in a row each number of a Gaussian stands.
 struct Columns {
   std::array<std::size_t, 3> position{}, scale{}, constant{};
@@ -137,7 +135,7 @@ std::vector<float> written_row(const Gaussian& one, std::span<const glm::vec3> h
 }  // namespace
 
 GaussianCloud read_gaussian_ply(const std::filesystem::path& path) {
-  const std::string where = path.string(), text = read_text_file(path, kMostBytes);
+  const std::string where = path.string(), text = read_text_file(path, kMostGaussianBytes);
   const PlyHeader header = read_ply_header(text, where);
   PlyRows rows(header, text, where);
   const PlyElement& element = vertices(header, rows, where);

@@ -14,8 +14,6 @@
 namespace fastsplat::scene {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{16} << 30;
-
 std::uint32_t byte_at(const std::string& bytes, std::size_t at) { return static_cast<unsigned char>(bytes[at]); }
 
 float float_at(const std::string& bytes, std::size_t at) {
@@ -36,7 +34,7 @@ void append_byte(std::string& to, double value) {
 }  // namespace
 
 GaussianCloud read_splat_file(const std::filesystem::path& path) {
-  const std::string where = path.string(), bytes = read_text_file(path, kMostBytes);
+  const std::string where = path.string(), bytes = read_text_file(path, kMostGaussianBytes);
   if (bytes.size() % kSplatBytes != 0) {
     throw_input({.where = where,
                  .what = "the file does not end with a whole Gaussian",

@@ -9,7 +9,7 @@ namespace fastsplat::testbench {
 namespace {
 
 /// Beyond four cycles a pixel is read from memory again; twice that is looked at.
-constexpr std::uint64_t kForwarded = 4, kDistances = 8;
+constexpr std::uint64_t kForwarded = 4, kSampleDistances = 8;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ SampleCoverage::SampleCoverage(const cmodel::Config& config, Coverage& coverage)
       coverage.declare("sample", prefix + std::to_string(d));
     return first;
   };
-  distance_ = distances("distance_", kDistances);
+  distance_ = distances("distance_", kSampleDistances);
   whole_ = distances("whole_window_", kForwarded);
   part_ = distances("part_of_window_", kForwarded);
   beside_ = coverage.bins().size();
@@ -61,7 +61,7 @@ void SampleCoverage::neighbour(const cmodel::TapRecord& record) {
 }
 
 void SampleCoverage::distance(const cmodel::TapRecord& record) {
-  std::uint64_t nearest = kDistances + 1, met = 0, inside = 0;
+  std::uint64_t nearest = kSampleDistances + 1, met = 0, inside = 0;
   for (int y = std::max(0, record.y); y < std::min(height_, record.y + lanes_); ++y) {
     for (int x = std::max(0, record.x); x < std::min(width_, record.x + lanes_); ++x) {
       std::uint64_t& written = written_[static_cast<std::size_t>(y) * columns_ + static_cast<std::size_t>(x)];
@@ -74,7 +74,7 @@ void SampleCoverage::distance(const cmodel::TapRecord& record) {
       written = record.cycle;
     }
   }
-  if (nearest > kDistances) return;
+  if (nearest > kSampleDistances) return;
   coverage_.hit(distance_ + nearest - cmodel::stages::kHazard);
   if (nearest <= kForwarded) coverage_.hit((met == inside ? whole_ : part_) + nearest - cmodel::stages::kHazard);
 }

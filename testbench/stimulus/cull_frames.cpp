@@ -13,9 +13,9 @@ using namespace cmodel;
 /// Splats of a set that lies beside the tile; of one over an opaque half; of a sheet.
 constexpr std::uint32_t kBeside = 3, kOver = 4, kMany = 20;
 
-class Generator {
+class CullGenerator {
  public:
-  Generator(const Config& config, Random& random) : config_(config), random_(random) {}
+  CullGenerator(const Config& config, Random& random) : config_(config), random_(random) {}
 
   StreamDocument of_sets() {
     StreamDocument out = frame();
@@ -133,8 +133,8 @@ class Generator {
 
 }  // namespace
 
-StreamDocument sets_frame(const Config& config, Random& random) { return Generator(config, random).of_sets(); }
+StreamDocument sets_frame(const Config& config, Random& random) { return CullGenerator(config, random).of_sets(); }
 
-StreamDocument frozen_frame(const Config& config, Random& random) { return Generator(config, random).frozen(); }
+StreamDocument frozen_frame(const Config& config, Random& random) { return CullGenerator(config, random).frozen(); }
 
 }  // namespace fastsplat::testbench

@@ -14,7 +14,7 @@ namespace {
 
 using namespace cmodel;
 
-constexpr const char* kBins[] = {"tables_that_look_like_records", "frames_behind_each_other",
+constexpr const char* kFrameAfterFrameBins[] = {"tables_that_look_like_records", "frames_behind_each_other",
                                  "soft_reset_behind_a_reset"};
 
 constexpr std::uint64_t kFrames = 12, kSplats = 60;
@@ -60,14 +60,14 @@ int look_like_records(const Config& config, Random& random, StreamDocument& docu
 }
 
 void frames_that_look_like_records(const Config& config, Frames& frames, Check& check) {
-  const auto other = check.bin("refusal", kBins[1]);
+  const auto other = check.bin("refusal", kFrameAfterFrameBins[1]);
   for (std::uint64_t seed = 0; seed < kFrames; ++seed) {
     Random random(seed);
     const Opcode first = kOpcodes[seed % kAskedFor];
     const std::string what = "frame " + std::to_string(seed) + " whose tables look like records";
     // Of a device whose words are too small for an opcode it is any other frame.
     const auto bin = [&](StreamDocument& document, bool others) {
-      return look_like_records(config, random, document, first, others) > 0 ? check.bin("refusal", kBins[0]) : other;
+      return look_like_records(config, random, document, first, others) > 0 ? check.bin("refusal", kFrameAfterFrameBins[0]) : other;
     };
     StreamDocument document = make_stimulus(config, StimulusClass::Mixed, 1000 + seed, kSplats).document;
     const auto mixed = bin(document, true);
@@ -87,7 +87,7 @@ void frames_that_look_like_records(const Config& config, Frames& frames, Check& 
 
 /// A tile ends, sooner and later, while the table of its last sheet is built.
 void end_while_tables_are_built(const Config& config, Frames& frames, Check& check) {
-  const auto bin = check.bin("refusal", kBins[1]);
+  const auto bin = check.bin("refusal", kFrameAfterFrameBins[1]);
   for (int cycles = 1; cycles <= kLate; ++cycles) {
     Random random(static_cast<std::uint64_t>(cycles));
     const Beats beats = write_document(config, frozen_frame(config, random));
@@ -99,7 +99,7 @@ void end_while_tables_are_built(const Config& config, Frames& frames, Check& che
 
 /// A table that the frame before loaded, as its last, is none of this frame's.
 void refuse_missing_tables(const Config& config, Frames& frames, Check& check) {
-  const auto good = check.bin("refusal", kBins[1]), bin = check.bin("refusal", "rule_LOADED");
+  const auto good = check.bin("refusal", kFrameAfterFrameBins[1]), bin = check.bin("refusal", "rule_LOADED");
   StreamDocument document = read_document(config, small_densities(config).first);
   for (const Table table : {Table::Classify, Table::Root, Table::Glint, Table::Lighting, Table::Sheets}) {
     const std::string what = "table " + std::to_string(static_cast<int>(table));
@@ -140,7 +140,7 @@ void refuse_late_ends(const Config& config, Frames& frames, Check& check) {
 
 /// A soft reset that is asked for as soon as a hard one is over has nothing to wait for.
 void reset_at_once(Frames& frames, std::span<const Beat> beats, int most_waits, Check& check) {
-  const auto bin = check.bin("refusal", kBins[2]);
+  const auto bin = check.bin("refusal", kFrameAfterFrameBins[2]);
   for (int wait = 0; wait < most_waits; ++wait) {
     frames.drop(beats, 1, wait);
     frames.device().soft_reset(false);
@@ -154,7 +154,7 @@ void reset_at_once(Frames& frames, std::span<const Beat> beats, int most_waits, 
 
 }  // namespace
 
-std::span<const char* const> frame_after_frame_bins() { return kBins; }
+std::span<const char* const> frame_after_frame_bins() { return kFrameAfterFrameBins; }
 
 void check_frame_after_frame(const Config& config, Frames& frames, const Beats& beats, Check& check) {
   frames_that_look_like_records(config, frames, check);
@@ -166,7 +166,7 @@ void check_frame_after_frame(const Config& config, Frames& frames, const Beats& 
     const auto [densities, end_of_tile] = small_densities(config);
     reset_at_once(frames, std::span(densities).first(end_of_tile + 1), kWalked, check);
   }
-  frames.good("a frame after frames", beats, check.bin("refusal", kBins[1]));
+  frames.good("a frame after frames", beats, check.bin("refusal", kFrameAfterFrameBins[1]));
 }
 
 }  // namespace fastsplat::testbench

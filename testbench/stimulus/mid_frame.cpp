@@ -12,7 +12,7 @@ namespace {
 
 using namespace cmodel;
 
-constexpr const char* kBins[] = {"register_writes_in_a_frame_are_refused",   "busy_while_a_beat_is_judged",
+constexpr const char* kMidFrameBins[] = {"register_writes_in_a_frame_are_refused",   "busy_while_a_beat_is_judged",
                                  "error_beat_after_a_hard_reset_in_a_frame", "error_beat_after_a_soft_reset_in_a_frame",
                                  "no_interrupt_before_the_last_pixels",      "no_interrupt_after_a_short_reset"};
 /// Reads after which a device that has nothing to do is at rest.
@@ -39,7 +39,7 @@ std::size_t behind_first(const Beats& beats, Opcode wanted) { return first_of(be
 
 /// In a tile, and between two words of a table, where a soft reset or cleared counters would show in what comes out.
 void refuse_writes(const Config& config, Frames& frames, const Beats& beats, Check& check) {
-  const auto bin = check.bin("refusal", kBins[0]);
+  const auto bin = check.bin("refusal", kMidFrameBins[0]);
   for (const std::size_t at : {behind_first(beats, Opcode::LoadTable), behind_first(beats, Opcode::Splat)}) {
     const std::string what = "writes behind beat " + std::to_string(at);
     frames.good(what, beats, bin,
@@ -64,7 +64,7 @@ void refuse_writes(const Config& config, Frames& frames, const Beats& beats, Che
 /// Read in the cycle after begin_frame was taken, when it lies in check, and in those after, in which it passes the
 /// test unit where there is one.
 void be_busy_while_judging(const Config& config, Frames& frames, const Beats& beats, Check& check) {
-  const auto bin = check.bin("refusal", kBins[1]);
+  const auto bin = check.bin("refusal", kMidFrameBins[1]);
   for (int later = 0; later < (config.culls() ? 2 + static_cast<int>(stages::kCullStages) : 2); ++later) {
     frames.device().consume(std::span(beats).first(1));
     if (later > 0) frames.device().takes_half_write(WriteHalf::Address, kRegControl.address, 0, later);
@@ -78,7 +78,7 @@ void be_busy_while_judging(const Config& config, Frames& frames, const Beats& be
 
 /// A frame is given up in a tile; the next one's beats are numbered from 0.
 void count_anew(const Config& config, Frames& frames, const Beats& beats, Check& check) {
-  const auto hard = check.bin("refusal", kBins[2]), soft = check.bin("refusal", kBins[3]);
+  const auto hard = check.bin("refusal", kMidFrameBins[2]), soft = check.bin("refusal", kMidFrameBins[3]);
   const auto part = std::span(beats).first(behind_first(beats, Opcode::Splat));
   const auto all = violations(config, beats);
   for (const StreamRule rule : {StreamRule::Format, StreamRule::EndCount}) {
@@ -121,7 +121,7 @@ Beats large_tile(const Config& config, const Beats& beats) {
 
 /// Of a stream of one tile, which a sink takes slowly: end_frame was carried out long before the last pixels leave.
 void wait_for_the_last_pixels(const Config& config, const MakeDevice& make, const Beats& beats, Check& check) {
-  const auto early = check.bin("refusal", kBins[4]), after_reset = check.bin("refusal", kBins[5]);
+  const auto early = check.bin("refusal", kMidFrameBins[4]), after_reset = check.bin("refusal", kMidFrameBins[5]);
   Frames frames(config, make, check, Pattern("every-97", 1));
   const Beats tile = large_tile(config, beats);
   std::uint32_t irq = 0;
@@ -155,7 +155,7 @@ void wait_for_the_last_pixels(const Config& config, const MakeDevice& make, cons
 
 }  // namespace
 
-std::span<const char* const> mid_frame_bins() { return kBins; }
+std::span<const char* const> mid_frame_bins() { return kMidFrameBins; }
 
 void check_mid_frame(const Config& config, const MakeDevice& make, Frames& frames, const Beats& beats, Check& check) {
   refuse_writes(config, frames, beats, check);

@@ -12,7 +12,7 @@ endif()
 option(FASTSPLAT_WERROR "Warnings are errors (set by the ci preset only: a newer compiler must not break a user's build)" OFF)
 option(FASTSPLAT_TESTS "Tests, examples and benchmarks; need the packages of [tests] in tools/debian.txt" ON)
 option(FASTSPLAT_PEERS "Programs that race other renderers (tools/benchmarks/peers): ./run peers" OFF)
-option(FASTSPLAT_UNITY "Compile the libraries' sources eight at a time; off: one by one, for who edits them" ON)
+option(FASTSPLAT_UNITY "Compile the libraries' sources sixteen at a time; off: one by one, for who edits them" ON)
 option(FASTSPLAT_ASAN "AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
 option(FASTSPLAT_FUZZ "The fuzz targets of tests/fuzz and all they call, under libFuzzer and the sanitizers; needs Clang" OFF)
 
@@ -60,7 +60,7 @@ function(fastsplat_library name)
   list(TRANSFORM arg_FOLDERS REPLACE "(.+)" "${CMAKE_CURRENT_SOURCE_DIR}/\\1/*.cpp")
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${arg_FOLDERS})
   add_library(fastsplat_${name} STATIC ${sources})
-  # Eight sources are compiled as one: headers are most of what a compiler reads. Vector kernels stay alone, for Highway
+  # Sixteen sources are compiled as one: headers are most of what a compiler reads, and their templates of what it makes. Vector kernels stay alone, for Highway
   # includes them once for each instruction set.
   foreach(source ${sources})
     file(STRINGS ${source} kernel REGEX "define HWY_TARGET_INCLUDE")
@@ -68,7 +68,7 @@ function(fastsplat_library name)
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     endif()
   endforeach()
-  set_target_properties(fastsplat_${name} PROPERTIES UNITY_BUILD ${FASTSPLAT_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+  set_target_properties(fastsplat_${name} PROPERTIES UNITY_BUILD ${FASTSPLAT_UNITY} UNITY_BUILD_BATCH_SIZE 16)
   target_link_libraries(fastsplat_${name} PUBLIC fastsplat_settings ${arg_DEPENDS} PRIVATE ${arg_PRIVATE_DEPENDS})
 endfunction()
 

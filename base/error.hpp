@@ -33,7 +33,8 @@ std::string one_line(const ErrorParts& parts);
 
 class UserError : public std::runtime_error {
  public:
-  UserError(ExitCode code, ErrorParts parts) : std::runtime_error(one_line(parts)), code_(code), parts_(std::move(parts)) {}
+  UserError(ExitCode code, ErrorParts parts)
+      : std::runtime_error(one_line(parts)), code_(code), parts_(std::move(parts)) {}
   ExitCode code() const { return code_; }
   const ErrorParts& parts() const { return parts_; }
 

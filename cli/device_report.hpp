@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "base/images/image_file.hpp"
 #include "cli/output.hpp"
 #include "driver/tiles/render.hpp"
-#include "base/images/image_file.hpp"
 
 namespace fastsplat::cli {
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "base/image.hpp"
-#include "cmodel/numbers/config.hpp"
 #include "base/images/image_file.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "scene/scene.hpp"
 
 namespace fastsplat::cli {

@@ -7,12 +7,12 @@
 #include <variant>
 #include <vector>
 
+#include "base/images/image_file.hpp"
 #include "cli/device_report.hpp"
 #include "cli/output.hpp"
 #include "cli/rtl_run.hpp"
 #include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
-#include "base/images/image_file.hpp"
 
 namespace fastsplat::cli {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "base/images/image_file.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
-#include "base/images/image_file.hpp"
 
 namespace fastsplat::cli {
 

@@ -5,8 +5,8 @@
 
 #include "base/error.hpp"
 #include "cmodel/numbers/config.hpp"
-#include "testbench/stimulus/stimulus.hpp"
 #include "scene/volume/volume_file.hpp"
+#include "testbench/stimulus/stimulus.hpp"
 
 namespace fastsplat::cli {
 

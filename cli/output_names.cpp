@@ -9,8 +9,8 @@
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
-#include "driver/config/config_file.hpp"
 #include "base/images/image_file.hpp"
+#include "driver/config/config_file.hpp"
 #include "scene/scene_file.hpp"
 #include "scene/transfer_function.hpp"
 #include "scene/volume/volume_file.hpp"

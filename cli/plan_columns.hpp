@@ -1,8 +1,8 @@
 // The flags that choose rows and columns of merged results.
 #pragma once
 
-#include "cli/options.hpp"
 #include "analysis/sweep/columns.hpp"
+#include "cli/options.hpp"
 
 namespace fastsplat::cli {
 

@@ -8,9 +8,9 @@
 #include "base/hash_text.hpp"
 #include "cli/names.hpp"
 #include "cli/volume_json.hpp"
-#include "driver/tiles/compile.hpp"
 #include "driver/config/config_file.hpp"
 #include "driver/files/stream_file.hpp"
+#include "driver/tiles/compile.hpp"
 
 namespace fastsplat::cli {
 namespace {

@@ -4,20 +4,20 @@
 #include <cstdint>
 #include <vector>
 
+#include "cmodel/classify/density_stage.hpp"
 #include "cmodel/composite/compositor.hpp"
-#include "cmodel/numbers/config.hpp"
+#include "cmodel/composite/pixel_out.hpp"
 #include "cmodel/cull/cull_log.hpp"
 #include "cmodel/cull/cull_sets.hpp"
 #include "cmodel/cull/cull_unit.hpp"
-#include "cmodel/classify/density_stage.hpp"
-#include "cmodel/stream/device.hpp"
-#include "cmodel/splat/ellipse_unit.hpp"
+#include "cmodel/decode/stream_decode.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "cmodel/numbers/observers.hpp"
-#include "cmodel/composite/pixel_out.hpp"
+#include "cmodel/splat/ellipse_unit.hpp"
 #include "cmodel/splat/sheet_buffer.hpp"
 #include "cmodel/splat/snap.hpp"
-#include "cmodel/decode/stream_decode.hpp"
 #include "cmodel/splat/weight_unit.hpp"
+#include "cmodel/stream/device.hpp"
 
 namespace fastsplat::cmodel {
 

@@ -9,8 +9,8 @@
 #include "scene/capability.hpp"
 #include "scene/content_fit.hpp"
 #include "scene/settings.hpp"
-#include "scene/xray_exposure.hpp"
 #include "scene/volume/volume_file.hpp"
+#include "scene/xray_exposure.hpp"
 
 namespace fastsplat::scene {
 namespace {

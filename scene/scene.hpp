@@ -14,8 +14,8 @@
 #include "scene/solid_texture.hpp"
 #include "scene/techniques.hpp"
 #include "scene/transfer_function.hpp"
-#include "scene/voxel_box.hpp"
 #include "scene/volume/volume.hpp"
+#include "scene/voxel_box.hpp"
 
 namespace fastsplat::scene {
 

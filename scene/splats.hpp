@@ -34,8 +34,8 @@ struct GridPart {
 enum class SplatKind { Colours, Densities };
 
 /// Every voxel with extinction > 0, slice by slice along the volume axis most parallel to the view direction, nearest
-/// slice first; inside a slice by the remaining axes, also nearest first. The order is a function of the scene only. For
-/// Method::XRay the order is the same (it does not matter there). Parts may be visited by several threads at once.
+/// slice first; inside a slice by the remaining axes, also nearest first. The order is a function of the scene only.
+/// For Method::XRay the order is the same (it does not matter there). Parts may be visited by several threads at once.
 class Traversal {
  public:
   /// The scene outlives it.
@@ -49,7 +49,8 @@ class Traversal {
   GridPart slab(int first_slice, int end_slice) const { return {first_slice, end_slice, 0, rows()}; }
   /// How many splats visit() would visit: classifies, but shades nothing.
   std::size_t count(const GridPart& part) const;
-  /// The splats of a row, and of each the number of its voxel's line across the slices: row times columns() plus column.
+  /// The splats of a row, and of each the number of its voxel's line across the slices: row times columns() plus
+  /// column.
   using Visit = std::function<void(std::span<const Splat> splats, std::span<const std::uint32_t> lines)>;
   /// Once for every row that has any.
   void visit(const GridPart& part, const Visit& visit) const;

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.hpp"
 #include "analysis/pipeline/chain.hpp"
 #include "analysis/pipeline/step.hpp"
+#include "base/progress.hpp"
 
 namespace fastsplat::analysis {
 

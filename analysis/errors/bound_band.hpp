@@ -7,9 +7,9 @@
 
 #include "analysis/errors/bound.hpp"
 #include "analysis/errors/roundings.hpp"
-#include "golden/splat/footprint.hpp"
 #include "analysis/pipeline/band_bins.hpp"
 #include "analysis/pipeline/weight_steps.hpp"
+#include "golden/splat/footprint.hpp"
 
 namespace fastsplat::analysis {
 

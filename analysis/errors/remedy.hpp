@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "cmodel/numbers/config.hpp"
 #include "analysis/pipeline/step.hpp"
+#include "cmodel/numbers/config.hpp"
 
 namespace fastsplat::analysis {
 

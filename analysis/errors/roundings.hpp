@@ -1,10 +1,10 @@
 // How far each step of a configuration can move a value: what the bound is made of (docs/errors.md, section 3).
 #pragma once
 
-#include "cmodel/numbers/config.hpp"
-#include "scene/scene.hpp"
 #include "analysis/pipeline/splat_steps.hpp"
 #include "analysis/pipeline/step.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "scene/scene.hpp"
 
 namespace fastsplat::analysis {
 

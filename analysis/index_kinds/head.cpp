@@ -9,10 +9,10 @@
 
 #include "analysis/error_values.hpp"
 #include "analysis/errors/attribution.hpp"
+#include "analysis/pipeline/chain.hpp"
 #include "base/error.hpp"
 #include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
-#include "analysis/pipeline/chain.hpp"
 #include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::analysis {

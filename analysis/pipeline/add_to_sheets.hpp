@@ -3,10 +3,10 @@
 
 #include <span>
 
-#include "golden/sheet.hpp"
 #include "analysis/pipeline/add_products.hpp"
 #include "analysis/pipeline/splat_steps.hpp"
 #include "analysis/pipeline/weight_steps.hpp"
+#include "golden/sheet.hpp"
 
 namespace fastsplat::stages {
 

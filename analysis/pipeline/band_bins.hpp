@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "driver/tiles/tile_bins.hpp"
 #include "analysis/pipeline/splat_steps.hpp"
+#include "driver/tiles/tile_bins.hpp"
 
 namespace fastsplat::stages {
 

@@ -2,12 +2,6 @@
 
 #include <cmath>
 
-#include "base/parallel/parallel.hpp"
-#include "driver/tiles/compile.hpp"
-#include "driver/tables/density_tables.hpp"
-#include "golden/settled_pixels.hpp"
-#include "golden/sheet.hpp"
-#include "scene/capability.hpp"
 #include "analysis/pipeline/add_products.hpp"
 #include "analysis/pipeline/add_to_sheets.hpp"
 #include "analysis/pipeline/band_bins.hpp"
@@ -15,6 +9,12 @@
 #include "analysis/pipeline/pixel_steps.hpp"
 #include "analysis/pipeline/product_rule.hpp"
 #include "analysis/pipeline/weight_steps.hpp"
+#include "base/parallel/parallel.hpp"
+#include "driver/tables/density_tables.hpp"
+#include "driver/tiles/compile.hpp"
+#include "golden/settled_pixels.hpp"
+#include "golden/sheet.hpp"
+#include "scene/capability.hpp"
 
 namespace fastsplat::stages {
 namespace {

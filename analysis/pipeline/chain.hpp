@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "cmodel/numbers/config.hpp"
-#include "scene/scene.hpp"
 #include "analysis/pipeline/density_steps.hpp"
 #include "analysis/pipeline/splat_steps.hpp"
 #include "analysis/pipeline/step.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "scene/scene.hpp"
 
 namespace fastsplat::stages {
 

@@ -5,13 +5,13 @@
 
 #include <vector>
 
-#include "golden/sheet.hpp"
 #include "analysis/pipeline/add_products.hpp"
 #include "analysis/pipeline/band_bins.hpp"
 #include "analysis/pipeline/density_steps.hpp"
 #include "analysis/pipeline/pixel_steps.hpp"
 #include "analysis/pipeline/splat_steps.hpp"
 #include "analysis/pipeline/weight_steps.hpp"
+#include "golden/sheet.hpp"
 
 namespace fastsplat::stages {
 

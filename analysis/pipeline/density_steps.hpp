@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "analysis/pipeline/real_narrowing.hpp"
+#include "analysis/pipeline/step.hpp"
 #include "cmodel/numbers/config.hpp"
 #include "golden/frame_sweep.hpp"
 #include "golden/post_classified.hpp"
@@ -15,8 +17,6 @@
 #include "scene/scene.hpp"
 #include "scene/sheet_plan.hpp"
 #include "scene/transfer_function.hpp"
-#include "analysis/pipeline/real_narrowing.hpp"
-#include "analysis/pipeline/step.hpp"
 
 namespace fastsplat::stages {
 

@@ -4,12 +4,12 @@
 #include <span>
 #include <vector>
 
+#include "analysis/pipeline/splat_steps.hpp"
+#include "analysis/pipeline/step.hpp"
 #include "cmodel/numbers/config.hpp"
 #include "cmodel/splat/ellipse_unit.hpp"
 #include "driver/splats/ellipse_shape.hpp"
 #include "golden/splat/footprint.hpp"
-#include "analysis/pipeline/splat_steps.hpp"
-#include "analysis/pipeline/step.hpp"
 
 namespace fastsplat::stages {
 

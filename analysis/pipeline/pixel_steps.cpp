@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "driver/tiles/compile.hpp"
 #include "driver/tables/density_tables.hpp"
 #include "driver/tables/tables.hpp"
+#include "driver/tiles/compile.hpp"
 #include "golden/splat/composite.hpp"
 
 namespace fastsplat::stages {

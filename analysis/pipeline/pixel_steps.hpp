@@ -4,11 +4,11 @@
 
 #include <vector>
 
+#include "analysis/pipeline/real_narrowing.hpp"
+#include "analysis/pipeline/step.hpp"
 #include "cmodel/numbers/config.hpp"
 #include "golden/splat/projected_splat.hpp"
 #include "scene/scene.hpp"
-#include "analysis/pipeline/real_narrowing.hpp"
-#include "analysis/pipeline/step.hpp"
 
 namespace fastsplat::stages {
 

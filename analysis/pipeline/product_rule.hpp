@@ -1,9 +1,9 @@
 // The step `product` of a mixture, as add_products takes it.
 #pragma once
 
-#include "cmodel/numbers/config.hpp"
 #include "analysis/pipeline/add_products.hpp"
 #include "analysis/pipeline/step.hpp"
+#include "cmodel/numbers/config.hpp"
 
 namespace fastsplat::stages {
 

@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "base/parallel/parallel.hpp"
-#include "driver/tiles/compile.hpp"
-#include "driver/tables/density_tables.hpp"
 #include "driver/splats/projection.hpp"
+#include "driver/tables/density_tables.hpp"
 #include "driver/tables/tables.hpp"
+#include "driver/tiles/compile.hpp"
 #include "golden/splat/projection.hpp"
 #include "scene/kernel_growth.hpp"
 #include "scene/real_splat.hpp"

@@ -5,16 +5,16 @@
 #include <optional>
 #include <vector>
 
-#include "driver/tables/radius_sets.hpp"
+#include "analysis/pipeline/real_narrowing.hpp"
+#include "analysis/pipeline/step.hpp"
 #include "driver/splats/slices.hpp"
 #include "driver/splats/splat_quantiser.hpp"
+#include "driver/tables/radius_sets.hpp"
 #include "golden/splat/projected_splat.hpp"
 #include "scene/scene.hpp"
 #include "scene/sheet_plan.hpp"
 #include "scene/splat_shaper.hpp"
 #include "scene/splats.hpp"
-#include "analysis/pipeline/real_narrowing.hpp"
-#include "analysis/pipeline/step.hpp"
 
 namespace fastsplat::stages {
 

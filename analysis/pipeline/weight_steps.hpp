@@ -4,6 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "analysis/pipeline/ellipse_distance.hpp"
+#include "analysis/pipeline/splat_steps.hpp"
+#include "analysis/pipeline/step.hpp"
 #include "cmodel/numbers/config.hpp"
 #include "cmodel/numbers/sites.hpp"
 #include "driver/tables/index_tables.hpp"
@@ -11,9 +14,6 @@
 #include "driver/tiles/tile_bins.hpp"
 #include "golden/splat/footprint.hpp"
 #include "scene/kernel.hpp"
-#include "analysis/pipeline/ellipse_distance.hpp"
-#include "analysis/pipeline/splat_steps.hpp"
-#include "analysis/pipeline/step.hpp"
 
 namespace fastsplat::stages {
 

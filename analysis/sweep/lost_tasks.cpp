@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 
-#include "base/error.hpp"
 #include "analysis/sweep/result.hpp"
+#include "base/error.hpp"
 
 namespace fastsplat::plan {
 namespace {

@@ -6,11 +6,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "analysis/sweep/kinds.hpp"
 #include "base/error.hpp"
 #include "base/fnv1a.hpp"
 #include "base/hash_text.hpp"
 #include "base/suggest.hpp"
-#include "analysis/sweep/kinds.hpp"
 
 namespace fastsplat::plan {
 namespace {

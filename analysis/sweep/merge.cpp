@@ -4,9 +4,9 @@
 #include <map>
 #include <set>
 
-#include "base/error.hpp"
 #include "analysis/sweep/coverage_sum.hpp"
 #include "analysis/sweep/merged.hpp"
+#include "base/error.hpp"
 
 namespace fastsplat::plan {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <fstream>
 
+#include "analysis/sweep/run.hpp"
 #include "base/error.hpp"
 #include "base/read_file.hpp"
-#include "analysis/sweep/run.hpp"
 
 namespace fastsplat::plan {
 namespace {

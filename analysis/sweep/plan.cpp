@@ -155,7 +155,8 @@ std::string id_of(const Case& one) {
 }
 
 Json to_json(const Plan& plan) {
-  Json json{{"verb", kMakeVerb}, {"version", program_version()}, {"name", plan.name}, {"title", plan.title}, {"hash", ""}};
+  Json json{
+      {"verb", kMakeVerb}, {"version", program_version()}, {"name", plan.name}, {"title", plan.title}, {"hash", ""}};
   json["axes"] = Json::array();
   for (const Axis& axis : plan.axes) json["axes"].push_back(to_json(axis));
   json["metrics"] = Json::array();

@@ -14,7 +14,7 @@ enum class Status {
   Fail,   ///< exit 1: verified and wrong, or over a limit; the figures stand
   Error,  ///< no result: refused, crashed, ended by a signal
 };
-const char* to_string(Status status);  ///< "pass", "fail", "error"
+const char* to_string(Status status);         ///< "pass", "fail", "error"
 Status status_from(const std::string& text);  ///< throws std::runtime_error for another word
 
 struct CaseResult {

@@ -7,12 +7,12 @@
 #include <map>
 #include <set>
 
-#include "base/error.hpp"
-#include "base/json_text.hpp"
-#include "base/read_file.hpp"
 #include "analysis/sweep/child.hpp"
 #include "analysis/sweep/outcome.hpp"
 #include "analysis/sweep/scratch.hpp"
+#include "base/error.hpp"
+#include "base/json_text.hpp"
+#include "base/read_file.hpp"
 
 namespace fastsplat::plan {
 namespace {

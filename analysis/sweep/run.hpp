@@ -4,9 +4,9 @@
 
 #include <functional>
 
-#include "base/progress.hpp"
 #include "analysis/sweep/plan.hpp"
 #include "analysis/sweep/result.hpp"
+#include "base/progress.hpp"
 
 namespace fastsplat::plan {
 

@@ -1,8 +1,8 @@
 #include "analysis/sweep/status.hpp"
 
+#include "analysis/sweep/run.hpp"
 #include "base/error.hpp"
 #include "base/read_file.hpp"
-#include "analysis/sweep/run.hpp"
 
 namespace fastsplat::plan {
 namespace {

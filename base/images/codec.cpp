@@ -32,8 +32,8 @@ fs::path find_module() {
          "build again (./run build), or copy it together with the program");
 }
 
-/// libtiff prints to stderr what is wrong with a file; our message reports it. OpenImageIO 2.4 replaces the functions that
-/// print, 2.5 does not for files in memory.
+/// libtiff prints to stderr what is wrong with a file; our message reports it. OpenImageIO 2.4 replaces the functions
+/// that print, 2.5 does not for files in memory.
 void silence_libtiff(void* module) {
   using Handler = void (*)(const char* place, const char* format, std::va_list);
   for (const char* setter : {"TIFFSetErrorHandler", "TIFFSetWarningHandler"}) {

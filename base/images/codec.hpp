@@ -1,5 +1,5 @@
-// All that base/images/ knows of the image library: a table of functions in a module that is opened when a picture is first
-// read or written. The module is base/images/openimageio/, alone in including OpenImageIO.
+// All that base/images/ knows of the image library: a table of functions in a module that is opened when a picture is
+// first read or written. The module is base/images/openimageio/, alone in including OpenImageIO.
 #pragma once
 
 #include <optional>

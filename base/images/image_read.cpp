@@ -5,11 +5,11 @@
 #include <span>
 
 #include "base/error.hpp"
-#include "base/read_file.hpp"
 #include "base/images/codec.hpp"
 #include "base/images/exr_check.hpp"
 #include "base/images/image_file.hpp"
 #include "base/images/png_check.hpp"
+#include "base/read_file.hpp"
 
 namespace fastsplat::images {
 namespace {

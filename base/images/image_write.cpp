@@ -6,10 +6,10 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
-#include "base/srgb.hpp"
-#include "base/version.hpp"
 #include "base/images/codec.hpp"
 #include "base/images/image_file.hpp"
+#include "base/srgb.hpp"
+#include "base/version.hpp"
 
 namespace fastsplat::images {
 namespace {

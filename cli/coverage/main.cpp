@@ -14,8 +14,8 @@
 #include "base/shell_word.hpp"
 #include "base/version.hpp"
 #include "cli/output.hpp"
-#include "driver/tiles/compile.hpp"
 #include "driver/config/config_file.hpp"
+#include "driver/tiles/compile.hpp"
 #include "report/report.hpp"
 #include "scene/scene.hpp"
 #include "testbench/closure/closure_report.hpp"
@@ -131,8 +131,8 @@ std::map<std::string, bool> tests_of(const std::string& path, std::vector<std::s
   return results;
 }
 
-/// Coverage of one of the configurations that are run, as they are now: told before minutes of campaigns, and never left
-/// out.
+/// Coverage of one of the configurations that are run, as they are now: told before minutes of campaigns, and never
+/// left out.
 tb::CoverageBook book_of(const std::string& path) {
   auto book = tb::read_book(path);
   std::string names;

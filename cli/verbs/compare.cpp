@@ -5,11 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/images/image_file.hpp"
 #include "base/version.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "base/images/image_file.hpp"
 
 namespace fastsplat::cli {
 namespace {

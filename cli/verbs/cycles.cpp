@@ -24,10 +24,10 @@
 #include "cli/volume_json.hpp"
 #include "cmodel/cycles/cycle_model.hpp"
 #include "cmodel/model.hpp"
+#include "driver/files/stream_file.hpp"
 #include "driver/tiles/cull_log.hpp"
 #include "driver/tiles/render.hpp"
 #include "driver/tiles/run_device.hpp"
-#include "driver/files/stream_file.hpp"
 #include "testbench/device/pattern.hpp"
 
 namespace fastsplat::cli {

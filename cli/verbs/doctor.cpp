@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/provenance.hpp"
+#include "base/images/image_file.hpp"
 #include "base/version.hpp"
-#include "cli/versions.hpp"
 #include "cli/other_programs.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs/verbs.hpp"
+#include "cli/versions.hpp"
 #include "driver/config/config_file.hpp"
-#include "base/images/image_file.hpp"
 #include "scene/scene.hpp"
 #include "scene/transfer_function.hpp"
 #include "scene/volume/synthetic.hpp"

@@ -11,8 +11,8 @@
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "cli/volume_json.hpp"
-#include "driver/tables/density_tables.hpp"
 #include "driver/splats/splat_quantiser.hpp"
+#include "driver/tables/density_tables.hpp"
 
 namespace fastsplat::cli {
 namespace {

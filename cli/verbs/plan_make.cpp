@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "analysis/sweep/make.hpp"
 #include "base/atomic_file.hpp"
 #include "base/json_text.hpp"
 #include "cli/common.hpp"
@@ -11,7 +12,6 @@
 #include "cli/output_names.hpp"
 #include "cli/plan_vocabulary.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "analysis/sweep/make.hpp"
 
 namespace fastsplat::cli {
 namespace {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "analysis/sweep/merged.hpp"
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/json_text.hpp"
@@ -12,7 +13,6 @@
 #include "cli/output_names.hpp"
 #include "cli/plan_arguments.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "analysis/sweep/merged.hpp"
 
 namespace fastsplat::cli {
 namespace {

@@ -5,13 +5,13 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "analysis/sweep/pareto.hpp"
 #include "base/version.hpp"
 #include "cli/common.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/plan_columns.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "analysis/sweep/pareto.hpp"
 
 namespace fastsplat::cli {
 namespace {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "analysis/sweep/run.hpp"
 #include "base/version.hpp"
 #include "cli/common.hpp"
 #include "cli/output.hpp"
@@ -13,7 +14,6 @@
 #include "cli/plan_vocabulary.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "analysis/sweep/run.hpp"
 
 namespace fastsplat::cli {
 namespace {

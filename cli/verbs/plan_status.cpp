@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/sweep/status.hpp"
 #include "base/version.hpp"
 #include "cli/common.hpp"
 #include "cli/output.hpp"
@@ -10,7 +11,6 @@
 #include "cli/plan_arguments.hpp"
 #include "cli/plan_vocabulary.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "analysis/sweep/status.hpp"
 
 namespace fastsplat::cli {
 namespace {

@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "analysis/sweep/lost_tasks.hpp"
+#include "analysis/sweep/script_engines.hpp"
+#include "analysis/sweep/slurm_client.hpp"
+#include "analysis/sweep/slurm_script.hpp"
 #include "base/atomic_file.hpp"
 #include "base/programs.hpp"
 #include "base/shell_word.hpp"
@@ -14,10 +18,6 @@
 #include "cli/plan_arguments.hpp"
 #include "cli/plan_vocabulary.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "analysis/sweep/lost_tasks.hpp"
-#include "analysis/sweep/script_engines.hpp"
-#include "analysis/sweep/slurm_client.hpp"
-#include "analysis/sweep/slurm_script.hpp"
 
 namespace fastsplat::cli {
 namespace {

@@ -14,8 +14,8 @@
 #include "cli/scene_flags.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "cli/volume_json.hpp"
-#include "driver/tiles/gaussian_frame.hpp"
 #include "driver/files/stream_file.hpp"
+#include "driver/tiles/gaussian_frame.hpp"
 
 namespace fastsplat::cli {
 namespace {

@@ -10,8 +10,8 @@
 #include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "driver/tiles/render.hpp"
 #include "driver/files/stream_file.hpp"
+#include "driver/tiles/render.hpp"
 
 namespace fastsplat::cli {
 namespace {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "cmodel/classify/classify_tables.hpp"
+#include "cmodel/classify/pattern_unit.hpp"
 #include "cmodel/numbers/config.hpp"
 #include "cmodel/splat/lane.hpp"
-#include "cmodel/classify/pattern_unit.hpp"
 #include "cmodel/stream/stream_layout.hpp"
 
 namespace fastsplat::cmodel {

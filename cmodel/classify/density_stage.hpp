@@ -8,8 +8,8 @@
 #include <span>
 
 #include "cmodel/classify/classify_unit.hpp"
-#include "cmodel/numbers/config.hpp"
 #include "cmodel/classify/density_ring.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "cmodel/stream/records.hpp"
 
 namespace fastsplat::cmodel {

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "cmodel/classify/pattern_tables.hpp"
 #include "cmodel/numbers/config.hpp"
 #include "cmodel/splat/lane.hpp"
-#include "cmodel/classify/pattern_tables.hpp"
 
 namespace fastsplat::cmodel {
 

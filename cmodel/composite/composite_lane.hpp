@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdint>
 
-#include "cmodel/numbers/sites.hpp"
 #include "cmodel/composite/slab_opacity.hpp"
+#include "cmodel/numbers/sites.hpp"
 
 namespace fastsplat::cmodel {
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "cmodel/composite/composite_lane.hpp"
+#include "cmodel/composite/slab_opacity.hpp"
 #include "cmodel/numbers/config.hpp"
 #include "cmodel/numbers/counters.hpp"
-#include "cmodel/composite/slab_opacity.hpp"
 #include "cmodel/stream/stream_layout.hpp"
 
 namespace fastsplat::cmodel {

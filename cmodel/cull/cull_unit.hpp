@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "cmodel/numbers/config.hpp"
 #include "cmodel/cull/cull_table.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "cmodel/stream/records.hpp"
 
 namespace fastsplat::cmodel {

@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdint>
 
-#include "cmodel/numbers/config.hpp"
 #include "cmodel/cycles/cycle_stages.hpp"
+#include "cmodel/numbers/config.hpp"
 
 namespace fastsplat::cmodel {
 

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "cmodel/cycles/cycle_stages.hpp"
-#include "cmodel/splat/ellipse_unit.hpp"
 #include "cmodel/io/fetch_commands.hpp"
-#include "cmodel/splat/snap.hpp"
 #include "cmodel/numbers/window_geometry.hpp"
+#include "cmodel/splat/ellipse_unit.hpp"
+#include "cmodel/splat/snap.hpp"
 
 namespace fastsplat::cmodel {
 std::uint64_t wipe_cycles(const Config& config) {

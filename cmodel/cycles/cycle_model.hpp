@@ -9,17 +9,17 @@
 #include <utility>
 #include <vector>
 
-#include "cmodel/numbers/config.hpp"
 #include "cmodel/cull/cull_log.hpp"
-#include "cmodel/cycles/cull_pipe.hpp"
 #include "cmodel/cull/cull_sets.hpp"
 #include "cmodel/cull/cull_unit.hpp"
+#include "cmodel/cycles/cull_pipe.hpp"
 #include "cmodel/cycles/cycle_account.hpp"
-#include "cmodel/stream/device.hpp"
-#include "cmodel/splat/dirty_map.hpp"
-#include "cmodel/numbers/stall_counters.hpp"
-#include "cmodel/decode/stream_decode.hpp"
 #include "cmodel/cycles/willing.hpp"
+#include "cmodel/decode/stream_decode.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/numbers/stall_counters.hpp"
+#include "cmodel/splat/dirty_map.hpp"
+#include "cmodel/stream/device.hpp"
 
 namespace fastsplat::cmodel {
 
@@ -72,7 +72,8 @@ class CycleSink {
 };
 
 /// The source is a master that reads the stream from a memory and does not ask for the splats of hidden sets, where any
-/// are (rtl/io/fastsplat_fetch.sv). It refuses, with UserError (Input), sets that cull_blocks lie between (cmodel/io/fetch_commands.hpp).
+/// are (rtl/io/fastsplat_fetch.sv). It refuses, with UserError (Input), sets that cull_blocks lie between
+/// (cmodel/io/fetch_commands.hpp).
 struct Fetch {
   std::uint64_t latency = 1;  ///< of the memory: cycles from an address taken to its first beat; 0 is taken for 1
 };

@@ -3,14 +3,14 @@
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
 #include "cmodel/classify/classify_tables.hpp"
+#include "cmodel/classify/pattern_tables.hpp"
 #include "cmodel/cull/cull_unit.hpp"
+#include "cmodel/numbers/index_set.hpp"
+#include "cmodel/numbers/window_geometry.hpp"
 #include "cmodel/splat/ellipse_rule.hpp"
 #include "cmodel/splat/ellipse_unit.hpp"
-#include "cmodel/numbers/index_set.hpp"
-#include "cmodel/classify/pattern_tables.hpp"
 #include "cmodel/splat/snap.hpp"
 #include "cmodel/stream/stream_advice.hpp"
-#include "cmodel/numbers/window_geometry.hpp"
 
 namespace fastsplat::cmodel {
 namespace {

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "cmodel/numbers/config.hpp"
-#include "cmodel/stream/crc32.hpp"
 #include "cmodel/cull/cull_sets.hpp"
 #include "cmodel/cull/cull_table.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/crc32.hpp"
 #include "cmodel/stream/records.hpp"
 #include "cmodel/stream/stream_rules.hpp"
 

@@ -1,4 +1,5 @@
-// The weights of an ellipse's pixels by vector instructions (Highway): cmodel/splat/ellipse_unit.hpp for whole rectangles.
+// The weights of an ellipse's pixels by vector instructions (Highway): cmodel/splat/ellipse_unit.hpp for whole
+// rectangles.
 #pragma once
 
 #include <cstdint>

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "cmodel/fast/row_kernel.hpp"
 #include "cmodel/decode/stream_decode.hpp"
+#include "cmodel/fast/row_kernel.hpp"
 #include "cmodel/numbers/window_geometry.hpp"
 
 namespace fastsplat::cmodel::fast {

@@ -5,14 +5,14 @@
 #include <optional>
 #include <span>
 
-#include "cmodel/stream/beat.hpp"
-#include "cmodel/composite/compositor.hpp"
-#include "cmodel/numbers/config.hpp"
 #include "cmodel/classify/density_stage.hpp"
+#include "cmodel/composite/compositor.hpp"
 #include "cmodel/fast/ellipse_kernel.hpp"
 #include "cmodel/fast/fast_plan.hpp"
 #include "cmodel/fast/sample_kernel.hpp"
 #include "cmodel/fast/weight_memo.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/beat.hpp"
 
 namespace fastsplat::cmodel::fast {
 

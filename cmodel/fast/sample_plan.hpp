@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "cmodel/numbers/config.hpp"
 #include "cmodel/fast/fast_plan.hpp"
+#include "cmodel/numbers/config.hpp"
 
 namespace fastsplat::cmodel::fast {
 

@@ -10,17 +10,17 @@
 #include <vector>
 
 #include "cmodel/composite/compositor.hpp"
-#include "cmodel/numbers/counters.hpp"
+#include "cmodel/composite/pixel_out.hpp"
 #include "cmodel/cull/cull_sets.hpp"
 #include "cmodel/cull/cull_unit.hpp"
-#include "cmodel/stream/device.hpp"
-#include "cmodel/splat/ellipse_unit.hpp"
 #include "cmodel/fast/frame_tables.hpp"
 #include "cmodel/fast/row_kernel.hpp"
 #include "cmodel/fast/sheet.hpp"
-#include "cmodel/composite/pixel_out.hpp"
-#include "cmodel/stream/record_sink.hpp"
+#include "cmodel/numbers/counters.hpp"
+#include "cmodel/splat/ellipse_unit.hpp"
 #include "cmodel/splat/snap.hpp"
+#include "cmodel/stream/device.hpp"
+#include "cmodel/stream/record_sink.hpp"
 
 namespace fastsplat::cmodel::fast {
 

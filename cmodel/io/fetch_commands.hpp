@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "cmodel/stream/beat.hpp"
 #include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/beat.hpp"
 
 namespace fastsplat::cmodel {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "cmodel/numbers/config.hpp"
 #include "cmodel/io/register_map.hpp"
+#include "cmodel/numbers/config.hpp"
 
 namespace fastsplat::cmodel {
 

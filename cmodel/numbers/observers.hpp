@@ -1,5 +1,5 @@
-// Who watches the narrowing sites (cmodel/numbers/sites.hpp): nobody, the device's counters, ranges of values, or two at once.
-// An observer is any type that can be called with (Site, const Narrowing&, value, const Narrowed&).
+// Who watches the narrowing sites (cmodel/numbers/sites.hpp): nobody, the device's counters, ranges of values, or two
+// at once. An observer is any type that can be called with (Site, const Narrowing&, value, const Narrowed&).
 #pragma once
 
 #include <algorithm>

@@ -6,13 +6,13 @@
 
 #include "base/hash_text.hpp"
 #include "cmodel/classify/classify_tables.hpp"
-#include "cmodel/numbers/counters.hpp"
 #include "cmodel/cull/cull_sets.hpp"
 #include "cmodel/cycles/cycle_stages.hpp"
+#include "cmodel/decode/stream_decode.hpp"
 #include "cmodel/io/register_fields.hpp"
+#include "cmodel/numbers/counters.hpp"
 #include "cmodel/numbers/sites.hpp"
 #include "cmodel/numbers/stall_counters.hpp"
-#include "cmodel/decode/stream_decode.hpp"
 #include "cmodel/stream/stream_layout.hpp"
 #include "cmodel/stream/stream_rules.hpp"
 

@@ -8,8 +8,8 @@
 #include <span>
 
 #include "cmodel/numbers/config.hpp"
-#include "cmodel/splat/footprint.hpp"
 #include "cmodel/numbers/narrow.hpp"
+#include "cmodel/splat/footprint.hpp"
 #include "cmodel/stream/records.hpp"
 
 namespace fastsplat::cmodel {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "cmodel/splat/footprint.hpp"
 #include "cmodel/numbers/integer_sqrt.hpp"
+#include "cmodel/splat/footprint.hpp"
 #include "cmodel/splat/set_places.hpp"
 #include "cmodel/splat/squared_unit.hpp"
 

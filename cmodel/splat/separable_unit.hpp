@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "cmodel/splat/rlut.hpp"
 #include "cmodel/numbers/sites.hpp"
+#include "cmodel/splat/rlut.hpp"
 #include "cmodel/splat/snap.hpp"
 
 namespace fastsplat::cmodel {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "cmodel/numbers/config.hpp"
-#include "cmodel/stream/records.hpp"
-#include "cmodel/splat/snap.hpp"
 #include "cmodel/numbers/window_geometry.hpp"
+#include "cmodel/splat/snap.hpp"
+#include "cmodel/stream/records.hpp"
 
 namespace fastsplat::cmodel {
 

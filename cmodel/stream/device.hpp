@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "cmodel/stream/beat.hpp"
 #include "cmodel/numbers/counters.hpp"
+#include "cmodel/stream/beat.hpp"
 #include "cmodel/stream/taps.hpp"
 
 namespace fastsplat::cmodel {

@@ -13,13 +13,13 @@
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
 #include "base/read_file.hpp"
-#include "cmodel/stream/crc32.hpp"
 #include "cmodel/model.hpp"
+#include "cmodel/stream/crc32.hpp"
 #include "cmodel/stream/stream_advice.hpp"
+#include "driver/files/tile_cover.hpp"
 #include "driver/tiles/compile.hpp"
 #include "driver/tiles/frame_sink.hpp"
 #include "driver/tiles/gaussian_frame.hpp"
-#include "driver/files/tile_cover.hpp"
 
 namespace fastsplat::driver {
 namespace {

@@ -1,7 +1,7 @@
 #include "driver/splats/rounding_carry.hpp"
 
-#include "cmodel/stream/records.hpp"
 #include "cmodel/numbers/sites.hpp"
+#include "cmodel/stream/records.hpp"
 #include "driver/tables/tables.hpp"
 
 namespace fastsplat::driver {

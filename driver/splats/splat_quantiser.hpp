@@ -6,10 +6,10 @@
 
 #include "cmodel/numbers/config.hpp"
 #include "driver/splats/ellipse_shape.hpp"
-#include "driver/tables/quantise.hpp"
-#include "driver/tables/radius_sets.hpp"
 #include "driver/splats/rounding_carry.hpp"
 #include "driver/splats/slices.hpp"
+#include "driver/tables/quantise.hpp"
+#include "driver/tables/radius_sets.hpp"
 #include "scene/real_splat.hpp"
 #include "scene/sheet_plan.hpp"
 #include "scene/splat_shaper.hpp"

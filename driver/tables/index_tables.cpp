@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "cmodel/splat/blit_unit.hpp"
 #include "cmodel/numbers/index_set.hpp"
 #include "cmodel/numbers/window_geometry.hpp"
+#include "cmodel/splat/blit_unit.hpp"
 #include "driver/tables/quantise.hpp"
 #include "driver/tables/radius_sets.hpp"
 #include "driver/tables/tables.hpp"

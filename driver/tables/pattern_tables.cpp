@@ -74,7 +74,7 @@ std::array<Range, 3> seen(const cmodel::Config& config, const scene::Scene& scen
 
 /// Where nodes lie along one axis.
 struct Axis {
-  std::uint32_t first = 0, step = 0;                                         ///< words
+  std::uint32_t first = 0, step = 0;                                           ///< words
   bool between() const { return step != std::uint32_t{1} << pattern::kStep; }  ///< pixels lie between nodes
   double at(int node) const { return first + node / std::ldexp(static_cast<double>(step), -pattern::kStep); }
 };
@@ -168,14 +168,15 @@ std::vector<cmodel::LoadTable> pattern_tables(const cmodel::Config& config, cons
   double steepest = 0.0;
   for (const Node& node : nodes)
     for (int axis = 0; axis < 3; ++axis) steepest = std::max(steepest, std::abs(node.lean[axis]));
-  const auto amount = quantise_to<std::uint32_t>(
-      steepest,
-      {Target::Rounding::Up, Target::Overflow::Saturates, cmodel::unsigned_format(pattern::kAmountInt, pattern::kAmount)});
+  const auto amount =
+      quantise_to<std::uint32_t>(steepest, {Target::Rounding::Up, Target::Overflow::Saturates,
+                                            cmodel::unsigned_format(pattern::kAmountInt, pattern::kAmount)});
   const double unit_lean = amount == 0 ? 0.0 : std::ldexp(1.0 / amount, pattern::kAmount);
 
   cmodel::LoadTable table{.table = Table::Nodes, .radius = {}, .words = {}};
   table.words.reserve(pattern::kNodeWords * nodes.size());
-  const cmodel::Format value = cmodel::unsigned_format(0, pattern::kValue), lean = cmodel::signed_format(1, pattern::kLean);
+  const cmodel::Format value = cmodel::unsigned_format(0, pattern::kValue),
+                       lean = cmodel::signed_format(1, pattern::kLean);
   for (const Node& node : nodes) {
     const auto half = [&](int axis) { return near_word(node.lean[axis] * unit_lean, lean) & 0xFFFFU; };
     table.words.push_back(near_word(node.value, value) | half(0) << 16);

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "base/progress.hpp"
-#include "cmodel/stream/beat.hpp"
-#include "cmodel/numbers/config.hpp"
-#include "cmodel/stream/device.hpp"
 #include "cmodel/fast/tile_unit.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/beat.hpp"
+#include "cmodel/stream/device.hpp"
 #include "cmodel/stream/record_sink.hpp"
 #include "driver/tiles/render.hpp"
 #include "driver/tiles/tile_bins.hpp"

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "cmodel/cull/cull_unit.hpp"
-#include "cmodel/stream/record_sink.hpp"
-#include "cmodel/splat/snap.hpp"
 #include "cmodel/numbers/window_geometry.hpp"
-#include "driver/tiles/compile.hpp"
+#include "cmodel/splat/snap.hpp"
+#include "cmodel/stream/record_sink.hpp"
 #include "driver/splats/projection.hpp"
 #include "driver/splats/slices.hpp"
+#include "driver/tiles/compile.hpp"
 #include "driver/tiles/tile_bins.hpp"
 #include "scene/sheet_plan.hpp"
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/progress.hpp"
-#include "cmodel/numbers/config.hpp"
-#include "cmodel/numbers/counters.hpp"
 #include "cmodel/cull/cull_log.hpp"
 #include "cmodel/cycles/cycle_account.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "cmodel/numbers/counters.hpp"
 #include "scene/scene.hpp"
 
 namespace fastsplat::driver {

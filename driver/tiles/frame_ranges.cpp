@@ -3,8 +3,8 @@
 #include <mutex>
 
 #include "base/parallel/parallel.hpp"
-#include "cmodel/stream/device.hpp"
 #include "cmodel/model.hpp"
+#include "cmodel/stream/device.hpp"
 #include "driver/tiles/compile.hpp"
 
 namespace fastsplat::driver {

@@ -9,12 +9,12 @@
 #include "base/parallel/parallel.hpp"
 #include "cmodel/fast/tile_unit.hpp"
 #include "cmodel/model.hpp"
-#include "driver/tiles/beat_writer.hpp"
 #include "driver/splats/ellipse_shape.hpp"
-#include "driver/tiles/frame_sink.hpp"
-#include "driver/tiles/gaussian_windows.hpp"
 #include "driver/tables/quantise.hpp"
 #include "driver/tables/tables.hpp"
+#include "driver/tiles/beat_writer.hpp"
+#include "driver/tiles/frame_sink.hpp"
+#include "driver/tiles/gaussian_windows.hpp"
 
 namespace fastsplat::driver {
 namespace {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/progress.hpp"
-#include "cmodel/stream/beat.hpp"
 #include "cmodel/numbers/config.hpp"
 #include "cmodel/numbers/counters.hpp"
+#include "cmodel/stream/beat.hpp"
 #include "cmodel/stream/device.hpp"
 #include "cmodel/stream/frame.hpp"
 #include "cmodel/stream/record_sink.hpp"

@@ -12,11 +12,11 @@
 #include "base/parallel/parallel.hpp"
 #include "cmodel/fast/tile_unit.hpp"
 #include "cmodel/model.hpp"
-#include "driver/tiles/compile.hpp"
-#include "driver/tables/density_tables.hpp"
-#include "driver/tiles/frame_sink.hpp"
-#include "driver/tables/pattern_tables.hpp"
 #include "driver/splats/splat_quantiser.hpp"
+#include "driver/tables/density_tables.hpp"
+#include "driver/tables/pattern_tables.hpp"
+#include "driver/tiles/compile.hpp"
+#include "driver/tiles/frame_sink.hpp"
 
 namespace fastsplat::driver {
 

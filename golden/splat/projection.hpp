@@ -2,10 +2,10 @@
 #pragma once
 
 #include "golden/splat/projected_splat.hpp"
-#include "scene/textured_splats.hpp"
 #include "scene/scene.hpp"
 #include "scene/splat_shaper.hpp"
 #include "scene/splats.hpp"
+#include "scene/textured_splats.hpp"
 
 namespace fastsplat::golden {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "report/formats/face.hpp"
 #include "report/figures.hpp"
+#include "report/formats/face.hpp"
 
 namespace fastsplat::report {
 namespace {

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <map>
 
-#include "report/formats/face.hpp"
 #include "report/figures.hpp"
+#include "report/formats/face.hpp"
 
 namespace fastsplat::report {
 namespace {

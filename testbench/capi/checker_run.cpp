@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "base/hash_text.hpp"
-#include "testbench/capi/handles.hpp"
 #include "cmodel/io/register_fields.hpp"
+#include "testbench/capi/handles.hpp"
 #include "testbench/device/port_bits.hpp"
 
 namespace fastsplat::capi {

@@ -3,12 +3,12 @@
 #include <memory>
 #include <system_error>
 
-#include "testbench/capi/config_handle.hpp"
-#include "testbench/capi/guard.hpp"
-#include "testbench/capi/handles.hpp"
 #include "driver/config/builtin_configs.hpp"
 #include "driver/config/config_file.hpp"
 #include "driver/config/config_text.hpp"
+#include "testbench/capi/config_handle.hpp"
+#include "testbench/capi/guard.hpp"
+#include "testbench/capi/handles.hpp"
 
 namespace fastsplat::capi {
 namespace {

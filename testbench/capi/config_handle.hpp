@@ -1,8 +1,8 @@
 // What a configuration's handle holds.
 #pragma once
 
-#include "testbench/capi/fastsplat.h"
 #include "cmodel/numbers/config.hpp"
+#include "testbench/capi/fastsplat.h"
 
 struct fastsplat_config {
   fastsplat::cmodel::Config config;

@@ -1,11 +1,11 @@
 #include <vector>
 
 #include "base/hash_text.hpp"
+#include "driver/config/config_file.hpp"
 #include "testbench/capi/config_handle.hpp"
 #include "testbench/capi/fastsplat_dpi.h"
 #include "testbench/capi/guard.hpp"
 #include "testbench/capi/handles.hpp"
-#include "driver/config/config_file.hpp"
 
 namespace fastsplat::capi {
 namespace {

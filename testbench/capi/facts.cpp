@@ -1,10 +1,10 @@
 // What the library says of itself: versions, and the counters' names.
 #include "base/version.hpp"
+#include "cmodel/numbers/counters.hpp"
+#include "cmodel/numbers/stall_counters.hpp"
 #include "testbench/capi/fastsplat.h"
 #include "testbench/capi/guard.hpp"
 #include "testbench/capi/handles.hpp"
-#include "cmodel/numbers/counters.hpp"
-#include "cmodel/numbers/stall_counters.hpp"
 
 namespace fastsplat::capi {
 namespace {

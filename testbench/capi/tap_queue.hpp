@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "testbench/capi/fastsplat.h"
 #include "cmodel/stream/taps.hpp"
+#include "testbench/capi/fastsplat.h"
 
 namespace fastsplat::capi {
 

@@ -46,7 +46,8 @@ void Checker::start(std::uint64_t first_beat) {
 void Checker::on_raw(const RawTap& tap) {
   if (tap.port == RawPort::Verdict) return check_verdict(tap);
   if (tap.cut)
-    differ(Detector::Tiles, "the pixel beat of cycle " + std::to_string(tap.cycle) + " is marked as of a tile cut short");
+    differ(Detector::Tiles,
+           "the pixel beat of cycle " + std::to_string(tap.cycle) + " is marked as of a tile cut short");
   assembly_.on_raw(tap);
 }
 

@@ -7,8 +7,8 @@
 
 #include "cmodel/composite/composite_lane.hpp"
 #include "cmodel/numbers/config.hpp"
-#include "cmodel/stream/records.hpp"
 #include "cmodel/numbers/sites.hpp"
+#include "cmodel/stream/records.hpp"
 #include "cmodel/stream/taps.hpp"
 #include "testbench/coverage/coverage.hpp"
 #include "testbench/coverage/coverage_splat.hpp"

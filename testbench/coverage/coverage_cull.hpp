@@ -5,9 +5,9 @@
 
 #include <cstdint>
 
-#include "cmodel/numbers/config.hpp"
 #include "cmodel/cull/cull_log.hpp"
 #include "cmodel/cycles/cycle_account.hpp"
+#include "cmodel/numbers/config.hpp"
 #include "cmodel/stream/records.hpp"
 #include "testbench/coverage/coverage.hpp"
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "cmodel/numbers/config.hpp"
-#include "cmodel/stream/records.hpp"
+#include "cmodel/numbers/sites.hpp"
 #include "cmodel/splat/rlut.hpp"
 #include "cmodel/splat/sheet_buffer.hpp"
-#include "cmodel/numbers/sites.hpp"
+#include "cmodel/stream/records.hpp"
 #include "cmodel/stream/taps.hpp"
 #include "testbench/coverage/coverage.hpp"
 #include "testbench/coverage/coverage_ellipse.hpp"

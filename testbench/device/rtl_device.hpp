@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "cmodel/numbers/config.hpp"
-#include "cmodel/stream/device.hpp"
 #include "cmodel/numbers/stall_counters.hpp"
+#include "cmodel/stream/device.hpp"
 #include "testbench/device/pattern.hpp"
 #include "testbench/device/raw_taps.hpp"
 #include "testbench/device/reset_fill.hpp"

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "cmodel/model.hpp"
 #include "cmodel/io/register_fields.hpp"
+#include "cmodel/model.hpp"
 #include "cmodel/stream/stream_layout.hpp"
 #include "testbench/check/verify.hpp"
 #include "testbench/stimulus/directed_stream.hpp"

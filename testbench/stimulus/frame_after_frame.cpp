@@ -15,7 +15,7 @@ namespace {
 using namespace cmodel;
 
 constexpr const char* kFrameAfterFrameBins[] = {"tables_that_look_like_records", "frames_behind_each_other",
-                                 "soft_reset_behind_a_reset"};
+                                                "soft_reset_behind_a_reset"};
 
 constexpr std::uint64_t kFrames = 12, kSplats = 60;
 /// Reads, of two cycles, after which a sheet of some blocks is copied, or walked and through the pixel stage.
@@ -67,7 +67,9 @@ void frames_that_look_like_records(const Config& config, Frames& frames, Check& 
     const std::string what = "frame " + std::to_string(seed) + " whose tables look like records";
     // Of a device whose words are too small for an opcode it is any other frame.
     const auto bin = [&](StreamDocument& document, bool others) {
-      return look_like_records(config, random, document, first, others) > 0 ? check.bin("refusal", kFrameAfterFrameBins[0]) : other;
+      return look_like_records(config, random, document, first, others) > 0
+                 ? check.bin("refusal", kFrameAfterFrameBins[0])
+                 : other;
     };
     StreamDocument document = make_stimulus(config, StimulusClass::Mixed, 1000 + seed, kSplats).document;
     const auto mixed = bin(document, true);

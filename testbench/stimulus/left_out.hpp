@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "cmodel/stream/beat.hpp"
 #include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/beat.hpp"
 
 namespace fastsplat::testbench {
 

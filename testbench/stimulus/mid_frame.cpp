@@ -4,17 +4,18 @@
 #include <set>
 
 #include "cmodel/cycles/cycle_stages.hpp"
-#include "cmodel/stream/records.hpp"
 #include "cmodel/io/register_fields.hpp"
+#include "cmodel/stream/records.hpp"
 
 namespace fastsplat::testbench {
 namespace {
 
 using namespace cmodel;
 
-constexpr const char* kMidFrameBins[] = {"register_writes_in_a_frame_are_refused",   "busy_while_a_beat_is_judged",
-                                 "error_beat_after_a_hard_reset_in_a_frame", "error_beat_after_a_soft_reset_in_a_frame",
-                                 "no_interrupt_before_the_last_pixels",      "no_interrupt_after_a_short_reset"};
+constexpr const char* kMidFrameBins[] = {
+    "register_writes_in_a_frame_are_refused",   "busy_while_a_beat_is_judged",
+    "error_beat_after_a_hard_reset_in_a_frame", "error_beat_after_a_soft_reset_in_a_frame",
+    "no_interrupt_before_the_last_pixels",      "no_interrupt_after_a_short_reset"};
 /// Reads after which a device that has nothing to do is at rest.
 constexpr int kReads = 24;
 /// More than a slow sink needs for a tile.

@@ -5,9 +5,9 @@
 
 #include "cmodel/cull/cull_sets.hpp"
 #include "cmodel/cull/cull_table.hpp"
+#include "cmodel/numbers/window_geometry.hpp"
 #include "cmodel/splat/ellipse_unit.hpp"
 #include "cmodel/splat/snap.hpp"
-#include "cmodel/numbers/window_geometry.hpp"
 
 namespace fastsplat::testbench {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "cmodel/stream/crc32.hpp"
 #include "cmodel/decode/stream_decode.hpp"
+#include "cmodel/stream/crc32.hpp"
 
 namespace fastsplat::testbench {
 

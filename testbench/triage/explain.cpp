@@ -3,13 +3,13 @@
 #include <algorithm>
 
 #include "cmodel/composite/compositor.hpp"
+#include "cmodel/decode/stream_decode.hpp"
+#include "cmodel/numbers/observers.hpp"
 #include "cmodel/splat/ellipse_unit.hpp"
 #include "cmodel/splat/footprint.hpp"
-#include "cmodel/numbers/observers.hpp"
 #include "cmodel/splat/rlut.hpp"
 #include "cmodel/splat/sheet_buffer.hpp"
 #include "cmodel/splat/snap.hpp"
-#include "cmodel/decode/stream_decode.hpp"
 #include "testbench/device/words.hpp"
 
 namespace fastsplat::testbench {

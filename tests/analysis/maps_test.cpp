@@ -8,8 +8,8 @@
 #include "analysis/bitmap_font.hpp"
 #include "analysis/colour_map.hpp"
 #include "analysis/compare.hpp"
-#include "base/srgb.hpp"
 #include "base/images/image_file.hpp"
+#include "base/srgb.hpp"
 #include "tests/images/image_helper.hpp"
 
 namespace fastsplat::analysis {

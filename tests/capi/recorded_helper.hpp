@@ -1,4 +1,5 @@
-// One recorded stream of a small scene for a configuration and its vectors, made once by the program for all tests of a run.
+// One recorded stream of a small scene for a configuration and its vectors, made once by the program for all tests of a
+// run.
 #pragma once
 
 #include <string>
@@ -13,8 +14,8 @@ struct Recorded {
   std::string stream, vectors;  ///< scene.fss and the folder
 };
 const Recorded& recorded();             ///< of tiny
-const Recorded& recorded_that_culls();  ///< of configs/faults/cull.toml: sets that the device tells to be hidden, beats whose
-                                        ///< last pixel lies outside
+const Recorded& recorded_that_culls();  ///< of configs/faults/cull.toml: sets that the device tells to be hidden, beats
+                                        ///< whose last pixel lies outside
 inline const char* const kCulling = FASTSPLAT_SOURCE_DIR "/configs/faults/cull.toml";
 
 /// A Python that has `module`; empty for none.

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "testbench/capi/fastsplat.h"
 #include "cmodel/numbers/config.hpp"
+#include "testbench/capi/fastsplat.h"
 #include "tests/check/raw_replay_helper.hpp"
 
 namespace fastsplat::test {

@@ -4,8 +4,8 @@
 #include <deque>
 
 #include "cmodel/cycles/cycle_stages.hpp"
-#include "cmodel/model.hpp"
 #include "cmodel/decode/stream_decode.hpp"
+#include "cmodel/model.hpp"
 
 namespace fastsplat::test {
 namespace {

@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "base/hash_text.hpp"
+#include "base/images/image_file.hpp"
 #include "cli/command_line.hpp"
 #include "driver/config/config_file.hpp"
-#include "base/images/image_file.hpp"
 #include "tests/cli/process_helper.hpp"
 
 namespace fastsplat::cli {

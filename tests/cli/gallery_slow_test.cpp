@@ -135,7 +135,8 @@ TEST(GalleryMustFail, AManifestWithAMistakeIsToldWhere) {
     EXPECT_NE(result.err.find(bad.said), std::string::npos) << result.err;
   }
   folder.write("docs/gallery.toml", good);
-  EXPECT_NE(run_words({kRoot / "tools/helpers/gallery_page", "--markdown", folder.path()}).out.find("base/images/gallery/c.png"),
+  EXPECT_NE(run_words({kRoot / "tools/helpers/gallery_page", "--markdown", folder.path()})
+                .out.find("base/images/gallery/c.png"),
             std::string::npos);
 }
 

@@ -3,9 +3,9 @@
 
 #include <map>
 
+#include "base/images/image_file.hpp"
 #include "cli/command_line.hpp"
 #include "cli/render_arguments.hpp"
-#include "base/images/image_file.hpp"
 #include "tests/cli/process_helper.hpp"
 
 namespace fastsplat::cli {

@@ -7,8 +7,8 @@
 
 #include "base/error.hpp"
 #include "cmodel/model.hpp"
-#include "cmodel/stream/stream_rules.hpp"
 #include "cmodel/rtl_package/sv_package.hpp"
+#include "cmodel/stream/stream_rules.hpp"
 #include "tests/cmodel/campaign_helper.hpp"
 #include "tests/cmodel/random_stream_helper.hpp"
 #include "tests/cmodel/stream_writer_helper.hpp"

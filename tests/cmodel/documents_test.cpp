@@ -9,11 +9,11 @@
 #include <regex>
 #include <sstream>
 
-#include "cmodel/numbers/counters.hpp"
 #include "cmodel/io/register_fields.hpp"
+#include "cmodel/numbers/counters.hpp"
+#include "cmodel/rtl_package/sv_package.hpp"
 #include "cmodel/stream/stream_layout.hpp"
 #include "cmodel/stream/stream_rules.hpp"
-#include "cmodel/rtl_package/sv_package.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/paths.hpp"
 

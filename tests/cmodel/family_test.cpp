@@ -2,11 +2,11 @@
 // a frame without tiles.
 #include <gtest/gtest.h>
 
-#include "cmodel/splat/blit_unit.hpp"
+#include "cmodel/decode/stream_decode.hpp"
 #include "cmodel/numbers/index_set.hpp"
 #include "cmodel/numbers/integer_sqrt.hpp"
+#include "cmodel/splat/blit_unit.hpp"
 #include "cmodel/splat/quadric.hpp"
-#include "cmodel/decode/stream_decode.hpp"
 #include "cmodel/splat/weight_unit.hpp"
 #include "tests/cmodel/campaign_helper.hpp"
 #include "tests/cmodel/random_stream_helper.hpp"

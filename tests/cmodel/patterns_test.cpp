@@ -2,8 +2,8 @@
 // as it is; rules that only such devices have.
 #include <gtest/gtest.h>
 
-#include "cmodel/cycles/cycle_model.hpp"
 #include "cmodel/classify/pattern_unit.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
 #include "cmodel/rtl_package/sv_package.hpp"
 #include "tests/cmodel/campaign_helper.hpp"
 #include "tests/cmodel/configs_helper.hpp"

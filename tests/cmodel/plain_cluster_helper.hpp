@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "cmodel/stream/beat.hpp"
 #include "cmodel/numbers/config.hpp"
 #include "cmodel/numbers/stall_counters.hpp"
+#include "cmodel/stream/beat.hpp"
 #include "cmodel/stream/stream_layout.hpp"
 
 namespace fastsplat::test {

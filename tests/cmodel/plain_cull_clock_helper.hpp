@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "cmodel/stream/beat.hpp"
 #include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/beat.hpp"
 
 namespace fastsplat::test {
 

@@ -15,7 +15,8 @@ struct RandomStream {
   std::uint64_t splats = 0;
 };
 
-/// Of devices that cull: where cull_blocks may stand. Whole: not between the splats of a set, as a fetching source wants.
+/// Of devices that cull: where cull_blocks may stand. Whole: not between the splats of a set, as a fetching source
+/// wants.
 enum class SetOrder { Any, Whole };
 
 /// At least `splats` splat records (a few more: sheets are not cut short); with ellipse.frac_bits about half of them

@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "base/read_file.hpp"
-#include "driver/tiles/compile.hpp"
 #include "driver/config/config_file.hpp"
+#include "driver/tiles/compile.hpp"
 #include "tests/driver/scenes_helper.hpp"
 #include "tests/paths.hpp"
 

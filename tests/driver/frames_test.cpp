@@ -6,8 +6,8 @@
 #include <random>
 
 #include "cmodel/model.hpp"
-#include "driver/tiles/compile.hpp"
 #include "driver/config/config_file.hpp"
+#include "driver/tiles/compile.hpp"
 #include "driver/tiles/frame_sink.hpp"
 #include "driver/tiles/render.hpp"
 #include "tests/driver/scenes_helper.hpp"

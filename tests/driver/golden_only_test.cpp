@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "driver/tiles/compile.hpp"
 #include "driver/config/config_file.hpp"
+#include "driver/tiles/compile.hpp"
 #include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 #include "tests/driver/scenes_helper.hpp"

@@ -7,8 +7,8 @@
 #include "driver/config/config_file.hpp"
 #include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
-#include "tests/driver/scenes_helper.hpp"
 #include "scene/volume/volume_file.hpp"
+#include "tests/driver/scenes_helper.hpp"
 
 namespace fastsplat::driver {
 namespace {

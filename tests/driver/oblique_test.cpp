@@ -6,9 +6,9 @@
 #include "driver/config/config_file.hpp"
 #include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
+#include "scene/volume/volume_file.hpp"
 #include "tests/driver/scenes_helper.hpp"
 #include "tests/volume/volume_testing.hpp"
-#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::driver {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "base/error.hpp"
 #include "cmodel/stream/stream_layout.hpp"
-#include "driver/tiles/compile.hpp"
 #include "driver/config/config_file.hpp"
+#include "driver/tiles/compile.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 
 namespace fastsplat::driver {

@@ -8,9 +8,9 @@
 #include <functional>
 
 #include "cmodel/stream/records.hpp"
-#include "driver/tiles/compile.hpp"
 #include "driver/config/config_file.hpp"
 #include "driver/files/stream_file.hpp"
+#include "driver/tiles/compile.hpp"
 #include "tests/driver/oracle_helper.hpp"
 #include "tests/driver/scenes_helper.hpp"
 

@@ -8,9 +8,9 @@
 
 #include "base/error.hpp"
 #include "cmodel/classify/pattern_unit.hpp"
-#include "driver/tiles/compile.hpp"
 #include "driver/config/config_file.hpp"
 #include "driver/tables/pattern_tables.hpp"
+#include "driver/tiles/compile.hpp"
 #include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 #include "golden/sheet_geometry.hpp"

@@ -12,8 +12,8 @@
 
 #include "base/error.hpp"
 #include "cmodel/model.hpp"
-#include "driver/tiles/compile.hpp"
 #include "driver/config/config_file.hpp"
+#include "driver/tiles/compile.hpp"
 #include "driver/tiles/render.hpp"
 #include "golden/density_splats.hpp"
 #include "golden/render.hpp"

@@ -10,8 +10,8 @@
 #include <sstream>
 
 #include "cmodel/cycles/cycle_model.hpp"
-#include "driver/tiles/compile.hpp"
 #include "driver/config/config_file.hpp"
+#include "driver/tiles/compile.hpp"
 #include "driver/tiles/render.hpp"
 #include "driver/tiles/run_device.hpp"
 #include "scene/scene.hpp"

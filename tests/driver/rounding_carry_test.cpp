@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "driver/tiles/compile.hpp"
 #include "driver/config/config_file.hpp"
 #include "driver/splats/projection.hpp"
+#include "driver/tiles/compile.hpp"
 #include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 #include "scene/sheet_plan.hpp"

@@ -4,13 +4,13 @@
 
 #include <set>
 
-#include "driver/tiles/compile.hpp"
 #include "driver/config/config_file.hpp"
+#include "driver/tiles/compile.hpp"
 #include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
+#include "scene/volume/volume_file.hpp"
 #include "tests/driver/scenes_helper.hpp"
 #include "tests/scene/follow_fixes_testing.hpp"
-#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::driver {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
-#include "cmodel/stream/crc32.hpp"
 #include "cmodel/cycles/cycle_model.hpp"
+#include "cmodel/stream/crc32.hpp"
 #include "cmodel/stream/records.hpp"
 #include "driver/config/config_file.hpp"
 #include "tests/driver/scenes_helper.hpp"

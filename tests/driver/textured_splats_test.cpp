@@ -8,10 +8,10 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "driver/tiles/compile.hpp"
 #include "driver/config/config_file.hpp"
 #include "driver/tables/index_tables.hpp"
 #include "driver/tables/radius_sets.hpp"
+#include "driver/tiles/compile.hpp"
 #include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 #include "tests/driver/scenes_helper.hpp"

@@ -9,9 +9,9 @@
 #include "analysis/errors/attribution.hpp"
 #include "analysis/errors/attribution_report.hpp"
 #include "base/error.hpp"
+#include "scene/volume/volume_file.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/pipeline/mixtures_helper.hpp"
-#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::analysis {
 namespace {

@@ -25,8 +25,8 @@ TEST(Synthesised, IsWhatTheEvidenceKeepsOfTheConfiguration) {
     for (const Json& design : kept) {
       if (!design.contains("modules") || design.at("design") != name) continue;
       const std::string family = design.at("family");
-      ASSERT_TRUE(found.contains(family)) << name << ": kept of another configuration; tools/synth " << family << "-"
-                                          << name << " makes it anew";
+      ASSERT_TRUE(found.contains(family))
+          << name << ": kept of another configuration; tools/synth " << family << "-" << name << " makes it anew";
       for (const auto& [cells, count] : design.at("total").items()) {
         EXPECT_EQ(found.at(family).at(cells), count) << name << " " << family << " " << cells;
         ++compared;

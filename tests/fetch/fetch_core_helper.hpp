@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "cmodel/numbers/counters.hpp"
-#include "cmodel/stream/device.hpp"
 #include "cmodel/numbers/stall_counters.hpp"
+#include "cmodel/stream/device.hpp"
 #include "tests/fetch/fetch_bench_helper.hpp"
 
 namespace fastsplat::test {

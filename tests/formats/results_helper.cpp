@@ -89,8 +89,8 @@ Result result_from(const std::string& file, const std::string& text) {
 
 std::vector<Result> all_kinds() {
   std::vector<Result> results;
-  for (const char* text : {kCompare, kCycles, kErrors, kBound, kPropose, kRanges, kFamily, kPlan, kRender,
-                           kRecord, kReplay, kVerify, kCoverage, kClosure})
+  for (const char* text : {kCompare, kCycles, kErrors, kBound, kPropose, kRanges, kFamily, kPlan, kRender, kRecord,
+                           kReplay, kVerify, kCoverage, kClosure})
     results.push_back(result_from("result-" + std::to_string(results.size()) + ".json", text));
   return results;
 }

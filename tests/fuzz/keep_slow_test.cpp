@@ -47,9 +47,9 @@ class Keep : public ::testing::Test {
   std::pair<std::string, int> run(const std::string& arguments) {
     const fs::path said = folder_ / "said.txt";
     const std::string root = (folder_ / "root").string(), build = (folder_ / "build").string();
-    const int status = std::system(
-        ("'" + root + "/tools/helpers/fuzz_targets' '" + root + "' '" + build + "' " + arguments + " >'" + said.string() + "' 2>&1")
-            .c_str());
+    const int status = std::system(("'" + root + "/tools/helpers/fuzz_targets' '" + root + "' '" + build + "' " +
+                                    arguments + " >'" + said.string() + "' 2>&1")
+                                       .c_str());
     std::ifstream file(said);
     return {std::string(std::istreambuf_iterator<char>(file), {}), WEXITSTATUS(status)};
   }

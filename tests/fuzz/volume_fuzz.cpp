@@ -1,6 +1,6 @@
 // Volumes of every format: read, or refused; what was read has the voxels that it says.
-#include "tests/fuzz/fuzz.hpp"
 #include "scene/volume/volume_file.hpp"
+#include "tests/fuzz/fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace fastsplat;

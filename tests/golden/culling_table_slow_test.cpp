@@ -8,8 +8,8 @@
 
 #include "base/error.hpp"
 #include "golden/render.hpp"
-#include "scenes_helper.hpp"
 #include "scene/volume/volume_file.hpp"
+#include "scenes_helper.hpp"
 
 namespace fastsplat::golden::testing {
 namespace {

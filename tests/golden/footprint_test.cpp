@@ -92,7 +92,8 @@ TEST(Footprint, EllipseIsItsCanonicalForm) {
     const double x = uniform(0, kSide), y = uniform(0, kSide), angle = uniform(0, std::numbers::pi);
     const double along = std::exp2(uniform(0, 7)), across = std::exp2(uniform(-1, 5));  // pixels^2 per unit^2
     const double c = std::cos(angle), s = std::sin(angle);
-    const scene::ScreenShape shape{along * c * c + across * s * s, (along - across) * c * s, along * s * s + across * c * c};
+    const scene::ScreenShape shape{along * c * c + across * s * s, (along - across) * c * s,
+                                   along * s * s + across * c * c};
     const double a = shape.yy / shape.determinant(), b = -2 * shape.xy / shape.determinant(),
                  d = shape.xx / shape.determinant();
     Image image(kSide, kSide, 1);

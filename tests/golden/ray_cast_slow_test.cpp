@@ -4,8 +4,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "scenes_helper.hpp"
 #include "scene/volume/synthetic.hpp"
+#include "scenes_helper.hpp"
 
 namespace fastsplat::golden::testing {
 namespace {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "cmodel/stream/beat.hpp"
 #include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/beat.hpp"
 #include "testbench/device/pattern.hpp"
 
 namespace fastsplat::test {

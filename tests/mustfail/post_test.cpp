@@ -1,5 +1,6 @@
-// The device whose weights lie between entries of its radial table, and that classifies densities by pixel, whole and with its assertions on: every event in the
-// cycle model's cycle, every word the model's. The device is that of the must-fail suite with no fault selected.
+// The device whose weights lie between entries of its radial table, and that classifies densities by pixel, whole and
+// with its assertions on: every event in the cycle model's cycle, every word the model's. The device is that of the
+// must-fail suite with no fault selected.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -52,9 +53,10 @@ TEST(PostClassified, RandomStreamsOfEveryClass) {
     options.verify.input = input;
     const auto result = testbench::run_campaign(options);
     EXPECT_FALSE(result.failed) << input << ": stream " << *result.failed;
-    std::printf("[figure] post-classified, input %s: comparisons = %llu (limit > 100000), mismatches = %llu (limit 0)\n",
-                input, static_cast<unsigned long long>(result.total.check.comparisons),
-                static_cast<unsigned long long>(result.total.check.mismatches));
+    std::printf(
+        "[figure] post-classified, input %s: comparisons = %llu (limit > 100000), mismatches = %llu (limit 0)\n", input,
+        static_cast<unsigned long long>(result.total.check.comparisons),
+        static_cast<unsigned long long>(result.total.check.mismatches));
     EXPECT_GT(result.total.check.comparisons, 100000U);
     EXPECT_EQ(result.total.check.mismatches, 0U);
   }
@@ -85,10 +87,11 @@ TEST(PostClassified, FramesEqualTheModel) {
     options.input = "burst-16";
     options.device = whole();
     const auto result = testbench::verify(testbench::source_of(beats), options);
-    std::printf("[figure] densities%s: comparisons = %llu (limit > 100000), mismatches = %llu (limit 0), dirty blocks = %llu\n",
-                perspective ? ", perspective" : "", static_cast<unsigned long long>(result.check.comparisons),
-                static_cast<unsigned long long>(result.check.mismatches),
-                static_cast<unsigned long long>(result.counters.dirty_blocks));
+    std::printf(
+        "[figure] densities%s: comparisons = %llu (limit > 100000), mismatches = %llu (limit 0), dirty blocks = %llu\n",
+        perspective ? ", perspective" : "", static_cast<unsigned long long>(result.check.comparisons),
+        static_cast<unsigned long long>(result.check.mismatches),
+        static_cast<unsigned long long>(result.counters.dirty_blocks));
     EXPECT_EQ(result.verdict, testbench::Verdict::Pass) << result.error;
     EXPECT_GT(result.check.comparisons, 100000U);
   }
@@ -99,8 +102,9 @@ TEST(PostClassified, RefusesWhatTheModelRefuses) {
   const auto result = testbench::check_refusals(post(), whole());
   testbench::expect_all(result);
   const int refused = testbench::refused_streams(result);
-  std::printf("[figure] post-classified: streams that break a rule, refused as the model refuses them = %d (limit >= 250)\n",
-              refused);
+  std::printf(
+      "[figure] post-classified: streams that break a rule, refused as the model refuses them = %d (limit >= 250)\n",
+      refused);
   EXPECT_GE(refused, 250);
 }
 
@@ -109,8 +113,9 @@ TEST(PostClassified, DamagedStreamsMeetTheModelsVerdict) {
   const auto result = testbench::check_damage(post(), whole(), 2, kStreams);
   testbench::expect_all(result);
   const int refused = testbench::refused_streams(result);
-  std::printf("[figure] post-classified: damaged streams = %d, refused as the model refuses them = %d, comparisons = %llu\n",
-              kStreams, refused, static_cast<unsigned long long>(result.comparisons));
+  std::printf(
+      "[figure] post-classified: damaged streams = %d, refused as the model refuses them = %d, comparisons = %llu\n",
+      kStreams, refused, static_cast<unsigned long long>(result.comparisons));
   EXPECT_GT(refused, kStreams / 2);
   EXPECT_LT(refused, kStreams);
 }

@@ -57,8 +57,7 @@ TEST(Release, TheSimulatorsHoldNoFault) {
 
 TEST(Release, NothingButTheMustFailBuildNamesTheMacro) {
   int files = 0;
-  for (const char* folder :
-       {"base", "cmodel", "driver", "testbench", "analysis", "cli", "rtl", "tools"}) {
+  for (const char* folder : {"base", "cmodel", "driver", "testbench", "analysis", "cli", "rtl", "tools"}) {
     for (const auto& path : files_below(kSource / folder, {".cpp", ".hpp", ".txt", ".cmake", ".sh", ".sv", ".svh"})) {
       ++files;
       if (path.filename() == "fault.svh" || path == kSource / "testbench/module/build.sh") continue;

@@ -1,4 +1,5 @@
-// check_mutants_density_lane CONFIG.toml: the pixel stage's lane by itself, whose last bits whole streams are too short for.
+// check_mutants_density_lane CONFIG.toml: the pixel stage's lane by itself, whose last bits whole streams are too short
+// for.
 #include "Vfs_mutants_density_lane.h"
 #include "driver/config/config_file.hpp"
 #include "tests/classify/lane_bench_helper.hpp"

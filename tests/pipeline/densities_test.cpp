@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "analysis/pipeline/chain.hpp"
 #include "driver/tiles/compile.hpp"
 #include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
-#include "analysis/pipeline/chain.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/pipeline/mixtures_helper.hpp"
 

@@ -9,8 +9,8 @@
 #include <cstdio>
 
 #include "cmodel/classify/classify_unit.hpp"
-#include "driver/tiles/compile.hpp"
 #include "driver/tables/density_tables.hpp"
+#include "driver/tiles/compile.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/pipeline/mixtures_helper.hpp"
 

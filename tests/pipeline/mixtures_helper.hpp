@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "analysis/pipeline/step.hpp"
 #include "cmodel/numbers/config.hpp"
 #include "scene/scene.hpp"
-#include "analysis/pipeline/step.hpp"
 #include "tests/cmodel/random_helper.hpp"
 
 namespace fastsplat::stages::test {

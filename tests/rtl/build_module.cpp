@@ -1,4 +1,5 @@
-// build_rtl_module FOLDER CONFIG [wave] [faults]: builds a configuration's module of RTL into FOLDER, unless it is there.
+// build_rtl_module FOLDER CONFIG [wave] [faults]: builds a configuration's module of RTL into FOLDER, unless it is
+// there.
 #include <cstdio>
 #include <string>
 

@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "scene/scene.hpp"
-#include "tests/scene/scene_testing.hpp"
 #include "scene/volume/volume_file.hpp"
+#include "tests/scene/scene_testing.hpp"
 
 namespace fastsplat::scene {
 namespace {

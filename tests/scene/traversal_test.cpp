@@ -7,8 +7,8 @@
 
 #include "scene/sheet_plan.hpp"
 #include "scene/splats.hpp"
-#include "tests/scene/scene_testing.hpp"
 #include "scene/volume/synthetic.hpp"
+#include "tests/scene/scene_testing.hpp"
 
 namespace fastsplat::scene {
 namespace {

@@ -8,8 +8,8 @@
 #include <cstdio>
 
 #include "scene/splats.hpp"
-#include "tests/scene/scene_testing.hpp"
 #include "scene/volume/synthetic.hpp"
+#include "tests/scene/scene_testing.hpp"
 
 namespace fastsplat::scene {
 namespace {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <numeric>
 
-#include "base/error.hpp"
-#include "base/shell_word.hpp"
 #include "analysis/sweep/script_engines.hpp"
 #include "analysis/sweep/slurm_script.hpp"
+#include "base/error.hpp"
+#include "base/shell_word.hpp"
 #include "tests/cli/process_helper.hpp"
 
 namespace fastsplat::plan {

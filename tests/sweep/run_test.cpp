@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "base/json_text.hpp"
 #include "analysis/sweep/merged.hpp"
 #include "analysis/sweep/status.hpp"
+#include "base/json_text.hpp"
 #include "tests/sweep/plan_helper.hpp"
 
 namespace fastsplat::plan_test {

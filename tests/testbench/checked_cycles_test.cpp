@@ -5,8 +5,8 @@
 
 #include "driver/config/config_file.hpp"
 #include "testbench/check/verify.hpp"
-#include "testbench/stimulus/stimulus.hpp"
 #include "testbench/device/passing_device.hpp"
+#include "testbench/stimulus/stimulus.hpp"
 
 namespace fastsplat::testbench {
 namespace {

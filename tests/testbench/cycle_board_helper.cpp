@@ -8,8 +8,8 @@
 #include <optional>
 #include <set>
 
-#include "cmodel/model.hpp"
 #include "cmodel/decode/stream_decode.hpp"
+#include "cmodel/model.hpp"
 #include "testbench/device/rtl_device.hpp"
 #include "testbench/device/tap_assembly.hpp"
 

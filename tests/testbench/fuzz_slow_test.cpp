@@ -11,11 +11,11 @@
 #include "driver/config/config_file.hpp"
 #include "driver/files/stream_file.hpp"
 #include "scene/transfer_function.hpp"
+#include "scene/volume/volume_file.hpp"
 #include "testbench/coverage/coverage_book.hpp"
 #include "testbench/stimulus/stimulus.hpp"
 #include "tests/cmodel/random_helper.hpp"
 #include "tests/paths.hpp"
-#include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::testbench {
 namespace {

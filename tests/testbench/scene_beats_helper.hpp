@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "cmodel/stream/beat.hpp"
 #include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/beat.hpp"
 #include "scene/scene.hpp"
 
 namespace fastsplat::test {

@@ -5,9 +5,9 @@
 #include <cstring>
 #include <sstream>
 
-#include "tests/volume/volume_testing.hpp"
 #include "scene/volume/byte_reader.hpp"
 #include "scene/volume/volume_file.hpp"
+#include "tests/volume/volume_testing.hpp"
 
 namespace fastsplat::volume {
 namespace {

@@ -5,8 +5,8 @@
 #include <random>
 #include <sstream>
 
-#include "tests/volume/volume_testing.hpp"
 #include "scene/volume/volume_file.hpp"
+#include "tests/volume/volume_testing.hpp"
 
 namespace fastsplat::volume {
 namespace {

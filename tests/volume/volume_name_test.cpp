@@ -3,8 +3,8 @@
 
 #include <cstdlib>
 
-#include "tests/volume/volume_testing.hpp"
 #include "scene/volume/volume_file.hpp"
+#include "tests/volume/volume_testing.hpp"
 
 namespace fastsplat::volume {
 namespace {

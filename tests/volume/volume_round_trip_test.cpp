@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <limits>
 
-#include "tests/volume/volume_testing.hpp"
 #include "scene/volume/volume_file.hpp"
+#include "tests/volume/volume_testing.hpp"
 
 namespace fastsplat::volume {
 namespace {

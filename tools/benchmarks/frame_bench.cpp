@@ -6,18 +6,18 @@
 #include <filesystem>
 #include <string>
 
-#include "tools/benchmarks/row_units.hpp"
-#include "tools/benchmarks/scenes.hpp"
 #include "driver/config/config_file.hpp"
 #include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 #include "scene/scene.hpp"
+#include "tools/benchmarks/row_units.hpp"
+#include "tools/benchmarks/scenes.hpp"
 
 namespace fastsplat {
 namespace {
 
-using bench::kHead;
 using bench::fast_rows;
+using bench::kHead;
 using bench::plain_rows;
 using bench::scene_of;
 

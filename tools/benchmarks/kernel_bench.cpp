@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "cmodel/splat/snap.hpp"
 #include "tools/benchmarks/rmw_loop.hpp"
 #include "tools/benchmarks/row_units.hpp"
-#include "cmodel/splat/snap.hpp"
 
 namespace fastsplat {
 namespace {

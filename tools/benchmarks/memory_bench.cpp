@@ -4,9 +4,9 @@
 #include <fstream>
 #include <string>
 
-#include "tools/benchmarks/scenes.hpp"
 #include "driver/config/config_file.hpp"
 #include "driver/tiles/render.hpp"
+#include "tools/benchmarks/scenes.hpp"
 
 namespace fastsplat {
 namespace {

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <string>
 
-#include "tools/benchmarks/rows.hpp"
 #include "cmodel/fast/tile_unit.hpp"
 #include "cmodel/model.hpp"
+#include "tools/benchmarks/rows.hpp"
 
 namespace fastsplat::bench {
 

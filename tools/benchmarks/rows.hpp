@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "cmodel/stream/beat.hpp"
 #include "cmodel/numbers/config.hpp"
+#include "cmodel/stream/beat.hpp"
 #include "cmodel/stream/records.hpp"
 #include "driver/config/config_file.hpp"
 #include "driver/tables/tables.hpp"

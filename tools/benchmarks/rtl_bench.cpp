@@ -7,8 +7,8 @@
 #include <ctime>
 
 #include "cmodel/cycles/cycle_model.hpp"
-#include "driver/tiles/compile.hpp"
 #include "driver/config/config_file.hpp"
+#include "driver/tiles/compile.hpp"
 #include "scene/scene.hpp"
 #include "testbench/check/checked_device.hpp"
 #include "testbench/device/rtl_device.hpp"

@@ -6,11 +6,11 @@
 #include <memory>
 #include <string>
 
-#include "tools/benchmarks/scenes.hpp"
 #include "driver/config/config_file.hpp"
 #include "driver/tiles/gaussian_frame.hpp"
 #include "driver/tiles/render.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
+#include "tools/benchmarks/scenes.hpp"
 
 namespace fastsplat {
 namespace {

@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
+#include "analysis/pipeline/step.hpp"
 #include "cmodel/numbers/config.hpp"
 #include "scene/scene.hpp"
-#include "analysis/pipeline/step.hpp"
 
 namespace fastsplat::stages::oracle {
 

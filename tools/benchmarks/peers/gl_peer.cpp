@@ -6,14 +6,14 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/compile.hpp"
+#include "driver/tiles/render.hpp"
+#include "golden/render.hpp"
 #include "tools/benchmarks/peers/gl_splatter.hpp"
 #include "tools/benchmarks/peers/peer_main.hpp"
 #include "tools/benchmarks/peers/same_picture.hpp"
 #include "tools/benchmarks/scenes.hpp"
-#include "driver/tiles/compile.hpp"
-#include "driver/config/config_file.hpp"
-#include "driver/tiles/render.hpp"
-#include "golden/render.hpp"
 
 namespace fastsplat::bench {
 namespace {

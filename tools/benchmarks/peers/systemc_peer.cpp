@@ -4,10 +4,10 @@
 
 #include <stdexcept>
 
+#include "cmodel/model.hpp"
 #include "tools/benchmarks/peers/peer_main.hpp"
 #include "tools/benchmarks/peers/sc_splatter.hpp"
 #include "tools/benchmarks/row_units.hpp"
-#include "cmodel/model.hpp"
 
 namespace fastsplat::bench {
 namespace {

@@ -10,14 +10,14 @@
 #include <string>
 #include <tuple>
 
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/render.hpp"
+#include "golden/render.hpp"
 #include "tools/benchmarks/peers/filtered_volume.hpp"
 #include "tools/benchmarks/peers/peer_main.hpp"
 #include "tools/benchmarks/peers/same_picture.hpp"
 #include "tools/benchmarks/peers/vtk_ray_caster.hpp"
 #include "tools/benchmarks/scenes.hpp"
-#include "driver/config/config_file.hpp"
-#include "driver/tiles/render.hpp"
-#include "golden/render.hpp"
 
 namespace fastsplat::bench {
 namespace {

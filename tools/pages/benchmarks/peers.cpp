@@ -131,7 +131,8 @@ int main(int count, char** arguments) try {
   const Results results = read_results(files);
   const Line* gl = results.line("picture/gl16/golden");
   std::cout << "<!-- Made by tools/peers; the words are in tools/pages/benchmarks/peers_preface.md. -->\n"
-            << std::ifstream(FASTSPLAT_SOURCE_DIR "/tools/pages/benchmarks/peers_preface.md").rdbuf() << "\n## Measured\n\n"
+            << std::ifstream(FASTSPLAT_SOURCE_DIR "/tools/pages/benchmarks/peers_preface.md").rdbuf()
+            << "\n## Measured\n\n"
             << fmt::format("{}; {}{}{}; {} repetitions, interleaved at random.\n\n", results.machine,
                            FASTSPLAT_COMPILER, gl == nullptr ? "" : "; OpenGL: ", gl == nullptr ? "" : gl->label,
                            results.repetitions());

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/progress.hpp"
-#include "cmodel/fast/tile_unit.hpp"
+#include "cmodel/fast/band_walk.hpp"
 #include "cmodel/numbers/config.hpp"
 #include "cmodel/stream/beat.hpp"
 #include "cmodel/stream/device.hpp"
@@ -36,12 +36,6 @@ scene::Offers offers(const cmodel::Config& config);
 /// What one tile's records add to the report.
 struct TileReport {
   std::uint64_t splat_records = 0, saturated_records = 0, sheets = 0;
-};
-
-/// What one band's splats add to its tile's.
-struct BandReport {
-  std::uint64_t splat_records = 0, saturated_records = 0;
-  std::vector<std::uint8_t> sheets;  ///< of all the frame's: 1 with a record, else 0
 };
 
 using Hides = std::function<bool(const cmodel::CullBlock& set)>;
@@ -71,7 +65,7 @@ class CompiledFrame {
   /// The same of a band of the tile, into the fast unit, which then has its words and counters: no records, and what a
   /// splat's place in the band says is worked out once, not once a sheet.
   template <class Word>
-  BandReport draw_band(int tile, int band, cmodel::fast::TileUnit<Word>& unit) const;
+  cmodel::fast::BandReport draw_band(int tile, int band, cmodel::fast::TileUnit<Word>& unit) const;
   /// Preamble and all tiles in order: a subset stream, without end_frame. Progress counts tiles.
   DriverReport emit(const cmodel::BeatSink& sink, const Progress& progress = {}) const;
   /// Voxels and tiles; what the tiles hold is in what emit() returns, or added to it by those who emit them singly.

@@ -52,7 +52,7 @@ TileResult draw_plain(const CompiledFrame& compiled, int tile, cmodel::PixelSink
 /// The same of one band, and whether it can be believed.
 struct BandResult {
   cmodel::Counters counters;
-  BandReport report;
+  cmodel::fast::BandReport report;
   std::uint64_t hidden_splats = 0;
   bool sound = true;
 };
@@ -61,7 +61,7 @@ template <class Word>
 BandResult draw_fast(const CompiledFrame& compiled, const cmodel::fast::FrameTables& tables, int tile, int band,
                      cmodel::PixelSink& pixels) {
   cmodel::fast::TileUnit<Word> unit(tables, pixels);
-  BandReport report = compiled.draw_band(tile, band, unit);
+  cmodel::fast::BandReport report = compiled.draw_band(tile, band, unit);
   return {unit.counters(), std::move(report), unit.hidden_splats(), unit.sound()};
 }
 

@@ -172,30 +172,16 @@ Projected project(const scene::Scene& scene, const cmodel::Config& config, const
   const scene::Traversal traversal(
       scene, holds_densities(scene.description) ? scene::SplatKind::Densities : scene::SplatKind::Colours);
   out.carried = quantised.carries();
-  const bool shaped = draws_ellipses(scene, config);
 
   std::vector<Piece> pieces = pieces_of(traversal, out.carried);
   parallel_for(pieces.size(), threads, [&](std::size_t number) {
     Piece& piece = pieces[number];
-    if (shaped) {
-      std::optional<RoundingCarry> carry =
-          out.carried ? std::optional(quantised.carry(piece.part.first_row, piece.part.end_row, traversal.columns()))
-                      : std::nullopt;
-      traversal.visit(piece.part, [&](std::span<const scene::Splat> row, std::span<const std::uint32_t> lines) {
-        for (std::size_t i = 0; i < row.size(); ++i)
-          piece.add(quantised.shaped(row[i], lines[i], carry ? &*carry : nullptr), row[i].sheet);
-      });
-    } else if (out.carried) {
-      RoundingCarry carry = quantised.carry(piece.part.first_row, piece.part.end_row, traversal.columns());
-      traversal.visit(piece.part, [&](std::span<const scene::Splat> row, std::span<const std::uint32_t> lines) {
-        for (std::size_t i = 0; i < row.size(); ++i)
-          piece.add(quantised(scene::real_splat(scene, row[i]), lines[i], carry), row[i].sheet);
-      });
-    } else {
-      traversal.visit(piece.part, [&](std::span<const scene::Splat> row, std::span<const std::uint32_t>) {
-        for (const scene::Splat& splat : row) piece.add(quantised(scene::real_splat(scene, splat)), splat.sheet);
-      });
-    }
+    std::optional<RoundingCarry> carry;
+    if (out.carried) carry.emplace(quantised.carry(piece.part.first_row, piece.part.end_row, traversal.columns()));
+    traversal.visit(piece.part, [&](std::span<const scene::Splat> row, std::span<const std::uint32_t> lines) {
+      quantised.row(row, lines, carry ? &*carry : nullptr,
+                    [&piece](const auto& one, int sheet) { piece.add(one, sheet); });
+    });
     piece.end();
   });
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "cmodel/numbers/config.hpp"
 #include "driver/splats/ellipse_shape.hpp"
@@ -70,6 +71,20 @@ class SplatQuantiser {
     bool widened = false;  ///< it was thinner than kThinnest
   };
   Shaped shaped(const scene::Splat& splat, std::uint32_t line, RoundingCarry* carry) const;
+  /// Those of a row of the grid, in order: take(Result, sheet), or take(Shaped, sheet) where splats have shapes of their
+  /// own. `carry`: null unless carries().
+  template <class Take>
+  void row(std::span<const scene::Splat> splats, std::span<const std::uint32_t> lines, RoundingCarry* carry,
+           Take take) const {
+    for (std::size_t i = 0; i < splats.size(); ++i) {
+      if (shaper_)
+        take(shaped(splats[i], lines[i], carry), splats[i].sheet);
+      else if (carry != nullptr)
+        take((*this)(scene::real_splat(scene_, splats[i]), lines[i], *carry), splats[i].sheet);
+      else
+        take((*this)(scene::real_splat(scene_, splats[i])), splats[i].sheet);
+    }
+  }
   /// Whether roundings are carried on: then no splat is lost by being too thin.
   bool carries() const { return carries_; }
   RoundingCarry carry(int first_row, int end_row, int columns) const {

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "cmodel/model.hpp"
 
@@ -157,164 +158,200 @@ std::vector<Item> items_of(const cmodel::Config& config, std::span<const cmodel:
   return out;
 }
 
+/// The device's registers in front of decode, decode, the walks over finished sheets and the cull tables, cycle by
+/// cycle.
+class Clock {
+ public:
+  Clock(const cmodel::Config& config, std::span<const cmodel::Beat> beats, std::optional<std::uint64_t> latency)
+      : config_(config),
+        latency_(latency),
+        delay_(config.has_ellipses() ? 10 : 0),
+        slices_(static_cast<std::uint64_t>(config.slices())),
+        items_(items_of(config, beats)) {
+    out_.beats.resize(items_.size());
+    held_.fill(-1);
+  }
+
+  PlainCullClock run() {
+    std::size_t sent = 0;
+    for (const Item& item : items_) sent += latency_ && item.skipped && !item.trusted ? 0 : 1;
+    c_ = blocks(config_.tile_width) * blocks(config_.tile_height);  // the picture is wiped
+    for (; done_ < sent; ++c_) {
+      if (held_[kDecode] < 0 && (open_ || c_ < picture_to_)) ++out_.starved;
+      write_tables();
+      tell_verdicts();
+      advance(decode());
+      source();
+    }
+    out_.starved += picture_to_ > c_ ? picture_to_ - c_ : 0;
+    std::vector<BeatTimes> kept;
+    for (const int at : order_) kept.push_back(out_.beats[static_cast<std::size_t>(at)]);
+    out_.beats = std::move(kept);
+    return std::move(out_);
+  }
+
+ private:
+  // Registers: 0 and 1 check's, 2 .. 5 are t0 .. t3, 6 decode's.
+  static constexpr std::size_t kT0 = 2, kT3 = 5, kDecode = 6;
+  struct Job {  ///< a table's
+    std::uint64_t after, units;
+    std::size_t table;
+  };
+
+  std::uint64_t blocks(int pixels) const {
+    return static_cast<std::uint64_t>((pixels + config_.lanes - 1) / config_.lanes);
+  }
+  const Item& item(int number) const { return items_[static_cast<std::size_t>(number)]; }
+  bool holds(std::size_t place, Opcode opcode) const {
+    return held_[place] >= 0 && item(held_[place]).opcode == opcode && !item(held_[place]).payload;
+  }
+
+  /// A table's row, or P words of it, is written in this cycle.
+  void write_tables() {
+    for (; !jobs_.empty() && jobs_.front().units == 0 && jobs_.front().after < c_; jobs_.pop_front())
+      --to_build_[jobs_.front().table];
+    not_whole_ = to_build_;
+    if (!jobs_.empty() && jobs_.front().after < c_ && --jobs_.front().units == 0) {
+      --to_build_[jobs_.front().table];
+      jobs_.pop_front();
+    }
+  }
+  void tell_verdicts() {
+    if (holds(kT3, Opcode::CullBlock)) verdict_.try_emplace(item(held_[kT3]).set, c_);
+  }
+
+  /// True if decode is done with what it holds.
+  bool decode() {
+    if (held_[kDecode] < 0) return false;
+    const bool waits = (holds(kDecode, Opcode::BeginSheet) && c_ < buffer_from_[buffer_]) ||
+                       (holds(kDecode, Opcode::BeginTile) && c_ < picture_to_) ||
+                       (holds(kDecode, Opcode::EndTile) && c_ < at_rest_);
+    if (waits || --left_in_decode_ > 0) return false;
+    out_.beats[static_cast<std::size_t>(held_[kDecode])].left = c_;
+    ++done_;
+    if (holds(kDecode, Opcode::BeginTile)) begin_tile(item(held_[kDecode]));
+    if (holds(kDecode, Opcode::EndSheet)) end_sheet(item(held_[kDecode]));
+    if (holds(kDecode, Opcode::EndTile)) end_tile();
+    return true;
+  }
+  void begin_tile(const Item& tile) {
+    open_ = true;
+    tile_ = tile;
+    rows_ = static_cast<int>(blocks(tile.height));
+    first_row_ = {0, 0};
+    ended_ = 0;
+    opaque_yet_ = false;
+    jobs_.clear();
+    to_build_ = {};
+  }
+  void end_sheet(const Item& sheet) {
+    const std::uint64_t m = sheet.blocks * slices_;
+    const std::uint64_t a = std::max(c_ + 12 + delay_, walked_ ? f_ + 4 : 0);
+    f_ = a + std::max<std::uint64_t>(m, 1) - 1;
+    walked_ = true;
+    buffer_from_[buffer_] = f_ + 1;
+    buffer_ = 1 - buffer_;
+    at_rest_ = f_ + (m > 0 ? 7 : 3);
+    opaque_yet_ = opaque_yet_ || sheet.row < rows_;
+    const std::size_t table = ended_++ % 2;
+    ++all_ended_;
+    walk_end_[table] = f_ + 1;
+    if (tile_.mode < 2) change_tables(sheet.row, table);
+  }
+  /// Where nothing has to be written the table is whole when the sheet has left k6 and the one before is.
+  void change_tables(int row, std::size_t table) {
+    if (opaque_yet_)
+      for (int& first : first_row_) first = std::min(first, row);
+    const auto changed = opaque_yet_ ? static_cast<std::uint64_t>(rows_ - first_row_[table]) : 0;
+    const std::uint64_t each =
+        config_.cull_cell() == 1 ? static_cast<std::uint64_t>(config_.lanes) * blocks(tile_.width) : 1;
+    jobs_.push_back({f_ + 6, changed * each, table});
+    ++to_build_[table];
+    ++not_whole_[table];
+    if (opaque_yet_) first_row_[table] = rows_;
+  }
+  void end_tile() {
+    open_ = false;
+    picture_to_ = c_ + 3 + blocks(tile_.width) * static_cast<std::uint64_t>(tile_.height);
+  }
+
+  /// Who moves on: from the last register to the first.
+  void advance(bool decoded) {
+    if (decoded) held_[kDecode] = -1;
+    bool free = held_[kDecode] < 0;
+    for (std::size_t i = kDecode; i-- > 0;) {
+      if (held_[i] >= 0 && free && (i != kT0 || leaves_t0())) {
+        if (i == kT3) {
+          out_.beats[static_cast<std::size_t>(held_[i])].entered = c_ + 1;
+          left_in_decode_ = item(held_[i]).cycles;
+        }
+        held_[i + 1] = std::exchange(held_[i], -1);
+      }
+      free = held_[i] < 0;
+    }
+  }
+  /// A sheet begins when the table that its splats are tested against is whole.
+  bool leaves_t0() {
+    if (holds(kT0, Opcode::BeginTile)) begun_in_t0_ = 0, mode_in_t0_ = item(held_[kT0]).mode;
+    if (!holds(kT0, Opcode::BeginSheet)) return true;
+    const std::size_t table = begun_in_t0_ % 2;
+    const bool may = begun_in_t0_ < 2 || mode_in_t0_ > 1 ||
+                     (all_ended_ + 1 >= all_begun_ && c_ >= walk_end_[table] && not_whole_[table] == 0);
+    out_.waited += may ? 0 : 1;
+    begun_in_t0_ += may ? 1 : 0;
+    all_begun_ += may ? 1 : 0;
+    return may;
+  }
+
+  void source() {
+    const int all = static_cast<int>(items_.size());
+    while (latency_ && next_ < all && item(next_).skipped && !item(next_).trusted) ++next_;
+    if (held_[0] >= 0 || next_ >= all) return;
+    const Item& one = item(next_);
+    if (latency_ && one.waits >= 0 && !one.trusted &&
+        (!verdict_.contains(one.waits) || c_ < verdict_.at(one.waits) + std::max<std::uint64_t>(*latency_, 1) + 6))
+      return;
+    out_.beats[static_cast<std::size_t>(next_)].taken = c_;
+    order_.push_back(next_);
+    held_[0] = next_++;
+  }
+
+  const cmodel::Config& config_;
+  const std::optional<std::uint64_t> latency_;
+  const std::uint64_t delay_, slices_;
+  const std::vector<Item> items_;
+  PlainCullClock out_;
+  std::uint64_t c_ = 0;                   ///< the cycle
+  std::array<int, 7> held_{};             ///< what each register holds, or -1
+  int next_ = 0;                          ///< beat to be sent
+  std::vector<int> order_;                ///< beats as they were sent
+  std::size_t done_ = 0;                  ///< beats that decode has left
+  std::uint64_t left_in_decode_ = 0;      ///< cycles of what decode holds, this one included
+  std::map<int, std::uint64_t> verdict_;  ///< of each cull_block
+  // Buffers, walk, picture.
+  std::array<std::uint64_t, 2> buffer_from_{};
+  std::size_t buffer_ = 0;
+  std::uint64_t f_ = 0, at_rest_ = 0, picture_to_ = 0;
+  bool walked_ = false;
+  // Tables.
+  std::deque<Job> jobs_;
+  std::array<std::size_t, 2> to_build_{}, not_whole_{};  ///< jobs that are not done, by table
+  std::array<int, 2> first_row_{};
+  std::uint64_t begun_in_t0_ = 0, ended_ = 0;    ///< sheets of the tile
+  std::uint64_t all_begun_ = 0, all_ended_ = 0;  ///< since reset: in t0, in decode
+  std::array<std::uint64_t, 2> walk_end_{};      ///< by table: of its sheet, the cycle after
+  int mode_in_t0_ = 0;
+  bool opaque_yet_ = false;
+  Item tile_;  ///< its begin_tile
+  int rows_ = 0;
+  bool open_ = false;  ///< a tile
+};
+
 }  // namespace
 
 PlainCullClock plain_cull_clock(const cmodel::Config& config, std::span<const cmodel::Beat> beats,
                                 std::optional<std::uint64_t> latency) {
-  const std::vector<Item> items = items_of(config, beats);
-  const std::uint64_t delay = config.has_ellipses() ? 10 : 0;
-  const auto slices = static_cast<std::uint64_t>(config.slices());
-  PlainCullClock out;
-  out.beats.resize(items.size());
-  // Registers: 0 and 1 check's, 2 .. 5 are t0 .. t3, 6 decode's. What each holds, or -1.
-  std::array<int, 7> held;
-  held.fill(-1);
-  int next = 0;                          // beat to be sent
-  std::uint64_t left_in_decode = 0;      // cycles of what decode holds, this one included
-  std::map<int, std::uint64_t> verdict;  // of each cull_block
-  // Buffers, walk, picture.
-  std::array<std::uint64_t, 2> buffer_from{};
-  std::size_t buffer = 0;
-  std::uint64_t f = 0, at_rest = 0, picture_to = 0;
-  bool walked = false;
-  // Tables.
-  struct Job {
-    std::uint64_t after, units;
-    std::size_t table;
-  };
-  std::deque<Job> jobs;
-  std::array<std::size_t, 2> to_build{};  // jobs that are not done, by table
-  std::array<int, 2> first_row{};
-  std::uint64_t begun_in_t0 = 0, ended = 0;    // sheets of the tile
-  std::uint64_t all_begun = 0, all_ended = 0;  // since reset: in t0, in decode
-  std::array<std::uint64_t, 2> walk_end{};     // by table: of its sheet, the cycle after
-  int mode_in_t0 = 0;
-  bool opaque_yet = false;
-  int rows = 0, width = 0, mode = 0;
-  std::size_t done = 0, sent = 0;
-  bool open = false;  // a tile
-  const auto wipe = static_cast<std::uint64_t>(config.tile_width / config.lanes) *
-                    static_cast<std::uint64_t>(config.tile_height / config.lanes);
-  for (const Item& item : items) sent += latency && item.skipped && !item.trusted ? 0 : 1;
-  std::vector<int> order;  // beats as they were sent
-  std::uint64_t c = wipe;
-  for (; done < sent; ++c) {
-    if (held[6] < 0 && (open || c < picture_to)) ++out.starved;
-    // A table's row, or P words of it, is written in this cycle.
-    for (; !jobs.empty() && jobs.front().units == 0 && jobs.front().after < c; jobs.pop_front())
-      --to_build[jobs.front().table];
-    std::array<std::size_t, 2> not_whole = to_build;
-    if (!jobs.empty() && jobs.front().after < c && --jobs.front().units == 0) {
-      --to_build[jobs.front().table];
-      jobs.pop_front();
-    }
-    for (std::size_t i = 2; i < 6; ++i)
-      if (held[i] >= 0 && i == 5 && items[static_cast<std::size_t>(held[i])].opcode == Opcode::CullBlock &&
-          !items[static_cast<std::size_t>(held[i])].payload)
-        verdict.try_emplace(items[static_cast<std::size_t>(held[i])].set, c);
-    // Decode.
-    bool carried = false;
-    if (held[6] >= 0) {
-      const Item& item = items[static_cast<std::size_t>(held[6])];
-      const bool record = !item.payload;
-      bool waits = record && item.opcode == Opcode::BeginSheet && c < buffer_from[buffer];
-      waits = waits || (record && item.opcode == Opcode::BeginTile && c < picture_to);
-      waits = waits || (record && item.opcode == Opcode::EndTile && c < at_rest);
-      if (!waits && --left_in_decode == 0) {
-        carried = true;
-        out.beats[static_cast<std::size_t>(held[6])].left = c;
-        ++done;
-        if (record && item.opcode == Opcode::BeginTile) {
-          open = true;
-          rows = (item.height + config.lanes - 1) / config.lanes, width = item.width, mode = item.mode;
-          first_row = {0, 0};
-          ended = 0;
-          opaque_yet = false;
-          jobs.clear();
-          to_build = {};
-        }
-        if (record && item.opcode == Opcode::EndSheet) {
-          const std::uint64_t m = item.blocks * slices;
-          const std::uint64_t a = std::max(c + 12 + delay, walked ? f + 4 : 0);
-          f = a + std::max<std::uint64_t>(m, 1) - 1;
-          walked = true;
-          buffer_from[buffer] = f + 1;
-          buffer = 1 - buffer;
-          at_rest = f + (m > 0 ? 7 : 3);
-          opaque_yet = opaque_yet || item.row < rows;
-          const std::size_t table = ended++ % 2;
-          ++all_ended;
-          walk_end[table] = f + 1;
-          if (mode < 2) {
-            // Where nothing has to be written the table is whole when the sheet has left k6 and the one before is.
-            if (opaque_yet)
-              for (int& row : first_row) row = std::min(row, item.row);
-            const auto changed = opaque_yet ? static_cast<std::uint64_t>(rows - first_row[table]) : 0;
-            const std::uint64_t each = config.cull_cell() == 1
-                                           ? static_cast<std::uint64_t>(config.lanes) *
-                                                 static_cast<std::uint64_t>((width + config.lanes - 1) / config.lanes)
-                                           : 1;
-            jobs.push_back({f + 6, changed * each, table}), ++to_build[table], ++not_whole[table];
-            if (opaque_yet) first_row[table] = rows;
-          }
-        }
-        if (record && item.opcode == Opcode::EndTile) {
-          open = false;
-          int of = held[6];
-          while (items[static_cast<std::size_t>(of)].opcode != Opcode::BeginTile ||
-                 items[static_cast<std::size_t>(of)].payload)
-            --of;
-          const Item& tile = items[static_cast<std::size_t>(of)];
-          picture_to = c + 3 +
-                       static_cast<std::uint64_t>((tile.width + config.lanes - 1) / config.lanes) *
-                           static_cast<std::uint64_t>(tile.height);
-        }
-      }
-    }
-    // Who moves on: from the last register to the first.
-    bool free = held[6] < 0 || carried;
-    if (carried) held[6] = -1;
-    for (std::size_t i = 6; i-- > 0;) {
-      const bool moves = held[i] >= 0 && free;
-      bool may = moves;
-      if (moves && i == 2) {
-        const Item& item = items[static_cast<std::size_t>(held[i])];
-        if (item.opcode == Opcode::BeginTile && !item.payload) begun_in_t0 = 0, mode_in_t0 = item.mode;
-        if (item.opcode == Opcode::BeginSheet && !item.payload) {
-          may = begun_in_t0 < 2 || mode_in_t0 > 1 ||
-                (all_ended + 1 >= all_begun && c >= walk_end[begun_in_t0 % 2] && not_whole[begun_in_t0 % 2] == 0);
-          out.waited += may ? 0 : 1;
-          begun_in_t0 += may ? 1 : 0;
-          all_begun += may ? 1 : 0;
-        }
-      }
-      if (may) {
-        if (i == 5) {
-          out.beats[static_cast<std::size_t>(held[i])].entered = c + 1;
-          left_in_decode = items[static_cast<std::size_t>(held[i])].cycles;
-        }
-        held[i + 1] = held[i];
-        held[i] = -1;
-      }
-      free = held[i] < 0;
-    }
-    // The source.
-    const auto left_out = [&](const Item& one) { return one.skipped && !one.trusted; };
-    while (latency && next < static_cast<int>(items.size()) && left_out(items[static_cast<std::size_t>(next)])) ++next;
-    if (held[0] >= 0 || next >= static_cast<int>(items.size())) continue;
-    const Item& item = items[static_cast<std::size_t>(next)];
-    if (latency && item.waits >= 0 && !item.trusted &&
-        (!verdict.contains(item.waits) || c < verdict.at(item.waits) + std::max<std::uint64_t>(*latency, 1) + 6))
-      continue;
-    out.beats[static_cast<std::size_t>(next)].taken = c;
-    order.push_back(next);
-    held[0] = next++;
-  }
-  out.starved += picture_to > c ? picture_to - c : 0;
-  std::vector<BeatTimes> kept;
-  for (const int at : order) kept.push_back(out.beats[static_cast<std::size_t>(at)]);
-  out.beats = std::move(kept);
-  return out;
+  return Clock(config, beats, latency).run();
 }
 
 }  // namespace fastsplat::test

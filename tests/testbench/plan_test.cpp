@@ -59,7 +59,7 @@ std::set<std::string> names_in_rtl(const char* expression) {
   const std::regex name(expression);
   std::set<std::string> out;
   for (const auto& [file, path] : sources_in(kSource / "rtl")) {
-    if (file == "fastsplat_fetch.sv" || file == "fastsplat_queue.sv") continue;
+    if (!file.ends_with(".sv") || file == "fastsplat_fetch.sv" || file == "fastsplat_queue.sv") continue;
     const std::string text = read_text_file(path);
     for (std::sregex_iterator match(text.begin(), text.end(), name), end; match != end; ++match)
       out.insert((*match)[1].str());

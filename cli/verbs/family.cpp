@@ -3,10 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "analysis/index_kinds/family_page.hpp"
-#include "analysis/index_kinds/family_plots.hpp"
+#include "analysis/index_kinds/family_text.hpp"
 #include "analysis/index_kinds/head.hpp"
-#include "base/atomic_file.hpp"
 #include "base/hash_text.hpp"
 #include "base/version.hpp"
 #include "cli/common.hpp"
@@ -23,8 +21,7 @@ struct FamilyArguments {
   Common common;
   std::string kind;
   std::optional<int> entries;
-  bool page = false, head = false;
-  std::string plots;  ///< a folder, empty for none
+  bool head = false;
 };
 
 using Json = nlohmann::ordered_json;
@@ -64,17 +61,14 @@ Json to_json(const std::vector<analysis::FamilyCell>& cells) {
   return json;
 }
 
-/// --page, --head and --plots each stand alone: what they make is one thing.
+/// --head stands alone: it is of all kinds, and text.
 void check(const FamilyArguments& arguments) {
-  const bool part = !arguments.kind.empty() || arguments.entries || !arguments.common.json.empty();
-  const int things = (arguments.page ? 1 : 0) + (arguments.head ? 1 : 0) + (arguments.plots.empty() ? 0 : 1);
-  if (things == 0 || (things == 1 && !part)) return;
-  const char* which = arguments.page ? "--page" : arguments.head ? "--head" : "--plots";
-  throw_usage({.where = which,
-               .what = "is made whole and alone",
-               .expected = {},
-               .got = {},
-               .fix = "leave out --kind, --entries, --json and the others of --page, --head and --plots"});
+  if (!arguments.head || (arguments.kind.empty() && !arguments.entries && arguments.common.json.empty())) return;
+  throw_usage({.where = "--head",
+               .what = "is of all kinds, as text",
+               .expected = "--head alone",
+               .got = "--kind, --entries or --json beside it",
+               .fix = "leave them out"});
 }
 
 std::string head_section(const FamilyArguments& arguments) {
@@ -84,26 +78,12 @@ std::string head_section(const FamilyArguments& arguments) {
       head, analysis::head_table(head, analysis::whole_head(), arguments.common.threads, bar.callback()));
 }
 
-ExitCode write_plots(const FamilyArguments& arguments, const Output& output) {
-  std::vector<std::string> names;
-  for (const char* file : analysis::kFamilyPictures) names.push_back(arguments.plots + "/" + file);
-  check_outputs({.others = names});
-  const auto pictures = analysis::family_plots(analysis::page_cells());
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    write_text_file(names[i], pictures[i].svg);
-    output.line(names[i]);
-  }
-  return ExitCode::Pass;
-}
-
 ExitCode run(const FamilyArguments& arguments) {
   const Output output(arguments.common);
   check(arguments);
   check_outputs({.others = {arguments.common.json}});
-  if (!arguments.plots.empty()) return write_plots(arguments, output);
-  if (arguments.page || arguments.head) {
-    const std::string head = head_section(arguments);
-    output.line(arguments.page ? analysis::family_page(analysis::page_cells(), head) : head);
+  if (arguments.head) {
+    output.line(head_section(arguments));
     return ExitCode::Pass;
   }
   auto range = analysis::whole_family();
@@ -123,9 +103,7 @@ void declare(Options& options, FamilyArguments& to) {
   options.word("--kind", to.kind, "KIND", "one kind of index only: what `config show` says of index.kind");
   options.values(index_kinds);
   options.integer("--entries", to.entries, 2, 65536, "N", "of the radial table, a power of two; else 64 to 2048");
-  options.flag("--page", to.page, "docs/family.md, which has nothing that depends on the machine; takes minutes");
-  options.flag("--head", to.head, "its part on the head scan alone: every kind's picture against golden's");
-  options.word("--plots", to.plots, "FOLDER", "the page's pictures, family-*.svg, into a folder that is there");
+  options.flag("--head", to.head, "the head scan instead: every kind's picture against golden's; takes minutes");
   declare(options, to.common);
   options.example("fastsplat family --kind rlut --entries 1024",
                   "one kind of index: weights, bits, operations and cycles");

@@ -72,10 +72,10 @@ TEST(Completion, BashOffersVerbsFlagsNamesAndFiles) {
       {"fastsplat render --set radial.en", {"radial.entries="}},
       {"fastsplat render --azimuth ", {}},
       {"fastsplat render --antialias o", {"on", "off"}},
+      {"fastsplat plan run plan.json --results ", {"plots"}},  // folders only
       {"fastsplat verify --class res", {"reset"}},
       {"fastsplat verify --ready al", {"all", "always", "alternate-"}},
       {"fastsplat cycles --ready al", {"always", "alternate-"}},
-      {"fastsplat family --plots ", {"plots"}},
       {"fastsplat config show b", {"base"}},
       {"fastsplat config show base --set array.", {"array.lanes="}},
       {"fastsplat errors prop", {"propose"}},

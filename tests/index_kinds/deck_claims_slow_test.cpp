@@ -3,8 +3,8 @@
 
 #include <cstdio>
 
-#include "analysis/index_kinds/deck_claims.hpp"
-#include "analysis/index_kinds/family_page.hpp"
+#include "tools/pages/family/deck_claims.hpp"
+#include "tools/pages/family/family_page.hpp"
 
 namespace fastsplat::analysis {
 namespace {

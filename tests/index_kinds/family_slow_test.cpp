@@ -5,8 +5,8 @@
 #include <map>
 #include <sstream>
 
-#include "analysis/index_kinds/family_page.hpp"
-#include "analysis/index_kinds/family_plots.hpp"
+#include "tools/pages/family/family_page.hpp"
+#include "tools/pages/family/family_plots.hpp"
 #include "tests/paths.hpp"
 
 namespace fastsplat::analysis {
@@ -34,11 +34,11 @@ TEST(FamilyPage, IsWhatTheProgramSays) {
   const std::string made = family_page(cells, head);
   std::printf("[figure] characters of the page compared = %zu (limit > 5000)\n", made.size());
   EXPECT_GT(made.size(), 5000U);
-  EXPECT_EQ(page, made) << "fastsplat family --page > docs/family.md";
+  EXPECT_EQ(page, made) << "tools/family makes it again";
   const auto pictures = family_plots(cells);
   EXPECT_EQ(pictures.size(), std::size(kFamilyPictures));
   for (const auto& picture : pictures) {
-    EXPECT_EQ(text_of("images/" + picture.file), picture.svg) << "fastsplat family --plots docs/images";
+    EXPECT_EQ(text_of("images/" + picture.file), picture.svg) << "tools/family makes it again";
     EXPECT_NE(page.find("(images/" + picture.file + ")"), std::string::npos) << "no link to it";
   }
 }

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "analysis/index_kinds/family_page.hpp"
+#include "tools/pages/family/family_page.hpp"
 #include "analysis/index_kinds/head.hpp"
 #include "tests/paths.hpp"
 
@@ -24,7 +24,7 @@ TEST(FamilyHead, ACellIsWhatThePageSays) {
   const std::string row = head_row(cells[0]);
   std::printf("[figure] row = %s", row.c_str());
   EXPECT_GT(cells[0].error.rms, 0.0);
-  EXPECT_NE(page.str().find(row), std::string::npos) << "fastsplat family --page > docs/family.md";
+  EXPECT_NE(page.str().find(row), std::string::npos) << "tools/family makes it again";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // The pictures as XML: series, points, words; and where points come to lie.
-#include "analysis/index_kinds/plot.hpp"
+#include "tools/pages/family/plot.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "analysis/index_kinds/family_plots.hpp"
+#include "tools/pages/family/family_plots.hpp"
 #include "tests/index_kinds/xml_helper.hpp"
 #include "tests/paths.hpp"
 

@@ -1,4 +1,4 @@
-#include "analysis/index_kinds/deck_claims.hpp"
+#include "tools/pages/family/deck_claims.hpp"
 
 #include <fmt/format.h>
 

@@ -1,32 +1,24 @@
-#include "analysis/index_kinds/family_page.hpp"
+#include "tools/pages/family/family_page.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 #include <tuple>
 
-#include "analysis/index_kinds/deck_claims.hpp"
 #include "analysis/index_kinds/ellipses.hpp"
+#include "analysis/index_kinds/family_text.hpp"
+#include "tools/pages/family/deck_claims.hpp"
 
 namespace fastsplat::analysis {
 namespace {
 
 using cmodel::IndexKind;
 
-std::string letters(const FamilyCell& cell) {
-  std::string text;
-  for (const Remark remark : cell.remarks) text += letter(remark);
-  return text;
-}
-
-std::string error(const FieldError& e) { return fmt::format("{:.2f} | {:.2f} | {:+.2f}", e.largest, e.rms, e.bias); }
-
 constexpr const char* kPreface = R"(# The family of FastSplats
 
 A splat's weight at a pixel can be found in six ways ([numerics.md](numerics.md), section 4). What each costs and what it gets
 wrong, by the weights of the model's units and the driver's tables against golden's exact footprint; kernel gauss2 (a = R = 2), words U 1.14, g = 6,
-8 x 8 lanes. `fastsplat family --page` makes this page (in some minutes, for the head's sake) and `--plots FOLDER` its pictures; `fastsplat family` has every cell, also
+8 x 8 lanes. `tools/family` makes this page and its pictures in some minutes; `fastsplat family` has every cell, also
 with nanoseconds, `--json` for programs.
 
 A field of constant value is splatted: on a lattice along the pixels at 61 x 61 offsets (**aligned**: all splats lie alike on the grid, so what shows are the table's
@@ -101,7 +93,8 @@ constexpr const char* kPictures = R"(## Pictures
 
 std::string ellipse_row(const std::string& what, const EllipseErrors& e, bool circles) {
   return fmt::format("| {} | {} | {:.2f} | {:.1f} | {} | {} | {:.4f} | {:.4f} |\n", what, e.splats, e.aspect, e.longest,
-                     error(e.ellipse), circles ? error(e.circle) : "- | - | -", e.entries_off, e.entries_bound);
+                     error_cells(e.ellipse), circles ? error_cells(e.circle) : "- | - | -", e.entries_off,
+                     e.entries_bound);
 }
 
 std::string ellipse_section(const EllipseErrors& flat) {
@@ -122,31 +115,6 @@ angles. Off: furthest that the words take q from the ellipse's own, in table ent
 }
 
 }  // namespace
-
-std::string family_text(const std::vector<FamilyCell>& cells) {
-  bool timed = false;
-  for (const FamilyCell& cell : cells) timed = timed || cell.nanoseconds > 0.0;
-  std::string text =
-      "| kind | r | K | N | aligned max | rms | bias | index law | turned max | rms | bias | snap law | bits | "
-      "predicted | cycles |  |";
-  text += timed ? " ns |\n" : "\n";
-  text += "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|";
-  text += timed ? "---|\n" : "\n";
-  std::set<Remark> met;
-  for (const FamilyCell& cell : cells) {
-    const cmodel::Config& config = cell.config;
-    text +=
-        fmt::format("| {} | {} | {} | {} | {} | {} | {} | {:.2f} | {} | {:.0f} | {} | {} |", name_of(config.index()),
-                    cell.radius, config.grid(), cell.has_table ? std::to_string(config.radial_entries) : "-",
-                    error(cell.aligned), cell.has_table ? fmt::format("{:.2f}", cell.index_max) : "-",
-                    error(cell.turned), cell.snap_rms, cell.bits, cell.bits_predicted, cell.cycles, letters(cell));
-    text += timed ? fmt::format(" {:.0f} |\n", cell.nanoseconds) : "\n";
-    met.insert(cell.remarks.begin(), cell.remarks.end());
-  }
-  if (!met.empty()) text += "\n";
-  for (const Remark remark : met) text += fmt::format("- {}: {}\n", letter(remark), sentence(remark));
-  return text;
-}
 
 std::vector<FamilyCell> page_cells() {
   FamilyRange grids = whole_family(), lengths = grids;

@@ -1,4 +1,4 @@
-// The family's table as text, and docs/family.md.
+// docs/family.md.
 #pragma once
 
 #include <string>
@@ -8,8 +8,6 @@
 
 namespace fastsplat::analysis {
 
-/// A Markdown table, a row a cell; nanoseconds where they were taken. Remarks are letters, explained below it.
-std::string family_text(const std::vector<FamilyCell>& cells);
 /// What docs/family.md and its pictures are made of: all kinds over grids and radii with N = 1024, and at r = 4 with
 /// all lengths of the table.
 std::vector<FamilyCell> page_cells();

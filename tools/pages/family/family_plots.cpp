@@ -1,8 +1,8 @@
-#include "analysis/index_kinds/family_plots.hpp"
+#include "tools/pages/family/family_plots.hpp"
 
 #include <algorithm>
 
-#include "analysis/index_kinds/plot.hpp"
+#include "tools/pages/family/plot.hpp"
 
 namespace fastsplat::analysis {
 namespace {

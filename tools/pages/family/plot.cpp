@@ -1,4 +1,4 @@
-#include "analysis/index_kinds/plot.hpp"
+#include "tools/pages/family/plot.hpp"
 
 #include <fmt/format.h>
 

@@ -32,7 +32,7 @@ TEST(Gallery, PageIsWhatTheManifestGenerates) {
 TEST(Gallery, PicturesAndPagesAreThere) {
   constexpr std::uintmax_t kLargest = 60000;  // bytes
   const auto page = read_bytes(kRoot / "docs/gallery.md");
-  const auto pictures = all_in(page, R"(\]\((base/images/gallery/[^)]+)\))");
+  const auto pictures = all_in(page, R"(\]\((images/gallery/[^)]+)\))");
   std::uintmax_t largest = 0;
   for (const auto& picture : pictures) {
     ASSERT_TRUE(fs::exists(kRoot / "docs" / picture)) << picture;
@@ -81,7 +81,7 @@ TEST(Gallery, EveryCommandRunsAndIsWhatItsPictureWasMadeBy) {
   const bool scans = fastsplat({"volume", "info", "ch2bet"}).code == 0;
   const auto page = read_bytes(kRoot / "docs/gallery.md");
   const auto commands = all_in(page, "`fastsplat ((?:render|compare) [^`]+)`");
-  const auto pictures = all_in(page, R"(\]\((base/images/gallery/[^)]+)\))");
+  const auto pictures = all_in(page, R"(\]\((images/gallery/[^)]+)\))");
   ASSERT_EQ(commands.size(), pictures.size());
   int ran = 0, skipped = 0, differences = 0;
   for (std::size_t i = 0; i < commands.size(); ++i) {
@@ -89,7 +89,7 @@ TEST(Gallery, EveryCommandRunsAndIsWhatItsPictureWasMadeBy) {
     if (command.starts_with("compare ")) {  // of two pictures of this page
       ++differences;
       for (const std::string& name : all_in(command, R"(([^ ]+)\.exr)"))
-        EXPECT_NE(std::ranges::find(pictures, "base/images/gallery/" + name + ".png"), pictures.end()) << command;
+        EXPECT_NE(std::ranges::find(pictures, "images/gallery/" + name + ".png"), pictures.end()) << command;
       continue;
     }
     if (!scans && command.find("ch2") != std::string::npos) {
@@ -136,7 +136,7 @@ TEST(GalleryMustFail, AManifestWithAMistakeIsToldWhere) {
   }
   folder.write("docs/gallery.toml", good);
   EXPECT_NE(run_words({kRoot / "tools/helpers/gallery_page", "--markdown", folder.path()})
-                .out.find("base/images/gallery/c.png"),
+                .out.find("images/gallery/c.png"),
             std::string::npos);
 }
 

@@ -52,8 +52,12 @@ fi
 ends="t:FD* t:SRL* t:RAM* t:TRELLIS_FF t:TRELLIS_DPR* t:DP16KD t:SB_DFF* t:SB_RAM* t:*fastsplat_ram_1r1w"
 for module in $modules; do ends="$ends t:$module"; done
 
-# Deferred: only modules of this device are made, so names, by which cells are mapped and placed, do not move with modules that it has not.
-yosys -q -l "$base.log" -p "read_verilog -defer -sv -I$source/rtl $base.pkg.sv $source/rtl/*.sv $source/rtl/*/*.sv $files; hierarchy -check -top $top; $pass; tee -o $base.stat.new stat; delete $ends; tee -o $base.levels ltp -noff" >/dev/null 2>&1 ||
+# Names decide how cells are mapped and placed, and files are in them: all are read in one folder, so that nothing moves with
+# the folder of a file; deferred, so that only modules of this device are made, and nothing moves with those that it has not.
+rm -rf "$base.rtl"
+mkdir "$base.rtl"
+cp "$source"/rtl/*.sv "$source"/rtl/*/*.sv "$base.rtl"
+yosys -q -l "$base.log" -p "read_verilog -defer -sv -I$source/rtl $base.pkg.sv $base.rtl/*.sv $files; hierarchy -check -top $top; $pass; tee -o $base.stat.new stat; delete $ends; tee -o $base.levels ltp -noff" >/dev/null 2>&1 ||
   { tail -5 "$base.log"; echo "$family $config: Yosys fails"; exit 1; }
 {
   sed -n 's/^\(Yosys [^ ]*\) .*/yosys \1/p' "$base.log" | tail -1

@@ -2,7 +2,6 @@
 // (docs/numerics.md, section 6.2; cmodel/classify/classify_unit.hpp). Registers: d1 words -> d2 differences, place in CLASSIFY -> d5 its
 // colour and depth, beside them normal and shading to d23.
 `include "fault.svh"
-
 module fastsplat_classify_lane (
     input  logic clk_i,
     // segments of the tables

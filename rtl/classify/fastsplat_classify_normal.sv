@@ -3,7 +3,6 @@
 // Registers: d3 products -> d4 slopes -> d5 tilt -> d6 ahead -> d7 squares -> d8 sums -> d9 even power -> d12 root -> d13 -> d14.
 `include "fault.svh"
 `include "narrow.svh"
-
 module fastsplat_classify_normal (
     input  logic clk_i,
     // ROOT

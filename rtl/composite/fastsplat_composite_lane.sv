@@ -4,7 +4,6 @@
 `include "assertions.svh"
 `include "fault.svh"
 `include "narrow.svh"
-
 module fastsplat_composite_lane (
     input  logic                                   clk_i,
     input  logic                                   rst_ni,    // of the assertions

@@ -3,7 +3,6 @@
 `include "assertions.svh"
 `include "fault.svh"
 `include "narrow.svh"
-
 module fastsplat_pixel_out (
     input  logic                                 clk_i,
     input  logic                                 rst_ni,

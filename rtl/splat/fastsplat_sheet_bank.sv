@@ -8,7 +8,6 @@
 `include "assertions.svh"
 `include "fault.svh"
 `include "narrow.svh"
-
 module fastsplat_sheet_bank (
     input  logic                                   clk_i,
     input  logic                                   rst_ni,

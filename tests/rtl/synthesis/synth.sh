@@ -52,11 +52,13 @@ fi
 ends="t:FD* t:SRL* t:RAM* t:TRELLIS_FF t:TRELLIS_DPR* t:DP16KD t:SB_DFF* t:SB_RAM* t:*fastsplat_ram_1r1w"
 for module in $modules; do ends="$ends t:$module"; done
 
-# Names decide how cells are mapped and placed, and files are in them: all are read in one folder, so that nothing moves with
-# the folder of a file; deferred, so that only modules of this device are made, and nothing moves with those that it has not.
+# Cells are mapped and placed by their names, which have file names and running numbers in them: so that figures move with
+# the device alone, its modules are read from one folder, without those around it, and deferred (only those that it has).
 rm -rf "$base.rtl"
 mkdir "$base.rtl"
-cp "$source"/rtl/*.sv "$source"/rtl/*/*.sv "$base.rtl"
+for file in "$source"/rtl/*.sv "$source"/rtl/*/*.sv; do
+  case $file in *_fetch.sv | *_queue.sv | *_slice.sv | *_top.sv) ;; *) cp "$file" "$base.rtl" ;; esac
+done
 yosys -q -l "$base.log" -p "read_verilog -defer -sv -I$source/rtl $base.pkg.sv $base.rtl/*.sv $files; hierarchy -check -top $top; $pass; tee -o $base.stat.new stat; delete $ends; tee -o $base.levels ltp -noff" >/dev/null 2>&1 ||
   { tail -5 "$base.log"; echo "$family $config: Yosys fails"; exit 1; }
 {

@@ -33,6 +33,23 @@ verilator --cc --exe --quiet-exit -Wno-fatal -Wno-lint -O3 --assert --x-assign u
   --prefix Vfs --top-module fastsplat_core --Mdir "$work" "-I$share/rtl" \
   -CFLAGS "$flags" -LDFLAGS "-shared" -o module.so \
   "$@" "$package" "$share"/rtl/*.sv "$share"/rtl/*/*.sv "$source/module.cpp" "$source/simulator_output.cpp"
-echo "files $(grep -c . "$work/Vfs_classes.mk")"
+# Each of the many files of a large device reads the same long headers: some are compiled as one.
+# together VARIABLE COUNT: the files that VARIABLE of Vfs_classes.mk lists, in COUNT files that include them.
+together() {
+  names=$(sed -n "/^$1 +=/,/^\$/s/^[[:space:]]\([A-Za-z0-9_]*\) .*/\1/p" "$work/Vfs_classes.mk")
+  number=0 parts=
+  for name in $names; do
+    part=$1_$((number % $2))
+    [ "$number" -ge "$2" ] || parts="$parts $part"
+    echo "#include \"$name.cpp\"" >>"$work/$part.cpp"
+    number=$((number + 1))
+  done
+  sed -i "/^$1 +=/,/^\$/c $1 =$parts" "$work/Vfs_classes.mk"
+}
+if grep -q '^VM_PARALLEL_BUILDS = 1' "$work/Vfs_classes.mk"; then
+  together VM_CLASSES_FAST 4
+  together VM_CLASSES_SLOW 2
+fi
+echo "files $(make -n -C "$work" -f Vfs.mk | grep -c -e ' -c -o ')"
 make -C "$work" -f Vfs.mk -j "${JOBS:-1}" OPT_FAST="$speed" OPT_SLOW=-O0 OPT_GLOBAL="$speed" ${CXX:+CXX="$CXX" LINK="$CXX"}
 mv "$work/module.so" "$module"

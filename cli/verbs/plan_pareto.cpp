@@ -95,7 +95,7 @@ std::string to_text(const PlanParetoResult& result, const PlanParetoArguments& a
 
 Json to_json(const PlanParetoResult& result) {
   const auto& [x, y, front, beaten, without] = result.pareto;
-  const auto entry = [&](const plan::Row* row) {
+  const auto entry = [&x = x, &y = y](const plan::Row* row) {  // Clang 14 captures no part of a structured binding
     return Json{{"id", row->id}, {x.name, *row->metric(x.name)}, {y.name, *row->metric(y.name)}};
   };
   Json json{{"verb", "plan pareto"}, {"version", program_version()}, {"name", result.merged.name}};

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <sstream>
 
-#include "tests/cli/process_helper.hpp"
 #include "tests/paths.hpp"
+#include "tests/process/process_helper.hpp"
 
 namespace fastsplat::test {
 namespace {

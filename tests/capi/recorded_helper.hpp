@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "tests/cli/process_helper.hpp"
 #include "tests/paths.hpp"
+#include "tests/process/process_helper.hpp"
 
 namespace fastsplat::test {
 

@@ -2,7 +2,7 @@
 // no crash, nothing written.
 #include <gtest/gtest.h>
 
-#include "tests/cli/process_helper.hpp"
+#include "tests/process/process_helper.hpp"
 
 namespace fastsplat::cli_test {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/images/image_file.hpp"
 #include "cli/command_line.hpp"
 #include "driver/config/config_file.hpp"
-#include "tests/cli/process_helper.hpp"
+#include "tests/process/process_helper.hpp"
 
 namespace fastsplat::cli {
 namespace {

@@ -8,8 +8,8 @@
 #include <set>
 #include <sstream>
 
-#include "tests/cli/process_helper.hpp"
 #include "tests/cli/words_helper.hpp"
+#include "tests/process/process_helper.hpp"
 
 namespace fastsplat::cli_test {
 namespace {

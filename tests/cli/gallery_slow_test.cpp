@@ -5,8 +5,8 @@
 #include <regex>
 #include <sstream>
 
-#include "tests/cli/process_helper.hpp"
 #include "tests/paths.hpp"
+#include "tests/process/process_helper.hpp"
 
 namespace fastsplat::cli_test {
 namespace {
@@ -135,9 +135,9 @@ TEST(GalleryMustFail, AManifestWithAMistakeIsToldWhere) {
     EXPECT_NE(result.err.find(bad.said), std::string::npos) << result.err;
   }
   folder.write("docs/gallery.toml", good);
-  EXPECT_NE(run_words({kRoot / "tools/helpers/gallery_page", "--markdown", folder.path()})
-                .out.find("images/gallery/c.png"),
-            std::string::npos);
+  EXPECT_NE(
+      run_words({kRoot / "tools/helpers/gallery_page", "--markdown", folder.path()}).out.find("images/gallery/c.png"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "cli/command_line.hpp"
-#include "tests/cli/process_helper.hpp"
 #include "tests/paths.hpp"
+#include "tests/process/process_helper.hpp"
 
 namespace fastsplat::cli_test {
 namespace {

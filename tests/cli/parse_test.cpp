@@ -6,7 +6,7 @@
 #include "base/images/image_file.hpp"
 #include "cli/command_line.hpp"
 #include "cli/render_arguments.hpp"
-#include "tests/cli/process_helper.hpp"
+#include "tests/process/process_helper.hpp"
 
 namespace fastsplat::cli {
 namespace {

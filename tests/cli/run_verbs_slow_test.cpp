@@ -9,8 +9,8 @@
 #include <set>
 #include <sstream>
 
-#include "tests/cli/process_helper.hpp"
 #include "tests/paths.hpp"
+#include "tests/process/process_helper.hpp"
 
 namespace fastsplat::cli_test {
 namespace {

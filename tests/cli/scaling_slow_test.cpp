@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "cmodel/stream/beat.hpp"
-#include "tests/cli/process_helper.hpp"
+#include "tests/process/process_helper.hpp"
 
 namespace fastsplat::cli_test {
 namespace {

@@ -2,7 +2,7 @@
 // rest.
 #include <gtest/gtest.h>
 
-#include "tests/cli/process_helper.hpp"
+#include "tests/process/process_helper.hpp"
 
 namespace fastsplat::cli_test {
 namespace {

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "driver/files/stream_file.hpp"
-#include "tests/cli/process_helper.hpp"
+#include "tests/process/process_helper.hpp"
 
 namespace fastsplat::cli_test {
 namespace {

@@ -13,7 +13,7 @@
 #include <sstream>
 #include <thread>
 
-#include "tests/cli/process_helper.hpp"
+#include "tests/process/process_helper.hpp"
 
 namespace fastsplat::cli_test {
 namespace {

@@ -10,7 +10,7 @@
 #include "driver/config/config_file.hpp"
 #include "driver/files/stream_file.hpp"
 #include "testbench/check/verify.hpp"
-#include "tests/cli/process_helper.hpp"
+#include "tests/process/process_helper.hpp"
 
 namespace fastsplat::cli_test {
 namespace {

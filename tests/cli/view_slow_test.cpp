@@ -1,7 +1,7 @@
 // Pictures for looking and pictures for measuring, and what is said of a picture too small for the device.
 #include <gtest/gtest.h>
 
-#include "tests/cli/process_helper.hpp"
+#include "tests/process/process_helper.hpp"
 
 namespace fastsplat::cli_test {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/cli/process_helper.hpp"
+#include "tests/process/process_helper.hpp"
 #include "tests/slurm/process_tree_helper.hpp"
 
 namespace fastsplat::slurm_test {

@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "base/number_text.hpp"
-#include "tests/cli/process_helper.hpp"
+#include "tests/process/process_helper.hpp"
 
 namespace fastsplat::slurm_test {
 namespace {

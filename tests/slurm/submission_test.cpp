@@ -8,7 +8,7 @@
 #include "analysis/sweep/slurm_script.hpp"
 #include "base/error.hpp"
 #include "base/shell_word.hpp"
-#include "tests/cli/process_helper.hpp"
+#include "tests/process/process_helper.hpp"
 
 namespace fastsplat::plan {
 namespace {

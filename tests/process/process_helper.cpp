@@ -1,4 +1,4 @@
-#include "tests/cli/process_helper.hpp"
+#include "tests/process/process_helper.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

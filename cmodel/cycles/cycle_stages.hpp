@@ -29,9 +29,10 @@ inline constexpr std::uint64_t kFetch = 6;
 // words lie side by side, and then the pixel stage, before its first slice is in k1.
 inline constexpr std::uint64_t kGather = 5;
 inline constexpr std::uint64_t kPixelStage = 23;
-inline constexpr std::uint64_t kClassify =
-    2;  ///< from the last block copied, or end_tile's turn, to the first block read
-inline constexpr std::uint64_t kAfterClassify = 2;  ///< from a walk's last cycle to the next sheet's first copied block
+/// From the last block copied, or end_tile's turn, to the first block read.
+inline constexpr std::uint64_t kClassify = 2;
+/// From a walk's last cycle to the next sheet's first copied block.
+inline constexpr std::uint64_t kAfterClassify = 2;
 /// Cycles a block.
 inline std::uint64_t density_steps(const Config& config) {
   return std::max(kGather, static_cast<std::uint64_t>(config.slices()));

@@ -1,5 +1,5 @@
-// How the fast unit goes through a tile whose records are made while they are drawn: sheet after sheet, and what a
-// splat's place says is worked out once for all of its sheets. No record is in memory.
+// How the fast unit draws a tile: sheet by sheet, from splats and not from records. A splat is placed once for all of
+// its sheets, and no record is ever in memory.
 #pragma once
 
 #include <algorithm>
@@ -20,14 +20,13 @@ struct BandReport {
   std::vector<std::uint8_t> sheets;  ///< of all the frame's: 1 with a record, else 0
 };
 
-// What a walk asks of Splats, which knows one band:
+// What a walk calls of Splats, which knows the splats of one band by number:
 //   band()                            its BeginTile
-//   sheets(), reach()                 of the frame; a splat has records in at most reach() sheets behind its first
-//   numbers(sheet)                    of the splats whose first sheet it is, a span
-//   prefetch(number)                  they are begun soon
-//   for_each_place(unit, number, keep, visit)
-//                                     visit(Splat), its Placed by the unit, of each record that a sheet has of the
-//                                     splat; weights of its own in Splat::weights where `keep` says so
+//   sheets(), reach()                 sheets of the frame; a splat has records in at most reach() sheets after its
+//   first numbers(sheet)                    splats whose first sheet this is: a span prefetch(number) the splat is
+//   begun soon for_each_place(unit, number, keep, visit)
+//                                     visit(Ready) for each record that a sheet has of the splat, placed by the unit;
+//                                     with `keep`, an ellipse's weights are in Ready::weights
 //   next_share(splat, sheet)          {words, saturated, empty()} of its records in this sheet; sheets come in order
 //   for_each_outline(splat, sheet, last, visit)
 //                                     visit({largest, excess, saturated}) of its shares of these sheets
@@ -42,8 +41,8 @@ struct Ready {
   Rest rest;
 };
 
-/// One band drawn, sheet by sheet. Of its splats, those that still can be seen wait in a list; of one that cannot, all
-/// sheets are counted at once.
+/// Draws a band, sheet by sheet. Splats that can still be seen wait in a list; of a hidden one, all sheets are counted
+/// at once.
 template <class Word, class Splats>
 class BandWalk {
  public:
@@ -142,8 +141,8 @@ class BandWalk {
   std::vector<HiddenShare> hidden_;                     ///< of one splat
 };
 
-/// One tile drawn on a device that culls, sheet by sheet and cell by cell: the splats of a set that was hidden once are
-/// never looked at again, but where they are so few that they are no set.
+/// Draws a tile as a device that culls does, sheet by sheet and cell by cell. Once a set is hidden, its splats are not
+/// looked at again, unless they are too few for a set: then they are counted one by one.
 template <class Word, class Splats>
 class CullWalk {
  public:

@@ -37,9 +37,8 @@ struct DriverReport {
   std::uint64_t saturated_records = 0;  ///< records whose share left the input format U 0.cf
   std::uint64_t vanished_voxels = 0;    ///< voxels whose words are all 0
   double vanished_share = 0.0;          ///< of all colour and opacity, what they had; 0 where it was carried on
-  std::uint64_t widened_voxels =
-      0;                 ///< voxels whose footprint was drawn wider than it is (driver/splats/ellipse_shape.hpp)
-  bool carried = false;  ///< roundings were carried from voxel to voxel (rounding.carry)
+  std::uint64_t widened_voxels = 0;     ///< drawn with a wider footprint than theirs (driver/splats/ellipse_shape.hpp)
+  bool carried = false;                 ///< roundings were carried from voxel to voxel (rounding.carry)
 };
 
 /// Which unit drew the tiles of a frame.

@@ -1,5 +1,5 @@
 // Unit "ellipse": from a record's shape to words by bank column and bank row, at c3 of the splat path (docs/numerics.md, section
-// 4.6; docs/microarchitecture.md, "Ellipses"; cmodel/splat/ellipse_unit.hpp). Windows that are no ellipse's pass through and mean nothing.
+// 4.6; docs/microarchitecture.md, "Ellipses"; cmodel/splat/ellipse_unit.hpp). Circles' windows pass through and mean nothing.
 // 13 registers, e1 to e13: as many as the splat path has from the c0 that the windows of decode are delayed to reach.
 module fastsplat_ellipse (
     input  logic                                      clk_i,

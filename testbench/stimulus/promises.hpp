@@ -10,8 +10,8 @@
 
 namespace fastsplat::testbench {
 
-/// Puts cull_blocks among the sheet's splats: rectangles around those that each covers, now and then a wider one, one
-/// of none, or one beside the tile. rho by radius set, 1/k pixel.
+/// Adds cull_blocks to the sheet: most are rectangles around the splats they cover; some are wider, empty or beside the
+/// tile. `rho` by radius set, 1/k pixel.
 void promise(const cmodel::Config& config, Random& random, const cmodel::BeginTile& tile,
              const std::array<std::uint32_t, 256>& rho, SheetDocument& sheet);
 

@@ -1,4 +1,4 @@
-"""python_words.py STREAM VECTORS: the words that testbench/capi/python gives of a stream are those that the program wrote down."""
+"""python_words.py STREAM VECTORS: testbench/capi/python gives the same words of a stream as the program."""
 import json
 import sys
 

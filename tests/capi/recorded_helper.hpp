@@ -1,5 +1,4 @@
-// One recorded stream of a small scene for a configuration and its vectors, made once by the program for all tests of a
-// run.
+// A recorded stream of a small scene and its vectors, made by the program once in a test run.
 #pragma once
 
 #include <string>
@@ -13,9 +12,9 @@ struct Recorded {
   cli_test::TempFolder folder;
   std::string stream, vectors;  ///< scene.fss and the folder
 };
-const Recorded& recorded();             ///< of tiny
-const Recorded& recorded_that_culls();  ///< of configs/faults/cull.toml: sets that the device tells to be hidden, beats
-                                        ///< whose last pixel lies outside
+const Recorded& recorded();  ///< of tiny
+/// Of configs/faults/cull.toml: the device hides some of its sets, and the last pixels of some beats lie outside.
+const Recorded& recorded_that_culls();
 inline const char* const kCulling = FASTSPLAT_SOURCE_DIR "/configs/faults/cull.toml";
 
 /// A Python that has `module`; empty for none.

@@ -20,7 +20,7 @@ class VerilatedCore final : public CoreDevice {
       : config_(config),
         output_(output),
         assembly_(config, kept_),
-        top_(testbench::open_rtl(config, {.faults = true}, {})),
+        top_(testbench::open_rtl(config, {.faults = true}, {})),  // no fault selected: a module that the build makes
         ports_(top_->ports()) {
     ports_.rst_ni = 0;
     ports_.s_tvalid_i = ports_.awvalid_i = ports_.wvalid_i = ports_.arvalid_i = ports_.m_tready_i = 0;

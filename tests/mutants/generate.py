@@ -22,14 +22,9 @@ endpackage
 """
 
 
-# Around the device, not in it.
-AROUND = {f"fastsplat_{name}.sv" for name in ("fetch", "queue", "slice", "top")}
-
-
 def paths_of(rtl: str) -> dict[str, str]:
-    """Where the files of the device lie, by name."""
-    found = {os.path.basename(path): path for path in glob.glob(f"{rtl}/**/*.sv*", recursive=True)}
-    return {name: path for name, path in found.items() if name not in AROUND}
+    """The files of the device by name, and their paths; what lies around it is in io/."""
+    return {os.path.basename(path): path for path in glob.glob(f"{rtl}/**/*.sv*", recursive=True) if not path.startswith(f"{rtl}/io/")}
 
 
 def files_of(rtl: str) -> list[str]:

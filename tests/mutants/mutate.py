@@ -1,4 +1,4 @@
-"""mutate.py ROOT BUILD [FLAGS]: what `tools/mutate` does; its flags are told by --help.
+"""mutate.py ROOT BUILD [FLAGS]: what `tools/mutate` does; --help prints its flags.
 
 Every mutant of rtl/ runs on the smallest device that has its module (devices.py) through the checks of check_mutants.cpp, cheapest
 first. What lives goes on to the devices behind it, and to the proof of its module where there is one. A mutant that lives

@@ -11,7 +11,7 @@ endif()
 
 option(FASTSPLAT_WERROR "Warnings are errors (set by the ci preset only: a newer compiler must not break a user's build)" OFF)
 option(FASTSPLAT_TESTS "Tests, examples and benchmarks; need the packages of [tests] in tools/debian.txt" ON)
-option(FASTSPLAT_PEERS "Programs that race other renderers (tools/benchmarks/peers): ./run peers" OFF)
+option(FASTSPLAT_PEERS "Programs that race other renderers (tools/benchmarks/peers): tools/peers" OFF)
 option(FASTSPLAT_UNITY "Compile the libraries' sources sixteen at a time; off: one by one, for who edits them" ON)
 option(FASTSPLAT_ASAN "AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
 option(FASTSPLAT_FUZZ "The fuzz targets of tests/fuzz and all they call, under libFuzzer and the sanitizers; needs Clang" OFF)
@@ -60,8 +60,8 @@ function(fastsplat_library name)
   list(TRANSFORM arg_FOLDERS REPLACE "(.+)" "${CMAKE_CURRENT_SOURCE_DIR}/\\1/*.cpp")
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${arg_FOLDERS})
   add_library(fastsplat_${name} STATIC ${sources})
-  # Sixteen sources are compiled as one: headers are most of what a compiler reads, and their templates of what it makes. Vector kernels stay alone, for Highway
-  # includes them once for each instruction set.
+  # Sixteen sources are compiled as one: headers are most of what a compiler reads, and their templates of what it makes.
+  # Vector kernels stay alone: Highway includes them once for each instruction set.
   foreach(source ${sources})
     file(STRINGS ${source} kernel REGEX "define HWY_TARGET_INCLUDE")
     if(kernel)

@@ -14,7 +14,6 @@ family=$1 config=$2 emit=$3 source=$4 work=$5
 mkdir -p "$work"
 here="$source/tests/rtl/synthesis"
 base="$work/$family-$config"
-modules=$(sed -n 's/^module \([a-z0-9_]*\).*/\1/p' "$source"/rtl/*.sv "$source"/rtl/*/*.sv)
 top=fastsplat_core files= place=
 case $family in
   ice40) pass="synth_ice40 -noflatten -top $top" ;;
@@ -48,17 +47,19 @@ else
   "$emit" "$from" >"$base.pkg.sv"
 fi
 
-# What ends a path: registers, memories, submodules.
-ends="t:FD* t:SRL* t:RAM* t:TRELLIS_FF t:TRELLIS_DPR* t:DP16KD t:SB_DFF* t:SB_RAM* t:*fastsplat_ram_1r1w"
-for module in $modules; do ends="$ends t:$module"; done
-
 # Cells are mapped and placed by their names, which have file names and running numbers in them: so that figures move with
 # the device alone, its modules are read from one folder, without those around it, and deferred (only those that it has).
 rm -rf "$base.rtl"
 mkdir "$base.rtl"
 for file in "$source"/rtl/*.sv "$source"/rtl/*/*.sv; do
-  case $file in *_fetch.sv | *_queue.sv | *_slice.sv | *_top.sv) ;; *) cp "$file" "$base.rtl" ;; esac
+  case $file in */rtl/io/*) ;; *) cp "$file" "$base.rtl" ;; esac
 done
+modules=$(sed -n 's/^module \([a-z0-9_]*\).*/\1/p' "$base.rtl"/*.sv)
+
+# What ends a path: registers, memories, submodules.
+ends="t:FD* t:SRL* t:RAM* t:TRELLIS_FF t:TRELLIS_DPR* t:DP16KD t:SB_DFF* t:SB_RAM* t:*fastsplat_ram_1r1w"
+for module in $modules; do ends="$ends t:$module"; done
+
 yosys -q -l "$base.log" -p "read_verilog -defer -sv -I$source/rtl $base.pkg.sv $base.rtl/*.sv $files; hierarchy -check -top $top; $pass; tee -o $base.stat.new stat; delete $ends; tee -o $base.levels ltp -noff" >/dev/null 2>&1 ||
   { tail -5 "$base.log"; echo "$family $config: Yosys fails"; exit 1; }
 {

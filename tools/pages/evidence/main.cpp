@@ -1,11 +1,18 @@
 // fastsplat_evidence: what tools other than the simulator said of the device, gathered (tools/synth, tools/evidence).
-//   synthesis KEPT WORK_DIR FAMILY-CONFIG...  KEPT (it may be missing) with those named anew, of the files of synth.sh
-//   and, where there is one, of FAMILY-CONFIG.stamp ratchet BASELINE WORK_DIR FAMILY-CONFIG...  those against the
-//   baseline's: exit code 1 where one moved by more than 2 % seed BASELINE FAMILY-CONFIG               the placer's
-//   seed of which the baseline has it placed; nothing if it is not figures GTEST_JSON                        the
-//   figures of a test program's report, by test page FOLDER [STAMP]                       docs/evidence.md of FOLDER's
-//   JSON, to standard output. STAMP: the RTL as it is, of tools/helpers/evidence_stamp.py, which every figure's own is
-//   held against
+//
+//   synthesis KEPT WORK_DIR FAMILY-CONFIG...
+//     KEPT (it may be missing) with those named anew, from the files of synth.sh and, where it exists,
+//     FAMILY-CONFIG.stamp
+//   ratchet BASELINE WORK_DIR FAMILY-CONFIG...
+//     compares with the baseline: exit code 1 where a figure moved by more than 2 %
+//   seed BASELINE FAMILY-CONFIG
+//     the seed with which the placer made the baseline's figures; nothing if it is not placed
+//   figures GTEST_JSON
+//     the figures of a test program's report, by test
+//   page FOLDER [STAMP]
+//     docs/evidence.md from FOLDER's JSON, to standard output. STAMP (tools/helpers/evidence_stamp.py) is the RTL of
+//     today, with which the stamp of each figure is compared
+//
 // Exit codes: 0, 1 moved, 2 usage, 3 a file that is missing or wrong.
 #include <algorithm>
 #include <exception>

@@ -10,10 +10,10 @@
 namespace fastsplat::evidence {
 
 /// Files FAMILY-CONFIG.* of `work`. Throws std::runtime_error where one is missing or says something else.
-///   {design, family, configuration: HASH, tools: {NAME: VERSION}, total: CELLS, modules: {NAME: {instances, levels,
-///   CELLS}}, seconds,
-///    placement: {fmax_mhz, used: {RESOURCE: [USED, OF]}, worst_paths: [...], from_pins: [...]}}: the ten latest
-///    arrivals between registers, and the latest from a pin
+///   {design, family, configuration: HASH, tools: {NAME: VERSION}, total: CELLS,
+///    modules: {NAME: {instances, levels, CELLS}}, seconds,
+///    placement: {fmax_mhz, used: {RESOURCE: [USED, OF]}, worst_paths: [...], from_pins: [...]}}
+/// worst_paths: the ten latest arrivals between registers; from_pins: the latest from a pin.
 /// CELLS: lut, carry, mux, ff, lutram, bram, dsp, as the family's primitives. A module's are its own and its memories',
 /// of one instance; levels, its longest path in cells, 0 where it has none. Seconds are the processor's: not for
 /// comparing.

@@ -18,7 +18,7 @@ constexpr const char* kPreface = R"(# The family of FastSplats
 
 A splat's weight at a pixel can be found in six ways ([numerics.md](numerics.md), section 4). What each costs and what it gets
 wrong, by the weights of the model's units and the driver's tables against golden's exact footprint; kernel gauss2 (a = R = 2), words U 1.14, g = 6,
-8 x 8 lanes. `tools/family` makes this page and its pictures in some minutes; `fastsplat family` has every cell, also
+8 x 8 lanes. `tools/family` makes this page and its pictures in a minute; `fastsplat family` has every cell, also
 with nanoseconds, `--json` for programs.
 
 A field of constant value is splatted: on a lattice along the pixels at 61 x 61 offsets (**aligned**: all splats lie alike on the grid, so what shows are the table's

@@ -17,7 +17,8 @@
 namespace fastsplat::volume {
 namespace {
 
-constexpr int kGzipWindow = 16 + MAX_WBITS;  // zlib's way to say: gzip header and checksum
+constexpr int kGzipWindow = 16 + MAX_WBITS;    // zlib's way to say: gzip header and checksum
+constexpr int kEitherWindow = 32 + MAX_WBITS;  // gzip or zlib, whichever the data begins with
 constexpr std::size_t kChunk = std::size_t{1} << 17;
 
 class PlainFile {
@@ -199,9 +200,8 @@ class HexDigits : public Unpacker {
 std::unique_ptr<Unpacker> unpacker_for(PlainFile file, Packing packing) {
   switch (packing) {
     case Packing::Gzip:
-      return std::make_unique<Unpacked<Inflate>>(std::move(file), kGzipWindow);
     case Packing::Zlib:
-      return std::make_unique<Unpacked<Inflate>>(std::move(file), MAX_WBITS);
+      return std::make_unique<Unpacked<Inflate>>(std::move(file), kEitherWindow);
     case Packing::Bzip2:
       return std::make_unique<Unpacked<Bunzip2>>(std::move(file));
     case Packing::Hex:
@@ -243,6 +243,29 @@ void write_deflated(std::ostream& out, const void* data, std::size_t size, int w
 Packing packing_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return file.get() == 0x1f && file.get() == 0x8b ? Packing::Gzip : Packing::Plain;
+}
+
+std::uint64_t offset_after_lines(const std::filesystem::path& path, std::uint64_t offset, std::uint64_t lines) {
+  PlainFile file(path, offset);
+  std::vector<char> chunk(kChunk);
+  for (std::size_t left = 0, at = 0; lines > 0; ++offset) {
+    if (left == 0) at = 0, left = file.read(chunk.data(), chunk.size());
+    if (left-- == 0) file.refuse("the file has fewer lines than its header's line skip");
+    lines -= chunk[at++] == '\n' ? 1 : 0;
+  }
+  return offset;
+}
+
+std::uint64_t unpacked_size(const std::filesystem::path& path, std::uint64_t offset, Packing packing) {
+  if (packing == Packing::Plain) {
+    const std::uint64_t size = std::filesystem::file_size(path);
+    return size - std::min(size, offset);
+  }
+  ByteReader reader(path, offset, packing);
+  std::vector<char> chunk(kChunk);
+  std::uint64_t size = 0;
+  for (std::size_t got = 1; got > 0; size += got) got = reader.read(chunk.data(), chunk.size());
+  return size;
 }
 
 std::string start_of(const std::filesystem::path& path, std::size_t most) {

@@ -10,7 +10,8 @@
 
 namespace fastsplat::volume {
 
-/// How the voxels lie on disk. Text: decimal numbers between blanks, which are voxel_data's business.
+/// How the voxels lie on disk. Gzip and Zlib: either is read where the other is said. Text: decimal numbers between
+/// blanks, which are voxel_data's business.
 enum class Packing { Plain, Gzip, Zlib, Bzip2, Hex, Text };
 
 /// Gzip when the file starts with gzip's two magic bytes, else Plain.
@@ -18,6 +19,12 @@ Packing packing_of(const std::filesystem::path& path);
 
 /// The file's first bytes as they are on disk, at most `most`.
 std::string start_of(const std::filesystem::path& path, std::size_t most);
+
+/// Offset of the first byte behind `lines` line ends, counted from `offset`. UserError (Input) where there are fewer.
+std::uint64_t offset_after_lines(const std::filesystem::path& path, std::uint64_t offset, std::uint64_t lines);
+
+/// How many bytes the file holds from `offset` on, once unpacked. Reads all of a packed file.
+std::uint64_t unpacked_size(const std::filesystem::path& path, std::uint64_t offset, Packing packing);
 
 class ByteReader {
  public:

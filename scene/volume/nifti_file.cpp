@@ -9,9 +9,11 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <tuple>
 #include <vector>
 
 #include "base/error.hpp"
+#include "scene/volume/lengths.hpp"
 
 namespace fastsplat::volume {
 namespace {
@@ -141,12 +143,16 @@ Component component_of(const fs::path& path, int datatype) {
       return Component::U32;
     case NIFTI_TYPE_INT32:
       return Component::I32;
+    case NIFTI_TYPE_UINT64:
+      return Component::U64;
+    case NIFTI_TYPE_INT64:
+      return Component::I64;
     case NIFTI_TYPE_FLOAT32:
       return Component::F32;
     case NIFTI_TYPE_FLOAT64:
       return Component::F64;
     default:
-      refuse(path, "a voxel type that cannot be read", "8, 16 or 32-bit integers, float or double",
+      refuse(path, "a voxel type that cannot be read", "integers, float or double",
              fmt::format("NIfTI datatype {}", datatype), "convert it (fslmaths IN OUT -odt float)");
   }
 }
@@ -170,16 +176,13 @@ ImagePointer interpret(const fs::path& path, const RawHeader& header) {
   return {image, &nifti_image_free};
 }
 
-double mm_per_unit(int units) {
+double mm_of_units(int units) {
   if (units == NIFTI_UNITS_METER) return 1000.0;
   if (units == NIFTI_UNITS_MICRON) return 0.001;
   return 1.0;
 }
 
-/// How the grid's axes lie in the head, from sform, else qform; nothing where the header says nothing usable.
-std::optional<Placement> placement_of(const nifti_image& image, double mm) {
-  if (image.sform_code <= 0 && image.qform_code <= 0) return std::nullopt;
-  const nifti_dmat44& matrix = image.sform_code > 0 ? image.sto_xyz : image.qto_xyz;
+std::optional<Placement> placement_by(const nifti_dmat44& matrix, double mm) {
   Placement placement;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 4; ++column) {
@@ -192,13 +195,34 @@ std::optional<Placement> placement_of(const nifti_image& image, double mm) {
   return placement;
 }
 
+/// How the grid's axes lie in the head, from sform, else qform; nothing where the header says nothing usable.
+std::optional<Placement> placement_of(const nifti_image& image, double mm, std::vector<std::string>& remarks) {
+  std::string unusable;
+  for (const auto& [name, code, matrix] :
+       {std::tuple{"sform", image.sform_code, &image.sto_xyz}, {"qform", image.qform_code, &image.qto_xyz}}) {
+    if (code <= 0) continue;
+    auto placement = placement_by(*matrix, mm);
+    if (!placement) {
+      unusable += fmt::format("{}{}", unusable.empty() ? "" : " and ", name);
+      continue;
+    }
+    if (!unusable.empty())
+      remarks.push_back(fmt::format("the header's {} does not span space: its {} is used", unusable, name));
+    return placement;
+  }
+  if (!unusable.empty()) {
+    remarks.push_back(fmt::format("the header's {} does not span space: axes are drawn as they are stored", unusable));
+  }
+  return std::nullopt;
+}
+
 /// NAME.hdr's voxels are in NAME.img or NAME.img.gz beside it, not behind a link to elsewhere.
 fs::path paired_data(const fs::path& path) {
   fs::path stem = path;
   if (stem.extension() == ".gz") stem.replace_extension();
   if (stem.extension() != ".hdr")
-    refuse(path, "only the header of a NIfTI pair", "a name ending in .hdr", {},
-           "name the .hdr file; its .img must lie beside it");
+    refuse(path, "the header of a NIfTI pair under another name", "a name ending in .hdr", {},
+           "rename it to end in .hdr, with its .img beside it");
   for (const char* ending : {".img", ".img.gz"}) {
     fs::path data = stem;
     data.replace_extension(ending);
@@ -224,23 +248,23 @@ VoxelSource read_nifti_header(const fs::path& path) {
   source.header = path;
   source.component = component_of(path, checked.datatype);
   const ImagePointer image = interpret(path, header);
-  source.data = checked.pair ? paired_data(path) : path;
-  source.packing = packing_of(source.data);
-  const auto offset = static_cast<std::uint64_t>(checked.offset);
-  (source.packing == Packing::Gzip ? source.stream_offset : source.file_offset) = offset;
+  DataFile file{.path = checked.pair ? paired_data(path) : path};
+  source.packing = packing_of(file.path);
+  (source.packing == Packing::Gzip ? file.stream_offset : file.file_offset) =
+      static_cast<std::uint64_t>(checked.offset);
+  source.files = {std::move(file)};
   const bool little = (std::endian::native == std::endian::little) != header.swapped;
   source.order = little ? std::endian::little : std::endian::big;
-  const double mm = mm_per_unit(image->xyz_units);
+  const double mm = mm_of_units(image->xyz_units);
   for (std::size_t a = 0; a < 3; ++a) {
     source.extents[a] = static_cast<std::uint64_t>(checked.dim[a + 1]);
-    const double length = std::abs(image->pixdim[a + 1]);
-    source.spacing[a] = (length > 0.0 && std::isfinite(length) ? length : 1.0) * mm;
+    source.spacing[a] = usable_length(checked.pixdim[a]) * mm;
   }
   if (image->scl_slope != 0.0) {  // 0 means: as stored
     source.slope = image->scl_slope;
     source.intercept = image->scl_inter;
   }
-  source.placement = placement_of(*image, mm);
+  source.placement = placement_of(*image, mm, source.remarks);
   if (source.placement) {
     // The matrix says where voxels are; pixdim is kept where it says the same but for rounding.
     constexpr double kRounding = 1e-3;
@@ -249,12 +273,8 @@ VoxelSource read_nifti_header(const fs::path& path) {
       if (!(std::abs(step - source.spacing[a]) <= kRounding * step)) source.spacing[a] = step;
     }
   }
-  // libnifti takes 1 for what is no length, and we a length for what is negative; neither is passed over in silence.
-  for (std::size_t a = 0; a < 3; ++a) {
-    if (checked.pixdim[a] > 0.0 && std::isfinite(checked.pixdim[a])) continue;
-    source.remarks.push_back(fmt::format("the header's pixdim[{}] is {}, no length: {} mm are taken", a + 1,
-                                         checked.pixdim[a], source.spacing[a]));
-  }
+  for (std::size_t a = 0; a < 3; ++a)
+    note_unusable_length(fmt::format("pixdim[{}]", a + 1), checked.pixdim[a], source.spacing[a], source.remarks);
   return source;
 }
 

@@ -52,6 +52,10 @@ auto with_type(Component component, What&& what) {
       return what(std::uint32_t{});
     case Component::I32:
       return what(std::int32_t{});
+    case Component::U64:
+      return what(std::uint64_t{});
+    case Component::I64:
+      return what(std::int64_t{});
     case Component::F32:
       return what(float{});
     case Component::F64:

@@ -9,7 +9,7 @@
 
 namespace fastsplat::volume {
 
-enum class Component { U8, I8, U16, I16, U32, I32, F32, F64 };
+enum class Component { U8, I8, U16, I16, U32, I32, U64, I64, F32, F64 };
 std::size_t size_of(Component component);
 
 class StoredValues {

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/read_file.hpp"
 #include "base/suggest.hpp"
+#include "scene/volume/foreign_file.hpp"
 #include "scene/volume/metaimage_file.hpp"
 #include "scene/volume/nifti_file.hpp"
 #include "scene/volume/nrrd_file.hpp"
@@ -86,16 +87,37 @@ fs::path find_file(const std::string& text) {
                .fix = suggestion(text.substr(0, text.find(':')), known_volume_names())});
 }
 
-VoxelSource read_header(const fs::path& path) {
+std::optional<VoxelSource> header_in(const fs::path& path) {
   require_readable_file(path);
   if (is_nrrd(path)) return read_nrrd_header(path);
   if (is_metaimage(path)) return read_metaimage_header(path);
   if (is_nifti(path)) return read_nifti_header(path);
+  return std::nullopt;
+}
+
+/// By the header beside it that names `path` as its data file: ct.hdr for ct.img.
+std::optional<VoxelSource> header_beside(const fs::path& path) {
+  fs::path stem = path;
+  if (stem.extension() == ".gz") stem.replace_extension();
+  std::error_code error;
+  for (const char* ending : {".hdr", ".nhdr", ".mhd"}) {
+    const fs::path beside = stem.replace_extension(ending);
+    if (!fs::is_regular_file(beside, error)) continue;
+    auto source = header_in(beside);
+    const auto is_this = [&](const DataFile& file) { return fs::equivalent(file.path, path, error); };
+    if (source && std::any_of(source->files.begin(), source->files.end(), is_this)) return source;
+  }
+  return std::nullopt;
+}
+
+VoxelSource read_header(const fs::path& path) {
+  if (auto source = header_in(path)) return *std::move(source);
+  if (auto source = header_beside(path)) return *std::move(source);
   throw_input({.where = path.string(),
                .what = "not a volume file that can be read",
                .expected = "NRRD, NIfTI or MetaImage",
-               .got = {},
-               .fix = "convert it, for example to .nrrd (unu) or .nii.gz"});
+               .got = foreign_format(path),
+               .fix = way_to_read(path)});
 }
 
 Volume named(Volume volume, const std::string& name, const fs::path& path) {
@@ -133,7 +155,10 @@ std::vector<fs::path> files_of(const std::string& name_or_path) {
     if (!fs::is_regular_file(name_or_path, ignored) && as_synthetic(name_or_path)) return {};
     files.push_back(find_file(name_or_path));
     const VoxelSource source = read_header(files.front());
-    if (source.data != files.front()) files.push_back(source.data);
+    if (source.header != files.front()) files.push_back(source.header);
+    for (const DataFile& file : source.files) {
+      if (file.path != files.front()) files.push_back(file.path);
+    }
   } catch (const UserError&) {
     // load_volume's to tell
   }

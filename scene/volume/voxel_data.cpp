@@ -28,15 +28,20 @@ constexpr std::uint64_t kBzip2Limit = 2'000'000;              // a block of 900,
                .fix = std::move(fix)});
 }
 
-std::uint64_t voxel_count(const VoxelSource& source) {
-  return source.extents[0] * source.extents[1] * source.extents[2];
-}
-
 std::string extents_text(const VoxelSource& source) {
   return fmt::format("{} x {} x {}", source.extents[0], source.extents[1], source.extents[2]);
 }
 
-bool is_wide_integer(Component component) { return component == Component::U32 || component == Component::I32; }
+/// What the voxels of one data file are, for messages.
+std::string voxels_text(const VoxelSource& source) {
+  return extents_text(source) + " voxels" +
+         (source.files.size() > 1 ? fmt::format(" in {} files", source.files.size()) : "");
+}
+
+bool is_wide_integer(Component component) {
+  return component == Component::U32 || component == Component::I32 || component == Component::U64 ||
+         component == Component::I64;
+}
 bool is_scaled(const VoxelSource& source) { return source.slope != 1.0 || source.intercept != 0.0; }
 
 VoxelType announced_type(const VoxelSource& source) {
@@ -78,7 +83,7 @@ struct Trouble {
 void refuse_trouble(const VoxelSource& source, const Trouble& trouble, const char* what, const std::string& fix) {
   if (trouble.count == 0) return;
   const auto [nx, ny, nz] = source.extents;
-  refuse(source, fmt::format("{} of {} voxels {}", trouble.count, voxel_count(source), what), {},
+  refuse(source, fmt::format("{} of {} voxels {}", trouble.count, source.voxels(), what), {},
          fmt::format("{} first, at voxel ({}, {}, {})", trouble.value, trouble.first % nx, trouble.first / nx % ny,
                      trouble.first / nx / ny),
          fix);
@@ -88,7 +93,7 @@ void refuse_trouble(const VoxelSource& source, const Trouble& trouble, const cha
   const std::uint64_t width = source.packing == Packing::Text ? 1 : size_of(source.component);
   const char* unit = source.packing == Packing::Text ? "numbers" : "bytes";
   refuse(source, "the data ends early: the file is truncated, or its header wrong",
-         fmt::format("{} {} for {} voxels", voxel_count(source) * width, unit, extents_text(source)),
+         fmt::format("{} {} for {}", source.voxels_per_file() * width, unit, voxels_text(source)),
          fmt::format("{} {}", found * width + rest, unit), "download or copy the file again");
 }
 
@@ -110,42 +115,55 @@ std::uint64_t most_unpacked(const VoxelSource& source, std::uint64_t on_disk) {
   return on_disk;
 }
 
-/// `replaced`: how many voxels became `nan_as`.
-std::vector<float> read_voxels(const VoxelSource& source, std::optional<float> nan_as, std::uint64_t& replaced) {
-  const std::uint64_t count = voxel_count(source);
-  StoredValues stored(source.data, source.file_offset, source.stream_offset, source.packing, source.component,
-                      source.order);
+/// What reading met besides good numbers.
+struct Findings {
+  Trouble infinite;
+  std::uint64_t replaced = 0;  ///< voxels that became `nan_as`
+  std::uint64_t rounded = 0;   ///< stored numbers that a float cannot hold
+};
+
+float voxel_from(double number, const VoxelSource& source, std::optional<float> nan_as, std::size_t at,
+                 Findings& findings) {
+  if (nan_as && !std::isfinite(number)) {
+    ++findings.replaced;
+    return *nan_as;
+  }
+  constexpr double kLargest = 3.4028234663852886e38;
+  constexpr double kExact = 9007199254740992.0;  // 2^53: a double holds any whole number below
+  const double value = is_scaled(source) ? source.slope * number + source.intercept : number;
+  const auto voxel =
+      std::abs(value) <= kLargest ? static_cast<float>(value) : static_cast<float>(std::copysign(INFINITY, value));
+  if (!std::isfinite(value) || std::isinf(voxel)) {
+    findings.infinite.note(at, value);
+  } else if (!is_scaled(source)) {
+    const bool cut = is_wide_integer(source.component) && std::abs(number) >= kExact;
+    findings.rounded += cut || static_cast<double>(voxel) != number ? 1 : 0;
+  }
+  return voxel;
+}
+
+std::vector<float> read_voxels(const VoxelSource& source, std::optional<float> nan_as, Findings& findings) {
+  const std::uint64_t count = source.voxels();
   std::vector<float> voxels;
   try {
     voxels.reserve(count);  // not touched until data arrives, so that a lying gzip header costs nothing
   } catch (const std::bad_alloc&) {
     refuse(source, "not enough memory for its voxels", {}, extents_text(source),
-           "downsample the volume (unu resample)");
+           "downsample the volume (teem-unu resample)");
   }
-  Trouble infinite;
-  Trouble inexact;
-  while (voxels.size() < count) {
-    const auto numbers = stored.next(count - voxels.size());
-    for (const double number : numbers) {
-      const double value = is_scaled(source) ? source.slope * number + source.intercept : number;
-      const auto voxel = std::abs(value) <= 3.4028234663852886e38 ? static_cast<float>(value)
-                                                                  : static_cast<float>(std::copysign(INFINITY, value));
-      if (nan_as && !std::isfinite(number)) {
-        voxels.push_back(*nan_as);
-        ++replaced;
-        continue;
-      }
-      if (!std::isfinite(value) || std::isinf(voxel)) infinite.note(voxels.size(), value);
-      if (is_wide_integer(source.component) && static_cast<double>(static_cast<float>(number)) != number)
-        inexact.note(voxels.size(), number);
-      voxels.push_back(voxel);
+  for (const DataFile& file : source.files) {
+    StoredValues stored(file.path, file.file_offset, file.stream_offset, source.packing, source.component,
+                        source.order);
+    for (std::uint64_t left = source.voxels_per_file(); left > 0;) {
+      const auto numbers = stored.next(left);
+      for (const double number : numbers) voxels.push_back(voxel_from(number, source, nan_as, voxels.size(), findings));
+      if (numbers.empty()) refuse_end(source, source.voxels_per_file() - left, stored.rest());
+      left -= numbers.size();
     }
-    if (numbers.empty()) refuse_end(source, voxels.size(), stored.rest());
+    stored.verify_rest();
   }
-  stored.verify_rest();
-  refuse_trouble(source, infinite, "are not finite numbers",
+  refuse_trouble(source, findings.infinite, "are not finite numbers",
                  "add --nan-as 0 (or another value) to put that in their place");
-  refuse_trouble(source, inexact, "do not fit a 24-bit mantissa", "rescale to 16 bits (unu quantize -b 16)");
   return voxels;
 }
 
@@ -181,7 +199,7 @@ void check_source(const VoxelSource& source) {
   }
   if (count > kMaxVoxels) {
     refuse(source, "more voxels than can be handled", fmt::format("at most {}", kMaxVoxels), extents_text(source),
-           "downsample the volume (unu resample)");
+           "downsample the volume (teem-unu resample)");
   }
   for (const double spacing : source.spacing) {
     if (!(spacing >= 1e-6 && spacing <= 1e6)) {
@@ -194,20 +212,44 @@ void check_source(const VoxelSource& source) {
            fmt::format("{} and {}", source.slope, source.intercept), "correct the header");
   }
 
-  require_readable_file(source.data);
-  std::error_code error;
-  const std::uint64_t file_size = std::filesystem::file_size(source.data, error);
-  if (error) refuse(source, "cannot read: " + error.message(), {}, {}, "check the path");
-  const std::uint64_t on_disk = file_size > source.file_offset ? file_size - source.file_offset : 0;
-  const std::uint64_t need = count * size_of(source.component) + std::min(source.stream_offset, std::uint64_t{1} << 62);
-  const std::uint64_t can_hold = most_unpacked(source, on_disk);
-  if (need > can_hold) {
-    refuse(source, "the header promises more than the file holds",
-           fmt::format("{} bytes for {} voxels", need, extents_text(source)),
-           fmt::format("{}{} bytes", source.packing == Packing::Plain ? "" : "at most ", can_hold),
-           "download or copy the file again, or correct the header's sizes");
+  if (count % source.files.size() != 0) {
+    refuse(source, "the data files cannot hold equal parts of the voxels", extents_text(source) + " voxels",
+           fmt::format("{} files", source.files.size()), "name one data file a slice");
+  }
+  const std::uint64_t bytes = source.voxels_per_file() * size_of(source.component);
+  for (const DataFile& file : source.files) {
+    require_readable_file(file.path);
+    std::error_code error;
+    const std::uint64_t file_size = std::filesystem::file_size(file.path, error);
+    if (error) refuse(source, "cannot read: " + error.message(), {}, {}, "check the path");
+    const std::uint64_t on_disk = file_size > file.file_offset ? file_size - file.file_offset : 0;
+    const std::uint64_t need = bytes + std::min(file.stream_offset, std::uint64_t{1} << 62);
+    const std::uint64_t can_hold = most_unpacked(source, on_disk);
+    if (need > can_hold) {
+      refuse(source, "the header promises more than the file holds",
+             fmt::format("{} bytes for {}", need, voxels_text(source)),
+             fmt::format("{}{} bytes", source.packing == Packing::Plain ? "" : "at most ", can_hold),
+             "download or copy the file again, or correct the header's sizes");
+    }
   }
 }
+
+namespace {
+
+/// Sizes that are too small draw a part, or another picture. A few bytes at the end mean nothing.
+void note_surplus(const VoxelSource& source, Volume& volume) {
+  if (source.packing != Packing::Plain) return;
+  const std::uint64_t size = size_of(source.component), need = source.voxels_per_file() * size;
+  for (const DataFile& file : source.files) {
+    const std::uint64_t surplus = std::filesystem::file_size(file.path) - file.file_offset - file.stream_offset - need;
+    if (surplus < source.extents[0] * size) continue;
+    volume.remarks.push_back(
+        fmt::format("the data file holds {} bytes more than {} need", surplus, voxels_text(source)));
+    return;
+  }
+}
+
+}  // namespace
 
 Volume describe_source(const VoxelSource& source) {
   check_source(source);
@@ -219,14 +261,18 @@ Volume describe_source(const VoxelSource& source) {
 Volume read_source(const VoxelSource& source, std::optional<float> nan_as) {
   check_source(source);
   Volume volume = empty_volume(source);
-  std::uint64_t replaced = 0;
-  volume.voxels = read_voxels(source, nan_as, replaced);
+  Findings findings;
+  volume.voxels = read_voxels(source, nan_as, findings);
   const auto [low, high] = std::minmax_element(volume.voxels.begin(), volume.voxels.end());
   volume.min = *low;
   volume.max = *high;
-  if (replaced > 0) {
-    volume.remarks.push_back(fmt::format("{} of {} voxels are not finite numbers and were taken as {}", replaced,
-                                         volume.voxels.size(), *nan_as));
+  if (findings.replaced > 0) {
+    volume.remarks.push_back(fmt::format("{} of {} voxels are not finite numbers and were taken as {}",
+                                         findings.replaced, volume.voxels.size(), *nan_as));
+  }
+  if (findings.rounded > 0) {
+    volume.remarks.push_back(fmt::format("{} of {} voxels have more digits than a float holds and were rounded",
+                                         findings.rounded, volume.voxels.size()));
   }
   if (volume.min == volume.max && volume.voxels.size() > 1)
     volume.remarks.push_back(
@@ -234,6 +280,7 @@ Volume read_source(const VoxelSource& source, std::optional<float> nan_as) {
   if (is_wide_integer(source.component) && !is_scaled(source)) volume.stored = integer_type(volume.min, volume.max);
   if (source.placement) place(volume, *source.placement);
   if (volume.oblique) note_shear(volume);
+  note_surplus(source, volume);
   return volume;
 }
 

@@ -110,11 +110,55 @@ TEST_F(MetaImage, SeparateData) {
   };
   EXPECT_THAT(message("../v.raw"), HasSubstr("must lie in the header's own folder"));
   EXPECT_THAT(message("/etc/passwd"), HasSubstr("must lie in the header's own folder"));
-  EXPECT_THAT(message("LIST"), HasSubstr("several files"));
-  EXPECT_THAT(message("slice%03d.raw 1 9 1"), HasSubstr("several files"));
+  EXPECT_THAT(message("LIST"), HasSubstr("impossible length"));
+  EXPECT_THAT(message("slice%03d.raw 1 9 1"), HasSubstr("equal parts"));
   EXPECT_THAT(message("missing.raw"), HasSubstr("no such file"));
   EXPECT_THAT(refusal([&] { load_volume(mhd("HeaderSize = 99\nElementDataFile = v.raw\n")); }),
               HasSubstr("promises more"));
+}
+
+// MetaIO inflates gzip, too, and takes any field first; programs write fields of their own.
+TEST_F(MetaImage, ReadsWhatMetaIoReads) {
+  std::ostringstream gzip;
+  write_gzip(gzip, "12345678", 8);
+  EXPECT_EQ(load("CompressedData = True\n", gzip.str()).voxels, load("", "12345678").voxels);
+  const std::string rest = "NDims = 3\nDimSize = 2 2 2\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n12345678";
+  for (const char* first : {"Modality = MET_MOD_CT\n", "0008|0060 = CT\n", "ITK_InputFilterName = NrrdImageIO\n"})
+    EXPECT_EQ(load_volume(write("first.mha", first + rest).string()).dims, glm::ivec3(2)) << first;
+  EXPECT_THAT(load("ElementType = MET_LONG_LONG\n", bytes_of<std::int64_t>({0, 1, 2, 3, 4, -5, 6, 70000})).voxels,
+              ElementsAre(0, 1, 2, 3, 4, -5, 6, 70000));
+}
+
+TEST_F(MetaImage, MisspeltFieldsAreRefusedWithTheNearest) {
+  for (const auto& [line, meant] : {std::pair{"ElementSpacng = 2 3 4\n", "ElementSpacing"},
+                                    {"elementspacing = 2 3 4\n", "ElementSpacing"},
+                                    {"TransformMatrx = 1 0 0 0 1 0 0 0 1\n", "TransformMatrix"},
+                                    {"BinaryDataByteOrderMBS = True\n", "BinaryDataByteOrderMSB"}})
+    EXPECT_THAT(refused(line), HasSubstr(std::string("did you mean '") + meant + "'"));
+}
+
+TEST_F(MetaImage, UnitsAndOddSpacingsAreFollowed) {
+  const Volume microns = load("DistanceUnits = um\nElementSpacing = 500 1000 2000\nOffset = -1000 -2000 4000\n");
+  EXPECT_EQ(microns.spacing, glm::dvec3(0.5, 1, 2));
+  EXPECT_EQ(microns.centre, load("ElementSpacing = 0.5 1 2\nOffset = -1 -2 4\n").centre);
+  EXPECT_THAT(load("DistanceUnits = ell\n").remarks, ElementsAre(HasSubstr("'ell' is unknown: mm is used")));
+  const Volume odd = load("ElementSpacing = 0 nan -2\n");
+  EXPECT_EQ(odd.spacing, glm::dvec3(1, 1, 2));
+  EXPECT_THAT(odd.remarks, ElementsAre(HasSubstr("axis 1 is 0, not a length: 1 mm"), HasSubstr("axis 2 is nan"),
+                                       HasSubstr("axis 3 is -2, not a length: 2 mm")));
+  EXPECT_THAT(load("AnatomicalOrientation = LPS\n").remarks, ElementsAre(HasSubstr("LPS has no TransformMatrix")));
+  EXPECT_THAT(load("AnatomicalOrientation = RAI\n").remarks, ElementsAre());
+}
+
+TEST_F(MetaImage, DataInSeveralFiles) {
+  write("a.raw", "x1234");
+  write("b.raw", "x5678");
+  const auto mhd = [&](const std::string& lines) { return load_volume(write("v.mhd", header(lines)).string()); };
+  EXPECT_EQ(mhd("HeaderSize = 1\nElementDataFile = LIST\na.raw\nb.raw\n").voxels, load("").voxels);
+  EXPECT_EQ(mhd("HeaderSize = -1\nElementDataFile = LIST 2D\na.raw\nb.raw\n").voxels, load("").voxels);
+  write("s7.raw", "1234");
+  write("s5.raw", "5678");
+  EXPECT_EQ(mhd("ElementDataFile = s%d.raw 7 5 -2\n").voxels, load("").voxels);
 }
 
 TEST_F(MetaImage, RefusesWhatIsNoVolume) {
@@ -122,7 +166,6 @@ TEST_F(MetaImage, RefusesWhatIsNoVolume) {
   EXPECT_THAT(refused("NDims = 2\nDimSize = 4 2\n"), HasSubstr("3 dimensions"));
   EXPECT_THAT(refused("NDims = 4\nDimSize = 2 2 1 2\n"), HasSubstr("one scalar per voxel"));
   EXPECT_EQ(load("NDims = 4\nDimSize = 2 2 2 1\nElementSpacing = 1 2 3 4\n").spacing, glm::dvec3(1, 2, 3));
-  EXPECT_THAT(refused("ElementType = MET_LONG_LONG\n"), HasSubstr("voxel type"));
   EXPECT_THAT(refused("ElementType = MET_UCHAR_ARRAY\n"), HasSubstr("voxel type"));
   EXPECT_THAT(refused("DimSize = 2 2\n"), HasSubstr("disagree"));
   EXPECT_THAT(refused("DimSize = 2 -2 2\n"), HasSubstr("not a size"));
@@ -132,9 +175,9 @@ TEST_F(MetaImage, RefusesWhatIsNoVolume) {
   EXPECT_THAT(refused("CompressedData = True\nDimSize = 1000 1000 1000\n", zlib("12345678")),
               HasSubstr("promises more than the file holds"));
   EXPECT_THAT(refused("NDims = 99\n"), HasSubstr("number of dimensions"));
-  EXPECT_THAT(refused("ElementSpacing = 1 0 1\n"), HasSubstr("spacing"));
-  EXPECT_THAT(refused("ElementSpacing = 1 1\n"), HasSubstr("NDims"));
-  EXPECT_THAT(refused("ElementSpacing = 1 nan 1\n"), HasSubstr("finite number"));
+  EXPECT_THAT(refused("ElementSpacing = 1 1\n"), HasSubstr("as many numbers"));
+  EXPECT_THAT(refused("ElementSpacing = 1 x 1\n"), HasSubstr("not a number"));
+  EXPECT_THAT(refused("Offset = 1 nan 1\n"), HasSubstr("finite number"));
   EXPECT_THAT(refused("TransformMatrix = 1 0 0 1 0 0 0 0 1\n"), HasSubstr("do not span space"));
   EXPECT_THAT(refused("BinaryData = Perhaps\n"), HasSubstr("True or False"));
   EXPECT_THAT(refused("ElementToIntensityFunctionSlope = 2\n"), HasSubstr("not applied"));

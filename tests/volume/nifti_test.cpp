@@ -35,6 +35,8 @@ struct Header {
   int units = 2;
   int sform = 0;
   std::array<double, 12> rows{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+  int qform = 0;
+  std::array<double, 3> quaternion{};
   std::string magic{};
 
   std::string bytes() const {
@@ -56,7 +58,9 @@ struct Header {
       put(112, static_cast<float>(slope));
       put(116, static_cast<float>(intercept));
       out[123] = static_cast<char>(units);
+      put(252, static_cast<std::int16_t>(qform));
       put(254, static_cast<std::int16_t>(sform));
+      for (std::size_t i = 0; i < 3; ++i) put(256 + 4 * i, static_cast<float>(quaternion[i]));
       for (std::size_t i = 0; i < 12; ++i) put(280 + 4 * i, static_cast<float>(rows[i]));
       out.replace(344, 4, magic.empty() ? std::string("n+1\0", 4) : magic);
     } else {
@@ -68,7 +72,9 @@ struct Header {
       put(168, static_cast<std::int64_t>(data));
       put(176, slope);
       put(184, intercept);
+      put(344, std::int32_t{qform});
       put(348, std::int32_t{sform});
+      for (std::size_t i = 0; i < 3; ++i) put(352 + 8 * i, quaternion[i]);
       for (std::size_t i = 0; i < 12; ++i) put(400 + 8 * i, rows[i]);
       put(500, std::int32_t{units});
     }
@@ -150,11 +156,37 @@ TEST_F(Nifti, AxesAreTurnedToRightAnteriorSuperior) {
       load({.pixdim = {1, 3, 1, 2, 1, 1, 1, 1}, .sform = 1, .rows = {0, 0, 2, 0, 0, 1, 0, 0, 3, 0, 0, 0}}, kBytes);
   EXPECT_THAT(sagittal.voxels, ElementsAre(1, 5, 3, 7, 2, 6, 4, 8));
   EXPECT_EQ(sagittal.spacing, glm::dvec3(2, 1, 3));
-  // A matrix that says nothing leaves the grid as it is.
-  EXPECT_THAT(load({.sform = 1, .rows = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}}, kBytes).voxels,
-              ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
-  EXPECT_THAT(load({.sform = 1, .rows = {NAN, 0, 0, 0, 0, INFINITY, 0, 0, 0, 0, 1, 0}}, kBytes).voxels,
-              ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
+}
+
+TEST_F(Nifti, AnUnusableFormIsSaidAndTheOtherUsed) {
+  for (const std::array<double, 12>& rows : {std::array<double, 12>{},
+                                             {NAN, 0, 0, 0, 0, INFINITY, 0, 0, 0, 0, 1, 0},
+                                             {1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0}}) {
+    const Volume neither = load({.sform = 1, .rows = rows}, kBytes);
+    EXPECT_THAT(neither.voxels, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
+    EXPECT_FALSE(neither.placed);
+    EXPECT_THAT(neither.remarks,
+                ElementsAre(HasSubstr("sform does not span space: axes are drawn as they are stored")));
+    // A half turn about z: x runs to the left, y to the back.
+    const Volume by_qform = load({.sform = 1, .rows = rows, .qform = 1, .quaternion = {0, 0, 1}}, kBytes);
+    EXPECT_THAT(by_qform.voxels, ElementsAre(4, 3, 2, 1, 8, 7, 6, 5));
+    EXPECT_THAT(by_qform.remarks, ElementsAre(HasSubstr("sform does not span space: its qform is used")));
+  }
+}
+
+TEST_F(Nifti, WideIntegersAreRead) {
+  const Volume labels = load({.datatype = 1024}, bytes_of<std::int64_t>({0, 1, 2, 3, 4, -5, 6, 7}));
+  EXPECT_THAT(labels.voxels, ElementsAre(0, 1, 2, 3, 4, -5, 6, 7));
+  EXPECT_EQ(labels.stored, VoxelType::I8);
+  EXPECT_THAT(load({.datatype = 1280}, bytes_of<std::uint64_t>({0, 1, 2, 3, 4, 5, 6, 70000})).voxels,
+              ElementsAre(0, 1, 2, 3, 4, 5, 6, 70000));
+  // Scaled counts are floats like any other; the scale's rounding needs no word.
+  const Volume counts =
+      load({.datatype = 8, .slope = 0.1}, bytes_of<std::int32_t>({0, 1, 2, 3, 4, 5, 16777217, 100000001}));
+  EXPECT_FLOAT_EQ(counts.at(1, 1, 1), 1e7f);
+  EXPECT_THAT(counts.remarks, ElementsAre());
+  const Volume large = load({.datatype = 1024}, bytes_of<std::int64_t>({0, 1, 2, 3, 4, 5, 6, (1LL << 53) + 1}));
+  EXPECT_THAT(large.remarks, ElementsAre(HasSubstr("1 of 8 voxels have more digits than a float holds")));
 }
 
 TEST_F(Nifti, PairsReadTheImgBesideTheHdr) {
@@ -167,6 +199,13 @@ TEST_F(Nifti, PairsReadTheImgBesideTheHdr) {
   fs::remove(folder_ / "v.img.gz");
   EXPECT_THAT(refusal([&] { load(header, "", "v.hdr"); }), HasSubstr(".img"));
   EXPECT_THAT(refusal([&] { load(header, "", "v.nii"); }), HasSubstr(".hdr"));
+  write("v.hdr", header.bytes());
+  for (const char* name : {"v.img", "v.img.gz"}) {  // named by its data
+    const auto data = write(name, name == std::string("v.img") ? kBytes : gzip(kBytes));
+    EXPECT_THAT(load_volume(data.string()).voxels, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8)) << name;
+    EXPECT_EQ(files_of(data.string()).size(), 2U);
+    fs::remove(data);
+  }
   fs::create_directory(folder_ / "inside");
   write("secret.img", kBytes);
   fs::create_symlink(folder_ / "secret.img", folder_ / "inside" / "v.img");

@@ -72,6 +72,16 @@ TEST_F(VolumeFuzz, LoadsOrRefuses) {
   text += numbers;
   const std::string hex =
       "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 6 5 4\nencoding: hex\n\n" + std::string(240, '7');
+  write("k1.raw", "#\n" + std::string(60, 'a'));
+  write("k2.raw", "#\n" + std::string(60, 'b'));
+  const std::string list =
+      "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 6 5 4\nencoding: raw\nline skip: 1\nbyte skip: -1\n"
+      "data file: LIST\nk1.raw\nk2.raw\n";
+  const std::string full =
+      "NRRD0005\ntype: uchar\ndimension: 4\nspace: left-posterior-superior-time\nsizes: 1 6 5 4\n"
+      "space directions: none (1,0,0,0) (0,1,0,0) (0,0,2,0)\ncenterings: none cell cell cell\nkinds: list space space "
+      "space\nspace units: \"um\" \"mm\" \"cm\" \"s\"\nspace origin: (0,0,0,0)\nencoding: raw\nkey:a:=b\n\n" +
+      std::string(120, 'a');
   const std::vector<std::pair<const char*, std::string>> originals = {{"a.nrrd", saved("a.nrrd", VoxelType::U16)},
                                                                       {"b.nii", saved("b.nii", VoxelType::F32)},
                                                                       {"c.nii.gz", saved("c.nii.gz", VoxelType::I16)},
@@ -81,7 +91,9 @@ TEST_F(VolumeFuzz, LoadsOrRefuses) {
                                                                       {"g.mhd", saved("g.mhd", VoxelType::U8)},
                                                                       {"h.mha", metaimage},
                                                                       {"i.nrrd", text},
-                                                                      {"j.nrrd", hex}};
+                                                                      {"j.nrrd", hex},
+                                                                      {"k.nhdr", list},
+                                                                      {"l.nrrd", full}};
   std::mt19937 random(kSeed);
   int loaded = 0;
   int refused = 0;

@@ -1,0 +1,20 @@
+// Headers that name other files for their voxels: which names are followed.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/volume/text_header.hpp"
+
+namespace fastsplat::volume {
+
+/// Whether a field that names data files says that they are listed on the lines behind it ("LIST", "LIST 2").
+bool says_list(const std::string& value);
+
+/// The files that `field` of `header` names, at least one: a name, `PATTERN MIN MAX STEP` with one %d or %03d in the
+/// pattern, or LIST for header.listed_files. Each lies in the header's own folder or below, links followed. Absolute
+/// names, ".." and links to elsewhere are UserErrors (Input). That the files are there is not checked.
+std::vector<std::filesystem::path> detached_files(const TextHeader& header, const TextHeader::Field& field);
+
+}  // namespace fastsplat::volume

@@ -1,0 +1,83 @@
+#include "scene/volume/foreign_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <regex>
+#include <string_view>
+
+#include "scene/volume/byte_reader.hpp"
+#include "scene/volume/text_header.hpp"
+
+namespace fastsplat::volume {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Format {
+  std::size_t at;
+  std::string_view magic;
+  const char* name;
+  const char* way;
+};
+
+constexpr std::array<Format, 8> kFormats{
+    {{128, "DICM", "DICOM", "make one file of the series with dcm2niix -z y FOLDER"},
+     {0, "\x89HDF", "HDF5 or MINC 2", "convert it to .nii.gz, for MINC with mnc2nii"},
+     {0, "CDF\x01", "MINC 1", "convert it with mnc2nii"},
+     {208, "MAP ", "MRC or CCP4", "convert it to .nrrd or .nii.gz"},
+     {0, "\x93NUMPY", "a NumPy array", "write it as .nii.gz with nibabel or as .nrrd with pynrrd"},
+     {0, "# vtk DataFile", "VTK", "write it as .mha with VTK (vtkMetaImageWriter)"},
+     {0, "<?xml", "XML, perhaps of VTK", "write it as .mha with VTK (vtkMetaImageWriter)"},
+     {0, "<VTKFile", "VTK", "write it as .mha with VTK (vtkMetaImageWriter)"}}};
+
+const Format* format_of(const fs::path& path) {
+  const std::string start = start_of(path, 256);
+  const auto* const found = std::find_if(kFormats.begin(), kFormats.end(), [&start](const Format& format) {
+    return start.size() > format.at && start.compare(format.at, format.magic.size(), format.magic) == 0;
+  });
+  return found == kFormats.end() ? nullptr : found;
+}
+
+/// Size and type of raw voxels, from a name as open data sets have it.
+struct RawName {
+  std::string sizes = "X Y Z", type = "uint8";
+  bool sized = false;
+};
+
+RawName raw_name(const fs::path& path) {
+  static const std::regex kSizes(R"((\d{1,5})x(\d{1,5})x(\d{1,5}))");
+  static const std::regex kType(R"((u?int(8|16|32)|float(32)?|double))");
+  const std::string name = lower_case(path.filename().string());
+  RawName raw;
+  std::smatch part;
+  if (std::regex_search(name, part, kSizes)) {
+    raw.sizes = fmt::format("{} {} {}", part[1].str(), part[2].str(), part[3].str());
+    raw.sized = true;
+  }
+  if (std::regex_search(name, part, kType)) raw.type = part[1].str() == "float32" ? "float" : part[1].str();
+  return raw;
+}
+
+}  // namespace
+
+std::string foreign_format(const fs::path& path) {
+  const Format* format = format_of(path);
+  return format != nullptr ? format->name : "";
+}
+
+std::string way_to_read(const fs::path& path) {
+  if (const Format* format = format_of(path)) return format->way;
+  const RawName raw = raw_name(path);
+  const std::string ending = path.extension().string();
+  if (!raw.sized && ending != ".raw" && ending != ".bin" && ending != ".dat" && ending != ".vol")
+    return "convert it, for example to .nrrd (teem-unu) or .nii.gz";
+  const std::string order = raw.type.find('8') != std::string::npos ? "" : "endian: little\\n";
+  return fmt::format(
+      "if these are raw voxels, write their header: printf 'NRRD0004\\ntype: {}\\ndimension: 3\\n"
+      "sizes: {}\\n{}encoding: raw\\ndata file: {}\\n' > {}",
+      raw.type, raw.sizes, order, path.filename().string(), fs::path(path).replace_extension(".nhdr").string());
+}
+
+}  // namespace fastsplat::volume

@@ -1,0 +1,20 @@
+// Lengths in headers of volumes: units, and what stands in for a spacing that is not a length.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fastsplat::volume {
+
+/// Millimetres per `unit`, by the names and signs in use ("mm", "um", "micron", "metre"); nothing for other words.
+std::optional<double> mm_per_unit(std::string_view unit);
+
+/// `declared` where it is positive, its absolute value where negative, 1 mm where it is zero or not a number.
+double usable_length(double declared);
+
+/// Adds a remark unless `declared`, the header's `name`, is a positive length; `used` mm is what stands in for it.
+void note_unusable_length(const std::string& name, double declared, double used, std::vector<std::string>& remarks);
+
+}  // namespace fastsplat::volume

@@ -1,0 +1,67 @@
+// Headers made of lines, as NRRD and MetaImage have them: fields by name, with their line numbers for messages.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace fastsplat::volume {
+
+/// `text` without blanks, tabs and carriage returns at both ends.
+std::string trimmed(const std::string& text);
+/// `text` with ASCII letters in lower case.
+std::string lower_case(std::string text);
+/// The words of `text`, split at white space.
+std::vector<std::string> words_of(const std::string& text);
+
+struct TextHeader {
+  struct Field {
+    std::string value;
+    int line = 0;
+  };
+
+  std::filesystem::path path;
+  const char* format = "";                  ///< "NRRD" or "MetaImage", for messages
+  std::map<std::string, Field> fields{};    ///< by the format's own name of the field
+  std::vector<std::string> listed_files{};  ///< the lines behind a field that says LIST
+  std::uint64_t end = 0;                    ///< first byte behind the header
+  bool ended = false;                       ///< by its last line, not by the end of the file
+
+  /// Throws UserError (Input) about a line of the file; 0 is the file as a whole.
+  [[noreturn]] void refuse(int line, std::string what, std::string expected, std::string got, std::string fix) const;
+  /// "PATH:LINE"
+  std::string place(int line) const;
+  /// By the first of its names that is there, else nullptr.
+  const Field* find(std::initializer_list<const char*> names) const;
+  const Field& need(const char* name) const;
+  /// Throws UserError (Input) for a field that is given twice.
+  void add(const std::string& name, std::string value, int line);
+  /// A whole number, not negative.
+  std::uint64_t count(const Field& field, const std::string& word) const;
+  /// `many` numbers; they may be infinite or not numbers.
+  std::vector<double> numbers(const Field& field, std::size_t many) const;
+};
+
+/// The lines of a file's first MiB without their ends.
+class HeaderLines {
+ public:
+  explicit HeaderLines(const std::filesystem::path& path);
+  /// False at the end.
+  bool next(std::string& line);
+  int number() const { return number_; }     ///< of the last line, from 1
+  std::uint64_t end() const { return at_; }  ///< first byte behind the last line
+  bool cut() const;                          ///< the file goes on behind what is looked at
+
+ private:
+  std::string head_;
+  std::size_t at_ = 0;
+  int number_ = 0;
+};
+
+/// Whether a line holds bytes that no text has.
+bool is_binary(const std::string& line);
+
+}  // namespace fastsplat::volume

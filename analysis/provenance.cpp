@@ -57,6 +57,7 @@ std::uint64_t content_hash(const scene::Scene& scene) {
   const scene::TransferFunction& tf = scene.transfer_function;
   hash.add(static_cast<std::uint64_t>(tf.domain));
   hash.add(tf.reference_length);
+  if (tf.reference_length_mm) hash.add(*tf.reference_length_mm);
   for (const auto& point : tf.points) {
     for (const double number : {point.at, point.colour.r, point.colour.g, point.colour.b, point.opacity})
       hash.add(number);

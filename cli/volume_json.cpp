@@ -29,10 +29,17 @@ nlohmann::ordered_json volume_json(const volume::Volume& volume) {
   return json;
 }
 
-std::vector<Remark> remarks(const volume::Volume& volume) {
+namespace {
+
+std::vector<Remark> warnings(const std::string& name, const std::vector<std::string>& texts) {
   std::vector<Remark> remarks;
-  for (const auto& text : volume.remarks) remarks.push_back({Remark::Warning, volume.name + ": " + text});
+  for (const auto& text : texts) remarks.push_back({Remark::Warning, name + ": " + text});
   return remarks;
 }
+
+}  // namespace
+
+std::vector<Remark> remarks(const volume::Volume& volume) { return warnings(volume.name, volume.remarks); }
+std::vector<Remark> remarks(const scene::Scene& scene) { return warnings(scene.volume->name, scene.remarks); }
 
 }  // namespace fastsplat::cli

@@ -5,12 +5,14 @@
 #include <vector>
 
 #include "cli/output.hpp"
+#include "scene/scene.hpp"
 #include "scene/volume/volume.hpp"
 
 namespace fastsplat::cli {
 
 nlohmann::ordered_json volume_json(const volume::Volume& volume);
-/// Volume::remarks, each a warning that names the volume.
+/// Volume::remarks and Scene::remarks, each a warning that names the volume.
 std::vector<Remark> remarks(const volume::Volume& volume);
+std::vector<Remark> remarks(const scene::Scene& scene);
 
 }  // namespace fastsplat::cli

@@ -1,70 +1,49 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
 #include "scene/transfer_function.hpp"
+#include "scene/value_range.hpp"
 
 namespace fastsplat::scene {
 namespace {
 
 bool is_integer(volume::VoxelType type) { return type != volume::VoxelType::F32; }
 
-struct Span {
-  double low, high;
+/// How a domain's positions become values: value = zero + position * unit.
+struct Scale {
+  double zero, unit;
 };
 
-/// A volume of one value has no span; its value then counts as the top of one, so that it is visible.
-Span non_empty(Span span) {
-  if (span.high > span.low) return span;
-  return span.high > 0.0 ? Span{0.0, span.high} : Span{span.high - 1.0, span.high};
+/// From 0 at the span's low end to 1 at its high one. A volume of one value has no span; its value then counts as the
+/// top of one, so that it is visible.
+Scale across(ValueSpan span) {
+  if (span.high > span.low) return {span.low, span.high - span.low};
+  return span.high > 0.0 ? Scale{0.0, span.high} : Scale{span.high - 1.0, 1.0};
 }
 
-constexpr double kLowRank = 0.005, kHighRank = 0.998;
-
-/// The rank that a share of `count` voxels has among them.
-std::size_t rank_of(double share, std::size_t count) {
-  return static_cast<std::size_t>(share * static_cast<double>(count - 1));
+Scale hounsfield(const volume::Volume& volume) {
+  if (const auto water = water_value(volume)) return {*water, 1.0};
+  constexpr double kLeast = -1000.0, kGreatest = 3000.0;
+  const Scale range = across({volume.min, volume.max});
+  const double unit = range.unit / (kGreatest - kLeast);
+  return {range.zero - kLeast * unit, unit};
 }
 
-/// percentile_span() of whole numbers, by counting them.
-Span counted_percentile_span(const volume::Volume& volume) {
-  std::vector<std::size_t> of_value(static_cast<std::size_t>(volume.max - volume.min) + 1, 0);
-  for (const float v : volume.voxels) ++of_value[static_cast<std::size_t>(v - volume.min)];
-  const std::size_t above = volume.voxels.size() - of_value[0];
-  if (above == 0) return {volume.min, volume.max};
-  const auto at_rank = [&](double share) {
-    std::size_t left = rank_of(share, above), value = 1;
-    while (left >= of_value[value]) left -= of_value[value++];
-    return static_cast<double>(volume.min) + static_cast<double>(value);
-  };
-  return {at_rank(kLowRank), at_rank(kHighRank)};
-}
-
-/// Values at the 0.5 and 99.8 percent ranks of the voxels above the minimum.
-Span percentile_span(const volume::Volume& volume) {
-  if (is_integer(volume.stored)) return counted_percentile_span(volume);
-  std::vector<float> values;
-  values.reserve(volume.voxels.size());
-  std::copy_if(volume.voxels.begin(), volume.voxels.end(), std::back_inserter(values),
-               [&](float v) { return v > volume.min; });
-  if (values.empty()) return {volume.min, volume.max};
-  const auto at_rank = [&values](double share) {
-    const auto rank = static_cast<std::ptrdiff_t>(rank_of(share, values.size()));
-    std::nth_element(values.begin(), values.begin() + rank, values.end());
-    return static_cast<double>(values[static_cast<std::size_t>(rank)]);
-  };
-  const double low = at_rank(kLowRank);
-  return {low, at_rank(kHighRank)};
-}
-
-Span resolve(Domain domain, const volume::Volume& volume) {
+Scale scale_of(Domain domain, const volume::Volume& volume) {
   switch (domain) {
     case Domain::Value:
       return {0.0, 1.0};
     case Domain::Range:
-      return non_empty({volume.min, volume.max});
+      return across({volume.min, volume.max});
     case Domain::Percentile:
-      return non_empty(percentile_span(volume));
+      return across(shown_span(volume));
+    case Domain::Hounsfield:
+      return hounsfield(volume);
+    case Domain::Content:
+      return across({background_top(volume), volume.max});
   }
   assert(false);
   return {0.0, 1.0};
@@ -74,14 +53,26 @@ Span resolve(Domain domain, const volume::Volume& volume) {
 
 TransferFunction resolved(const TransferFunction& tf, const volume::Volume& volume) {
   TransferFunction raw = tf;
-  const Span span = resolve(tf.domain, volume);
-  for (auto& point : raw.points) point.at = span.low + point.at * (span.high - span.low);
+  const Scale scale = scale_of(tf.domain, volume);
+  for (auto& point : raw.points) point.at = scale.zero + point.at * scale.unit;
   raw.domain = Domain::Value;
+  if (tf.reference_length_mm) raw.reference_length = *tf.reference_length_mm / volume.kernel_unit();
+  raw.reference_length_mm.reset();
   return raw;
 }
 
-Classifier::Classifier(const TransferFunction& tf, const volume::Volume& volume)
-    : points_(resolved(tf, volume).points), reference_length_(tf.reference_length), table_min_(volume.min) {
+std::string remark_on(const TransferFunction& tf, const volume::Volume& volume) {
+  if (tf.domain != Domain::Hounsfield || water_value(volume)) return {};
+  return fmt::format(
+      "transfer function '{}' is in Hounsfield units and the values {:g} to {:g} are not: they are "
+      "taken for -1000 to 3000 HU",
+      tf.name, volume.min, volume.max);
+}
+
+Classifier::Classifier(const TransferFunction& tf, const volume::Volume& volume) : table_min_(volume.min) {
+  TransferFunction raw = resolved(tf, volume);
+  points_ = std::move(raw.points);
+  reference_length_ = raw.reference_length;
   assert(!points_.empty());
   if (!is_integer(volume.stored)) return;
   const auto entries = static_cast<std::size_t>(volume.max - volume.min) + 1;

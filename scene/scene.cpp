@@ -53,6 +53,8 @@ Scene build_scene(const SceneDescription& description, std::shared_ptr<const vol
   check_techniques(description.motion, description.lens, camera, volume->bounding_radius() + kernel.radius() * unit);
   TransferFunction tf = load_transfer_function(description.transfer_function.empty() ? preset_for(description.volume)
                                                                                      : description.transfer_function);
+  auto remarks = whole->remarks;
+  if (const auto remark = remark_on(tf, *whole); !remark.empty()) remarks.push_back(remark);
   if (!description.crop.everything()) tf = resolved(tf, *whole);  // colours stay as they were
   Shading shading = tf.shading;
   if (description.shading >= 0) shading.on = description.shading == 1;
@@ -72,7 +74,8 @@ Scene build_scene(const SceneDescription& description, std::shared_ptr<const vol
               .shading = shading,
               .amplitude = kernel.peak() * cell.x * cell.y * cell.z * upright,
               .xray_scale = xray_scale,
-              .whole = std::move(whole)};
+              .whole = std::move(whole),
+              .remarks = std::move(remarks)};
   if (description.camera.fit == Fit::Content) scene.camera = fitted_to_content(scene, description.camera.zoom);
   check_capability(scene, kOffersAll);  // now that shading is known
   return scene;

@@ -69,6 +69,7 @@ struct Scene {
   /// Method::XRay: pixel = xray_scale * summed emission. Given, or automatic_exposure() (xray_exposure.hpp).
   double xray_scale = 1.0;
   std::shared_ptr<const volume::Volume> whole{};  ///< as it was read: build_scene takes it again
+  std::vector<std::string> remarks{};             ///< what reading it had to assume or found odd, a sentence each
 };
 
 /// A scene.toml, or a built-in scene as "demo:NAME". Unknown keys and bad values are UserErrors with file:line and a

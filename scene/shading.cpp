@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/value_range.hpp"
+
 namespace fastsplat::scene {
 namespace {
 
@@ -16,8 +18,7 @@ Shader::Shader(const Shading& shading, const Camera& camera, const volume::Volum
       volume_(volume),
       light_(glm::normalize(-camera.direction() - kLightLeft * camera.right() - kLightUp * camera.down())),
       half_(glm::normalize(glm::dvec3(light_) - camera.direction())),
-      floor_(static_cast<float>(shading.gradient_floor * (static_cast<double>(volume.max) - volume.min) /
-                                volume.kernel_unit())) {}
+      floor_(static_cast<float>(shading.gradient_floor * spread(volume) / volume.kernel_unit())) {}
 
 glm::vec3 Shader::operator()(const glm::vec3& colour, int i, int j, int k) const {
   return (*this)(colour, gradient(volume_, i, j, k));

@@ -1,7 +1,7 @@
 // A transfer function file:
 //
-//   domain = "percentile"      # "value", "range" (default) or "percentile": how `at` is read (transfer_function.hpp)
-//   reference_length = 1.0     # kernel units of material that `opacity` speaks of (default 1)
+//   domain = "percentile"      # "value", "range" (default), "percentile", "hounsfield" or "content": how `at` is read
+//   reference_length = 1.0     # kernel units of material that `opacity` speaks of (default 1); or reference_length_mm
 //   points = [                 # ascending in `at`; linear between; two at the same place make a step
 //     {at = 0.3, colour = [0.9, 0.7, 0.6], opacity = 0.0},
 //     {at = 0.6, colour = [1.0, 0.9, 0.9], opacity = 0.7},
@@ -27,7 +27,7 @@ namespace {
 constexpr double kMaxOpacity = 0.9999;
 
 Domain read_domain(TomlTable& table) {
-  const std::vector<std::string> names = {"value", "range", "percentile"};
+  const std::vector<std::string> names = {"value", "range", "percentile", "hounsfield", "content"};
   const std::string name = table.text("domain").value_or("range");
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) table.refuse("domain", "unknown domain", {}, "\"" + name + "\"", suggestion(name, names));
@@ -35,7 +35,7 @@ Domain read_domain(TomlTable& table) {
 }
 
 ControlPoint read_point(TomlTable& table, Domain domain) {
-  const double reach = domain == Domain::Value ? 1e30 : 10.0;
+  const double reach = domain == Domain::Value ? 1e30 : domain == Domain::Hounsfield ? 1e5 : 10.0;
   const auto at = table.number("at", -reach, reach);
   const auto colour = table.triple("colour", 0.0, 1.0);
   const auto opacity = table.number("opacity", 0.0, 1.0);
@@ -66,6 +66,9 @@ TransferFunction read(TomlTable table, const std::string& name) {
   tf.name = name;
   tf.domain = read_domain(table);
   tf.reference_length = table.number("reference_length", 1e-3, 1e3).value_or(1.0);
+  tf.reference_length_mm = table.number("reference_length_mm", 1e-6, 1e6);
+  if (tf.reference_length_mm && tf.reference_length != 1.0)
+    table.refuse("reference_length_mm", "two reference lengths", "one of them", {}, "remove reference_length");
   for (TomlTable& point : table.tables("points")) {
     tf.points.push_back(read_point(point, tf.domain));
     if (tf.points.size() > 1 && tf.points.back().at < tf.points[tf.points.size() - 2].at) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,9 +10,14 @@
 
 namespace fastsplat::scene {
 
-/// How control points' positions are read: raw voxel values, 0..1 of the volume's [min,max],
-/// or 0..1 of the span between the 0.5 and 99.8 percentile of the non-minimum voxels (scanners without units: MRI).
-enum class Domain { Value, Range, Percentile };
+/// How control points' positions are read (value_range.hpp).
+enum class Domain {
+  Value,       ///< raw voxel values
+  Range,       ///< 0..1 of the volume's [min,max]
+  Percentile,  ///< 0..1 of shown_span(): scanners without units (MRI)
+  Hounsfield,  ///< HU, by water_value(); of volumes that have none, -1000..3000 HU are the volume's [min,max]
+  Content,     ///< 0..1 from background_top() to the volume's max
+};
 
 struct ControlPoint {
   double at = 0.0;       ///< in the domain
@@ -24,19 +30,23 @@ struct Shading {
   bool on = false;
   double ambient = 0.3, diffuse = 0.7, specular = 0.2, shininess = 20.0;
   double gradient_floor =
-      0.0;  ///< gradient magnitudes below this fraction of the volume's range per kernel unit are not shaded
+      0.0;  ///< gradient magnitudes below this fraction of spread() per kernel unit are not shaded
 };
 
 struct TransferFunction {
   std::string name;
   Domain domain = Domain::Range;
-  double reference_length = 1.0;     ///< in kernel units (Volume::kernel_unit)
-  std::vector<ControlPoint> points;  ///< ascending in `at`, linear between, clamped outside
-  Shading shading;                   ///< preset's suggestion; scene.toml and flags override
+  double reference_length = 1.0;                ///< in kernel units (Volume::kernel_unit)
+  std::optional<double> reference_length_mm{};  ///< in its place, in millimetres
+  std::vector<ControlPoint> points;             ///< ascending in `at`, linear between, clamped outside
+  Shading shading;                              ///< preset's suggestion; scene.toml and flags override
 };
 
-/// The same in raw values of this volume.
+/// The same in raw values and kernel units of this volume.
 TransferFunction resolved(const TransferFunction& tf, const volume::Volume& volume);
+
+/// What a user should know of a transfer function on this volume, a sentence; "" for nothing.
+std::string remark_on(const TransferFunction& tf, const volume::Volume& volume);
 
 /// Colour and extinction per kernel unit, at a raw value.
 struct Material {

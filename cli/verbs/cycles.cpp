@@ -305,7 +305,7 @@ ExitCode run(const CyclesArguments& arguments) {
     take(*device);
   } else {
     const auto scene = build(arguments.scene);
-    output.remark(remarks(*scene.volume));
+    output.remark(remarks(scene));
     result.scene = summary(scene);
     result.hidden_share = hidden_share(scene, config, arguments.common.threads);
     if (config.culls()) {

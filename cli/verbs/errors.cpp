@@ -78,7 +78,7 @@ ExitCode run(const ErrorsArguments& arguments) {
                  .others = {arguments.common.json},
                  .inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")))});
   const scene::Scene scene = build(arguments.scene);
-  output.remark(remarks(*scene.volume));
+  output.remark(remarks(scene));
   ErrorsResult result{
       .scene = summary(scene), .config = config, .attribution = {}, .tried = {}, .blame = arguments.blame};
   {

@@ -65,7 +65,7 @@ ExitCode run(const ErrorsBoundArguments& arguments) {
                  .inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")))});
   const cmodel::Config config = load(arguments.config);
   const scene::Scene scene = build(arguments.scene);
-  output.remark(remarks(*scene.volume));
+  output.remark(remarks(scene));
   ErrorsBoundResult result{.scene = summary(scene), .config = config, .report = {}};
   {
     const stages::Chain chain(scene, config);

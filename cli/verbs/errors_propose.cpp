@@ -58,7 +58,7 @@ ExitCode run(const ErrorsProposeArguments& arguments) {
   std::vector<std::string> names;
   for (const SceneFlags& each : flags) {
     scenes.push_back(build(each));
-    output.remark(remarks(*scenes.back().volume));
+    output.remark(remarks(scenes.back()));
     names.push_back(summary(scenes.back()));
   }
   analysis::Journal journal(arguments.journal);

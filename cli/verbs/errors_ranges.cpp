@@ -38,7 +38,7 @@ ExitCode run(const ErrorsRangesArguments& arguments) {
   const driver::RenderOptions options{.threads = arguments.common.threads, .progress = bar.callback()};
   for (const SceneFlags& each : flags) {
     const scene::Scene scene = build(each);
-    output.remark(remarks(*scene.volume));
+    output.remark(remarks(scene));
     names.push_back(summary(scene));
     driver::FrameRanges frame = driver::frame_ranges(scene, config, options);
     all += frame.ranges;

@@ -125,7 +125,7 @@ ExitCode run_still(const RenderArguments& arguments, const Renderer& renderer, c
   require_file("--save-scene", arguments.save_scene);
   if (!arguments.save_scene.empty()) require_saveable(description);
   const scene::Scene scene = scene::build_scene(description);
-  output.remark(remarks(*scene.volume));
+  output.remark(remarks(scene));
   RenderedFrame frame;
   {
     ProgressBar bar(arguments.engine, watching(arguments.common));

@@ -117,7 +117,7 @@ ExitCode run(const StreamRecordArguments& arguments) {
   const auto description = describe(arguments.scene);
   driver::check_image_size(description.width, description.height);
   const auto scene = scene::build_scene(description);
-  output.remark(remarks(*scene.volume));
+  output.remark(remarks(scene));
 
   StreamRecordResult result{.scene = summary(scene), .stream = arguments.out, .config = config, .driver = {}};
   {

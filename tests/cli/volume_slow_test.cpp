@@ -88,9 +88,9 @@ TEST(VolumeVerbs, SpacingsThatAreNoLengthsAreSaid) {
   expect_success(fastsplat({"volume", "convert", "shells:4", folder / "v.nii"}));
   const std::string whole = read_bytes(folder / "v.nii");
   int said = 0;
-  for (const auto& [value, words] : {std::pair{0.0f, "pixdim[2] is 0, no length: 1 mm"},
-                                     {NAN, "pixdim[2] is nan, no length: 1 mm"},
-                                     {-2.0f, "pixdim[2] is -2, no length: 2 mm"}}) {
+  for (const auto& [value, words] : {std::pair{0.0f, "pixdim[2] is 0, not a length: 1 mm"},
+                                     {NAN, "pixdim[2] is nan, not a length: 1 mm"},
+                                     {-2.0f, "pixdim[2] is -2, not a length: 2 mm"}}) {
     std::string bytes = whole;
     std::memcpy(&bytes[76 + 4 * 2], &value, 4);
     std::memset(&bytes[252], 0, 4);  // no qform, no sform: they would say what the spacing is
@@ -99,8 +99,40 @@ TEST(VolumeVerbs, SpacingsThatAreNoLengthsAreSaid) {
   }
   const std::string nrrd =
       "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: ascii\nspacings: 1 nan 2\n\n1 2 3 4 5 6 7 8\n";
-  expect_warned(fastsplat({"volume", "info", folder.write("odd.nrrd", nrrd)}), {"spacing of axis 2 is no number"});
+  expect_warned(fastsplat({"volume", "info", folder.write("odd.nrrd", nrrd)}),
+                {"spacing of axis 2 is nan, not a length: 1 mm"});
   std::printf("[figure] spacings_said = %d\n", said + 1);
+}
+
+TEST(VolumeVerbs, InfoSaysWhichValuesShowSomething) {
+  const TempFolder folder;
+  std::string header = "NRRD0004\ntype: short\ndimension: 3\nsizes: 10 10 10\nencoding: ascii\n\n", numbers;
+  for (int i = 0; i < 1000; ++i) numbers += std::to_string(i < 600 ? -1000 : i - 600) + "\n";  // 600 of air, 0..399
+  const auto path = folder.write("ct.nrrd", header + numbers);
+  const Result result = fastsplat({"volume", "info", path});
+  expect_success(result);
+  for (const char* words :
+       {"-1000 to 399, as of a CT: 0 HU is 0", "1 %: -1000, 25 %: -1000, 50 %: -1000, 75 %: 149, 99 %: 389",
+        "shown    -900 to 398; background to -900, 60.0 % of the voxels", "counts   [@"})
+    EXPECT_NE(result.out.find(words), std::string::npos) << words << "\n" << result.out;
+  const auto values = nlohmann::json::parse(fastsplat({"volume", "info", path, "--json", "-"}).out)["values"];
+  EXPECT_EQ(values["percentiles"]["p75"], 149);
+  EXPECT_EQ(values["background_voxels"], 600);
+  EXPECT_EQ(values["water"], 0);
+  std::size_t voxels = 0;
+  for (const auto& bin : values["histogram"]) voxels += bin.get<std::size_t>();
+  std::printf("[figure] voxels_counted = %zu\n", voxels);
+  EXPECT_EQ(voxels, 1000U);
+}
+
+TEST(VolumeVerbs, PresetsInHounsfieldUnitsSayWhenTheValuesAreNot) {
+  const TempFolder folder;
+  const auto render = [&](const char* volume, const char* tf) {
+    return fastsplat({"render", "--volume", volume, "--tf", tf, "--size", "8", "-o", folder / "a.exr"});
+  };
+  expect_warned(render("shells:8", "bone"),
+                {"shells:8", "'bone' is in Hounsfield units", "taken for -1000 to 3000 HU"});
+  EXPECT_EQ(render("shells:8", "linear").err.find("Hounsfield"), std::string::npos);
 }
 
 TEST(VolumeVerbs, InfoSaysHowAScanLies) {

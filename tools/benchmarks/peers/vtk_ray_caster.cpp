@@ -67,13 +67,14 @@ void aim(const scene::Scene& scene, vtkLight& light) {
 void classify(const scene::Scene& scene, vtkVolumeProperty& property) {
   vtkNew<vtkColorTransferFunction> colour;
   vtkNew<vtkPiecewiseFunction> opacity;
-  for (const scene::ControlPoint& point : scene::resolved(scene.transfer_function, *scene.volume).points) {
+  const scene::TransferFunction raw = scene::resolved(scene.transfer_function, *scene.volume);
+  for (const scene::ControlPoint& point : raw.points) {
     colour->AddRGBPoint(point.at, point.colour.r, point.colour.g, point.colour.b);
     opacity->AddPoint(point.at, point.opacity);
   }
   property.SetColor(colour);
   property.SetScalarOpacity(opacity);
-  property.SetScalarOpacityUnitDistance(scene.transfer_function.reference_length * scene.volume->kernel_unit());
+  property.SetScalarOpacityUnitDistance(raw.reference_length * scene.volume->kernel_unit());
   property.SetInterpolationTypeToLinear();
   property.SetShade(scene.shading.on ? 1 : 0);
   property.SetAmbient(scene.shading.ambient);

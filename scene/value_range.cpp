@@ -1,0 +1,105 @@
+#include "scene/value_range.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastsplat::scene {
+namespace {
+
+constexpr double kLowRank = 0.005, kHighRank = 0.998;
+
+std::size_t rank_of(double share, std::size_t count) {
+  return static_cast<std::size_t>(share * static_cast<double>(count - 1));
+}
+
+float nth(std::vector<float>& values, std::size_t rank) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// The voxels of the six faces, each once.
+std::vector<float> faces_of(const volume::Volume& volume) {
+  const glm::ivec3 last = volume.dims - 1;
+  std::vector<float> values;
+  for (int k = 0; k <= last.z; ++k) {
+    for (int j = 0; j <= last.y; ++j) {
+      const bool whole_row = k == 0 || k == last.z || j == 0 || j == last.y;
+      for (int i = 0; i <= last.x; i += whole_row ? 1 : std::max(1, last.x)) values.push_back(volume.at(i, j, k));
+    }
+  }
+  return values;
+}
+
+/// The greatest value of air in a CT.
+std::optional<double> air_value(const volume::Volume& volume) {
+  constexpr double kAir = -900.0;  // HU, with the noise of a scanner
+  const auto water = water_value(volume);
+  if (!water) return std::nullopt;
+  return std::max<double>(volume.min, *water + kAir);
+}
+
+}  // namespace
+
+std::optional<double> water_value(const volume::Volume& volume) {
+  constexpr double kLeastSpread = 500.0, kLeastBone = 1500.0, kStoredOffset = 1024.0;
+  if (volume.min < 0.0f) {
+    if (static_cast<double>(volume.max) - volume.min >= kLeastSpread) return 0.0;
+  } else if (volume.max >= kLeastBone) {
+    return kStoredOffset;
+  }
+  return std::nullopt;
+}
+
+double background_top(const volume::Volume& volume) {
+  constexpr double kDeviations = 6.0, kOneLevel = 0.03, kDarker = 0.05;
+  constexpr double kDeviationPerMedian = 1.4826;  // of a normal distribution
+  if (const auto air = air_value(volume)) return *air;
+  auto faces = faces_of(volume);
+  const float median = nth(faces, faces.size() / 2);
+  for (float& value : faces) value = std::abs(value - median);
+  const double deviation = kDeviationPerMedian * nth(faces, faces.size() / 2);
+  if (!(deviation <= kOneLevel * (static_cast<double>(volume.max) - volume.min))) return volume.min;
+  const double bottom = median - kDeviations * deviation;
+  const auto darker =
+      std::count_if(volume.voxels.begin(), volume.voxels.end(), [bottom](float v) { return v < bottom; });
+  const bool lowest = static_cast<double>(darker) <= kDarker * static_cast<double>(volume.voxels.size());
+  return lowest ? median + kDeviations * deviation : volume.min;
+}
+
+RankedValues::RankedValues(const volume::Volume& volume, double above) {
+  if (volume.stored == volume::VoxelType::F32) {
+    std::copy_if(volume.voxels.begin(), volume.voxels.end(), std::back_inserter(values_),
+                 [above](float v) { return v > above; });
+    count_ = values_.size();
+    return;
+  }
+  first_ = volume.min;
+  counts_.assign(static_cast<std::size_t>(volume.max - volume.min) + 1, 0);
+  for (const float v : volume.voxels) {
+    if (!(v > above)) continue;
+    ++counts_[static_cast<std::size_t>(v - volume.min)];
+    ++count_;
+  }
+}
+
+double RankedValues::at(double share) {
+  std::size_t left = rank_of(share, count_);
+  if (!values_.empty()) return nth(values_, left);
+  std::size_t value = 0;
+  while (left >= counts_[value]) left -= counts_[value++];
+  return first_ + static_cast<double>(value);
+}
+
+ValueSpan shown_span(const volume::Volume& volume) {
+  RankedValues ranked(volume, background_top(volume));
+  if (ranked.count() == 0) return {volume.min, volume.max};
+  const double low = air_value(volume).value_or(ranked.at(kLowRank));
+  return {low, ranked.at(kHighRank)};
+}
+
+double spread(const volume::Volume& volume) {
+  return static_cast<double>(volume.max) - air_value(volume).value_or(volume.min);
+}
+
+}  // namespace fastsplat::scene

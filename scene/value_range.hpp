@@ -1,0 +1,48 @@
+// Which values of a volume show something: Hounsfield units, background, percentiles.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "scene/volume/volume.hpp"
+
+namespace fastsplat::scene {
+
+struct ValueSpan {
+  double low, high;
+};
+
+/// The value of water, 0 Hounsfield units (HU), where a volume's values are those of a CT: 0 where some are negative
+/// and they spread over 500 at least; 1024 where none is negative and the greatest is 1500 at least (how scanners store
+/// them without a sign). Nothing for other volumes.
+std::optional<double> water_value(const volume::Volume& volume);
+
+/// The greatest value of the background. In a CT, -900 HU: air, and whatever fills the corners outside the round field.
+/// Elsewhere, six standard deviations above the median of the six faces, where the faces are of one level, with a
+/// deviation below 3 % of the range, and at most 5 % of the voxels are darker than that level. Else the least value.
+double background_top(const volume::Volume& volume);
+
+/// Values by rank among the voxels above `above`; of whole numbers by counting, of others by selection.
+class RankedValues {
+ public:
+  RankedValues(const volume::Volume& volume, double above);
+  std::size_t count() const { return count_; }
+  /// The value that `share` (0..1) of the voxels do not exceed. There is at least one voxel.
+  double at(double share);
+
+ private:
+  std::size_t count_ = 0;
+  double first_ = 0.0;               // value of counts_[0]
+  std::vector<std::size_t> counts_;  // of each whole number
+  std::vector<float> values_;        // of volumes that store other numbers
+};
+
+/// From the 0.5 percentile (in a CT, from the background's top) to the 99.8 percentile of the voxels above the
+/// background; the whole range where there are none.
+ValueSpan shown_span(const volume::Volume& volume);
+
+/// How far the values spread, for what is said in shares of that: from the least value, in a CT from air, to the
+/// greatest.
+double spread(const volume::Volume& volume);
+
+}  // namespace fastsplat::scene

@@ -360,6 +360,9 @@ void StreamDecode::check_promise(const CullBlock& record) {
   // (Sets that were jumped over show when the next splat comes.)
   expect_most(jumps_ ? 0 : static_cast<std::int64_t>(sets_.open()) + (record.splats > 0 ? 1 : 0), cull_sets(config_),
               "more cull_blocks with splats to come than the device has room for");
+  constexpr std::int64_t kMostPromised = std::int64_t{1} << 31;  // tags are compared modulo 2^32
+  expect_most((jumps_ ? 0 : std::int64_t{sets_.waiting()}) + record.splats, kMostPromised,
+              "more splats promised than tags can tell apart");
   sets_.announce(record.tag, record.splats, record);
 }
 

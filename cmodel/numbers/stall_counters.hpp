@@ -17,7 +17,7 @@ namespace fastsplat::cmodel {
   X(stall_table, STALL_TABLE, "cycles of table words")                  \
   X(stall_buffer, STALL_BUFFER, "cycles of waiting for a sheet buffer") \
   X(stall_tile, STALL_TILE, "cycles of waiting between tiles")          \
-  X(stall_hazard, STALL_HAZARD, "cycles of windows that wait for the one before (composite.every_sample = 1)") \
+  X(stall_hazard, STALL_HAZARD, "cycles of windows that wait for the one before (composite.every_sample = 1; 0 where only cull.map is on)") \
   X(cull_tests, CULL_TESTS, "sets and splats tested (cull.map not off)") \
   X(hidden_sets, HIDDEN_SETS, "hidden sets (cull.map not off)")         \
   X(hidden_splats, HIDDEN_SPLATS, "hidden splats that were sent and are of no hidden set (cull.map not off)") \

@@ -34,7 +34,7 @@ namespace fastsplat::cmodel {
     "ellipse: 4 A C is at least B^2, its windows' far side within reach, q in range at their corners")             \
   X(Promise, 19, PROMISE,                                                                                          \
     "cull_block, where cull.map is not off: its tag, the windows of its splats within its rectangle, all of them " \
-    "before end_sheet, no more of them open than the device has room for")                                         \
+    "before end_sheet, no more of them open than the device has room for, at most 2^31 splats promised")           \
   X(Whole, 255, WHOLE,                                                                                             \
     "a whole stream: tile numbers 0, 1, 2, ..., all tiles, the number of beats, the checksum, nothing behind or "  \
     "missing")

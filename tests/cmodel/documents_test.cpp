@@ -160,13 +160,13 @@ TEST(StreamPage, RulesByNumber) {
 /// Rows "| table.key | symbol | base | meaning |" of section 2.
 std::vector<std::vector<std::string>> key_rows() {
   std::vector<std::vector<std::string>> rows;
-  static const std::regex key(R"(\| [a-z]+\.[a-z_]+ \|.*)");
+  static const std::regex key(R"(\| [a-z]+\.[a-z_]+ \|[^|]*\|[^|]*\|[^|]*\|[^|]*\|)");
   for (const std::string& line : lines_of("numerics.md"))
     if (std::regex_match(line, key)) rows.push_back(cells(line));
   return rows;
 }
 
-bool may_be_absent(const std::vector<std::string>& row) { return row[3].ends_with("may be absent"); }
+bool may_be_absent(const std::vector<std::string>& row) { return row[4].ends_with("may be absent"); }
 
 TEST(NumericsPage, KeysAndBaseValuesAreTheConfigurations) {
   const auto rows = key_rows();
@@ -187,6 +187,7 @@ TEST(NumericsPage, KeysAndBaseValuesAreTheConfigurations) {
     EXPECT_EQ(may_be_absent(rows[i]), i >= required) << rows[i][0];
     EXPECT_EQ(may_be_absent(rows[i]), keys[i].neutral.has_value()) << rows[i][0];
     EXPECT_EQ(rows[i][2], cmodel::text_of(named_config("base"), keys[i])) << rows[i][0];
+    EXPECT_EQ(rows[i][3], cmodel::allowed(keys[i]) + (keys[i].power_of_two ? ", a power of two" : "")) << rows[i][0];
     if (may_be_absent(rows[i])) continue;
     ASSERT_TRUE(base.contains(rows[i][0])) << rows[i][0] << " is not in configs/base.toml";
     EXPECT_EQ(rows[i][2], base.at(rows[i][0])) << rows[i][0];

@@ -10,20 +10,6 @@
 #include "golden/render.hpp"
 
 namespace fastsplat::analysis {
-namespace {
-
-/// Of the scenes, the one with the largest excess; nothing where one could not be drawn.
-Journal::Entry worst(const std::vector<Journal::Entry>& entries, const Target& target) {
-  Journal::Entry out = Fidelity{};
-  for (const Journal::Entry& entry : entries) {
-    if (!entry) return std::nullopt;
-    if (target.excess(*entry) >= target.excess(*out)) out = entry;
-  }
-  return out;
-}
-
-}  // namespace
-
 std::uint64_t scene_hash(const scene::Scene& scene) {
   return fnv1a(content_hash(scene), scene::to_toml(scene.description));
 }
@@ -33,32 +19,52 @@ Simulator::Simulator(const std::vector<scene::Scene>& scenes, Journal& journal, 
   for (const scene::Scene& scene : scenes) hashes_.push_back(scene_hash(scene));
 }
 
-std::vector<Journal::Entry> Simulator::operator()(const cmodel::Config& config, const Target& target, bool must) {
+Journal::Entry Simulator::entry(const cmodel::Config& config, std::size_t scene, bool must) {
   const std::uint64_t hash = cmodel::config_hash(config);
-  std::vector<Journal::Entry> out;
+  const Journal::Entry* known = journal_.find(hash, hashes_[scene]);
+  if (known != nullptr && (known->has_value() || !must)) {
+    ++recalled_;
+    return *known;
+  }
+  Journal::Entry entry;
+  try {
+    const Image image =
+        driver::to_image(driver::render(scenes_[scene], config, {.threads = threads_, .progress = {}}).frame);
+    if (golden_[scene].data.empty())
+      golden_[scene] = golden::render(scenes_[scene], {.threads = threads_, .progress = {}, .report = nullptr});
+    entry = fidelity(golden_[scene], image, threads_);
+  } catch (const UserError&) {
+    if (must) throw;
+  }
+  ++simulated_;
+  journal_.add(hash, hashes_[scene], entry);
+  return entry;
+}
+
+Journal::Entry Simulator::worst(const cmodel::Config& config, const Target& target) {
+  Journal::Entry out = Fidelity{};
   for (std::size_t i = 0; i < scenes_.size(); ++i) {
-    const Journal::Entry* known = journal_.find(hash, hashes_[i]);
-    if (known != nullptr && (known->has_value() || !must)) {
-      ++recalled_;
-      out.push_back(*known);
-    } else {
-      Journal::Entry entry;
-      try {
-        const Image image =
-            driver::to_image(driver::render(scenes_[i], config, {.threads = threads_, .progress = {}}).frame);
-        if (golden_[i].data.empty())
-          golden_[i] = golden::render(scenes_[i], {.threads = threads_, .progress = {}, .report = nullptr});
-        entry = fidelity(golden_[i], image, threads_);
-      } catch (const UserError&) {
-        if (must) throw;
-      }
-      ++simulated_;
-      journal_.add(hash, hashes_[i], entry);
-      out.push_back(entry);
-    }
-    if (!must && (!out.back() || !target.met(*out.back()))) break;
+    const Journal::Entry one = entry(config, i, false);
+    if (!one) return std::nullopt;
+    if (target.excess(*one) >= target.excess(*out)) out = one;
   }
   return out;
+}
+
+Journal::Entry Simulator::worst_drawn(const cmodel::Config& config, const Target& target) {
+  for (std::size_t i = 0; i < scenes_.size(); ++i) entry(config, i, true);
+  return worst(config, target);
+}
+
+bool Simulator::meets(const cmodel::Config& config, const Target& target) {
+  for (std::size_t i = 0; i < scenes_.size(); ++i) {
+    const std::size_t scene = (hardest_ + i) % scenes_.size();
+    const Journal::Entry one = entry(config, scene, false);
+    if (one && target.met(*one)) continue;
+    hardest_ = scene;
+    return false;
+  }
+  return true;
 }
 
 Proposal propose(const std::vector<scene::Scene>& scenes, std::vector<std::string> names, const cmodel::Config& from,
@@ -68,16 +74,17 @@ Proposal propose(const std::vector<scene::Scene>& scenes, std::vector<std::strin
   out.target = target;
   out.from = from;
   out.scenes = std::move(names);
-  out.error_from = worst(simulate(from, target, true), target);
+  out.error_from = simulate.worst_drawn(from, target);
   const Judge judge = [&](const cmodel::Config& config) {
-    const auto entry = worst(simulate(config, target), target);
+    const auto entry = simulate.worst(config, target);
     return entry ? Verdict{target.met(*entry), target.excess(*entry)} : Verdict{};
   };
   Search search(
-      from, judge, [](const cmodel::Config& config) { return cost(config).total(); }, progress);
+      from, judge, [](const cmodel::Config& config) { return cost(config).total(); }, progress,
+      [&](const cmodel::Config& config) { return simulate.meets(config, target); });
   out.search = search.run();
-  out.error = worst(simulate(out.search.best, target), target);
-  if (out.search.geometry) out.error_geometry = worst(simulate(*out.search.geometry, target), target);
+  out.error = simulate.worst(out.search.best, target);
+  if (out.search.geometry) out.error_geometry = simulate.worst(*out.search.geometry, target);
   out.cost_from = cost(from);
   out.cost = cost(out.search.best);
   out.simulated = simulate.simulated();

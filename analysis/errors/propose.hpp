@@ -22,18 +22,25 @@ class Simulator {
   /// Keeps references to both.
   Simulator(const std::vector<scene::Scene>& scenes, Journal& journal, int threads);
 
-  /// Per scene; stops after the first that fails the target or, empty, cannot be drawn. `must`: then throws.
-  std::vector<Journal::Entry> operator()(const cmodel::Config& config, const Target& target, bool must = false);
+  /// The worst of all scenes by the target's figure; empty where one cannot be drawn.
+  Journal::Entry worst(const cmodel::Config& config, const Target& target);
+  /// The same, but throws UserError where a scene cannot be drawn.
+  Journal::Entry worst_drawn(const cmodel::Config& config, const Target& target);
+  /// Whether every scene meets the target. Gives up at the first that does not, and begins there the next time.
+  bool meets(const cmodel::Config& config, const Target& target);
 
   int simulated() const { return simulated_; }  ///< frames drawn
   int recalled() const { return recalled_; }    ///< frames the journal knew
 
  private:
+  Journal::Entry entry(const cmodel::Config& config, std::size_t scene, bool must);
+
   const std::vector<scene::Scene>& scenes_;
   Journal& journal_;
   int threads_;
   std::vector<std::uint64_t> hashes_;
   std::vector<Image> golden_;  ///< empty ones are not drawn yet
+  std::size_t hardest_ = 0;    ///< the scene that failed last
   int simulated_ = 0, recalled_ = 0;
 };
 
@@ -45,7 +52,7 @@ struct Proposal {
   cmodel::Config from;
   SearchOutcome search;
   std::vector<std::string> scenes;
-  /// The worst of the scenes by the target's figure; of `from`, maybe only of those up to the first that failed.
+  /// The worst of the scenes by the target's figure.
   Journal::Entry error_from, error;
   Journal::Entry error_geometry;  ///< of search.geometry, where there is one
   Cost cost_from, cost;

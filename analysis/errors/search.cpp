@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <iterator>
 #include <utility>
 
 namespace fastsplat::analysis {
@@ -11,7 +11,6 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 /// Finer than anything is told apart from noise: after so many steps of all keys, nothing will.
 constexpr int kMostRaised = 6;
-constexpr int kMostExchanges = 5;
 /// What a search with these keys takes, about; for the progress shown.
 constexpr std::size_t kUsual = 200;
 
@@ -23,8 +22,17 @@ std::string text(const cmodel::Config& config, const Knob& knob) {
 
 }  // namespace
 
-Search::Search(const cmodel::Config& from, Judge judge, Price price, Progress progress)
-    : from_(from), judge_(std::move(judge)), price_(std::move(price)), progress_(std::move(progress)) {}
+Search::Search(const cmodel::Config& from, Judge judge, Price price, Progress progress, Check check)
+    : from_(from),
+      judge_(std::move(judge)),
+      price_(std::move(price)),
+      progress_(std::move(progress)),
+      check_(std::move(check)) {}
+
+void Search::report_progress() const {
+  const std::size_t judged = known_.size() + failed_.size();
+  if (progress_) progress_(judged, std::max(kUsual, judged + 1));
+}
 
 std::optional<Verdict> Search::judge(const Steps& steps) {
   const auto config = turned(from_, steps);
@@ -32,15 +40,26 @@ std::optional<Verdict> Search::judge(const Steps& steps) {
   const auto [found, fresh] = known_.try_emplace(cmodel::config_hash(*config));
   if (fresh) {
     found->second = judge_(*config);
-    if (progress_) progress_(known_.size(), std::max(kUsual, known_.size() + 1));
+    failed_.erase(found->first);
+    report_progress();
   }
   if (found->second.excess < nearest_excess_) nearest_ = steps, nearest_excess_ = found->second.excess;
   return found->second;
 }
 
 bool Search::meets(const Steps& steps) {
-  const auto verdict = judge(steps);
-  return verdict && verdict->meets;
+  const auto config = turned(from_, steps);
+  if (!config) return false;
+  const std::uint64_t hash = cmodel::config_hash(*config);
+  if (check_ && !known_.contains(hash)) {
+    if (failed_.contains(hash)) return false;
+    if (!check_(*config)) {
+      failed_.insert(hash);
+      report_progress();
+      return false;
+    }
+  }
+  return judge(steps)->meets;
 }
 
 double Search::price(const Steps& steps) const {
@@ -192,45 +211,44 @@ Steps Search::descend(Steps steps) {
   }
 }
 
-/// One knob down and another up, where that is cheaper and the noises, added, say that it may do. Only what is tried
-/// counts.
+/// All knobs but one a step finer, as far as that is a configuration.
+Steps Search::finer_by_one(Steps steps, std::size_t but) const {
+  for (std::size_t k = 0; k < freeze_knob(); ++k) {
+    if (k == but) continue;
+    ++steps[k];
+    if (!turned(from_, steps)) --steps[k];
+  }
+  return steps;
+}
+
+/// One knob down by one or two steps and another up by one: the cheapest such pair that meets the target and is cheaper
+/// than `steps`. A step down that fails with all other knobs finer fails with any one of them, for errors grow as bits
+/// go; all other pairs are tried.
 std::optional<Steps> Search::exchange(const Steps& steps) {
-  constexpr double kMayDo = 1.05;
-  constexpr std::size_t kMostTried = 10;
-  const double now = price(steps), square_now = square(judge(steps)->excess);
+  const double now = price(steps);
   struct Candidate {
     double price;
     Steps steps;
   };
   std::vector<Candidate> candidates;
-  std::vector<std::pair<std::size_t, double>> raised;  // knob, what it takes from the squared excess
-  for (std::size_t k = 0; k < steps.size(); ++k) {
-    Steps finer = steps;
-    ++finer[k];
-    if (k == freeze_knob() || !turned(from_, finer)) continue;
-    raised.emplace_back(k, square_now - square(judge(finer)->excess));
-  }
-  for (std::size_t down = 0; down < steps.size(); ++down) {
+  for (std::size_t down = 0; down < freeze_knob(); ++down) {
     for (const int depth : {1, 2}) {
       Steps lower = steps;
       lower[down] -= depth;
-      if (!turned(from_, lower) || price(lower) >= now) continue;
-      // Two steps down are not tried alone: four times what one adds.
-      Steps one = steps;
-      --one[down];
-      const double adds = (square(judge(one)->excess) - square_now) * (depth == 2 ? 5.0 : 1.0);
-      for (const auto& [up, takes] : raised) {
+      std::vector<Candidate> cheaper;
+      for (std::size_t up = 0; up < freeze_knob(); ++up) {
         Steps both = lower;
         ++both[up];
-        if (up == down || !turned(from_, both)) continue;
-        const double cost = price(both);
-        if (cost < 0.999 * now && square_now + adds - takes <= square(kMayDo)) candidates.push_back({cost, both});
+        if (up != down && price(both) < now) cheaper.push_back({price(both), both});
       }
+      if (cheaper.empty()) continue;
+      if (!meets(finer_by_one(lower, down))) break;  // two steps down do not do better than one
+      std::ranges::move(cheaper, std::back_inserter(candidates));
     }
   }
   std::ranges::stable_sort(candidates, {}, &Candidate::price);
-  for (std::size_t i = 0; i < std::min(kMostTried, candidates.size()); ++i) {
-    if (meets(candidates[i].steps)) return candidates[i].steps;
+  for (const Candidate& candidate : candidates) {
+    if (meets(candidate.steps)) return candidate.steps;
   }
   return std::nullopt;
 }
@@ -254,7 +272,7 @@ SearchOutcome Search::told(const Steps& steps) {
     }
     out.keys.push_back(std::move(key));
   }
-  out.judged = static_cast<int>(known_.size());
+  out.judged = static_cast<int>(known_.size() + failed_.size());
   return out;
 }
 
@@ -272,16 +290,12 @@ SearchOutcome Search::run() {
       out.geometry_verdict = judge_(wider);
       if (out.geometry_verdict.excess < 0.98 * nearest_excess_) out.geometry = wider;
     }
-    out.judged = static_cast<int>(known_.size());
+    out.judged = static_cast<int>(known_.size() + failed_.size());
     return out;
   }
   lowest_alone(*start);
   Steps steps = descend(combine(*start));
-  for (int round = 0; round < kMostExchanges; ++round) {
-    const auto cheaper = exchange(steps);
-    if (!cheaper) break;
-    steps = descend(*cheaper);
-  }
+  while (const auto cheaper = exchange(steps)) steps = descend(*cheaper);
   return told(steps);
 }
 

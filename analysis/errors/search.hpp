@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,10 @@ struct Verdict {
   /// Error over the error that is allowed; infinite where the configuration cannot draw the scene.
   double excess = std::numeric_limits<double>::infinity();
 };
-/// Asked once per configuration.
+/// Called once per configuration.
 using Judge = std::function<Verdict(const cmodel::Config&)>;
+/// Verdict::meets alone, for which less work may do: one failed scene says no.
+using Check = std::function<bool(const cmodel::Config&)>;
 /// To be made small; of two equally cheap ones that with fewer bits is taken.
 using Price = std::function<double(const cmodel::Config&)>;
 
@@ -31,7 +34,7 @@ struct KeyOutcome {
   std::string from, alone, proposed;  ///< alone: the least that met the target with all other keys as they began
   std::string lower;                  ///< what it would be one step lower; empty where nothing is lower
   bool dearer = false;                ///< that would cost more
-  Verdict lowered;                    ///< else of that, alone: it does not meet the target
+  Verdict lowered;                    ///< otherwise the verdict on that step alone: it does not meet the target
 };
 
 struct SearchOutcome {
@@ -48,13 +51,15 @@ struct SearchOutcome {
 /// Deterministic: the same answers of the judge give the same outcome.
 class Search {
  public:
-  Search(const cmodel::Config& from, Judge judge, Price price, Progress progress = {});
+  /// `check`: absent, the judge is called.
+  Search(const cmodel::Config& from, Judge judge, Price price, Progress progress = {}, Check check = {});
   SearchOutcome run();
 
  private:
   /// Nothing for what no configuration is.
   std::optional<Verdict> judge(const Steps& steps);
   bool meets(const Steps& steps);
+  void report_progress() const;
   double price(const Steps& steps) const;
 
   std::optional<Steps> start();
@@ -62,6 +67,7 @@ class Search {
   Steps cheapest_by_model(double budget) const;
   Steps combine(const Steps& start);
   Steps descend(Steps steps);
+  Steps finer_by_one(Steps steps, std::size_t but) const;
   std::optional<Steps> exchange(const Steps& steps);
   SearchOutcome told(const Steps& steps);
 
@@ -69,7 +75,9 @@ class Search {
   Judge judge_;
   Price price_;
   Progress progress_;
+  Check check_;
   std::map<std::uint64_t, Verdict> known_;  ///< by configuration hash
+  std::set<std::uint64_t> failed_;          ///< hashes that were checked and not judged
   Steps begin_, lowest_, nearest_;          ///< the start; per knob the least that meets alone; least excess so far
   double nearest_excess_ = std::numeric_limits<double>::infinity();
   NoiseModel noises_;

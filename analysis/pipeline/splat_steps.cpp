@@ -193,9 +193,10 @@ Staged SplatSteps::staged(const SplatList& list, const Mixture& mixture, bool go
     circle(real, mixture, unit_value, splat);
     if (shaped()) out.shapes[i] = shape(list.splats[i], real, mixture, unit_value, splat);
     const Growth growth = shaped() ? out.shapes[i].growth : Growth{};
+    driver::RoundingCarry::Line* const line = carry ? &carry->next(list.lines[i], list.splats[i].sheet) : nullptr;
     for (std::size_t c = 0; emission && c < 4; ++c) {
       const double value = splat.value[c];
-      const driver::Quantised word = carry ? (*carry)(value, list.lines[i], c) : driver::quantise(value, whole_);
+      const driver::Quantised word = carry ? (*carry)(value, *line, c) : driver::quantise(value, whole_);
       splat.value[c] = static_cast<double>(word.word) * whole_ulp_;
     }
     splat.z = !depth ? real.depth

@@ -7,12 +7,11 @@
 namespace fastsplat::driver {
 namespace {
 
-/// 1/2 in the first line, which alone is rounding half up; spread evenly over 0..1 among neighbours (65536 over the
-/// plastic number, and over its square), so that equal lines do not step all at once.
-double start(int row, int column) {
-  const std::uint32_t word =
-      32768U + 49472U * static_cast<std::uint32_t>(row) + 37345U * static_cast<std::uint32_t>(column);
-  return static_cast<double>(word & 0xFFFFU) / 65536.0;
+/// What a line's sum is shifted by: spread evenly over -1/2..1/2 among neighbours (65536 over the plastic number, and
+/// over its square), so that equal lines do not step all at once.
+double shift(std::uint32_t row, std::uint32_t column) {
+  const std::uint32_t word = 32768U + 49472U * row + 37345U * column;
+  return static_cast<double>(word & 0xFFFFU) / 65536.0 - 0.5;
 }
 
 }  // namespace
@@ -36,9 +35,21 @@ ShownWords::ShownWords(const cmodel::Config& config, const scene::Kernel& kernel
 RoundingCarry::RoundingCarry(const Target& carried, const ShownWords& shown, int first_row, int end_row, int columns)
     : carried_(carried),
       shown_(shown),
-      first_(static_cast<std::size_t>(first_row) * static_cast<std::size_t>(columns)) {
-  for (int row = first_row; row < end_row; ++row)
-    for (int column = 0; column < columns; ++column) rest_.emplace_back().fill(start(row, column));
+      columns_(static_cast<std::uint32_t>(columns)),
+      first_(static_cast<std::uint32_t>(first_row) * columns_),
+      lines_(static_cast<std::size_t>(end_row - first_row) * columns_) {}
+
+RoundingCarry::Line& RoundingCarry::next(std::uint32_t line, int slice) {
+  Line& out = lines_[line - first_];
+  if (slice != out.slice + 1) {
+    out.rest.fill(0.5);
+    out.run = 0;
+  }
+  out.slice = slice;
+  // With the third splat: shorter runs are rounded at least as well as each splat by itself, which a shift would spoil.
+  if (++out.run == 3)
+    for (double& rest : out.rest) rest += shift(line / columns_, line % columns_);
+  return out;
 }
 
 }  // namespace fastsplat::driver

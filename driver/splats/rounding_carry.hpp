@@ -1,5 +1,5 @@
-// What rounding takes of a splat goes to the next splat behind it (docs/numerics.md, section 8, "carry"): the sum along
-// a line of voxels is rounded once, and not each of its many thin splats to nothing.
+// What rounding takes of a splat goes to its neighbour behind it (docs/numerics.md, section 8, "carry"): the sum along
+// a run of voxels is rounded once, and not each of its many thin splats to nothing.
 #pragma once
 
 #include <algorithm>
@@ -28,15 +28,24 @@ class ShownWords {
   std::array<double, 256> shown_{};
 };
 
-/// Of the lines of voxels that run across the slices, rows first_row..end_row-1 of them.
+/// For the lines of voxels that run across the slices, rows first_row..end_row-1 of them. A line's splats come front to
+/// back.
 class RoundingCarry {
  public:
+  struct Line {
+    std::array<double, 4> rest{};  ///< per channel, words
+    int slice = -2;                ///< of its last splat
+    int run = 0;                   ///< splats since the last gap
+  };
+
   /// Keeps a reference to `shown`.
   RoundingCarry(const Target& carried, const ShownWords& shown, int first_row, int end_row, int columns);
 
+  /// The line of the next splat, which lies in `slice`.
+  Line& next(std::uint32_t line, int slice);
   /// The channel's word, cut to U 4.cf.
-  Quantised operator()(double value, std::uint32_t line, std::size_t channel) {
-    double& rest = rest_[line - first_][channel];
+  Quantised operator()(double value, Line& line, std::size_t channel) const {
+    double& rest = line.rest[channel];
     const double sum = value * carried_.scale + rest;  // below 0 where more was shown than was asked
     const Quantised word = quantise(std::max(sum, 0.0) / carried_.scale, carried_);
     rest = word.saturated ? 0.0 : sum - shown_(word.word);
@@ -46,8 +55,8 @@ class RoundingCarry {
  private:
   Target carried_;
   const ShownWords& shown_;
-  std::size_t first_;                        ///< line
-  std::vector<std::array<double, 4>> rest_;  ///< per line, words
+  std::uint32_t columns_, first_;  ///< lines of a row; the first line
+  std::vector<Line> lines_;
 };
 
 }  // namespace fastsplat::driver

@@ -54,7 +54,7 @@ SplatQuantiser::Shaped SplatQuantiser::shaped(const scene::Splat& splat, std::ui
   const double radius = scene_.kernel.radius() * std::sqrt(s.xx);
   const bool circle = s.xy == 0.0 && s.xx == s.yy;
   if (circle && std::abs(radius - sets_.radius(0)) <= kSameRadius * radius) {
-    out.result = carry != nullptr ? (*this)(real, line, *carry) : (*this)(real);
+    out.result = carry != nullptr ? (*this)(real, *carry, carry->next(line, splat.sheet)) : (*this)(real);
     return out;
   }
   const scene::ScreenShape footprint = drawn_footprint(s, scene_.kernel.radius());
@@ -70,8 +70,9 @@ SplatQuantiser::Shaped SplatQuantiser::shaped(const scene::Splat& splat, std::ui
                       .set = kOwnShape,
                       .words = {}};
   if (carry != nullptr) {
+    RoundingCarry::Line& carried = carry->next(line, splat.sheet);
     colour(
-        values, [&](double value, std::size_t channel) { return (*carry)(value, line, channel); }, out.result);
+        values, [&](double value, std::size_t channel) { return (*carry)(value, carried, channel); }, out.result);
   } else {
     colour(
         values, [this](double value, std::size_t) { return quantise(value, whole_); }, out.result);

@@ -59,8 +59,7 @@ class SplatQuantiser {
   Result operator()(const scene::RealSplat& splat) const {
     return quantised(splat, [this](double value, std::size_t) { return quantise(value, whole_); });
   }
-  /// `line`: of the grid (scene::Traversal). The splats of a line come front to back.
-  Result operator()(const scene::RealSplat& splat, std::uint32_t line, RoundingCarry& carry) const {
+  Result operator()(const scene::RealSplat& splat, const RoundingCarry& carry, RoundingCarry::Line& line) const {
     return quantised(splat, [&](double value, std::size_t channel) { return carry(value, line, channel); });
   }
   /// The same where splats have shapes of their own. What is not sliced, or is a circle of a radius set, is as above.
@@ -71,8 +70,8 @@ class SplatQuantiser {
     bool widened = false;  ///< it was thinner than kThinnest
   };
   Shaped shaped(const scene::Splat& splat, std::uint32_t line, RoundingCarry* carry) const;
-  /// Those of a row of the grid, in order: take(Result, sheet), or take(Shaped, sheet) where splats have shapes of their
-  /// own. `carry`: null unless carries().
+  /// Those of a row of the grid, in order, `lines` of the grid (scene::Traversal), Splat::sheet its slice: take(Result,
+  /// sheet), or take(Shaped, sheet) where splats have shapes of their own. `carry`: null unless carries().
   template <class Take>
   void row(std::span<const scene::Splat> splats, std::span<const std::uint32_t> lines, RoundingCarry* carry,
            Take take) const {
@@ -80,7 +79,8 @@ class SplatQuantiser {
       if (shaper_)
         take(shaped(splats[i], lines[i], carry), splats[i].sheet);
       else if (carry != nullptr)
-        take((*this)(scene::real_splat(scene_, splats[i]), lines[i], *carry), splats[i].sheet);
+        take((*this)(scene::real_splat(scene_, splats[i]), *carry, carry->next(lines[i], splats[i].sheet)),
+             splats[i].sheet);
       else
         take((*this)(scene::real_splat(scene_, splats[i])), splats[i].sheet);
     }

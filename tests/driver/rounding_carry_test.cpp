@@ -62,7 +62,7 @@ TEST(RoundingCarry, ALineShowsWhatWasAskedOfIt) {
             for (int i = 0; i < 500; ++i) {
               const double value = step * (1.0 + 0.9 * std::sin(i));
               asked += value;
-              const Quantised word = carry(value / to.scale, line, 2);
+              const Quantised word = carry(value / to.scale, carry.next(line, i), 2);
               ASSERT_FALSE(word.saturated) << name << " " << step;
               got += shown(word.word);
             }
@@ -132,6 +132,35 @@ TEST(RoundingCarry, TheReportSaysWhatVanished) {
   EXPECT_TRUE(kept.carried);
   EXPECT_EQ(kept.vanished_share, 0.0);
   EXPECT_LT(kept.vanished_voxels, lost.vanished_voxels);
+}
+
+// What a splat leaves goes to its neighbour only. Alone it is rounded half up; two are nearer together than each by
+// itself: the mean squared error of a pair is 1/12 for 1/6.
+TEST(RoundingCarry, ReachesNeighboursOnly) {
+  const auto config = load_config("exact");
+  const ShownWords shown(config, scene::kernel_by_name("gauss2"));
+  const Target to = target(Site::Carried, config);
+  RoundingCarry carry(to, shown, 0, 64, 64);
+  int alone = 0;
+  double pairs = 0.0, each = 0.0;
+  constexpr int kLines = 64 * 64;
+  for (std::uint32_t line = 0; line < kLines; ++line) {
+    const double value = 40.0 + 0.618034 * line - std::floor(0.618034 * line);
+    for (const int slice : {0, 2, 5, 9}) {
+      EXPECT_EQ(carry(value / to.scale, carry.next(line, slice), 0).word, std::floor(value + 0.5)) << line;
+      ++alone;
+    }
+    const double second = 40.0 + 0.7548777 * line - std::floor(0.7548777 * line);
+    double got = static_cast<double>(carry(value / to.scale, carry.next(line, 20), 0).word);
+    got += static_cast<double>(carry(second / to.scale, carry.next(line, 21), 0).word);
+    pairs += std::pow(got - value - second, 2) / kLines;
+    each += std::pow(std::floor(value + 0.5) + std::floor(second + 0.5) - value - second, 2) / kLines;
+  }
+  figure("splats without a neighbour, rounded half up", alone);
+  figure("mean squared error of a pair", pairs, "words^2");
+  figure("the same, each rounded", each, "words^2");
+  EXPECT_NEAR(pairs, 1.0 / 12, 0.01);
+  EXPECT_NEAR(each, 1.0 / 6, 0.01);
 }
 
 // A synthetic X-ray on short words, thousands of thin splats behind each other. 3 dB is half the error's power.

@@ -180,9 +180,12 @@ class Page {
     std::array<Wide, 4> V{};
     bool cut = false, visible = false;
     const bool carried = symbols_.carry == "on" || (symbols_.carry == "xray" && given_.method == Method::XRay);
-    auto& rest = rest_.try_emplace({real.i, real.j}).first->second;
-    if (rest.empty())
-      rest.assign(4, (32768 + std::int64_t{49472} * real.i + std::int64_t{37345} * real.j) % 65536 / 65536.0);
+    auto& [rest, last, count] = runs_[{real.i, real.j}];
+    if (count == 0 || real.g != last + 1) rest.assign(4, 0.5), count = 0;
+    last = real.g;
+    if (++count == 3)
+      for (double& left : rest)
+        left += (32768 + std::int64_t{49472} * real.i + std::int64_t{37345} * real.j) % 65536 / 65536.0 - 0.5;
     for (std::size_t c = 0; c < 4; ++c) {
       double value = real.e[c] * f;
       if (ellipse) value = as_shaped(real, *splat.ellipse, value);
@@ -457,8 +460,12 @@ class Page {
   std::vector<std::uint32_t> radial_;
   std::map<std::int64_t, double> shown_;
   std::vector<Splat> splats_;
-  std::map<std::pair<int, int>, std::vector<double>> rest_;  ///< per line of voxels, what its channels left
-  std::uint64_t last_order_ = 0;                             ///< of the sheet's records so far
+  struct Run {
+    std::vector<double> rest;  ///< what its channels left
+    int last = 0, count = 0;   ///< the last splat's slice; how many splats there are
+  };
+  std::map<std::pair<int, int>, Run> runs_;  ///< per line of voxels, the last one
+  std::uint64_t last_order_ = 0;             ///< of the sheet's records so far
   Met met_;
 };
 

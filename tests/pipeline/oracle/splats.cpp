@@ -93,7 +93,7 @@ class Steps {
     splat.y = place(real.at.y, splat.closeness);
     const double own = scene_.kernel.radius() * scene_.volume->kernel_unit() * real.at.scale;
     splat.radius = mixture_.device(Step::Radius) ? sets_.of(own, splat.closeness) : own;
-    const Values v = emitted(real.material, own / splat.radius, line, splat.closeness);
+    const Values v = emitted(real.material, own / splat.radius, line, voxel.sheet, splat.closeness);
     splat.shares.assign(static_cast<std::size_t>(sheets_.count), Values{});
     if (sheets_.sliced) {
       slice(real.depth, v, splat);
@@ -114,7 +114,7 @@ class Steps {
     return x;
   }
 
-  Values emitted(const Values& e, double ratio, std::uint32_t line, Closeness& closeness) {
+  Values emitted(const Values& e, double ratio, std::uint32_t line, int slice, Closeness& closeness) {
     const double f = amplitude_ * ratio * ratio;
     const int cf = config_.colour_frac_bits;
     Values v{};
@@ -127,8 +127,12 @@ class Steps {
     }
     const std::uint32_t i = line / static_cast<std::uint32_t>(columns_),
                         j = line % static_cast<std::uint32_t>(columns_);
-    const double start = ((32768 + 49472ULL * i + 37345ULL * j) % 65536) / 65536.0;
-    Rest& rest = rests_.try_emplace(line, Rest{{start, start, start, start}, {}}).first->second;
+    const double shift = ((32768 + 49472ULL * i + 37345ULL * j) % 65536) / 65536.0 - 0.5;
+    Rest& rest = rests_[line];
+    const bool neighbour = rest.count > 0 && rest.slice + 1 == slice;
+    if (!neighbour) rest = Rest{{0.5, 0.5, 0.5, 0.5}, {}, slice, 0};
+    rest.slice = slice, ++rest.count;
+    for (std::size_t c = 0; rest.count == 3 && c < 4; ++c) rest.of[c] += shift;
     for (std::size_t c = 0; c < 4; ++c) {
       const double t = std::ldexp(v[c], cf) + rest.of[c];
       const double whole = t > 0.0 ? trn(t, 0, rest.closeness) : 0.0;
@@ -136,7 +140,7 @@ class Steps {
       rest.of[c] = whole > most ? 0.0 : t - shown_(word);
       v[c] = std::ldexp(word, -cf);
     }
-    closeness |= rest.closeness;  // and so for all splats behind it on this line
+    closeness |= rest.closeness;  // and so for all splats behind it in this run
     return v;
   }
 
@@ -180,6 +184,7 @@ class Steps {
   struct Rest {
     Values of;
     Closeness closeness;
+    int slice = 0, count = 0;  ///< of the last splat; splats of the run so far
   };
 
   const scene::Scene& scene_;

@@ -91,7 +91,11 @@ void cloud_of(int count, GaussianCloud& cloud) {
   Random random(63);
   cloud.degree = 1;
   for (int i = 0; i < count; ++i) {
-    const auto part = [&] { return random.unit() + random.unit() + random.unit() - 1.5; };
+    const auto part = [&] {
+      double sum = 0.0;
+      for (int k = 0; k < 3; ++k) sum += random.unit();
+      return sum - 1.5;
+    };
     Gaussian one;
     for (int axis = 0; axis < 3; ++axis) {
       one.position[axis] = static_cast<float>(part());
@@ -104,8 +108,12 @@ void cloud_of(int count, GaussianCloud& cloud) {
     cloud.gaussians.push_back(one);
     cloud.harmonics.push_back(
         constant_of({random.between(0.1, 0.9), random.between(0.1, 0.9), random.between(0.1, 0.9)}));
-    for (int k = 1; k < 4; ++k)
-      cloud.harmonics.emplace_back(random.between(-0.1, 0.1), random.between(-0.1, 0.1), random.between(-0.1, 0.1));
+    for (int k = 1; k < 4; ++k) {
+      // Blue first: as the arguments of one call were evaluated when the hashes were recorded.
+      glm::dvec3 one_of_degree;
+      for (int c = 2; c >= 0; --c) one_of_degree[c] = random.between(-0.1, 0.1);
+      cloud.harmonics.emplace_back(one_of_degree);
+    }
   }
 }
 

@@ -82,8 +82,8 @@ class CullGenerator {
             .colour = {most, most, most, most}};
   }
   SplatRecord anywhere() {
-    return splat(static_cast<std::uint32_t>(random_.between(0, sets() - 1)), random_.between(-2, config_.tile_width),
-                 random_.between(-2, config_.tile_height));
+    const std::int64_t y = random_.between(-2, config_.tile_height), x = random_.between(-2, config_.tile_width);
+    return splat(static_cast<std::uint32_t>(random_.between(0, sets() - 1)), x, y);
   }
   std::vector<SheetRecord> many() {
     std::vector<SheetRecord> out;

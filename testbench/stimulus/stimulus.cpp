@@ -102,13 +102,16 @@ class Generator {
         after = draw(1, random_.chance(50) ? tiles.front() : 2);
         break;
       case 1:
-        after = one_of(tiles) + draw(0, 2);  // check holds the last two, decode the one before
+        after = one_of(tiles);
+        after += draw(0, 2);  // check holds the last two, decode the one before
         break;
       case 2:
-        after = (sheets.empty() ? 0 : one_of(sheets)) + draw(8, 30);  // the walk begins 12 cycles later
+        after = sheets.empty() ? 0 : one_of(sheets);
+        after += draw(8, 30);  // the walk begins 12 cycles later
         break;
       case 3:
-        after = one_of(pictures) + draw(1, 3);
+        after = one_of(pictures);
+        after += draw(1, 3);
         break;
       default:
         after = draw(1, beats.size());

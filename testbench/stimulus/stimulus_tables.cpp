@@ -122,7 +122,8 @@ cmodel::LoadTable random_density_table(const cmodel::Config& config, Random& ran
     const auto range = cmodel::classify_word_range(config, table, static_cast<std::size_t>(i));
     std::int64_t value = 0;
     if (sheets && i % 2 == 0) {
-      value = any_word(random, scale) | any_word(random, scale) << 16;
+      value = any_word(random, scale);
+      value |= any_word(random, scale) << 16;
     } else if (range.least < 0) {  // directions, and tilts, of which most are gentle
       value = random.between(range.least, range.most);
       if (i > 6 && random.chance(70)) value >>= 12;

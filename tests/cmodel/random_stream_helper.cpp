@@ -83,6 +83,10 @@ class Generator {
         return static_cast<std::uint32_t>(r.between(0, largest));
     }
   }
+  std::uint32_t two_words(std::int64_t largest) {
+    const std::uint32_t low = word(largest);
+    return low | word(largest) << 16;
+  }
 
   void radius_set() {
     const std::int64_t most_windows = c.columns / c.P;
@@ -133,7 +137,9 @@ class Generator {
     };
     words.push_back(static_cast<std::uint32_t>(near()));
     if (c.index == "squared_elliptic") {
-      const std::int64_t A = words[0], C = r.once_in(3) ? A : near() / r.between(1, 16);
+      const std::int64_t A = words[0];
+      std::int64_t C = A;
+      if (!r.once_in(3)) C = near(), C /= r.between(1, 16);
       std::int64_t B = 0;  // the thinnest ellipse
       for (std::int64_t bit = std::int64_t{1} << 25; bit > 0; bit /= 2)
         if ((B + bit) * (B + bit) <= 4 * A * C) B += bit;
@@ -197,7 +203,7 @@ class Generator {
                           : i % 2 == 1 || r.once_in(4)
                               ? any
                               : static_cast<std::uint32_t>(static_cast<std::int32_t>(r.between(-65536, 65536))));
-        if (id == 7) words.push_back(i % 2 == 1 ? any >> r.between(0, 31) : word(4096) | word(4096) << 16);
+        if (id == 7) words.push_back(i % 2 == 1 ? any >> r.between(0, 31) : two_words(4096));
       }
       w.load_table(id, 0, 0, 0, words);
     }
@@ -206,8 +212,7 @@ class Generator {
   /// Of patterns: places near the tiles' and far from them, steps as a driver makes them and any.
   void pattern_tables() {
     std::vector<std::uint32_t> nodes, words;
-    for (std::int64_t i = 0; i < oracle::pattern_table_words(c, 8); ++i)
-      nodes.push_back(word(65535) | word(65535) << 16);
+    for (std::int64_t i = 0; i < oracle::pattern_table_words(c, 8); ++i) nodes.push_back(two_words(65535));
     for (const int most : {image_width, image_height, 128})
       words.push_back(r.once_in(2) ? 0 : static_cast<std::uint32_t>(r.between(0, most)));
     for (const int most : {image_width, image_height, 16}) {
@@ -301,7 +306,8 @@ class Generator {
     } else {
       for (std::int64_t i = r.once_in(6) ? 0 : r.between(1, 40); i > 0; --i) {
         const Set& near = sets[static_cast<std::size_t>(r.between(0, static_cast<std::int64_t>(sets.size()) - 1))];
-        add(position(width, near), position(height, near), dimming);
+        const std::int32_t y = position(height, near), x = position(width, near);
+        add(x, y, dimming);
         if (c.f == 0 || r.once_in(2)) continue;
         Planned& last = planned.back();
         last.round = false;
@@ -393,14 +399,18 @@ class Generator {
         p = r.between(-half, half - 1);
         break;
       case 2:  // around the tile's first edge
-        p = r.between(-reach, reach) * one + r.between(-2, 2);
+        p = r.between(-reach, reach) * one;
+        p += r.between(-2, 2);
         break;
       case 3:  // around its last edge
-        p = (side + r.between(-reach, reach)) * one + r.between(-2, 2);
+        p = (side + r.between(-reach, reach)) * one;
+        p += r.between(-2, 2);
         break;
       case 4: {  // ties between two grid positions
         const std::int64_t step = std::max<std::int64_t>(one / c.K(), 1);
-        p = r.between(-reach, side + reach) * one + r.between(0, c.K() - 1) * step + step / 2 - r.between(0, 1);
+        p = r.between(-reach, side + reach) * one + step / 2;
+        p += r.between(0, c.K() - 1) * step;
+        p -= r.between(0, 1);
         break;
       }
       default:

@@ -40,8 +40,8 @@ TEST(FamilyTables, ScalesAreRoundedUp) {
   test::Random random(test::seed_or(72));
   double most = 0.0;
   for (int i = 0; i < 20000; ++i) {
-    const double v =
-        std::ldexp(1.0 + static_cast<double>(random.next() >> 11) * 0x1p-53, static_cast<int>(random.between(-39, 23)));
+    const auto power = static_cast<int>(random.between(-39, 23));
+    const double v = std::ldexp(1.0 + static_cast<double>(random.next() >> 11) * 0x1p-53, power);
     const Scale scale = scale_of(v, config);
     const double made = std::ldexp(static_cast<double>(scale.c), -static_cast<int>(scale.h));
     ASSERT_GE(made, v);

@@ -53,7 +53,7 @@ TEST(FastKernels, FootprintsAreAddedBitForBit) {
       for (const double scale : {0.2, 1.0, 2.3, 9.0}) {
         const Rows rows{5, 21};
         std::vector<Sheet> plain(kMostSheets, Sheet(rows, width)), fast(kMostSheets, Sheet(rows, width));
-        const scene::Kernel kernel(uniform(0.5, 4.0), uniform(0.6, 3.0));
+        const scene::Kernel kernel{uniform(0.5, 4.0), uniform(0.6, 3.0)};
         Footprint footprint;
         SplatSums together;
         for (int splat = 0; splat < 200; ++splat) {

@@ -55,7 +55,8 @@ scene::SceneDescription random_density_scene(fastsplat::test::Random& random) {
   scene.classify = scene::ClassifyOrder::Post;
   // Two volumes of many values, one of two.
   const char* const volumes[] = {"shells:", "marschner-lobb:", "binary-cube:"};
-  scene.volume = volumes[random.between(0, 2)] + std::to_string(random.between(8, 12));
+  scene.volume = volumes[random.between(0, 2)];
+  scene.volume += std::to_string(random.between(8, 12));
   // All of them begin clear; "terrain" and "ct-head" are shaded by themselves.
   const char* const functions[] = {"ct-head", "bone", "soft-tissue", "linear", "terrain", "default"};
   scene.transfer_function = functions[random.between(0, 5)];

@@ -41,7 +41,10 @@ std::vector<const plan::Row*> all(const plan::Merged& merged) { return plan::cho
 TEST(PlanPareto, IsWhatNoOtherBeats) {
   std::mt19937 random(7);
   std::vector<std::pair<double, double>> points;
-  for (int n = 0; n < 300; ++n) points.emplace_back(random() % 40, random() % 40);
+  for (int n = 0; n < 300; ++n) {
+    const double second = random() % 40, first = random() % 40;
+    points.emplace_back(first, second);
+  }
   const auto merged = rows_of(points);
   const auto result =
       plan::pareto(all(merged), plan::metric_of(merged, "cost", "--x"), plan::metric_of(merged, "psnr", "--y"));

@@ -90,9 +90,11 @@ void mutate_text(std::string& text, Random& random) {
     case 3:
       text.erase(begin, end - begin);
       break;
-    case 4:
-      text.insert(at, std::string(static_cast<std::size_t>(random.between(1, 3000)), "[{\"("[random.between(0, 3)]));
+    case 4: {
+      const char open = "[{\"("[random.between(0, 3)];
+      text.insert(at, std::string(static_cast<std::size_t>(random.between(1, 3000)), open));
       break;
+    }
     default:
       mutate_bytes(text, random);
   }

@@ -42,9 +42,11 @@ std::string mutated(std::string bytes, std::mt19937& random) {
       case 3:
         bytes.resize(at);
         break;
-      case 4:
-        bytes.insert(at, bytes.substr(below(bytes.size()), below(40)));
+      case 4: {
+        const std::size_t count = below(40);
+        bytes.insert(at, bytes.substr(below(bytes.size()), count));
         break;
+      }
       default:
         bytes.replace(at, std::min<std::size_t>(8, bytes.size() - at), std::string(8, below(2) == 0 ? '\xff' : '\x7f'));
         break;

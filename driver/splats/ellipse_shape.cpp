@@ -34,7 +34,9 @@ scene::ScreenShape drawn_footprint(const scene::ScreenShape& shape, double kerne
 }
 
 cmodel::EllipseShape ellipse_words(const cmodel::Config& config, const scene::ScreenShape& footprint) {
-  const double rim = static_cast<double>(config.rlut_rim());
+  // Beside the steps of the roundings: a kernel grown to one pixel a voxel lies on one, and a last bit would decide.
+  constexpr double kAside = 1.0 - 0x1p-40;
+  const double rim = kAside * static_cast<double>(config.rlut_rim());
   const double scale = std::ldexp(rim, -2 * config.position_frac_bits);  // per square of 2^-pf pixel
   const double a = scale / (footprint.xx - footprint.xy * (footprint.xy / footprint.yy));
   const double c = scale / (footprint.yy - footprint.xy * (footprint.xy / footprint.xx));

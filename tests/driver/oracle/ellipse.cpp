@@ -45,7 +45,7 @@ EllipseWords ellipse_words(const Given& given, const Shape& shape, std::int64_t 
   const oracle::Symbols& c = given.symbols;
   EllipseWords out;
   const Shape F = footprint(given, shape, out);
-  const double m = c.N * std::ldexp(1.0, c.g) / std::ldexp(1.0, 2 * c.pf);
+  const double m = (1.0 - std::ldexp(1.0, -40)) * c.N * std::ldexp(1.0, c.g) / std::ldexp(1.0, 2 * c.pf);
   const double a = m / (F.xx - F.xy * (F.xy / F.yy)), d = m / (F.yy - F.xy * (F.xy / F.xx));
   const double b = -2 * (a * (F.xy / F.yy));
   int h = std::clamp(21 - static_cast<int>(std::floor(std::log2(std::max(a, d)))), 0, 63);

@@ -1,0 +1,79 @@
+// The last bit of a double decides no word of an anti-aliased stream: a kernel that has grown is one pixel a voxel, and
+// its A and C would otherwise lie exactly on a step of their rounding.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "driver/config/config_file.hpp"
+#include "driver/splats/ellipse_shape.hpp"
+#include "driver/tiles/compile.hpp"
+#include "tests/driver/scenes_helper.hpp"
+
+namespace fastsplat::driver {
+namespace {
+
+/// `value` and its neighbours up to `bits` last bits away.
+double moved(double value, int bits) {
+  const double end = std::copysign(std::numeric_limits<double>::infinity(), bits);
+  for (int i = 0; i < std::abs(bits); ++i) value = std::nextafter(value, end);
+  return value;
+}
+
+TEST(LastBit, GrownKernelsHaveTheSameWords) {
+  int words = 0, different = 0;
+  for (const auto& name : config_names()) {
+    const cmodel::Config config = load_config(name);
+    if (!config.has_ellipses()) continue;
+    // Radii whose squares are powers of two, and others; half axes of the thinnest footprint.
+    for (const double radius : {kThinnest, 0.5, 1.0, 1.5, std::sqrt(2.0), 2.0, 2.5, 3.0, 4.0}) {
+      const auto shape_of = [&](int across, int down) {
+        const double square = radius * radius;
+        const auto shape = ellipse_words(config, {.xx = moved(square, across), .xy = 0.0, .yy = moved(square, down)});
+        return std::tuple(shape.a, shape.c, shape.b, shape.shift);
+      };
+      const auto exact = shape_of(0, 0);
+      for (int across = -4; across <= 4; ++across)
+        for (int down = -4; down <= 4; ++down, ++words) different += shape_of(across, down) == exact ? 0 : 1;
+    }
+  }
+  figure("ellipses with other last bits", words);
+  figure("of them with other words", different);
+  EXPECT_GT(words, 500);
+  EXPECT_EQ(different, 0);
+}
+
+/// The floor of the gallery: most of its kernels grow. The picture is turned a little, so that no symmetry puts a
+/// position between two words.
+std::vector<cmodel::Beat> beats_of(double zoom, bool ellipses) {
+  auto description = view_of("checkerboard-floor:48", 72);
+  description.camera.projection = scene::Projection::Perspective;
+  description.camera.fov = 100.0, description.camera.zoom = zoom;
+  description.camera.azimuth = 37.3, description.camera.elevation = 11.9;
+  description.footprint.antialias = true;
+  if (ellipses) description.footprint.shape = scene::FootprintShape::Ellipse;
+  const CompiledFrame compiled(scene::build_scene(description), load_config("ellipse"));
+  std::vector<cmodel::Beat> out;
+  compiled.emit([&](std::span<const cmodel::Beat> beats) { out.insert(out.end(), beats.begin(), beats.end()); });
+  return out;
+}
+
+TEST(LastBit, DoesNotChangeAnAntiAliasedStream) {
+  for (const bool ellipses : {false, true}) {
+    constexpr double kZoom = 1.28;
+    const auto exact = beats_of(kZoom, ellipses);
+    for (const int bits : {-2, -1, 1, 2}) {
+      const auto other = beats_of(moved(kZoom, bits), ellipses);
+      ASSERT_EQ(other.size(), exact.size());
+      std::size_t different = 0;
+      for (std::size_t i = 0; i < exact.size(); ++i) different += other[i] == exact[i] ? 0 : 1;
+      figure("beats", static_cast<double>(exact.size()));
+      figure("of them different, zoom moved by " + std::to_string(bits) + " last bits", static_cast<double>(different));
+      EXPECT_EQ(different, 0U);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fastsplat::driver

@@ -51,8 +51,9 @@ void declare(Options& options, GaussianFlags& to) {
   options.word("--gaussians", to.file, "FILE|NAME",
                "a trained scene, .ply or .splat, or shells:2000 or cloud:500; instead of a volume");
   options.values(scene::synthetic_gaussian_names);
-  options.choice("--up", to.up, scene::up_axis_names(), "AXIS",
-                 "which of the file's axes points up: x, y, z, -x, -y, -z (-y; of built-in scenes z)");
+  options.choice(
+      "--up", to.up, scene::up_axis_names(), "AXIS",
+      "which of the file's axes points up: x, y, z, -x, -y, -z (as the file says, else -y; of built-in scenes z)");
   options.number("--low-pass", to.low_pass, "NUMBER",
                  "square pixels added to every footprint's variance, 0.01 to 100 (0.3)");
   options.number("--cutoff", to.cutoff, "NUMBER", "standard deviations to where a footprint reaches, 1 to 4 (3)");
@@ -97,7 +98,15 @@ std::vector<std::string> inputs_of(const GaussianFlags& flags) {
 scene::GaussianScene build(const GaussianFlags& flags, const GaussianView& view) {
   std::shared_ptr<const scene::GaussianCloud> cloud;
   as_word(*flags.file, [&] { cloud = std::make_shared<scene::GaussianCloud>(scene::load_gaussians(*flags.file)); });
-  return scene::build_gaussian_scene(view.description, std::move(cloud));
+  scene::GaussianDescription description = view.description;
+  if (!flags.up && cloud->up) description.up = *cloud->up;
+  return scene::build_gaussian_scene(description, std::move(cloud));
+}
+
+std::vector<Remark> remarks(const scene::GaussianCloud& cloud) {
+  std::vector<Remark> remarks;
+  for (const auto& text : cloud.remarks) remarks.push_back({Remark::Warning, cloud.name + ": " + text});
+  return remarks;
 }
 
 cmodel::Config load_for_gaussians(const ConfigFlags& flags) {

@@ -7,6 +7,7 @@
 
 #include "cli/config_flags.hpp"
 #include "cli/options.hpp"
+#include "cli/output.hpp"
 #include "cli/scene_flags.hpp"
 #include "golden/gaussians.hpp"
 #include "scene/display.hpp"
@@ -29,15 +30,17 @@ struct GaussianView {
 };
 
 /// `flags.file` is there. Of the scene's flags those of the camera, --size and --background; UserError (Usage) for any
-/// other. Perspective unless --orthographic; up is -y, of a built-in scene z.
+/// other. Perspective unless --orthographic; up is --up, else -y, of a built-in scene z.
 GaussianView describe(const GaussianFlags& flags, const SceneFlags& scene);
 /// UserError (Usage) for a flag that means nothing without --gaussians.
 void refuse_without_gaussians(const GaussianFlags& flags);
 /// What the command reads.
 std::vector<std::string> inputs_of(const GaussianFlags& flags);
 
-/// Reads the file, or makes the built-in scene; a name that there is none of is Usage.
+/// Reads the file, or makes the built-in scene; unknown names are Usage. Up is --up, else what the file declares.
 scene::GaussianScene build(const GaussianFlags& flags, const GaussianView& view);
+/// GaussianCloud::remarks, each a warning that names the scene.
+std::vector<Remark> remarks(const scene::GaussianCloud& cloud);
 /// The configuration named; without a name `ellipse` that composites every sample and finishes pixels where golden
 /// does.
 cmodel::Config load_for_gaussians(const ConfigFlags& flags);

@@ -127,6 +127,7 @@ Json to_json(const Result& result) {
               {"cutoff", description.cutoff},
               {"width", description.width},
               {"height", description.height}}}};
+  if (!result.scene.cloud->remarks.empty()) json["gaussians"]["remarks"] = result.scene.cloud->remarks;
   std::visit([&json](const auto& of) { json.update(to_json(of)); }, result.of);
   json["outputs"] = result.files.out;
   if (!result.files.raw.empty()) json["raw"] = result.files.raw;
@@ -166,17 +167,18 @@ std::vector<Remark> remarks(const DeviceGaussians& device) {
   return said;
 }
 
-/// As it is shown: colours of trained scenes are those of photographs, encoded as sRGB, and are blended so. Behind them
-/// the background.
-Image shown_of(const Image& image, const scene::Display& display) {
+/// As it is shown: colours of trained scenes are those of photographs, encoded as sRGB, and are blended so, unless the
+/// file says that they are linear. Behind them the background.
+Image shown_of(const Image& image, const scene::Display& display, bool linear) {
   const bool behind = display.background != glm::dvec3(0.0);
   Image shown = image;
   for (std::size_t at = 0; at < shown.data.size(); at += 4) {
     const double left = 1.0 - static_cast<double>(shown.data[at + 3]);
     for (int c = 0; c < 3; ++c) {
       const double value = static_cast<double>(shown.data[at + static_cast<std::size_t>(c)]);
-      const double over = behind ? value + left * srgb_encode(display.background[c]) : value;
-      shown.data[at + static_cast<std::size_t>(c)] = static_cast<float>(srgb_decode(over));
+      const double ground = linear ? display.background[c] : srgb_encode(display.background[c]);
+      const double over = behind ? value + left * ground : value;
+      shown.data[at + static_cast<std::size_t>(c)] = static_cast<float>(linear ? over : srgb_decode(over));
     }
     if (behind) shown.data[at + 3] = 1.0F;
   }
@@ -230,6 +232,7 @@ ExitCode run_gaussians(const RenderArguments& arguments) {
   std::optional<driver::GaussianFrame> frame;
   if (config) frame.emplace(scene, projected, *config);
   output.line(summary(scene));
+  output.remark(remarks(*scene.cloud));
   if (frame) {
     driver::GaussianRender render;
     {
@@ -245,7 +248,7 @@ ExitCode run_gaussians(const RenderArguments& arguments) {
     result.of = device;
     driver::DeviceRender whole{.frame = std::move(render.frame), .counters = {}, .report = {}, .units = {}};
     const Image image = driver::to_image(whole.frame);
-    write_images(result.files.out, image, shown_of(image, view.shown.display), metadata, output);
+    write_images(result.files.out, image, shown_of(image, view.shown.display, scene.cloud->linear), metadata, output);
     write_device_images(whole, {}, result.files.raw, metadata, output);
   } else {
     GoldenGaussians golden{projection};
@@ -261,7 +264,7 @@ ExitCode run_gaussians(const RenderArguments& arguments) {
     output.line(to_text(golden));
     result.of = golden;
     warn_if_empty(image, output);
-    write_images(result.files.out, image, shown_of(image, view.shown.display), metadata, output);
+    write_images(result.files.out, image, shown_of(image, view.shown.display, scene.cloud->linear), metadata, output);
   }
   result.seconds = output.seconds();
   output.json(to_json(result));

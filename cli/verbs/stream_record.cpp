@@ -85,6 +85,7 @@ ExitCode record_gaussians(const StreamRecordArguments& arguments, const cmodel::
   }
   output.line(fmt::format("{}\ndriver: {}, {}\n{}\n", summary(scene), counted(report.records, "ellipse record"),
                           counted(report.tiles, "tile"), arguments.out));
+  output.remark(remarks(*scene.cloud));
   output.json(Json{{"verb", "stream record"},
                    {"version", program_version()},
                    {"stream", arguments.out},

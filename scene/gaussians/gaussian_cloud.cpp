@@ -38,6 +38,8 @@ std::uint64_t content_hash(const GaussianCloud& cloud) {
     add(one.opacity);
   }
   for (const glm::vec3& harmonic : cloud.harmonics) add_all(harmonic);
+  if (cloud.antialiased) hash = fnv1a(hash, "antialiased");
+  if (cloud.linear) hash = fnv1a(hash, "linear");
   return hash;
 }
 

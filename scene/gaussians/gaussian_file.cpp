@@ -4,42 +4,33 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
+#include <fstream>
 
 #include "base/error.hpp"
+#include "scene/gaussians/gaussian_rows.hpp"
+#include "scene/gaussians/other_formats.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
 
 namespace fastsplat::scene {
 namespace {
 
-template <class Vector>
-bool finite(const Vector& vector) {
-  for (int i = 0; i < vector.length(); ++i) {
-    if (!std::isfinite(vector[i])) return false;
-  }
-  return true;
-}
-
-[[noreturn]] void bad(const std::string& where, const std::string& what, const std::string& expected) {
-  throw_input({.where = where, .what = what, .expected = expected, .got = {}, .fix = "the file is damaged"});
+/// The first bytes of a file, to see what it is; none if it is not there.
+std::string head_of(const std::filesystem::path& path) {
+  std::string head(kHeadBytes, '\0');
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return {};
+  std::ifstream in(path, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  return head;
 }
 
 }  // namespace
 
 void check_gaussian(const Gaussian& gaussian, std::span<const glm::vec3> harmonics, const std::string& where) {
-  if (!finite(gaussian.position)) bad(where, "its position is not finite", "numbers that a float holds");
-  if (!finite(gaussian.scale)) bad(where, "its scale is not finite", "numbers that a float holds");
-  if (!(std::min({gaussian.scale.x, gaussian.scale.y, gaussian.scale.z}) >= 0.0F))
-    bad(where, "its scale is negative", "standard deviations");
-  if (!(gaussian.opacity >= 0.0F && gaussian.opacity <= 1.0F)) bad(where, "its opacity is not a number", "a number");
-  if (!std::ranges::all_of(harmonics, [](const glm::vec3& one) { return finite(one); }))
-    bad(where, "its colour is not finite", "numbers that a float holds");
-}
-
-glm::vec4 unit_rotation(const glm::dvec4& rotation, const std::string& where) {
-  const double length = glm::length(rotation);
-  if (!(length > 0.0) || !std::isfinite(length)) bad(where, "its rotation has no direction", "a quaternion w x y z");
-  return rotation / length;
+  const std::string fault = fault_of(gaussian, harmonics);
+  if (fault.empty()) return;
+  throw_input({.where = where, .what = "its " + fault, .expected = {}, .got = {}, .fix = "the file is damaged"});
 }
 
 std::vector<std::filesystem::path> files_of_gaussians(const std::string& name_or_path) {
@@ -52,6 +43,9 @@ std::vector<std::filesystem::path> files_of_gaussians(const std::string& name_or
 GaussianCloud load_gaussians(const std::string& name_or_path) {
   const auto files = files_of_gaussians(name_or_path);
   if (files.empty()) return make_synthetic_gaussians(name_or_path);
+  const std::string head = head_of(files[0]);
+  if (is_ply(head)) return read_gaussian_ply(files[0]);
+  refuse_other_formats(files[0], head);
   std::string ending = files[0].extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
   if (ending == ".ply") return read_gaussian_ply(files[0]);

@@ -10,9 +10,7 @@
 
 namespace fastsplat::scene {
 
-/// Which of the file's axes points up.
-enum class UpAxis { X, Y, Z, MinusX, MinusY, MinusZ };
-const std::vector<std::string>& up_axis_names();  ///< in that order: x, y, z, -x, -y, -z
+const std::vector<std::string>& up_axis_names();  ///< in the order of UpAxis: x, y, z, -x, -y, -z
 
 struct GaussianDescription {
   CameraParams camera{};

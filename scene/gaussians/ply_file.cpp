@@ -2,110 +2,79 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <optional>
+#include <utility>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/read_file.hpp"
 #include "scene/gaussians/gaussian_file.hpp"
-#include "scene/gaussians/ply_header.hpp"
+#include "scene/gaussians/gaussian_rows.hpp"
+#include "scene/gaussians/gaussian_scene.hpp"
+#include "scene/gaussians/ply_columns.hpp"
+#include "scene/gaussians/ply_hints.hpp"
+#include "scene/gaussians/ply_packed.hpp"
 #include "scene/gaussians/ply_rows.hpp"
 #include "scene/gaussians/splat_file.hpp"
 
 namespace fastsplat::scene {
 namespace {
 
-/// Where in a row each number of a Gaussian stands.
-struct Columns {
-  std::array<std::size_t, 3> position{}, scale{}, constant{};
-  std::array<std::size_t, 4> rotation{};
-  std::size_t opacity = 0;
-  std::vector<std::size_t> rest;  ///< f_rest_0 ..
-  int degree = 0;
-};
-
-std::optional<std::size_t> find(const PlyElement& element, const std::string& name) {
-  for (std::size_t i = 0; i < element.properties.size(); ++i) {
-    if (element.properties[i].name == name) return i;
-  }
-  return std::nullopt;
+[[noreturn]] void refuse_scene(const std::string& where, const std::string& what, const std::string& expected,
+                               const std::string& got, const std::string& fix) {
+  throw_input({.where = where, .what = what, .expected = expected, .got = got, .fix = fix});
 }
 
-std::size_t column(const PlyElement& element, const std::string& name, const std::string& where) {
-  if (const auto found = find(element, name)) return *found;
-  throw_input({.where = where,
-               .what = "the property " + name + " is missing",
-               .expected = "x y z, scale_0..2, rot_0..3, opacity, f_dc_0..2 of every vertex",
-               .got = fmt::format("{} others", element.properties.size()),
-               .fix = "write the trained Gaussians, not a point cloud or a mesh"});
+void read_vertices(const PlyElement& element, PlyRows& rows, const std::string& where, GaussianCloud& to) {
+  PlyColumns columns(element, where);
+  rows.require(element);
+  to.degree = columns.degree();
+  const auto count = static_cast<std::size_t>(element.count);
+  to.gaussians.reserve(count);
+  to.harmonics.reserve(count * static_cast<std::size_t>(harmonic_count(to.degree)));
+  GaussianRows drawn(to, where);
+  std::vector<double> row(element.properties.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    rows.read(element, i, row);
+    columns.read(row, drawn);
+  }
+  drawn.end();
+  const std::vector<std::string> remarks = columns.remarks();
+  to.remarks.insert(to.remarks.end(), remarks.begin(), remarks.end());
 }
 
-Columns columns_of(const PlyElement& element, const std::string& where) {
-  Columns out;
-  for (std::size_t i = 0; i < 3; ++i) {
-    out.position[i] = column(element, std::string(1, static_cast<char>('x' + i)), where);
-    out.scale[i] = column(element, fmt::format("scale_{}", i), where);
-    out.constant[i] = column(element, fmt::format("f_dc_{}", i), where);
-  }
-  for (std::size_t i = 0; i < 4; ++i) out.rotation[i] = column(element, fmt::format("rot_{}", i), where);
-  out.opacity = column(element, "opacity", where);
-  std::size_t named = 0;
-  for (const PlyProperty& property : element.properties) named += property.name.starts_with("f_rest_") ? 1 : 0;
-  for (std::size_t i = 0; i < named; ++i) out.rest.push_back(column(element, fmt::format("f_rest_{}", i), where));
-  while (out.degree < kMostDegree && named != 3U * (harmonic_count(out.degree) - 1U)) ++out.degree;
-  if (named != 3U * (harmonic_count(out.degree) - 1U)) {
-    throw_input({.where = where,
-                 .what = "not as many f_rest_ as spherical harmonics of a degree have",
-                 .expected = "0, 9, 24 or 45 of them",
-                 .got = fmt::format("{}", named),
-                 .fix = "harmonics above degree 3 are not known"});
-  }
-  return out;
+/// The colour space that SHARP writes behind its Gaussians: 0 is sRGB, 1 linear light.
+void read_colour_space(const PlyElement& element, PlyRows& rows, GaussianCloud& to) {
+  rows.require(element);
+  std::vector<double> row(element.properties.size());
+  if (row.empty() || element.count == 0) return;
+  for (std::uint64_t i = 0; i < element.count; ++i) rows.read(element, i, row);
+  to.linear = row[0] == 1.0;
+  if (row[0] != 0.0 && row[0] != 1.0)
+    to.remarks.push_back(fmt::format("its colour space {:g} is not known: colours are taken as sRGB", row[0]));
 }
 
-/// The element of the Gaussians; those before it are passed over.
-const PlyElement& vertices(const PlyHeader& header, PlyRows& rows, const std::string& where) {
+/// Reads the vertices and passes over other elements. False behind a list, whose end only its data say.
+bool read_elements(const PlyHeader& header, PlyRows& rows, const std::string& where, GaussianCloud& to) {
+  bool read = false, moves = false;
   for (const PlyElement& element : header.elements) {
-    if (element.has_list && (element.name == "vertex" || &element != &header.elements.back())) {
-      throw_input({.where = where,
-                   .what = "the element " + element.name + " holds a list, whose length only its data say",
-                   .expected = "numbers only, as trainers write them",
-                   .got = {},
-                   .fix = "write the Gaussians without it"});
+    if (element.has_list && !read)
+      refuse_scene(where, "the element " + element.name + " holds a list, whose length only its data say",
+                   "numbers only, as trainers write them", {}, "write the Gaussians without it");
+    if (element.has_list) return false;
+    if (element.name == "vertex") {
+      read_vertices(element, rows, where, to);
+      read = true;
+    } else if (element.name == "color_space") {
+      read_colour_space(element, rows, to);
+    } else {
+      if (element.name.starts_with("delta_vertex_") && !std::exchange(moves, true))
+        to.remarks.emplace_back("its Gaussians move (delta_vertex_): they are drawn as they are first");
+      rows.skip(element);
     }
-    if (element.name == "vertex") return element;
-    rows.skip(element);
   }
-  throw_input({.where = where,
-               .what = "the header has no element vertex",
-               .expected = "element vertex COUNT",
-               .got = {},
-               .fix = "check that this is the file you meant"});
-}
-
-Gaussian gaussian_of(const Columns& at, std::span<const double> row, const std::string& here) {
-  Gaussian out;
-  glm::dvec4 rotation;
-  for (std::size_t i = 0; i < 3; ++i) {
-    out.position[static_cast<int>(i)] = static_cast<float>(row[at.position[i]]);
-    out.scale[static_cast<int>(i)] = static_cast<float>(std::exp(row[at.scale[i]]));
-  }
-  for (std::size_t i = 0; i < 4; ++i) rotation[static_cast<int>(i)] = row[at.rotation[i]];
-  out.rotation = unit_rotation(rotation, here);
-  out.opacity = static_cast<float>(1.0 / (1.0 + std::exp(-row[at.opacity])));
-  return out;
-}
-
-void append_harmonics(const Columns& at, std::span<const double> row, std::vector<glm::vec3>& to) {
-  to.emplace_back(row[at.constant[0]], row[at.constant[1]], row[at.constant[2]]);
-  const std::size_t each = at.rest.size() / 3;  // of a channel
-  for (std::size_t i = 0; i < each; ++i)
-    to.emplace_back(row[at.rest[i]], row[at.rest[each + i]], row[at.rest[2 * each + i]]);
+  return true;
 }
 
 /// The properties in the order that trainers write them.
@@ -137,39 +106,41 @@ std::vector<float> written_row(const Gaussian& one, std::span<const glm::vec3> h
 GaussianCloud read_gaussian_ply(const std::filesystem::path& path) {
   const std::string where = path.string(), text = read_text_file(path, kMostGaussianBytes);
   const PlyHeader header = read_ply_header(text, where);
+  const PlyElement* const vertices = header.find("vertex");
+  if (vertices == nullptr)
+    refuse_scene(where, "the header has no element vertex", "element vertex COUNT", {},
+                 "check that this is the file you meant");
+  const PlyHints hints = hints_of(header.comments);
+  GaussianCloud cloud{.name = path.filename().string(), .source = where};
+  cloud.up = hints.up, cloud.antialiased = hints.antialiased, cloud.linear = hints.linear;
+  cloud.remarks = hints.remarks;
   PlyRows rows(header, text, where);
-  const PlyElement& element = vertices(header, rows, where);
-  const Columns at = columns_of(element, where);
-  if (element.count == 0) {
-    throw_input({.where = where,
-                 .what = "the file holds no Gaussian",
-                 .expected = "element vertex COUNT with at least 1",
-                 .got = "0",
-                 .fix = "check that this is the file you meant"});
+  if (vertices->count == 0)
+    refuse_scene(where, "the file holds no Gaussian", "element vertex COUNT with at least 1", "0",
+                 "check that this is the file you meant");
+  bool whole = true;
+  if (is_packed(header)) {
+    read_packed(header, rows, where, cloud);
+  } else {
+    whole = read_elements(header, rows, where, cloud);
   }
-  rows.require(element);
-
-  GaussianCloud cloud{.name = path.filename().string(), .source = where, .degree = at.degree};
-  const auto count = static_cast<std::size_t>(element.count);
-  cloud.gaussians.reserve(count);
-  cloud.harmonics.reserve(count * static_cast<std::size_t>(harmonic_count(at.degree)));
-  std::vector<double> row(element.properties.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    rows.read(element, i, row);
-    const std::string here = fmt::format("{}, Gaussian {}", where, i);
-    cloud.gaussians.push_back(gaussian_of(at, row, here));
-    append_harmonics(at, row, cloud.harmonics);
-    check_gaussian(cloud.gaussians.back(), cloud.harmonics_of(i), here);
-  }
-  if (&element == &header.elements.back()) rows.require_end();
+  const std::size_t left = whole ? rows.require_end() : 0;
+  if (left >= vertices->row_bytes())
+    cloud.remarks.push_back(fmt::format("{} empty bytes behind its last row were not used", left));
+  if (hints.degree && *hints.degree != cloud.degree)
+    cloud.remarks.push_back(fmt::format("its header says SH degree {}, its properties are of degree {}, which is drawn",
+                                        *hints.degree, cloud.degree));
   return cloud;
 }
 
 void save_gaussians(const GaussianCloud& cloud, const std::filesystem::path& path, PlyText text) {
   if (path.extension() == ".splat") return write_text_file(path, splat_bytes(cloud));
   const std::vector<std::string> names = written_names(cloud.degree);
-  std::string out = fmt::format("ply\nformat {} 1.0\nelement vertex {}\n",
-                                text == PlyText::Ascii ? "ascii" : "binary_little_endian", cloud.gaussians.size());
+  std::string out = fmt::format("ply\nformat {} 1.0\n", text == PlyText::Ascii ? "ascii" : "binary_little_endian");
+  if (cloud.up) out += "comment Vertical Axis: " + up_axis_names()[static_cast<std::size_t>(*cloud.up)] + "\n";
+  if (cloud.antialiased) out += "comment SplatRenderMode: mip\n";
+  if (cloud.linear) out += "comment color_space: linear\n";
+  out += fmt::format("element vertex {}\n", cloud.gaussians.size());
   for (const std::string& name : names) out += "property float " + name + "\n";
   out += "end_header\n";
   for (std::size_t i = 0; i < cloud.gaussians.size(); ++i) {

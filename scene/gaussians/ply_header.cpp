@@ -53,8 +53,26 @@ class Lines {
   std::size_t number() const { return number_; }
   std::string here() const { return fmt::format("{}:{}", where_, number_); }
 
+  /// The words of the next line. Comments are kept aside.
   std::vector<std::string> next() {
-    constexpr std::size_t kLongest = 4096;  // what is no PLY may have no line end at all
+    while (true) {
+      const std::string_view line = next_line();
+      std::vector<std::string> words = words_of(line);
+      if (words.empty()) continue;
+      if (words[0] != "comment" && words[0] != "obj_info") return words;
+      const std::size_t text = line.find_first_not_of(" \t", line.find(words[0]) + words[0].size());
+      comments_.emplace_back(line.substr(std::min(text, line.size())));
+    }
+  }
+  std::vector<std::string> comments() { return std::move(comments_); }
+  [[noreturn]] void refuse(const std::string& what, const std::string& expected, const std::string& got,
+                           const std::string& fix) const {
+    throw_input({.where = here(), .what = what, .expected = expected, .got = got, .fix = fix});
+  }
+
+ private:
+  std::string_view next_line() {
+    constexpr std::size_t kLongest = 1 << 20;  // comments may hold whole camera files; other files may have no line end
     ++number_;
     const std::size_t end = text_.substr(0, std::min(text_.size(), at_ + kLongest)).find('\n', at_);
     if (end == std::string_view::npos) {
@@ -64,16 +82,12 @@ class Lines {
     std::string_view line = text_.substr(at_, end - at_);
     at_ = end + 1;
     if (line.ends_with('\r')) line.remove_suffix(1);
-    return words_of(line);
-  }
-  [[noreturn]] void refuse(const std::string& what, const std::string& expected, const std::string& got,
-                           const std::string& fix) const {
-    throw_input({.where = here(), .what = what, .expected = expected, .got = got, .fix = fix});
+    return line;
   }
 
- private:
   std::string_view text_;
   const std::string& where_;
+  std::vector<std::string> comments_;
   std::size_t at_ = 0, number_ = 0;
 };
 
@@ -128,6 +142,17 @@ std::size_t PlyElement::row_bytes() const {
   return bytes;
 }
 
+std::optional<std::size_t> PlyElement::find(std::string_view property) const {
+  const auto found = std::ranges::find(properties, property, &PlyProperty::name);
+  if (found == properties.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - properties.begin());
+}
+
+const PlyElement* PlyHeader::find(std::string_view element) const {
+  const auto found = std::ranges::find(elements, element, &PlyElement::name);
+  return found == elements.end() ? nullptr : &*found;
+}
+
 PlyHeader read_ply_header(std::string_view text, const std::string& where) {
   Lines lines(text, where);
   if (lines.next() != std::vector<std::string>{"ply"})
@@ -136,10 +161,12 @@ PlyHeader read_ply_header(std::string_view text, const std::string& where) {
   header.format = format_of(lines, lines.next());
   while (true) {
     const std::vector<std::string> words = lines.next();
-    if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
     if (words[0] == "end_header") break;
     if (words[0] == "element") {
-      header.elements.push_back(element_of(lines, words));
+      PlyElement element = element_of(lines, words);
+      if (header.find(element.name) != nullptr)
+        lines.refuse(fmt::format("the element {} is there twice", element.name), {}, {}, "leave one out");
+      header.elements.push_back(std::move(element));
     } else if (words[0] == "property" && !header.elements.empty()) {
       add_property(lines, words, header.elements.back());
     } else {
@@ -147,6 +174,7 @@ PlyHeader read_ply_header(std::string_view text, const std::string& where) {
                    "the header is damaged");
     }
   }
+  header.comments = lines.comments();
   header.size = lines.at();
   header.lines = lines.number();
   return header;

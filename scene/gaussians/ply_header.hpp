@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,12 +25,16 @@ struct PlyElement {
   bool has_list = false;  ///< of a length that only the data say
 
   std::size_t row_bytes() const;
+  std::optional<std::size_t> find(std::string_view property) const;  ///< where in a row it stands
 };
 struct PlyHeader {
   PlyFormat format = PlyFormat::Ascii;
   std::vector<PlyElement> elements;
-  std::size_t size = 0;   ///< bytes, to the end of the line end_header
-  std::size_t lines = 0;  ///< of the header
+  std::vector<std::string> comments;  ///< and obj_info, without that word
+  std::size_t size = 0;               ///< bytes, to the end of the line end_header
+  std::size_t lines = 0;              ///< of the header
+
+  const PlyElement* find(std::string_view element) const;
 };
 
 /// `text` is the whole file, `where` its name. UserError (Input) names the line.

@@ -48,6 +48,7 @@ void PlyRows::skip(const PlyElement& element) {
     return;
   }
   std::vector<double> row(element.properties.size());
+  if (row.empty()) return;  // any number of rows, and nothing in them
   for (std::uint64_t i = 0; i < element.count; ++i) read(element, i, row);
 }
 
@@ -109,14 +110,14 @@ double PlyRows::word(const PlyElement& element, std::uint64_t number) {
   return error == std::errc::result_out_of_range ? std::numeric_limits<double>::infinity() : value;
 }
 
-void PlyRows::require_end() const {
-  const std::size_t blanks = std::min(text_.find_first_not_of(kBlanks, at_), text_.size()) - at_;
-  const std::size_t end = header_.format == PlyFormat::Ascii ? at_ + blanks : at_;
-  if (end == text_.size()) return;
-  throw_input({.where = fmt::format("{}, byte {}", where_, end),
+std::size_t PlyRows::require_end() const {
+  constexpr std::string_view kNothing(" \t\r\n\0", 5);
+  const std::size_t end = std::min(text_.find_first_not_of(kNothing, at_), text_.size());
+  if (end == text_.size()) return end - at_;
+  throw_input({.where = fmt::format("{}, byte {}", where_, at_),
                .what = "the file is longer than its header says",
                .expected = "its end",
-               .got = fmt::format("{} bytes more", text_.size() - end),
+               .got = fmt::format("{} bytes more", text_.size() - at_),
                .fix = "its header is wrong: write or download it again"});
 }
 

@@ -21,8 +21,8 @@ class PlyRows {
   void skip(const PlyElement& element);
   /// One row of the element; `row` has room for its properties. Numbers need not be finite.
   void read(const PlyElement& element, std::uint64_t number, std::span<double> row);
-  /// Nothing but blanks is left.
-  void require_end() const;
+  /// The bytes that are left: blanks and zeros only, else the file is longer than its header says.
+  std::size_t require_end() const;
 
  private:
   double binary(PlyType type);

@@ -59,8 +59,10 @@ bool project(const GaussianScene& scene, std::uint32_t number, ProjectedGaussian
   const glm::dmat3 turn = to_view * scene.turn;
   const glm::dmat3 sigma = turn * covariance(gaussian) * glm::transpose(turn);
   ScreenShape shape = shape_of(scene, sigma, view, at.scale);
+  const double unfiltered = std::max(shape.determinant(), 0.0);
   shape.xx += scene.description.low_pass;
   shape.yy += scene.description.low_pass;
+  const double dimmed = scene.cloud->antialiased ? std::sqrt(unfiltered / shape.determinant()) : 1.0;
 
   // From the eye to the Gaussian, in the file's axes: what its harmonics are of.
   const glm::dvec3 from_eye =
@@ -70,7 +72,7 @@ bool project(const GaussianScene& scene, std::uint32_t number, ProjectedGaussian
          .y = at.y,
          .depth = at.depth,
          .shape = shape,
-         .opacity = std::min(static_cast<double>(gaussian.opacity), kMostAlpha),
+         .opacity = std::min(dimmed * static_cast<double>(gaussian.opacity), kMostAlpha),
          .colour = colour_at(scene.cloud->harmonics_of(number), glm::transpose(scene.turn) * from_eye)};
   return true;
 }

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/read_file.hpp"
 #include "scene/gaussians/gaussian_file.hpp"
+#include "scene/gaussians/gaussian_rows.hpp"
 #include "scene/gaussians/harmonics.hpp"
 
 namespace fastsplat::scene {
@@ -43,8 +44,8 @@ GaussianCloud read_splat_file(const std::filesystem::path& path) {
                  .fix = "the file is cut, or is no .splat: write or download it again"});
   }
   GaussianCloud cloud{.name = path.filename().string(), .source = where, .degree = 0};
+  GaussianRows rows(cloud, where);
   for (std::size_t at = 0; at < bytes.size(); at += kSplatBytes) {
-    const std::string here = fmt::format("{}, Gaussian {} (byte {})", where, at / kSplatBytes, at);
     Gaussian one;
     glm::vec3 constant;
     glm::dvec4 rotation;
@@ -57,11 +58,9 @@ GaussianCloud read_splat_file(const std::filesystem::path& path) {
     one.opacity = static_cast<float>(byte_at(bytes, at + 27) / 255.0);
     for (std::size_t i = 0; i < 4; ++i)
       rotation[static_cast<int>(i)] = (static_cast<double>(byte_at(bytes, at + 28 + i)) - 128.0) / 128.0;
-    one.rotation = unit_rotation(rotation, here);
-    cloud.gaussians.push_back(one);
-    cloud.harmonics.push_back(constant);
-    check_gaussian(one, {&constant, 1}, here);
+    rows.add(one, rotation, {&constant, 1});
   }
+  rows.end();
   return cloud;
 }
 

@@ -54,6 +54,52 @@ TEST(GaussiansRun, ARecordedStreamIsTheSamePicture) {
   expect_success(fastsplat({"compare", folder / "a.exr", folder / "b.exr", "--max-lsb", "0"}));
 }
 
+// Axis, anti-aliasing and colours as the header has them; --up counts before it.
+TEST(GaussiansRun, FollowsWhatTheHeaderSays) {
+  const TempFolder folder;
+  const std::string ply = read_bytes(kShells);
+  const auto drawn = [&](const std::string& name, const std::string& comment, const std::vector<std::string>& more) {
+    const std::string path = folder.write(name + ".ply", "ply\n" + comment + ply.substr(4));
+    std::vector<std::string> words{"render", "--gaussians", path, "--size", "64"};
+    for (const char* ending : {".exr", ".png"}) words.insert(words.end(), {"-o", folder / (name + ending)});
+    words.insert(words.end(), more.begin(), more.end());
+    expect_success(fastsplat(words));
+  };
+  const auto same = [&](const std::string& one, const std::string& other) {
+    return fastsplat({"compare", folder / one, folder / other, "--max-lsb", "0"}).code == 0;
+  };
+  drawn("plain", "", {});
+  drawn("up", "", {"--up", "z"});
+  drawn("hinted", "comment Vertical Axis: z\n", {});
+  drawn("told", "comment Vertical Axis: z\n", {"--up", "-y"});
+  EXPECT_FALSE(same("plain.exr", "up.exr"));
+  EXPECT_TRUE(same("hinted.exr", "up.exr"));
+  EXPECT_TRUE(same("told.exr", "plain.exr"));
+  drawn("mip", "comment SplatRenderMode: mip\n", {});
+  EXPECT_FALSE(same("mip.exr", "plain.exr"));
+  // The same numbers, shown otherwise.
+  drawn("linear", "comment color_space: linear\n", {});
+  EXPECT_TRUE(same("linear.exr", "plain.exr"));
+  EXPECT_FALSE(same("linear.png", "plain.png"));
+}
+
+TEST(GaussiansRun, WhatIsDroppedIsAWarning) {
+  const TempFolder folder;
+  std::string splat = read_bytes(kCloud);
+  splat.replace(64, 4, "\xff\xff\xff\xff");
+  const std::string path = folder.write("nan.splat", splat);
+  const std::string said = "1 of 200 Gaussians cannot be drawn and were dropped; the first is Gaussian 2";
+  const Result render =
+      fastsplat({"render", "--gaussians", path, "--size", "40", "-o", folder / "a.exr", "--json", "-"});
+  EXPECT_EQ(render.code, 0);
+  EXPECT_NE(render.err.find("warning: nan.splat: " + said), std::string::npos) << render.err;
+  EXPECT_EQ(Json::parse(render.out)["gaussians"]["count"], 199);
+  EXPECT_EQ(Json::parse(render.out)["gaussians"]["remarks"].size(), 1U);
+  const Result record = fastsplat({"stream", "record", "--gaussians", path, "--size", "40", "-o", folder / "a.fss"});
+  EXPECT_EQ(record.code, 0);
+  EXPECT_NE(record.err.find(said), std::string::npos) << record.err;
+}
+
 TEST(GaussiansRun, DamagedFilesAreExit3) {
   const TempFolder folder;
   const std::string ply = read_bytes(kShells), splat = read_bytes(kCloud);
@@ -68,9 +114,8 @@ TEST(GaussiansRun, DamagedFilesAreExit3) {
   refused("cut.ply", ply.substr(0, ply.size() / 2), {"cut.ply", "shorter"});
   refused("empty.ply", "", {"empty.ply", "empty"});
   refused("cut.splat", splat.substr(0, 77), {"cut.splat", "multiple of 32"});
-  std::string nan = splat;
-  nan.replace(64, 4, "\xff\xff\xff\xff");
-  refused("nan.splat", nan, {"nan.splat, Gaussian 2", "position is not finite"});
+  refused("nan.splat", std::string(64, '\xff'), {"nan.splat", "none of its 2 Gaussians", "x is not finite"});
+  refused("packed.spz", "NGSP", {"packed.spz", ".spz file", "splat-transform"});
   std::string missing = ply;
   missing.replace(missing.find("property float opacity"), 22, "property float opacitx");
   refused("missing.ply", missing, {"missing.ply", "opacity is missing"});

@@ -68,6 +68,37 @@ std::string PlyTable::text(const std::string& format, const std::string& type, c
   return out;
 }
 
+PlyTable PlyTable::with(const std::string& name, double value, std::size_t row) const {
+  PlyTable out = *this;
+  for (std::size_t i = 0; i < out.names.size(); ++i)
+    if (out.names[i] == name) out.rows[row][i] = value;
+  return out;
+}
+
+PlyTable PlyTable::without(const std::string& name) const {
+  PlyTable out = *this;
+  for (std::size_t i = 0; i < out.names.size(); ++i) {
+    if (out.names[i] != name) continue;
+    out.names.erase(out.names.begin() + static_cast<std::ptrdiff_t>(i));
+    for (auto& row : out.rows) row.erase(row.begin() + static_cast<std::ptrdiff_t>(i));
+    break;
+  }
+  return out;
+}
+
+PlyTable PlyTable::and_of(const std::string& name, double value) const {
+  PlyTable out = *this;
+  out.names.push_back(name);
+  for (auto& row : out.rows) row.push_back(value);
+  return out;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
 PlyTable table_of(const GaussianCloud& cloud) {
   PlyTable table{.names = {"x", "y", "z", "nx", "ny", "nz", "f_dc_0", "f_dc_1", "f_dc_2"}, .rows = {}};
   const int rest = harmonic_count(cloud.degree) - 1;

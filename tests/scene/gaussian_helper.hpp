@@ -30,7 +30,13 @@ struct PlyTable {
   std::vector<std::string> names;
   std::vector<std::vector<double>> rows;
   std::string text(const std::string& format, const std::string& type = "float", const std::string& comment = "") const;
+  /// The same with another number in a row, without a property, and with one more of one value.
+  PlyTable with(const std::string& name, double value, std::size_t row = 5) const;
+  PlyTable without(const std::string& name) const;
+  PlyTable and_of(const std::string& name, double value) const;
 };
+/// The text with `to` for `from`, which is there.
+std::string replaced(std::string text, const std::string& from, const std::string& to);
 /// What a trainer would write of it.
 PlyTable table_of(const GaussianCloud& cloud);
 

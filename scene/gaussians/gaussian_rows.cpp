@@ -1,0 +1,71 @@
+#include "scene/gaussians/gaussian_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+
+namespace fastsplat::scene {
+namespace {
+
+std::string fault_of_rotation(const glm::dvec4& rotation) {
+  for (int i = 0; i < 4; ++i)
+    if (!std::isfinite(rotation[i])) return fmt::format("rot_{} is not finite", i);
+  const double length = glm::length(rotation);
+  return length > 0.0 && std::isfinite(length) ? "" : "rot_0 to rot_3 give no direction";
+}
+
+/// The name of channel `c` of harmonic `i`, of `count` a channel.
+std::string harmonic_name(std::size_t i, int c, std::size_t count) {
+  return i == 0 ? fmt::format("f_dc_{}", c)
+                : fmt::format("f_rest_{}", static_cast<std::size_t>(c) * (count - 1) + i - 1);
+}
+
+}  // namespace
+
+std::string fault_of(const Gaussian& gaussian, std::span<const glm::vec3> harmonics) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!std::isfinite(gaussian.position[axis])) return fmt::format("{} is not finite", "xyz"[axis]);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!std::isfinite(gaussian.scale[axis])) return fmt::format("scale_{} is not finite", axis);
+    if (gaussian.scale[axis] < 0.0F) return fmt::format("scale_{} is negative", axis);
+  }
+  if (!(gaussian.opacity >= 0.0F && gaussian.opacity <= 1.0F)) return "opacity is not a number";
+  for (std::size_t i = 0; i < harmonics.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      if (!std::isfinite(harmonics[i][c])) return harmonic_name(i, c, harmonics.size()) + " is not finite";
+  return {};
+}
+
+void GaussianRows::add(Gaussian gaussian, const glm::dvec4& rotation, std::span<const glm::vec3> harmonics) {
+  std::string fault = fault_of(gaussian, harmonics);
+  if (fault.empty()) fault = fault_of_rotation(rotation);
+  if (!fault.empty()) return drop(fault);
+  gaussian.rotation = rotation / glm::length(rotation);
+  to_.gaussians.push_back(gaussian);
+  to_.harmonics.insert(to_.harmonics.end(), harmonics.begin(), harmonics.end());
+  ++rows_;
+}
+
+void GaussianRows::drop(const std::string& fault) {
+  if (dropped_++ == 0) first_ = rows_, first_fault_ = fault;
+  ++rows_;
+}
+
+void GaussianRows::end() {
+  if (dropped_ == 0) return;
+  if (dropped_ < rows_) {
+    to_.remarks.push_back(
+        fmt::format("{} of {} Gaussians cannot be drawn and were dropped; the first is Gaussian {} (from 0), whose {}",
+                    dropped_, rows_, first_, first_fault_));
+    return;
+  }
+  throw_input({.where = where_,
+               .what = fmt::format("none of its {} Gaussians can be drawn", rows_),
+               .expected = "finite numbers, and a rotation that is not 0",
+               .got = fmt::format("Gaussian 0, whose {}", first_fault_),
+               .fix = "the file is damaged, or its training failed: write or download it again"});
+}
+
+}  // namespace fastsplat::scene

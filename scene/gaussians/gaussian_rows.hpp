@@ -1,0 +1,32 @@
+// The Gaussians of a file, one by one: those that cannot be drawn are dropped and counted.
+#pragma once
+
+#include <string>
+
+#include "scene/gaussians/gaussian_cloud.hpp"
+
+namespace fastsplat::scene {
+
+/// "scale_1 is not finite", in the names of a PLY's properties; empty for a Gaussian that can be drawn.
+std::string fault_of(const Gaussian& gaussian, std::span<const glm::vec3> harmonics);
+
+class GaussianRows {
+ public:
+  /// Fills `to`, which outlives it; `where` names the file.
+  GaussianRows(GaussianCloud& to, std::string where) : to_(to), where_(std::move(where)) {}
+
+  /// The next Gaussian: its rotation of any length as w x y z, and harmonic_count(degree) harmonics.
+  void add(Gaussian gaussian, const glm::dvec4& rotation, std::span<const glm::vec3> harmonics);
+  /// The next Gaussian is dropped for this reason.
+  void drop(const std::string& fault);
+  /// Leaves a remark about those that were dropped. UserError (Input) where none is left.
+  void end();
+
+ private:
+  GaussianCloud& to_;
+  std::string where_;
+  std::size_t rows_ = 0, dropped_ = 0, first_ = 0;
+  std::string first_fault_;
+};
+
+}  // namespace fastsplat::scene

@@ -1,0 +1,17 @@
+// Compressed PLY, as SuperSplat and splat-transform write it: 256 Gaussians share a chunk of bounds, and each is four
+// words between them.
+#pragma once
+
+#include "scene/gaussians/gaussian_rows.hpp"
+#include "scene/gaussians/ply_rows.hpp"
+
+namespace fastsplat::scene {
+
+/// Its vertices are packed words.
+bool is_packed(const PlyHeader& header);
+
+/// Reads the elements chunk, vertex and, if it is there, sh. `to` gets the degree; `rows` stand at the first element.
+/// UserError (Input) for elements in another order, of other sizes or without a property.
+void read_packed(const PlyHeader& header, PlyRows& rows, const std::string& where, GaussianCloud& to);
+
+}  // namespace fastsplat::scene

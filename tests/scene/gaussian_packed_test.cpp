@@ -1,0 +1,181 @@
+// Compressed PLY as SuperSplat writes it: packed here by another rule than it is read by, and read to within its steps.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdio>
+
+#include "base/error.hpp"
+#include "scene/gaussians/gaussian_file.hpp"
+#include "scene/gaussians/harmonics.hpp"
+#include "scene/gaussians/synthetic_gaussians.hpp"
+#include "tests/scene/gaussian_helper.hpp"
+
+namespace fastsplat::scene {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr std::size_t kTogether = 256;  // Gaussians of a chunk
+
+void put(std::string& to, std::uint32_t word) {
+  for (unsigned shift = 0; shift < 32; shift += 8) to.push_back(static_cast<char>((word >> shift) & 0xFFU));
+}
+std::uint32_t step(double value, double low, double high, unsigned bits) {
+  const double most = (1U << bits) - 1U;
+  return static_cast<std::uint32_t>(std::lround(high > low ? (value - low) / (high - low) * most : 0.0));
+}
+std::uint32_t three(const glm::dvec3& value, const glm::dvec3& low, const glm::dvec3& high) {
+  return step(value.x, low.x, high.x, 11) << 21U | step(value.y, low.y, high.y, 10) << 11U |
+         step(value.z, low.z, high.z, 11);
+}
+std::uint32_t turn(const glm::vec4& rotation) {
+  int largest = 0;
+  for (int i = 1; i < 4; ++i)
+    if (std::abs(rotation[i]) > std::abs(rotation[largest])) largest = i;
+  const double sign = rotation[largest] < 0.0F ? -1.0 : 1.0;
+  auto word = static_cast<std::uint32_t>(largest);
+  for (int i = 0; i < 4; ++i)
+    if (i != largest) word = word << 10U | step(sign * double(rotation[i]), -M_SQRT1_2, M_SQRT1_2, 10);
+  return word;
+}
+glm::dvec3 logarithms(const Gaussian& one) { return glm::log(glm::dvec3(one.scale)); }
+glm::dvec3 colour_of(const GaussianCloud& cloud, std::size_t i) {
+  return 0.5 + kConstantHarmonic * glm::dvec3(cloud.harmonics_of(i)[0]);
+}
+
+struct Sizes {
+  bool coloured = true;  ///< chunks bound their colours, as newer files do
+  std::string comment{};
+};
+
+std::string packed(const GaussianCloud& cloud, const Sizes& sizes = {}) {
+  const std::size_t count = cloud.gaussians.size(), chunks = (count + kTogether - 1) / kTogether;
+  std::string header =
+      "ply\nformat binary_little_endian 1.0\n" + sizes.comment + "element chunk " + std::to_string(chunks) + "\n";
+  for (const char* name : {"min_x", "min_y", "min_z", "max_x", "max_y", "max_z", "min_scale_x", "min_scale_y",
+                           "min_scale_z", "max_scale_x", "max_scale_y", "max_scale_z"})
+    header += std::string("property float ") + name + "\n";
+  for (const char* name : {"min_r", "min_g", "min_b", "max_r", "max_g", "max_b"})
+    if (sizes.coloured) header += std::string("property float ") + name + "\n";
+  header += "element vertex " + std::to_string(count) + "\n";
+  for (const char* name : {"position", "rotation", "scale", "color"})
+    header += std::string("property uint packed_") + name + "\n";
+  const int rest = harmonic_count(cloud.degree) - 1;
+  if (rest > 0) header += "element sh " + std::to_string(count) + "\n";
+  for (int i = 0; i < 3 * rest; ++i) header += "property uchar f_rest_" + std::to_string(i) + "\n";
+
+  std::string bounds, words, bytes;
+  for (std::size_t first = 0; first < count; first += kTogether) {
+    glm::dvec3 low[3]{glm::dvec3(1e9), glm::dvec3(1e9), glm::dvec3(sizes.coloured ? 1e9 : 0.0)};
+    glm::dvec3 high[3]{glm::dvec3(-1e9), glm::dvec3(-1e9), glm::dvec3(sizes.coloured ? -1e9 : 1.0)};
+    const std::size_t end = std::min(first + kTogether, count);
+    for (std::size_t i = first; i < end; ++i) {
+      const glm::dvec3 values[3]{glm::dvec3(cloud.gaussians[i].position), logarithms(cloud.gaussians[i]),
+                                 colour_of(cloud, i)};
+      for (int k = 0; k < (sizes.coloured ? 3 : 2); ++k)
+        low[k] = glm::min(low[k], values[k]), high[k] = glm::max(high[k], values[k]);
+    }
+    for (int k = 0; k < (sizes.coloured ? 3 : 2); ++k)
+      for (const glm::dvec3& end_of : {low[k], high[k]})
+        for (int axis = 0; axis < 3; ++axis)
+          put(bounds, std::bit_cast<std::uint32_t>(static_cast<float>(end_of[axis])));
+    for (std::size_t i = first; i < end; ++i) {
+      const Gaussian& one = cloud.gaussians[i];
+      put(words, three(glm::dvec3(one.position), low[0], high[0]));
+      put(words, turn(one.rotation));
+      put(words, three(logarithms(one), low[1], high[1]));
+      const glm::dvec3 colour = colour_of(cloud, i);
+      std::uint32_t word = 0;
+      for (int c = 0; c < 3; ++c) word = word << 8U | step(colour[c], low[2][c], high[2][c], 8);
+      put(words, word << 8U | step(double(one.opacity), 0.0, 1.0, 8));
+      for (int c = 0; c < 3; ++c)
+        for (const glm::vec3& harmonic : cloud.harmonics_of(i).subspan(1))
+          bytes.push_back(static_cast<char>(static_cast<unsigned char>(
+              std::clamp(std::floor((double(harmonic[c]) / 8.0 + 0.5) * 256.0), 0.0, 255.0))));
+    }
+  }
+  return header + "end_header\n" + bounds + words + bytes;
+}
+
+// 300 Gaussians: a whole chunk and a part of one.
+TEST(PackedPly, IsReadToWithinItsSteps) {
+  for (const char* name : {"shells:300", "cloud:300"}) {
+    for (const bool coloured : {true, false}) {
+      const GaussianCloud cloud = make_synthetic_gaussians(name);
+      const TestFile file(".compressed.ply", packed(cloud, {.coloured = coloured}));
+      const GaussianCloud read = load_gaussians(file.path());
+      EXPECT_THAT(read.remarks, ElementsAre());
+      ASSERT_EQ(read.gaussians.size(), 300U);
+      ASSERT_EQ(read.degree, cloud.degree);
+      double position = 0.0, scale = 0.0, rotation = 0.0, opacity = 0.0, colour = 0.0, harmonic = 0.0;
+      for (std::size_t i = 0; i < 300; ++i) {
+        const Gaussian &one = cloud.gaussians[i], &other = read.gaussians[i];
+        for (int axis = 0; axis < 3; ++axis) {
+          position = std::max(position, std::abs(double(one.position[axis]) - double(other.position[axis])));
+          scale = std::max(scale, std::abs(logarithms(one)[axis] - logarithms(other)[axis]));
+          colour = std::max(colour, std::abs(colour_of(cloud, i)[axis] - colour_of(read, i)[axis]));
+          for (std::size_t k = 1; k < cloud.harmonics_of(i).size(); ++k)
+            harmonic = std::max(
+                harmonic, std::abs(double(cloud.harmonics_of(i)[k][axis]) - double(read.harmonics_of(i)[k][axis])));
+        }
+        rotation = std::max(rotation, 1.0 - std::abs(double(glm::dot(one.rotation, other.rotation))));
+        opacity = std::max(opacity, std::abs(double(one.opacity) - double(other.opacity)));
+      }
+      std::printf(
+          "[figure] %s, %s bounds: position %.2g, scale %.2g, rotation %.2g, opacity %.2g, colour %.2g, "
+          "harmonic %.2g\n",
+          name, coloured ? "coloured" : "plain", position, scale, rotation, opacity, colour, harmonic);
+      // Half steps: of 1023 over positions of -1.5 to 1.5 and logarithms that differ by at most 5, of 255 over 1 (and
+      // colours a little beyond), of 256 over 8. Three components of a rotation each off by sqrt(2)/2046 and the fourth
+      // by as much again: the angle between is below 4e-3, and 1 minus its cosine below 1e-5.
+      EXPECT_LT(position, 3.2 / 2046.0);
+      EXPECT_LT(scale, 5.0 / 2046.0);
+      EXPECT_LT(rotation, 1e-5);
+      EXPECT_LT(opacity, 0.51 / 255.0);
+      EXPECT_LT(colour, 0.6 / 255.0);
+      EXPECT_LE(harmonic, 4.0 / 256.0 + 1e-6);
+    }
+  }
+}
+
+TEST(PackedPly, CommentsCountAsInOthers) {
+  const TestFile file(".ply", packed(make_synthetic_gaussians("cloud:20"), {.comment = "comment Vertical Axis: x\n"}));
+  EXPECT_EQ(load_gaussians(file.path()).up, UpAxis::X);
+}
+
+TEST(PackedPly, DamageIsNamed) {
+  const std::string whole = packed(make_synthetic_gaussians("cloud:300"));
+  const struct {
+    std::string bytes;
+    const char* said;
+  } files[] = {
+      {replaced(whole, "element chunk 2", "element chunk 1"), "chunks are not of 256"},
+      {replaced(whole, "element chunk 2", "element chink 2"), "elements are other ones"},
+      {replaced(whole, "uint packed_scale", "int packed_scale"), "packed_scale"},
+      {replaced(whole, "uint packed_scale", "uint packed_size"), "packed_scale"},
+      {replaced(whole, "float max_scale_y", "float max_scala_y"), "max_scale_y"},
+      {replaced(whole, "element sh 300", "element sh 299"), "not every Gaussian has harmonics"},
+      {replaced(whole, "property uchar f_rest_8\n", ""), "9, 24 or 45"},
+      {whole.substr(0, whole.size() - 1), "shorter"},
+      {whole.substr(0, whole.size() - 3000), "shorter"},
+      {whole + "x", "longer"},
+      {replaced(whole, "element vertex 300", "element vertex 0"), "no Gaussian"},
+  };
+  for (const auto& one : files) {
+    const TestFile file(".ply", one.bytes);
+    try {
+      load_gaussians(file.path());
+      ADD_FAILURE() << one.said << ": it was taken";
+    } catch (const UserError& error) {
+      std::printf("%s\n", error.what());
+      EXPECT_EQ(error.code(), ExitCode::Input);
+      EXPECT_THAT(error.what(), AllOf(HasSubstr(file.path().string()), HasSubstr(one.said)));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fastsplat::scene

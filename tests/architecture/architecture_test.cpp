@@ -8,6 +8,7 @@
 #include <regex>
 #include <sstream>
 
+#include "tests/architecture/draws_helper.hpp"
 #include "tests/architecture/source_helper.hpp"
 #include "tests/paths.hpp"
 
@@ -190,6 +191,19 @@ TEST(Architecture, TheImageLibraryIsIncludedByItsModuleAlone) {
   figure("includes_of_its_module", inside);
 }
 
+TEST(Architecture, NoTwoDrawsDependOnTheCompiler) {
+  int draws = 0;
+  auto files = read_sources(FASTSPLAT_SOURCE_DIR,
+                            {"scene", "golden", "cmodel", "driver", "testbench", "analysis", "bench", "tests"});
+  std::erase_if(files, [](const SourceFile& file) {  // half a second for the others
+    return file.text.find("andom") == std::string::npos && file.text.find("uniform(") == std::string::npos;
+  });
+  const auto offences = draw_offences(files, draws);
+  std::printf("[figure] random draws read = %d\n", draws);
+  EXPECT_GT(draws, 500);
+  EXPECT_TRUE(offences.empty()) << joined(offences);
+}
+
 TEST(Architecture, NoFileIsLongerThan600Lines) {
   const auto files = all_sources();
   figure("files", static_cast<int>(files.size()));
@@ -305,6 +319,25 @@ TEST(ArchitectureMustFail, RealNumbersThreadsClocksAndChanceAreNamed) {
     ASSERT_FALSE(offences.empty());
     EXPECT_NE(offences[0].find("cmodel/bad.cpp:2"), std::string::npos) << offences[0];
   }
+}
+
+TEST(ArchitectureMustFail, DrawsWithoutAnOrderAreNamed) {
+  const auto offences = [](const std::string& code) {
+    int draws = 0;
+    return draw_offences({{"scene/x.cpp", "// fine\n" + code + "\n"}}, draws);
+  };
+  for (const char* bad : {"f(random.between(0, 1), random.next());", "f(a, g(r.next()), h(r.next()));",
+                          "int x = random.next() + random.next();", "f(a ? random.next() : 0, random.next());",
+                          "Kernel k(uniform(0, 1), uniform(2, 3));", "x = (1 + rng.unit()) * rng.unit();"}) {
+    ASSERT_EQ(offences(bad).size(), 1U) << bad;
+    EXPECT_EQ(offences(bad)[0].substr(0, 14), "scene/x.cpp:2:") << bad;
+  }
+  for (const char* good : {"f(random.between(0, random.next()));", "Kernel k{uniform(0, 1), uniform(2, 3)};",
+                           "int x = random.next(), y = random.next();", "x = r.chance(50) ? r.next() : r.next();",
+                           "x = r.next() >> r.between(0, 3);", "v = {r.next(), r.next()};",
+                           "if (r.chance(9)) f(r.next());", "a[r.next()] = r.next();",
+                           "f([&] { return r.next(); }, r.next());", "for (int i = r.next(); i < r.next();) f();"})
+    EXPECT_TRUE(offences(good).empty()) << good;
 }
 
 TEST(ArchitectureMustFail, IntegersCommentsAndStringsAreNoOffence) {

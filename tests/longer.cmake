@@ -50,6 +50,7 @@ set(fastsplat_longer_tests
   driver.Kinds/DriverFamily.EveryBeatIsThePages/separable
   driver.Kinds/DriverFamily.EveryBeatIsThePages/squared
   driver.Kinds/DriverFamily.EveryBeatIsThePages/squared_elliptic
+  driver.LastBit.DoesNotChangeAnAntiAliasedStream
   driver.Oblique.APitchedScanStandsUprightInEveryMethodAndEngine
   driver.PatternTables.StripesAreAsNearAsTheirNodesAllow
   driver.PatternsOnDevice.AmplitudeZeroChangesNoBit

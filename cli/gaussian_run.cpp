@@ -127,6 +127,8 @@ Json to_json(const Result& result) {
               {"cutoff", description.cutoff},
               {"width", description.width},
               {"height", description.height}}}};
+  if (result.scene.cloud->antialiased) json["gaussians"]["antialiased"] = true;
+  if (result.scene.cloud->linear) json["gaussians"]["linear"] = true;
   if (!result.scene.cloud->remarks.empty()) json["gaussians"]["remarks"] = result.scene.cloud->remarks;
   std::visit([&json](const auto& of) { json.update(to_json(of)); }, result.of);
   json["outputs"] = result.files.out;

@@ -63,22 +63,25 @@ TEST(GaussiansRun, FollowsWhatTheHeaderSays) {
     std::vector<std::string> words{"render", "--gaussians", path, "--size", "64"};
     for (const char* ending : {".exr", ".png"}) words.insert(words.end(), {"-o", folder / (name + ending)});
     words.insert(words.end(), more.begin(), more.end());
-    expect_success(fastsplat(words));
+    words.insert(words.end(), {"--json", "-"});
+    const Result result = fastsplat(words);
+    expect_success(result);
+    return Json::parse(result.out)["gaussians"];
   };
   const auto same = [&](const std::string& one, const std::string& other) {
     return fastsplat({"compare", folder / one, folder / other, "--max-lsb", "0"}).code == 0;
   };
   drawn("plain", "", {});
   drawn("up", "", {"--up", "z"});
-  drawn("hinted", "comment Vertical Axis: z\n", {});
+  EXPECT_EQ(drawn("hinted", "comment Vertical Axis: z\n", {})["up"], "z");
   drawn("told", "comment Vertical Axis: z\n", {"--up", "-y"});
   EXPECT_FALSE(same("plain.exr", "up.exr"));
   EXPECT_TRUE(same("hinted.exr", "up.exr"));
   EXPECT_TRUE(same("told.exr", "plain.exr"));
-  drawn("mip", "comment SplatRenderMode: mip\n", {});
+  EXPECT_EQ(drawn("mip", "comment SplatRenderMode: mip\n", {})["antialiased"], true);
   EXPECT_FALSE(same("mip.exr", "plain.exr"));
   // The same numbers, shown otherwise.
-  drawn("linear", "comment color_space: linear\n", {});
+  EXPECT_EQ(drawn("linear", "comment color_space: linear\n", {})["linear"], true);
   EXPECT_TRUE(same("linear.exr", "plain.exr"));
   EXPECT_FALSE(same("linear.png", "plain.png"));
 }

@@ -22,9 +22,17 @@ std::string printable(const std::string& text) {
   return out;
 }
 
+/// What a user quotes may be a megabyte. Longer than any path, it is identified by its begin and its end.
+void shorten(std::string& text) {
+  constexpr std::size_t kMost = 4500, kEnd = 400;
+  if (text.size() > kMost) text.replace(kMost - kEnd, text.size() - kMost, "...");
+}
+
 }  // namespace
 
-std::string one_line(const ErrorParts& parts) {
+std::string one_line(const ErrorParts& whole) {
+  ErrorParts parts = whole;
+  for (std::string* quoted : {&parts.where, &parts.what, &parts.got}) shorten(*quoted);
   std::string line;
   if (!parts.where.empty()) line += parts.where + ": ";
   line += parts.what;

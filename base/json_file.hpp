@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <exception>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 #include "base/error.hpp"
+#include "base/nesting.hpp"
 #include "base/read_file.hpp"
 
 namespace fastsplat {
@@ -19,6 +21,17 @@ struct JsonKind {
   std::size_t most_bytes = std::size_t{1} << 28;
 };
 
+/// `text` as JSON. Throws std::runtime_error when it nests too deeply for what recurses over it, and as Json::parse()
+/// does.
+template <class Json>
+Json parse_json(const std::string& text) {
+  if (const auto deep = json_too_deep(text)) {
+    throw std::runtime_error("JSON with more than " + std::to_string(kDeepestNesting) + " levels at byte " +
+                             std::to_string(*deep));
+  }
+  return Json::parse(text);
+}
+
 /// What `make` makes of the JSON in `path` (a `Json`, some nlohmann::json). UserError (Input) in one line that names
 /// the file: it cannot be read, is too large, is cut off or no JSON, or `make` threw, whatever that was.
 template <class Json, class Make>
@@ -26,7 +39,7 @@ auto from_json_file(const std::filesystem::path& path, const JsonKind& kind, con
   const std::string text = read_text_file(path, kind.most_bytes);
   std::string got;
   try {
-    return make(Json::parse(text));
+    return make(parse_json<Json>(text));
   } catch (const typename Json::parse_error& error) {
     // Its message quotes the file and is long; the place is what helps.
     got = error.byte > text.size() ? "JSON that is cut off, " + std::to_string(text.size()) + " bytes"

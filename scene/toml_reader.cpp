@@ -6,16 +6,13 @@
 #include "base/error.hpp"
 #include "base/read_file.hpp"
 #include "base/suggest.hpp"
+#include "base/toml_text.hpp"
 
 namespace fastsplat::scene {
 namespace {
 
 const toml::table& as_table(const void* table) { return *static_cast<const toml::table*>(table); }
 const toml::node& as_node(const void* node) { return *static_cast<const toml::node*>(node); }
-
-std::string position(const std::string& source, const toml::source_position& at) {
-  return fmt::format("{}:{}:{}", source, at.line, at.column);
-}
 
 /// The value as the user wrote it, shortened.
 std::string shown(const toml::node& node) {
@@ -42,15 +39,7 @@ TomlTable::TomlTable(std::shared_ptr<const Document> document, const void* table
 TomlTable TomlTable::parse(const std::string& text, const std::string& source) {
   auto document = std::make_shared<Document>();
   document->source = source;
-  try {
-    document->root = toml::parse(text, source);
-  } catch (const toml::parse_error& error) {
-    throw_input({.where = position(source, error.source().begin),
-                 .what = "not valid TOML: " + std::string(error.description()),
-                 .expected = {},
-                 .got = {},
-                 .fix = "correct this line"});
-  }
+  document->root = parse_toml(text, source, "correct this line");
   const void* root = &document->root;
   return TomlTable(std::move(document), root, {});
 }
@@ -169,7 +158,7 @@ std::string TomlTable::where(const std::string& key) const {
   const auto& table = as_table(table_);
   const toml::node* node = table.get(key);
   const auto at = node != nullptr ? node->source().begin : table.source().begin;
-  return at.line == 0 ? document_->source : position(document_->source, at);
+  return at.line == 0 ? document_->source : place_in(document_->source, at);
 }
 
 void TomlTable::refuse(const std::string& key, const std::string& what, const std::string& expected,
@@ -187,7 +176,7 @@ void TomlTable::finish() const {
   for (const auto& [key, node] : as_table(table_)) {
     const std::string name(key.str());
     if (known_.contains(name)) continue;
-    throw_input({.where = position(document_->source, key.source().begin),
+    throw_input({.where = place_in(document_->source, key.source().begin),
                  .what = fmt::format("unknown key '{}'{}", name, path_.empty() ? "" : " in [" + path_ + "]"),
                  .expected = {},
                  .got = {},

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
+#include "base/json_file.hpp"
 
 namespace fastsplat::analysis {
 namespace {
@@ -46,7 +47,7 @@ Journal::Journal(const std::filesystem::path& path) : path_(path) {
         if (line != kFirstLine) refuse(path, 1, kFirstLine);
       } else {
         try {
-          const auto json = nlohmann::json::parse(line);
+          const auto json = parse_json<nlohmann::json>(line);
           Entry entry;
           if (json.at("drawn").get<bool>())
             entry = Fidelity{json.at("rms_lsb8").get<double>(), json.at("max_lsb8").get<double>()};

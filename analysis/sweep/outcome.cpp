@@ -7,6 +7,7 @@
 
 #include "analysis/sweep/run.hpp"
 #include "base/error.hpp"
+#include "base/json_file.hpp"
 #include "base/read_file.hpp"
 
 namespace fastsplat::plan {
@@ -20,7 +21,7 @@ constexpr std::size_t kMostOutcomeBytes = std::size_t{1} << 28;
 Json read_json(const fs::path& path) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return nullptr;
-  Json json = Json::parse(read_text_file(path, kMostOutcomeBytes));
+  Json json = parse_json<Json>(read_text_file(path, kMostOutcomeBytes));
   fs::remove(path, ignored);
   return json;
 }

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/read_file.hpp"
 #include "base/suggest.hpp"
+#include "base/toml_text.hpp"
 
 namespace fastsplat::plan {
 namespace {
@@ -27,14 +28,8 @@ class Reader {
   explicit Reader(std::filesystem::path path) : path_(std::move(path)) {}
 
   Spec read() {
-    const std::string text = read_text_file(path_);
-    toml::table root;
-    try {
-      root = toml::parse(text, path_.string());
-    } catch (const toml::parse_error& error) {
-      refuse_at(error.source(), fmt::format("not valid TOML: {}", error.description()), "",
-                "docs/plan.md shows specifications; configs/plans/ holds some");
-    }
+    const toml::table root = parse_toml(read_text_file(path_), path_.string(),
+                                        "docs/plan.md shows specifications; configs/plans/ holds some");
     for (const auto& [key, node] : root) {
       const std::string name(key.str());
       if (std::ranges::find(kKeys, name) != std::end(kKeys)) continue;
@@ -61,7 +56,7 @@ class Reader {
  private:
   [[noreturn]] void refuse_at(const toml::source_region& at, std::string what, std::string expected,
                               std::string fix) const {
-    throw_input({.where = fmt::format("{}:{}:{}", path_.string(), at.begin.line, at.begin.column),
+    throw_input({.where = place_in(path_.string(), at.begin),
                  .what = std::move(what),
                  .expected = std::move(expected),
                  .got = {},

@@ -2,6 +2,7 @@
 
 #include "analysis/sweep/run.hpp"
 #include "base/error.hpp"
+#include "base/json_file.hpp"
 #include "base/read_file.hpp"
 
 namespace fastsplat::plan {
@@ -11,7 +12,7 @@ namespace fs = std::filesystem;
 
 double cpu_seconds_of(const fs::path& results, const std::string& id) {
   try {
-    const auto json = nlohmann::ordered_json::parse(read_text_file(results / kTimesFolder / (id + ".json")));
+    const auto json = parse_json<nlohmann::ordered_json>(read_text_file(results / kTimesFolder / (id + ".json")));
     return json.at("cpu_seconds").get<double>();
   } catch (const std::exception&) {
     return 0.0;  // only told for information

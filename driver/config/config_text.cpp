@@ -7,13 +7,12 @@
 #include <vector>
 
 #include "base/suggest.hpp"
+#include "base/toml_text.hpp"
 
 namespace fastsplat::driver {
 namespace {
 
-std::string place(const std::string& file, const toml::source_region& source) {
-  return fmt::format("{}:{}:{}", file, source.begin.line, source.begin.column);
-}
+std::string place(const std::string& file, const toml::source_region& source) { return place_in(file, source.begin); }
 
 std::vector<std::string> key_names() {
   std::vector<std::string> names{"name", "description", "verified"};
@@ -84,16 +83,7 @@ void take(const std::string& file, const toml::node& node, const std::string& na
 }  // namespace
 
 cmodel::Config parse_config(const std::string& file, const std::string& text) {
-  toml::table root;
-  try {
-    root = toml::parse(text, file);
-  } catch (const toml::parse_error& error) {
-    throw_input({.where = place(file, error.source()),
-                 .what = fmt::format("not valid TOML: {}", error.description()),
-                 .expected = {},
-                 .got = {},
-                 .fix = "compare with the output of 'fastsplat config show base'"});
-  }
+  const toml::table root = parse_toml(text, file, "compare with the output of 'fastsplat config show base'");
   cmodel::Config config;
   std::vector<std::string> seen;
   for (const auto& [name, node] : root) {

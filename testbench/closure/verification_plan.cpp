@@ -6,19 +6,15 @@
 
 #include "base/error.hpp"
 #include "base/read_file.hpp"
+#include "base/toml_text.hpp"
 
 namespace fastsplat::testbench {
 namespace {
 
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& path) : path_(path) {
-    try {
-      root_ = toml::parse(read_text_file(path), path.string());
-    } catch (const toml::parse_error& error) {
-      refuse(error.source().begin, std::string(error.description()), {});
-    }
-  }
+  explicit Reader(const std::filesystem::path& path)
+      : path_(path), root_(parse_toml(read_text_file(path), path.string(), "correct this line")) {}
 
   /// The tables of the file's only key, an array of tables.
   std::vector<const toml::table*> tables(const char* name) const {
@@ -61,11 +57,7 @@ class Reader {
 
   [[noreturn]] void refuse(const toml::source_position& at, const std::string& what,
                            const std::string& expected) const {
-    throw_input({.where = path_.string() + ":" + std::to_string(at.line) + ":" + std::to_string(at.column),
-                 .what = what,
-                 .expected = expected,
-                 .got = {},
-                 .fix = {}});
+    throw_input({.where = place_in(path_.string(), at), .what = what, .expected = expected, .got = {}, .fix = {}});
   }
 
  private:

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 namespace fastsplat {
 namespace {
 
@@ -18,6 +20,18 @@ TEST(Error, StaysOnOneLineWhateverAFileSays) {
       one_line({.where = "a\nb", .what = "\x1b[31mred\x7f", .expected = "\t", .got = "", .fix = "\r"});
   for (const unsigned char c : line) EXPECT_TRUE(c >= 0x20 && c != 0x7f) << static_cast<int>(c);
   EXPECT_NE(line.find("\\x1b[31mred\\x7f"), std::string::npos) << line;
+}
+
+TEST(Error, AMegabyteFromAFileIsShortened) {
+  const std::string line = one_line({.where = "f",
+                                     .what = "unknown key '" + std::string(1'000'000, 'a') + "'",
+                                     .expected = {},
+                                     .got = std::string(1'000'000, 'b'),
+                                     .fix = "correct it"});
+  std::printf("[figure] characters = %zu (limit 10000)\n", line.size());
+  EXPECT_LT(line.size(), 10000u);
+  EXPECT_TRUE(line.starts_with("f: unknown key 'aaa")) << line;
+  EXPECT_TRUE(line.ends_with("bbb); correct it")) << line;
 }
 
 TEST(Error, CarriesItsExitCode) {

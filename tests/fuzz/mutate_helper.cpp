@@ -2,6 +2,7 @@
 #include <array>
 #include <fstream>
 #include <iterator>
+#include <string>
 #include <string_view>
 
 #include "tests/fuzz/mutate.hpp"
@@ -110,6 +111,40 @@ Input mutated(const std::vector<Input>& seeds, std::uint64_t number) {
     change(input, seeds, chance);
   input.resize(std::min(input.size(), kLongest));
   return input;
+}
+
+std::vector<Input> hard_texts() {
+  const auto times = [](std::size_t count, const std::string& text) {
+    std::string out;
+    while (count-- > 0) out += text;
+    return out;
+  };
+  const std::string many = times(40'000, "a.") + "a", mega(1'000'000, 'a');
+  const std::vector<std::string> texts{
+      many + " = 1\n",
+      "[" + many + "]\nb = 1\n",
+      "[[" + many + "]]\nb = 1\n",
+      "x = {" + many + " = 1}\n",
+      times(2, "[" + times(100, "a.") + "a]\n" + times(100, "b.") + "b = 1\n"),
+      "x = " + times(200, "{" + times(40, "a.") + "a = ") + "1" + times(200, "}") + "\n",
+      "x = [\"\"\"a\"\"\"\", {" + many + " = 1}]\n",
+      "x = " + times(100'000, "[") + times(100'000, "]") + "\n",
+      mega + " = 1\n",
+      "kind = \"" + mega + "\"\n",
+      times(100'000, "[") + times(100'000, "]"),
+      times(100'000, "{\"a\":") + "1" + times(100'000, "}"),
+      "{\"format\": \"fastsplat plan result 1\", \"checksum\": \"\", \"results\": " + times(100'000, "[") +
+          times(100'000, "]") + "}",
+  };
+  std::vector<Input> inputs;
+  for (const auto& text : texts) {
+    inputs.emplace_back(text.begin(), text.end());
+    for (const char choice : {0, 1, 2, 3}) {
+      inputs.push_back({static_cast<std::uint8_t>(choice)});
+      inputs.back().insert(inputs.back().end(), text.begin(), text.end());
+    }
+  }
+  return inputs;
 }
 
 }  // namespace fastsplat::fuzz

@@ -1,6 +1,7 @@
 // The fuzz targets without libFuzzer and sanitizers, in every test run: all their seeds, then some thousands of changed
 // ones, always the same. A finding ends the test with its input in a file; `tools/fuzz` looks longer and sees more.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -68,6 +69,9 @@ class Scratch : public ::testing::Environment {
 class Standing : public ::testing::TestWithParam<Target> {
  protected:
   void SetUp() override {
+    // What recurses over an input shows itself early.
+    constexpr rlimit kStack{1 << 20, RLIM_INFINITY};
+    ::setrlimit(RLIMIT_STACK, &kStack);
     kept = (fs::path(FASTSPLAT_BINARY_DIR) / ("finding-" + std::string(GetParam().name))).string();
     for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGILL}) std::signal(signal, keep_input);
   }
@@ -90,10 +94,12 @@ TEST_P(Standing, FindsNothing) {
     }
     running = nullptr;
   };
-  for (const Input& seed : seeds) run(seed);
+  const auto hard = hard_texts();
+  for (const auto* inputs : {&seeds, &hard})
+    for (const Input& input : *inputs) run(input);
   for (std::uint64_t number = 0; number < target.runs; ++number) run(mutated(seeds, number));
-  std::printf("[figure] %s: seeds = %zu (limit > 0), changed ones = %llu, no finding\n", target.name, seeds.size(),
-              static_cast<unsigned long long>(target.runs));
+  std::printf("[figure] %s: seeds = %zu (limit > 0), hard texts = %zu, changed ones = %llu, no finding\n", target.name,
+              seeds.size(), hard.size(), static_cast<unsigned long long>(target.runs));
 }
 
 INSTANTIATE_TEST_SUITE_P(Target, Standing, ::testing::ValuesIn(kTargets),

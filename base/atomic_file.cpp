@@ -8,16 +8,17 @@
 #include <fstream>
 
 #include "base/error.hpp"
+#include "base/machine_error.hpp"
 
 namespace fastsplat {
 namespace {
 
 [[noreturn]] void cannot_write(const std::filesystem::path& path, const std::string& reason) {
-  throw_input({.where = path.string(),
-               .what = "cannot write: " + reason,
-               .expected = {},
-               .got = {},
-               .fix = "choose a writable folder with enough free space"});
+  throw_machine({.where = path.string(),
+                 .what = "cannot write: " + reason,
+                 .expected = {},
+                 .got = {},
+                 .fix = "choose a writable folder with enough free space"});
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/machine_error.hpp"
 #include "base/unfinished.hpp"
 
 namespace fastsplat {
@@ -90,11 +91,11 @@ Called call(const std::vector<std::string>& words, int seconds, const Heard& hea
   }
   for (const int end : {out[0], err[0]}) ::close(end);
   if (child < 0) {
-    throw_input({.where = words[0],
-                 .what = std::string("cannot be started: ") + std::strerror(reason),
-                 .expected = {},
-                 .got = {},
-                 .fix = "end other programs first"});
+    throw_machine({.where = words[0],
+                   .what = std::string("cannot be started: ") + std::strerror(reason),
+                   .expected = {},
+                   .got = {},
+                   .fix = "end other programs first"});
   }
   const int status = helper->wait();
   called.code = late ? 124 : WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "base/error.hpp"
+#include "base/machine_error.hpp"
 
 namespace fastsplat {
 
@@ -26,11 +27,11 @@ FolderLock::FolderLock(const std::filesystem::path& path) {
   if (outcome == 0) return;
   const int reason = errno;
   if (descriptor_ >= 0) ::close(descriptor_);
-  throw_input({.where = path.string(),
-               .what = std::string("cannot lock its folder: ") + std::strerror(reason),
-               .expected = {},
-               .got = {},
-               .fix = "choose a folder of your own on a local disk"});
+  throw_machine({.where = path.string(),
+                 .what = std::string("cannot lock its folder: ") + std::strerror(reason),
+                 .expected = {},
+                 .got = {},
+                 .fix = "choose a folder of your own on a local disk"});
 }
 
 FolderLock::~FolderLock() { ::close(descriptor_); }

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/machine_error.hpp"
 #include "base/suggest.hpp"
+#include "base/utf8.hpp"
 
 namespace fastsplat {
 namespace {
@@ -20,16 +22,24 @@ namespace {
   throw_input({.where = path.string(), .what = std::move(what), .expected = {}, .got = {}, .fix = std::move(fix)});
 }
 
+/// A file that is not there or cannot be read: a sweep read it before.
+[[noreturn]] void unreadable(const std::filesystem::path& path, std::string what, std::string fix) {
+  throw_machine({.where = path.string(), .what = std::move(what), .expected = {}, .got = {}, .fix = std::move(fix)});
+}
+
 /// The nearest name in the folder, if any is near.
 std::string similar_in_folder(const std::filesystem::path& path) {
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error)) return "the folder " + folder.string() + " does not exist";
   const std::string wanted = path.filename().string();
+  if (wanted.find("\xef\xbf\xbd") != std::string::npos)
+    return "JSON holds U+FFFD where a name is not UTF-8: rename the file, then write the result again";
   std::string best;
   std::vector<std::string> names;
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     names.push_back(entry->path().filename().string());
+    if (!is_utf8(names.back())) names.pop_back();  // it cannot be typed, and may look the same
     if (names.size() == 10000) break;
   }
   std::sort(names.begin(), names.end());
@@ -51,14 +61,14 @@ off_t size_of_regular_file(const std::filesystem::path& path, const std::string&
   if (descriptor < 0) {
     const int reason = errno;
     if (reason == ENOENT)
-      refuse(path, "no such file", fix_if_missing.empty() ? similar_in_folder(path) : fix_if_missing);
-    if (reason == EACCES) refuse(path, "permission denied", "make it readable (chmod +r)");
-    refuse(path, std::string("cannot open: ") + std::strerror(reason), "check the path");
+      unreadable(path, "no such file", fix_if_missing.empty() ? similar_in_folder(path) : fix_if_missing);
+    if (reason == EACCES) unreadable(path, "permission denied", "make it readable (chmod +r)");
+    unreadable(path, std::string("cannot open: ") + std::strerror(reason), "check the path");
   }
   struct stat status {};
   const int outcome = ::fstat(descriptor, &status);
   ::close(descriptor);
-  if (outcome != 0) refuse(path, std::string("cannot read: ") + std::strerror(errno), "check the path");
+  if (outcome != 0) unreadable(path, std::string("cannot read: ") + std::strerror(errno), "check the path");
   if (S_ISDIR(status.st_mode)) refuse(path, "it is a directory, not a file", "name a file inside it");
   if (!S_ISREG(status.st_mode)) refuse(path, "it is not a regular file", "save it to a file first");
   return status.st_size;
@@ -78,7 +88,7 @@ std::string read_text_file(const std::filesystem::path& path, std::size_t max_by
   require_readable_file(path);
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
-  if (error) refuse(path, "cannot read: " + error.message(), "check the path");
+  if (error) unreadable(path, "cannot read: " + error.message(), "check the path");
   if (size > max_bytes) {
     throw_input({.where = path.string(),
                  .what = "the file is too large for what it should be",
@@ -89,7 +99,7 @@ std::string read_text_file(const std::filesystem::path& path, std::size_t max_by
   std::ifstream in(path, std::ios::binary);
   std::string text(size, '\0');
   in.read(text.data(), static_cast<std::streamsize>(size));
-  if (!in) refuse(path, "cannot read the whole file", "check the disk, then try again");
+  if (!in) unreadable(path, "cannot read the whole file", "check the disk, then try again");
   return text;
 }
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/provenance.hpp"
-#include "base/error.hpp"
+#include "base/machine_error.hpp"
 #include "base/number_text.hpp"
 #include "base/version.hpp"
 #include "cli/frame_names.hpp"
@@ -183,7 +183,7 @@ scene::Scene scene_of(const scene::Sequence& sequence, const scene::SceneDescrip
   } catch (const UserError& error) {
     ErrorParts parts = error.parts();
     parts.where = fmt::format("frame {}{}{}", frame, parts.where.empty() ? "" : ": ", parts.where);
-    throw UserError(error.code(), parts);
+    throw_again(error, std::move(parts), error.code());
   }
 }
 

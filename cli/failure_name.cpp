@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "base/error.hpp"
+#include "base/machine_error.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -45,11 +46,11 @@ FailureName::FailureName(const std::string& stem, const std::vector<std::string>
     const int descriptor = ::open(claim.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (descriptor < 0) {
       if (errno == EEXIST) continue;
-      throw_input({.where = prefix_ + ".fss",
-                   .what = std::string("cannot write: ") + std::strerror(errno),
-                   .expected = {},
-                   .got = {},
-                   .fix = "name a place for the failure's files with --failure PREFIX"});
+      throw_machine({.where = prefix_ + ".fss",
+                     .what = std::string("cannot write: ") + std::strerror(errno),
+                     .expected = {},
+                     .got = {},
+                     .fix = "name a place for the failure's files with --failure PREFIX"});
     }
     ::close(descriptor);
     claim_.emplace(claim);

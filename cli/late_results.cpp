@@ -1,12 +1,14 @@
 #include "cli/late_results.hpp"
 
+#include "base/machine_error.hpp"
+
 namespace fastsplat::cli {
 
 void LateResults::write(const std::function<void()>& write) {
   try {
     write();
   } catch (const UserError& error) {
-    if (unwritten_.empty()) first_ = error.code();
+    if (unwritten_.empty()) first_ = exit_code_of(error);
     unwritten_.emplace_back(error.what());
   }
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/error.hpp"
+#include "base/machine_error.hpp"
 #include "cmodel/numbers/config.hpp"
 #include "scene/volume/volume_file.hpp"
 #include "testbench/stimulus/stimulus.hpp"
@@ -21,7 +21,7 @@ void as_word(const std::string& word, const std::function<void()>& resolve) {
     resolve();
   } catch (const UserError& error) {
     if (error.code() != ExitCode::Input || !is_name(word)) throw;
-    throw UserError(ExitCode::Usage, error.parts());
+    throw_again(error, error.parts(), ExitCode::Usage);
   }
 }
 

@@ -148,6 +148,7 @@ void require_content(const plan::Plan& plan, const std::string& plan_file) {
          .got = {},
          .fix = "run it in the folder where it was made, or make it again: `fastsplat plan make`"});
   }
+  plan::require_made(plan, plan_vocabulary(), plan_file);
 }
 
 std::string program_hash() {

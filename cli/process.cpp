@@ -1,6 +1,7 @@
 #include "cli/process.hpp"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -21,6 +22,8 @@ extern "C" void end_on_signal(int signal) {
 }  // namespace
 
 void prepare_process() {
+  // The system would call a child of `plan run` by the link that it was started by, exe.
+  ::prctl(PR_SET_NAME, "fastsplat");
   // Opened the wrong way round, so that using them fails as it would have.
   if (::fcntl(STDIN_FILENO, F_GETFD) < 0) ::open("/dev/null", O_WRONLY);
   if (::fcntl(STDOUT_FILENO, F_GETFD) < 0) ::open("/dev/null", O_RDONLY);

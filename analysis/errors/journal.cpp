@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
 #include "base/json_file.hpp"
+#include "base/machine_error.hpp"
 
 namespace fastsplat::analysis {
 namespace {
@@ -64,11 +65,11 @@ Journal::Journal(const std::filesystem::path& path) : path_(path) {
   out_.open(path, std::ios::binary | std::ios::app);
   if (whole == 0) out_ << kFirstLine << '\n' << std::flush;
   if (!out_) {
-    throw_input({.where = path.string(),
-                 .what = "cannot write the journal",
-                 .expected = {},
-                 .got = {},
-                 .fix = "name a file that can be written"});
+    throw_machine({.where = path.string(),
+                   .what = "cannot write the journal",
+                   .expected = {},
+                   .got = {},
+                   .fix = "name a file that can be written"});
   }
 }
 

@@ -12,7 +12,7 @@
 #include <cstring>
 #include <ctime>
 
-#include "base/error.hpp"
+#include "base/machine_error.hpp"
 
 namespace fastsplat::plan {
 namespace {
@@ -44,7 +44,8 @@ double seconds_of(const timeval& time) {
 }
 
 /// In the child, after fork: nothing here may allocate.
-[[noreturn]] void become(const char* program, char* const* words, int errors, const sigset_t& mask, pid_t parent) {
+[[noreturn]] void become(const char* program, char* const* words, char* const* environment, int errors,
+                         const sigset_t& mask, pid_t parent) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(128 + SIGKILL);
@@ -53,7 +54,7 @@ double seconds_of(const timeval& time) {
   ::dup2(nothing, STDOUT_FILENO);
   ::dup2(errors, STDERR_FILENO);
   ::sigprocmask(SIG_SETMASK, &mask, nullptr);
-  ::execv(program, words);
+  ::execve(program, words, environment);
   constexpr char kSaid[] = "cannot start the program\n";
   [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, kSaid, sizeof kSaid - 1);
   ::_exit(126);
@@ -79,18 +80,22 @@ pid_t Children::start(const std::string& program, const Words& words) {
   std::vector<char*> argv{const_cast<char*>("fastsplat")};
   for (const auto& word : words) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
+  std::string report = std::string(kReportMachine) + "=1";
+  std::vector<char*> environment{report.data()};
+  for (char** variable = environ; *variable != nullptr; ++variable) environment.push_back(*variable);
+  environment.push_back(nullptr);
   const int errors = ::memfd_create("stderr", MFD_CLOEXEC);
   const pid_t parent = ::getpid();
   const pid_t pid = errors < 0 ? -1 : ::fork();
-  if (pid == 0) become(program.c_str(), argv.data(), errors, before_, parent);
+  if (pid == 0) become(program.c_str(), argv.data(), environment.data(), errors, before_, parent);
   if (pid < 0) {
     const int reason = errno;
     if (errors >= 0) ::close(errors);
-    throw_input({.where = program,
-                 .what = std::string("cannot be started: ") + std::strerror(reason),
-                 .expected = {},
-                 .got = {},
-                 .fix = "fewer --jobs"});
+    throw_machine({.where = "fastsplat",
+                   .what = std::string("cannot be started: ") + std::strerror(reason),
+                   .expected = {},
+                   .got = {},
+                   .fix = "fewer --jobs"});
   }
   ::setpgid(pid, pid);  // whichever of the two comes first
   running_.push_back({pid, errors});

@@ -30,8 +30,8 @@ class Children {
   Children(const Children&) = delete;
   Children& operator=(const Children&) = delete;
 
-  /// Starts `program` with `words` after its name; stdin and stdout are /dev/null. UserError (Input) where the system
-  /// has no process left.
+  /// Starts `program`, called fastsplat, with `words` after its name; stdin and stdout are /dev/null, the environment
+  /// has kReportMachine. MachineError where the system has no process left.
   pid_t start(const std::string& program, const Words& words);
 
   /// Waits for the next event: a child's end, or a signal that asks to stop (then `signal()` tells it).

@@ -21,7 +21,7 @@ struct StepOfKind {
 
 std::vector<StepOfKind> steps_of(const std::string& kind);
 
-/// Flags that no setting may be: the run itself gives them.
+/// Flags that no setting may be: the run itself gives them, or they write a file outside the case's folder.
 bool is_given_by_run(const std::string& flag);
 
 }  // namespace fastsplat::plan

@@ -27,7 +27,7 @@ bool is_done(const Case& one, const fs::path& path, const std::string& program_h
                  .got = {},
                  .fix = "another folder (--results), or `fastsplat plan run --again` to make such results anew"});
   }
-  return result.signal == 0;
+  return true;
 }
 
 /// The youngest log of a shard's task: one for each time it was sent.

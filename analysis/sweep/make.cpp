@@ -45,6 +45,9 @@ class Maker {
     check_names();
   }
 
+  /// The case of these settings as it is made now.
+  Case again(const Case& one) const { return case_of({.settings = one.settings, .axes = one.axes}); }
+
   Made make() const {
     Made made;
     made.plan.name = spec_.name;
@@ -233,5 +236,33 @@ class Maker {
 }  // namespace
 
 Made make(const Spec& spec, const Vocabulary& vocabulary) { return Maker(spec, vocabulary).make(); }
+
+void require_made(const Plan& plan, const Vocabulary& vocabulary, const std::filesystem::path& file) {
+  Vocabulary unchecked = vocabulary;
+  unchecked.check = [](const Words&) {};  // the program itself refuses words that it does not know
+  for (const Case& one : plan.cases) {
+    const auto refuse = [&](const std::string& got) {
+      throw_input({.where = file.string(),
+                   .what = fmt::format("case {} is not what `fastsplat plan make` writes", one.id),
+                   .expected = "the steps of its kind and its settings",
+                   .got = got,
+                   .fix = "make the plan again from its specification"});
+    };
+    Spec spec;
+    spec.file = file;
+    spec.constants = one.settings;
+    for (std::size_t at = 0, plus = 0; at <= one.kind.size(); at = plus + 1) {
+      plus = std::min(one.kind.find('+', at), one.kind.size());
+      spec.kinds.push_back(one.kind.substr(at, plus - at));
+    }
+    std::vector<Step> steps;
+    try {
+      steps = Maker(spec, unchecked).again(one).steps;
+    } catch (const UserError& error) {
+      refuse(error.parts().what);
+    }
+    if (steps != one.steps) refuse(command_of(one));
+  }
+}
 
 }  // namespace fastsplat::plan

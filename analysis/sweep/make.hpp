@@ -27,4 +27,8 @@ struct Made {
 /// refuses (unless that is left out), and for a plan without cases.
 Made make(const Spec& spec, const Vocabulary& vocabulary);
 
+/// A plan is a list of commands, so a file from elsewhere could hold any. UserError (Input) naming `file` and the case
+/// unless the steps of each case are what make() writes for its kind and its settings.
+void require_made(const Plan& plan, const Vocabulary& vocabulary, const std::filesystem::path& file);
+
 }  // namespace fastsplat::plan

@@ -131,7 +131,14 @@ Merged merge(const Plan& plan, const fs::path& results, const MergeOptions& opti
       missing.push_back(&one);
       continue;
     }
-    const CaseResult result = read_result(path);
+    CaseResult result;
+    try {
+      result = read_result(path);
+    } catch (const UserError&) {
+      if (!options.partial) throw;
+      missing.push_back(&one);
+      continue;
+    }
     if (out.program.empty()) out.program = result.program;
     require_own(one, result, path, out.program);
     Row row{.id = one.id,

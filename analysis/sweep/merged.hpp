@@ -35,7 +35,7 @@ struct Merged {
 };
 
 struct MergeOptions {
-  bool partial = false;        ///< rows that are missing are left out, and listed
+  bool partial = false;        ///< rows that are missing or not whole are left out, and listed
   bool allow_foreign = false;  ///< results in the folder that are no case of the plan are passed over
 };
 

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 
 #include "analysis/sweep/run.hpp"
-#include "base/error.hpp"
 #include "base/json_file.hpp"
+#include "base/machine_error.hpp"
 #include "base/read_file.hpp"
 
 namespace fastsplat::plan {
@@ -44,7 +45,7 @@ std::string why_failed(const Json& json, const std::string& verb) {
 }  // namespace
 
 Outcome outcome_of(const Step& step, const Ended& ended, const Places& places) {
-  Outcome out{.exit_code = ended.exit_code, .signal = ended.signal, .message = {}, .json = {}, .coverage = {}};
+  Outcome out{.exit_code = ended.exit_code, .message = {}, .json = {}, .coverage = {}};
   const std::string verb = step.result.empty() ? step.words.front() : step.result;
   const std::vector<std::string> folders{places.folder.string(), places.shared.string()};
   std::string missing;
@@ -57,20 +58,20 @@ Outcome outcome_of(const Step& step, const Ended& ended, const Places& places) {
     missing = fmt::format("readable JSON ({})", error.what());
   }
   forget_surroundings(out.json, folders);
+  const bool finished =
+      ended.exit_code == static_cast<int>(ExitCode::Pass) || ended.exit_code == static_cast<int>(ExitCode::Failed);
+  out.accident = ended.exit_code > static_cast<int>(ExitCode::Simulation) || (finished && !missing.empty());
+  const std::string said = ended.message.empty() ? fmt::format("exit code {}", ended.exit_code) : ended.message;
   if (ended.signal != 0) {
-    out.status = Status::Error;
     out.message = fmt::format("`{}` was ended by signal {}", verb, ended.signal);
-  } else if (ended.exit_code == 1 && missing.empty()) {
-    out.status = Status::Fail;
-    out.message = why_failed(out.json, verb);
-  } else if (ended.exit_code != 0) {
-    out.status = Status::Error;
-    out.message = fmt::format("`{}`: {}", verb,
-                              ended.message.empty() ? fmt::format("exit code {}", ended.exit_code) : ended.message);
+  } else if (!finished) {
+    out.message = fmt::format("`{}`: {}", verb, said);
   } else if (!missing.empty()) {
-    out.status = Status::Error;
-    out.message = fmt::format("`{}` ended well and left no {}", verb, missing);
+    out.message = fmt::format("`{}` ended with exit code {} and left no {}", verb, ended.exit_code, missing);
+  } else if (ended.exit_code != 0) {
+    out.message = why_failed(out.json, verb);
   }
+  out.status = out.message.empty() ? Status::Pass : finished && missing.empty() ? Status::Fail : Status::Error;
   out.message = forget_surroundings(out.message, folders);
   return out;
 }
@@ -80,11 +81,11 @@ void write_file(const fs::path& path, const std::string& text) {
   out << text;
   out.close();
   if (!out) {
-    throw_input({.where = path.string(),
-                 .what = "cannot write",
-                 .expected = {},
-                 .got = {},
-                 .fix = "choose a folder with enough free space (--results)"});
+    throw_machine({.where = path.string(),
+                   .what = std::string("cannot write: ") + std::strerror(errno),
+                   .expected = {},
+                   .got = {},
+                   .fix = "choose a folder with enough free space (--results)"});
   }
 }
 

@@ -63,6 +63,12 @@ Json to_json(const Case& one) {
   return json;
 }
 
+/// Files of a case lie in its folder.
+void require_own_file(const Case& one, const std::string& name) {
+  if (name.find('/') == std::string::npos && name != "." && name != ".." && !name.empty()) return;
+  throw std::runtime_error(fmt::format("case {}: the file '{}' lies outside its folder", one.id, name));
+}
+
 Case case_from(const Json& json) {
   Case one{.id = json.at("id"),
            .axes = settings_from(json.at("axes")),
@@ -70,7 +76,11 @@ Case case_from(const Json& json) {
            .settings = settings_from(json.at("settings")),
            .content = {.config_hash = json.at("config_hash"), .scene_hash = json.at("scene_hash")},
            .steps = {}};
-  for (const Json& step : json.at("steps")) one.steps.push_back(step_from(step));
+  for (const Json& step : json.at("steps")) {
+    one.steps.push_back(step_from(step));
+    for (const auto& word : one.steps.back().words) require_own_file(one, file_of(word).value_or("file"));
+    if (!one.steps.back().shared.empty()) require_own_file(one, one.steps.back().shared);
+  }
   return one;
 }
 

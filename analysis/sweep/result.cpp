@@ -20,7 +20,6 @@ Json to_json(const CaseResult& result) {
             {"kind", result.kind},
             {"status", to_string(result.status)},
             {"exit_code", result.exit_code}};
-  if (result.signal != 0) json["signal"] = result.signal;
   if (!result.message.empty()) json["message"] = result.message;
   json["program"] = result.program;
   json["config_hash"] = result.content.config_hash;
@@ -41,7 +40,6 @@ CaseResult result_from(Json json) {
           .kind = json.at("kind"),
           .status = status_from(json.at("status")),
           .exit_code = json.at("exit_code"),
-          .signal = json.value("signal", 0),
           .message = json.value("message", ""),
           .program = json.at("program"),
           .content = {.config_hash = json.at("config_hash"), .scene_hash = json.at("scene_hash")},

@@ -12,7 +12,7 @@ namespace fastsplat::plan {
 enum class Status {
   Pass,
   Fail,   ///< exit 1: verified and wrong, or over a limit; the figures stand
-  Error,  ///< no result: refused, crashed, ended by a signal
+  Error,  ///< the program refused it, or the device it simulates did
 };
 const char* to_string(Status status);         ///< "pass", "fail", "error"
 Status status_from(const std::string& text);  ///< throws std::runtime_error for another word
@@ -21,7 +21,6 @@ struct CaseResult {
   std::string id, kind;
   Status status = Status::Pass;
   int exit_code = 0;
-  int signal = 0;       ///< that ended a run of it: nothing is wrong with the case, it is run again; else 0
   std::string message;  ///< of the run that failed; empty where none did
   std::string program;  ///< hash of the program that made it
   Content content;
@@ -34,7 +33,7 @@ std::filesystem::path result_path(const std::filesystem::path& folder, const std
 /// The same bytes for the same result, with a checksum. No time, no host, no folder is in it.
 std::string to_text(const CaseResult& result);
 
-/// Throws UserError (Input) naming the file that is no whole result.
+/// Throws UserError (Input) naming the file that is no whole result: empty, truncated, changed.
 CaseResult read_result(const std::filesystem::path& path);
 
 /// Why `result` is not what `one` would give now with `program`; empty where it is.

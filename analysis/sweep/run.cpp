@@ -25,6 +25,7 @@ struct Going {
   std::size_t step = 0;
   fs::path folder;  ///< its own, in the scratch
   CaseResult result;
+  bool accident = false;  ///< what there is of `result` says why it is none
   double cpu_seconds = 0.0;
 };
 
@@ -32,7 +33,7 @@ class Runner {
  public:
   Runner(const Plan& plan, const RunOptions& options) : options_(options), scratch_(options.results) {
     for (const char* folder : {kSharedFolder, kTimesFolder, kFailuresFolder})
-      fs::create_directories(options.results / folder);
+      Scratch::make_folder(options.results / folder);
     for (std::size_t at = 0; at < plan.cases.size(); ++at) {
       if (!options.shard.has(at)) continue;
       ++summary_.cases;
@@ -84,7 +85,7 @@ class Runner {
                    .got = {},
                    .fix = "another folder (--results), or --again to make such results anew"});
     }
-    if (result.signal != 0 || (options_.retry_failed && result.status != Status::Pass)) return std::nullopt;
+    if (options_.retry_failed && result.status != Status::Pass) return std::nullopt;
     return result;
   }
 
@@ -95,7 +96,8 @@ class Runner {
   }
 
   void tell_progress() const {
-    if (options_.progress) options_.progress(summary_.passed + summary_.failed + summary_.errors, summary_.cases);
+    const std::size_t done = summary_.passed + summary_.failed + summary_.errors + summary_.accidents;
+    if (options_.progress) options_.progress(done, summary_.cases);
   }
 
   /// Starts what there is room for.
@@ -198,6 +200,7 @@ class Runner {
     CaseResult& result = going.result;
     if (!outcome.json.is_null()) result.results[going.one->steps[going.step].result] = outcome.json;
     if (!outcome.coverage.is_null()) result.coverage = outcome.coverage;
+    going.accident |= outcome.accident;
     if (outcome.status == Status::Pass || result.status == Status::Error) return;
     if (result.status == Status::Fail && outcome.status == Status::Fail) {
       result.message += "; " + outcome.message;
@@ -205,18 +208,23 @@ class Runner {
     }
     result.status = outcome.status;
     result.exit_code = outcome.exit_code;
-    result.signal = outcome.signal;
     result.message = outcome.message;
   }
 
   void finish(Going going) {
+    std::error_code ignored;
+    if (going.accident) {
+      fs::remove_all(going.folder, ignored);
+      ++summary_.accidents;
+      if (options_.accident) options_.accident(*going.one, going.result.message);
+      return tell_progress();
+    }
     keep_evidence(going);
     const fs::path written = going.folder / "result";
     write_file(written, to_text(going.result));
     Scratch::publish(written, result_path(options_.results, going.one->id));
     write_file(written, fmt::format("{{\"cpu_seconds\": {:.3f}}}\n", going.cpu_seconds));
     Scratch::publish(written, options_.results / kTimesFolder / (going.one->id + ".json"));
-    std::error_code ignored;
     fs::remove_all(going.folder, ignored);
     count(going.result);
     if (options_.finished) options_.finished(*going.one, going.result);
@@ -247,10 +255,6 @@ class Runner {
 
 }  // namespace
 
-RunSummary run(const Plan& plan, const RunOptions& options) {
-  std::error_code error;
-  fs::create_directories(options.results, error);
-  return Runner(plan, options).run();
-}
+RunSummary run(const Plan& plan, const RunOptions& options) { return Runner(plan, options).run(); }
 
 }  // namespace fastsplat::plan

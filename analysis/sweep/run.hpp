@@ -1,5 +1,6 @@
 // Runs what is left of a plan: each case's runs one after the other, several cases at once, every result published
-// whole. Killed anywhere, the next run goes on with what is missing.
+// whole. Killed anywhere, the next run goes on with what is missing. What the machine did to a case is reported, and
+// the case is left for the next run.
 #pragma once
 
 #include <functional>
@@ -17,10 +18,12 @@ struct RunOptions {
   Shard shard{};
   std::size_t jobs = 1;          ///< cases at once
   int threads = 1;               ///< of each run (--threads)
-  bool retry_failed = false;     ///< cases that failed are run again, not only those that a signal ended
+  bool retry_failed = false;     ///< cases that failed are run again
   bool replace_foreign = false;  ///< results of another program are made again, not an error
   Progress progress{};           ///< cases done, of those of the shard
-  std::function<void(const Case&, const CaseResult&)> finished{};  ///< told of each result as it is published
+  std::function<void(const Case&, const CaseResult&)> finished{};  ///< called with each result as it is published
+  /// Called with the message of each case that has no result.
+  std::function<void(const Case&, const std::string&)> accident{};
   std::function<void(const std::string&)> note{};
 };
 
@@ -28,6 +31,7 @@ struct RunSummary {
   std::size_t cases = 0;                           ///< of the shard
   std::size_t skipped = 0;                         ///< done before
   std::size_t passed = 0, failed = 0, errors = 0;  ///< of all that are done now, skipped ones too
+  std::size_t accidents = 0;                       ///< of the shard, left without a result
   int signal = 0;                                  ///< that stopped it early; else 0
   double cpu_seconds = 0.0;                        ///< of the children
 };

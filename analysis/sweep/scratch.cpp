@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "base/error.hpp"
+#include "base/machine_error.hpp"
 
 namespace fastsplat::plan {
 namespace {
@@ -17,11 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void cannot_write(const fs::path& path, int reason) {
-  throw_input({.where = path.string(),
-               .what = std::string("cannot write: ") + std::strerror(reason),
-               .expected = {},
-               .got = {},
-               .fix = "choose a writable folder with enough free space (--results)"});
+  throw_machine({.where = path.string(),
+                 .what = std::string("cannot write: ") + std::strerror(reason),
+                 .expected = {},
+                 .got = {},
+                 .fix = "choose a writable folder with enough free space (--results)"});
 }
 
 std::string host() {
@@ -55,8 +55,7 @@ void remove_left_behind(const fs::path& all, const std::string& own) {
 Scratch::Scratch(const fs::path& folder) {
   const fs::path all = folder / ".scratch";
   std::error_code error;
-  fs::create_directories(all, error);
-  if (error) cannot_write(folder, error.value());
+  make_folder(all);
   const std::string own = host() + ".";
   remove_left_behind(all, own);
   // A folder that was just made and is not locked yet may be taken for one left behind.
@@ -77,6 +76,12 @@ Scratch::~Scratch() {
   std::error_code ignored;
   fs::remove_all(path_, ignored);
   ::close(lock_);
+}
+
+void Scratch::make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) cannot_write(folder, error.value());
 }
 
 fs::path Scratch::fresh(const std::string& name) const {

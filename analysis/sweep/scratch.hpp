@@ -7,7 +7,8 @@
 namespace fastsplat::plan {
 
 /// FOLDER/.scratch/HOST.XXXXXX, locked as long as it is in use. Processes that were killed leave theirs behind: those
-/// of this host that nobody locks are removed first. UserError (Input) where FOLDER cannot be written.
+/// of this host that nobody locks are removed first. MachineError where FOLDER cannot be
+/// written.
 class Scratch {
  public:
   explicit Scratch(const std::filesystem::path& folder);
@@ -19,6 +20,9 @@ class Scratch {
 
   /// An empty folder in it.
   std::filesystem::path fresh(const std::string& name) const;
+
+  /// `folder` with those above it. MachineError where it cannot be made.
+  static void make_folder(const std::filesystem::path& folder);
 
   /// Flushes `file` and gives it its name in the results: it is there whole or not at all, whoever else writes the
   /// same.

@@ -97,7 +97,8 @@ class Reader {
   bool leaves_out(const toml::table& root) const {
     const auto word = text_of(root, "refused");
     if (word && *word != "error" && *word != "leave out")
-      refuse(*root.get("refused"), fmt::format("refused is '{}'", *word), "\"error\" or \"leave out\"");
+      refuse(*root.get("refused"), fmt::format("refused is '{}'", *word), "\"error\" or \"leave out\"",
+             suggestion(*word, std::vector<std::string>{"error", "leave out"}));
     return word == "leave out";
   }
 
@@ -227,6 +228,10 @@ class Reader {
   /// `label` names the values for the reader; its column is called as `axis` says.
   Zip zip(const toml::table& table) {
     const std::string label = text_of(table, "axis").value_or("label");
+    if (const auto* axis = table.get("axis"); axis != nullptr && (table.contains(label) || names_.contains(label))) {
+      refuse(*axis, fmt::format("axis = \"{}\" names the column of the labels, and {} is a setting, too", label, label),
+             "a name that no setting has", "for example axis = \"view\"");
+    }
     Zip out;
     for (const Entry& entry : entries(table, "zip")) {
       if (entry.name == "axis") continue;
@@ -268,7 +273,8 @@ class Reader {
     out.unit = text_of(table, "unit").value_or("");
     const auto better = text_of(table, "better").value_or("");
     if (better != "" && better != "less" && better != "more")
-      refuse(*table.get("better"), fmt::format("better is '{}'", better), "\"less\" or \"more\"");
+      refuse(*table.get("better"), fmt::format("better is '{}'", better), "\"less\" or \"more\"",
+             suggestion(better, std::vector<std::string>{"less", "more"}));
     out.better = better == "less" ? Better::Less : better == "more" ? Better::More : Better::Neither;
     return out;
   }

@@ -36,9 +36,8 @@ void count(const Case& one, const fs::path& results, const std::string& program,
     return;
   }
   trouble = foreign(result, one, program);
-  if (!trouble.empty() || result.signal != 0) {
+  if (!trouble.empty()) {
     ++to.again;
-    if (trouble.empty()) trouble = result.message;
     return;
   }
   if (const double seconds = cpu_seconds_of(results, one.id); seconds > 0.0) {

@@ -11,7 +11,7 @@ namespace fastsplat::plan {
 
 struct Count {
   std::size_t cases = 0, passed = 0, failed = 0, errors = 0;
-  std::size_t again = 0;     ///< will be run again: damaged, ended by a signal, or of another program or content
+  std::size_t again = 0;     ///< will be run again: damaged, or of another program or content
   std::size_t missing = 0;   ///< not begun, or under way
   double cpu_seconds = 0.0;  ///< of those with a result
   std::size_t timed = 0;     ///< of them

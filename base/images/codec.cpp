@@ -6,6 +6,8 @@
 #include <cstdarg>
 #include <cstring>
 
+#include "base/machine_error.hpp"
+
 namespace fastsplat::images {
 namespace {
 
@@ -15,7 +17,7 @@ constexpr const char* kWhat = "pictures can be neither read nor written: the mod
 
 [[noreturn]] void refuse(const fs::path& where, const std::string& what, std::string expected, std::string got,
                          std::string fix) {
-  throw_input({where.string(), kWhat + what, std::move(expected), std::move(got), std::move(fix)});
+  throw_machine({where.string(), kWhat + what, std::move(expected), std::move(got), std::move(fix)});
 }
 
 /// By the program's own place: a copied or installed program takes the module that came with it, and no other.

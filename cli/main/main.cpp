@@ -3,7 +3,7 @@
 #include <new>
 #include <string>
 
-#include "base/error.hpp"
+#include "base/machine_error.hpp"
 #include "cli/command_line.hpp"
 #include "cli/output.hpp"
 #include "cli/process.hpp"
@@ -15,10 +15,10 @@ int main(int argc, char** argv) {
     return static_cast<int>(cli::parse(argc, argv)());
   } catch (const UserError& error) {
     cli::print_error(error.what());
-    return static_cast<int>(error.code());
+    return static_cast<int>(exit_code_of(error));
   } catch (const std::bad_alloc&) {
     cli::print_error("not enough memory for this; use a smaller volume or --size");
-    return static_cast<int>(ExitCode::Input);
+    return static_cast<int>(machine_exit_code(ExitCode::Input));
   } catch (const std::exception& error) {
     cli::print_error(std::string("internal: ") + error.what() + "; please report it with the command line");
     return static_cast<int>(ExitCode::Internal);

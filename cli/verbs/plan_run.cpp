@@ -30,22 +30,24 @@ using Json = nlohmann::ordered_json;
 
 std::string to_text(const plan::RunSummary& summary, const std::string& folder) {
   const auto done = summary.passed + summary.failed + summary.errors;
-  return fmt::format("{} of {} done in {}: {} passed, {} failed, {} with errors; {} were there before\n", done,
+  const std::string left = summary.accidents == 0 ? std::string()
+                                                  : fmt::format("{} without a result: run the plan again\n",
+                                                                counted(summary.accidents, "case"));
+  return fmt::format("{} of {} done in {}: {} passed, {} failed, {} with errors; {} were there before\n{}", done,
                      counted(summary.cases, "case"), folder, summary.passed, summary.failed, summary.errors,
-                     summary.skipped);
+                     summary.skipped, left);
 }
 
 Json to_json(const plan::RunSummary& summary, const PlanRunArguments& arguments, double seconds) {
-  return {{"verb", "plan run"},         {"version", program_version()},
-          {"shard", arguments.shard},   {"cases", summary.cases},
-          {"skipped", summary.skipped}, {"passed", summary.passed},
-          {"failed", summary.failed},   {"errors", summary.errors},
-          {"signal", summary.signal},   {"cpu_seconds", summary.cpu_seconds},
-          {"seconds", seconds}};
+  return {{"verb", "plan run"},       {"version", program_version()},       {"shard", arguments.shard},
+          {"cases", summary.cases},   {"skipped", summary.skipped},         {"passed", summary.passed},
+          {"failed", summary.failed}, {"errors", summary.errors},           {"accidents", summary.accidents},
+          {"signal", summary.signal}, {"cpu_seconds", summary.cpu_seconds}, {"seconds", seconds}};
 }
 
 ExitCode exit_code(const plan::RunSummary& summary) {
   if (summary.signal != 0) return static_cast<ExitCode>(128 + summary.signal);
+  if (summary.accidents > 0) return ExitCode::Input;
   return summary.failed + summary.errors > 0 ? ExitCode::Failed : ExitCode::Pass;
 }
 
@@ -73,6 +75,11 @@ ExitCode run(const PlanRunArguments& arguments) {
                  [&](const plan::Case& one, const plan::CaseResult& result) {
                    if (result.status != plan::Status::Pass)
                      output.warn(fmt::format("case {}: {}\n  {}", one.id, result.message, plan::command_of(one)));
+                 },
+             .accident =
+                 [&](const plan::Case& one, const std::string& message) {
+                   output.warn(fmt::format("case {} has no result, it is run again the next time: {}\n  {}", one.id,
+                                           message, plan::command_of(one)));
                  },
              .note = [&](const std::string& text) { output.note(text); }});
   output.line(to_text(summary, arguments.plan.folder()));

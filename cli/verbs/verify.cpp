@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "base/atomic_file.hpp"
-#include "base/error.hpp"
+#include "base/machine_error.hpp"
 #include "cli/failure_name.hpp"
 #include "cli/frame_names.hpp"
 #include "cli/late_results.hpp"
@@ -270,18 +270,18 @@ ExitCode run(const VerifyArguments& arguments) {
     return verify_and_tell(arguments);
   } catch (const std::bad_alloc&) {
     if (!arguments.stream.empty()) {
-      throw_input({.where = arguments.stream,
-                   .what = "not enough memory to verify it",
-                   .expected = {},
-                   .got = {},
-                   .fix = "record it at a smaller --size"});
+      throw_machine({.where = arguments.stream,
+                     .what = "not enough memory to verify it",
+                     .expected = {},
+                     .got = {},
+                     .fix = "record it at a smaller --size"});
     }
     if (!arguments.random) throw;  // a scene is what takes memory: told as everywhere
-    throw_input({.where = fmt::format("--random {}", *arguments.random),
-                 .what = "not enough memory for streams of so many splats",
-                 .expected = {},
-                 .got = {},
-                 .fix = "lower --random, raise --seeds; with fewer --jobs fewer of them are held at a time"});
+    throw_machine({.where = fmt::format("--random {}", *arguments.random),
+                   .what = "not enough memory for streams of so many splats",
+                   .expected = {},
+                   .got = {},
+                   .fix = "lower --random, raise --seeds; with fewer --jobs fewer of them are held at a time"});
   }
 }
 

@@ -12,6 +12,7 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
+#include "base/machine_error.hpp"
 #include "base/read_file.hpp"
 #include "cmodel/model.hpp"
 #include "cmodel/stream/crc32.hpp"
@@ -32,11 +33,11 @@ static_assert(std::endian::native == std::endian::little,
 static_assert(sizeof(Beat) == kBeatBytes);
 
 [[noreturn]] void cannot_write(const std::filesystem::path& path) {
-  throw_input({.where = path.string(),
-               .what = fmt::format("cannot write: {}", std::strerror(errno)),
-               .expected = {},
-               .got = {},
-               .fix = "choose a writable folder with enough free space"});
+  throw_machine({.where = path.string(),
+                 .what = fmt::format("cannot write: {}", std::strerror(errno)),
+                 .expected = {},
+                 .got = {},
+                 .fix = "choose a writable folder with enough free space"});
 }
 
 class Writer {
@@ -101,10 +102,10 @@ class Reader {
   explicit Reader(const std::filesystem::path& path) : path_(path) {
     require_regular_file(path, "check the name; 'fastsplat stream record' makes one");
     in_.open(path, std::ios::binary);
-    if (!in_) refuse(fmt::format("cannot read: {}", std::strerror(errno)), {}, {}, "check the file");
+    if (!in_) cannot_read(std::strerror(errno));
     std::error_code error;
     bytes_ = std::filesystem::file_size(path, error);
-    if (error) refuse("cannot read: " + error.message(), {}, {}, "check the file");
+    if (error) cannot_read(error.message());
   }
 
   /// visit(beat) for every whole beat, the first of which begins a stream; stops when it returns false. A last beat
@@ -122,7 +123,7 @@ class Reader {
         if (!visit(block[i])) return;
       }
     }
-    if (in_.bad()) refuse(fmt::format("cannot read: {}", std::strerror(errno)), {}, {}, "check the disk");
+    if (in_.bad()) cannot_read(std::strerror(errno));
     if (const auto rest = bytes_ % kBeatBytes; rest != 0) {
       throw_input({.where = cmodel::beat_place(bytes_ / kBeatBytes),
                    .what = "stream ends within this beat",
@@ -142,6 +143,14 @@ class Reader {
   }
 
  private:
+  [[noreturn]] void cannot_read(const std::string& reason) const {
+    throw_machine({.where = path_.string(),
+                   .what = "cannot read: " + reason,
+                   .expected = {},
+                   .got = {},
+                   .fix = "check the file and its disk"});
+  }
+
   std::filesystem::path path_;
   std::ifstream in_;
   std::uintmax_t bytes_ = 0;

@@ -14,6 +14,7 @@
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
 #include "base/json_text.hpp"
+#include "base/machine_error.hpp"
 #include "cmodel/model.hpp"
 #include "driver/files/stream_file.hpp"
 
@@ -50,11 +51,11 @@ class TextFile {
 
  private:
   [[noreturn]] void refuse() const {
-    throw_input({.where = path_.string(),
-                 .what = fmt::format("cannot write: {}", std::strerror(errno)),
-                 .expected = {},
-                 .got = {},
-                 .fix = "choose a writable folder with enough free space"});
+    throw_machine({.where = path_.string(),
+                   .what = fmt::format("cannot write: {}", std::strerror(errno)),
+                   .expected = {},
+                   .got = {},
+                   .fix = "choose a writable folder with enough free space"});
   }
 
   std::filesystem::path path_;

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "base/error.hpp"
+#include "base/machine_error.hpp"
 
 namespace fastsplat::volume {
 namespace {
@@ -25,19 +25,20 @@ class PlainFile {
  public:
   PlainFile(const std::filesystem::path& path, std::uint64_t offset) : path_(path), file_(path, std::ios::binary) {
     file_.seekg(static_cast<std::streamoff>(offset));
-    if (!file_) refuse("cannot open the file");
+    if (!file_) throw_machine(failure("cannot open the file"));
   }
-  [[noreturn]] void refuse(const std::string& what) const {
-    throw_input(
-        {.where = path_.string(), .what = what, .expected = {}, .got = {}, .fix = "download or copy the file again"});
-  }
+  [[noreturn]] void refuse(const std::string& what) const { throw_input(failure(what)); }
   std::size_t read(void* out, std::size_t size) {
     file_.read(static_cast<char*>(out), static_cast<std::streamsize>(size));
-    if (file_.bad()) refuse("cannot read the file");
+    if (file_.bad()) throw_machine(failure("cannot read the file"));
     return static_cast<std::size_t>(file_.gcount());
   }
 
  private:
+  ErrorParts failure(const std::string& what) const {
+    return {.where = path_.string(), .what = what, .expected = {}, .got = {}, .fix = "download or copy the file again"};
+  }
+
   std::filesystem::path path_;
   std::ifstream file_;
 };

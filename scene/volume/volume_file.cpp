@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <optional>
 
-#include "base/error.hpp"
+#include "base/machine_error.hpp"
 #include "base/read_file.hpp"
 #include "base/suggest.hpp"
 #include "scene/volume/foreign_file.hpp"
@@ -65,12 +65,12 @@ fs::path find_scan(const std::string& name) {
       if (fs::is_regular_file(path, ignored)) return path;
     }
   }
-  throw_input({.where = name,
-               .what = "this scan is not installed",
-               .expected = {},
-               .got = {},
-               .fix = "apt-get install mricron-data (or set FASTSPLAT_DATA to a folder that holds it), or use a "
-                      "built-in volume such as shells:64"});
+  throw_machine({.where = name,
+                 .what = "this scan is not installed",
+                 .expected = {},
+                 .got = {},
+                 .fix = "apt-get install mricron-data (or set FASTSPLAT_DATA to a folder that holds it), or use a "
+                        "built-in volume such as shells:64"});
 }
 
 /// The file the user means. A file that is there wins over a known name.

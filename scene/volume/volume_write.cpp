@@ -9,6 +9,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/machine_error.hpp"
 #include "scene/volume/byte_reader.hpp"
 #include "scene/volume/volume_file.hpp"
 
@@ -76,11 +77,11 @@ void write_whole(const fs::path& path, const std::string& head, const std::strin
   }
   out.close();
   if (!out) {
-    throw_input({.where = path.string(),
-                 .what = std::string("cannot write: ") + std::strerror(errno),
-                 .expected = {},
-                 .got = {},
-                 .fix = "choose a writable folder with enough free space"});
+    throw_machine({.where = path.string(),
+                   .what = std::string("cannot write: ") + std::strerror(errno),
+                   .expected = {},
+                   .got = {},
+                   .fix = "choose a writable folder with enough free space"});
   }
   file.commit();
 }

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <new>
 
-#include "base/error.hpp"
+#include "base/machine_error.hpp"
 #include "base/read_file.hpp"
 
 namespace fastsplat::volume {
@@ -148,8 +148,11 @@ std::vector<float> read_voxels(const VoxelSource& source, std::optional<float> n
   try {
     voxels.reserve(count);  // not touched until data arrives, so that a lying gzip header costs nothing
   } catch (const std::bad_alloc&) {
-    refuse(source, "not enough memory for its voxels", {}, extents_text(source),
-           "downsample the volume (teem-unu resample)");
+    throw_machine({.where = source.header.string(),
+                   .what = "not enough memory for its voxels",
+                   .expected = {},
+                   .got = extents_text(source),
+                   .fix = "downsample the volume (teem-unu resample)"});
   }
   for (const DataFile& file : source.files) {
     StoredValues stored(file.path, file.file_offset, file.stream_offset, source.packing, source.component,
@@ -221,7 +224,13 @@ void check_source(const VoxelSource& source) {
     require_readable_file(file.path);
     std::error_code error;
     const std::uint64_t file_size = std::filesystem::file_size(file.path, error);
-    if (error) refuse(source, "cannot read: " + error.message(), {}, {}, "check the path");
+    if (error) {
+      throw_machine({.where = file.path.string(),
+                     .what = "cannot read: " + error.message(),
+                     .expected = {},
+                     .got = {},
+                     .fix = "check the path"});
+    }
     const std::uint64_t on_disk = file_size > file.file_offset ? file_size - file.file_offset : 0;
     const std::uint64_t need = bytes + std::min(file.stream_offset, std::uint64_t{1} << 62);
     const std::uint64_t can_hold = most_unpacked(source, on_disk);

@@ -15,6 +15,7 @@
 #include "base/error.hpp"
 #include "base/folder_lock.hpp"
 #include "base/hash_text.hpp"
+#include "base/machine_error.hpp"
 #include "base/programs.hpp"
 #include "base/read_file.hpp"
 #include "base/sha256.hpp"
@@ -55,11 +56,11 @@ const std::string& sources_hash() {
         if (entry.is_regular_file()) files.push_back(entry.path());
     }
     if (files.size() == 1) {
-      throw_input({.where = share.string(),
-                   .what = "the sources of the RTL are missing",
-                   .expected = "rtl/ and testbench/module/ in it",
-                   .got = {},
-                   .fix = "install or build fastsplat again"});
+      throw_machine({.where = share.string(),
+                     .what = "the sources of the RTL are missing",
+                     .expected = "rtl/ and testbench/module/ in it",
+                     .got = {},
+                     .fix = "install or build fastsplat again"});
     }
     std::sort(files.begin(), files.end());
     Sha256 sum;
@@ -79,11 +80,11 @@ fs::path cache_folder() {
     const char* folder = std::getenv(variable);
     if (folder != nullptr && folder[0] == '/') return fs::path(folder) / below;
   }
-  throw_input({.where = "cache of simulators",
-               .what = "has no place",
-               .expected = {},
-               .got = {},
-               .fix = "set XDG_CACHE_HOME to a folder of your own"});
+  throw_machine({.where = "cache of simulators",
+                 .what = "has no place",
+                 .expected = {},
+                 .got = {},
+                 .fix = "set XDG_CACHE_HOME to a folder of your own"});
 }
 
 void require_tools(const cmodel::Config& config) {
@@ -93,11 +94,12 @@ void require_tools(const cmodel::Config& config) {
        {std::string("verilator"), std::string("make"), std::string(chosen == nullptr ? "g++" : chosen)})
     if (!in_path(tool)) missing += (missing.empty() ? "" : ", ") + tool;
   if (missing.empty()) return;
-  throw_usage({.where = "configuration " + config.name,
-               .what = "its RTL is not built yet, and the tools to build it are missing",
-               .expected = "verilator, make and a C++ compiler",
-               .got = "no " + missing,
-               .fix = "apt-get install verilator make g++; or use the model: --engine cmodel"});
+  throw MachineError({.where = "configuration " + config.name,
+                      .what = "its RTL is not built yet, and the tools to build it are missing",
+                      .expected = "verilator, make and a C++ compiler",
+                      .got = "no " + missing,
+                      .fix = "apt-get install verilator make g++; or use the model: --engine cmodel"},
+                     ExitCode::Usage);
 }
 
 /// Reports the files compiled, of those announced, in what build.sh has printed so far.
@@ -165,11 +167,11 @@ MakeTop load(const fs::path& module) {
   void* make = library == nullptr ? nullptr : ::dlsym(library, kMakeTop);
   if (make == nullptr) {
     const char* reason = ::dlerror();
-    throw_input({.where = module.string(),
-                 .what = std::string("the simulator cannot be loaded: ") + (reason == nullptr ? "no reason" : reason),
-                 .expected = {},
-                 .got = {},
-                 .fix = "delete the file; it is built again"});
+    throw_machine({.where = module.string(),
+                   .what = std::string("the simulator cannot be loaded: ") + (reason == nullptr ? "no reason" : reason),
+                   .expected = {},
+                   .got = {},
+                   .fix = "delete the file; it is built again"});
   }
   return reinterpret_cast<MakeTop>(make);  // the library stays: devices come and go
 }
@@ -185,11 +187,11 @@ fs::path rtl_module_in(const fs::path& folder, const cmodel::Config& config, Rtl
   std::error_code error;
   fs::create_directories(module.parent_path(), error);
   if (error) {
-    throw_input({.where = module.parent_path().string(),
-                 .what = "cannot be made, for a simulator: " + error.message(),
-                 .expected = {},
-                 .got = {},
-                 .fix = "set XDG_CACHE_HOME to a folder of your own"});
+    throw_machine({.where = module.parent_path().string(),
+                   .what = "cannot be made, for a simulator: " + error.message(),
+                   .expected = {},
+                   .got = {},
+                   .fix = "set XDG_CACHE_HOME to a folder of your own"});
   }
   const FolderLock lock(module);
   if (!fs::exists(module)) build(module, config, abilities);

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
+#include "base/machine_error.hpp"
 #include "cmodel/io/register_map.hpp"
 #include "testbench/device/failed_assertion.hpp"
 #include "testbench/device/tile_assembly.hpp"
@@ -23,11 +24,11 @@ class VerilatedDevice final : public RtlDevice {
     ports_.rst_ni = 0;
     top_->eval();
     if (!options_.wave.empty() && !top_->trace(options_.wave.c_str())) {
-      throw_input({.where = options_.wave.string(),
-                   .what = "cannot write the waveform",
-                   .expected = {},
-                   .got = {},
-                   .fix = "choose a writable folder with enough free space"});
+      throw_machine({.where = options_.wave.string(),
+                     .what = "cannot write the waveform",
+                     .expected = {},
+                     .got = {},
+                     .fix = "choose a writable folder with enough free space"});
     }
     pulse_reset(kResetCycles);
     const std::uint64_t hash =

@@ -91,6 +91,11 @@ TEST(PlanMake, RefusesWithTheLineWhatMeansNothing) {
       {"kind = \"cycles\"\n", "has no axis"},
       {"kind = \"cycles\"\n[axes]\njson = [\"x\"]\n", "json is no setting"},
       {"kind = \"cycles\"\n[axes]\nn = [\"{x}\"]\n", "words in braces"},
+      {"kind = \"cycles\"\n[axes]\nmap = [\"/x.png\"]\n", "map is no setting"},
+      {"kind = \"cycles\"\n[[zip]]\naxis = \"n\"\nlabel = [\"a\"]\nn = [1]\n",
+       "spec.toml:3:8: axis = \"n\" names the column of the labels, and n is a setting, too"},
+      {"kind = \"cycles\"\n[constants]\nn = 1\n[[zip]]\naxis = \"n\"\nlabel = [\"a\"]\nvolume = [\"v\"]\n",
+       "spec.toml:5:8: axis = \"n\" names the column"},
       {"kind = \"cycles\"\n[axes]\nn = [1\n", "not valid TOML"},
   };
   for (const auto& [spec, words] : wrong)
@@ -123,6 +128,48 @@ TEST(PlanMake, AFileThatWasChangedIsNoPlan) {
   EXPECT_THAT(error_of([&] { plan::read_plan(folder.write("p.json", changed)); }), HasSubstr("was changed"));
   EXPECT_THAT(error_of([&] { plan::read_plan(folder.write("p.json", text.substr(0, 200))); }), HasSubstr("is no plan"));
   EXPECT_THAT(error_of([&] { plan::shard_from("3/2"); }), HasSubstr("no part of a plan"));
+}
+
+/// With every hash computed again, a plan from elsewhere still runs nothing but what plan make writes.
+TEST(PlanMake, AForgedPlanIsRefused) {
+  const Folder folder;
+  const auto honest = plan_of(folder, "kind = [\"compare\", \"verify\"]\n[axes]\nn = [1, 2]\n");
+  EXPECT_EQ(error_of([&] { plan::require_made(honest, vocabulary(), "p.json"); }), "");
+  const auto read_forged = [&](const std::function<void(plan::Case&)>& forge) {
+    plan::Plan forged = honest;
+    forge(forged.cases[1]);
+    forged.cases[1].id = plan::id_of(forged.cases[1]);
+    const auto read = plan::read_plan(folder.write("p.json", json_text(plan::to_json(forged), 1)));
+    plan::require_made(read, vocabulary(), "p.json");
+  };
+  const std::function<void(plan::Case&)> forges[] = {
+      [](plan::Case& one) {
+        one.steps[0].words = {"volume", "convert", "in.nrrd", "/somewhere/out.nrrd"};
+      },
+      [](plan::Case& one) {
+        one.steps[0].words.insert(one.steps[0].words.end(), {"--out", "/somewhere/out.exr"});
+      },
+      [](plan::Case& one) { one.steps.push_back(one.steps[0]); },
+      [](plan::Case& one) { one.steps.pop_back(); },
+      [](plan::Case& one) { one.steps[1].result = ""; },
+      [](plan::Case& one) { one.kind = "cycles"; },
+      [](plan::Case& one) {
+        one.settings = {{"n", std::int64_t{7}}};
+      },
+      [](plan::Case& one) {
+        one.settings.push_back({"out", std::string("/somewhere/out.exr")});
+      },
+  };
+  for (const auto& forge : forges)
+    EXPECT_THAT(error_of([&] { read_forged(forge); }), HasSubstr("is not what `fastsplat plan make` writes"));
+  const char* const outside[] = {"../../x.exr", "/x.exr", "..", "a/b.exr"};
+  for (const std::string name : outside) {
+    EXPECT_THAT(error_of([&] { read_forged([&](plan::Case& one) { one.steps[1].words.back() = "{" + name + "}"; }); }),
+                HasSubstr("the file '" + name + "' lies outside its folder"));
+    EXPECT_THAT(error_of([&] { read_forged([&](plan::Case& one) { one.steps[0].shared = name; }); }),
+                HasSubstr("lies outside its folder"));
+  }
+  std::printf("[figure] forged plans refused = %zu\n", std::size(forges) + 2 * std::size(outside));
 }
 
 }  // namespace

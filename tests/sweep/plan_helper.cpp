@@ -67,6 +67,12 @@ while [ $# -gt 0 ]; do
   shift
 done
 [ "$n" = 66 ] && kill -9 $$
+[ -e "$(dirname "$0")/mended" ] || case "$n" in  # until then the machine is in the way
+  70|75|126|139) echo "fastsplat: error: out: cannot write: No space left on device" >&2; exit $n;;
+  71) exit 0;;
+  72) echo '{"verb": "cyc' > "$json"; exit 0;;
+  73) exit 1;;
+esac
 [ "$n" = 99 ] && { echo "fastsplat: error: --n: no such n" >&2; exit 2; }
 [ -n "$out" ] && echo picture > "$out"
 [ -n "$book" ] && echo '{"format": "fastsplat coverage 1", "config": "tiny", "config_hash": "77", "streams": 1, "splats": '$n', "comparisons": 1, "cycles": 1, "campaigns": {"all": {"a.b": '$n', "only.'$n'": 1}}}' > "$book"

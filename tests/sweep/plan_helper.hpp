@@ -33,7 +33,9 @@ std::vector<std::pair<std::string, std::string>> results_in(const std::filesyste
 plan::Vocabulary vocabulary();
 
 /// A script that is such a program: its JSON holds "n" and the time; --n 13 is a limit that is broken, --n 99 refused,
-/// --n 66 is ended by a signal. It says in FOLDER/log what it was run with. `before`: shell lines run first.
+/// --n 66 is ended by a signal. Until FOLDER/mended is there, the machine is in the way of --n 70 to 75, 126 and 139:
+/// exit codes, or no JSON or half of it (71 to 73). It says in FOLDER/log what it was run with. `before`: shell lines
+/// run first.
 std::string script(const Folder& folder, const std::string& before = {});
 
 /// Of a specification's text.

@@ -2,9 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "tests/paths.hpp"
 #include "tests/process/process_helper.hpp"
@@ -65,6 +67,134 @@ TEST(PlanProgram, KilledTwiceAndResumedGivesTheSameBytes) {
     EXPECT_GT(row["metrics"]["cost"].get<double>(), 0.0);
     EXPECT_GT(row["metrics"]["cycles"].get<double>(), 0.0);
   }
+}
+
+/// A plan, its results when nothing disturbs it, and what disturbed ones must come to.
+class PlanDisturbed : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    expect_success(fastsplat({"plan", "make", folder_.write("spec.toml", kLengths), "-o", plan_}));
+    expect_success(fastsplat({"plan", "run", plan_, "--results", folder_ / "whole", "--jobs", "2"}));
+    expected_ = merged(plan_, folder_ / "whole");
+  }
+  /// Results are whole and as they would have been, or not there.
+  void expect_sound(const std::string& results) const {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(results, ignored)) {
+      if (entry.path().extension() != ".json") continue;
+      EXPECT_EQ(read_bytes(entry.path()), read_bytes(folder_ / "whole/" + entry.path().filename().string()))
+          << entry.path();
+    }
+  }
+  /// The next run, undisturbed, does the rest.
+  void expect_mended(const std::string& results) const {
+    expect_success(fastsplat({"plan", "run", plan_, "--results", results, "--jobs", "2"}));
+    EXPECT_TRUE(merged(plan_, results) == expected_) << results;
+  }
+
+  TempFolder folder_;
+  std::string plan_ = folder_ / "plan.json", expected_;
+};
+
+TEST_F(PlanDisturbed, ByAFullDisk) {
+  for (const int room : {4'096, 40'960, 98'304}) {
+    const std::string place = folder_ / ("disk" + std::to_string(room)),
+                      roomy = folder_ / ("roomy" + std::to_string(room));
+    {
+      const TinyDisk disk(place, room);
+      if (!disk.mounted()) GTEST_SKIP() << disk.reason();
+      const auto run = fastsplat({"plan", "run", plan_, "--results", place + "/results", "--jobs", "2"});
+      const auto partial =
+          fastsplat({"plan", "merge", plan_, "--results", place + "/results", "--partial", "-o", folder_ / "m.json"});
+      std::printf("[figure] room = %d, exit code = %d, results = %zu\n", room, run.code,
+                  results_in(place + "/results"));
+      EXPECT_EQ(run.code, 3) << run.err;
+      EXPECT_THAT(run.err, HasSubstr("No space left on device"));
+      EXPECT_EQ(run.err.find("exe"), std::string::npos) << run.err;
+      expect_sound(place + "/results");
+      if (partial.code == 0) {
+        EXPECT_EQ(read_bytes(folder_ / "m.json").find("No space"), std::string::npos);
+      }
+      fs::copy(place + "/results", roomy, fs::copy_options::recursive);
+    }
+    expect_mended(roomy);
+  }
+}
+
+TEST_F(PlanDisturbed, ByALimitOnFiles) {
+  std::size_t refused = 0;
+  for (const rlim_t room : {100u, 3'000u, 10'000u}) {
+    const std::string results = folder_ / ("limit" + std::to_string(room));
+    Surroundings limited;
+    limited.largest_file = room;
+    const auto run = fastsplat({"plan", "run", plan_, "--results", results, "--jobs", "2"}, limited);
+    std::printf("[figure] largest file = %lu, exit code = %d, results = %zu\n", static_cast<unsigned long>(room),
+                run.code, results_in(results));
+    refused += run.code == 3 ? 1 : 0;
+    EXPECT_TRUE(run.code == 0 || run.code == 3) << run.err;
+    expect_sound(results);
+    expect_mended(results);
+  }
+  EXPECT_GE(refused, 2u);
+}
+
+TEST_F(PlanDisturbed, ByKillsAtAnyTime) {
+  constexpr int kKills = 10;
+  const auto seed = std::random_device()();
+  std::mt19937 chance(seed);
+  const std::string results = folder_ / "killed";
+  std::size_t killed = 0, left = 0;
+  for (int kill = 0; kill < kKills; ++kill) {
+    if (results_in(results) == 6) fs::remove_all(results);
+    const auto until = std::chrono::steady_clock::now() +
+                       std::chrono::milliseconds(std::uniform_int_distribution<int>(0, 3000)(chance));
+    Surroundings stop;
+    stop.signal = SIGKILL;
+    stop.when = [&](pid_t) { return std::chrono::steady_clock::now() >= until; };
+    killed += fastsplat({"plan", "run", plan_, "--results", results, "--jobs", "2"}, stop).signal == SIGKILL ? 1 : 0;
+    expect_sound(results);
+    left += results_in(results);
+  }
+  std::printf("[figure] seed = %u, killed = %zu of %d (limit > 0), results left by them = %zu\n", seed, killed, kKills,
+              left);
+  EXPECT_GT(killed, 0u);
+  expect_mended(results);
+}
+
+TEST_F(PlanDisturbed, ByResultsThatAreEmptyOrCut) {
+  const std::string results = folder_ / "whole";
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(results))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  ASSERT_GE(files.size(), 2u);
+  const std::string whole = read_bytes(files[1]);
+  fs::resize_file(files[0], 0);
+  fs::resize_file(files[1], whole.size() / 2);
+  const auto refused = fastsplat({"plan", "merge", plan_, "--results", results, "-o", folder_ / "m.json"});
+  EXPECT_EQ(refused.code, 3) << refused.err;
+  expect_success(fastsplat({"plan", "merge", plan_, "--results", results, "-o", folder_ / "m.json", "--partial"}));
+  const auto json = Json::parse(read_bytes(folder_ / "m.json"));
+  EXPECT_EQ(json["missing"].size(), 2u);
+  EXPECT_EQ(json["rows"].size(), 4u);
+  expect_mended(results);
+}
+
+TEST_F(PlanDisturbed, ByAModuleThatIsMissing) {
+  // The program without the module beside it: pictures can be neither read nor written.
+  fs::copy(program(), folder_ / "fastsplat");
+  const auto run = run_words({folder_ / "fastsplat", "plan", "run", plan_, "--results", folder_ / "bare"});
+  EXPECT_EQ(run.code, 3) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("the module for the image library is missing"));
+  EXPECT_EQ(results_in(folder_ / "bare"), 0u);
+}
+
+/// A plan from elsewhere, with its hashes computed again, runs nothing that plan make does not write.
+TEST_F(PlanDisturbed, ByForgedSteps) {
+  auto json = nlohmann::ordered_json::parse(read_bytes(plan_));
+  json["cases"][0]["steps"][0]["argv"] = {"volume", "convert", "shells:8", folder_ / "stolen.nrrd"};
+  const auto forged = folder_.write("forged.json", json.dump(1));
+  expect_error(fastsplat({"plan", "run", forged}), 3, {"was changed"});
+  EXPECT_FALSE(fs::exists(folder_ / "stolen.nrrd"));
 }
 
 TEST(PlanProgram, ARowsCommandMakesItAgain) {

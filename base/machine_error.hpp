@@ -1,0 +1,30 @@
+// Failures of the machine, not of what the user asked for: disk, memory, processes, files that went away. The same
+// command may succeed later, so a sweep takes none of them for a result.
+#pragma once
+
+#include <utility>
+
+#include "base/error.hpp"
+
+namespace fastsplat {
+
+class MachineError : public UserError {
+ public:
+  explicit MachineError(ErrorParts parts, ExitCode code = ExitCode::Input) : UserError(code, std::move(parts)) {}
+};
+
+[[noreturn]] inline void throw_machine(ErrorParts parts) { throw MachineError(std::move(parts)); }
+
+/// Throws `error` as it is but for its words and its code.
+[[noreturn]] void throw_again(const UserError& error, ErrorParts parts, ExitCode code);
+
+/// The exit code of every MachineError in a process whose environment has kReportMachine.
+inline constexpr int kMachineExit = 75;
+inline constexpr const char* kReportMachine = "FASTSPLAT_REPORT_MACHINE";
+
+/// The exit code of a process that ends with `error`.
+ExitCode exit_code_of(const UserError& error);
+/// Of one that ends with a failure of the machine whose exit code is `code` elsewhere.
+ExitCode machine_exit_code(ExitCode code);
+
+}  // namespace fastsplat

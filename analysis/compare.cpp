@@ -88,7 +88,7 @@ CompareReport compare(const Image& ref, const Image& test, const CompareOptions&
   {  // The floor first, so that only one error field is alive at a time.
     const auto errors = floor_values(ref, test, options);
     report.floor = figures_of(errors, sum_errors(errors, options.threads), options);
-    report.floor.ssim = similarity([unit](double r, double) { return std::floor(r * unit + 0.5) / unit; });
+    report.floor.ssim = similarity([unit](double r, double) { return rounded_once(r, unit); });
   }
 
   const auto errors = error_values(ref, test, options);

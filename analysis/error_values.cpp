@@ -69,10 +69,14 @@ std::vector<double> error_values(const Image& ref, const Image& test, const Comp
   return values_of(ref, test, options.threads, [unit](double r, double t) { return (t - r) * unit; });
 }
 
+double rounded_once(double value, double unit) {
+  const double rounded = std::floor(value * unit + 0.5) / unit;
+  return static_cast<float>(rounded) == static_cast<float>(value) ? value : rounded;
+}
+
 std::vector<double> floor_values(const Image& ref, const Image& test, const CompareOptions& options) {
   const double unit = lsb_per_unit(options.lsb_bits);
-  return values_of(ref, test, options.threads,
-                   [unit](double r, double) { return std::floor(r * unit + 0.5) - r * unit; });
+  return values_of(ref, test, options.threads, [unit](double r, double) { return (rounded_once(r, unit) - r) * unit; });
 }
 
 std::vector<double> worst_channel(const std::vector<double>& errors, int channels) {

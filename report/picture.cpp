@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/images/encoding.hpp"
 #include "base/images/image_file.hpp"
 
 namespace fastsplat::report {
@@ -50,9 +51,7 @@ Picture load_picture(const std::string& role, const std::filesystem::path& file)
   picture.height = picture.full_height = loaded.image.height;
   picture.channels = loaded.image.channels;
   picture.metadata = loaded.metadata;
-  // Files of other programs say nothing of their numbers: PNG and JPEG are sRGB by their own standards.
-  picture.display = loaded.metadata.contains("display") ||
-                    (loaded.metadata.empty() && (loaded.format == "png" || loaded.format == "jpeg"));
+  picture.display = images::encoding_of(loaded) != images::kLinear;
   switch (loaded.kind) {
     case images::PixelKind::RawWords:
       picture.frac_bits = loaded.frac_bits;

@@ -25,6 +25,9 @@ struct Encoding {
   Metadata metadata;
 };
 
+/// `what` of a refusal for lack of memory, which is the machine's.
+inline constexpr const char* kNoMemory = "not enough memory to decode";
+
 /// What the module does. A refusal comes back as data, not as an exception: program and module need share no symbol.
 struct Codec {
   /// Of the library that was found, "2.4.7".

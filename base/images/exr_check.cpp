@@ -78,15 +78,44 @@ std::size_t fixed_size(std::string_view type) {
   return found == kTypes.end() ? 0 : found->size;
 }
 
+constexpr std::size_t kChannel = 16;  // sample type, linearity and three reserved bytes, sampling in x and y
+
 /// Channels up to an empty name, each of four words behind its name; nothing behind.
 bool is_channel_list(Bytes value) {
-  constexpr std::size_t kChannel = 16;  // sample type, linearity and three reserved bytes, sampling in x and y
   Reader reader(value);
   for (auto name = reader.name(); name; name = reader.name()) {
     if (name->empty()) return reader.left() == 0;
     if (!reader.take(kChannel)) return false;
   }
   return false;
+}
+
+/// Each channel's name and four words.
+template <class Visit>
+void each_channel(Bytes list, const Visit& visit) {
+  Reader reader(list);
+  for (auto name = reader.name(); name && !name->empty(); name = reader.name()) {
+    if (const auto words = reader.take(kChannel)) visit(*name, *words);
+  }
+}
+
+bool is_sorted(Bytes list) {
+  bool sorted = true;
+  std::string_view before;
+  each_channel(list, [&](std::string_view name, Bytes) {
+    sorted &= before < name;
+    before = name;
+  });
+  return sorted;
+}
+
+bool is_subsampled(Bytes list) {
+  bool found = false;
+  each_channel(list, [&](std::string_view, Bytes words) {
+    Reader sampling(words.subspan(8));
+    found |= sampling.word() != 1u || sampling.word() != 1u;
+  });
+  return found;
 }
 
 /// Texts, each behind its length.
@@ -115,9 +144,9 @@ bool fits(std::string_view type, Bytes value) {
   return type != "preview" || is_preview(value);
 }
 
-}  // namespace
-
-std::string exr_defect(Bytes bytes) {
+/// Calls visit(type, value) with each attribute of all parts; it returns what is wrong, or an empty text.
+template <class Visit>
+std::string walk(Bytes bytes, const Visit& visit) {
   constexpr std::uint32_t kMagic = 20000630, kSeveralParts = 1u << 12;
   Reader reader(bytes);
   const auto magic = reader.word();
@@ -142,8 +171,29 @@ std::string exr_defect(Bytes bytes) {
     if (!value)
       return "an attribute of " + std::to_string(*length) + " bytes where " + std::to_string(left) + " are left" +
              where;
-    if (!fits(*type, *value)) return "an attribute whose length its type does not have" + where;
+    if (const std::string defect = visit(*type, *value); !defect.empty()) return defect + where;
   }
+}
+
+}  // namespace
+
+std::string exr_defect(Bytes bytes) {
+  return walk(bytes, [](std::string_view type, Bytes value) {
+    return fits(type, value) ? std::string() : "an attribute whose length its type does not have";
+  });
+}
+
+std::string exr_channel_defect(Bytes bytes) {
+  return walk(bytes, [](std::string_view type, Bytes value) {
+    return type != "chlist" || is_sorted(value) ? std::string() : "a list of channels that is not sorted by name";
+  });
+}
+
+bool exr_is_subsampled(Bytes bytes) {
+  const auto defect = walk(bytes, [](std::string_view type, Bytes value) {
+    return std::string(type == "chlist" && is_subsampled(value) ? "subsampled" : "");
+  });
+  return !defect.empty();
 }
 
 }  // namespace fastsplat::images

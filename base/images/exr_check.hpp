@@ -13,4 +13,11 @@ namespace fastsplat::images {
 /// and so are the pixels.
 std::string exr_defect(std::span<const unsigned char> bytes);
 
+/// What is wrong with the lists of channels, of a file in which exr_defect() found nothing: pixels lie in the order of
+/// names, and readers sort a list that is not sorted.
+std::string exr_channel_defect(std::span<const unsigned char> bytes);
+
+/// Whether a channel has fewer samples than there are pixels. `bytes`: exr_defect() found nothing.
+bool exr_is_subsampled(std::span<const unsigned char> bytes);
+
 }  // namespace fastsplat::images

@@ -25,7 +25,12 @@ const char* to_string(PixelKind kind);
 struct LoadedImage {
   Image image;  ///< decoded to value (integer files divided by their maximum; raw words by 2^frac_bits)
   PixelKind kind = PixelKind::Float;
-  std::string format;                ///< "openexr", "png", "tiff" or "jpeg", by content
+  std::string format;  ///< "openexr", "png", "tiff" or "jpeg", by content
+  /// What the file declares of its colours: "linear", "sRGB", "gamma 0.5", "ICC profile 'x'", ...; empty where it
+  /// declares nothing.
+  std::string encoding;
+  bool unassociated = false;         ///< the colours are not multiplied by alpha
+  std::string grey;                  ///< of one channel: its name where that is not Y, "Z"
   int frac_bits = 0;                 ///< raw words only
   std::vector<std::uint32_t> words;  ///< raw words only, as in the file
   Metadata metadata;
@@ -39,10 +44,16 @@ void require_library();
 /// OpenImageIO's, as found at run time: "2.4.7". Loads it.
 std::string library_version();
 
-/// EXR, PNG, TIFF or JPEG, told by content and not by name; 1, 3 (RGB) or 4 (RGBA) channels.
-/// Samples are taken as stored: no alpha (un)premultiplication, no colour conversion, whatever the tags say.
+/// The values' encoding: as declared, else what the format says: sRGB of PNG and JPEG, linear of EXR and TIFF.
+std::string encoding_of(const LoadedImage& loaded);
+
+/// EXR, PNG, TIFF or JPEG, told by content and not by name; 1, 3 (RGB) or 4 (RGBA) channels. Grey with alpha becomes
+/// RGBA. Channels are found by name, behind a common prefix ("diffuse.R").
+/// Samples are taken as stored: no alpha (un)premultiplication, no colour conversion. What the file declares of them is
+/// in `encoding` and `unassociated`.
 /// UserError (Input) when missing, not an image, truncated, corrupt, of unsupported channels or sample type, lossy
-/// (JPEG in TIFF), cropped, with several images in the file, or too large (a side > 65536 or more than 2^31 values).
+/// (JPEG in TIFF), cropped, turned (an orientation other than 1), in another colour model than grey and RGB, with
+/// several images in the file, or too large (a side > 65536 or more than 2^31 values).
 /// Memory grows with the data that really decodes, so that a header that lies costs nothing.
 LoadedImage read_image(const std::filesystem::path& path);
 

@@ -6,9 +6,13 @@
 
 #include "base/error.hpp"
 #include "base/images/codec.hpp"
+#include "base/images/encoding.hpp"
 #include "base/images/exr_check.hpp"
 #include "base/images/image_file.hpp"
 #include "base/images/png_check.hpp"
+#include "base/images/png_declared.hpp"
+#include "base/images/tiff_declared.hpp"
+#include "base/machine_error.hpp"
 #include "base/read_file.hpp"
 
 namespace fastsplat::images {
@@ -51,9 +55,10 @@ LoadedImage read_image(const std::filesystem::path& path) {
     if (format == nullptr) {
       refuse({{}, "not an image", "EXR, PNG, TIFF or JPEG", {}, "name an image file, or write it again"});
     }
-    const bool png = std::strcmp(format, "png") == 0;
-    if (png || std::strcmp(format, "openexr") == 0) {
-      const std::string defect = png ? png_defect(bytes) : exr_defect(bytes);
+    const bool png = std::strcmp(format, "png") == 0, exr = std::strcmp(format, "openexr") == 0;
+    if (png || exr) {
+      std::string defect = png ? png_defect(bytes) : exr_defect(bytes);
+      if (exr && defect.empty()) defect = exr_channel_defect(bytes);
       if (!defect.empty())
         refuse({{},
                 std::string("corrupt or truncated ") + (png ? "PNG: " : "EXR: ") + defect,
@@ -61,15 +66,45 @@ LoadedImage read_image(const std::filesystem::path& path) {
                 {},
                 "write the file again"});
     }
+    if (exr && exr_is_subsampled(bytes)) {
+      refuse({{},
+              "luminance/chroma EXR: a channel has fewer samples than pixels",
+              "a sample of each channel in each pixel",
+              {},
+              "write it as RGB"});
+    }
+    if (png && png_is_animated(bytes))
+      refuse({{}, "several images in one file (animated PNG)", "one", {}, "write one"});
+    if (const std::string tag = std::strcmp(format, "tiff") == 0 ? tiff_unfollowed(bytes) : ""; !tag.empty())
+      refuse({{},
+              "the tag " + tag + " is not followed",
+              "samples that mean what they say",
+              {},
+              "convert it to sRGB or linear values"});
     // The decoder fills up with grey what a cut file lacks.
     if (std::strcmp(format, "jpeg") == 0 && file.rfind("\xff\xd9") == std::string::npos)
       refuse({{}, "corrupt or truncated JPEG: its end is missing", {}, {}, "write the file again"});
-    if (auto refusal = codec().decode(format, file, loaded)) refuse(std::move(*refusal));
+    if (auto refusal = codec().decode(format, file, loaded)) {
+      if (refusal->what == kNoMemory) throw std::bad_alloc();
+      refuse(std::move(*refusal));
+    }
     loaded.format = format;
+    if (png) {
+      loaded.encoding = png_encoding(bytes);
+      // This program's PNG files hold premultiplied colours, against the PNG specification.
+      loaded.unassociated = loaded.image.channels == 4 && loaded.metadata.empty();
+    }
+    if (loaded.encoding.empty() && loaded.metadata.contains("display")) loaded.encoding = kSrgb;
+    if (loaded.encoding.empty() && !loaded.metadata.empty()) loaded.encoding = kLinear;
   } catch (const std::bad_alloc&) {
-    refuse({{}, "not enough memory to decode", {}, {}, {}});
+    throw_machine({path.string(), kNoMemory, {}, {}, {}});
   }
   return loaded;
+}
+
+std::string encoding_of(const LoadedImage& loaded) {
+  if (!loaded.encoding.empty()) return loaded.encoding;
+  return loaded.format == "png" || loaded.format == "jpeg" ? kSrgb : kLinear;
 }
 
 const char* to_string(PixelKind kind) {

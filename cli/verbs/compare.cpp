@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/images/encoding.hpp"
 #include "base/images/image_file.hpp"
 #include "base/version.hpp"
 #include "cli/output.hpp"
@@ -72,39 +73,28 @@ analysis::CompareOptions options_from(const CompareArguments& arguments) {
   return options;
 }
 
-/// Written by another program, which says nothing of its numbers: PNG and JPEG are sRGB by their own standards.
-bool is_foreign_display(const images::LoadedImage& loaded) {
-  return loaded.metadata.empty() && (loaded.format == "png" || loaded.format == "jpeg");
-}
-
-bool is_display(const images::LoadedImage& loaded) {
-  return loaded.metadata.contains("display") || is_foreign_display(loaded);
-}
-
 [[noreturn]] void not_comparable(const std::string& where, const std::string& what, const std::string& fix) {
   throw UserError(ExitCode::NotComparable, {.where = where, .what = what, .expected = {}, .got = {}, .fix = fix});
 }
 
-// A picture made for looking (sRGB curve, over black) has other numbers than a measurement of the same scene.
-void check_comparable(const CompareArguments& arguments, const images::LoadedImage& ref,
-                      const images::LoadedImage& test) {
-  if (arguments.srgb) {
-    for (const auto* picture : {&ref, &test}) {
-      if (picture->kind == images::PixelKind::Uint8 || picture->kind == images::PixelKind::Uint16) continue;
-      not_comparable(picture == &ref ? arguments.ref : arguments.test,
-                     fmt::format("holds {} values, and --srgb is said of 8 or 16 bit pictures for looking",
-                                 images::to_string(picture->kind)),
-                     "leave --srgb out and compare linear values with linear values");
-    }
-    return;
+/// Where the file declares nothing, what is taken for it.
+std::string described_encoding(const images::LoadedImage& loaded) {
+  if (!loaded.encoding.empty()) return "declares its values " + loaded.encoding;
+  return images::encoding_of(loaded) == images::kSrgb
+             ? "declares nothing and is taken as a picture for looking (sRGB), as PNG and JPEG are"
+             : "declares nothing and is taken as linear values";
+}
+
+/// Both are for looking: the user says so, and no file may say otherwise.
+void require_looks(const std::string& file, const images::LoadedImage& picture) {
+  if (picture.kind != images::PixelKind::Uint8 && picture.kind != images::PixelKind::Uint16) {
+    not_comparable(file,
+                   fmt::format("holds {} values, and --srgb is said of 8 or 16 bit pictures for looking",
+                               images::to_string(picture.kind)),
+                   "leave --srgb out and compare linear values with linear values");
   }
-  if (is_display(ref) == is_display(test)) return;
-  const bool first = is_display(ref);
-  not_comparable(first ? arguments.ref : arguments.test,
-                 is_foreign_display(first ? ref : test)
-                     ? "is taken as a picture for looking (sRGB), as PNG and JPEG are, the other as linear values"
-                     : "is a picture for looking (sRGB, 8 bit), the other holds linear values",
-                 "render both to .exr or .tif and compare those; --srgb where both are for looking");
+  if (!picture.encoding.empty() && picture.encoding != images::kSrgb)
+    not_comparable(file, described_encoding(picture) + ", and --srgb says otherwise", "leave --srgb out");
 }
 
 bool opaque(const Image& image) {
@@ -112,6 +102,35 @@ bool opaque(const Image& image) {
     if (image.data[at] != 1.0f) return false;
   }
   return true;
+}
+
+/// Samples are compared as they are stored, so both must mean the same by them.
+void check_comparable(const CompareArguments& arguments, const images::LoadedImage& ref,
+                      const images::LoadedImage& test) {
+  if (arguments.srgb) {
+    require_looks(arguments.ref, ref);
+    require_looks(arguments.test, test);
+  } else if (images::encoding_of(ref) != images::encoding_of(test)) {
+    not_comparable(arguments.ref,
+                   fmt::format("{}, {} {}", described_encoding(ref), arguments.test, described_encoding(test)),
+                   "render both to .exr or .tif and compare those; --srgb where both are for looking");
+  }
+  const bool both_have_alpha = ref.image.channels == 4 && test.image.channels == 4;
+  if (both_have_alpha && ref.unassociated != test.unassociated && !(opaque(ref.image) && opaque(test.image))) {
+    const auto said = [](const images::LoadedImage& picture) {
+      return picture.unassociated ? "colours that are not multiplied by alpha" : "colours multiplied by alpha";
+    };
+    not_comparable(arguments.ref, fmt::format("holds {}, {} {}", said(ref), arguments.test, said(test)),
+                   "convert one: oiiotool --premult or --unpremult");
+  }
+  if (ref.grey != test.grey) {
+    const auto name = [](const images::LoadedImage& picture) { return picture.grey.empty() ? "Y" : picture.grey; };
+    if (ref.image.channels == 1 && test.image.channels == 1) {
+      not_comparable(arguments.ref,
+                     fmt::format("holds channel {}, {} channel {}", name(ref), arguments.test, name(test)),
+                     "rename one where both mean the same: oiiotool --chnames Y");
+    }
+  }
 }
 
 /// Pictures for looking come as grey, RGB or with an alpha that is 1 everywhere: the same colours in three channels.
@@ -145,12 +164,27 @@ struct CompareResult {
   analysis::CompareReport report;
   Origin ref, test;
   std::string all_black;  ///< the one of the two that is, where the other is not; else empty
+  bool hidden = false;    ///< the worst error is a colour where alpha is 0 in both
 };
 
 std::vector<Remark> remarks(const CompareResult& result) {
-  if (result.all_black.empty()) return {};
-  return {
-      {Remark::Warning, result.all_black + " is all black, the other is not: whatever the figures, it shows nothing"}};
+  std::vector<Remark> out;
+  if (!result.all_black.empty()) {
+    out.push_back({Remark::Warning,
+                   result.all_black + " is all black, the other is not: whatever the figures, it shows nothing"});
+  }
+  if (result.hidden) {
+    out.push_back({Remark::Warning,
+                   "the worst error is a colour where alpha is 0 in both pictures: nobody sees it; compare what is "
+                   "visible after oiiotool --premult"});
+  }
+  return out;
+}
+
+bool is_hidden(const analysis::CompareReport& report, const Image& ref, const Image& test) {
+  const auto& worst = report.worst;
+  return report.values > 0 && report.channels == 4 && worst.channel < 3 && worst.error_lsb != 0.0 &&
+         ref.pixel(worst.x, worst.y)[3] == 0.0f && test.pixel(worst.x, worst.y)[3] == 0.0f;
 }
 
 Json to_json(const Origin& origin) {
@@ -163,6 +197,7 @@ Json to_json(const CompareResult& result) {
   Json json{{"verb", "compare"}, {"version", program_version()}};
   json.update(Json::parse(analysis::to_json(result.report)));
   json["all_black"] = result.all_black.empty() ? Json(nullptr) : Json(result.all_black);
+  json["worst_is_hidden"] = result.hidden;
   json["ref"] = to_json(result.ref);
   json["test"] = to_json(result.test);
   return json;
@@ -174,18 +209,20 @@ ExitCode run(const CompareArguments& arguments) {
   auto ref = images::read_image(arguments.ref);
   auto test = images::read_image(arguments.test);
   check_comparable(arguments, ref, test);
-  if (ref.image.channels != test.image.channels && (arguments.srgb || is_display(ref))) {
+  const bool looks = arguments.srgb || images::encoding_of(ref) == images::kSrgb;
+  if (ref.image.channels != test.image.channels && looks) {
     spell_out(ref);
     spell_out(test);
   }
   const bool black = all_black(ref.image);
   const auto options = options_from(arguments);
-  const CompareResult result{.report = analysis::compare(ref.image, test.image, options),
-                             .ref = {arguments.ref, ref.kind, ref.metadata},
-                             .test = {arguments.test, test.kind, test.metadata},
-                             .all_black = black == all_black(test.image) ? ""
-                                          : black                        ? arguments.ref
-                                                                         : arguments.test};
+  CompareResult result{.report = analysis::compare(ref.image, test.image, options),
+                       .ref = {arguments.ref, ref.kind, ref.metadata},
+                       .test = {arguments.test, test.kind, test.metadata},
+                       .all_black = black == all_black(test.image) ? ""
+                                    : black                        ? arguments.ref
+                                                                   : arguments.test};
+  result.hidden = is_hidden(result.report, ref.image, test.image);
 
   if (!arguments.map.empty()) {
     images::write_image(arguments.map, analysis::lsb_map(ref.image, test.image, options), {{"display", "srgb"}},

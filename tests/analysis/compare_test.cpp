@@ -230,6 +230,14 @@ TEST(Compare, FloorIsWhatRoundingOnceGives) {
   // A REF that lies on the grid has no floor.
   const CompareReport on_grid = compare(image_of(2, 1, 1, {0.0f, 1.0f}), image_of(2, 1, 1, {0.5f, 1.0f}));
   EXPECT_EQ(on_grid.floor.psnr_db, std::numeric_limits<double>::infinity());
+  // All values of an 8-bit file, which floats hold to 2^-25.
+  Image file(256, 1, 1);
+  for (int i = 0; i < 256; ++i) file.data[static_cast<std::size_t>(i)] = static_cast<float>(i / 255.0);
+  const CompareReport of_file = compare(file, plus(file, image_of(256, 1, 1, std::vector<float>(256, 0.25f))));
+  std::printf("[figure] floor of an 8-bit file = %g LSB (limit 0)\n", of_file.floor.max_abs_lsb);
+  EXPECT_EQ(of_file.floor.max_abs_lsb, 0.0);
+  EXPECT_EQ(of_file.floor.psnr_db, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(of_file.floor.ssim, 1.0);
 }
 
 TEST(Compare, ThreadsNeverChangeTheResult) {

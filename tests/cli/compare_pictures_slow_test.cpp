@@ -1,6 +1,7 @@
 // compare of pictures that this program did not write, of those for looking, and of one that shows nothing.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/images/image_file.hpp"
@@ -21,8 +22,19 @@ Image ramp(int channels, float scale) {
 
 class ComparePictures : public ::testing::Test {
  protected:
-  /// As another program writes it: nothing in it tells who did.
+  /// As another program writes it: nothing in it tells who did, or what its numbers are.
   std::string foreign(const std::string& name, const Image& image) const {
+    return undeclared(declared_linear(name, image));
+  }
+  /// The PNG without what it says of its numbers.
+  static std::string undeclared(const std::string& path) {
+    std::string bytes = read_bytes(path);
+    if (const auto gamma = bytes.find("gAMA"); gamma != std::string::npos) bytes.erase(gamma - 4, 16);
+    std::ofstream(path, std::ios::binary) << bytes;
+    return path;
+  }
+  /// ... but that a PNG's numbers are linear.
+  std::string declared_linear(const std::string& name, const Image& image) const {
     images::write_image(folder_ / name, image, {}, {.kind = images::PixelKind::Uint8});
     return folder_ / name;
   }
@@ -89,6 +101,52 @@ TEST_F(ComparePictures, OneThatIsAllBlackIsSaid) {
   for (std::size_t at = 3; at < veil.data.size(); at += 4) veil.data[at] = 1.0f;
   EXPECT_NE(compare({foreign("lit.tif", ramp(4, 0.5f)), foreign("veil.tif", veil)}).err.find("veil.tif is all black"),
             std::string::npos);
+}
+
+TEST_F(ComparePictures, WhatTheFilesDeclareMustAgree) {
+  const auto linear = declared_linear("linear.png", ramp(3, 1.0f)), plain = foreign("plain.png", ramp(3, 1.0f));
+  expect_success(compare({linear, linear}));
+  const auto mixed = compare({linear, plain});
+  expect_error(mixed, 4, {"linear.png: declares its values linear", "plain.png declares nothing", "sRGB"});
+  expect_error(compare({linear, linear, "--srgb"}), 4, {"declares its values linear, and --srgb says otherwise"});
+  expect_success(compare({plain, plain, "--srgb"}));
+}
+
+TEST_F(ComparePictures, AlphaThatMultipliesAndAlphaThatDoesNotAreRefused) {
+  Image glass = ramp(4, 1.0f);
+  glass.data[3] = 0.5f;
+  const auto theirs = foreign("theirs.png", glass);
+  images::write_image(folder_ / "ours.png", glass, {{"display", "srgb"}}, {.kind = images::PixelKind::Uint8});
+  const auto ours = undeclared(folder_ / "ours.png");
+  expect_error(compare({ours, theirs}), 4, {"colours multiplied by alpha", "colours that are not multiplied by alpha"});
+  expect_success(compare({theirs, theirs}));
+}
+
+TEST_F(ComparePictures, AnErrorThatNobodySeesIsSaid) {
+  Image a = ramp(4, 1.0f);
+  a.data[3] = 0.0f;
+  Image b = a;
+  b.data[0] = 1.0f;
+  const auto hidden = compare({foreign("a.png", a), foreign("b.png", b)});
+  EXPECT_EQ(hidden.code, 0) << hidden.err;
+  EXPECT_NE(hidden.err.find("alpha is 0 in both"), std::string::npos) << hidden.err;
+  EXPECT_EQ(told().at("worst_is_hidden"), true);
+  b.data[3] = 1.0f;
+  EXPECT_EQ(compare({folder_ / "a.png", foreign("b.png", b)}).err.find("alpha is 0"), std::string::npos);
+  EXPECT_EQ(told().at("worst_is_hidden"), false);
+}
+
+TEST_F(ComparePictures, GreyWithAlphaIsRgbWithAlpha) {
+  Image grey(16, 16, 4), rgb(16, 16, 3);
+  for (std::size_t pixel = 0; pixel < 256; ++pixel) {
+    for (std::size_t c = 0; c < 3; ++c)
+      grey.data[pixel * 4 + c] = rgb.data[pixel * 3 + c] = static_cast<float>(pixel) / 255.0f;
+    grey.data[pixel * 4 + 3] = 1.0f;
+  }
+  const auto four = foreign("four.png", grey), two = folder_ / "two.png";
+  ASSERT_EQ(run_words({"oiiotool", four, "--ch", "R,A", "--chnames", "Y,A", "-d", "uint8", "-o", two}).code, 0);
+  expect_success(compare({undeclared(two), foreign("three.png", rgb)}));
+  EXPECT_TRUE(told().at("identical").get<bool>());
 }
 
 }  // namespace

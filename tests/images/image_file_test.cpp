@@ -235,12 +235,13 @@ std::string read_refusal(const std::filesystem::path& path) {
 
 TEST(ImageFile, RefusesWhatItCannotMeasure) {
   const TempFolder folder;
-  write_foreign(folder / "two.exr", [](auto& spec) {
-    spec.nchannels = 2;
-    spec.channelnames = {"Y", "A"};
-    spec.alpha_channel = 1;
+  write_foreign(folder / "xyz.exr", [](auto& spec) {
+    spec.nchannels = 3;
+    spec.channelnames = {"X", "Y", "Z"};
+    spec.alpha_channel = -1;
   });
-  EXPECT_THAT(read_refusal(folder / "two.exr"), HasSubstr("expected 1, 3 or 4, got 2"));
+  EXPECT_THAT(read_refusal(folder / "xyz.exr"),
+              HasSubstr("expected Y, YA, RGB or RGBA by name, or one channel, got X, Y, Z"));
   write_foreign(folder / "depth.exr", [](auto& spec) {
     spec.channelnames = {"R", "G", "B", "Z"};
     spec.alpha_channel = -1;

@@ -11,6 +11,7 @@
 #include <new>
 #include <utility>
 
+#include "base/images/encoding.hpp"
 #include "base/images/openimageio/attributes.hpp"
 #include "base/images/openimageio/operations.hpp"
 
@@ -53,7 +54,10 @@ class Decoder {
     loaded.kind = kind();
     loaded.image.width = spec_.width;
     loaded.image.height = spec_.height;
-    loaded.image.channels = spec_.nchannels;
+    loaded.image.channels = order_.size() == 2 ? 4 : spec_.nchannels;
+    loaded.encoding = encoding();
+    loaded.unassociated = loaded.image.channels == 4 && spec_.get_int_attribute("oiio:UnassociatedAlpha") != 0;
+    if (order_.size() == 1 && spec_.channelnames[0] != "Y") loaded.grey = spec_.channelnames[0];
     auto& values = loaded.image.data;
     switch (loaded.kind) {
       case PixelKind::Float:
@@ -92,10 +96,7 @@ class Decoder {
       refuse("unusable image size", "sides of 1 to " + std::to_string(kLargestSide), size_text());
     }
     const int channels = spec_.nchannels;
-    if (channels != 1 && channels != 3 && channels != 4) {
-      refuse("unsupported channels", "1, 3 or 4", std::to_string(channels), "select channels with oiiotool --ch");
-    }
-    if (channels == 4 && spec_.alpha_channel != 3) refuse("four channels of which the fourth is not alpha", "RGBA");
+    find_channels();
     if (std::int64_t{spec_.width} * spec_.height * channels > kMostValues) {
       refuse("image too large", "at most 2^31 values", size_text());
     }
@@ -110,10 +111,79 @@ class Decoder {
         std::find(kLossless.begin(), kLossless.end(), compression) == kLossless.end()) {
       refuse("TIFF compression is not supported", "none, lzw, zip, packbits, zstd or lzma", compression);
     }
+    check_declared();
     if (spec_.tile_width != 0 && std::int64_t{spec_.tile_width} * spec_.tile_height * channels > kBlockValues) {
       refuse("tiles too large", "at most 2^22 values",
              std::to_string(spec_.tile_width) + " x " + std::to_string(spec_.tile_height));
     }
+  }
+
+  /// By name, for libraries sort them: R, G, B, A or Y, A, all behind the same prefix. One channel may have any name.
+  void find_channels() {
+    const auto& names = spec_.channelnames;
+    if (names.size() == 1) {
+      order_ = {0};
+      return;
+    }
+    std::string_view prefix = names.empty() ? std::string_view() : names[0];
+    for (std::string_view name : names) {
+      while (!name.starts_with(prefix)) prefix.remove_suffix(1);
+    }
+    for (const std::string_view wanted : {"RGB", "RGBA", "YA"}) {
+      if (wanted.size() != names.size()) continue;
+      order_.clear();
+      for (const char letter : wanted) {
+        const auto found = std::find(names.begin(), names.end(), std::string(prefix) + letter);
+        if (found == names.end()) break;
+        order_.push_back(static_cast<std::size_t>(found - names.begin()));
+      }
+      if (order_.size() == names.size()) return;
+    }
+    std::string all;
+    for (const auto& name : names) all += (all.empty() ? "" : ", ") + name;
+    refuse(names.size() == 4 ? "four channels of which the fourth is not alpha" : "unsupported channels",
+           "Y, YA, RGB or RGBA by name, or one channel", all, "select or name channels with oiiotool --ch");
+  }
+
+  /// What cannot be followed: samples are taken as stored.
+  void check_declared() {
+    if (const int orientation = spec_.get_int_attribute("Orientation", 1); orientation != 1) {
+      refuse("the image is stored turned: orientation " + std::to_string(orientation), "1", {},
+             "write it upright with oiiotool --reorient");
+    }
+    const std::string model = spec_.get_string_attribute(std::string(input_->format_name()) + ":ColorSpace");
+    constexpr int kPalette = 3;  // WhiteIsZero, BlackIsZero, RGB and palette are read as grey and RGB
+    const bool followed = model.empty() || model == "palette";
+    if (!followed || spec_.get_int_attribute("tiff:PhotometricInterpretation") > kPalette)
+      refuse("unsupported colour model", "grey or RGB", model, "convert it to RGB");
+    // The decoder turns samples of 8 bits and less, and no others.
+    const bool white_is_zero = std::strcmp(input_->format_name(), "tiff") == 0 &&
+                               spec_.get_int_attribute("tiff:PhotometricInterpretation", 1) == 0;
+    if (white_is_zero && spec_.format != TypeDesc::UINT8)
+      refuse("white is 0 (WhiteIsZero)", "BlackIsZero where samples have more than 8 bits", {}, "invert it");
+  }
+
+  std::string encoding() const {
+    if (spec_.find_attribute("ICCProfile") != nullptr)
+      return profile_encoding(spec_.get_string_attribute("ICCProfile:profile_description", "unnamed"));
+    const auto* declared = spec_.find_attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8));
+    if (declared == nullptr) return {};
+    Primaries primaries{};
+    std::copy_n(static_cast<const float*>(declared->data()), primaries.size(), primaries.begin());
+    return with_primaries(kLinear, primaries);
+  }
+
+  /// Into the order R, G, B, A; grey with alpha is RGB with alpha.
+  template <typename T>
+  std::vector<T> in_order(std::vector<T> samples) const {
+    const std::vector<std::size_t> as_rgba{order_[0], order_[0], order_[0], order_.back()};
+    const auto& order = order_.size() == 2 ? as_rgba : order_;
+    if (order.size() == order_.size() && std::is_sorted(order.begin(), order.end())) return samples;
+    std::vector<T> out;
+    out.reserve(samples.size() / order_.size() * order.size());
+    for (std::size_t pixel = 0; pixel < samples.size(); pixel += order_.size())
+      for (const std::size_t channel : order) out.push_back(samples[pixel + channel]);
+    return out;
   }
 
   std::string size_text() const {
@@ -171,7 +241,7 @@ class Decoder {
       if (!read || input_->has_error()) corrupt("pixels");
       y = end;
     }
-    return out;
+    return in_order(std::move(out));
   }
 
   template <typename T>
@@ -192,6 +262,7 @@ class Decoder {
   OIIO::Filesystem::IOMemReader memory_;
   std::unique_ptr<OIIO::ImageInput> input_;
   OIIO::ImageSpec spec_;
+  std::vector<std::size_t> order_;  ///< where each channel lies in a pixel
 };
 
 }  // namespace
@@ -203,7 +274,7 @@ std::optional<ErrorParts> decode(const std::string& format, std::string_view byt
   } catch (Refused& refused) {
     return std::move(refused.parts);
   } catch (const std::bad_alloc&) {
-    return ErrorParts{{}, "not enough memory to decode", {}, {}, {}};
+    return ErrorParts{{}, kNoMemory, {}, {}, {}};
   } catch (const std::exception& error) {  // the decoders' own
     return ErrorParts{{}, std::string("corrupt: ") + error.what(), {}, {}, {}};
   }

@@ -1,0 +1,26 @@
+#include "base/images/encoding.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace fastsplat::images {
+
+std::string with_primaries(const std::string& transfer, const Primaries& primaries) {
+  constexpr Primaries kOfSrgb{0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290};
+  constexpr double kStep = 1e-3;  // three digits are what writers give
+  std::string text;
+  bool differ = false;
+  for (std::size_t i = 0; i < primaries.size(); ++i) {
+    differ |= !(std::abs(primaries[i] - kOfSrgb[i]) <= kStep);
+    std::array<char, 32> number{};
+    std::snprintf(number.data(), number.size(), "%s%.4g", i == 0 ? "" : " ", primaries[i]);
+    text += number.data();
+  }
+  return differ ? transfer + " with primaries " + text : transfer;
+}
+
+std::string profile_encoding(const std::string& name) {
+  return name.starts_with("sRGB") ? kSrgb : "ICC profile '" + name + "'";
+}
+
+}  // namespace fastsplat::images

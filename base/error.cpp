@@ -1,26 +1,9 @@
 #include "base/error.hpp"
 
-#include <array>
-#include <cstdio>
+#include "base/printable.hpp"
 
 namespace fastsplat {
 namespace {
-
-std::string printable(const std::string& text) {
-  std::string out;
-  for (const unsigned char c : text) {
-    if (c == '\n' || c == '\r' || c == '\t') {
-      out += ' ';
-    } else if (c < 0x20 || c == 0x7f) {
-      std::array<char, 8> escape{};
-      std::snprintf(escape.data(), escape.size(), "\\x%02x", c);
-      out += escape.data();
-    } else {
-      out += static_cast<char>(c);
-    }
-  }
-  return out;
-}
 
 /// What a user quotes may be a megabyte. Longer than any path, it is identified by its begin and its end.
 void shorten(std::string& text) {

@@ -11,6 +11,8 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/json_text.hpp"
+#include "base/machine_error.hpp"
+#include "base/printable.hpp"
 #include "cli/again.hpp"
 
 namespace fastsplat::cli {
@@ -34,7 +36,8 @@ bool set(const char* variable) {
   return value != nullptr && *value != '\0';
 }
 
-void talk(const std::string& label, const char* colour, const std::string& text) {
+void talk(const std::string& label, const char* colour, const std::string& words) {
+  const std::string text = printable_lines(words);
   // What goes wrong on stderr cannot be told anyone.
   if (stderr_has_colour()) {
     write_all(STDERR_FILENO, fmt::format("\033[{}m{}\033[0m {}\n", colour, label, text));
@@ -53,11 +56,11 @@ bool write_stdout(std::string_view text) {
     reader_gone = true;
     return false;
   }
-  throw_input({.where = "standard output",
-               .what = std::string("cannot write: ") + std::strerror(errno),
-               .expected = {},
-               .got = {},
-               .fix = "send it to a place that takes it"});
+  throw_machine({.where = "standard output",
+                 .what = std::string("cannot write: ") + std::strerror(errno),
+                 .expected = {},
+                 .got = {},
+                 .fix = "send it to a place that takes it"});
 }
 
 bool stderr_is_terminal() {
@@ -72,10 +75,7 @@ bool stderr_has_colour() { return stderr_is_terminal() && !set("NO_COLOR"); }
 
 void print_error(std::string_view message) noexcept {
   try {
-    std::string line(message);
-    for (char& c : line) {
-      if (c == '\n' || c == '\r') c = ' ';
-    }
+    std::string line = printable(message);
     while (!line.empty() && line.back() == ' ') line.pop_back();
     talk("fastsplat: error:", "1;31", line);
   } catch (...) {
@@ -98,7 +98,7 @@ std::string counted(unsigned long long number, const std::string& what) {
 }
 
 void Output::line(const std::string& text) const {
-  if (!common_.quiet && common_.json != "-") write_stdout(text.ends_with('\n') ? text : text + "\n");
+  if (!common_.quiet && common_.json != "-") write_stdout(printable_lines(text.ends_with('\n') ? text : text + "\n"));
 }
 
 void Output::json(const nlohmann::ordered_json& json) const {

@@ -5,10 +5,13 @@
 #include <algorithm>
 
 #include "base/number_text.hpp"
+#include "base/printable.hpp"
 
 namespace fastsplat::cli {
 
-std::string to_text(const TextTable& table) {
+std::string to_text(const TextTable& raw) {
+  TextTable table = raw;
+  for (auto& row : table.rows) std::ranges::transform(row, row.begin(), printable);
   const std::size_t columns = table.columns.size();
   std::vector<std::size_t> widths(columns);
   std::vector<char> right(columns, 1);

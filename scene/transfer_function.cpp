@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "base/error.hpp"
@@ -26,17 +27,25 @@ namespace {
 
 constexpr double kMaxOpacity = 0.9999;
 
+const std::vector<std::string> kDomains{"value", "range", "percentile", "hounsfield", "content"};
+
 Domain read_domain(TomlTable& table) {
-  const std::vector<std::string> names = {"value", "range", "percentile", "hounsfield", "content"};
   const std::string name = table.text("domain").value_or("range");
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) table.refuse("domain", "unknown domain", {}, "\"" + name + "\"", suggestion(name, names));
-  return static_cast<Domain>(found - names.begin());
+  const auto found = std::find(kDomains.begin(), kDomains.end(), name);
+  if (found == kDomains.end())
+    table.refuse("domain", "unknown domain", {}, "\"" + name + "\"", suggestion(name, kDomains));
+  return static_cast<Domain>(found - kDomains.begin());
 }
 
 ControlPoint read_point(TomlTable& table, Domain domain) {
-  const double reach = domain == Domain::Value ? 1e30 : domain == Domain::Hounsfield ? 1e5 : 10.0;
-  const auto at = table.number("at", -reach, reach);
+  constexpr double kValues = 1e30, kShares = 10.0;
+  const auto at = table.number("at", -kValues, kValues);
+  const bool shares = domain != Domain::Value && domain != Domain::Hounsfield;
+  if (at && shares && std::abs(*at) > kShares) {
+    table.refuse("at", fmt::format("value out of range of domain = \"{}\"", kDomains[static_cast<std::size_t>(domain)]),
+                 fmt::format("a number in {}..{}", -kShares, kShares), fmt::format("{}", *at),
+                 "write domain = \"value\" for stored values, or domain = \"hounsfield\" for HU");
+  }
   const auto colour = table.triple("colour", 0.0, 1.0);
   const auto opacity = table.number("opacity", 0.0, 1.0);
   table.finish();

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/printable.hpp"
 #include "base/suggest.hpp"
 
 namespace fastsplat::plan {
@@ -71,8 +72,8 @@ std::vector<std::string> usual_columns(const Merged& merged, const std::vector<c
 
 std::string title_of(const Merged& merged, const std::string& column) {
   const auto metric = std::ranges::find(merged.metrics, column, &Metric::name);
-  if (metric == merged.metrics.end() || metric->unit.empty()) return column;
-  return fmt::format("{} [{}]", column, metric->unit);
+  if (metric == merged.metrics.end() || metric->unit.empty()) return printable(column);
+  return printable(fmt::format("{} [{}]", column, metric->unit));
 }
 
 /// What is not there comes last, numbers before texts.
@@ -83,11 +84,12 @@ bool before(const Cell& a, const Cell& b) {
 }
 
 std::string short_text(const Cell& cell) {
-  if (!cell.number) return cell.text.empty() ? "-" : cell.text;
+  if (!cell.number) return cell.text.empty() ? "-" : printable(cell.text);
   return fmt::format("{:.6g}", *cell.number);
 }
 
-std::string csv_word(const std::string& text) {
+std::string csv_word(const std::string& raw) {
+  const std::string text = printable_lines(raw);
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/atomic_file.hpp"
+#include "base/printable.hpp"
 #include "base/version.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
@@ -112,7 +113,7 @@ ExitCode run(const ReportArguments& arguments) {
 
   const bool judged = made.verdict.status != report::Status::Measured;
   if (!made.verdict.sentence.empty())
-    output.line((judged ? to_string(made.verdict.status) + std::string(": ") : "") + made.verdict.sentence);
+    output.line((judged ? to_string(made.verdict.status) + std::string(": ") : "") + printable(made.verdict.sentence));
   for (const auto& face : {arguments.junit, arguments.csv, arguments.markdown}) {
     if (!face.empty()) output.line(fmt::format("{}: {}", face, counted(request.results.size(), "result")));
   }

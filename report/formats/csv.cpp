@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "base/json_text.hpp"
+#include "base/printable.hpp"
 #include "report/formats/face.hpp"
 #include "report/formats/faces.hpp"
 
@@ -8,7 +9,8 @@ namespace fastsplat::report {
 namespace {
 
 /// RFC 4180: in quotes where it holds what would end it, quotes doubled.
-std::string field(const std::string& text) {
+std::string field(const std::string& raw) {
+  const std::string text = printable_lines(raw);
   if (text.find_first_of("\",\r\n") == text.npos) return text;
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);

@@ -27,6 +27,10 @@ std::string xml(const std::string& text) {
     } else if (byte < 0x20 || text.compare(at, 3, "\xEF\xBF\xBE") == 0 || text.compare(at, 3, "\xEF\xBF\xBF") == 0) {
       out += "\xEF\xBF\xBD";
       if (byte >= 0x20) at += 2;
+    } else if (byte == 0x7f ||
+               (byte == 0xc2 && at + 1 < text.size() && static_cast<unsigned char>(text[at + 1]) < 0xa0)) {
+      out += "\xEF\xBF\xBD";  // XML has them, and terminals obey them
+      if (byte == 0xc2) ++at;
     } else {
       out += c;
     }

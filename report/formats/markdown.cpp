@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/json_text.hpp"
+#include "base/printable.hpp"
 #include "report/formats/face.hpp"
 #include "report/formats/faces.hpp"
 
@@ -15,7 +16,7 @@ constexpr std::size_t kMostRows = 50, kMostColumns = 12, kMostText = 100;
 /// In a cell: no bar, no line end, no mark of Markdown's or HTML's own.
 std::string cell(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : printable_lines(text)) {
     if (c == '\n' || c == '\r') {
       out += "<br>";
     } else if (c == '<') {
@@ -32,8 +33,7 @@ std::string cell(const std::string& text) {
 std::string code(const std::string& text) {
   std::string marks = "`";
   while (text.find(marks) != text.npos) marks += "`";
-  std::string one = text;
-  std::replace(one.begin(), one.end(), '\n', ' ');
+  const std::string one = printable(text);
   return marks + (marks.size() > 1 ? " " + one + " " : one) + marks;
 }
 

@@ -69,5 +69,53 @@ TEST(ForeignBytes, ASceneThatTomlCannotHoldIsRefusedBeforeTheWork) {
   EXPECT_EQ(folder.entries(), before);
 }
 
+/// Neither stdout nor stderr nor a page holds what a terminal obeys.
+TEST(ForeignBytes, ControlBytesOfNamesAreEscapedEverywhere) {
+  const TempFolder folder;
+  const std::string name =
+                        "a\x1b[31mred\xc2\x9b"
+                        "0m\xff",
+                    picture = folder / (name + ".png"), volume = folder / (name + ".nrrd"),
+                    result = folder / (name + ".json");
+  const std::vector<std::vector<std::string>> commands{
+      {"volume", "convert", "shells:8", volume},
+      {"volume", "info", volume},
+      {"render", "--volume", volume, "--size", "16", "-o", picture},
+      {"compare", picture, picture, "--json", result},
+      {"report", result, "--markdown", folder / "r.md", "--csv", folder / "r.csv", "--junit", folder / "r.xml", "-o",
+       folder / "r.html"},
+      {"report", result, "--markdown", folder / (name + ".md")},
+      {"compare", picture, picture, "--json", "-"},
+      {"volume", "info", folder / (name + "x.nrrd")},
+      {"render", "--volume", volume, "--size", "16", "-o", folder / (name + ".gif")},
+  };
+  std::size_t texts = 0;
+  const auto check = [&](const std::string& text, const std::string& of) {
+    EXPECT_EQ(text.find('\x1b'), std::string::npos) << of;
+    EXPECT_EQ(text.find("\xc2\x9b"), std::string::npos) << of;
+    texts += text.empty() ? 0 : 1;
+  };
+  for (const auto& command : commands) {
+    const auto run = fastsplat(command);
+    const std::string& last = command.back();
+    EXPECT_EQ(run.code, last.ends_with("x.nrrd") ? 3 : last.ends_with(".gif") ? 2 : 0) << run.err;
+    check(run.out, command[0] + " " + command[1] + ", stdout");
+    check(run.err, command[0] + " " + command[1] + ", stderr");
+  }
+  check(read_bytes(result), "JSON");
+  for (const char* file : {"r.md", "r.csv", "r.xml", "r.html"}) check(read_bytes(folder / file), file);
+  std::printf("[figure] texts looked at = %zu (limit 10)\n", texts);
+  EXPECT_GE(texts, 10u);
+}
+
+TEST(ForeignBytes, NoNameIsSuggestedForItself) {
+  const TempFolder folder;
+  const std::string picture = folder / (kName + ".png");
+  expect_success(fastsplat({"render", "--volume", "shells:8", "--size", "16", "-o", picture}));
+  expect_error(fastsplat({"compare", folder / (kAsUtf8 + ".png"), picture}), 3, {"no such file", "rename the file"});
+  const auto near = fastsplat({"compare", folder / "cafe.png", picture});
+  EXPECT_EQ(near.err.find("did you mean"), std::string::npos) << near.err;
+}
+
 }  // namespace
 }  // namespace fastsplat::cli_test

@@ -215,6 +215,11 @@ TEST_F(TransferFunctionFile, RefusesWithLineColumnAndHint) {
               HasSubstr("tf.toml:3:11: shading.ambient: value out of range (expected a number in 0..1, got 2)"));
   EXPECT_THAT(refused(point + "[shading]\non = 1\n"), HasSubstr("true or false"));
   EXPECT_THAT(refused("points = []\n"), HasSubstr("missing or empty"));
+  // Hounsfield units, and the domain that nothing says.
+  for (const std::string domain : {"", "domain = \"percentile\"\n"}) {
+    EXPECT_THAT(refused(domain + "points = [{at = 40, colour = [0, 0.5, 1], opacity = 0}]\n"),
+                HasSubstr("got 40); write domain = \"value\""));
+  }
   EXPECT_THAT(refused("domain = \"value\"\n"), HasSubstr("missing or empty"));
   EXPECT_THAT(refused("points = 3\n"), HasSubstr("array of tables"));
   EXPECT_THAT(refused("points = [1]\n"), HasSubstr("array of tables"));

@@ -86,5 +86,14 @@ TEST(PlanTable, ChoosesSortsAndWrites) {
   EXPECT_THAT(error_of([&] { plan::table_of(merged, {.columns = {"csot"}}); }), HasSubstr("did you mean 'cost'"));
 }
 
+TEST(PlanTable, ControlBytesOfValuesAreEscaped) {
+  auto merged = rows_of({{3, 30}, {1, 10}});
+  merged.rows[0].axes[0].value = std::string("a\x1b[31m\n|b");
+  const auto table = plan::table_of(merged, {.columns = {"k", "cost"}});
+  EXPECT_NE(plan::to_text(table).find("a\\x1b[31m |b  "), std::string::npos) << plan::to_text(table);
+  EXPECT_NE(plan::to_markdown(table).find("| a\\x1b[31m \\|b | 3 |"), std::string::npos) << plan::to_markdown(table);
+  EXPECT_NE(plan::to_csv(table).find("\"a\\x1b[31m\n|b\",3"), std::string::npos) << plan::to_csv(table);
+}
+
 }  // namespace
 }  // namespace fastsplat::plan_test

@@ -7,6 +7,8 @@
 #include <initializer_list>
 #include <sstream>
 
+#include "base/suggest.hpp"
+
 namespace fastsplat::cli {
 
 namespace {
@@ -75,7 +77,9 @@ void Options::example(const std::string& command, const std::string& does, Examp
 Options::Problem Options::one_of(const std::vector<std::string>& names) {
   return [names](const std::string& text) -> std::string {
     if (std::find(names.begin(), names.end(), text) != names.end()) return {};
-    return fmt::format("expected {}, got '{}'", fmt::join(names, " or "), text);
+    const std::string meant = suggestion(text, names);
+    return fmt::format("expected {}, got '{}'{}", fmt::join(names, " or "), text,
+                       meant.starts_with("did you mean") ? "; " + meant : "");
   };
 }
 

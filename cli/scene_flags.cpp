@@ -147,9 +147,11 @@ scene::SceneDescription describe(const SceneFlags& flags, const scene::Sequence*
   scene::SceneDescription to = file.description;
   if (flags.volume) check_volume_name(*flags.volume);
   set(to.volume, flags.volume);
+  if (flags.volume) to.volume_place.clear();
   if (const auto& tf = flags.transfer_function; tf && !tf->empty())
     as_word(*tf, [&] { scene::load_transfer_function(*tf); });
   set(to.transfer_function, flags.transfer_function);
+  if (flags.transfer_function) to.transfer_function_place.clear();
   if (flags.nan_as) to.nan_as = reading(flags.nan_as).nan_as;
   apply_kernel(flags, to);
   apply_camera(flags, to);

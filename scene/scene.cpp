@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/machine_error.hpp"
 #include "scene/capability.hpp"
 #include "scene/content_fit.hpp"
 #include "scene/settings.hpp"
@@ -27,6 +28,19 @@ std::string preset_for(const std::string& volume) {
   return "default";
 }
 
+/// What `load` gives; its refusal says where a scene file names what it loads.
+template <class Load>
+auto named_at(const std::string& place, const Load& load) {
+  try {
+    return load();
+  } catch (const UserError& error) {
+    if (place.empty()) throw;
+    ErrorParts parts = error.parts();
+    parts.where = place + (parts.where.empty() ? "" : ": " + parts.where);
+    throw_again(error, std::move(parts), error.code());
+  }
+}
+
 Kernel make_kernel(const SceneDescription& description) {
   return description.kernel.empty() ? Kernel(description.kernel_a, description.kernel_radius)
                                     : kernel_by_name(description.kernel);
@@ -39,8 +53,9 @@ Scene build_scene(const SceneDescription& description) {
   check_capability(description, kOffersAll);
   volume::ReadOptions reading;
   if (description.nan_as) reading.nan_as = static_cast<float>(*description.nan_as);
-  return build_scene(description,
-                     std::make_shared<const volume::Volume>(volume::load_volume(description.volume, reading)));
+  return build_scene(description, named_at(description.volume_place, [&] {
+                       return std::make_shared<const volume::Volume>(volume::load_volume(description.volume, reading));
+                     }));
 }
 
 Scene build_scene(const SceneDescription& description, std::shared_ptr<const volume::Volume> whole) {
@@ -51,8 +66,10 @@ Scene build_scene(const SceneDescription& description, std::shared_ptr<const vol
   const double unit = volume->kernel_unit();
   const Camera camera(description.camera, *volume, kernel.radius() * unit, description.width, description.height);
   check_techniques(description.motion, description.lens, camera, volume->bounding_radius() + kernel.radius() * unit);
-  TransferFunction tf = load_transfer_function(description.transfer_function.empty() ? preset_for(description.volume)
-                                                                                     : description.transfer_function);
+  TransferFunction tf = named_at(description.transfer_function_place, [&] {
+    return load_transfer_function(description.transfer_function.empty() ? preset_for(description.volume)
+                                                                        : description.transfer_function);
+  });
   auto remarks = whole->remarks;
   if (const auto remark = remark_on(tf, *whole); !remark.empty()) remarks.push_back(remark);
   if (!description.crop.everything()) tf = resolved(tf, *whole);  // colours stay as they were

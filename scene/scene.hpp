@@ -53,6 +53,8 @@ struct SceneDescription {
   VoxelBox crop{};                 ///< voxels outside are not there
   Display display{};               ///< of pictures for looking
   std::optional<double> nan_as{};  ///< in the place of voxels that are not finite; without it they are refused
+  /// "scene.toml:1:10" where a file names the volume and the transfer function; empty where none does.
+  std::string volume_place{}, transfer_function_place{};
 };
 
 /// Ready to render: files read, names resolved, limits checked.

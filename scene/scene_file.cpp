@@ -110,10 +110,12 @@ SceneFile read_scene_file(const fs::path& path) {
     if (text->empty())
       root.refuse("volume", "empty", "a volume's path or name", {}, "for example volume = \"shells:64\"");
     d.volume = is_known_volume(*text) ? *text : anchored(*text, folder);
+    d.volume_place = root.where("volume");
   }
   d.nan_as = root.number("nan_as", -kLargestVoxel, kLargestVoxel);
   if (const auto text = root.text("transfer_function")) {
     d.transfer_function = text->empty() || is_preset(*text) ? *text : anchored(*text, folder);
+    d.transfer_function_place = root.where("transfer_function");
     const bool file = fs::path(*text).has_parent_path() || fs::path(*text).extension() == ".toml";
     if (!text->empty() && !is_preset(*text) && !file) {
       root.refuse("transfer_function", "unknown preset", {}, "\"" + *text + "\"",

@@ -373,7 +373,12 @@ std::optional<ErrorParts> set(Config& config, std::string_view name, std::string
     if (error == std::errc::result_out_of_range) return refuse("out of range");
   } else {
     const auto found = std::find(key->names.begin(), key->names.end(), text);
-    if (found == key->names.end()) return refuse("is no such word");
+    if (found == key->names.end()) {
+      ErrorParts wrong = refuse("is no such word");
+      const std::vector<std::string> known(key->names.begin(), key->names.end());
+      if (const auto meant = suggestion(text, known); meant.starts_with("did you mean")) wrong.fix = meant;
+      return wrong;
+    }
     value = static_cast<int>(found - key->names.begin());
   }
   if (auto violation = key_violation(*key, value)) return violation;

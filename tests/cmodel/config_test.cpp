@@ -1,6 +1,7 @@
 // Every limit of a configuration, broken once: the message names the key and has both numbers.
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <set>
 
 #include "tests/cmodel/configs_helper.hpp"
@@ -313,6 +314,26 @@ TEST(ConfigSet, WhatIsWrongIsToldAndNothingChanges) {
     EXPECT_FALSE(told->fix.empty()) << wrong.key;
     EXPECT_EQ(config, named_config("base")) << wrong.key << " has changed it";
   }
+}
+
+TEST(ConfigSet, AMistypedWordIsSuggested) {
+  int words = 0;
+  for (const auto& key : cmodel::config_keys()) {
+    for (const std::string name : key.names) {
+      std::string typed = name;
+      std::swap(typed[typed.size() - 1], typed[typed.size() - 2]);
+      if (typed == name || name.size() < 3) continue;
+      cmodel::Config config = named_config("base");
+      const auto wrong = cmodel::set(config, key.name, typed);
+      ASSERT_TRUE(wrong) << key.name << " = " << typed;
+      EXPECT_EQ(wrong->fix, "did you mean '" + name + "'?") << key.name;
+      ++words;
+    }
+  }
+  std::printf("[figure] words mistyped = %d (limit > 10)\n", words);
+  EXPECT_GT(words, 10);
+  cmodel::Config config = named_config("base");
+  EXPECT_EQ(cmodel::set(config, "index.kind", "rltu")->fix, "did you mean 'rlut'?");
 }
 
 TEST(ConfigHash, ANeutralKeyDoesNotEnterItAndAnyOtherValueDoes) {

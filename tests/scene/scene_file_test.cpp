@@ -43,7 +43,7 @@ SceneDescription unusual(Method method) {
     d.xray_sheets = 9;
     d.xray_exposure = 0.7;
   }
-  d.shading = 1;
+  if (method != Method::XRay) d.shading = 1;
   d.opacity_scale = 1e-3;
   return d;
 }
@@ -123,6 +123,24 @@ TEST_F(SceneFile, RefusesWithLineColumnAndHint) {
   EXPECT_THAT(refused("volume = 3\n"), HasSubstr("text in quotes"));
   EXPECT_THAT(refused("volume = \"a\"\nvolume = \"b\"\n"), HasSubstr("not valid TOML"));
   EXPECT_THAT(refused("[slabs]\nwidth = inf\n"), HasSubstr("out of range"));
+}
+
+TEST_F(SceneFile, WhatItNamesIsRefusedWithItsPlace) {
+  const auto refused_later = [&](const std::string& text) {
+    const SceneDescription d = load(text);
+    try {
+      build_scene(d);
+    } catch (const UserError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(refused_later("[image]\nsize = 8\n\n"), "");
+  EXPECT_THAT(refused_later("\nvolume = \"gone.nrrd\"\n"), HasSubstr("scene.toml:2:10: "));
+  EXPECT_THAT(refused_later("volume = \"scene.toml\"\n"), HasSubstr("scene.toml:1:10: "));
+  EXPECT_THAT(refused_later("volume = \"shells:0\"\n"), HasSubstr("scene.toml:1:10: "));
+  EXPECT_THAT(refused_later("volume = \"shells:8\"\ntransfer_function = \"gone.toml\"\n"),
+              HasSubstr("scene.toml:2:21: "));
 }
 
 TEST(BuildScene, ChoosesTheTransferFunctionByVolume) {

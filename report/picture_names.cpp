@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <regex>
 
 #include "base/error.hpp"
 
@@ -72,16 +71,18 @@ std::vector<NamedPicture> pictures_of(const Result& result) {
 }
 
 NamedPicture picture_from(const std::string& text) {
-  static const std::regex shape(R"(([a-z][a-z0-9-]*)=(.+))");
-  std::smatch match;
-  if (!std::regex_match(text, match, shape)) {
+  const auto equals = std::min(text.find('='), text.size());
+  const std::string role = text.substr(0, equals), file = text.substr(std::min(equals + 1, text.size()));
+  const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  const auto in_role = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-'; };
+  if (role.empty() || file.empty() || !is_letter(role[0]) || !std::all_of(role.begin(), role.end(), in_role)) {
     throw_usage({.where = "--picture",
                  .what = "not a picture with its role",
                  .expected = "ROLE=FILE, the role of small letters: golden, integer, rtl, blame",
                  .got = "'" + text + "'",
                  .fix = "for example --picture rtl=rtl.exr"});
   }
-  return {.role = match[1], .file = match[2].str(), .otherwise = match[1], .wanted = true};
+  return {.role = role, .file = file, .otherwise = role, .wanted = true};
 }
 
 }  // namespace fastsplat::report

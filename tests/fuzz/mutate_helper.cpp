@@ -131,6 +131,7 @@ std::vector<Input> hard_texts() {
       "x = " + times(100'000, "[") + times(100'000, "]") + "\n",
       mega + " = 1\n",
       "kind = \"" + mega + "\"\n",
+      "<testcase name=\"" + mega + "\" status=\"run\">",
       times(100'000, "[") + times(100'000, "]"),
       times(100'000, "{\"a\":") + "1" + times(100'000, "}"),
       "{\"format\": \"fastsplat plan result 1\", \"checksum\": \"\", \"results\": " + times(100'000, "[") +

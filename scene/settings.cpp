@@ -113,11 +113,11 @@ std::vector<std::string> setting_tables() {
 std::string problem_with(const Setting& setting, const std::string& text) {
   const std::string expected = expected_instead(setting, text);
   if (expected.empty()) return {};
-  std::string hint;
-  if (const auto* choice = std::get_if<Choice>(&setting.value)) {
-    hint = suggestion(text, choice->names());
-    hint = hint.starts_with("did you mean") ? "; " + hint : std::string{};
-  }
+  std::vector<std::string> names;
+  if (const auto* choice = std::get_if<Choice>(&setting.value)) names = choice->names();
+  if (std::holds_alternative<Switch>(setting.value)) names = {"on", "off"};
+  std::string hint = suggestion(text, names);
+  hint = hint.starts_with("did you mean") ? "; " + hint : std::string{};
   return fmt::format("expected {}, got '{}'{}", expected, text, hint);
 }
 

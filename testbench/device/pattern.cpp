@@ -1,8 +1,11 @@
 #include "testbench/device/pattern.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <vector>
 
 #include "base/error.hpp"
+#include "base/suggest.hpp"
 
 namespace fastsplat::testbench {
 
@@ -19,10 +22,13 @@ Pattern::Pattern(const std::string& text, std::uint64_t seed) : seed_(mix(seed))
                  .fix = fix});
   };
   if (text == "always") return;
-  const auto dash = text.find('-');
-  if (dash == std::string::npos) refuse();
+  const auto dash = std::min(text.find('-'), text.size());
   const std::string name = text.substr(0, dash);
+  const std::vector<std::string> words{"always", "every", "alternate", "burst", "random"};
+  const bool known = std::find(words.begin(), words.end(), name) != words.end();
   if (name == "never") refuse("N cycles on, N cycles off is alternate" + text.substr(dash));
+  if (const auto meant = suggestion(name, words); !known && meant.starts_with("did you mean")) refuse(meant);
+  if (dash == text.size()) refuse();
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data() + dash + 1, end, number_);
   const bool percent = name == "random";

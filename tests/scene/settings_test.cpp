@@ -23,6 +23,23 @@ std::vector<double> outside(const Kind& kind) {
   return {kind.low - 1e-3 * (std::abs(kind.low) + 1), kind.high * 1.01 + 1e-9};
 }
 
+TEST(Settings, AMistypedWordIsSuggested) {
+  int words = 0;
+  for (const Setting& setting : settings()) {
+    std::vector<std::string> names;
+    if (const auto* choice = std::get_if<Choice>(&setting.value)) names = choice->names();
+    if (std::holds_alternative<Switch>(setting.value)) names = {"off"};
+    for (const std::string& name : names) {
+      if (name.size() < 3) continue;
+      EXPECT_THAT(problem_with(setting, name.substr(0, name.size() - 1)), HasSubstr("did you mean '"))
+          << setting.key << " " << name;
+      ++words;
+    }
+  }
+  std::printf("[figure] words mistyped = %d (limit > 20)\n", words);
+  EXPECT_GT(words, 20);
+}
+
 TEST(Settings, LimitsAreCheckedForDescriptionsAndFlags) {
   int checked = 0;
   for (const Setting& setting : settings()) {

@@ -26,8 +26,8 @@ bool may_mean(std::string_view got, std::string_view name) {
   const auto letters = got.size() - std::min(got.find_first_not_of('-'), got.size());
   const int allowed = std::clamp(static_cast<int>(letters + 1) / 3, 1, 3);
   // The lengths alone refuse a word of a megabyte.
-  const auto [shorter, longer] = std::minmax(got.size(), name.size());
-  if (longer - shorter > static_cast<std::size_t>(allowed)) return false;
+  const std::size_t apart = got.size() > name.size() ? got.size() - name.size() : name.size() - got.size();
+  if (apart > static_cast<std::size_t>(allowed)) return false;
   const int distance = edit_distance(got, name);
   return distance <= allowed && distance < static_cast<int>(name.size());
 }

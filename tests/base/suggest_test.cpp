@@ -44,6 +44,14 @@ TEST(Suggest, FarFetchedIsNoSuggestion) {
   EXPECT_EQ(suggestion("linaer", presets), "did you mean 'linear'?");
 }
 
+TEST(Suggest, AWordOfAMegabyteCostsNothing) {
+  const std::vector<std::string> known(200, "radius.entries");
+  EXPECT_FALSE(may_mean(std::string(1'000'000, 'r'), known[0]));
+  EXPECT_TRUE(may_mean("radius.entrie", known[0]));
+  EXPECT_TRUE(may_mean("radius.entriess", known[0]));
+  EXPECT_EQ(suggestion(std::string(1'000'000, 'r'), known).substr(0, 6), "known:");
+}
+
 TEST(Suggest, AShortNameIsNoSuggestionForAnything) {
   const std::vector<std::string> known = {"a", "radius"};  // "a" is within 3 edits of every short word
   EXPECT_EQ(suggestion("xyz", known), "known: a, radius");

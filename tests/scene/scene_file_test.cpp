@@ -43,7 +43,7 @@ SceneDescription unusual(Method method) {
     d.xray_sheets = 9;
     d.xray_exposure = 0.7;
   }
-  if (method != Method::XRay) d.shading = 1;
+  d.shading = 1;
   d.opacity_scale = 1e-3;
   return d;
 }

@@ -62,7 +62,7 @@ TransferFunction resolved(const TransferFunction& tf, const volume::Volume& volu
 }
 
 std::string remark_on(const TransferFunction& tf, const volume::Volume& volume) {
-  if (tf.domain != Domain::Hounsfield || water_value(volume)) return {};
+  if (tf.domain != Domain::Hounsfield || volume.built_in || water_value(volume)) return {};
   return fmt::format(
       "transfer function '{}' is in Hounsfield units and the values {:g} to {:g} are not: they are "
       "taken for -1000 to 3000 HU",

@@ -121,6 +121,7 @@ Volume describe_synthetic(const std::string& name, int size) {
   }
   Volume volume;
   volume.name = fmt::format("{}:{}", name, size);
+  volume.built_in = true;
   volume.source = fmt::format("built-in {}, {} voxels along an edge", name, size);
   volume.dims = glm::ivec3(size);
   volume.stored = VoxelType::F32;

@@ -127,12 +127,14 @@ TEST(VolumeVerbs, InfoSaysWhichValuesShowSomething) {
 
 TEST(VolumeVerbs, PresetsInHounsfieldUnitsSayWhenTheValuesAreNot) {
   const TempFolder folder;
-  const auto render = [&](const char* volume, const char* tf) {
+  const std::string bytes = folder / "bytes.nrrd";
+  expect_success(fastsplat({"volume", "convert", "shells:8", bytes}));
+  const auto render = [&](const std::string& volume, const char* tf) {
     return fastsplat({"render", "--volume", volume, "--tf", tf, "--size", "8", "-o", folder / "a.exr"});
   };
-  expect_warned(render("shells:8", "bone"),
-                {"shells:8", "'bone' is in Hounsfield units", "taken for -1000 to 3000 HU"});
-  EXPECT_EQ(render("shells:8", "linear").err.find("Hounsfield"), std::string::npos);
+  expect_warned(render(bytes, "bone"), {"bytes.nrrd", "'bone' is in Hounsfield units", "taken for -1000 to 3000 HU"});
+  EXPECT_EQ(render(bytes, "linear").err.find("Hounsfield"), std::string::npos);
+  EXPECT_EQ(render("shells:8", "bone").err.find("Hounsfield"), std::string::npos);  // built in: no unit
 }
 
 TEST(VolumeVerbs, InfoSaysHowAScanLies) {

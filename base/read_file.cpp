@@ -84,6 +84,16 @@ void require_readable_file(const std::filesystem::path& path, const std::string&
   if (size_of_regular_file(path, fix_if_missing) == 0) refuse(path, "the file is empty", "write or download it again");
 }
 
+std::string start_of(const std::filesystem::path& path, std::size_t most) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return {};
+  std::ifstream file(path, std::ios::binary);
+  std::string start(most, '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  return start;
+}
+
 std::string read_text_file(const std::filesystem::path& path, std::size_t max_bytes) {
   require_readable_file(path);
   std::error_code error;

@@ -14,6 +14,9 @@ void require_readable_file(const std::filesystem::path& path, const std::string&
 /// The same, but empty is well.
 void require_regular_file(const std::filesystem::path& path, const std::string& fix_if_missing = {});
 
+/// The file's first bytes, at most `most`; none of what is not a regular file that can be read.
+std::string start_of(const std::filesystem::path& path, std::size_t most);
+
 /// The whole file; also refuses files above `max_bytes` before reading them.
 std::string read_text_file(const std::filesystem::path& path, std::size_t max_bytes = std::size_t{1} << 20);
 

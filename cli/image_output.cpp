@@ -4,14 +4,15 @@
 
 #include <algorithm>
 
+#include "base/lower_case.hpp"
 #include "cli/output_names.hpp"
 
 namespace fastsplat::cli {
 namespace {
 
 images::WriteOptions options_for(const std::string& path) {
-  if (ending(path) == ".exr") return {.kind = images::PixelKind::Float, .display = false};
-  if (ending(path) == ".png") return {.kind = images::PixelKind::Uint8, .display = true};
+  if (ending_of(path) == ".exr") return {.kind = images::PixelKind::Float, .display = false};
+  if (ending_of(path) == ".png") return {.kind = images::PixelKind::Uint8, .display = true};
   return {.kind = images::PixelKind::Uint16, .display = false};
 }
 
@@ -30,7 +31,7 @@ void write_images(const std::vector<std::string>& paths, const Image& image, con
     const auto options = options_for(path);
     auto labelled = metadata;
     if (options.display) labelled["display"] = "srgb";
-    const std::size_t clamped = images::write_image(path, ending(path) == ".exr" ? image : shown, labelled, options);
+    const std::size_t clamped = images::write_image(path, ending_of(path) == ".exr" ? image : shown, labelled, options);
     if (clamped > 0) {
       output.warn(fmt::format("{}: {} values lay outside 0..1 and were clamped; write .exr to keep them", path,
                               grouped(clamped)));

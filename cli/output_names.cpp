@@ -10,6 +10,7 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/images/image_file.hpp"
+#include "base/lower_case.hpp"
 #include "driver/config/config_file.hpp"
 #include "scene/scene_file.hpp"
 #include "scene/transfer_function.hpp"
@@ -21,11 +22,11 @@ namespace {
 namespace fs = std::filesystem;
 
 void require_ending(const std::string& path, const std::vector<std::string>& known) {
-  if (std::find(known.begin(), known.end(), ending(path)) != known.end()) return;
+  if (std::find(known.begin(), known.end(), ending_of(path)) != known.end()) return;
   throw_usage({.where = path,
                .what = "the ending does not name an image format written here",
                .expected = fmt::format("{}", fmt::join(known, ", ")),
-               .got = ending(path).empty() ? "none" : ending(path),
+               .got = ending_of(path).empty() ? "none" : ending_of(path),
                .fix = "end the name in " + known.front()});
 }
 
@@ -72,12 +73,6 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 }
 
 }  // namespace
-
-std::string ending(const std::string& path) {
-  std::string text = fs::path(path).extension().string();
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 void check_outputs(const OutputNames& names) {
   Taken taken;

@@ -17,9 +17,6 @@ struct OutputNames {
   std::vector<std::string> inputs{};  ///< files that the command reads and must not replace
 };
 
-/// ".png": with its dot, in small letters.
-std::string ending(const std::string& path);
-
 /// Every name has a known ending, can be created, is named once and is no file that the command reads, under whatever
 /// name (links, hard links); else a UserError, before any time is spent.
 void check_outputs(const OutputNames& names);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/error.hpp"
+#include "base/lower_case.hpp"
 
 namespace fastsplat::report {
 namespace {
@@ -33,8 +34,7 @@ std::string best_of(const Json& json) {
   std::size_t rank = kOrder.size();
   for (const Json& output : *outputs) {
     if (!output.is_string()) continue;
-    std::string ending = std::filesystem::path(output.get<std::string>()).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string ending = ending_of(output.get<std::string>());
     const auto at = static_cast<std::size_t>(std::find(kOrder.begin(), kOrder.end(), ending) - kOrder.begin());
     if (at >= rank) continue;
     rank = at;

@@ -25,7 +25,7 @@ Scale across(ValueSpan span) {
 }
 
 Scale hounsfield(const volume::Volume& volume) {
-  if (const auto water = water_value(volume)) return {*water, 1.0};
+  if (volume.water) return {*volume.water, 1.0};
   constexpr double kLeast = -1000.0, kGreatest = 3000.0;
   const Scale range = across({volume.min, volume.max});
   const double unit = range.unit / (kGreatest - kLeast);
@@ -62,7 +62,7 @@ TransferFunction resolved(const TransferFunction& tf, const volume::Volume& volu
 }
 
 std::string remark_on(const TransferFunction& tf, const volume::Volume& volume) {
-  if (tf.domain != Domain::Hounsfield || volume.built_in || water_value(volume)) return {};
+  if (tf.domain != Domain::Hounsfield || volume.built_in || volume.water) return {};
   return fmt::format(
       "transfer function '{}' is in Hounsfield units and the values {:g} to {:g} are not: they are "
       "taken for -1000 to 3000 HU",

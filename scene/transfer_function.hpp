@@ -15,7 +15,7 @@ enum class Domain {
   Value,       ///< raw voxel values
   Range,       ///< 0..1 of the volume's [min,max]
   Percentile,  ///< 0..1 of shown_span(): scanners without units (MRI)
-  Hounsfield,  ///< HU, by water_value(); of volumes that have none, -1000..3000 HU are the volume's [min,max]
+  Hounsfield,  ///< HU, by Volume::water; of volumes that have none, -1000..3000 HU are the volume's [min,max]
   Content,     ///< 0..1 from background_top() to the volume's max
 };
 
@@ -29,8 +29,7 @@ struct ControlPoint {
 struct Shading {
   bool on = false;
   double ambient = 0.3, diffuse = 0.7, specular = 0.2, shininess = 20.0;
-  double gradient_floor =
-      0.0;  ///< gradient magnitudes below this fraction of spread() per kernel unit are not shaded
+  double gradient_floor = 0.0;  ///< gradient magnitudes below this fraction of spread() per kernel unit are not shaded
 };
 
 struct TransferFunction {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "scene/volume/hounsfield.hpp"
 
 namespace fastsplat::scene {
 namespace {
@@ -33,23 +36,11 @@ std::vector<float> faces_of(const volume::Volume& volume) {
 
 /// The greatest value of air in a CT.
 std::optional<double> air_value(const volume::Volume& volume) {
-  constexpr double kAir = -900.0;  // HU, with the noise of a scanner
-  const auto water = water_value(volume);
-  if (!water) return std::nullopt;
-  return std::max<double>(volume.min, *water + kAir);
+  if (!volume.water) return std::nullopt;
+  return std::max<double>(volume.min, *volume.water + volume::kAirHu);
 }
 
 }  // namespace
-
-std::optional<double> water_value(const volume::Volume& volume) {
-  constexpr double kLeastSpread = 500.0, kLeastBone = 1500.0, kStoredOffset = 1024.0;
-  if (volume.min < 0.0f) {
-    if (static_cast<double>(volume.max) - volume.min >= kLeastSpread) return 0.0;
-  } else if (volume.max >= kLeastBone) {
-    return kStoredOffset;
-  }
-  return std::nullopt;
-}
 
 double background_top(const volume::Volume& volume) {
   constexpr double kDeviations = 6.0, kOneLevel = 0.03, kDarker = 0.05;

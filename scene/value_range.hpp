@@ -1,7 +1,6 @@
-// Which values of a volume show something: Hounsfield units, background, percentiles.
+// Which values of a volume show something: background and percentiles.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "scene/volume/volume.hpp"
@@ -11,11 +10,6 @@ namespace fastsplat::scene {
 struct ValueSpan {
   double low, high;
 };
-
-/// The value of water, 0 Hounsfield units (HU), where a volume's values are those of a CT: 0 where some are negative
-/// and they spread over 500 at least; 1024 where none is negative and the greatest is 1500 at least (how scanners store
-/// them without a sign). Nothing for other volumes.
-std::optional<double> water_value(const volume::Volume& volume);
 
 /// The greatest value of the background. In a CT, -900 HU: air, and whatever fills the corners outside the round field.
 /// Elsewhere, six standard deviations above the median of the six faces, where the faces are of one level, with a
@@ -38,7 +32,7 @@ class RankedValues {
 };
 
 /// From the 0.5 percentile (in a CT, from the background's top) to the 99.8 percentile of the voxels above the
-/// background; the whole range where there are none.
+/// background. The whole range if no voxel is above it.
 ValueSpan shown_span(const volume::Volume& volume);
 
 /// How far the values spread, for what is said in shares of that: from the least value, in a CT from air, to the

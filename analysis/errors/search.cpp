@@ -71,7 +71,7 @@ double Search::price(const Steps& steps) const {
 std::optional<Steps> Search::start() {
   Steps steps(knobs().size(), 0);
   nearest_ = steps;
-  if (meets(steps)) return steps;
+  if (judge(steps)->meets) return steps;  // its figure counts, too: it may be the nearest of all
   for (const int freeze : {0, 2, 20}) {
     if (freeze > 0 && from_.freeze_below == 0) break;
     steps.assign(knobs().size(), 0);

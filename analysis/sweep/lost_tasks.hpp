@@ -9,8 +9,8 @@
 
 namespace fastsplat::plan {
 
-/// Places in the plan of the cases that `plan run` would still run: without a result, or with a damaged
-/// one. UserError (Input) for a result of another program, which it would refuse.
+/// Places in the plan of the cases that `plan run` would still run: those without a result or with a damaged one.
+/// UserError (Input) for a result of another program, which it would refuse.
 std::vector<std::size_t> cases_to_do(const Plan& plan, const std::filesystem::path& results,
                                      const std::string& program_hash);
 

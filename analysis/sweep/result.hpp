@@ -33,7 +33,7 @@ std::filesystem::path result_path(const std::filesystem::path& folder, const std
 /// The same bytes for the same result, with a checksum. No time, no host, no folder is in it.
 std::string to_text(const CaseResult& result);
 
-/// Throws UserError (Input) naming the file that is no whole result: empty, truncated, changed.
+/// Throws UserError (Input) that names the file if it is empty, truncated or changed.
 CaseResult read_result(const std::filesystem::path& path);
 
 /// Why `result` is not what `one` would give now with `program`; empty where it is.

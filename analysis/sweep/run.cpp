@@ -25,7 +25,7 @@ struct Going {
   std::size_t step = 0;
   fs::path folder;  ///< its own, in the scratch
   CaseResult result;
-  bool accident = false;  ///< what there is of `result` says why it is none
+  bool accident = false;  ///< the machine failed; `result` holds the message and is not published
   double cpu_seconds = 0.0;
 };
 

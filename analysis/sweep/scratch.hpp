@@ -7,8 +7,7 @@
 namespace fastsplat::plan {
 
 /// FOLDER/.scratch/HOST.XXXXXX, locked as long as it is in use. Processes that were killed leave theirs behind: those
-/// of this host that nobody locks are removed first. MachineError where FOLDER cannot be
-/// written.
+/// of this host that nobody locks are removed first. MachineError if FOLDER cannot be written.
 class Scratch {
  public:
   explicit Scratch(const std::filesystem::path& folder);

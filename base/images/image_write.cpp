@@ -8,6 +8,7 @@
 #include "base/hash_text.hpp"
 #include "base/images/codec.hpp"
 #include "base/images/image_file.hpp"
+#include "base/lower_case.hpp"
 #include "base/srgb.hpp"
 #include "base/version.hpp"
 
@@ -15,8 +16,7 @@ namespace fastsplat::images {
 namespace {
 
 std::string format_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = ending_of(path);
   if (extension == ".exr") return "openexr";
   if (extension == ".png") return "png";
   if (extension == ".tif" || extension == ".tiff") return "tiff";

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/atomic_file.hpp"
+#include "base/lower_case.hpp"
 #include "base/printable.hpp"
 #include "base/version.hpp"
 #include "cli/output.hpp"
@@ -54,7 +55,7 @@ void check(const ReportArguments& arguments, const std::vector<report::NamedPict
   require_file("--junit", arguments.junit);
   require_file("--csv", arguments.csv);
   require_file("--markdown", arguments.markdown);
-  const auto end = ending(arguments.out);
+  const auto end = ending_of(arguments.out);
   if (!arguments.out.empty() && end != ".html" && end != ".htm") {
     throw_usage({.where = arguments.out,
                  .what = "a report's name ends in .html",

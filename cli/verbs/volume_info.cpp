@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <string_view>
 
 #include "cli/common.hpp"
 #include "cli/names.hpp"
@@ -62,7 +62,6 @@ struct Values {
   std::size_t background_voxels = 0;
   scene::ValueSpan shown{};                 ///< of the other voxels, without the few at both ends
   std::array<std::size_t, 64> histogram{};  ///< bins of one width from the least value to the greatest
-  std::optional<double> water;              ///< value of 0 HU
 };
 
 Values values_of(const volume::Volume& volume) {
@@ -71,7 +70,6 @@ Values values_of(const volume::Volume& volume) {
   for (std::size_t i = 0; i < values.percentiles.size(); ++i) values.percentiles[i] = ranked.at(Values::kShares[i]);
   values.background = scene::background_top(volume);
   values.shown = scene::shown_span(volume);
-  values.water = scene::water_value(volume);
   const double width = (static_cast<double>(volume.max) - volume.min) / static_cast<double>(values.histogram.size());
   for (const float v : volume.voxels) {
     const auto bin = width > 0.0 ? static_cast<std::size_t>((v - volume.min) / width) : 0;
@@ -95,7 +93,7 @@ std::string drawn(const Values& values) {
 
 std::string values_text(const volume::Volume& volume, const Values& values) {
   std::string text = fmt::format("values   {:g} to {:g}{}\n         ", volume.min, volume.max,
-                                 values.water ? fmt::format(", as of a CT: 0 HU is {:g}", *values.water) : "");
+                                 volume.water ? fmt::format(", as of a CT: 0 HU is {:g}", *volume.water) : "");
   for (std::size_t i = 0; i < values.percentiles.size(); ++i)
     text += fmt::format("{}{:g} %: {:g}", i > 0 ? ", " : "", 100 * Values::kShares[i], values.percentiles[i]);
   return text + fmt::format(
@@ -106,14 +104,14 @@ std::string values_text(const volume::Volume& volume, const Values& values) {
                     drawn(values));
 }
 
-nlohmann::ordered_json to_json(const Values& values) {
+nlohmann::ordered_json to_json(const volume::Volume& volume, const Values& values) {
   nlohmann::ordered_json json;
   for (std::size_t i = 0; i < values.percentiles.size(); ++i)
     json["percentiles"][fmt::format("p{:g}", 100 * Values::kShares[i])] = values.percentiles[i];
   json["background_top"] = values.background;
   json["background_voxels"] = values.background_voxels;
   json["shown"] = {values.shown.low, values.shown.high};
-  json["water"] = values.water ? nlohmann::ordered_json(*values.water) : nullptr;
+  json["water"] = volume.water ? nlohmann::ordered_json(*volume.water) : nullptr;
   json["histogram"] = values.histogram;
   return json;
 }
@@ -143,7 +141,7 @@ ExitCode run(const VolumeInfoArguments& arguments) {
   output.line(to_text(volume, values));
   output.remark(remarks(volume));
   auto json = volume_json(volume);
-  json["values"] = to_json(values);
+  json["values"] = to_json(volume, values);
   output.json(json);
   return ExitCode::Pass;
 }

@@ -374,7 +374,7 @@ std::optional<ErrorParts> set(Config& config, std::string_view name, std::string
   } else {
     const auto found = std::find(key->names.begin(), key->names.end(), text);
     if (found == key->names.end()) {
-      ErrorParts wrong = refuse("is no such word");
+      ErrorParts wrong = refuse("unknown word");
       const std::vector<std::string> known(key->names.begin(), key->names.end());
       if (const auto meant = suggestion(text, known); meant.starts_with("did you mean")) wrong.fix = meant;
       return wrong;

@@ -101,14 +101,14 @@ cmodel::LoadTable sheets_table(const scene::Scene& scene, const scene::SlabGrid&
   const double unit = scene.volume->kernel_unit();
   const cmodel::Format scale = cmodel::unit_format(classify::kScale);
   constexpr std::int64_t kMost = 0xFFFFFFFF;
+  const double range = static_cast<double>(scene.volume->max) - scene.volume->min;
+  const double part = range > 0.0 ? scene::spread(*scene.volume) / range : 1.0;  // densities are of the whole range
+  const double floor = scene.shading.gradient_floor * part;
   for (int s = 0; s < slabs.count; ++s) {
     const double depth = (slabs.first + (s + 0.5) * slabs.width) * unit;
     const double pixels = scene.camera.project(scene.camera.direction() * depth).scale * unit;
     const double across = pixels / 2.0, along = 1.0 / (2.0 * slabs.width), most = std::max(across, along);
     table.words.push_back(word(across / most, scale) | word(along / most, scale) << 16);
-    const double range = static_cast<double>(scene.volume->max) - scene.volume->min;
-    const double part = range > 0.0 ? scene::spread(*scene.volume) / range : 1.0;
-    const double floor = scene.shading.gradient_floor * part;
     const std::int64_t per_floor = floor > 0.0 ? nearest(most / floor, classify::kFloor, 0, kMost) : kMost;
     table.words.push_back(static_cast<std::uint32_t>(scene.shading.on ? per_floor : 0));
   }

@@ -2,30 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
-#include <fstream>
-
 #include "base/error.hpp"
+#include "base/lower_case.hpp"
+#include "base/read_file.hpp"
 #include "scene/gaussians/gaussian_rows.hpp"
 #include "scene/gaussians/other_formats.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
 
 namespace fastsplat::scene {
-namespace {
-
-/// The first bytes of a file, to see what it is; none if it is not there.
-std::string head_of(const std::filesystem::path& path) {
-  std::string head(kHeadBytes, '\0');
-  std::error_code none;
-  if (!std::filesystem::is_regular_file(path, none)) return {};
-  std::ifstream in(path, std::ios::binary);
-  in.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(in.gcount()));
-  return head;
-}
-
-}  // namespace
 
 void check_gaussian(const Gaussian& gaussian, std::span<const glm::vec3> harmonics, const std::string& where) {
   const std::string fault = fault_of(gaussian, harmonics);
@@ -43,11 +27,10 @@ std::vector<std::filesystem::path> files_of_gaussians(const std::string& name_or
 GaussianCloud load_gaussians(const std::string& name_or_path) {
   const auto files = files_of_gaussians(name_or_path);
   if (files.empty()) return make_synthetic_gaussians(name_or_path);
-  const std::string head = head_of(files[0]);
+  const std::string head = start_of(files[0], kHeadBytes);
   if (is_ply(head)) return read_gaussian_ply(files[0]);
   refuse_other_formats(files[0], head);
-  std::string ending = files[0].extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = ending_of(files[0]);
   if (ending == ".ply") return read_gaussian_ply(files[0]);
   if (ending == ".splat") return read_splat_file(files[0]);
   throw_input({.where = name_or_path,

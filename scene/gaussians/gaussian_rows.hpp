@@ -1,4 +1,4 @@
-// The Gaussians of a file, one by one: those that cannot be drawn are dropped and counted.
+// Collects the Gaussians of a file. Drops and counts the ones that cannot be drawn.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ class GaussianRows {
   void add(Gaussian gaussian, const glm::dvec4& rotation, std::span<const glm::vec3> harmonics);
   /// The next Gaussian is dropped for this reason.
   void drop(const std::string& fault);
-  /// Leaves a remark about those that were dropped. UserError (Input) where none is left.
+  /// Adds a remark with the number of dropped Gaussians. UserError (Input) if no Gaussian is left.
   void end();
 
  private:

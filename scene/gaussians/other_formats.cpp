@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <string>
 
 #include "base/error.hpp"
+#include "base/lower_case.hpp"
 #include "base/read_file.hpp"
 #include "scene/gaussians/splat_file.hpp"
 
@@ -41,12 +41,6 @@ constexpr std::array kFormats{
     Format{".pth", "a trainer's checkpoint", "export a .ply from it with the program that trained it"},
     Format{".pt", "a trainer's checkpoint", "export a .ply from it with the program that trained it"},
 };
-
-std::string ending_of(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending;
-}
 
 std::uint32_t head_word(std::string_view bytes, std::size_t at) {
   std::uint32_t word = 0;

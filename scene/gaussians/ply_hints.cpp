@@ -7,17 +7,12 @@
 #include <cctype>
 #include <cmath>
 
+#include "base/lower_case.hpp"
 #include "base/number_text.hpp"
 #include "scene/gaussians/gaussian_scene.hpp"
 
 namespace fastsplat::scene {
 namespace {
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::ranges::transform(out, out.begin(), [](unsigned char c) { return std::tolower(c); });
-  return out;
-}
 
 bool has(std::string_view text, std::string_view part) { return text.find(part) != text.npos; }
 
@@ -33,9 +28,9 @@ Hint hint_of(const std::string& text) {
   const std::size_t mark = text.find_first_of(":="),
                     end = std::min(mark == text.npos ? text.find(' ') : mark, text.size());
   Hint hint{.text = text, .marked = mark != text.npos};
-  for (const char c : lower(text.substr(0, end)))
+  for (const char c : lower_case(text.substr(0, end)))
     if (std::isalpha(static_cast<unsigned char>(c)) != 0) hint.key += c;
-  const std::string rest = lower(text.substr(std::min(end + 1, text.size())));
+  const std::string rest = lower_case(text.substr(std::min(end + 1, text.size())));
   const std::size_t first = std::min(rest.find_first_not_of(" \t"), rest.size());
   hint.value = rest.substr(first, rest.find_last_not_of(" \t") + 1 - first);
   return hint;
@@ -155,7 +150,7 @@ class Reader {
 
 PlyHints hints_of(std::span<const std::string> comments) {
   Reader reader(
-      std::ranges::any_of(comments, [](const auto& text) { return has(lower(text), "exported from brush"); }));
+      std::ranges::any_of(comments, [](const auto& text) { return has(lower_case(text), "exported from brush"); }));
   for (const std::string& text : comments) reader.take(hint_of(text));
   return reader.result();
 }

@@ -269,14 +269,6 @@ std::uint64_t unpacked_size(const std::filesystem::path& path, std::uint64_t off
   return size;
 }
 
-std::string start_of(const std::filesystem::path& path, std::size_t most) {
-  std::ifstream file(path, std::ios::binary);
-  std::string start(most, '\0');
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(file.gcount()));
-  return start;
-}
-
 ByteReader::ByteReader(const std::filesystem::path& path, std::uint64_t offset, Packing packing)
     : unpacker_(unpacker_for(PlainFile(path, offset), packing)), packing_(packing) {}
 

@@ -17,9 +17,6 @@ enum class Packing { Plain, Gzip, Zlib, Bzip2, Hex, Text };
 /// Gzip when the file starts with gzip's two magic bytes, else Plain.
 Packing packing_of(const std::filesystem::path& path);
 
-/// The file's first bytes as they are on disk, at most `most`.
-std::string start_of(const std::filesystem::path& path, std::size_t most);
-
 /// Offset of the first byte behind `lines` line ends, counted from `offset`. UserError (Input) where there are fewer.
 std::uint64_t offset_after_lines(const std::filesystem::path& path, std::uint64_t offset, std::uint64_t lines);
 

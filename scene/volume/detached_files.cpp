@@ -6,6 +6,7 @@
 #include <optional>
 #include <regex>
 
+#include "base/lower_case.hpp"
 #include "base/number_text.hpp"
 
 namespace fastsplat::volume {

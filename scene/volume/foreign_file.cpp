@@ -6,9 +6,11 @@
 #include <array>
 #include <regex>
 #include <string_view>
+#include <vector>
 
-#include "scene/volume/byte_reader.hpp"
-#include "scene/volume/text_header.hpp"
+#include "base/lower_case.hpp"
+#include "base/read_file.hpp"
+#include "base/shell_word.hpp"
 
 namespace fastsplat::volume {
 namespace {
@@ -70,14 +72,17 @@ std::string foreign_format(const fs::path& path) {
 std::string way_to_read(const fs::path& path) {
   if (const Format* format = format_of(path)) return format->way;
   const RawName raw = raw_name(path);
-  const std::string ending = path.extension().string();
+  const std::string ending = ending_of(path);
   if (!raw.sized && ending != ".raw" && ending != ".bin" && ending != ".dat" && ending != ".vol")
     return "convert it, for example to .nrrd (teem-unu) or .nii.gz";
-  const std::string order = raw.type.find('8') != std::string::npos ? "" : "endian: little\\n";
-  return fmt::format(
-      "if these are raw voxels, write their header: printf 'NRRD0004\\ntype: {}\\ndimension: 3\\n"
-      "sizes: {}\\n{}encoding: raw\\ndata file: {}\\n' > {}",
-      raw.type, raw.sizes, order, path.filename().string(), fs::path(path).replace_extension(".nhdr").string());
+  std::vector<std::string> lines{"NRRD0004",      "type: " + raw.type,
+                                 "dimension: 3",  "sizes: " + raw.sizes,
+                                 "encoding: raw", "data file: " + path.filename().string()};
+  if (raw.type.find('8') == std::string::npos) lines.insert(lines.begin() + 4, "endian: little");
+  std::string command = "printf '%s\\n'";
+  for (const auto& line : lines) command += " " + shell_word(line);
+  return "if these are raw voxels, write their header: " + command + " > " +
+         shell_word(fs::path(path).replace_extension(".nhdr").string());
 }
 
 }  // namespace fastsplat::volume

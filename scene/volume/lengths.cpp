@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "scene/volume/text_header.hpp"
+#include "base/lower_case.hpp"
 
 namespace fastsplat::volume {
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "base/lower_case.hpp"
 #include "base/read_file.hpp"
 #include "base/suggest.hpp"
 #include "scene/volume/detached_files.hpp"

@@ -12,6 +12,7 @@
 #include <optional>
 #include <sstream>
 
+#include "base/lower_case.hpp"
 #include "base/read_file.hpp"
 #include "scene/volume/byte_reader.hpp"
 #include "scene/volume/detached_files.hpp"

@@ -9,7 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "scene/volume/byte_reader.hpp"
+#include "base/read_file.hpp"
 
 namespace fastsplat::volume {
 namespace {
@@ -22,11 +22,6 @@ std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r");
   if (first == std::string::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return text;
 }
 
 std::vector<std::string> words_of(const std::string& text) {

@@ -12,8 +12,6 @@ namespace fastsplat::volume {
 
 /// `text` without blanks, tabs and carriage returns at both ends.
 std::string trimmed(const std::string& text);
-/// `text` with ASCII letters in lower case.
-std::string lower_case(std::string text);
 /// The words of `text`, split at white space.
 std::vector<std::string> words_of(const std::string& text);
 

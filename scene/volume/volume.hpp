@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,9 @@ struct Volume {
   float min = 0.0f;  ///< over all voxels (finite; NaN and Inf in a file are refused)
   float max = 0.0f;
   std::vector<float> voxels;
-  bool built_in = false;   ///< made by a generator: its values have no unit
-  bool oblique = false;    ///< `axes` is not the unit matrix
+  bool built_in = false;          ///< made by a generator: its values have no unit
+  std::optional<double> water{};  ///< the value of 0 HU, if the values are those of a CT (hounsfield.hpp)
+  bool oblique = false;           ///< `axes` is not the unit matrix
   glm::dmat3 axes{1.0};    ///< columns: unit vectors in the world along the grid's x, y, z; mostly at right angles
   glm::dmat3 across{1.0};  ///< inverse of `axes`
   bool placed = false;     ///< the file says where the volume lies in a body: +x right, +y anterior, +z superior

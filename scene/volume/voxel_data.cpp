@@ -9,6 +9,7 @@
 
 #include "base/machine_error.hpp"
 #include "base/read_file.hpp"
+#include "scene/volume/hounsfield.hpp"
 
 namespace fastsplat::volume {
 namespace {
@@ -275,6 +276,7 @@ Volume read_source(const VoxelSource& source, std::optional<float> nan_as) {
   const auto [low, high] = std::minmax_element(volume.voxels.begin(), volume.voxels.end());
   volume.min = *low;
   volume.max = *high;
+  volume.water = find_water(volume);
   if (findings.replaced > 0) {
     volume.remarks.push_back(fmt::format("{} of {} voxels are not finite numbers and were taken as {}",
                                          findings.replaced, volume.voxels.size(), *nan_as));

@@ -22,7 +22,7 @@ Image ramp(int channels, float scale) {
 
 class ComparePictures : public ::testing::Test {
  protected:
-  /// As another program writes it: nothing in it tells who did, or what its numbers are.
+  /// As another program writes it: without the name of the program and without a declaration of its numbers.
   std::string foreign(const std::string& name, const Image& image) const {
     return undeclared(declared_linear(name, image));
   }

@@ -117,7 +117,6 @@ TEST_F(Declared, EveryPngLayoutIsRead) {
   height_ = 2;
   // Adam7 of 2 x 2: the first pixel, then that on its right, then the row below.
   EXPECT_THAT(png(2, 8, 0, {"\x33", "\x66", "\x99\xcc"}, {}, 1).image.data, ElementsAre(0.2f, 0.4f, 0.6f, 0.8f));
-  std::printf("[figure] layouts = 8\n");
 }
 
 TEST_F(Declared, AnAnimatedPngIsRefused) {
@@ -263,7 +262,6 @@ TEST_F(Declared, TiffModelsAreFollowedOrRefused) {
                         }),
                 HasSubstr("the tag " + std::string(name) + " is not followed"));
   }
-  std::printf("[figure] models = 15\n");
 }
 
 }  // namespace

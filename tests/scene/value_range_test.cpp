@@ -61,7 +61,7 @@ TEST(ValueRange, PaddingAndOffsetChangeNoTissueOfACt) {
     const Classifier first(tf, all[0].volume);
     for (const auto& [padding, volume, water] : all) {
       SCOPED_TRACE(std::string(name) + ", " + padding);
-      ASSERT_EQ(water_value(volume), water);
+      ASSERT_EQ(volume.water, water);
       EXPECT_EQ(remark_on(tf, volume), "");
       const Classifier classify(tf, volume);
       EXPECT_EQ(classify(volume.at(0, 0, 0)).extinction, 0.0f);  // the corner is clear
@@ -89,22 +89,40 @@ TEST(ValueRange, PaddingAndOffsetChangeNoSpanOfACt) {
   std::printf("[figure] shown span of the phantoms = %g to %g HU\n", first.low, first.high);
 }
 
-TEST(ValueRange, HounsfieldUnitsAreToldFromOtherValues) {
-  const auto of = [](double low, double high) {
-    return volume::make_volume({4, 4, 4}, glm::dvec3(1), VoxelType::F32,
-                               [=](int i, int, int) { return i == 0 ? low : high; });
+/// Voxels of these values, and as many evenly between the first two.
+volume::Volume values_of(double low, double high, std::initializer_list<double> others) {
+  const auto many = static_cast<int>(others.size());
+  return volume::make_volume({10, 10, 1 + many}, glm::dvec3(1), VoxelType::F32, [=](int i, int j, int k) {
+    return k == 0 ? low + (high - low) * (i + 10 * j) / 99.0 : *(others.begin() + k - 1);
+  });
+}
+
+TEST(ValueRange, CtsAreToldFromOtherScans) {
+  const struct {
+    const char* what;
+    volume::Volume volume;
+    std::optional<double> water;
+  } scans[] = {
+      {"CT", values_of(-1024, 3071, {-1000, -1000, 40, 40}), 0.0},
+      {"CT of a chest", values_of(-1024, 2000, {-1000, -850, -800, -750, -700, 40}), 0.0},
+      {"CT stored from 0", values_of(0, 4095, {24, 24, 1064, 1064, 1000}), 1024.0},
+      {"MRI of 12 bits", values_of(0, 4095, {0, 0, 600, 900, 1400, 1900}), std::nullopt},
+      {"MRI with dim tissue", values_of(0, 2000, {5, 5, 200, 350, 450}), std::nullopt},
+      {"MRI resampled with overshoot", values_of(-30, 1200, {0, 0, 100, 250}), std::nullopt},
+      {"phases", values_of(-4096, 4095, {}), std::nullopt},
+      {"bytes", values_of(0, 255, {0, 100}), std::nullopt},
+      {"a difference of pictures", values_of(-1, 1, {0}), std::nullopt},
+      {"an industrial scan", values_of(0, 1300, {390, 390, 700}), std::nullopt},
   };
-  EXPECT_EQ(water_value(of(-1024, 3071)), 0.0);
-  EXPECT_EQ(water_value(of(-150, 400)), 0.0);
-  EXPECT_EQ(water_value(of(0, 4095)), 1024.0);
-  EXPECT_EQ(water_value(of(0, 255)), std::nullopt);
-  EXPECT_EQ(water_value(of(0, 1300)), std::nullopt);
-  EXPECT_EQ(water_value(of(-1, 1)), std::nullopt);
-  // Others are stretched, and that is said.
+  for (const auto& scan : scans) EXPECT_EQ(volume::find_water(scan.volume), scan.water) << scan.what;
+  std::printf("[figure] kinds of scans = %zu\n", std::size(scans));
+}
+
+TEST(ValueRange, OtherScansAreStretchedAndThatIsSaid) {
   const TransferFunction bone = load_transfer_function("bone");
-  EXPECT_NE(remark_on(bone, of(0, 255)).find("0 to 255 are not: they are taken for -1000 to 3000 HU"),
-            std::string::npos);
-  EXPECT_EQ(resolved(bone, of(0, 200)).points[0].at, 62.0);  // (240 + 1000) / 4000 of 200
+  const auto bytes = values_of(0, 200, {});
+  EXPECT_NE(remark_on(bone, bytes).find("0 to 200 are not: they are taken for -1000 to 3000 HU"), std::string::npos);
+  EXPECT_EQ(resolved(bone, bytes).points[0].at, 62.0);  // (240 + 1000) / 4000 of 200
 }
 
 TEST(ValueRange, AirThatIsNotTheLeastValueIsBackground) {

@@ -17,12 +17,6 @@ namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string gzip(const std::string& text) {
-  std::ostringstream out;
-  write_gzip(out, text.data(), text.size());
-  return out.str();
-}
-
 /// The few header fields the tests vary, laid out by the offsets of the NIfTI standards.
 struct Header {
   int version = 1;

@@ -13,12 +13,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string gzipped(const std::string& text) {
-  std::ostringstream out;
-  write_gzip(out, text.data(), text.size());
-  return out.str();
-}
-
 class NrrdMeaning : public TemporaryFolder {
  protected:
   /// uint8, raw; as many voxels as any of the tests needs, 0, 1, 2...
@@ -152,7 +146,7 @@ TEST_F(NrrdMeaning, DataInSeveralFiles) {
   };
   for (const bool packed : {false, true}) {
     const auto part = [&](const char* name, std::size_t from, std::size_t size) {
-      write(name, packed ? gzipped(all.substr(from, size)) : all.substr(from, size));
+      write(name, packed ? gzip(all.substr(from, size)) : all.substr(from, size));
     };
     part("s001.raw", 0, 12), part("s003.raw", 12, 12);
     const char* encoding = packed ? "gzip" : "raw";
@@ -181,8 +175,8 @@ TEST_F(NrrdMeaning, LinesAndBytesAreSkipped) {
   same("one\ntwo\n" + all, "encoding: raw\nline skip: 2\n");
   same("one\nxx" + all, "encoding: raw\nline skip: 1\nbyte skip: 2\n");
   same("one\nany" + all, "encoding: raw\nline skip: 1\nbyte skip: -1\n");
-  same("line\n" + gzipped("xx" + all), "encoding: gzip\nline skip: 1\nbyte skip: 2\n");
-  same(gzipped(std::string(352, 'h') + all), "encoding: gzip\nbyte skip: -1\n");
+  same("line\n" + gzip("xx" + all), "encoding: gzip\nline skip: 1\nbyte skip: 2\n");
+  same(gzip(std::string(352, 'h') + all), "encoding: gzip\nbyte skip: -1\n");
   std::printf("[figure] skips read = %d\n", read);
   // More than the sizes need is read, and said: the sizes may be wrong.
   EXPECT_THAT(load("dimension: 3\nsizes: 4 3 1\n").remarks,
@@ -199,12 +193,16 @@ TEST_F(NrrdMeaning, FilesOfOtherFormatsAreNamed) {
               HasSubstr("got DICOM); make one file of the series with dcm2niix"));
   EXPECT_THAT(message("a.vti", "<VTKFile type=\"ImageData\">"), HasSubstr("got VTK"));
   const std::string raw = message("engine_4x3x2_uint16.raw", voxels() + voxels());
-  EXPECT_THAT(raw, HasSubstr("type: uint16\\ndimension: 3\\nsizes: 4 3 2\\nendian: little\\nencoding: raw\\ndata file: "
-                             "engine_4x3x2_uint16.raw"));
+  EXPECT_THAT(raw, HasSubstr("NRRD0004 'type: uint16' 'dimension: 3' 'sizes: 4 3 2' 'endian: little' 'encoding: raw'"));
   // The command that the message names makes the file readable.
   const auto command = raw.substr(raw.find("printf"));
   ASSERT_EQ(std::system(command.c_str()), 0) << command;
   EXPECT_EQ(load_volume((folder_ / "engine_4x3x2_uint16.raw").string()).dims, glm::ivec3(4, 3, 2));
+  // A name is data there, and no command.
+  const std::string odd = message("4x3x2 '; touch broken; '%n.raw", voxels());
+  ASSERT_EQ(std::system(("cd " + folder_.string() + " && " + odd.substr(odd.find("printf"))).c_str()), 0) << odd;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "broken"));
+  EXPECT_EQ(load_volume((folder_ / "4x3x2 '; touch broken; '%n.raw").string()).dims, glm::ivec3(4, 3, 2));
 }
 
 }  // namespace

@@ -19,12 +19,6 @@ namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string gzip(const std::string& text) {
-  std::ostringstream out;
-  write_gzip(out, text.data(), text.size());
-  return out.str();
-}
-
 std::string bzip2(std::string text) {
   std::string out(text.size() + text.size() / 100 + 600, '\0');
   auto size = static_cast<unsigned>(out.size());

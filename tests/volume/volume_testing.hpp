@@ -9,9 +9,12 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 #include "base/error.hpp"
+#include "scene/volume/byte_reader.hpp"
+#include "scene/volume/hounsfield.hpp"
 #include "scene/volume/volume.hpp"
 
 namespace fastsplat::volume {
@@ -34,6 +37,12 @@ class TemporaryFolder : public ::testing::Test {
 
   std::filesystem::path folder_;
 };
+
+inline std::string gzip(const std::string& text) {
+  std::ostringstream out;
+  write_gzip(out, text.data(), text.size());
+  return out.str();
+}
 
 /// Values as they lie in a file.
 template <typename T>
@@ -64,7 +73,7 @@ std::string refusal(Call&& call, ExitCode code = ExitCode::Input) {
   return {};
 }
 
-/// Voxels from value(i,j,k); min and max filled in.
+/// Voxels from value(i,j,k); min, max and water filled in.
 template <typename Value>
 Volume make_volume(glm::ivec3 dims, glm::dvec3 spacing, VoxelType stored, Value&& value) {
   Volume volume;
@@ -79,6 +88,7 @@ Volume make_volume(glm::ivec3 dims, glm::dvec3 spacing, VoxelType stored, Value&
   }
   volume.min = *std::min_element(volume.voxels.begin(), volume.voxels.end());
   volume.max = *std::max_element(volume.voxels.begin(), volume.voxels.end());
+  volume.water = find_water(volume);
   return volume;
 }
 

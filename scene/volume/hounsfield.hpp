@@ -1,0 +1,19 @@
+// Whether a volume's values are those of a CT: no file says so.
+#pragma once
+
+#include <optional>
+
+#include "scene/volume/volume.hpp"
+
+namespace fastsplat::volume {
+
+/// Hounsfield units (HU) up to which a CT shows air, with the noise of a scanner.
+inline constexpr double kAirHu = -900.0;
+
+/// The value of water, 0 HU; nothing for other volumes. 0, if the least value is -500 or lower and a tenth of the
+/// voxels above air lie between -200 and 300: fat and soft tissue. 1024, which scanners add to store values without a
+/// sign, if no value is negative, the greatest is 1500 or more and half of the voxels above air lie in that range; an
+/// MRI of 12 bits spreads wider.
+std::optional<double> find_water(const Volume& volume);
+
+}  // namespace fastsplat::volume

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <ctime>
 #include <vector>
 
 namespace fastsplat {
@@ -49,7 +51,12 @@ TEST(Suggest, AWordOfAMegabyteCostsNothing) {
   EXPECT_FALSE(may_mean(std::string(1'000'000, 'r'), known[0]));
   EXPECT_TRUE(may_mean("radius.entrie", known[0]));
   EXPECT_TRUE(may_mean("radius.entriess", known[0]));
+  // Two hundred edit distances of a megabyte take seconds, comparing lengths takes none.
+  const std::clock_t began = std::clock();
   EXPECT_EQ(suggestion(std::string(1'000'000, 'r'), known).substr(0, 6), "known:");
+  const double seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
+  std::printf("[figure] seconds of processor for a word of a megabyte = %.3f (limit 0.5)\n", seconds);
+  EXPECT_LT(seconds, 0.5);
 }
 
 TEST(Suggest, AShortNameIsNoSuggestionForAnything) {

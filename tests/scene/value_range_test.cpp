@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -141,6 +142,16 @@ TEST(ValueRange, AirThatIsNotTheLeastValueIsBackground) {
     EXPECT_EQ(classify(415.0f).extinction, 0.0f);
     EXPECT_GT(classify(700.0f).extinction, 0.0f);
   }
+}
+
+TEST(ValueRange, ABrightLevelOnTheFacesIsNoBackground) {
+  const auto negative = volume::make_volume({16, 16, 16}, glm::dvec3(1), VoxelType::U8, [](int i, int j, int k) {
+    return glm::length(glm::dvec3(i, j, k) - 7.5) < 7 ? 20 + i : 200;
+  });
+  const auto darker = std::count_if(negative.voxels.begin(), negative.voxels.end(), [](float v) { return v < 200; });
+  std::printf("[figure] voxels darker than the faces = %.1f %% (limit 5 %%)\n",
+              100.0 * static_cast<double>(darker) / static_cast<double>(negative.voxels.size()));
+  EXPECT_EQ(background_top(negative), negative.min);
 }
 
 TEST(ValueRange, WithoutALevelOnTheFacesTheLeastValueIsTheBackground) {

@@ -32,12 +32,16 @@ bool may_mean(std::string_view got, std::string_view name) {
   return distance <= allowed && distance < static_cast<int>(name.size());
 }
 
-std::string suggestion(std::string_view got, std::span<const std::string> known) {
+std::string did_you_mean(std::string_view got, std::span<const std::string> known) {
   const std::string* best = nullptr;
   for (const auto& name : known) {
     if (may_mean(got, name) && (best == nullptr || edit_distance(got, name) < edit_distance(got, *best))) best = &name;
   }
-  if (best != nullptr) return "did you mean '" + *best + "'?";
+  return best != nullptr ? "did you mean '" + *best + "'?" : std::string();
+}
+
+std::string suggestion(std::string_view got, std::span<const std::string> known) {
+  if (const std::string meant = did_you_mean(got, known); !meant.empty()) return meant;
   std::string list;
   for (const auto& name : known) list += (list.empty() ? "" : ", ") + name;
   return "known: " + list;

@@ -14,7 +14,10 @@ int edit_distance(std::string_view a, std::string_view b);
 /// Dashes before a word are none of it.
 bool may_mean(std::string_view got, std::string_view name);
 
-/// "did you mean 'x'?" for the nearest of `known` that may have been meant, else "known: a, b, c".
+/// "did you mean 'x'?" for the nearest of `known` that may have been meant, else empty.
+std::string did_you_mean(std::string_view got, std::span<const std::string> known);
+
+/// The same, else "known: a, b, c".
 std::string suggestion(std::string_view got, std::span<const std::string> known);
 
 }  // namespace fastsplat

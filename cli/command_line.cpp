@@ -130,7 +130,7 @@ CLI::App* find_verb(CLI::App& app, const std::vector<std::string>& words, std::s
 // The one flag that may have been meant; nothing rather than a list of thirty.
 std::string near_flag(const CLI::App& verb, const std::string& flag) {
   const auto hint = flag.starts_with("--") ? suggestion(flag, flag_names(verb)) : std::string{};
-  return hint.starts_with("did you mean") ? hint : std::string{};
+  return hint;
 }
 
 // Unknown flags, flags without their value and flags given twice, in the user's order.

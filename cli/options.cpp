@@ -77,9 +77,8 @@ void Options::example(const std::string& command, const std::string& does, Examp
 Options::Problem Options::one_of(const std::vector<std::string>& names) {
   return [names](const std::string& text) -> std::string {
     if (std::find(names.begin(), names.end(), text) != names.end()) return {};
-    const std::string meant = suggestion(text, names);
-    return fmt::format("expected {}, got '{}'{}", fmt::join(names, " or "), text,
-                       meant.starts_with("did you mean") ? "; " + meant : "");
+    const std::string meant = did_you_mean(text, names);
+    return fmt::format("expected {}, got '{}'{}", fmt::join(names, " or "), text, meant.empty() ? "" : "; " + meant);
   };
 }
 

@@ -116,8 +116,8 @@ std::string problem_with(const Setting& setting, const std::string& text) {
   std::vector<std::string> names;
   if (const auto* choice = std::get_if<Choice>(&setting.value)) names = choice->names();
   if (std::holds_alternative<Switch>(setting.value)) names = {"on", "off"};
-  std::string hint = suggestion(text, names);
-  hint = hint.starts_with("did you mean") ? "; " + hint : std::string{};
+  std::string hint = did_you_mean(text, names);
+  if (!hint.empty()) hint = "; " + hint;
   return fmt::format("expected {}, got '{}'{}", expected, text, hint);
 }
 

@@ -376,7 +376,7 @@ std::optional<ErrorParts> set(Config& config, std::string_view name, std::string
     if (found == key->names.end()) {
       ErrorParts wrong = refuse("unknown word");
       const std::vector<std::string> known(key->names.begin(), key->names.end());
-      if (const auto meant = suggestion(text, known); meant.starts_with("did you mean")) wrong.fix = meant;
+      if (const auto meant = did_you_mean(text, known); !meant.empty()) wrong.fix = meant;
       return wrong;
     }
     value = static_cast<int>(found - key->names.begin());

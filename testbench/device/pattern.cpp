@@ -27,7 +27,7 @@ Pattern::Pattern(const std::string& text, std::uint64_t seed) : seed_(mix(seed))
   const std::vector<std::string> words{"always", "every", "alternate", "burst", "random"};
   const bool known = std::find(words.begin(), words.end(), name) != words.end();
   if (name == "never") refuse("N cycles on, N cycles off is alternate" + text.substr(dash));
-  if (const auto meant = suggestion(name, words); !known && meant.starts_with("did you mean")) refuse(meant);
+  if (const auto meant = did_you_mean(name, words); !known && !meant.empty()) refuse(meant);
   if (dash == text.size()) refuse();
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data() + dash + 1, end, number_);

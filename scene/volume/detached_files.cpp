@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
-#include <regex>
+#include <string_view>
 
 #include "base/lower_case.hpp"
 #include "base/number_text.hpp"
@@ -38,26 +39,50 @@ fs::path file_beside(const TextHeader& header, int line, const std::string& text
   return data;
 }
 
+/// `before%05dafter` in its parts. No std::regex: it recurses over every character, and a line has up to a megabyte.
+struct Numbered {
+  std::string_view before, after;
+  int width = 0;
+  bool zeros = false;
+};
+
+std::optional<Numbered> numbered_name(std::string_view name) {
+  const std::size_t percent = name.rfind('%');
+  if (percent == std::string_view::npos) return std::nullopt;
+  Numbered parts{.before = name.substr(0, percent), .after = name.substr(percent + 1)};
+  const auto take = [&parts](char first, char last) {
+    const bool there = !parts.after.empty() && parts.after[0] >= first && parts.after[0] <= last;
+    const char taken = there ? parts.after[0] : '\0';
+    if (there) parts.after.remove_prefix(1);
+    return taken;
+  };
+  parts.zeros = take('0', '0') != '\0';
+  if (const char digit = take('1', '9')) parts.width = digit - '0';
+  if (take('d', 'd') == '\0') return std::nullopt;
+  return parts;
+}
+
 /// The names that `PATTERN MIN MAX STEP [DIMENSION]` stands for; nothing where `text` is not of that form.
 std::optional<std::vector<std::string>> names_of_pattern(const TextHeader& header, int line, const std::string& text) {
-  static const std::regex kPattern(R"((\S*)%(0?)(\d?)d(\S*)\s+(-?\d{1,6})\s+(-?\d{1,6})\s+(-?\d{1,6})(\s+\d+)?)");
-  std::smatch part;
-  if (!std::regex_match(text, part, kPattern)) return std::nullopt;
-  const int first = *integer_from<int>(part[5].str());
-  const int last = *integer_from<int>(part[6].str());
-  const int step = *integer_from<int>(part[7].str());
-  if (step == 0 || (last - first) / step < 0 || static_cast<std::size_t>((last - first) / step) >= kMaxFiles) {
+  const std::vector<std::string> words = words_of(text);
+  if (words.size() != 4 && words.size() != 5) return std::nullopt;
+  const auto parts = numbered_name(words[0]);
+  const auto first = integer_from<int>(words[1]), last = integer_from<int>(words[2]), step = integer_from<int>(words[3]);
+  if (!parts || !first || !last || !step) return std::nullopt;
+  const std::int64_t way = std::int64_t{*last} - *first;
+  const bool leads = *step != 0 && (way == 0 || (way < 0) == (*step < 0));
+  const std::int64_t steps = leads ? way / *step : 0;
+  if (!leads || steps >= std::int64_t{kMaxFiles}) {
     header.refuse(line, "the numbers of the data files lead nowhere", fmt::format("1 to {} files", kMaxFiles),
                   text.substr(0, 120), "correct the first number, the last one and the step");
   }
-  const int width = part[3].length() > 0 ? *integer_from<int>(part[3].str()) : 0;
   std::vector<std::string> names;
-  for (int i = 0; i <= (last - first) / step; ++i) {
-    const int number = first + i * step;
-    names.push_back(
-        part[1].str() +
-        (part[2].length() > 0 ? fmt::format("{:0{}}", number, width) : fmt::format("{:{}}", number, width)) +
-        part[4].str());
+  for (std::int64_t i = 0; i <= steps; ++i) {
+    const std::int64_t number = *first + i * *step;
+    names.push_back(fmt::format("{}{}{}", parts->before,
+                                parts->zeros ? fmt::format("{:0{}}", number, parts->width)
+                                             : fmt::format("{:{}}", number, parts->width),
+                                parts->after));
   }
   return names;
 }

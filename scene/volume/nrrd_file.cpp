@@ -52,6 +52,18 @@ std::vector<std::uint64_t> parse_sizes(const TextHeader& header) {
   return sizes;
 }
 
+/// teem would refuse it as well, but its parser then loses memory (1.12).
+void refuse_unpaired_quote(const TextHeader& header, const Field& field, const char* name) {
+  bool open = false;
+  for (std::size_t i = 0; i < field.value.size(); ++i) {
+    if (field.value[i] == '"' && (i == 0 || field.value[i - 1] != '\\')) open = !open;
+  }
+  if (open) {
+    header.refuse(field.line, fmt::format("'{}' has an unpaired quotation mark", name), "\"mm\" \"mm\" \"mm\"",
+                  field.value.substr(0, 40), "correct the header");
+  }
+}
+
 /// The fields that say how the voxels lie, for teem: attached, raw, so that it looks for no other file.
 std::string header_for_teem(const TextHeader& header) {
   std::string text = "NRRD0005\n";
@@ -62,6 +74,7 @@ std::string header_for_teem(const TextHeader& header) {
     if (field == nullptr) continue;
     if (field->value.size() > kMaxField)
       header.refuse(field->line, fmt::format("'{}' is too long", name), {}, {}, "correct the header");
+    refuse_unpaired_quote(header, *field, name);
     text += fmt::format("{}: {}\n", name, field->value);
   }
   return text + "endian: little\nencoding: raw\n\n";

@@ -102,6 +102,7 @@ TEST_F(NrrdMeaning, UnitsOfLengthBecomeMillimetres) {
   }
   std::printf("[figure] units read = %d\n", read);
   EXPECT_EQ(load(three + "spacings: 2000 3 0.4\nunits: \"um\" \"mm\" \"cm\"\n").spacing, glm::dvec3(2, 3, 4));
+  EXPECT_THAT(refused(three + "units: \"mm\" \"mm\" \"mm\n"), HasSubstr("'units' has an unpaired quotation mark"));
   const Volume unknown = load(three + "spacings: 2 3 4\nunits: \"ell\" \"mm\" \"\"\n");
   EXPECT_EQ(unknown.spacing, glm::dvec3(2, 3, 4));
   EXPECT_THAT(unknown.remarks, ElementsAre(HasSubstr("unit 'ell' is unknown: mm is used")));

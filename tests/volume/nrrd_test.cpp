@@ -222,6 +222,10 @@ TEST_F(Nrrd, DetachedDataMustStayInTheirFolder) {
   EXPECT_THAT(message("slice%03d.raw 1 2 1"), HasSubstr("slice001.raw: no such file"));
   EXPECT_THAT(message("slice%03d.raw 1 2 0"), HasSubstr("lead nowhere"));
   EXPECT_THAT(message("slice%03d.raw 1 -2 1"), HasSubstr("lead nowhere"));
+  EXPECT_THAT(message("slice%03d.raw 5 4 3"), HasSubstr("lead nowhere"));
+  EXPECT_THAT(message("slice%03d.raw -2147483648 2147483647 1"), HasSubstr("lead nowhere"));
+  EXPECT_THAT(message("slice%05.raw 1 2 1"), HasSubstr("slice%05.raw 1 2 1: no such file"));
+  EXPECT_THAT(message(std::string(900'000, 'a') + "%d.raw 1 2 1"), HasSubstr("File name too long"));
   EXPECT_THAT(message("../s%d.raw 1 2 1"), HasSubstr("must lie in the header's own folder"));
   EXPECT_THAT(message("."), HasSubstr("directory"));
   EXPECT_THAT(message(""), HasSubstr("own folder"));

@@ -216,15 +216,15 @@ ExitCode run_gaussians(const RenderArguments& arguments) {
   const Output output(arguments.common);
   const Engine engine = engine_from(arguments.engine);
   check(arguments, engine);
+  std::optional<cmodel::Config> config;
+  if (engine == Engine::CModel) config = load_for_gaussians(arguments.config);
+  const GaussianView view = describe(arguments.gaussians, arguments.scene);
   check_outputs(
       {.images = arguments.out,
        .maps = {},
        .raws = {arguments.raw},
        .others = {arguments.common.json},
        .inputs = joined(inputs_of(arguments.gaussians), inputs_of_config(arguments.config.config.value_or("")))});
-  std::optional<cmodel::Config> config;
-  if (engine == Engine::CModel) config = load_for_gaussians(arguments.config);
-  const GaussianView view = describe(arguments.gaussians, arguments.scene);
   const scene::GaussianScene scene = build(arguments.gaussians, view);
 
   Result result{.engine = arguments.engine, .scene = scene, .files = {.out = arguments.out, .raw = arguments.raw}};

@@ -58,12 +58,13 @@ void write_maps(const ErrorsBoundArguments& arguments, const scene::Scene& scene
 
 ExitCode run(const ErrorsBoundArguments& arguments) {
   const Output output(arguments.common);
+  const cmodel::Config config = load(arguments.config);
+  describe(arguments.scene);
   check_outputs({.images = map_names(arguments.maps, ".exr"),
                  .maps = map_names(arguments.maps, ".png"),
                  .raws = {},
                  .others = {arguments.common.json},
                  .inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")))});
-  const cmodel::Config config = load(arguments.config);
   const scene::Scene scene = build(arguments.scene);
   output.remark(remarks(scene));
   ErrorsBoundResult result{.scene = summary(scene), .config = config, .report = {}};

@@ -120,8 +120,8 @@ void require_saveable(const scene::SceneDescription& description) {
                .fix = "rename the file or its folder, or leave --save-scene out"});
 }
 
-ExitCode run_still(const RenderArguments& arguments, const Renderer& renderer, const Output& output) {
-  const scene::SceneDescription description = describe(arguments.scene);
+ExitCode run_still(const RenderArguments& arguments, const Renderer& renderer,
+                   const scene::SceneDescription& description, const Output& output) {
   require_file("--save-scene", arguments.save_scene);
   if (!arguments.save_scene.empty()) require_saveable(description);
   const scene::Scene scene = scene::build_scene(description);
@@ -163,6 +163,8 @@ ExitCode run(const RenderArguments& arguments) {
   if (arguments.gaussians.file) return run_gaussians(arguments);
   refuse_without_gaussians(arguments.gaussians);
   const auto sequence = sequence_of(arguments);
+  const scene::SceneDescription description = describe(arguments.scene, sequence ? &*sequence : nullptr);
+  if (renderer.engine != Engine::Golden) renderer.config = load(arguments.config);
   if (sequence) {
     if (!arguments.wave.file.empty()) {
       throw_usage({.where = "--wave",
@@ -180,12 +182,11 @@ ExitCode run(const RenderArguments& arguments) {
          .others = {arguments.save_scene, arguments.common.json, arguments.wave.file},
          .inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")))});
   }
-  if (renderer.engine != Engine::Golden) renderer.config = load(arguments.config);
   if (renderer.engine == Engine::Rtl)
     prepare_rtl(*renderer.config, wanted_abilities(arguments.wave), arguments.common,
                 "use --engine cmodel, its bit-accurate model");
-  return sequence ? run_animation(arguments, renderer, describe(arguments.scene, &*sequence), *sequence, output)
-                  : run_still(arguments, renderer, output);
+  return sequence ? run_animation(arguments, renderer, description, *sequence, output)
+                  : run_still(arguments, renderer, description, output);
 }
 
 }  // namespace

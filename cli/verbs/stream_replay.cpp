@@ -61,12 +61,12 @@ Json to_json(const StreamReplayResult& result) {
 
 ExitCode run(const StreamReplayArguments& arguments) {
   const Output output(arguments.common);
+  const auto config = load(arguments.config);
   check_outputs({.images = arguments.out,
                  .maps = {},
                  .raws = {arguments.raw},
                  .others = {arguments.common.json},
                  .inputs = joined(inputs_of_config(arguments.config.config.value_or("")), {arguments.stream})});
-  const auto config = load(arguments.config);
   driver::DeviceRender frame;
   {
     ProgressBar bar("replaying", watching(arguments.common));

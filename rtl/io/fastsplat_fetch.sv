@@ -10,7 +10,8 @@ module fastsplat_fetch #(
     parameter int BURST = 16,         // most beats of a burst
     parameter int DEPTH_LOG2 = 6,     // of the beats that may be asked for and not sent yet
     parameter int OUTSTANDING = 64,   // most bursts that may be under way
-    parameter int SETS_LOG2 = 10      // of the most sets of a command
+    parameter int SETS_LOG2 = 10,     // of the most sets of a command
+    parameter int JUDGED_LOG2 = 4     // of the most sets that may be sent and not judged yet
 ) (
     input  logic         aclk,
     input  logic         aresetn,  // synchronous
@@ -39,7 +40,8 @@ module fastsplat_fetch #(
     input  logic         verdict_valid,
     input  logic [31:0]  verdict_tag,
     input  logic         verdict_hidden,
-    // while high nothing is asked for, commands are taken and dropped, and when all that was asked for has been sent all is as after a reset
+    // While high nothing is requested, commands are taken and dropped, verdicts are ignored. Once busy is 0 all is as after a reset;
+    // it stays high until the device has no verdicts to give.
     input  logic         stop,
     output logic         busy,   // there is a command, or a beat that was asked for and not sent
     output logic [1:0]   error   // the first error; stays until stop or reset, and nothing is asked for
@@ -51,25 +53,36 @@ module fastsplat_fetch #(
   localparam int OB = $clog2(OUTSTANDING + 1);
   localparam int SB = SETS_LOG2 + 1;
   localparam int RUNS_LOG2 = SETS_LOG2, BURSTS_LOG2 = $clog2(OUTSTANDING);
-  localparam int JUDGED_LOG2 = 4;  // a device holds fewer cull_blocks than 16 between its port and its verdict
   localparam logic [1:0] NONE = 2'd0, RESPONSE = 2'd1, VERDICT = 2'd2, COMMAND = 2'd3;
   `FASTSPLAT_INIT(burst, BURST >= 1 && BURST <= 128 && BURST <= (1 << DEPTH_LOG2), "BURST = %0d, not 1 to 128, or more than there is room for (%0d)", BURST, 1 << DEPTH_LOG2)
   `FASTSPLAT_INIT(outstanding, OUTSTANDING >= 2 && OUTSTANDING <= 1024, "OUTSTANDING = %0d, not 2 to %0d", OUTSTANDING, 1024)
+  `FASTSPLAT_INIT(judged, JUDGED_LOG2 >= 3 && JUDGED_LOG2 <= 10, "JUDGED_LOG2 = %0d, not 3 to %0d", JUDGED_LOG2, 10)
   `FASTSPLAT_INIT(address, ADDRESS_BITS >= 16 && ADDRESS_BITS <= 64, "ADDRESS_BITS = %0d, not 16 to %0d", ADDRESS_BITS, 64)
 
   logic clk_i, rst_ni;
   assign clk_i = aclk;
   assign rst_ni = aresetn;
 
+  // Names that more than one part uses.
+  logic failed, forget;  // all that is not memory's or the device's is as after a reset
+  logic [31:0] run_beats, run_skip;
+  logic [DB-1:0] unsent_q;  // beats that arrived
+  assign failed = error != NONE;
+
   logic unused;  // high bits of counts, where addresses are short
   assign unused = &{1'b0, run_skip, run_beats};
-
-  logic failed, forget;  // all that is not memory's or the device's is as after a reset
-  assign failed = error != NONE;
 
   // ---- verdicts: sets that were sent, oldest first, and what follows of the answer
   logic sent_set, sent_counted, judged_valid, judged_counted;
   logic [31:0] judged_tag, judged_splats;
+  // A set waits to be sent while as many as there is room for are not judged, except while all is given up.
+  logic [JUDGED_LOG2:0] unjudged_q;
+  logic judged_full;
+  assign judged_full = unjudged_q[JUDGED_LOG2];
+  always_ff @(posedge clk_i) begin
+    unjudged_q <= unjudged_q + (JUDGED_LOG2 + 1)'(sent_set && !judged_full) - (JUDGED_LOG2 + 1)'(verdict_valid && judged_valid);
+    if (!rst_ni || forget) unjudged_q <= '0;
+  end
   fastsplat_queue #(
       .BITS(65),
       .LOG2(JUDGED_LOG2)
@@ -77,7 +90,7 @@ module fastsplat_fetch #(
       .clk_i(clk_i),
       .rst_ni(rst_ni),
       .clear_i(forget),
-      .put_i(sent_set),
+      .put_i(sent_set && !judged_full),
       .data_i({sent_counted, m_axis_tdata[32*5+:32], m_axis_tdata[32+:32]}),
       .valid_o(judged_valid),
       .take_i(verdict_valid),
@@ -94,7 +107,7 @@ module fastsplat_fetch #(
   assign last_set = undecided_q == SB'(1);
 
   logic run_put, run_valid, run_take, run_last;
-  logic [31:0] run_beats, run_skip, seen_splats;
+  logic [31:0] seen_splats;
   assign seen_splats = trusts_q || (verdict_hidden && !`FASTSPLAT_FAULT(FETCH_HIDDEN_TOO)) ? 32'd0 : judged_splats;
   assign run_put = judges && (last_set || seen_splats != 32'd0);
   fastsplat_queue #(
@@ -159,7 +172,8 @@ module fastsplat_fetch #(
   assign m_axi_arcache = 4'b0011;
   assign m_axi_arprot = 3'b000;
 
-  logic arrived_set, arrived_counted, burst_known;
+  logic arrived_set, arrived_counted, burst_known, of_sets;
+  assign of_sets = phase_q == PhSets;
   fastsplat_queue #(
       .BITS(2),
       .LOG2(BURSTS_LOG2)
@@ -168,19 +182,19 @@ module fastsplat_fetch #(
       .rst_ni(rst_ni),
       .clear_i(1'b0),
       .put_i(issue),
-      .data_i({counted_q, phase_q == PhSets}),
+      .data_i({counted_q, of_sets}),
       .valid_o(burst_known),
       .take_i(ends_burst),
       .data_o({arrived_counted, arrived_set})
   );
 
   // ---- beats: there is room for all that was asked for
-  logic arrives, bad;
+  logic arrives, bad, hole_q;  // a beat could not be read: none behind it may be sent
   assign m_axi_rready = 1'b1;
   assign bad = m_axi_rvalid && m_axi_rresp != 2'b00 && !`FASTSPLAT_FAULT(FETCH_BAD_RESPONSE);
-  assign arrives = m_axi_rvalid && !bad && error != RESPONSE;
+  assign arrives = m_axi_rvalid && !bad && !hole_q;
   assign ends_burst = m_axi_rvalid && m_axi_rlast;
-  logic sending_set, sending_counted, sends;
+  logic sending_set, sending_counted, sends, has_beat, held_q, stop_q;
   fastsplat_queue #(
       .BITS(258),
       .LOG2(DEPTH_LOG2)
@@ -190,10 +204,11 @@ module fastsplat_fetch #(
       .clear_i(1'b0),
       .put_i(arrives),
       .data_i({arrived_counted, arrived_set, m_axi_rdata}),
-      .valid_o(m_axis_tvalid),
-      .take_i(m_axis_tready),
+      .valid_o(has_beat),
+      .take_i(sends),
       .data_o({sending_counted, sending_set, m_axis_tdata})
   );
+  assign m_axis_tvalid = has_beat && (!sending_set || !judged_full || stop_q || held_q);
   assign sends = m_axis_tvalid && m_axis_tready;
   assign sent_set = sends && sending_set;
   assign sent_counted = sending_counted;
@@ -203,9 +218,11 @@ module fastsplat_fetch #(
   assign forget = stop && !waits;
   assign busy = waits || ((run_valid_q || wants_sets || wants_all || wants_run) && !failed);
 
-  logic [DB-1:0] unsent_q;  // beats that arrived
   always_ff @(posedge clk_i) begin
     unsent_q <= unsent_q + DB'(arrives) - DB'(sends);
+    held_q <= rst_ni && m_axis_tvalid && !m_axis_tready;
+    stop_q <= stop;
+    hole_q <= rst_ni && !forget && (hole_q || bad);
     room_q <= room_q - (issue ? DB'(burst) : '0) + DB'(sends);
     outstanding_q <= outstanding_q + OB'(issue) - OB'(ends_burst);
     if (!m_axi_arvalid || m_axi_arready) begin
@@ -281,6 +298,7 @@ module fastsplat_fetch #(
   `FASTSPLAT_ASSERT_HELD(asked_until_taken, m_axi_arvalid && !m_axi_arready, m_axi_arvalid, {m_axi_araddr, m_axi_arlen})
   `FASTSPLAT_ASSERT(burst_within_page, !m_axi_arvalid || 32'(m_axi_araddr[PAGE_LOG2-1:BEAT_LOG2]) + 32'(m_axi_arlen) < 32'd1 << (PAGE_LOG2 - BEAT_LOG2))
   `FASTSPLAT_ASSERT(burst_short_enough, !m_axi_arvalid || 32'(m_axi_arlen) < 32'(BURST))
+  `FASTSPLAT_ASSERT_HELD(sent_until_taken, m_axis_tvalid && !m_axis_tready, m_axis_tvalid, sending_set)
   `FASTSPLAT_ASSERT(room_for_all, room_q <= DB'(1 << DEPTH_LOG2))
   // Of the memory: nothing that was not asked for.
   `FASTSPLAT_ASSUME(answers_what_was_asked, !m_axi_rvalid || burst_known)

@@ -41,7 +41,7 @@ class Bench {
     context_.assertOn(run.fault == FetchFault::None);
     testbench::take_simulator_output();
     top_ = std::make_unique<Top>(&context_);
-    if (run.spoiled < stream.beats.size()) memory_.spoil(run.spoiled);
+    if (spoiled_ < stream.beats.size()) memory_.spoil(spoiled_);
   }
   ~Bench() {
     Verilated::threadContextp(&context_);
@@ -57,6 +57,7 @@ class Bench {
     const std::uint64_t rest = 200 + run_.memory.latency + run_.memory.more_latency;
     for (std::uint64_t quiet = 0; quiet < rest && out_.finding.empty(); ++cycle_) {
       clock();
+      if (stopping_ && run_.again) recover();
       quiet = done() ? quiet + 1 : 0;
       if (cycle_ > last_ + kPatience) say("nothing is sent any more");
     }
@@ -74,7 +75,25 @@ class Bench {
   void say(const std::string& what) {
     if (out_.finding.empty()) out_.finding = "cycle " + std::to_string(cycle_) + ": " + what;
   }
+  /// From `stop` to the next frame, state by state (docs/integration.md, "Fetching").
+  void recover() {
+    if (top_->busy != 0) return;
+    if (!resetting_) {
+      device_.restart();
+      resetting_ = true;
+    } else if (device_.at_rest()) {
+      resetting_ = stopping_ = offering_ = false;
+      recovered_ = true;
+      command_ = judged_ = 0;
+      if (run_.spoiled_once) memory_.spoil(~std::size_t{0}), spoiled_ = ~std::size_t{0};
+      out_.taken.clear(), out_.offered.clear(), out_.verdicts.clear();
+      asked_ = sets_sent_ = 0;
+      last_ = cycle_;
+    }
+  }
   bool done() const {
+    if (stopping_ && run_.again) return false;
+    if (top_->error != 0 && run_.stop_after_error > 0) return false;
     if (top_->error != 0 || stopping_) return top_->busy == 0;
     return out_.taken.size() == wanted_.size() && command_ == stream_.commands.size() && device_.at_rest();
   }
@@ -102,6 +121,8 @@ class Bench {
     top_->stop = stopping_ ? 1 : 0;
     judge();
     eval(0);
+    if ((out_.error == 0 || recovered_) && asked_ > out_.taken.size() && top_->busy == 0)
+      say("not busy, and beats that were asked for have not been sent");
     const Beat* offered = look();
     if (commands && top_->s_axis_cmd_tready != 0) {
       if (command_ == 0) out_.begun = cycle_;
@@ -117,6 +138,7 @@ class Bench {
                                         .burst = top_->m_axi_arburst};
     memory_.edge(request, top_->m_axi_rready != 0);
     if (!memory_.broken().empty()) say(memory_.broken());
+    asked_ += memory_.asked_now().size();
     for (const std::size_t beat : memory_.asked_now()) {
       const int set = stream_.set_of[beat];
       if (set < 0) continue;
@@ -129,16 +151,23 @@ class Bench {
       }
     }
     judged_ = out_.verdicts.size();
+    if (offered != nullptr && !waiting_ && stream_.block[wanted_[out_.taken.size() - 1]] >= 0) ++sets_sent_;
+    out_.most_unjudged = std::max(out_.most_unjudged, sets_sent_ - std::min(sets_sent_, judged_));
     device_.edge(offered);
     eval(1);
-    if (run_.stop_after > 0 && out_.taken.size() >= run_.stop_after) stopping_ = true;
+    if (!recovered_ && ((run_.stop_after > 0 && out_.taken.size() >= run_.stop_after) ||
+                        (run_.stop_at > 0 && cycle_ >= run_.stop_at) ||
+                        (run_.stop_after_error > 0 && out_.error != 0 && --until_stop_ == 0)))
+      stopping_ = out_.stopped = true;
+    if (recovered_ && top_->error != 0) say("an error after all is as after a reset");
     if (out_.error == 0 && top_->error != 0) out_.error = top_->error;
   }
 
   /// The device's verdict of this cycle.
   void judge() {
     const auto verdict = device_.verdict();
-    top_->verdict_valid = verdict ? 1 : 0;
+    const bool stray = run_.stray > 0 && cycle_ >= run_.stray && out_.error == 0 && !verdict && device_.at_rest();
+    top_->verdict_valid = verdict || stray ? 1 : 0;
     if (!verdict) return;
     const std::size_t number = out_.verdicts.size();
     if (number == stream_.hidden.size()) return say("a verdict of nothing");
@@ -161,7 +190,7 @@ class Bench {
     const std::size_t at = out_.taken.size();
     if (at == wanted_.size()) return say("a beat behind the last"), nullptr;
     if (out_.offered.size() == at) out_.offered.push_back(cycle_);
-    if (wanted_[at] == run_.spoiled) return say("sends what could not be read"), nullptr;
+    if (wanted_[at] == spoiled_) return say("sends what could not be read"), nullptr;
     if (beat_ != stream_.beats[wanted_[at]])
       return say("another beat than number " + std::to_string(wanted_[at]) + " is sent"), nullptr;
     if (!waiting_) {
@@ -173,11 +202,13 @@ class Bench {
 
   /// When all is at rest.
   void look_back() {
+    if (run_.again && !recovered_ && out_.stopped) return say("no end of the recovery");
     out_.all_sent = out_.taken.size() == wanted_.size();
     if (top_->busy != 0) return say("busy, and nothing is left to do");
-    if (out_.error != run_.error)
+    if (out_.error != run_.error && !run_.any_error)
       return say("error " + std::to_string(out_.error) + ", expected " + std::to_string(run_.error));
-    if (run_.error != 0 || stopping_) return;
+    if (recovered_ && !out_.all_sent) return say("not all is sent once more");
+    if (out_.error != 0 || out_.stopped) return;
     std::vector<std::uint32_t> once(stream_.beats.size(), 0);
     for (const std::size_t beat : wanted_) once[beat] = 1;
     for (std::size_t i = 0; i < once.size(); ++i) {
@@ -197,7 +228,11 @@ class Bench {
   std::size_t judged_ = 0;  ///< sets, before this cycle
   std::uint64_t cycle_ = 0, last_ = 0;
   std::size_t command_ = 0;
+  std::size_t asked_ = 0, sets_sent_ = 0;  ///< beats; cull_blocks
+  std::size_t spoiled_ = run_.spoiled;
+  std::uint64_t until_stop_ = run_.stop_after_error;
   bool waiting_ = false, offering_ = false, stopping_ = false;
+  bool resetting_ = false, recovered_ = false;
   Beat beat_{};
 };
 
@@ -265,13 +300,14 @@ FetchStream fetch_stream(const cmodel::Config& config, std::vector<Beat> beats, 
 }
 
 bool PlayedDevice::ready() {
-  // A beat in each register between port and verdict.
-  taking_ = run_.ready.at(cycle_) && waiting_.size() < kJudged;
+  const bool refuses = mute_ && judged_ >= run_.mute;  // and then swallows all
+  taking_ = run_.ready.at(cycle_) && (refuses || waiting_.size() < run_.ahead);
   return taking_;
 }
 
 std::optional<FetchDevice::Verdict> PlayedDevice::verdict() {
-  if (waiting_.empty() || waiting_.front().cycle > cycle_) return std::nullopt;
+  if (waiting_.empty() || waiting_.front().cycle > cycle_ || (mute_ && judged_ >= run_.mute)) return std::nullopt;
+  ++judged_;
   const Waiting one = waiting_.front();
   waiting_.pop_front();
   return Verdict{one.tag, stream_.hidden[one.block]};

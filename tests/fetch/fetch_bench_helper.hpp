@@ -19,7 +19,8 @@ enum class FetchFault {
 #undef FAULT
 };
 
-/// How fastsplat_fetch is built: by default, or with bursts of 4 beats, two of them under way, room for 8 beats.
+/// How fastsplat_fetch is built: by default, or with bursts of 4 beats, two of them under way, room
+/// for 8 beats and for 8 sets that are not judged.
 enum class FetchBuild { Default, Narrow };
 
 /// What lies in memory and what the device answers.
@@ -47,9 +48,19 @@ struct FetchRun {
   std::uint64_t seed = 1;
   FetchFault fault = FetchFault::None;
   std::size_t spoiled = ~std::size_t{0};  ///< a beat that cannot be read
+  bool spoiled_once = false;              ///< and can be read later
   int other_tag = -1;                     ///< this cull_block's verdict has another tag
-  unsigned error = 0;                     ///< that is to be told
+  unsigned error = 0;                     ///< the error expected
+  bool any_error = false;                 ///< or any other
   std::size_t stop_after = 0;             ///< beats sent before `stop` is raised; 0: never
+  std::uint64_t stop_at = 0;              ///< cycle in which it is; 0: never
+  std::uint64_t stop_after_error = 0;     ///< cycles from an error to `stop`; 0: never
+  /// Then, as docs/integration.md says: once the master is not busy the device is reset; once the device is at rest
+  /// `stop` is lowered, and everything is sent once more, without an error.
+  bool again = false;
+  unsigned ahead = 6;                  ///< sets that the device takes before the verdict of the first of them
+  std::size_t mute = ~std::size_t{0};  ///< sets that are judged; then the device refuses a beat, and judges no more
+  std::uint64_t stray = 0;             ///< from this cycle on, a verdict when no set waits for one; 0: never
 };
 
 /// What the master feeds, cycle by cycle.
@@ -67,6 +78,8 @@ class FetchDevice {
   virtual void edge(const cmodel::Beat* beat) = 0;
   /// All that it was sent has been dealt with.
   virtual bool at_rest() = 0;
+  /// A soft reset; it is over when the device is at rest.
+  virtual void restart() = 0;
 };
 
 /// Takes a beat when `run.ready` says so, and tells verdicts as early as a device can, or `run.verdict_wait` later.
@@ -77,6 +90,11 @@ class PlayedDevice final : public FetchDevice {
   std::optional<Verdict> verdict() override;
   void edge(const cmodel::Beat* beat) override;
   bool at_rest() override { return waiting_.empty(); }
+  void restart() override {
+    taken_ = judged_ = 0;
+    mute_ = false;
+    waiting_.clear();
+  }
 
  private:
   struct Waiting {
@@ -88,8 +106,9 @@ class PlayedDevice final : public FetchDevice {
   const FetchRun& run_;
   std::vector<std::size_t> wanted_;
   std::deque<Waiting> waiting_;
-  std::size_t taken_ = 0;
+  std::size_t taken_ = 0, judged_ = 0;
   std::uint64_t cycle_ = 0, last_ = 0;
+  bool mute_ = run_.mute != ~std::size_t{0};
   bool taking_ = false;  ///< in this cycle
 };
 
@@ -99,9 +118,9 @@ struct FetchResult {
   std::vector<std::uint64_t> verdicts;        ///< by cull_block that was sent
   std::uint64_t begun = 0;                    ///< the first command was taken
   std::uint64_t cycles = 0, bursts = 0, asked = 0;
-  std::size_t most_under_way = 0;
+  std::size_t most_under_way = 0, most_unjudged = 0;  ///< bursts; sets
   unsigned error = 0;
-  bool all_sent = false;
+  bool all_sent = false, stopped = false;
 };
 
 FetchResult run_fetch(const FetchStream& stream, const FetchRun& run, FetchDevice& device);

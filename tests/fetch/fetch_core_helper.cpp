@@ -41,7 +41,23 @@ class VerilatedCore final : public CoreDevice {
     if (taken) assembly_.accept(*beat);
     cycle();
   }
-  bool at_rest() override { return assembly_.complete(); }
+  bool at_rest() override {
+    if (!resetting_) return assembly_.complete();
+    if ((read(cmodel::kRegStatus.address) & 1) != 0) return false;
+    resetting_ = false;
+    assembly_.reset();
+    kept_.tiles.clear();
+    return true;
+  }
+  void restart() override {
+    ports_.s_tvalid_i = 0;
+    ports_.awaddr_i.drive(cmodel::kRegControl.address);
+    ports_.wdata_i.drive(2);
+    ports_.awvalid_i = ports_.wvalid_i = 1;
+    cycle();
+    ports_.awvalid_i = ports_.wvalid_i = 0;
+    resetting_ = true;
+  }
 
   const std::vector<cmodel::TilePixels>& tiles() const override { return kept_.tiles; }
   unsigned refused() override { return read(cmodel::kRegError.address) & 0xFF; }
@@ -110,6 +126,7 @@ class VerilatedCore final : public CoreDevice {
   std::unique_ptr<testbench::SimulatedTop> top_;
   testbench::Ports ports_;
   std::uint64_t cycle_ = 0;
+  bool resetting_ = false;
 };
 
 }  // namespace

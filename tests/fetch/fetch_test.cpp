@@ -8,6 +8,7 @@
 #include "tests/cmodel/random_stream_helper.hpp"
 #include "tests/cmodel/stream_writer_helper.hpp"
 #include "tests/fetch/fetch_bench_helper.hpp"
+#include "tests/fetch/stops_helper.hpp"
 
 namespace fastsplat::test {
 namespace {
@@ -25,6 +26,33 @@ FetchStream stream_of(const char* name, std::uint64_t seed, std::uint64_t splats
   config.cull_map = static_cast<int>(map);
   return fetch_stream(config, to_beats(random_stream(symbols_of(config), random, splats, SetOrder::Whole).bytes),
                       kAddress);
+}
+
+/// For each of `empties` a sheet of so many sets without splats, in front of one whose three sets have two each.
+FetchStream stream_with_empty_sets(const std::vector<int>& empties) {
+  cmodel::Config config = named_config("tiny");
+  config.cull_map = static_cast<int>(cmodel::CullMap::Block);
+  StreamWriter w(symbols_of(config));
+  w.begin_frame(16, 16, 1);
+  w.load_table(1, 0, 0, 0, std::vector<std::uint32_t>(static_cast<std::size_t>(config.radial_entries), 1));
+  w.load_table(2, 0, 0, 0, std::vector<std::uint32_t>(static_cast<std::size_t>(config.opacity_segments) + 1, 1));
+  const auto words = static_cast<std::size_t>(config.lanes) * static_cast<std::size_t>(config.phases);
+  w.load_table(0, 0, static_cast<std::uint32_t>(words / 2), 0, std::vector<std::uint32_t>(words, 0));
+  w.begin_tile(0, 0, 0, 0, 16, 16);
+  std::uint32_t sheet = 0;
+  for (const int empty : empties) {
+    w.begin_sheet(sheet++);
+    for (int i = 0; i < empty; ++i) w.cull_block(w.next_tag(), 0, 0, 16, 16, 0);
+    w.end_sheet();
+    w.begin_sheet(sheet++);
+    for (std::uint32_t i = 0; i < 3; ++i) w.cull_block(w.next_tag() + 2 * i, 0, 0, 16, 16, 2);
+    for (int i = 0; i < 6; ++i)
+      w.splat(0, 8 << config.position_frac_bits, 8 << config.position_frac_bits, {1, 1, 1, 1});
+    w.end_sheet();
+  }
+  w.end_tile();
+  w.end_frame();
+  return fetch_stream(config, to_beats(w.bytes()), kAddress);
 }
 
 /// What the page says of when beats are offered, from the cycles in which those before were taken.
@@ -152,13 +180,14 @@ TEST(Fetch, TellsErrorsAndStops) {
       ++told;
     }
     FetchStream wrong = stream;
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < (build == FetchBuild::Narrow ? 5 : 4); ++i) {
       cmodel::FetchCommand& command = wrong.commands[0];
       command = stream.commands[0];
       if (i == 0) command.address += 8;
       if (i == 1) command.beats = 0;
       if (i == 2) command.sets = command.beats + 1;
       if (i == 3) command.sets = 0, command.splats = 1;
+      if (i == 4) command.address |= std::uint64_t{1} << 40;  // beyond ADDRESS_BITS
       const FetchResult seen = run_fetch(wrong, {.build = build, .error = kCommand});
       EXPECT_EQ(seen.finding, "");
       EXPECT_EQ(seen.bursts, 0U);
@@ -186,6 +215,126 @@ TEST(Fetch, StopsAnywhere) {
   }
   std::printf("[figure] stops = %d, beats sent = %llu\n", stops, static_cast<unsigned long long>(sent));
   EXPECT_GT(stops, 10);
+}
+
+// Errors of two kinds in one frame: what is sent has no hole, whichever comes first.
+TEST(Fetch, SendsNothingBehindABeatThatCannotBeRead) {
+  const FetchStream stream = stream_of("tiny", 5, 200);
+  const std::size_t wanted = stream.wanted().size();
+  int runs = 0, both = 0;
+  for (const FetchBuild build : {FetchBuild::Default, FetchBuild::Narrow}) {
+    for (const int set : {0, 1, 2, 3}) {
+      for (std::size_t number = 0; number < wanted; number += 2) {
+        FetchRun run{.build = build, .memory = {.latency = 5}, .ready = Pattern("random-60", number)};
+        run.other_tag = set, run.spoiled = stream.wanted()[number], run.any_error = true;
+        const FetchResult seen = run_fetch(stream, run);
+        ASSERT_EQ(seen.finding, "") << "set " << set << ", beat " << number;
+        ASSERT_NE(seen.error, 0U);
+        ASSERT_LE(seen.taken.size(), number);
+        ++runs;
+        both += seen.error == kVerdict && seen.asked > number ? 1 : 0;
+      }
+    }
+  }
+  std::printf("[figure] runs with two errors = %d, unreadable beat behind a wrong verdict = %d\n", runs, both);
+  EXPECT_GT(both, 5);
+}
+
+TEST(Fetch, WorksAgainAfterAStop) {
+  std::uint64_t runs = 0;
+  for (const FetchBuild build : {FetchBuild::Default, FetchBuild::Narrow}) {
+    FetchRun run{
+        .build = build, .memory = {.latency = 9, .has = Pattern("random-60", 5)}, .ready = Pattern("random-60", 3)};
+    run.verdict_wait = 12;
+    const Stops stops = stop_and_begin_again(stream_of("tiny", 6, 60), run, 97);
+    EXPECT_EQ(stops.finding, "");
+    runs += stops.runs;
+  }
+  std::printf("[figure] stops with a whole frame after them = %llu\n", static_cast<unsigned long long>(runs));
+  EXPECT_GT(runs, 50U);
+}
+
+TEST(Fetch, WorksAgainAfterARefusal) {
+  const FetchStream stream = stream_with_empty_sets({30, 7, 40});
+  std::uint64_t runs = 0, full = 0;
+  for (const std::size_t judged : {0U, 3U, 20U, 38U}) {
+    for (std::uint64_t stop = 20; stop < 1200; stop += 25) {
+      FetchRun run{.build = FetchBuild::Narrow, .memory = {.latency = 3}};
+      run.ahead = 60, run.mute = judged, run.again = true, run.stop_at = stop;
+      const FetchResult seen = run_fetch(stream, run);
+      ASSERT_EQ(seen.finding, "") << judged << " judged, stop in cycle " << stop;
+      ASSERT_TRUE(seen.stopped && seen.all_sent);
+      ++runs;
+      full += seen.most_unjudged >= 8 ? 1 : 0;
+    }
+  }
+  std::printf("[figure] refusals = %llu, with as many sets unjudged as there is room for = %llu\n",
+              static_cast<unsigned long long>(runs), static_cast<unsigned long long>(full));
+  EXPECT_GT(full, 10U);
+}
+
+TEST(Fetch, WorksAgainAfterAnyError) {
+  const FetchStream stream = stream_of("tiny", 7, 60);
+  std::uint64_t runs = 0;
+  for (const FetchBuild build : {FetchBuild::Default, FetchBuild::Narrow}) {
+    for (std::size_t number = 0; number < stream.wanted().size(); ++number) {
+      FetchRun run{.build = build, .memory = {.latency = 7}, .ready = Pattern("random-60", number)};
+      run.verdict_wait = 12, run.again = true;
+      run.spoiled = stream.wanted()[number], run.spoiled_once = true, run.stop_after_error = 1 + number % 40;
+      run.error = kResponse;
+      const FetchResult seen = run_fetch(stream, run);
+      ASSERT_EQ(seen.finding, "") << "beat " << number;
+      ASSERT_TRUE(seen.stopped && seen.all_sent);
+      ++runs;
+    }
+  }
+  std::printf("[figure] frames sent whole after an error = %llu\n", static_cast<unsigned long long>(runs));
+  EXPECT_GT(runs, 100U);
+}
+
+TEST(Fetch, VerdictsOfSetsWithoutSplatsChangeNothing) {
+  const FetchStream stream = stream_with_empty_sets({1, 5, 2, 9});
+  for (const unsigned wait : {0U, 12U, 40U}) {
+    FetchRun run{.memory = {.latency = 2}};
+    run.verdict_wait = wait;
+    const FetchResult seen = run_fetch(stream, run);
+    EXPECT_EQ(seen.finding, "");
+    EXPECT_TRUE(seen.all_sent);
+  }
+  std::printf("[figure] sets = %zu, beats = %zu\n", stream.hidden.size(), stream.beats.size());
+}
+
+// More sets than the master keeps in mind lie between it and the verdicts, as behind a FIFO: it waits.
+TEST(Fetch, WaitsWhileTooManySetsAreUnjudged) {
+  std::uint64_t full = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const FetchStream stream = stream_of("small", 40 + seed, 300);
+    for (const unsigned ahead : {8U, 18U, 60U}) {
+      FetchRun run{.build = seed % 2 == 0 ? FetchBuild::Default : FetchBuild::Narrow, .memory = {.latency = 3}};
+      run.ahead = ahead, run.verdict_wait = 30;
+      const FetchResult seen = run_fetch(stream, run);
+      ASSERT_EQ(seen.finding, "") << "seed " << seed << ", " << ahead << " beats between";
+      ASSERT_TRUE(seen.all_sent);
+      const std::size_t room = run.build == FetchBuild::Default ? 16 : 8;
+      full += seen.most_unjudged == room ? 1 : 0;
+      EXPECT_LE(seen.most_unjudged, room);
+    }
+  }
+  std::printf("[figure] runs with as many sets unjudged as there is room for = %llu\n",
+              static_cast<unsigned long long>(full));
+  EXPECT_GT(full, 0U);
+}
+
+TEST(Fetch, RefusesAVerdictThatNobodyWaitsFor) {
+  const FetchStream stream = stream_of("tiny", 5, 200);
+  int told = 0;
+  for (const std::uint64_t cycle : {1U, 40U, 200U}) {
+    FetchRun run{.memory = {.latency = 5}};
+    run.stray = cycle, run.error = kVerdict;
+    EXPECT_EQ(run_fetch(stream, run).finding, "") << cycle;
+    ++told;
+  }
+  std::printf("[figure] stray verdicts = %d\n", told);
 }
 
 struct Planted {

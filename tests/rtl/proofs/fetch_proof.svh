@@ -15,8 +15,16 @@ always @* begin
   assume (!m_axi_rvalid || f_asked != OB'(1) || m_axi_rlast == (f_owed == DB'(1)));
   assume (!m_axi_rvalid || f_owed != DB'(1) || f_asked == OB'(1));
   assume (!m_axi_rvalid || burst_known);
-  // Queue: shows nothing that it does not hold.
-  assume (!m_axis_tvalid || unsent_q != '0);
+  // Queues: show nothing that they do not hold, and a beat until it is taken.
+  assume (!has_beat || unsent_q != '0);
+  assume (!judged_valid || unjudged_q != '0);
+  assume (!f_waits_q || (has_beat && sending_set == f_set_q));
+end
+logic f_waits_q, f_set_q;
+initial f_waits_q = 1'b0;
+always @(posedge clk_i) begin
+  f_waits_q <= rst_ni && has_beat && !sends;
+  f_set_q <= sending_set;
 end
 always @(posedge clk_i) begin
   f_due_q <= f_due_q + (issue ? DB'(burst) : '0) - DB'(m_axi_rvalid);
@@ -36,6 +44,7 @@ always @(posedge clk_i) begin
     // The specification: room for every beat, no more bursts than may be, none that is empty or runs over its run.
     assert (!arrives || unsent_q < DB'(1 << DEPTH_LOG2));
     assert (outstanding_q <= OB'(OUTSTANDING));
+    assert (unjudged_q <= (JUDGED_LOG2 + 1)'(1 << JUDGED_LOG2));
     assert (!issue || (burst != '0 && 32'(burst) <= left_q));
     assert (!f_any_q || (run_valid_q && address_q == f_next_q));
     assert (!(verdict_valid && verdict_hidden && judged_counted && !last_set) || !run_put);
@@ -49,5 +58,6 @@ always @(posedge clk_i) begin
     cover (m_axi_arvalid && !m_axi_arready && outstanding_q == OB'(OUTSTANDING));
     cover (sends && unsent_q == DB'(1) && phase_q == PhRuns);
     cover (error == VERDICT && !busy);
+    cover (judged_full && has_beat && sending_set && !m_axis_tvalid);
   end
 end

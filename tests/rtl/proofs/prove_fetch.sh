@@ -28,15 +28,17 @@ queue_broken keeps_the_first "s/if (taken || held_q == 2'd0) first_q/if (held_q 
 queue_broken shows_the_memory "s/(held_q != 2'd0) ? first_q : fetched/(held_q == 2'd1) ? first_q : fetched/"
 queue_broken late "s/assign read = put_q != read_q \&\&/assign read = put_q - read_q > (LOG2 + 1)'(1) \&\&/"
 
-small="-set ADDRESS_BITS 16 -set BURST 4 -set DEPTH_LOG2 3 -set OUTSTANDING 3 -set SETS_LOG2 2"
+small="-set ADDRESS_BITS 16 -set BURST 4 -set DEPTH_LOG2 3 -set OUTSTANDING 3 -set SETS_LOG2 2 -set JUDGED_LOG2 3"
 smt fetch fetch "$small"
-holds fetch 2 "fetch: ARVALID and its address stay, bursts lie within 4 KB and their run and have room, no more under way than may be; bursts of 4, 8 beats, 3 under way"
+holds fetch 2 "fetch: ARVALID and its address stay, bursts lie within 4 KB and their run and have room, no more under way than may be, no more sets unjudged than there is room for, no beat withdrawn; bursts of 4, 8 beats, 3 under way, 8 sets"
 happens fetch 24
-fetch_broken() { smt "fetch_$1" fetch "$small" "$2"; refuted "fetch_$1" 14; }
+fetch_broken() { smt "fetch_$1" fetch "$small" "$2"; refuted "fetch_$1" "${3:-14}"; }
 fetch_broken valid_dropped "s/^    if (!m_axi_arvalid || m_axi_arready) begin/    if (1'b1) begin/"
 fetch_broken over_page 's/32.(to_page) < 32.(BURST) \&\&/32'"'"'(to_page) > 32'"'"'(BURST) \&\&/'
 fetch_broken no_room "s/(room_q >= DB'(BURST) ||/(room_q >= DB'(1) ||/"
 fetch_broken room_twice "s/ + DB'(sends);\$/ + DB'(m_axis_tvalid);/"
 fetch_broken one_too_many "s/outstanding_q < OB'(OUTSTANDING)/outstanding_q <= OB'(OUTSTANDING)/"
+fetch_broken withdrawn 's/ || stop_q || held_q);/ || stop_q);/' 22
+fetch_broken judges_too_many "s/assign judged_full = .*/assign judged_full = 1'b0;/" 22
 fetch_broken gap 's/address_q <= address_q + (AB.(burst)/address_q <= address_q + (AB'"'"'(BURST)/'
 fetch_broken asks_hidden "s/(verdict_hidden \&\& !\`FASTSPLAT_FAULT(FETCH_HIDDEN_TOO))/1'b0/"

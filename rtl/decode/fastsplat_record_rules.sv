@@ -103,7 +103,7 @@ module fastsplat_record_rules (
   assign sides_good = w4[15:0] != '0 && w4[31:16] != '0;
   assign set_good = w0[15:8] < 8'(fastsplat_pkg::RLUT_SETS) && sets_loaded_i[w0[8+:fastsplat_pkg::SET_BITS]];
   assign position_good = (w2[31:PB-1] == '0 || w2[31:PB-1] == '1) && (w3[31:PB-1] == '0 || w3[31:PB-1] == '1);
-  localparam int EX = 22;  // an ellipse's x and y
+  localparam int EX = (PB > 22) ? PB : 22;  // an ellipse's x and y have 22 bits; a device with wider ones has no ellipses
   assign ellipse_position_good = (w2[EX-1:PB-1] == '0 || w2[EX-1:PB-1] == '1) && (w3[EX-1:PB-1] == '0 || w3[EX-1:PB-1] == '1);
   assign colour_good = (w4[15:0] >> CB) == '0 && (w4[31:16] >> CB) == '0 && (w5[15:0] >> CB) == '0 && (w5[31:16] >> CB) == '0;
 

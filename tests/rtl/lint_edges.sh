@@ -37,6 +37,8 @@ lint tiny sheet.frac_bits=31
 lint tiny rlut.sets=64
 lint tiny radial.entries=2 opacity.segments=2
 lint tiny pixel.int_bits=8 pixel.frac_bits=24
+lint tiny position.int_bits=11 position.frac_bits=12
+lint tiny position.int_bits=16 position.frac_bits=12
 lint base tile.width=512
 lint hx8k composite.lanes=2 counters.bits=33
 lint hx8k composite.lanes=4 counters.bits=64
@@ -54,4 +56,4 @@ for map in '"block"' '"pixel"'; do
   lint faults/cull cull.map="$map" array.lanes=4 rlut.columns=4 composite.lanes=16 composite.freeze_below=0
 done
 echo "[figure] configurations at the ends of the limits, without a warning = $read_count"
-(( read_count == 29 ))
+(( read_count == 31 ))

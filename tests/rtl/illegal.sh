@@ -5,10 +5,10 @@ emit=$1 source=$2 work=$3
 mkdir -p "$work"
 checked=0
 
-# refused NAME=VALUE TEXT: the tiny package with one number changed.
+# refused NAME=VALUE TEXT [CONFIGURATION]: its package (tiny's) with one number changed.
 refused() {
   name=${1%=*} value=${1#*=} text=$2
-  "$emit" "$source/configs/tiny.toml" | sed "s/localparam int $name = .*;/localparam int $name = $value;/" >"$work/fastsplat_pkg.sv"
+  "$emit" "$source/configs/${3:-tiny}.toml" | sed "s/localparam int $name = .*;/localparam int $name = $value;/" >"$work/fastsplat_pkg.sv"
   grep -q "localparam int $name = $value;" "$work/fastsplat_pkg.sv" || { echo "the package has no $name"; exit 1; }
   if verilator --lint-only --top-module fastsplat_core "-I$source/rtl" "$work/fastsplat_pkg.sv" "$source"/rtl/*.sv "$source"/rtl/*/*.sv >"$work/lint.log" 2>&1; then
     echo "$1: Verilator accepts it"; exit 1
@@ -29,4 +29,8 @@ refused RADIAL_ENTRIES=63 "RADIAL_ENTRIES is 63, but 2^RADIAL_LOG2 is 64"
 refused BLOCKS_Y=17 "BLOCKS is 256, but BLOCKS_X \* BLOCKS_Y is 272"
 refused RLUT_COLUMNS=15 "RLUT_COLUMNS is 15, but must be a multiple of 2"
 refused SLICES=2 "SLICES is 2, but 1 of COMPOSITE_LANES pixels make a block"
-[ "$checked" -eq 6 ]
+refused CULL_MAP=1 "CULL_MAP is 1, but ELLIPSES + DENSITIES is 1, not 0" ellipse
+refused CULL_MAP=2 "CULL_MAP is 2, but ELLIPSES + DENSITIES is 2, not 0" faults/post
+refused DENSITIES=1 "CULL_MAP is 1, but ELLIPSES + DENSITIES is 1, not 0" faults/cull
+refused DENSITIES=1 "EVERY_SAMPLE is 1, but DENSITIES is 1, not 0" faults/westover
+[ "$checked" -eq 10 ]

@@ -21,6 +21,7 @@ constexpr RegisterField kStatus[] = {
 constexpr RegisterField kControl[] = {
     {"CLEAR", 0, 0, "1: all counters to 0"},
     {"RESET", 1, 1, "1: soft reset; done when STATUS.BUSY is 0"},
+    {"DROP", 2, 2, "1, with RESET, of fastsplat_top: beats are taken and dropped until CONTROL is written without it"},
 };
 constexpr RegisterField kError[] = {
     {"RULE", 7, 0, "the rule of docs/stream.md that the first refused beat broke; 0: none was refused"},

@@ -351,7 +351,8 @@ module fastsplat_stream_check (
       error_beat_o <= '0;
     end
   end
-  `FASTSPLAT_ASSUME_HELD(input_held, valid_i && !ready_o, valid_i, data_i)
+  // A soft reset forgets a beat that is offered (fastsplat_top drops it).
+  `FASTSPLAT_ASSUME_HELD(input_held, valid_i && !ready_o && !reset_i && !reset_q, valid_i, data_i)
   `FASTSPLAT_ASSERT_HELD(judged_beat_held, valid_o && !ready_i, valid_o, {data_o, payload_o, aborted_o})
   `FASTSPLAT_ASSERT(refused_beat_stays_out, !(refused && valid_o))
   `FASTSPLAT_COVER(sheet_is_ended, ends && place_q == PlSheet)

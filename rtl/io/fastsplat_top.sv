@@ -56,6 +56,22 @@ module fastsplat_top (
       .data_o(beat)
   );
 
+  // A reset forgets the frame, but a source may not withdraw what it offers: beats are dropped while the host says so (CONTROL.DROP), then up
+  // to the next begin_frame.
+  logic drops_q, seeks_q, begins, core_valid, core_ready, writes_control;
+  logic [11:0] write_address;
+  assign begins = beat[7:0] == fastsplat_pkg::OP_BEGIN_FRAME && beat[63:32] == fastsplat_pkg::STREAM_MAGIC;
+  assign core_valid = beat_valid && !drops_q && (!seeks_q || begins);
+  assign beat_ready = core_ready || drops_q || (seeks_q && !begins);
+  assign write_address = (s_axil_wstrb == 4'hf) ? s_axil_awaddr : NOWHERE;
+  assign writes_control = s_axil_awvalid && s_axil_awready && write_address == fastsplat_pkg::REG_CONTROL;
+  always_ff @(posedge aclk) begin
+    if (core_valid && core_ready) seeks_q <= 1'b0;
+    if (writes_control) drops_q <= s_axil_wdata[2:1] == 2'b11;
+    if (!aresetn || (writes_control && s_axil_wdata[1])) seeks_q <= 1'b1;
+    if (!aresetn) drops_q <= 1'b0;
+  end
+
   logic pixels_valid, pixels_ready, last, aborted;
   logic [P*128-1:0] pixels;
   logic [P-1:0] keep, keep_q;
@@ -78,8 +94,8 @@ module fastsplat_top (
   fastsplat_core u_core (
       .clk_i(aclk),
       .rst_ni(aresetn),
-      .s_tvalid_i(beat_valid),
-      .s_tready_o(beat_ready),
+      .s_tvalid_i(core_valid),
+      .s_tready_o(core_ready),
       .s_tdata_i(beat),
       .m_tvalid_o(pixels_valid),
       .m_tready_i(pixels_ready),
@@ -89,7 +105,7 @@ module fastsplat_top (
       .m_tuser_o(aborted),
       .awvalid_i(s_axil_awvalid),
       .awready_o(s_axil_awready),
-      .awaddr_i((s_axil_wstrb == 4'hf) ? s_axil_awaddr : NOWHERE),
+      .awaddr_i(write_address),
       .wvalid_i(s_axil_wvalid),
       .wready_o(s_axil_wready),
       .wdata_i(s_axil_wdata),

@@ -16,6 +16,7 @@ WORDINGS = re.compile(r"\bis no (?!longer\b)|\bare none\b| told\b|\bthose that\b
 COMMAND = re.compile(r"(?m)(?:^|[|;&($])\s*(?:\w+=\S+ +)*((?:\./run|(?:[\w./]*/)?fastsplat|tools/[a-z-]+)(?= |$)[^|;&>\n#]*)")
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(<?([^)\s>]+)>?\)")
 PAGE = re.compile(r"\bdocs/[\w/-]+\.md\b")
+SECTION = re.compile(r"([\w/-]+\.md)\)?,? \(?(?:section [\d.]+, )?\"([A-Z0-9][^\"]{2,60})\"")  # PAGE.md, "Section"
 
 
 def words(text):
@@ -49,6 +50,7 @@ class Page:
 
     def __init__(self, text):
         self.paragraphs, self.cells, self.code, self.anchors, self.seen = [], [], [], set(), collections.Counter()
+        self.titles = " ".join(re.findall(r"(?m)^#+ .*|\*[^*\n]+\*", text))
         self.links, block, fence, in_list, listing = [], [], None, False, ""
         for number, line in enumerate(text.splitlines() + [""], 1):
             bare = line.strip()
@@ -156,10 +158,18 @@ class Help:
         return None
 
 
+def section_defects(text, line, pages):
+    for name, title in SECTION.findall(" ".join(text.split())):
+        page = pages.get(name) or pages.get("docs/" + name)
+        if page and title not in page.titles:
+            yield "links", line, f'{name}, "{title}": no such section'
+
+
 def page_defects(path, pages, programs, source):
     page = pages[path]
     for text, line in page.paragraphs:
         yield from prose_defects(text, line)
+        yield from section_defects(text, line, pages)
     for cell, line in page.cells:
         text = plain(cell)
         if words(text) > CELL:
@@ -182,13 +192,15 @@ def page_defects(path, pages, programs, source):
                 yield "commands", line, f"{match[1].strip()}: {why}"
 
 
-def header_defects(text, source):
+def header_defects(text, pages, source):
     block = []
     for number, line in enumerate(text.splitlines() + [""], 1):
         comment = re.match(r"\s*//[/!]?<?(.*)", line)
         said = comment[1] if comment else ""
         if block and (not said.strip() or re.match(r" ?\s*[-*] ", said)):
-            yield from prose_defects("\n".join(line for line, _ in block), block[0][1])
+            joined = "\n".join(line for line, _ in block)
+            yield from prose_defects(joined, block[0][1])
+            yield from section_defects(joined, block[0][1], pages)
             block = []
         if said.strip() and not said.startswith("    "):
             block.append((re.sub(r"^\s*[-*] ", "", said), number))
@@ -223,7 +235,7 @@ def count(source, program):
     pages = {path: Page(text) for path, text in texts.items() if path.endswith(".md")}
     programs, found = Help(source, program), collections.defaultdict(list)
     for path, text in texts.items():
-        defects = page_defects(path, pages, programs, source) if path in pages else header_defects(text, source)
+        defects = page_defects(path, pages, programs, source) if path in pages else header_defects(text, pages, source)
         for kind, line, what in defects:
             found[folder_of(path), kind].append(f"{path}:{line}: {kind}: {what}")
     return found, sorted({folder_of(path) for path in texts}), len(pages), len(texts) - len(pages)

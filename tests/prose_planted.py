@@ -43,13 +43,16 @@ int x;  // told, but not at the line's beginning
 /// {LONG[90:]}, docs/gone.md.
 ///
 ///     an example, told
+
+// See docs/other.md, "A heading", and docs/other.md,
+// "No heading".
 """
 EXPECTED = {
     ("page.md", 2, "sentences"), ("page.md", 3, "wordings"), ("page.md", 4, "wordings"), ("page.md", 6, "cells"),
     ("page.md", 8, "links"), ("page.md", 10, "links"), ("page.md", 12, "commands"), ("page.md", 20, "commands"), ("page.md", 22, "commands"),
-    ("a.hpp", 1, "wordings"), ("a.hpp", 5, "sentences"), ("a.hpp", 6, "links"),
+    ("a.hpp", 1, "wordings"), ("a.hpp", 5, "sentences"), ("a.hpp", 6, "links"), ("a.hpp", 10, "links"),
 }
-COUNTS = {"sentences": 2, "cells": 1, "wordings": 5, "links": 4, "commands": 7}
+COUNTS = {"sentences": 2, "cells": 1, "wordings": 5, "links": 5, "commands": 7}
 PROGRAM = """#!/bin/sh
 case "$*" in
   help | "draw --help" | "verb --help" | "verb sub --help") printf '%s\\n' '  --size N' "$(test "$1" = verb && echo Subcommands:)" ;;

@@ -45,7 +45,7 @@ class RayProfile {
  public:
   RayProfile(const scene::Kernel& kernel, const RaySamples& samples);
 
-  /// As it is said.
+  /// Adds a hit as defined above.
   void add(const RayHit& hit);
 
   /// The same, bit for bit, for samples [begin, end) only and with vectors. Hits are kept until four can be walked side

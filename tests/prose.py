@@ -151,8 +151,8 @@ class Help:
             if about is None:
                 return f"no script {program}"
         for word in rest:
-            flag = re.match(r"--[a-z][\w-]*", word)
-            if flag and flag[0] != "--help" and not re.search(rf"{flag[0]}(?![\w-])", about):
+            flag = re.match(r"--[a-z][\w-]*|-[A-Za-z](?=$|\d)", word)
+            if flag and flag[0] != "--help" and not re.search(rf"(?<![\w-]){flag[0]}(?![a-z-])", about):
                 if not re.match(r"--benchmark_", word):
                     return f"{shown.split(' --')[0]} has no flag {flag[0]}"
         return None

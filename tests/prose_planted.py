@@ -27,7 +27,7 @@ tools/absent --help
 
     fastsplat verb sub --wide
 
-`./run fastsplat paint`, `./run test`, `tools/script --flag` and `tools/script --none`.
+`./run fastsplat paint`, `./run test`, `tools/script --flag`, `tools/script --none` and `tools/script -n`.
 """ + f"""
 In order: it is no longer so. A "quote is no name". {LONG[:-5]}. `{LONG}` is code. {LONG[:-5]}.
 
@@ -52,7 +52,7 @@ EXPECTED = {
     ("page.md", 8, "links"), ("page.md", 10, "links"), ("page.md", 12, "commands"), ("page.md", 20, "commands"), ("page.md", 22, "commands"),
     ("a.hpp", 1, "wordings"), ("a.hpp", 5, "sentences"), ("a.hpp", 6, "links"), ("a.hpp", 10, "links"),
 }
-COUNTS = {"sentences": 2, "cells": 1, "wordings": 5, "links": 5, "commands": 7}
+COUNTS = {"sentences": 2, "cells": 1, "wordings": 5, "links": 5, "commands": 8}
 PROGRAM = """#!/bin/sh
 case "$*" in
   help | "draw --help" | "verb --help" | "verb sub --help") printf '%s\\n' '  --size N' "$(test "$1" = verb && echo Subcommands:)" ;;

@@ -36,8 +36,8 @@ struct Cluster {
   Place worst;
 };
 
-/// Over all finite values of all channels alike, alpha included (docs/compare.md has the formulas). NaN when there are
-/// none.
+/// Over all finite values of all channels alike, alpha included (docs/compare.md has the formulas). NaN without any
+/// finite value.
 struct Figures {
   double psnr_db = 0;  ///< +inf when identical; printed as "inf", null in JSON with "identical": true
   double max_abs_lsb = 0, mean_abs_lsb = 0, rmse_lsb = 0, bias_lsb = 0;

@@ -31,7 +31,7 @@ class AtomicFile {
   std::optional<UnfinishedPath> unfinished_;  ///< the temporary file, until it is committed
 };
 
-/// `text` to `path`, atomically; straight into it when it is a device or a pipe (/dev/null, /dev/stdout).
+/// Writes `text` to `path` atomically; directly if it is a device or a pipe (/dev/null, /dev/stdout).
 void write_text_file(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace fastsplat

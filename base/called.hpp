@@ -1,4 +1,4 @@
-// Calls another program and keeps what it prints.
+// Calls another program and keeps its output.
 #pragma once
 
 #include <functional>
@@ -8,17 +8,17 @@
 namespace fastsplat {
 
 struct Called {
-  int code = 0;  ///< exit code; 127 where there is no such program, 128 + signal, 124 when it was given up
+  int code = 0;  ///< exit code; 127: program not found, 128 + signal, 124: timed out
   std::string out, err;
-  /// The last line that says something, of stderr or else of stdout; else its exit code in words.
+  /// The last non-empty line of stderr, else of stdout; else the exit code in words.
   std::string last_words() const;
 };
 
-/// Called with what the program has printed to stdout so far.
+/// Called with the program's output on stdout so far.
 using Heard = std::function<void(const std::string& out)>;
 
-/// Runs `words`, the program first, without stdin, for at most `seconds` (0: however long it takes); then it is killed.
-/// It and what it starts do not outlive this process. UserError (Input) where no process can be started.
+/// Runs `words`, the program first, without stdin. Kills it after `seconds` (0: no limit). The program and its children
+/// do not outlive this process. Throws UserError (Input) if no process can be started.
 Called call(const std::vector<std::string>& words, int seconds, const Heard& heard = {});
 
 }  // namespace fastsplat

@@ -1,4 +1,4 @@
-// What a user did that cannot be carried out, told in one line: what, where, expected, got, fix.
+// Errors of the user, reported in one line: what, where, expected, got, fix.
 // Programmer mistakes are not reported this way; they are assertions.
 #pragma once
 
@@ -11,8 +11,8 @@ namespace fastsplat {
 enum class ExitCode : int {
   Pass = 0,
   Failed = 1,         ///< a verification or threshold failed
-  Usage = 2,          ///< the command line or a parameter makes no sense
-  Input = 3,          ///< a file or its format is bad, or a result cannot be written
+  Usage = 2,          ///< invalid command line or parameter
+  Input = 3,          ///< invalid file or format, or a result cannot be written
   NotComparable = 4,  ///< two things that differ in size, channels or format
   Simulation = 5,     ///< timeout, deadlock, assertion in the simulated device
   Internal = 70,
@@ -23,9 +23,9 @@ enum class ExitCode : int {
 struct ErrorParts {
   std::string where;     ///< file, file:line:column, offset, flag
   std::string what;      ///< what is wrong
-  std::string expected;  ///< what would have been right
-  std::string got;       ///< what was there
-  std::string fix;       ///< what to do now
+  std::string expected;  ///< the valid value or range
+  std::string got;       ///< the value found
+  std::string fix;       ///< what to do, as an imperative
 };
 
 /// "where: what (expected E, got G); fix". Control characters from files are escaped, so it stays one line.

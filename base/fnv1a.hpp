@@ -8,9 +8,9 @@ namespace fastsplat {
 
 inline constexpr std::uint64_t kFnv1aStart = 0xcbf29ce484222325U;
 
-/// `hash` and one value more: a byte as the hash is defined, or a word of eight at once.
+/// Extends `hash` by one value: a byte as the hash is defined, or a word of eight bytes at once.
 constexpr std::uint64_t fnv1a(std::uint64_t hash, std::uint64_t value) { return (hash ^ value) * 0x100000001b3U; }
-/// `hash` and the bytes of a text.
+/// Extends `hash` by the bytes of a text.
 constexpr std::uint64_t fnv1a(std::uint64_t hash, std::string_view text) {
   for (const char c : text) hash = fnv1a(hash, std::uint64_t{static_cast<unsigned char>(c)});
   return hash;

@@ -1,13 +1,13 @@
-// One process at a time changes a file that several may add to.
+// Lets one process at a time change a file that several may add to.
 #pragma once
 
 #include <filesystem>
 
 namespace fastsplat {
 
-/// Waits until no other holds the lock of the folder in which `path` lies; releases it when it goes, or the process
-/// does. The folder itself is locked: the file is replaced whenever it is written, and a lock file beside it would
-/// stay behind. UserError (Input) where the folder cannot be opened.
+/// Waits for the lock of the folder that contains `path`; releases it in the destructor or when the process ends. The
+/// folder itself is locked, because the file is replaced at each write and a separate lock file would stay behind.
+/// Throws UserError (Input) if the folder cannot be opened.
 class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& path);

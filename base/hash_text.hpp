@@ -1,4 +1,4 @@
-// A 64-bit hash as text, as everywhere one is printed or stored.
+// A 64-bit hash as text, in the form used wherever one is printed or stored.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// A floating-point image: what golden renders, what files hold after decoding.
+// A floating-point image: golden's result, or a decoded file.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// A file that holds JSON, read and refused in the one place where every such file is.
+// Reads every JSON file, and reports its errors, in one place.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace fastsplat {
 
-/// What a file ought to be, for the line that refuses it.
+/// The expected content of a file, for error messages.
 struct JsonKind {
   std::string what;      ///< "is no plan"
   std::string expected;  ///< "what `fastsplat plan make` writes"
@@ -21,8 +21,8 @@ struct JsonKind {
   std::size_t most_bytes = std::size_t{1} << 28;
 };
 
-/// `text` as JSON. Throws std::runtime_error when it nests too deeply for what recurses over it, and as Json::parse()
-/// does.
+/// Parses `text` as JSON. Throws std::runtime_error if it nests too deeply for recursive functions, and the exceptions
+/// of Json::parse().
 template <class Json>
 Json parse_json(const std::string& text) {
   if (const auto deep = json_too_deep(text)) {
@@ -32,8 +32,9 @@ Json parse_json(const std::string& text) {
   return Json::parse(text);
 }
 
-/// What `make` makes of the JSON in `path` (a `Json`, some nlohmann::json). UserError (Input) in one line that names
-/// the file: it cannot be read, is too large, is cut off or no JSON, or `make` threw, whatever that was.
+/// Returns make(json), json being the content of `path` (a `Json`, some nlohmann::json). Throws UserError (Input) in
+/// one line that names the file if it cannot be read, is too large, truncated or invalid JSON, or if `make` throws
+/// anything.
 template <class Json, class Make>
 auto from_json_file(const std::filesystem::path& path, const JsonKind& kind, const Make& make) {
   const std::string text = read_text_file(path, kind.most_bytes);
@@ -41,7 +42,7 @@ auto from_json_file(const std::filesystem::path& path, const JsonKind& kind, con
   try {
     return make(parse_json<Json>(text));
   } catch (const typename Json::parse_error& error) {
-    // Its message quotes the file and is long; the place is what helps.
+    // Its message quotes the file and is long; only the place helps.
     got = error.byte > text.size() ? "JSON that is cut off, " + std::to_string(text.size()) + " bytes"
                                    : "no JSON, a mistake at byte " + std::to_string(error.byte);
   } catch (const std::exception& error) {

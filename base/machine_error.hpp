@@ -1,5 +1,5 @@
-// Failures of the machine, not of what the user asked for: disk, memory, processes, files that went away. The same
-// command may succeed later, so a sweep takes none of them for a result.
+// Failures of the machine, not errors of the user: disk, memory, processes, vanished files. The same command may
+// succeed later, so a sweep does not record them as results.
 #pragma once
 
 #include <utility>
@@ -15,7 +15,7 @@ class MachineError : public UserError {
 
 [[noreturn]] inline void throw_machine(ErrorParts parts) { throw MachineError(std::move(parts)); }
 
-/// Throws `error` as it is but for its words and its code.
+/// Rethrows `error` with other words and another code.
 [[noreturn]] void throw_again(const UserError& error, ErrorParts parts, ExitCode code);
 
 /// The exit code of every MachineError in a process whose environment has kReportMachine.
@@ -24,7 +24,7 @@ inline constexpr const char* kReportMachine = "FASTSPLAT_REPORT_MACHINE";
 
 /// The exit code of a process that ends with `error`.
 ExitCode exit_code_of(const UserError& error);
-/// Of one that ends with a failure of the machine whose exit code is `code` elsewhere.
+/// The exit code of a process that ends with a failure of the machine; `code` is its code in other processes.
 ExitCode machine_exit_code(ExitCode code);
 
 }  // namespace fastsplat

@@ -1,4 +1,5 @@
-// Numbers in words that a user typed: locale-free and whole, so "0x10", "1e", "nan", "inf" and "3 " are none.
+// Parses numbers that a user typed, independent of locale and as a whole word: "0x10", "1e", "nan", "inf" and "3 "
+// are invalid.
 #pragma once
 
 #include <charconv>

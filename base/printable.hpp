@@ -1,4 +1,4 @@
-// Text for terminals and pages: names of files and what files hold may have any bytes, of which some move the cursor,
+// Makes text safe for terminals and pages. File names and contents may have any bytes, some of which move the cursor,
 // colour the screen or end a line.
 #pragma once
 
@@ -7,11 +7,11 @@
 
 namespace fastsplat {
 
-/// One line: ends of lines and tabs become blanks; other control characters, and bytes that are not UTF-8, become
+/// `text` as one line: line ends and tabs become blanks; other control characters, and bytes that are not UTF-8, become
 /// "\x1b". Visible characters stay.
 std::string printable(std::string_view text);
 
-/// The same of several lines, whose ends and tabs stay.
+/// The same for several lines; line ends and tabs stay.
 std::string printable_lines(std::string_view text);
 
 }  // namespace fastsplat

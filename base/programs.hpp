@@ -5,7 +5,7 @@
 
 namespace fastsplat {
 
-/// Where the shell would find it; empty: nowhere.
+/// The path at which the shell would find it; empty if it would not.
 std::string path_of(const std::string& program);
 
 /// Whether the shell would find it.

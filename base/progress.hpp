@@ -1,4 +1,4 @@
-// Progress of a long call, told to whoever wants to show it.
+// Progress callback of a long call.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 namespace fastsplat {
 
 /// Called with (done, total) in units of the callee's choice; may be called from any thread, concurrently.
-/// An empty function means nobody is watching.
+/// An empty function: progress is not reported.
 using Progress = std::function<void(std::size_t done, std::size_t total)>;
 
 }  // namespace fastsplat

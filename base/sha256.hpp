@@ -1,4 +1,4 @@
-// SHA-256 (FIPS 180-4), for contents that others check again: a browser, `sha256sum`.
+// SHA-256 (FIPS 180-4), for contents that other programs check: a browser, `sha256sum`.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace fastsplat {
 
-/// Of bytes that come in pieces.
+/// Hash of bytes that arrive in pieces.
 class Sha256 {
  public:
   void add(std::string_view bytes);
@@ -26,7 +26,7 @@ class Sha256 {
   std::uint64_t bytes_ = 0;
 };
 
-/// Of the whole text.
+/// Hash of the whole text.
 std::string sha256(std::string_view bytes);
 
 }  // namespace fastsplat

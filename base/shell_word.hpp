@@ -5,7 +5,7 @@
 
 namespace fastsplat {
 
-/// As it is where no shell takes it for anything else; in single quotes otherwise.
+/// Unchanged if every shell reads it as one plain word, else in single quotes.
 std::string shell_word(const std::string& word);
 
 }  // namespace fastsplat

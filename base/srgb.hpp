@@ -1,4 +1,4 @@
-// The sRGB transfer curve (IEC 61966-2-1), for pictures that are looked at and never for measuring.
+// The sRGB transfer curve (IEC 61966-2-1), for display only, never for measuring.
 #pragma once
 
 namespace fastsplat {

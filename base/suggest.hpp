@@ -7,11 +7,11 @@
 
 namespace fastsplat {
 
-/// Edits from one to the other: a character more, less or another, or two neighbours exchanged.
+/// Number of edits between two words: insert, remove or replace a character, or exchange two neighbours.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// Whether who wrote `got` may have meant `name`: a third of its letters wrong at most, and never more than three.
-/// Dashes before a word are none of it.
+/// Whether `got` may be a typing error of `name`: at most a third of its letters wrong, and at most three. Leading
+/// dashes are ignored.
 bool may_mean(std::string_view got, std::string_view name);
 
 /// "did you mean 'x'?" for the nearest of `known` that may have been meant, else empty.

@@ -1,4 +1,4 @@
-// TOML, parsed and refused in the one place where all of it is.
+// Parses all TOML, and reports its errors, in one place.
 #pragma once
 
 #include <toml++/toml.h>
@@ -16,7 +16,7 @@ inline std::string place_in(const std::string& file, const toml::source_position
   return file + ":" + std::to_string(at.line) + ":" + std::to_string(at.column);
 }
 
-/// The table that `text` holds. UserError (Input) at a place in `file`: it is not TOML, or nests too deeply.
+/// The table of `text`. Throws UserError (Input) with the place in `file` if it is invalid TOML or nests too deeply.
 inline toml::table parse_toml(const std::string& text, const std::string& file, const std::string& fix) {
   if (const auto deep = toml_too_deep(text)) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(*deep);

@@ -1,4 +1,4 @@
-// What must not stay behind when a signal ends the process: half-written files, folders made for them, helpers.
+// Removes what must not stay behind when a signal ends the process: half-written files, their folders, child processes.
 #pragma once
 
 #include <sys/types.h>
@@ -8,8 +8,8 @@
 
 namespace fastsplat {
 
-/// A file, or a folder made for files, that is to be gone unless it is kept: removed when this ends, or by the handler
-/// of a signal. Nothing need be there; a folder goes only once it is empty.
+/// A file, or a folder made for files, that is removed unless it is kept: by the destructor, or by the handler of a
+/// signal. It need not exist; a folder is removed only if it is empty.
 class UnfinishedPath {
  public:
   explicit UnfinishedPath(std::filesystem::path path);
@@ -17,7 +17,7 @@ class UnfinishedPath {
   UnfinishedPath(const UnfinishedPath&) = delete;
   UnfinishedPath& operator=(const UnfinishedPath&) = delete;
 
-  /// From now on it stays.
+  /// Keeps it from now on.
   void keep();
 
  private:
@@ -25,8 +25,8 @@ class UnfinishedPath {
   bool kept_ = false;
 };
 
-/// A child that works for this process: a signal that ends this one ends it first, so that it neither writes on nor
-/// holds our stdout. One that leads a process group has five seconds to clean up; the whole group ends.
+/// A child that works for this process. A signal that ends this process ends the child first, so that it stops writing
+/// and releases our stdout. The leader of a process group has five seconds to clean up; then the whole group ends.
 class HelperProcess {
  public:
   enum class Leads { Nothing, Group };
@@ -35,16 +35,16 @@ class HelperProcess {
   HelperProcess(const HelperProcess&) = delete;
   HelperProcess& operator=(const HelperProcess&) = delete;
 
-  /// Waits for its end; its status as waitpid() tells it. Once.
+  /// Waits for its end and returns the status of waitpid(). Call it once.
   int wait();
 
  private:
   void forget();
 
   pid_t child_;
-  pid_t signalled_;  ///< as kill() takes it: of a group negative
+  pid_t signalled_;  ///< argument for kill(): negative for a group
 };
-/// In the child, first of all: it ends with its parent, however that ends.
+/// Call first in the child: it then ends with its parent, however that ends.
 void end_with_parent(pid_t parent);
 
 /// Ends every HelperProcess, then removes every UnfinishedPath. Async-signal-safe: for the handler that ends the

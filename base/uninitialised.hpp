@@ -1,5 +1,5 @@
-// Memory for results that several threads write: resize() leaves it as it is, so that its pages are first touched by
-// those who fill them, not all by one thread.
+// Memory for results that several threads write. resize() does not initialise it, so that each page is first touched by
+// the thread that fills it.
 #pragma once
 
 #include <memory>
@@ -22,7 +22,7 @@ struct LeftAsIs : std::allocator<T> {
   }
 };
 
-/// Of plain data. Whoever resizes it writes every element before one is read.
+/// A vector of plain data. After resize(), write every element before reading it.
 template <class T>
 using Uninitialised = std::vector<T, LeftAsIs<T>>;
 

@@ -1,4 +1,4 @@
-// Whether bytes are text.
+// Checks whether bytes are UTF-8 text.
 #pragma once
 
 #include <string_view>

@@ -17,14 +17,14 @@ struct DensityField {
   std::size_t skipped = 0;  ///< voxels above the base that cannot matter
 };
 
-/// All voxels that can matter to a pixel: those above the base, but for bricks around which, as far as any pixel's
-/// density and gradient reaches, the reconstructed values stay within [base, (1+ripple) * largest] and the transfer
-/// function is clear there. Leaving these out changes no bit. `skip` false keeps them.
+/// All voxels that can affect a pixel: the voxels above the base, except in clear bricks. Around a clear brick, as far
+/// as any pixel's density and gradient reaches, the reconstructed values stay within [base, (1+ripple) * largest], and
+/// the transfer function is clear there. Leaving these out changes no bit. `skip` false keeps them.
 DensityField collect_densities(const scene::Scene& scene, bool skip = true);
 
-/// How far the sum of kernels on a unit lattice, seen along a ray that leans by `tilt` (tangent) from the view axis,
-/// can exceed its mean: theta^3 / (share of the Gaussian inside the support), theta = sum over n of exp(-(pi n s)^2 /
-/// a), s the least singular value of the shear.
+/// Bound on how far the sum of kernels on a unit lattice can exceed its mean, along a ray that leans by `tilt`
+/// (tangent) from the view axis. It is theta^3 / (share of the Gaussian inside the support), with theta = sum over n of
+/// exp(-(pi n s)^2 / a) and s the least singular value of the shear.
 double ripple_bound(const scene::Kernel& kernel, double tilt);
 
 }  // namespace fastsplat::golden

@@ -6,8 +6,8 @@
 namespace fastsplat::golden {
 
 /// Weights w(dx, dy) on the pixels around, symmetric, adding up to 1: each pixel's share of a disc's area. The disc's
-/// radius is chosen so that the weights' second moment along either axis is that of the disc meant, diameter^2 / 16,
-/// and not more by what sampling in squares adds; below a pixel this still holds. Diameter 0 is the identity.
+/// radius is chosen so that the weights' second moment along either axis is exactly the disc's, diameter^2 / 16: it
+/// compensates the sampling in squares, also below a pixel. Diameter 0 is the identity.
 class DiscFilter {
  public:
   /// Pixels, >= 0.

@@ -1,7 +1,7 @@
-// Sheets, front to back, each over the whole frame: for techniques that look beyond one pixel of one sheet. What
-// sweep_sheets does band by band is done here sheet by sheet, so that a sheet's neighbours in y and in depth, a filter
-// across it, or the picture in front of it can be asked for. Without a stage the picture is that of composite_sheets,
-// bit for bit; with any stages it does not depend on the number of threads.
+// Sheets, front to back, each over the whole frame: for techniques that look beyond one pixel of one sheet. The
+// work of sweep_sheets band by band is done here sheet by sheet. Stages can therefore read a sheet's neighbours in y
+// and in depth, filter across it, and read the picture in front of it. Without a stage the picture is that of
+// composite_sheets, bit for bit; with any stages it does not depend on the number of threads.
 #pragma once
 
 #include <cstdint>

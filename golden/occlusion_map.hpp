@@ -20,8 +20,8 @@ class OcclusionMap {
 
   /// The visibility test, of a window inside the image that is not empty.
   ///   Count: every pixel's transmittance is below culling.freeze. Exact.
-  ///   Average: the mean opacity is at least theta, so the transmittances in it add up to at most area * (1 - theta):
-  ///   what is hidden can be seen at one pixel with up to min(1, area * (1 - theta)). Opacities are rounded down to
+  ///   Average: the mean opacity is at least theta, so the transmittances in it add up to at most area * (1 - theta). A
+  ///   hidden splat can contribute up to min(1, area * (1 - theta)) to one pixel. Opacities are rounded down to
   ///   1/256 (a map of bytes, as in the papers), so the mean can only seem smaller than it is.
   bool hides(const Window& window) const;
 

@@ -35,19 +35,21 @@ struct RayHit {
   double position = 0.0;  ///< RaySamples::position of the centre, which lies among the samples
 };
 
-/// Per sample emission (RGB) and extinction, times the step. Of a hit, sample j gets
-///     amount * exp(-a d^2),   d = its distance in depth from the centre < R,
-/// taken outwards from the centre, towards the eye and away from it, with a recurrence for exp(-a d^2): the ratio of
-/// neighbours shrinks by the constant factor exp(-2 a step^2).
+/// Emission (RGB) and extinction of each sample, times the step. A hit adds to sample j
+///
+///     amount * exp(-a d^2),   d = its distance in depth from the centre < R
+///
+/// It proceeds outwards from the centre, towards the eye and away from it, with a recurrence for exp(-a d^2): the ratio
+/// of neighbours shrinks by the constant factor exp(-2 a step^2).
 class RayProfile {
  public:
   RayProfile(const scene::Kernel& kernel, const RaySamples& samples);
 
-  /// As it is said.
+  /// Adds a hit as defined above.
   void add(const RayHit& hit);
 
-  /// The same, bit for bit, of samples [begin, end) only and with vectors: hits are kept until four can be walked side
-  /// by side, and each sample still gets them in the order they came in. flush() before sums are read.
+  /// The same, bit for bit, for samples [begin, end) only and with vectors. Hits are kept until four can be walked side
+  /// by side; each sample still gets them in their order of arrival. Call flush() before reading sums.
   void begin_part(std::size_t begin, std::size_t end);
   void add_to_part(const RayHit& hit);
   void flush();

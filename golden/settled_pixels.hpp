@@ -11,11 +11,11 @@
 
 namespace fastsplat::golden {
 
-/// Whether no layer behind can change the floats that store() writes. A layer that is no brighter than it is opaque
-/// adds at most T * alpha to a channel, so all of them together add between 0 and T, in exact arithmetic; the sums'
-/// rounding at most doubles what each adds, and products of thousands of factors drift by less than a thousandth. So a
-/// channel ends between c - 4T and c + 4T. Rounding to float is monotone: if both ends round to the same float, so does
-/// all between them. A transmittance of 0 is the simplest case.
+/// Whether no layer behind can change the floats that store() writes. A layer whose colour is at most its opacity adds
+/// at most T * alpha to a channel, so all of them together add between 0 and T, in exact arithmetic. Rounding of the
+/// sums at most doubles each contribution, and products of thousands of factors drift by less than a thousandth. A
+/// channel therefore ends between c - 4T and c + 4T. Rounding to float is monotone: if both ends round to the same
+/// float, so does all between them. A transmittance of 0 is the simplest case.
 inline bool settled(const FrontToBack& pixel) {
   if (!(pixel.transmittance < 0x1p-25)) return false;  // below it 1 - T is 1 as a float
   const double room = 4.0 * pixel.transmittance;

@@ -37,8 +37,8 @@ class VoxelBlocks {
   std::vector<VoxelBlock> blocks_;
 };
 
-/// What the picture can show of a block: every pixel that a circular footprint of its splats can reach (and perhaps
-/// some more), and the nearest sheet that one of them can reach (or one before it).
+/// Bounds of a block's visible part: at least every pixel that a circular footprint of its splats can reach, and the
+/// nearest sheet that one of them can reach, or one before it.
 struct BlockView {
   Window window;
   int first_sheet = 0;

@@ -1,4 +1,4 @@
-// The pictures of a report: loaded, told apart, made to fit into so many bytes.
+// The pictures of a report: loaded, identified, and reduced to a limit of bytes.
 #pragma once
 
 #include <cstddef>
@@ -31,9 +31,9 @@ struct Pages {
   std::vector<std::string> remarks;  ///< what had to be cropped or left out
 };
 
-/// At most `bytes` of base64, if that can be: pictures for measuring are cropped, all to one window around `focus`
-/// (else the middle) that is as large as fits; pictures for looking, largest first, are left out when that is not
-/// enough.
+/// Reduces the pictures to at most `bytes` of base64, if possible. Pictures for measuring are all cropped to one window
+/// around `focus` (else the middle), as large as fits. If that is not enough, pictures for display are left out,
+/// largest first.
 Pages fit(const Album& album, Focus focus, std::size_t bytes);
 
 }  // namespace fastsplat::report

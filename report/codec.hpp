@@ -21,8 +21,8 @@ int bytes_for(std::span<const std::int64_t> values);
 /// "split16-deflate": its name has the bits of a word.
 std::string codec_name(int bytes);
 
-/// Each word becomes its difference to its left neighbour (the first of a row: to the one above; the very first: to 0),
-/// modulo 2^(8 bytes); then, channel by channel, one plane a byte, lowest first; then raw deflate.
+/// Three steps. Each word becomes its difference to its left neighbour, modulo 2^(8 bytes). (The first of a row: to the
+/// one above; the very first: to 0.) Channel by channel, each byte becomes a plane, lowest first. Then raw deflate.
 std::string encode(const Words& words);
 
 /// The words as they were, little-endian: what the browser hashes again.

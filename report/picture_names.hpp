@@ -1,4 +1,4 @@
-// Which pictures belong to a report: those that its results name, and those of the user.
+// The pictures of a report: the ones named by its results, and the user's.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What a report is made from: the JSON results of the verbs, read and told apart.
+// The input of a report: the JSON results of the subcommands, read and identified.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Anti-aliased splatting (Swan et al. 1997, Mueller et al. 1998): from the depth on where voxels lie closer than pixels
+// Anti-aliased splatting (Swan et al. 1997, Mueller et al. 1998): beyond the depth where voxels lie closer than pixels,
 // the kernel grows with depth. docs/techniques/anti-aliasing.md
 #pragma once
 
@@ -8,7 +8,7 @@
 namespace fastsplat::scene {
 
 /// h_l(x) = lambda^-3 h(x/lambda): footprint and depth extent grow by lambda; the footprint's amplitude falls as
-/// lambda^-2, its slices' thickness makes up the third.
+/// lambda^-2, the thickness of its slices accounts for the third power.
 inline void apply_antialias(double pixels_per_unit, ShapedSplat& splat) {
   const double growth = kernel_growth(pixels_per_unit);
   const double area = growth * growth;

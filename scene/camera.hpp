@@ -7,11 +7,11 @@
 
 namespace fastsplat::scene {
 
-/// What fits the picture at zoom 1: the volume's bounding sphere, whatever the view, or the voxels that are not empty.
+/// What fits the picture at zoom 1: the volume's bounding sphere, in any view, or the non-empty voxels.
 enum class Fit { Sphere, Content };
 enum class Projection { Orthographic, Perspective };
 
-/// How the user places the camera.
+/// The user's camera settings.
 struct CameraParams {
   Projection projection = Projection::Orthographic;
   double azimuth = 30.0;    ///< degrees about the vertical (volume z) axis; 0 looks along -y (at the face of a head in
@@ -23,7 +23,7 @@ struct CameraParams {
   double fov = 30.0;        ///< degrees across the smaller image side, perspective only
 };
 
-/// Where a world point lands. Pixel centres are at integer coordinates: pixel (0,0) covers [-0.5,0.5)^2.
+/// The projection of a world point. Pixel centres are at integer coordinates: pixel (0,0) covers [-0.5,0.5)^2.
 struct ScreenPoint {
   double x = 0.0;      ///< pixels, right
   double y = 0.0;      ///< pixels, down
@@ -40,16 +40,16 @@ struct Ray {
 
 class Camera {
  public:
-  /// Perspective zoom brings the eye nearer; the field of view stays. Throws UserError (Usage) for zoom <= 0, fov
+  /// Perspective zoom moves the eye nearer and keeps the field of view. Throws UserError (Usage) for zoom <= 0, fov
   /// outside (1,150), an eye inside the bounding sphere, sizes < 1.
   Camera(const CameraParams& params, const volume::Volume& volume, double kernel_radius_mm, int width, int height);
-  /// The same about the origin, of whatever lies within a sphere of `radius`, in whatever unit.
+  /// The same for content within a sphere of `radius` about the origin, in any unit.
   Camera(const CameraParams& params, double radius, int width, int height);
 
   /// The same view with picture point `middle` moved to the picture's middle and everything `factor` times as large.
   Camera enlarged(double factor, const glm::dvec2& middle) const;
 
-  /// Perspective: meant for points in front of the eye, as all of the bounding sphere is.
+  /// Perspective: valid for points in front of the eye, such as all of the bounding sphere.
   ScreenPoint project(const glm::dvec3& world) const;
   double scale_at(double depth) const;  ///< ScreenPoint::scale of a point at ScreenPoint::depth
   Ray ray(double x, double y) const;    ///< through pixel coordinates (x,y)

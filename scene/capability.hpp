@@ -1,5 +1,6 @@
-// What goes with what: which techniques a method and an engine have, what each needs and excludes, where a setting has
-// a meaning. One table (capability_table.cpp); what would be ignored is refused by the two functions of this header.
+// Which combinations are valid: the techniques of each method and engine, their requirements and exclusions, and where
+// a setting has an effect. One table (capability_table.cpp); two functions of this header refuse settings without
+// effect.
 #pragma once
 
 #include <optional>
@@ -19,7 +20,7 @@ using Methods = unsigned;
 constexpr Methods only(Method method) { return 1u << static_cast<unsigned>(method); }
 inline constexpr Methods kAllMethods = (1u << 5) - 1;
 
-/// What an engine must have beyond circles of the splats' own scale that are added into sheets.
+/// Features of an engine beyond circles of the splats' own scale that are added into sheets.
 enum class Feature : unsigned {
   None,
   Footprints = 1,
@@ -30,22 +31,22 @@ enum class Feature : unsigned {
   Patterns = 32
 };
 
-/// What an engine has.
+/// The abilities of an engine.
 struct Offers {
   const char* engine;  ///< "golden", "device"
   Methods methods;
   unsigned features;                     ///< Features, or'ed
-  const char* footprints_fix = nullptr;  ///< how to have Feature::Footprints, where another of its kind has it
-  Methods methods_elsewhere = 0u;        ///< methods that another of its kind has, and how to have it
+  const char* footprints_fix = nullptr;  ///< how to get Feature::Footprints from another engine of its kind
+  Methods methods_elsewhere = 0u;        ///< methods of another engine of its kind, and how to get it
   const char* methods_fix = "";
-  const char* densities_fix = nullptr;  ///< how to have Feature::Densities, likewise
-  const char* details_fix = nullptr;    ///< how to have Feature::Details, likewise
-  const char* patterns_fix = nullptr;   ///< how to have Feature::Patterns, likewise
+  const char* densities_fix = nullptr;  ///< how to get Feature::Densities, likewise
+  const char* details_fix = nullptr;    ///< how to get Feature::Details, likewise
+  const char* patterns_fix = nullptr;   ///< how to get Feature::Patterns, likewise
 };
 inline constexpr Offers kOffersAll{"golden", kAllMethods, 63u};
 
-/// What a scene has or has not, in the order in which an engine is asked for it: rows of the table. Not all are
-/// techniques; the last are what techniques need.
+/// Properties of a scene, in the order in which an engine is checked for them: rows of the table. Not all are
+/// techniques; the last ones are requirements of techniques.
 enum class Technique {
   Ellipse,
   Antialias,
@@ -71,13 +72,13 @@ enum class Technique {
   Exposure,
 };
 
-/// Of a setting: where it has a meaning. There is none by default: a setting without one does not compile.
+/// Where a setting has an effect. Without a default: a setting that lacks it does not compile.
 class Capability {
  public:
-  /// `probe`: a value, as a flag's text, that is not the default and shows in the picture wherever the setting has a
-  /// meaning.
+  /// `probe`: a value other than the default, as a flag's text, that changes the picture wherever the setting has an
+  /// effect.
   static constexpr Capability everywhere(const char* probe) { return Capability(probe); }
-  /// Only with some methods. `why` says what the others lack ("has no slabs"), `fix` what to do about it.
+  /// Only with some methods. `why` names what the others lack ("has no slabs"), `fix` is the remedy.
   static constexpr Capability with_methods(Methods methods, const char* why, const char* fix, const char* probe) {
     Capability c(probe);
     c.methods = methods, c.why = why, c.fix = fix;
@@ -89,19 +90,19 @@ class Capability {
     c.needs[0] = technique;
     return c;
   }
-  /// Turns `technique` on; turning it off is never in vain.
+  /// Turns `technique` on; turning it off is always valid.
   static constexpr Capability turns_on(Technique technique, const char* probe) {
     Capability c(probe);
     c.turns = technique;
     return c;
   }
-  /// Besides, only while this is on, too.
+  /// Additionally requires this one.
   constexpr Capability and_with(Technique technique) const {
     Capability c = *this;
     c.needs[c.needs[0] ? 1 : 0] = technique;
     return c;
   }
-  /// Changes the work, and by design not the picture.
+  /// Changes the work but, by design, not the picture.
   constexpr Capability same_picture() const {
     Capability c = *this;
     c.changes_picture = false;
@@ -120,28 +121,28 @@ class Capability {
   explicit constexpr Capability(const char* text) : probe(text) {}
 };
 
-/// A setting that somebody gave: by its flag, or by its key in a file ("scene.toml:3:9").
+/// A setting that the user gave by its flag, or by its key in a file ("scene.toml:3:9").
 struct Given {
   const Setting* setting;
   std::string place{};  ///< empty: by its flag
 };
 
-/// Why an engine cannot render the scene: the first technique that is on and that the method or the engine does not
-/// have, that lacks what it needs or meets what it excludes. `description.shading` may still be -1: then it may be on.
+/// Why an engine cannot render the scene: the first active technique that the method or the engine lacks, whose
+/// requirement is missing, or that meets an exclusion. `description.shading` may be -1; it then counts as possibly on.
 std::optional<ErrorParts> refusal(const SceneDescription& description, const Offers& offers);
-/// Why a setting that was given would change nothing in the scene; how techniques go together is the other's matter.
+/// Why a given setting would change nothing in the scene. The function above checks combinations of techniques.
 std::optional<ErrorParts> refusal(const Given& given, const SceneDescription& description);
 
-/// UserError (Usage) where the engine cannot render the scene.
+/// Throws UserError (Usage) if the engine cannot render the scene.
 void check_capability(const SceneDescription& description, const Offers& offers);
-/// The same with shading as it was resolved.
+/// The same with resolved shading.
 void check_capability(const Scene& scene, const Offers& offers);
-/// Those of them that would change nothing.
+/// The given settings that would change nothing.
 std::vector<Given> idle_of(const std::vector<Given>& given, const SceneDescription& description);
-/// UserError (Usage of a flag, Input of a file) about the first of them, which are idle in `description`.
+/// Throws UserError (Usage for a flag, Input for a file) about the first of `idle`, settings without effect.
 void refuse_idle(const std::vector<Given>& idle, const SceneDescription& description);
 
-/// The table of the guide, as Markdown: every setting that not all methods or engines have, or that needs something.
+/// The table of the guide, as Markdown: every setting with a requirement or limited to some methods or engines.
 std::string capability_guide(std::span<const Offers> engines);
 
 }  // namespace fastsplat::scene

@@ -7,21 +7,21 @@
 
 namespace fastsplat::scene {
 
-/// Another row that must be on, or must not be. `why` may hold one {}: the key of that row.
+/// Another row that must be on, or must be off. `why` may hold one {}: the key of that row.
 struct Link {
   Technique other;
   const char* why;
-  const char* fix = nullptr;  ///< absent: as the other row is turned on
+  const char* fix = nullptr;  ///< absent: the way to turn on the other row
 };
 
 struct TechniqueRow {
   Technique technique;
   const char* key;      ///< setting that turns it on
   const char* name;     ///< "... means nothing without NAME"
-  const char* turn_on;  ///< what to do to have it
+  const char* turn_on;  ///< how to turn it on
   bool (*on)(const SceneDescription&);
   Methods methods = kAllMethods;
-  const char* no_method = "";   ///< why the others have it not; {} stands for the method
+  const char* no_method = "";   ///< why other methods lack it; {} stands for the method
   const char* method_fix = "";  ///< what to do then
   Feature feature = Feature::None;
   std::span<const Link> needs{}, excludes{};

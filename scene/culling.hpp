@@ -10,19 +10,19 @@ namespace fastsplat::scene {
 enum class CullingMode {
   Off,
   Splats,  ///< every splat is tested when its nearest sheet's turn comes
-  Blocks,  ///< blocks of voxels first, from the whole volume down; then the splats that are left
+  Blocks,  ///< blocks of voxels first, from the whole volume down; then the remaining splats
 };
 
 enum class VisibilityTest {
   Count,    ///< all pixels are opaque: exact
-  Average,  ///< their mean opacity reaches theta: may lose what shows through a hole
+  Average,  ///< their mean opacity reaches theta: may lose splats behind a hole
 };
 
 struct Culling {
   CullingMode mode = CullingMode::Off;
   VisibilityTest test = VisibilityTest::Count;
-  double freeze = 0.0;  ///< a pixel of transmittance below this is opaque and no longer changes, whatever the mode
-  double theta = 0.95;  ///< mean opacity that VisibilityTest::Average asks for
+  double freeze = 0.0;  ///< early-termination threshold on transmittance, in every mode
+  double theta = 0.95;  ///< mean opacity that VisibilityTest::Average requires
   int block = 8;        ///< edge of the smallest block, voxels
 };
 

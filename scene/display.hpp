@@ -1,4 +1,4 @@
-// What is done to a picture only for looking at it: a background, an X-ray turned dark on bright.
+// Changes to a picture for display only: a background, an inverted X-ray.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -11,11 +11,11 @@ struct SceneDescription;
 
 struct Display {
   glm::dvec3 background{0.0};  ///< linear RGB, 0..1; black: nothing is put behind
-  bool invert = false;         ///< X-ray: its negative, dark on bright as films are looked at
+  bool invert = false;         ///< X-ray: the negative, dark on bright as on film
 };
 
-/// A rendered picture (RGBA, premultiplied, linear) as it is shown: the background behind it, then inverted. Where
-/// neither is asked for it is the picture itself; else it is opaque. The negative is taken of sRGB values: 255 minus
+/// A rendered picture (RGBA, premultiplied, linear) for display: over the background, then inverted. Without either it
+/// is the picture itself; else it is opaque. The negative is taken of sRGB values: 255 minus
 /// those of the PNG.
 Image displayed(const Image& image, const SceneDescription& description);
 

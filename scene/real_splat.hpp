@@ -1,4 +1,4 @@
-// A splat where the camera puts it, in real numbers: what golden shapes and the driver quantises (docs/numerics.md,
+// A projected splat in real numbers, which golden shapes and the driver quantises (docs/numerics.md,
 // section 8, "real splats").
 #pragma once
 

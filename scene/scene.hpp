@@ -1,4 +1,4 @@
-// Everything that decides a picture, and nothing about who renders it.
+// Everything that decides a picture, independent of the engine that renders it.
 #pragma once
 
 #include <filesystem>
@@ -26,7 +26,7 @@ enum class ClassifyOrder { Pre, Post };
 /// Of post-classified densities: differences between pixels and sheets, or splatted derivatives.
 enum class GradientKind { Central, Splats };
 
-/// What scene.toml says; flags override single fields before `build_scene`.
+/// The content of scene.toml; flags override single fields before `build_scene`.
 struct SceneDescription {
   std::string volume = "shells:64";
   std::string transfer_function{};  ///< empty: chosen by the volume (mri-head, binary, checker, else default)
@@ -37,8 +37,8 @@ struct SceneDescription {
   Method method = Method::ImageAligned;
   double slab_width = 1.0;  ///< kernel units
   SlabOpacity slab_opacity = SlabOpacity::Exponential;
-  double ray_end = 0.0;        ///< ray caster: a ray ends where less transmittance is left; 0 where nothing can change
-  int xray_sheets = 1;         ///< sheets an X-ray is summed in (the image must not depend on it)
+  double ray_end = 0.0;        ///< ray caster: a ray ends below this transmittance; 0: where nothing can change
+  int xray_sheets = 1;         ///< number of sheets of an X-ray (the image must not depend on it)
   double xray_exposure = 0.0;  ///< pixel = exposure * integral; 0: automatic, see Scene::xray_scale
   int shading = -1;            ///< -1 as the transfer function suggests, 0 off, 1 on
   double opacity_scale = 1.0;  ///< multiplies extinction
@@ -50,10 +50,10 @@ struct SceneDescription {
   Texture texture{};
   Bump bump{};
   Culling culling{};
-  VoxelBox crop{};                 ///< voxels outside are not there
-  Display display{};               ///< of pictures for looking
-  std::optional<double> nan_as{};  ///< in the place of voxels that are not finite; without it they are refused
-  /// "scene.toml:1:10" where a file names the volume and the transfer function; empty where none does.
+  VoxelBox crop{};                 ///< voxels outside are ignored
+  Display display{};               ///< for pictures for display
+  std::optional<double> nan_as{};  ///< replaces non-finite voxels; without it they are refused
+  /// "scene.toml:1:10" if a file names the volume and the transfer function, else empty.
   std::string volume_place{}, transfer_function_place{};
 };
 
@@ -71,15 +71,15 @@ struct Scene {
   /// Method::XRay: pixel = xray_scale * summed emission. Given, or automatic_exposure() (xray_exposure.hpp).
   double xray_scale = 1.0;
   std::shared_ptr<const volume::Volume> whole{};  ///< as it was read: build_scene takes it again
-  std::vector<std::string> remarks{};             ///< what reading it had to assume or found odd, a sentence each
+  std::vector<std::string> remarks{};             ///< assumptions and oddities of the input, a sentence each
 };
 
 /// A scene.toml, or a built-in scene as "demo:NAME". Unknown keys and bad values are UserErrors with file:line and a
-/// hint, an unknown demo is one with the nearest name. Relative volume paths are relative to the file.
+/// hint; for an unknown demo with the nearest name. Relative volume paths are relative to the file.
 SceneDescription load_scene_file(const std::filesystem::path& path);
 std::vector<std::string> demo_names();  ///< sorted
-/// As TOML that load_scene_file reads back to a scene of the same picture, and to_toml writes alike again: settings
-/// that mean nothing there (scene/capability.hpp) are left out unless they are at their default.
+/// TOML from which load_scene_file makes a scene of the same picture, and to_toml the same text again. Settings without
+/// effect (scene/capability.hpp) are left out unless they are at their default.
 std::string to_toml(const SceneDescription& description);
 
 Scene build_scene(const SceneDescription& description);

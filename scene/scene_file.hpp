@@ -1,4 +1,4 @@
-// A scene's file with all that it says: the still, its sequence, and what it says in vain.
+// The content of a scene's file: the still, its sequence, and settings without effect.
 #pragma once
 
 #include <filesystem>
@@ -13,12 +13,12 @@ namespace fastsplat::scene {
 struct SceneFile {
   SceneDescription description;
   std::optional<Sequence> sequence;
-  /// Keys and tracks that mean nothing to the file's own scene, neither to the still nor to any frame. Flags may yet
-  /// give them a meaning; if they do not, refuse_idle tells the first.
+  /// Keys and tracks without effect on the file's own scene, neither on the still nor on any frame. Flags may still
+  /// give them an effect; if not, refuse_idle reports the first.
   std::vector<Given> idle;
 };
 
-/// As load_scene_file, but what is idle is left to the caller.
+/// As load_scene_file, but the caller handles settings without effect.
 SceneFile read_scene_file(const std::filesystem::path& path);
 
 }  // namespace fastsplat::scene

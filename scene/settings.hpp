@@ -1,5 +1,5 @@
 // The settings of a scene in one list: each with its key in scene.toml, its flag on the command line, its limits and
-// what it does. Reading, writing, checking and the flags are all made from this list; a new technique adds its entries
+// its meaning. Reading, writing, checking and the flags are derived from this list; a new technique adds its entries
 // here.
 #pragma once
 
@@ -38,7 +38,7 @@ struct Box {
 struct Switch {
   bool& (*of)(SceneDescription&);
 };
-/// One of some names; get and set speak of positions in names().
+/// A choice of names; get and set use positions in names().
 struct Choice {
   const std::vector<std::string>& (*names)();
   int (*get)(const SceneDescription&);
@@ -48,7 +48,7 @@ struct Choice {
 struct Setting {
   const char* table;  ///< table in scene.toml, "" for the top level
   const char* key;
-  const char* flag;   ///< "--slab-width"; "" where the command line has flags of its own for it
+  const char* flag;   ///< "--slab-width"; "" if the command line has special flags for it
   const char* group;  ///< of the flag, in the help
   const char* unit;   ///< of the flag's value, in the help
   const char* help;
@@ -58,7 +58,7 @@ struct Setting {
 
 /// Its name as in scene.toml: "camera.azimuth", "opacity_scale".
 std::string dotted(const Setting& setting);
-/// Whether it is what it is in a description of which nothing was said.
+/// Whether it has its default value.
 bool at_default(const Setting& setting, const SceneDescription& description);
 
 /// All of them, table by table in the order scene.toml is written.
@@ -66,14 +66,14 @@ std::span<const Setting> settings();
 /// The tables of the list, "" first, in its order.
 std::vector<std::string> setting_tables();
 
-/// What is wrong with a flag's text ("expected a number in 0.01..64, got '0'"), empty if nothing. Numbers are
+/// The problem with a flag's text ("expected a number in 0.01..64, got '0'"), empty if valid. Numbers are
 /// locale-free; a triple is "X,Y,Z"; a switch is on or off.
 std::string problem_with(const Setting& setting, const std::string& text);
-/// Takes a flag's text, which must have no problem.
+/// Sets the value from a flag's text, which must be valid.
 void set_from_text(const Setting& setting, const std::string& text, SceneDescription& description);
 
-/// Takes what `table` has of the settings whose table is `name`; bad values are refused with line and column. Adds
-/// what it finds to `given`, but for values that are the default: they say what holds anyway.
+/// Reads the settings of table `name` from `table`; bad values are refused with line and column. Adds the settings
+/// found to `given`, except values that are the default.
 void read_settings(TomlTable& table, const std::string& name, SceneDescription& description, std::vector<Given>& given);
 /// The setting's value as TOML.
 std::string value_as_toml(const Setting& setting, const SceneDescription& description);
@@ -81,7 +81,7 @@ std::string value_as_toml(const Setting& setting, const SceneDescription& descri
 /// A number that TOML reads back as a float.
 std::string number_as_toml(double value);
 
-/// UserError (Usage) that names the first setting out of its limits. Camera and kernel check what depends on more.
+/// Throws UserError (Usage) that names the first setting out of its limits. Camera and kernel check combinations.
 void check_limits(const SceneDescription& description);
 
 }  // namespace fastsplat::scene

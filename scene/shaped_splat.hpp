@@ -1,4 +1,4 @@
-// What a splat's kernel becomes on the screen: an ellipse, with as much to add as before.
+// The shape of a splat's kernel on the screen: an ellipse of the same energy.
 #pragma once
 
 #include <array>
@@ -6,7 +6,7 @@
 
 namespace fastsplat::scene {
 
-/// What the kernel's unit disc becomes on the screen: the ellipse d^T S^-1 d < 1, S in square pixels, positive
+/// The image of the kernel's unit disc: the ellipse d^T S^-1 d < 1, S in square pixels, positive
 /// definite. A footprint's second moments are Kernel::variance() * S, so blurs add to S.
 struct ScreenShape {
   double xx = 0.0, xy = 0.0, yy = 0.0;
@@ -17,10 +17,10 @@ struct ScreenShape {
 struct ShapedSplat {
   ScreenShape shape;
   double depth_growth = 1.0;      ///< the kernel's extent along z, relative to its own
-  std::array<double, 4> value{};  ///< times the footprint of its shape: what the whole splat adds to a pixel
+  std::array<double, 4> value{};  ///< times the footprint of its shape: the whole splat's contribution to a pixel
 };
 
-/// Gives the splat another shape; what it adds to the picture in all stays what it was.
+/// Gives the splat another shape and keeps its energy.
 inline void reshape(ShapedSplat& splat, const ScreenShape& shape) {
   const double amplitude = std::sqrt(splat.shape.determinant() / shape.determinant());  // exactly 1 for the same shape
   for (double& value : splat.value) value *= amplitude;

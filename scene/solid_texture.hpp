@@ -1,11 +1,11 @@
-// Procedural solid textures: a solid pattern as a tint that colours are multiplied with.
+// Procedural solid textures: a solid pattern as a tint that multiplies colours.
 #pragma once
 
 #include "scene/solid_field.hpp"
 
 namespace fastsplat::scene {
 
-/// Where colour and texture meet: at the voxels, before they are splatted, or at the pixels of every sheet.
+/// Where the texture is applied: at the voxels, before they are splatted, or at the pixels of every sheet.
 enum class TextureWhere { Voxel, Pixel };
 
 struct Texture {
@@ -26,7 +26,7 @@ struct Bump {
 /// two tints of the kind.
 glm::dvec3 tint(const Texture& texture, const glm::dvec3& position);
 
-/// The same of a pattern's value, linear in it.
+/// The same for a pattern's value; linear in it.
 glm::dvec3 tint_of_value(const Texture& texture, double value);
 
 }  // namespace fastsplat::scene

@@ -1,9 +1,8 @@
-// From a splat to its shape on the screen: one pipeline in which every technique changes the shape that the one before
-// it left.
+// From a splat to its shape on the screen: a pipeline in which each technique changes the shape of the previous one.
 //
 //   circle -> ellipse (perspective) -> growth (anti-aliasing) -> + motion -> + lens
 //
-// Each is absent unless its setting asks for it, and leaves every bit alone where it has nothing to do.
+// Each stage exists only if its setting is on, and keeps every bit where it has no effect.
 #pragma once
 
 #include "scene/depth_of_field_splats.hpp"
@@ -19,7 +18,7 @@ class SplatShaper {
  public:
   /// The scene outlives it.
   explicit SplatShaper(const Scene& scene);
-  /// Shapes what adds `value` to a pixel as a circle of the splat's own scale. `real` is where the camera puts it.
+  /// Shapes a splat that adds `value` to a pixel as a circle of its own scale. `real` is the projected splat.
   ShapedSplat operator()(const Splat& splat, const RealSplat& real, const std::array<double, 4>& value) const;
 
  private:

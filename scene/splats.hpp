@@ -28,9 +28,9 @@ struct GridPart {
   int first_row = 0, end_row = 0;
 };
 
-/// What a voxel's splat carries: emission and extinction as the transfer function says; or, of every voxel above the
-/// volume's least value, as extinction how far above it lies, in parts of the range, over the slab's width W: such that
-/// a slab's sums are densities from 0 (the least value) to about 1 (the largest).
+/// The material of a voxel's splat. In order: emission and extinction from the transfer function; or densities. A
+/// density is the extinction of every voxel above the volume's least value: its height above it, in parts of the range,
+/// over the slab's width W. A slab's sums are then densities from 0 (the least value) to about 1 (the largest).
 enum class SplatKind { Colours, Densities };
 
 /// Every voxel with extinction > 0, slice by slice along the volume axis most parallel to the view direction, nearest
@@ -41,18 +41,18 @@ class Traversal {
   /// The scene outlives it.
   explicit Traversal(const Scene& scene, SplatKind kind = SplatKind::Colours);
   ~Traversal();
-  /// Sheets of the grid, for those who want Splat::sheet.
+  /// Number of sheets of the grid, for Splat::sheet.
   int slices() const;
   int rows() const;     ///< of a slice: its outer loop
   int columns() const;  ///< of a row: its inner loop
   GridPart all() const { return slab(0, slices()); }
   GridPart slab(int first_slice, int end_slice) const { return {first_slice, end_slice, 0, rows()}; }
-  /// How many splats visit() would visit: classifies, but shades nothing.
+  /// Number of splats that visit() would visit; classifies, but does not shade.
   std::size_t count(const GridPart& part) const;
-  /// The splats of a row, and of each the number of its voxel's line across the slices: row times columns() plus
+  /// The splats of a row, each with the number of its voxel's line across the slices: row times columns() plus
   /// column.
   using Visit = std::function<void(std::span<const Splat> splats, std::span<const std::uint32_t> lines)>;
-  /// Once for every row that has any.
+  /// Called once for every row with splats.
   void visit(const GridPart& part, const Visit& visit) const;
 
  private:

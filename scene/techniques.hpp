@@ -1,5 +1,5 @@
-// What bends a splat's footprint on the screen: perspective, minification, motion, a lens. Only the golden renderer has
-// these; docs/techniques/ has a page for each.
+// Techniques that shape a splat's footprint on the screen: perspective, minification, motion, a lens. Only the golden
+// renderer has these; docs/techniques/ has a page for each.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -29,7 +29,7 @@ struct FootprintSettings {
   SplatTexture texture{};
 };
 
-/// What happens while the shutter is open, from -1/2 to +1/2 about the picture's own moment.
+/// The motion while the shutter is open, from -1/2 to +1/2 about the picture's moment.
 struct Motion {
   glm::dvec3 translate{0.0};  ///< mm, world: the volume's way
   double orbit = 0.0;         ///< degrees of azimuth: the camera's way, which ends at azimuth + orbit/2
@@ -50,7 +50,7 @@ struct Lens {
 /// Diameter of the circle of confusion at `depth`, pixels: A |s(depth) - s(focus)|, s the camera's pixels per mm.
 double circle_of_confusion(const Camera& camera, const Lens& lens, double depth);
 
-/// UserError (Usage) unless their numbers make sense with this camera; what goes with what is scene/capability's.
+/// Throws UserError (Usage) if their numbers are invalid for this camera; scene/capability checks combinations.
 /// `radius`: of the ball that holds all kernels, mm.
 void check_techniques(const Motion& motion, const Lens& lens, const Camera& camera, double radius);
 

@@ -1,4 +1,4 @@
-// Strict TOML: every key must be expected, every value in range; each refusal says file:line:column and a hint.
+// Strict TOML: every key must be expected, every value in range; each refusal has file:line:column and a hint.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace fastsplat::scene {
 
-/// One table of a TOML document. Ask for the keys you know, then call finish(): what was not asked for is refused.
+/// One table of a TOML document. Read the known keys, then call finish(): unread keys are refused.
 /// Every failure is a UserError (Input) that starts with "source:line:column".
 class TomlTable {
  public:
@@ -37,7 +37,7 @@ class TomlTable {
   [[noreturn]] void refuse(const std::string& key, const std::string& what, const std::string& expected,
                            const std::string& got, const std::string& fix) const;
 
-  /// Refuses the first key that was never asked for.
+  /// Refuses the first key that was never read.
   void finish() const;
 
  private:
@@ -48,7 +48,7 @@ class TomlTable {
   std::shared_ptr<const Document> document_;
   const void* table_;            // a toml::table of document_
   std::string path_;             // dotted name of this table, empty for the root
-  std::set<std::string> known_;  // keys asked for
+  std::set<std::string> known_;  // keys read so far
 };
 
 }  // namespace fastsplat::scene

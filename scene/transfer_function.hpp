@@ -10,12 +10,12 @@
 
 namespace fastsplat::scene {
 
-/// How control points' positions are read (value_range.hpp).
+/// The unit of control points' positions (value_range.hpp).
 enum class Domain {
   Value,       ///< raw voxel values
   Range,       ///< 0..1 of the volume's [min,max]
   Percentile,  ///< 0..1 of shown_span(): scanners without units (MRI)
-  Hounsfield,  ///< HU, by Volume::water; of volumes that have none, -1000..3000 HU are the volume's [min,max]
+  Hounsfield,  ///< HU, by Volume::water; for volumes without it -1000..3000 HU are the volume's [min,max]
   Content,     ///< 0..1 from background_top() to the volume's max
 };
 
@@ -44,7 +44,7 @@ struct TransferFunction {
 /// The same in raw values and kernel units of this volume.
 TransferFunction resolved(const TransferFunction& tf, const volume::Volume& volume);
 
-/// What a user should know of a transfer function on this volume, a sentence; "" for nothing.
+/// A remark for the user about a transfer function on this volume, a sentence; "" without one.
 std::string remark_on(const TransferFunction& tf, const volume::Volume& volume);
 
 /// Colour and extinction per kernel unit, at a raw value.
@@ -59,7 +59,7 @@ class Classifier {
  public:
   Classifier(const TransferFunction& tf, const volume::Volume& volume);
   Material operator()(float value) const;
-  /// Between the values that a volume stores, too.
+  /// Also valid between the values that a volume stores.
   Material evaluate(double value) const;
   /// Whether no value of [low, high] has any opacity.
   bool transparent(double low, double high) const;

@@ -1,4 +1,4 @@
-// Which values of a volume show something: background and percentiles.
+// Background and percentiles of a volume's values.
 #pragma once
 
 #include <vector>
@@ -11,12 +11,12 @@ struct ValueSpan {
   double low, high;
 };
 
-/// The greatest value of the background. In a CT, -900 HU: air, and whatever fills the corners outside the round field.
-/// Elsewhere, six standard deviations above the median of the six faces, where the faces are of one level, with a
-/// deviation below 3 % of the range, and at most 5 % of the voxels are darker than that level. Else the least value.
+/// The greatest value of the background. In a CT, -900 HU: air, and the filling of the corners outside the round field.
+/// In other volumes, six standard deviations above the median of the six faces. This requires faces of one level, a
+/// deviation below 3 % of the range, and at most 5 % of the voxels below that level. Else the least value.
 double background_top(const volume::Volume& volume);
 
-/// Values by rank among the voxels above `above`; of whole numbers by counting, of others by selection.
+/// Values by rank among the voxels above `above`: by counting for whole numbers, by selection for others.
 class RankedValues {
  public:
   RankedValues(const volume::Volume& volume, double above);
@@ -35,8 +35,7 @@ class RankedValues {
 /// background. The whole range if no voxel is above it.
 ValueSpan shown_span(const volume::Volume& volume);
 
-/// How far the values spread, for what is said in shares of that: from the least value, in a CT from air, to the
-/// greatest.
+/// The spread of the values, the unit of relative settings: from the least value, in a CT from air, to the greatest.
 double spread(const volume::Volume& volume);
 
 }  // namespace fastsplat::scene

@@ -1,4 +1,4 @@
-// A box of voxels, as a user names it: "10..90,0..216,0..180".
+// A box of voxels in the user's notation: "10..90,0..216,0..180".
 #pragma once
 
 #include <glm/glm.hpp>
@@ -17,12 +17,12 @@ struct VoxelBox {
   bool operator==(const VoxelBox&) const = default;
 };
 
-/// Nothing where the text is no box; "" is everything.
+/// nullopt if the text is not a box; "" is everything.
 std::optional<VoxelBox> box_from(const std::string& text);
 std::string to_string(const VoxelBox& box);
 
-/// The voxels inside as a volume of their own, its world centred on them; minimum and maximum stay those of the whole.
-/// UserError (Usage) where the box leaves the volume.
+/// The voxels inside as a separate volume, its world centred on them; minimum and maximum stay those of the whole.
+/// Throws UserError (Usage) if the box leaves the volume.
 std::shared_ptr<const volume::Volume> cropped(std::shared_ptr<const volume::Volume> volume, const VoxelBox& box);
 
 }  // namespace fastsplat::scene

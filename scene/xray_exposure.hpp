@@ -1,5 +1,5 @@
-// The automatic exposure of X-rays (docs/numerics.md, section 8): from the volume, not from the view, so that a turning
-// volume keeps its brightness.
+// The automatic exposure of X-rays (docs/numerics.md, section 8). It depends on the volume, not on the view, so that a
+// turning volume keeps its brightness.
 #pragma once
 
 #include "scene/transfer_function.hpp"
@@ -9,7 +9,7 @@ namespace fastsplat::scene {
 
 /// Largest sum of extinctions along a line of voxels, times the step from one to the next in kernel units: the lines
 /// along the 13 directions to a voxel's 26 neighbours. An estimate of the brightest ray of any view: exact along those
-/// directions; a thin rod that lies between two of them and is looked at end-on can be brighter. 0: nothing visible.
+/// directions; a thin rod between two of them, seen end-on, can be brighter. 0: nothing visible.
 double densest_line(const volume::Volume& volume, const Classifier& classify);
 
 /// 1 / (opacity_scale times the densest line, ripple of the kernel included); 1 where nothing is visible.

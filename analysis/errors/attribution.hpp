@@ -19,8 +19,8 @@ struct Amount {
 Amount amount_of(const stages::Picture& error);
 /// a - b, value by value.
 stages::Picture difference(const stages::Picture& a, const stages::Picture& b);
-/// Of the whole error e, a part d has the share E[d e] / E[e^2]: not centred, since bias is error too. 0 where there is
-/// no error.
+/// A part d of the whole error e has the share E[d e] / E[e^2]: not centred, since bias is error too. 0 if the error is
+/// 0.
 double share_of(const stages::Picture& part, const stages::Picture& error);
 
 /// Shares are share_of() the whole error.

@@ -25,7 +25,7 @@ struct TriedRemedy {
 std::optional<TriedRemedy> try_remedy(const scene::Scene& scene, const cmodel::Config& config,
                                       const Attribution& attribution, int threads);
 
-/// The answer first, then the table. `bits`: the LSB that amounts are told in.
+/// The answer first, then the table. `bits`: the LSB that is the unit of amounts.
 std::string to_text(const Attribution& attribution, const std::optional<TriedRemedy>& tried, int bits);
 nlohmann::ordered_json to_json(const Attribution& attribution, const std::optional<TriedRemedy>& tried);
 

@@ -18,8 +18,8 @@ class Journal {
   /// What became of a configuration and a scene; no fidelity where it could not be drawn.
   using Entry = std::optional<Fidelity>;
 
-  /// No file: nothing is kept. Else what it holds is read, and more is appended: a line is written whole or, where the
-  /// program is killed in the middle of it, cut off the next time. UserError (Input) where another line is no entry.
+  /// Without a file nothing is kept. Else its entries are read and new ones appended. A line that a killed program left
+  /// incomplete is cut off the next time. Throws UserError (Input) if another line is not an entry.
   explicit Journal(const std::filesystem::path& path = {});
 
   /// Null where nothing is known.

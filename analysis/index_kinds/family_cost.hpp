@@ -29,8 +29,9 @@ double predicted_bits(const cmodel::Config& config, int radius);
 /// pixel.
 std::uint64_t cycles_per_splat(const cmodel::Config& config, int radius);
 
-/// a = R = 2, in 1/255: rms of a turned constant field by its splats' places on a 1/K grid, 0.27/(s K); the largest
-/// error by the table's steps, 4/N over the squared distance and 1.213/N over the distance; 0 without a table.
+/// Predictions for a = R = 2, in 1/255. The rms of a turned constant field by its splats' places on a 1/K grid is
+/// 0.27/(s K). The largest error by the table's steps is 4/N over the squared distance and 1.213/N over the distance; 0
+/// without a table.
 double predicted_snap_rms(const cmodel::Config& config, double voxel);
 double predicted_index_max(const cmodel::Config& config);
 

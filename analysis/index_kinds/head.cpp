@@ -139,12 +139,12 @@ std::string head_row(const HeadCell& cell) {
 std::string head_section(const HeadScene& head, const std::vector<HeadCell>& cells) {
   std::string text = fmt::format(
       "## The head\n\n"
-      "{} at {} x {} by the integer model (base, index of each kind) against golden: footprints of {:.2f} pixels "
-      "radius, all values of the picture, 1/255.\n"
-      "Beside the error the part of it that the splats' places have (position and snap), and that the index has "
-      "after them: E[d e] / E[e^2] of [errors.md](errors.md),\n"
-      "section 2; it can be negative. The rest is the other steps'. squared_elliptic has the "
-      "words of squared. `fastsplat family --head` makes this section.\n\n",
+      "{} at {} x {} by the integer model (base, index of each kind) against\n"
+      "golden: footprints of {:.2f} pixels radius, all values of the picture, 1/255.\n"
+      "`fastsplat family --head` makes this section.\n\n"
+      "The last columns are the shares of the splats' places (position and snap) and of the index after\n"
+      "them, E[d e] / E[e^2] of [errors.md](errors.md), section 2; they can be negative. The rest is the\n"
+      "other steps'. squared_elliptic has the words of squared.\n\n",
       head.is_scan ? "The head scan (ch2bet, mri-head)" : "**The scan is not installed: shells:64 instead**", kPicture,
       kPicture, head.radius);
   text += "| kind | K | N | max | rms | bias | places | index |\n|---|---|---|---|---|---|---|---|\n";

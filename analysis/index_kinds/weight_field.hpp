@@ -1,5 +1,5 @@
-// How far the weights of a kind of index lie from the exact footprint, where splats overlap: a field of constant value
-// on a lattice that lies along the pixels, at every offset, and on one that is turned.
+// The error of a kind of index's weights against the exact footprint, where splats overlap. The test is a field of
+// constant value on a lattice along the pixels, at every offset, and on a turned one.
 #pragma once
 
 #include <vector>

@@ -30,7 +30,7 @@ class Chain {
   /// `threads` (0: all cores) never change the result.
   Picture operator()(const Mixture& mixture, int threads = 1) const;
 
-  /// The frame's steps as they are told.
+  /// The frame's steps as they are reported.
   std::vector<StepSet> sets() const { return step_sets(config_, steps_.carries(), holds_densities()); }
   bool holds_densities() const { return densities_.has_value(); }
   const SplatSteps& steps() const { return steps_; }

@@ -50,8 +50,8 @@ struct Staged {
   const StagedShape* shape(std::size_t i) const { return shapes.empty() ? nullptr : &shapes[i]; }
 };
 
-/// The splats of a scene in the order in which golden adds those of one nearest sheet, and the line of voxels that each
-/// lies on (scene::Traversal): in traversal order, but densities in that of memory.
+/// The splats of a scene in the order in which golden adds the splats of one nearest sheet: in traversal order,
+/// densities in the order of memory. Each has the line of voxels on which it lies (scene::Traversal).
 struct SplatList {
   explicit SplatList(const scene::Scene& scene);
   std::vector<scene::Splat> splats;

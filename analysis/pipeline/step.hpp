@@ -100,17 +100,17 @@ class Mixture {
   std::bitset<kStepCount> device_;
 };
 
-/// Steps whose errors are told as one.
+/// Steps whose errors are reported as one.
 struct StepSet {
   std::string name;  ///< of its steps, with '+'
   std::vector<Step> steps;
   const char* by = "";  ///< who rounds: "driver", "device" or "both"
 };
-/// Every step by itself, in order, but position and snap as one where together they round once: where k = 2^pf the snap
-/// of a position is the position, and where the driver leaves the rounding to the snap each alone would move every
+/// Every step by itself, in order, except that position and snap are one step if together they round once. If k = 2^pf,
+/// the snap of a position is the position. If the driver leaves the rounding to the snap, each alone would move every
 /// splat.
-/// Where the words of splats carry what rounding takes, they make up for what products lose: `carried` has emission and
-/// product as one, in the product's place. Steps of densities only where the frame has them: `densities`.
+/// With error diffusion, the words of splats make up for what products lose: `carried` has emission and product as one,
+/// in the product's place. Steps of densities exist only if the frame has them: `densities`.
 std::vector<StepSet> step_sets(const cmodel::Config& config, bool carried, bool densities);
 std::vector<StepSet> group_sets(bool densities);
 

@@ -22,8 +22,8 @@ inline double more_reach(const cmodel::Config& config) {
   return config.index() == cmodel::IndexKind::Linear ? 1.0 / config.grid() : 0.0;
 }
 
-/// Weights are F(u) = exp(-a R^2 u), u the squared distance over the squared radius, 0 from u = 1 on; golden's own,
-/// with the kernel's peak in them, where all steps up to the sheets are real ("golden_units").
+/// Weights are F(u) = exp(-a R^2 u), u the squared distance over the squared radius, 0 from u = 1 on. If all steps up
+/// to the sheets are real ("golden_units"), they are golden's own, with the kernel's peak in them.
 class WeightSteps {
  public:
   /// Keeps references.

@@ -30,7 +30,7 @@ struct Table {
   std::size_t left_out = 0;  ///< rows beyond `most`
 };
 
-/// UserError (Usage) for columns that there are none of.
+/// Throws UserError (Usage) for unknown columns.
 Table table_of(const Merged& merged, const TableOptions& options);
 
 /// Throws as table_of does.

@@ -10,8 +10,8 @@ namespace fastsplat::plan {
 /// One book for each configuration, in the order in which they came.
 class CoverageSum {
  public:
-  /// Counts are added, bins of every campaign too. Throws UserError (Input) for what is no book, or not another of the
-  /// same configuration; `where` names it.
+  /// Adds counts, and the bins of every campaign. Throws UserError (Input) for an invalid book and for one of another
+  /// configuration; `where` names it.
   void add(const nlohmann::ordered_json& book, const std::string& where);
 
   const std::vector<nlohmann::ordered_json>& books() const { return books_; }

@@ -16,7 +16,7 @@ struct Metric {
   std::string name, title, unit;
   Better better = Better::Neither;
   /// In a case's results, from the verb on: "compare/psnr_db". An element `*` is every number of an object, `*name`
-  /// every element of a list, told apart by its `name`: the metric's name then has a `*` for that word.
+  /// every element of a list, identified by its `name`: the metric's name then has a `*` for that word.
   std::string path;
   bool operator==(const Metric&) const = default;
 };

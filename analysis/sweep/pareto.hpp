@@ -20,8 +20,8 @@ struct Pareto {
   std::vector<const Row*> without;  ///< rows that did not pass, or lack one of the metrics
 };
 
-/// A metric by its name, with "-" before it where less is better and "+" where more is, as far as it does not say so
-/// itself. UserError (Usage) for metrics that there are none of, and for those without a direction.
+/// A metric by its name. "-" before it means that less is better, "+" that more is, for metrics that do not define
+/// this. Throws UserError (Usage) for unknown metrics and for metrics without a direction.
 Metric metric_of(const Merged& merged, const std::string& name, const char* flag);
 
 /// Rows that are equal in both metrics are all on the front.

@@ -56,7 +56,7 @@ std::string command_of(const Case& one);
 std::string id_of(const Case& one);
 
 nlohmann::ordered_json to_json(const Plan& plan);
-/// Throws UserError (Input) for a file that is no plan, or was changed: every hash is computed again.
+/// Throws UserError (Input) for an invalid or changed plan: every hash is computed again.
 Plan read_plan(const std::filesystem::path& path);
 
 /// A part of a plan: every `of`-th case, from the `index`-th (1 the first) on.

@@ -21,8 +21,8 @@ std::vector<ScriptFile> slurm_scripts(const Submission& submission);
 
 /// sbatch and its words; what it prints is the job's number.
 std::vector<std::string> sbatch_array(const Submission& submission, const JobArray& array);
-/// After the arrays of these numbers (none: at once) have ended, however they did: a task that fails, is cancelled or
-/// lost must not keep the results of the others from being merged, nor leave the merge waiting for ever.
+/// Runs after the arrays of these numbers have ended in any way (without numbers: at once). A failed, cancelled or lost
+/// task must neither prevent the merge of the other results nor make the merge wait for ever.
 std::vector<std::string> sbatch_merge(const Submission& submission, const std::vector<std::string>& arrays);
 
 }  // namespace fastsplat::plan

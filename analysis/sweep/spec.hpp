@@ -30,7 +30,7 @@ struct Spec {
   bool leave_out_refused = false;  ///< settings that do not go together make no case; else they are an error
 };
 
-/// Throws UserError (Input) with line and column for whatever is no specification.
+/// Throws UserError (Input) with line and column for an invalid specification.
 Spec read_spec(const std::filesystem::path& path);
 
 }  // namespace fastsplat::plan

@@ -16,7 +16,7 @@ using Value = std::variant<bool, std::int64_t, double, std::string>;
 /// As on the command line: "true", "64", "0.5", "base"; a number's shortest text that reads back as itself.
 std::string to_text(const Value& value);
 nlohmann::ordered_json to_json(const Value& value);
-/// Throws std::runtime_error for what is no single value.
+/// Throws std::runtime_error unless it is a single value.
 Value value_from(const nlohmann::ordered_json& json);
 
 /// A setting by its name: a flag of a verb without its dashes ("size"), or a configuration key ("snap.phases").

@@ -1,5 +1,5 @@
-// All that base/images/ knows of the image library: a table of functions in a module that is opened when a picture is
-// first read or written. The module is base/images/openimageio/, alone in including OpenImageIO.
+// The interface between base/images/ and the image library: a table of functions in a module that is opened when a
+// picture is first read or written. Only that module, base/images/openimageio/, includes OpenImageIO.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace fastsplat::images {
 /// A picture to encode.
 struct Encoding {
   std::string format;  ///< "openexr", "png" or "tiff"
-  std::string name;    ///< of the file, for messages
+  std::string name;    ///< name of the file, for messages
   int width = 0, height = 0, channels = 0;
   PixelKind kind = PixelKind::Float;
   const void* samples =
@@ -25,26 +25,26 @@ struct Encoding {
   Metadata metadata;
 };
 
-/// `what` of a refusal for lack of memory, which is the machine's.
+/// `what` of a refusal for lack of memory, a failure of the machine.
 inline constexpr const char* kNoMemory = "not enough memory to decode";
 
-/// What the module does. A refusal comes back as data, not as an exception: program and module need share no symbol.
+/// The operations of the module. Refusals are returned as data, not thrown, so that program and module share no symbol.
 struct Codec {
-  /// Of the library that was found, "2.4.7".
+  /// Version of the library that was found, "2.4.7".
   std::string (*version)();
-  /// The whole file's `bytes`, whose magic number says `format`. Returns why not, without `where`; `loaded` is then
-  /// void.
+  /// Decodes the whole file's `bytes`, whose magic number indicates `format`. On failure returns the reason, without
+  /// `where`; `loaded` is then invalid.
   std::optional<ErrorParts> (*decode)(const std::string& format, std::string_view bytes, LoadedImage& loaded);
-  /// Appends the whole file to `bytes`; returns why not, or an empty text.
+  /// Appends the whole file to `bytes`. Returns the reason of a failure, else an empty text.
   std::string (*encode)(const Encoding& picture, std::vector<unsigned char>& bytes);
 };
 
-/// The symbols of the module: a text that names version, compiler and the types above, and the table itself.
+/// The symbols of the module: a tag with version, compiler and the types above, and the table itself.
 inline constexpr const char* kTagSymbol = "fastsplat_codec_tag";
 inline constexpr const char* kTableSymbol = "fastsplat_codec_table";
 
-/// Opens the module on the first call, from any thread. It is looked for beside the running program, then in
-/// ../lib/fastsplat/ as seen from there. UserError (Input) when it is missing, cannot be loaded, or has another tag.
+/// Opens the module on the first call, from any thread. Searches the folder of the running program, then
+/// ../lib/fastsplat/ from there. Throws UserError (Input) if it is missing, cannot be loaded, or has another tag.
 const Codec& codec();
 
 }  // namespace fastsplat::images

@@ -1,5 +1,5 @@
-// Image files: EXR (float, half, raw integer words), PNG (8/16), TIFF (8/16/float); JPEG is read only. OpenImageIO does
-// the work; it is loaded when the first picture is read or written, because it takes a fifth of a second and 100 MB.
+// Image files: EXR (float, half, raw integer words), PNG (8/16), TIFF (8/16/float); JPEG is read only. OpenImageIO
+// decodes and encodes. It is loaded for the first picture, because it takes a fifth of a second and 100 MB.
 #pragma once
 
 #include <cstddef>
@@ -26,44 +26,42 @@ struct LoadedImage {
   Image image;  ///< decoded to value (integer files divided by their maximum; raw words by 2^frac_bits)
   PixelKind kind = PixelKind::Float;
   std::string format;  ///< "openexr", "png", "tiff" or "jpeg", by content
-  /// What the file declares of its colours: "linear", "sRGB", "gamma 0.5", "ICC profile 'x'", ...; empty where it
-  /// declares nothing.
+  /// The declared colour encoding: "linear", "sRGB", "gamma 0.5", "ICC profile 'x'", ...; empty without a
+  /// declaration.
   std::string encoding;
   bool unassociated = false;         ///< the colours are not multiplied by alpha
-  std::string grey;                  ///< of one channel: its name where that is not Y, "Z"
+  std::string grey;                  ///< name of a single channel if it is not Y, such as "Z"
   int frac_bits = 0;                 ///< raw words only
   std::vector<std::uint32_t> words;  ///< raw words only, as in the file
   Metadata metadata;
 };
 
-/// Loads OpenImageIO now, so that a run that will write pictures fails before its work. UserError (Input) when it
-/// cannot: no module beside the program, a library it needs is missing, or it belongs to another build. All below may
-/// throw it.
+/// Loads OpenImageIO now, so that a run that will write pictures fails before its work. Throws UserError (Input) if the
+/// module or a library it needs is missing, or if it belongs to another build. All functions below may throw it, too.
 void require_library();
 
-/// OpenImageIO's, as found at run time: "2.4.7". Loads it.
+/// Version of OpenImageIO at run time, "2.4.7". Loads it.
 std::string library_version();
 
-/// The values' encoding: as declared, else what the format says: sRGB of PNG and JPEG, linear of EXR and TIFF.
+/// The values' encoding: as declared, else the format's default: sRGB for PNG and JPEG, linear for EXR and TIFF.
 std::string encoding_of(const LoadedImage& loaded);
 
-/// EXR, PNG, TIFF or JPEG, told by content and not by name; 1, 3 (RGB) or 4 (RGBA) channels. Grey with alpha becomes
-/// RGBA. Channels are found by name, behind a common prefix ("diffuse.R").
-/// Samples are taken as stored: no alpha (un)premultiplication, no colour conversion. What the file declares of them is
-/// in `encoding` and `unassociated`.
-/// UserError (Input) when missing, not an image, truncated, corrupt, of unsupported channels or sample type, lossy
-/// (JPEG in TIFF), cropped, turned (an orientation other than 1), in another colour model than grey and RGB, with
-/// several images in the file, or too large (a side > 65536 or more than 2^31 values).
-/// Memory grows with the data that really decodes, so that a header that lies costs nothing.
+/// Reads EXR, PNG, TIFF or JPEG, recognised by content and not by name; 1, 3 (RGB) or 4 (RGBA) channels. Grey with
+/// alpha becomes RGBA. Channels are found by name, after a common prefix ("diffuse.R"). Samples are taken as stored: no
+/// alpha (un)premultiplication, no colour conversion. `encoding` and `unassociated` hold the file's declarations.
+/// Throws UserError (Input) if the file is missing, not an image, truncated, corrupt or too large (a side > 65536 or
+/// more than 2^31 values). Other unsupported content: channels, sample type, lossy (JPEG in TIFF), cropped, an
+/// orientation other than 1, a colour model other than grey and RGB, several images.
+/// Memory grows with the decoded data, so that a wrong size in a header costs nothing.
 LoadedImage read_image(const std::filesystem::path& path);
 
-/// Absent `kind`: .exr Float, .png/.tif/.tiff Uint16; Uint8 where `display` is set.
+/// Without `kind`: .exr Float, .png/.tif/.tiff Uint16; Uint8 if `display` is set.
 struct WriteOptions {
   std::optional<PixelKind> kind = {};  ///< .exr Float, Half; .png Uint8, Uint16; .tif Uint8, Uint16, Float
-  bool display = false;  ///< .png/.tif only: composite over black, apply the sRGB curve, drop alpha (to look at)
+  bool display = false;  ///< .png/.tif only: composite over black, apply the sRGB curve, drop alpha (for viewing)
 };
 
-/// Premultiplied linear values exactly as they are (integer kinds: clamped to [0,1], round half up; Half: clamped to
+/// Writes premultiplied linear values unchanged (integer kinds: clamped to [0,1], round half up; Half: clamped to
 /// +-65504, round half even). Returns how many values had to be clamped (NaN is written as 0 and counted; Float clamps
 /// nothing). Metadata keys are [a-z0-9_]+, values any text without NUL. The same input gives the same bytes.
 /// Atomic; every failure (unknown extension, kind that the format lacks, read-only, disk full) is a UserError (Input).
@@ -78,8 +76,8 @@ struct RawImage {
   std::uint64_t config_hash = 0;
 };
 
-/// EXR with one uint32 channel per colour: the device's raw words, bit for bit. Adds frac_bits, int_bits, config_hash
-/// (16 hex digits) and format ("U1.16") to the metadata.
+/// Writes an EXR with one uint32 channel per colour: the device's raw words, bit for bit. Adds frac_bits, int_bits,
+/// config_hash (16 hex digits) and format ("U1.16") to the metadata.
 void write_raw(const std::filesystem::path& path, const RawImage& image, Metadata metadata);
 
 }  // namespace fastsplat::images

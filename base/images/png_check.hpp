@@ -1,4 +1,4 @@
-// Is this PNG whole? Asked before libpng sees it, because libpng prints its errors to stderr and forgives a missing
+// Checks that a PNG is complete before libpng reads it: libpng prints its errors to stderr and accepts a missing
 // end.
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace fastsplat::images {
 
-/// Walks the chunks (order, length, CRC), inflates the pixels without keeping them (size, checksum, filter types) and
-/// returns what is wrong with the byte offset, or an empty text.
+/// Walks the chunks (order, length, CRC) and inflates the pixels without keeping them (size, checksum, filter types).
+/// Returns the first defect with its byte offset, or an empty text.
 std::string png_defect(std::span<const unsigned char> bytes);
 
 }  // namespace fastsplat::images

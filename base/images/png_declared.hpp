@@ -1,4 +1,4 @@
-// What a PNG declares of its numbers, beside its pixels.
+// The declarations of a PNG about its samples.
 #pragma once
 
 #include <span>
@@ -6,11 +6,11 @@
 
 namespace fastsplat::images {
 
-/// As LoadedImage::encoding. Chunks count as the PNG specification ranks them: cICP, iCCP, sRGB, then gAMA and cHRM.
-/// `bytes`: of a whole PNG (png_defect() found nothing).
+/// The value of LoadedImage::encoding. Chunks have the priority of the PNG specification: cICP, iCCP, sRGB, then gAMA
+/// and cHRM. Requires that png_defect() found nothing in `bytes`.
 std::string png_encoding(std::span<const unsigned char> bytes);
 
-/// Whether it is animated: readers show its first image only.
+/// Whether it is animated; readers show the first image only.
 bool png_is_animated(std::span<const unsigned char> bytes);
 
 }  // namespace fastsplat::images

@@ -1,4 +1,4 @@
-// What a TIFF declares of its numbers and no decoder follows.
+// Declarations of a TIFF that decoders ignore.
 #pragma once
 
 #include <span>
@@ -6,8 +6,8 @@
 
 namespace fastsplat::images {
 
-/// The name of a tag in the first directory by which samples are another colour than they seem; empty for none.
-/// Whatever is not whole is left to the decoder.
+/// The name of a tag in the first directory that changes the colour of samples; empty without one. Incomplete files are
+/// left to the decoder.
 std::string tiff_unfollowed(std::span<const unsigned char> bytes);
 
 }  // namespace fastsplat::images

@@ -1,5 +1,5 @@
-// Unit "density ring": of a tile whose sheets hold densities those that are live: one waits for the sheet behind it, to
-// be classified between its neighbours (docs/numerics.md, section 6.2).
+// Unit "density ring": the live sheets of a tile of densities. A sheet waits for the one behind it, to be classified
+// between its neighbours (docs/numerics.md, section 6.2).
 #pragma once
 
 #include <algorithm>

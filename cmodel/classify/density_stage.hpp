@@ -1,6 +1,5 @@
-// Unit "density stage": of a tile whose sheets hold densities, the ring of those that are live and what each becomes
-// between its neighbours: sums, pixel by pixel, that are composited like those of a sheet of colours (docs/numerics.md,
-// section 6.2).
+// Unit "density stage": the ring of live sheets of a tile of densities. It classifies each sheet between its
+// neighbours, pixel by pixel, into sums that are composited like a sheet of colours (docs/numerics.md, section 6.2).
 #pragma once
 
 #include <algorithm>

@@ -27,9 +27,9 @@ struct CullCounts {
   bool operator==(const CullCounts&) const = default;
 };
 
-/// Answers of one tile's tests in the order of the stream: per cull_block one; per splat that is not swallowed one, and
-/// if it is not hidden and has several windows, one for each of them, row by row. And of each sheet the first row of
-/// blocks with a cell that became opaque, or as many as there are. None of either in a tile without tests.
+/// Answers of one tile's tests in the order of the stream: one for each cull_block and for each splat that is not
+/// dropped. A visible splat of several windows has one more for each of them, row by row. Also, for each sheet, the
+/// first row of blocks with a cell that became opaque, or the number of rows. Both are empty in a tile without tests.
 class CullAnswers {
  public:
   void add(bool hidden) { bits_.push_back(hidden); }

@@ -62,9 +62,10 @@ class CullUnit {
     first_changed_ = std::min(first_changed_, by);
     for (int& row : changed_) row = std::min(row, by);
   }
-  /// Of the open sheet's blocks that were told, the first row with a cell that became opaque; all rows: none did.
+  /// Among the reported blocks of the open sheet, the first row with a cell that became opaque; number of rows: none
+  /// did.
   int first_changed() const { return first_changed_; }
-  /// All of its blocks were told.
+  /// All of its blocks were reported.
   void end_sheet();
 
   const CullTable& table() const { return cells()[now_]; }

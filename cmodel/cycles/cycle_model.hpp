@@ -181,8 +181,8 @@ class CycleModel final : public Device {
   };
   CullSets<Verdict> cull_sets_;
   std::uint64_t last_verdict_ = 0, sent_ = 0;
-  // A fetching source: it has passed a splat of a set, and nothing behind the last set yet; a set with splats is hidden
-  // of those announced together now, and before; it sends all splats of them.
+  // A fetching source. In order: it has passed a splat of a set, and nothing after the last set yet. A set with splats
+  // is hidden, among the sets announced together now; and among the previous ones. It sends all their splats.
   bool behind_set_ = false, hides_ = false, hid_ = false, trusts_ = false;
 
   std::uint64_t payload_words_ = 0;  ///< of the open table

@@ -25,8 +25,8 @@ inline constexpr std::size_t kCullStages = 4;  ///< t0 .. t3
 /// A fetching source: from a verdict to the first beat asked for after it, the memory's latency aside.
 inline constexpr std::uint64_t kFetch = 6;
 
-// Densities: a block is read in five cycles, or waits for its slices; from its first cycle five more pass until its
-// words lie side by side, and then the pixel stage, before its first slice is in k1.
+// Densities: a block is read in five cycles, or waits for its slices. From its first cycle five more pass until its
+// words lie side by side. Then comes the pixel stage, before its first slice is in k1.
 inline constexpr std::uint64_t kGather = 5;
 inline constexpr std::uint64_t kPixelStage = 23;
 /// From the last block copied, or end_tile's turn, to the first block read.

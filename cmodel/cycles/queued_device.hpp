@@ -19,7 +19,7 @@ struct DeviceCycles {
   std::uint64_t longest_tile = 0;  ///< cycles from begin_tile carried out to the last pixel taken
 };
 
-/// Arrivals must be told in the order of the beats and never fall.
+/// Arrivals must be given in the order of the beats and never decrease.
 class QueuedDevice final : private CycleSink {
  public:
   /// `queue_beats` >= 1. `options` as for a CycleModel; input holds for what has arrived.

@@ -20,17 +20,19 @@ struct BandReport {
   std::vector<std::uint8_t> sheets;  ///< of all the frame's: 1 with a record, else 0
 };
 
-// What a walk calls of Splats, which knows the splats of one band by number:
-//   band()                            its BeginTile
-//   sheets(), reach()                 sheets of the frame; a splat has records in at most reach() sheets after its
-//   first numbers(sheet)                    splats whose first sheet this is: a span prefetch(number) the splat is
-//   begun soon for_each_place(unit, number, keep, visit)
-//                                     visit(Ready) for each record that a sheet has of the splat, placed by the unit;
-//                                     with `keep`, an ellipse's weights are in Ready::weights
-//   next_share(splat, sheet)          {words, saturated, empty()} of its records in this sheet; sheets come in order
-//   for_each_outline(splat, sheet, last, visit)
-//                                     visit({largest, excess, saturated}) of its shares of these sheets
-// and of one that culls: cells(), sheet_sets(sheet, written), numbers(sheet, cell), share(number, sheet).
+// The interface of Splats, the splats of one band by number, that a walk requires:
+// - band(): its BeginTile
+// - sheets(), reach(): sheets of the frame; a splat has records in at most reach() sheets after its first
+// - numbers(sheet): the splats whose first sheet this is, a span
+// - prefetch(number): announces that the splat begins soon
+// - for_each_place(unit, number, keep, visit): calls visit(Ready) for each record that a sheet has of the splat, placed
+//   by the unit; with `keep`, an ellipse's weights are in Ready::weights
+// - next_share(splat, sheet): {words, saturated, empty()} of its records in this sheet; sheets come in order
+// - for_each_outline(splat, sheet, last, visit): calls visit({largest, excess, saturated}) for its shares of these
+//   sheets
+//
+// Splats of a device that culls also have cells(), sheet_sets(sheet, written), numbers(sheet, cell) and
+// share(number, sheet).
 
 /// A splat of a band, or one record of its ellipse, ready for its next sheet. `Rest` is what Splats keeps of it.
 template <class Rest>

@@ -12,8 +12,8 @@
 
 namespace fastsplat::cmodel::fast {
 
-/// The radial table as the kernel reads it. q goes through 64-bit lanes shifted left so that its word ends with them:
-/// what wraps there wraps as the word does, and the upper half has the sign and, shifted right, the table's index.
+/// The radial table as the kernel reads it. q is shifted left in 64-bit lanes, so that it wraps as its word does. The
+/// upper half has the sign and, shifted right, the table's index.
 struct EllipseTable {
   std::vector<std::uint32_t> weights;  ///< N of them, shifted left as those of circles, and a 0 for all that is behind
   std::uint32_t heaviest = 0;          ///< weight, unshifted

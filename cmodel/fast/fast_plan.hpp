@@ -18,8 +18,8 @@ struct FastPlan {
   bool carries = false;    ///< 32-bit lanes: sums come round so soon that every carry out of a lane is looked for
   std::uint32_t largest_sum = 0;  ///< of the sheet's format; sums above it were cut
 
-  // Sums that nobody sees are bounded in lanes of 16 bits: in units of 2^hidden_unit of the sheet's, each product at
-  // least what it is, of colours shifted right by hidden_shift (left if negative) and rounded up.
+  // Hidden sums are bounded in lanes of 16 bits, in units of 2^hidden_unit of the sheet's. Each product is at least its
+  // true value: of colours shifted right by hidden_shift (left if negative) and rounded up.
   bool hides = false;
   int hidden_unit = 0, hidden_shift = 0;
 };

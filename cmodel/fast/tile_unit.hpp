@@ -47,10 +47,10 @@ class TileUnit final : public RecordSink {
   TileUnit(const FrameTables& tables, PixelSink& pixels);
 
   void begin_tile(const BeginTile& tile) override { begin_band(tile, true, 0); }
-  /// A band of a tile's rows of blocks as if it were a tile: for end_tile() as well. Counters of the bands of a tile
-  /// add up to those of the tile, but for `tiles` and `sheets`. A splat goes to all bands its windows touch and is
-  /// counted where they begin: `first` is the band that has those that begin above it, too. hide() knows up to `ahead`
-  /// sheets beyond the one begun. Densities come in whole tiles.
+  /// Treats a band of a tile's rows of blocks as a tile, in end_tile() as well. Counters of the bands of a tile add up
+  /// to the tile's, except `tiles` and `sheets`. A splat goes to all bands its windows touch and is counted where they
+  /// begin. The band with `first` also counts splats that begin above it. hide() accepts up to `ahead` sheets beyond
+  /// the one begun. Densities come in whole tiles.
   void begin_band(const BeginTile& band, bool first, int ahead);
   void begin_sheet(const BeginSheet& sheet) override {
     sheet_number_ = sheet.sheet;
@@ -84,7 +84,7 @@ class TileUnit final : public RecordSink {
       frozen = frozen && (placed.columns & ~frozen_[by]) == 0;
     return frozen;
   }
-  /// A hidden splat's shares of this sheet and those that follow: they are only counted. Returns how many there are.
+  /// Counts a hidden splat's shares of this sheet and the following ones without drawing them. Returns their number.
   std::uint64_t hide(const Placed& placed, std::span<const HiddenShare> shares);
   /// False if that could not be exact: then add() them, each in its turn. True where no share has an excess.
   bool can_hide(const Placed& placed, std::span<const HiddenShare> shares) const;

@@ -1,5 +1,5 @@
-// The weights of every footprint a device's tables can give, by radius set and phases: what the unit of
-// the configuration's index.kind says of a whole splat, asked once per frame instead of once per pixel.
+// The weights of every footprint of a device's tables, by radius set and phases: results of the unit of the
+// configuration's index.kind for a whole splat, computed once per frame instead of once per pixel.
 #pragma once
 
 #include <cstddef>

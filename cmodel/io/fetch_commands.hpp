@@ -1,5 +1,5 @@
-// What a fetching source is told: which beats of a stream in memory it reads, and where those are that the device may
-// not want (docs/microarchitecture.md, "Fetch").
+// Commands for a fetching source: the beats of a stream in memory that it reads, and the place of splats that the
+// device may not need (docs/microarchitecture.md, "Fetch").
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,9 @@
 
 namespace fastsplat::cmodel {
 
-/// `beats` beats from `address` on are read and sent. The last `sets` of them are cull_blocks; these are all that there
-/// are. If `splats` is not 0, the splats of these sets lie behind, in order and without a gap, so many in all: of each
-/// set those are read that the device does not answer to be hidden, or all of them where it hid nothing of the command
-/// before. If it is 0, answers change nothing.
+/// Reads and sends `beats` beats from `address` on. The last `sets` of them are its only cull_blocks. If `splats` is
+/// not 0, that many splats of these sets follow, in order and without a gap. Sets that the device reports as hidden are
+/// then skipped; if it hid nothing of the previous command, all are read. If `splats` is 0, answers change nothing.
 struct FetchCommand {
   std::uint64_t address = 0;  ///< bytes; a multiple of a beat's
   std::uint32_t beats = 0, sets = 0, splats = 0;

@@ -15,7 +15,7 @@ constexpr RegisterField built_for(const char* name, int high, int low, const cha
 }
 
 constexpr RegisterField kStatus[] = {
-    {"BUSY", 0, 0, "work is under way, a beat lies in check, a tile is cut short, or a soft reset lasts"},
+    {"BUSY", 0, 0, "work is under way, a beat is in check, a tile is being cut short, or a soft reset lasts"},
     {"ERROR", 1, 1, "a beat was refused; stays until a reset"},
 };
 constexpr RegisterField kControl[] = {
@@ -77,12 +77,12 @@ constexpr RegisterEntry kEntries[] = {
     {kRegVersion, Access::Read, "version of the stream", {}},
     {kRegHashLow, Access::Read, "the configuration's hash, low half", {}},
     {kRegHashHigh, Access::Read, "the configuration's hash, high half", {}},
-    {kRegStatus, Access::Read, "what the device is about", kStatus},
+    {kRegStatus, Access::Read, "state of the device", kStatus},
     {kRegControl, Access::Write, "reads as 0", kControl},
     {kRegError, Access::Read, "the first refusal since a reset", kError},
     {kRegErrorBeat, Access::Read, "the refused beat's number in its frame; begin_frame is 0", {}},
-    {kRegIrq, Access::WriteOneToClear, "what happened", kIrq},
-    {kRegIrqMask, Access::ReadWrite, "what of it raises the interrupt; 0 after reset", kIrq},
+    {kRegIrq, Access::WriteOneToClear, "events since they were cleared", kIrq},
+    {kRegIrqMask, Access::ReadWrite, "events that raise the interrupt; 0 after reset", kIrq},
     {kRegCapTile, Access::Read, "built for: tile", kTile},
     {kRegCapLanes, Access::Read, "built for: lanes, radius sets", kLanes},
     {kRegCapRlut, Access::Read, "built for: RLUT", kRlut},

@@ -14,7 +14,7 @@ namespace fastsplat::cmodel {
 
 /// How a pixel's weight is found (docs/numerics.md, section 4).
 enum class IndexKind { Linear, Squared, SquaredElliptic, Blit2d, Rlut, Separable };
-/// What of a blit2d set's footprints is stored: each, or each once that is no mirror image of another.
+/// The stored footprints of a blit2d set: all, or one of each class of mirror images.
 enum class IndexSymmetry { Off, Eightfold };
 
 /// The cells of the map by which hidden splats are found (docs/numerics.md, section 6.1).
@@ -164,7 +164,7 @@ struct ConfigKey {
   std::optional<int> neutral = {};          ///< value of an absent key, which does not enter the hash; else required
 };
 std::span<const ConfigKey> config_keys();
-/// Null when there is no such key.
+/// Null for an unknown key.
 const ConfigKey* find_key(std::string_view name);
 
 /// The values the key takes by itself: "1..32", "trn, rnd or rnd_conv".

@@ -30,8 +30,8 @@ WordRange set_word_range(const Config& config, std::size_t word);
 /// such rule.
 std::optional<ErrorParts> set_violation(const Config& config, std::span<const std::uint32_t> words);
 
-/// Window phases of which footprints are stored (blit2d): all k, or with eightfold symmetry those that are no mirror
-/// image of a smaller one.
+/// Window phases whose footprints are stored (blit2d): all k, or with eightfold symmetry all except mirror images of a
+/// smaller one.
 std::int64_t stored_phases(const Config& config);
 
 }  // namespace fastsplat::cmodel

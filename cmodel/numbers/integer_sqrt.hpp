@@ -24,11 +24,11 @@ inline constexpr std::array<std::uint16_t, 192> kSqrtSeeds = sqrt_seeds();
 /// The largest s with s * s <= v.
 ///
 /// n is v shifted by an even number of bits into 2^62 .. 2^64 - 1: its root is v's, shifted by half as many. Let m be
-/// the first 2d + 2 bits of n and r = sqrt(m). From an a that is as far as e bits, (a - 1)^2 < (m >> 2(d - e)) < (a +
-/// 1)^2, comes one that is as far as d = 2e + 1: with A = a 2^(d-e), |A - r| <= 2^(d-e), and Newton's x = (A + m / A) /
-/// 2 is too large by (A - r)^2 / (2 A) <= 2^(d-e) / (2 a) <= 1, as a >= 2^e. Equality is nowhere: |A - r| < 2^(d-e)
+/// the first 2d + 2 bits of n and r = sqrt(m). An a is accurate to e bits if (a - 1)^2 < (m >> 2(d - e)) < (a + 1)^2.
+/// One step makes it accurate to d = 2e + 1 bits. Let A = a 2^(d-e), |A - r| <= 2^(d-e). Newton's x = (A + m / A) / 2
+/// is too large by (A - r)^2 / (2 A) <= 2^(d-e) / (2 a) <= 1, as a >= 2^e. Equality does not occur: |A - r| < 2^(d-e)
 /// since both sides above are strict. Rounded down it is a' = a 2^(d-e-1) + ((m >> (d-e+1)) / a), which is within 1 of
-/// r. The seed is as far as e = 7; then 15 and 31, all of n.
+/// r. The seed is accurate to e = 7 bits; then 15 and 31, all of n.
 constexpr std::uint64_t integer_sqrt(std::uint64_t v) {
   if (v == 0) return 0;
   const int half = std::countl_zero(v) / 2;

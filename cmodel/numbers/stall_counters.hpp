@@ -45,7 +45,7 @@ struct StallCounters {
   }
   bool operator==(const StallCounters&) const = default;
 
-  /// visit(name, value, meaning) in the order above, of those that the configuration has.
+  /// visit(name, value, meaning) in the order above, for the counters that the configuration has.
   template <class Visit>
   void for_each(const Config& config, Visit visit) const {
 #define X(name, counter, meaning) \

@@ -1,14 +1,13 @@
 // Where weights come from: the unit of the configuration's index.kind. All have the same functions, so that whoever
 // walks windows chooses once a splat (std::visit) and pays nothing a pixel:
 //
-//   load(table)                a checked load_table of a radius set
-//   load_radial(words)         the radial table; units without one ignore it
-//   rho(set), extent(set)      1/K pixel; Ea, pixels
-//   place(set, x, y)           the splat in flight, from snap()
-//   window(column, row, weights, observer)
-//                              the P x P weights, row by row, of the window whose first pixel is pixel (column, row) of
-//                              the footprint; both are multiples of P. Any order; along scan lines is what the kinds of
-//                              that order of work do by additions
+// - load(table): a checked load_table of a radius set
+// - load_radial(words): the radial table; units without one ignore it
+// - rho(set), extent(set): 1/K pixel; Ea, pixels
+// - place(set, x, y): the splat in flight, from snap()
+// - window(column, row, weights, observer): the P x P weights, row by row, of the window whose first pixel is pixel
+//   (column, row) of the footprint; both are multiples of P. In any order; kinds that work along scan lines use
+//   additions in that order
 #pragma once
 
 #include <variant>

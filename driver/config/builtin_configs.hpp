@@ -11,7 +11,7 @@ struct BuiltinConfig {
   const char* text;
 };
 
-/// `base` first, then by name; those that are not listed last.
+/// `base` first, then by name; unlisted ones last.
 std::span<const BuiltinConfig> builtin_configs();
 
 }  // namespace fastsplat::driver

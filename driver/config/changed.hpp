@@ -8,9 +8,9 @@
 
 namespace fastsplat::driver {
 
-/// `config` with `changes`, each "KEY=VALUE". Each key is set once; limits between keys hold after the last. What
-/// differs is in its name, in the order of the keys: "base+radial.entries=256". UserError (Usage) names the --set that
-/// is wrong.
+/// `config` with `changes`, each "KEY=VALUE". Each key is set once; limits between keys hold after the last. The name
+/// lists the differences, in the order of the keys: "base+radial.entries=256". Throws UserError (Usage) that names the
+/// invalid --set.
 cmodel::Config changed(const cmodel::Config& config, std::span<const std::string> changes);
 
 }  // namespace fastsplat::driver

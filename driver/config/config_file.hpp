@@ -1,4 +1,4 @@
-// Named hardware configurations: configs/*.toml, built into the program, or a file of the user's.
+// Named hardware configurations: configs/*.toml, built into the program, or a file of the user.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 namespace fastsplat::driver {
 
 /// A built-in name (`base`) or a path to a .toml file. Every key without a neutral value must be present, unknown keys
-/// are refused, limits are checked; each failure is a UserError (Input) with file, line, key and the numbers.
+/// are refused, limits are checked. Each failure is a UserError (Input) with file, line, key and the numbers.
 cmodel::Config load_config(const std::string& name_or_path);
-std::vector<std::string> config_names();  ///< of the products
+std::vector<std::string> config_names();  ///< names of the products' configurations
 
-/// A file that load_config() reads back to the same configuration: each key with its limits and meaning, those at their
-/// neutral value as comments.
+/// A file that load_config() reads back to the same configuration: each key with its limits and meaning. Keys at their
+/// neutral value are comments.
 std::string to_toml(const cmodel::Config& config);
 
 }  // namespace fastsplat::driver

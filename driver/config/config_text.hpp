@@ -1,4 +1,4 @@
-// A configuration from the text of a TOML file, wherever that came from.
+// Parses a configuration from TOML text.
 #pragma once
 
 #include <string>

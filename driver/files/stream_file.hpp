@@ -1,4 +1,4 @@
-// Recorded streams (.fss, docs/stream.md): what the device would be fed, in a file.
+// Recorded streams (.fss, docs/stream.md): the device's input in a file.
 #pragma once
 
 #include <filesystem>
@@ -12,16 +12,17 @@
 
 namespace fastsplat::driver {
 
-/// Of a recorded stream's image: a replay holds all of it, and a header alone must not cost more memory than that.
+/// Largest image of a recorded stream. A replay holds the whole image, so this bounds the memory that a header can
+/// cost.
 constexpr std::int64_t kMostImagePixels = std::int64_t{1} << 26;
-/// UserError (Usage) above it.
+/// Throws UserError (Usage) for a larger image.
 void check_image_size(int width, int height);
 
-/// Compiles the scene and writes the stream; atomic. Memory stays bounded whatever the stream's length.
+/// Compiles the scene and writes the stream atomically. Memory stays bounded for any length of the stream.
 DriverReport record_stream(const scene::Scene& scene, const cmodel::Config& config, const std::filesystem::path& path,
                            const RenderOptions& options = {});
 
-/// The same of a compiled view of 3-D Gaussians (driver/tiles/gaussian_frame.hpp).
+/// The same for a compiled view of 3-D Gaussians (driver/tiles/gaussian_frame.hpp).
 class GaussianFrame;
 struct GaussianReport;
 GaussianReport record_stream(const GaussianFrame& frame, const std::filesystem::path& path,
@@ -32,25 +33,25 @@ GaussianReport record_stream(const GaussianFrame& frame, const std::filesystem::
 DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Config& config,
                            const RenderOptions& options = {});
 
-/// The same to any device that checks its stream, whatever it does with it; finishes the device.
+/// The same for any device that checks its stream; finishes the device.
 void feed_stream(const std::filesystem::path& path, cmodel::Device& device, const RenderOptions& options = {});
 
-/// The file's beats in order, some thousands at a time, contents unchecked. What the sink finds wrong at a beat is told
-/// with the file's name.
+/// Passes the file's beats to the sink in order, some thousands at a time, contents unchecked. Errors that the sink
+/// reports at a beat get the file's name.
 void read_beats(const std::filesystem::path& path, const cmodel::BeatSink& sink);
 
-/// Runs `action`; what it finds wrong at a beat is told with the file's name.
+/// Runs `action`; errors that it reports at a beat get the file's name.
 void naming(const std::filesystem::path& path, const std::function<void()>& action);
 
-/// UserError (Input) for a stream, sound otherwise, whose tiles leave out pixels of its image: replay_stream and
-/// feed_stream look themselves.
+/// Throws UserError (Input) if the tiles of an otherwise valid stream leave out pixels of its image. replay_stream and
+/// feed_stream check this themselves.
 void require_covered(const std::filesystem::path& path);
 
-/// Writes beats as they are; atomic.
+/// Writes beats unchanged and atomically.
 void write_beats(const std::filesystem::path& path, std::span<const cmodel::Beat> beats);
 
-/// One line of text per record, to `line`; stops when it returns false. A stream that is cut, or whose beats or
-/// checksum are not those of its end, is refused after the lines of what is there.
+/// Passes one line of text per record to `line`; stops when it returns false. A stream that is truncated, or whose
+/// number of beats or checksum differs from its end, is refused after the lines of its records.
 void dump_stream(const std::filesystem::path& path, const std::function<bool(const std::string&)>& line);
 
 }  // namespace fastsplat::driver

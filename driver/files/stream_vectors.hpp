@@ -1,4 +1,4 @@
-// A recorded stream with what the device makes of it, as plain text for any simulator (docs/capi.md, "Vectors").
+// A recorded stream and the device's results for it, as plain text for any simulator (docs/capi.md, "Vectors").
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace fastsplat::driver {
 
-/// One of the files, as it lies there.
+/// One of the written files.
 struct VectorFile {
   std::string name;
   std::uint64_t lines = 0, bytes = 0;
@@ -22,7 +22,7 @@ struct VectorFile {
 };
 
 struct VectorReport {
-  std::vector<VectorFile> files;  ///< without vectors.json, which tells of them
+  std::vector<VectorFile> files;  ///< without vectors.json, which lists them
   std::uint64_t beats = 0, pixel_beats = 0;
   std::array<std::uint64_t, cmodel::kTapCount> taps{};  ///< records
   cmodel::Counters counters;
@@ -32,9 +32,8 @@ struct VectorReport {
 std::vector<std::string> vector_file_names();
 
 /// Feeds the stream to the model and writes beats.hex, output.hex and a .hex file a tap, records.json with the same
-/// records, and last vectors.json, which names them all with their checksums. The folder is made if it is not there
-/// (what it lies in has to be); files of these names in it are replaced, all or none. UserError (Input) as
-/// replay_stream's. Memory stays bounded.
+/// records, and last vectors.json, which names them all with their checksums. Creates the folder if its parent exists.
+/// Replaces all files of these names or none. Throws UserError (Input) as replay_stream does. Memory stays bounded.
 VectorReport write_vectors(const std::filesystem::path& stream, const cmodel::Config& config,
                            const std::filesystem::path& folder, const RenderOptions& options = {});
 

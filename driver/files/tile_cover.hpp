@@ -1,4 +1,4 @@
-// Whether the tiles of a recorded stream cover its image (docs/stream.md).
+// Checks that the tiles of a recorded stream cover its image (docs/stream.md).
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace fastsplat::driver {
 
-/// Rectangles of which any may lie over others. Memory goes with their number, not with the image.
+/// A set of rectangles that may overlap. Memory grows with their number, not with the image.
 class TileCover {
  public:
   void add(std::int64_t x, std::int64_t y, std::int64_t width, std::int64_t height);
-  /// Pixels that lie in at least one.
+  /// Number of pixels in at least one rectangle.
   std::int64_t pixels() const;
 
  private:
@@ -22,8 +22,8 @@ class TileCover {
   std::vector<Rectangle> rectangles_;
 };
 
-/// Shown the beats of a whole stream that is sound otherwise, throws UserError (Input) at the end_frame of one whose
-/// tiles leave pixels out: where = "beat N (byte offset M)".
+/// Receives the beats of a whole, otherwise valid stream. Throws UserError (Input) at the end_frame if the tiles leave
+/// out pixels: where = "beat N (byte offset M)".
 class CoverRule {
  public:
   void see(const cmodel::Beat& beat);

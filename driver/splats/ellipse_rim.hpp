@@ -1,4 +1,4 @@
-// Where an ellipse of these words ends, row by row (docs/numerics.md, section 8, "Spans").
+// The edge of an ellipse given by its words, row by row (docs/numerics.md, section 8, "Spans").
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace fastsplat::driver {
 
-/// The rim q = N 2^g in units of A dx^2, dx in 2^-pf pixel.
+/// The edge q = N 2^g in units of A dx^2, dx in 2^-pf pixel.
 inline double rim_of(const cmodel::Config& config, const cmodel::EllipseShape& shape) {
   return std::ldexp(static_cast<double>(config.rlut_rim()), static_cast<int>(shape.shift));
 }
@@ -19,7 +19,7 @@ inline double determinant(const cmodel::EllipseShape& shape) {
          static_cast<double>(shape.b) * static_cast<double>(shape.b);
 }
 
-/// A footprint's rim along one row: where it is cut, 2^-pf pixel from the centre.
+/// A footprint's edge along one row, 2^-pf pixel from the centre.
 class Rim {
  public:
   Rim(const cmodel::Config& config, const cmodel::EllipseShape& shape)
@@ -28,7 +28,7 @@ class Rim {
     rightmost_ = -b_ * std::sqrt(4.0 * c_ * rim_ / determinant_) / (2.0 * c_);
   }
   double half_height() const { return half_height_; }
-  /// The most that any row of [from, to] reaches to the right, and the least to the left.
+  /// The farthest points of the rows [from, to] to the right and to the left.
   double right(double from, double to) const { return middle(std::clamp(rightmost_, from, to), 1.0); }
   double left(double from, double to) const { return middle(std::clamp(-rightmost_, from, to), -1.0); }
 

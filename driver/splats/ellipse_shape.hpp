@@ -10,13 +10,13 @@
 
 namespace fastsplat::driver {
 
-/// Half of the thinnest footprint, pixels: thinner ones are drawn as wide, and as much fainter.
+/// Half the width of the thinnest footprint, pixels. Thinner ones are drawn this wide and fainter by the same factor.
 inline constexpr double kThinnest = 0.25;
 
 /// The footprint of a shape: d^T F^-1 d < 1, F = R^2 S. Shapes thinner than kThinnest grow across.
 scene::ScreenShape drawn_footprint(const scene::ScreenShape& shape, double kernel_radius);
 
-/// The words of a footprint; 4 A C >= B^2 whatever the roundings.
+/// The words of a footprint; 4 A C >= B^2 after any rounding.
 cmodel::EllipseShape ellipse_words(const cmodel::Config& config, const scene::ScreenShape& footprint);
 
 /// A record's part of a footprint: its windows, and the pixels that may be inside, relative as the record's are.

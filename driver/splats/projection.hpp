@@ -9,26 +9,26 @@
 namespace fastsplat::driver {
 
 struct Projected {
-  Uninitialised<QuantisedSplat> splats;  ///< in traversal order, without those that vanished
-  Uninitialised<SplatEllipse> ellipses;  ///< of each, in a frame with ellipses; else none
+  Uninitialised<QuantisedSplat> splats;  ///< in traversal order, without vanished ones
+  Uninitialised<SplatEllipse> ellipses;  ///< one for each splat in a frame with ellipses; else empty
   RadiusSets sets;
   scene::TexturedSplats textures;  ///< whose pictures the sets have; or none
   std::uint64_t voxels = 0;        ///< non-empty voxels
   std::uint64_t saturated = 0;     ///< voxels whose colour or optical depth left U 4.cf
   std::uint64_t vanished = 0;      ///< voxels whose words are all 0
-  double vanished_share = 0.0;  ///< of all colour and opacity, what they had; 0 where it is carried to the next voxel
+  double vanished_share = 0.0;     ///< their share of all colour and opacity; 0 with error diffusion
   bool carried = false;
   std::uint64_t widened = 0;             ///< ellipses that were thinner than kThinnest
-  std::uint32_t least_shrink = 1 << 16;  ///< of the kernel that has grown most (DepthGrowth)
+  std::uint32_t least_shrink = 1 << 16;  ///< shrink of the deepest kernel (DepthGrowth)
 };
 
-/// Throws UserError (Usage) where an ellipse's half sides are more pixels than the device takes.
+/// Throws UserError (Usage) if an ellipse's half sides are longer than the device's limit.
 void check_reach(double reach, const cmodel::Config& config);
 
-/// Those that the scene's splats need; `pictures` of each radius.
+/// The radius sets that the scene's splats need; `pictures` of each radius.
 RadiusSets radius_sets(const scene::Scene& scene, const cmodel::Config& config, std::size_t pictures = 1);
 
-/// Every real splat of the scene, quantised. `threads` (0: all cores) never change the result.
+/// Every real splat of the scene, quantised. `threads` (0: all cores) never changes the result.
 Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices,
                   const scene::SheetPlan& plan, int threads);
 

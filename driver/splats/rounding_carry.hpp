@@ -1,5 +1,5 @@
-// What rounding takes of a splat goes to its neighbour behind it (docs/numerics.md, section 8, "carry"): the sum along
-// a run of voxels is rounded once, and not each of its many thin splats to nothing.
+// Error diffusion along the traversal: the rounding error of a splat is added to the neighbour behind it
+// (docs/numerics.md, section 8, "carry"). The sum along a run of thin splats survives, though each would round to 0.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,9 @@
 
 namespace fastsplat::driver {
 
-/// What the sheets show of a word, in words: of V less than V where the products of thin splats and weights round to
-/// nothing. A mean over the radial table, whose entries are even in area and so in the pixels of all sub-pixel places.
+/// The value that the sheets show for a word V, in words: less than V where the products of thin splats and weights
+/// round to 0. A mean over the radial table, whose entries are even in area and so in the pixels of all sub-pixel
+/// places.
 class ShownWords {
  public:
   ShownWords(const cmodel::Config& config, const scene::Kernel& kernel);
@@ -28,13 +29,13 @@ class ShownWords {
   std::array<double, 256> shown_{};
 };
 
-/// For the lines of voxels that run across the slices, rows first_row..end_row-1 of them. A line's splats come front to
+/// State of the lines of voxels that run across the slices, rows first_row..end_row-1. A line's splats come front to
 /// back.
 class RoundingCarry {
  public:
   struct Line {
     std::array<double, 4> rest{};  ///< per channel, words
-    int slice = -2;                ///< of its last splat
+    int slice = -2;                ///< slice of its last splat
     int run = 0;                   ///< splats since the last gap
   };
 
@@ -46,7 +47,7 @@ class RoundingCarry {
   /// The channel's word, cut to U 4.cf.
   Quantised operator()(double value, Line& line, std::size_t channel) const {
     double& rest = line.rest[channel];
-    const double sum = value * carried_.scale + rest;  // below 0 where more was shown than was asked
+    const double sum = value * carried_.scale + rest;  // below 0 if more was shown than required
     const Quantised word = quantise(std::max(sum, 0.0) / carried_.scale, carried_);
     rest = word.saturated ? 0.0 : sum - shown_(word.word);
     return word;

@@ -1,4 +1,4 @@
-// How a splat is shared out among the sheets it reaches (docs/numerics.md, section 8): integers only, telescoping.
+// Distributes a splat among the sheets it reaches (docs/numerics.md, section 8): integers only, telescoping.
 #pragma once
 
 #include <algorithm>
@@ -23,9 +23,9 @@ struct Share {
   bool empty() const { return (words[0] | words[1] | words[2] | words[3]) == 0; }
 };
 
-/// A kernel that anti-aliasing has grown along the view axis (docs/numerics.md, section 8, "Ellipses").
+/// A kernel that anti-aliasing stretched along the view axis (docs/numerics.md, section 8, "Ellipses").
 struct DepthGrowth {
-  std::uint32_t shrink = 1U << 16;  ///< of depths, One.16: at least 1
+  std::uint32_t shrink = 1U << 16;  ///< factor on depths, One.16: at least 1
   std::int32_t half = 0;            ///< the kernel's half depth, depth steps
 };
 
@@ -67,12 +67,12 @@ class Slices {
   Share share(const SplatWords& whole, std::int32_t depth, int s, const DepthGrowth& growth) const {
     return between(whole, cumulative(depth, s, growth), cumulative(depth, s + 1, growth));
   }
-  /// What falls into slab s.
+  /// The splat's share in slab s.
   Share share(const SplatWords& whole, std::int32_t depth, int s) const {
     return between(whole, cumulative(depth, s), cumulative(depth, s + 1));
   }
-  /// The same for slabs one after the other, from the first that the splat reaches on: `before` is what lies in front
-  /// of slab s, 0 at first, and becomes what lies in front of the next.
+  /// The same for consecutive slabs, starting with the first that the splat reaches. `before` is the part in front of
+  /// slab s, initially 0; the call updates it for the next slab.
   Share next_share(const SplatWords& whole, std::int32_t depth, int s, SplatWords& before) const {
     const std::uint64_t far = cumulative(depth, s + 1);
     SplatWords difference;
@@ -83,10 +83,10 @@ class Slices {
     }
     return this->whole(difference);
   }
-  /// Of a share, what counts where nobody sees it.
+  /// The part of a hidden share that counters need.
   struct Outline {
     std::uint32_t largest = 0;  ///< of the four words; 0: the share is empty
-    std::uint32_t excess = 0;   ///< what that is above tau
+    std::uint32_t excess = 0;   ///< its excess over tau
     bool saturated = false;
   };
   static Outline outline(const Share& share) {
@@ -104,7 +104,7 @@ class Slices {
     for (int s = first; s <= last; ++s) {
       const std::uint64_t far = cumulative(depth, s + 1);
       const std::uint32_t end = part(tau, far), word = end - before;
-      // Where tau's exact share is a word or more above the colours', no rounding brings them above it: each of the two
+      // If tau's exact share exceeds the colours' by a word or more, rounding cannot reverse this: each of the two
       // differences is less than a word from the exact one.
       if (above * (far - near) >> 32 != 0) {
         visit(Outline{std::min(word, largest_), 0, word > largest_});
@@ -126,7 +126,7 @@ class Slices {
   }
 
  private:
-  /// Of the kernel before a boundary, 32 fraction bits. Nothing of it lies outside the first and the last one.
+  /// Share of the kernel before a boundary, 32 fraction bits: 0 before the first boundary, 1 after the last.
   std::uint64_t cumulative(std::int32_t depth, int boundary) const {
     const std::int32_t at = cut_[static_cast<std::size_t>(boundary)] - depth + middle_;
     return phi_[static_cast<std::size_t>(std::clamp(at, 0, 2 * middle_))];
@@ -165,7 +165,7 @@ class Slices {
   std::vector<std::int32_t> cut_;       ///< B_s, but the first and the last one out of every kernel's reach
 };
 
-/// Of a frame; where its splats are not sliced, one that is never asked.
+/// The slices of a frame; unused if its splats are not sliced.
 Slices frame_slices(const cmodel::Config& config, const scene::Scene& scene, const scene::SheetPlan& plan);
 
 }  // namespace fastsplat::driver

@@ -23,14 +23,14 @@ inline double pixel_radius(const scene::Scene& scene, double pixels_per_mm) {
   return scene.kernel.radius() * scene.volume->kernel_unit() * pixels_per_mm;
 }
 
-/// Whether what rounding takes of a splat goes to the next one behind it (rounding.carry).
+/// Whether rounding errors are diffused to the next splat behind (rounding.carry).
 bool carries(scene::Method method, const cmodel::Config& config);
 
-/// Whether splats have shapes of their own, which only a device with ellipses draws: else all are circles of a radius
+/// Whether splats have individual shapes, which only a device with ellipses draws; else all are circles of a radius
 /// set.
 bool draws_ellipses(const scene::Scene& scene, const cmodel::Config& config);
 
-/// 32 bytes a voxel, never in two lines of a cache: what a frame keeps in memory.
+/// A splat as a frame keeps it in memory: 32 bytes, never across two cache lines.
 struct alignas(32) QuantisedSplat {
   std::int32_t x = 0, y = 0;  ///< image pixels, pf fraction bits
   std::int32_t depth = 0;     ///< Slices::quantise_depth, or the sheet number where splats are not sliced
@@ -39,9 +39,9 @@ struct alignas(32) QuantisedSplat {
 };
 inline constexpr std::uint32_t kOwnShape = ~std::uint32_t{0};
 
-/// What more a splat of a frame with ellipses has.
+/// Additional data of a splat in a frame with ellipses.
 struct SplatEllipse {
-  cmodel::EllipseShape shape;  ///< of a splat with kOwnShape
+  cmodel::EllipseShape shape;  ///< shape of a splat with kOwnShape
   std::uint32_t shrink = 0;    ///< DepthGrowth::shrink
 };
 

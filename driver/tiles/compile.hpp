@@ -33,7 +33,7 @@ scene::SheetPlan plan_for_device(const scene::Scene& scene);
 /// shape.
 scene::Offers offers(const cmodel::Config& config);
 
-/// What one tile's records add to the report.
+/// Contribution of one tile's records to the report.
 struct TileReport {
   std::uint64_t splat_records = 0, saturated_records = 0, sheets = 0;
 };
@@ -59,11 +59,11 @@ class CompiledFrame {
   std::span<const cmodel::Beat> preamble() const;
   /// begin_tile .. end_tile. Const and without shared state: tiles may be emitted in parallel.
   TileReport emit_tile(int tile, cmodel::RecordSink& sink) const;
-  /// The same as beats. With `hides`, a device that has taken all beats before says of a set whether it would hide it:
-  /// then none of its splats are made. No word and no counter of that device depends on it.
+  /// The same as beats. With `hides`, a device that has taken all earlier beats reports whether it would hide a set;
+  /// the splats of hidden sets are then skipped. The device's words and counters do not change.
   TileReport emit_tile(int tile, const cmodel::BeatSink& sink, const Hides& hides = {}) const;
-  /// The same of a band of the tile, into the fast unit, which then has its words and counters: no records, and what a
-  /// splat's place in the band says is worked out once, not once a sheet.
+  /// Draws a band of the tile directly into the fast unit, which then has its words and counters. There are no records,
+  /// and a splat's place in the band is computed once, not once a sheet.
   template <class Word>
   cmodel::fast::BandReport draw_band(int tile, int band, cmodel::fast::TileUnit<Word>& unit) const;
   /// Preamble and all tiles in order: a subset stream, without end_frame. Progress counts tiles.

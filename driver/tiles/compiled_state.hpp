@@ -1,4 +1,4 @@
-// What a compiled frame consists of: for those who emit its tiles or draw them.
+// The parts of a compiled frame, for the code that emits or draws its tiles.
 #pragma once
 
 #include <algorithm>
@@ -70,14 +70,14 @@ class Windows {
   std::vector<cmodel::WindowGeometry> extents_;  ///< per set
 };
 
-/// Neighbouring cells whose splats go in one set: one cell, two beside one another, or four.
+/// A cull group: one cell, two neighbours, or four, whose splats form one set.
 struct CellSet {
   cmodel::CullBlock block;  ///< pixels of all windows of the splats that they can have; no tag, no splats yet
   std::vector<int> cells;   ///< row by row
 };
 struct SheetSets {
   std::vector<CellSet> sets;
-  std::vector<int> others;  ///< cells with splats in no set
+  std::vector<int> others;  ///< ungrouped cells with splats
 };
 
 struct CompiledFrame::State {
@@ -105,11 +105,11 @@ struct CompiledFrame::State {
     if (!sliced()) return depth;
     return shaped() ? slices.first(depth, growth(number)) : slices.first(depth);
   }
-  /// The splat's kernel is deeper than its own: shares are those of a kernel that has grown.
+  /// The splat's kernel is stretched in depth: its shares are those of the stretched kernel.
   bool grown(std::uint32_t number) const {
     return sliced() && shaped() && projected.ellipses[number].shrink != DepthGrowth{}.shrink;
   }
-  /// What a splat of a frame with ellipses has of a sheet.
+  /// The part of a splat in a sheet, in a frame with ellipses.
   Share share(std::uint32_t number, int sheet) const {
     const QuantisedSplat& splat = projected.splats[number];
     return sliced() && shaped() ? slices.share(splat.words, splat.depth, sheet, growth(number))
@@ -129,11 +129,11 @@ struct CompiledFrame::State {
   }
   /// Records of one sheet of one tile; begin_sheet only when there is something to say.
   std::uint32_t emit_sheet(int tile, int sheet, std::uint32_t& tag, cmodel::RecordSink& out, TileReport& report) const;
-  /// The same where the tile's splats go in sets; true if the sheet was written.
+  /// The same if the tile's splats are grouped into sets; returns true if the sheet was written.
   bool emit_sets(int tile, int sheet, std::uint32_t& tag, cmodel::RecordSink& out, TileReport& report) const;
-  /// Footprints of their own are no sets' yet: each is tested by itself.
+  /// Ellipses are not grouped into cull sets; each is tested individually.
   bool in_sets() const { return config.culls() && cmodel::culls_in(mode) && !shaped(); }
-  /// The sets of a tile's sheet, behind `written` others of the tile, and the cells that are in none.
+  /// The sets of a tile's sheet, after `written` earlier sets of the tile, and the ungrouped cells.
   SheetSets sheet_sets(int tile, int sheet, std::uint64_t written) const;
   /// visit(EllipseRecord) for every record of a splat with kOwnShape that meets the tile, without its tag; none may.
   template <class Visit>

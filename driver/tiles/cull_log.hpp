@@ -1,4 +1,4 @@
-// What a device's cull unit finds in a scene: for the cycle model, whose time depends on it.
+// The results of a device's cull unit for a scene, an input of the cycle model.
 #pragma once
 
 #include "cmodel/cull/cull_log.hpp"
@@ -12,8 +12,8 @@ struct CullRun {
   cmodel::Counters counters;
 };
 
-/// All tiles through the plain model, without the splats of hidden sets: their tests, and those alone, are the same.
-/// `threads` (0: all cores) never changes the result. Nothing is logged of a configuration that does not cull.
+/// Runs all tiles through the plain model, without the splats of hidden sets, which leaves the tests unchanged.
+/// `threads` (0: all cores) never changes the result. The log is empty for a configuration that does not cull.
 CullRun run_culls(const CompiledFrame& compiled, int threads = 1, const Progress& progress = {});
 
 }  // namespace fastsplat::driver

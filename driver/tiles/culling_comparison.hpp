@@ -1,5 +1,5 @@
-// What culling brings of a scene: the same frame on devices of every cull.map, with every beat sent and with a source
-// that jumps over hidden sets (docs/culling.md).
+// Measures the gain of culling for a scene: the same frame on devices of every cull.map, with every beat sent and with
+// a source that skips hidden sets (docs/culling.md).
 #pragma once
 
 #include <optional>
@@ -17,10 +17,10 @@ namespace fastsplat::driver {
 
 struct CullRow {
   std::string map;                      ///< off, block or pixel
-  std::optional<std::uint64_t> fetch;   ///< the memory's latency; none: every beat is sent
+  std::optional<std::uint64_t> fetch;   ///< the memory's latency; absent: every beat is sent
   std::uint64_t cycles = 0, beats = 0;  ///< busy; sent
   cmodel::CycleAccount account;
-  cmodel::Counters counters;  ///< of the cycle model
+  cmodel::Counters counters;  ///< counters of the cycle model
   cmodel::CullCounts culls;
 };
 
@@ -28,7 +28,7 @@ struct CullRow {
 std::vector<CullRow> compare_culling(const scene::Scene& scene, const cmodel::Config& config, std::uint64_t latency,
                                      int threads = 1, const Progress& progress = {});
 
-/// Of the splat records that the device without culling, the first row, draws, those that this one does.
+/// Share of drawn splat records, relative to the first row, the device without culling.
 double share_drawn(const CullRow& row, const CullRow& off);
 
 }  // namespace fastsplat::driver

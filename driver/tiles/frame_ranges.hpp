@@ -1,4 +1,4 @@
-// What passed every narrowing site of the device in a whole frame.
+// Statistics of the values at every narrowing site of the device in a whole frame.
 #pragma once
 
 #include "cmodel/numbers/config.hpp"
@@ -14,7 +14,7 @@ struct FrameRanges {
   DriverReport report;
 };
 
-/// By the plain unit, tile after tile, whatever options.unit says: it is the one that can be watched. Throws as
+/// Uses the plain unit, tile after tile, and ignores options.unit: only the plain unit can be observed. Throws as
 /// render() does.
 FrameRanges frame_ranges(const scene::Scene& scene, const cmodel::Config& config, const RenderOptions& options = {});
 

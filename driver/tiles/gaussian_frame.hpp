@@ -21,13 +21,13 @@
 
 namespace fastsplat::driver {
 
-/// What the driver made of a view; `cut` and `saturated` are 0 in a healthy one.
+/// Report on a compiled view; `cut` and `saturated` are 0 in a healthy one.
 struct GaussianReport {
   scene::ProjectionReport projection;
-  std::uint64_t drawn = 0;      ///< Gaussians that have records, or would have where all tiles were written
+  std::uint64_t drawn = 0;      ///< Gaussians that have records if all tiles are written
   std::uint64_t vanished = 0;   ///< Gaussians whose words are all 0
   std::uint64_t saturated = 0;  ///< Gaussians brighter than the input format holds
-  std::uint64_t cut = 0;        ///< Gaussians that reach farther into the picture than a record can say
+  std::uint64_t cut = 0;        ///< Gaussians that reach farther into the picture than a record can express
   std::uint64_t records = 0;    ///< over all tiles
   std::uint64_t in_tiles = 0;   ///< Gaussians with a record, over all tiles
   std::uint64_t tiles = 0;
@@ -51,13 +51,13 @@ class GaussianFrame {
   const TileGrid& grid() const { return grid_; }
   /// begin_frame and the tables.
   std::span<const cmodel::Beat> preamble() const { return preamble_; }
-  /// begin_tile .. end_tile; what it adds to the report. Tiles may be emitted in parallel.
+  /// begin_tile .. end_tile. Returns the tile's contribution to the report. Tiles may be emitted in parallel.
   GaussianReport emit_tile(int tile, cmodel::RecordSink& sink) const;
   /// The same as beats.
   GaussianReport emit_tile(int tile, const cmodel::BeatSink& sink) const;
   /// Preamble and all tiles in order: a subset stream, without end_frame.
   GaussianReport emit(const cmodel::BeatSink& sink, const Progress& progress = {}) const;
-  /// Without what the tiles add.
+  /// The report without contributions of tiles.
   const GaussianReport& report() const { return report_; }
   /// Gaussians of each tile: a measure of the work it makes.
   std::vector<std::uint64_t> work() const;
@@ -82,7 +82,7 @@ struct GaussianRender {
   UnitReport units;
 };
 
-/// Through the integer model, tiles in parallel: bands it has none.
+/// Renders with the integer model, tiles in parallel, without bands.
 GaussianRender render_gaussians(const GaussianFrame& frame, const RenderOptions& options = {});
 
 }  // namespace fastsplat::driver

@@ -1,4 +1,4 @@
-// A scene through any device, tile after tile: what `render --engine rtl` and the checker use.
+// Runs a scene through any device, tile after tile: for `render --engine rtl` and the checker.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ namespace fastsplat::driver {
 using DeviceFactory = std::function<std::unique_ptr<cmodel::Device>(cmodel::PixelSink& pixels)>;
 
 /// Feeds preamble and tiles (a subset stream: no end_frame) to one device and gathers the frame. `device` receives the
-/// device after it finished, to read what else it has.
+/// device after it has finished, to read further results.
 DeviceRender run_device(const scene::Scene& scene, const cmodel::Config& config, const DeviceFactory& make,
                         const RenderOptions& options = {}, const std::function<void(cmodel::Device&)>& finished = {});
 

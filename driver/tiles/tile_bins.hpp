@@ -1,4 +1,4 @@
-// Which splats touch which tile, ordered by the first sheet they reach.
+// Sorts splats by the tiles that they touch and by the first sheet that they reach.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace fastsplat::driver {
 struct TileGrid {
   int image_width = 0, image_height = 0, tile_width = 0, tile_height = 0;
 
-  /// `rim`: pixels on each side that a device's tile holds beyond those of the picture.
+  /// `rim`: the halo, pixels on each side of the picture's that a device's tile also holds.
   TileGrid(const cmodel::Config& config, int width, int height, int rim = 0)
       : image_width(width),
         image_height(height),
@@ -44,12 +44,12 @@ class Bands {
         rows_(std::min(rows, grid.tile_height)),
         of_tile_((tile_height_ + rows_ - 1) / rows_) {}
   int of_tile() const { return of_tile_; }
-  /// Of a pixel's row.
+  /// The band of a pixel's row.
   int number(int y) const {
     y = std::min(y, image_height_ - 1);
     return y / tile_height_ * of_tile_ + y % tile_height_ / rows_;
   }
-  /// First row and height of band b of a tile `height` pixels high; no height: no pixel of the image.
+  /// First row and height of band b of a tile `height` pixels high; height 0: no pixel of the image.
   int first_row(int band) const { return band * rows_; }
   int height(int band, int height) const { return std::clamp(height - first_row(band), 0, rows_); }
 
@@ -63,7 +63,7 @@ struct Extent {
   std::int32_t x0 = 0, x1 = 0, y0 = 0, y1 = 0, window_end = 0;
 };
 
-/// What touches these pixels or those around them.
+/// `e` grown by `rim` pixels on each side.
 inline Extent widened(const Extent& e, int rim) {
   return {e.x0 - rim, e.x1 + rim, e.y0 - rim, e.y1 + rim, e.window_end + rim};
 }
@@ -76,7 +76,7 @@ class Cells {
   Cells(const TileGrid& grid, int side)
       : side_(side), columns_((grid.tile_width + side - 1) / side), rows_((grid.tile_height + side - 1) / side) {}
   int count() const { return columns_ * rows_; }
-  /// Of the windows whose first pixel this is, relative to the tile.
+  /// The cell of the windows that begin at this pixel, relative to the tile.
   int number(std::int32_t x, std::int32_t y) const {
     if (count() == 1) return 0;
     return std::clamp(y / side_, 0, rows_ - 1) * columns_ + std::clamp(x / side_, 0, columns_ - 1);
@@ -93,8 +93,8 @@ class Cells {
 /// within a bin.
 class TileBins {
  public:
-  /// extent(i) and first_sheet(i) for i in [0, splats): each asked for once, by several threads. Where there are
-  /// several cells a tile is one band.
+  /// extent(i) and first_sheet(i) for i in [0, splats) are called once each, by several threads. With several cells a
+  /// tile is one band.
   template <class ExtentOf, class SheetOf>
   TileBins(const TileGrid& grid, const Bands& bands, const Cells& cells, int sheets, std::size_t splats, int threads,
            ExtentOf extent, SheetOf first_sheet)
@@ -123,7 +123,7 @@ class TileBins {
       if (cells_ == 1) return 0;
       return static_cast<std::size_t>(cells.number(at.px - x * grid.tile_width, at.py - y * grid.tile_height));
     };
-    // Every part of the splats counts for itself, and then knows where in each bin its own begin.
+    // Each part of the splats is counted separately; the counts then give its start in each bin.
     const std::size_t bins = static_cast<std::size_t>(grid.count()) * bands_ * sheets_ * cells_;
     const std::size_t parts = parts_of(splats, bins, threads);
     const auto begin = [&](std::size_t part) { return splats * part / parts; };
@@ -169,7 +169,7 @@ class TileBins {
     const std::size_t at = first_bin(tile, band);
     return start_[at + sheets_ * cells_] - start_[at];
   }
-  /// What the bands of a tile hold, each splat once. `merged` is where it lies if there are several.
+  /// The splats of a tile's bands, each once. `merged` is the buffer for several bands.
   std::span<const std::uint32_t> bin(int tile, int sheet, std::vector<std::uint32_t>& merged) const {
     if (bands_ == 1) return bin(tile, 0, sheet);
     merged.clear();
@@ -190,11 +190,11 @@ class TileBins {
     std::int32_t sheet;
     std::int32_t px, py;  ///< first pixel
   };
-  /// What of the image's columns or rows belongs together, looked up by pixel: a division each is what most of the
-  /// binning would cost.
+  /// A table from pixels to tiles or bands, along columns or rows: a division for each splat would dominate the cost of
+  /// binning.
   class Intervals {
    public:
-    /// The last tile counts as a whole one, even where the image ends within it.
+    /// The last tile counts as a whole one, even if the image ends within it.
     template <class NumberOf>
     Intervals(int pixels, NumberOf number) {
       for (int at = 0; at < pixels; ++at) number_.push_back(static_cast<std::int16_t>(number(at)));

@@ -30,14 +30,14 @@ enum class UpAxis { X, Y, Z, MinusX, MinusY, MinusZ };
 
 struct GaussianCloud {
   std::string name;    ///< "shells:2000", or the file's name without its folder
-  std::string source;  ///< where it came from, for metadata
+  std::string source;  ///< origin, for metadata
   int degree = 0;      ///< of the spherical harmonics, 0..3
   std::vector<Gaussian> gaussians{};
   std::vector<glm::vec3> harmonics{};  ///< RGB, harmonic_count(degree) a Gaussian, its constant first
-  std::optional<UpAxis> up{};          ///< that the file declares
+  std::optional<UpAxis> up{};          ///< as declared by the file
   bool antialiased = false;            ///< trained so that the low-pass dims a footprint as much as it widens it
   bool linear = false;                 ///< colours are linear light, not encoded as sRGB
-  std::vector<std::string> remarks{};  ///< what reading it dropped, assumed or could not follow, a sentence each
+  std::vector<std::string> remarks{};  ///< dropped, assumed or unsupported content, a sentence each
 
   std::span<const glm::vec3> harmonics_of(std::size_t i) const {
     const auto count = static_cast<std::size_t>(harmonic_count(degree));
@@ -50,7 +50,7 @@ glm::dmat3 covariance(const Gaussian& gaussian);
 /// The columns are its own axes.
 glm::dmat3 axes_of(const Gaussian& gaussian);
 
-/// FNV-1a over every number and what changes their meaning: whether two files hold the same scene.
+/// FNV-1a over every number and everything that changes its meaning: equal for files of the same scene.
 std::uint64_t content_hash(const GaussianCloud& cloud);
 
 }  // namespace fastsplat::scene

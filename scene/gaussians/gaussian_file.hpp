@@ -14,14 +14,14 @@ inline constexpr std::size_t kMostGaussianBytes = std::size_t{16} << 30;  ///< o
 /// A built-in scene "name[:count]", or a file: PLY by its first line, others by their ending. Rows that cannot be drawn
 /// are dropped with a remark. Every failure is a UserError (Input) with the fix.
 GaussianCloud load_gaussians(const std::string& name_or_path);
-/// The files that load_gaussians would read: none for a built-in scene.
+/// The files that load_gaussians would read; empty for a built-in scene.
 std::vector<std::filesystem::path> files_of_gaussians(const std::string& name_or_path);
 
-/// PLY: ascii or binary of either end, properties in any order and of any type; those of other names are left out with
-/// a remark, and other elements of fixed length are passed over. Needed: x y z, scale_0..2 (logarithms; without the
-/// third a disc), rot_0..3 (w x y z, any length), opacity (logit), f_dc_0..2 or red green blue; f_rest_0.. 9, 24 or 45
-/// of them, channel by channel, for degrees 1 to 3; filter_3D. Or compressed by SuperSplat (ply_packed.hpp). Comments
-/// that change the picture are followed (ply_hints.hpp).
+/// PLY: ascii or binary of either byte order, properties in any order and of any type. Other properties are ignored
+/// with a remark; other elements of fixed length are skipped. Needed: x y z, scale_0..2 (logarithms; without the third
+/// a disc), rot_0..3 (w x y z, any length), opacity (logit), f_dc_0..2 or red green blue; f_rest_0.. 9, 24 or 45 of
+/// them, channel by channel, for degrees 1 to 3; filter_3D. Or compressed by SuperSplat (ply_packed.hpp). Comments that
+/// change the picture are followed (ply_hints.hpp).
 GaussianCloud read_gaussian_ply(const std::filesystem::path& path);
 /// 32 bytes each, little-endian: position and scale (linear) 3 floats each, R G B opacity and w x y z a byte each.
 GaussianCloud read_splat_file(const std::filesystem::path& path);
@@ -32,7 +32,7 @@ enum class PlyText { Binary, Ascii };
 /// harmonics above the constant, and rounds colour, opacity and rotation to bytes. Atomic.
 void save_gaussians(const GaussianCloud& cloud, const std::filesystem::path& path, PlyText text = PlyText::Binary);
 
-/// UserError (Input) where a number is not finite, a scale negative, or an opacity not in 0..1.
+/// Throws UserError (Input) if a number is not finite, a scale negative, or an opacity not in 0..1.
 /// `where` names the Gaussian.
 void check_gaussian(const Gaussian& gaussian, std::span<const glm::vec3> harmonics, const std::string& where);
 

@@ -13,7 +13,7 @@ namespace fastsplat::scene {
 inline constexpr double kConstantHarmonic = 0.28209479177387814;
 
 /// The 16 real harmonics of a unit direction, with the Condon-Shortley phase, by degree and then from order -l to l:
-/// what trainers' coefficients are of (Kerbl et al. 2023; Sloan, "Stupid Spherical Harmonics Tricks", 2008).
+/// the basis of trainers' coefficients (Kerbl et al. 2023; Sloan, "Stupid Spherical Harmonics Tricks", 2008).
 std::array<double, 16> harmonics_at(const glm::dvec3& direction);
 
 /// 1/2 + the sum of coefficients times harmonics, not below 0. `coefficients`: 1, 4, 9 or 16.

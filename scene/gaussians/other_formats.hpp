@@ -6,16 +6,16 @@
 
 namespace fastsplat::scene {
 
-/// Bytes of a file's beginning that recognising it takes.
+/// Number of leading bytes that recognition needs.
 inline constexpr std::size_t kHeadBytes = 8192;
 
-/// UserError (Input) for a file that is of another format than .ply and .splat: what it is, and what makes a .ply of
-/// it. `head`: the file's first kHeadBytes, or all of it; empty for a file that is not there.
+/// Throws UserError (Input) for a file of a format other than .ply and .splat, with its format and a program that makes
+/// a .ply of it. `head`: the file's first kHeadBytes, or all of it; empty for a missing file.
 void refuse_other_formats(const std::filesystem::path& path, std::string_view head);
 
-/// A PLY file, whatever it is called.
+/// Whether it is a PLY file, independent of its name.
 bool is_ply(std::string_view head);
-/// Every record of the head is one that a .splat could hold: no other format is likely to be so.
+/// Whether every record of the head is a valid .splat record, which is unlikely in other formats.
 bool looks_like_splat(std::string_view head);
 
 }  // namespace fastsplat::scene

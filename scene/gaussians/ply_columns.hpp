@@ -13,11 +13,11 @@ namespace fastsplat::scene {
 
 class PlyColumns {
  public:
-  /// UserError (Input) where the vertices are not the Gaussians of a scene; the message says what they are instead.
+  /// Throws UserError (Input) if the vertices are not the Gaussians of a scene; the message names what they are.
   PlyColumns(const PlyElement& vertices, std::string where);
 
   int degree() const { return degree_; }
-  /// What is assumed about the properties, and which are not used, a sentence each; asked behind the last row.
+  /// Assumptions about the properties and unused ones, a sentence each; call it after the last row.
   std::vector<std::string> remarks() const;
   /// A row as a Gaussian. UserError (Input) for a colour property beyond its range.
   void read(std::span<const double> row, GaussianRows& to);
@@ -39,7 +39,7 @@ class PlyColumns {
   int degree_ = 0;
   bool encoded_ = false;  ///< some scale is below 0 or some opacity beyond 0..1: they are logarithms and logits
   std::vector<std::string> remarks_{};
-  std::vector<glm::vec3> harmonics_{};  ///< of the row at hand
+  std::vector<glm::vec3> harmonics_{};  ///< harmonics of the current row
 };
 
 }  // namespace fastsplat::scene

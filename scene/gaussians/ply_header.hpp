@@ -1,4 +1,4 @@
-// The header of a PLY file: what lies behind it, and how.
+// The header of a PLY file: the elements that follow it and their layout.
 #pragma once
 
 #include <cstddef>
@@ -22,10 +22,10 @@ struct PlyElement {
   std::string name;
   std::uint64_t count = 0;
   std::vector<PlyProperty> properties;
-  bool has_list = false;  ///< of a length that only the data say
+  bool has_list = false;  ///< its length is only in the data
 
   std::size_t row_bytes() const;
-  std::optional<std::size_t> find(std::string_view property) const;  ///< where in a row it stands
+  std::optional<std::size_t> find(std::string_view property) const;  ///< its index in a row
 };
 struct PlyHeader {
   PlyFormat format = PlyFormat::Ascii;

@@ -1,4 +1,4 @@
-// What trainers and exporters say in the comments of a PLY's header that changes the picture.
+// Comments in a PLY's header by which trainers and exporters change the picture.
 #pragma once
 
 #include <optional>
@@ -14,11 +14,11 @@ struct PlyHints {
   std::optional<UpAxis> up{};
   bool antialiased = false, linear = false;  ///< as GaussianCloud's
   std::optional<int> degree{};               ///< of the harmonics
-  std::vector<std::string> remarks{};        ///< what is said there and not followed, a sentence each
+  std::vector<std::string> remarks{};        ///< unsupported declarations, a sentence each
 };
 
-/// `comments`: the text behind the words `comment` and `obj_info`, in the file's order. Of two that say the same thing
-/// the last one counts. Comments with other keys are free text and pass without a remark.
+/// `comments`: the text after the words `comment` and `obj_info`, in the file's order. Of two comments with the same
+/// key the last one counts. Comments with other keys are free text and are ignored without a remark.
 PlyHints hints_of(std::span<const std::string> comments);
 
 }  // namespace fastsplat::scene

@@ -1,4 +1,4 @@
-// The rows of a PLY element as numbers, whatever their format and types.
+// The rows of a PLY element as numbers, for all formats and types.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,18 @@
 
 namespace fastsplat::scene {
 
-/// Goes through the elements of a file in order. Every refusal is a UserError (Input) that names the place.
+/// Reads the elements of a file in order. Every refusal is a UserError (Input) that names the place.
 class PlyRows {
  public:
   PlyRows(const PlyHeader& header, std::string_view text, std::string where)
       : header_(header), text_(text), where_(std::move(where)), at_(header.size), line_(header.lines) {}
 
-  /// The file can hold what the header promises of this element, the next one; asked before memory is taken for it.
+  /// Checks that the file can hold the next element as its header declares it; call it before allocating memory.
   void require(const PlyElement& element) const;
   void skip(const PlyElement& element);
   /// One row of the element; `row` has room for its properties. Numbers need not be finite.
   void read(const PlyElement& element, std::uint64_t number, std::span<double> row);
-  /// The bytes that are left: blanks and zeros only, else the file is longer than its header says.
+  /// Checks the remaining bytes: blanks and zeros only, else the file is longer than its header declares.
   std::size_t require_end() const;
 
  private:

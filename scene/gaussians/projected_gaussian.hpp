@@ -1,5 +1,5 @@
-// Gaussians where the camera puts them: culled, projected (EWA), coloured, sorted. What golden draws and the driver
-// quantises.
+// Gaussians culled, projected (EWA), coloured and sorted for a camera: the input of golden and of the driver's
+// quantisation.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace fastsplat::scene {
 
-/// No sample is more opaque.
+/// Largest opacity of a sample.
 inline constexpr double kMostAlpha = 0.99;
-/// A pixel of less transmittance is finished.
+/// Early-termination threshold on transmittance.
 inline constexpr double kFinished = 1e-4;
-/// Nearer to the eye than this share of the scene's distance is not drawn.
+/// The near plane as a share of the scene's distance.
 inline constexpr double kNear = 0.01;
 
 struct ProjectedGaussian {
@@ -32,21 +32,21 @@ struct ProjectedGaussian {
   }
 };
 
-/// What became of the Gaussians of a cloud.
+/// Counts of the Gaussians of a cloud by their fate.
 struct ProjectionReport {
   std::uint64_t gaussians = 0;  ///< of the cloud
   std::uint64_t near = 0;       ///< behind the near plane
   std::uint64_t outside = 0;    ///< whose footprint meets no pixel
 };
 
-/// One Gaussian; nothing but `near` is culled here: false where it lies behind the near plane.
+/// Projects one Gaussian. Returns false if it is nearer than the near plane; nothing else is culled here.
 bool project(const GaussianScene& scene, std::uint32_t number, ProjectedGaussian& out);
 
-/// Those that meet a pixel, nearest first; of the same depth in the order of the file.
+/// The Gaussians that meet a pixel, nearest first; at equal depth in the order of the file.
 std::vector<ProjectedGaussian> project_all(const GaussianScene& scene, ProjectionReport* report = nullptr);
 
-/// Where along the view axis a Gaussian is densest on the ray through a pixel. Flat ones are taken as thick as a
-/// thousandth of their length.
+/// The depth at which a Gaussian is densest on the ray through a pixel. Flat ones count as thick as a thousandth of
+/// their length.
 double depth_of_maximum(const GaussianScene& scene, const ProjectedGaussian& splat, double x, double y);
 
 }  // namespace fastsplat::scene

@@ -1,4 +1,4 @@
-// Sequential bytes of a file, as they are, compressed or in hexadecimal digits, with every failure told.
+// Sequential bytes of a file: plain, compressed or in hexadecimal digits. Every failure is reported.
 #pragma once
 
 #include <cstddef>
@@ -10,17 +10,18 @@
 
 namespace fastsplat::volume {
 
-/// How the voxels lie on disk. Gzip and Zlib: either is read where the other is said. Text: decimal numbers between
-/// blanks, which are voxel_data's business.
+/// The encoding of the voxels on disk. Gzip and Zlib: either is accepted for the other. Text: decimal numbers between
+/// blanks, which voxel_data parses.
 enum class Packing { Plain, Gzip, Zlib, Bzip2, Hex, Text };
 
-/// Gzip when the file starts with gzip's two magic bytes, else Plain.
+/// Gzip if the file starts with gzip's two magic bytes, else Plain.
 Packing packing_of(const std::filesystem::path& path);
 
-/// Offset of the first byte behind `lines` line ends, counted from `offset`. UserError (Input) where there are fewer.
+/// Offset of the first byte after `lines` line ends, counted from `offset`. Throws UserError (Input) if there are
+/// fewer.
 std::uint64_t offset_after_lines(const std::filesystem::path& path, std::uint64_t offset, std::uint64_t lines);
 
-/// How many bytes the file holds from `offset` on, once unpacked. Reads all of a packed file.
+/// Number of unpacked bytes of the file from `offset` on. Reads all of a packed file.
 std::uint64_t unpacked_size(const std::filesystem::path& path, std::uint64_t offset, Packing packing);
 
 class ByteReader {
@@ -29,8 +30,8 @@ class ByteReader {
   ByteReader(const std::filesystem::path& path, std::uint64_t offset, Packing packing);
   ~ByteReader();
 
-  /// Fills `out` with up to `size` bytes; fewer only at the end of the data. Corrupt or truncated compressed data, or
-  /// what is no hexadecimal digit, is a UserError (Input).
+  /// Fills `out` with up to `size` bytes; fewer only at the end of the data. Corrupt or truncated compressed data
+  /// and invalid hexadecimal digits are a UserError (Input).
   std::size_t read(void* out, std::size_t size);
   /// Reads to the end so that a checksum is verified; gives up quietly after a few MiB of surplus data.
   void verify_rest();

@@ -1,4 +1,4 @@
-// Headers that name other files for their voxels: which names are followed.
+// Data files named by detached headers, and which names are accepted.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,12 @@
 
 namespace fastsplat::volume {
 
-/// Whether a field that names data files says that they are listed on the lines behind it ("LIST", "LIST 2").
+/// Whether a field that names data files lists them on the lines after it ("LIST", "LIST 2").
 bool says_list(const std::string& value);
 
 /// The files that `field` of `header` names, at least one: a name, `PATTERN MIN MAX STEP` with one %d or %03d in the
 /// pattern, or LIST for header.listed_files. Each lies in the header's own folder or below, links followed. Absolute
-/// names, ".." and links to elsewhere are UserErrors (Input). That the files are there is not checked.
+/// names, ".." and links to elsewhere are UserErrors (Input). The existence of the files is not checked.
 std::vector<std::filesystem::path> detached_files(const TextHeader& header, const TextHeader::Field& field);
 
 }  // namespace fastsplat::volume

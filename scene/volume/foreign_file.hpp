@@ -1,4 +1,4 @@
-// Files that are not volumes of a format read here: what they are, and how to make one of them.
+// Files in formats that are not read here: their format, and how to convert them.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@ namespace fastsplat::volume {
 /// The name of a format that other programs read, by its first bytes; "" for others.
 std::string foreign_format(const std::filesystem::path& path);
 
-/// What to do with it: a program that converts it, or the header to write for raw voxels, whose size and type the
-/// file's name may say ("engine_256x256x128_uint8.raw").
+/// A suggestion: a program that converts it, or the header to write for raw voxels. The file's name may give their size
+/// and type ("engine_256x256x128_uint8.raw").
 std::string way_to_read(const std::filesystem::path& path);
 
 }  // namespace fastsplat::volume

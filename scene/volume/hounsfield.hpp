@@ -1,4 +1,4 @@
-// Whether a volume's values are those of a CT: no file says so.
+// Detects whether a volume's values are those of a CT; files do not declare it.
 #pragma once
 
 #include <optional>
@@ -10,10 +10,10 @@ namespace fastsplat::volume {
 /// Hounsfield units (HU) up to which a CT shows air, with the noise of a scanner.
 inline constexpr double kAirHu = -900.0;
 
-/// The value of water, 0 HU; nothing for other volumes. 0, if the least value is -500 or lower and a tenth of the
-/// voxels above air lie between -200 and 300: fat and soft tissue. 1024, which scanners add to store values without a
-/// sign, if no value is negative, the greatest is 1500 or more and half of the voxels above air lie in that range; an
-/// MRI of 12 bits spreads wider.
+/// The value of water (0 HU) in a CT; nullopt for other volumes. It is 0 if the least value is -500 or lower and a
+/// tenth of the voxels above air lie between -200 and 300: fat and soft tissue. It is 1024, an offset that scanners add
+/// to store unsigned values, if no value is negative, the greatest is 1500 or more, and half of the voxels above air
+/// lie in that range. An MRI of 12 bits spreads wider.
 std::optional<double> find_water(const Volume& volume);
 
 }  // namespace fastsplat::volume

@@ -1,4 +1,4 @@
-// Lengths in headers of volumes: units, and what stands in for a spacing that is not a length.
+// Lengths in headers of volumes: units, and replacements for an invalid spacing.
 #pragma once
 
 #include <optional>
@@ -8,13 +8,13 @@
 
 namespace fastsplat::volume {
 
-/// Millimetres per `unit`, by the names and signs in use ("mm", "um", "micron", "metre"); nothing for other words.
+/// Millimetres per `unit`, by the names and signs in use ("mm", "um", "micron", "metre"); nullopt for other words.
 std::optional<double> mm_per_unit(std::string_view unit);
 
-/// `declared` where it is positive, its absolute value where negative, 1 mm where it is zero or not a number.
+/// `declared` if positive, its absolute value if negative, 1 mm if zero or not a number.
 double usable_length(double declared);
 
-/// Adds a remark unless `declared`, the header's `name`, is a positive length; `used` mm is what stands in for it.
+/// Adds a remark unless `declared`, the header's `name`, is a positive length; `used` mm replaces it.
 void note_unusable_length(const std::string& name, double declared, double used, std::vector<std::string>& remarks);
 
 }  // namespace fastsplat::volume

@@ -7,11 +7,11 @@
 
 namespace fastsplat::volume {
 
-/// Does the file start with a line of a MetaImage header?
+/// Whether the file starts with a line of a MetaImage header.
 bool is_metaimage(const std::filesystem::path& path);
 
 /// Three dimensions (further ones must be 1 long), one scalar per voxel; plain, compressed or text. Placed by
-/// TransformMatrix and Offset, which ITK takes as +x left, +y posterior, +z superior. A separate data file must lie in
+/// TransformMatrix and Offset, which ITK reads as +x left, +y posterior, +z superior. A separate data file must lie in
 /// the header's folder or below, links followed. Everything else is a UserError (Input).
 VoxelSource read_metaimage_header(const std::filesystem::path& path);
 

@@ -1,4 +1,4 @@
-// NRRD headers, attached and detached. The voxels behind them are voxel_data's business.
+// NRRD headers, attached and detached; voxel_data reads the voxels.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace fastsplat::volume {
 
-/// Does the file start with NRRD's magic?
+/// Whether the file starts with NRRD's magic.
 bool is_nrrd(const std::filesystem::path& path);
 
 /// Three axes (further ones must be 1 long), raw, gzip, bzip2, hex or ascii. A detached header's data file must lie in

@@ -1,4 +1,4 @@
-// How the axes of a file's grid lie in a body, and how a volume is turned to lie that way.
+// The orientation of a file's grid in a body, and how to turn a volume accordingly.
 #pragma once
 
 #include <array>
@@ -8,22 +8,22 @@
 
 namespace fastsplat::volume {
 
-/// What a header says; mm, +x right, +y anterior, +z superior. No direction is 0, and they span space.
+/// Placement from a header; mm, +x right, +y anterior, +z superior. The directions are non-zero and span space.
 struct Placement {
   std::array<glm::dvec3, 3> direction;  ///< of the file's axes, any length
   glm::dvec3 origin{0.0};               ///< of the first voxel
   bool has_origin = true;
 };
 
-/// Nothing where three vectors do not span space or are no numbers.
+/// nullopt if the three vectors do not span space or are not numbers.
 bool spans_space(const std::array<glm::dvec3, 3>& direction);
 
-/// Turns whole axes of `volume`, which is in the file's axes, so that its x, y and z run as nearly to the right, to the
-/// front and upwards as they can; what is left is Volume::axes. Angles below 0.006 degrees are taken for none. Voxels
-/// may be missing.
+/// Turns whole axes of `volume`, which is in the file's axes, so that x, y and z point as nearly as possible to the
+/// right, to the front and upwards. Volume::axes holds the remaining rotation; angles below 0.006 degrees count as 0.
+/// Voxels may be missing.
 void place(Volume& volume, const Placement& placement);
 
-/// Degrees by which the axes are turned, and about what; shear: how far two of them are at most from a right angle.
+/// Degrees by which the axes are turned, and the axis; shear: the largest deviation of two of them from a right angle.
 struct Turn {
   double degrees = 0.0;
   glm::dvec3 about{0.0, 0.0, 1.0};

@@ -1,4 +1,4 @@
-// The numbers of a volume file one after the other, as they are stored: bytes of some type and order, or text.
+// Reads the stored numbers of a volume file in sequence: bytes of some type and order, or text.
 #pragma once
 
 #include <bit>
@@ -14,11 +14,11 @@ std::size_t size_of(Component component);
 
 class StoredValues {
  public:
-  /// Starts `skip` unpacked bytes after `offset`. UserError (Input) when the data ends before.
+  /// Starts `skip` unpacked bytes after `offset`. Throws UserError (Input) if the data ends before.
   StoredValues(const std::filesystem::path& path, std::uint64_t offset, std::uint64_t skip, Packing packing,
                Component component, std::endian order);
 
-  /// The next numbers, at least one and at most `most`; none at the end of the data. A text that is no number of the
+  /// The next numbers, at least one and at most `most`; empty at the end of the data. Text that is not a number of the
   /// type is a UserError (Input).
   std::span<const double> next(std::uint64_t most);
   /// Bytes at the end that do not make up a number.
@@ -37,7 +37,7 @@ class StoredValues {
   bool swap_;
   std::vector<unsigned char> chunk_;
   std::vector<double> values_;
-  std::size_t at_ = 0, end_ = 0;  // text: what of the chunk is not yet read
+  std::size_t at_ = 0, end_ = 0;  // text: the unread part of the chunk
   std::size_t rest_ = 0;
   std::uint64_t count_ = 0;  // numbers so far
 };

@@ -1,4 +1,4 @@
-// Headers made of lines, as NRRD and MetaImage have them: fields by name, with their line numbers for messages.
+// Line-based headers, as of NRRD and MetaImage: fields by name, with their line numbers for messages.
 #pragma once
 
 #include <cstdint>
@@ -24,18 +24,18 @@ struct TextHeader {
   std::filesystem::path path;
   const char* format = "";                  ///< "NRRD" or "MetaImage", for messages
   std::map<std::string, Field> fields{};    ///< by the format's own name of the field
-  std::vector<std::string> listed_files{};  ///< the lines behind a field that says LIST
-  std::uint64_t end = 0;                    ///< first byte behind the header
-  bool ended = false;                       ///< by its last line, not by the end of the file
+  std::vector<std::string> listed_files{};  ///< the lines after a field with LIST
+  std::uint64_t end = 0;                    ///< first byte after the header
+  bool ended = false;                       ///< ended by its last line, not by the end of the file
 
   /// Throws UserError (Input) about a line of the file; 0 is the file as a whole.
   [[noreturn]] void refuse(int line, std::string what, std::string expected, std::string got, std::string fix) const;
   /// "PATH:LINE"
   std::string place(int line) const;
-  /// By the first of its names that is there, else nullptr.
+  /// The field by the first of its names that exists, else nullptr.
   const Field* find(std::initializer_list<const char*> names) const;
   const Field& need(const char* name) const;
-  /// Throws UserError (Input) for a field that is given twice.
+  /// Throws UserError (Input) for a duplicate field.
   void add(const std::string& name, std::string value, int line);
   /// A whole number, not negative.
   std::uint64_t count(const Field& field, const std::string& word) const;
@@ -51,7 +51,7 @@ class HeaderLines {
   bool next(std::string& line);
   int number() const { return number_; }     ///< of the last line, from 1
   std::uint64_t end() const { return at_; }  ///< first byte behind the last line
-  bool cut() const;                          ///< the file goes on behind what is looked at
+  bool cut() const;                          ///< the file continues after the first MiB
 
  private:
   std::string head_;
@@ -59,7 +59,7 @@ class HeaderLines {
   int number_ = 0;
 };
 
-/// Whether a line holds bytes that no text has.
+/// Whether a line contains bytes that do not occur in text.
 bool is_binary(const std::string& line);
 
 }  // namespace fastsplat::volume

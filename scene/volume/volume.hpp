@@ -1,4 +1,4 @@
-// A scalar volume on a regular grid, whatever file or generator it came from.
+// A scalar volume on a regular grid, from any file or generator.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +12,10 @@ namespace fastsplat::volume {
 enum class VoxelType { U8, I8, U16, I16, F32 };
 
 /// Voxels as float (exact for 8 and 16 bit), x fastest. World space is millimetres with the volume's centre at the
-/// origin. Its axes run along the grid's, voxel (i,j,k) sits at (index - (dims-1)/2) * spacing, unless the volume is
-/// oblique: a file says how its axes lie in a body, and they are not those of the body. Then the world is the body's.
+/// origin. Its axes are the grid's: voxel (i,j,k) sits at (index - (dims-1)/2) * spacing. An oblique volume, whose file
+/// declares axes that differ from those of the body, has the body's axes as world axes.
 struct Volume {
-  std::string name;    ///< as the user said it: a path or "shells:128"
+  std::string name;    ///< as the user gave it: a path or "shells:128"
   std::string source;  ///< provenance for image metadata: resolved path or generator, one line
   glm::ivec3 dims{0};
   glm::dvec3 spacing{1.0};  ///< mm per voxel, each > 0
@@ -28,9 +28,9 @@ struct Volume {
   bool oblique = false;           ///< `axes` is not the unit matrix
   glm::dmat3 axes{1.0};    ///< columns: unit vectors in the world along the grid's x, y, z; mostly at right angles
   glm::dmat3 across{1.0};  ///< inverse of `axes`
-  bool placed = false;     ///< the file says where the volume lies in a body: +x right, +y anterior, +z superior
-  glm::dvec3 centre{0.0};  ///< of the volume there, mm; files only, the world has it at its origin
-  std::vector<std::string> remarks{};  ///< what reading it had to assume or found odd, a sentence each
+  bool placed = false;     ///< the file declares the volume's place in a body: +x right, +y anterior, +z superior
+  glm::dvec3 centre{0.0};  ///< the volume's centre there, mm; files only, the world's origin is the centre
+  std::vector<std::string> remarks{};  ///< assumptions and oddities of the input, a sentence each
 
   std::size_t index(int i, int j, int k) const {
     return (static_cast<std::size_t>(k) * dims.y + static_cast<std::size_t>(j)) * dims.x + static_cast<std::size_t>(i);
@@ -39,11 +39,12 @@ struct Volume {
   glm::dvec3 position(int i, int j, int k) const {
     return to_world((glm::dvec3(i, j, k) - 0.5 * glm::dvec3(dims - 1)) * spacing);
   }
-  /// From mm along the grid's axes, from the centre, to the world and back.
+  /// Converts mm along the grid's axes, from the centre, to the world and back.
   glm::dvec3 to_world(const glm::dvec3& along) const { return oblique ? axes * along : along; }
   glm::dvec3 to_grid(const glm::dvec3& world) const { return oblique ? across * world : world; }
   void turn(const glm::dmat3& to) { oblique = true, axes = to, across = glm::inverse(to); }
-  /// Edge of the cubic cell that the kernel is scaled to: the largest spacing (docs/decisions.md, "Anisotropic grids").
+  /// Edge of the cubic cell to which the kernel is scaled: the largest spacing (docs/decisions.md, "Anisotropic
+  /// grids").
   double kernel_unit() const { return glm::max(spacing.x, glm::max(spacing.y, spacing.z)); }
   /// Half the diagonal of the box of voxel centres, mm. Independent of the view.
   double bounding_radius() const;

@@ -11,31 +11,31 @@
 namespace fastsplat::volume {
 
 struct ReadOptions {
-  /// Put in the place of NaN and infinity, which are refused without it.
+  /// Replaces NaN and infinity, which are refused without it.
   std::optional<float> nan_as{};
 };
 
 /// Finds what the user named: an existing path; a synthetic "name[:size]"; or a scan of the Debian package
 /// mricron-data by its bare name (`ch2`, `ch2bet`, `inia19-t1-brain`, searched in $FASTSPLAT_DATA and
 /// /usr/share/mricron/templates). Every failure is a UserError (ExitCode::Input) with the fix.
-/// Where a file's header says how its axes lie in a body (NIfTI sform/qform, NRRD space, MetaImage matrix), whole axes
-/// are turned so that +x is right, +y anterior, +z superior as nearly as can be; the rest is Volume::axes. Nothing is
-/// resampled.
+/// If a header declares the axes in a body (NIfTI sform/qform, NRRD space, MetaImage matrix), whole axes are turned so
+/// that +x is right, +y anterior, +z superior as nearly as possible. Volume::axes holds the remaining rotation; the
+/// voxels are not resampled.
 Volume load_volume(const std::string& name_or_path, const ReadOptions& options = {});
 
 /// Reads only the header: dims, spacing, type; voxels stay empty.
 Volume read_volume_header(const std::string& name_or_path);
 
-/// The files that load_volume would read, none for a built-in volume: a header's own and its data file. Tells nothing
-/// wrong; what is, load_volume tells.
+/// The files that load_volume would read: a header and its data files; empty for a built-in volume. Does not report
+/// errors; load_volume does.
 std::vector<std::filesystem::path> files_of(const std::string& name_or_path);
 
-/// Writes by extension: .nrrd (gzip), .nhdr, .nii, .nii.gz, .mha (zlib), .mhd; in the volume's stored type unless
-/// `type` says otherwise (values that do not fit the type are an error, not a clamp), with the volume's place in the
-/// body. Atomic.
+/// Writes by extension, atomically: .nrrd (gzip), .nhdr, .nii, .nii.gz, .mha (zlib), .mhd. The stored type is the
+/// volume's unless `type` is given; values that do not fit it are an error, not clamped. The file has the volume's
+/// place in the body.
 void save_volume(const Volume& volume, const std::filesystem::path& path, VoxelType type);
 
-/// The data file that save_volume writes beside a header of its own, .nhdr or .mhd; empty for other endings.
+/// The data file that save_volume writes beside a detached header, .nhdr or .mhd; empty for other endings.
 std::filesystem::path data_file_of(const std::filesystem::path& header);
 
 /// Names that `load_volume` knows without a path.

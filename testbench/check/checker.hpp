@@ -1,5 +1,5 @@
-// The checker: told what a device took and what it shows, says whether that is what the model and the cycle model have:
-// every tap, every pixel, every counter, the cycles. Drives nothing and knows no simulator.
+// The checker: compares a device's outputs for the beats that it took with the model and the cycle model: every tap,
+// pixel and counter, and the cycles. It drives nothing and depends on no simulator.
 #pragma once
 
 #include <array>

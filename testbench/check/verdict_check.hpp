@@ -1,4 +1,4 @@
-// What the source was told of cull_blocks: each verdict once, in order, in its cycle (docs/microarchitecture.md,
+// Checks a device's verdicts on cull_blocks: each once, in order, in its cycle (docs/microarchitecture.md,
 // "Culling").
 #pragma once
 
@@ -12,15 +12,15 @@
 
 namespace fastsplat::testbench {
 
-/// Listens to a cycle model, which says what is to be told before the device can tell it. Of a device that does not
-/// cull nothing is expected.
+/// Observes a cycle model, which computes each verdict before the device can show it. Expects nothing of a device that
+/// does not cull.
 class VerdictCheck final : public cmodel::CycleSink {
  public:
   void on_verdict(const cmodel::VerdictCycles& verdict) override { expected_.push_back(verdict); }
   void on_sheet(const cmodel::SheetCycles& /*sheet*/) override {}
   void on_tile(const cmodel::TileCycles& /*tile*/) override {}
 
-  /// What differs of a verdict that was told, in words.
+  /// The difference of a verdict that was given, in words.
   std::optional<std::string> told(const RawTap& tap);
   /// The next one that was not, in words, and goes on behind it.
   std::optional<std::string> missing();

@@ -28,7 +28,7 @@ void write_book(const std::filesystem::path& path, const CoverageBook& book);
 /// Adds `more` to what the file holds, if it is there, and returns the sum. Runs that add to one file at the same time
 /// wait for each other, so none of them is lost.
 CoverageBook add_to_book(const std::filesystem::path& path, const CoverageBook& more);
-/// Throws UserError (Input) for a file that is no coverage of this program.
+/// Throws UserError (Input) for a file that this program did not write as coverage.
 CoverageBook read_book(const std::filesystem::path& path);
 /// ... and (NotComparable) for one of another configuration than the run's, which `config` and `hash` name.
 CoverageBook read_book_for(const std::filesystem::path& path, const std::string& config, std::uint64_t hash);

@@ -1,5 +1,5 @@
-// Coverage of tiles that composite every sample, from the cycle model's Composite taps: after how many cycles a pixel
-// is met again, and windows that just do and just do not lie over the one before (docs/microarchitecture.md, "Every
+// Coverage of tiles that composite every sample, from the cycle model's Composite taps. Bins are the cycles until a
+// pixel is met again, and windows that just overlap the previous one or just miss it (docs/microarchitecture.md, "Every
 // sample").
 #pragma once
 

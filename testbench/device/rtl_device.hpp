@@ -74,8 +74,8 @@ class RtlDevice : public cmodel::Device {
   /// Resets again in the middle of whatever is going on, for so many cycles; memories keep what they hold, counters
   /// restart. Nobody takes answers or pixels meanwhile; one that is still there afterwards is UserError (Simulation).
   virtual void warm_reset(int cycles = kResetCycles) = 0;
-  /// Offers a beat that breaks a rule: when it was taken and judged, or nothing if the device does not refuse it.
-  /// Neither it nor what is taken after it is told to anybody, until a reset.
+  /// Offers an illegal beat. Returns when it was taken and checked, or nullopt if the device does not refuse it.
+  /// Neither it nor any later beat is reported to observers, until a reset.
   virtual std::optional<Refusal> refuse(const cmodel::Beat& beat) = 0;
   /// Asks CONTROL for a soft reset. With `wait` until the device is at rest; without, the beats that are offered next
   /// wait for that.

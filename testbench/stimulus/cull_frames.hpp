@@ -7,9 +7,11 @@
 
 namespace fastsplat::testbench {
 
-/// Its tiles, in their order: sets beside the tile in front of its first splat and at a sheet's end, one as high as
-/// there is without splats, an opaque half and splats over it; the same without any set; one that ends while two of its
-/// tables are waited for.
+/// Its tiles, in their order:
+/// - sets beside the tile before its first splat and at a sheet's end, an empty set of the greatest height, an opaque
+///   half and splats over it;
+/// - the same without any set;
+/// - one that ends while two of its tables are awaited.
 StreamDocument sets_frame(const cmodel::Config& config, Random& random);
 
 /// A tile of one row of pixels that is frozen as it ends, and one behind it in which those pixels are covered once

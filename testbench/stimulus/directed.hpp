@@ -35,11 +35,11 @@ DirectedResult check_damage(const cmodel::Config& config, const MakeDevice& make
 /// halves of writes, resets that drop answers.
 DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& make);
 
-/// Each rule that a device judges, broken in every way the small stream has: refused at the model's beat by the model's
-/// rule, which ERROR and ERROR_BEAT tell; an open tile comes out as if it had ended there, marked, every tap and cycle
-/// the model's; the rest is swallowed; behind each of them, after a soft reset or a hard one, a good frame comes out
-/// right. Soft resets within a tile, what goes on in the middle of a frame (mid_frame.hpp), and what one frame may not
-/// leave to the next (frame_after_frame.hpp).
+/// Breaks each rule that a device checks, in every way the small stream has. The device must refuse the model's beat by
+/// the model's rule, in ERROR and ERROR_BEAT. An open tile comes out as if it had ended there, marked, with every tap
+/// and cycle of the model; the rest is dropped. After a soft or hard reset a good frame comes out right. Also soft
+/// resets within a tile, accesses in the middle of a frame (mid_frame.hpp), and state between frames
+/// (frame_after_frame.hpp).
 DirectedResult check_refusals(const cmodel::Config& config, const MakeDevice& make);
 
 /// A reset of one cycle with each record of a stream but begin_frame in the device's register, then the whole stream

@@ -12,7 +12,7 @@
 
 namespace fastsplat::testbench {
 
-/// A record: its first beat, and of what kind it is. Words of tables are none, whatever they look like.
+/// A record: its first beat and its kind. Words of tables are not records, whatever they look like.
 struct Record {
   std::size_t at;
   cmodel::Opcode opcode;

@@ -1,5 +1,5 @@
-// A device that is fed one frame after the other, each under a checker of its own: frames that nothing is wrong with,
-// frames that it has to refuse, frames that are given up in the middle.
+// Feeds a device one frame after the other, each under a separate checker: valid frames, frames that it has to refuse,
+// frames that are abandoned in the middle.
 #pragma once
 
 #include <functional>

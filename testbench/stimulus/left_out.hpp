@@ -1,4 +1,4 @@
-// What a source sends that is told verdicts: the stream without the splats of hidden sets (docs/microarchitecture.md,
+// The stream of a source that receives verdicts: without the splats of hidden sets (docs/microarchitecture.md,
 // "Source").
 #pragma once
 

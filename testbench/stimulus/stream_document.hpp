@@ -35,8 +35,8 @@ struct StreamDocument {
 /// Reads any legal subset of a stream. Throws UserError (Input) for an illegal one.
 StreamDocument read_document(const cmodel::Config& config, std::span<const cmodel::Beat> beats);
 
-/// The same tiles, side by side in an image that they cover, as a stream in a file has to (docs/stream.md): one above
-/// the other, with empty tiles behind them where a narrow one leaves room. What no image holds stays as it is.
+/// The same tiles in an image that they cover, as a stream in a file must (docs/stream.md). They lie one above the
+/// other, with empty tiles beside narrow ones. Tiles too large for any image stay unchanged.
 StreamDocument arranged(StreamDocument document);
 
 /// The whole stream, begin_frame to end_frame.

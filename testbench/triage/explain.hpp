@@ -9,8 +9,9 @@
 
 namespace fastsplat::testbench {
 
-/// One line: for a footprint the two RLUT words, q and the radial index; for a sheet word the sum before and the
-/// product; for a composited word T, the sheet's sums and the slab; and so on. Empty where the model has no such event.
+/// One line with the operands of a word. For a footprint: the two RLUT words, q and the radial index. For a sheet word:
+/// the sum before and the product. For a composited word: T, the sheet's sums and the slab; and so on. Empty if the
+/// model lacks such an event.
 std::string explain(const BeatSource& source, const cmodel::Config& config, const Divergence& divergence);
 
 }  // namespace fastsplat::testbench

@@ -11,11 +11,11 @@ namespace fastsplat::testbench {
 /// Whether a run is the one that a waveform is wanted of.
 using WantedRun = std::function<bool(const VerifyResult&)>;
 
-/// Drives the device with `source` once more, as verify() does and without a checker, up to the last cycle that is
-/// wanted, and keeps the cycles [wave_from, wave_to) of `options` in its `wave`, which appears whole or not at all.
-/// Returns why there is none; empty where there is. A process of its own writes it: the simulator's writer maps the
-/// file into memory, so that a full disk would end the process that has the result to tell. With `wanted_run` the run
-/// is checked, too: one that is another, because it began with other words in its registers, leaves no waveform.
+/// Drives the device with `source` once more, as verify() does but without a checker, up to the last required cycle.
+/// Keeps the cycles [wave_from, wave_to) of `options` in its `wave`, which appears whole or not at all. Returns the
+/// reason if it is missing, else an empty text. A separate process writes it: the simulator's writer maps the file into
+/// memory, so that a full disk would end the process that holds the result. With `wanted_run` the run is compared, too:
+/// a different run, which began with other words in its registers, leaves no waveform.
 std::string write_waveform(const BeatSource& source, const VerifyOptions& options, const WantedRun& wanted_run = {});
 
 }  // namespace fastsplat::testbench

@@ -1,4 +1,4 @@
-// A random stream and what a right device takes, shows and counts of it, as the C interface wants it told.
+// A random stream, and the inputs, outputs and counters of a correct device for it, in the form of the C interface.
 #pragma once
 
 #include <vector>

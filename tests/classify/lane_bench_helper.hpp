@@ -1,5 +1,5 @@
-// The pixel stage's lane by itself, a pixel a cycle, beside ClassifyUnit: what a last bit of some word decides is seen
-// once in a million pixels, and whole streams have too few of them (docs/numerics.md, section 6.2).
+// The pixel stage's lane by itself, a pixel a cycle, compared with ClassifyUnit. A last bit shows once in a million
+// pixels, and whole streams have too few of them (docs/numerics.md, section 6.2).
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,5 @@
-// The stream side of a device that culls, clock by clock as docs/microarchitecture.md says it, for the cycle model to
-// be held against: registers that hold beats, a unit that builds tables a row at a time, a source that waits for
-// verdicts.
+// The stream side of a device that culls, clock by clock as in docs/microarchitecture.md: a reference for the cycle
+// model. Registers hold beats, a unit builds tables a row at a time, a source waits for verdicts.
 #pragma once
 
 #include <cstdint>

@@ -34,7 +34,7 @@ struct Lsb8 {
 };
 Lsb8 distance(const Image& a, const Image& b);
 
-/// The device's words of the scene are those that it draws in smaller tiles.
+/// The device's words of the scene equal its words in smaller tiles.
 void expect_tiles_never_show(const scene::SceneDescription& description, cmodel::Config config);
 
 /// Prints "[figure] name = value unit" and records it with the test.

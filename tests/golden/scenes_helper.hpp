@@ -51,8 +51,9 @@ struct Moments {
   double xx = 0.0, xy = 0.0, yy = 0.0;
 };
 Moments moments(const Image& image, int channel);
-/// By how much the sum of a footprint's pixels may miss its integral, relative: aliasing of the endless Gaussian, and
-/// the step at the rim, exp(-aR^2) of the peak, on the pixels that the rim (length 2 pi R s) crosses.
+/// Bound on the relative difference between the sum of a footprint's pixels and its integral. It has two parts:
+/// aliasing of the endless Gaussian, and the step at the edge, exp(-aR^2) of the peak, on the pixels that the edge
+/// (length 2 pi R s) crosses.
 double sampling_bound(double a, double radius, double pixels_per_unit);
 /// Largest opacity.
 double max_opacity(const Image& image);

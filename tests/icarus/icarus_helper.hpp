@@ -49,9 +49,9 @@ struct Transcript {
   bool ended = false;  ///< all plays were played
 };
 
-/// How always_comb is read. Icarus 11 gives all such blocks one event in common, so that each of them runs when any of
-/// them does: two that pass an intermediate value to others (a default, then the case that holds) wake each other for
-/// ever, in one moment of time (its issue 508, mended behind 11.0). As `always @*` each waits for what it reads alone.
+/// How always_comb is read. Icarus 11 gives all such blocks one common event, so that each runs whenever any of them
+/// does. Two blocks that pass on an intermediate value (a default, then the final one) wake each other for ever, in the
+/// same time step (its issue 508, fixed after 11.0). As `always @*` each waits only for what it reads.
 enum class Combinational { AsWritten, AlwaysStar };
 
 class Icarus {

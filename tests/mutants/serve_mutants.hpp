@@ -1,8 +1,10 @@
-// check_mutants programs: `PROGRAM CONFIG.toml` reads numbers of mutants from standard input, one a line, and answers
-// each with a line
-//   NUMBER killed CHECK: WHAT IT SAID   or   NUMBER lives COMPARISONS SECONDS
-// The checks come cheapest first; the first that speaks ends it. Each mutant has a process and a limit of processor
-// time of its own. Number 0 is the source as it is: it has to live, and its time makes the limit.
+// check_mutants programs: `PROGRAM CONFIG.toml` reads numbers of mutants from standard input, one a line, and prints a
+// line for each:
+//
+//     NUMBER killed CHECK: MESSAGE   or   NUMBER lives COMPARISONS SECONDS
+//
+// The checks run cheapest first; the first that fails ends the mutant. Each mutant has a separate process and a limit
+// of processor time. Number 0 is the unchanged source: it has to live, and its time sets the limit.
 #pragma once
 
 #include <cstdint>

@@ -43,7 +43,7 @@ struct Followed {
   bool accepted = false;
 };
 
-/// Does what the refusals say until there are none, but never changes the method when `method_stays`.
+/// Follows the refusals' suggestions until the last one is gone, but keeps the method with `method_stays`.
 inline Followed follow_fixes(const Setting& setting, const SceneDescription& start, const Offers& offers,
                              bool method_stays) {
   Followed way{.with = start, .without = start, .refusals = {}, .accepted = false};

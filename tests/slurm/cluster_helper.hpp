@@ -45,7 +45,7 @@ class Cluster {
   std::string node_state(const std::string& node) const;
   void set_node(const std::string& node, const std::string& state) const;
 
-  /// What a power cut does: the node's slurmd, its steps and all they run are killed, and the controller is told.
+  /// Simulates a power cut: kills the node's slurmd, its steps and their processes, and notifies the controller.
   void crash(const std::string& node);
   /// Starts the node's slurmd again and puts it back in service.
   void bring_back(const std::string& node);

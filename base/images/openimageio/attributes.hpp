@@ -1,4 +1,4 @@
-// Our metadata as attributes of an OpenImageIO header, whatever the format can carry.
+// Our metadata as attributes of an OpenImageIO header, in every format.
 #pragma once
 
 #include <OpenImageIO/imageio.h>
@@ -11,7 +11,7 @@ namespace fastsplat::images {
 /// would drop (empty strings in EXR), go as lines "fastsplat:<key>=<value>" into ImageDescription instead.
 void set_metadata(OIIO::ImageSpec& spec, const std::string& format_name, const Metadata& metadata);
 
-/// The inverse of set_metadata; attributes and lines of others are ignored.
+/// The inverse of set_metadata; attributes and lines of other programs are ignored.
 Metadata get_metadata(const OIIO::ImageSpec& spec);
 
 }  // namespace fastsplat::images

@@ -1,4 +1,4 @@
-// The two operations of the module's table: base/images/codec.hpp says what they do.
+// The two operations of the module's table, as specified in base/images/codec.hpp.
 #pragma once
 
 #include "base/images/codec.hpp"

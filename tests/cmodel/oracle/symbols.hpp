@@ -58,7 +58,7 @@ struct RoundingKey {
 std::span<const RoundingKey> rounding_keys();
 const char* word_of(Rounding rounding);
 
-/// 64-bit FNV-1a over the lines "key=value\n", those that may be absent only where they are not neutral.
+/// 64-bit FNV-1a over the lines "key=value\n"; optional keys only if they are not neutral.
 std::uint64_t hash(const Symbols& symbols);
 
 /// CRC-32 of IEEE 802.3, bit by bit.

@@ -10,7 +10,7 @@ emit=$1 source=$2 work=$3
 package_file="$work/tiny.sv"
 slab() { unit "$1" slab_opacity "" ram_1r1w "${2:+slab_opacity}" "${2-}"; }
 slab slab_opacity
-holds slab_opacity 2 "slab_opacity: factor between its segment's ends, colour and opacity in 0..1 and half a unit off at most, sums as they are; words of 11 bits"
+holds slab_opacity 2 "slab_opacity: factor between its segment's ends, colour and opacity in 0..1 and half a unit off, sums unchanged; words of 11 bits"
 happens slab_opacity 6
 slab_broken() { slab "slab_opacity_$1" "$2"; refuted "slab_opacity_$1" 6; }
 slab_broken factor_rises 's/factor_k3_q <= segment_k2\[2\*FB-1:FB\] - FB/factor_k3_q <= segment_k2[2*FB-1:FB] + FB/'
@@ -22,7 +22,7 @@ package_file="$work/composite_pkg.sv"
 package STATE_BITS=7 TRANS_BITS=7 SHEET_BITS=7 TRANS_FRAC=6 SHIFT_LIGHT=6 SHIFT_ABSORBED=6 >"$package_file"
 composite() { unit "$1" composite_lane "" "" "${2:+composite_lane}" "${2-}"; }
 composite composite_lane
-holds composite_lane 2 "composite_lane: transmittance in 0..1, never rises or wraps; colour never falls, gains T at most; frozen pixels stay; sums saturate; words of 7 bits"
+holds composite_lane 2 "composite_lane: transmittance in 0..1, never rises or wraps; colour never falls, gains T at most; terminated pixels stay; sums saturate; 7 bits"
 happens composite_lane 6
 composite_broken() { composite "composite_lane_$1" "$2"; refuted "composite_lane_$1" 6; }
 composite_broken transmittance_rises "s/{1'b0, state - light}/{1'b0, state + light}/"

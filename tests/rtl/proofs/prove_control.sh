@@ -13,7 +13,7 @@ package_file="$work/check_pkg.sv"
 package RLUT_SETS=2 RLUT_COLUMNS=8 COL_BITS=4 PHASES=2 PHASE_LOG2=1 PHASE_BITS=1 RHO_MOST=8 RADIAL_ENTRIES=2 RADIAL_WORDS=2 RADIAL_LOG2=1 SEGMENTS=8 SEG_LOG2=3 >"$package_file"
 check() { without=FASTSPLAT_ASS unit "$1" stream_check "record_rules word_rules" "" "${2:+stream_check}" "${2-}"; }
 check stream_check
-holds stream_check 1 "stream_check: of any beats those that keep the rules, in order, once; the first other is told, and what is open is closed"
+holds stream_check 1 "stream_check: legal beats pass once, in order; the first illegal one is reported, and open sheets and tiles are closed"
 check_broken() { defines=-DF_FEW_BEATS check "stream_check_$1" "$2"; refuted "stream_check_$1" "${3:-8}"; }
 if [ -z "$short" ]; then
   without="FASTSPLAT_ASS\\|FASTSPLAT_COVER" defines=-DF_FEW_BEATS unit stream_check_few stream_check "record_rules word_rules" ""

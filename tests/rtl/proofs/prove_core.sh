@@ -23,7 +23,7 @@ for pair in f_beat=u_decode.beat_valid_q f_payload=u_decode.payload_q f_take=u_d
 done
 specification=core
 core() { unit "$1" fastsplat_core "stream_check stream_decode splat_array delay compositor pixel_out" "record_rules word_rules snap rlut axis lane sheet_bank dirty_map slab_opacity composite_lane csr popcount ram_1r1w" "${2-}" "${3-}"; }
-core_shares="core: one owner of a memory at a time, and what the parts' proofs assume of each other"
+core_shares="core: one owner of a memory at a time, and the mutual assumptions of the parts' proofs"
 moves="something moves within 12 cycles"
 sliced="core: the same where a block is four slices"
 slices() { core_package COMPOSITE_LANES=1 SLICES=4 SLICE_BITS=2; }

@@ -20,7 +20,7 @@ smt() {
 
 few="-set BITS 3 -set LOG2 2"
 smt queue queue "$few"
-holds queue 2 "queue: all that was put in comes out, in order, in its cycle; four words of three bits"
+holds queue 2 "queue: all words put in come out, in order, in their cycle; four words of three bits"
 happens queue 14
 queue_broken() { smt "queue_$1" queue "$few" "$2"; refuted "queue_$1" 12; }
 queue_broken reads_too_much "s/left < 2'd2/left <= 2'd2/"
@@ -30,7 +30,7 @@ queue_broken late "s/assign read = put_q != read_q \&\&/assign read = put_q - re
 
 small="-set ADDRESS_BITS 16 -set BURST 4 -set DEPTH_LOG2 3 -set OUTSTANDING 3 -set SETS_LOG2 2 -set JUDGED_LOG2 3"
 smt fetch fetch "$small"
-holds fetch 2 "fetch: ARVALID and its address stay, bursts lie within 4 KB and their run and have room, no more under way than may be, no more sets unjudged than there is room for, no beat withdrawn; bursts of 4, 8 beats, 3 under way, 8 sets"
+holds fetch 2 "fetch: ARVALID, its address and beats stay, bursts lie within 4 KB and their run and have room, sets have room; bursts of 4, 8 beats, 3 under way, 8 sets"
 happens fetch 24
 fetch_broken() { smt "fetch_$1" fetch "$small" "$2"; refuted "fetch_$1" "${3:-14}"; }
 fetch_broken valid_dropped "s/^    if (!m_axi_arvalid || m_axi_arready) begin/    if (1'b1) begin/"

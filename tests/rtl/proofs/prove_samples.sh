@@ -22,7 +22,7 @@ done
 specification=samples
 samples() { connects=$probes defines=-DFASTSPLAT_PROOF unit "$1" compositor "ram_1r1w sample_places" "dirty_map slab_opacity composite_lane" "${2:+$2}" "${3-}"; }
 samples samples
-holds samples 2 "compositor, every sample: a sample is put over what the sample before it made of the pixel, 2 or more cycles ago; the picture is what the last one made"
+holds samples 2 "compositor, every sample: a sample is put over the result of the one before, 2 or more cycles ago; the picture is the last result"
 happens samples 20
 samples_broken() { samples "samples_$1" "$2" "$3"; refuted "samples_$1" 20; }
 samples_broken not_after_2 sample_places 's/assign forward_2_o\[B\] = /&1'"'b0 \&\& /"
@@ -42,7 +42,7 @@ package EVERY_SAMPLE=1 STATE_BITS=5 TRANS_BITS=5 SHEET_BITS=5 TRANS_FRAC=4 SHIFT
 specification=composite_lane
 composite() { unit "$1" composite_lane "" "" "${2:+composite_lane}" "${2-}"; }
 composite composite_samples
-holds composite_samples 2 "composite_lane, every sample: what is forwarded out of k5 is what k6 will hold; words of 5 bits"
+holds composite_samples 2 "composite_lane, every sample: the value forwarded out of k5 is the later value of k6; words of 5 bits"
 happens composite_samples 10
 composite composite_samples_thawed "s/stepped(1'b0, frozen_k5_q, c == 3/stepped(1'b0, 1'b0, c == 3/"
 refuted composite_samples_thawed 6
@@ -57,7 +57,7 @@ for pair in x_here=x_here y_here=y_here x_last=x_last_q y_last=y_last_q fresh=fr
 done
 decode() { connects=$places unit "$1" stream_decode "overlap snap" "" "${2:+$2}" "${3-}"; }
 decode decode_samples
-holds decode_samples 2 "stream_decode, every sample: a record's first window waits a cycle if and only if it shares a pixel with the window just issued; all else as without"
+holds decode_samples 2 "stream_decode, every sample: a record's first window waits a cycle if and only if it shares a pixel with the window just issued"
 decode_broken() { defines=-DF_FEW_BEATS decode "decode_samples_$1" "$2" "$3"; refuted "decode_samples_$1" "${4:-8:11}"; }
 decode_broken beside overlap "s/ \&\& d\[LOG2-1:0\] != '0//"
 if [ -z "$short" ]; then

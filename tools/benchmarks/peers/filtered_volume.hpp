@@ -6,10 +6,10 @@
 
 namespace fastsplat::bench {
 
-/// base + sum over v of (f_v - base) h(x - v), base the least value (docs/techniques/post-classified.md), at `finer`
-/// points a voxel along each axis and as far out as the kernel reaches; floats, centred as the volume is, not oblique.
-/// The kernel ends on a cube along the axes, not on a splat's cylinder along the view: less than 2 exp(-a R^2) of its
-/// weight lies in one of them alone.
+/// base + sum over v of (f_v - base) h(x - v), base the least value (docs/techniques/post-classified.md). It has
+/// `finer` points a voxel along each axis and extends as far as the kernel reaches; floats, centred as the volume is,
+/// not oblique. The kernel ends on a cube along the axes, not on a splat's cylinder along the view: less than 2 exp(-a
+/// R^2) of its weight lies in one of them alone.
 volume::Volume filtered(const volume::Volume& volume, const scene::Kernel& kernel, int finer);
 
 }  // namespace fastsplat::bench

@@ -31,17 +31,17 @@ std::optional<Json> read(const std::filesystem::path& path) {
 }
 
 std::string missing(const char* what, const char* command) {
-  return fmt::format("Not there: {}. `{}` makes it.\n\n", what, command);
+  return fmt::format("Missing: {}. `{}` makes it.\n\n", what, command);
 }
 
 std::string preface() {
   return text(std::filesystem::path(FASTSPLAT_SOURCE_DIR) / "tools/pages/evidence/preface.md").value_or("");
 }
 
-/// ", 2026-11-24; changed since: csr, lane": the day of a figure, and what of `now` is another than it was or was not
-/// there.
+/// ", 2026-11-24; changed since: csr, lane": the day of a figure, and the modules of `now` that have changed or are
+/// new.
 std::string origin(const Json& figure, const Json& now) {
-  if (!figure.contains("date")) return "; of which day and RTL is not kept";
+  if (!figure.contains("date")) return "; its day and RTL are not recorded";
   std::string out = ", " + figure.at("date").get<std::string>(), changed;
   if (!figure.contains("rtl") || now.is_null()) return out;
   for (const auto& [module, hash] : now.at("rtl").items())
@@ -58,7 +58,7 @@ std::string figures_table(const Json& json, const Json& now) {
     std::string row;
     for (const auto& [name, value] : figures.items())
       row += (row.empty() ? "" : ", ") + name + " " + value.get<std::string>();
-    out += fmt::format("| {} | {} |\n", test, row);
+    out += fmt::format("| {} | `{}` |\n", test, row);
   }
   return out + "\n";
 }
@@ -108,20 +108,20 @@ std::string placement(const Json& design) {
   out += ".\n\n";
   const Json& slowest = placed.at("slowest");
   out += fmt::format(
-      "Its slowest path, {} elements from `{}` to `{}`; the ten latest arrivals of what comes from a register:\n\n"
+      "Its slowest path, {} elements from `{}` to `{}`; the ten latest arrivals of paths that start at a register:\n\n"
       "| ns | at |\n|---|---|\n",
       slowest.at("elements").get<int>(), slowest.at("from").get<std::string>(), slowest.at("to").get<std::string>());
   for (const auto& path : placed.at("worst_paths"))
     out += fmt::format("| {:.1f} | `{}` |\n", path.at("ns").get<double>(), path.at("to").get<std::string>());
   for (const auto& path : placed.at("from_pins"))
-    out += fmt::format("\nFrom a pin, which a system has a register of its own at, the latest: {:.1f} ns at `{}`.\n",
+    out += fmt::format("\nFrom a pin, where a system has its own register, the latest: {:.1f} ns at `{}`.\n",
                        path.at("ns").get<double>(), path.at("to").get<std::string>());
   return out + "\n";
 }
 
 constexpr const char* kCells = " LUT | carry | mux | FF | LUT RAM | block RAM | DSP |";
 
-/// Of the devices that tell what a key costs, the one without any, and those with one each.
+/// The devices that show what a key costs: the one without keys, and one for each key.
 constexpr const char* kPlain = "plain";
 constexpr std::pair<const char*, const char*> kKeys[] = {{"ellipses", "`ellipse.frac_bits = 5`"},
                                                          {"samples", "`composite.every_sample = 1`"},
@@ -184,10 +184,10 @@ std::string keys(const Json& designs, const std::string& family) {
   if (table.empty()) return {};
   return fmt::format(
       "### What a key costs, {}\n\n`configs/faults/westover.toml` (2 x 2 lanes, a tile of 16 x 16) with one of its "
-      "keys beside the same device "
-      "with none: cells more. The device with none:\n\n| key |{}\n|---|---|---|---|---|---|---|---|\n| none "
-      "|{}\n\nWith one:\n\n"
-      "| key |{}\n|---|---|---|---|---|---|---|---|\n{}\nAnd where, all instances of a module together:\n\n| key | "
+      "keys, compared with the same device without: additional cells. The device without:\n\n| key "
+      "|{}\n|---|---|---|---|---|---|---|---|\n| none "
+      "|{}\n\nWith one key:\n\n"
+      "| key |{}\n|---|---|---|---|---|---|---|---|\n{}\nBy module, all its instances together:\n\n| key | "
       "module | |{}\n"
       "|---|---|---|---|---|---|---|---|---|---|\n{}\n",
       family, kCells, cells(plain->at("total")), kCells, table, kCells, modules);
@@ -221,14 +221,14 @@ std::string synthesis(const Json& designs, const Json& now) {
   return out;
 }
 
-/// {name: count} in words, the largest first.
+/// {name: count} as code, the largest first.
 std::string counts(const Json& of) {
   std::vector<std::pair<int, std::string>> sorted;
   for (const auto& [name, count] : of.items()) sorted.emplace_back(-count.get<int>(), name);
   std::sort(sorted.begin(), sorted.end());
   std::string out;
   for (const auto& [count, name] : sorted) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", name, -count);
-  return out;
+  return out.empty() ? out : "`" + out + "`";
 }
 
 int sum(const Json& of) {
@@ -256,7 +256,7 @@ std::string fuzz(const Json& json) {
   return out + "\n";
 }
 
-/// Of a sample or of all: those that live are told one by one. Each module's row has a day of its own; "changed since"
+/// Of a sample or of all; survivors are listed one by one. Each module's row has a day of its own; "changed since"
 /// where `now` has another hash of it.
 std::string mutants(const Json& json, const Json& now) {
   std::string out = fmt::format(
@@ -268,7 +268,7 @@ std::string mutants(const Json& json, const Json& now) {
     const int by = sum(module.at("killed")), not_seen = sum(module.at("excluded")),
               lives = module.at("living").get<int>();
     const std::string file = name.starts_with("fastsplat_") ? name.substr(name.find('_') + 1) : name;
-    std::string tried = module.value("date", "day not kept");
+    std::string tried = module.value("date", "day not recorded");
     if (now.is_object() && (!module.contains("rtl") || module.at("rtl") != now.at("rtl").value(file, "")))
       tried += ", changed since";
     out += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", name, module.at("mutants").get<int>(), by,
@@ -279,7 +279,7 @@ std::string mutants(const Json& json, const Json& now) {
     living += lives;
   }
   out += fmt::format("| **all** | {} | {} | {} | {} | | | |\n\n", all, killed, excluded, living);
-  out += fmt::format("Of those that can be seen, **{:.2f} %** are killed.\n\n",
+  out += fmt::format("Of the mutants that can be seen, **{:.2f} %** are killed.\n\n",
                      100.0 * killed / std::max(killed + living, 1));
   for (const Json& one : json.at("survivors"))
     out += fmt::format("- lives: {}, `{}`: {}, of `{}`\n", one.at("module").get<std::string>(),
@@ -305,10 +305,10 @@ std::string page(const std::filesystem::path& folder, const nlohmann::ordered_js
     out += netlist ? figures_table(*netlist, now) : missing("this netlist", "tools/netlist");
   }
   out +=
-      "## Streams that break the rules\n\nEach rule that the device judges, broken in every way that a small stream "
-      "has: refused at the model's beat by the "
-      "model's rule, by rule; the open tile closed as the model closes it; a good frame, right in every tap and cycle, "
-      "behind each.\n\n";
+      "## Streams that break the rules\n\nEach rule that the device checks is broken in every way that a small "
+      "stream has. The counts are by rule: refused at the model's beat, by the model's rule. The open tile is closed "
+      "as "
+      "the model closes it, and a good frame, right in every tap and cycle, follows.\n\n";
   for (const char* name : {"refusals", "refusals_base", "refusals_features"}) {
     const auto refusals = read(folder / (std::string(name) + ".json"));
     out += refusals ? figures_table(*refusals, now) : missing("such streams", "tools/evidence");

@@ -1,4 +1,4 @@
-// docs/evidence.md from the JSON of docs/evidence/: nothing on the page is typed by hand but its words.
+// docs/evidence.md from the JSON of docs/evidence/: no figure on the page is typed by hand.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +7,9 @@
 
 namespace fastsplat::evidence {
 
-/// Reads the JSON of `folder`; what is not there is said to be missing. `now` is of tools/helpers/evidence_stamp.py,
-/// {"rtl": {module: hash}}: each figure is told with its day and with the modules of the RTL that have changed since;
-/// null says nothing of it. Throws std::runtime_error, or what nlohmann's JSON throws, for a file that is wrong.
+/// Reads the JSON of `folder`; missing files are named on the page. `now` comes from tools/helpers/evidence_stamp.py,
+/// {"rtl": {module: hash}}: each figure has its day and the modules of the RTL that have changed since. With null the
+/// page leaves those modules out. Throws std::runtime_error or nlohmann's exceptions for an invalid file.
 std::string page(const std::filesystem::path& folder, const nlohmann::ordered_json& now);
 
 }  // namespace fastsplat::evidence

@@ -52,7 +52,7 @@ Claim controllable(const Cells& at) {
   return {.slide = 51,
           .sentence = "We desire [...] minimum or controllable errors",
           .figures = fmt::format("places: rms {:.2f} at K = {}, {:.2f} at K = {} (rlut, turned); table: max {:.2f} at "
-                                 "N = 64, {:.2f} at N = 2048 (squared, aligned); both as the laws say",
+                                 "N = 64, {:.2f} at N = 2048 (squared, aligned); both as predicted",
                                  coarse.turned.rms, kCoarse, fine.turned.rms, kFine, few.aligned.largest,
                                  many.aligned.largest),
           .verdict =
@@ -68,8 +68,8 @@ Claim ellipse_cost(const Cells& at, const EllipseErrors& ellipses) {
           "For elliptical kernels, if we define a canonical radius, the incremental scan-conversion still "
           "works at the same low cost",
       .figures = fmt::format("a pixel: {} adds and {} multiply for circles, {} and {} for ellipses; {} and {} cycles "
-                             "a splat (r = 4); {} bits more. Weights of ellipses to 1 : {:.0f} are off by {:.2f} "
-                             "at most; half a step of the table is {:.2f}",
+                             "a splat (r = 4), {} bits more. Weights of ellipses to 1 : {:.0f} are off by {:.2f} "
+                             "at most. Half a step of the table is {:.2f}",
                              a.adds, a.multiplies, b.adds, b.multiplies, circle.cycles, ellipse.cycles,
                              ellipse.bits - circle.bits, ellipses.aspect, ellipses.ellipse.largest, circle.index_max),
       .verdict = judged({a.adds == b.adds && a.multiplies == b.multiplies, circle.cycles == ellipse.cycles,
@@ -97,7 +97,7 @@ Claim limited_storage(const Cells& at) {
                                        "(K = {}), separable {:.2f} (K = {})",
                                        kBits, blit->turned.rms, blit->config.grid(), rlut->turned.rms,
                                        rlut->config.grid(), axis->turned.rms, axis->config.grid())
-                         : std::string("none fits"),
+                         : std::string("no kind fits"),
           .verdict = judged({all && blit->turned.rms > 2.0 * rlut->turned.rms})};
 }
 
@@ -130,7 +130,7 @@ Claim linear(const Cells& at) {
   return {.slide = 80,
           .sentence = "1D Linear very accurate, compact, slow",
           .figures = fmt::format("max {:.2f} of {:.2f} for the square's table (aligned, N = {}), but {:.2f} and {:.2f} "
-                                 "rms turned, where places rule; {} bits; {} cycles a splat where squared takes {} "
+                                 "rms turned, where places rule. {} bits. {} cycles a splat where squared takes {} "
                                  "and rlut {} (r = 4), with {} root steps a pixel",
                                  own.aligned.largest, squared.aligned.largest, kClaimEntries, own.turned.rms,
                                  squared.turned.rms, own.bits, own.cycles, squared.cycles, rlut.cycles,
@@ -143,7 +143,7 @@ Claim squared(const Cells& at) {
   const auto &own = at(IndexKind::Squared), &linear_cell = at(IndexKind::Linear), &rlut = at(IndexKind::Rlut);
   return {.slide = 80,
           .sentence = "1D Squared accurate, compact, fast",
-          .figures = fmt::format("max {:.2f}, rms {:.2f} (aligned), rms {:.2f} (turned); {} bits; {} cycles a splat "
+          .figures = fmt::format("max {:.2f}, rms {:.2f} (aligned), rms {:.2f} (turned). {} bits. {} cycles a splat "
                                  "for linear's {}, though rlut takes {} (r = 4)",
                                  own.aligned.largest, own.aligned.rms, own.turned.rms, own.bits, own.cycles,
                                  linear_cell.cycles, rlut.cycles),
@@ -155,8 +155,8 @@ Claim rlut(const Cells& at) {
   const auto &own = at(IndexKind::Rlut), &squared_cell = at(IndexKind::Squared), &blit = at(IndexKind::Blit2d);
   return {.slide = 80,
           .sentence = "1D RLUT accurate, compact, intended for hardware",
-          .figures = fmt::format("rms {:.2f} (turned), squared has {:.2f}; {} bits, {:.1f} times squared's, 1/{} of "
-                                 "blit2d's; {} cycle a splat, {} adds and {} multiply a pixel (r = 4)",
+          .figures = fmt::format("rms {:.2f} (turned), squared has {:.2f}. {} bits, {:.1f} times squared's, 1/{} of "
+                                 "blit2d's. {} cycle a splat, {} adds and {} multiply a pixel (r = 4)",
                                  own.turned.rms, squared_cell.turned.rms, own.bits,
                                  static_cast<double>(own.bits) / static_cast<double>(squared_cell.bits),
                                  blit.bits / own.bits, own.cycles, own.operations.adds, own.operations.multiplies),
@@ -170,9 +170,9 @@ Claim blit(const Cells& at) {
   const double both = compact == nullptr ? 0.0 : compact->turned.rms;
   return {.slide = 80,
           .sentence = "2D FastSplat can be very fast, accurate and compact under constrained conditions",
-          .figures = fmt::format("{} cycle a splat; at K = {} max {:.2f} (aligned), rms {:.2f} (turned), the least of "
-                                 "all, in {} bits; but with no more than rlut's {} bits rms {:.2f} where rlut has "
-                                 "{:.2f} (r = 4): accurate or compact, unless the condition is that places are few",
+          .figures = fmt::format("{} cycle a splat. At K = {} max {:.2f} (aligned), rms {:.2f} (turned), the least of "
+                                 "all, in {} bits. With rlut's {} bits at most rms {:.2f}, where rlut has {:.2f} (r = "
+                                 "4). Accurate or compact, unless the condition is that places are few",
                                  fine.cycles, kFine, fine.aligned.largest, fine.turned.rms, fine.bits, rlut_cell.bits,
                                  both, rlut_cell.turned.rms),
           .verdict = judged({fine.cycles <= rlut_cell.cycles, fine.aligned.largest < rlut_cell.aligned.largest,
@@ -197,12 +197,12 @@ std::vector<Claim> deck_claims(const std::vector<FamilyCell>& cells, const Ellip
 
 std::string claims_section(const std::vector<Claim>& claims) {
   std::string text =
-      "## What the deck says\n\nSentences of the first lecture deck, and what is to be said for or against each; K = "
-      "64 and N = 1024 where nothing else is told, errors in 1/255.\n\n"
-      "| slide | sentence | figures | verdict |\n|---|---|---|---|\n";
+      "## What the deck says\n\nSentences of the first lecture deck, each with a verdict and its figures; K = 64 and N "
+      "= "
+      "1024 unless noted, errors in 1/255.\n\n";
   for (const Claim& claim : claims)
-    text +=
-        fmt::format("| {} | {} | {} | {} |\n", claim.slide, claim.sentence, claim.figures, to_string(claim.verdict));
+    text += fmt::format("- Slide {}, \"{}\": **{}**. Figures: {}.\n", claim.slide, claim.sentence,
+                        to_string(claim.verdict), claim.figures);
   return text + "\n";
 }
 

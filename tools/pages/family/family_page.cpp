@@ -16,17 +16,33 @@ using cmodel::IndexKind;
 
 constexpr const char* kPreface = R"(# The family of FastSplats
 
-A splat's weight at a pixel can be found in six ways ([numerics.md](numerics.md), section 4). What each costs and what it gets
-wrong, by the weights of the model's units and the driver's tables against golden's exact footprint; kernel gauss2 (a = R = 2), words U 1.14, g = 6,
-8 x 8 lanes. `tools/family` makes this page and its pictures in a minute; `fastsplat family` has every cell, also
-with nanoseconds, `--json` for programs.
+What each of the six footprint evaluation methods costs and how far it errs: for architects who
+choose a kind of index. They are defined in [numerics.md](numerics.md), section 4. Conclusions are
+[at the end](#what-follows).
 
-A field of constant value is splatted: on a lattice along the pixels at 61 x 61 offsets (**aligned**: all splats lie alike on the grid, so what shows are the table's
-steps), and on one turned by 0.4 radians (**turned**: each splat lies elsewhere on the grid). Errors are of the field's mean, in 1/255: the largest, the root mean
-square and the bias. K is the grid of the centres, steps a pixel: that of the snap, or of positions where nothing is snapped. r is the
-support radius, pixels; a voxel is s = r/2 pixels. Beside the measurement stands what was predicted: rms of the snap 0.27/(s K), largest error of the table 4/N over
-the squared distance and 1.213/N over the distance, bits T b, k E w + T b, k^2 E^2 b. What is off by more than a factor of two has a letter, explained below
-the table. Products, sheets and compositing are the same for all kinds and not in these figures.
+`tools/family` makes this page and its pictures in a minute. `fastsplat family` prints every cell,
+also with nanoseconds; `--json` is for programs.
+
+Errors compare the weights of the model's units and the driver's tables with golden's exact
+footprint: kernel gauss2 (a = R = 2), words U 1.14, g = 6, 8 x 8 lanes. A field of constant value is
+splatted in two ways:
+
+- **aligned**: on a lattice along the pixels at 61 x 61 offsets. All splats lie alike on the grid,
+  so the table's steps show.
+- **turned**: on a lattice turned by 0.4 radians. Each splat lies elsewhere on the grid.
+
+Errors are of the field's mean, in 1/255: the largest, the root mean square and the bias. K is the
+grid of the centres, steps a pixel: that of the snap, or of positions where nothing is snapped. r is
+the support radius, pixels; a voxel is s = r/2 pixels.
+
+Predictions stand beside the measurements:
+
+- rms of the snap: 0.27/(s K);
+- largest error of the table: 4/N over the squared distance and 1.213/N over the distance;
+- bits: T b, k E w + T b, k^2 E^2 b.
+
+A figure that is off by more than a factor of two has a letter, explained below the table. Products,
+sheets and compositing are the same for all kinds and not in these figures.
 
 )";
 
@@ -37,9 +53,8 @@ cmodel::Config eightfold(cmodel::Config config) {
 
 std::string cost_table() {
   std::string text =
-      "## What a pixel costs\n\nBy a device of the kind, r = 8, K = 64, N = 1024; with the product and its sum. Setup "
-      "per splat is not "
-      "counted. E is the extent, 2r.\n\n"
+      "## What a pixel costs\n\nA device of the kind, r = 8, K = 64, N = 1024, with the product and its sum. Setup "
+      "per splat is not counted. E is the extent, 2r.\n\n"
       "| kind | adds | multiplies | reads | root steps | bits | cycles a splat |  "
       "|\n|---|---|---|---|---|---|---|---|\n";
   for (const IndexKind kind : whole_family().kinds) {
@@ -68,7 +83,7 @@ bool of_the_lengths(const FamilyCell& cell) {
          cell.config.index() != IndexKind::SquaredElliptic;
 }
 
-/// How many times what rlut holds.
+/// How many times as many bits as rlut.
 std::string what_blit_costs() {
   const auto times = [rlut =
                           storage_bits(family_config(IndexKind::Rlut, 64, 8, 1024), 8)](const cmodel::Config& config) {
@@ -76,10 +91,11 @@ std::string what_blit_costs() {
   };
   const auto blit = family_config(IndexKind::Blit2d, 64, 8, 1024);
   return fmt::format(
-      "- blit2d has the least error, for it has no index, and at r = 8 and K = 64 holds {:.0f} times what rlut holds, "
-      "{:.0f} times with symmetry. separable has\n"
-      "  nearly that error for less than rlut holds, as long as kernels are Gaussians; its bias is the square's "
-      "corners.\n",
+      "- blit2d has the least error, because it has no index. At r = 8 and K = 64 it holds {:.0f} times as many bits "
+      "as\n"
+      "  rlut, {:.0f} times with symmetry.\n"
+      "- separable has nearly that error for fewer bits than rlut, as long as kernels are Gaussians. Its bias is the\n"
+      "  square's corners.\n",
       times(blit), times(eightfold(blit)));
 }
 
@@ -101,10 +117,15 @@ std::string ellipse_section(const EllipseErrors& flat) {
   std::string text =
       R"(## Ellipses
 
-squared_elliptic with golden's elliptical footprints as words ([numerics.md](numerics.md), section 4.3), by the model's own unit, each splat elsewhere on the 1/64 pixel
-grid; every weight against golden's, N = 1024, in 1/255 of the splat's peak. Beside it what a circle of the nearest of 16 radius sets makes of the same splats, with
-their energy. Voxels of shells:32 at 128 x 128 in perspective (about 500 of them), and 500 ellipses spread over long half axes of 2 to 32 pixels, ratios to 16 and all
-angles. Off: furthest that the words take q from the ellipse's own, in table entries; law: what section 4.3 allows. q is nowhere negative.
+squared_elliptic draws golden's elliptical footprints as words ([numerics.md](numerics.md), section
+4.3), by the model's own unit, each splat elsewhere on the 1/64 pixel grid. Every weight is compared
+with golden's, N = 1024, in 1/255 of the splat's peak. The columns of circles replace the same
+splats by a circle of the nearest of 16 radius sets, with their energy.
+
+The splats are voxels of shells:32 at 128 x 128 in perspective (about 500 of them), and 500 ellipses
+spread over long half axes of 2 to 32 pixels, ratios to 16 and all angles. Off: furthest that the
+words take q from the ellipse's own, in table entries; law: the limit of section 4.3. q is never
+negative.
 
 | ellipses | splats | aspect to | half axes to | ellipse max | rms | bias | circle max | rms | bias | off | law |
 |---|---|---|---|---|---|---|---|---|---|---|---|
@@ -140,16 +161,19 @@ std::string family_page(const std::vector<FamilyCell>& cells, const std::string&
          ellipse_section(flat) + head +
          R"(## What follows
 
-- Where centres lie matters before anything else: for less than 1/255 rms, s K of about 70, whatever the kind.
-- A table over the distance is as good as one 1.6 times as long over its square (2.5/N against 4/N over a field; of a single splat 1.2/N against
-  4/N), and costs a root and a multiplication a pixel.
-- squared and rlut with as many phases as positions have make the same errors; rlut has all pixels at once for k E words, squared needs none.
-- On a coarse grid exact squared distances fall on the very edges of table steps, half a step from the sample: squared and rlut are then
-  biased, by up to 4/N.
+- The grid of the centres matters before anything else: less than 1/255 rms needs s K of about 70,
+  whatever the kind.
+- A table over the distance is as good as one 1.6 times as long over its square. (2.5/N against 4/N
+  over a field; for a single splat 1.2/N against 4/N.) It costs a root and a multiplication a pixel.
+- squared, and rlut with as many phases as positions have, make the same errors. rlut has all pixels
+  at once for k E words; squared needs none.
+- On a coarse grid exact squared distances fall on the very edges of table steps, half a step from
+  the sample: squared and rlut are then biased, by up to 4/N.
 )" + what_blit_costs() +
-         R"(- Of the head's error, too, the places have nearly all up to K = 64: all kinds' pictures err alike, and no table is too short at 256 entries.
-- Ellipses cost squared two words a set more than circles, and no accuracy: their weights are wrong by the table's steps. Circles in their place are wrong by
-  more the wider the view.
+         R"(- In the head, too, the places cause nearly all of the error up to K = 64. All kinds' pictures err
+  alike, and 256 table entries are always enough.
+- Ellipses cost squared two words a set more than circles, and no accuracy: their weights are wrong
+  by the table's steps. Circles in their place are wrong by more the wider the view.
 )";
 }
 

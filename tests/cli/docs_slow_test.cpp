@@ -1,11 +1,12 @@
-// Every command that README.md, the task pages, the guide, docs/errors.md and docs/plan.md show in a ```console block
-// runs, in the order shown, in one folder per page. A trailing "# exit N" gives its exit code. Lines shown below a
-// command are lines of its output; "..." stands for any text, alone on a line for any lines.
+// Every command that README.md and a page of docs/ show in a ```console block runs, in the order shown, in one folder
+// per page. A trailing "# exit N" gives its exit code. Lines shown below a command are lines of its output; "..."
+// stands for any text, alone on a line for any lines.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "tests/paths.hpp"
@@ -80,15 +81,17 @@ std::string stand_in() {
          "/run' help | grep -q \"^\\./run $verb\" || { echo \"./run knows no $verb\" >&2; exit 1; }\n";
 }
 
-/// The guide's pages but for the reference, which the program writes (reference_test.cpp).
-std::vector<std::string> pages() {
-  std::vector<std::string> all{
-      "README.md",      "docs/verify-rtl.md", "docs/size-a-device.md", "docs/compare-pictures.md",
-      "docs/errors.md", "docs/plan.md"};
-  for (const auto& entry : fs::directory_iterator(FASTSPLAT_SOURCE_DIR "/docs/guide")) {
-    if (entry.path().filename() != "reference.md") all.push_back("docs/guide/" + entry.path().filename().string());
+/// Those that have to show commands, and all others that do.
+std::set<std::string> pages() {
+  std::set<std::string> all{"README.md", "docs/verify-rtl.md", "docs/size-a-device.md", "docs/compare-pictures.md",
+                            "docs/guide/tutorial.md"};
+  const fs::path root = FASTSPLAT_SOURCE_DIR;
+  for (const auto& entry : fs::recursive_directory_iterator(root / "docs")) {
+    const std::string page = fs::relative(entry.path(), root).string();
+    // Commands of integration.md are of another program: tests/examples/system.sh has it.
+    if (page.ends_with(".md") && page != "docs/integration.md" && !commands_in(read_bytes(entry.path())).empty())
+      all.insert(page);
   }
-  std::sort(all.begin(), all.end());
   return all;
 }
 

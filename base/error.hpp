@@ -7,7 +7,7 @@
 
 namespace fastsplat {
 
-/// Exit codes of the command line; they rise with severity (docs/guide.md, "Exit codes").
+/// Exit codes of the command line; they rise with severity (docs/guide/reference.md, "Exit codes").
 enum class ExitCode : int {
   Pass = 0,
   Failed = 1,         ///< a verification or threshold failed

@@ -1,4 +1,4 @@
-// From a voxel's value to colour and opacity; presets and files in TOML (docs/guide.md, "Transfer functions").
+// From a voxel's value to colour and opacity; presets and files in TOML (docs/guide/transfer-functions.md).
 #pragma once
 
 #include <glm/glm.hpp>

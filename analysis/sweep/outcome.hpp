@@ -26,8 +26,8 @@ struct Places {
   std::filesystem::path folder, shared;
 };
 
-/// `ended` is the program's answer where its exit code is one that docs/guide.md gives to answers and its files are
-/// whole.
+/// `ended` is the program's answer where its exit code is one that docs/guide/reference.md gives to answers and its
+/// files are whole.
 Outcome outcome_of(const Step& step, const Ended& ended, const Places& places);
 
 void write_file(const std::filesystem::path& path, const std::string& text);

@@ -1,4 +1,4 @@
-// Parses, calls, maps errors to exit codes (docs/guide.md, "Exit codes").
+// Parses, calls, maps errors to exit codes (docs/guide/reference.md, "Exit codes").
 #include <exception>
 #include <new>
 #include <string>

@@ -21,7 +21,7 @@ void declare(Options& options, CompletionArguments& to) {
   options.positional("SHELL", to.shell, "bash, zsh or fish");
   options.only_values(completion_shells);
   options.example("fastsplat completion bash > fastsplat.bash",
-                  "a script for bash; `source` it, or install it (docs/guide.md)");
+                  "a script for bash; `source` it, or install it (docs/guide/other-systems.md)");
   options.example("fastsplat completion zsh > _fastsplat", "for zsh, in a folder of its fpath");
   options.example("fastsplat completion fish > fastsplat.fish", "for fish, in ~/.config/fish/completions");
 }

@@ -4,6 +4,7 @@
 #include "base/atomic_file.hpp"
 #include "cli/command_line.hpp"
 #include "cli/help/man_page.hpp"
+#include "cli/help/reference_page.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs/verbs.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 
 struct HelpArguments {
   std::vector<std::string> verb;
-  bool man = false;
+  bool man = false, markdown = false;
   std::string pages;  ///< a folder; empty for none
 };
 
@@ -24,14 +25,25 @@ void write_pages(const std::string& folder) {
 
 ExitCode run(const HelpArguments& arguments) {
   if (!arguments.pages.empty()) {
-    if (arguments.man || !arguments.verb.empty()) {
+    if (arguments.man || arguments.markdown || !arguments.verb.empty()) {
       throw_usage({.where = "--man-pages",
                    .what = "all pages are written",
                    .expected = {},
                    .got = {},
-                   .fix = "leave out --man and the verb, or --man-pages"});
+                   .fix = "leave out --man, --markdown and the verb, or --man-pages"});
     }
     write_pages(arguments.pages);
+    return ExitCode::Pass;
+  }
+  if (arguments.markdown) {
+    if (arguments.man || !arguments.verb.empty()) {
+      throw_usage({.where = "--markdown",
+                   .what = "prints all subcommands on one page",
+                   .expected = {},
+                   .got = {},
+                   .fix = "leave out --man and the subcommand, or --markdown"});
+    }
+    write_stdout(reference_page(describe()));
     return ExitCode::Pass;
   }
   if (arguments.man) {
@@ -57,6 +69,7 @@ void declare(Options& options, HelpArguments& to) {
   options.positionals("VERB", to.verb, 0, "a verb, of two words where it has two");
   options.only_values(verb_words);
   options.flag("--man", to.man, "the manual page, in roff: `fastsplat help --man render | man -l -`");
+  options.flag("--markdown", to.markdown, "the reference of all subcommands, in Markdown");
   options.word("--man-pages", to.pages, "FOLDER", "writes all manual pages into a folder that is there");
   options.example("fastsplat help errors bound", "what a verb does, with examples and every flag");
   options.example("fastsplat help --man compare", "its manual page, for man, groff or mandoc");

@@ -1,10 +1,12 @@
-// Every command that README.md, docs/guide.md, docs/errors.md and docs/plan.md show in a ```console block runs and
-// succeeds, in the order shown, in one folder per document. A trailing "# exit N" says that the command is meant to end
-// with N.
+// Every command that README.md and a page of docs/ show in a ```console block runs, in the order shown, in one folder
+// per page. A trailing "# exit N" gives its exit code. Lines shown below a command are lines of its output; "..."
+// stands for any text, alone on a line for any lines.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "tests/paths.hpp"
@@ -13,10 +15,13 @@
 namespace fastsplat::cli_test {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct Shown {
   std::string command;
   int line;
   int code = 0;
+  std::vector<std::string> output{};
 };
 
 std::vector<Shown> commands_in(const std::string& text) {
@@ -36,9 +41,32 @@ std::vector<Shown> commands_in(const std::string& text) {
     } else if (inside && !shown.empty() && shown.back().command.ends_with("\\")) {
       shown.back().command.pop_back();
       shown.back().command += line;
+    } else if (inside && !shown.empty() && line != "...") {
+      shown.back().output.push_back(line);
     }
   }
   return shown;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// Whether `line` is `shown`, in which "..." stands for any text.
+bool matches(const std::string& line, std::string_view shown) {
+  std::size_t at = 0;
+  for (bool first = true;; first = false) {
+    const auto gap = shown.find("...");
+    const std::string_view part = shown.substr(0, gap);
+    const auto found = gap == shown.npos && !first ? line.rfind(part) : line.find(part, at);
+    if (found == line.npos || found < at || (first && found != 0)) return false;
+    at = found + part.size();
+    if (gap == shown.npos) return at == line.size();
+    shown.remove_prefix(gap + 3);
+  }
 }
 
 // Stands in for ./run: `fastsplat` goes to this build's program; a verb that would build or test again must be one that
@@ -53,47 +81,87 @@ std::string stand_in() {
          "/run' help | grep -q \"^\\./run $verb\" || { echo \"./run knows no $verb\" >&2; exit 1; }\n";
 }
 
-class Documents : public ::testing::TestWithParam<const char*> {};
+/// Those that have to show commands, and all others that do.
+std::set<std::string> pages() {
+  std::set<std::string> all{"README.md", "docs/verify-rtl.md", "docs/size-a-device.md", "docs/compare-pictures.md",
+                            "docs/guide/tutorial.md"};
+  const fs::path root = FASTSPLAT_SOURCE_DIR;
+  for (const auto& entry : fs::recursive_directory_iterator(root / "docs")) {
+    const std::string page = fs::relative(entry.path(), root).string();
+    // Commands of integration.md are of another program: tests/examples/system.sh has it.
+    if (page.ends_with(".md") && page != "docs/integration.md" && !commands_in(read_bytes(entry.path())).empty())
+      all.insert(page);
+  }
+  return all;
+}
+
+/// Without the scans of mricron-data, and so without the output shown.
+std::string with_built_in_scan(const std::string& command) {
+  return std::regex_replace(command, std::regex(R"(\bch2(bet)?\b)"), "shells:48");
+}
+
+class Documents : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Documents, ShowCommandsThatRun) {
-  const auto shown = commands_in(read_bytes(std::filesystem::path(FASTSPLAT_SOURCE_DIR) / GetParam()));
+  const auto shown = commands_in(read_bytes(fs::path(FASTSPLAT_SOURCE_DIR) / GetParam()));
   const TempFolder folder;
   folder.write("run", stand_in());
-  std::filesystem::permissions(folder / "run", std::filesystem::perms::owner_all);
+  fs::permissions(folder / "run", fs::perms::owner_all);
   const bool scans =
       fastsplat({"volume", "info", "ch2bet"}).code == 0 && fastsplat({"volume", "info", "ch2"}).code == 0;
-  int ran = 0, skipped = 0;
-  for (const auto& [command, line, code] : shown) {
-    SCOPED_TRACE(std::string(GetParam()) + ":" + std::to_string(line) + ": " + command);
+  const bool page_of_scans = !scans && std::any_of(shown.begin(), shown.end(), [](const Shown& one) {
+    return one.command != with_built_in_scan(one.command);
+  });
+  int ran = 0, compared = 0;
+  for (const auto& [command, line, code, output] : shown) {
+    SCOPED_TRACE(GetParam() + ":" + std::to_string(line) + ": " + command);
     if (command.starts_with("git ") || command.starts_with("cd ") || command.starts_with("sudo ") ||
         command.starts_with("apt"))
       continue;
-    if (!scans && command.find("ch2") != std::string::npos) {
-      ++skipped;
-      continue;
-    }
     Surroundings here;
     here.folder = folder.path();
-    here.environment = {"PATH=" + std::filesystem::path(program()).parent_path().string() + ":" + std::getenv("PATH")};
-    const auto result = run_words({"sh", "-c", command}, here);
+    here.environment = {"PATH=" + fs::path(program()).parent_path().string() + ":" + std::getenv("PATH")};
+    const auto result = run_words({"sh", "-c", scans ? command : with_built_in_scan(command)}, here);
     EXPECT_FALSE(result.timed_out);
     EXPECT_EQ(result.code, code) << result.out << result.err;
     ++ran;
+    if (page_of_scans) continue;
+    const auto printed = lines_of(result.out + result.err);
+    for (const std::string& expected : output) {
+      EXPECT_TRUE(std::any_of(printed.begin(), printed.end(),
+                              [&](const std::string& actual) { return matches(actual, expected); }))
+          << "the page shows\n"
+          << expected << "\nthe command printed\n"
+          << result.out << result.err;
+      ++compared;
+    }
   }
-  std::printf("[figure] %s commands = %d (limit > 0)%s\n", GetParam(), ran,
-              skipped > 0 ? ", those on mricron-data's scans skipped: package not installed" : "");
+  std::printf("[figure] %s: commands = %d (limit > 0), lines of output = %d%s\n", GetParam().c_str(), ran, compared,
+              page_of_scans ? "; shells:48 instead of mricron-data's scans: package not installed" : "");
   ASSERT_GT(ran, 0) << "nothing was checked";
 }
 
-INSTANTIATE_TEST_SUITE_P(Cli, Documents,
-                         ::testing::Values("README.md", "docs/guide.md", "docs/errors.md", "docs/plan.md"));
+INSTANTIATE_TEST_SUITE_P(Cli, Documents, ::testing::ValuesIn(pages()), [](const auto& page) {
+  return std::regex_replace(page.param, std::regex("[^A-Za-z0-9]"), "_");
+});
 
 TEST(DocumentsMustFail, FindTheCommands) {
   const auto shown = commands_in("x\n```console\n$ a b \\\n  c\noutput\n$ d  # exit 3\n```\n$ e\n```sh\n$ f\n```\n");
   ASSERT_EQ(shown.size(), 2u);
   EXPECT_EQ(shown[0].command, "a b   c");
   EXPECT_EQ(shown[1].code, 3);
+  EXPECT_EQ(shown[0].output, std::vector<std::string>{"output"});
   EXPECT_EQ(shown[1].line, 6);
+}
+
+TEST(DocumentsMustFail, SeeOutputThatDiffers) {
+  EXPECT_TRUE(matches("pass: 12 splats in 3.4 s", "pass: 12 splats in ... s"));
+  EXPECT_TRUE(matches("pass: 12 splats", "pass: 12 splats"));
+  EXPECT_TRUE(matches("a b a b", "a ... b"));
+  EXPECT_FALSE(matches("pass: 12 splats", "pass: 13 splats"));
+  EXPECT_FALSE(matches("pass: 12 splats", "pass: 12"));
+  EXPECT_FALSE(matches("pass: 12 splats", "12 splats"));
+  EXPECT_FALSE(matches("a b c", "a ... b"));
 }
 
 }  // namespace

@@ -199,6 +199,9 @@ TEST(Manual, APageAsItIsPrinted) {
     EXPECT_NE(told.out.find(part), std::string::npos) << part;
   expect_error(fastsplat({"help", "--man", "redner"}), 2, {"did you mean 'render'"});
   expect_error(fastsplat({"help", "--man-pages", "/nonexistent"}), 3, {"/nonexistent"});
+  for (const Words& command : {Words{"help", "--markdown", "render"}, Words{"help", "--markdown", "--man"},
+                               Words{"help", "--markdown", "--man-pages", "."}})
+    expect_error(fastsplat(command), 2, {"--markdown"});
   expect_error(fastsplat({"completion", "tcsh"}), 2, {"bash, zsh or fish"});
 }
 

@@ -116,7 +116,7 @@ TEST(Camera, ZoomBringsTheEyeNearerAndKeepsTheFieldOfView) {
   EXPECT_NEAR(corner(one), corner(two), 1e-14);
 }
 
-// The formulas that docs/guide.md gives to those who know VTK.
+// The formulas that docs/guide/vtk.md gives.
 TEST(Camera, IsWhatTheGuideSaysToAVtkCamera) {
   const double a = 37.0 * M_PI / 180.0, e = -21.0 * M_PI / 180.0, zoom = 1.7;
   const Camera camera = make({.azimuth = 37.0, .elevation = -21.0, .zoom = zoom});

@@ -123,7 +123,8 @@ Json entry(const Picture& picture, const Encoded& one, const std::string& id, st
     json["crop"] = {
         {"x", picture.x0}, {"y", picture.y0}, {"full_width", picture.full_width}, {"full_height", picture.full_height}};
   }
-  for (const char* key : {"config", "config_hash", "engine", "method", "volume"}) {
+  if (!picture.ties.empty()) json["compared"] = picture.ties;
+  for (const char* key : {"config", "config_hash", "engine", "method", "volume", "scene"}) {
     if (const auto text = metadata_of(picture, key); !text.empty()) json[key] = text;
   }
   return json;
@@ -131,8 +132,10 @@ Json entry(const Picture& picture, const Encoded& one, const std::string& id, st
 
 bool seen_together(const Picture& a, const Picture& b) {
   if (!scene_of(a).empty() && scene_of(a) == scene_of(b)) return true;
-  return std::any_of(a.ties.begin(), a.ties.end(),
-                     [&](const auto& tie) { return std::find(b.ties.begin(), b.ties.end(), tie) != b.ties.end(); });
+  const auto place = [](const std::string& tie) { return tie.substr(0, tie.find('.')); };
+  return std::any_of(a.ties.begin(), a.ties.end(), [&](const auto& tie) {
+    return std::any_of(b.ties.begin(), b.ties.end(), [&](const auto& other) { return place(tie) == place(other); });
+  });
 }
 
 /// Numbers of groups, from 0 in the order of the first picture of each: pictures of one scene, or of one compare, and

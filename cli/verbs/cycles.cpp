@@ -76,6 +76,7 @@ struct Counts {
 
 struct CyclesResult {
   std::string scene;                   ///< its summary; empty for a stream
+  std::string stream;                  ///< its file; empty for a scene
   std::optional<double> hidden_share;  ///< of a scene's splats, see hidden_share()
   cmodel::Config config;
   std::string input, ready;  ///< patterns
@@ -171,6 +172,7 @@ Json to_json(const CyclesResult& result) {
   const auto& [account, stalls, counters, idle, end] = result.counts;
   Json json{{"verb", "cycles"},
             {"version", program_version()},
+            {result.stream.empty() ? "scene" : "stream", result.stream.empty() ? result.scene : result.stream},
             {"config", priced_config_json(result.config)},
             {"input", result.input},
             {"ready", result.ready},
@@ -267,6 +269,7 @@ ExitCode run(const CyclesArguments& arguments) {
     options.fetch = cmodel::Fetch{static_cast<std::uint64_t>(arguments.fetch)};
 
   CyclesResult result{.scene = {},
+                      .stream = arguments.stream,
                       .hidden_share = {},
                       .config = config,
                       .input = arguments.input,

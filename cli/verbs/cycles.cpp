@@ -77,6 +77,7 @@ struct Counts {
 struct CyclesResult {
   std::string scene;                   ///< its summary; empty for a stream
   std::string stream;                  ///< its file; empty for a scene
+  cmodel::BeginFrame header;           ///< of a stream
   std::optional<double> hidden_share;  ///< of a scene's splats, see hidden_share()
   cmodel::Config config;
   std::string input, ready;  ///< patterns
@@ -186,6 +187,7 @@ Json to_json(const CyclesResult& result) {
             {"actual_to_ideal", ratio(stalls.busy, account.ideal)},
             {"utilisation", ratio(counters.windows, stalls.busy)},
             {"splats_per_cycle", ratio(counters.splats, stalls.busy)}};
+  if (!result.stream.empty()) json.update({{"width", result.header.width}, {"height", result.header.height}});
   if (result.culls) {
     json["culls"] = {{"sets_tested", result.culls->set_tests},
                      {"sets_hidden", result.culls->hidden_sets},
@@ -270,6 +272,7 @@ ExitCode run(const CyclesArguments& arguments) {
 
   CyclesResult result{.scene = {},
                       .stream = arguments.stream,
+                      .header = {},
                       .hidden_share = {},
                       .config = config,
                       .input = arguments.input,
@@ -304,7 +307,7 @@ ExitCode run(const CyclesArguments& arguments) {
     }
     ProgressBar bar("cycles", watching(arguments.common));
     const auto device = make(cmodel::StreamScope::Whole);
-    driver::feed_stream(arguments.stream, *device, {.threads = 1, .progress = bar.callback()});
+    result.header = driver::feed_stream(arguments.stream, *device, {.threads = 1, .progress = bar.callback()});
     take(*device);
   } else {
     const auto scene = build(arguments.scene);

@@ -8,6 +8,7 @@
 
 #include "cmodel/stream/beat.hpp"
 #include "cmodel/stream/device.hpp"
+#include "cmodel/stream/records.hpp"
 #include "driver/tiles/render.hpp"
 
 namespace fastsplat::driver {
@@ -32,8 +33,9 @@ GaussianReport record_stream(const GaussianFrame& frame, const std::filesystem::
 DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Config& config,
                            const RenderOptions& options = {});
 
-/// The same to any device that checks its stream, whatever it does with it; finishes the device.
-void feed_stream(const std::filesystem::path& path, cmodel::Device& device, const RenderOptions& options = {});
+/// The same to any device that checks its stream, whatever it does with it; finishes the device. Returns the header.
+cmodel::BeginFrame feed_stream(const std::filesystem::path& path, cmodel::Device& device,
+                               const RenderOptions& options = {});
 
 /// The file's beats in order, some thousands at a time, contents unchecked. What the sink finds wrong at a beat is told
 /// with the file's name.

@@ -46,6 +46,8 @@ TEST(Cycles, AddUpAndAreTheSameForSceneAndStream) {
   EXPECT_NE(json::parse(from_scene.out)["scene"].get<std::string>().find(" pixels"), std::string::npos)
       << from_scene.out;
   EXPECT_EQ(json::parse(from_stream.out)["stream"], folder / "s.fss");
+  const auto width = std::to_string(json::parse(from_stream.out)["width"].get<int>());
+  EXPECT_NE(json::parse(from_scene.out)["scene"].get<std::string>().find(" " + width + "x"), std::string::npos);
   EXPECT_EQ(json::parse(recorded.out)["scene"], json::parse(from_scene.out)["scene"]);
   const auto a = json::parse(from_scene.out)["cycles"], b = json::parse(from_stream.out)["cycles"];
   EXPECT_GT(a["actual"].get<std::uint64_t>(), 0U);

@@ -158,6 +158,22 @@ TEST_F(Pictures, TellWhichSideOfWhichCompareTheyAre) {
   EXPECT_EQ(data["pictures"][0]["group"], data["pictures"][1]["group"]) << "pictures of one compare are seen together";
 }
 
+/// A scene of Gaussians is no volume's: the two are not to be compared, nor two views of one cloud.
+TEST_F(Pictures, OfGaussiansAreAGroupByTheirView) {
+  const auto cloud = [&](const char* name, const char* view, unsigned seed) {
+    return named("golden",
+                 exr(name, noise(8, seed), {{"gaussians", "built-in"}, {"content_hash", "1"}, {"view", view}}));
+  };
+  const Pages pages =
+      fit(load_album({named("golden", exr("volume.exr", noise(8, 11), {{"scene", "s"}})), cloud("a.exr", "front", 12),
+                      cloud("b.exr", "front", 13), cloud("c.exr", "side", 14)}),
+          {}, 1000000);
+  std::vector<int> groups;
+  for (const Json& entry : pages.entries) groups.push_back(entry["group"].get<int>());
+  EXPECT_EQ(groups, (std::vector{0, 1, 1, 2}));
+  EXPECT_EQ(pages.entries[1]["gaussians"], "built-in");
+}
+
 TEST_F(Pictures, OfTheUserMustBeThereAndHaveARole) {
   EXPECT_THROW(load_album({picture_from("golden=" + (folder_ / "none.exr").string())}), UserError);
   for (const std::string bad : {"golden.exr", "=a.exr", "golden=", "Golden=a.exr", "a b=c"})

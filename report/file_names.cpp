@@ -109,14 +109,21 @@ Json each_text(const Json& json, const std::function<std::string(const std::stri
   return out;
 }
 
+/// One folder in a command and elsewhere: without a shell's quotes within quotes.
+std::string plain(std::string_view folder) {
+  std::string text(folder);
+  for (auto at = text.find("'\\''"); at != std::string::npos; at = text.find("'\\''", at + 1)) text.replace(at, 4, "'");
+  return text;
+}
+
 /// What stands for each folder: nothing, or a number where its files' names occur in another, too.
 class Folders {
  public:
   void meet(std::string_view path) {
-    const auto [folder, name] = split(path);
-    if (!label_.contains(std::string(folder))) order_.emplace_back(folder);
-    label_[std::string(folder)];
-    names_[std::string(name)].emplace(folder);
+    const auto [raw, name] = split(path);
+    const std::string folder = plain(raw);
+    if (label_.try_emplace(folder).second) order_.push_back(folder);
+    names_[std::string(name)].insert(folder);
   }
 
   void number() {
@@ -130,7 +137,7 @@ class Folders {
 
   std::string shown(std::string_view path) const {
     const auto [folder, name] = split(path);
-    const auto label = label_.find(std::string(folder));
+    const auto label = label_.find(plain(folder));
     return (label == label_.end() ? "" : label->second) + std::string(name);
   }
 

@@ -62,6 +62,14 @@ TEST(FileNames, EqualNamesOfTwoFoldersAreToldApart) {
   EXPECT_EQ(cut["test"], "folder-2/out.exr");
 }
 
+/// A shell's quotes within quotes are no other folder.
+TEST(FileNames, AFolderIsOneInACommandAndElsewhere) {
+  const Json data{{"command", "fastsplat compare '/home/O'\\''Neil/a.exr' '/home/O'\\''Neil/b.exr'"},
+                  {"file", "/home/O'Neil/b.exr"}};
+  EXPECT_EQ(without_folders(data)["command"], "fastsplat compare 'a.exr' 'b.exr'");
+  EXPECT_EQ(without_folders(data)["file"], "b.exr");
+}
+
 /// A message does not quote its files; other texts tell where such a path ends.
 TEST(FileNames, FoldersWithBlanksLeaveMessagesToo) {
   const Json data{{"file", "/home/jane doe/a.exr"}, {"remark", "cannot open /home/jane doe/b.exr: no such file"}};

@@ -482,6 +482,22 @@ test("no panel is wider than the page, and no two parts of one overlap", async (
   assert.ok(parts >= 300);
 });
 
+test("a name without blanks is broken, not the page", async () => {
+  const long = `${"a_name_that_goes_on_and_on_".repeat(6)}.nii.gz`;
+  const [golden, cycles, errors] = ["golden", "cycles", "errors"].map((name) => JSON.parse(readFileSync(place(`${name}.json`), "utf8")));
+  save("long-golden.json", { ...golden, scene: { ...golden.scene, volume: long, toml: golden.scene.toml.replace("shells:24", long) } });
+  save("long-cycles.json", { ...cycles, scene: cycles.scene.replace("shells:24", long) });
+  save("long-errors.json", { ...errors, scene: errors.scene.replace("shells:24", long), remedy: { ...errors.remedy, changes: long } });
+  for (const width of [320, 390, 1280]) {
+    const page = await open(report("long-names", ["long-golden.json", "long-cycles.json", "long-errors.json"]), { width });
+    assert.ok((await page.textContent("h1")).includes(long));
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+    figure(`width of a page with long names at ${width}`, wide, width);
+    assert.ok(wide <= width);
+    await page.finish();
+  }
+});
+
 test("text is drawn with a font, dark is dark, and the button turns it round", async () => {
   const page = await open(all, { theme: "dark" });
   const session = await page.context().newCDPSession(page);

@@ -21,8 +21,12 @@ std::string metadata_of(const Picture& picture, const char* key) {
   return found == picture.metadata.end() ? std::string{} : found->second;
 }
 
-/// What can be looked at in one viewer: pictures of one scene.
-std::string scene_of(const Picture& picture) { return metadata_of(picture, "scene"); }
+/// What can be looked at in one viewer: pictures of one scene. 3-D Gaussians have a view instead.
+std::string scene_of(const Picture& picture) {
+  if (metadata_of(picture, "gaussians").empty()) return metadata_of(picture, "scene");
+  return fmt::format("{} {}x{} {}", metadata_of(picture, "content_hash"), picture.full_width, picture.full_height,
+                     metadata_of(picture, "view"));
+}
 
 bool is_better(const Picture& a, const Picture& b) {
   const auto rank = [](const Picture& p) { return p.display ? 0 : p.int_bits >= 0 || p.kind == "raw words" ? 2 : 1; };
@@ -123,7 +127,8 @@ Json entry(const Picture& picture, const Encoded& one, const std::string& id, st
     json["crop"] = {
         {"x", picture.x0}, {"y", picture.y0}, {"full_width", picture.full_width}, {"full_height", picture.full_height}};
   }
-  for (const char* key : {"config", "config_hash", "engine", "method", "volume"}) {
+  if (!picture.ties.empty()) json["compared"] = picture.ties;
+  for (const char* key : {"config", "config_hash", "engine", "method", "volume", "scene", "gaussians"}) {
     if (const auto text = metadata_of(picture, key); !text.empty()) json[key] = text;
   }
   return json;
@@ -131,8 +136,10 @@ Json entry(const Picture& picture, const Encoded& one, const std::string& id, st
 
 bool seen_together(const Picture& a, const Picture& b) {
   if (!scene_of(a).empty() && scene_of(a) == scene_of(b)) return true;
-  return std::any_of(a.ties.begin(), a.ties.end(),
-                     [&](const auto& tie) { return std::find(b.ties.begin(), b.ties.end(), tie) != b.ties.end(); });
+  const auto place = [](const std::string& tie) { return tie.substr(0, tie.find('.')); };
+  return std::any_of(a.ties.begin(), a.ties.end(), [&](const auto& tie) {
+    return std::any_of(b.ties.begin(), b.ties.end(), [&](const auto& other) { return place(tie) == place(other); });
+  });
 }
 
 /// Numbers of groups, from 0 in the order of the first picture of each: pictures of one scene, or of one compare, and

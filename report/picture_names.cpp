@@ -52,14 +52,14 @@ std::string role_of_engine(const std::string& engine) {
 
 std::vector<NamedPicture> pictures_of(const Result& result) {
   std::vector<NamedPicture> pictures;
-  const std::string tie = result.verb == "compare" ? result.file.string() : "";
-  const auto add = [&](const std::string& name, const std::string& role, const std::string& otherwise) {
+  const auto add = [&](const std::string& name, const std::string& role, const std::string& otherwise,
+                       const std::string& tie = {}) {
     if (!name.empty())
       pictures.push_back({.role = role, .file = found(result, name), .otherwise = otherwise, .tie = tie});
   };
   if (result.verb == "compare") {
-    add(text_at(result.json, "/ref/file"), "", "reference");
-    add(text_at(result.json, "/test/file"), "", "test");
+    add(text_at(result.json, "/ref/file"), "", "reference", "ref");
+    add(text_at(result.json, "/test/file"), "", "test", "test");
   } else if (result.verb == "render") {
     add(best_of(result.json), role_of_engine(text_at(result.json, "/engine")), "picture");
   } else if (result.verb == "stream replay") {

@@ -14,7 +14,9 @@ struct NamedPicture {
   std::filesystem::path file;  ///< where it is
   std::string otherwise;       ///< role of a file that does not tell
   bool wanted = false;         ///< the user asked for it: that it is missing is an error
-  std::string tie = {};        ///< pictures of one tie are seen together: those of one compare; empty for none
+  /// "ref" or "test" of a compare, empty of others; in a report behind the result's place: "0.ref". Pictures of one
+  /// compare are seen together.
+  std::string tie = {};
 };
 
 /// The files a result names, one of each picture: raw words rather than .exr, .exr rather than .tif, that rather than

@@ -5,6 +5,7 @@
 #include "base/json_text.hpp"
 #include "base/version.hpp"
 #include "report/album.hpp"
+#include "report/file_names.hpp"
 #include "report/page.hpp"
 
 namespace fastsplat::report {
@@ -50,17 +51,19 @@ Json page_data(const std::vector<Result>& results) {
 
 Report make_report(const Request& request) {
   std::vector<NamedPicture> named;
-  for (const Result& result : request.results) {
-    const auto more = pictures_of(result);
-    named.insert(named.end(), more.begin(), more.end());
+  for (std::size_t i = 0; i < request.results.size(); ++i) {
+    for (NamedPicture& one : pictures_of(request.results[i])) {
+      if (!one.tie.empty()) one.tie = std::to_string(i) + "." + one.tie;
+      named.push_back(std::move(one));
+    }
   }
   named.insert(named.end(), request.pictures.begin(), request.pictures.end());
   const Album album = load_album(named);
 
   Json data = page_data(request.results);
   const std::size_t text = filled(page_template(), json_text(data, -1), {}).size();
-  // What describes a picture: a thousand bytes are more than it takes.
-  const std::size_t others = text + 1000 * album.pictures.size();
+  // What describes a picture, its scene above all: three thousand bytes are more than it takes.
+  const std::size_t others = text + 3000 * album.pictures.size();
   const Pages pages =
       fit(album, focus_of(request.results, album), request.most_bytes - std::min(request.most_bytes, others));
 
@@ -69,7 +72,7 @@ Report make_report(const Request& request) {
   report.remarks.insert(report.remarks.end(), pages.remarks.begin(), pages.remarks.end());
   data["pictures"] = pages.entries;
   data["remarks"] = report.remarks;
-  report.html = filled(page_template(), json_text(data, -1), pages.blocks);
+  report.html = filled(page_template(), json_text(without_folders(data), -1), pages.blocks);
   if (const auto verdicts = verdicts_of(request.results); !verdicts.empty()) report.verdict = verdict_of(verdicts);
   report.pictures = pages.entries.size();
   return report;

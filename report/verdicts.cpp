@@ -87,8 +87,11 @@ Verdict render(const Figures& f) {
   const std::string engine = f.text("engine");
   if (const Json* frames = f.find("frames"))
     return {Status::Measured, fmt::format("{} by the {} engine", counted(frames->size(), "frame"), engine)};
-  return {Status::Measured, fmt::format("{} x {} pixels by the {} engine, {}", f.count("scene/width"),
-                                        f.count("scene/height"), engine, f.text("scene/volume"))};
+  const bool gaussians = f.find("gaussians") != nullptr;
+  const std::string scene = gaussians ? "gaussians/" : "scene/";
+  return {Status::Measured,
+          fmt::format("{} x {} pixels by the {} engine, {}", f.count(scene + "width"), f.count(scene + "height"),
+                      engine, f.text(scene + (gaussians ? "name" : "volume")))};
 }
 
 Verdict replay(const Figures& f) {

@@ -76,6 +76,8 @@ struct Counts {
 
 struct CyclesResult {
   std::string scene;                   ///< its summary; empty for a stream
+  std::string stream;                  ///< its file; empty for a scene
+  cmodel::BeginFrame header;           ///< of a stream
   std::optional<double> hidden_share;  ///< of a scene's splats, see hidden_share()
   cmodel::Config config;
   std::string input, ready;  ///< patterns
@@ -171,6 +173,7 @@ Json to_json(const CyclesResult& result) {
   const auto& [account, stalls, counters, idle, end] = result.counts;
   Json json{{"verb", "cycles"},
             {"version", program_version()},
+            {result.stream.empty() ? "scene" : "stream", result.stream.empty() ? result.scene : result.stream},
             {"config", priced_config_json(result.config)},
             {"input", result.input},
             {"ready", result.ready},
@@ -184,6 +187,7 @@ Json to_json(const CyclesResult& result) {
             {"actual_to_ideal", ratio(stalls.busy, account.ideal)},
             {"utilisation", ratio(counters.windows, stalls.busy)},
             {"splats_per_cycle", ratio(counters.splats, stalls.busy)}};
+  if (!result.stream.empty()) json.update({{"width", result.header.width}, {"height", result.header.height}});
   if (result.culls) {
     json["culls"] = {{"sets_tested", result.culls->set_tests},
                      {"sets_hidden", result.culls->hidden_sets},
@@ -267,6 +271,8 @@ ExitCode run(const CyclesArguments& arguments) {
     options.fetch = cmodel::Fetch{static_cast<std::uint64_t>(arguments.fetch)};
 
   CyclesResult result{.scene = {},
+                      .stream = arguments.stream,
+                      .header = {},
                       .hidden_share = {},
                       .config = config,
                       .input = arguments.input,
@@ -301,7 +307,7 @@ ExitCode run(const CyclesArguments& arguments) {
     }
     ProgressBar bar("cycles", watching(arguments.common));
     const auto device = make(cmodel::StreamScope::Whole);
-    driver::feed_stream(arguments.stream, *device, {.threads = 1, .progress = bar.callback()});
+    result.header = driver::feed_stream(arguments.stream, *device, {.threads = 1, .progress = bar.callback()});
     take(*device);
   } else {
     const auto scene = build(arguments.scene);

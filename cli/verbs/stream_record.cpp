@@ -60,6 +60,7 @@ std::string to_text(const StreamRecordResult& result) {
 Json to_json(const StreamRecordResult& result) {
   Json json{{"verb", "stream record"},
             {"version", program_version()},
+            {"scene", result.scene},
             {"stream", result.stream},
             {"config", config_identity_json(result.config)}};
   json.update(cli::to_json(result.driver));
@@ -88,6 +89,7 @@ ExitCode record_gaussians(const StreamRecordArguments& arguments, const cmodel::
   output.remark(remarks(*scene.cloud));
   output.json(Json{{"verb", "stream record"},
                    {"version", program_version()},
+                   {"scene", summary(scene)},
                    {"stream", arguments.out},
                    {"config", config_identity_json(config)},
                    {"driver", {{"records", report.records}, {"in_tiles", report.in_tiles}, {"tiles", report.tiles}}}});

@@ -310,9 +310,13 @@ DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Conf
   return out;
 }
 
-void feed_stream(const std::filesystem::path& path, cmodel::Device& device, const RenderOptions& options) {
+cmodel::BeginFrame feed_stream(const std::filesystem::path& path, cmodel::Device& device,
+                               const RenderOptions& options) {
   Reader reader(path);
-  feed(reader, path, device, options, [](const Beat&) {});
+  cmodel::BeginFrame header;
+  feed(reader, path, device, options,
+       [&](const Beat& first) { header = std::get<cmodel::BeginFrame>(cmodel::from_beat(first)); });
+  return header;
 }
 
 void read_beats(const std::filesystem::path& path, const cmodel::BeatSink& sink) {

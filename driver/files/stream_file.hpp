@@ -8,6 +8,7 @@
 
 #include "cmodel/stream/beat.hpp"
 #include "cmodel/stream/device.hpp"
+#include "cmodel/stream/records.hpp"
 #include "driver/tiles/render.hpp"
 
 namespace fastsplat::driver {
@@ -33,8 +34,9 @@ GaussianReport record_stream(const GaussianFrame& frame, const std::filesystem::
 DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Config& config,
                            const RenderOptions& options = {});
 
-/// The same for any device that checks its stream; finishes the device.
-void feed_stream(const std::filesystem::path& path, cmodel::Device& device, const RenderOptions& options = {});
+/// The same for any device that checks its stream; finishes the device. Returns the header.
+cmodel::BeginFrame feed_stream(const std::filesystem::path& path, cmodel::Device& device,
+                               const RenderOptions& options = {});
 
 /// Passes the file's beats to the sink in order, some thousands at a time, contents unchecked. Errors that the sink
 /// reports at a beat get the file's name.

@@ -28,8 +28,9 @@ TEST(Cycles, AddUpAndAreTheSameForSceneAndStream) {
   const std::vector<std::string> channel{"--input", "random-70", "--ready", "burst-9", "--json", "-"};
   auto words = scene;
   words.insert(words.begin(), {"stream", "record"});
-  words.insert(words.end(), {"-o", folder / "s.fss"});
-  expect_success(fastsplat(words));
+  words.insert(words.end(), {"-o", folder / "s.fss", "--json", "-"});
+  const auto recorded = fastsplat(words);
+  expect_success(recorded);
 
   words = scene;
   words.insert(words.begin(), "cycles");
@@ -41,6 +42,13 @@ TEST(Cycles, AddUpAndAreTheSameForSceneAndStream) {
   expect_success(from_scene);
   expect_success(from_stream);
 
+  // Of what the figures are, for those who read the JSON only.
+  EXPECT_NE(json::parse(from_scene.out)["scene"].get<std::string>().find(" pixels"), std::string::npos)
+      << from_scene.out;
+  EXPECT_EQ(json::parse(from_stream.out)["stream"], folder / "s.fss");
+  const auto width = std::to_string(json::parse(from_stream.out)["width"].get<int>());
+  EXPECT_NE(json::parse(from_scene.out)["scene"].get<std::string>().find(" " + width + "x"), std::string::npos);
+  EXPECT_EQ(json::parse(recorded.out)["scene"], json::parse(from_scene.out)["scene"]);
   const auto a = json::parse(from_scene.out)["cycles"], b = json::parse(from_stream.out)["cycles"];
   EXPECT_GT(a["actual"].get<std::uint64_t>(), 0U);
   EXPECT_EQ(sum_of(a["account"]), a["actual"].get<std::uint64_t>());

@@ -121,6 +121,59 @@ TEST_F(Pictures, AResultsPicturesAreFoundBesideIt) {
   EXPECT_NE(album.missing[0].find("gone.exr"), std::string::npos);
 }
 
+/// Two files of one name: which is the reference is told by the compare's place, not by the name.
+TEST_F(Pictures, TellWhichSideOfWhichCompareTheyAre) {
+  std::filesystem::create_directory(folder_ / "a");
+  std::filesystem::create_directory(folder_ / "b");
+  const std::string ref = exr("a/out.exr", noise(8, 9)), test = exr("b/out.exr", noise(8, 10));
+  const Json compare{{"verb", "compare"},
+                     {"verdict", "pass"},
+                     {"identical", false},
+                     {"psnr_db", 40.0},
+                     {"max_abs_lsb", 1.0},
+                     {"ref", {{"file", ref}}},
+                     {"test", {{"file", test}}},
+                     {"percentiles_lsb", Json::object()},
+                     {"floor", Json::object()},
+                     {"histogram", Json::array()},
+                     {"clusters", Json::array()},
+                     {"limits", Json::array()},
+                     {"width", 8u},
+                     {"height", 8u},
+                     {"lsb_bits", 8u}};
+  const Json other{{"verb", "stream record"}, {"stream", "s.fss"}};
+  const std::string html =
+      make_report({.results = {{folder_ / "s.json", "stream record", other}, {folder_ / "c.json", "compare", compare}},
+                   .pictures = {}})
+          .html;
+  const std::string mark = "id=\"data\">";
+  const auto from = html.find(mark) + mark.size();
+  const Json data = Json::parse(html.substr(from, html.find("</script>", from) - from));
+  ASSERT_EQ(data["pictures"].size(), 2u);
+  EXPECT_EQ(data["pictures"][0]["compared"], Json::array({"1.ref"}));
+  EXPECT_EQ(data["pictures"][1]["compared"], Json::array({"1.test"}));
+  EXPECT_EQ(data["pictures"][0]["from"], data["results"][1]["ref"]["file"]);
+  EXPECT_EQ(data["pictures"][1]["from"], data["results"][1]["test"]["file"]);
+  EXPECT_NE(data["pictures"][0]["from"], data["pictures"][1]["from"]);
+  EXPECT_EQ(data["pictures"][0]["group"], data["pictures"][1]["group"]) << "pictures of one compare are seen together";
+}
+
+/// A scene of Gaussians is no volume's: the two are not to be compared, nor two views of one cloud.
+TEST_F(Pictures, OfGaussiansAreAGroupByTheirView) {
+  const auto cloud = [&](const char* name, const char* view, unsigned seed) {
+    return named("golden",
+                 exr(name, noise(8, seed), {{"gaussians", "built-in"}, {"content_hash", "1"}, {"view", view}}));
+  };
+  const Pages pages =
+      fit(load_album({named("golden", exr("volume.exr", noise(8, 11), {{"scene", "s"}})), cloud("a.exr", "front", 12),
+                      cloud("b.exr", "front", 13), cloud("c.exr", "side", 14)}),
+          {}, 1000000);
+  std::vector<int> groups;
+  for (const Json& entry : pages.entries) groups.push_back(entry["group"].get<int>());
+  EXPECT_EQ(groups, (std::vector{0, 1, 1, 2}));
+  EXPECT_EQ(pages.entries[1]["gaussians"], "built-in");
+}
+
 TEST_F(Pictures, OfTheUserMustBeThereAndHaveARole) {
   EXPECT_THROW(load_album({picture_from("golden=" + (folder_ / "none.exr").string())}), UserError);
   for (const std::string bad : {"golden.exr", "=a.exr", "golden=", "Golden=a.exr", "a b=c"})

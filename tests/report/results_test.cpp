@@ -69,6 +69,16 @@ TEST_F(Results, VerifyTellsWhatWasComparedOrThatNothingWas) {
   EXPECT_EQ(verdict(json).status, Status::Error);
 }
 
+/// Of 3-D Gaussians there is no scene with a volume: such a result was taken for a damaged one.
+TEST_F(Results, RendersOfVolumesAndOfGaussiansTellTheirSize) {
+  Json json{
+      {"verb", "render"}, {"engine", "golden"}, {"scene", {{"volume", "shells:8"}, {"width", 64}, {"height", 48}}}};
+  EXPECT_EQ(verdict(json).sentence, "64 x 48 pixels by the golden engine, shells:8");
+  json.erase("scene");
+  json["gaussians"] = {{"name", "cloud:50"}, {"width", 32}, {"height", 16}};
+  EXPECT_EQ(verdict(json).sentence, "32 x 16 pixels by the golden engine, cloud:50");
+}
+
 TEST_F(Results, APlanIsAsGoodAsItsWorstCase) {
   Json plan{{"verb", "plan"}, {"name", "words"}, {"rows", Json::array({{{"status", "pass"}}, {{"status", "pass"}}})}};
   EXPECT_EQ(verdict(plan).sentence, "all 2 cases of plan words passed");

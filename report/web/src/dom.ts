@@ -44,7 +44,7 @@ export function clear(element: Element): void {
 let speaker: HTMLElement | null = null;
 let silence: ReturnType<typeof setTimeout> | undefined;
 
-/** A short word at the page's foot, read aloud by a screen reader. */
+/** A short word below the page's contents, where it hides no values, read aloud by a screen reader. */
 export function say(text: string): void {
   speaker ??= document.getElementById("said");
   if (!speaker) return;

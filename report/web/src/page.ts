@@ -40,13 +40,19 @@ export interface Picture {
   crop?: { x: number; y: number; full_width: number; full_height: number };
   volume?: string;
   config?: string;
+  /** The scene file's text. */
+  scene?: string;
+  /** Where 3-D Gaussians come from. */
+  gaussians?: string;
+  /** Of which compares it is what: "0.ref" is the reference of results[0]. */
+  compared?: string[];
 }
 
 /** <script type="application/json" id="data">. */
 export interface PageData {
   program: string | Json;
   made: string[];
-  verdict: { status: "pass" | "fail" | "error" | "none"; sentence: string };
+  verdict: { status: "pass" | "fail" | "error" | "none"; sentence: string; items?: { status: string; sentence: string }[] };
   results: Result[];
   pictures: Picture[];
   /** Pictures that are missing, cropped or left out, and why. */
@@ -82,6 +88,10 @@ export interface Panel {
   /** Drawn once, without a result, when this says so: pictures. */
   wants?: (page: PageData) => boolean;
   title: string | ((result: Result, context: Context) => string);
+  /** One sentence: what the panel shows, and its units that are no common ones. */
+  about: string | ((result: Result) => string);
+  /** Of what it is, where that is neither scan nor picture; without it as subject.ts finds. */
+  of?: string;
   /** May return a promise: the page is ready when all have come. Throwing fails the page, by name. */
   render(root: HTMLElement, result: Result, context: Context): void | Promise<void>;
 }

@@ -8,12 +8,16 @@ export function lead(status: string | null, ...sentence: Child[]): HTMLElement {
   return h("p", { class: "lead" }, status !== null && h("span", { class: `mark ${status}` }, words[status] ?? status), ...sentence);
 }
 
-/** Key figures side by side. */
+/** Key figures side by side; one that a result has no value for is not drawn. */
 export function tiles(...entries: ([name: string, ...value: Child[]] | null | false)[]): HTMLElement {
   return h(
     "dl",
     { class: "tiles" },
-    entries.map((entry) => entry && h("div", {}, h("dt", {}, entry[0]), h("dd", {}, entry.slice(1) as Child[]))),
+    entries.map((entry) => {
+      const value = entry ? h("dd", {}, entry.slice(1) as Child[]) : null;
+      const figures = [...(value?.querySelectorAll(".figure") ?? [])];
+      return entry && !(figures.length && figures.every((each) => each.textContent === "\u2013")) && h("div", {}, h("dt", {}, entry[0]), value);
+    }),
   );
 }
 
@@ -34,7 +38,10 @@ export function cell(parent: HTMLElement): HTMLElement {
   return element;
 }
 
-/** Which scene and which configuration: a result's own words for it, as short as can be. */
+/** What "cost" counts. */
+export const cost_unit = "full adders";
+
+/** Which scene and which configuration: a result's own words for it, with the configuration's hash. */
 export function made_of(result: { scene?: unknown; config?: unknown; config_hash?: unknown }): string {
   const scene = typeof result.scene === "string" ? result.scene : "";
   const config = result.config as { name?: string; hash?: string } | string | undefined;

@@ -78,10 +78,16 @@ function compare(a: unknown, b: unknown): number {
 }
 
 export function table<Row>(parent: HTMLElement, options: TableOptions<Row>): Table<Row> {
-  const { columns, rows } = options;
+  const { rows } = options;
+  // A column of which no row has anything is not drawn.
+  const has = (column: Column<Row>, row: Row): boolean => {
+    const value = column.cell ? column.cell(row) : column.value(row);
+    return value !== null && value !== undefined && value !== "" && value !== false && !Number.isNaN(value);
+  };
+  const columns = options.columns.filter((column) => !rows.length || rows.some((row) => has(column, row)));
   const names = columns.map((column) => column.name);
   const is_number = columns.map((column) => rows.some((row) => typeof column.value(row) === "number"));
-  let sorted = Math.abs(options.sort ?? 0) - 1;
+  let sorted = options.sort ? columns.indexOf(options.columns[Math.abs(options.sort) - 1]) : -1;
   let upwards = (options.sort ?? 1) > 0;
   let words = "";
   let accept: ((row: Row) => boolean) | null = null;

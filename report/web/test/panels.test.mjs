@@ -29,11 +29,23 @@ before(async () => {
   fastsplat(["plan", "make", "spec.toml", "-o", "cases.json", "--quiet"]);
   fastsplat(["plan", "run", "cases.json", "--results", "cases", "--quiet"]);
   fastsplat(["plan", "merge", "cases.json", "--results", "cases", "-o", "merged.json", "--quiet"]);
+  // As the demo has them: another size for the steps, culling, classified by pixel; files by their whole paths.
+  result("quick", ["errors", ...scene.slice(0, 2), "--size", "32", "--quick"]);
+  result("culling", ["cycles", ...scene.slice(0, 2), "--size", "48", "--cull-table"]);
+  const post = [...scene.slice(0, 2), "--size", "40", "--classify", "post"];
+  result("post-golden", ["render", ...post, "--engine", "golden", "-o", place("post-golden.exr")]);
+  result("post-cmodel", ["render", ...post, "--engine", "cmodel", "--config", "fine", "--set", "classify.segment_bits=9", "-o", place("post-cmodel.exr")]);
+  result("post-compare", ["compare", place("post-golden.exr"), place("post-cmodel.exr")]);
+  result("rough-render", ["render", ...scene, "--engine", "cmodel", "--set", "sheet.frac_bits=8", "-o", "rough.exr"]);
+  result("rough", ["compare", "golden.exr", "rough.exr"]); // below the floor
+  result("gaussians", ["render", "--gaussians", "shells:40", "--size", "32", "-o", "gaussians.exr"]);
+  fastsplat(["stream", "record", ...scene, "--config", "base", "-o", place("s.fss"), "--json", "record.json", "--quiet"]);
+  result("replay", ["stream", "replay", place("s.fss"), "-o", "replay.exr"]);
   save("mismatch.json", mismatch);
   save("closure.json", closure);
   save("plan.json", sample_plan(240));
   save("long.json", sample_plan(2000));
-  const names = ["compare", "strict", "same", "errors", "bound", "ranges", "propose", "cycles", "devices", "family", "merged", "plan", "verify", "mismatch", "closure", "book", "golden", "cmodel"];
+  const names = ["compare", "strict", "same", "errors", "bound", "ranges", "propose", "cycles", "devices", "family", "merged", "plan", "verify", "mismatch", "closure", "book", "golden", "cmodel", "quick", "culling", "post-compare", "post-golden", "post-cmodel", "gaussians", "record", "replay", "rough"];
   all = report("all", names.map((name) => `${name}.json`));
   await start();
 });
@@ -61,6 +73,121 @@ test("every number of every panel is that of its result", async () => {
   for (const command of commands) assert.ok(buttons.some((button) => button.split("\n").includes(command)), `no button copies ${command}`);
   figure("commands that a button copies", commands.length, ">= 12");
   assert.ok(commands.length >= 12);
+  await page.finish();
+});
+
+const of_panel = (page, id) => page.$eval(`#${id} h2 .of`, (each) => each.textContent);
+
+test("title, header and every panel's heading say of which scan, configuration and size", async () => {
+  const page = await open(report("demo", ["compare", "quick", "cycles", "culling", "post-compare", "cmodel", "golden"].map((name) => `${name}.json`)));
+  const main = "shells:24, configuration base, 64 \u00d7 64 pixels";
+  assert.equal(await page.title(), `\u2713 Pass: ${main}: FastSplat report`);
+  assert.equal(await page.textContent("h1"), `FastSplat report: ${main}`);
+  const wanted = {
+    "compare-0": main,
+    "errors-1": "shells:24, configuration base, 32 \u00d7 32 pixels",
+    "cycles-2": "shells:24, configuration small, 128 \u00d7 128 pixels",
+    "cycles-3": "shells:24, configuration base, 48 \u00d7 48 pixels",
+    "compare-4": "shells:24, classified by pixel, configuration fine+classify.segment_bits=9, 40 \u00d7 40 pixels",
+    "runs-5": main,
+  };
+  for (const [id, text] of Object.entries(wanted)) assert.equal(await of_panel(page, id), text);
+  // What is not the verdict's stands out, in the panel and in the header.
+  assert.deepEqual(await page.$$eval("#errors-1 h2 strong", (all) => all.map((each) => each.textContent)), ["32 \u00d7 32 pixels"]);
+  assert.match(await page.textContent("#top .others"), /32 \u00d7 32 pixels: Error by step/);
+  figure("headings compared", Object.keys(wanted).length, "> 0");
+  await page.finish();
+  const every = await open(all);
+  const panels = await every.$$eval("section.panel", (sections) => sections.map((section) => ({ id: section.id, of: section.querySelector("h2 .of").textContent, about: section.querySelector(".about")?.textContent ?? "" })));
+  const without_size = /^(family|verify|closure|coverage)-/;
+  for (const { id, of, about } of panels) {
+    assert.match(of, without_size.test(id) ? /\w/ : /\d+ \u00d7 \d+ pixels|\d+ (sizes|cases)/, id);
+    assert.match(about, /^[A-Z].{20,}\.$/, `${id}: a sentence of what it shows`);
+  }
+  figure("panels with a heading and a sentence", panels.length, ">= 20");
+  assert.ok(panels.length >= 20);
+  await every.finish();
+});
+
+test("a column or a key figure without any value is not drawn", async () => {
+  const page = await open(all);
+  const { results } = await data_of(page);
+  const [whole, quick] = ["errors", "quick"].map((name) => results.findIndex((each) => each.verb === "errors" && /--quick/.test(each.command) === (name === "quick")));
+  const heads = (index) => page.$$eval(`#errors-${index} thead th`, (all) => all.map((each) => each.textContent));
+  assert.ok((await heads(whole)).some((text) => text.startsWith("Alone")) && (await heads(whole)).some((text) => text.startsWith("Left out")));
+  assert.ok(!(await heads(quick)).some((text) => /^(Alone|Left out)/.test(text)), (await heads(quick)).join());
+  assert.match(await page.textContent(`#errors-${quick}`), /not measured \(--quick\)/);
+  const found = await page.evaluate(() => {
+    const empty = [];
+    let columns = 0;
+    for (const table of document.querySelectorAll("section.panel .table table")) {
+      const rows = [...table.querySelectorAll("tbody tr[aria-rowindex]")];
+      if (!table.tHead || rows.length < Number(table.getAttribute("aria-rowcount")) - 1) continue; // long: not all rows are in the page
+      [...table.tHead.rows[0].cells].forEach((head, i) => {
+        ++columns;
+        if (rows.every((row) => row.cells[i].textContent.trim() === "\u2013")) empty.push(`${table.getAttribute("aria-label")}: ${head.textContent}`);
+      });
+    }
+    for (const tile of document.querySelectorAll("dl.tiles > div")) if (tile.querySelector("dd").textContent.startsWith("\u2013")) empty.push(tile.textContent);
+    return { empty, columns };
+  });
+  assert.deepEqual(found.empty, []);
+  figure("columns looked at", found.columns, ">= 100");
+  assert.ok(found.columns >= 100);
+  await page.finish();
+});
+
+test("culling: its rows are the result's, and the best is named", async () => {
+  const page = await open(all);
+  const { results } = await data_of(page);
+  const index = results.findIndex((each) => each.cull_table);
+  const section = page.locator(`#cycles-${index}`);
+  const rows = results[index].cull_table;
+  assert.equal(await section.locator("table[aria-label=Culling] tbody tr").count(), rows.length);
+  assert.ok((await compare_figures(page, `#cycles-${index} table[aria-label=Culling]`)) >= 8 * rows.length);
+  const best = rows.reduce((least, row) => (row.cycles < least.cycles ? row : least));
+  const told = await section.locator("h3:text('Occlusion culling') + p").textContent();
+  if (best.cull_map === "off") assert.match(told, /saves no cycles/);
+  else assert.match(told, new RegExp(`^by ${best.cull_map}, ${best.fetch ? "fetched" : "all sent"}: ${best.times_fewer.toFixed(2)} times fewer`));
+  figure("rows of the culling table", rows.length, ">= 5");
+  assert.ok(rows.length >= 5);
+  await page.finish();
+});
+
+test("floor, limits and cost have their words and units", async () => {
+  const page = await open(all);
+  const { results } = await data_of(page);
+  let better = 0, worse = 0, costs = 0;
+  for (const [index, each] of results.entries()) {
+    const text = (await page.locator(`#${each.schema === "fastsplat.compare/1" ? "compare" : (each.verb ?? "").split(" ").pop()}-${index}`).first().textContent({ timeout: 2000 }).catch(() => "")) ?? "";
+    if (each.schema === "fastsplat.compare/1" && !each.identical) {
+      assert.match(text, /The floor, [\d.]+\sdB, is no limit: it is what the first picture would lose if it were only rounded to 8 bits\./);
+      assert.equal(/stored in steps finer than 8 bits/.test(text), each.psnr_db > each.floor.psnr_db, `${each.psnr_db} over ${each.floor.psnr_db}`);
+      each.psnr_db > each.floor.psnr_db ? ++better : ++worse;
+      for (const name of await page.$$eval(`#compare-${index} table[aria-label=Limits] tbody td:first-child`, (all) => all.map((cell) => cell.textContent))) assert.match(name, /^(PSNR in dB|worst in LSB|values|not finite), at (least|most)$/);
+    }
+    if (each.remedy || each.cost_from) {
+      assert.match(text, /\d\sfull adders/, each.verb);
+      ++costs;
+    }
+  }
+  figure("compares above and below the floor", `${better} and ${worse}`, "> 0 both");
+  figure("costs with a unit", costs, "> 0");
+  assert.ok(better > 0 && worse > 0 && costs > 0);
+  await page.finish();
+});
+
+test("no folder of the machine is in the page", async () => {
+  const folder = place("x").split("/").at(-2);
+  const given = ["post-compare", "post-golden", "post-cmodel", "record"].filter((name) => readFileSync(place(`${name}.json`), "utf8").includes(folder));
+  const page_text = readFileSync(all, "utf8");
+  figure("results that name the folder", given.length, "4");
+  assert.equal(given.length, 4);
+  assert.equal(page_text.split(folder).length - 1, 0, "the page names it, too");
+  const page = await open(all);
+  const { results } = await data_of(page);
+  const of = results.find((each) => each.test?.file === "post-cmodel.exr");
+  assert.equal(of.command, "fastsplat compare post-golden.exr post-cmodel.exr");
   await page.finish();
 });
 
@@ -318,7 +445,7 @@ test("the timeline shows the tile that is asked for", async () => {
 test("no panel is wider than the page, and no two parts of one overlap", async () => {
   let parts = 0;
   for (const theme of ["light", "dark"]) {
-    for (const width of [400, 1000, 1800]) {
+    for (const width of [390, 1000, 1280, 1800]) {
       const page = await open(all, { width, theme });
       const found = await page.evaluate(() => {
         const wrong = [];
@@ -353,6 +480,22 @@ test("no panel is wider than the page, and no two parts of one overlap", async (
   }
   figure("parts of panels without overlap", parts, ">= 300");
   assert.ok(parts >= 300);
+});
+
+test("a name without blanks is broken, not the page", async () => {
+  const long = `${"a_name_that_goes_on_and_on_".repeat(6)}.nii.gz`;
+  const [golden, cycles, errors] = ["golden", "cycles", "errors"].map((name) => JSON.parse(readFileSync(place(`${name}.json`), "utf8")));
+  save("long-golden.json", { ...golden, scene: { ...golden.scene, volume: long, toml: golden.scene.toml.replace("shells:24", long) } });
+  save("long-cycles.json", { ...cycles, scene: cycles.scene.replace("shells:24", long) });
+  save("long-errors.json", { ...errors, scene: errors.scene.replace("shells:24", long), remedy: { ...errors.remedy, changes: long } });
+  for (const width of [320, 390, 1280]) {
+    const page = await open(report("long-names", ["long-golden.json", "long-cycles.json", "long-errors.json"]), { width });
+    assert.ok((await page.textContent("h1")).includes(long));
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+    figure(`width of a page with long names at ${width}`, wide, width);
+    assert.ok(wide <= width);
+    await page.finish();
+  }
 });
 
 test("text is drawn with a font, dark is dark, and the button turns it round", async () => {

@@ -77,7 +77,7 @@ for (const [name, file] of [["whole", () => whole], ["failing", () => failing]])
     let checked = 0;
     for (const theme of ["light", "dark"]) {
       const page = await open(file(), { theme, hash: "#pictures?at=24,24" });
-      for (const width of [400, 1000, 1800]) {
+      for (const width of [390, 1000, 1280, 1800]) {
         await page.setViewportSize({ width, height: 900 });
         await drawn(page);
         assert.deepEqual(await page.evaluate(overlaps), [], `at ${width} ${theme}`);
@@ -221,6 +221,124 @@ test("the worst pixel is the compare's", async () => {
   await drawn(page);
   assert.equal(await under(page), `${clusters[0].worst.x},${clusters[0].worst.y}`);
   await page.finish();
+});
+
+/** What is seen between the page's contents and its lower edge; runs in the page. */
+function seen() {
+  const whole = (element, top, bottom) => {
+    const box = element?.getBoundingClientRect();
+    return !!box && box.height > 0 && box.top >= top - 1 && box.bottom <= bottom + 1;
+  };
+  const top = document.getElementById("contents").getBoundingClientRect().bottom;
+  const words = document.querySelector(".words");
+  const edge = document.querySelector("button[data-jump=worst]").getBoundingClientRect().top;
+  // A row must not only be there: nothing lies on it.
+  const uncovered = (row) => {
+    const box = row?.getBoundingClientRect();
+    return !!box && whole(row, top, innerHeight) && row.contains(document.elementFromPoint(box.left + 20, box.top + box.height / 2));
+  };
+  return {
+    panes: [...document.querySelectorAll(".frame")].map((frame) => whole(frame, top, Math.min(innerHeight, edge))),
+    values: whole(words, top, innerHeight) && [...document.querySelectorAll("tr[data-words]")].every(uncovered),
+    picks: whole(document.querySelector("button[data-jump=worst]"), top, innerHeight),
+  };
+}
+
+for (const [width, height] of [[1280, 800], [390, 844]]) {
+  test(`${width} x ${height}: pixel, values and picks are seen together, in 1 to 4 panes`, async () => {
+    let checked = 0;
+    const page = await open(whole, { width, height });
+    const { pictures } = await data_of(page);
+    const keys = [pictures[0].id, pictures[1].id, "error", pictures.find((picture) => picture.role === "blame").id];
+    for (const [mode, count] of [["side", 1], ["side", 2], ["side", 3], ["side", 4], ["slider", 1], ["flicker", 1]]) {
+      await page.evaluate(([m, show]) => (location.hash = `#pictures?mode=${m}&show=${show}`), [mode, keys.slice(0, count).join(",")]);
+      await page.waitForFunction(([m, n]) => document.querySelector(".panes").dataset.mode === m && document.querySelectorAll(".frame").length === n, [mode, count]);
+      await drawn(page);
+      for (let pane = 0; pane < count; ++pane) {
+        // As a reader scrolls: until the picture is in the middle of what is left; then the pointer goes over it.
+        const canvas = page.locator(".frame canvas").nth(pane);
+        await canvas.evaluate((element) => {
+          const box = element.getBoundingClientRect();
+          scrollBy(0, box.top - 75);
+        });
+        await drawn(page);
+        const box = await canvas.boundingBox();
+        await page.mouse.move(box.x + box.width / 2 + 1, box.y + box.height / 2 + 1);
+        await drawn(page);
+        const now = await page.evaluate(seen);
+        assert.ok(now.panes[pane], `${mode}, pane ${pane + 1} of ${count} is not seen whole`);
+        assert.ok(now.values, `${mode}, pane ${pane + 1} of ${count}: values and error are not in sight`);
+        assert.ok(now.picks, `${mode}, pane ${pane + 1} of ${count}: the picks of pixels are not in sight`);
+        assert.equal(await under(page), "24,24");
+        ++checked;
+      }
+      // From anywhere, the worst pixel is seen, and its values.
+      for (const from of [0, 1e6]) {
+        await page.evaluate((y) => scrollTo(0, y), from);
+        await drawn(page);
+        await page.evaluate(() => document.querySelector("button[data-jump=worst]").click());
+        await drawn(page);
+        const now = await page.evaluate(seen);
+        assert.ok(now.panes.some(Boolean) && now.values, `${mode}, ${count} panes, from ${from}: the worst pixel is not in sight`);
+        ++checked;
+      }
+      // And with the key, in the pane that has the focus.
+      await page.locator(".frame canvas").nth(count - 1).focus();
+      await page.evaluate(() => scrollTo(0, 1e6));
+      await page.keyboard.press("w");
+      await drawn(page);
+      const now = await page.evaluate(seen);
+      assert.ok(now.panes[count - 1] && now.values, `${mode}, ${count} panes, key w: the pane in use is not in sight`);
+      ++checked;
+    }
+    figure(`panes and jumps with values in sight at ${width} x ${height}`, checked, "30");
+    assert.equal(checked, 30);
+    await page.finish();
+  });
+}
+
+test("what a compare compared is looked at first, and the picture of another scene apart", async () => {
+  result("cloud", ["render", "--gaussians", "shells:40", "--size", "48", "-o", "cloud.exr"]);
+  result("coarse", ["render", ...scene, "--engine", "cmodel", "--set", "sheet.frac_bits=8", "-o", "coarse.exr"]);
+  result("second", ["compare", "right.exr", "cmodel.exr", "--min-psnr", "30"]);
+  const page = await open(report("apart", ["golden.json", "cloud.json", "coarse.json", "second.json"], ["--picture", "other=left.exr"]));
+  const { pictures } = await data_of(page);
+  const from = (id) => pictures.find((picture) => picture.id === id).compared;
+  const scenes = await page.$$eval('.viewer select[aria-label="Scene"] option', (all) => all.map((option) => option.textContent));
+  figure("scenes of the viewer", scenes.length, "3");
+  assert.equal(scenes.length, 3, scenes.join("; "));
+  assert.ok(scenes.some((name) => name.endsWith("shells:16, configurations base+sheet.frac_bits=8, base, 48 \u00d7 48 pixels")), scenes.join("; "));
+  assert.ok(scenes.some((name) => /Gaussians, 48 \u00d7 48 pixels$/.test(name)), scenes.join("; "));
+  const group = scenes.findIndex((name) => name.includes("base+"));
+  await page.selectOption('.viewer select[aria-label="Scene"]', String(group));
+  const pair = await page.$$eval(".viewer select", (all) => Object.fromEntries(all.map((select) => [select.getAttribute("aria-label"), select.value])));
+  assert.deepEqual([from(pair.Reference), from(pair.Test)], [["3.ref"], ["3.test"]]);
+  await page.finish();
+});
+
+test("a map of a smaller picture says its size", async () => {
+  result("quarter", ["errors", "--volume", "shells:16", "--size", "24", "--config", "base", "--quick", "--blame", "quarter.png"]);
+  const page = await open(report("sizes", ["compare.json", "quarter.json"]));
+  const titles = await page.$$eval(".pane figcaption", (all) => all.map((each) => each.textContent));
+  assert.ok(titles.includes("Blame (of 24 \u00d7 24 pixels)"), titles.join());
+  await page.finish();
+  // It covers the frame, whatever its size: what is drawn at a place is the map's there.
+  result("third", ["errors", "--volume", "shells:16", "--size", "32", "--config", "base", "--quick", "--blame", "third.png"]);
+  const other = await open(report("thirds", ["compare.json", "third.json"]));
+  const map = (await data_of(other)).pictures.find((picture) => picture.role === "blame");
+  const canvas = `canvas[data-view="${map.id}"]`;
+  const side = await other.$eval(canvas, (element) => element.clientWidth);
+  const step = map.width / 32; // of the map, enlarged, for a pixel
+  let colours = new Set();
+  for (let y = 3; y < 32; y += 4)
+    for (let x = 3; x < 32; x += 4) {
+      const wanted = pixel_of("third.png", Math.floor((x + 0.5) * step), Math.floor((y + 0.5) * step)).slice(0, 3);
+      near(await canvas_pixel(other, canvas, Math.floor(((x + 0.5) / 32) * side), Math.floor(((y + 0.5) / 32) * side)), wanted, `(${x}, ${y}) of the map`);
+      colours.add(wanted.join());
+    }
+  figure("colours of the map at their places", colours.size, "> 1");
+  assert.ok(colours.size > 1);
+  await other.finish();
 });
 
 test("a damaged block is named, not drawn", async () => {

@@ -17,6 +17,7 @@ export const bound: Panel = {
   name: "bound",
   verbs: ["errors bound"],
   title: "Bound of the error",
+  about: "The largest error that each step of the arithmetic can cause, as proved, beside the largest that occurred. LSB8: a step of an 8-bit pixel, 1/255.",
   render(root, result, context) {
     const show = figures_of(context.index, result);
     const levels: Result[] = result.levels ?? [];
@@ -70,10 +71,10 @@ export const bound: Panel = {
         { name: "Over the bound", value: (row) => row.over, figure: figure("over"), kind: (row) => (row.over > 0 ? "fail" : "") },
         { name: "Greatest error", unit: "LSB8", value: (row) => row.greatest_error_lsb8, style: { digits: 3 }, figure: figure("greatest_error_lsb8") },
         { name: "Greatest bound", unit: "LSB8", value: (row) => row.greatest_bound_lsb8, style: { digits: 3 }, figure: figure("greatest_bound_lsb8") },
-        { name: "Error / bound, at most", value: (row) => row.greatest_error_to_bound, style: { digits: 4 }, figure: figure("greatest_error_to_bound") },
-        { name: "Bound / error, median", value: (row) => row.bound_to_error?.median, style: { digits: 1 }, figure: figure("bound_to_error", "median") },
-        { name: "90 %", value: (row) => row.bound_to_error?.p90, style: { digits: 1 }, figure: figure("bound_to_error", "p90") },
-        { name: "99 %", value: (row) => row.bound_to_error?.p99, style: { digits: 1 }, figure: figure("bound_to_error", "p99") },
+        { name: "Error / bound, at most", unit: "times", value: (row) => row.greatest_error_to_bound, style: { digits: 4 }, figure: figure("greatest_error_to_bound") },
+        { name: "Bound / error, median", unit: "times", value: (row) => row.bound_to_error?.median, style: { digits: 1 }, figure: figure("bound_to_error", "median") },
+        { name: "90 %", unit: "times", value: (row) => row.bound_to_error?.p90, style: { digits: 1 }, figure: figure("bound_to_error", "p90") },
+        { name: "99 %", unit: "times", value: (row) => row.bound_to_error?.p99, style: { digits: 1 }, figure: figure("bound_to_error", "p99") },
         { name: "Dominant", value: (row) => row.dominant },
       ],
     });

@@ -242,6 +242,7 @@ export const closure: Panel = {
   name: "closure",
   verbs: ["closure"],
   title: "Coverage closure",
+  about: "Whether the verification plan is fulfilled: bins hit, tests passed, lines of the RTL reached.",
   render(root, result, context) {
     const show = figures_of(context.index, result);
     const closed = result.verdict === "closed";

@@ -1,6 +1,6 @@
 // `compare`: how far two pictures are from each other, beside what rounding once would cost anyway (the floor).
 import { columns } from "../bars";
-import { h } from "../dom";
+import { h, type Child } from "../dom";
 import { figures_of, number_text, tick_text } from "../figures";
 import type { Panel, Result } from "../page";
 import { cell, grid, lead, note, tiles } from "../parts";
@@ -8,10 +8,35 @@ import { linear } from "../scales";
 import { axis_left, drawing, legend, line, text } from "../svg";
 import { table } from "../table";
 
+/** What `compare` calls its limits, with their units. */
+const limits: Record<string, string> = {
+  min_psnr_db: "PSNR in dB, at least",
+  max_abs_lsb: "worst in LSB, at most",
+  max_mean_lsb: "mean in LSB, at most",
+  max_rmse_lsb: "RMS in LSB, at most",
+  max_bias_lsb: "bias in LSB, at most",
+  max_p99_lsb: "99 % in LSB, at most",
+  min_ssim: "SSIM, at least",
+  min_values: "values, at least",
+  max_nonfinite: "not finite, at most",
+};
+
 const kinds = ["p50", "p90", "p95", "p99", "p99.9", "p99.99"];
 
 function name_of(side: Result): string {
   return String(side?.file ?? "").replace(/^.*\//, "");
+}
+
+/** What the floor is, and why a picture can be nearer to the reference than it. */
+function floor(result: Result, show: ReturnType<typeof figures_of>): Child[] {
+  if (!result.floor || typeof result.floor.psnr_db !== "number") return [];
+  const better = typeof result.psnr_db === "number" && result.psnr_db > result.floor.psnr_db;
+  return [
+    "The floor, ",
+    show(["floor", "psnr_db"], { digits: 2, unit: "dB" }),
+    `, is no limit: it is what the first picture would lose if it were only rounded to ${result.lsb_bits} bits. `,
+    better ? `The second picture is nearer than that because it is stored in steps finer than ${result.lsb_bits} bits.` : "",
+  ];
 }
 
 function percentiles(root: HTMLElement, result: Result): void {
@@ -88,6 +113,7 @@ export const compare: Panel = {
   name: "compare",
   verbs: ["compare"],
   title: (result) => `Difference: ${name_of(result.ref) || "reference"} and ${name_of(result.test) || "picture"}`,
+  about: (result) => `How far the second picture is from the first. LSB: a step of a pixel of ${result.lsb_bits} bits, 1/${number_text(2 ** result.lsb_bits - 1)} of full brightness.`,
   render(root, result, context) {
     const show = figures_of(context.index, result);
     const failed = (result.limits ?? []).filter((limit: Result) => !limit.ok);
@@ -100,7 +126,6 @@ export const compare: Panel = {
             show(["psnr_db"], { digits: 2, unit: "dB" }),
             ", no value errs by more than ",
             show(["max_abs_lsb"], { digits: 3, unit: "LSB" }),
-            result.floor && !result.floor.identical ? [" (the floor: ", show(["floor", "psnr_db"], { digits: 2, unit: "dB" }), ")"] : null,
             failed.length ? `; ${failed.length === 1 ? "a limit is" : `${failed.length} limits are`} not met` : null,
             ".",
           ),
@@ -109,11 +134,12 @@ export const compare: Panel = {
         ["RMS", show(["rmse_lsb"]), h("small", {}, " LSB")],
         ["Bias", show(["bias_lsb"], { sign: true }), h("small", {}, " LSB")],
         ["99 %", show(["p99_lsb"]), h("small", {}, " LSB")],
-        ["SSIM", show(["ssim"], { digits: 6 })],
-        ["Values", show(["values"])],
+        ["SSIM (1: identical)", show(["ssim"], { digits: 6 })],
+        ["Values compared", show(["values"])],
         (result.nonfinite?.ref > 0 || result.nonfinite?.test > 0) && ["Not finite", show(["nonfinite", "ref"]), " and ", show(["nonfinite", "test"])],
       ),
     );
+    if (!result.identical) root.append(note(floor(result, show)));
     const parts = grid(root);
     histogram(cell(parts), result);
     if (!result.identical) percentiles(cell(parts), result);
@@ -128,7 +154,7 @@ export const compare: Panel = {
           show(["worst", "ref"]),
           " and ",
           show(["worst", "test"]),
-          ", ",
+          " of 1, ",
           show(["worst", "error_lsb"], { sign: true, unit: "LSB" }),
           ". ",
           result.clusters?.length
@@ -142,7 +168,7 @@ export const compare: Panel = {
       table(root, {
         label: "Limits",
         columns: [
-          { name: "Limit", value: (row: Result) => row.name.replaceAll("_", " ") },
+          { name: "Limit", value: (row: Result) => limits[row.name] ?? row.name.replaceAll("_", " ") },
           { name: "allowed", value: (row: Result) => row.limit, figure: (row: Result) => `${context.index}.limits.${result.limits.indexOf(row)}.limit` },
           { name: "got", value: (row: Result) => row.got, figure: (row: Result) => `${context.index}.limits.${result.limits.indexOf(row)}.got` },
           { name: "Verdict", value: (row: Result) => (row.ok ? "\u2713 met" : "\u2717 not met"), kind: (row: Result) => (row.ok ? "pass" : "fail") },

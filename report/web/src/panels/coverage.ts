@@ -102,6 +102,7 @@ export const coverage: Panel = {
   name: "coverage",
   verbs: ["coverage"],
   title: (result) => `Coverage of ${result.config ?? "the device"}`,
+  about: "Which coverage bins the test streams hit, and how often.",
   render(root, result, context) {
     const books = books_of(result);
     if (!books.length) throw new Error(`${verb_of(result)}: there is no campaign in it`);

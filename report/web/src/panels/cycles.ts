@@ -2,7 +2,7 @@
 import { columns, stacks, waterfall } from "../bars";
 import { line_legend, plot, type Line } from "../charts";
 import { h } from "../dom";
-import { figures_of, number_text } from "../figures";
+import { figures_of, number_text, path_text } from "../figures";
 import type { Context, Panel, Result } from "../page";
 import { cell, grid, lead, made_of, note, tiles } from "../parts";
 import { legend } from "../svg";
@@ -163,10 +163,48 @@ function several(root: HTMLElement, result: Result, context: Context): void {
   });
 }
 
+/** `--cull-table`: the same frame on devices of every cull.map, with a source that sends all or fetches what is seen. */
+function culling(root: HTMLElement, result: Result, context: Context): void {
+  const rows: Result[] = result.cull_table;
+  const show = figures_of(context.index, result);
+  const best = rows.reduce((least, row) => (row.cycles < least.cycles ? row : least), rows[0]);
+  const at = (row: Result, ...path: string[]): (string | number)[] => ["cull_table", rows.indexOf(row), ...path];
+  const name = (row: Result): string => `${row.cull_map === "off" ? "no culling" : `by ${row.cull_map}`}, ${row.fetch ? "fetched" : "all sent"}`;
+  root.append(
+    h("h3", {}, "Occlusion culling"),
+    h(
+      "p",
+      {},
+      best.cull_map === "off" ? "Culling saves no cycles of this frame. " : [h("strong", {}, name(best)), ": ", show(at(best, "times_fewer"), { digits: 2 }), " times fewer cycles than without culling, ", show(at(best, "share_drawn"), { scale: 100, digits: 1, unit: "%" }), " of the splats are drawn. "],
+      "Hidden splats change no pixel; all rows give the same picture. All sent: every splat comes to the device. Fetched: the source asks first, and hidden splats stay in memory.",
+    ),
+  );
+  stacks(
+    cell(root),
+    { title: "Cycles of the frame", about: "by what is culled (cull.map) and how splats come", label: rows.map((row) => `${name(row)}: ${row.cycles}`).join("; "), unit: "cycles" },
+    rows.map((row) => ({ name: name(row), shown: number_text(row.cycles), parts: [{ name: "cycles", value: row.cycles, colour: row.cull_map === "off" ? "c7" : "c0", tip: `${name(row)}: ${number_text(row.cycles)} cycles` }] })),
+  );
+  const figure = (...path: string[]) => (row: Result): string => path_text(context.index, at(row, ...path));
+  table(root, {
+    label: "Culling",
+    rows,
+    columns: [
+      { name: "Culling", value: name },
+      { name: "Memory latency", unit: "cycles", value: (row) => row.fetch_latency, figure: figure("fetch_latency") },
+      { name: "Cycles", value: (row) => row.cycles, figure: figure("cycles") },
+      { name: "Fewer", unit: "times", value: (row) => row.times_fewer, style: { digits: 2 }, figure: figure("times_fewer") },
+      { name: "Drawn", unit: "% of the splats", value: (row) => row.share_drawn, style: { scale: 100, digits: 1 }, figure: figure("share_drawn") },
+      { name: "Windows", value: (row) => row.windows, figure: figure("windows") },
+      ...["hidden", "records", "map", "input", "pixels"].map((cause) => ({ name: plain(cause), unit: "cycles", value: (row: Result) => row.account?.[cause], figure: figure("account", cause) })),
+    ],
+  });
+}
+
 export const cycles: Panel = {
   name: "cycles",
   verbs: ["cycles"],
-  title: (result) => (result.by_devices || result.scaling?.devices > 1 ? "Cycles of several devices" : "Cycles"),
+  title: (result) => (result.cull_table ? "Cycles with and without culling" : result.by_devices || result.scaling?.devices > 1 ? "Cycles of several devices" : "Cycles"),
+  about: "Clock cycles that the device takes for one frame, and where they go.",
   render(root, result, context) {
     const show = figures_of(context.index, result);
     const losses = Object.entries(result.cycles.account as Record<string, number>).filter(([name]) => name !== "ideal");
@@ -184,7 +222,7 @@ export const cycles: Panel = {
       ),
       note([made_of(result), `input ${result.input}, sink ${result.ready}`].filter(Boolean).join("; ")),
       tiles(
-        ["Splats a cycle", show(["splats_per_cycle"], { digits: 3 })],
+        ["Splats per cycle", show(["splats_per_cycle"], { digits: 3 })],
         ["Splat array used", show(["utilisation"], { scale: 100, digits: 1, unit: "%" })],
         ["Splats", show(["splats"])],
         ["Windows", show(["windows"])],
@@ -192,10 +230,11 @@ export const cycles: Panel = {
         ["Tiles", show(["tiles"])],
         ["Sheets", show(["sheets"])],
         typeof result.hidden_share === "number" && ["Hidden splats", show(["hidden_share"], { scale: 100, digits: 1, unit: "%" })],
-        ["Idle", show(["cycles", "idle"])],
+        ["Idle", show(["cycles", "idle"]), h("small", {}, " cycles")],
       ),
     );
     account(cell(root), result);
+    if (result.cull_table?.length) culling(root, result, context);
     if (result.timeline?.sheets?.length) timeline(root, result, context);
     if (result.scaling && (many || result.by_devices)) several(root, result, context);
   },

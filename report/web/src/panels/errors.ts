@@ -3,7 +3,7 @@ import { waterfall } from "../bars";
 import { h } from "../dom";
 import { figures_of, number_text } from "../figures";
 import type { Panel, Result } from "../page";
-import { cell, grid, lead, made_of, note, tiles } from "../parts";
+import { cell, cost_unit, grid, lead, made_of, note, tiles } from "../parts";
 import { legend } from "../svg";
 import { table } from "../table";
 
@@ -65,6 +65,7 @@ export const errors: Panel = {
   name: "errors",
   verbs: ["errors"],
   title: "Error by step",
+  about: "Which step of the device's arithmetic causes how much of the error against golden. LSB8: a step of an 8-bit pixel, 1/255.",
   render(root, result, context) {
     const show = figures_of(context.index, result);
     const place = (row: Result): number => result.steps.indexOf(row);
@@ -76,8 +77,8 @@ export const errors: Panel = {
             h("strong", {}, most.name),
             ` (${most.meaning}) brings `,
             show(["steps", place(most), "share"], { scale: 100, digits: 0, unit: "%" }),
-            " of the error; all steps together: RMS ",
-            show(["total", "rms_lsb8"]),
+            " of the squared error; all steps together: RMS ",
+            show(["total", "rms_lsb8"], { unit: "LSB" }),
             ", worst ",
             show(["total", "max_lsb8"], { unit: "LSB of 8 bits" }),
             ".",
@@ -88,7 +89,7 @@ export const errors: Panel = {
         ["Driver's part", show(["driver_share"], { scale: 100, digits: 1, unit: "%" })],
         ["Device's part", show(["device_share"], { scale: 100, digits: 1, unit: "%" })],
         ["RMS", show(["total", "rms_lsb8"]), h("small", {}, " LSB8")],
-        ["Floor of 8 bits", show(["floor_8", "rms_lsb8"]), h("small", {}, " LSB8")],
+        ["Rounding to 8 bits alone", show(["floor_8", "rms_lsb8"]), h("small", {}, " LSB8")],
         ["Bias", show(["total", "bias_lsb8"], { sign: true }), h("small", {}, " LSB8")],
         ["Frames drawn", show(["frames"])],
       ),
@@ -107,8 +108,8 @@ export const errors: Panel = {
           " LSB8; the cost goes from ",
           show(["remedy", "cost_before", "total"], { digits: 0 }),
           " to ",
-          show(["remedy", "cost_after", "total"], { digits: 0 }),
-          ".",
+          show(["remedy", "cost_after", "total"], { digits: 0, unit: cost_unit }),
+          " (a bit of memory is a sixth of one).",
         ),
       );
     const parts = grid(root);
@@ -117,7 +118,14 @@ export const errors: Panel = {
     chain.append(legend([{ name: "driver", colour: "c0" }, { name: "device", colour: "c1" }, { name: "sum", colour: "c7" }]));
     const pixels = cell(parts);
     for (const entry of result.pixels ?? []) pixel(pixels, entry);
-    root.append(h("h3", {}, "Each step in the chain, alone, and left out"));
+    const alone = result.steps.some((step: Result) => typeof step.alone_share === "number");
+    root.append(
+      h("h3", {}, alone ? "Each step in the chain, alone, and left out" : "Each step in the chain"),
+      note(
+        "Share of the squared error; RMS, max and bias of what the step adds; pixels in which it is the largest part.",
+        alone ? " Alone: the error with this step's arithmetic only. Left out: the error without it." : " Steps alone and left out were not measured (--quick).",
+      ),
+    );
     const figure = (...path: (string | number)[]) => (row: Result) => [context.index, "steps", place(row), ...path].join(".");
     const percent = { scale: 100, digits: 2 };
     table(root, {

@@ -28,18 +28,21 @@ export const family: Panel = {
   name: "family",
   verbs: ["family"],
   title: "Family of indices",
+  of: "kinds of index; of no scan and no picture",
+  about: "How exactly each kind of index finds a splat's weights, and what it costs.",
   render(root, result, context) {
     const cells: Result[] = result.cells ?? [];
     const kinds = [...new Set(cells.map((row) => row.kind as string))];
     const radii = unique(cells.map((row) => row.radius));
     const grids = unique(cells.map((row) => row.grid));
     const entries = unique(cells.map((row) => row.entries));
+    const unit = String(result.unit ?? "1/255 of the mean");
     const best = cells.filter((row) => typeof row.aligned?.rms === "number").sort((a, b) => a.aligned.rms - b.aligned.rms)[0];
     root.append(
       best
-        ? lead(null, `${number_text(cells.length)} cells of ${kinds.length} ${kinds.length === 1 ? "kind" : "kinds"}; least error of an aligned lattice: `, h("strong", {}, best.kind), ` with K = ${best.grid}${best.entries ? `, N = ${best.entries}` : ""}: RMS `, h("span", { class: "figure", "data-figure": `${context.index}.cells.${cells.indexOf(best)}.aligned.rms` }, number_text(best.aligned.rms)), `, ${number_text(best.bits)} bits.`)
+        ? lead(null, `${number_text(cells.length)} cells of ${kinds.length} ${kinds.length === 1 ? "kind" : "kinds"}; least error of an aligned lattice: `, h("strong", {}, best.kind), ` with K = ${best.grid}${best.entries ? `, N = ${best.entries}` : ""}: RMS `, h("span", { class: "figure", "data-figure": `${context.index}.cells.${cells.indexOf(best)}.aligned.rms` }, number_text(best.aligned.rms)), ` (${unit}), ${number_text(best.bits)} bits.`)
         : lead(null, "There is no cell in this result."),
-      note(`Errors in ${result.unit ?? "1/255 of the mean"}. K: steps of the centres' grid a pixel; N: entries of a table.`),
+      note(`Errors in units of ${unit} weight. Radius: of the footprint, in pixels. K: steps of the centres' grid a pixel; N: entries of a table.`),
     );
     if (!best) return;
     const again = (): void => draw();
@@ -83,7 +86,7 @@ export const family: Panel = {
         ["cycles of a splat", undefined, lines((row) => row.cycles, () => true, true)],
       ];
       all.forEach(([name, ticks, drawn], i) => {
-        const settings = { label: `${title} over ${name}, a line for each of ${kinds.join(", ")}`, x: { name, log: true, ticks }, y: { name: title, log: true }, height: 240 };
+        const settings = { label: `${title} over ${name}, a line for each of ${kinds.join(", ")}`, x: { name: i < 2 ? `${name}, ${i ? "entries" : "steps a pixel"}` : name, log: true, ticks }, y: { name: `${title}, ${unit}`, log: true }, height: 240 };
         if (plots[i]) plots[i]?.update(drawn, settings);
         else plots[i] = plot(frames[i], settings, drawn);
       });
@@ -97,15 +100,15 @@ export const family: Panel = {
       rows: cells,
       columns: [
         { name: "Kind", value: (row) => row.kind },
-        { name: "Radius", value: (row) => row.radius, figure: figure("radius") },
+        { name: "Radius", unit: "pixels", value: (row) => row.radius, figure: figure("radius") },
         { name: "K", value: (row) => row.grid, figure: figure("grid") },
         { name: "N", value: (row) => row.entries },
-        ...metrics.map(([name, title, value]) => ({ name: title, value, style: { digits: 3 }, figure: figure(...name.split(".")) })),
+        ...metrics.map(([name, title, value]) => ({ name: title, unit, value, style: { digits: 3 }, figure: figure(...name.split(".")) })),
         { name: "Bits", value: (row: Result) => row.bits, figure: figure("bits") },
-        { name: "Adds", value: (row: Result) => row.adds },
-        { name: "Multiplies", value: (row: Result) => row.multiplies },
-        { name: "Reads", value: (row: Result) => row.reads },
-        { name: "Cycles", value: (row: Result) => row.cycles, figure: figure("cycles") },
+        { name: "Adds", unit: "per pixel", value: (row: Result) => row.adds },
+        { name: "Multiplies", unit: "per pixel", value: (row: Result) => row.multiplies },
+        { name: "Reads", unit: "per pixel", value: (row: Result) => row.reads },
+        { name: "Cycles", unit: "per splat", value: (row: Result) => row.cycles, figure: figure("cycles") },
         { name: "Remarks", value: (row: Result) => (row.remarks ?? []).join(", ") },
       ],
     });

@@ -6,9 +6,9 @@ export const generic: Panel = {
   name: "result",
   verbs: [],
   title: (result) => `Result of ${verb_of(result) || "an unnamed verb"}`,
+  about: "A result that this page has no drawing for, as it is.",
   render(root, result) {
     root.append(
-      h("p", { class: "note" }, "This page has no drawing for it; the result as it is:"),
       h("pre", { tabindex: 0 }, JSON.stringify(result, null, 2)),
     );
   },

@@ -3,23 +3,16 @@ import { decoded } from "../codec";
 import { h } from "../dom";
 import { figure, number_text } from "../figures";
 import { verb_of, type Context, type Panel, type Picture, type Result } from "../page";
+import { size_text, subject_of, subject_of_pictures, subject_text } from "../subject";
 import { Plane } from "../viewer/plane";
 import { Viewer, type Tour } from "../viewer/viewer";
 import { Scene } from "../viewer/views";
 import "../viewer/viewer.css";
 
-function base(path: string): string {
-  return path.replace(/.*\//, "");
-}
-
-/** Whether the picture is of this file, or of one with the same values. */
-function is_of(picture: Picture, file: unknown): boolean {
-  return typeof file === "string" && [picture.from, ...(picture.also ?? [])].some((name) => name === file || base(name) === base(file));
-}
-
 /** The compare of these two pictures, and its place among the results. */
 function compared(context: Context, ref: Picture, test: Picture): { result: Result; index: number } | null {
-  const index = context.page.results.findIndex((result) => verb_of(result) === "compare" && is_of(ref, result.ref?.file) && is_of(test, result.test?.file));
+  const of = (picture: Picture, index: number, side: string): boolean => (picture.compared ?? []).includes(`${index}.${side}`);
+  const index = context.page.results.findIndex((result, i) => verb_of(result) === "compare" && of(ref, i, "ref") && of(test, i, "test"));
   return index < 0 ? null : { index, result: context.page.results[index] };
 }
 
@@ -54,6 +47,13 @@ function tour_of(context: Context, scene: Scene, a: string, b: string): Tour {
   return tour;
 }
 
+/** The size of the picture that a map is of, as its result says: maps are enlarged or made of a smaller one. */
+function size_of_map(context: Context, map: Picture): string {
+  const base = (name: unknown): string => String(name ?? "").replace(/.*\//, "");
+  const results = context.page.results.filter((each) => map.display && each?.blame && base(each.blame) === base(map.from));
+  return subject_of([results.find((each) => each.blame === map.from) ?? results[0] ?? {}]).sizes[0] ?? "";
+}
+
 async function scenes_of(context: Context): Promise<{ name: string; scene: Scene }[]> {
   const planes = await Promise.all(
     context.pictures.map(async (picture) => new Plane(picture, await decoded(picture, context.block(picture.same_as ?? picture.id)))),
@@ -64,9 +64,13 @@ async function scenes_of(context: Context): Promise<{ name: string; scene: Scene
     groups.set(group, [...(groups.get(group) ?? []), plane]);
   }
   return [...groups.values()].map((members, i) => {
-    const first = members[0].picture;
-    const volume = base(first.volume ?? "").replace(/\..*/, "");
-    return { name: `${i + 1}: ${volume || base(first.from)}`, scene: new Scene(members) };
+    const of = subject_text(subject_of_pictures(members.map((plane) => plane.picture)));
+    const scene = new Scene(members);
+    for (const { picture } of members) {
+      const size = size_of_map(context, picture);
+      if (size && size !== size_text(scene.width, scene.height)) picture.title += ` (of ${size})`;
+    }
+    return { name: `${i + 1}: ${of || members[0].picture.from}`, scene };
   });
 }
 
@@ -75,6 +79,7 @@ export const pictures: Panel = {
   verbs: [],
   wants: (page) => page.pictures.length + page.remarks.length > 0,
   title: "Pictures",
+  about: "The pictures that the results name, with the words of every pixel and the error between two of them.",
   async render(root, _result, context) {
     for (const remark of context.page.remarks) root.append(h("p", { class: "note remark" }, remark));
     for (const { title, nonfinite } of context.pictures) {

@@ -43,6 +43,7 @@ export const plan: Panel = {
   name: "plan",
   verbs: ["plan"],
   title: (result) => `Plan: ${result.title || result.name || ""}`,
+  about: "A parameter sweep: every point and every row is one case.",
   render(root, result, context) {
     const rows: Result[] = result.rows ?? [];
     const index = new Map(rows.map((row, i) => [row, i]));

@@ -3,7 +3,7 @@ import { stacks } from "../bars";
 import { h } from "../dom";
 import { figures_of, number_text } from "../figures";
 import type { Panel, Result } from "../page";
-import { cell, lead, note, tiles } from "../parts";
+import { cell, cost_unit, lead, note, tiles } from "../parts";
 import { legend } from "../svg";
 import { table } from "../table";
 
@@ -17,6 +17,7 @@ export const propose: Panel = {
   name: "propose",
   verbs: ["errors propose"],
   title: "Proposed configuration",
+  about: "The cheapest configuration found that meets the target, and what became of each key. Cost is counted in full adders; a bit of memory is a sixth of one.",
   render(root, result, context) {
     const show = figures_of(context.index, result);
     const saved = 1 - result.cost.total / result.cost_from.total;
@@ -32,7 +33,7 @@ export const propose: Panel = {
         ", cost ",
         show(["cost_from", "total"], { digits: 0 }),
         " \u2192 ",
-        show(["cost", "total"], { digits: 0 }),
+        show(["cost", "total"], { digits: 0, unit: cost_unit }),
         ".",
       ),
       note([...(result.scenes ?? []), `from ${result.from?.name} ${result.from?.hash}`].join("; ")),
@@ -51,7 +52,7 @@ export const propose: Panel = {
       [...kinds, ["total", "cost", "c7"] as const].map(([key, name, colour]) => ({
         name,
         shown: `${number_text(percent(key), { digits: 1 })} %`,
-        parts: [{ name, value: percent(key), colour, tip: `${name}: ${number_text(result.cost_from[key], { digits: 0 })} \u2192 ${number_text(result.cost[key], { digits: 0 })}` }],
+        parts: [{ name, value: percent(key), colour, tip: `${name}: ${number_text(result.cost_from[key], { digits: 0 })} \u2192 ${number_text(result.cost[key], { digits: 0 })} ${key === "total" ? cost_unit : "bits"}` }],
       })),
     );
     place.append(legend(kinds.map(([, name, colour]) => ({ name: `${name}, bits`, colour }))));
@@ -64,7 +65,7 @@ export const propose: Panel = {
         { name: "Alone would do", value: (row) => row.alone },
         { name: "Proposed", value: (row) => row.proposed, kind: (row) => (row.proposed !== row.from ? "changed" : "") },
         { name: "One less", value: (row) => row.lower },
-        { name: "gives, of the error allowed", value: (row) => row.excess_if_lower, style: { digits: 3 }, figure: (row) => `${context.index}.keys.${result.keys.indexOf(row)}.excess_if_lower` },
+        { name: "gives", unit: "times the error allowed", value: (row) => row.excess_if_lower, style: { digits: 3 }, figure: (row) => `${context.index}.keys.${result.keys.indexOf(row)}.excess_if_lower` },
       ],
     });
   },

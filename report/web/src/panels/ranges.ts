@@ -70,6 +70,7 @@ export const ranges: Panel = {
   name: "ranges",
   verbs: ["errors ranges"],
   title: "Ranges of the signals",
+  about: "Which values each signal of the device took, beside the word that holds it. ulp: the last bit of that word.",
   render(root, result, context) {
     const show = figures_of(context.index, result);
     const sites: Result[] = result.sites ?? [];
@@ -103,9 +104,9 @@ export const ranges: Panel = {
         { name: "Least", value: (row) => row.least, figure: figure("least") },
         { name: "Greatest", value: (row) => row.greatest, figure: figure("greatest") },
         { name: "Saturated", value: (row) => row.saturated, figure: figure("saturated"), kind: (row) => (row.saturated > 0 ? "fail" : "") },
-        { name: "Head bits unused", value: (row) => row.unused_head_bits, figure: figure("unused_head_bits") },
-        { name: "Tail bits idle", value: (row) => row.idle_tail_bits, figure: figure("idle_tail_bits") },
-        { name: "Bits dropped", value: (row) => row.dropped_bits, figure: figure("dropped_bits") },
+        { name: "Head unused", unit: "bits", value: (row) => row.unused_head_bits, figure: figure("unused_head_bits") },
+        { name: "Tail idle", unit: "bits", value: (row) => row.idle_tail_bits, figure: figure("idle_tail_bits") },
+        { name: "Dropped", unit: "bits", value: (row) => row.dropped_bits, figure: figure("dropped_bits") },
         { name: "Lost, mean", unit: "ulp", value: (row) => row.lost?.mean_ulp, style: { digits: 4, sign: true }, figure: figure("lost", "mean_ulp") },
         { name: "Lost, RMS", unit: "ulp", value: (row) => row.lost?.rms_ulp, style: { digits: 4 }, figure: figure("lost", "rms_ulp") },
         { name: "RMS in theory", unit: "ulp", value: (row) => row.theory?.rms_ulp, style: { digits: 4 }, figure: figure("theory", "rms_ulp") },
@@ -119,9 +120,9 @@ export const ranges: Panel = {
       rows: needs,
       columns: [
         { name: "Key", value: (row) => row.key },
-        { name: "Has", value: (row) => row.has, figure: of_need("has") },
-        { name: "Needs", value: (row) => row.needs, figure: of_need("needs") },
-        { name: "Possible", value: (row) => row.possible, figure: of_need("possible") },
+        { name: "Has", unit: "bits", value: (row) => row.has, figure: of_need("has") },
+        { name: "Needs", unit: "bits", value: (row) => row.needs, figure: of_need("needs") },
+        { name: "Possible", unit: "bits", value: (row) => row.possible, figure: of_need("possible") },
         { name: "Why", value: (row) => row.why },
         { name: "Limit", value: (row) => row.limit, kind: () => "wrap" },
       ],

@@ -3,19 +3,23 @@ import { command_button, h } from "../dom";
 import { number_text, path_text } from "../figures";
 import { verb_of, type Item, type Panel, type Result } from "../page";
 import { lead, note } from "../parts";
+import { subject_of, subject_text } from "../subject";
 import { table } from "../table";
 
 const engine = (result: Result): string => result.engine ?? verb_of(result);
+const run = (result: Result): string => `${engine(result)}: ${subject_text(subject_of([result]))}`;
+const scan = (result: Result): string => subject_text({ ...subject_of([result]), configs: [], sizes: [] });
 
 export const runs: Panel = {
   name: "runs",
   verbs: ["render", "stream record", "stream replay"],
   once: true,
   title: "What was drawn",
+  about: "Which pictures and streams were made, by which engine, and what the device counted.",
   render(root, _result, context) {
     const { items } = context;
     const drawn = items.filter(({ result }) => result.scene?.width);
-    const scenes = [...new Set(drawn.map(({ result }) => `${result.scene.volume}, ${result.scene.width} \u00d7 ${result.scene.height} pixels, ${result.scene.method}`))];
+    const scenes = [...new Set(items.map(({ result }) => subject_text({ ...subject_of([result]), configs: [] })))];
     const saturated = items.filter(({ result }) => Object.entries((result.counters ?? {}) as Record<string, number>).some(([name, count]) => name.endsWith("_saturated") && count > 0));
     root.append(
       lead(
@@ -32,6 +36,9 @@ export const runs: Panel = {
       rows: items,
       columns: [
         { name: "Engine", value: ({ result }) => engine(result) },
+        { name: "Scan", value: ({ result }) => scan(result) },
+        { name: "Picture", unit: "pixels", value: ({ result }) => subject_of([result]).sizes.join(", ").replaceAll(" pixels", "") },
+        { name: "Method", value: ({ result }) => result.scene?.method },
         { name: "Configuration", value: ({ result }) => (result.config ? `${result.config.name ?? result.config} ${result.config.hash ?? result.config_hash ?? ""}` : null) },
         { name: "Voxels", value: ({ result }) => result.voxels, figure: at("voxels") },
         { name: "Sheets", value: ({ result }) => result.sheets, figure: at("sheets") },
@@ -49,14 +56,14 @@ export const runs: Panel = {
         h(
           "details",
           { open: saturated.some((item) => item.index === index) },
-          h("summary", {}, `Counters of ${engine(result)}`),
+          h("summary", {}, `Counters of ${run(result)}`),
           h("dl", { class: "tiles" }, names.map((name) => h("div", {}, h("dt", {}, name.replaceAll("_", " ")), h("dd", {}, h("span", { class: "figure", "data-figure": path_text(index, ["counters", name]) }, number_text(result.counters[name])))))),
         ),
       );
     }
     for (const { result } of drawn) {
       if (!result.scene.toml) continue;
-      root.append(h("details", {}, h("summary", {}, `Scene of ${engine(result)}`), h("pre", {}, result.scene.toml)));
+      root.append(h("details", {}, h("summary", {}, `Scene of ${run(result)}`), h("pre", {}, result.scene.toml)));
     }
     if (items.some(({ result }) => result.driver?.vanished_voxels > 0))
       root.append(note(items.filter(({ result }) => result.driver?.vanished_voxels > 0).map(({ result }) => `${engine(result)}: ${number_text(result.driver.vanished_voxels)} voxels are too faint for the words of the driver and vanished.`).join(" ")));

@@ -73,6 +73,7 @@ export const verify: Panel = {
   verbs: ["verify"],
   once: true,
   title: "RTL against model",
+  about: "The simulated RTL beside its model: all compared values must be equal, bit for bit.",
   render(root, _result, context) {
     const { items } = context;
     const sum = (key: string): number => items.reduce((total, item) => total + (item.result[key] ?? 0), 0);

@@ -19,22 +19,32 @@ function values(plane: Plane, at: { x: number; y: number } | null): string {
     .join(" ");
 }
 
+/** The word of 1.0. */
+function one_text(plane: Plane): string {
+  const { scale } = plane.picture;
+  return scale > 1 && Number.isInteger(Math.log2(scale)) ? `2^${Math.log2(scale)}` : String(scale);
+}
+
 function scale_text(plane: Plane): string {
-  const { scale, exact, kind } = plane.picture;
-  const of = scale > 1 && Number.isInteger(Math.log2(scale)) ? `2^${Math.log2(scale)}` : String(scale);
-  return `${kind ?? "words"}, 1.0 = ${of}${exact === false ? ", rounded" : ""}`;
+  const { exact, kind } = plane.picture;
+  return `${kind ?? "words"}, 1.0 = ${one_text(plane)}${exact === false ? ", rounded" : ""}`;
 }
 
 export function readout(root: HTMLElement, scene: Scene, a: string, b: string, lsb_bits: number, at: { x: number; y: number } | null): void {
-  const rows = scene.measured.map((plane) =>
+  const scales = [...new Set(scene.measured.map(one_text))];
+  const rounded = scene.measured.some((plane) => plane.picture.exact === false) ? " (floats rounded)" : "";
+  const words = (scales.length === 1 ? `words, 1 = ${scales[0]}` : "words") + rounded;
+  // The two that are compared stand first, with their error: a table with many pictures scrolls.
+  const compared = (plane: Plane): boolean => plane.picture.id === a || plane.picture.id === b;
+  const row_of = (plane: Plane): HTMLElement =>
     h(
       "tr",
       { "data-words": plane.picture.id },
-      h("th", { scope: "row", title: scale_text(plane) }, plane.picture.title),
+      h("th", { scope: "row", title: scale_text(plane) }, plane.picture.title, scales.length > 1 && h("small", {}, ` 1 = ${one_text(plane)}`)),
       cells(plane, at).map((text) => h("td", { class: "num" }, text)),
       h("td", { class: "num values" }, values(plane, at)),
-    ),
-  );
+    );
+  const rows = scene.measured.filter(compared).map(row_of);
   const pair = scene.pair(a, b);
   if (pair) {
     const [ref, test] = pair;
@@ -47,17 +57,18 @@ export function readout(root: HTMLElement, scene: Scene, a: string, b: string, l
       h(
         "tr",
         { "data-words": "error" },
-        h("th", { scope: "row" }, `${test.picture.title} \u2212 ${ref.picture.title}`),
+        h("th", { scope: "row", title: `${test.picture.title} \u2212 ${ref.picture.title}` }, "Error", h("small", {}, ` LSB of ${lsb_bits} bits`)),
         errors.map((e) => h("td", { class: "num" }, e === null ? "\u2013" : number_text(e, { digits: 3, sign: true }))),
-        h("td", { class: "num values" }, `LSB of ${lsb_bits} bits`),
+        h("td", { class: "num values" }, `${test.picture.title} \u2212 ${ref.picture.title}`),
       ),
     );
   }
+  rows.push(...scene.measured.filter((plane) => !compared(plane)).map(row_of));
   root.replaceChildren(
     h(
       "table",
       {},
-      h("caption", { "data-at": at ? `${at.x},${at.y}` : "" }, at ? `Words at (${at.x}, ${at.y})` : "Words: point at a pixel, or click one"),
+      h("caption", { "data-at": at ? `${at.x},${at.y}` : "" }, at ? `Pixel (${at.x}, ${at.y}), ${words}` : `Point at a pixel, or click one: ${words}`),
       h("thead", {}, h("tr", {}, h("th", {}, "Picture"), channel_names.map((name) => h("th", { class: "num" }, name)), h("th", { class: "num" }, "Values"))),
       h("tbody", {}, rows),
     ),

@@ -28,11 +28,15 @@ const most_zoom = 96;
 
 export class Viewer {
   private readonly panes = h("div", { class: "panes" });
-  private readonly words = h("div", { class: "scroll words" });
+  private readonly words = h("div", { class: "words" });
   private readonly controls = h("div");
-  private readonly jumps = h("div", { class: "controls jumps" });
+  private readonly jumps = h("div", { class: "jumps" });
+  /** Values and jumps: at the lower edge of the window as long as a pane is in it. */
+  private readonly dock = h("div", { class: "dock" }, this.jumps, this.words);
   private readonly legend = h("div", { class: "controls error-legend" });
   private surfaces: { canvas: HTMLCanvasElement; views: () => View[] }[] = [];
+  /** The pane that was pointed at or used last: what a jump brings into sight. */
+  private used = 0;
   private hover: Point | null = null;
   private range = 0;
   private phase = 0;
@@ -50,20 +54,22 @@ export class Viewer {
     const linked = from_link(location.hash, this.state);
     if (linked) this.state = this.legal(linked);
     root.classList.add("viewer");
-    root.append(this.controls, this.panes, this.legend, this.words, this.jumps);
+    root.append(this.controls, h("div", {}, this.panes, this.dock));
     root.addEventListener("keydown", (event) => this.key(event));
     on_theme(() => this.redraw());
     new ResizeObserver(() => this.redraw()).observe(this.panes);
+    // A pane is as high as what the dock leaves of the window.
+    new ResizeObserver(() => root.style.setProperty("--dock", `${this.dock.offsetHeight}px`)).observe(this.dock);
     addEventListener("hashchange", () => {
       const next = from_link(location.hash, this.state);
       if (!next) return;
       this.state = this.legal(next);
       this.build();
-      root.scrollIntoView({ block: "nearest" });
+      this.reveal();
     });
     setInterval(() => this.turn(), 600);
     this.build();
-    if (linked) requestAnimationFrame(() => root.scrollIntoView({ block: "start" }));
+    if (linked) requestAnimationFrame(() => requestAnimationFrame(() => this.reveal()));
   }
 
   private get scene(): Scene {
@@ -77,8 +83,8 @@ export class Viewer {
   private fresh(group: number): State {
     const { scene } = this.scenes[group];
     const measured = scene.measured.length > 0 ? scene.measured : scene.planes;
-    const a = measured[0].picture.id;
-    const b = (measured.find((plane) => scene.pair(a, plane.picture.id)) ?? measured[measured.length - 1]).picture.id;
+    const first = measured[0].picture.id;
+    const [a, b] = scene.compared ?? [first, (measured.find((plane) => scene.pair(first, plane.picture.id)) ?? measured[measured.length - 1]).picture.id];
     const maps = scene.planes.filter((plane) => plane.picture.display).map((plane) => plane.picture.id);
     const show = [...new Set([a, b, ...(scene.pair(a, b) ? ["error"] : []), ...maps])].slice(0, 4);
     return { mode: "side", group, show, a, b, channel: "colour", zoom: 0, x: 0, y: 0, at: null, split: 0.5 };
@@ -172,11 +178,12 @@ export class Viewer {
   private build_panes(): void {
     const { state, scene } = this;
     this.surfaces = [];
+    this.used = 0;
     const pane = (key: string, title: string, views: () => View[], more: Child = null): HTMLElement => {
       const canvas = h("canvas", { tabindex: 0, role: "img", "aria-label": `${title}. Arrow keys move the pixel that is read, plus and minus zoom`, "data-view": key });
       this.listen(canvas);
       this.surfaces.push({ canvas, views });
-      return h("figure", { class: "pane" }, h("figcaption", {}, h("strong", {}, title)), h("div", { class: "frame", style: `aspect-ratio:${scene.width}/${scene.height};max-width:calc(82vh*${scene.width / scene.height})` }, canvas), more);
+      return h("figure", { class: "pane" }, h("figcaption", {}, h("strong", {}, title)), h("div", { class: "frame", style: `aspect-ratio:${scene.width}/${scene.height};max-width:calc(var(--pane)*${scene.width / scene.height})` }, canvas), more);
     };
     const one = (key: string): View[] => [this.view(key)].filter((view) => view !== null);
     const both = (): View[] => [...one(state.a), ...one(state.b)];
@@ -184,7 +191,7 @@ export class Viewer {
       this.panes.replaceChildren(
         ...state.show.map((key) => {
           const view = this.view(key);
-          return pane(key, view?.title ?? key, () => one(key), [view && this.strip(view), view?.note ? h("p", { class: "note" }, view.note) : null]);
+          return pane(key, view?.title ?? key, () => one(key), [key === "error" && this.legend, view && this.strip(view), view?.note ? h("p", { class: "note" }, view.note) : null]);
         }),
       );
     } else {
@@ -270,6 +277,7 @@ export class Viewer {
       if (output) output.textContent = `${+(to.scale * 100).toPrecision(3)} %`;
       canvas.dataset.scale = String(to.scale);
     }
+    this.dock.hidden = this.scene.measured.length === 0;
     readout(this.words, this.scene, this.state.a, this.state.b, this.lsb_bits, this.hover ?? this.state.at);
   }
 
@@ -314,6 +322,7 @@ export class Viewer {
   }
 
   private listen(canvas: HTMLCanvasElement): void {
+    for (const kind of ["pointermove", "pointerdown", "focus"]) canvas.addEventListener(kind, () => (this.used = this.surfaces.findIndex((each) => each.canvas === canvas)));
     let start: { x: number; y: number; state: State; scale: number; split: boolean } | null = null;
     let moved = false;
     canvas.addEventListener("pointerdown", (event) => {
@@ -378,7 +387,19 @@ export class Viewer {
 
   private jump(place: Point): void {
     this.change({ at: { x: place.x, y: place.y }, zoom: Math.max(12, this.state.zoom), x: place.x + 0.5, y: place.y + 0.5 }, false);
+    this.reveal();
     say(`Pixel ${place.x}, ${place.y}`);
+  }
+
+  /** Scrolls until a pane is seen whole between the page's contents and the dock: nothing where one is, else the pane
+   *  that was used last. */
+  private reveal(): void {
+    const top = (document.getElementById("contents")?.offsetHeight ?? 0) + 4, bottom = innerHeight - this.dock.offsetHeight - 4;
+    const frames = this.surfaces.map(({ canvas }) => (canvas.closest(".pane")?.querySelector(".frame") ?? canvas).getBoundingClientRect());
+    if (frames.some((frame) => frame.top >= top && frame.bottom <= bottom)) return;
+    const frame = frames[this.used] ?? frames[0];
+    // The title above the picture comes into sight with it, where there is room.
+    if (frame) scrollBy({ top: frame.top - Math.max(top, Math.min(top + 28, bottom - frame.height)), behavior: "instant" });
   }
 
   private move(dx: number, dy: number): void {

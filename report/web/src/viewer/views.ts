@@ -48,6 +48,16 @@ export class Scene {
     return ref && test && ref !== test && comparable(ref, test) ? [ref, test] : null;
   }
 
+  /** Reference and test of a compare's result: what is looked at first. */
+  get compared(): [string, string] | null {
+    for (const ref of this.measured)
+      for (const place of ref.picture.compared ?? []) {
+        const test = place.endsWith(".ref") ? this.measured.find((plane) => plane.picture.compared?.includes(place.replace(/ref$/, "test"))) : undefined;
+        if (test && this.pair(ref.picture.id, test.picture.id)) return [ref.picture.id, test.picture.id];
+      }
+    return null;
+  }
+
   difference(a: string, b: string, channel: Channel, lsb_bits: number): Difference | null {
     const planes = this.pair(a, b);
     if (!planes) return null;
@@ -87,9 +97,8 @@ export class Scene {
       const note = `Orange: ${colours} pixels with a colour at the last word, ${plane.top_word}. Blue: ${opaque} opaque ones.`;
       return { ...place, title: `Saturation: ${title}`, image: canvas, note };
     }
-    // Maps for looking are enlarged or coarser by a whole factor, and have a legend below.
-    const whole = width % this.width === 0 || this.width % width === 0;
-    const factor = plane.picture.display && whole ? width / this.width : 1;
+    // Maps for looking are enlarged, or of another picture size; they are as wide as the frame and have a legend below.
+    const factor = plane.picture.display ? width / this.width : 1;
     return { ...place, title, factor, rows: plane.picture.display ? this.height : height, image: plane.drawn(channel) };
   }
 }

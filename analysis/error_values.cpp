@@ -57,8 +57,8 @@ void check_comparable(const Image& ref, const Image& test, const CompareOptions&
                                               .expected = shape(ref),
                                               .got = shape(test),
                                               .fix = ref.width == test.width && ref.height == test.height
-                                                         ? "give both the same channels (oiiotool --ch)"
-                                                         : "render both at the same size"});
+                                                         ? "give both images the same channels (oiiotool --ch)"
+                                                         : "render both images at the same size"});
   }
   assert(ref.data.size() == static_cast<std::size_t>(ref.width) * ref.height * ref.channels);
   assert(test.data.size() == ref.data.size());

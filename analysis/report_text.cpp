@@ -60,7 +60,7 @@ class Text {
     line("{} x {} x {} channels, {} values compared; 1 LSB = 1/{:.0f}, peak {:g}", report_.width, report_.height,
          report_.channels, report_.values, std::ldexp(1.0, report_.options.lsb_bits) - 1, report_.options.peak);
     if (report_.nonfinite_ref + report_.nonfinite_test > 0) {
-      line("NOT FINITE: {} values in REF, {} in TEST, left out of every figure", report_.nonfinite_ref,
+      line("NOT FINITE: {} values in REF, {} in TEST, excluded from every figure", report_.nonfinite_ref,
            report_.nonfinite_test);
     }
     line("");
@@ -83,7 +83,7 @@ class Text {
       row(fmt::format("{:<12}LSB", percentiles()[p].name).c_str(), got.percentiles_lsb[p], floor.percentiles_lsb[p], 3);
     }
     row("SSIM", got.ssim, floor.ssim, 6);
-    line("floor: REF rounded once to this LSB, what storing the result so would cost by itself");
+    line("floor: REF rounded once to this LSB, the error of storing the result alone");
     line("");
   }
 

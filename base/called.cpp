@@ -52,7 +52,7 @@ std::string Called::last_words() const {
     const auto line = text.rfind('\n');
     return line == std::string::npos ? text : text.substr(line + 1);
   }
-  return code == 127 ? "it is not installed" : code == 124 ? "no answer" : "exit code " + std::to_string(code);
+  return code == 127 ? "it is not installed" : code == 124 ? "timed out" : "exit code " + std::to_string(code);
 }
 
 Called call(const std::vector<std::string>& words, int seconds, const Heard& heard) {
@@ -95,7 +95,7 @@ Called call(const std::vector<std::string>& words, int seconds, const Heard& hea
                    .what = std::string("cannot be started: ") + std::strerror(reason),
                    .expected = {},
                    .got = {},
-                   .fix = "end other programs first"});
+                   .fix = "close other programs first"});
   }
   const int status = helper->wait();
   called.code = late ? 124 : WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

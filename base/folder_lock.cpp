@@ -31,7 +31,7 @@ FolderLock::FolderLock(const std::filesystem::path& path) {
                  .what = std::string("cannot lock its folder: ") + std::strerror(reason),
                  .expected = {},
                  .got = {},
-                 .fix = "choose a folder of your own on a local disk"});
+                 .fix = "use your own folder on a local disk"});
 }
 
 FolderLock::~FolderLock() { ::close(descriptor_); }

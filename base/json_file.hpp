@@ -26,7 +26,7 @@ struct JsonKind {
 template <class Json>
 Json parse_json(const std::string& text) {
   if (const auto deep = json_too_deep(text)) {
-    throw std::runtime_error("JSON with more than " + std::to_string(kDeepestNesting) + " levels at byte " +
+    throw std::runtime_error("JSON nested more than " + std::to_string(kDeepestNesting) + " levels deep at byte " +
                              std::to_string(*deep));
   }
   return Json::parse(text);
@@ -42,9 +42,9 @@ auto from_json_file(const std::filesystem::path& path, const JsonKind& kind, con
   try {
     return make(parse_json<Json>(text));
   } catch (const typename Json::parse_error& error) {
-    // Its message quotes the file and is long; only the place helps.
-    got = error.byte > text.size() ? "JSON that is cut off, " + std::to_string(text.size()) + " bytes"
-                                   : "no JSON, a mistake at byte " + std::to_string(error.byte);
+    // Its message quotes the file and is long; the place is what helps.
+    got = error.byte > text.size() ? "truncated JSON, " + std::to_string(text.size()) + " bytes"
+                                   : "invalid JSON at byte " + std::to_string(error.byte);
   } catch (const std::exception& error) {
     got = error.what();
   }

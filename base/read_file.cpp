@@ -34,7 +34,7 @@ std::string similar_in_folder(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(folder, error)) return "the folder " + folder.string() + " does not exist";
   const std::string wanted = path.filename().string();
   if (wanted.find("\xef\xbf\xbd") != std::string::npos)
-    return "JSON holds U+FFFD where a name is not UTF-8: rename the file, then write the result again";
+    return "the file's name is not UTF-8, so JSON holds U+FFFD: rename the file, then write the result again";
   std::string best;
   std::vector<std::string> names;
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
@@ -69,8 +69,8 @@ off_t size_of_regular_file(const std::filesystem::path& path, const std::string&
   const int outcome = ::fstat(descriptor, &status);
   ::close(descriptor);
   if (outcome != 0) unreadable(path, std::string("cannot read: ") + std::strerror(errno), "check the path");
-  if (S_ISDIR(status.st_mode)) refuse(path, "it is a directory, not a file", "name a file inside it");
-  if (!S_ISREG(status.st_mode)) refuse(path, "it is not a regular file", "save it to a file first");
+  if (S_ISDIR(status.st_mode)) refuse(path, "a directory, not a file", "name a file inside it");
+  if (!S_ISREG(status.st_mode)) refuse(path, "not a regular file", "save it to a file first");
   return status.st_size;
 }
 
@@ -101,10 +101,10 @@ std::string read_text_file(const std::filesystem::path& path, std::size_t max_by
   if (error) unreadable(path, "cannot read: " + error.message(), "check the path");
   if (size > max_bytes) {
     throw_input({.where = path.string(),
-                 .what = "the file is too large for what it should be",
+                 .what = "the file is too large",
                  .expected = "at most " + std::to_string(max_bytes) + " bytes",
                  .got = std::to_string(size) + " bytes",
-                 .fix = "check that this is the file you meant"});
+                 .fix = "check that this is the right file"});
   }
   std::ifstream in(path, std::ios::binary);
   std::string text(size, '\0');

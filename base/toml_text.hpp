@@ -22,7 +22,7 @@ inline toml::table parse_toml(const std::string& text, const std::string& file, 
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(*deep);
     const auto line = 1 + std::count(text.begin(), end, '\n');
     throw_input({.where = file + ":" + std::to_string(line),
-                 .what = "tables and arrays nest too deeply",
+                 .what = "tables and arrays are nested too deeply",
                  .expected = "at most " + std::to_string(kDeepestNesting) + " levels",
                  .got = {},
                  .fix = fix});

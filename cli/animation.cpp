@@ -80,7 +80,7 @@ const std::string& video_source(const RenderArguments& arguments) {
   const auto png = std::find_if(arguments.out.begin(), arguments.out.end(),
                                 [](const std::string& path) { return path.ends_with(".png"); });
   if (png == arguments.out.end())
-    refuse_animation("--video", "a video is made of PNG frames, and none are written", "add --out frame.####.png");
+    refuse_animation("--video", "a video requires PNG frames", "add --out frame.####.png");
   return *png;
 }
 
@@ -121,17 +121,17 @@ Json to_json(const Result& result) {
 }  // namespace
 
 std::optional<scene::Sequence> sequence_of(const RenderArguments& arguments) {
-  if (arguments.rate && arguments.video.empty())
-    refuse_animation("--rate", "the rate of which video?", "add --video FILE.mp4");
+  if (arguments.rate && arguments.video.empty()) refuse_animation("--rate", "requires --video", "add --video FILE.mp4");
   if (!arguments.orbit && !arguments.sequence) {
-    if (arguments.frames) refuse_animation("--frames", "frames of what?", "add --orbit A..B or --sequence");
-    if (!arguments.video.empty()) refuse_animation("--video", "a still has no video", "add --orbit A..B --frames N");
+    if (arguments.frames)
+      refuse_animation("--frames", "requires --orbit or --sequence", "add --orbit A..B or --sequence");
+    if (!arguments.video.empty()) refuse_animation("--video", "requires an animation", "add --orbit A..B --frames N");
     for (const auto& path : arguments.out) check_still_name(path);
     check_still_name(arguments.raw);
     return std::nullopt;
   }
   if (arguments.orbit && arguments.sequence)
-    refuse_animation({}, "--orbit and --sequence exclude each other", "give one");
+    refuse_animation({}, "--orbit cannot be combined with --sequence", "use one of them");
   if (arguments.out.empty() && arguments.raw.empty())
     refuse_animation({}, "no frames to write", "add --out frame.####.png");
   if (arguments.rate && !(*arguments.rate >= 0.1 && *arguments.rate <= 1000.0)) {
@@ -142,17 +142,17 @@ std::optional<scene::Sequence> sequence_of(const RenderArguments& arguments) {
                  .fix = "24 is the default"});
   }
   if (!arguments.save_scene.empty()) {
-    refuse_animation("--save-scene", "an animation is many scenes",
-                     "each frame carries its own; leave --save-scene out");
+    refuse_animation("--save-scene", "cannot be combined with an animation, which has one scene per frame",
+                     "leave --save-scene out: each frame's file holds its scene");
   }
   if (arguments.orbit) {
-    if (!arguments.frames) refuse_animation("--orbit", "how many frames?", "add --frames N");
+    if (!arguments.frames) refuse_animation("--orbit", "requires --frames", "add --frames N");
     if (arguments.scene.settings.contains("--azimuth"))
-      refuse_animation("--azimuth", "--orbit sets the azimuth", "leave --azimuth out");
+      refuse_animation("--azimuth", "cannot be combined with --orbit, which sets the azimuth", "leave --azimuth out");
     return orbit_from(*arguments.orbit, *arguments.frames);
   }
   if (!arguments.scene.file)
-    refuse_animation("--sequence", "the frames of which scene?", "add --scene FILE with a [sequence]");
+    refuse_animation("--sequence", "requires a scene file", "add --scene FILE with a [sequence]");
   auto sequence = scene::load_sequence(*arguments.scene.file);
   if (arguments.frames) sequence.frames = *arguments.frames;
   return sequence;

@@ -26,7 +26,7 @@ std::string footer() {
   for (const auto& [code, word, meaning] : kExitMeanings)
     codes += fmt::format("{}{} {}", codes.empty() ? "" : ", ", static_cast<int>(code), word);
   return "Exit codes: " + codes +
-         ".\n`fastsplat help VERB` (or VERB --help) tells the rest; docs/guide.md is the guide.";
+         ".\nRun `fastsplat help SUBCOMMAND` (or SUBCOMMAND --help) for details; docs/guide.md is the user's guide.";
 }
 
 /// The help begins with what may be copied.
@@ -42,8 +42,8 @@ class CommandLine {
  public:
   explicit CommandLine(const std::vector<Verb>& verbs) {
     app.footer(footer());
-    app.set_help_flag("-h,--help", "what you are reading");
-    app.set_version_flag("--version", program_version(), "the version of the program");
+    app.set_help_flag("-h,--help", "print this help");
+    app.set_version_flag("--version", program_version(), "print the version");
     for (const Verb& verb : verbs) {
       const std::string name = verb.name;
       const auto space = name.find(' ');
@@ -104,7 +104,7 @@ std::vector<std::string> flag_names(const CLI::App& verb) {
 
 /// `verb` as it is called.
 [[noreturn]] void misused(const std::string& verb, const std::string& what, std::string fix = {}) {
-  if (fix.empty()) fix = "`" + verb + " --help` lists what there is";
+  if (fix.empty()) fix = "`" + verb + " --help` lists flags and subcommands";
   throw_usage({.where = {}, .what = what, .expected = {}, .got = {}, .fix = std::move(fix)});
 }
 
@@ -119,7 +119,8 @@ CLI::App* find_verb(CLI::App& app, const std::vector<std::string>& words, std::s
     const auto names = subcommand_names(*verb);
     if (names.empty() || words[at].starts_with('-')) break;
     if (std::find(names.begin(), names.end(), words[at]) == names.end()) {
-      misused(*verb, fmt::format("unknown {} '{}'", verb == &app ? "verb" : verb->get_name() + " verb", words[at]),
+      misused(*verb,
+              fmt::format("unknown {} '{}'", verb == &app ? "subcommand" : verb->get_name() + " subcommand", words[at]),
               suggestion(words[at], names));
     }
     verb = verb->get_subcommand(words[at++]);
@@ -151,17 +152,17 @@ void check_words(const CLI::App& verb, std::span<const std::string> words) {
     const bool repeatable = option->get_items_expected_max() > 1;
     if (++seen[option] > 1 && !repeatable) misused(verb, flag + " is given twice", "give it once");
     if (option->get_items_expected_max() == 0) {
-      if (is_long && equals != std::string::npos) misused(verb, flag + " takes no value", "write just " + flag);
+      if (is_long && equals != std::string::npos) misused(verb, flag + " does not take a value", "write only " + flag);
       continue;
     }
     if (is_long ? equals != std::string::npos : word.size() > 2) {
       if (is_long && equals + 1 == word.size())
-        misused(verb, flag + " needs a value", "it is a " + option->get_type_name());
+        misused(verb, flag + " needs a value", "write " + flag + "=" + option->get_type_name());
       continue;
     }
     ++at;
     const bool missing = at >= words.size() || words[at].empty() || words[at].starts_with("--");
-    if (missing) misused(verb, flag + " needs a value", "expected " + option->get_type_name() + " after it");
+    if (missing) misused(verb, flag + " needs a value", "write " + flag + " " + option->get_type_name());
   }
 }
 
@@ -187,7 +188,7 @@ std::vector<std::string> flags_of(const std::string& verb, const std::vector<Ver
   CLI::App* found = find_verb(line.app, words, at);
   const Action action = line.declare(*found).action;
   if (at < words.size() || !action)
-    misused(line.app, "no verb is called '" + verb + "'", "`fastsplat help` lists the verbs");
+    misused(line.app, "unknown subcommand '" + verb + "'", "run `fastsplat help` for the list of subcommands");
   return flag_names(*found);
 }
 
@@ -204,8 +205,8 @@ Action parse(int argc, const char* const* argv, const std::vector<Verb>& verbs) 
   }
   check_words(*verb, rest);
   if (!action) {
-    misused(*verb, fmt::format("{}: which verb?", called(*verb)),
-            fmt::format("one of {}; `{} --help` tells what they do", fmt::join(subcommand_names(*verb), ", "),
+    misused(*verb, fmt::format("{} requires a subcommand", called(*verb)),
+            fmt::format("add one of {}; `{} --help` describes them", fmt::join(subcommand_names(*verb), ", "),
                         called(*verb)));
   }
   // By the verb alone, so that a word behind it that is another verb's name is just a word. It forgets its parents.
@@ -230,14 +231,14 @@ std::string help_on(const std::vector<std::string>& words, const std::vector<Ver
   std::size_t at = 0;
   CLI::App* verb = find_verb(line.app, words, at);
   if (at < words.size())
-    misused(line.app, "unexpected '" + words[at] + "' after help", "`fastsplat help` lists the verbs");
+    misused(line.app, "unexpected '" + words[at] + "' after help", "run `fastsplat help` for the list of subcommands");
   line.declare(*verb);
   return help_text(line.app, *verb);
 }
 
 std::vector<Description> describe(const std::vector<Verb>& verbs) {
   CommandLine line(verbs);
-  Flag version{.names = {"--version"}, .unit = {}, .help = "the version of the program", .group = {}, .values = {}};
+  Flag version{.names = {"--version"}, .unit = {}, .help = "print the version", .group = {}, .values = {}};
   std::vector<Description> all{
       {.name = {}, .summary = kSummary, .flags = {std::move(version)}, .examples = {}, .group = true}};
   for (CLI::App* verb : line.subs()) all.push_back(line.declare(*verb).description);
@@ -251,8 +252,11 @@ const Description& described(const std::vector<std::string>& words, const std::v
     if (verb.name == name) return verb;
     if (!verb.name.empty()) names.push_back(verb.name);
   }
-  throw_usage(
-      {.where = {}, .what = "unknown verb '" + name + "'", .expected = {}, .got = {}, .fix = suggestion(name, names)});
+  throw_usage({.where = {},
+               .what = "unknown subcommand '" + name + "'",
+               .expected = {},
+               .got = {},
+               .fix = suggestion(name, names)});
 }
 
 }  // namespace fastsplat::cli

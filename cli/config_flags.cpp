@@ -29,11 +29,12 @@ void declare(Options& options, ConfigFlags& to, const char* help) {
 }
 
 void declare_changes(Options& options, std::vector<std::string>& to) {
-  options.words("--set", to, "KEY=VALUE", "changes a key of the configuration, radial.entries=256; repeatable");
+  options.words("--set", to, "KEY=VALUE",
+                "change a key of the configuration, for example radial.entries=256; repeatable");
   options.values(key_words);
   options.value(
       "--index", {}, [&to](const std::string& kind) { to.push_back("index.kind=" + kind); }, "KIND",
-      "how weights are found: short for --set index.kind=KIND");
+      "index method that finds weights: short for --set index.kind=KIND");
   options.values(index_kinds);
 }
 

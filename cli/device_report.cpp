@@ -17,7 +17,7 @@ namespace {
 // What to do about a counter of lost bits; the counter's own words say what it counts.
 std::string fix_for(std::string_view counter) {
   if (counter == "snap_saturated")
-    return "the picture is larger than the configuration's positions reach: reduce --size or --zoom";
+    return "the picture exceeds the range of the configuration's positions: reduce --size or --zoom";
   if (counter == "product_saturated" || counter == "sheet_saturated") {
     return "lower --opacity-scale or --xray-exposure, or choose a configuration with more sheet integer bits";
   }
@@ -39,14 +39,14 @@ bool only_opaque(const DeviceReport& report) {
 std::string to_text(const driver::UnitReport& units, const cmodel::Counters& counters) {
   if (units.fast == 0) {
     if (units.plain == 0) return "";
-    const std::string why = units.redone > 0 ? ": in each a sum may have been cut, which the fast one cannot count"
-                            : units.why_plain != nullptr ? fmt::format("; not the fast one: {}", units.why_plain)
+    const std::string why = units.redone > 0 ? ": in each, a sum may have saturated, which the fast unit cannot count"
+                            : units.why_plain != nullptr ? fmt::format("; fast unit not used: {}", units.why_plain)
                                                          : "";
     return fmt::format("unit: plain, {}{}\n", counted(units.plain, "tile"), why);
   }
-  return fmt::format("unit: fast ({}), {}{}; {:.1f} % of the splats lay on frozen blocks and were only counted\n",
+  return fmt::format("unit: fast ({}), {}{}; {:.1f} % of the splats lay on terminated blocks and were only counted\n",
                      units.vectors, counted(units.fast, "tile"),
-                     units.plain > 0 ? fmt::format(", {} again by the plain one", grouped(units.plain)) : "",
+                     units.plain > 0 ? fmt::format(", {} repeated by the plain unit", grouped(units.plain)) : "",
                      100.0 * static_cast<double>(units.hidden_splats) /
                          static_cast<double>(std::max<std::uint64_t>(counters.splats, 1)));
 }
@@ -86,10 +86,9 @@ std::vector<Remark> remarks(const driver::DriverReport& report) {
   std::vector<Remark> remarks;
   if (report.saturated_voxels + report.saturated_records > 0) {
     remarks.push_back(
-        {Remark::Warning,
-         fmt::format("{} voxels and {} splat records had more colour or opacity than the input format holds and were "
-                     "cut; lower --opacity-scale or --xray-exposure, or use a smaller --slab-width",
-                     grouped(report.saturated_voxels), grouped(report.saturated_records))});
+        {Remark::Warning, fmt::format("{} voxels and {} splat records exceeded the input format and were clamped; "
+                                      "lower --opacity-scale or --xray-exposure, or use a smaller --slab-width",
+                                      grouped(report.saturated_voxels), grouped(report.saturated_records))});
   }
   if (report.vanished_voxels > 0 && !report.carried) {
     // What is lost of a picture whose brightest pixel is 1.0 shows from half a step of an 8-bit display on.
@@ -103,10 +102,9 @@ std::vector<Remark> remarks(const driver::DriverReport& report) {
   }
   if (report.widened_voxels > 0) {
     remarks.push_back(
-        {Remark::Note,
-         fmt::format("{} of {} voxels have footprints thinner than half a pixel and were drawn as wide as "
-                     "that, and as much fainter; --antialias on, or a larger --size",
-                     grouped(report.widened_voxels), grouped(report.voxels))});
+        {Remark::Note, fmt::format("{} of {} voxels have footprints thinner than half a pixel and were widened to that "
+                                   "and dimmed accordingly; use --antialias on or a larger --size",
+                                   grouped(report.widened_voxels), grouped(report.voxels))});
   }
   return remarks;
 }

@@ -50,7 +50,7 @@ FailureName::FailureName(const std::string& stem, const std::vector<std::string>
                      .what = std::string("cannot write: ") + std::strerror(errno),
                      .expected = {},
                      .got = {},
-                     .fix = "name a place for the failure's files with --failure PREFIX"});
+                     .fix = "name a writable place for the failure's files with --failure PREFIX"});
     }
     ::close(descriptor);
     claim_.emplace(claim);

@@ -141,10 +141,10 @@ std::vector<Remark> remarks(const FrameReport& report) {
   if (report.footprint_width < kNarrow) {
     said.push_back(
         {Remark::Note,
-         fmt::format("footprints are {:.2g} pixels wide: below {:g} the device's rounding of their places to "
-                     "1/{} pixel shows; a larger --size or --zoom, or more phases (--set snap.phases and "
-                     "position.frac_bits) help",
-                     report.footprint_width, kNarrow, device->config.phases)});
+         fmt::format(
+             "footprints are {:.2g} pixels wide: below {:g} the device's rounding of positions to 1/{} pixel is "
+             "visible; use a larger --size or --zoom, or more phases (--set snap.phases and position.frac_bits)",
+             report.footprint_width, kNarrow, device->config.phases)});
   }
   return said;
 }

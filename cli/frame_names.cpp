@@ -20,10 +20,10 @@ std::string without_percent(const std::string& text) {
 void check_still_name(const std::string& path) {
   if (std::filesystem::path(path).filename().string().find('#') == std::string::npos) return;
   throw_usage({.where = path,
-               .what = "# stands for a frame's number, and a still has none",
+               .what = "# stands for the frame number, which a still does not have",
                .expected = {},
                .got = {},
-               .fix = "add --orbit A..B --frames N or --sequence, or leave the # out"});
+               .fix = "add --orbit A..B --frames N or --sequence, or remove the #"});
 }
 
 FrameNames::FrameNames(const std::string& pattern, int frames, const std::string& of) {
@@ -32,12 +32,12 @@ FrameNames::FrameNames(const std::string& pattern, int frames, const std::string
   const auto end = first == std::string::npos ? first : pattern.find_first_not_of('#', first);
   const auto extension = std::filesystem::path(pattern).extension().string();
   if (first == std::string::npos || (end != std::string::npos && pattern.find('#', end) != std::string::npos)) {
-    throw_usage(
-        {.where = pattern,
-         .what = fmt::format("{} for the {} number", first == std::string::npos ? "no place" : "two places", of),
-         .expected = "one run of # in the file's name",
-         .got = {},
-         .fix = fmt::format("for example {}.####{}", of, of == "frame" ? ".png" : extension)});
+    throw_usage({.where = pattern,
+                 .what = fmt::format("the name has {} for the {} number",
+                                     first == std::string::npos ? "no place" : "two places", of),
+                 .expected = "one group of # in the file name",
+                 .got = {},
+                 .fix = fmt::format("for example {}.####{}", of, of == "frame" ? ".png" : extension)});
   }
   before_ = pattern.substr(0, first);
   after_ = end == std::string::npos ? "" : pattern.substr(end);

@@ -41,13 +41,13 @@ void declare(Options& options, ScalingFlags& to) {
       "--devices",
       [](std::string& text) -> std::string {
         if (devices_from(text)) return {};
-        return fmt::format("expected an integer from 1 to {}, or several that increase, as 1,2,4, got '{}'",
+        return fmt::format("expected an integer from 1 to {}, or an increasing list such as 1,2,4, got '{}'",
                            kMostDevices, text);
       },
       [&to](const std::string& text) { to.devices = *devices_from(text); }, "N[,N...]",
-      "equal devices that the tiles are dealt to; of several numbers a table, and all about the last");
-  static const std::string bytes_help =
-      fmt::format("of the stream, to all devices together; a beat has {}; 0: no limit", cmodel::kBeatBytes);
+      "number of equal devices that share the tiles; a list prints a table, and details of its last number");
+  static const std::string bytes_help = fmt::format(
+      "bandwidth of the stream to all devices together; a beat has {} bytes; 0: no limit", cmodel::kBeatBytes);
   options.integer("--bytes-per-cycle", to.bytes_per_cycle, 0, 65536, "B", bytes_help.c_str());
   options.value(
       "--clock",
@@ -57,13 +57,13 @@ void declare(Options& options, ScalingFlags& to) {
         return fmt::format("expected a number above 0, up to {}, got '{}'", kMostMhz, text);
       },
       [&to](const std::string& text) { to.clock = *number_from(text); }, "MHZ",
-      "clock of the devices: time and frames per second");
+      "clock of the devices; prints time and frames per second");
 }
 
 void check(const ScalingFlags& flags, const std::string& timeline) {
   if (flags.devices.empty() || flags.devices.back() == 1 || timeline.empty()) return;
   throw_usage({.where = timeline,
-               .what = "a timeline is drawn of one device",
+               .what = "a timeline shows one device only",
                .expected = "--devices 1",
                .got = fmt::format("--devices {}", fmt::join(flags.devices, ",")),
                .fix = "leave out --devices or " + timeline});

@@ -37,12 +37,11 @@ Named limit(const FrameScaling& scaling) {
 
 std::string help_against_work(const FrameScaling& scaling) {
   if (scaling.roofline.compositor > scaling.roofline.lanes)
-    return "the devices hardly wait: thicker slabs (--slab-width) composite fewer blocks, more devices share them";
+    return "the devices are busy: thicker slabs (--slab-width) composite fewer blocks, and more devices share them";
   if (scaling.windows <= scaling.splats)
-    return "the devices hardly wait, and a splat is one window already: fewer splats, or more devices";
-  return fmt::format(
-      "the devices hardly wait: {:.2f} windows a splat, which more lanes (array.lanes) make fewer, or more devices",
-      ratio(scaling.windows, scaling.splats));
+    return "the devices are busy, and each splat is a single window: use fewer splats or more devices";
+  return fmt::format("the devices are busy with {:.2f} windows a splat: use more lanes (array.lanes) or more devices",
+                     ratio(scaling.windows, scaling.splats));
 }
 
 std::string help_against_fill(const FrameScaling& scaling) {
@@ -52,14 +51,12 @@ std::string help_against_fill(const FrameScaling& scaling) {
   };
   const auto& a = scaling.account;
   const Part parts[] = {
-      {scaling.wipe, "most of it is the wipe after reset, which only the first frame pays"},
-      {a.table_load,
-       "most of it are tables, which every device loads: larger tiles or fewer devices share them better"},
-      {a.records,
-       "most of it are records of sheets and tiles: thicker slabs (--slab-width) or larger tiles make fewer"},
-      {a.sheet_buffer, "most of it are sheets that wait for a buffer: thicker slabs (--slab-width) make longer sheets"},
-      {a.drain, "most of it are pipes that run empty at the end of each tile: larger tiles make fewer ends"},
-      {a.hazard, "most of it are windows over the one before them, which every sample of its own has to wait for"}};
+      {scaling.wipe, "most of it is the wipe after reset, which only the first frame needs"},
+      {a.table_load, "most of it is table loading in every device: use larger tiles or fewer devices"},
+      {a.records, "most of it is records of sheets and tiles: use thicker slabs (--slab-width) or larger tiles"},
+      {a.sheet_buffer, "most of it is sheets waiting for a buffer: use thicker slabs (--slab-width) for longer sheets"},
+      {a.drain, "most of it is pipelines draining at the end of each tile: use larger tiles"},
+      {a.hazard, "most of it is windows that overlap the previous one and wait for it (composite.every_sample)"}};
   return std::max_element(std::begin(parts), std::end(parts),
                           [](const Part& x, const Part& y) { return x.cycles < y.cycles; })
       ->text;
@@ -72,27 +69,26 @@ std::string help_against_tail(const FrameScaling& scaling) {
                                ? fmt::format("{} for {} devices", counted(tiles, "tile"), scaling.devices)
                                : fmt::format("the longest tile takes {:.1f} % of the frame",
                                              100.0 * ratio(scaling.longest_tile(), scaling.frame));
-  return what + ": smaller tiles (tile.width, tile.height) or a larger picture would share the work better";
+  return what + ": use smaller tiles (tile.width, tile.height) or a larger picture to balance the work";
 }
 
 std::string help_against_bandwidth(const FrameScaling& scaling) {
-  if (scaling.bytes_per_cycle == 0)
-    return "the source of --input is late: the devices would take a beat whenever there is one";
+  if (scaling.bytes_per_cycle == 0) return "the source of --input is late: the devices accept every beat at once";
   // Had the device that ended last not waited, the same bytes would have gone in so many cycles less.
   const auto last = std::max_element(scaling.each.begin(), scaling.each.end(),
                                      [](const auto& x, const auto& y) { return x.end < y.end; });
   const std::uint64_t waited = last->account.input + last->idle - scaling.wipe / scaling.devices;
   return fmt::format(
-      "the link is too slow for {}: about {:.0f} bytes a cycle would keep them at work, {} are as good as no limit",
+      "the link is too slow for {}: about {:.0f} bytes a cycle would keep them busy; {} are equivalent to no limit",
       counted(scaling.devices, "device"), ratio(scaling.bytes_in, scaling.frame - waited),
       cmodel::kBeatBytes * scaling.devices);
 }
 
 std::string help_against_pixel_out(const FrameScaling& scaling) {
-  if (scaling.account.output > scaling.account.pixels) return "the sink is slow: one that is always ready (--ready)";
-  return "a tile's picture goes out while nothing is splatted: more lanes (array.lanes) make wider beats, a second set "
-         "of "
-         "tile registers would hide it";
+  if (scaling.account.output > scaling.account.pixels)
+    return "the sink is slow: use one that is always ready (--ready always)";
+  return "a tile's picture leaves while nothing is splatted: use more lanes (array.lanes) for wider beats; a second "
+         "set of tile registers would hide it";
 }
 
 /// What would help, in words.

@@ -31,7 +31,7 @@ Enum named(const std::vector<std::string>& names, const std::string& name) {
 
 void refuse_what_is_of_volumes(const SceneFlags& scene) {
   const auto refuse = [](const char* flag) {
-    meaningless(flag, "says something of volumes, and --gaussians has none", "leave it out");
+    meaningless(flag, "applies to volumes and cannot be combined with --gaussians", "leave it out");
   };
   if (scene.file) refuse("--scene");
   if (scene.volume) refuse("--volume");
@@ -49,16 +49,15 @@ void refuse_what_is_of_volumes(const SceneFlags& scene) {
 void declare(Options& options, GaussianFlags& to) {
   options.group("3-D Gaussians");
   options.word("--gaussians", to.file, "FILE|NAME",
-               "a trained scene, .ply or .splat, or shells:2000 or cloud:500; instead of a volume");
+               "draw a trained scene (.ply or .splat), or shells:2000 or cloud:500, instead of a volume");
   options.values(scene::synthetic_gaussian_names);
-  options.choice(
-      "--up", to.up, scene::up_axis_names(), "AXIS",
-      "which of the file's axes points up: x, y, z, -x, -y, -z (as the file says, else -y; of built-in scenes z)");
+  options.choice("--up", to.up, scene::up_axis_names(), "AXIS",
+                 "axis that points up: x, y, z, -x, -y, -z (as declared by the file, else -y; z in built-in scenes)");
   options.number("--low-pass", to.low_pass, "NUMBER",
-                 "square pixels added to every footprint's variance, 0.01 to 100 (0.3)");
-  options.number("--cutoff", to.cutoff, "NUMBER", "standard deviations to where a footprint reaches, 1 to 4 (3)");
+                 "variance added to every footprint, in square pixels, 0.01 to 100 (0.3)");
+  options.number("--cutoff", to.cutoff, "NUMBER", "radius of a footprint in standard deviations, 1 to 4 (3)");
   options.choice("--order", to.order, order_names(), "NAME",
-                 "golden: what is in front by the depth of centres, or at every pixel: centres, pixels (centres)");
+                 "golden: sort by depth of centres, or in every pixel: centres, pixels (centres)");
 }
 
 GaussianView describe(const GaussianFlags& flags, const SceneFlags& scene) {
@@ -85,7 +84,7 @@ void refuse_without_gaussians(const GaussianFlags& flags) {
                            : flags.order    ? "--order"
                                             : nullptr;
   if (flag != nullptr)
-    meaningless(flag, "means nothing without 3-D Gaussians", "add --gaussians FILE, or leave it out");
+    meaningless(flag, "has no effect without 3-D Gaussians", "add --gaussians FILE, or leave it out");
 }
 
 std::vector<std::string> inputs_of(const GaussianFlags& flags) {

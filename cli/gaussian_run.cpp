@@ -28,15 +28,17 @@ void check(const RenderArguments& arguments, Engine engine) {
   const auto refuse = [](const char* flag, const std::string& what, const std::string& fix) {
     throw_usage({.where = flag, .what = what, .expected = {}, .got = {}, .fix = fix});
   };
-  const std::string none = "--gaussians has none";
-  if (engine == Engine::Rtl) refuse("--engine rtl", "draws no 3-D Gaussians", "use --engine cmodel, its model");
+  const std::string none = "it cannot be combined with --gaussians";
+  if (engine == Engine::Rtl)
+    refuse("--engine rtl", "does not support 3-D Gaussians", "use --engine cmodel, its bit-accurate model");
   if (engine != Engine::Golden && arguments.gaussians.order)
-    refuse("--order", "the device has one order, that of its records", "add --engine golden, or leave it out");
+    refuse("--order", "the device supports one order only, that of its records",
+           "add --engine golden, or leave it out");
   if (arguments.orbit || arguments.sequence || arguments.frames)
-    refuse("--orbit, --sequence, --frames", "animations are of volumes", "render stills with --azimuth");
+    refuse("--orbit, --sequence, --frames", "animations support volumes only", "render stills with --azimuth");
   if (!arguments.save_scene.empty()) refuse("--save-scene", "a scene.toml describes volumes; " + none, "leave it out");
   if (arguments.plain && engine == Engine::Golden)
-    refuse("--plain", "golden has one way to draw 3-D Gaussians", "add --engine cmodel, or leave it out");
+    refuse("--plain", "the golden renderer has one method for 3-D Gaussians", "add --engine cmodel, or leave it out");
 }
 
 struct GoldenGaussians {
@@ -83,7 +85,7 @@ std::string to_text(const DeviceGaussians& device) {
                      counted(device.report.records, "ellipse record"), counted(device.report.tiles, "tile")) +
          fmt::format(
              "device: configuration {} {}, {} ({:.2f} a Gaussian and tile, {:.1f} % of their lanes used), {} "
-             "composited, {} of them frozen\n",
+             "composited, {} of them terminated\n",
              device.config.name, hash_text(cmodel::config_hash(device.config)),
              counted(device.counters.windows, "window"), device.windows_each(), 100.0 * device.used(),
              counted(device.counters.pixels_composited, "sample"), grouped(device.counters.frozen_pixels)) +
@@ -141,14 +143,16 @@ std::vector<Remark> remarks(const DeviceGaussians& device) {
   std::vector<Remark> said;
   const auto& report = device.report;
   if (report.cut > 0) {
-    said.push_back({Remark::Warning,
-                    fmt::format("{} Gaussians reach farther into the picture than an ellipse record does and were cut "
-                                "there; a smaller --size or --zoom",
-                                grouped(report.cut))});
+    said.push_back(
+        {Remark::Warning,
+         fmt::format(
+             "{} Gaussians exceed the reach of an ellipse record and were clipped; use a smaller --size or --zoom",
+             grouped(report.cut))});
   }
   if (report.saturated > 0) {
-    said.push_back({Remark::Warning, fmt::format("{} Gaussians are brighter than the input format holds and were cut",
-                                                 grouped(report.saturated))});
+    said.push_back(
+        {Remark::Warning, fmt::format("{} Gaussians are brighter than the input format allows and were clamped",
+                                      grouped(report.saturated))});
   }
   if (report.vanished > 0) {
     said.push_back({Remark::Note, fmt::format("{} Gaussians are too transparent for the input format and vanished",
@@ -158,8 +162,8 @@ std::vector<Remark> remarks(const DeviceGaussians& device) {
   const int wanted = static_cast<int>(std::ceil(scene::kFinished * one));
   if (device.config.freeze_below != wanted) {
     said.push_back(
-        {Remark::Note, fmt::format("pixels are finished below a transmittance of {:.2g}, golden's below "
-                                   "{:g}: --set composite.freeze_below={}",
+        {Remark::Note, fmt::format("pixels terminate below a transmittance of {:.2g}, but golden's below {:g}; use "
+                                   "--set composite.freeze_below={} to match",
                                    static_cast<double>(device.config.freeze_below) / one, scene::kFinished, wanted)});
   }
   device.counters.for_each([&](std::string_view name, std::uint64_t value, std::string_view meaning) {

@@ -21,8 +21,8 @@ images::WriteOptions options_for(const std::string& path) {
 void declare_images(Options& options, std::vector<std::string>& out, std::string& raw) {
   options.group("Output");
   options.words("-o,--out", out, "FILE",
-                "image: .exr (float, linear), .tif (16 bit, linear), .png (8 bit, sRGB); repeatable");
-  options.word("--raw", raw, "FILE", "the device's raw integer words as .exr (cmodel, rtl)");
+                "write the image: .exr (float, linear), .tif (16 bit, linear), .png (8 bit, sRGB); repeatable");
+  options.word("--raw", raw, "FILE", "write the device's raw integer words as .exr (cmodel, rtl)");
 }
 
 void write_images(const std::vector<std::string>& paths, const Image& image, const Image& shown,
@@ -33,8 +33,8 @@ void write_images(const std::vector<std::string>& paths, const Image& image, con
     if (options.display) labelled["display"] = "srgb";
     const std::size_t clamped = images::write_image(path, ending_of(path) == ".exr" ? image : shown, labelled, options);
     if (clamped > 0) {
-      output.warn(fmt::format("{}: {} values lay outside 0..1 and were clamped; write .exr to keep them", path,
-                              grouped(clamped)));
+      output.warn(
+          fmt::format("{}: {} values outside 0..1 were clamped; write .exr to keep them", path, grouped(clamped)));
     }
     output.line(path);
   }

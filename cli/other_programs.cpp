@@ -36,12 +36,7 @@ const std::vector<Known>& known() {
       {"yosys", {"yosys"}, "-V", "Yosys", "netlists and proofs of the RTL, in ./run test", "yosys"},
       {"z3", {"z3"}, "--version", "Z3", "proofs of the RTL, in ./run test", "z3"},
       {"iverilog", {"iverilog"}, "-V", "Icarus", "the RTL in a second simulator, in ./run test", "iverilog"},
-      {"node",
-       {"node", "nodejs"},
-       "--version",
-       "v",
-       "building the report's page anew, its browser tests",
-       "nodejs npm"},
+      {"node", {"node", "nodejs"}, "--version", "v", "rebuilding the report's page, its browser tests", "nodejs npm"},
       {"chromium",
        {"chromium", "chromium-browser", "google-chrome"},
        "--version",
@@ -55,7 +50,7 @@ const std::vector<Known>& known() {
        "GNU parallel",
        "command lists of plan submit --engine script",
        "parallel"},
-      {"ccache", {"ccache", "sccache"}, "--version", "cache", "building again in a fraction of the time", "ccache"},
+      {"ccache", {"ccache", "sccache"}, "--version", "cache", "rebuilding in a fraction of the time", "ccache"},
   };
   return all;
 }
@@ -157,7 +152,7 @@ std::string last_line(std::string text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) text.pop_back();
   text.erase(0, text.rfind('\n') == text.npos ? 0 : text.rfind('\n') + 1);
   for (char& c : text) c = std::isprint(static_cast<unsigned char>(c)) != 0 ? c : '?';
-  return text.empty() ? "it says nothing" : text.substr(0, 120);
+  return text.empty() ? "no output" : text.substr(0, 120);
 }
 
 }  // namespace
@@ -186,7 +181,7 @@ std::vector<OtherProgram> look_for_programs(std::chrono::milliseconds limit) {
       program.problem =
           fmt::format("does not answer {} within {} s", known()[at].ask, static_cast<double>(limit.count()) / 1000.0);
     } else if (!itself || program.version.empty()) {
-      program.problem = fmt::format("does not tell its version: {}", last_line(asked[at].text));
+      program.problem = fmt::format("does not print its version: {}", last_line(asked[at].text));
     }
   }
   return programs;

@@ -60,7 +60,7 @@ bool write_stdout(std::string_view text) {
                  .what = std::string("cannot write: ") + std::strerror(errno),
                  .expected = {},
                  .got = {},
-                 .fix = "send it to a place that takes it"});
+                 .fix = "redirect it to a writable place"});
 }
 
 bool stderr_is_terminal() {
@@ -79,7 +79,7 @@ void print_error(std::string_view message) noexcept {
     while (!line.empty() && line.back() == ' ') line.pop_back();
     talk("fastsplat: error:", "1;31", line);
   } catch (...) {
-    write_all(STDERR_FILENO, "fastsplat: error: not enough memory to say more\n");
+    write_all(STDERR_FILENO, "fastsplat: error: not enough memory for the message\n");
   }
 }
 

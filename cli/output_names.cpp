@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 void require_ending(const std::string& path, const std::vector<std::string>& known) {
   if (std::find(known.begin(), known.end(), ending_of(path)) != known.end()) return;
   throw_usage({.where = path,
-               .what = "the ending does not name an image format written here",
+               .what = "unsupported image extension",
                .expected = fmt::format("{}", fmt::join(known, ", ")),
                .got = ending_of(path).empty() ? "none" : ending_of(path),
                .fix = "end the name in " + known.front()});
@@ -84,11 +84,11 @@ void check_outputs(const OutputNames& names) {
     if (const auto* role = taken.find(path)) {
       const bool read = *role == Taken::Role::Read;
       throw_usage({.where = path,
-                   .what = read ? "one name for two files of this command: it is read, and would be replaced"
-                                : "one name for two files of this command",
+                   .what = read ? "the same name for an input and an output, which would replace it"
+                                : "the same name for two outputs",
                    .expected = {},
                    .got = {},
-                   .fix = read ? "give the result another name" : "give each its own"});
+                   .fix = read ? "give the result another name" : "give each output its own name"});
     }
     taken.add(path, Taken::Role::Written);
     require_writable(path);

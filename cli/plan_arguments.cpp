@@ -9,9 +9,10 @@ std::string PlanFlags::folder() const {
 }
 
 void declare(Options& options, PlanFlags& to) {
-  options.positional("PLAN", to.plan, "what `fastsplat plan make` wrote");
+  options.positional("PLAN", to.plan, "a plan written by `fastsplat plan make`");
   options.group("Results");
-  options.word("--results", to.results, "FOLDER", "where results lie, a file a case; PLAN.json: PLAN.results");
+  options.word("--results", to.results, "FOLDER",
+               "folder of the results, one file per case (for PLAN.json: PLAN.results)");
 }
 
 }  // namespace fastsplat::cli

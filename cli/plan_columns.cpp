@@ -12,13 +12,14 @@ plan::TableOptions RowFlags::options() const {
 }
 
 void declare(Options& options, RowFlags& to) {
-  options.positional("MERGED", to.merged, "what `fastsplat plan merge` wrote");
+  options.positional("MERGED", to.merged, "merged results written by `fastsplat plan merge`");
   options.group("Rows and columns");
-  options.word("--columns", to.columns, "A,B,...",
-               "axes, metrics, id, kind, status, message, config_hash, scene_hash, program_hash, command");
-  options.words("--where", to.where, "NAME=VALUE", "rows of this value only; repeatable");
-  options.words("--sort", to.sort, "NAME", "by this column, the largest first with - before it; repeatable");
-  options.integer("--most", to.most, 0, 1'000'000, "N", "rows at the most; 0 all");
+  options.word(
+      "--columns", to.columns, "A,B,...",
+      "columns to show: axes, metrics, id, kind, status, message, config_hash, scene_hash, program_hash, command");
+  options.words("--where", to.where, "NAME=VALUE", "only rows with this value; repeatable");
+  options.words("--sort", to.sort, "NAME", "sort by this column, with - before it in descending order; repeatable");
+  options.integer("--most", to.most, 0, 1'000'000, "N", "maximum number of rows; 0: all");
 }
 
 }  // namespace fastsplat::cli

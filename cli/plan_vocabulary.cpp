@@ -143,10 +143,10 @@ void require_content(const plan::Plan& plan, const std::string& plan_file) {
     if (content_of(one.settings, verbs_of(one)) == one.content) continue;
     throw_input(
         {.where = plan_file,
-         .what = fmt::format("case {}: its configuration or its scene is not what the plan was made of", one.id),
+         .what = fmt::format("case {}: its configuration or scene changed after the plan was made", one.id),
          .expected = fmt::format("configuration {}, scene {}", one.content.config_hash, one.content.scene_hash),
          .got = {},
-         .fix = "run it in the folder where it was made, or make it again: `fastsplat plan make`"});
+         .fix = "run it in the folder where the plan was made, or make the plan again with `fastsplat plan make`"});
   }
   plan::require_made(plan, plan_vocabulary(), plan_file);
 }

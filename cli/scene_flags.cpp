@@ -63,7 +63,8 @@ void set(T& to, const std::optional<U>& from) {
 void apply_kernel(const SceneFlags& flags, scene::SceneDescription& to) {
   const bool shaped = flags.settings.contains("--kernel-a") || flags.settings.contains("--kernel-radius");
   if (flags.kernel && shaped) {
-    contradiction("--kernel names a and R already", "give either --kernel or --kernel-a and --kernel-radius");
+    contradiction("--kernel cannot be combined with --kernel-a or --kernel-radius",
+                  "use either --kernel, or --kernel-a and --kernel-radius");
   }
   set(to.kernel, flags.kernel);
   if (!shaped || to.kernel.empty()) return;
@@ -75,7 +76,7 @@ void apply_kernel(const SceneFlags& flags, scene::SceneDescription& to) {
 
 void apply_camera(const SceneFlags& flags, scene::SceneDescription& to) {
   if (flags.perspective && flags.orthographic)
-    contradiction("--perspective and --orthographic exclude each other", "give one");
+    contradiction("--perspective cannot be combined with --orthographic", "use one of them");
   if (flags.perspective) to.camera.projection = scene::Projection::Perspective;
   if (flags.orthographic) to.camera.projection = scene::Projection::Orthographic;
 }
@@ -98,15 +99,15 @@ std::vector<scene::Given> given_by(const SceneFlags& flags) {
 }  // namespace
 
 void declare_nan_as(Options& options, std::optional<double>& to) {
-  options.number("--nan-as", to, "VALUE", "what voxels that are NaN or infinite are taken as; refused without it");
+  options.number("--nan-as", to, "VALUE", "value that replaces NaN and infinite voxels, which are refused otherwise");
 }
 
 volume::ReadOptions reading(const std::optional<double>& nan_as) {
   if (!nan_as) return {};
   if (!(std::abs(*nan_as) <= scene::kLargestVoxel)) {
     throw_usage({.where = "--nan-as",
-                 .what = "not a value that a voxel can have",
-                 .expected = "a finite number that a float holds",
+                 .what = "not a valid voxel value",
+                 .expected = "a finite number in the range of a float",
                  .got = fmt::format("{}", *nan_as),
                  .fix = "for example --nan-as 0"});
   }
@@ -116,10 +117,10 @@ volume::ReadOptions reading(const std::optional<double>& nan_as) {
 void declare(Options& options, SceneFlags& to) {
   options.group("Scene");
   options.word("--scene", to.file, "FILE|demo:NAME",
-               "a scene.toml or a built-in demo:NAME (`doctor` lists them); the flags below override it");
+               "a scene.toml or a built-in demo:NAME (listed by `doctor`); the flags below override it");
   options.values(demo_words);
   options.word("--volume", to.volume, "NAME|PATH",
-               "NRRD, NIfTI or MetaImage file, a built-in like shells:128, or ch2, ch2bet, inia19-t1-brain");
+               "a NRRD, NIfTI or MetaImage file, a built-in such as shells:128, or ch2, ch2bet, inia19-t1-brain");
   options.values(volume::known_volume_names);
   declare_nan_as(options, to.nan_as);
   options.word("--tf", to.transfer_function, "NAME|FILE", "transfer function: a preset or a TOML file");
@@ -177,10 +178,10 @@ void refuse_display(const SceneFlags& flags) {
   for (const char* flag : {"--background", "--xray-invert"}) {
     if (!flags.settings.contains(flag)) continue;
     throw_usage({.where = flag,
-                 .what = "means nothing here: no picture is made",
+                 .what = "has no effect: this subcommand writes no picture",
                  .expected = {},
                  .got = {},
-                 .fix = "leave it out; `fastsplat render` makes pictures"});
+                 .fix = "leave it out, or use `fastsplat render`"});
   }
 }
 
@@ -190,9 +191,10 @@ std::string summary(const scene::Scene& scene) {
   const auto& dims = scene.volume->dims;
   const bool xray = scene.description.method == scene::Method::XRay;
   const std::string exposure =
-      !xray ? ""
-            : fmt::format(", exposure {:.6g}{}", scene.xray_scale,
-                          scene.description.xray_exposure > 0.0 ? "" : " (automatic: --xray-exposure sets another)");
+      !xray
+          ? ""
+          : fmt::format(", exposure {:.6g}{}", scene.xray_scale,
+                        scene.description.xray_exposure > 0.0 ? "" : " (automatic; --xray-exposure sets a fixed one)");
   return fmt::format("{} {}x{}x{}, {}, {}, {}x{} pixels{}", scene.volume->name, dims.x, dims.y, dims.z,
                      scene.transfer_function.name, scene::to_string(scene.description.method), scene.camera.width(),
                      scene.camera.height(), exposure);

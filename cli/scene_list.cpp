@@ -17,8 +17,8 @@ std::vector<std::string> split(const std::vector<std::string>& lists) {
       const bool twice = std::ranges::find(names, word) != names.end();
       if (word.empty() || twice) {
         throw_usage({.where = "--scenes",
-                     .what = word.empty() ? "names an empty scene" : "names a scene twice",
-                     .expected = "names with a comma between them, each once",
+                     .what = word.empty() ? "contains an empty name" : "contains a scene twice",
+                     .expected = "names separated by commas, each once",
                      .got = "'" + list + "'",
                      .fix = "for example --scenes a.toml,demo:fire"});
       }
@@ -34,7 +34,7 @@ void declare(Options& options, SceneList& to) {
   declare(options, to.flags);
   options.group("Scene");
   options.words("--scenes", to.names, "A,B",
-                "several scenes: files or demo:NAME; the flags override each of them; repeatable");
+                "several scenes, files or demo:NAME; flags override settings of each; repeatable");
 }
 
 std::vector<SceneFlags> scenes_of(const SceneList& list) {
@@ -42,10 +42,10 @@ std::vector<SceneFlags> scenes_of(const SceneList& list) {
   if (names.empty()) return {list.flags};
   if (list.flags.file) {
     throw_usage({.where = "--scene",
-                 .what = "--scenes names the scenes already",
+                 .what = "cannot be combined with --scenes",
                  .expected = {},
                  .got = {},
-                 .fix = "give either, or name this one in --scenes, too"});
+                 .fix = "use one of them, or add this scene to --scenes"});
   }
   std::vector<SceneFlags> scenes;
   for (const std::string& name : names) {

@@ -150,7 +150,7 @@ std::string to_text(const Failure& failure) {
   const auto& report = failure.report;
   return fmt::format("shrunk from {} to {} splats in {} runs{}\n", grouped(report.shrink.splats_before),
                      grouped(report.shrink.splats_after), report.shrink.runs,
-                     report.shrink.finished ? "" : " (there may be a smaller one)") +
+                     report.shrink.finished ? "" : " (a smaller one may exist)") +
          "smallest stream: " + report.divergence + "\n" +
          (report.operands.empty() ? "" : "  " + report.operands + "\n") +
          (failure.waveform.empty()
@@ -278,8 +278,8 @@ std::string fault_list_text() {
   TextTable table{.columns = {"fault", "where", "what is broken"}, .rows = {}};
   for (const auto& fault : testbench::planted_faults()) table.rows.push_back({fault.name, where(fault), fault.meaning});
   return to_text(table) + fmt::format(
-                              "rtl: in the RTL of configuration {0}, SAMPLE_ of {1}, CULL_ of {2}, POST_ of {3}, which "
-                              "--config then is; ports: of any configuration\n",
+                              "rtl: in the RTL of configuration {0} (SAMPLE_: {1}, CULL_: {2}, POST_: {3}), which "
+                              "becomes the default of --config; ports: in any configuration\n",
                               testbench::kBreakableConfig, testbench::kBreakableSamples, testbench::kBreakableCull,
                               testbench::kBreakablePost);
 }

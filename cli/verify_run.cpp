@@ -21,12 +21,11 @@ const testbench::PlantedFault& fault_of(const VerifyArguments& arguments, const 
   const std::string name = testbench::breakable_config(fault);
   const auto breakable = cmodel::config_hash(driver::load_config(name));
   if (fault.where == testbench::PlantedFault::Where::Rtl && cmodel::config_hash(config) != breakable) {
-    throw_usage(
-        {.where = "--fault " + arguments.fault,
-         .what = "is only in the RTL of configuration " + name,
-         .expected = hash_text(breakable),
-         .got = config.name + " " + hash_text(cmodel::config_hash(config)),
-         .fix = "leave out --config, or plant a fault at the ports, which any configuration takes: --fault list"});
+    throw_usage({.where = "--fault " + arguments.fault,
+                 .what = "exists only in the RTL of configuration " + name,
+                 .expected = hash_text(breakable),
+                 .got = config.name + " " + hash_text(cmodel::config_hash(config)),
+                 .fix = "leave out --config, or plant a fault at the ports of any configuration (see --fault list)"});
   }
   return fault;
 }
@@ -50,17 +49,17 @@ void check_numbers(const VerifyArguments& arguments) {
   const auto more = static_cast<std::uint64_t>(arguments.seeds) - 1;
   if (arguments.seed > kLastSeed - more) {
     throw_usage({.where = fmt::format("--seed {} --seeds {}", arguments.seed, arguments.seeds),
-                 .what = "the last seeds are larger than --seed takes",
+                 .what = "the last seeds exceed the limit of --seed",
                  .expected = fmt::format("--seed of at most {}", kLastSeed - more),
                  .got = std::to_string(arguments.seed),
                  .fix = "lower --seed or --seeds"});
   }
   if (arguments.random.value_or(0) > kMostSplats) {
     throw_usage({.where = "--random",
-                 .what = "streams of so many splats are not held in memory",
+                 .what = "streams of this many splats do not fit into memory",
                  .expected = fmt::format("at most {}", kMostSplats),
                  .got = std::to_string(*arguments.random),
-                 .fix = "lower --random, raise --seeds"});
+                 .fix = "lower --random and raise --seeds"});
   }
 }
 
@@ -68,48 +67,51 @@ void check_numbers(const VerifyArguments& arguments) {
 
 void declare(Options& options, VerifyArguments& to) {
   options.group("Stimulus");
-  options.word("--stream", to.stream, "FILE", "a recorded stream, .fss");
-  options.integer("--random", to.random, 1, 1'000'000'000, "N", "random streams of about N splats per seed");
-  options.word("--class", to.stimulus, "NAME", "random: stimulus class (all; an unknown one lists them)");
+  options.word("--stream", to.stream, "FILE", "verify a recorded stream, .fss");
+  options.integer("--random", to.random, 1, 1'000'000'000, "N", "verify random streams of about N splats per seed");
+  options.word("--class", to.stimulus, "NAME", "random: stimulus class (all); an unknown name lists the classes");
   options.values(stimulus_words);
   options.integer("--seed", to.seed, 0, std::numeric_limits<long>::max(), "S",
-                  "of random streams, patterns and reset fill");
+                  "seed of random streams, patterns and reset fill");
   options.integer("--seeds", to.seeds, 1, 1'000'000, "N", "random: runs with seeds S, S+1, ...");
-  options.integer("--jobs", to.jobs, 0, 1024, "N", "random: streams in parallel, as --threads; never changes a result");
+  options.integer("--jobs", to.jobs, 0, 1024, "N",
+                  "random: streams in parallel, as --threads; results do not depend on it");
   options.group("Device");
   declare(options, to.config, "hardware configuration with RTL");
   options.word("--ready", to.ready, "PATTERN",
-               "when pixels are taken: always, every-N, alternate-N, random-PERCENT, burst-N; random: all takes turns");
+               "ready pattern of the sink: always, every-N, alternate-N, random-PERCENT, burst-N; random: all uses "
+               "each in turn");
   options.values(ready_words);
-  options.word("--input", to.input, "PATTERN", "when beats are offered, a pattern as above");
+  options.word("--input", to.input, "PATTERN", "valid pattern of the source, as above");
   options.values(pattern_words);
   options.choice("--fill", to.fill, {"zero", "one", "random"}, "zero|one|random",
-                 "what registers and memories hold before reset");
+                 "content of registers and memories before reset");
   options.integer("--reset-after", to.reset_after, 1, 2'000'000'000, "N",
                   "warm reset after N beats, then the whole stream");
-  options.word("--fault", to.fault, "NAME", "plants a fault on purpose, to see a failure; list: tells which there are");
+  options.word("--fault", to.fault, "NAME", "plant a fault on purpose to see a failure; list: print all faults");
   options.values([] {
     auto names = testbench::planted_fault_names();
     names.emplace_back("list");
     return names;
   });
   options.group("Output");
-  options.word("--coverage", to.coverage, "FILE", "functional coverage as JSON, added to what FILE holds");
-  options.word("--failure", to.failure, "PREFIX", "a failure's small stream and waveform: PREFIX.fss and PREFIX.fst");
+  options.word("--coverage", to.coverage, "FILE", "write functional coverage as JSON, added to the content of FILE");
+  options.word("--failure", to.failure, "PREFIX",
+               "write a failure's small stream and waveform to PREFIX.fss and PREFIX.fst");
   options.integer("--all-mismatches", to.all_mismatches, 1, 100'000, "N",
-                  "goes on to the end, and tells the first N mismatches in one table");
+                  "continue after a mismatch, and print the first N mismatches in one table");
   options.word("--save-stream", to.save_stream, "FILE",
-               "random: the stream as a file, .fss; of several, # in its name becomes their numbers");
-  options.word("--junit", to.junit, "FILE", "the result as JUnit XML, a case for each stream");
+               "random: write the stream, .fss; with several streams, # in the name become their numbers");
+  options.word("--junit", to.junit, "FILE", "write the result as JUnit XML, one case per stream");
   declare(options, to.wave);
   declare(options, to.scene);
   declare(options, to.common);
   options.example("fastsplat verify --random 1000 --seed 7 --config tiny --ready random-50",
                   "RTL against model on random streams, every tap compared");
   options.example("fastsplat verify --stream shells.fss --config tiny --coverage book.json",
-                  "on a recorded stream, coverage added up");
+                  "a recorded stream, accumulating coverage");
   options.example("fastsplat verify --random 100000 --seeds 100 --jobs 2 --config tiny --json night.json",
-                  "a night's campaign", Example::Slow);
+                  "an overnight campaign", Example::Slow);
 }
 
 Source source_from(const VerifyArguments& arguments) {
@@ -118,21 +120,21 @@ Source source_from(const VerifyArguments& arguments) {
   const int given = (has_scene ? 1 : 0) + (arguments.stream.empty() ? 0 : 1) + (arguments.random ? 1 : 0);
   if (given != 1) {
     throw_usage({.where = {},
-                 .what = given == 0 ? "verify what?" : "more than one thing to verify",
+                 .what = given == 0 ? "nothing to verify" : "more than one thing to verify",
                  .expected = "one of --random N, --stream FILE, --volume NAME or --scene FILE",
                  .got = {},
                  .fix = "for example --random 1000"});
   }
   if (!has_scene && !(scene == SceneFlags{})) {
     throw_usage({.where = arguments.random ? "--random" : "--stream",
-                 .what = "a scene's flags mean nothing here",
+                 .what = "cannot be combined with a scene's flags",
                  .expected = {},
                  .got = {},
                  .fix = "leave them out, or verify a scene with --volume NAME or --scene FILE"});
   }
   if (!arguments.random && (arguments.seeds != 1 || arguments.stimulus != "all" || arguments.ready == "all")) {
     throw_usage({.where = {},
-                 .what = "--seeds, --class and --ready all belong to --random",
+                 .what = "--seeds, --class and --ready all require --random",
                  .expected = {},
                  .got = {},
                  .fix = "add --random N, or leave them out"});
@@ -140,24 +142,24 @@ Source source_from(const VerifyArguments& arguments) {
   check_numbers(arguments);
   if (!arguments.random && !arguments.save_stream.empty()) {
     throw_usage({.where = "--save-stream",
-                 .what = "only random streams are not in a file yet",
+                 .what = "applies to random streams only",
                  .expected = {},
                  .got = {},
-                 .fix = "add --random N; `fastsplat stream record` writes the stream of a scene"});
+                 .fix = "add --random N, or write the stream of a scene with `fastsplat stream record`"});
   }
   if (!arguments.fault.empty() && !arguments.coverage.empty()) {
     throw_usage({.where = "--coverage",
-                 .what = "a device that is wrong on purpose covers nothing",
+                 .what = "cannot be combined with --fault: a broken device covers nothing",
                  .expected = {},
                  .got = {},
                  .fix = "leave out --fault or --coverage"});
   }
   if (arguments.jobs && arguments.common.threads != 0 && *arguments.jobs != arguments.common.threads) {
     throw_usage({.where = "--jobs",
-                 .what = "is the same as --threads, and they differ",
+                 .what = "contradicts --threads, which means the same",
                  .expected = std::to_string(arguments.common.threads),
                  .got = std::to_string(*arguments.jobs),
-                 .fix = "give one of them"});
+                 .fix = "use one of them"});
   }
   return has_scene ? Source::Scene : arguments.random ? Source::Random : Source::Stream;
 }

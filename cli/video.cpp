@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
                .what = "ffmpeg could not make the video: " + reason,
                .expected = {},
                .got = {},
-               .fix = "the frames are there; run the command again to try only the video"});
+               .fix = "run the command again to retry the video: the frames are kept"});
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ void check_video(const std::string& path) {
   const std::string ending = fs::path(path).extension().string();
   if (ending != ".mp4" && ending != ".mkv" && ending != ".webm") {
     throw_usage({.where = path,
-                 .what = "the ending does not name a video format",
+                 .what = "unsupported video extension",
                  .expected = ".mp4, .mkv, .webm",
                  .got = ending.empty() ? "none" : ending,
                  .fix = "end the name in .mp4"});

@@ -18,8 +18,8 @@ constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
 }  // namespace
 
 void declare(Options& options, WaveFlags& to) {
-  options.word("--wave", to.file, "FILE", "rtl: a waveform, .fst; the run is simulated once more for it");
-  options.word("--cycles", to.cycles, "A..B", "of the waveform: these cycles after reset, both included (all)");
+  options.word("--wave", to.file, "FILE", "rtl: write a waveform, .fst; this simulates the run once more");
+  options.word("--cycles", to.cycles, "A..B", "cycles of the waveform after reset, both included (all)");
 }
 
 std::vector<testbench::RtlAbilities> wanted_abilities(const WaveFlags& flags) {
@@ -31,19 +31,16 @@ std::vector<testbench::RtlAbilities> wanted_abilities(const WaveFlags& flags) {
 WaveRange range_of(const WaveFlags& flags) {
   if (flags.file.empty()) {
     if (flags.cycles)
-      throw_usage({.where = "--cycles",
-                   .what = "the cycles of which waveform?",
-                   .expected = {},
-                   .got = {},
-                   .fix = "add --wave FILE.fst"});
+      throw_usage(
+          {.where = "--cycles", .what = "requires --wave", .expected = {}, .got = {}, .fix = "add --wave FILE.fst"});
     return {};
   }
   if (!flags.file.ends_with(".fst")) {
     throw_usage({.where = "--wave " + flags.file,
-                 .what = "a waveform's name ends in .fst",
+                 .what = "the name of a waveform must end in .fst",
                  .expected = {},
                  .got = {},
-                 .fix = "for example --wave run.fst; GTKWave's fst2vcd makes a VCD of it"});
+                 .fix = "for example --wave run.fst; GTKWave's fst2vcd converts it to VCD"});
   }
   if (!flags.cycles) return {.from = 0, .to = kAll};
   const std::string& text = *flags.cycles;
@@ -68,10 +65,10 @@ Wave write_wave(const WaveFlags& flags, const testbench::BeatSource& source, tes
   if (range.from >= last_cycle) {
     return {.file = flags.file,
             .unwritten = one_line({.where = "--cycles",
-                                   .what = "the run ends before them, so there is no waveform",
+                                   .what = "the run ends before these cycles; no waveform was written",
                                    .expected = fmt::format("cycles from 0 to {}", last_cycle - 1),
                                    .got = *flags.cycles,
-                                   .fix = "name cycles that it has"}),
+                                   .fix = "use cycles in this range"}),
             .code = ExitCode::Usage};
   }
   Wave wave{.file = flags.file, .from = range.from, .to = std::min(range.to, last_cycle), .unwritten = {}};

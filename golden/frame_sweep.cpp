@@ -83,7 +83,7 @@ class FrameSweep {
     const double bytes = static_cast<double>(live) * static_cast<double>(pixels_.size()) * sizeof(Sums);
     if (bytes <= kFrameSweepBytes) return;
     throw_usage({.where = {},
-                 .what = fmt::format("{} sheets of {}x{} pixels are live at once", live, width_, height_),
+                 .what = fmt::format("{} sheets of {}x{} pixels must be in memory at once", live, width_, height_),
                  .expected = fmt::format("at most {:.0f} GB", kFrameSweepBytes * 1e-9),
                  .got = fmt::format("{:.1f} GB", bytes * 1e-9),
                  .fix = "use a larger slab width or a smaller image"});

@@ -248,7 +248,7 @@ Pages fit(const Album& album, Focus focus, std::size_t bytes) {
         largest = i;
     }
     if (largest == pictures.size()) break;
-    pages.remarks.push_back(fmt::format("{}: left out, its {:.1f} MB do not fit", pictures[largest].from,
+    pages.remarks.push_back(fmt::format("{}: left out, because its {:.1f} MB do not fit", pictures[largest].from,
                                         static_cast<double>(base64_size(all[largest].bytes)) / 1e6));
     pictures.erase(pictures.begin() + static_cast<std::ptrdiff_t>(largest));
     all.erase(all.begin() + static_cast<std::ptrdiff_t>(largest));
@@ -268,9 +268,9 @@ Pages fit(const Album& album, Focus focus, std::size_t bytes) {
       json["same_as"] = first->second;
     }
     if (json.contains("crop")) {
-      pages.remarks.push_back(fmt::format("{}: {} x {} pixels of {} x {} from ({}, {}), so that the report stays small",
-                                          picture.from, picture.width, picture.height, picture.full_width,
-                                          picture.full_height, picture.x0, picture.y0));
+      pages.remarks.push_back(
+          fmt::format("{}: cropped to {} x {} pixels of {} x {} from ({}, {}) to keep the report small", picture.from,
+                      picture.width, picture.height, picture.full_width, picture.full_height, picture.x0, picture.y0));
     }
     pages.entries.push_back(std::move(json));
   }

@@ -13,7 +13,7 @@ std::string deflated(const std::string& bytes) {
   z_stream stream{};
   // Negative window bits: raw deflate, what the browser's DecompressionStream('deflate-raw') takes.
   if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, -MAX_WBITS, 9, Z_DEFAULT_STRATEGY) != Z_OK)
-    throw std::runtime_error("zlib cannot begin");
+    throw std::runtime_error("zlib cannot start");
   std::string out(deflateBound(&stream, static_cast<uLong>(bytes.size())), '\0');
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
   stream.avail_in = static_cast<uInt>(bytes.size());
@@ -22,7 +22,7 @@ std::string deflated(const std::string& bytes) {
   const int outcome = deflate(&stream, Z_FINISH);
   out.resize(stream.total_out);
   deflateEnd(&stream);
-  if (outcome != Z_STREAM_END) throw std::runtime_error("zlib does not end");
+  if (outcome != Z_STREAM_END) throw std::runtime_error("zlib cannot finish");
   return out;
 }
 

@@ -13,7 +13,7 @@ void Figures::damaged(const std::string& place, const std::string& expected) con
                .what = "a damaged result of `" + result_.verb + "`: " + place,
                .expected = expected,
                .got = got,
-               .fix = "run it again with --json"});
+               .fix = "run this subcommand again with --json"});
 }
 
 const Json* Figures::find(const std::string& place) const {

@@ -37,10 +37,10 @@ void reading(const Result& result, const Make& make) {
     make();
   } catch (const Json::exception&) {
     throw_input({.where = result.file.string(),
-                 .what = "a damaged result of `" + result.verb + "`: a figure of another type than it has",
+                 .what = "a damaged result of `" + result.verb + "`: a figure has the wrong type",
                  .expected = {},
                  .got = {},
-                 .fix = "run it again with --json"});
+                 .fix = "run this subcommand again with --json"});
   }
 }
 

@@ -77,8 +77,8 @@ NamedPicture picture_from(const std::string& text) {
   const auto in_role = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-'; };
   if (role.empty() || file.empty() || !is_letter(role[0]) || !std::all_of(role.begin(), role.end(), in_role)) {
     throw_usage({.where = "--picture",
-                 .what = "not a picture with its role",
-                 .expected = "ROLE=FILE, the role of small letters: golden, integer, rtl, blame",
+                 .what = "not a role and a picture",
+                 .expected = "ROLE=FILE with a role in lower case, such as golden, integer, rtl or blame",
                  .got = "'" + text + "'",
                  .fix = "for example --picture rtl=rtl.exr"});
   }

@@ -15,9 +15,9 @@ namespace {
 constexpr std::size_t kLargest = std::size_t{256} << 20;
 
 JsonKind a_result() {
-  return {.what = "is no result",
-          .expected = "what a verb of fastsplat wrote with --json",
-          .fix = "pictures go to --picture ROLE=FILE",
+  return {.what = "not a result",
+          .expected = "a file written by fastsplat with --json",
+          .fix = "use --picture ROLE=FILE for pictures",
           .most_bytes = kLargest};
 }
 
@@ -45,7 +45,7 @@ Result read_result(const std::filesystem::path& file) {
   const auto known = reported_verbs();
   if (std::find(known.begin(), known.end(), result.verb) == known.end()) {
     throw_input({.where = file.string(),
-                 .what = "verb '" + result.verb + "' has no report",
+                 .what = "verb '" + result.verb + "' is not supported in reports",
                  .expected = {},
                  .got = {},
                  .fix = suggestion(result.verb, known)});

@@ -29,7 +29,7 @@ std::string limit_text(const std::string& name, double value) {
       {"max_p99_lsb", {"99th percentile", " LSB"}},
       {"min_ssim", {"SSIM", ""}},
       {"min_values", {"values compared", ""}},
-      {"max_nonfinite", {"values not finite", ""}}};
+      {"max_nonfinite", {"non-finite values", ""}}};
   const auto found = words.find(name);
   if (found == words.end()) return fmt::format("{} {:.6g}", name, value);
   return fmt::format("{} {:.4g}{}", found->second.first, value, found->second.second);
@@ -42,7 +42,7 @@ Verdict compare(const Figures& f) {
   f.at("percentiles_lsb"), f.at("floor"), f.list("histogram"), f.list("clusters"), f.count("width"), f.count("height");
   if (f.text("verdict") == "pass") {
     if (identical) return {Status::Pass, "the pictures are identical"};
-    return {Status::Pass, fmt::format("{}, worst error {:.3g} LSB of {} bits: within every limit", psnr,
+    return {Status::Pass, fmt::format("{}, worst error {:.3g} LSB of {} bits: within all limits", psnr,
                                       f.number("max_abs_lsb"), f.count("lsb_bits"))};
   }
   std::string failed;
@@ -53,9 +53,8 @@ Verdict compare(const Figures& f) {
       return found != limit.end() && found->is_number() ? found->get<double>() : 0.0;
     };
     const std::string name = limit.value("name", "");
-    failed +=
-        (failed.empty() ? "" : ", ") + limit_text(name, number("got")) +
-        fmt::format(", {} {:.4g} allowed", name.starts_with("min_") ? "no less than" : "no more than", number("limit"));
+    failed += (failed.empty() ? "" : ", ") + limit_text(name, number("got")) +
+              fmt::format(" (required: {} {:.4g})", name.starts_with("min_") ? "at least" : "at most", number("limit"));
   }
   return {Status::Fail, failed.empty() ? "a limit failed" : failed};
 }
@@ -69,7 +68,7 @@ Verdict verify_unplanted(const Figures& f) {
                                       counted(f.count("splats"), "splat"))};
   if (verdict == "mismatch")
     return {Status::Fail, fmt::format("RTL and model differ {} times in {}", grouped(f.count("mismatches")), of)};
-  if (verdict == "nothing compared") return {Status::Fail, "nothing was compared, which proves nothing: " + of};
+  if (verdict == "nothing compared") return {Status::Fail, "nothing was compared: " + of};
   if (verdict == "fault not seen") return {Status::Fail, "the planted fault was not seen: " + of + ", no difference"};
   return {Status::Error, fmt::format("the simulated device failed ({}) after {}", verdict, of)};
 }
@@ -111,7 +110,7 @@ Verdict cycles(const Figures& f) {
     loss = name;
   }
   std::replace(loss.begin(), loss.end(), '_', ' ');
-  return {Status::Measured, fmt::format("{} cycles, {:.4g} times the ideal {}; most is lost to {}{}", grouped(actual),
+  return {Status::Measured, fmt::format("{} cycles, {:.4g} times the ideal {}; largest loss: {}{}", grouped(actual),
                                         f.number("actual_to_ideal"), grouped(ideal), loss,
                                         most ? fmt::format(" ({})", grouped(most)) : "")};
 }
@@ -126,8 +125,8 @@ Verdict errors(const Figures& f) {
   }
   return {Status::Measured,
           fmt::format("rms error {:.3g} LSB of 8 bits; {}", f.number("total/rms_lsb8"),
-                      step.empty() ? std::string("no step errs")
-                                   : fmt::format("{} has the largest part, {:.0f} %", step, 100 * share))};
+                      step.empty() ? std::string("no step has an error")
+                                   : fmt::format("{} has the largest share, {:.0f} %", step, 100 * share))};
 }
 
 Verdict bound(const Figures& f) {
@@ -138,7 +137,7 @@ Verdict bound(const Figures& f) {
           levels.empty()
               ? std::string(holds ? "the bound holds" : "an error exceeds its bound")
               : fmt::format("{}: at most {:.3g} LSB of 8 bits proved from the {}, {:.3g} seen",
-                            holds ? "every error lies under its bound" : "an error exceeds its bound",
+                            holds ? "every error is below its bound" : "an error exceeds its bound",
                             f.number("levels/0/greatest_bound_lsb8"), known, f.number("levels/0/greatest_error_lsb8"))};
 }
 
@@ -150,7 +149,7 @@ Verdict ranges(const Figures& f) {
       saturated += site["saturated"].get<std::uint64_t>();
   }
   return {Status::Measured,
-          fmt::format("{} watched, {}", grouped(sites) + " narrowings",
+          fmt::format("{} observed, {}", grouped(sites) + " narrowings",
                       saturated == 0 ? "nothing saturated" : counted(saturated, "value") + " saturated")};
 }
 
@@ -159,7 +158,7 @@ Verdict propose(const Figures& f) {
   return {f.flag("met") ? Status::Pass : Status::Fail,
           f.flag("met")
               ? fmt::format("{} is met at {:.0f} % of the cost", f.text("target"), from > 0 ? 100 * to / from : 100.0)
-              : fmt::format("{} is not met by any configuration that was tried", f.text("target"))};
+              : fmt::format("{} is not met by any tried configuration", f.text("target"))};
 }
 
 Verdict family(const Figures& f) {
@@ -175,10 +174,11 @@ Verdict plan(const Figures& f) {
     broken += status == "error" ? 1 : 0;
   }
   const std::string name = f.text("name");
-  if (rows == 0) return {Status::Error, "plan " + name + " holds no case"};
+  if (rows == 0) return {Status::Error, "plan " + name + " has no cases"};
   if (broken > 0)
-    return {Status::Error, fmt::format("{} of {} of plan {} broke{}", grouped(broken), counted(rows, "case"), name,
-                                       failed ? fmt::format(", {} failed", grouped(failed)) : "")};
+    return {Status::Error,
+            fmt::format("{} of {} of plan {} ended with an error{}", grouped(broken), counted(rows, "case"), name,
+                        failed ? fmt::format(", {} failed", grouped(failed)) : "")};
   if (failed > 0)
     return {Status::Fail, fmt::format("{} of {} of plan {} failed", grouped(failed), counted(rows, "case"), name)};
   return {Status::Pass, fmt::format("all {} of plan {} passed", counted(rows, "case"), name)};

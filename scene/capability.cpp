@@ -52,14 +52,14 @@ std::optional<ErrorParts> refusal(const SceneDescription& description, const Off
                               : row.feature == Feature::Details   ? offers.details_fix
                               : row.feature == Feature::Patterns  ? offers.patterns_fix
                                                                   : nullptr;
-      return parts(row.key, fmt::format("the {} does not have this technique", offers.engine),
+      return parts(row.key, fmt::format("the {} does not support this technique", offers.engine),
                    fmt::format("{}use --engine golden, or turn it off", elsewhere != nullptr ? elsewhere : ""));
     }
   }
   if (offers.methods & only(description.method)) return std::nullopt;
   const char* method = to_string(description.method);
   return ErrorParts{.where = "--method",
-                    .what = fmt::format("the {} has no method '{}'", offers.engine, method),
+                    .what = fmt::format("the {} does not support method '{}'", offers.engine, method),
                     .expected = listed(offers.methods),
                     .got = method,
                     .fix = fmt::format("{}choose one of these, or --engine golden",
@@ -74,12 +74,12 @@ std::optional<ErrorParts> refusal(const Given& given, const SceneDescription& de
   if (capability.turns && !row_of(*capability.turns).on(description)) return std::nullopt;
   if (!(capability.methods & only(description.method))) {
     return parts(given.place,
-                 fmt::format("{} means nothing to {}, which {}", name, to_string(description.method), capability.why),
+                 fmt::format("{} does not apply to {}, which {}", name, to_string(description.method), capability.why),
                  capability.fix + or_else);
   }
   for (const auto& need : capability.needs) {
     if (!need || row_of(*need).on(description)) continue;
-    return parts(given.place, fmt::format("{} means nothing without {}", name, row_of(*need).name),
+    return parts(given.place, fmt::format("{} has no effect without {}", name, row_of(*need).name),
                  row_of(*need).turn_on + or_else);
   }
   return std::nullopt;

@@ -11,19 +11,19 @@ constexpr Methods kSplatting = kAllMethods & ~only(Method::RayCast);
 constexpr Methods kImage = only(Method::ImageAligned);
 constexpr Methods kComposited = kImage | only(Method::AxisAligned);
 
-constexpr const char* kNoFootprints = "the ray caster has no footprints to shape";
-constexpr const char* kSplattingFix = "choose a splatting --method, or turn this off";
-constexpr const char* kNoPixels = "needs the pixels of image-aligned sheets, not method {}";
+constexpr const char* kNoFootprints = "the ray caster draws no footprints";
+constexpr const char* kSplattingFix = "choose a splatting --method, or turn it off";
+constexpr const char* kNoPixels = "needs the pixels of image-aligned sheets, which method {} lacks";
 constexpr const char* kImageFix = "use --method image_aligned";
-constexpr const char* kNoSheets = "{} has no sheets in front of which a pixel could be opaque";
+constexpr const char* kNoSheets = "{} does not composite sheets, so no pixel becomes opaque early";
 constexpr const char* kSheetsFix = "use --method image_aligned or axis_aligned, or turn it off";
 
-constexpr Link kLensNeeds[] = {{Technique::Perspective,
-                                "depth of field needs a perspective camera: to an orthographic one everything is in "
-                                "focus",
-                                "add --perspective, or turn depth of field off"}};
+constexpr Link kLensNeeds[] = {
+    {Technique::Perspective, "depth of field needs a perspective camera; an orthographic one has everything in focus",
+     "add --perspective, or turn depth of field off"}};
 
-constexpr const char* kNoColours = "motion and lens on splats blur colours, and densities have none yet";
+constexpr const char* kNoColours =
+    "motion and lens blur the colours of splats; with --classify post splats carry densities";
 constexpr Link kPostExcludes[] = {{Technique::Translation, kNoColours, "use --classify pre"},
                                   {Technique::Orbit, kNoColours, "use --classify pre"},
                                   {Technique::LensOnSplats, kNoColours, "use --classify pre"}};
@@ -31,21 +31,21 @@ constexpr Link kPostExcludes[] = {{Technique::Translation, kNoColours, "use --cl
 constexpr const char* kNotPlain = "gradient splats are derivatives of plain circular footprints";
 constexpr const char* kPlainFix =
     "use --gradients central, or --footprint circle without --antialias and --splat-texture";
-constexpr Link kGradientNeeds[] = {{Technique::Shading, "gradients show in shading only, which is off"}};
+constexpr Link kGradientNeeds[] = {{Technique::Shading, "gradients are used only by shading, which is off"}};
 constexpr Link kGradientExcludes[] = {{Technique::Ellipse, kNotPlain, kPlainFix},
                                       {Technique::Antialias, kNotPlain, kPlainFix},
                                       {Technique::SplatTexture, kNotPlain, kPlainFix}};
 
 constexpr Link kVoxelTextureExcludes[] = {{Technique::PostClassified,
-                                           "densities have no colour to tint before they are classified",
+                                           "a texture tints colours; with --classify post voxels carry densities",
                                            "use --texture-where pixel"}};
 
-constexpr Link kBumpNeeds[] = {{Technique::PostClassified, "needs a normal at every pixel"},
-                               {Technique::Shading, "bumps show in shading only, which is off"}};
+constexpr Link kBumpNeeds[] = {{Technique::PostClassified, "needs a normal in every pixel"},
+                               {Technique::Shading, "bumps are visible only with shading, which is off"}};
 
-constexpr Link kCullingNeeds[] = {{Technique::Freezing, "no pixel ever becomes opaque while culling.freeze is 0"}};
+constexpr Link kCullingNeeds[] = {{Technique::Freezing, "no pixel becomes opaque while culling.freeze is 0"}};
 
-constexpr const char* kUnknownReach = "blocks do not know how far footprints reach that {} shapes";
+constexpr const char* kUnknownReach = "culling in blocks does not support footprints shaped by {}";
 constexpr Link kBlocksExcludes[] = {
     {Technique::Ellipse, kUnknownReach, "use --culling splats"},
     {Technique::Antialias, kUnknownReach, "use --culling splats"},
@@ -76,7 +76,7 @@ constexpr std::array kRows{
                  .feature = Feature::Footprints},
     TechniqueRow{.technique = Technique::SplatTexture,
                  .key = "splat_texture.amplitude",
-                 .name = "detail in the splats",
+                 .name = "textured splats",
                  .turn_on = "add --splat-texture 1",
                  .on = [](const D& d) { return d.footprint.texture.amplitude > 0.0; },
                  .methods = kSplatting,
@@ -202,8 +202,8 @@ constexpr std::array kRows{
                  .excludes = kBlocksExcludes},
     TechniqueRow{.technique = Technique::Freezing,
                  .key = "culling.freeze",
-                 .name = "freezing",
-                 .turn_on = "add --freeze 0.001: pixels of less transmittance no longer change",
+                 .name = "early termination",
+                 .turn_on = "add --freeze 0.001 to terminate pixels of less transmittance",
                  .on = [](const D& d) { return d.culling.freeze > 0.0; },
                  .methods = kComposited,
                  .no_method = kNoSheets,
@@ -226,12 +226,12 @@ constexpr std::array kRows{
                  .on = [](const D& d) { return d.shading != 0; }},
     TechniqueRow{.technique = Technique::Aperture,
                  .key = "lens.aperture",
-                 .name = "an aperture: a pinhole has everything in focus",
+                 .name = "an aperture (a pinhole has everything in focus)",
                  .turn_on = "add --aperture 5",
                  .on = [](const D& d) { return d.lens.aperture > 0.0; }},
     TechniqueRow{.technique = Technique::Exposure,
                  .key = "xray.exposure",
-                 .name = "an exposure of its own where it is an X-ray: the automatic one undoes it",
+                 .name = "a fixed exposure in X-rays (the automatic one cancels it)",
                  .turn_on = "add --xray-exposure 0.05",
                  .on = [](const D& d) { return d.method != Method::XRay || d.xray_exposure > 0.0; }},
 };

@@ -64,8 +64,8 @@ TransferFunction resolved(const TransferFunction& tf, const volume::Volume& volu
 std::string remark_on(const TransferFunction& tf, const volume::Volume& volume) {
   if (tf.domain != Domain::Hounsfield || volume.built_in || volume.water) return {};
   return fmt::format(
-      "transfer function '{}' is in Hounsfield units and the values {:g} to {:g} are not: they are "
-      "taken for -1000 to 3000 HU",
+      "transfer function '{}' is in Hounsfield units, but the values {:g} to {:g} are not: they are mapped to -1000 to "
+      "3000 HU",
       tf.name, volume.min, volume.max);
 }
 

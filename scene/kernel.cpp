@@ -21,7 +21,7 @@ Kernel::Kernel(double a, double radius) : a_(a), radius_(radius) {
   require(a >= 0.1 && a <= 20.0, "kernel sharpness a is out of range", "0.1..20", a,
           "gauss2 uses a = 2, smooth a = 1.35");
   require(radius >= 0.5 && radius <= 8.0, "kernel radius is out of range", "0.5..8 kernel units", radius,
-          "both named kernels use radius 2");
+          "both named kernels have radius 2");
   const double root = std::sqrt(a);
   erf_edge_ = std::erf(root * radius);
   const double line = std::sqrt(std::numbers::pi / a) * erf_edge_;               // along the axis

@@ -52,8 +52,7 @@ void read_kernel(TomlTable& table, SceneDescription& d) {
   const auto name = table.text("name");
   const bool shaped = table.has("a") || table.has("radius");
   if (name && !name->empty()) {
-    if (shaped)
-      table.refuse("name", "a kernel has either a name or a shape", {}, {}, "remove name, or remove a and radius");
+    if (shaped) table.refuse("name", "a kernel with both a name and a shape", {}, {}, "remove name, or a and radius");
     const auto names = kernel_names();
     if (std::find(names.begin(), names.end(), *name) == names.end())
       table.refuse("name", "unknown kernel", {}, "\"" + *name + "\"", suggestion(*name, names));

@@ -59,7 +59,7 @@ double between(const std::vector<double>& keys, std::int64_t step, std::int64_t 
 Sequence orbit(double from, double to, int frames) {
   if (from == to) {
     throw_usage({.where = "orbit",
-                 .what = "it goes nowhere",
+                 .what = "start and end are the same angle",
                  .expected = "two different angles",
                  .got = fmt::format("{}..{}", from, to),
                  .fix = "for example 0..360 for a whole turn"});
@@ -72,7 +72,7 @@ Sequence orbit(double from, double to, int frames) {
 Sequence read_sequence(TomlTable& table, std::vector<Given>& given) {
   Sequence sequence;
   const auto frames = table.integer("frames", 1, kMaxFrames);
-  if (!frames) table.refuse("frames", "missing", "how many frames there are", {}, "write for example frames = 48");
+  if (!frames) table.refuse("frames", "missing", "the number of frames", {}, "write for example frames = 48");
   sequence.frames = *frames;
   sequence.loop = table.flag("loop").value_or(false);
 
@@ -92,7 +92,7 @@ Sequence read_sequence(TomlTable& table, std::vector<Given>& given) {
   }
   table.finish();
   if (sequence.tracks.empty()) {
-    table.refuse("", "nothing changes", "at least one setting with its values", {},
+    table.refuse("", "the sequence changes no setting", "at least one setting with values", {},
                  "write for example camera.azimuth = [0, 90]");
   }
   return sequence;
@@ -101,7 +101,9 @@ Sequence read_sequence(TomlTable& table, std::vector<Given>& given) {
 Sequence load_sequence(const std::filesystem::path& scene_file) {
   TomlTable root = open_scene(scene_file);
   auto table = root.table("sequence");
-  if (!table) root.refuse("", "there is no [sequence]", {}, {}, "add one with frames = N and what changes");
+  if (!table)
+    root.refuse("", "the table [sequence] is missing", {}, {},
+                "add [sequence] with frames = N and a setting that changes");
   std::vector<Given> judged_with_the_scene;
   return read_sequence(*table, judged_with_the_scene);
 }

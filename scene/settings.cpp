@@ -156,7 +156,7 @@ void read_settings(TomlTable& table, const std::string& name, SceneDescription& 
                      const auto box = box_from(*value);
                      if (!box) {
                        table.refuse(key, "not a box of voxels", "\"A..B,C..D,E..F\", voxels from 0",
-                                    "\"" + *value + "\"", "both ends belong to the box; \"\" is everything");
+                                    "\"" + *value + "\"", "both ends are included; \"\" keeps all voxels");
                      }
                      kind.of(description) = *box;
                    },
@@ -203,7 +203,7 @@ void check_limits(const SceneDescription& description) {
                  .what = fmt::format("{}{}{} is out of range", setting.table, *setting.table ? " " : "", setting.key),
                  .expected = fmt::format("{}..{}", kind.low, kind.high),
                  .got = value_as_toml(setting, d),
-                 .fix = "choose a value inside"});
+                 .fix = "choose a value in this range"});
   };
   for (const Setting& setting : settings()) {
     std::visit(Each{

@@ -20,8 +20,8 @@ SlabGrid slabs_for_grown_kernels(const Scene& scene) {
   const double behind = slabs_more(scene.volume->bounding_radius());
   if (!(before + behind <= kMostSlabsMore)) {
     throw_usage({.where = {},
-                 .what = "anti-aliasing: a pixel holds so many voxels that their kernels reach too many slabs",
-                 .expected = fmt::format("at most {} more", kMostSlabsMore),
+                 .what = "anti-aliasing: pixels hold so many voxels that kernels reach too many slabs",
+                 .expected = fmt::format("at most {} additional slabs", kMostSlabsMore),
                  .got = fmt::format("{:.6g}", before + behind),
                  .fix = "raise --zoom, --size or --slab-width"});
   }

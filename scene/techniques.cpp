@@ -20,8 +20,8 @@ namespace {
 void check_motion(const Motion& motion, const Camera& camera, double radius) {
   const double way = 0.5 * glm::length(motion.translate);
   if (way + radius < camera.eye_distance()) return;
-  refuse("motion", "translate carries the volume past the eye",
-         fmt::format("a way under {:.4g} mm", 2.0 * (camera.eye_distance() - radius)), 2.0 * way,
+  refuse("motion", "translate moves the volume past the eye",
+         fmt::format("a path under {:.4g} mm", 2.0 * (camera.eye_distance() - radius)), 2.0 * way,
          "shorten it, or lower the zoom");
 }
 

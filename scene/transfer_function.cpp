@@ -42,7 +42,8 @@ ControlPoint read_point(TomlTable& table, Domain domain) {
   const auto at = table.number("at", -kValues, kValues);
   const bool shares = domain != Domain::Value && domain != Domain::Hounsfield;
   if (at && shares && std::abs(*at) > kShares) {
-    table.refuse("at", fmt::format("value out of range of domain = \"{}\"", kDomains[static_cast<std::size_t>(domain)]),
+    table.refuse("at",
+                 fmt::format("value out of range for domain = \"{}\"", kDomains[static_cast<std::size_t>(domain)]),
                  fmt::format("a number in {}..{}", -kShares, kShares), fmt::format("{}", *at),
                  "write domain = \"value\" for stored values, or domain = \"hounsfield\" for HU");
   }
@@ -77,7 +78,8 @@ TransferFunction read(TomlTable table, const std::string& name) {
   tf.reference_length = table.number("reference_length", 1e-3, 1e3).value_or(1.0);
   tf.reference_length_mm = table.number("reference_length_mm", 1e-6, 1e6);
   if (tf.reference_length_mm && tf.reference_length != 1.0)
-    table.refuse("reference_length_mm", "two reference lengths", "one of them", {}, "remove reference_length");
+    table.refuse("reference_length_mm", "two reference lengths are given", "one of them", {},
+                 "remove reference_length");
   for (TomlTable& point : table.tables("points")) {
     tf.points.push_back(read_point(point, tf.domain));
     if (tf.points.size() > 1 && tf.points.back().at < tf.points[tf.points.size() - 2].at) {

@@ -37,10 +37,10 @@ std::shared_ptr<const volume::Volume> cropped(std::shared_ptr<const volume::Volu
   if (box.everything()) return volume;
   if (glm::any(glm::greaterThanEqual(box.high, volume->dims))) {
     throw_usage({.where = "crop",
-                 .what = "the box leaves the volume",
+                 .what = "the box exceeds the volume",
                  .expected = "a box in " + to_string({glm::ivec3(0), volume->dims - 1}),
                  .got = to_string(box),
-                 .fix = "`fastsplat volume info` says how many voxels there are"});
+                 .fix = "`fastsplat volume info` prints the number of voxels"});
   }
   volume::Volume part = *volume;
   part.voxels.clear();

@@ -22,15 +22,15 @@ std::vector<const StepError*> ranked(const Attribution& a) {
 }
 
 std::string answer(const Attribution& a, const std::optional<TriedRemedy>& tried, int bits) {
-  if (!(a.total.rms > 0.0)) return "no error: every step leaves what it is given\n";
+  if (!(a.total.rms > 0.0)) return "no error: no step changes the picture\n";
   const auto steps = ranked(a);
   std::string text = fmt::format("{}: {:.0f} % of the error", steps[0]->set.name, 100.0 * steps[0]->share);
   for (std::size_t i = 1; i < steps.size() && steps[i]->share >= 0.1; ++i)
     text += fmt::format("; {}: {:.0f} %", steps[i]->set.name, 100.0 * steps[i]->share);
   text += "\n";
   if (!tried) return text;
-  text += fmt::format("{} would {} it: RMS {:.4f} -> {:.4f} LSB{}", tried->remedy.changes,
-                      tried->error.rms < 0.999 * a.total.rms ? "lessen" : "not lessen",
+  text += fmt::format("{} would {} the error: RMS {:.4f} -> {:.4f} LSB{}", tried->remedy.changes,
+                      tried->error.rms < 0.999 * a.total.rms ? "reduce" : "not reduce",
                       a.total.rms * lsb_per_unit(bits), tried->error.rms * lsb_per_unit(bits), bits);
   if (tried->costs) {
     const auto& [before, after] = *tried->costs;

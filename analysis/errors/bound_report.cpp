@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kMeaning[] = {"the scene and the configuration", "places, weights and depths as well",
+constexpr const char* kMeaning[] = {"the scene and the configuration", "also positions, weights and depths",
                                     "every word of the driver"};
 
 /// Terms by their mean, the largest first, without those that are nothing.
@@ -53,17 +53,18 @@ std::string to_text(const BoundReport& report, int bits) {
   const double unit = lsb_per_unit(bits);
   const BoundCheck& first = report.levels.front().check;
   std::string text =
-      report.holds()
-          ? fmt::format("no value errs by more than its bound, at any level: {} values, greatest error {:.3f} LSB{}\n",
-                        first.values, first.greatest_error * unit, bits)
-          : "A BOUND IS BROKEN: the device errs by more than was proved\n";
+      report.holds() ? fmt::format("no error exceeds its bound at any level: {} values, greatest error {:.3f} LSB{}\n",
+                                   first.values, first.greatest_error * unit, bits)
+                     : "A BOUND IS VIOLATED: an error of the device exceeds its proved bound\n";
   text += fmt::format("{:<9} {:<34} {:>8} | {:>8} {:>8} {:>8} | {:>8} {:>11}\n", "known", "", "greatest", "median",
                       "p90", "p99", "over", "error/bound");
   for (const auto& [known, bound, check] : report.levels)
     text += fmt::format("{:<9} {:<34} {:>8.3f} | {:>7.1f}x {:>7.1f}x {:>7.1f}x | {:>8} {:>11.4f}\n", to_string(known),
                         kMeaning[static_cast<std::size_t>(known)], check.greatest_bound * unit, check.median, check.p90,
                         check.p99, check.over, check.worst);
-  text += "median, p90, p99: of bound / error, the largest channel of each pixel with an error; of the bound's mean\n";
+  text +=
+      "median, p90, p99: bound / error in the largest channel of each pixel with an error; below: shares of the mean "
+      "bound\n";
   for (const auto& level : report.levels) {
     const double sum = std::reduce(level.bound.mean.begin(), level.bound.mean.end());
     text += fmt::format("{:<9}", to_string(level.known));

@@ -15,10 +15,10 @@ const char* const kFirstLine = R"({"schema":"fastsplat.journal/1"})";
 
 [[noreturn]] void refuse(const std::filesystem::path& path, std::size_t line, const char* expected) {
   throw_input({.where = path.string() + ":" + std::to_string(line),
-               .what = "is no line of a journal",
+               .what = "invalid line of a journal",
                .expected = expected,
                .got = {},
-               .fix = "give --journal a new file, or one that `fastsplat errors propose` wrote"});
+               .fix = "use --journal with a new file, or one written by `fastsplat errors propose`"});
 }
 
 std::uint64_t hash_from(const nlohmann::json& json) {
@@ -69,7 +69,7 @@ Journal::Journal(const std::filesystem::path& path) : path_(path) {
                    .what = "cannot write the journal",
                    .expected = {},
                    .got = {},
-                   .fix = "name a file that can be written"});
+                   .fix = "name a writable file"});
   }
 }
 
@@ -89,7 +89,7 @@ void Journal::add(std::uint64_t config, std::uint64_t scene, const Entry& entry)
                  .what = "cannot write the journal",
                  .expected = {},
                  .got = {},
-                 .fix = "is the disk full?"});
+                 .fix = "check that the disk is not full"});
   }
 }
 

@@ -41,14 +41,13 @@ std::string to_text(const Proposal& p) {
   const SearchOutcome& s = p.search;
   std::string text;
   if (!s.met) {
-    text = fmt::format("{} is not met: {} is the best that was reached ({} has {})", p.target.text, told(p, p.error),
-                       p.from.name, told(p, p.error_from));
+    text = fmt::format("{} is not met: the best result is {} ({} has {})", p.target.text, told(p, p.error), p.from.name,
+                       told(p, p.error_from));
     if (s.geometry) {
-      text += fmt::format("; {} would bring it to {}", changes(s.best, *s.geometry), told(p, p.error_geometry));
+      text += fmt::format("; {} would improve it to {}", changes(s.best, *s.geometry), told(p, p.error_geometry));
     } else {
       text +=
-          "; finer words do not help: look at what saturates (`fastsplat errors ranges`) and which step it is "
-          "(`fastsplat errors`)";
+          "; finer words do not help: check saturation (`fastsplat errors ranges`) and the steps (`fastsplat errors`)";
     }
     return text + "\n";
   }
@@ -56,18 +55,18 @@ std::string to_text(const Proposal& p) {
                      100.0 * (p.cost.total() / p.cost_from.total() - 1.0));
   const std::string changed = changes(p.from, s.best);
   text += changed.empty() ? "nothing to change\n" : changed + "\n";
-  text += fmt::format("{:<24}{:>9}{:>9}{:>10}   {}\n", "key", "from", "alone", "proposed", "one less gives");
+  text += fmt::format("{:<24}{:>9}{:>9}{:>10}   {}\n", "key", "from", "alone", "proposed", "at one less");
   for (const KeyOutcome& key : s.keys) {
     text += fmt::format("{:<24}{:>9}{:>9}{:>10}   {}\n", key.key, key.from, key.alone, key.proposed,
-                        key.lower.empty() ? "(no less)"
+                        key.lower.empty() ? "(minimum)"
                         : key.dearer      ? fmt::format("{}: costs more", key.lower)
                         : std::isfinite(key.lowered.excess)
-                            ? fmt::format("{}: {:.3f} of the error allowed", key.lower, key.lowered.excess)
-                            : fmt::format("{}: cannot draw it", key.lower));
+                            ? fmt::format("{}: {:.3f} of the allowed error", key.lower, key.lowered.excess)
+                            : fmt::format("{}: cannot be drawn", key.lower));
   }
   text += fmt::format("{:<12}{:>12}{:>12}\n", "", "from", "proposed") + costs(p.cost_from, p.cost);
-  return text +
-         fmt::format("{} configurations judged: {} frames simulated, {} recalled\n", s.judged, p.simulated, p.recalled);
+  return text + fmt::format("{} configurations evaluated: {} frames simulated, {} from the journal\n", s.judged,
+                            p.simulated, p.recalled);
 }
 
 Json to_json(const Proposal& p) {

@@ -105,9 +105,10 @@ std::optional<Need> need(const Config& config, const Config& wide, const Signal&
   if (!spare) return std::nullopt;
   const cmodel::ConfigKey& key = *cmodel::find_key(signal.key);
   out.needs = std::max(key.min, wide.*signal.member - *spare);
-  out.why = signal.head ? fmt::format("the largest value is {:.6g}", greatest)
-                        : (out.needs < out.has ? fmt::format("the last {} are 0 in every word", out.has - out.needs)
-                                               : std::string("every bit was needed"));
+  out.why = signal.head
+                ? fmt::format("the largest value is {:.6g}", greatest)
+                : (out.needs < out.has ? fmt::format("the last {} bits are 0 in every word", out.has - out.needs)
+                                       : std::string("every bit is needed"));
   // What no configuration can be is no advice: the nearest one that can.
   const int step = out.needs > out.has ? -1 : 1;
   const auto sound = [&](int value) {

@@ -15,10 +15,10 @@ const char* name(const SiteRange& site) { return cmodel::facts(site.site).name; 
 
 std::string words(const Need& need) {
   std::string text = fmt::format("{} {} -> {} would {}: {}", need.key, need.has, need.needs,
-                                 need.needs > need.has ? "saturate nothing" : "do", need.why);
+                                 need.needs > need.has ? "avoid saturation" : "suffice", need.why);
   if (need.possible != need.needs) {
-    text += need.possible == need.has ? fmt::format("; but then {}", need.limit)
-                                      : fmt::format("; {} at most, for then {}", need.possible, need.limit);
+    text += need.possible == need.has ? fmt::format("; but {} then", need.limit)
+                                      : fmt::format("; at most {}, because {} then", need.possible, need.limit);
   }
   return text + "\n";
 }
@@ -70,7 +70,7 @@ std::string to_text(const RangesReport& report) {
   for (const Need& need : report.needs) {
     if (need.needs != need.has) text += words(need);
   }
-  if (text.empty()) text = "every signal is as wide as these scenes need it\n";
+  if (text.empty()) text = "every signal has the width that these scenes need\n";
   for (std::size_t i = 0; i < report.scenes.size(); ++i) {
     const driver::DriverReport& scene = report.scenes[i];
     if (scene.vanished_voxels + scene.saturated_voxels + scene.saturated_records == 0) continue;
@@ -88,8 +88,9 @@ std::string to_text(const RangesReport& report) {
         site.lost.mean, site.theory.mean, site.lost.rms, site.theory.rms, site.saturated, site.head, site.tail);
   }
   text +=
-      "(lost: word less value, in the word's last place; head, tail: its first bits never needed, its last always 0)\n";
-  text += "magnitudes by leading bit, in tenths of the most frequent:\n";
+      "(lost: word minus value, in units of the last place; head: leading bits never used; tail: trailing bits always "
+      "0)\n";
+  text += "magnitudes by leading bit, in tenths of the most frequent one:\n";
   for (const SiteRange& site : report.sites)
     text += fmt::format("{:<14}{}, {:.1f} % are 0\n", name(site), bars(site), 100.0 * share(site.zeros, site.values));
   return text;

@@ -19,9 +19,9 @@ constexpr int kBits = 8;
 [[noreturn]] void refuse(const std::string& text, const char* what) {
   throw_usage({.where = "--target",
                .what = what,
-               .expected = "psnr>=DB, max<=LSB or rms<=LSB, the number above 0",
+               .expected = "psnr>=DB, max<=LSB or rms<=LSB with a number above 0",
                .got = "'" + text + "'",
-               .fix = "for example --target 'psnr>=50' (in quotes: > and < mean something to the shell)"});
+               .fix = "for example --target 'psnr>=50' (quote it: the shell interprets > and <)"});
 }
 
 }  // namespace
@@ -84,11 +84,12 @@ Target parse_target(const std::string& text) {
        {Kind{"psnr>=", Target::Figure::Psnr}, {"max<=", Target::Figure::Max}, {"rms<=", Target::Figure::Rms}}) {
     if (!text.starts_with(start)) continue;
     const auto limit = number_from(std::string_view(text).substr(std::string_view(start).size()));
-    if (!limit || !(*limit > 0.0)) refuse(text, "names no number above 0");
-    if (figure == Target::Figure::Psnr && *limit > 300.0) refuse(text, "asks for more than any picture of floats has");
+    if (!limit || !(*limit > 0.0)) refuse(text, "the limit is not a number above 0");
+    if (figure == Target::Figure::Psnr && *limit > 300.0)
+      refuse(text, "the limit exceeds the precision of float pictures");
     return {figure, *limit, text};
   }
-  refuse(text, "is no target");
+  refuse(text, "not a target");
 }
 
 }  // namespace fastsplat::analysis

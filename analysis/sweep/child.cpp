@@ -95,7 +95,7 @@ pid_t Children::start(const std::string& program, const Words& words) {
                    .what = std::string("cannot be started: ") + std::strerror(reason),
                    .expected = {},
                    .got = {},
-                   .fix = "fewer --jobs"});
+                   .fix = "use fewer --jobs"});
   }
   ::setpgid(pid, pid);  // whichever of the two comes first
   running_.push_back({pid, errors});

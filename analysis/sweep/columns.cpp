@@ -26,7 +26,7 @@ void check(const Merged& merged, const std::string& column, const char* flag) {
   const auto known = known_columns(merged);
   if (std::ranges::find(known, column) != known.end()) return;
   throw_usage({.where = flag,
-               .what = "no column is called '" + column + "'",
+               .what = "unknown column '" + column + "'",
                .expected = {},
                .got = {},
                .fix = suggestion(column, known)});
@@ -122,7 +122,7 @@ std::vector<const Row*> chosen_rows(const Merged& merged, const TableOptions& op
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0) {
       throw_usage({.where = "--where",
-                   .what = "chooses nothing",
+                   .what = "not a condition",
                    .expected = "NAME=VALUE",
                    .got = "'" + text + "'",
                    .fix = "for example --where config=base"});

@@ -25,7 +25,7 @@ void add_counts(Json& to, const Json& from, const std::string& name) {
       }
     }
   } else if (to != from) {
-    throw std::runtime_error(name + " is " + json_text(from, -1) + ", and was " + json_text(to, -1));
+    throw std::runtime_error(name + " is " + json_text(from, -1) + ", but was " + json_text(to, -1));
   }
 }
 
@@ -33,7 +33,7 @@ void add_counts(Json& to, const Json& from, const std::string& name) {
 
 void CoverageSum::add(const Json& book, const std::string& where) {
   try {
-    if (book.at("format") != kBookFormat) throw std::runtime_error("another format");
+    if (book.at("format") != kBookFormat) throw std::runtime_error("unknown format");
     const std::string& hash = book.at("config_hash").get_ref<const std::string&>();
     const auto same = std::ranges::find_if(books_, [&](const Json& one) { return one["config_hash"] == hash; });
     if (same == books_.end()) {
@@ -48,10 +48,10 @@ void CoverageSum::add(const Json& book, const std::string& where) {
     }
   } catch (const std::exception& error) {
     throw_input({.where = where,
-                 .what = "its coverage does not add up",
-                 .expected = std::string("a book of ") + kBookFormat,
+                 .what = "the coverage cannot be accumulated",
+                 .expected = std::string("coverage of format ") + kBookFormat,
                  .got = error.what(),
-                 .fix = "run the case again: remove its file, then `fastsplat plan run`"});
+                 .fix = "remove this file, then run the case again with `fastsplat plan run`"});
   }
 }
 

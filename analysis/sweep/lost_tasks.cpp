@@ -25,7 +25,7 @@ bool is_done(const Case& one, const fs::path& path, const std::string& program_h
                  .what = why,
                  .expected = "program " + program_hash,
                  .got = {},
-                 .fix = "another folder (--results), or `fastsplat plan run --again` to make such results anew"});
+                 .fix = "use another folder (--results), or replace such results with `fastsplat plan run --again`"});
   }
   return true;
 }

@@ -68,19 +68,19 @@ class Maker {
       const auto [other, is_new] = seen.emplace(one.id, described(point.axes));
       if (!is_new) {
         throw_input({.where = spec_.file.string(),
-                     .what = fmt::format("two cases are the same: {} and {}", other->second, described(point.axes)),
-                     .expected = "another command or other content for each",
+                     .what = fmt::format("two cases are identical: {} and {}", other->second, described(point.axes)),
+                     .expected = "a different command or content for each",
                      .got = {},
-                     .fix = "take one of the values out"});
+                     .fix = "remove one of the values"});
       }
       made.plan.cases.push_back(std::move(one));
     }
     if (made.plan.cases.empty()) {
       throw_input({.where = spec_.file.string(),
-                   .what = "makes no case",
+                   .what = "the specification makes no cases",
                    .expected = {},
                    .got = made.left_out.front(),
-                   .fix = "every combination was left out"});
+                   .fix = "change its axes: every combination was left out"});
     }
     made.plan.hash = to_json(made.plan)["hash"];
     return made;
@@ -92,7 +92,7 @@ class Maker {
     ErrorParts parts = error.parts();
     parts.where = parts.where.empty() ? place : place + ": " + parts.where;
     if (error.code() == ExitCode::Usage && parts.fix.empty())
-      parts.fix = "refused = \"leave out\" leaves such combinations out";
+      parts.fix = "add refused = \"leave out\" to skip such combinations";
     throw UserError(ExitCode::Input, std::move(parts));
   }
 
@@ -105,7 +105,7 @@ class Maker {
                      .what = "too many cases",
                      .expected = fmt::format("at most {}", kMostCases),
                      .got = {},
-                     .fix = "make several specifications of it"});
+                     .fix = "split it into several specifications"});
       }
     }
     return cases;
@@ -157,8 +157,8 @@ class Maker {
       const bool given = is_given_by_run(name);
       if (!given && std::ranges::any_of(steps_, [&](const auto& step) { return takes(step, name); })) return;
       throw_input({.where = spec_.file.string(),
-                   .what = given ? fmt::format("{} is no setting: the run itself gives it", name)
-                                 : fmt::format("{} is no flag of {}", name, fmt::join(spec_.kinds, ", ")),
+                   .what = given ? fmt::format("{} cannot be set: the run sets it", name)
+                                 : fmt::format("{} is not a flag of {}", name, fmt::join(spec_.kinds, ", ")),
                    .expected = "a flag without its dashes, or a configuration key",
                    .got = {},
                    .fix = given ? "leave it out" : suggestion(name, known)});
@@ -175,10 +175,10 @@ class Maker {
     const std::string text = to_text(setting.value);
     if (file_of(text)) {
       throw_usage({.where = setting.name,
-                   .what = "words in braces stand for files of a case",
+                   .what = "words in braces are reserved for files of a case",
                    .expected = {},
                    .got = text,
-                   .fix = "call it otherwise"});
+                   .fix = "choose another name"});
     }
     if (is_key(setting.name)) {
       to.insert(to.end(), {"--set", setting.name + "=" + text});
@@ -243,7 +243,7 @@ void require_made(const Plan& plan, const Vocabulary& vocabulary, const std::fil
   for (const Case& one : plan.cases) {
     const auto refuse = [&](const std::string& got) {
       throw_input({.where = file.string(),
-                   .what = fmt::format("case {} is not what `fastsplat plan make` writes", one.id),
+                   .what = fmt::format("case {} was not written by `fastsplat plan make`", one.id),
                    .expected = "the steps of its kind and its settings",
                    .got = got,
                    .fix = "make the plan again from its specification"});

@@ -40,12 +40,12 @@ void refuse_foreign(const Plan& plan, const fs::path& folder) {
   if (foreign.empty()) return;
   std::ranges::sort(foreign);
   throw_input({.where = folder.string(),
-               .what = fmt::format("{} no result of plan {}: {}",
-                                   foreign.size() == 1 ? "holds a file that is" : "holds files that are", plan.name,
-                                   list_of(foreign)),
+               .what = fmt::format("contains {} of plan {}: {}",
+                                   foreign.size() == 1 ? "a file that is not a result" : "files that are not results",
+                                   plan.name, list_of(foreign)),
                .expected = {},
                .got = {},
-               .fix = "remove them, or pass them over with --allow-foreign"});
+               .fix = "remove them, or skip them with --allow-foreign"});
 }
 
 void refuse_missing(const Plan& plan, const fs::path& folder, const std::vector<const Case*>& missing) {
@@ -55,7 +55,7 @@ void refuse_missing(const Plan& plan, const fs::path& folder, const std::vector<
                .what = fmt::format("{} of {} results missing: {}", missing.size(), plan.cases.size(), list_of(names)),
                .expected = {},
                .got = {},
-               .fix = "`fastsplat plan run` makes them; --partial merges what is there"});
+               .fix = "make them with `fastsplat plan run`, or merge available results with --partial"});
 }
 
 /// One program made all rows.
@@ -66,7 +66,7 @@ void require_own(const Case& one, const CaseResult& result, const fs::path& path
                .what = why,
                .expected = fmt::format("case {} by program {}", one.id, program),
                .got = {},
-               .fix = "`fastsplat plan run --again` makes such results anew"});
+               .fix = "replace such results with `fastsplat plan run --again`"});
 }
 
 /// Every figure's value in its column; columns in the order in which metrics are known.

@@ -53,7 +53,7 @@ Row row_from(const Json& json) {
 }
 
 Merged merged_from(const Json& json) {
-  if (json.at("verb") != kVerb) throw std::runtime_error("its verb is another one");
+  if (json.at("verb") != kVerb) throw std::runtime_error("written by another subcommand");
   Merged merged{.name = json.at("name"),
                 .title = json.at("title"),
                 .hash = json.at("hash"),
@@ -109,8 +109,8 @@ Json to_json(const Merged& merged) {
 
 Merged read_merged(const std::filesystem::path& path) {
   return from_json_file<Json>(path,
-                              {.what = "holds no merged results",
-                               .expected = "what `fastsplat plan merge` writes",
+                              {.what = "not a file of merged results",
+                               .expected = "a file written by `fastsplat plan merge`",
                                .fix = {},
                                .most_bytes = kMostMergedBytes},
                               merged_from);

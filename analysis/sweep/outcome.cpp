@@ -67,7 +67,7 @@ Outcome outcome_of(const Step& step, const Ended& ended, const Places& places) {
   } else if (!finished) {
     out.message = fmt::format("`{}`: {}", verb, said);
   } else if (!missing.empty()) {
-    out.message = fmt::format("`{}` ended with exit code {} and left no {}", verb, ended.exit_code, missing);
+    out.message = fmt::format("`{}` ended with exit code {} without {}", verb, ended.exit_code, missing);
   } else if (ended.exit_code != 0) {
     out.message = why_failed(out.json, verb);
   }

@@ -24,7 +24,7 @@ Metric metric_of(const Merged& merged, const std::string& name, const char* flag
     std::vector<std::string> known;
     for (const Metric& metric : merged.metrics) known.push_back(metric.name);
     throw_usage({.where = flag,
-                 .what = "no metric is called '" + plain + "'",
+                 .what = "unknown metric '" + plain + "'",
                  .expected = {},
                  .got = {},
                  .fix = suggestion(plain, known)});
@@ -33,12 +33,12 @@ Metric metric_of(const Merged& merged, const std::string& name, const char* flag
   if (less) metric.better = Better::Less;
   if (more) metric.better = Better::More;
   if (metric.better == Better::Neither) {
-    throw_usage(
-        {.where = flag,
-         .what = plain + " has no better side",
-         .expected = {},
-         .got = {},
-         .fix = std::string(flag) + "=-" + plain + " where less is better, " + flag + "=+" + plain + " where more is"});
+    throw_usage({.where = flag,
+                 .what = plain + " has no preferred direction",
+                 .expected = {},
+                 .got = {},
+                 .fix = std::string(flag) + "=-" + plain + " if less is better, or " + flag + "=+" + plain +
+                        " if more is better"});
   }
   return metric;
 }

@@ -66,7 +66,7 @@ Json to_json(const Case& one) {
 /// Files of a case lie in its folder.
 void require_own_file(const Case& one, const std::string& name) {
   if (name.find('/') == std::string::npos && name != "." && name != ".." && !name.empty()) return;
-  throw std::runtime_error(fmt::format("case {}: the file '{}' lies outside its folder", one.id, name));
+  throw std::runtime_error(fmt::format("case {}: the file '{}' is outside its folder", one.id, name));
 }
 
 Case case_from(const Json& json) {
@@ -112,7 +112,7 @@ std::string hash_of(const Json& json) {
 }
 
 Plan plan_from(const Json& json) {
-  if (json.at("verb") != kMakeVerb) throw std::runtime_error("its verb is another one");
+  if (json.at("verb") != kMakeVerb) throw std::runtime_error("written by another subcommand");
   Plan plan{.name = json.at("name"),
             .title = json.at("title"),
             .hash = json.at("hash"),
@@ -129,10 +129,10 @@ Plan plan_from(const Json& json) {
     plan.cases.push_back(case_from(one));
     const auto& id = plan.cases.back().id;
     if (id != id_of(plan.cases.back())) throw std::runtime_error("case " + id + " was changed");
-    if (!ids.insert(id).second) throw std::runtime_error("case " + id + " stands twice");
+    if (!ids.insert(id).second) throw std::runtime_error("case " + id + " occurs twice");
   }
-  if (plan.cases.empty()) throw std::runtime_error("it has no case");
-  if (plan.hash != hash_of(json)) throw std::runtime_error("it was changed: its hash is another one");
+  if (plan.cases.empty()) throw std::runtime_error("no cases");
+  if (plan.hash != hash_of(json)) throw std::runtime_error("the plan was changed: wrong hash");
   return plan;
 }
 
@@ -179,9 +179,9 @@ Json to_json(const Plan& plan) {
 
 Plan read_plan(const std::filesystem::path& path) {
   return from_json_file<Json>(path,
-                              {.what = "is no plan",
-                               .expected = "what `fastsplat plan make` writes",
-                               .fix = "make it again from its specification",
+                              {.what = "not a plan",
+                               .expected = "a file written by `fastsplat plan make`",
+                               .fix = "make the plan again from its specification",
                                .most_bytes = kMostPlanBytes},
                               plan_from);
 }
@@ -193,7 +193,7 @@ Shard shard_from(const std::string& text) {
       slash == std::string::npos ? std::nullopt : integer_from<std::size_t>(std::string_view(text).substr(slash + 1));
   if (!index || !of || *index < 1 || *index > *of) {
     throw_usage({.where = "--shard",
-                 .what = "no part of a plan",
+                 .what = "invalid shard",
                  .expected = "I/N, I from 1 to N",
                  .got = "'" + text + "'",
                  .fix = "for example --shard 2/5"});

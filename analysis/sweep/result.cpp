@@ -32,10 +32,10 @@ Json to_json(const CaseResult& result) {
 std::string checksum(const Json& json) { return hash_text(fnv1a(kFnv1aStart, json_text(json, -1))); }
 
 CaseResult result_from(Json json) {
-  if (json.at("format") != kResultFormat) throw std::runtime_error("another format");
+  if (json.at("format") != kResultFormat) throw std::runtime_error("unknown format");
   const std::string written = json.at("checksum");
   json.erase("checksum");
-  if (written != checksum(json)) throw std::runtime_error("its checksum is another one");
+  if (written != checksum(json)) throw std::runtime_error("wrong checksum");
   return {.id = json.at("id"),
           .kind = json.at("kind"),
           .status = status_from(json.at("status")),
@@ -82,16 +82,16 @@ std::string to_text(const CaseResult& result) {
 
 CaseResult read_result(const std::filesystem::path& path) {
   return from_json_file<Json>(path,
-                              {.what = "is no whole result of a case",
-                               .expected = "what `fastsplat plan run` writes",
-                               .fix = "run the plan again: it makes this case anew"},
+                              {.what = "not a complete result of a case",
+                               .expected = "a file written by `fastsplat plan run`",
+                               .fix = "run the plan again, which repeats this case"},
                               result_from);
 }
 
 std::string foreign(const CaseResult& result, const Case& one, const std::string& program) {
-  if (result.id != one.id) return "is of case " + result.id;
-  if (result.kind != one.kind) return "is of kind " + result.kind;
-  if (!(result.content == one.content)) return "is of another configuration or scene of these names";
+  if (result.id != one.id) return "belongs to case " + result.id;
+  if (result.kind != one.kind) return "belongs to kind " + result.kind;
+  if (!(result.content == one.content)) return "belongs to another configuration or scene with these names";
   if (result.program != program) return "was made by another program, " + result.program;
   return {};
 }

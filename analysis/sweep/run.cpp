@@ -74,7 +74,7 @@ class Runner {
     try {
       result = read_result(path);
     } catch (const UserError& error) {
-      if (options_.note) options_.note(std::string(error.what()) + ": made again");
+      if (options_.note) options_.note(std::string(error.what()) + "; this case is run again");
       return std::nullopt;
     }
     if (const auto why = foreign(result, one, options_.program_hash); !why.empty()) {
@@ -83,7 +83,7 @@ class Runner {
                    .what = why,
                    .expected = "program " + options_.program_hash,
                    .got = {},
-                   .fix = "another folder (--results), or --again to make such results anew"});
+                   .fix = "use another folder (--results), or replace such results with --again"});
     }
     if (options_.retry_failed && result.status != Status::Pass) return std::nullopt;
     return result;

@@ -54,16 +54,17 @@ std::string array_script(const Submission& s, const JobArray& array) {
              array.length, s.at_once > 0 ? fmt::format("%{}", s.at_once) : "", array.length) +
          (s.at_once > 0 ? fmt::format("#$ -tc {}\n", s.at_once) : "") +
          directives(s, array_name(s, array), s.jobs * s.threads) +
-         "# LSF says 0 and SGE \"undefined\" where there is no array.\n"
+         "# Without an array LSF sets 0 and SGE \"undefined\".\n"
          "task=${SGE_TASK_ID:-$LSB_JOBINDEX}\n"
-         "case $task in '' | 0 | *[!0-9]*) echo \"no task of an array: send this with bsub or qsub\" >&2; exit 2 ;; "
+         "case $task in '' | 0 | *[!0-9]*) echo \"not a task of an array: submit this script with bsub or qsub\" >&2; "
+         "exit 2 ;; "
          "esac\n" +
          fmt::format("exec >>{}/array-{}_\"$task\".log 2>&1\n", shell_word(s.logs()), array.number) + check_lines(s) +
          "exec " + run_line(s, fmt::format("$((task + {}))", array.first - 1)) + "\n";
 }
 
 std::string merge_script(const Submission& s) {
-  return fmt::format("#!/bin/sh\n# {}: merged when every task has ended\n#BSUB -J {}\n", s.what, s.merge_name()) +
+  return fmt::format("#!/bin/sh\n# {}: merge after all tasks end\n#BSUB -J {}\n", s.what, s.merge_name()) +
          directives(s, s.merge_name(), 1) +
          // By hand, or after GNU parallel, it talks to whoever started it.
          fmt::format("[ -z \"$JOB_ID$LSB_JOBID\" ] || exec >>{}/merge.log 2>&1\n", shell_word(s.logs())) +

@@ -32,7 +32,7 @@ std::string reason_of(const Called& called) {
 
 std::size_t slurm_array_max() {
   const Called called = call({"scontrol", "show", "config"}, kSeconds);
-  if (called.code != 0) refused("scontrol", called, "see that this machine reaches the cluster, or give --array-max");
+  if (called.code != 0) refused("scontrol", called, "check that this machine reaches the cluster, or add --array-max");
   std::istringstream lines(called.out);
   for (std::string name, equals, value, line; std::getline(lines, line);) {
     std::istringstream words(line);
@@ -40,16 +40,16 @@ std::size_t slurm_array_max() {
     const auto most = integer_from<std::size_t>(value).value_or(0);
     if (most > 0) return most;
     throw_input({.where = "scontrol",
-                 .what = "this site allows no job arrays",
+                 .what = "this site does not allow job arrays",
                  .expected = {},
                  .got = "MaxArraySize = " + value,
-                 .fix = "--engine script"});
+                 .fix = "use --engine script"});
   }
   throw_input({.where = "scontrol",
-               .what = "does not tell MaxArraySize",
+               .what = "does not print MaxArraySize",
                .expected = {},
                .got = {},
-               .fix = "give --array-max"});
+               .fix = "add --array-max"});
 }
 
 std::string slurm_queued(const std::string& names) {
@@ -70,7 +70,7 @@ std::string slurm_submit(const std::vector<std::string>& words) {
   const std::string id = called.out.substr(0, called.out.find_first_of(";\n"));
   const bool number = !id.empty() && std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::isdigit(c); });
   if (called.code != 0 || !number)
-    refused("sbatch", called, "nothing is queued; change what it names and submit again");
+    refused("sbatch", called, "nothing was queued: correct the problem and submit again");
   return id;
 }
 

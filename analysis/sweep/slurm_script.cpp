@@ -49,14 +49,14 @@ std::filesystem::path slurm_merge_path(const Submission& s) { return s.scripts()
 
 std::string slurm_array_script(const Submission& s, const JobArray& array) {
   return fmt::format(
-             "#!/bin/sh\n# {}: shards {} to {} of {}; task 0 is shard {}. A task again: sbatch --array=N THIS\n",
+             "#!/bin/sh\n# {}: shards {} to {} of {}; task 0 is shard {}. To repeat a task: sbatch --array=N THIS\n",
              s.what, array.first, array.first + array.length - 1, s.shards, array.first) +
          directives(s, s.name, fmt::format("array-{}_%a.%A.log", array.number), s.jobs * s.threads) + check_lines(s) +
          "exec " + run_line(s, fmt::format("$((SLURM_ARRAY_TASK_ID + {}))", array.first)) + "\n";
 }
 
 std::string slurm_merge_script(const Submission& s) {
-  return fmt::format("#!/bin/sh\n# {}: merged when every task has ended\n", s.what) +
+  return fmt::format("#!/bin/sh\n# {}: merge after all tasks end\n", s.what) +
          directives(s, s.merge_name(), "merge.%j.log", 1) + merge_lines(s, "slurm");
 }
 

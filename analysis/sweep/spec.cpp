@@ -28,8 +28,8 @@ class Reader {
   explicit Reader(std::filesystem::path path) : path_(std::move(path)) {}
 
   Spec read() {
-    const toml::table root = parse_toml(read_text_file(path_), path_.string(),
-                                        "docs/plan.md shows specifications; configs/plans/ holds some");
+    const toml::table root =
+        parse_toml(read_text_file(path_), path_.string(), "see docs/plan.md and the examples in configs/plans/");
     for (const auto& [key, node] : root) {
       const std::string name(key.str());
       if (std::ranges::find(kKeys, name) != std::end(kKeys)) continue;
@@ -71,24 +71,24 @@ class Reader {
     const toml::node* node = table.get(key);
     if (node == nullptr) return std::nullopt;
     if (const auto text = node->value_exact<std::string>()) return *text;
-    refuse(*node, fmt::format("{} is not text", key), "a string");
+    refuse(*node, fmt::format("{} has the wrong type", key), "a string");
   }
 
   std::vector<std::string> kinds(const toml::table& root) const {
     const toml::node* node = root.get("kind");
     if (node == nullptr) {
       throw_input({.where = path_.string(),
-                   .what = "says no kind of case",
-                   .expected = "kind = \"compare\", or another verb with a JSON result",
+                   .what = "the key 'kind' is missing",
+                   .expected = "kind = \"compare\" or another subcommand with a JSON result",
                    .got = {},
-                   .fix = "docs/plan.md lists the kinds"});
+                   .fix = "add a kind listed in docs/plan.md"});
     }
     std::vector<std::string> out;
     for (const Value& kind : list(*node, "kind")) {
       const auto* text = std::get_if<std::string>(&kind);
       if (text == nullptr || text->empty())
-        refuse(*node, "kind is not text", "\"compare\" or [\"compare\", \"cycles\"]");
-      if (std::ranges::find(out, *text) != out.end()) refuse(*node, fmt::format("kind {} stands twice", *text));
+        refuse(*node, "kind has the wrong type", "\"compare\" or [\"compare\", \"cycles\"]");
+      if (std::ranges::find(out, *text) != out.end()) refuse(*node, fmt::format("kind {} occurs twice", *text));
       out.push_back(*text);
     }
     return out;
@@ -97,7 +97,7 @@ class Reader {
   bool leaves_out(const toml::table& root) const {
     const auto word = text_of(root, "refused");
     if (word && *word != "error" && *word != "leave out")
-      refuse(*root.get("refused"), fmt::format("refused is '{}'", *word), "\"error\" or \"leave out\"",
+      refuse(*root.get("refused"), fmt::format("invalid value '{}' of refused", *word), "\"error\" or \"leave out\"",
              suggestion(*word, std::vector<std::string>{"error", "leave out"}));
     return word == "leave out";
   }
@@ -107,7 +107,7 @@ class Reader {
     if (const auto whole = node.value_exact<std::int64_t>()) return *whole;
     if (const auto real = node.value_exact<double>()) return *real;
     if (const auto text = node.value_exact<std::string>()) return *text;
-    refuse(node, name + " is not one value", "a number, text, true or false");
+    refuse(node, name + " is not a single value", "a number, text, true or false");
   }
 
   /// A list, one value, or a range {from, to} with a step, or times a factor.
@@ -115,7 +115,7 @@ class Reader {
     if (const auto* table = node.as_table()) return range(*table, name);
     const auto* array = node.as_array();
     if (array == nullptr) return {value(node, name)};
-    if (array->empty()) refuse(node, name + " has no value", "one at least");
+    if (array->empty()) refuse(node, name + " has no values", "at least one");
     std::vector<Value> values;
     for (const auto& element : *array) {
       values.push_back(value(element, name));
@@ -135,12 +135,13 @@ class Reader {
     };
     for (const auto& [key, node] : table) {
       if (!is_range_key(key.str()))
-        refuse(node, fmt::format("a range has no '{}'", key.str()), "from, to, step, times");
+        refuse(node, fmt::format("unknown key '{}' of a range", key.str()), "from, to, step, times");
     }
     const auto from = number("from", {}), to = number("to", {}), step = number("step", 1), times = number("times", 1);
     const bool both = table.contains("step") && table.contains("times");
     if (to < from || step < 1 || times < 1 || both || (table.contains("times") && (times < 2 || from < 1)))
-      refuse(table, fmt::format("the range of {} goes nowhere", name), "from <= to, and step >= 1 or times >= 2", "");
+      refuse(table, fmt::format("the range of {} is empty or invalid", name), "from <= to, and step >= 1 or times >= 2",
+             "");
     std::vector<Value> values;
     for (std::int64_t at = from; at <= to && values.size() <= kMostValues;) {
       values.emplace_back(at);
@@ -175,7 +176,7 @@ class Reader {
   /// Everything in a table, in the order of the file.
   std::vector<Entry> entries(const toml::node& node, const char* what) const {
     const auto* table = node.as_table();
-    if (table == nullptr) refuse(node, fmt::format("{} is no table", what), fmt::format("[{}]", what));
+    if (table == nullptr) refuse(node, fmt::format("{} is not a table", what), fmt::format("[{}]", what));
     std::vector<Entry> out;
     flatten(*table, "", out);
     std::ranges::sort(out, {}, [](const Entry& entry) {
@@ -191,14 +192,14 @@ class Reader {
     for (std::size_t at = 0; array != nullptr && at < array->size(); ++at) {
       if ((*array)[at].is_table()) out.push_back((*array)[at].as_table());
     }
-    if (out.empty()) refuse(node, fmt::format("{} is no list of tables", what), fmt::format("[[{}]]", what));
+    if (out.empty()) refuse(node, fmt::format("{} is not an array of tables", what), fmt::format("[[{}]]", what));
     return out;
   }
 
   /// The name, which no other has taken.
   std::string taken(const Entry& entry) {
     if (!names_.insert(entry.name).second)
-      refuse(*entry.node, fmt::format("{} is set twice", entry.name), "", "it is a constant, or on one axis");
+      refuse(*entry.node, fmt::format("{} is set twice", entry.name), "", "make it a constant, or put it on one axis");
     return entry.name;
   }
 
@@ -217,10 +218,10 @@ class Reader {
     for (auto& [at, zip] : found) out.push_back(std::move(zip));
     if (out.empty()) {
       throw_input({.where = path_.string(),
-                   .what = "has no axis",
-                   .expected = "[axes] or [[zip]], with one name at least",
+                   .what = "the specification has no axis",
+                   .expected = "[axes] or [[zip]] with at least one name",
                    .got = {},
-                   .fix = "for example [axes] and below it snap.phases = [16, 32, 64]"});
+                   .fix = "for example [axes] followed by snap.phases = [16, 32, 64]"});
     }
     return out;
   }
@@ -229,8 +230,8 @@ class Reader {
   Zip zip(const toml::table& table) {
     const std::string label = text_of(table, "axis").value_or("label");
     if (const auto* axis = table.get("axis"); axis != nullptr && (table.contains(label) || names_.contains(label))) {
-      refuse(*axis, fmt::format("axis = \"{}\" names the column of the labels, and {} is a setting, too", label, label),
-             "a name that no setting has", "for example axis = \"view\"");
+      refuse(*axis, fmt::format("axis = \"{}\" names the label column, but {} is also a setting", label, label),
+             "a name different from all settings", "for example axis = \"view\"");
     }
     Zip out;
     for (const Entry& entry : entries(table, "zip")) {
@@ -241,10 +242,10 @@ class Reader {
                      .is_label = is_label});
       if (out.front().values.size() != out.back().values.size()) {
         refuse(*entry.node, fmt::format("{} has {} values", entry.name, out.back().values.size()),
-               fmt::format("{}, as {} beside it", out.front().values.size(), out.front().name));
+               fmt::format("{}, as many as {}", out.front().values.size(), out.front().name));
       }
     }
-    if (out.empty()) refuse(table, "[[zip]] is empty", "names with lists of one length");
+    if (out.empty()) refuse(table, "[[zip]] is empty", "names with lists of the same length");
     return out;
   }
 
@@ -261,7 +262,7 @@ class Reader {
     for (const auto& [key, node] : table) {
       const std::vector<std::string> known{"name", "title", "unit", "better", "path"};
       if (std::ranges::find(known, key.str()) == known.end())
-        refuse(node, fmt::format("a metric has no '{}'", key.str()), "", suggestion(key.str(), known));
+        refuse(node, fmt::format("unknown key '{}' of a metric", key.str()), "", suggestion(key.str(), known));
     }
     Metric out;
     const auto path = text_of(table, "path"), name = text_of(table, "name");
@@ -273,7 +274,7 @@ class Reader {
     out.unit = text_of(table, "unit").value_or("");
     const auto better = text_of(table, "better").value_or("");
     if (better != "" && better != "less" && better != "more")
-      refuse(*table.get("better"), fmt::format("better is '{}'", better), "\"less\" or \"more\"",
+      refuse(*table.get("better"), fmt::format("invalid value '{}' of better", better), "\"less\" or \"more\"",
              suggestion(better, std::vector<std::string>{"less", "more"}));
     out.better = better == "less" ? Better::Less : better == "more" ? Better::More : Better::Neither;
     return out;

@@ -68,27 +68,18 @@ std::string lost_line(const Submission& s, const std::string& engine) {
 
 std::string check_lines(const Submission& s) {
   return fmt::format(
-      "for needed in {} {} {}; do\n"
-      "  [ -r \"$needed\" ] && continue\n"
-      "  echo \"$(uname -n) does not see $needed: program, plan and results must lie in folders that all machines "
-      "share\" >&2\n"
-      "  exit 3\n"
-      "done\n"
-      "cd {} || exit 3\n",
+      "for needed in {} {} {}; do\n  [ -r \"$needed\" ] && continue\n  echo \"$(uname -n) cannot read $needed: put "
+      "program, plan and results into folders that all machines share\" >&2\n  exit 3\ndone\ncd {} || exit 3\n",
       shell_word(s.program), shell_word(s.plan), shell_word(s.results), shell_word(s.folder));
 }
 
 std::string merge_lines(const Submission& s, const std::string& engine) {
-  return check_lines(s) + fmt::format(
-                              "# A network folder shows what another machine wrote up to a minute late.\n"
-                              "case $(stat -f -c %T {} 2>/dev/null) in nfs*) sleep 65 ;; esac\n"
-                              "{}\n"
-                              "code=$?\n"
-                              "# 0: all passed, 1: a case failed, which is a result. Otherwise the tasks that gave "
-                              "none, with their logs.\n"
-                              "[ $code -le 1 ] || {} >&2\n"
-                              "exit $code\n",
-                              shell_word(s.results), merge_line(s), lost_line(s, engine));
+  return check_lines(s) +
+         fmt::format(
+             "# A network folder shows files of other machines up to a minute late.\ncase $(stat -f -c %T {} "
+             "2>/dev/null) in nfs*) sleep 65 ;; esac\n{}\ncode=$?\n# 0: all passed, 1: a case failed, which is a "
+             "result. Otherwise list tasks without results, with their logs.\n[ $code -le 1 ] || {} >&2\nexit $code\n",
+             shell_word(s.results), merge_line(s), lost_line(s, engine));
 }
 
 std::string log_stem(const Submission& s, std::size_t shard) {
@@ -112,7 +103,7 @@ long seconds_from(const std::string& time) {
   }
   if (seconds > 0) return seconds;
   throw_usage({.where = "--time",
-               .what = "no duration",
+               .what = "not a duration",
                .expected = "minutes, h:mm:ss or days-hours",
                .got = time,
                .fix = "for example --time 90 or --time 1:30:00"});

@@ -33,7 +33,7 @@ Value value_from(const nlohmann::ordered_json& json) {
   if (json.is_number_integer()) return json.get<std::int64_t>();
   if (json.is_number()) return json.get<double>();
   if (json.is_string()) return json.get<std::string>();
-  throw std::runtime_error(json_text(json, -1) + " is no number, text, true or false");
+  throw std::runtime_error(json_text(json, -1) + " is not a number, text, true or false");
 }
 
 std::string shell_line(const Words& words) {

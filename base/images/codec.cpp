@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kWhat = "pictures can be neither read nor written: the module for the image library ";
+constexpr const char* kWhat = "cannot read or write pictures: the image library's module ";
 
 [[noreturn]] void refuse(const fs::path& where, const std::string& what, std::string expected, std::string got,
                          std::string fix) {
@@ -30,8 +30,8 @@ fs::path find_module() {
     std::error_code ignored;
     if (!unreadable && fs::exists(place, ignored)) return place;
   }
-  refuse(places[0], "is missing", "it there or as " + places[1].string(), unreadable ? unreadable.message() : "",
-         "build again (./run build), or copy it together with the program");
+  refuse(places[0], "is missing", "this file or " + places[1].string(), unreadable ? unreadable.message() : "",
+         "run `./run build`, or copy the module together with the program");
 }
 
 /// libtiff prints to stderr what is wrong with a file; our message reports it. OpenImageIO 2.4 replaces the functions
@@ -50,13 +50,13 @@ const Codec& open_module() {
   if (module == nullptr) {
     const char* reason = ::dlerror();
     refuse(path, "cannot be loaded", {}, reason == nullptr ? "no reason" : reason,
-           "install the packages of tools/debian.txt, then build again (./run build)");
+           "install the packages of tools/debian.txt, then run `./run build`");
   }
   const auto* tag = static_cast<const char*>(::dlsym(module, kTagSymbol));
   const auto* table = static_cast<const Codec*>(::dlsym(module, kTableSymbol));
   if (tag == nullptr || table == nullptr || std::strcmp(tag, FASTSPLAT_CODEC_TAG) != 0) {
     refuse(path, "belongs to another build of this program", FASTSPLAT_CODEC_TAG, tag == nullptr ? "no tag" : tag,
-           "build again (./run build), or copy it together with the program");
+           "run `./run build`, or copy the module together with the program");
   }
   silence_libtiff(module);
   return *table;  // never closed: the library's own threads outlive any picture

@@ -169,7 +169,7 @@ std::string walk(Bytes bytes, const Visit& visit) {
     const std::size_t left = reader.left();
     const auto value = reader.take(*length);
     if (!value)
-      return "an attribute of " + std::to_string(*length) + " bytes where " + std::to_string(left) + " are left" +
+      return "an attribute of " + std::to_string(*length) + " bytes exceeds the remaining " + std::to_string(left) +
              where;
     if (const std::string defect = visit(*type, *value); !defect.empty()) return defect + where;
   }
@@ -179,13 +179,13 @@ std::string walk(Bytes bytes, const Visit& visit) {
 
 std::string exr_defect(Bytes bytes) {
   return walk(bytes, [](std::string_view type, Bytes value) {
-    return fits(type, value) ? std::string() : "an attribute whose length its type does not have";
+    return fits(type, value) ? std::string() : "an attribute's length does not match its type";
   });
 }
 
 std::string exr_channel_defect(Bytes bytes) {
   return walk(bytes, [](std::string_view type, Bytes value) {
-    return type != "chlist" || is_sorted(value) ? std::string() : "a list of channels that is not sorted by name";
+    return type != "chlist" || is_sorted(value) ? std::string() : "the channel list is not sorted by name";
   });
 }
 

@@ -53,7 +53,7 @@ LoadedImage read_image(const std::filesystem::path& path) {
     const std::span bytes(reinterpret_cast<const unsigned char*>(file.data()), file.size());
     const char* format = format_of(bytes);
     if (format == nullptr) {
-      refuse({{}, "not an image", "EXR, PNG, TIFF or JPEG", {}, "name an image file, or write it again"});
+      refuse({{}, "not an image", "EXR, PNG, TIFF or JPEG", {}, "name an image file, or write the file again"});
     }
     const bool png = std::strcmp(format, "png") == 0, exr = std::strcmp(format, "openexr") == 0;
     if (png || exr) {
@@ -69,18 +69,14 @@ LoadedImage read_image(const std::filesystem::path& path) {
     if (exr && exr_is_subsampled(bytes)) {
       refuse({{},
               "luminance/chroma EXR: a channel has fewer samples than pixels",
-              "a sample of each channel in each pixel",
+              "one sample per channel and pixel",
               {},
               "write it as RGB"});
     }
     if (png && png_is_animated(bytes))
-      refuse({{}, "several images in one file (animated PNG)", "one", {}, "write one"});
+      refuse({{}, "several images in one file (animated PNG)", "one", {}, "write a single image"});
     if (const std::string tag = std::strcmp(format, "tiff") == 0 ? tiff_unfollowed(bytes) : ""; !tag.empty())
-      refuse({{},
-              "the tag " + tag + " is not followed",
-              "samples that mean what they say",
-              {},
-              "convert it to sRGB or linear values"});
+      refuse({{}, "unsupported TIFF tag " + tag, "sRGB or linear samples", {}, "convert it to sRGB or linear values"});
     // The decoder fills up with grey what a cut file lacks.
     if (std::strcmp(format, "jpeg") == 0 && file.rfind("\xff\xd9") == std::string::npos)
       refuse({{}, "corrupt or truncated JPEG: its end is missing", {}, {}, "write the file again"});

@@ -86,7 +86,7 @@ std::size_t write_image(const std::filesystem::path& path, const Image& image, c
       options.display ? PixelKind::Uint8 : (format == "openexr" ? PixelKind::Float : PixelKind::Uint16);
   const PixelKind kind = options.kind.value_or(usual);
   if (options.display && (format == "openexr" || kind == PixelKind::Float)) {
-    throw_input({path.string(), "a display image is 8 or 16 bit", ".png or .tif", format, {}});
+    throw_input({path.string(), "a display image has 8 or 16 bits a sample", ".png or .tif", format, {}});
   }
   check_kind(path, format, kind);
 

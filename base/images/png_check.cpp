@@ -92,7 +92,7 @@ class PixelStream {
 
   std::string count(Bytes pixels) {
     for (std::size_t i = 0; i < pixels.size();) {
-      if (pass_ == passes()) return "more pixels than the header says";
+      if (pass_ == passes()) return "more pixels than the header declares";
       if (in_row_ == 0 && pixels[i] > 4) return "unknown row filter";
       const std::uint64_t step = std::min<std::uint64_t>(row_ - in_row_, pixels.size() - i);
       in_row_ += step;
@@ -142,7 +142,7 @@ std::string png_defect(Bytes bytes) {
     const std::string_view name(reinterpret_cast<const char*>(type.data()), 4);
     const auto crc = crc32(crc32(0, type.data(), 4), data.data(), length);
     if (crc != big_endian(bytes.subspan(at + 8 + length)))
-      return "checksum of chunk " + std::string(name) + " differs" + where;
+      return "wrong checksum of chunk " + std::string(name) + where;
 
     if (before == "IDAT" && name != "IDAT") pixels_over = true;
     const std::string chunk = "chunk " + std::string(name) + where;

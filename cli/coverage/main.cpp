@@ -127,7 +127,7 @@ tb::ClosureInput run_one(const Run& run, tb::LineCoverage& lines, std::vector<st
 
 std::map<std::string, bool> tests_of(const std::string& path, std::vector<std::string>& failures) {
   auto results = tb::read_test_results(path);
-  if (results.empty()) failures.push_back("no test of the plan ran: " + path + " names none");
+  if (results.empty()) failures.push_back("no test of the plan was run: " + path + " lists none");
   return results;
 }
 
@@ -142,10 +142,10 @@ tb::CoverageBook book_of(const std::string& path) {
     names += (names.empty() ? "" : ", ") + config.name;
   }
   throw_input({.where = path,
-               .what = "is coverage of a configuration that is not closed here",
+               .what = "holds coverage of a configuration outside this closure",
                .expected = "one of " + names,
                .got = book.config,
-               .fix = "leave it out: fastsplat report shows it"});
+               .fix = "leave the file out, or open it with `fastsplat report`"});
 }
 
 /// As `fastsplat report` makes it.
@@ -163,10 +163,10 @@ ExitCode run(const std::vector<std::string>& arguments) {
   }
   if (arguments.empty()) {
     throw_usage({.where = "fastsplat_coverage",
-                 .what = "where to?",
+                 .what = "the output folder is missing",
                  .expected = "a folder",
                  .got = {},
-                 .fix = "tools/coverage knows"});
+                 .fix = "run tools/coverage, which names it"});
   }
   const std::filesystem::path folder = arguments[0];
   tb::ClosureReport report{.version = program_version(),
@@ -210,7 +210,7 @@ ExitCode run(const std::vector<std::string>& arguments) {
                                     [](const auto& test) { return test.outcome == tb::TestOutcome::Passed; });
   std::printf(
       "%s: %zu of %zu bins hit; %zu of %zu lines and branches reached, %td excused; %td of %zu tests of the plan "
-      "passed, those that are slow are ./run test's\n%s\n",
+      "passed (`./run test` runs the slow ones)\n%s\n",
       report.closed() ? "closed" : "open", report.closure.hit, report.closure.bins,
       report.lines.points.size() - report.lines.unreached.size(), report.lines.points.size(), excused, passed,
       report.closure.tests.size(), (folder / "closure.html").c_str());

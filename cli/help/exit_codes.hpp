@@ -14,15 +14,14 @@ struct ExitMeaning {
 };
 
 inline constexpr std::array kExitMeanings{
-    ExitMeaning{ExitCode::Pass, "pass", "done; what was to be verified holds"},
+    ExitMeaning{ExitCode::Pass, "pass", "done; verification passed"},
     ExitMeaning{ExitCode::Failed, "failed", "a limit or verification failed; two configurations differ"},
-    ExitMeaning{ExitCode::Usage, "usage", "the command line makes no sense"},
-    ExitMeaning{ExitCode::Input, "input or output",
-                "a file is missing, it or its format is bad, or a result cannot be written"},
-    ExitMeaning{ExitCode::NotComparable, "not comparable", "two things that cannot be compared"},
+    ExitMeaning{ExitCode::Usage, "usage", "the command line is invalid"},
+    ExitMeaning{ExitCode::Input, "input or output", "a file is missing or invalid, or a result cannot be written"},
+    ExitMeaning{ExitCode::NotComparable, "not comparable", "the two inputs cannot be compared"},
     ExitMeaning{ExitCode::Simulation, "simulation",
                 "the simulated device hung, refused the stream or failed an assertion"},
-    ExitMeaning{ExitCode::Internal, "internal", "an error of the program's own: please report it"},
+    ExitMeaning{ExitCode::Internal, "internal", "an internal error: please report it"},
     ExitMeaning{ExitCode::Interrupted, "interrupted", "ended by Ctrl-C (128 + signal for others)"},
 };
 

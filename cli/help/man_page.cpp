@@ -52,9 +52,9 @@ std::string synopsis(const Description& verb, const std::vector<Description>& al
     const std::string word = italic(flag.names.front()) + (flag.repeatable ? " ..." : "");
     line += flag.required ? " " + word : " [" + word + "]";
   }
-  if (verb.name.empty()) line += " " + italic("verb") + " [" + italic("flags") + "]";
+  if (verb.name.empty()) line += " " + italic("subcommand") + " [" + italic("flags") + "]";
   const bool heads = std::any_of(all.begin(), all.end(), [&](const auto& one) { return belongs_to(one, verb); });
-  if (verb.group && heads) line += " " + italic("verb") + " [" + italic("flags") + "]";
+  if (verb.group && heads) line += " " + italic("subcommand") + " [" + italic("flags") + "]";
   return line + "\n";
 }
 
@@ -152,7 +152,7 @@ std::string man_page(const Description& verb, const std::vector<Description>& al
     if (!body.empty()) text += fmt::format(".SH {}\n{}", argument(name), body);
   };
   section("EXAMPLES", examples(verb));
-  section("VERBS", verb.name.empty() || verb.group ? verbs_of(verb, all) : "");
+  section("SUBCOMMANDS", verb.name.empty() || verb.group ? verbs_of(verb, all) : "");
   section("OPTIONS", options(verb));
   section("EXIT STATUS", exit_status());
   section("SEE ALSO", see_also(verb, all));

@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
     cli::print_error(error.what());
     return static_cast<int>(exit_code_of(error));
   } catch (const std::bad_alloc&) {
-    cli::print_error("not enough memory for this; use a smaller volume or --size");
+    cli::print_error("not enough memory; use a smaller volume or --size");
     return static_cast<int>(machine_exit_code(ExitCode::Input));
   } catch (const std::exception& error) {
     cli::print_error(std::string("internal: ") + error.what() + "; please report it with the command line");

@@ -32,10 +32,10 @@ void check(const CompareArguments& arguments) {
   const auto at_least = [](const char* flag, const std::optional<double>& value, double least) {
     if (!value || *value >= least) return;
     throw_usage({.where = flag,
-                 .what = "no such limit",
+                 .what = "invalid limit",
                  .expected = fmt::format("{} or more", least),
                  .got = fmt::format("{}", *value),
-                 .fix = "limits are on magnitudes"});
+                 .fix = "use a positive limit: limits apply to magnitudes"});
   };
   at_least("--max-lsb", arguments.max_lsb, 0.0);
   at_least("--max-mean-lsb", arguments.max_mean_lsb, 0.0);
@@ -44,10 +44,10 @@ void check(const CompareArguments& arguments) {
   at_least("--max-p99-lsb", arguments.max_p99_lsb, 0.0);
   if (!(arguments.peak > 0.0)) {
     throw_usage({.where = "--peak",
-                 .what = "not a peak",
+                 .what = "invalid peak",
                  .expected = "more than 0",
                  .got = fmt::format("{}", arguments.peak),
-                 .fix = "1 is the peak of linear images"});
+                 .fix = "use 1 for linear images"});
   }
   check_outputs({.images = {},
                  .maps = {arguments.map, arguments.heat},
@@ -79,22 +79,22 @@ analysis::CompareOptions options_from(const CompareArguments& arguments) {
 
 /// Where the file declares nothing, what is taken for it.
 std::string described_encoding(const images::LoadedImage& loaded) {
-  if (!loaded.encoding.empty()) return "declares its values " + loaded.encoding;
+  if (!loaded.encoding.empty()) return "declares the encoding " + loaded.encoding;
   return images::encoding_of(loaded) == images::kSrgb
-             ? "declares nothing and is taken as a picture for looking (sRGB), as PNG and JPEG are"
-             : "declares nothing and is taken as linear values";
+             ? "declares no encoding and is read as a display picture (sRGB), as PNG and JPEG are"
+             : "declares no encoding and is read as linear values";
 }
 
 /// Both are for looking: the user says so, and no file may say otherwise.
 void require_looks(const std::string& file, const images::LoadedImage& picture) {
   if (picture.kind != images::PixelKind::Uint8 && picture.kind != images::PixelKind::Uint16) {
     not_comparable(file,
-                   fmt::format("holds {} values, and --srgb is said of 8 or 16 bit pictures for looking",
+                   fmt::format("holds {} values, but --srgb requires display pictures of 8 or 16 bits",
                                images::to_string(picture.kind)),
-                   "leave --srgb out and compare linear values with linear values");
+                   "leave --srgb out, and compare linear values with linear values");
   }
   if (!picture.encoding.empty() && picture.encoding != images::kSrgb)
-    not_comparable(file, described_encoding(picture) + ", and --srgb says otherwise", "leave --srgb out");
+    not_comparable(file, described_encoding(picture) + ", which contradicts --srgb", "leave --srgb out");
 }
 
 bool opaque(const Image& image) {
@@ -113,12 +113,12 @@ void check_comparable(const CompareArguments& arguments, const images::LoadedIma
   } else if (images::encoding_of(ref) != images::encoding_of(test)) {
     not_comparable(arguments.ref,
                    fmt::format("{}, {} {}", described_encoding(ref), arguments.test, described_encoding(test)),
-                   "render both to .exr or .tif and compare those; --srgb where both are for looking");
+                   "render both to .exr or .tif and compare those, or use --srgb if both are display pictures");
   }
   const bool both_have_alpha = ref.image.channels == 4 && test.image.channels == 4;
   if (both_have_alpha && ref.unassociated != test.unassociated && !(opaque(ref.image) && opaque(test.image))) {
     const auto said = [](const images::LoadedImage& picture) {
-      return picture.unassociated ? "colours that are not multiplied by alpha" : "colours multiplied by alpha";
+      return picture.unassociated ? "colours not multiplied by alpha" : "colours multiplied by alpha";
     };
     not_comparable(arguments.ref, fmt::format("holds {}, {} {}", said(ref), arguments.test, said(test)),
                    "convert one: oiiotool --premult or --unpremult");
@@ -128,7 +128,7 @@ void check_comparable(const CompareArguments& arguments, const images::LoadedIma
     if (ref.image.channels == 1 && test.image.channels == 1) {
       not_comparable(arguments.ref,
                      fmt::format("holds channel {}, {} channel {}", name(ref), arguments.test, name(test)),
-                     "rename one where both mean the same: oiiotool --chnames Y");
+                     "if both mean the same, rename one: oiiotool --chnames Y");
     }
   }
 }
@@ -170,13 +170,12 @@ struct CompareResult {
 std::vector<Remark> remarks(const CompareResult& result) {
   std::vector<Remark> out;
   if (!result.all_black.empty()) {
-    out.push_back({Remark::Warning,
-                   result.all_black + " is all black, the other is not: whatever the figures, it shows nothing"});
+    out.push_back({Remark::Warning, result.all_black + " is all black, the other is not: the figures are meaningless"});
   }
   if (result.hidden) {
     out.push_back({Remark::Warning,
-                   "the worst error is a colour where alpha is 0 in both pictures: nobody sees it; compare what is "
-                   "visible after oiiotool --premult"});
+                   "the worst error is an invisible colour: alpha is 0 in both pictures there; compare visible colours "
+                   "after oiiotool --premult"});
   }
   return out;
 }
@@ -243,9 +242,9 @@ void declare(Options& options, CompareArguments& to) {
   options.positional("TEST", to.test, "the image under test");
   options.group("Measure");
   options.integer("--lsb-bits", to.lsb_bits, 1, 24, "N", "one LSB is 1/(2^N - 1)");
-  options.number("--peak", to.peak, "NUMBER", "PSNR's peak value");
-  options.flag("--srgb", to.srgb, "both are pictures for looking, whoever wrote them: compared as they are seen");
-  options.integer("--clusters", to.clusters, 0, 1000, "N", "worst clusters listed");
+  options.number("--peak", to.peak, "NUMBER", "peak value of the PSNR");
+  options.flag("--srgb", to.srgb, "both are display pictures, whatever wrote them: compare displayed values");
+  options.integer("--clusters", to.clusters, 0, 1000, "N", "number of worst clusters to list");
   options.group("Limits (exit 1 when one fails)");
   options.number("--min-psnr", to.min_psnr, "DB", "least PSNR");
   options.number("--max-lsb", to.max_lsb, "LSB", "greatest |error|");
@@ -254,20 +253,20 @@ void declare(Options& options, CompareArguments& to) {
   options.number("--max-bias-lsb", to.max_bias_lsb, "LSB", "|mean error|");
   options.number("--max-p99-lsb", to.max_p99_lsb, "LSB", "99th percentile of |error|");
   options.number("--min-ssim", to.min_ssim, "0..1", "least structural similarity");
-  options.flag("--allow-nonfinite", to.allow_nonfinite, "NaN and infinity are counted but do not fail");
+  options.flag("--allow-nonfinite", to.allow_nonfinite, "count NaN and infinity without failing");
   options.group("Output");
-  options.word("--map", to.map, "FILE", "signed error map in LSB with legend, .png");
-  options.word("--heat", to.heat, "FILE", "|error| heat map with legend, .png");
+  options.word("--map", to.map, "FILE", "write a signed error map in LSB with legend, .png");
+  options.word("--heat", to.heat, "FILE", "write an |error| heat map with legend, .png");
   declare(options, to.common);
   options.example("fastsplat compare golden.exr model.exr --min-psnr 48 --max-lsb 3",
-                  "how far the device is from the truth; exit 1 past a limit");
+                  "the device's error against the reference; exit 1 beyond a limit");
   options.example("fastsplat compare golden.exr model.exr --map map.png --heat heat.png --json compare.json",
-                  "where they differ, as pictures and for programs");
+                  "where they differ, as pictures and as JSON");
 }
 
 }  // namespace
 
-const Verb verbs::compare{"compare", "two images: metrics in LSB and dB, maps, limits",
+const Verb verbs::compare{"compare", "compare two images: metrics in LSB and dB, maps, limits",
                           verb<CompareArguments, declare, run>};
 
 }  // namespace fastsplat::cli

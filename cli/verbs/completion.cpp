@@ -22,13 +22,14 @@ void declare(Options& options, CompletionArguments& to) {
   options.only_values(completion_shells);
   options.example("fastsplat completion bash > fastsplat.bash",
                   "a script for bash; `source` it, or install it (docs/guide/other-systems.md)");
-  options.example("fastsplat completion zsh > _fastsplat", "for zsh, in a folder of its fpath");
-  options.example("fastsplat completion fish > fastsplat.fish", "for fish, in ~/.config/fish/completions");
+  options.example("fastsplat completion zsh > _fastsplat", "a script for zsh, in a folder of its fpath");
+  options.example("fastsplat completion fish > fastsplat.fish", "a script for fish, in ~/.config/fish/completions");
 }
 
 }  // namespace
 
-const Verb verbs::completion{"completion", "a script that lets bash, zsh or fish complete verbs, flags and names",
+const Verb verbs::completion{"completion",
+                             "print a script for bash, zsh or fish that completes subcommands, flags and names",
                              verb<CompletionArguments, declare, run>};
 
 }  // namespace fastsplat::cli

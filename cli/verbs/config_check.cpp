@@ -29,15 +29,15 @@ void declare(Options& options, ConfigCheckArguments& to) {
   options.group("Configuration");
   declare_changes(options, to.changes);
   declare(options, to.common);
-  options.example("fastsplat config check mine.toml", "whether it is sound, and can be RTL");
-  options.example("fastsplat config check base --set array.lanes=16", "whether a change would be");
+  options.example("fastsplat config check mine.toml", "check a configuration, and whether RTL can be built from it");
+  options.example("fastsplat config check base --set array.lanes=16", "check a change");
 }
 
 ExitCode run(const ConfigCheckArguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.others = {arguments.common.json}, .inputs = inputs_of_config(arguments.file)});
   const auto config = load(arguments.file, arguments.changes);
-  output.line(fmt::format("{}: sound; configuration {}, hash {}", arguments.file, config.name,
+  output.line(fmt::format("{}: valid; configuration {}, hash {}", arguments.file, config.name,
                           hash_text(cmodel::config_hash(config))));
   auto json = config_json(config);
   const auto wrong = cmodel::rtl_violation(config);
@@ -45,7 +45,7 @@ ExitCode run(const ConfigCheckArguments& arguments) {
   if (wrong) {
     // The fix says again that there is the model.
     const auto why = one_line({wrong->where, wrong->what, wrong->expected, wrong->got, {}});
-    output.line("for the model only, no RTL can be built of it: " + why);
+    output.line("for the model only, no RTL can be built from it: " + why);
     json["no_rtl"] = why;
   }
   output.json(json);
@@ -54,7 +54,7 @@ ExitCode run(const ConfigCheckArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::config_check{"config check", "every key there, known and within its limits?",
+const Verb verbs::config_check{"config check", "check that every key is present, known and within its limits",
                                verb<ConfigCheckArguments, declare, run>};
 
 }  // namespace fastsplat::cli

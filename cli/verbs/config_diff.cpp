@@ -28,8 +28,8 @@ void declare(Options& options, ConfigDiffArguments& to) {
   options.positional("B", to.b, "a name or a TOML file");
   options.values(driver::config_names);
   declare(options, to.common);
-  options.example("fastsplat config diff small mine.toml", "every key in which two differ; exit 1 if any does");
-  options.example("fastsplat config diff base base --json -", "for programs");
+  options.example("fastsplat config diff small mine.toml", "every key that differs; exit 1 if there are any");
+  options.example("fastsplat config diff base base --json -", "the same as JSON");
 }
 
 /// What the device would see; names and descriptions are none of that.
@@ -85,7 +85,8 @@ ExitCode run(const ConfigDiffArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::config_diff{"config diff", "the keys in which two differ; exit 1 when there are any",
+const Verb verbs::config_diff{"config diff",
+                              "list the keys that differ between two configurations; exit 1 if there are any",
                               verb<ConfigDiffArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -19,8 +19,8 @@ struct ConfigListArguments {
 
 void declare(Options& options, ConfigListArguments& to) {
   declare(options, to.common);
-  options.example("fastsplat config list", "names, hashes and what each is for");
-  options.example("fastsplat config list --json configs.json", "every key of all, for programs");
+  options.example("fastsplat config list", "names, hashes and purposes");
+  options.example("fastsplat config list --json configs.json", "every key of all configurations as JSON");
 }
 
 std::string to_text(const std::vector<cmodel::Config>& configs) {
@@ -50,6 +50,7 @@ ExitCode run(const ConfigListArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::config_list{"config list", "the built-in ones", verb<ConfigListArguments, declare, run>};
+const Verb verbs::config_list{"config list", "list the built-in configurations",
+                              verb<ConfigListArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -24,8 +24,8 @@ void declare(Options& options, ConfigShowArguments& to) {
   options.group("Configuration");
   declare_changes(options, to.changes);
   declare(options, to.common);
-  options.example("fastsplat config show small > mine.toml", "a configuration to change, every key with its limits");
-  options.example("fastsplat config show tiny --set radial.entries=128", "with a key changed");
+  options.example("fastsplat config show small > mine.toml", "a configuration to edit, every key with its limits");
+  options.example("fastsplat config show tiny --set radial.entries=128", "a configuration with one key changed");
 }
 
 ExitCode run(const ConfigShowArguments& arguments) {
@@ -39,7 +39,7 @@ ExitCode run(const ConfigShowArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::config_show{"config show", "every key of one, as TOML that --config takes",
+const Verb verbs::config_show{"config show", "print every key of a configuration as TOML for --config",
                               verb<ConfigShowArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -105,7 +105,7 @@ std::optional<double> hidden_share(const scene::Scene& scene, const cmodel::Conf
 bool of_culling(std::string_view cause) { return cause == "hidden" || cause == "map"; }
 
 std::string to_text(const cmodel::CullCounts& culls) {
-  return fmt::format("culling: {} of {} sets hidden, {} of {} splats tested, {} windows of the others\n",
+  return fmt::format("culling: {} of {} cull groups hidden, {} of {} splats tested, {} windows of visible splats\n",
                      grouped(culls.hidden_sets), grouped(culls.set_tests), grouped(culls.hidden_splats),
                      grouped(culls.splat_tests), grouped(culls.hidden_windows));
 }
@@ -127,7 +127,7 @@ std::string to_text(const Counts& counts, int slices, bool culls) {
     first = false;
   });
   row('=', "actual", counts.stalls.busy, "cycles the device was busy");
-  text += fmt::format("  {:<14}{:>18} {:{}}    waiting for the frame after reset, memories being cleared\n", "idle",
+  text += fmt::format("  {:<14}{:>18} {:{}}    waiting for the frame after reset, while memories are cleared\n", "idle",
                       grouped(counts.idle), "", wide);
   text +=
       fmt::format("actual/ideal {:.4f}, splat array used {:.1f} %, compositor used {:.1f} %, {:.3f} splats/cycle\n",
@@ -144,9 +144,10 @@ std::string to_text(const CyclesResult& result) {
                      grouped(counters.sheets), grouped(counters.tiles)) +
          to_text(result.counts, result.config.slices(), result.config.culls()) +
          (result.culls ? to_text(*result.culls) : "") +
-         (result.hidden_share ? fmt::format("{:.1f} % of the splats lay wholly on frozen blocks and changed nothing\n",
-                                            100.0 * *result.hidden_share)
-                              : "") +
+         (result.hidden_share
+              ? fmt::format("{:.1f} % of the splats lay entirely on terminated blocks and changed nothing\n",
+                            100.0 * *result.hidden_share)
+              : "") +
          (result.scalings.size() > 1 ? to_table(result.scalings) : "") +
          (result.scalings.empty() ? "" : to_text(result.scalings.back())) +
          (result.cull_table.empty() ? "" : cli::to_text(result.cull_table)) +
@@ -213,21 +214,22 @@ void check_culling(const CyclesArguments& arguments, const cmodel::Config& confi
     throw_usage({.where = std::move(where), .what = std::move(what), .expected = {}, .got = {}, .fix = std::move(fix)});
   };
   if (arguments.cull_table && !arguments.stream.empty())
-    refuse("--cull-table", "a stream was made for one cull.map", "give a scene's flags");
+    refuse("--cull-table", "a recorded stream supports one cull.map only", "use a scene instead of --stream");
   if (arguments.fetch >= 0 && !config.culls() && !arguments.cull_table)
-    refuse("--fetch", "nothing is hidden where cull.map is off", "add --set cull.map=block");
+    refuse("--fetch", "requires culling, and cull.map is off", "add --set cull.map=block");
   if (arguments.fetch >= 0 && arguments.scaling.any())
-    refuse("--fetch", "several devices share a link, which sends every beat", "leave --fetch or --devices out");
+    refuse("--fetch", "cannot be combined with --devices: a shared link sends every beat",
+           "leave --fetch or --devices out");
 }
 
 ExitCode run(const CyclesArguments& arguments) {
   const Output output(arguments.common);
   if (!arguments.stream.empty() && !(arguments.scene == SceneFlags{})) {
     throw_usage({.where = "--stream",
-                 .what = "a stream holds its scene already",
+                 .what = "cannot be combined with a scene's flags",
                  .expected = {},
                  .got = {},
-                 .fix = "give either --stream or a scene's flags"});
+                 .fix = "use either --stream or a scene's flags"});
   }
   refuse_display(arguments.scene);
   require_file("--trace", arguments.trace);
@@ -235,10 +237,10 @@ ExitCode run(const CyclesArguments& arguments) {
   check(arguments.scaling, arguments.timeline ? "--timeline" : "");
   if (arguments.timeline && arguments.common.json.empty()) {
     throw_usage({.where = "--timeline",
-                 .what = "goes into the JSON, and there is none",
+                 .what = "requires --json",
                  .expected = {},
                  .got = {},
-                 .fix = "add --json FILE, or --trace FILE for a timeline of its own"});
+                 .fix = "add --json FILE, or use --trace FILE for a separate timeline"});
   }
   check_outputs({.images = {},
                  .maps = {},
@@ -343,37 +345,37 @@ ExitCode run(const CyclesArguments& arguments) {
 void declare(Options& options, CyclesArguments& to) {
   declare(options, to.scene);
   options.group("Scene");
-  options.word("--stream", to.stream, "FILE", "a recorded stream instead of a scene");
+  options.word("--stream", to.stream, "FILE", "use a recorded stream instead of a scene");
   options.group("Engine");
   declare(options, to.config, "hardware configuration, a name or a TOML file");
   options.word("--input", to.input, "PATTERN",
-               "when the source has a beat: always, every-N, alternate-N, random-PERCENT, burst-N");
+               "valid pattern of the source: always, every-N, alternate-N, random-PERCENT, burst-N");
   options.values(pattern_words);
-  options.word("--ready", to.ready, "PATTERN", "when the sink takes pixels: as --input");
+  options.word("--ready", to.ready, "PATTERN", "ready pattern of the sink, as for --input");
   options.values(pattern_words);
-  options.integer("--seed", to.seed, 0, 2'000'000'000, "N", "of the patterns");
+  options.integer("--seed", to.seed, 0, 2'000'000'000, "N", "seed of the patterns");
   options.group("Culling");
   options.integer("--fetch", to.fetch, 1, 1'000'000, "CYCLES",
-                  "a source that reads a memory of this latency and never asks for hidden sets");
+                  "use a source that reads a memory of this latency and skips hidden cull groups");
   options.flag("--cull-table", to.cull_table,
-               "the scene on devices of every cull.map, every beat sent and with --fetch (40 if it is not given)");
+               "compare all settings of cull.map, sending every beat and with --fetch (default 40)");
   options.group("Several devices");
   declare(options, to.scaling);
   options.group("Output");
-  options.word("--trace", to.trace, "FILE", "a timeline as JSON that ui.perfetto.dev opens; 1 us stands for a cycle");
-  options.flag("--timeline", to.timeline, "each sheet's and tile's cycles in the JSON, where `report` draws them");
+  options.word("--trace", to.trace, "FILE", "write a timeline as JSON for ui.perfetto.dev; 1 us stands for one cycle");
+  options.flag("--timeline", to.timeline, "add each sheet's and tile's cycles to the JSON, for `report` to draw");
   declare(options, to.common);
   options.example("fastsplat cycles --volume shells:64 --size 256 --config base --trace shells.json",
-                  "cycles, where they go, and a timeline for ui.perfetto.dev");
+                  "cycles, how they are spent, and a timeline for ui.perfetto.dev");
   options.example("fastsplat cycles --stream shells.fss --config tiny --ready random-50",
-                  "of a recorded stream, where pixels are taken half of the time");
+                  "cycles of a recorded stream with a sink that is ready half of the time");
   options.example("fastsplat cycles --volume shells:64 --size 256 --devices 1,2,4 --clock 100 --json cycles.json",
-                  "what more devices bring, in frames per second at 100 MHz");
+                  "frames per second at 100 MHz with 1, 2 and 4 devices");
 }
 
 }  // namespace
 
-const Verb verbs::cycles{"cycles", "clock cycles of a scene or stream on the device, and where they go",
+const Verb verbs::cycles{"cycles", "count clock cycles of a scene or stream on the device, and how they are spent",
                          verb<CyclesArguments, declare, run>};
 
 }  // namespace fastsplat::cli

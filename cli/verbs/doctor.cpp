@@ -149,7 +149,7 @@ std::string to_text(const DoctorResult& result) {
   text += fmt::format("demo scenes: {}\n", fmt::join(result.demos, ", "));
   text += fmt::format("configurations: {}\n", fmt::join(result.configurations, ", "));
   for (const auto& [what, fix] : result.missing)
-    text += fmt::format("missing {}: {}; everything else works without\n", what, fix);
+    text += fmt::format("missing {}: {}; everything else works without it\n", what, fix);
   return text + (result.missing.empty() ? "nothing is missing\n" : "");
 }
 
@@ -192,13 +192,14 @@ ExitCode run(const DoctorArguments& arguments) {
 
 void declare(Options& options, DoctorArguments& to) {
   declare(options, to.common);
-  options.example("fastsplat doctor", "what this program is made of and what is missing");
-  options.example("fastsplat doctor --json doctor.json", "for programs");
+  options.example("fastsplat doctor", "versions of this program and its libraries, and what is missing");
+  options.example("fastsplat doctor --json doctor.json", "the same as JSON");
 }
 
 }  // namespace
 
-const Verb verbs::doctor{"doctor", "versions, processors, programs, scans; what is missing and how to get it",
+const Verb verbs::doctor{"doctor",
+                         "list versions, processors, programs and scans, what is missing and how to install it",
                          verb<DoctorArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -105,23 +105,23 @@ void declare(Options& options, ErrorsArguments& to) {
   declare(options, to.config, "hardware configuration, a name or a TOML file");
   options.group("Analysis");
   options.integer("--lsb-bits", to.lsb_bits, 1, 24, "N", "one LSB is 1/(2^N - 1)");
-  options.flag("--quick", to.quick, "no step alone, none left out: a third of the frames");
+  options.flag("--quick", to.quick, "skip the runs with one step alone and with one left out: a third of the frames");
   options.flag("--shapley", to.shapley,
-               "shares of the groups of steps, whatever the order: 30 frames more, of densities 62");
+               "order-independent shares (Shapley) of groups of steps: 30 more frames, 62 with --classify post");
   options.group("Output");
-  options.word("--blame", to.blame, "FILE", "which step rules each pixel, with legend, .png");
+  options.word("--blame", to.blame, "FILE",
+               "write a map of the step with the largest error in each pixel, with legend, .png");
   options.word("--maps", to.maps, "PREFIX",
-               "each step's signed error: PREFIX.STEP.png, with legend, and PREFIX.STEP.exr, its values");
+               "write each step's signed error: PREFIX.STEP.png with legend, PREFIX.STEP.exr with values");
   declare(options, to.common);
   options.example("fastsplat errors --volume shells:32 --size 64 --config base --blame blame.png",
-                  "which step has which share of the error, and where");
+                  "each step's share of the error, and where it occurs");
   options.example("fastsplat errors --volume shells:32 --size 64 --config tiny --quick --json errors.json",
-                  "in a third of the time, for programs");
+                  "a third of the time, as JSON");
 }
 
 }  // namespace
 
-const Verb verbs::errors{"errors", "because of which step the device's picture is not the true one",
-                         verb<ErrorsArguments, declare, run>};
+const Verb verbs::errors{"errors", "attribute the device's error to its steps", verb<ErrorsArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -87,18 +87,17 @@ void declare(Options& options, ErrorsBoundArguments& to) {
   options.group("Output");
   options.integer("--lsb-bits", to.lsb_bits, 1, 24, "N", "one LSB is 1/(2^N - 1)");
   options.word("--maps", to.maps, "PREFIX",
-               "the bound of every pixel: PREFIX.LEVEL.png, with legend, and PREFIX.LEVEL.exr, its values");
+               "write the bound of every pixel: PREFIX.LEVEL.png with legend, PREFIX.LEVEL.exr with values");
   declare(options, to.common);
   options.example("fastsplat errors bound --volume shells:32 --size 64 --config base --maps bound",
-                  "a proved worst case of every pixel, as maps");
+                  "a proved worst case for every pixel, as maps");
   options.example("fastsplat errors bound --volume shells:16 --size 32 --config tiny --json bound.json",
-                  "for programs; exit 1 if it does not hold");
+                  "as JSON; exit 1 if it does not hold");
 }
 
 }  // namespace
 
-const Verb verbs::errors_bound{"errors bound",
-                               "a proved worst case of every pixel's error (exit 1 if it does not hold)",
+const Verb verbs::errors_bound{"errors bound", "prove a worst case of every pixel's error (exit 1 if it does not hold)",
                                verb<ErrorsBoundArguments, declare, run>};
 
 }  // namespace fastsplat::cli

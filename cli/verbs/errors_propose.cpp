@@ -39,17 +39,17 @@ ExitCode run(const ErrorsProposeArguments& arguments) {
   const cmodel::Config from = load(arguments.from, {});
   if (from.index() != cmodel::IndexKind::Rlut) {
     throw_usage({.where = "--from",
-                 .what = "what is weighed is the cost of the device of rtl/, whose index is the RLUT",
+                 .what = "the cost model covers the RTL only, whose index is the RLUT",
                  .expected = "index.kind = rlut",
                  .got = cmodel::text_of(from, *cmodel::find_key("index.kind")),
-                 .fix = "`fastsplat family` compares the kinds"});
+                 .fix = "use `fastsplat family` to compare index kinds"});
   }
   if (from.interpolates()) {
     throw_usage({.where = "--from",
-                 .what = "what is weighed is a noise model of tables that are not interpolated",
+                 .what = "the noise model covers tables without interpolation only",
                  .expected = "radial.interpolate = 0",
                  .got = "1",
-                 .fix = "begin with a configuration that does not, such as base"});
+                 .fix = "start from a configuration without interpolation, such as base"});
   }
   const auto flags = scenes_of(arguments.scenes);
   check_outputs({.others = {arguments.out, arguments.journal, arguments.common.json},
@@ -86,25 +86,24 @@ void declare(Options& options, ErrorsProposeArguments& to) {
   declare(options, to.scenes);
   options.group("Search");
   options.required("--target", to.target, "TARGET",
-                   "psnr>=DB, max<=LSB or rms<=LSB against golden, LSB of 8 bits, over colours and alpha");
-  options.word("--from", to.from, "NAME|FILE", "where to begin, and whose other keys stay; base");
+                   "target psnr>=DB, max<=LSB or rms<=LSB against golden, in 8-bit LSB over colours and alpha");
+  options.word("--from", to.from, "NAME|FILE", "configuration to start from, which also sets all other keys (base)");
   options.values(driver::config_names);
-  options.word("--journal", to.journal, "FILE",
-               "what configurations did, to go on from later without simulating them again; JSON lines");
+  options.word("--journal", to.journal, "FILE", "results of tried configurations, reused by later runs; JSON lines");
   options.group("Output");
-  options.word("-o,--out", to.out, "FILE", "the configuration, .toml; not written where the target is not met");
+  options.word("-o,--out", to.out, "FILE", "write the configuration, .toml, if the target is met");
   declare(options, to.common);
   options.example("fastsplat errors propose --target 'psnr>=50' --volume shells:24 --size 48 -o enough.toml",
-                  "the cheapest configuration of 50 dB");
+                  "the cheapest configuration with 50 dB");
   options.example(
       "fastsplat errors propose --target 'max<=1' --scenes demo:layer-adding,demo:overlap-adding --from small "
       "--journal tried.jsonl",
-      "over several scenes, to go on from later", Example::Slow);
+      "over several scenes, resumable later", Example::Slow);
 }
 
 }  // namespace
 
-const Verb verbs::errors_propose{"errors propose", "the cheapest configuration that is good enough",
+const Verb verbs::errors_propose{"errors propose", "find the cheapest configuration that meets a target",
                                  verb<ErrorsProposeArguments, declare, run>};
 
 }  // namespace fastsplat::cli

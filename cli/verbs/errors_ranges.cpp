@@ -69,14 +69,14 @@ void declare(Options& options, ErrorsRangesArguments& to) {
   options.group("Output");
   declare(options, to.common);
   options.example("fastsplat errors ranges --volume shells:32 --size 64 --config base",
-                  "how large each signal gets, and the bits it needs");
+                  "each signal's range and the bits it needs");
   options.example("fastsplat errors ranges --scenes demo:layer-adding,demo:overlap-adding --size 48 --config base",
-                  "over several scenes together");
+                  "ranges over several scenes together");
 }
 
 }  // namespace
 
-const Verb verbs::errors_ranges{"errors ranges", "how large each signal gets, and the format it would need",
+const Verb verbs::errors_ranges{"errors ranges", "measure each signal's range and the format it needs",
                                 verb<ErrorsRangesArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -65,9 +65,9 @@ Json to_json(const std::vector<analysis::FamilyCell>& cells) {
 void check(const FamilyArguments& arguments) {
   if (!arguments.head || (arguments.kind.empty() && !arguments.entries && arguments.common.json.empty())) return;
   throw_usage({.where = "--head",
-               .what = "is of all kinds, as text",
+               .what = "covers all kinds and prints text only",
                .expected = "--head alone",
-               .got = "--kind, --entries or --json beside it",
+               .got = "--kind, --entries or --json as well",
                .fix = "leave them out"});
 }
 
@@ -100,19 +100,20 @@ ExitCode run(const FamilyArguments& arguments) {
 
 void declare(Options& options, FamilyArguments& to) {
   options.group("What");
-  options.word("--kind", to.kind, "KIND", "one kind of index only: what `config show` says of index.kind");
+  options.word("--kind", to.kind, "KIND", "one kind of index only, a value of index.kind");
   options.values(index_kinds);
-  options.integer("--entries", to.entries, 2, 65536, "N", "of the radial table, a power of two; else 64 to 2048");
-  options.flag("--head", to.head, "the head scan instead: every kind's picture against golden's; takes minutes");
+  options.integer("--entries", to.entries, 2, 65536, "N",
+                  "entries of the radial table, a power of two (default 64 to 2048)");
+  options.flag("--head", to.head, "compare every kind's picture of the head scan with golden's instead; takes minutes");
   declare(options, to.common);
   options.example("fastsplat family --kind rlut --entries 1024",
-                  "one kind of index: weights, bits, operations and cycles");
-  options.example("fastsplat family --json family.json", "all of them, for programs", Example::Slow);
+                  "weights, bits, operations and cycles of one kind of index");
+  options.example("fastsplat family --json family.json", "all kinds as JSON", Example::Slow);
 }
 
 }  // namespace
 
-const Verb verbs::family{"family", "every kind of index: weights against the exact ones, bits, operations, cycles",
+const Verb verbs::family{"family", "compare all kinds of index: error of weights, bits, operations, cycles",
                          verb<FamilyArguments, declare, run>};
 
 }  // namespace fastsplat::cli

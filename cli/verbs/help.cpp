@@ -27,10 +27,10 @@ ExitCode run(const HelpArguments& arguments) {
   if (!arguments.pages.empty()) {
     if (arguments.man || arguments.markdown || !arguments.verb.empty()) {
       throw_usage({.where = "--man-pages",
-                   .what = "all pages are written",
+                   .what = "writes all pages and cannot be combined with --man or a subcommand",
                    .expected = {},
                    .got = {},
-                   .fix = "leave out --man, --markdown and the verb, or --man-pages"});
+                   .fix = "leave out --man, --markdown and the subcommand, or --man-pages"});
     }
     write_pages(arguments.pages);
     return ExitCode::Pass;
@@ -66,17 +66,17 @@ std::vector<std::string> verb_words() {
 }
 
 void declare(Options& options, HelpArguments& to) {
-  options.positionals("VERB", to.verb, 0, "a verb, of two words where it has two");
+  options.positionals("VERB", to.verb, 0, "a subcommand, of one or two words");
   options.only_values(verb_words);
-  options.flag("--man", to.man, "the manual page, in roff: `fastsplat help --man render | man -l -`");
-  options.flag("--markdown", to.markdown, "the reference of all subcommands, in Markdown");
-  options.word("--man-pages", to.pages, "FOLDER", "writes all manual pages into a folder that is there");
-  options.example("fastsplat help errors bound", "what a verb does, with examples and every flag");
-  options.example("fastsplat help --man compare", "its manual page, for man, groff or mandoc");
+  options.flag("--man", to.man, "print the manual page in roff: `fastsplat help --man render | man -l -`");
+  options.flag("--markdown", to.markdown, "print the reference of all subcommands in Markdown");
+  options.word("--man-pages", to.pages, "FOLDER", "write all manual pages into an existing folder");
+  options.example("fastsplat help errors bound", "a subcommand with examples and every flag");
+  options.example("fastsplat help --man compare", "the manual page of a subcommand, for man, groff or mandoc");
 }
 
 }  // namespace
 
-const Verb verbs::help{"help", "help on a verb, and manual pages", verb<HelpArguments, declare, run>};
+const Verb verbs::help{"help", "print help on a subcommand, and manual pages", verb<HelpArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -53,15 +53,15 @@ ExitCode run(const PlanCsvArguments& arguments) {
 void declare(Options& options, PlanCsvArguments& to) {
   declare(options, to.rows);
   options.group("Output");
-  options.word("-o,--out", to.out, "FILE", "to a file instead of stdout");
+  options.word("-o,--out", to.out, "FILE", "write to a file instead of stdout");
   declare(options, to.common);
-  options.example("fastsplat plan csv merged.json -o merged.csv", "for a spreadsheet");
-  options.example("fastsplat plan csv merged.json", "to stdout, for a pipe");
+  options.example("fastsplat plan csv merged.json -o merged.csv", "merged results for a spreadsheet");
+  options.example("fastsplat plan csv merged.json", "merged results to stdout, for a pipe");
 }
 
 }  // namespace
 
-const Verb verbs::plan_csv{"plan csv", "merged results as comma-separated values, numbers in full",
+const Verb verbs::plan_csv{"plan csv", "print merged results as comma-separated values, with full precision",
                            verb<PlanCsvArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -50,7 +50,7 @@ ExitCode run(const PlanMakeArguments& arguments) {
   if (!arguments.out.empty()) write_text_file(arguments.out, json_text(json, 1) + "\n");
   output.line(to_text(made, arguments));
   if (!made.left_out.empty()) {
-    output.note(fmt::format("{} left out, for example {}", counted(made.left_out.size(), "combination"),
+    output.note(fmt::format("{} left out, for example: {}", counted(made.left_out.size(), "combination"),
                             made.left_out.front()));
   }
   output.json(json);
@@ -60,10 +60,10 @@ ExitCode run(const PlanMakeArguments& arguments) {
 void declare(Options& options, PlanMakeArguments& to) {
   options.positional("SPEC", to.spec, "a specification, .toml: kind of case, axes, constants (docs/plan.md)");
   options.group("Output");
-  options.word("-o,--out", to.out, "FILE", "the plan, .json: what the other verbs take");
+  options.word("-o,--out", to.out, "FILE", "write the plan, .json, the input of the other subcommands");
   declare(options, to.common);
   options.example("fastsplat plan make configs/plans/word-lengths.toml -o plan.json", "the cases of a specification");
-  options.example("fastsplat plan make configs/plans/word-lengths.toml --json -", "what they are, for programs");
+  options.example("fastsplat plan make configs/plans/word-lengths.toml --json -", "the plan as JSON on stdout");
 }
 
 }  // namespace

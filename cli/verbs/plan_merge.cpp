@@ -39,10 +39,10 @@ void refuse_among_results(const std::string& path, const std::string& results) {
   if (path.empty() || path == "-" || !fs::is_directory(results, ignored)) return;
   if (!fs::equivalent(fs::absolute(path).parent_path(), results, ignored)) return;
   throw_usage({.where = path,
-               .what = "lies among the results of cases",
+               .what = "lies in the folder of results",
                .expected = "another folder than " + results,
                .got = {},
-               .fix = "give it another name"});
+               .fix = "choose another folder"});
 }
 
 ExitCode run(const PlanMergeArguments& arguments) {
@@ -55,26 +55,26 @@ ExitCode run(const PlanMergeArguments& arguments) {
   if (!arguments.out.empty()) write_text_file(arguments.out, json_text(json, 1) + "\n");
   output.line(to_text(merged, arguments.out));
   if (!merged.missing.empty())
-    output.warn(fmt::format("{} missing: the rows are not the whole plan", counted(merged.missing.size(), "result")));
+    output.warn(
+        fmt::format("{} missing: the rows do not cover the whole plan", counted(merged.missing.size(), "result")));
   output.json(json);
   return ExitCode::Pass;
 }
 
 void declare(Options& options, PlanMergeArguments& to) {
   declare(options, to.plan);
-  options.flag("--partial", to.partial, "merge what is there; the rest is listed as missing");
-  options.flag("--allow-foreign", to.allow_foreign, "pass over results that are no case of this plan");
+  options.flag("--partial", to.partial, "merge available results and list the others as missing");
+  options.flag("--allow-foreign", to.allow_foreign, "skip results of other plans");
   options.group("Output");
-  options.word("-o,--out", to.out, "FILE", "the rows, .json: what table, pareto, csv and report take");
+  options.word("-o,--out", to.out, "FILE", "write the rows, .json, the input of table, pareto, csv and report");
   declare(options, to.common);
   options.example("fastsplat plan merge plan.json -o merged.json", "all results in one file");
-  options.example("fastsplat plan merge plan.json --results plan.results -o merged.json",
-                  "of results that lie elsewhere");
+  options.example("fastsplat plan merge plan.json --results plan.results -o merged.json", "results in another folder");
 }
 
 }  // namespace
 
-const Verb verbs::plan_merge{"plan merge", "the results of a plan in one file, whatever order they came in",
+const Verb verbs::plan_merge{"plan merge", "merge the results of a plan into one file",
                              verb<PlanMergeArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -72,7 +72,7 @@ PlanParetoResult result_of(const PlanParetoArguments& arguments) {
     rows.push_back(one.row);
     by[one.row] = one.by;
   }
-  result.beaten = table_of(result, rows, options, "beaten by", [&](const plan::Row* row) {
+  result.beaten = table_of(result, rows, options, "dominated by", [&](const plan::Row* row) {
     return plan::Cell{by[row]->id, {}};
   });
   return result;
@@ -84,12 +84,12 @@ std::string to_text(const PlanParetoResult& result, const PlanParetoArguments& a
   };
   const auto& [x, y, front, beaten, without] = result.pareto;
   const std::string heading = fmt::format(
-      "{} of {} are worth having: {} ({} is better) against {} ({} is better){}\n\n", front.size(),
+      "{} of {} are on the Pareto front of {} ({} is better) and {} ({} is better){}\n\n", front.size(),
       counted(front.size() + beaten.size(), "row"), x.name, to_string(x.better), y.name, to_string(y.better),
       without.empty() ? "" : fmt::format("; {} without these figures", counted(without.size(), "row")));
   return heading + text_of(result.front) +
          (arguments.beaten
-              ? "\nbeaten, each by the first of the front that is as good in both\n\n" + text_of(result.beaten)
+              ? "\ndominated rows, each with the first row of the front that dominates it\n\n" + text_of(result.beaten)
               : "");
 }
 
@@ -132,20 +132,20 @@ ExitCode run(const PlanParetoArguments& arguments) {
 void declare(Options& options, PlanParetoArguments& to) {
   declare(options, to.rows);
   options.group("Metrics");
-  options.required("--x", to.x, "METRIC", "a metric, with - before it where less is better, + where more is");
+  options.required("--x", to.x, "METRIC", "a metric, with - before it if less is better, + if more is better");
   options.required("--y", to.y, "METRIC", "another");
   options.group("Output");
-  options.flag("--beaten", to.beaten, "the rows that are not worth having, too, and by which they are beaten");
-  options.flag("--markdown", to.markdown, "Markdown tables");
+  options.flag("--beaten", to.beaten, "list dominated rows too, and by which row they are dominated");
+  options.flag("--markdown", to.markdown, "print Markdown tables");
   declare(options, to.common);
-  options.example("fastsplat plan pareto merged.json --x cost --y psnr_db", "what no other case beats in both");
+  options.example("fastsplat plan pareto merged.json --x cost --y psnr_db", "the cases that no other case dominates");
   options.example("fastsplat plan pareto merged.json --x cost --y psnr_db --beaten",
-                  "... and what each of the others is beaten by");
+                  "the same with all dominated cases");
 }
 
 }  // namespace
 
-const Verb verbs::plan_pareto{"plan pareto", "which rows are worth having by two metrics, and what beats the others",
+const Verb verbs::plan_pareto{"plan pareto", "list the Pareto front of two metrics",
                               verb<PlanParetoArguments, declare, run>};
 
 }  // namespace fastsplat::cli

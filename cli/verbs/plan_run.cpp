@@ -33,7 +33,7 @@ std::string to_text(const plan::RunSummary& summary, const std::string& folder) 
   const std::string left = summary.accidents == 0 ? std::string()
                                                   : fmt::format("{} without a result: run the plan again\n",
                                                                 counted(summary.accidents, "case"));
-  return fmt::format("{} of {} done in {}: {} passed, {} failed, {} with errors; {} were there before\n{}", done,
+  return fmt::format("{} of {} done in {}: {} passed, {} failed, {} with errors; {} were done before\n{}", done,
                      counted(summary.cases, "case"), folder, summary.passed, summary.failed, summary.errors,
                      summary.skipped, left);
 }
@@ -78,33 +78,32 @@ ExitCode run(const PlanRunArguments& arguments) {
                  },
              .accident =
                  [&](const plan::Case& one, const std::string& message) {
-                   output.warn(fmt::format("case {} has no result, it is run again the next time: {}\n  {}", one.id,
+                   output.warn(fmt::format("case {} has no result and will be run again next time: {}\n  {}", one.id,
                                            message, plan::command_of(one)));
                  },
              .note = [&](const std::string& text) { output.note(text); }});
   output.line(to_text(summary, arguments.plan.folder()));
   output.json(to_json(summary, arguments, output.seconds()));
-  if (summary.signal != 0) output.note("stopped by a signal: what is done is kept, the next run goes on");
+  if (summary.signal != 0) output.note("stopped by a signal: results are kept; run the plan again to continue");
   return exit_code(summary);
 }
 
 void declare(Options& options, PlanRunArguments& to) {
   declare(options, to.plan);
-  options.flag("--retry", to.retry, "run cases that failed again, too");
-  options.flag("--again", to.again, "replace results of another program or of other content");
+  options.flag("--retry", to.retry, "also run failed cases again");
+  options.flag("--again", to.again, "replace results of another program or other content");
   options.group("Work");
-  options.word("--shard", to.shard, "I/N", "every N-th case only, from the I-th on: I is 1 to N");
-  options.integer("--jobs", to.jobs, 0, 1024, "N", "cases at once; 0 as many as there are processors");
+  options.word("--shard", to.shard, "I/N", "only every N-th case, starting with the I-th (I from 1 to N)");
+  options.integer("--jobs", to.jobs, 0, 1024, "N", "cases at once; 0: the number of processors");
   declare(options, to.common);
   options.example("fastsplat plan run plan.json --jobs 2",
-                  "all that is left to do, two cases at once; the next run goes on where one stopped");
+                  "run all open cases, two at once; an interrupted run can be continued");
   options.example("fastsplat plan run plan.json --shard 1/4 --results results",
-                  "a quarter of them, for one of four machines");
+                  "run a quarter of the cases, on one of four machines");
 }
 
 }  // namespace
 
-const Verb verbs::plan_run{"plan run", "run the cases of a plan that are not done yet",
-                           verb<PlanRunArguments, declare, run>};
+const Verb verbs::plan_run{"plan run", "run the open cases of a plan", verb<PlanRunArguments, declare, run>};
 
 }  // namespace fastsplat::cli

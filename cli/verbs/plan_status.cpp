@@ -72,15 +72,15 @@ ExitCode run(const PlanStatusArguments& arguments) {
 
 void declare(Options& options, PlanStatusArguments& to) {
   declare(options, to.plan);
-  options.integer("--shards", to.shards, 0, 100'000, "N", "by shard, as `plan run --shard I/N` divides the cases");
+  options.integer("--shards", to.shards, 0, 100'000, "N", "count by shard, as divided by `plan run --shard I/N`");
   declare(options, to.common);
-  options.example("fastsplat plan status plan.json", "how many are done, failed and left");
-  options.example("fastsplat plan status plan.json --shards 4", "by shard");
+  options.example("fastsplat plan status plan.json", "how many cases are done, failed and open");
+  options.example("fastsplat plan status plan.json --shards 4", "the same by shard");
 }
 
 }  // namespace
 
-const Verb verbs::plan_status{"plan status", "how many cases of a plan are done, failed, missing",
+const Verb verbs::plan_status{"plan status", "count done, failed and missing cases of a plan",
                               verb<PlanStatusArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -59,7 +59,7 @@ struct PlanSubmitResult {
        .what = program + " is not installed",
        .expected = {},
        .got = {},
-       .fix = "submit on a machine of the cluster, or use --engine script; --dry-run shows what would be sent"});
+       .fix = "submit on a machine of the cluster, or use --engine script; --dry-run prints what would be sent"});
 }
 
 /// Directives are lines of a script: what would be more than one, or none, is refused.
@@ -69,26 +69,27 @@ void check(const PlanSubmitArguments& arguments) {
                  .what = "is missing",
                  .expected = "slurm or script",
                  .got = {},
-                 .fix = "--engine slurm where sbatch is, --engine script for LSF, SGE and GNU parallel"});
+                 .fix = "add --engine slurm for sbatch, or --engine script for LSF, SGE and GNU parallel"});
   }
   if (arguments.time) plan::seconds_from(*arguments.time);
   for (const auto& directive : arguments.directives) {
     if (directive.starts_with("-") && directive.find_first_of("\n\r") == std::string::npos) continue;
     throw_usage({.where = "--sbatch",
-                 .what = "no option of sbatch",
-                 .expected = "a word that begins with a dash",
+                 .what = "not an option of sbatch",
+                 .expected = "a word that starts with a dash",
                  .got = directive,
                  .fix = "for example --sbatch=--account=chips"});
   }
   const std::string partition = arguments.partition.value_or("");
   if (partition.find_first_of(" \t\n\r\"'\\") != std::string::npos || partition.starts_with("-"))
     throw_usage({.where = "--partition",
-                 .what = "no partition's name",
+                 .what = "invalid partition name",
                  .expected = {},
                  .got = partition,
-                 .fix = "sinfo lists them"});
+                 .fix = "run sinfo for the list of partitions"});
   if (!arguments.slurm() && !arguments.directives.empty())
-    throw_usage({.where = "--sbatch", .what = "is for Slurm", .expected = {}, .got = {}, .fix = "add --engine slurm"});
+    throw_usage(
+        {.where = "--sbatch", .what = "applies to Slurm only", .expected = {}, .got = {}, .fix = "add --engine slurm"});
 }
 
 std::string merged_name(const PlanSubmitArguments& arguments) {
@@ -129,10 +130,10 @@ void write_files(const PlanSubmitResult& result) {
   fs::create_directories(result.submission.logs(), error);
   if (error) {
     throw_input({.where = result.submission.logs().string(),
-                 .what = "the folder cannot be made: " + error.message(),
+                 .what = "cannot create the folder: " + error.message(),
                  .expected = {},
                  .got = {},
-                 .fix = "--results with a folder that you may write and every machine sees"});
+                 .fix = "use --results with a writable folder that all machines share"});
   }
   for (const auto& file : result.files) write_text_file(file.path, file.text);
 }
@@ -143,10 +144,10 @@ void send(PlanSubmitResult& result) {
   const std::string names = s.name + "," + s.merge_name();
   if (const auto queued = plan::slurm_queued(names); !queued.empty()) {
     throw_input({.where = s.results.string(),
-                 .what = "this plan is queued for this folder already",
+                 .what = "this plan is already queued for this folder",
                  .expected = {},
                  .got = "job " + queued,
-                 .fix = "wait for it, or take it back first: scancel --name=" + names});
+                 .fix = "wait for it, or cancel it first: scancel --name=" + names});
   }
   try {
     for (const auto& array : result.arrays) result.jobs.push_back(plan::slurm_submit(plan::sbatch_array(s, array)));
@@ -181,7 +182,7 @@ std::string to_text(const PlanSubmitResult& result, const PlanSubmitArguments& a
   if (!arguments.slurm()) return text + plan::engine_recipes(s);
   const auto numbers = job_numbers(result);
   if (arguments.dry_run) {
-    text += "--- sent with\n";
+    text += "--- submitted with\n";
     for (const auto& array : result.arrays) text += plan::shell_line(plan::sbatch_array(s, array)) + "\n";
     return text + plan::shell_line(plan::sbatch_merge(s, numbers)) + "\n";
   }
@@ -190,7 +191,7 @@ std::string to_text(const PlanSubmitResult& result, const PlanSubmitArguments& a
                         plan::slurm_array_path(s, result.arrays[i]).string());
   }
   return text + fmt::format("job {}: merges into {}{}\n", result.merge_job, s.merged.string(),
-                            result.arrays.empty() ? "" : " when they have ended");
+                            result.arrays.empty() ? "" : " after the arrays end");
 }
 
 Json to_json(const PlanSubmitResult& result, const PlanSubmitArguments& arguments) {
@@ -227,12 +228,12 @@ ExitCode tell_lost(const Output& output, const plan::Plan& plan, const plan::Sub
   std::string text;
   Json tasks = Json::array();
   for (const auto& task : lost) {
-    text += fmt::format("shard {} of {} gave no result of {}: {}; {}\n", task.shard, submission.shards,
+    text += fmt::format("shard {} of {} has no result for {}: {}; {}\n", task.shard, submission.shards,
                         counted(task.cases.size(), "case"), fmt::join(task.cases, ", "),
-                        task.log.empty() ? "it never began" : "see " + task.log.string());
+                        task.log.empty() ? "it never started" : "see " + task.log.string());
     tasks.push_back({{"shard", task.shard}, {"cases", task.cases}, {"log", task.log.string()}});
   }
-  output.line(text.empty() ? "nothing is lost\n" : text + "submit again: only these are sent\n");
+  output.line(text.empty() ? "no results are missing\n" : text + "submit again: only these are submitted\n");
   output.json({{"verb", "plan submit"}, {"version", program_version()}, {"lost", tasks}});
   return lost.empty() ? ExitCode::Pass : ExitCode::Failed;
 }
@@ -275,31 +276,33 @@ ExitCode run(const PlanSubmitArguments& arguments) {
 
 void declare(Options& options, PlanSubmitArguments& to) {
   declare(options, to.plan);
-  options.word("-o,--out", to.out, "FILE", "the merged rows; PLAN.json: PLAN.merged.json");
+  options.word("-o,--out", to.out, "FILE", "file of the merged rows (for PLAN.json: PLAN.merged.json)");
   options.group("Cluster");
-  options.choice(
-      "--engine", to.engine, {"slurm", "script"}, "ENGINE",
-      "slurm sends job arrays and a merge after them; script writes arrays for LSF and SGE and a command list");
-  options.word("--partition", to.partition, "NAME", "partition or queue; else the site's own");
-  options.word("--time", to.time, "TIME", "limit of a task: minutes, h:mm:ss or days-hours; else the site's own");
-  options.integer("--shards", to.shards, 1, 1000000, "N", "tasks in all; else one a case, 1000 at most");
+  options.choice("--engine", to.engine, {"slurm", "script"}, "ENGINE",
+                 "slurm: submit job arrays and a merge; script: write arrays for LSF and SGE and a command list");
+  options.word("--partition", to.partition, "NAME", "partition or queue (default: the site's)");
+  options.word("--time", to.time, "TIME", "time limit of a task: minutes, h:mm:ss or days-hours (default: the site's)");
+  options.integer("--shards", to.shards, 1, 1000000, "N",
+                  "total number of tasks (default: one per case, at most 1000)");
   options.integer("--array-max", to.array_max, 1, 10000000, "N",
-                  "tasks of an array; else what scontrol says, 1000 for script");
-  options.integer("--at-once", to.at_once, 1, 1000000, "N", "tasks of an array that run at the same time; else all");
-  options.integer("--jobs", to.jobs, 1, 1024, "N", "cases at once in a task, which asks for as many processors; 1");
-  options.words("--sbatch", to.directives, "OPTION", "for sbatch as it is, repeatable: --sbatch=--account=chips");
-  options.flag("--dry-run", to.dry_run, "print scripts and commands, write and send nothing");
-  options.flag("--lost", to.lost, "name the tasks that gave no result, send nothing; with the --shards that were sent");
+                  "maximum tasks of an array (default: scontrol's limit, 1000 for script)");
+  options.integer("--at-once", to.at_once, 1, 1000000, "N",
+                  "maximum tasks of an array at the same time (default: all)");
+  options.integer("--jobs", to.jobs, 1, 1024, "N", "cases at once in a task, which requests as many processors (1)");
+  options.words("--sbatch", to.directives, "OPTION",
+                "option passed to sbatch, for example --sbatch=--account=chips; repeatable");
+  options.flag("--dry-run", to.dry_run, "print scripts and commands without writing or submitting them");
+  options.flag("--lost", to.lost, "list tasks without a result and submit nothing; use the same --shards as before");
   declare(options, to.common);
   options.example("fastsplat plan submit plan.json --engine slurm --partition short --array-max 1000 --dry-run",
-                  "what would be sent to Slurm");
+                  "print what would be submitted to Slurm");
   options.example("fastsplat plan submit plan.json --engine script --shards 4 --dry-run",
-                  "scripts for LSF and SGE, a command list for GNU parallel");
+                  "print scripts for LSF and SGE and a command list for GNU parallel");
 }
 
 }  // namespace
 
-const Verb verbs::plan_submit{"plan submit", "give a plan to a cluster: Slurm, LSF, SGE, GNU parallel",
+const Verb verbs::plan_submit{"plan submit", "submit a plan to a cluster: Slurm, LSF, SGE, GNU parallel",
                               verb<PlanSubmitArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -50,17 +50,17 @@ ExitCode run(const PlanTableArguments& arguments) {
 void declare(Options& options, PlanTableArguments& to) {
   declare(options, to.rows);
   options.group("Output");
-  options.flag("--markdown", to.markdown, "a Markdown table");
-  options.word("-o,--out", to.out, "FILE", "to a file instead of stdout");
+  options.flag("--markdown", to.markdown, "print a Markdown table");
+  options.word("-o,--out", to.out, "FILE", "write to a file instead of stdout");
   declare(options, to.common);
   options.example("fastsplat plan table merged.json --columns snap.phases,psnr_db,cost --sort -psnr_db",
-                  "a row per case, the best first");
-  options.example("fastsplat plan table merged.json --markdown -o table.md", "for a review");
+                  "one row per case, the best first");
+  options.example("fastsplat plan table merged.json --markdown -o table.md", "a Markdown table for a review");
 }
 
 }  // namespace
 
-const Verb verbs::plan_table{"plan table", "merged results as a table: chosen rows and columns, sorted",
+const Verb verbs::plan_table{"plan table", "print selected rows and columns of merged results, sorted",
                              verb<PlanTableArguments, declare, run>};
 
 }  // namespace fastsplat::cli

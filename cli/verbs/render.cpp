@@ -35,7 +35,7 @@ void check(const RenderArguments& arguments, Engine engine) {
     throw_usage({.where = arguments.config.config                                       ? "--config"
                           : arguments.config.changes.front().starts_with("index.kind=") ? "--index, or --set"
                                                                                         : "--set",
-                 .what = "the golden renderer has no hardware configuration",
+                 .what = "the golden renderer does not use a hardware configuration",
                  .expected = {},
                  .got = {},
                  .fix = "add --engine cmodel, or leave it out"});
@@ -49,10 +49,10 @@ void check(const RenderArguments& arguments, Engine engine) {
   }
   if (engine != Engine::Rtl && arguments.check) {
     throw_usage({.where = "--check",
-                 .what = "there is nothing to check the " + arguments.engine + " engine against here",
+                 .what = "cannot check the " + arguments.engine + " engine",
                  .expected = {},
                  .got = {},
-                 .fix = "add --engine rtl; `fastsplat compare` compares two images"});
+                 .fix = "add --engine rtl, or compare two images with `fastsplat compare`"});
   }
   range_of(arguments.wave);
   if (engine != Engine::Rtl && !arguments.wave.file.empty()) {
@@ -64,7 +64,7 @@ void check(const RenderArguments& arguments, Engine engine) {
   }
   if (engine == Engine::Rtl && arguments.plain) {
     throw_usage({.where = "--plain",
-                 .what = "the rtl engine has one unit only",
+                 .what = "the rtl engine has one implementation only",
                  .expected = {},
                  .got = {},
                  .fix = "add --engine cmodel, or leave it out"});
@@ -114,7 +114,7 @@ Json to_json(const RenderResult& result) {
 void require_saveable(const scene::SceneDescription& description) {
   if (is_utf8(scene::to_toml(description))) return;
   throw_usage({.where = "--save-scene",
-               .what = "the scene names a file whose name is no UTF-8, and TOML can hold nothing else",
+               .what = "a file name of the scene is not UTF-8, which TOML requires",
                .expected = {},
                .got = {},
                .fix = "rename the file or its folder, or leave --save-scene out"});
@@ -168,10 +168,10 @@ ExitCode run(const RenderArguments& arguments) {
   if (sequence) {
     if (!arguments.wave.file.empty()) {
       throw_usage({.where = "--wave",
-                   .what = "an animation is many runs",
+                   .what = "cannot be combined with an animation, which has one run per frame",
                    .expected = {},
                    .got = {},
-                   .fix = "render the frame that you want alone"});
+                   .fix = "render the frame as a still"});
     }
     check_animation(arguments, *sequence);
   } else {
@@ -191,6 +191,6 @@ ExitCode run(const RenderArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::render{"render", "a volume, or 3-D Gaussians, to an image", verb<RenderArguments, declare, run>};
+const Verb verbs::render{"render", "render a volume or 3-D Gaussians to an image", verb<RenderArguments, declare, run>};
 
 }  // namespace fastsplat::cli

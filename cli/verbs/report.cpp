@@ -33,10 +33,10 @@ void check(const ReportArguments& arguments, const std::vector<report::NamedPict
   const bool faces = !(arguments.junit.empty() && arguments.csv.empty() && arguments.markdown.empty());
   if (arguments.results.empty() && (pictures.empty() || faces)) {
     throw_usage({.where = {},
-                 .what = "report of what?",
+                 .what = "nothing to report on",
                  .expected = {},
                  .got = {},
-                 .fix = "name results that verbs wrote with --json, for example compare.json"});
+                 .fix = "name results written with --json, for example compare.json"});
   }
   if (arguments.out.empty() && !faces) {
     throw_usage({.where = {},
@@ -47,7 +47,7 @@ void check(const ReportArguments& arguments, const std::vector<report::NamedPict
   }
   if (arguments.out.empty() && !pictures.empty()) {
     throw_usage({.where = "--picture",
-                 .what = "only the page has pictures",
+                 .what = "pictures need a page",
                  .expected = {},
                  .got = {},
                  .fix = "add -o report.html, or leave it out"});
@@ -58,17 +58,17 @@ void check(const ReportArguments& arguments, const std::vector<report::NamedPict
   const auto end = ending_of(arguments.out);
   if (!arguments.out.empty() && end != ".html" && end != ".htm") {
     throw_usage({.where = arguments.out,
-                 .what = "a report's name ends in .html",
+                 .what = "the name of a report must end in .html",
                  .expected = {},
                  .got = {},
                  .fix = "for example -o report.html"});
   }
   if (!(arguments.most_megabytes > 0.0 && arguments.most_megabytes <= 1000.0)) {
     throw_usage({.where = "--most-megabytes",
-                 .what = "no such size",
+                 .what = "invalid size",
                  .expected = "more than 0, at most 1000",
                  .got = fmt::format("{}", arguments.most_megabytes),
-                 .fix = "5 keeps a report easy to send"});
+                 .fix = "use 5 for a report that is easy to send"});
   }
   std::vector<std::string> inputs = arguments.results;
   for (const auto& picture : pictures) inputs.push_back(picture.file.string());
@@ -136,30 +136,32 @@ ExitCode run(const ReportArguments& arguments) {
 }
 
 void declare(Options& options, ReportArguments& to) {
-  options.positionals("RESULT", to.results, 0, "what verbs wrote with --json, of any verb, in the page's order");
+  options.positionals("RESULT", to.results, 0,
+                      "results written with --json by any subcommand, in the order of the page");
   options.group("Report");
-  options.word("-o,--out", to.out, "FILE", "the page, .html: one file that opens from disk");
+  options.word("-o,--out", to.out, "FILE", "write the page, .html: one file that opens from disk");
   options.words("--picture", to.pictures, "ROLE=FILE",
-                "a picture more: golden, integer, rtl, blame or a word of yours; repeatable");
-  options.number("--most-megabytes", to.most_megabytes, "MB", "pictures are cropped to keep the page below");
-  options.group("Other faces of the same results");
+                "add a picture with a role: golden, integer, rtl, blame or your own word; repeatable");
+  options.number("--most-megabytes", to.most_megabytes, "MB",
+                 "maximum size of the page; pictures are cropped to keep it");
+  options.group("Other output formats");
   options.word("--junit", to.junit, "FILE",
-               "JUnit XML: a test case per gate, failures with the command that shows them");
-  options.word("--csv", to.csv, "FILE", "the results' rows, for spreadsheets");
-  options.word("--markdown", to.markdown, "FILE", "verdicts, gates and rows as tables, for a review");
+               "write JUnit XML: one test case per gate, failures with the command that reproduces them");
+  options.word("--csv", to.csv, "FILE", "write the rows of the results, for spreadsheets");
+  options.word("--markdown", to.markdown, "FILE", "write verdicts, gates and rows as Markdown tables, for a review");
   declare(options, to.common);
-  options.example("fastsplat report compare.json cycles.json -o report.html", "results of two verbs on one page");
+  options.example("fastsplat report compare.json cycles.json -o report.html", "results of two subcommands on one page");
   options.example(
       "fastsplat report compare.json --picture golden=golden.exr --picture integer=model.exr -o viewer.html",
-      "with pictures to look into");
+      "a page with pictures to inspect");
   options.example("fastsplat report compare.json cycles.json --junit gates.xml --csv rows.csv --markdown review.md",
-                  "for a build server, a spreadsheet and a review");
+                  "results for a build server, a spreadsheet and a review");
 }
 
 }  // namespace
 
 const Verb verbs::report{"report",
-                         "results and their pictures as one page that opens from disk; JUnit XML, CSV, Markdown",
+                         "write results and pictures as one page that opens from disk, or as JUnit XML, CSV, Markdown",
                          verb<ReportArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -21,10 +21,10 @@ struct StreamDumpArguments {
 void declare(Options& options, StreamDumpArguments& to) {
   options.positional("STREAM", to.stream, "a stream file");
   options.group("Output");
-  options.integer("--limit", to.limit, 0, 2'000'000'000, "N", "stops after N records");
+  options.integer("--limit", to.limit, 0, 2'000'000'000, "N", "stop after N records");
   declare(options, to.common);
-  options.example("fastsplat stream dump shells.fss --limit 20", "its first records, a line each");
-  options.example("fastsplat stream dump shells.fss | grep -c splat", "how many records of a kind there are");
+  options.example("fastsplat stream dump shells.fss --limit 20", "the first records, one line each");
+  options.example("fastsplat stream dump shells.fss | grep -c splat", "the number of records of one kind");
 }
 
 ExitCode run(const StreamDumpArguments& arguments) {
@@ -65,6 +65,7 @@ ExitCode run(const StreamDumpArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::stream_dump{"stream dump", "one line of text per record", verb<StreamDumpArguments, declare, run>};
+const Verb verbs::stream_dump{"stream dump", "print a stream, one line per record",
+                              verb<StreamDumpArguments, declare, run>};
 
 }  // namespace fastsplat::cli

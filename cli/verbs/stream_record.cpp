@@ -36,13 +36,14 @@ void declare(Options& options, StreamRecordArguments& to) {
   options.group("Engine");
   declare(options, to.config, "hardware configuration, a name or a TOML file");
   options.group("Output");
-  options.required("-o,--out", to.out, "FILE", "the stream file, .fss");
+  options.required("-o,--out", to.out, "FILE", "write the stream, .fss");
   declare(options, to.common);
   options.example("fastsplat stream record --volume shells:24 --size 64 --config tiny -o shells.fss",
-                  "what the device is fed for a scene");
+                  "the device's input for a scene");
   options.example("fastsplat stream record --scene demo:layer-adding --size 64 --config base -o layers.fss",
-                  "of a built-in scene");
-  options.example("fastsplat stream record --gaussians shells:200 --size 64 -o gaussians.fss", "of 3-D Gaussians");
+                  "the stream of a built-in scene");
+  options.example("fastsplat stream record --gaussians shells:200 --size 64 -o gaussians.fss",
+                  "the stream of 3-D Gaussians");
 }
 
 /// What was recorded, in words.
@@ -71,7 +72,7 @@ Json to_json(const StreamRecordResult& result) {
 ExitCode record_gaussians(const StreamRecordArguments& arguments, const cmodel::Config& config, const Output& output) {
   if (arguments.gaussians.order) {
     throw_usage({.where = "--order",
-                 .what = "the device has one order, that of its records",
+                 .what = "the device supports one order only, that of its records",
                  .expected = {},
                  .got = {},
                  .fix = "leave it out"});
@@ -101,7 +102,7 @@ ExitCode run(const StreamRecordArguments& arguments) {
   const Output output(arguments.common);
   if (!arguments.out.ends_with(".fss")) {
     throw_usage({.where = arguments.out,
-                 .what = "a stream file's name ends in .fss",
+                 .what = "the name of a stream file must end in .fss",
                  .expected = {},
                  .got = {},
                  .fix = "for example --out scene.fss"});
@@ -137,7 +138,7 @@ ExitCode run(const StreamRecordArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::stream_record{"stream record", "compiles a scene into a stream file",
+const Verb verbs::stream_record{"stream record", "compile a scene into a stream file",
                                 verb<StreamRecordArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -31,9 +31,9 @@ void declare(Options& options, StreamReplayArguments& to) {
   declare(options, to.config, "the configuration it was recorded for");
   declare_images(options, to.out, to.raw);
   declare(options, to.common);
-  options.example("fastsplat stream replay shells.fss --config tiny -o shells.png", "the picture that a stream makes");
+  options.example("fastsplat stream replay shells.fss --config tiny -o shells.png", "the picture of a stream");
   options.example("fastsplat stream replay shells.fss --config tiny --raw words.exr --json -",
-                  "its words and what the device counted");
+                  "the raw words, and the device's counters as JSON");
 }
 
 /// What was replayed, in words; its pixels are in the files.
@@ -95,7 +95,7 @@ ExitCode run(const StreamReplayArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::stream_replay{"stream replay", "feeds a stream to the integer device",
+const Verb verbs::stream_replay{"stream replay", "feed a stream to the integer device",
                                 verb<StreamReplayArguments, declare, run>};
 
 }  // namespace fastsplat::cli

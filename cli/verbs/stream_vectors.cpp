@@ -28,12 +28,11 @@ void declare(Options& options, StreamVectorsArguments& to) {
   options.group("Engine");
   declare(options, to.config, "the configuration it was recorded for");
   options.group("Output");
-  options.required("-o,--out", to.out, "FOLDER", "where the files go; made if it is not there, in a folder that is");
+  options.required("-o,--out", to.out, "FOLDER", "folder of the files; created in an existing folder if needed");
   declare(options, to.common);
-  options.example("fastsplat stream vectors shells.fss --config tiny -o vectors",
-                  "beats and taps for a bench of yours");
+  options.example("fastsplat stream vectors shells.fss --config tiny -o vectors", "beats and taps for your own bench");
   options.example("fastsplat stream vectors shells.fss --config tiny -o vectors --json -",
-                  "what was written, for programs");
+                  "the list of written files as JSON");
 }
 
 /// What was written, in words.
@@ -49,7 +48,7 @@ std::string to_text(const StreamVectorsResult& result) {
   for (const auto& file : result.vectors.files) bytes += file.bytes;
   return counted(result.vectors.beats, "beat") + ", " + counted(records, "tap record") + ", " +
          counted(result.vectors.pixel_beats, "pixel beat") + "\n" + result.folder + ": vectors.json and " +
-         counted(result.vectors.files.size(), "file") + " it names, " + grouped(bytes) + " bytes\n";
+         counted(result.vectors.files.size(), "file") + " listed in it, " + grouped(bytes) + " bytes\n";
 }
 
 Json to_json(const StreamVectorsResult& result) {
@@ -94,7 +93,7 @@ ExitCode run(const StreamVectorsArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::stream_vectors{"stream vectors", "a stream and its expected taps as plain text",
+const Verb verbs::stream_vectors{"stream vectors", "write a stream and its expected taps as plain text",
                                  verb<StreamVectorsArguments, declare, run>};
 
 }  // namespace fastsplat::cli

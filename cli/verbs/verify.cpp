@@ -50,7 +50,7 @@ std::vector<std::string> saved_names(const VerifyArguments& arguments, Source so
   if (arguments.save_stream.empty()) return {};
   if (!arguments.save_stream.ends_with(".fss")) {
     throw_usage({.where = "--save-stream " + arguments.save_stream,
-                 .what = "a stream file's name ends in .fss",
+                 .what = "the name of a stream file must end in .fss",
                  .expected = {},
                  .got = {},
                  .fix = "for example --save-stream random.fss"});
@@ -75,7 +75,7 @@ void check_wave(const VerifyArguments& arguments, Source source) {
   range_of(arguments.wave);
   if (const auto count = stream_count(arguments, source); !arguments.wave.file.empty() && count > 1) {
     throw_usage({.where = "--wave",
-                 .what = fmt::format("the waveform of which of {}?", counted(count, "stream")),
+                 .what = fmt::format("a waveform shows one stream, but the run has {}", counted(count, "stream")),
                  .expected = {},
                  .got = {},
                  .fix = "add --class NAME and leave --seeds at 1"});
@@ -154,7 +154,7 @@ Failure look_into(const Checked& checked, const VerifyArguments& arguments, cons
   std::error_code ignored;
   for (const std::string& file : failure_files(prefix)) {
     if (!prefix.empty() && std::filesystem::exists(file, ignored))
-      output.note(file + " of an earlier failure is replaced");
+      output.note(file + " of an earlier failure will be replaced");
   }
   output.line("first divergence: " + testbench::first_divergence(checked.failed, checked.options.config));
   Failure failure = investigate(checked, arguments, config, prefix);
@@ -233,7 +233,7 @@ ExitCode verify_and_tell(const VerifyArguments& arguments) {
   }
   if (verdict == testbench::Verdict::FaultUnseen)
     output.warn(
-        "this stimulus does not show the fault; try more splats, every --class, --ready all or --reset-after N");
+        "this stimulus does not reveal the fault; try more splats, every --class, --ready all or --reset-after N");
   // As of a failure: quiet or not, why there is no pass is said.
   if (arguments.common.quiet && verdict != testbench::Verdict::Pass && !failed(verdict))
     print_error(fmt::format("{}{}{}; {}", testbench::to_string(verdict), arguments.fault.empty() ? "" : ": ",
@@ -271,23 +271,23 @@ ExitCode run(const VerifyArguments& arguments) {
   } catch (const std::bad_alloc&) {
     if (!arguments.stream.empty()) {
       throw_machine({.where = arguments.stream,
-                     .what = "not enough memory to verify it",
+                     .what = "not enough memory to verify this stream",
                      .expected = {},
                      .got = {},
                      .fix = "record it at a smaller --size"});
     }
     if (!arguments.random) throw;  // a scene is what takes memory: told as everywhere
     throw_machine({.where = fmt::format("--random {}", *arguments.random),
-                   .what = "not enough memory for streams of so many splats",
+                   .what = "not enough memory for streams of this many splats",
                    .expected = {},
                    .got = {},
-                   .fix = "lower --random, raise --seeds; with fewer --jobs fewer of them are held at a time"});
+                   .fix = "lower --random and raise --seeds, or use fewer --jobs to hold fewer streams at once"});
   }
 }
 
 }  // namespace
 
-const Verb verbs::verify{"verify", "the RTL beside the model: every tap, pixel and counter compared",
+const Verb verbs::verify{"verify", "compare every tap, pixel and counter of the RTL with the model",
                          verb<VerifyArguments, declare, run>};
 
 }  // namespace fastsplat::cli

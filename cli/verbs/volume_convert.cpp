@@ -34,7 +34,8 @@ void declare(Options& options, VolumeConvertArguments& to) {
                  "voxel type; default as stored");
   declare(options, to.common);
   options.example("fastsplat volume convert shells:32 shells.nrrd", "a built-in volume as a file");
-  options.example("fastsplat volume convert shells.nrrd shells.nii.gz --type f32", "another format and voxel type");
+  options.example("fastsplat volume convert shells.nrrd shells.nii.gz --type f32",
+                  "a file in another format and voxel type");
 }
 
 volume::VoxelType type_from(const std::string& name) {
@@ -82,7 +83,7 @@ ExitCode run(const VolumeConvertArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::volume_convert{"volume convert", "to .nrrd, .nhdr, .nii, .nii.gz, .mha or .mhd",
+const Verb verbs::volume_convert{"volume convert", "convert a volume to .nrrd, .nhdr, .nii, .nii.gz, .mha or .mhd",
                                  verb<VolumeConvertArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -34,8 +34,8 @@ void declare(Options& options, VolumeInfoArguments& to) {
   options.group("Input");
   declare_nan_as(options, to.nan_as);
   declare(options, to.common);
-  options.example("fastsplat volume info shells:32", "size, spacing, range and place of a volume");
-  options.example("fastsplat volume info ch2bet --json -", "of a scan by name, for programs");
+  options.example("fastsplat volume info shells:32", "size, spacing, range and position of a volume");
+  options.example("fastsplat volume info ch2bet --json -", "a scan by name, as JSON");
 }
 
 std::string angle(double degrees) { return fmt::format("{:.1f} degrees", degrees); }
@@ -93,7 +93,7 @@ std::string drawn(const Values& values) {
 
 std::string values_text(const volume::Volume& volume, const Values& values) {
   std::string text = fmt::format("values   {:g} to {:g}{}\n         ", volume.min, volume.max,
-                                 volume.water ? fmt::format(", as of a CT: 0 HU is {:g}", *volume.water) : "");
+                                 volume.water ? fmt::format(", as in a CT: 0 HU is {:g}", *volume.water) : "");
   for (std::size_t i = 0; i < values.percentiles.size(); ++i)
     text += fmt::format("{}{:g} %: {:g}", i > 0 ? ", " : "", 100 * Values::kShares[i], values.percentiles[i]);
   return text + fmt::format(
@@ -148,6 +148,7 @@ ExitCode run(const VolumeInfoArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::volume_info{"volume info", "size, spacing, type, range", verb<VolumeInfoArguments, declare, run>};
+const Verb verbs::volume_info{"volume info", "print size, spacing, type and range of a volume",
+                              verb<VolumeInfoArguments, declare, run>};
 
 }  // namespace fastsplat::cli

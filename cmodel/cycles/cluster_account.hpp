@@ -8,17 +8,17 @@
 namespace fastsplat::cmodel {
 
 // clang-format off
-#define FASTSPLAT_FRAME_SHARES(X)                                                            \
-  X(work, "windows, and dirty blocks that none hides: the account's ideal")                  \
-  X(fill, "wipe, tables, records, pipes: what a device needs besides work")                  \
-  X(bandwidth, "no beat: the link, or --input, was late")                                    \
-  X(pixel_out, "the picture goes out, nothing is splatted")                                  \
-  X(tail, "no tile is left for a device while others work")
+#define FASTSPLAT_FRAME_SHARES(X)                                                  \
+  X(work, "windows, and dirty blocks not hidden behind them: the account's ideal") \
+  X(fill, "wipe, tables, records, pipelines: a device's overhead")                 \
+  X(bandwidth, "no beat: the link or --input was late")                            \
+  X(pixel_out, "the picture leaves and nothing is splatted")                       \
+  X(tail, "a device has no more tiles while others work")
 
-#define FASTSPLAT_ROOFLINE(X)                                \
-  X(lanes, "windows / devices")                            \
-  X(compositor, "dirty blocks / devices")                  \
-  X(stream, "bytes in / bytes per cycle")                  \
+#define FASTSPLAT_ROOFLINE(X)             \
+  X(lanes, "windows / devices")           \
+  X(compositor, "dirty blocks / devices") \
+  X(stream, "bytes in / bytes per cycle") \
   X(pixel_out, "pixel beats / devices")
 // clang-format on
 

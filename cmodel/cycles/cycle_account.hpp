@@ -8,17 +8,17 @@
 namespace fastsplat::cmodel {
 
 // clang-format off
-#define FASTSPLAT_CYCLE_KINDS(X)                                                                             \
-  X(ideal, "windows and dirty blocks: n_1 + sum max(n_s, m_(s-1)) + m_S of every tile")                      \
-  X(records, "records that are no splat, one cycle each")                                                    \
-  X(table_load, "table words, one cycle each")                                                               \
-  X(hidden, "hidden splats that were sent, and rows of hidden windows, one cycle each")                       \
-  X(input, "no record: the source was late")                                                                 \
-  X(sheet_buffer, "begin_sheet waits for a buffer, beyond the compositor's ideal")                           \
-  X(map, "begin_sheet waits for the map of opaque cells")                                                    \
-  X(drain, "end_tile waits for the pipes: fill and drain of splat path and compositor")                      \
-  X(hazard, "every sample: a window waits for the one before, which it lies over")                           \
-  X(pixels, "the picture goes out")                                                                          \
+#define FASTSPLAT_CYCLE_KINDS(X)                                                            \
+  X(ideal, "windows and dirty blocks: n_1 + sum max(n_s, m_(s-1)) + m_S of every tile")     \
+  X(records, "records other than splats, one cycle each")                                   \
+  X(table_load, "table words, one cycle each")                                              \
+  X(hidden, "hidden splats that were sent and rows of hidden windows, one cycle each")      \
+  X(input, "no record: the source was late")                                                \
+  X(sheet_buffer, "begin_sheet waits for a buffer, beyond the compositor's ideal")          \
+  X(map, "begin_sheet waits for the map of opaque cells")                                   \
+  X(drain, "end_tile waits for the pipelines: fill and drain of splat path and compositor") \
+  X(hazard, "every sample: a window waits for the previous one, which it overlaps")         \
+  X(pixels, "the picture leaves the device")                                                \
   X(output, "a pixel beat waits: the sink was not ready")
 // clang-format on
 

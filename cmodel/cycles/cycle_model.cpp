@@ -20,17 +20,17 @@ std::uint64_t wipe_cycles(const Config& config) {
 std::optional<ErrorParts> cycle_violation(const Config& config) {
   if (config.has_patterns()) {
     return ErrorParts{.where = "pattern.node_bits",
-                      .what = "solid patterns are the model's alone, and no cycles are counted for them",
+                      .what = "the cycle model does not support solid patterns",
                       .expected = "0",
                       .got = std::to_string(config.pattern_node_bits),
                       .fix = "use pattern.node_bits = 0"};
   }
   if (config.has_phases()) return std::nullopt;  // a window a cycle, like the RLUT's
   return ErrorParts{.where = "index.kind",
-                    .what = "goes along scan lines, and cycles are counted for all P x P pixels at once",
+                    .what = "works along scan lines, but the cycle model assumes P x P pixels at once",
                     .expected = "rlut, blit2d or separable",
                     .got = text_of(config, *find_key("index.kind")),
-                    .fix = "use one of these kinds; docs/numerics.md, section 4, says what each does"};
+                    .fix = "use one of these kinds (see docs/numerics.md, section 4)"};
 }
 
 CycleModel::CycleModel(const Config& config, StreamScope scope, const CycleOptions& options)
@@ -427,7 +427,7 @@ void CycleModel::end_tile(std::uint64_t at) {
   leave(at, done);
   tile_open_ = false;
   if (answers_ != nullptr && answered_ != answers_->size())
-    throw std::logic_error("the log of culled records is not this stream's");
+    throw std::logic_error("the log of culled records belongs to another stream");
   ++counters_.tiles;
   sheet_.sheet = 0;  // pixels belong to no sheet
   picture(done);

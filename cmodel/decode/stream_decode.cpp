@@ -145,21 +145,21 @@ void StreamDecode::check(const LoadTable& header, std::uint32_t words) {
                                                : config_.classifies() || header.table <= Table::Factor;
   if (!known) refuse("unknown table", known_tables(config_), std::to_string(static_cast<int>(header.table)));
   if (header.table != Table::Rlut) {
-    expect(header.radius.set == 0, "set of a table that has none", 0, header.radius.set);
-    expect(header.radius.rho == 0, "rho of a table that has none", 0, header.radius.rho);
-    expect(header.radius.base == 0, "base of a table that has none", 0, header.radius.base);
+    expect(header.radius.set == 0, "set given for a table without sets", 0, header.radius.set);
+    expect(header.radius.rho == 0, "rho given for a table without rho", 0, header.radius.rho);
+    expect(header.radius.base == 0, "base given for a table without base", 0, header.radius.base);
   }
   switch (header.table) {
     case Table::Rlut: {
       expect_most(header.radius.set, config_.rlut_sets - 1, "radius set above the last");
-      expect_least(header.radius.rho, 1, "radius of nothing");
+      expect_least(header.radius.rho, 1, "radius is 0");
       // As many columns as there are hold a radius of half of them; K steps to the pixel.
       expect_most(header.radius.rho, std::int64_t{config_.rlut_columns} * config_.grid() / 2,
-                  "radius above what the RLUT holds");
+                  "radius too large for the RLUT");
       if (!config_.has_columns())
-        expect(header.radius.base == 0, "base of a set without columns", 0, header.radius.base);
+        expect(header.radius.base == 0, "base given for a set without columns", 0, header.radius.base);
       if (header.radius.base % static_cast<std::uint32_t>(config_.lanes) != 0) {
-        refuse("first RLUT column is no multiple of the lanes", "a multiple of " + std::to_string(config_.lanes),
+        refuse("first RLUT column is not a multiple of the lanes", "a multiple of " + std::to_string(config_.lanes),
                std::to_string(header.radius.base));
       }
       const std::uint32_t columns = window_geometry(config_, header.radius.rho).padded;
@@ -181,7 +181,7 @@ void StreamDecode::check(const LoadTable& header, std::uint32_t words) {
       expected_words = classify_words(config_, header.table);
       break;
     case Table::Sheets:  // as many as the frame has
-      expect_least(words, classify::kSheetWords, "scales of no sheet");
+      expect_least(words, classify::kSheetWords, "no scales of sheets");
       expect_most(words, std::int64_t{classify::kSheetWords} << classify::kSheetsBits, "scales of too many sheets");
       expected_words = words - words % classify::kSheetWords;
       break;
@@ -233,7 +233,7 @@ const Record* StreamDecode::payload(const Beat& beat) {
       expect_most(word, range.most, "table word too large");
     }
     if (table.table == Table::Factor && !table.words.empty())
-      expect_most(word, table.words.back(), "slab factor table rises");
+      expect_most(word, table.words.back(), "slab factor table increases");
     if (table.table == Table::Sheets && table.words.size() % classify::kSheetWords == 0) {
       const std::uint32_t most = std::uint32_t{1} << classify::kScale;
       expect_most(word & 0xFFFFU, most, "scale of differences too large");
@@ -262,14 +262,13 @@ const Record* StreamDecode::payload(const Beat& beat) {
 
 void StreamDecode::check(const BeginTile& record) {
   rule_ = StreamRule::Loaded;
-  if (!radial_loaded_) refuse("no radial table before the first tile", "load_table 1", "begin_tile");
-  if (!factor_loaded_) refuse("no slab factor table before the first tile", "load_table 2", "begin_tile");
+  if (!radial_loaded_) refuse("the radial table is missing before the first tile", "load_table 1", "begin_tile");
+  if (!factor_loaded_) refuse("the slab factor table is missing before the first tile", "load_table 2", "begin_tile");
   const bool densities = config_.classifies() && holds_densities(record.mode);
   if (densities && (loaded_ & kClassifyTables) != kClassifyTables)
-    refuse("a table of densities is missing before the first tile of them", "load_table 3 to 7", "begin_tile");
+    refuse("a density table is missing before the first tile of densities", "load_table 3 to 7", "begin_tile");
   if (const std::uint32_t of_pattern = loaded_ & kPatternTables; of_pattern != 0 && of_pattern != kPatternTables)
-    refuse("one table of a pattern without the other before the first tile", "load_table 8 and 9, or neither",
-           "begin_tile");
+    refuse("only one of a pattern's two tables before the first tile", "load_table 8 and 9, or neither", "begin_tile");
   rule_ = StreamRule::Tile;
   if (record.mode > Mode::Sum && !(config_.composite_every_sample != 0 && every_sample(record.mode)) && !densities)
     refuse("unknown mode",
@@ -355,14 +354,14 @@ void StreamDecode::check(const CullBlock& record) {
 void StreamDecode::check_promise(const CullBlock& record) {
   rule_ = StreamRule::Promise;
   expect(record.tag == static_cast<std::uint32_t>(next_tag_ + sets_.waiting()),
-         "cull_block has not the tag of the first splat it covers",
+         "the tag of cull_block differs from that of its first splat",
          static_cast<std::int64_t>(next_tag_ + sets_.waiting()), record.tag);
   // (Sets that were jumped over show when the next splat comes.)
   expect_most(jumps_ ? 0 : static_cast<std::int64_t>(sets_.open()) + (record.splats > 0 ? 1 : 0), cull_sets(config_),
-              "more cull_blocks with splats to come than the device has room for");
+              "too many open cull_blocks for the device");
   constexpr std::int64_t kMostPromised = std::int64_t{1} << 31;  // tags are compared modulo 2^32
   expect_most((jumps_ ? 0 : std::int64_t{sets_.waiting()}) + record.splats, kMostPromised,
-              "more splats promised than tags can tell apart");
+              "too many open splats of cull_blocks for the tags");
   sets_.announce(record.tag, record.splats, record);
 }
 
@@ -380,8 +379,8 @@ void StreamDecode::check_promise(std::uint32_t tag, std::int32_t x, std::int32_t
     return "x " + std::to_string(box.x0) + ".." + std::to_string(box.x1 - 1) + ", y " + std::to_string(box.y0) + ".." +
            std::to_string(box.y1 - 1);
   };
-  refuse("splat lies outside of the rectangle that cull_block " + std::to_string(set.tag) + " promised",
-         "within " + text(promised), text(windows));
+  refuse("splat is outside the rectangle of cull_block " + std::to_string(set.tag), "within " + text(promised),
+         text(windows));
 }
 
 void StreamDecode::check(const EndSheet& record) {
@@ -390,12 +389,11 @@ void StreamDecode::check(const EndSheet& record) {
   expect(record.sheet == sheet_, "end of another sheet", sheet_, record.sheet);
   rule_ = StreamRule::EndCount;
   expect(record.splats == splats_seen_ || (jumps_ && record.splats > splats_seen_),
-         "end_sheet counts other splats than the sheet has", splats_seen_, record.splats);
+         "end_sheet has the wrong number of splats", splats_seen_, record.splats);
   rule_ = StreamRule::Promise;
   next_tag_ += record.splats - splats_seen_;
   if (jumps_) sets_.clear();
-  if (missing > 0 && !jumps_)
-    refuse("end_sheet before the splats that cull_block promised", "none to come", std::to_string(missing));
+  if (missing > 0 && !jumps_) refuse("end_sheet before all splats of cull_block", "none open", std::to_string(missing));
   state_ = State::Tile;
 }
 
@@ -403,7 +401,7 @@ void StreamDecode::check(const EndTile& record) {
   rule_ = StreamRule::EndNumber;
   expect(record.tile == tile_, "end of another tile", tile_, record.tile);
   rule_ = StreamRule::EndCount;
-  expect(record.sheets == sheets_seen_, "end_tile counts other sheets than the tile has", sheets_seen_, record.sheets);
+  expect(record.sheets == sheets_seen_, "end_tile has the wrong number of sheets", sheets_seen_, record.sheets);
   state_ = State::Tables;
 }
 
@@ -413,11 +411,11 @@ void StreamDecode::check(const EndFrame& record) {
     if (tiles_seen_ != frame_.tiles)
       refuse("tiles missing", std::to_string(frame_.tiles), std::to_string(tiles_seen_), kDamagedStream);
     if (record.beats != beats_) {
-      refuse("end_frame counts other beats than came before it", std::to_string(beats_), std::to_string(record.beats),
+      refuse("end_frame has the wrong number of beats", std::to_string(beats_), std::to_string(record.beats),
              kDamagedStream);
     }
     if (record.crc != crc_.value())
-      refuse("corrupt: not the checksum of the beats before", hex(crc_.value()), hex(record.crc), kDamagedStream);
+      refuse("corrupt: wrong checksum of the preceding beats", hex(crc_.value()), hex(record.crc), kDamagedStream);
   }
   state_ = State::Ended;
 }
@@ -438,7 +436,7 @@ const Record* StreamDecode::feed(const Beat& beat) {
     const RecordLayout* found = find_layout(opcode);
     rule_ = StreamRule::Opcode;
     if (found != nullptr && found->opcode == Opcode::Ellipse && !config_.has_ellipses()) {
-      refuse("this configuration has no ellipses", "ellipse.frac_bits above 0", "ellipse", kForeignStream);
+      refuse("this configuration does not support ellipses", "ellipse.frac_bits above 0", "ellipse", kForeignStream);
     }
     if (found == nullptr)
       refuse("unknown opcode",

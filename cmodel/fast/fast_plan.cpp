@@ -19,12 +19,13 @@ std::optional<FastPlan> fast_plan(const Config& config, const char** why_not) {
   const bool nearest = product.rounding() == Rounding::RND;
   if (!nearest && product.rounding() != Rounding::TRN && dropped > 0) return none("products are rounded to even");
   if (colour_bits > 16 || weight_bits > 16 || sheet_bits > 32)
-    return none("words of colour, weight or sheet are too wide for its lanes");
+    return none("words of colour, weight or sheet are too wide for the vector lanes");
   if (product.from_frac() < product.to().frac_bits) return none("sheets have more fraction bits than products");
-  if (product(largest_product).overflow) return none("a product can be larger than a sheet's word");
+  if (product(largest_product).overflow) return none("a product may exceed a sheet's word");
   if ((config.tile_width + config.lanes - 1) / config.lanes > 64) return none("a tile's row has more than 64 blocks");
 
-  if (config.cull_map == static_cast<int>(CullMap::Pixel)) return none("hidden splats are found by single pixels");
+  if (config.cull_map == static_cast<int>(CullMap::Pixel))
+    return none("cull.map = pixel finds hidden splats by single pixels");
 
   FastPlan plan{.largest_sum = static_cast<std::uint32_t>(config.sheet_format().max)};
   // The factors together shifted left so far that 15 bits are dropped, each still a positive word of 16 bits.

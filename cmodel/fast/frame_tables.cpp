@@ -42,11 +42,10 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
   };
   const auto plan = fast_plan(config, why_not);
   if (!plan) return {};
-  if (!has_vectors()) return none("this processor has none of its vectors");
-  if (needs.ellipses && config.culls()) return none("splats are ellipses, and the device hides windows of them");
-  if (needs.ellipses && config.interpolates())
-    return none("splats are ellipses, and weights lie between table entries");
-  if (needs.tints) return none("sheets of colours are tinted by a pattern");
+  if (!has_vectors()) return none("this processor lacks the required vector instructions");
+  if (needs.ellipses && config.culls()) return none("splats are ellipses, and the device culls their windows");
+  if (needs.ellipses && config.interpolates()) return none("splats are ellipses, and weights are interpolated");
+  if (needs.tints) return none("sheets are tinted by a pattern");
   const auto samples = sample_plan(config, *plan, needs.samples ? why_not : nullptr);
   if (needs.samples && !samples) return {};
   WeightUnit unit = weight_unit(config);
@@ -70,9 +69,9 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
         if (static_cast<int>(window_geometry(config, table->radius.rho).padded) > kWidest)
           return none("a footprint is wider than 128 pixels");
         if (config.culls() && window_geometry(config, table->radius.rho).windows > 1)
-          return none("hidden windows of larger footprints are left out");
+          return none("the device culls windows of footprints larger than one window");
         if (bytes > (config.index() == IndexKind::Rlut ? kMemoBytes : kOtherMemoBytes))
-          return none("the footprints at all places of their grid are more than it keeps");
+          return none("the footprints at all grid positions exceed its memory");
         break;
       case Table::Radial:
         std::visit([&](auto& kind) { kind.load_radial(table->words); }, unit);
@@ -106,7 +105,8 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
                   .densities = std::move(densities),
                   .frame = frame,
                   .reach = kTableSlack};
-  if (needs.ellipses && !out.ellipses) return none("an ellipse's place in the radial table is wider than its lanes");
+  if (needs.ellipses && !out.ellipses)
+    return none("an ellipse's position in the radial table is too wide for the vector lanes");
   std::uint32_t heaviest = out.ellipses ? out.ellipses->heaviest : 0;
   for (std::uint32_t set = 0; set < sets; ++set) {
     out.reach = std::max(out.reach, out.memo.shape(set).extent + kTableSlack);

@@ -28,7 +28,7 @@ std::optional<SamplePlan> sample_plan(const Config& config, const FastPlan& plan
       config.opacity_frac_bits + config.opacity_remainder_bits() > 31 ||
       config.sheet_int_bits + config.sheet_frac_bits + grown > 31 || slab.dropped_bits() > 31 ||
       slab.from_frac() < slab.to().frac_bits)
-    return none("words of transmittance, slab factor or sheet are too wide for its samples");
+    return none("words of transmittance, slab factor or sheet are too wide for the sample lanes");
   SamplePlan out;
   out.product = plan.narrow ? Rounded{.bias = 1U << 14, .dropped = 15} : Rounded{plan.bias, plan.dropped_bits};
   out.added = rounded(added);

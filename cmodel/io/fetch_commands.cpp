@@ -24,7 +24,7 @@ class Run {
   void close(std::vector<FetchCommand>& out) {
     if (beats_ == 0) return;
     if (beats_ >> 32 != 0 || splats_ >> 32 != 0 || sets_ > kMostFetchSets)
-      throw std::logic_error("a command of a fetching source that none can be given");
+      throw std::logic_error("a fetch command exceeds its format");
     out.push_back({.address = address_,
                    .beats = static_cast<std::uint32_t>(beats_),
                    .sets = static_cast<std::uint32_t>(sets_),
@@ -42,10 +42,10 @@ class Run {
 void refuse_parted_sets(std::uint64_t beat, std::uint64_t waiting) {
   throw UserError(ExitCode::Input,
                   {.where = "beat " + std::to_string(beat) + " (byte offset " + std::to_string(beat * kBeatBytes) + ")",
-                   .what = "cull_block between the splats of a set: a fetching source cannot jump over them",
-                   .expected = "no splat of the sets before it to come",
+                   .what = "cull_block between the splats of a group: a fetching source cannot skip them",
+                   .expected = "no open splats of previous groups",
                    .got = std::to_string(waiting),
-                   .fix = "send every beat, or write a sheet's cull_blocks in front of its splats"});
+                   .fix = "send every beat, or write a sheet's cull_blocks before its splats"});
 }
 
 std::vector<FetchCommand> fetch_commands(const Config& config, std::span<const Beat> beats, std::uint64_t address) {

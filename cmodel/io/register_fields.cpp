@@ -19,16 +19,16 @@ constexpr RegisterField kStatus[] = {
     {"ERROR", 1, 1, "a beat was refused; stays until a reset"},
 };
 constexpr RegisterField kControl[] = {
-    {"CLEAR", 0, 0, "1: all counters to 0"},
+    {"CLEAR", 0, 0, "1: clears all counters"},
     {"RESET", 1, 1, "1: soft reset; done when STATUS.BUSY is 0"},
     {"DROP", 2, 2, "1, with RESET, of fastsplat_top: beats are taken and dropped until CONTROL is written without it"},
 };
 constexpr RegisterField kError[] = {
-    {"RULE", 7, 0, "the rule of docs/stream.md that the first refused beat broke; 0: none was refused"},
-    {"OPCODE", 15, 8, "that beat's opcode byte"},
+    {"RULE", 7, 0, "rule of docs/stream.md violated by the first refused beat; 0: none"},
+    {"OPCODE", 15, 8, "opcode byte of that beat"},
 };
 constexpr RegisterField kIrq[] = {
-    {"FRAME", 0, 0, "a frame has left"},
+    {"FRAME", 0, 0, "a frame left the device"},
     {"TILE", 1, 1, "a tile's last beat was taken"},
     {"ERROR", 2, 2, "a beat was refused"},
 };
@@ -45,14 +45,14 @@ constexpr RegisterField kLanes[] = {
 };
 constexpr RegisterField kRlut[] = {
     built_for<&Config::rlut_columns>("COLUMNS", 15, 0, "words of a phase of the RLUT, for all sets"),
-    built_for<&Config::phases>("PHASES", 31, 16, "places of a splat within a pixel, per axis"),
+    built_for<&Config::phases>("PHASES", 31, 16, "positions of a splat within a pixel, per axis"),
 };
 constexpr RegisterField kTables[] = {
     built_for<&Config::radial_entries>("RADIAL", 15, 0, "entries of the radial table; 0: 65536"),
     built_for<&Config::opacity_segments>("SEGMENTS", 31, 16, "segments of the slab factor; 0: 65536"),
 };
 constexpr RegisterField kSplatFields[] = {
-    built_for<&Config::position_int_bits>("POSITION_INT", 7, 0, "integer bits of x and y, the sign among them"),
+    built_for<&Config::position_int_bits>("POSITION_INT", 7, 0, "integer bits of x and y, including the sign"),
     built_for<&Config::position_frac_bits>("POSITION_FRAC", 15, 8, "fraction bits of x and y"),
     built_for<&Config::colour_frac_bits>("COLOUR_FRAC", 23, 16, "fraction bits of R, G, B and tau"),
 };
@@ -79,7 +79,7 @@ constexpr RegisterEntry kEntries[] = {
     {kRegHashHigh, Access::Read, "the configuration's hash, high half", {}},
     {kRegStatus, Access::Read, "state of the device", kStatus},
     {kRegControl, Access::Write, "reads as 0", kControl},
-    {kRegError, Access::Read, "the first refusal since a reset", kError},
+    {kRegError, Access::Read, "first refusal since reset", kError},
     {kRegErrorBeat, Access::Read, "the refused beat's number in its frame; begin_frame is 0", {}},
     {kRegIrq, Access::WriteOneToClear, "events since they were cleared", kIrq},
     {kRegIrqMask, Access::ReadWrite, "events that raise the interrupt; 0 after reset", kIrq},

@@ -62,21 +62,21 @@ constexpr std::array kKeys{
     ConfigKey{"composite.frac_bits", &Config::composite_frac_bits, 4, 20, false,
               "tf: transmittance One.tf, colour U 1.tf"},
     ConfigKey{"composite.freeze_below", &Config::freeze_below, 0, 1 << 20, false,
-              "eps: transmittance words below this are frozen"},
+              "eps: early-termination threshold on transmittance words"},
     ConfigKey{"pixel.int_bits", &Config::pixel_int_bits, 0, 8, false, "xi: output words U xi.xf"},
     ConfigKey{"pixel.frac_bits", &Config::pixel_frac_bits, 4, 31, false, "xf"},
-    rounding("rounding.snap", &Config::rounding_snap, "R_s: of a centre onto the 1/k grid"),
-    rounding("rounding.product", &Config::rounding_product, "R_p: of colour times weight"),
-    rounding("rounding.fall", &Config::rounding_fall, "R_f: of the slab factor's interpolation"),
-    rounding("rounding.slab", &Config::rounding_slab, "R_a: of slab colour and opacity"),
-    rounding("rounding.light", &Config::rounding_light, "R_l: of transmittance times slab colour and opacity"),
-    rounding("rounding.pixel", &Config::rounding_pixel, "R_o: of output words"),
+    rounding("rounding.snap", &Config::rounding_snap, "R_s: rounding of a centre onto the 1/k grid"),
+    rounding("rounding.product", &Config::rounding_product, "R_p: rounding of colour times weight"),
+    rounding("rounding.fall", &Config::rounding_fall, "R_f: rounding of the slab factor's interpolation"),
+    rounding("rounding.slab", &Config::rounding_slab, "R_a: rounding of slab colour and opacity"),
+    rounding("rounding.light", &Config::rounding_light, "R_l: rounding of transmittance times slab colour and opacity"),
+    rounding("rounding.pixel", &Config::rounding_pixel, "R_o: rounding of output words"),
     ConfigKey{.name = "rounding.carry",
               .member = &Config::rounding_carry,
               .min = 0,
               .max = 2,
               .power_of_two = false,
-              .meaning = "where what a splat's rounding leaves is carried to the next one (driver)",
+              .meaning = "where a splat's rounding error diffuses to the next splat (driver)",
               .names = kCarries,
               .neutral = static_cast<int>(Carry::XRay)},
     ConfigKey{.name = "index.kind",
@@ -84,7 +84,7 @@ constexpr std::array kKeys{
               .min = 0,
               .max = 5,
               .power_of_two = false,
-              .meaning = "how a pixel's weight is found",
+              .meaning = "method that finds a pixel's weight",
               .names = kIndexKinds,
               .neutral = static_cast<int>(IndexKind::Rlut)},
     ConfigKey{.name = "index.symmetry",
@@ -92,7 +92,7 @@ constexpr std::array kKeys{
               .min = 0,
               .max = 1,
               .power_of_two = false,
-              .meaning = "which footprints of a blit2d set are stored",
+              .meaning = "footprints stored in a blit2d set",
               .names = kIndexSymmetries,
               .neutral = static_cast<int>(IndexSymmetry::Off)},
     ConfigKey{.name = "ellipse.frac_bits",
@@ -100,35 +100,35 @@ constexpr std::array kKeys{
               .min = 0,
               .max = 20,
               .power_of_two = false,
-              .meaning = "f: fraction bits of an ellipse's q below one RLUT word; 0: the device has no ellipses",
+              .meaning = "f: fraction bits of an ellipse's q below one RLUT word; 0: no ellipses",
               .neutral = 0},
     ConfigKey{.name = "composite.lanes",
               .member = &Config::composite_lanes,
               .min = 0,
               .max = 1024,
               .power_of_two = false,
-              .meaning = "C: pixels composited in a cycle, a divisor of P^2; 0: all of a block",
+              .meaning = "C: pixels composited per cycle, a divisor of P^2; 0: a whole block",
               .neutral = 0},
     ConfigKey{.name = "counters.bits",
               .member = &Config::counter_bits,
               .min = 16,
               .max = 64,
               .power_of_two = false,
-              .meaning = "width of the device's counters, which go round",
+              .meaning = "width of the device's counters, which wrap",
               .neutral = 64},
     ConfigKey{.name = "composite.every_sample",
               .member = &Config::composite_every_sample,
               .min = 0,
               .max = 1,
               .power_of_two = false,
-              .meaning = "1: the device composites every sample of a tile that asks for it, in the order of its splats",
+              .meaning = "1: the device can composite every sample of a tile in the order of its splats",
               .neutral = 0},
     ConfigKey{.name = "cull.map",
               .member = &Config::cull_map,
               .min = 0,
               .max = 2,
               .power_of_two = false,
-              .meaning = "the cells of the map by which hidden splats are found; off: they are not",
+              .meaning = "cells of the map that finds hidden splats; off: no culling",
               .names = kCullMaps,
               .neutral = static_cast<int>(CullMap::Off)},
     ConfigKey{.name = "radial.interpolate",
@@ -136,22 +136,21 @@ constexpr std::array kKeys{
               .min = 0,
               .max = 1,
               .power_of_two = false,
-              .meaning = "1: a weight lies on the straight line between two entries of the radial table",
+              .meaning = "1: weights are interpolated linearly between two entries of the radial table",
               .neutral = 0},
-    ConfigKey{
-        .name = "classify.segment_bits",
-        .member = &Config::classify_segment_bits,
-        .min = 0,
-        .max = 12,
-        .power_of_two = false,
-        .meaning = "log2 of the transfer function's segments in a device that classifies densities by pixel; 0: none",
-        .neutral = 0},
+    ConfigKey{.name = "classify.segment_bits",
+              .member = &Config::classify_segment_bits,
+              .min = 0,
+              .max = 12,
+              .power_of_two = false,
+              .meaning = "log2 of the transfer function's segments for densities classified by pixel; 0: none",
+              .neutral = 0},
     ConfigKey{.name = "pattern.node_bits",
               .member = &Config::pattern_node_bits,
               .min = 0,
               .max = kMostPatternNodeBits,
               .power_of_two = false,
-              .meaning = "log2 of the nodes along a side of a solid pattern's table; 0: the device has no patterns",
+              .meaning = "log2 of the nodes along a side of a solid pattern's table; 0: no patterns",
               .neutral = 0},
 };
 
@@ -188,7 +187,7 @@ std::optional<ErrorParts> index_violation(const Config& config) {
   const int side_bits = std::bit_width(static_cast<unsigned>(config.rlut_columns - 1)) + config.position_frac_bits;
   if (config.index_symmetry != static_cast<int>(IndexSymmetry::Off) && config.index() != IndexKind::Blit2d) {
     return ErrorParts{.where = "index.symmetry",
-                      .what = "is of stored footprints, which only blit2d has",
+                      .what = "applies to stored footprints, which only blit2d has",
                       .expected = "index.kind = blit2d",
                       .got = kIndexKinds[config.index_kind],
                       .fix = "use index.symmetry = off"};
@@ -196,7 +195,7 @@ std::optional<ErrorParts> index_violation(const Config& config) {
   switch (config.index()) {
     case IndexKind::Linear:
       if (side_bits + config.rlut_guard_bits > 31) {
-        return violation("rlut.guard_bits", "makes squared distances of more than 63 bits (index.kind = linear)",
+        return violation("rlut.guard_bits", "leads to squared distances of more than 63 bits (index.kind = linear)",
                          "log2(rlut.columns) + position.frac_bits + guard_bits <= 31",
                          side_bits + config.rlut_guard_bits, "lower rlut.guard_bits or position.frac_bits");
       }
@@ -204,7 +203,7 @@ std::optional<ErrorParts> index_violation(const Config& config) {
     case IndexKind::Squared:
     case IndexKind::SquaredElliptic:
       if (side_bits > 17) {
-        return violation("position.frac_bits", "makes squared distances of more than 62 bits (index.kind = squared)",
+        return violation("position.frac_bits", "leads to squared distances of more than 62 bits (index.kind = squared)",
                          "log2(rlut.columns) + position.frac_bits <= 17", side_bits,
                          "lower position.frac_bits or rlut.columns");
       }
@@ -213,7 +212,7 @@ std::optional<ErrorParts> index_violation(const Config& config) {
       const std::int64_t side = std::int64_t{config.phases} * config.rlut_columns;
       if (side * side > kMostBlitWords) {
         return ErrorParts{.where = "snap.phases",
-                          .what = "makes more footprints than load_table brings (index.kind = blit2d)",
+                          .what = "leads to more footprints than load_table supports (index.kind = blit2d)",
                           .expected = "(snap.phases x rlut.columns)^2 at most " + std::to_string(kMostBlitWords),
                           .got = std::to_string(side * side),
                           .fix = "lower snap.phases or rlut.columns"};
@@ -233,13 +232,13 @@ std::optional<ErrorParts> interpolation_violation(const Config& config) {
   const IndexKind kind = config.index();
   if (kind != IndexKind::Rlut && kind != IndexKind::Squared && kind != IndexKind::SquaredElliptic) {
     return ErrorParts{.where = "radial.interpolate",
-                      .what = "goes between entries of squared distance, which this kind of index does not read",
+                      .what = "interpolates over squared distance, which this kind of index does not use",
                       .expected = "index.kind = rlut, squared or squared_elliptic",
                       .got = kIndexKinds[config.index_kind],
                       .fix = "use radial.interpolate = 0, or index.kind = rlut"};
   }
   if (config.rlut_guard_bits < 1) {
-    return violation("rlut.guard_bits", "leaves nothing between two radial entries to interpolate over",
+    return violation("rlut.guard_bits", "leaves no bits between two radial entries for interpolation",
                      "at least 1 with radial.interpolate = 1", config.rlut_guard_bits,
                      "raise rlut.guard_bits, or use radial.interpolate = 0");
   }
@@ -251,23 +250,23 @@ std::optional<ErrorParts> classify_violation(const Config& config) {
   if (!config.classifies()) return std::nullopt;
   const char* key = "classify.segment_bits";
   if (config.sheet_frac_bits > 16 || config.sheet_int_bits + config.sheet_frac_bits > 18) {
-    return violation("sheet.frac_bits", "makes density words wider than gradients are made of",
+    return violation("sheet.frac_bits", "leads to density words that are too wide for gradients",
                      "frac_bits <= 16 and int_bits + frac_bits <= 18 with classify.segment_bits",
                      config.sheet_frac_bits, "lower sheet.frac_bits, or use classify.segment_bits = 0");
   }
   if (config.classify_rest_bits() < 0) {
-    return violation(key, "has more segments than densities have words below 1",
+    return violation(key, "exceeds the number of density words below 1",
                      "at most sheet.frac_bits = " + std::to_string(config.sheet_frac_bits),
                      config.classify_segment_bits, "lower classify.segment_bits");
   }
   if (config.tile_width < 3 || config.tile_height < 3) {
-    return violation(config.tile_width < 3 ? "tile.width" : "tile.height", "has no room for a rim of densities",
+    return violation(config.tile_width < 3 ? "tile.width" : "tile.height", "has no room for a halo of densities",
                      "at least 3 with classify.segment_bits", std::min(config.tile_width, config.tile_height),
                      "use larger tiles, or classify.segment_bits = 0");
   }
   if (config.culls()) {
     return ErrorParts{.where = "cull.map",
-                      .what = "leaves out splats whose densities a neighbour's gradient would miss",
+                      .what = "would cull splats whose densities a neighbour's gradient needs",
                       .expected = "off with classify.segment_bits",
                       .got = kCullMaps[config.cull_map],
                       .fix = "use cull.map = off, or classify.segment_bits = 0"};
@@ -281,35 +280,35 @@ std::optional<ErrorParts> ellipse_violation(const Config& config) {
   const char* key = "ellipse.frac_bits";
   if (config.index() == IndexKind::Linear) {
     return ErrorParts{.where = key,
-                      .what = "reads the radial table by squared distance, and that of linear is by distance",
-                      .expected = "another index.kind than linear",
+                      .what = "requires a radial table by squared distance, but that of linear is by distance",
+                      .expected = "an index.kind other than linear",
                       .got = kIndexKinds[config.index_kind],
                       .fix = "use ellipse.frac_bits = 0, or index.kind = rlut"};
   }
   const int position_bits = config.position_int_bits + config.position_frac_bits;
   if (config.position_frac_bits > kEllipsePositionFracBits || position_bits > kEllipsePositionBits) {
     const bool fraction = config.position_frac_bits > kEllipsePositionFracBits;
-    return violation("position.frac_bits", "makes positions that an ellipse's record has no room for",
+    return violation("position.frac_bits", "leads to positions that are too wide for an ellipse's record",
                      fraction ? "at most " + std::to_string(kEllipsePositionFracBits)
                               : "int_bits + frac_bits <= " + std::to_string(kEllipsePositionBits),
                      fraction ? config.position_frac_bits : position_bits,
                      "lower position.frac_bits or int_bits, or use ellipse.frac_bits = 0");
   }
   if (config.radial_index_bits() + config.rlut_guard_bits < 2) {
-    return violation("radial.entries", "leaves an ellipse's q no room to be rounded",
+    return violation("radial.entries", "leaves no bits to round an ellipse's q",
                      "log2(radial.entries) + rlut.guard_bits >= 2", config.radial_entries,
                      "raise radial.entries, or use ellipse.frac_bits = 0");
   }
   if (config.rlut_columns > kEllipseWindows * config.lanes || config.rlut_columns > kEllipseReach) {
     return violation(
-        "rlut.columns", "is wider than an ellipse's record can say",
+        "rlut.columns", "exceeds the range of an ellipse's record",
         "at most " + std::to_string(std::min(kEllipseWindows * config.lanes, kEllipseReach)) + " with ellipses",
         config.rlut_columns, "lower rlut.columns, or use ellipse.frac_bits = 0");
   }
   const int steepest = config.radial_index_bits() + config.rlut_guard_bits + 4 - 2 * config.position_frac_bits;
   if (steepest >= kEllipseTermBits) {
     return violation(
-        "position.frac_bits", "makes the steepest ellipse (1/4 pixel) too large for a record",
+        "position.frac_bits", "makes the coefficients of the steepest ellipse (1/4 pixel) too large for a record",
         "log2(radial.entries) + rlut.guard_bits + 4 - 2 frac_bits <= " + std::to_string(kEllipseTermBits - 1), steepest,
         "raise position.frac_bits, or use ellipse.frac_bits = 0");
   }
@@ -353,7 +352,7 @@ std::optional<ErrorParts> set(Config& config, std::string_view name, std::string
     std::vector<std::string> known;
     for (const ConfigKey& other : kKeys) known.emplace_back(other.name);
     return ErrorParts{.where = std::string(name),
-                      .what = "no such key of a configuration",
+                      .what = "unknown configuration key",
                       .expected = {},
                       .got = {},
                       .fix = suggestion(name, known)};
@@ -374,7 +373,7 @@ std::optional<ErrorParts> set(Config& config, std::string_view name, std::string
   } else {
     const auto found = std::find(key->names.begin(), key->names.end(), text);
     if (found == key->names.end()) {
-      ErrorParts wrong = refuse("unknown word");
+      ErrorParts wrong = refuse("unknown value");
       const std::vector<std::string> known(key->names.begin(), key->names.end());
       if (const auto meant = did_you_mean(text, known); !meant.empty()) wrong.fix = meant;
       return wrong;
@@ -400,25 +399,26 @@ std::optional<ErrorParts> first_violation(const Config& config) {
                      "raise position.frac_bits or lower snap.phases");
   }
   if (config.rlut_columns * config.phases < 2) {
-    return violation("rlut.columns", "cannot hold any radius set", "rlut.columns x snap.phases >= 2 (radius 1/k pixel)",
-                     config.rlut_columns * config.phases, "raise rlut.columns or snap.phases");
+    return violation("rlut.columns", "is too small for any radius set",
+                     "rlut.columns x snap.phases >= 2 (radius 1/k pixel)", config.rlut_columns * config.phases,
+                     "raise rlut.columns or snap.phases");
   }
   const int reach = config.tile_width > config.tile_height ? config.tile_width : config.tile_height;
   if ((1 << (config.position_int_bits - 1)) < reach + config.rlut_columns) {
-    return violation("position.int_bits", "cannot reach every splat that touches a tile",
+    return violation("position.int_bits", "does not cover every splat that touches a tile",
                      "2^(int_bits-1) >= tile side + rlut.columns = " + std::to_string(reach + config.rlut_columns),
                      1 << (config.position_int_bits - 1), "raise position.int_bits");
   }
   if (config.sheet_int_bits + config.sheet_frac_bits > 32) {
-    return violation("sheet.frac_bits", "sheet words do not fit 32 bits", "int_bits + frac_bits <= 32",
+    return violation("sheet.frac_bits", "leads to sheet words of more than 32 bits", "int_bits + frac_bits <= 32",
                      config.sheet_int_bits + config.sheet_frac_bits, "lower sheet.frac_bits");
   }
   if (config.pixel_int_bits + config.pixel_frac_bits > 32) {
-    return violation("pixel.frac_bits", "pixel words do not fit 32 bits", "int_bits + frac_bits <= 32",
+    return violation("pixel.frac_bits", "leads to pixel words of more than 32 bits", "int_bits + frac_bits <= 32",
                      config.pixel_int_bits + config.pixel_frac_bits, "lower pixel.frac_bits");
   }
   if (config.opacity_remainder_bits() < 0) {
-    return violation("opacity.segments", "has more segments than a sheet has words",
+    return violation("opacity.segments", "exceeds the number of sheet words",
                      "at most 2^(sheet.int_bits + sheet.frac_bits) = 2^" +
                          std::to_string(config.sheet_int_bits + config.sheet_frac_bits),
                      config.opacity_segments, "lower opacity.segments");
@@ -426,13 +426,14 @@ std::optional<ErrorParts> first_violation(const Config& config) {
   if (config.grid() == 1 && config.rounding_snap == static_cast<int>(Rounding::RND_CONV) &&
       (config.tile_width % 2 != 0 || config.tile_height % 2 != 0)) {
     // An even pixel of the tile may be an odd one of the image: a splat would lie elsewhere in every other tile.
-    return violation("rounding.snap", "rounds ties to even pixels, which are not the image's in a tile of odd sides",
+    return violation("rounding.snap",
+                     "rounds ties to even pixels of the tile, which differ from the image's in tiles of odd sides",
                      "snap.phases of 2 or more, or tile sides that are even",
                      config.tile_width % 2 != 0 ? config.tile_width : config.tile_height,
                      "use an even tile.width and tile.height, or rounding.snap = rnd");
   }
   if (config.freeze_below > (1 << config.composite_frac_bits)) {
-    return violation("composite.freeze_below", "would freeze a pixel that nothing has reached",
+    return violation("composite.freeze_below", "would terminate an untouched pixel",
                      "at most 2^composite.frac_bits = " + std::to_string(1 << config.composite_frac_bits),
                      config.freeze_below,
                      "use a small number such as " + std::to_string((1 << config.composite_frac_bits) / 1024));
@@ -446,7 +447,8 @@ std::optional<ErrorParts> first_violation(const Config& config) {
                      std::min(block, static_cast<int>(std::bit_floor(static_cast<unsigned>(config.composite_lanes))))));
   }
   if (config.composite_every_sample != 0 && config.composited_at_once() != block) {
-    return violation("composite.lanes", "makes slices of a block, and every sample is composited at once",
+    return violation("composite.lanes",
+                     "divides blocks into slices, but composite.every_sample composites whole blocks",
                      "0 or array.lanes^2 = " + std::to_string(block) + " with composite.every_sample = 1",
                      config.composite_lanes, "use composite.lanes = 0, or composite.every_sample = 0");
   }

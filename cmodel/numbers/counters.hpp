@@ -6,23 +6,23 @@
 namespace fastsplat::cmodel {
 
 // clang-format off
-#define FASTSPLAT_COUNTERS(X)                                                              \
-  X(tiles, "tiles rendered")                                                               \
-  X(sheets, "sheets composited")                                                           \
-  X(splats, "splat records")                                                               \
-  X(windows, "P x P windows")                                                              \
-  X(lanes_inside, "window pixels inside the tile")                                         \
-  X(lanes_weighted, "window pixels inside the tile with a weight above 0")                 \
-  X(cull_blocks, "cull_block hints")                                                       \
-  X(dirty_blocks, "P x P blocks composited, over all sheets")                              \
-  X(pixels_composited, "pixels visited by the compositor")                                 \
-  X(frozen_pixels, "pixel visits skipped because the pixel was frozen")                    \
-  X(snap_saturated, "centres outside the position format after snapping")                  \
-  X(product_saturated, "colour x weight products above the sheet format")                  \
-  X(sheet_saturated, "sheet sums cut to the largest word")                                 \
-  X(opacity_saturated, "slab opacities or colours cut to 1.0")                             \
-  X(composite_saturated, "composited colours or X-ray sums cut to the largest word")       \
-  X(pixel_saturated, "output words cut to the largest word")
+#define FASTSPLAT_COUNTERS(X)                                                            \
+  X(tiles, "tiles rendered")                                                             \
+  X(sheets, "sheets composited")                                                         \
+  X(splats, "splat records")                                                             \
+  X(windows, "P x P windows")                                                            \
+  X(lanes_inside, "window pixels inside the tile")                                       \
+  X(lanes_weighted, "window pixels inside the tile with a weight above 0")               \
+  X(cull_blocks, "cull_block hints")                                                     \
+  X(dirty_blocks, "P x P blocks composited, over all sheets")                            \
+  X(pixels_composited, "pixels visited by the compositor")                               \
+  X(frozen_pixels, "pixel visits skipped because the pixel was terminated")              \
+  X(snap_saturated, "centres outside the position format after snapping")                \
+  X(product_saturated, "colour x weight products above the sheet format")                \
+  X(sheet_saturated, "sheet sums clamped to the largest word")                           \
+  X(opacity_saturated, "slab opacities or colours clamped to 1.0")                       \
+  X(composite_saturated, "composited colours or X-ray sums clamped to the largest word") \
+  X(pixel_saturated, "output words clamped to the largest word")
 // clang-format on
 
 struct Counters {

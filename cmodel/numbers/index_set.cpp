@@ -52,7 +52,7 @@ std::optional<ErrorParts> set_violation(const Config& config, std::span<const st
   const std::int64_t a = words[0], b = static_cast<std::int32_t>(words[1]), c = words[2];
   if (4 * a * c >= b * b) return std::nullopt;
   return ErrorParts{.where = {},
-                    .what = "no ellipse: q would be negative somewhere",
+                    .what = "invalid ellipse: q would be negative somewhere",
                     .expected = "4 A C >= B^2 = " + std::to_string(b * b),
                     .got = std::to_string(4 * a * c),
                     .fix = {}};

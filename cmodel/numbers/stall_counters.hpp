@@ -15,13 +15,13 @@ namespace fastsplat::cmodel {
   X(busy, CYCLES, "cycles")                                             \
   X(stall_input, STALL_INPUT, "cycles without input")                   \
   X(stall_table, STALL_TABLE, "cycles of table words")                  \
-  X(stall_buffer, STALL_BUFFER, "cycles of waiting for a sheet buffer") \
-  X(stall_tile, STALL_TILE, "cycles of waiting between tiles")          \
-  X(stall_hazard, STALL_HAZARD, "cycles of windows that wait for the one before (composite.every_sample = 1; 0 where only cull.map is on)") \
-  X(cull_tests, CULL_TESTS, "sets and splats tested (cull.map not off)") \
-  X(hidden_sets, HIDDEN_SETS, "hidden sets (cull.map not off)")         \
-  X(hidden_splats, HIDDEN_SPLATS, "hidden splats that were sent and are of no hidden set (cull.map not off)") \
-  X(hidden_windows, HIDDEN_WINDOWS, "hidden windows of splats that are not hidden (cull.map not off)")
+  X(stall_buffer, STALL_BUFFER, "cycles waiting for a sheet buffer") \
+  X(stall_tile, STALL_TILE, "cycles waiting between tiles")          \
+  X(stall_hazard, STALL_HAZARD, "cycles in which a window waits for the previous one (composite.every_sample = 1; 0 if only cull.map is on)") \
+  X(cull_tests, CULL_TESTS, "cull groups and splats tested (cull.map not off)") \
+  X(hidden_sets, HIDDEN_SETS, "hidden cull groups (cull.map not off)")         \
+  X(hidden_splats, HIDDEN_SPLATS, "hidden splats that were sent and belong to no hidden cull group (cull.map not off)") \
+  X(hidden_windows, HIDDEN_WINDOWS, "hidden windows of visible splats (cull.map not off)")
 // clang-format on
 
 /// The device of this configuration has a counter of that register name. Their numbers have no gaps: one that culls has

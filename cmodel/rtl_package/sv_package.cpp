@@ -67,25 +67,25 @@ std::optional<ErrorParts> rtl_violation(const Config& config) {
   };
   if (config.index() != IndexKind::Rlut) {
     return ErrorParts{.where = "index.kind",
-                      .what = "the RTL has the RLUT and no other index",
+                      .what = "the RTL supports index.kind rlut only",
                       .expected = "rlut",
                       .got = text_of(config, *find_key("index.kind")),
                       .fix = "use the model for this configuration"};
   }
   if (config.has_patterns())
-    return refuse("pattern.node_bits", "the RTL has no solid patterns", "0", config.pattern_node_bits);
+    return refuse("pattern.node_bits", "the RTL does not support solid patterns", "0", config.pattern_node_bits);
   if (config.classifies() && config.composite_every_sample != 0) {
-    return refuse("composite.every_sample", "the RTL has no device of every sample that classifies densities",
+    return refuse("composite.every_sample", "the RTL does not support every_sample together with densities",
                   "0 with classify.segment_bits", config.composite_every_sample);
   }
   if (config.classifies() && config.sheet_int_bits > kDensityMostInt) {
-    return refuse("sheet.int_bits", "the RTL's transfer function falls by less than 2^7 between two entries",
+    return refuse("sheet.int_bits", "the RTL's transfer function must fall by less than 2^7 between two entries",
                   "at most " + std::to_string(kDensityMostInt) + " with classify.segment_bits", config.sheet_int_bits);
   }
   if (config.culls() && config.has_ellipses()) {
     return ErrorParts{.where = "cull.map",
-                      .what = "the RTL walks an ellipse's windows one by one and can leave none out",
-                      .expected = "off where ellipse.frac_bits is above 0",
+                      .what = "the RTL cannot skip windows of an ellipse",
+                      .expected = "off if ellipse.frac_bits is above 0",
                       .got = text_of(config, *find_key("cull.map")),
                       .fix = "use the model for this configuration"};
   }
@@ -97,8 +97,8 @@ std::optional<ErrorParts> rtl_violation(const Config& config) {
   if (config.opacity_segments < 2)
     return refuse("opacity.segments", "the RTL needs a segment bit", "at least 2", config.opacity_segments);
   if (config.opacity_remainder_bits() < 1) {
-    return refuse("opacity.segments", "the RTL interpolates over at least one bit", "sheet bits - log2(segments) >= 1",
-                  config.opacity_remainder_bits());
+    return refuse("opacity.segments", "the RTL's interpolation needs at least one bit",
+                  "sheet bits - log2(segments) >= 1", config.opacity_remainder_bits());
   }
   const int blocks = config.tile_width / config.lanes * (config.tile_height / config.lanes);
   if (blocks > 1024)
@@ -106,7 +106,7 @@ std::optional<ErrorParts> rtl_violation(const Config& config) {
                   blocks);
   const int columns = config.tile_width / config.lanes;
   if (!std::has_single_bit(static_cast<unsigned>(columns))) {
-    return refuse("tile.width", "the RTL addresses blocks by shifts", "tile.width / array.lanes a power of two",
+    return refuse("tile.width", "the RTL addresses blocks with shifts", "tile.width / array.lanes a power of two",
                   columns);
   }
   return std::nullopt;

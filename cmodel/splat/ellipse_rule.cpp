@@ -19,7 +19,7 @@ std::optional<ErrorParts> ellipse_violation(const Config& config, const EllipseR
   const EllipseWindows& windows = record.windows;
   const std::int64_t product = 4 * std::int64_t{shape.a} * shape.c, square = std::int64_t{shape.b} * shape.b;
   if (product < square)
-    return wrong("no ellipse: q would be negative somewhere", "4 A C >= B^2 = " + std::to_string(square), product);
+    return wrong("invalid ellipse: q would be negative somewhere", "4 A C >= B^2 = " + std::to_string(square), product);
   const std::int64_t right = windows.left + std::int64_t{windows.columns} * config.lanes,
                      bottom = windows.top + std::int64_t{windows.rows} * config.lanes;
   if (std::max(right, bottom) > kEllipseReach)
@@ -35,8 +35,8 @@ std::optional<ErrorParts> ellipse_violation(const Config& config, const EllipseR
                                shape.shift;
   const std::int64_t most = (config.rlut_rim() * config.lanes * config.lanes) << 8;
   if (largest < most) return std::nullopt;
-  return wrong("windows reach too far beyond the rim: q at a corner", "below 256 P^2 N 2^g = " + std::to_string(most),
-               largest);
+  return wrong("windows reach too far beyond the footprint: q at a corner",
+               "below 256 P^2 N 2^g = " + std::to_string(most), largest);
 }
 
 }  // namespace fastsplat::cmodel

@@ -19,11 +19,11 @@ inline std::string version_message(std::int64_t got) {
 }
 
 // By what is wrong: the file, when or by whom it was written, or the configuration it is given to.
-inline constexpr const char* kDamagedStream = "the stream is damaged or cut: copy or record it again";
+inline constexpr const char* kDamagedStream = "the stream is damaged or truncated: copy or record it again";
 inline constexpr const char* kMiswrittenStream =
-    "docs/stream.md has the rule: correct what wrote the stream, or record it again";
+    "see the rule in docs/stream.md: correct the program that wrote the stream, or record it again";
 inline constexpr const char* kOtherVersion = "record it again";
 inline constexpr const char* kForeignStream =
-    "give the configuration it was recorded with, or record it again with this one";
+    "use the configuration it was recorded with, or record it again with this one";
 
 }  // namespace fastsplat::cmodel

@@ -14,7 +14,7 @@ namespace fastsplat::cmodel {
 #define FASTSPLAT_STREAM_RULES(X)                                                                                  \
   X(None, 0, NONE, "nothing was refused")                                                                          \
   X(Opcode, 1, OPCODE, "the opcode is a record's")                                                                 \
-  X(Order, 2, ORDER, "the grammar: the record may come here")                                                      \
+  X(Order, 2, ORDER, "the grammar: the record is allowed here")                                                    \
   X(Reserved, 3, RESERVED, "unnamed bits and words are 0")                                                         \
   X(Format, 4, FORMAT, "begin_frame: magic and version")                                                           \
   X(Configuration, 5, CONFIGURATION, "begin_frame: the hash is the device's")                                      \
@@ -28,16 +28,16 @@ namespace fastsplat::cmodel {
   X(Range, 13, RANGE, "splat, ellipse: x, y and colours fit their formats")                                        \
   X(Tag, 14, TAG, "splat, ellipse: tags count 0, 1, 2, ... within the tile")                                       \
   X(Cull, 15, CULL, "cull_block: width and height are at least 1")                                                 \
-  X(EndNumber, 16, END_NUMBER, "end_sheet, end_tile: the number of what they end")                                 \
-  X(EndCount, 17, END_COUNT, "end_sheet, end_tile: the count of splats, of sheets")                                \
+  X(EndNumber, 16, END_NUMBER, "end_sheet, end_tile: the number of the sheet or tile")                             \
+  X(EndCount, 17, END_COUNT, "end_sheet, end_tile: the count of splats or sheets")                                 \
   X(Shape, 18, SHAPE,                                                                                              \
     "ellipse: 4 A C is at least B^2, its windows' far side within reach, q in range at their corners")             \
   X(Promise, 19, PROMISE,                                                                                          \
-    "cull_block, where cull.map is not off: its tag, the windows of its splats within its rectangle, all of them " \
-    "before end_sheet, no more of them open than the device has room for, at most 2^31 splats promised")           \
+    "cull_block, unless cull.map is off: its tag, its splats' windows within its rectangle, all its splats "       \
+    "before end_sheet, no more open cull_blocks than the device supports, at most 2^31 open splats")               \
   X(Whole, 255, WHOLE,                                                                                             \
-    "a whole stream: tile numbers 0, 1, 2, ..., all tiles, the number of beats, the checksum, nothing behind or "  \
-    "missing")
+    "a whole stream: tile numbers 0, 1, 2, ..., all tiles, the number of beats, the checksum, nothing missing or " \
+    "extra")
 
 enum class StreamRule : std::uint8_t {
 #define X(name, number, register_name, meaning) name = number,

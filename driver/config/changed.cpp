@@ -19,7 +19,7 @@ std::string set(cmodel::Config& config, const std::string& change) {
   const auto equals = change.find('=');
   if (equals == std::string::npos || equals == 0) {
     misused(change, {.where = {},
-                     .what = "sets nothing",
+                     .what = "not a setting",
                      .expected = "KEY=VALUE",
                      .got = {},
                      .fix = "for example --set radial.entries=256; `fastsplat config show base` lists the keys"});

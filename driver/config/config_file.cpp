@@ -47,8 +47,7 @@ std::string to_toml(const cmodel::Config& config) {
     lines->second += fmt::format(
         "{:40} # {}{}{}: {}\n",
         fmt::format("{}{} = {}", neutral ? "# " : "", name.substr(dot + 1), key.names.empty() ? value : quoted(value)),
-        cmodel::allowed(key), key.power_of_two ? ", a power of two" : "", key.neutral ? ", may be absent" : "",
-        key.meaning);
+        cmodel::allowed(key), key.power_of_two ? ", a power of two" : "", key.neutral ? ", optional" : "", key.meaning);
   }
   for (const auto& [table, lines] : tables) text += fmt::format("\n[{}]\n{}", table, lines);
   return text;

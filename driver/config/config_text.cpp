@@ -23,7 +23,7 @@ std::vector<std::string> key_names() {
 std::string text_value(const std::string& file, const toml::node& node, const std::string& key) {
   if (const auto value = node.value_exact<std::string>()) return *value;
   throw_input({.where = place(file, node.source()),
-               .what = key + " is not text",
+               .what = key + " has the wrong type",
                .expected = "a string",
                .got = {},
                .fix = "write " + key + " = \"...\""});
@@ -49,8 +49,8 @@ void refuse_unspeakable(const std::string& file, const toml::node& node, const s
   const bool blank = name.find_first_not_of(' ') == std::string::npos;
   if (!blank && odd == name.end()) return;
   throw_input({.where = place(file, node.source()),
-               .what = "name is no name",
-               .expected = "at least one character, and none that ends or moves a line",
+               .what = "invalid name",
+               .expected = "at least one visible character and no control characters",
                .got = blank ? "nothing" : fmt::format("character {:#04x}", static_cast<unsigned char>(*odd)),
                .fix = "for example name = \"mine\""});
 }

@@ -100,7 +100,7 @@ void require_stream(const Beat& first) {
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& path) : path_(path) {
-    require_regular_file(path, "check the name; 'fastsplat stream record' makes one");
+    require_regular_file(path, "check the name, or write one with 'fastsplat stream record'");
     in_.open(path, std::ios::binary);
     if (!in_) cannot_read(std::strerror(errno));
     std::error_code error;
@@ -199,14 +199,14 @@ void check_end(std::uint64_t number, const Beat& beat, const cmodel::Crc32& crc)
   const auto end = std::get<cmodel::EndFrame>(cmodel::from_beat(beat));
   if (end.beats != number) {
     throw_input({.where = cmodel::beat_place(number),
-                 .what = "end_frame counts other beats than came before it",
+                 .what = "end_frame has the wrong number of beats",
                  .expected = std::to_string(number),
                  .got = std::to_string(end.beats),
                  .fix = cmodel::kDamagedStream});
   }
   if (end.crc != crc.value()) {
     throw_input({.where = cmodel::beat_place(number),
-                 .what = "corrupt: not the checksum of the beats before",
+                 .what = "corrupt: wrong checksum of the preceding beats",
                  .expected = hex(crc.value()),
                  .got = hex(end.crc),
                  .fix = cmodel::kDamagedStream});
@@ -262,7 +262,7 @@ void check_image_size(int width, int height) {
   const std::int64_t pixels = std::int64_t{width} * height;
   if (pixels <= kMostImagePixels) return;
   throw_usage({.where = "--size",
-               .what = "too large for a recorded stream",
+               .what = "image too large for a stream file",
                .expected = fmt::format("at most {} pixels, 8192x8192", kMostImagePixels),
                .got = fmt::format("{} pixels, {}x{}", pixels, width, height),
                .fix = "record it at a smaller --size"});

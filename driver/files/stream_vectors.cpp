@@ -204,9 +204,9 @@ bool make_folder(const std::filesystem::path& folder) {
   std::error_code ignored;
   const bool in_the_way = lies && std::filesystem::exists(plain, ignored);
   throw_input({.where = folder.string(),
-               .what = "cannot be made a folder: " + (!lies        ? "the folder " + parent.string() + " does not exist"
-                                                      : in_the_way ? "it is a file"
-                                                                   : error.message()),
+               .what = "cannot create the folder: " + (!lies ? "the folder " + parent.string() + " does not exist"
+                                                       : in_the_way ? "it is a file"
+                                                                    : error.message()),
                .expected = {},
                .got = {},
                .fix = "choose another name"});

@@ -94,7 +94,7 @@ void CoverRule::see(const cmodel::Beat& beat) {
         throw_input({.where = cmodel::beat_place(number),
                      .what = "tiles do not cover the image",
                      .expected = "every pixel in a tile",
-                     .got = std::to_string(missing) + (missing == 1 ? " pixel in none" : " pixels in none"),
+                     .got = std::to_string(missing) + (missing == 1 ? " pixel uncovered" : " pixels uncovered"),
                      .fix = cmodel::kMiswrittenStream});
       }
       break;

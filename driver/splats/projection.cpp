@@ -125,12 +125,11 @@ void join(std::vector<Piece>& pieces, int slices, int threads, Projected& to) {
 void check_textures(const scene::TexturedSplats& textures, const scene::Scene& scene, const cmodel::Config& config) {
   if (textures.phases().empty()) return;
   if (draws_ellipses(scene, config)) {
-    throw_usage(
-        {.where = "splat_texture.amplitude",
-         .what = "the device has no pictures in ellipses",
-         .expected = "circles, or plain splats",
-         .got = "splats with shapes of their own",
-         .fix = "use --splat-texture 0, or circles without anti-aliasing, motion and lens, or --engine golden"});
+    throw_usage({.where = "splat_texture.amplitude",
+                 .what = "the device cannot draw textured ellipses",
+                 .expected = "circles, or splats without texture",
+                 .got = "ellipses",
+                 .fix = "use --splat-texture 0, circles without anti-aliasing, motion and lens, or --engine golden"});
   }
   if (config.radial_int_bits > 0) return;
   throw_usage({.where = "configuration " + config.name,
@@ -148,7 +147,7 @@ void check_reach(double reach, const cmodel::Config& config) {
   if (reach <= widest) return;
   throw_usage(
       {.where = "configuration " + config.name,
-       .what = "a footprint is wider than the device takes",
+       .what = "a footprint is too wide for the device",
        .expected = fmt::format("half sides of at most {} pixels (rlut.columns = {})", widest, config.rlut_columns),
        .got = fmt::format("{:.2f} pixels", reach),
        .fix = "use a smaller --size, --zoom or blur, or a configuration with more rlut.columns"});

@@ -125,11 +125,13 @@ void check_densities(const scene::Scene& scene) {
   if (!holds_densities(scene.description)) return;
   const double base = scene.volume->min;
   if (scene::Classifier(scene.transfer_function, *scene.volume).transparent(base, base)) return;
-  throw_usage({.where = "--classify post",
-               .what = "the transfer function shows the volume's least value, and a device knows no end of the volume",
-               .expected = "no opacity there",
-               .got = {},
-               .fix = "use --engine golden, or a transfer function that begins clear"});
+  throw_usage(
+      {.where = "--classify post",
+       .what =
+           "the transfer function shows the volume's smallest value, and a device cannot tell where the volume ends",
+       .expected = "opacity 0 at the smallest value",
+       .got = {},
+       .fix = "use --engine golden, or a transfer function that starts with opacity 0"});
 }
 
 std::vector<cmodel::LoadTable> density_tables(const cmodel::Config& config, const scene::Scene& scene,

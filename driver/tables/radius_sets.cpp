@@ -19,7 +19,7 @@ RadiusSets::RadiusSets(const cmodel::Config& config, double smallest, double lar
     : smallest_(smallest) {
   if (pictures > static_cast<std::size_t>(config.rlut_sets)) {
     throw_usage({.where = "splat_texture.phases",
-                 .what = "each picture of a textured splat needs a set of its own",
+                 .what = "each phase of a textured splat needs its own radius set",
                  .expected = fmt::format("at most rlut.sets = {}", config.rlut_sets),
                  .got = fmt::format("{}", pictures),
                  .fix = "use fewer --splat-phases, or a larger rlut.sets"});

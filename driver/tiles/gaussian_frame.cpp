@@ -25,10 +25,10 @@ scene::Kernel kernel_of(const scene::GaussianScene& scene) { return {0.5, scene.
 const cmodel::Config& checked(const cmodel::Config& config) {
   if (config.has_ellipses() && config.composite_every_sample != 0) return config;
   throw_usage({.where = "configuration " + config.name,
-               .what = "3-D Gaussians are ellipses composited one by one, which it cannot",
+               .what = "cannot composite ellipses one by one, as 3-D Gaussians require",
                .expected = "ellipse.frac_bits above 0 and composite.every_sample = 1",
                .got = {},
-               .fix = "leave --config out, or --config ellipse --set composite.every_sample=1"});
+               .fix = "leave --config out, or use --config ellipse --set composite.every_sample=1"});
 }
 
 /// Some of the Gaussian's pixels in the picture lie beyond the reach of a record.

@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
       "usage: fastsplat_emit_package [--hash] CONFIG\n"
       "The SystemVerilog package of a configuration (a name or a .toml file), to standard output; with --hash its "
       "hash.\n"
-      "Exit codes: 0, 2 usage, 3 no such configuration, or no RTL can be built of it.\n";
+      "Exit codes: 0, 2 usage, 3 no such configuration, or no RTL can be built from it.\n";
   if (argc == 2 && std::strcmp(argv[1], "--help") == 0) {
     std::fputs(kUsage, stdout);
     return 0;

@@ -34,12 +34,12 @@ std::vector<Gate> compare(const Figures& f) {
   for (const Json& limit : f.list("limits")) {
     const std::string place = fmt::format("limits/{}", at++);
     const std::string name = member(f, limit, place, "name");
-    gates.push_back({.name = name,
-                     .status = held(f.flag(place + "/ok")),
-                     .message = fmt::format("{} is {}, {} {} allowed", name, number_text(f.at(place + "/got")),
-                                            name.starts_with("min_") ? "no less than" : "no more than",
-                                            number_text(f.at(place + "/limit"))),
-                     .command = {}});
+    gates.push_back(
+        {.name = name,
+         .status = held(f.flag(place + "/ok")),
+         .message = fmt::format("{} is {}, required is {} {}", name, number_text(f.at(place + "/got")),
+                                name.starts_with("min_") ? "at least" : "at most", number_text(f.at(place + "/limit"))),
+         .command = {}});
   }
   return gates;
 }
@@ -106,7 +106,7 @@ std::vector<Gate> cycles(const Figures& f) {
   const std::uint64_t actual = f.count("cycles/actual");
   return {{.name = "ideal + losses = actual",
            .status = held(sum == actual),
-           .message = fmt::format("the account adds up to {} of {} cycles", sum, actual),
+           .message = fmt::format("the account sums to {} of {} cycles", sum, actual),
            .command = {}}};
 }
 
@@ -122,11 +122,11 @@ std::vector<Gate> errors(const Figures& f) {
   const bool errs = f.number("total/rms_lsb8") > 0.0;
   return {{.name = "shares of the steps = 1",
            .status = held(!errs || std::abs(share - 1.0) <= kSumTolerance),
-           .message = fmt::format("the shares of {} steps add up to {:.9g}", steps, share),
+           .message = fmt::format("the shares of {} steps sum to {:.9g}", steps, share),
            .command = {}},
           {.name = "biases of the steps = bias",
            .status = held(std::abs(bias - total) <= kSumTolerance * (1.0 + std::abs(total))),
-           .message = fmt::format("they add up to {:.9g} LSB of 8 bits, the picture's is {:.9g}", bias, total),
+           .message = fmt::format("they sum to {:.9g} LSB of 8 bits; the picture's bias is {:.9g}", bias, total),
            .command = {}}};
 }
 
@@ -201,7 +201,7 @@ std::vector<Gate> closure(const Figures& f) {
                                             f.count(place + "bins/all"), f.list(place + "tests").size()),
                      .command = {}});
   }
-  findings("bins and tests", "open/testpoints", "none is open");
+  findings("bins and tests", "open/testpoints", "none open");
   findings("lines and branches", "open/lines",
            fmt::format("{} of {} reached, {} excused", f.count("lines/reached"), f.count("lines/all"),
                        f.count("lines/excused")));

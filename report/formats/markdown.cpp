@@ -74,8 +74,8 @@ std::string table_text(const Table& table) {
     text += row_text(cells);
   }
   if (table.rows.size() > kMostRows || all > kMostColumns) {
-    text += fmt::format("\n{} of {} rows, {} of {} columns; `--csv` has all.\n", std::min(table.rows.size(), kMostRows),
-                        table.rows.size(), columns.size(), all);
+    text += fmt::format("\n{} of {} rows, {} of {} columns; `--csv` writes all.\n",
+                        std::min(table.rows.size(), kMostRows), table.rows.size(), columns.size(), all);
   }
   return text;
 }

@@ -14,7 +14,8 @@ namespace fastsplat::scene {
 void check_gaussian(const Gaussian& gaussian, std::span<const glm::vec3> harmonics, const std::string& where) {
   const std::string fault = fault_of(gaussian, harmonics);
   if (fault.empty()) return;
-  throw_input({.where = where, .what = "its " + fault, .expected = {}, .got = {}, .fix = "the file is damaged"});
+  throw_input(
+      {.where = where, .what = "a Gaussian's " + fault, .expected = {}, .got = {}, .fix = "the file is damaged"});
 }
 
 std::vector<std::filesystem::path> files_of_gaussians(const std::string& name_or_path) {
@@ -34,7 +35,7 @@ GaussianCloud load_gaussians(const std::string& name_or_path) {
   if (ending == ".ply") return read_gaussian_ply(files[0]);
   if (ending == ".splat") return read_splat_file(files[0]);
   throw_input({.where = name_or_path,
-               .what = "not a file of 3-D Gaussians by its ending, nor a built-in scene",
+               .what = "neither a file of 3-D Gaussians nor a built-in scene",
                .expected = fmt::format(".ply or .splat, or {}", fmt::join(synthetic_gaussian_names(), ", ")),
                .got = {},
                .fix = "for example --gaussians shells:2000"});

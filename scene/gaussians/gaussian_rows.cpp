@@ -13,7 +13,7 @@ std::string fault_of_rotation(const glm::dvec4& rotation) {
   for (int i = 0; i < 4; ++i)
     if (!std::isfinite(rotation[i])) return fmt::format("rot_{} is not finite", i);
   const double length = glm::length(rotation);
-  return length > 0.0 && std::isfinite(length) ? "" : "rot_0 to rot_3 give no direction";
+  return length > 0.0 && std::isfinite(length) ? "" : "rotation (rot_0 to rot_3) is zero or too large";
 }
 
 /// The name of channel `c` of harmonic `i`, of `count` a channel.
@@ -57,14 +57,14 @@ void GaussianRows::end() {
   if (dropped_ == 0) return;
   if (dropped_ < rows_) {
     to_.remarks.push_back(
-        fmt::format("{} of {} Gaussians cannot be drawn and were dropped; the first is Gaussian {} (from 0), whose {}",
+        fmt::format("{} of {} Gaussians cannot be drawn and were dropped; the first is Gaussian {} (from 0): its {}",
                     dropped_, rows_, first_, first_fault_));
     return;
   }
   throw_input({.where = where_,
-               .what = fmt::format("none of its {} Gaussians can be drawn", rows_),
-               .expected = "finite numbers, and a rotation that is not 0",
-               .got = fmt::format("Gaussian 0, whose {}", first_fault_),
+               .what = fmt::format("none of the {} Gaussians can be drawn", rows_),
+               .expected = "finite numbers and a non-zero rotation",
+               .got = fmt::format("Gaussian 0: its {}", first_fault_),
                .fix = "the file is damaged, or its training failed: write or download it again"});
 }
 

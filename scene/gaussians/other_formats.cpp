@@ -29,8 +29,8 @@ constexpr const char* kExport = "export its Gaussians as .ply";
 constexpr std::array kFormats{
     Format{".spz", "an .spz file, Niantic's packed Gaussians", kConvert},
     Format{".ksplat", "a .ksplat file of GaussianSplats3D", kConvert},
-    Format{".sog", "a .sog file, PlayCanvas' Gaussians in pictures", kConvert},
-    Format{".json", "a .json file, perhaps the meta.json of an unpacked .sog", kConvert},
+    Format{".sog", "a .sog file, PlayCanvas' Gaussians packed in pictures", kConvert},
+    Format{".json", "a .json file (perhaps the meta.json of an unpacked .sog)", kConvert},
     Format{".lcc", "an .lcc file of XGRIDS", kConvert},
     Format{".gz", "a gzip file", "unpack it with gunzip"},
     Format{".zip", "a zip archive", "unpack it and name the .ply inside"},
@@ -90,7 +90,7 @@ const char* ending_by_content(std::string_view head, const std::string& ending) 
 [[noreturn]] void refuse_format(const std::filesystem::path& path, const std::string& what, const std::string& fix) {
   require_regular_file(path);
   throw_input({.where = path.string(),
-               .what = "this is " + what + ", which is not read",
+               .what = "unsupported format: " + what + "",
                .expected = ".ply or .splat",
                .got = {},
                .fix = fix});
@@ -136,7 +136,7 @@ void refuse_other_formats(const std::filesystem::path& path, std::string_view he
                       fmt::format(fmt::runtime(format->fix), named.string(), made.string()));
   }
   if (ending != ".splat" && looks_like_splat(head))
-    refuse_format(path, "a .splat file by its content, under another ending", "rename it to end in .splat");
+    refuse_format(path, "a .splat file with another extension", "rename it to .splat");
 }
 
 }  // namespace fastsplat::scene

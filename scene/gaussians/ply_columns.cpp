@@ -27,12 +27,13 @@ std::string listed(const std::vector<std::string>& names) {
 /// Vertices with every property of a Gaussian that are something else all the same.
 void refuse_other_kinds(const PlyElement& vertices, const std::string& where) {
   const auto refuse = [&](const char* what, const char* got, const char* fix) {
-    throw_input({.where = where, .what = what, .expected = "the Gaussians of a scene", .got = got, .fix = fix});
+    throw_input(
+        {.where = where, .what = what, .expected = "Gaussians with positions in the scene", .got = got, .fix = fix});
   };
   if (any_named(vertices, "f_anchor_feat"))
-    refuse("its vertices are the anchors of Scaffold-GS", "f_anchor_feat_0", "export the Gaussians made from them");
+    refuse("the vertices are anchors of Scaffold-GS", "f_anchor_feat_0", "export the Gaussians generated from them");
   if (any_named(vertices, "binding"))
-    refuse("its Gaussians are bound to a mesh", "the property binding", "export them with positions in the scene");
+    refuse("the Gaussians are bound to a mesh", "the property binding", "export them with positions in the scene");
 }
 
 }  // namespace
@@ -46,7 +47,7 @@ PlyColumns::PlyColumns(const PlyElement& vertices, std::string where) : where_(s
   find_rest(vertices);
   for (std::size_t i = 0; i < 2; ++i) scale_[i] = column(vertices, fmt::format("scale_{}", i));
   scale_[2] = vertices.find("scale_2");
-  if (!scale_[2]) remarks_.emplace_back("its Gaussians have two scales: they are drawn as discs, 1e-6 thick");
+  if (!scale_[2]) remarks_.emplace_back("the Gaussians have two scales: they are drawn as discs, 1e-6 thick");
   filter_ = vertices.find("filter_3D");
   if (!filter_) filter_ = vertices.find("filter_3d");
   find_unused(vertices);
@@ -62,7 +63,7 @@ std::size_t PlyColumns::column(const PlyElement& vertices, const std::string& na
                .expected = "x y z, scale_0..2, rot_0..3, opacity, f_dc_0..2 or red green blue of every vertex",
                .got = listed(names),
                .fix = trained ? "export the trained Gaussians with all of these"
-                              : "it is a point cloud or a mesh: train 3-D Gaussians from it"});
+                              : "this is a point cloud or a mesh: train 3-D Gaussians from it"});
 }
 
 void PlyColumns::find_colour(const PlyElement& vertices) {
@@ -82,7 +83,7 @@ void PlyColumns::find_colour(const PlyElement& vertices) {
       return;
     default:
       throw_input({.where = where_,
-                   .what = "the property red has a type without a white",
+                   .what = "unsupported type of the property red",
                    .expected = "uchar, ushort, float or double",
                    .got = "another integer type",
                    .fix = "write the colours as uchar, or as f_dc_0..2"});
@@ -96,10 +97,10 @@ void PlyColumns::find_rest(const PlyElement& vertices) {
   while (degree_ < kMostDegree && named != 3U * (harmonic_count(degree_) - 1U)) ++degree_;
   if (named == 3U * (harmonic_count(degree_) - 1U)) return;
   throw_input({.where = where_,
-               .what = "not as many f_rest_ as spherical harmonics of a degree have",
-               .expected = "0, 9, 24 or 45 of them",
+               .what = "the number of f_rest_ properties matches no degree of spherical harmonics",
+               .expected = "0, 9, 24 or 45",
                .got = fmt::format("{}", named),
-               .fix = "harmonics above degree 3 are not known"});
+               .fix = "reduce the harmonics to degree 3 or less"});
 }
 
 void PlyColumns::find_unused(const PlyElement& vertices) {
@@ -117,15 +118,15 @@ void PlyColumns::find_unused(const PlyElement& vertices) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < used.size(); ++i)
     if (!used[i]) names.push_back(vertices.properties[i].name);
-  if (!names.empty()) remarks_.push_back("these properties are not known and were not used: " + listed(names));
+  if (!names.empty()) remarks_.push_back("these properties are unknown and were not used: " + listed(names));
 }
 
 std::vector<std::string> PlyColumns::remarks() const {
   std::vector<std::string> all = remarks_;
   if (!encoded_)
     all.emplace_back(
-        "all its scales are above 0 and all its opacities within 0..1, and were taken as logarithms and logits: check "
-        "that they are");
+        "all scales are above 0 and all opacities within 0..1; they were read as logarithms and logits: check that "
+        "this is right");
   return all;
 }
 

@@ -52,7 +52,7 @@ void read_colour_space(const PlyElement& element, PlyRows& rows, GaussianCloud& 
   for (std::uint64_t i = 0; i < element.count; ++i) rows.read(element, i, row);
   to.linear = row[0] == 1.0;
   if (row[0] != 0.0 && row[0] != 1.0)
-    to.remarks.push_back(fmt::format("its colour space {:g} is not known: colours are taken as sRGB", row[0]));
+    to.remarks.push_back(fmt::format("unknown colour space {:g}: colours are read as sRGB", row[0]));
 }
 
 /// Reads the vertices and passes over other elements. False behind a list, whose end only its data say.
@@ -60,8 +60,8 @@ bool read_elements(const PlyHeader& header, PlyRows& rows, const std::string& wh
   bool read = false, moves = false;
   for (const PlyElement& element : header.elements) {
     if (element.has_list && !read)
-      refuse_scene(where, "the element " + element.name + " holds a list, whose length only its data say",
-                   "numbers only, as trainers write them", {}, "write the Gaussians without it");
+      refuse_scene(where, "the element " + element.name + " holds a list of variable length", "numbers only", {},
+                   "write the file without this element");
     if (element.has_list) return false;
     if (element.name == "vertex") {
       read_vertices(element, rows, where, to);
@@ -70,7 +70,7 @@ bool read_elements(const PlyHeader& header, PlyRows& rows, const std::string& wh
       read_colour_space(element, rows, to);
     } else {
       if (element.name.starts_with("delta_vertex_") && !std::exchange(moves, true))
-        to.remarks.emplace_back("its Gaussians move (delta_vertex_): they are drawn as they are first");
+        to.remarks.emplace_back("the Gaussians move (delta_vertex_): their first positions are drawn");
       rows.skip(element);
     }
   }
@@ -109,15 +109,15 @@ GaussianCloud read_gaussian_ply(const std::filesystem::path& path) {
   const PlyElement* const vertices = header.find("vertex");
   if (vertices == nullptr)
     refuse_scene(where, "the header has no element vertex", "element vertex COUNT", {},
-                 "check that this is the file you meant");
+                 "check that this is the right file");
   const PlyHints hints = hints_of(header.comments);
   GaussianCloud cloud{.name = path.filename().string(), .source = where};
   cloud.up = hints.up, cloud.antialiased = hints.antialiased, cloud.linear = hints.linear;
   cloud.remarks = hints.remarks;
   PlyRows rows(header, text, where);
   if (vertices->count == 0)
-    refuse_scene(where, "the file holds no Gaussian", "element vertex COUNT with at least 1", "0",
-                 "check that this is the file you meant");
+    refuse_scene(where, "the file holds no Gaussians", "element vertex COUNT with at least 1", "0",
+                 "check that this is the right file");
   bool whole = true;
   if (is_packed(header)) {
     read_packed(header, rows, where, cloud);
@@ -126,10 +126,11 @@ GaussianCloud read_gaussian_ply(const std::filesystem::path& path) {
   }
   const std::size_t left = whole ? rows.require_end() : 0;
   if (left >= vertices->row_bytes())
-    cloud.remarks.push_back(fmt::format("{} empty bytes behind its last row were not used", left));
+    cloud.remarks.push_back(fmt::format("{} empty bytes after the last row were ignored", left));
   if (hints.degree && *hints.degree != cloud.degree)
-    cloud.remarks.push_back(fmt::format("its header says SH degree {}, its properties are of degree {}, which is drawn",
-                                        *hints.degree, cloud.degree));
+    cloud.remarks.push_back(
+        fmt::format("the header declares SH degree {}, but the properties have degree {}, which is drawn",
+                    *hints.degree, cloud.degree));
   return cloud;
 }
 

@@ -76,8 +76,9 @@ class Lines {
     ++number_;
     const std::size_t end = text_.substr(0, std::min(text_.size(), at_ + kLongest)).find('\n', at_);
     if (end == std::string_view::npos) {
-      refuse("the header has no end", "a line end_header", at_ == text_.size() ? "the end of the file" : "no line end",
-             "the file is cut, or is no PLY");
+      refuse("the header has no end", "a line end_header",
+             at_ == text_.size() ? "the end of the file" : "a line without end",
+             "the file is truncated or not a PLY file: write or download it again");
     }
     std::string_view line = text_.substr(at_, end - at_);
     at_ = end + 1;
@@ -98,15 +99,15 @@ PlyFormat format_of(const Lines& lines, const std::vector<std::string>& words) {
     if (words[1] == "binary_little_endian") return PlyFormat::LittleEndian;
     if (words[1] == "binary_big_endian") return PlyFormat::BigEndian;
   }
-  lines.refuse("not a format of PLY", "format " + known, fmt::format("'{}'", fmt::join(words, " ")),
-               "save it in one of these");
+  lines.refuse("unknown PLY format", "format " + known, fmt::format("'{}'", fmt::join(words, " ")),
+               "save the file in one of these formats");
 }
 
 PlyElement element_of(const Lines& lines, const std::vector<std::string>& words) {
   const auto count = words.size() == 3 ? integer_from<std::uint64_t>(words[2]) : std::nullopt;
   if (!count) {
-    lines.refuse("not an element", "element NAME COUNT", fmt::format("'{}'", fmt::join(words, " ")),
-                 "the header is damaged");
+    lines.refuse("invalid element", "element NAME COUNT", fmt::format("'{}'", fmt::join(words, " ")),
+                 "the header is damaged: write or download the file again");
   }
   return {.name = words[1], .count = *count, .properties = {}};
 }
@@ -119,12 +120,12 @@ void add_property(const Lines& lines, const std::vector<std::string>& words, Ply
   }
   const auto type = words.size() == 3 ? type_named(words[1]) : std::nullopt;
   if (!type) {
-    lines.refuse("not a property", "property TYPE NAME with a type such as float",
-                 fmt::format("'{}'", fmt::join(words, " ")), "the header is damaged");
+    lines.refuse("invalid property", "property TYPE NAME with a type such as float",
+                 fmt::format("'{}'", fmt::join(words, " ")), "the header is damaged: write or download the file again");
   }
   for (const PlyProperty& other : to.properties) {
     if (other.name == words[2])
-      lines.refuse(fmt::format("the property {} is there twice", other.name), {}, {}, "leave one out");
+      lines.refuse(fmt::format("the property {} is given twice", other.name), {}, {}, "remove one of them");
   }
   to.properties.push_back({words[2], *type});
 }
@@ -156,7 +157,7 @@ const PlyElement* PlyHeader::find(std::string_view element) const {
 PlyHeader read_ply_header(std::string_view text, const std::string& where) {
   Lines lines(text, where);
   if (lines.next() != std::vector<std::string>{"ply"})
-    lines.refuse("not a PLY file", "a first line 'ply'", "another", "check that this is the file you meant");
+    lines.refuse("not a PLY file", "a first line 'ply'", "another", "check that this is the right file");
   PlyHeader header;
   header.format = format_of(lines, lines.next());
   while (true) {
@@ -165,13 +166,13 @@ PlyHeader read_ply_header(std::string_view text, const std::string& where) {
     if (words[0] == "element") {
       PlyElement element = element_of(lines, words);
       if (header.find(element.name) != nullptr)
-        lines.refuse(fmt::format("the element {} is there twice", element.name), {}, {}, "leave one out");
+        lines.refuse(fmt::format("the element {} is given twice", element.name), {}, {}, "remove one of them");
       header.elements.push_back(std::move(element));
     } else if (words[0] == "property" && !header.elements.empty()) {
       add_property(lines, words, header.elements.back());
     } else {
-      lines.refuse("not a line of a PLY header", "comment, element, property or end_header", "'" + words[0] + "'",
-                   "the header is damaged");
+      lines.refuse("unknown line in a PLY header", "comment, element, property or end_header", "'" + words[0] + "'",
+                   "the header is damaged: write or download the file again");
     }
   }
   header.comments = lines.comments();

@@ -89,15 +89,15 @@ class Reader {
     if (hint.key == "shdegree") out_.degree = integer_from<int>(hint.value);
     const bool activated = has(hint.value, "linear") || has(hint.value, "activated") || has(hint.value, "identity");
     if ((hint.key.starts_with("scale") || hint.key.starts_with("scaling")) && activated)
-      refuse_to_follow(hint, "scales are taken as logarithms");
-    if (hint.key.starts_with("opacit") && activated) refuse_to_follow(hint, "opacities are taken as logits");
-    if (has(hint.value, "xyzw")) refuse_to_follow(hint, "rotations are taken as w x y z");
+      refuse_to_follow(hint, "scales are read as logarithms");
+    if (hint.key.starts_with("opacit") && activated) refuse_to_follow(hint, "opacities are read as logits");
+    if (has(hint.value, "xyzw")) refuse_to_follow(hint, "rotations are read as w x y z");
   }
   PlyHints result() { return std::move(out_); }
 
  private:
   void refuse_to_follow(const Hint& hint, const std::string& instead) {
-    out_.remarks.push_back(fmt::format("its header says '{}', which is not followed: {}", hint.text, instead));
+    out_.remarks.push_back(fmt::format("the header's '{}' is not supported: {}", hint.text, instead));
   }
   void up(const Hint& hint) {
     auto axis = axis_named(hint.value);
@@ -112,33 +112,33 @@ class Reader {
       if (hint.marked) refuse_to_follow(hint, "use --up AXIS");
       return;
     }
-    if (out_.up && out_.up != axis) refuse_to_follow({.text = "two vertical axes"}, "the last one counts");
+    if (out_.up && out_.up != axis) refuse_to_follow({.text = "two vertical axes"}, "the last one is used");
     out_.up = axis;
   }
   void mode(const Hint& hint) {
     out_.antialiased = is_one_of(hint.value, {"mip", "antialiased"});
-    if (hint.value == "2dgs") return refuse_to_follow(hint, "its discs are drawn as flat 3-D Gaussians");
+    if (hint.value == "2dgs") return refuse_to_follow(hint, "discs are drawn as flat 3-D Gaussians");
     if (!out_.antialiased && !is_one_of(hint.value, {"default", "classic"}))
-      refuse_to_follow(hint, "it is drawn as 'default'");
+      refuse_to_follow(hint, "drawn as 'default'");
   }
   void antialiased(const Hint& hint) {
     const bool on = is_one_of(hint.value, {"1", "true", "yes", "on"});
     if (on || is_one_of(hint.value, {"0", "false", "no", "off"})) {
       out_.antialiased = on;
     } else if (hint.marked) {
-      refuse_to_follow(hint, "it is drawn without");
+      refuse_to_follow(hint, "drawn without anti-aliasing");
     }
   }
   void colours(const Hint& hint) {
     out_.linear = has(hint.value, "linear");
-    if (!out_.linear && !has(hint.value, "srgb")) refuse_to_follow(hint, "colours are taken as sRGB");
+    if (!out_.linear && !has(hint.value, "srgb")) refuse_to_follow(hint, "colours are read as sRGB");
   }
   void gamma(const Hint& hint) {
     const auto value = number_from(hint.value);
     if (value == 1.0) {
       out_.linear = true;
     } else {
-      refuse_to_follow(hint, "colours are taken as sRGB");
+      refuse_to_follow(hint, "colours are read as sRGB");
     }
   }
 

@@ -18,10 +18,10 @@ constexpr std::size_t kChunk = 256;  // Gaussians
 [[noreturn]] void refuse_packed(const std::string& where, const std::string& what, const std::string& expected,
                                 const std::string& got) {
   throw_input({.where = where,
-               .what = "a compressed PLY of which " + what,
+               .what = "invalid compressed PLY: " + what,
                .expected = expected,
                .got = got,
-               .fix = "write it again, or as an uncompressed .ply"});
+               .fix = "write it again or as an uncompressed .ply"});
 }
 
 /// Where the properties stand in a row.
@@ -31,7 +31,7 @@ std::array<std::size_t, kCount> places(const PlyElement& element, const std::arr
   std::array<std::size_t, kCount> out{};
   for (std::size_t i = 0; i < kCount; ++i) {
     const auto found = element.find(names[i]);
-    if (!found) refuse_packed(where, fmt::format("the element {} is not whole", element.name), names[i], "none");
+    if (!found) refuse_packed(where, fmt::format("the element {} lacks a property", element.name), names[i], "none");
     out[i] = *found;
   }
   return out;
@@ -103,7 +103,7 @@ int degree_of(const PlyElement* sh, const std::string& where) {
   if (sh == nullptr) return 0;
   for (int degree = 1; degree <= kMostDegree; ++degree)
     if (sh->properties.size() == 3U * (harmonic_count(degree) - 1U)) return degree;
-  refuse_packed(where, "the element sh has other properties than a degree", "9, 24 or 45",
+  refuse_packed(where, "the number of properties of element sh matches no degree", "9, 24 or 45",
                 fmt::format("{}", sh->properties.size()));
 }
 
@@ -118,7 +118,7 @@ void read_packed(const PlyHeader& header, PlyRows& rows, const std::string& wher
   const std::size_t size = header.elements.size();
   const bool ordered = size >= 2 && size <= 3 && header.elements[0].name == "chunk" &&
                        header.elements[1].name == "vertex" && (size == 2 || header.elements[2].name == "sh");
-  if (!ordered) refuse_packed(where, "the elements are other ones", "chunk, vertex and sh, in this order", "others");
+  if (!ordered) refuse_packed(where, "wrong elements", "chunk, vertex and sh, in this order", "others");
   const PlyElement& vertices = header.elements[1];
   const PlyElement* const sh = size == 3 ? &header.elements[2] : nullptr;
   for (const PlyElement& element : header.elements)
@@ -127,14 +127,14 @@ void read_packed(const PlyHeader& header, PlyRows& rows, const std::string& wher
   const auto at = places(vertices, kWords, where);
   for (const std::size_t i : at)
     if (vertices.properties[i].type != PlyType::UInt32)
-      refuse_packed(where, "a packed word has another type", "uint", vertices.properties[i].name);
+      refuse_packed(where, "a packed word has the wrong type", "uint", vertices.properties[i].name);
   to.degree = degree_of(sh, where);
   if (sh != nullptr && sh->count != vertices.count)
-    refuse_packed(where, "not every Gaussian has harmonics", fmt::format("{} of sh", vertices.count),
-                  fmt::format("{}", sh->count));
+    refuse_packed(where, "the number of sh rows differs from the number of Gaussians",
+                  fmt::format("{} rows", vertices.count), fmt::format("{}", sh->count));
   const std::uint64_t chunks_wanted = vertices.count / kChunk + (vertices.count % kChunk != 0 ? 1 : 0);
   if (header.elements[0].count != chunks_wanted)
-    refuse_packed(where, "the chunks are not of 256 Gaussians", fmt::format("{} chunks", chunks_wanted),
+    refuse_packed(where, "wrong number of chunks of 256 Gaussians", fmt::format("{} chunks", chunks_wanted),
                   fmt::format("{}", header.elements[0].count));
 
   const std::vector<Chunk> chunks = chunks_of(header.elements[0], rows, where);

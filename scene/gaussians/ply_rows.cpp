@@ -34,11 +34,11 @@ void PlyRows::require(const PlyElement& element) const {
   const std::uint64_t row = ascii ? 2 * element.properties.size() : element.row_bytes();
   if (row == 0 || element.count <= (left + (ascii ? 1 : 0)) / row) return;
   throw_input({.where = fmt::format("{}, byte {}", where_, at_),
-               .what = "the file is shorter than its header says",
+               .what = "the file is shorter than its header declares",
                .expected = fmt::format("{}{} of '{}', {} bytes each", ascii ? "at least " : "", element.count,
                                        element.name, row),
                .got = fmt::format("{} bytes", left),
-               .fix = "the file is cut, or its header is wrong: write or download it again"});
+               .fix = "the file is truncated or its header is wrong: write or download it again"});
 }
 
 void PlyRows::skip(const PlyElement& element) {
@@ -87,10 +87,10 @@ double PlyRows::word(const PlyElement& element, std::uint64_t number) {
   const std::string here = fmt::format("{}:{}", where_, line_ + 1);
   if (at_ == text_.size()) {
     throw_input({.where = here,
-                 .what = "the file is shorter than its header says",
+                 .what = "the file is shorter than its header declares",
                  .expected = fmt::format("{} of '{}'", element.count, element.name),
-                 .got = fmt::format("{} whole ones", number),
-                 .fix = "the file is cut, or its header is wrong: write or download it again"});
+                 .got = fmt::format("{} complete rows", number),
+                 .fix = "the file is truncated or its header is wrong: write or download it again"});
   }
   const std::string_view text = text_.substr(at_, std::min(text_.find_first_of(kBlanks, at_), text_.size()) - at_);
   std::string_view digits = text;
@@ -101,9 +101,9 @@ double PlyRows::word(const PlyElement& element, std::uint64_t number) {
     constexpr std::size_t kShown = 40;
     throw_input({.where = here,
                  .what = "not a number",
-                 .expected = fmt::format("{} numbers for each of '{}'", element.properties.size(), element.name),
+                 .expected = fmt::format("{} numbers per row of '{}'", element.properties.size(), element.name),
                  .got = fmt::format("'{}'", text.substr(0, kShown)),
-                 .fix = "the file is damaged"});
+                 .fix = "the file is damaged: write or download it again"});
   }
   at_ += text.size();
   // Too large for a double, or too small: said by whoever asks for finite numbers, or as good as 0.
@@ -115,10 +115,10 @@ std::size_t PlyRows::require_end() const {
   const std::size_t end = std::min(text_.find_first_not_of(kNothing, at_), text_.size());
   if (end == text_.size()) return end - at_;
   throw_input({.where = fmt::format("{}, byte {}", where_, at_),
-               .what = "the file is longer than its header says",
-               .expected = "its end",
-               .got = fmt::format("{} bytes more", text_.size() - at_),
-               .fix = "its header is wrong: write or download it again"});
+               .what = "the file is longer than its header declares",
+               .expected = "end of file",
+               .got = fmt::format("{} more bytes", text_.size() - at_),
+               .fix = "the header is wrong: write or download the file again"});
 }
 
 }  // namespace fastsplat::scene

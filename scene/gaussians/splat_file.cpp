@@ -38,10 +38,10 @@ GaussianCloud read_splat_file(const std::filesystem::path& path) {
   const std::string where = path.string(), bytes = read_text_file(path, kMostGaussianBytes);
   if (bytes.size() % kSplatBytes != 0) {
     throw_input({.where = where,
-                 .what = "the file does not end with a whole Gaussian",
+                 .what = "the file ends inside a Gaussian",
                  .expected = fmt::format("a multiple of {} bytes", kSplatBytes),
                  .got = fmt::format("{} bytes, {} too many", bytes.size(), bytes.size() % kSplatBytes),
-                 .fix = "the file is cut, or is no .splat: write or download it again"});
+                 .fix = "the file is truncated or not a .splat file: write or download it again"});
   }
   GaussianCloud cloud{.name = path.filename().string(), .source = where, .degree = 0};
   GaussianRows rows(cloud, where);

@@ -190,7 +190,7 @@ class HexDigits : public Unpacker {
       if (c >= '0' && c <= '9') return c - '0';
       if (c >= 'a' && c <= 'f') return c - 'a' + 10;
       if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-      file_.refuse(std::string("the hexadecimal data is corrupt: '") + c + "' is no digit");
+      file_.refuse(std::string("the hexadecimal data is corrupt: '") + c + "' is not a hexadecimal digit");
     }
   }
 

@@ -23,8 +23,7 @@ fs::path file_beside(const TextHeader& header, int line, const std::string& text
   const std::string shown = text.substr(0, 120);
   const bool upwards = std::any_of(name.begin(), name.end(), [](const fs::path& part) { return part == ".."; });
   if (name.empty() || name.is_absolute() || upwards) {
-    header.refuse(line, "the data file must lie in the header's own folder", "a relative name without '..'", shown,
-                  kBeside);
+    header.refuse(line, "the data file must be in the header's folder", "a relative name without '..'", shown, kBeside);
   }
   std::error_code error;
   const fs::path folder =
@@ -33,7 +32,7 @@ fs::path file_beside(const TextHeader& header, int line, const std::string& text
   if (error) header.refuse(line, "cannot find the data file: " + error.message(), {}, shown, kBeside);
   const auto [end, ignored] = std::mismatch(folder.begin(), folder.end(), data.begin(), data.end());
   if (end != folder.end()) {
-    header.refuse(line, "the data file is a link out of the header's own folder", {}, shown + " -> " + data.string(),
+    header.refuse(line, "the data file is a link to outside the header's folder", {}, shown + " -> " + data.string(),
                   kBeside);
   }
   return data;
@@ -73,7 +72,7 @@ std::optional<std::vector<std::string>> names_of_pattern(const TextHeader& heade
   const bool leads = *step != 0 && (way == 0 || (way < 0) == (*step < 0));
   const std::int64_t steps = leads ? way / *step : 0;
   if (!leads || steps >= std::int64_t{kMaxFiles}) {
-    header.refuse(line, "the numbers of the data files lead nowhere", fmt::format("1 to {} files", kMaxFiles),
+    header.refuse(line, "the numbers of the data files describe no files", fmt::format("1 to {} files", kMaxFiles),
                   text.substr(0, 120), "correct the first number, the last one and the step");
   }
   std::vector<std::string> names;
@@ -104,8 +103,8 @@ std::vector<fs::path> detached_files(const TextHeader& header, const TextHeader:
     names = header.listed_files;
     lines_each = 1;
     if (names.empty() || names.size() > kMaxFiles) {
-      header.refuse(field.line, "the list of data files has an impossible length", fmt::format("1 to {}", kMaxFiles),
-                    fmt::format("{}", names.size()), "write one name a line behind this field");
+      header.refuse(field.line, "the list of data files has an invalid length", fmt::format("1 to {}", kMaxFiles),
+                    fmt::format("{}", names.size()), "write one name a line after this field");
     }
   } else if (auto numbered = names_of_pattern(header, field.line, field.value)) {
     names = std::move(*numbered);

@@ -25,13 +25,13 @@ struct Format {
 };
 
 constexpr std::array<Format, 8> kFormats{
-    {{128, "DICM", "DICOM", "make one file of the series with dcm2niix -z y FOLDER"},
+    {{128, "DICM", "DICOM", "convert the series to one file with dcm2niix -z y FOLDER"},
      {0, "\x89HDF", "HDF5 or MINC 2", "convert it to .nii.gz, for MINC with mnc2nii"},
      {0, "CDF\x01", "MINC 1", "convert it with mnc2nii"},
      {208, "MAP ", "MRC or CCP4", "convert it to .nrrd or .nii.gz"},
      {0, "\x93NUMPY", "a NumPy array", "write it as .nii.gz with nibabel or as .nrrd with pynrrd"},
      {0, "# vtk DataFile", "VTK", "write it as .mha with VTK (vtkMetaImageWriter)"},
-     {0, "<?xml", "XML, perhaps of VTK", "write it as .mha with VTK (vtkMetaImageWriter)"},
+     {0, "<?xml", "XML, perhaps from VTK", "write it as .mha with VTK (vtkMetaImageWriter)"},
      {0, "<VTKFile", "VTK", "write it as .mha with VTK (vtkMetaImageWriter)"}}};
 
 const Format* format_of(const fs::path& path) {
@@ -81,7 +81,7 @@ std::string way_to_read(const fs::path& path) {
   if (raw.type.find('8') == std::string::npos) lines.insert(lines.begin() + 4, "endian: little");
   std::string command = "printf '%s\\n'";
   for (const auto& line : lines) command += " " + shell_word(line);
-  return "if these are raw voxels, write their header: " + command + " > " +
+  return "if these are raw voxels, write a header: " + command + " > " +
          shell_word(fs::path(path).replace_extension(".nhdr").string());
 }
 

@@ -32,7 +32,7 @@ double usable_length(double declared) { return std::isfinite(declared) && declar
 
 void note_unusable_length(const std::string& name, double declared, double used, std::vector<std::string>& remarks) {
   if (declared > 0.0 && std::isfinite(declared)) return;
-  remarks.push_back(fmt::format("the header's {} is {}, not a length: {} mm is used", name, declared, used));
+  remarks.push_back(fmt::format("the header's {} is {}, which is not a length: {} mm is used", name, declared, used));
 }
 
 }  // namespace fastsplat::volume

@@ -96,7 +96,7 @@ TextHeader split_header(const fs::path& path) {
     if (trimmed(text).empty()) continue;
     const auto field = assignment(text);
     if (!field) {
-      header.refuse(lines.number(), "not a line of a MetaImage header", "'Field = value'",
+      header.refuse(lines.number(), "invalid line in a MetaImage header", "'Field = value'",
                     is_binary(text) ? "binary data" : text.substr(0, 40), kDamaged);
     }
     refuse_misspelt(header, lines.number(), field->first);
@@ -122,14 +122,14 @@ bool flag_from(const TextHeader& header, std::initializer_list<const char*> name
   const char first = field->value.empty() ? ' ' : field->value[0];  // MetaIO looks at no more
   if (first == 'T' || first == 't' || first == '1') return true;
   if (first == 'F' || first == 'f' || first == '0') return false;
-  header.refuse(field->line, "neither yes nor no", "True or False", field->value.substr(0, 40), kCorrect);
+  header.refuse(field->line, "neither true nor false", "True or False", field->value.substr(0, 40), kCorrect);
 }
 
 std::vector<double> finite_numbers(const TextHeader& header, const Field& field, std::size_t count) {
   auto numbers = header.numbers(field, count);
   for (const double number : numbers) {
     if (!(std::abs(number) < 1e9)) {
-      header.refuse(field.line, "not a number that can be handled", "a finite number", fmt::format("{}", number),
+      header.refuse(field.line, "number out of range", "a finite number below 1e9", fmt::format("{}", number),
                     kCorrect);
     }
   }
@@ -141,8 +141,8 @@ std::vector<std::uint64_t> extents_of(const TextHeader& header) {
   const Field& dimension = header.need("NDims");
   const std::uint64_t count = header.count(dimension, dimension.value);
   if (count < 1 || count > kMaxDimension) {
-    header.refuse(dimension.line, "an impossible number of dimensions", fmt::format("1..{}", kMaxDimension),
-                  dimension.value, kCorrect);
+    header.refuse(dimension.line, "invalid number of dimensions", fmt::format("1..{}", kMaxDimension), dimension.value,
+                  kCorrect);
   }
   const Field& field = header.need("DimSize");
   std::vector<std::uint64_t> extents;
@@ -159,7 +159,7 @@ std::vector<std::uint64_t> extents_of(const TextHeader& header) {
                   "not a volume of one scalar per voxel", "3 dimensions (further ones of size 1), 1 channel",
                   fmt::format("DimSize {}, {} channels", field.value.substr(0, 80),
                               channels != nullptr ? channels->value.substr(0, 20) : "1"),
-                  "take out one component or time step first");
+                  "extract one component or time step first");
   }
   return extents;
 }
@@ -174,7 +174,7 @@ Component component_of(const TextHeader& header) {
   const Field& field = header.need("ElementType");
   const auto found = types.find(field.value);
   if (found == types.end()) {
-    header.refuse(field.line, "a voxel type that cannot be read",
+    header.refuse(field.line, "unsupported voxel type",
                   "MET_CHAR, MET_SHORT, MET_INT, MET_LONG_LONG, their MET_U..., MET_FLOAT or MET_DOUBLE",
                   field.value.substr(0, 40), "convert it to MET_FLOAT");
   }
@@ -187,7 +187,7 @@ void refuse_scaling(const TextHeader& header) {
        {std::pair{"ElementToIntensityFunctionSlope", 1.0}, {"ElementToIntensityFunctionOffset", 0.0}}) {
     const Field* field = header.find({name});
     if (field == nullptr || finite_numbers(header, *field, 1)[0] == neutral) continue;
-    header.refuse(field->line, fmt::format("'{}' is not applied", name), fmt::format("{}", neutral),
+    header.refuse(field->line, fmt::format("'{}' is not supported", name), fmt::format("{}", neutral),
                   field->value.substr(0, 40), "scale the values themselves, and remove the line");
   }
 }
@@ -224,7 +224,7 @@ std::optional<Placement> placement_of(const TextHeader& header, std::size_t dime
       placement.direction[a] = ras * glm::dvec3(row[0], row[1], row[2]);
     }
     if (!spans_space(placement.direction)) {
-      header.refuse(matrix->line, "the axes do not span space", "three independent directions",
+      header.refuse(matrix->line, "the axes are not independent", "three independent directions",
                     matrix->value.substr(0, 120), kCorrect);
     }
   }
@@ -261,7 +261,7 @@ void skip_header(DataFile& file, const TextHeader& header, const VoxelSource& so
   const bool at_end = field->value == "-1";
   file.file_offset = at_end ? size - std::min(size, need) : header.count(*field, field->value);
   if (file.file_offset > size || (at_end && need > size)) {
-    header.refuse(field->line, "the header promises more than the file holds", fmt::format("{} bytes", need),
+    header.refuse(field->line, "the header declares more than the file holds", fmt::format("{} bytes", need),
                   fmt::format("{} bytes", size), "download or copy the file again");
   }
 }
@@ -282,7 +282,8 @@ bool is_metaimage(const fs::path& path) {
 VoxelSource read_metaimage_header(const fs::path& path) {
   const TextHeader header = split_header(path);
   if (const Field* type = header.find({"ObjectType"}); type != nullptr && type->value != "Image")
-    header.refuse(type->line, "not an image", "ObjectType = Image", type->value.substr(0, 40), "name the image's file");
+    header.refuse(type->line, "not an image", "ObjectType = Image", type->value.substr(0, 40),
+                  "name a file of an image");
   const auto extents = extents_of(header);
   VoxelSource source;
   source.header = path;

@@ -85,7 +85,7 @@ Checked check(const fs::path& path, const RawHeader& header) {
   const std::string single = one ? std::string("n+1\0", 4) : std::string("n+2\0", 4);
   const std::string pair = one ? std::string("ni1\0", 4) : std::string("ni2\0", 4);
   if (magic != single && magic != pair) {
-    refuse(path, "not a NIfTI header (its magic is missing; an ANALYZE file?)", "n+1, ni1, n+2 or ni2", {},
+    refuse(path, "not a NIfTI header: the magic is missing (an ANALYZE file?)", "n+1, ni1, n+2 or ni2", {},
            "convert it to NIfTI");
   }
   Checked checked;
@@ -105,13 +105,13 @@ Checked check(const fs::path& path, const RawHeader& header) {
                        : static_cast<double>(field_at<std::int64_t>(header, offsetof(nifti_2_header, vox_offset)));
   const std::int64_t axes = checked.dim[0];
   if (axes < 1 || axes > 7)
-    refuse(path, "an impossible number of dimensions", "1..7", fmt::format("{}", axes),
+    refuse(path, "invalid number of dimensions", "1..7", fmt::format("{}", axes),
            "the header is damaged: copy the file again");
   std::string shown;
   bool volume = axes >= 3;
   for (std::size_t i = 1; i <= static_cast<std::size_t>(axes); ++i) {
     if (checked.dim[i] < 1 || checked.dim[i] > 65535) {
-      refuse(path, fmt::format("dimension {} is impossible", i), "1..65535 voxels", fmt::format("{}", checked.dim[i]),
+      refuse(path, fmt::format("invalid dimension {}", i), "1..65535 voxels", fmt::format("{}", checked.dim[i]),
              "the header is damaged: copy the file again");
     }
     if (i > 3 && checked.dim[i] != 1) volume = false;
@@ -119,12 +119,12 @@ Checked check(const fs::path& path, const RawHeader& header) {
   }
   if (!volume) {
     refuse(path, "not a volume of one scalar per voxel", "3 dimensions (further ones of size 1)", shown,
-           "take out one component or time step first (fslroi, nifti_tool -cbl)");
+           "extract one component or time step first (fslroi, nifti_tool -cbl)");
   }
   const double least = checked.pair ? 0.0 : static_cast<double>(length);
   if (!(checked.offset >= least && checked.offset <= 1e12)) {
-    refuse(path, "the data's offset is impossible", fmt::format("at least {}", least),
-           fmt::format("{}", checked.offset), "the header is damaged: copy the file again");
+    refuse(path, "invalid data offset", fmt::format("at least {}", least), fmt::format("{}", checked.offset),
+           "the header is damaged: copy the file again");
   }
   return checked;
 }
@@ -152,8 +152,8 @@ Component component_of(const fs::path& path, int datatype) {
     case NIFTI_TYPE_FLOAT64:
       return Component::F64;
     default:
-      refuse(path, "a voxel type that cannot be read", "integers, float or double",
-             fmt::format("NIfTI datatype {}", datatype), "convert it (fslmaths IN OUT -odt float)");
+      refuse(path, "unsupported voxel type", "integers, float or double", fmt::format("NIfTI datatype {}", datatype),
+             "convert it (fslmaths IN OUT -odt float)");
   }
 }
 
@@ -207,11 +207,12 @@ std::optional<Placement> placement_of(const nifti_image& image, double mm, std::
       continue;
     }
     if (!unusable.empty())
-      remarks.push_back(fmt::format("the header's {} does not span space: its {} is used", unusable, name));
+      remarks.push_back(fmt::format("the axes of the header's {} are not independent: its {} is used", unusable, name));
     return placement;
   }
   if (!unusable.empty()) {
-    remarks.push_back(fmt::format("the header's {} does not span space: axes are drawn as they are stored", unusable));
+    remarks.push_back(
+        fmt::format("the axes of the header's {} are not independent: axes are drawn as stored", unusable));
   }
   return std::nullopt;
 }
@@ -221,7 +222,7 @@ fs::path paired_data(const fs::path& path) {
   fs::path stem = path;
   if (stem.extension() == ".gz") stem.replace_extension();
   if (stem.extension() != ".hdr")
-    refuse(path, "the header of a NIfTI pair under another name", "a name ending in .hdr", {},
+    refuse(path, "the header of a NIfTI pair has the wrong extension", "a name ending in .hdr", {},
            "rename it to end in .hdr, with its .img beside it");
   for (const char* ending : {".img", ".img.gz"}) {
     fs::path data = stem;
@@ -229,7 +230,7 @@ fs::path paired_data(const fs::path& path) {
     std::error_code error;
     if (!fs::exists(data, error)) continue;
     if (fs::canonical(data, error).parent_path() != fs::canonical(path, error).parent_path()) {
-      refuse(path, "the data file is a link out of the header's own folder", {}, data.string(),
+      refuse(path, "the data file is a link to outside the header's folder", {}, data.string(),
              "keep the .img file beside its .hdr");
     }
     return data;

@@ -33,7 +33,7 @@ std::vector<std::uint64_t> parse_sizes(const TextHeader& header) {
   const Field& dimension = header.need("dimension");
   const std::uint64_t axes = header.count(dimension, dimension.value);
   if (axes < 1 || axes > kMaxDimension) {
-    header.refuse(dimension.line, "an impossible dimension", fmt::format("1..{}", kMaxDimension), dimension.value,
+    header.refuse(dimension.line, "invalid dimension", fmt::format("1..{}", kMaxDimension), dimension.value,
                   "correct the header");
   }
   const Field& field = header.need("sizes");
@@ -45,7 +45,7 @@ std::vector<std::uint64_t> parse_sizes(const TextHeader& header) {
   }
   for (const std::uint64_t size : sizes) {
     if (size < 1 || size > 65535) {
-      header.refuse(field.line, "an axis has an impossible number of voxels", "1..65535", fmt::format("{}", size),
+      header.refuse(field.line, "invalid number of voxels along an axis", "1..65535", fmt::format("{}", size),
                     "check the header's sizes");
     }
   }
@@ -139,7 +139,7 @@ std::array<unsigned, 3> volume_axes(const TextHeader& header, const Nrrd& nrrd) 
                   "3 axes in space (others of size 1)",
                   fmt::format("sizes {}{}", header.need("sizes").value.substr(0, 80),
                               kinds != nullptr ? ", kinds " + kinds->value.substr(0, 80) : ""),
-                  "take out one component or time step first (teem-unu slice)");
+                  "extract one component or time step first (teem-unu slice)");
   }
   return {axes[0], axes[1], axes[2]};
 }
@@ -167,7 +167,7 @@ Component component_of(const TextHeader& header, int type) {
     case nrrdTypeDouble:
       return Component::F64;
     default:
-      header.refuse(header.need("type").line, "a voxel type that cannot be read", "integers, float or double",
+      header.refuse(header.need("type").line, "unsupported voxel type", "integers, float or double",
                     header.need("type").value.substr(0, 40), "convert it (teem-unu convert -t float)");
   }
 }
@@ -189,8 +189,8 @@ Packing packing_from(const TextHeader& header) {
   if (value == "bzip2" || value == "bz2") return Packing::Bzip2;
   if (value == "hex") return Packing::Hex;
   if (value == "text" || value == "txt" || value == "ascii") return Packing::Text;
-  header.refuse(field.line, "an encoding that cannot be read", "raw, gzip, bzip2, hex or ascii",
-                field.value.substr(0, 40), "convert it (teem-unu save -f nrrd -e gzip)");
+  header.refuse(field.line, "unsupported encoding", "raw, gzip, bzip2, hex or ascii", field.value.substr(0, 40),
+                "convert it (teem-unu save -f nrrd -e gzip)");
 }
 
 /// Where the voxels begin in one data file: `line skip`, then `byte skip`, of the unpacked bytes where they are packed.
@@ -205,7 +205,7 @@ void skip_into(DataFile& file, const TextHeader& header, const VoxelSource& sour
     const std::uint64_t skip = header.count(*field, field->value);
     const std::uint64_t size = fs::file_size(file.path);
     if (!packed && skip > size - std::min(size, file.file_offset)) {
-      header.refuse(field->line, "byte skip leads past the end of the file", fmt::format("at most {}", size),
+      header.refuse(field->line, "byte skip exceeds the end of the file", fmt::format("at most {}", size),
                     fmt::format("{}", skip), "correct the header");
     }
     (packed ? file.stream_offset : file.file_offset) += skip;
@@ -218,7 +218,7 @@ void skip_into(DataFile& file, const TextHeader& header, const VoxelSource& sour
   const std::uint64_t need = source.voxels_per_file() * size_of(source.component);
   const std::uint64_t size = unpacked_size(file.path, file.file_offset, source.packing);
   if (size < need) {
-    header.refuse(field->line, "the header promises more than the file holds", fmt::format("{} bytes", need),
+    header.refuse(field->line, "the header declares more than the file holds", fmt::format("{} bytes", need),
                   fmt::format("{} bytes", size), "download or copy the file again");
   }
   (packed ? file.stream_offset : file.file_offset) += size - need;
@@ -274,8 +274,7 @@ void place_in_body(Geometry& geometry, const Nrrd& nrrd, const std::array<glm::d
       const glm::dvec3& direction = directions[static_cast<std::size_t>(a)];
       straight = straight && direction[a] > 0.0 && direction[a] == glm::length(direction);
     }
-    if (!straight)
-      geometry.remarks.push_back("the header's space is not anatomical: its axes are drawn as they are stored");
+    if (!straight) geometry.remarks.push_back("the header's space is not anatomical: axes are drawn as stored");
     return;
   }
   const glm::dvec3 sign((*signs)[0], (*signs)[1], (*signs)[2]);
@@ -285,7 +284,7 @@ void place_in_body(Geometry& geometry, const Nrrd& nrrd, const std::array<glm::d
   if (spans_space(placement.direction))
     geometry.placement = placement;
   else
-    geometry.remarks.push_back("the header's space directions do not span space: axes are drawn as they are stored");
+    geometry.remarks.push_back("the header's space directions are not independent: axes are drawn as stored");
 }
 
 Geometry geometry_of(const TextHeader& header, const Nrrd& nrrd, const std::array<unsigned, 3>& axes) {
@@ -352,7 +351,7 @@ VoxelSource read_nrrd_header(const fs::path& path) {
   }
   for (DataFile& file : source.files) skip_into(file, header, source);
   if (header.find({"old min", "old max"}) != nullptr)
-    source.remarks.push_back("the header's values were quantised (old min, old max): the stored values are used");
+    source.remarks.push_back("the header declares quantised values (old min, old max): the stored values are used");
   return source;
 }
 

@@ -29,7 +29,7 @@ void take_line(TextHeader& header, int line, const std::string& text) {
   const auto colon = text.find(':');
   const bool binary = is_binary(text);
   if (colon == std::string::npos || binary) {
-    header.refuse(line, "not a line of an NRRD header", "'field: value', 'key:=value' or a comment",
+    header.refuse(line, "invalid line in an NRRD header", "'field: value', 'key:=value' or a comment",
                   binary ? "binary data" : text.substr(0, 40), "the header is damaged: copy the file again");
   }
   const std::string name = text.substr(0, colon);
@@ -53,7 +53,7 @@ TextHeader read_nrrd_lines(const std::filesystem::path& path) {
   static const std::vector<std::string> kVersions{"NRRD00.01", "NRRD0001", "NRRD0002",
                                                   "NRRD0003",  "NRRD0004", "NRRD0005"};
   if (std::find(kVersions.begin(), kVersions.end(), trimmed(text)) == kVersions.end()) {
-    header.refuse(1, "not a version of NRRD that can be read", "NRRD0001 to NRRD0005", text.substr(0, 20),
+    header.refuse(1, "unsupported NRRD version", "NRRD0001 to NRRD0005", text.substr(0, 20),
                   "convert the file with the program that wrote it, or copy it again");
   }
   bool listing = false;  // names of data files are the last lines

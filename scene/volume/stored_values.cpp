@@ -150,7 +150,7 @@ double StoredValues::number_from(std::string_view word) const {
   if (!right) {
     throw_input({.where = path_.string(),
                  .what = fmt::format("voxel {} of the text is {}", count_ + values_.size(),
-                                     number ? "no value of the header's type" : "not a number"),
+                                     number ? "not a value of the header's type" : "not a number"),
                  .expected = {},
                  .got = fmt::format("'{}'", word.substr(0, 40)),
                  .fix = number ? "correct the header's type" : "correct the text, or copy the file again"});

@@ -67,15 +67,14 @@ void TextHeader::add(const std::string& name, std::string value, int line) {
 
 std::uint64_t TextHeader::count(const Field& field, const std::string& word) const {
   const auto number = integer_from<std::uint64_t>(word);
-  if (!number)
-    refuse(field.line, "not a size that can be handled", "a whole number", word.substr(0, 80), "correct the header");
+  if (!number) refuse(field.line, "invalid size", "a whole number", word.substr(0, 80), "correct the header");
   return *number;
 }
 
 std::vector<double> TextHeader::numbers(const Field& field, std::size_t many) const {
   const auto words = words_of(field.value);
   if (words.size() != many) {
-    refuse(field.line, "not as many numbers as there are axes", fmt::format("{}", many),
+    refuse(field.line, "the number of values differs from the number of axes", fmt::format("{}", many),
            fmt::format("{}", words.size()), "correct the header");
   }
   std::vector<double> numbers;
@@ -84,7 +83,7 @@ std::vector<double> TextHeader::numbers(const Field& field, std::size_t many) co
     const char* first = word.data() + (word.starts_with('+') ? 1 : 0);
     const auto [stop, error] = std::from_chars(first, word.data() + word.size(), number);
     if (error != std::errc{} || stop != word.data() + word.size())
-      refuse(field.line, "not a number that can be handled", "a number", word.substr(0, 40), "correct the header");
+      refuse(field.line, "invalid number", "a number", word.substr(0, 40), "correct the header");
     numbers.push_back(number);
   }
   return numbers;

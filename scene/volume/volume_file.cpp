@@ -114,7 +114,7 @@ VoxelSource read_header(const fs::path& path) {
   if (auto source = header_in(path)) return *std::move(source);
   if (auto source = header_beside(path)) return *std::move(source);
   throw_input({.where = path.string(),
-               .what = "not a volume file that can be read",
+               .what = "unsupported volume format",
                .expected = "NRRD, NIfTI or MetaImage",
                .got = foreign_format(path),
                .fix = way_to_read(path)});

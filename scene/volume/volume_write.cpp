@@ -33,7 +33,7 @@ std::string packed_as(const Volume& volume, VoxelType type) {
         const auto nx = static_cast<std::size_t>(volume.dims.x);
         const auto ny = static_cast<std::size_t>(volume.dims.y);
         throw_input({.where = volume.name,
-                     .what = fmt::format("a voxel does not fit {}", to_string(type)),
+                     .what = fmt::format("a voxel does not fit into {}", to_string(type)),
                      .expected = fmt::format("whole numbers in {}..{}", std::numeric_limits<T>::min(),
                                              std::numeric_limits<T>::max()),
                      .got = fmt::format("{} at ({}, {}, {})", value, i % nx, i / nx % ny, i / nx / ny),
@@ -173,7 +173,7 @@ std::string nifti_header(const Volume& volume, VoxelType type, std::size_t bytes
   for (int a = 0; a < 3; ++a) {
     if (volume.dims[a] > std::numeric_limits<short>::max()) {
       throw_input({.where = path.string(),
-                   .what = "too long an axis for NIfTI-1",
+                   .what = "an axis is too long for NIfTI-1",
                    .expected = "at most 32767 voxels",
                    .got = fmt::format("{}", volume.dims[a]),
                    .fix = "write a .nrrd instead"});
@@ -215,10 +215,10 @@ void save_volume(const Volume& volume, const fs::path& path, VoxelType type) {
   const bool known = ends(".nrrd") || ends(".nhdr") || ends(".nii") || ends(".nii.gz") || ends(".mha") || ends(".mhd");
   if (!known) {
     throw_input({.where = path.string(),
-                 .what = "unknown kind of volume file",
+                 .what = "unknown volume format",
                  .expected = ".nrrd, .nhdr, .nii, .nii.gz, .mha or .mhd",
                  .got = path.has_extension() ? path.extension().string() : "no extension",
-                 .fix = "choose one of these endings"});
+                 .fix = "choose one of these extensions"});
   }
   const std::string voxels = packed(volume, type);
   if (ends(".nrrd")) {

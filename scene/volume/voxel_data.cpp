@@ -93,7 +93,7 @@ void refuse_trouble(const VoxelSource& source, const Trouble& trouble, const cha
 [[noreturn]] void refuse_end(const VoxelSource& source, std::uint64_t found, std::size_t rest) {
   const std::uint64_t width = source.packing == Packing::Text ? 1 : size_of(source.component);
   const char* unit = source.packing == Packing::Text ? "numbers" : "bytes";
-  refuse(source, "the data ends early: the file is truncated, or its header wrong",
+  refuse(source, "the data ends early: the file is truncated or its header is wrong",
          fmt::format("{} {} for {}", source.voxels_per_file() * width, unit, voxels_text(source)),
          fmt::format("{} {}", found * width + rest, unit), "download or copy the file again");
 }
@@ -167,7 +167,7 @@ std::vector<float> read_voxels(const VoxelSource& source, std::optional<float> n
     stored.verify_rest();
   }
   refuse_trouble(source, findings.infinite, "are not finite numbers",
-                 "add --nan-as 0 (or another value) to put that in their place");
+                 "add --nan-as 0 (or another value) to replace them");
   return voxels;
 }
 
@@ -187,7 +187,7 @@ void note_shear(Volume& volume) {
   const double shear = turn_of(volume).shear;
   if (!(shear > kWorthAWord)) return;
   volume.remarks.push_back(
-      fmt::format("the grid is sheared: two of its axes are {:.1f} degrees off a right angle; it is drawn so", shear));
+      fmt::format("the grid is sheared and drawn so: two axes are {:.1f} degrees off a right angle", shear));
 }
 
 }  // namespace
@@ -196,18 +196,18 @@ void check_source(const VoxelSource& source) {
   std::uint64_t count = 1;
   for (const std::uint64_t extent : source.extents) {
     if (extent < 1 || extent > kMaxExtent) {
-      refuse(source, "an axis has an impossible number of voxels", fmt::format("1..{}", kMaxExtent),
-             extents_text(source), "check the header's sizes");
+      refuse(source, "invalid number of voxels along an axis", fmt::format("1..{}", kMaxExtent), extents_text(source),
+             "check the header's sizes");
     }
     count *= extent;  // at most 65535^3: no overflow
   }
   if (count > kMaxVoxels) {
-    refuse(source, "more voxels than can be handled", fmt::format("at most {}", kMaxVoxels), extents_text(source),
+    refuse(source, "too many voxels", fmt::format("at most {}", kMaxVoxels), extents_text(source),
            "downsample the volume (teem-unu resample)");
   }
   for (const double spacing : source.spacing) {
     if (!(spacing >= 1e-6 && spacing <= 1e6)) {
-      refuse(source, "a voxel spacing makes no sense", "1e-6..1e6 mm", fmt::format("{}", spacing),
+      refuse(source, "invalid voxel spacing", "1e-6..1e6 mm", fmt::format("{}", spacing),
              "correct the header's spacing");
     }
   }
@@ -217,8 +217,8 @@ void check_source(const VoxelSource& source) {
   }
 
   if (count % source.files.size() != 0) {
-    refuse(source, "the data files cannot hold equal parts of the voxels", extents_text(source) + " voxels",
-           fmt::format("{} files", source.files.size()), "name one data file a slice");
+    refuse(source, "the voxels cannot be divided equally among the data files", extents_text(source) + " voxels",
+           fmt::format("{} files", source.files.size()), "name one data file per slice");
   }
   const std::uint64_t bytes = source.voxels_per_file() * size_of(source.component);
   for (const DataFile& file : source.files) {
@@ -236,7 +236,7 @@ void check_source(const VoxelSource& source) {
     const std::uint64_t need = bytes + std::min(file.stream_offset, std::uint64_t{1} << 62);
     const std::uint64_t can_hold = most_unpacked(source, on_disk);
     if (need > can_hold) {
-      refuse(source, "the header promises more than the file holds",
+      refuse(source, "the header declares more than the file holds",
              fmt::format("{} bytes for {}", need, voxels_text(source)),
              fmt::format("{}{} bytes", source.packing == Packing::Plain ? "" : "at most ", can_hold),
              "download or copy the file again, or correct the header's sizes");
@@ -254,7 +254,7 @@ void note_surplus(const VoxelSource& source, Volume& volume) {
     const std::uint64_t surplus = std::filesystem::file_size(file.path) - file.file_offset - file.stream_offset - need;
     if (surplus < source.extents[0] * size) continue;
     volume.remarks.push_back(
-        fmt::format("the data file holds {} bytes more than {} need", surplus, voxels_text(source)));
+        fmt::format("the data file holds {} bytes more than needed for {}", surplus, voxels_text(source)));
     return;
   }
 }
@@ -278,7 +278,7 @@ Volume read_source(const VoxelSource& source, std::optional<float> nan_as) {
   volume.max = *high;
   volume.water = find_water(volume);
   if (findings.replaced > 0) {
-    volume.remarks.push_back(fmt::format("{} of {} voxels are not finite numbers and were taken as {}",
+    volume.remarks.push_back(fmt::format("{} of {} voxels are not finite numbers and were replaced by {}",
                                          findings.replaced, volume.voxels.size(), *nan_as));
   }
   if (findings.rounded > 0) {
@@ -287,7 +287,7 @@ Volume read_source(const VoxelSource& source, std::optional<float> nan_as) {
   }
   if (volume.min == volume.max && volume.voxels.size() > 1)
     volume.remarks.push_back(
-        fmt::format("a constant volume, every voxel is {}: it shows as a block, or not at all", volume.min));
+        fmt::format("constant volume: every voxel is {}; it shows as a block or not at all", volume.min));
   if (is_wide_integer(source.component) && !is_scaled(source)) volume.stored = integer_type(volume.min, volume.max);
   if (source.placement) place(volume, *source.placement);
   if (volume.oblique) note_shear(volume);

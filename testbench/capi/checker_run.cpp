@@ -54,13 +54,13 @@ CheckerRun::CheckerRun(CheckerSetup setup)
 
 void CheckerRun::require_open(const char* call) const {
   if (finished_) misuse(call, "the checker is finished; reset it for another stream");
-  if (!broken_.empty()) misuse(call, "the stream broke before (" + broken_ + "); reset the checker");
+  if (!broken_.empty()) misuse(call, "the stream failed earlier (" + broken_ + "); reset the checker");
 }
 
 void CheckerRun::start(const char* call, std::uint64_t first_beat) {
   require_open(call);
-  if (checker_.started()) misuse(call, "started already");
-  if (fed_) misuse(call, "beats were taken already", "start before the first beat");
+  if (checker_.started()) misuse(call, "already started");
+  if (fed_) misuse(call, "beats were already accepted", "start before the first beat");
   if (auto violation = cmodel::cycle_violation(setup_.config)) throw_input(*violation);
   checker_.start(first_beat);
 }
@@ -83,13 +83,13 @@ void CheckerRun::took(const char* call, const std::uint32_t* words, std::size_t 
 void CheckerRun::showed(const char* call, const fastsplat_shown& shown) {
   require_open(call);
   if (shown.port >= FASTSPLAT_PORTS) unknown_port(call, shown.port);
-  if (shown.cycle < cycle_) misuse(call, "cycles went back", "at least " + number(cycle_), number(shown.cycle));
+  if (shown.cycle < cycle_) misuse(call, "cycles must not decrease", "at least " + number(cycle_), number(shown.cycle));
   const std::size_t words = port_words(setup_.config, shown.port);
   if (shown.word_count != words)
     misuse(call, "wrong number of words for port " + number(shown.port), number(words), number(shown.word_count));
   if (words > 0) require(call, "words", shown.words);
   if (shown.port == FASTSPLAT_PORT_COMPOSITE && shown.block >= blocks(setup_.config))
-    misuse(call, "no such block in a tile", "below " + number(blocks(setup_.config)), number(shown.block));
+    misuse(call, "block number out of range", "below " + number(blocks(setup_.config)), number(shown.block));
   cycle_ = shown.cycle;
   if (stopped()) return;
   const auto given = [&](std::uint32_t bit, std::uint32_t value) {
@@ -117,7 +117,8 @@ void CheckerRun::finish(const char* call, std::span<const std::uint64_t> counter
   if (count != 0 && count != FASTSPLAT_MODEL_COUNTERS && count != all)
     misuse(call, "wrong number of counters", "0, 16 or " + number(all), number(count));
   if (checker_.started() && count != all)
-    misuse(call, "cycles are compared, and their counters are missing", number(all) + " counters", number(count));
+    misuse(call, "the counters of cycles are missing, which this checker compares", number(all) + " counters",
+           number(count));
   try {
     if (count == 0) {
       checker_.finish();

@@ -41,7 +41,7 @@ extern "C" FASTSPLAT_API fastsplat_status fastsplat_config_named(const char* nam
                    .what = "no such built-in configuration",
                    .expected = names,
                    .got = {},
-                   .fix = "fastsplat_config_file reads a file"});
+                   .fix = "use fastsplat_config_file for a file"});
     }
     return hand_out(driver::load_config(name), out);
   });
@@ -70,7 +70,7 @@ extern "C" FASTSPLAT_API fastsplat_status fastsplat_config_file(const char* path
                    .what = "no such file",
                    .expected = "a configuration's .toml file",
                    .got = {},
-                   .fix = "fastsplat_config_named knows those built in"});
+                   .fix = "use fastsplat_config_named for built-in ones"});
     }
     return hand_out(driver::load_config(named.find('/') == std::string::npos ? "./" + named : named), out);
   });

@@ -49,7 +49,7 @@ extern "C" FASTSPLAT_API void* fastsplat_dpi_checker(const char* config, std::ui
                    .what = "the device was built for another configuration",
                    .expected = hash_text(own),
                    .got = hash_text(hash),
-                   .fix = "name the one of its fastsplat_pkg"});
+                   .fix = "use the configuration of its fastsplat_pkg"});
     }
     const fastsplat_checker_options options{.struct_size = sizeof options,
                                             .scope = FASTSPLAT_WHOLE,

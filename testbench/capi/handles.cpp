@@ -43,8 +43,8 @@ void require_live(const char* function, const void* handle, Kind kind) {
   const std::shared_lock lock(alive().mutex);
   const auto found = alive().kinds.find(handle);
   if (found == alive().kinds.end())
-    misuse(function, "no such handle", std::string("a live ") + name_of(kind), "one destroyed, or never created");
-  if (found->second != kind) misuse(function, "a handle of another kind", name_of(kind), name_of(found->second));
+    misuse(function, "invalid handle", std::string("a live ") + name_of(kind), "a destroyed handle, or not a handle");
+  if (found->second != kind) misuse(function, "wrong kind of handle", name_of(kind), name_of(found->second));
 }
 
 void misuse(const char* function, const std::string& what, const std::string& expected, const std::string& got) {

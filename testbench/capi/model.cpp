@@ -21,7 +21,7 @@ class Run final : private cmodel::TapSink, private cmodel::PixelSink {
 
   void feed(const char* call, const std::uint32_t* words, std::size_t beats) {
     if (finished_) misuse(call, "the model is finished; reset it for another stream");
-    if (!broken_.empty()) misuse(call, "the stream broke before (" + broken_ + "); reset the model");
+    if (!broken_.empty()) misuse(call, "the stream failed earlier (" + broken_ + "); reset the model");
     queue_.sweep();
     cmodel::Beat beat;
     for (; beats > 0; --beats, words += beat.size()) {
@@ -36,8 +36,8 @@ class Run final : private cmodel::TapSink, private cmodel::PixelSink {
   }
 
   void finish(const char* call) {
-    if (finished_) misuse(call, "the model is finished already");
-    if (!broken_.empty()) misuse(call, "the stream broke before (" + broken_ + "); reset the model");
+    if (finished_) misuse(call, "the model is already finished");
+    if (!broken_.empty()) misuse(call, "the stream failed earlier (" + broken_ + "); reset the model");
     try {
       model_.finish();
     } catch (const UserError& error) {

@@ -47,7 +47,7 @@ void Checker::on_raw(const RawTap& tap) {
   if (tap.port == RawPort::Verdict) return check_verdict(tap);
   if (tap.cut)
     differ(Detector::Tiles,
-           "the pixel beat of cycle " + std::to_string(tap.cycle) + " is marked as of a tile cut short");
+           "the pixel beat of cycle " + std::to_string(tap.cycle) + " is marked as belonging to an aborted tile");
   assembly_.on_raw(tap);
 }
 
@@ -67,7 +67,7 @@ void Checker::accept(const cmodel::Beat& beat) {
   if (board_.backlog() > kBacklogWords) {
     silent_ = true;
     board_.finish();
-    differ(*first_detector(Detector::Tiles), "the RTL shows none of the last events");
+    differ(*first_detector(Detector::Tiles), "the RTL produced none of the last events");
   }
 }
 
@@ -84,7 +84,7 @@ CheckReport Checker::finish() {
   end_of_stream();
   board_.finish();
   for (const auto& tile : model_tiles_.tiles)
-    differ(Detector::Tiles, "tile " + std::to_string(tile.tile) + " never came out");
+    differ(Detector::Tiles, "tile " + std::to_string(tile.tile) + " was never output");
   model_tiles_.tiles.clear();
   while (const auto missing = verdicts_.missing()) differ(Detector::Verdicts, *missing);
   return report();
@@ -120,14 +120,13 @@ void Checker::equal(Detector detector, const std::string& what, std::uint64_t mo
 void Checker::check_tile(cmodel::TilePixels&& tile) {
   const std::string name = "tile " + std::to_string(tile.tile);
   if (model_tiles_.tiles.empty()) {
-    differ(Detector::Tiles, name + " came out of the RTL and not out of the model");
+    differ(Detector::Tiles, name + " was output by the RTL but not by the model");
   } else {
     const auto& expected = model_tiles_.tiles.front();
     comparisons_ += expected.words.size();
     if (expected.tile != tile.tile || expected.x != tile.x || expected.y != tile.y || expected.width != tile.width ||
         expected.height != tile.height || expected.words != tile.words) {
-      differ(Detector::Tiles,
-             name + ": its pixels differ from tile " + std::to_string(expected.tile) + " of the model");
+      differ(Detector::Tiles, name + ": pixels differ from tile " + std::to_string(expected.tile) + " of the model");
     }
     model_tiles_.tiles.pop_front();
   }

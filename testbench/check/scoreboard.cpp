@@ -76,7 +76,7 @@ std::string word_name(const cmodel::Config& config, const TapCopy& record, std::
 
 std::string place(const cmodel::Config& config, const TapCopy& record) {
   std::string text = std::string("stage ") + cmodel::to_string(record.tap) +
-                     (record.tile == kNoTile ? ", outside of any tile" : ", tile " + std::to_string(record.tile));
+                     (record.tile == kNoTile ? ", outside any tile" : ", tile " + std::to_string(record.tile));
   if (record.tap != cmodel::Tap::Pixel) text += ", sheet " + std::to_string(record.sheet);
   // A device that composites every sample shows windows there too, and the record does not tell them from blocks.
   const bool either = record.tap == cmodel::Tap::Composite && config.composite_every_sample != 0;
@@ -105,7 +105,7 @@ TapCopy copy(const cmodel::TapRecord& record) {
 std::string describe(const cmodel::Config& config, const Divergence& divergence) {
   if (!divergence.rtl) return place(config, *divergence.model) + ": the RTL never produced this event";
   if (!divergence.model)
-    return place(config, *divergence.rtl) + ": the RTL produced an event that the model has not (cycle " +
+    return place(config, *divergence.rtl) + ": the RTL produced an event that the model did not (cycle " +
            std::to_string(divergence.rtl->cycle) + ")";
   const TapCopy& model = *divergence.model;
   const TapCopy& rtl = *divergence.rtl;

@@ -4,7 +4,7 @@ namespace fastsplat::testbench {
 namespace {
 
 std::string words(const cmodel::VerdictCycles& verdict) {
-  return "tag " + std::to_string(verdict.tag) + (verdict.hidden ? " hidden" : " to be seen") + " in cycle " +
+  return "tag " + std::to_string(verdict.tag) + (verdict.hidden ? " hidden" : " visible") + " in cycle " +
          std::to_string(verdict.told);
 }
 

@@ -30,7 +30,7 @@ void interrupt(CheckedDevice& checked, const BeatSource& source, std::uint64_t a
     if (coverage != nullptr) coverage->interrupted(fed, first_beat, device.cycles());
     if (left > 0) {
       throw_usage({.where = "warm reset after beat " + std::to_string(after),
-                   .what = "the stream ends before it",
+                   .what = "the stream ends before this beat",
                    .expected = "at most " + std::to_string(after - left),
                    .got = std::to_string(after),
                    .fix = "lower --reset-after"});

@@ -61,7 +61,7 @@ void check_mapping(const VerificationPlan& plan, const std::vector<ClosureInput>
     for (const auto& [campaign, coverage] : input.book.campaigns) {
       for (const CoverBin& bin : coverage.bins()) {
         if (!input.planned.declared(bin.name))
-          findings.push_back(config + ", " + campaign + ": bin " + bin.name + " was declared by nobody");
+          findings.push_back(config + ", " + campaign + ": bin " + bin.name + " is not declared");
       }
     }
   }
@@ -82,7 +82,7 @@ void check_mapping(const VerificationPlan& plan, const std::vector<ClosureInput>
           }))
         continue;
       if (std::none_of(inputs.begin(), inputs.end(), declares))
-        findings.push_back(point.name + ": no bin is called " + pattern);
+        findings.push_back(point.name + ": unknown bin " + pattern);
     }
   }
 }
@@ -120,9 +120,9 @@ Closure close_coverage(const VerificationPlan& plan, const std::vector<ClosureIn
       if (line.outcome == TestOutcome::Failed) out.findings.push_back(point.name + ": test " + test + " fails");
       out.tests.push_back(std::move(line));
     }
-    if (!decided) out.findings.push_back(point.name + ": none of its tests passed, and it has no bins");
+    if (!decided) out.findings.push_back(point.name + ": no test passed, and there are no bins");
   }
-  if (out.bins == 0) out.findings.push_back("no bin was looked at");
+  if (out.bins == 0) out.findings.push_back("no bins were checked");
   return out;
 }
 

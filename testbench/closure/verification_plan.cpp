@@ -24,15 +24,15 @@ class Reader {
         refuse(node.source().begin, "unexpected '" + std::string(key.str()) + "'", std::string("[[") + name + "]]");
       for (const auto& entry : *node.as_array()) out.push_back(entry.as_table());
     }
-    if (out.empty()) refuse({1, 1}, "holds nothing", std::string("[[") + name + "]]");
+    if (out.empty()) refuse({1, 1}, "the file is empty", std::string("[[") + name + "]]");
     return out;
   }
 
   std::string text(const toml::table& table, const char* key) const {
     const auto* node = table.get(key);
     if (node == nullptr || !node->is_string() || node->as_string()->get().empty())
-      refuse(node == nullptr ? table.source().begin : node->source().begin, std::string(key) + " is missing or no text",
-             "text");
+      refuse(node == nullptr ? table.source().begin : node->source().begin,
+             std::string(key) + " is missing or not a string", "text");
     return node->as_string()->get();
   }
 
@@ -40,9 +40,10 @@ class Reader {
     std::vector<std::string> out;
     const auto* node = table.get(key);
     if (node == nullptr) return out;
-    if (!node->is_array()) refuse(node->source().begin, std::string(key) + " is no list", "a list of texts");
+    if (!node->is_array()) refuse(node->source().begin, std::string(key) + " is not a list", "a list of strings");
     for (const auto& entry : *node->as_array()) {
-      if (!entry.is_string()) refuse(entry.source().begin, std::string(key) + " holds something else", "texts");
+      if (!entry.is_string())
+        refuse(entry.source().begin, std::string(key) + " contains a value that is not a string", "texts");
       out.push_back(entry.as_string()->get());
     }
     return out;
@@ -82,11 +83,11 @@ VerificationPlan read_plan(const std::filesystem::path& path) {
                     .faults = reader.texts(*table, "faults")};
     const auto& at = table->source().begin;
     if (point.bins.empty() != point.campaigns.empty())
-      reader.refuse(at, point.name + ": bins and campaigns need each other", "both, or neither");
+      reader.refuse(at, point.name + ": bins and campaigns require each other", "both, or neither");
     if (point.bins.empty() && point.tests.empty())
-      reader.refuse(at, point.name + ": nothing decides it", "bins or tests");
+      reader.refuse(at, point.name + ": neither bins nor tests", "bins or tests");
     for (const auto& other : plan.testpoints) {
-      if (other.name == point.name) reader.refuse(at, point.name + ": a second testpoint of this name", {});
+      if (other.name == point.name) reader.refuse(at, point.name + ": duplicate testpoint name", {});
     }
     plan.testpoints.push_back(std::move(point));
   }

@@ -27,7 +27,7 @@ std::pair<std::string, std::string> split(const std::string& bin) {
 void CoverageBook::merge(const CoverageBook& other) {
   if (other.config_hash != config_hash) {
     throw UserError(ExitCode::NotComparable, {.where = "coverage of configuration " + other.config,
-                                              .what = "was taken with another configuration",
+                                              .what = "was collected with another configuration",
                                               .expected = config + " " + hash_text(config_hash),
                                               .got = hash_text(other.config_hash),
                                               .fix = "run it again with this version"});
@@ -55,19 +55,19 @@ namespace {
 
 /// nlohmann would wrap a negative number and cut a fraction.
 std::uint64_t count_of(const Json& json) {
-  if (!json.is_number_unsigned()) throw std::runtime_error(json_text(json, -1) + " is no count");
+  if (!json.is_number_unsigned()) throw std::runtime_error(json_text(json, -1) + " is not a count");
   return json.get<std::uint64_t>();
 }
 
 CoverageBook book_from(const Json& json) {
-  if (json.at("format") != kFormat) throw std::runtime_error("another format");
+  if (json.at("format") != kFormat) throw std::runtime_error("unknown format");
   CoverageBook book{.config = json.at("config"),
                     .config_hash = std::stoull(json.at("config_hash").get<std::string>(), nullptr, 16),
                     .streams = count_of(json.at("streams")),
                     .splats = count_of(json.at("splats")),
                     .comparisons = count_of(json.at("comparisons")),
                     .cycles = count_of(json.at("cycles"))};
-  if (!json.at("campaigns").is_object()) throw std::runtime_error("campaigns are no table");
+  if (!json.at("campaigns").is_object()) throw std::runtime_error("campaigns is not an object");
   for (const auto& [name, bins] : json.at("campaigns").items()) {
     Coverage& coverage = book.campaigns[name];
     for (const auto& [bin, hits] : bins.items()) {
@@ -83,8 +83,8 @@ CoverageBook book_from(const Json& json) {
 CoverageBook read_book(const std::filesystem::path& path) {
   return from_json_file<Json>(
       path,
-      {.what = "is no coverage file",
-       .expected = std::string("what 'fastsplat verify --coverage FILE' writes (") + kFormat + ")",
+      {.what = "not a coverage file",
+       .expected = std::string("a file written by 'fastsplat verify --coverage FILE' (") + kFormat + ")",
        .fix = {},
        .most_bytes = kMostBytes},
       book_from);

@@ -11,7 +11,7 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& line) {
   throw_input({.where = "coverage.dat",
-               .what = "is not what Verilator writes",
+               .what = "not a line written by Verilator",
                .expected = "C '<keys>' <count>",
                .got = line.substr(0, 80),
                .fix = {}});
@@ -109,7 +109,7 @@ LineClosure close_lines(const LineCoverage& coverage, const std::filesystem::pat
     auto& lines = out.sources[point.file];
     for (std::string line; std::getline(text, line);) lines.push_back(line);
   }
-  if (out.points.empty()) out.findings.push_back("no line of rtl/ was looked at");
+  if (out.points.empty()) out.findings.push_back("no lines of rtl/ were checked");
   std::vector<int> used(exclusions.size(), 0);
   for (const LinePoint& point : out.points) {
     const auto& lines = out.sources[point.file];
@@ -130,7 +130,7 @@ LineClosure close_lines(const LineCoverage& coverage, const std::filesystem::pat
   }
   for (std::size_t i = 0; i < exclusions.size(); ++i) {
     if (used[i] == 0)
-      out.findings.push_back("excluded, but not there: " + exclusions[i].file + ": " + exclusions[i].line);
+      out.findings.push_back("excluded, but missing: " + exclusions[i].file + ": " + exclusions[i].line);
   }
   return out;
 }

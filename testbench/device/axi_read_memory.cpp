@@ -23,12 +23,12 @@ void AxiReadMemory::expect(bool holds, const char* rule) {
 
 void AxiReadMemory::take(const AxiRequest& request) {
   const std::uint64_t bytes = (std::uint64_t{request.len} + 1) * cmodel::kBeatBytes;
-  expect(request.size == kSize && request.burst == kIncrement, "a burst of another kind than INCR of 32 bytes");
-  expect(request.address % cmodel::kBeatBytes == 0, "an address that is no beat's");
+  expect(request.size == kSize && request.burst == kIncrement, "a burst other than INCR of 32 bytes");
+  expect(request.address % cmodel::kBeatBytes == 0, "an address that is not aligned to beats");
   expect(request.address % kPage + bytes <= kPage, "a burst crosses 4 KB");
   const bool inside =
       request.address >= address_ && request.address - address_ + bytes <= beats_.size() * cmodel::kBeatBytes;
-  expect(inside, "a burst from where nothing lies");
+  expect(inside, "a burst outside the stream");
   ++bursts_;
   if (!inside) return;
   const std::size_t first = (request.address - address_) / cmodel::kBeatBytes;

@@ -26,7 +26,7 @@ Pattern::Pattern(const std::string& text, std::uint64_t seed) : seed_(mix(seed))
   const std::string name = text.substr(0, dash);
   const std::vector<std::string> words{"always", "every", "alternate", "burst", "random"};
   const bool known = std::find(words.begin(), words.end(), name) != words.end();
-  if (name == "never") refuse("N cycles on, N cycles off is alternate" + text.substr(dash));
+  if (name == "never") refuse("for N cycles on and N cycles off use alternate" + text.substr(dash));
   if (const auto meant = did_you_mean(name, words); !known && !meant.empty()) refuse(meant);
   if (dash == text.size()) refuse();
   const char* end = text.data() + text.size();

@@ -58,7 +58,7 @@ const std::string& sources_hash() {
     if (files.size() == 1) {
       throw_machine({.where = share.string(),
                      .what = "the sources of the RTL are missing",
-                     .expected = "rtl/ and testbench/module/ in it",
+                     .expected = "rtl/ and testbench/module/ in this folder",
                      .got = {},
                      .fix = "install or build fastsplat again"});
     }
@@ -81,10 +81,10 @@ fs::path cache_folder() {
     if (folder != nullptr && folder[0] == '/') return fs::path(folder) / below;
   }
   throw_machine({.where = "cache of simulators",
-                 .what = "has no place",
+                 .what = "no folder is available",
                  .expected = {},
                  .got = {},
-                 .fix = "set XDG_CACHE_HOME to a folder of your own"});
+                 .fix = "set XDG_CACHE_HOME to your own folder"});
 }
 
 void require_tools(const cmodel::Config& config) {
@@ -98,7 +98,7 @@ void require_tools(const cmodel::Config& config) {
                       .what = "its RTL is not built yet, and the tools to build it are missing",
                       .expected = "verilator, make and a C++ compiler",
                       .got = "no " + missing,
-                      .fix = "apt-get install verilator make g++; or use the model: --engine cmodel"},
+                      .fix = "apt-get install verilator make g++, or use the model: --engine cmodel"},
                      ExitCode::Usage);
 }
 
@@ -127,7 +127,7 @@ std::string first_error(const Called& called) {
 /// Of a build, by its size: what grows is the array of P x P lanes.
 std::string duration(const cmodel::Config& config) {
   const int lanes = config.lanes * config.lanes;
-  return lanes <= 4 ? "takes half a minute" : lanes <= 16 ? "takes a minute" : "takes some minutes";
+  return lanes <= 4 ? "takes half a minute" : lanes <= 16 ? "takes a minute" : "takes several minutes";
 }
 
 void build(const fs::path& module, const cmodel::Config& config, RtlAbilities abilities) {
@@ -171,7 +171,7 @@ MakeTop load(const fs::path& module) {
                    .what = std::string("the simulator cannot be loaded: ") + (reason == nullptr ? "no reason" : reason),
                    .expected = {},
                    .got = {},
-                   .fix = "delete the file; it is built again"});
+                   .fix = "delete the file to rebuild it"});
   }
   return reinterpret_cast<MakeTop>(make);  // the library stays: devices come and go
 }
@@ -188,10 +188,10 @@ fs::path rtl_module_in(const fs::path& folder, const cmodel::Config& config, Rtl
   fs::create_directories(module.parent_path(), error);
   if (error) {
     throw_machine({.where = module.parent_path().string(),
-                   .what = "cannot be made, for a simulator: " + error.message(),
+                   .what = "cannot create the folder for a simulator: " + error.message(),
                    .expected = {},
                    .got = {},
-                   .fix = "set XDG_CACHE_HOME to a folder of your own"});
+                   .fix = "set XDG_CACHE_HOME to your own folder"});
   }
   const FolderLock lock(module);
   if (!fs::exists(module)) build(module, config, abilities);

@@ -38,14 +38,14 @@ class VerilatedDevice final : public RtlDevice {
                                              .what = "the RTL was built for another configuration",
                                              .expected = hash_text(config_hash(config)),
                                              .got = hash_text(hash),
-                                             .fix = "build again"});
+                                             .fix = "rebuild the RTL"});
     }
   }
   void consume(std::span<const cmodel::Beat> beats) override {
     for (const auto& beat : beats) {
       offer(beat);
       for (const std::uint64_t since = cycle_; !cycle();) {
-        if (hangs(since)) time_out("no beat taken");
+        if (hangs(since)) time_out("no beat accepted");
       }
     }
   }
@@ -63,7 +63,7 @@ class VerilatedDevice final : public RtlDevice {
     expecting_ = true;
     offer(beat);
     for (const std::uint64_t since = cycle_; !cycle();) {
-      if (hangs(since)) time_out("no beat taken");
+      if (hangs(since)) time_out("no beat accepted");
     }
     const std::uint64_t taken = cycle_ - 1;
     // It may lie behind a beat that waits in decode.
@@ -111,7 +111,7 @@ class VerilatedDevice final : public RtlDevice {
     ports_.araddr_i.drive(address);
     ports_.arvalid_i = 1;
     reading_ = true;
-    wait_for("no register read taken", [this] { return ports_.arready_o != 0; });
+    wait_for("no register read accepted", [this] { return ports_.arready_o != 0; });
     read_in_a_cycle();
     if (ports_.rresp_o != kOkay && ports_.rresp_o != kSlverr) unknown_response(ports_.rresp_o);
     ports_.rready_i = wait == 0 ? 1 : 0;
@@ -134,7 +134,7 @@ class VerilatedDevice final : public RtlDevice {
     ports_.wdata_i.drive(word);
     ports_.awvalid_i = ports_.wvalid_i = 1;
     writing_ = true;
-    wait_for("no register write taken", [this] {
+    wait_for("no register write accepted", [this] {
       top_->eval();  // ready answers valid within the cycle
       return ports_.awready_o != 0;
     });
@@ -199,7 +199,7 @@ class VerilatedDevice final : public RtlDevice {
 
   void come_to_rest() {
     for (const std::uint64_t since = cycle_; (read_status() & cmodel::kStatusBusy) != 0 || !tiles_.complete();) {
-      if (hangs(since)) time_out("the device does not come to rest");
+      if (hangs(since)) time_out("the device does not become idle");
     }
   }
 
@@ -208,7 +208,7 @@ class VerilatedDevice final : public RtlDevice {
 
   /// The cycle behind that in which a read's address was taken: another one offered meanwhile is not.
   void read_in_a_cycle() {
-    if (ports_.rvalid_o) wrong("a register read is answered in the cycle after it was taken", "in the one behind that");
+    if (ports_.rvalid_o) wrong("a register read is answered one cycle after it was accepted", "two cycles after");
     ports_.araddr_i.drive(~ports_.araddr_i.value() & 0xFFF);
     ports_.arvalid_i = 1;
     top_->eval();
@@ -266,12 +266,12 @@ class VerilatedDevice final : public RtlDevice {
     offering_ = pending_ = refused_ = reading_ = writing_ = expecting_ = resetting_ = false;
     aborted_tiles_ = 0;
     if (ports_.rvalid_o || ports_.bvalid_o || ports_.m_tvalid_o) {
-      throw UserError(ExitCode::Simulation, {.where = "after a reset of " + std::to_string(cycles) + " cycles",
-                                             .what = ports_.m_tvalid_o ? "a pixel beat is offered"
-                                                                       : "an answer of the register bus is offered",
-                                             .expected = {},
-                                             .got = {},
-                                             .fix = "look at what the reset leaves out"});
+      throw UserError(ExitCode::Simulation,
+                      {.where = "after a reset of " + std::to_string(cycles) + " cycles",
+                       .what = ports_.m_tvalid_o ? "a pixel beat is offered" : "a register bus response is offered",
+                       .expected = {},
+                       .got = {},
+                       .fix = "check which state the reset misses"});
     }
     ports_.rready_i = ports_.bready_i = 1;
   }
@@ -303,15 +303,16 @@ class VerilatedDevice final : public RtlDevice {
     ++cycle_;
     if (top_->failed()) assertion_failed();
     if ((ports_.rvalid_o && !reading_) || (ports_.bvalid_o && !writing_)) {
-      wrong(std::string("the register bus answers a ") + (ports_.rvalid_o ? "read" : "write") + " that nobody began");
+      wrong(std::string("the register bus answers a ") + (ports_.rvalid_o ? "read" : "write") +
+            " that was not requested");
     }
     if (ports_.error_o && !refused_ && !expecting_) {
       refused_ = true;
       ports_.arvalid_i = ports_.awvalid_i = ports_.wvalid_i = 0;
       throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_),
                                              .what = "the device refused the stream",
-                                             .expected = "beats that keep the rules of docs/stream.md",
-                                             .got = "error status; ERROR and ERROR_BEAT say more",
+                                             .expected = "beats that comply with docs/stream.md",
+                                             .got = "error status (details in ERROR and ERROR_BEAT)",
                                              .fix = "check the stream with 'fastsplat stream dump'"});
     }
     return taken;
@@ -335,7 +336,7 @@ class VerilatedDevice final : public RtlDevice {
     const auto words = ports_.m_tdata_o.words(small);
     const bool last = ports_.m_tlast_o != 0, aborted = ports_.m_tuser_o != 0;
     if (aborted && !expecting_)
-      wrong("a tile comes out marked as cut short", "no mark: nothing was refused", "m_tuser_o = 1");
+      wrong("an output tile is marked as aborted", "no mark, because no beat was refused", "m_tuser_o = 1");
     if (last && aborted) ++aborted_tiles_;
     if (options_.taps != nullptr)
       options_.taps->on_raw({.port = RawPort::Pixels,
@@ -389,7 +390,7 @@ class VerilatedDevice final : public RtlDevice {
   std::uint32_t read(std::uint32_t address) {
     const RegisterAnswer answer = read_register(address, 0);
     if (!answer.okay) {
-      wrong("the device refuses to tell a register", "OKAY", "SLVERR of address " + std::to_string(address));
+      wrong("the device refuses a register read", "OKAY", "SLVERR of address " + std::to_string(address));
     }
     return answer.word;
   }
@@ -406,17 +407,16 @@ class VerilatedDevice final : public RtlDevice {
                                            .what = what,
                                            .expected = expected,
                                            .got = got,
-                                           .fix = "look at the waveform of the last cycles"});
+                                           .fix = "check the waveform of the last cycles"});
   }
   [[noreturn]] void unanswered(const std::string& access) const {
-    wrong("no answer to a register " + access, "a read's two cycles after it was taken, a write's one");
+    wrong("no response to a register " + access, "reads: two cycles after acceptance, writes: one");
   }
   [[noreturn]] void taken_too_early(const std::string& access) const {
-    wrong("a second register " + access + " is taken before the first was answered");
+    wrong("a second register " + access + " is accepted before the response to the first");
   }
   [[noreturn]] void unknown_response(int got) const {
-    wrong("a register access is answered with what the page does not know", "OKAY (0) or SLVERR (2)",
-          std::to_string(got));
+    wrong("unknown response to a register access", "OKAY (0) or SLVERR (2)", std::to_string(got));
   }
   [[noreturn]] void assertion_failed() const {
     const FailedAssertion failed = first_failed_assertion(top_->take_output());

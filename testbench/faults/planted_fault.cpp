@@ -52,7 +52,7 @@ const PlantedFault& planted_fault_from(const std::string& name) {
                .what = "unknown fault '" + name + "'",
                .expected = {},
                .got = {},
-               .fix = suggestion(name, planted_fault_names()) + "; `--fault list` says what each breaks"});
+               .fix = suggestion(name, planted_fault_names()) + "; `--fault list` describes each fault"});
 }
 
 MakeDevice with_fault(const PlantedFault& fault, const cmodel::Config& config) {

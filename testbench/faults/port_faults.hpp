@@ -8,15 +8,15 @@
 namespace fastsplat::testbench {
 
 /// PORT_FAULT(NAME, what is broken). Each is a function of the stream, not of time: a smaller stream shows it as well.
-#define FASTSPLAT_PORT_FAULTS(PORT_FAULT)                                                                     \
-  PORT_FAULT(PORT_SNAP, "tap snap: one phase more in x, of every seventh splat of a tile")                    \
-  PORT_FAULT(PORT_FOOTPRINT, "tap footprint: last bit of the first weight, of every seventh splat of a tile") \
-  PORT_FAULT(PORT_SHEET, "tap sheet: last bit of the first sum, of every seventh splat of a tile")            \
-  PORT_FAULT(PORT_COMPOSITE, "tap composite: last bit of the first word, of each tile's second block")        \
-  PORT_FAULT(PORT_PIXEL, "pixels: last bit of the first word, of each tile's last beat")                      \
-  PORT_FAULT(PORT_LOST, "tap composite: each tile's second block is never told")                              \
-  PORT_FAULT(PORT_TWICE, "tap snap: told twice, of every seventh splat of a tile")                            \
-  PORT_FAULT(PORT_COUNTER, "counters: one splat too many")                                                    \
+#define FASTSPLAT_PORT_FAULTS(PORT_FAULT)                                                                    \
+  PORT_FAULT(PORT_SNAP, "tap snap: one phase more in x for every seventh splat of a tile")                   \
+  PORT_FAULT(PORT_FOOTPRINT, "tap footprint: last bit of the first weight of every seventh splat of a tile") \
+  PORT_FAULT(PORT_SHEET, "tap sheet: last bit of the first sum of every seventh splat of a tile")            \
+  PORT_FAULT(PORT_COMPOSITE, "tap composite: last bit of the first word of each tile's second block")        \
+  PORT_FAULT(PORT_PIXEL, "pixels: last bit of the first word of each tile's last beat")                      \
+  PORT_FAULT(PORT_LOST, "tap composite: each tile's second block is never reported")                         \
+  PORT_FAULT(PORT_TWICE, "tap snap: every seventh splat of a tile is reported twice")                        \
+  PORT_FAULT(PORT_COUNTER, "counters: one splat too many")                                                   \
   PORT_FAULT(PORT_CYCLE, "counters: one busy cycle too many")
 
 enum class PortFault {

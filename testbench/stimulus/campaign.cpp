@@ -44,10 +44,10 @@ StreamDocument as_file(const StreamDocument& document) {
   for (const auto& tile : out.tiles) pixels += std::int64_t{tile.begin.width} * std::int64_t{tile.begin.height};
   if (pixels == std::int64_t{out.width} * out.height) return out;
   throw_usage({.where = "a random stream",
-               .what = "has more tiles than the image of a file holds",
+               .what = "has more tiles than fit into the image of a file",
                .expected = {},
                .got = std::to_string(out.tiles.size()) + " tiles",
-               .fix = "fewer splats with --random, or another --class"});
+               .fix = "use fewer splats with --random, or another --class"});
 }
 
 constexpr const char* kClassReady = "class_ready";

@@ -151,7 +151,7 @@ DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& m
     read(cmodel::kRegMagic);  // whose word is not to be told again
     const auto answer = device->read_register(address);
     check.equal("unknown read answers SLVERR", 0, answer.okay ? 1 : 0, unknown_read);
-    check.equal("unknown read gives", 0, answer.word, unknown_read);
+    check.equal("unknown read returns", 0, answer.word, unknown_read);
   }
   check.equal("a counter is not written", 0, device->write_register(cmodel::kRegCounters.address, 1).okay ? 1 : 0,
               unknown_write);
@@ -203,7 +203,7 @@ DirectedResult check_short_resets(const cmodel::Config& config, const MakeDevice
     const auto result = verify(source_of(beats), options);
     check.result.comparisons += result.check.comparisons;
     check.equal(std::string("a reset of one cycle ") + reset.name + ", beat " + std::to_string(at) + ", " +
-                    std::to_string(options.reset_wait) + " cycles behind it: passes" +
+                    std::to_string(options.reset_wait) + " cycles after it: passes" +
                     (result.error.empty() ? "" : " (" + result.error + ")"),
                 1, result.verdict == Verdict::Pass ? 1 : 0, check.bin("short_reset", reset.name));
   };

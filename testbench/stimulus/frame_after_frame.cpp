@@ -148,7 +148,7 @@ void reset_at_once(Frames& frames, std::span<const Beat> beats, int most_waits, 
     frames.device().soft_reset(false);
     for (int i = 0; i < 3; ++i)
       check.equal(
-          "STATUS behind two resets, " + std::to_string(wait) + " reads behind the tile, read " + std::to_string(i), 0,
+          "STATUS after two resets, " + std::to_string(wait) + " reads after the tile, read " + std::to_string(i), 0,
           frames.read(kRegStatus), bin);
     frames.device().soft_reset();
   }

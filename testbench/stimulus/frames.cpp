@@ -96,7 +96,7 @@ bool Frames::bad(const std::string& what, const Beats& beats, const Refused& exp
   const std::uint64_t aborted = device_->aborted_tiles();
   const auto refusal = device_->refuse(beats[expected.beat]);
   check_.equal(what + ": refused", 1, refusal ? 1 : 0, bin);
-  if (refusal) check_.equal(what + ": judged in cycle", checker_->judged(refusal->taken), refusal->judged, bin);
+  if (refusal) check_.equal(what + ": checked in cycle", checker_->judged(refusal->taken), refusal->judged, bin);
   const Closers closers = closers_of(before);
   // Its own ends lie where the refused beat lay, a cycle later: as if they had been taken in the cycle before the
   // verdict.
@@ -111,8 +111,8 @@ bool Frames::bad(const std::string& what, const Beats& beats, const Refused& exp
   };
   error();
   end(what, closers.beats.empty() ? bin : check_.bin("refusal", "open_tile_is_ended"), closers.in_table);
-  check_.equal(what + ": tiles marked as cut short", aborted + (closers.beats.empty() ? 0 : 1),
-               device_->aborted_tiles(), bin);
+  check_.equal(what + ": tiles marked as aborted", aborted + (closers.beats.empty() ? 0 : 1), device_->aborted_tiles(),
+               bin);
   // What comes after it changes nothing, and is not what ERROR tells.
   const auto swallowed = check_.bin("refusal", "rest_is_swallowed");
   const auto counters = device_->counters();
@@ -147,7 +147,7 @@ void Frames::follow(const std::string& what, const Beats& next, bool in_table, C
   device_->finish();
   relay_.to = nullptr;
   if (!in_table) told(what, checker_->finish(), bin);
-  told(what + ", the frame behind it", after.finish(), bin);
+  told(what + ", the next frame", after.finish(), bin);
   // Nobody cleared the counters in between: they are those of both.
   cmodel::Counters both = checker_->counted();
   both += after.counted();

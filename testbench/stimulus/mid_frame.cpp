@@ -42,7 +42,7 @@ std::size_t behind_first(const Beats& beats, Opcode wanted) { return first_of(be
 void refuse_writes(const Config& config, Frames& frames, const Beats& beats, Check& check) {
   const auto bin = check.bin("refusal", kMidFrameBins[0]);
   for (const std::size_t at : {behind_first(beats, Opcode::LoadTable), behind_first(beats, Opcode::Splat)}) {
-    const std::string what = "writes behind beat " + std::to_string(at);
+    const std::string what = "writes after beat " + std::to_string(at);
     frames.good(what, beats, bin,
                 {at, [&] {
                    const auto state = [&] {
@@ -69,7 +69,7 @@ void be_busy_while_judging(const Config& config, Frames& frames, const Beats& be
   for (int later = 0; later < (config.culls() ? 2 + static_cast<int>(stages::kCullStages) : 2); ++later) {
     frames.device().consume(std::span(beats).first(1));
     if (later > 0) frames.device().takes_half_write(WriteHalf::Address, kRegControl.address, 0, later);
-    const std::string what = "STATUS behind begin_frame, " + std::to_string(later) + " cycles later";
+    const std::string what = "STATUS after begin_frame, " + std::to_string(later) + " cycles later";
     check.equal(what, kStatusBusy, frames.read(kRegStatus), bin);
     for (int i = 0; i < kReads; ++i) frames.read(kRegStatus);
     check.equal(what + ", at rest", 0, frames.read(kRegStatus), bin);
@@ -87,11 +87,11 @@ void count_anew(const Config& config, Frames& frames, const Beats& beats, Check&
     std::ranges::find(all, rule, &Violation::rule)->commit(spoiled);
     const auto expected = refused_by_model(config, spoiled);
     if (!expected) continue;  // check_refusals() has said so
-    const std::string what = "rule " + std::to_string(static_cast<int>(rule)) + " in the frame after one given up";
+    const std::string what = "rule " + std::to_string(static_cast<int>(rule)) + " in the frame after an aborted one";
     frames.drop(part, 1);
     frames.bad(what + " by a hard reset", spoiled, *expected, hard);
     frames.forgive();
-    frames.cut("a frame given up", part, 1, soft);
+    frames.cut("an aborted frame", part, 1, soft);
     frames.bad(what + " by a soft reset", spoiled, *expected, soft);
     frames.forgive();
   }

@@ -77,7 +77,7 @@ DirectedResult check_refusals(const cmodel::Config& config, const MakeDevice& ma
     frames.read(kRegIrq);
     check.equal("taken back", 0, frames.device().interrupt() ? 1 : 0, interrupt);
   }
-  check.equal("IRQ is cleared by what is written", 0, frames.read(kRegIrq), interrupt);
+  check.equal("writing 1 clears IRQ", 0, frames.read(kRegIrq), interrupt);
   frames.write(kRegIrqMask, kIrqError);
 
   int number = 0;
@@ -123,16 +123,16 @@ DirectedResult check_refusals(const cmodel::Config& config, const MakeDevice& ma
   for (std::size_t i = 0; i < records.size(); i += 1 + records.size() / 24) {
     const std::size_t end = i + 1 < records.size() ? records[i + 1].at : beats.size();
     const bool picture = records[i].opcode == Opcode::EndTile;
-    const std::string what = "soft reset behind beat " + std::to_string(end);
+    const std::string what = "soft reset after beat " + std::to_string(end);
     for (const int wait : {2, 9}) frames.cut(what, std::span(beats).first(end), wait, picture ? in_picture : in_tile);
     frames.cut(what + " and the next frame", std::span(beats).first(end), static_cast<int>(i % 3), at_once, beats);
   }
   for (const auto& [at, opcode] : records) {
     if (opcode != Opcode::EndTile) continue;
-    frames.cut("soft reset behind end_tile", std::span(beats).first(at + 1), 4, in_picture);
-    frames.cut("soft reset behind end_tile and the next frame", std::span(beats).first(at + 1), 4, at_once, beats);
+    frames.cut("soft reset after end_tile", std::span(beats).first(at + 1), 4, in_picture);
+    frames.cut("soft reset after end_tile and the next frame", std::span(beats).first(at + 1), 4, at_once, beats);
   }
-  frames.good("a frame after all that", beats, soft);
+  frames.good("a frame after these refusals", beats, soft);
   check_mid_frame(config, make, frames, beats, check);
   check_frame_after_frame(config, frames, beats, check);
   return check.result;

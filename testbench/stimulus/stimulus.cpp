@@ -21,18 +21,19 @@ struct ClassName {
   const char* meaning;
 };
 constexpr std::array kNames{
-    ClassName{StimulusClass::Mixed, "mixed", "anything legal"},
-    ClassName{StimulusClass::TableCorners, "table-corners", "RLUT sums on both sides of every table's ends"},
-    ClassName{StimulusClass::RoundingTies, "rounding-ties", "products exactly between two words"},
-    ClassName{StimulusClass::Saturation, "saturation", "each channel and all, in every saturating stage"},
+    ClassName{StimulusClass::Mixed, "mixed", "any legal stream"},
+    ClassName{StimulusClass::TableCorners, "table-corners", "RLUT sums on both sides of the ends of every table"},
+    ClassName{StimulusClass::RoundingTies, "rounding-ties", "products exactly halfway between two words"},
+    ClassName{StimulusClass::Saturation, "saturation",
+              "each channel alone and all together, in every saturating stage"},
     ClassName{StimulusClass::Thresholds, "thresholds",
-              "transmittance beside the freeze threshold, sums beside the largest word"},
+              "transmittance near the early-termination threshold, sums near the largest word"},
     ClassName{StimulusClass::BankPhases, "bank-phases", "every window origin modulo P"},
     ClassName{StimulusClass::ScreenEdges, "screen-edges", "windows across each edge and corner of partial tiles"},
     ClassName{StimulusClass::Hazards, "hazards", "the same words again after 1, 2, 3, ... windows"},
     ClassName{StimulusClass::SwapHazards, "swap-hazards", "the same words on both sides of a sheet swap"},
     ClassName{StimulusClass::SwapPhases, "swap-phases", "sheets of 0, 1, 2, ... splats"},
-    ClassName{StimulusClass::EmptySheets, "empty-sheets", "sheets and tiles with nothing in them"},
+    ClassName{StimulusClass::EmptySheets, "empty-sheets", "empty sheets and tiles"},
     ClassName{StimulusClass::OffTile, "off-tile", "sheets whose splats all miss the tile"},
     ClassName{StimulusClass::SparseSheets, "sparse-sheets", "few splats far apart: bound by the compositor"},
     ClassName{StimulusClass::MultiWindow, "multi-window", "footprints of many windows"},
@@ -522,7 +523,7 @@ StimulusClass stimulus_class_from(const std::string& name) {
                .what = "unknown stimulus class '" + name + "'",
                .expected = "all, " + known,
                .got = {},
-               .fix = "`fastsplat help verify` and docs/verify.md tell what they reach"});
+               .fix = "see docs/verify.md for what each class covers"});
 }
 
 Stimulus make_stimulus(const cmodel::Config& config, StimulusClass which, std::uint64_t seed, std::uint64_t splats) {

@@ -336,7 +336,7 @@ class List {
       change(StreamRule::Tile, "mode " + std::to_string(mode), tile, layout::kTileMode, mode);
     for (const auto& [side, most] :
          {std::pair{layout::kTileWidth, config_.tile_width}, std::pair{layout::kTileHeight, config_.tile_height}}) {
-      add(StreamRule::Tile, "tile of densities without room for a rim", [=, w = side, m = most](Beats& b) {
+      add(StreamRule::Tile, "tile of densities without room for a halo", [=, w = side, m = most](Beats& b) {
         of_densities(b);
         overwrite(b[0], layout::kFrameWidth, 0xffff);
         overwrite(b[0], layout::kFrameHeight, 0xffff);

@@ -169,7 +169,7 @@ class Walk {
     const bool inside = index < static_cast<std::uint32_t>(config_.radial_entries);
     return name(mx, i) + "=" + hex(column) + " + " + name(my, j) + "=" + hex(row) + ": q=" + hex(q) +
            ", index=" + std::to_string(index) +
-           (inside ? ", RADIAL=" + hex(radial_.weight(q, nobody_)) : ", at or beyond the rim: 0");
+           (inside ? ", RADIAL=" + hex(radial_.weight(q, nobody_)) : ", at or beyond the footprint's edge: 0");
   }
 
   template <class Record>

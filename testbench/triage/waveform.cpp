@@ -67,7 +67,7 @@ std::string cannot_write(const std::filesystem::path& path, const std::string& r
                    .what = "cannot write the waveform: " + reason,
                    .expected = {},
                    .got = {},
-                   .fix = "choose a folder with more space, then run it again"});
+                   .fix = "choose a folder with more space, then run the command again"});
 }
 
 }  // namespace
@@ -85,13 +85,13 @@ std::string write_waveform(const BeatSource& source, const VerifyOptions& option
     const int status = HelperProcess(child).wait();
     if (WIFEXITED(status) && WEXITSTATUS(status) == kUnwanted) {
       return one_line({.where = options.wave.string(),
-                       .what = "no waveform: the simulation that writes it does not fail so",
+                       .what = "no waveform: the simulation that writes it does not show this failure",
                        .expected = {},
                        .got = {},
-                       .fix = "registers hold other words there before reset: look for what is never reset, and try "
-                              "--fill zero or one"});
+                       .fix = "registers hold other words before reset in that simulation: look for registers that are "
+                              "never reset, and try --fill zero or one"});
     }
-    if (status != 0) return cannot_write(options.wave, "the writer ended early");
+    if (status != 0) return cannot_write(options.wave, "the writing process ended early");
     file.commit();
     return {};
   } catch (const UserError& error) {

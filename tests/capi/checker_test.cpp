@@ -82,7 +82,8 @@ TEST(CapiChecker, NamesWhatIsWrongFirst) {
       {"pixel", [](Truth& t) { event_at(t, RawPort::Pixels).words[0] ^= 1; }, FASTSPLAT_TAP_PIXEL, "pixel"},
       {"keep", [](Truth& t) { *event_at(t, RawPort::Pixels).tap.keep ^= 1; }, FASTSPLAT_TAP_PIXEL, "stage pixel"},
       {"tile", [](Truth& t) { ++*event_at(t, RawPort::Window).tap.tile; }, FASTSPLAT_TAP_FOOTPRINT, "tile"},
-      {"cut", [](Truth& t) { event_at(t, RawPort::Pixels).tap.cut = true; }, 5, "marked as of a tile cut short"},
+      {"cut", [](Truth& t) { event_at(t, RawPort::Pixels).tap.cut = true; }, 5,
+       "marked as belonging to an aborted tile"},
       {"verdict", show_a_verdict, 8, "verdict: expected none, RTL tag 7 hidden in cycle"},
       {"counter", [](Truth& t) { ++t.counters[2]; }, 6, "counter splats: expected"},
       {"cycles", [](Truth& t) { ++t.counters[16]; }, 7, "cycles: expected"},
@@ -157,7 +158,7 @@ TEST(CapiChecker, WhatSystemVerilogTellsIsCompared) {
                                    {RawPort::Pixels, "stage pixel, tile 9"}})
     tell_all(port, what, [](auto& tap) { tap.tile = 9; });
   tell_all(RawPort::Pixels, "RTL has stage pixel", [](auto& tap) { *tap.keep ^= 1; });
-  tell_all(RawPort::Pixels, "marked as of a tile cut short", [](auto& tap) { tap.cut = true; });
+  tell_all(RawPort::Pixels, "marked as belonging to an aborted tile", [](auto& tap) { tap.cut = true; });
   tell_all(RawPort::Verdict, "verdict: expected none, RTL tag 7 hidden", [](auto&) {});
 }
 

@@ -121,10 +121,10 @@ TEST_F(CapiMisuse, HandlesThatAreNoneAreRefused) {
   refused(fastsplat_checker_finish(reinterpret_cast<fastsplat_checker*>(model), nullptr, 0),
           "expected checker, got model");
   ASSERT_EQ(fastsplat_model_destroy(model), FASTSPLAT_OK);
-  refused(fastsplat_model_destroy(model), "no such handle");
-  refused(fastsplat_model_feed(model, words_of(truth_.beats), 1), "no such handle");
+  refused(fastsplat_model_destroy(model), "invalid handle");
+  refused(fastsplat_model_feed(model, words_of(truth_.beats), 1), "invalid handle");
   int local = 0;
-  refused(fastsplat_model_reset(reinterpret_cast<fastsplat_model*>(&local)), "no such handle");
+  refused(fastsplat_model_reset(reinterpret_cast<fastsplat_model*>(&local)), "invalid handle");
 }
 
 TEST_F(CapiMisuse, WrongSizesAndNumbersAreRefused) {
@@ -178,11 +178,11 @@ TEST_F(CapiMisuse, WrongSizesAndNumbersAreRefused) {
   shown.port = FASTSPLAT_PORT_COMPOSITE;
   ASSERT_EQ(fastsplat_checker_port_words(checker.handle, shown.port, &shown.word_count), FASTSPLAT_OK);
   shown.block = 256;  // of tiny 0..255
-  refused(fastsplat_checker_showed(checker.handle, &shown), "no such block");
+  refused(fastsplat_checker_showed(checker.handle, &shown), "block number out of range");
   shown.block = 255;
   EXPECT_EQ(fastsplat_checker_showed(checker.handle, &shown), FASTSPLAT_OK);
   shown.cycle = 9;
-  refused(fastsplat_checker_showed(checker.handle, &shown), "cycles went back");
+  refused(fastsplat_checker_showed(checker.handle, &shown), "cycles must not decrease");
   shown.struct_size = 8;
   refused(fastsplat_checker_showed(checker.handle, &shown), "struct_size");
 }
@@ -191,29 +191,29 @@ TEST_F(CapiMisuse, CallsOutOfOrderAreRefused) {
   const Model model(config_);
   // A stream that is not whole is over all the same.
   refused(fastsplat_model_finish(model.handle), "stream", FASTSPLAT_INPUT);
-  refused(fastsplat_model_feed(model.handle, words_of(truth_.beats), 1), "the stream broke before");
-  refused(fastsplat_model_finish(model.handle), "the stream broke before");
+  refused(fastsplat_model_feed(model.handle, words_of(truth_.beats), 1), "the stream failed earlier");
+  refused(fastsplat_model_finish(model.handle), "the stream failed earlier");
   ASSERT_EQ(fastsplat_model_reset(model.handle), FASTSPLAT_OK);
   ASSERT_EQ(fastsplat_model_feed(model.handle, words_of(truth_.beats), truth_.beats.size()), FASTSPLAT_OK);
   ASSERT_EQ(fastsplat_model_finish(model.handle), FASTSPLAT_OK) << fastsplat_last_error();
-  refused(fastsplat_model_finish(model.handle), "finished already");
+  refused(fastsplat_model_finish(model.handle), "already finished");
   refused(fastsplat_model_feed(model.handle, words_of(truth_.beats), 1), "finished");
 
   const Checker checker(config_);
   ASSERT_EQ(fastsplat_checker_start(checker.handle, kFirstBeat), FASTSPLAT_OK);
-  refused(fastsplat_checker_start(checker.handle, kFirstBeat), "started already");
+  refused(fastsplat_checker_start(checker.handle, kFirstBeat), "already started");
   ASSERT_EQ(tell(truth_.events, checker.handle), FASTSPLAT_OK);
   refused(fastsplat_checker_finish(checker.handle, truth_.counters.data(), FASTSPLAT_MODEL_COUNTERS),
-          "cycles are compared");
+          "counters of cycles are missing");
   ASSERT_EQ(fastsplat_checker_finish(checker.handle, truth_.counters.data(), truth_.counters.size()), FASTSPLAT_OK);
   refused(fastsplat_checker_finish(checker.handle, nullptr, 0), "finished");
   refused(fastsplat_checker_took(checker.handle, words_of(truth_.beats), 1), "finished");
   ASSERT_EQ(fastsplat_checker_reset(checker.handle), FASTSPLAT_OK);
   ASSERT_EQ(fastsplat_checker_took(checker.handle, words_of(truth_.beats), 1), FASTSPLAT_OK);
-  refused(fastsplat_checker_start(checker.handle, 0), "beats were taken already");
+  refused(fastsplat_checker_start(checker.handle, 0), "beats were already accepted");
   refused(fastsplat_checker_finish(checker.handle, nullptr, 0), "stream", FASTSPLAT_INPUT);
-  refused(fastsplat_checker_took(checker.handle, words_of(truth_.beats), 1), "the stream broke before");
-  refused(fastsplat_checker_finish(checker.handle, nullptr, 0), "the stream broke before");
+  refused(fastsplat_checker_took(checker.handle, words_of(truth_.beats), 1), "the stream failed earlier");
+  refused(fastsplat_checker_finish(checker.handle, nullptr, 0), "the stream failed earlier");
 }
 
 TEST_F(CapiMisuse, AStreamThatBreaksIsRefusedAtItsBeatAndThenAltogether) {
@@ -223,11 +223,11 @@ TEST_F(CapiMisuse, AStreamThatBreaksIsRefusedAtItsBeatAndThenAltogether) {
   beats[1][0] |= 0xff;  // no such opcode
   const std::string where = "beat 1 (byte offset " + std::to_string(4 * FASTSPLAT_BEAT_WORDS) + ")";
   refused(fastsplat_model_feed(model.handle, words_of(beats), beats.size()), where, FASTSPLAT_INPUT);
-  refused(fastsplat_model_feed(model.handle, words_of(beats), 1), "the stream broke before");
-  refused(fastsplat_model_finish(model.handle), "the stream broke before");
+  refused(fastsplat_model_feed(model.handle, words_of(beats), 1), "the stream failed earlier");
+  refused(fastsplat_model_finish(model.handle), "the stream failed earlier");
   refused(fastsplat_checker_took(checker.handle, words_of(beats), 2), where, FASTSPLAT_INPUT);
-  refused(fastsplat_checker_took(checker.handle, words_of(beats), 1), "the stream broke before");
-  refused(fastsplat_checker_finish(checker.handle, nullptr, 0), "the stream broke before");
+  refused(fastsplat_checker_took(checker.handle, words_of(beats), 1), "the stream failed earlier");
+  refused(fastsplat_checker_finish(checker.handle, nullptr, 0), "the stream failed earlier");
   ASSERT_EQ(fastsplat_model_reset(model.handle), FASTSPLAT_OK);
   EXPECT_EQ(fastsplat_model_feed(model.handle, words_of(truth_.beats), truth_.beats.size()), FASTSPLAT_OK);
   // Another configuration's stream.
@@ -241,7 +241,7 @@ TEST_F(CapiMisuse, ConfigurationsThatBreakTheirRulesAreRefused) {
   refused(fastsplat_config_named("tinny", &out), "no such built-in configuration", FASTSPLAT_INPUT);
   refused(fastsplat_config_named("/etc/passwd", &out), "no such built-in configuration", FASTSPLAT_INPUT);
   refused(fastsplat_config_file("tiny", &out),
-          "tiny: no such file (expected a configuration's .toml file); fastsplat_config_named", FASTSPLAT_INPUT);
+          "tiny: no such file (expected a configuration's .toml file); use fastsplat_config_named", FASTSPLAT_INPUT);
   refused(fastsplat_config_file("/", &out), "is a directory", FASTSPLAT_INPUT);
   const std::string text = "lanes = ";
   refused(fastsplat_config_text(text.data(), text.size(), "mine.toml", &out), "mine.toml:1:9", FASTSPLAT_INPUT);

@@ -52,23 +52,23 @@ damaged = stream + ".damaged"
 with open(stream, "rb") as whole, open(damaged, "wb") as file:
     file.write(whole.read() + b"xyz")
 checker, fresh = fastsplat.Checker(fastsplat.Config("tiny")), fastsplat.Model(fastsplat.Config("tiny"))
-for wrong, kind, words in ((lambda: fastsplat.read_stream(damaged), ValueError, "are not whole beats of 32"),
+for wrong, kind, words in ((lambda: fastsplat.read_stream(damaged), ValueError, "not a multiple of the beat size, 32"),
                            (lambda: fresh.feed(beats.astype(float)), ValueError, "whole numbers"),
                            (lambda: fresh.feed(beats.astype(np.int64) + 2**32), ValueError, "0 to 4294967295"),
                            (lambda: fresh.feed(beats.astype(np.int64) - 2**32), ValueError, "0 to 4294967295"),
-                           (lambda: checker.showed("snap", 0, keeps=3), TypeError, "no field keeps"),
-                           (lambda: checker.showed("snap", 0, words_count=3), TypeError, "no field words_count"),
+                           (lambda: checker.showed("snap", 0, keeps=3), TypeError, "unknown field keeps"),
+                           (lambda: checker.showed("snap", 0, words_count=3), TypeError, "unknown field words_count"),
                            (lambda: checker.showed("snap", 0, tag=2**33), ValueError, "0 to 4294967295"),
                            (lambda: checker.showed("snap", -1, tag=1), ValueError, "cycle: expected 0 to 18446744073709551615"),
                            (lambda: checker.showed("snap", 0, tag=1.5), ValueError, "tag: expected 0 to 4294967295, got 1.5"),
-                           (lambda: checker.showed("snip", 0), ValueError, "no port 'snip'; there are snap, "),
+                           (lambda: checker.showed("snip", 0), ValueError, "unknown port 'snip'; expected one of snap, "),
                            (lambda: checker.start(-1), ValueError, "first_beat: expected 0 to 18446744073709551615, got -1"),
                            (lambda: fastsplat.Checker(fastsplat.Config("tiny"), seed=2**64), ValueError, "seed: expected 0 to "),
                            (lambda: fastsplat.Checker(fastsplat.Config("tiny"), stop_after=-1), ValueError, "stop_after: expected 0 to "),
-                           (lambda: fastsplat.Checker(fastsplat.Config("tiny"), input_pattern="always\0x"), ValueError, "input_pattern: there is a NUL"),
-                           (lambda: fastsplat.Model(fastsplat.Config("tiny"), taps=["snop"]), ValueError, "no tap 'snop'; there are snap, "),
-                           (lambda: fastsplat.Config("tiny\0junk"), ValueError, "name: there is a NUL"),
-                           (lambda: fastsplat.Config("tiny")["array.lanes\0x"], ValueError, "key: there is a NUL"),
+                           (lambda: fastsplat.Checker(fastsplat.Config("tiny"), input_pattern="always\0x"), ValueError, "contains a NUL"),
+                           (lambda: fastsplat.Model(fastsplat.Config("tiny"), taps=["snop"]), ValueError, "unknown tap 'snop'; expected one of snap, "),
+                           (lambda: fastsplat.Config("tiny\0junk"), ValueError, "contains a NUL"),
+                           (lambda: fastsplat.Config("tiny")["array.lanes\0x"], ValueError, "contains a NUL"),
                            (lambda: checker.finish([0.5] * 16), ValueError, "whole numbers")):
     try:
         wrong()

@@ -279,7 +279,7 @@ TEST_P(Checked, WhatBelongsToNoTile) {
     seen(wrong, detector, "an event after the last tile");
     const auto report = check(wrong);
     ASSERT_TRUE(report.first);
-    EXPECT_NE(describe(right.config, *report.first).find("outside of any tile"), std::string::npos);
+    EXPECT_NE(describe(right.config, *report.first).find("outside any tile"), std::string::npos);
   }
 }
 
@@ -293,7 +293,7 @@ TEST_P(Checked, TheEndOfATile) {
     const bool zeros =
         std::all_of(event.words.begin(), event.words.end(), [](std::uint32_t word) { return word == 0; });
     if (!zeros)
-      seen(with(right, at - 1, [](RawEvent& before) { before.tap.last = true; }), Detector::Tiles, "a tile cut short");
+      seen(with(right, at - 1, [](RawEvent& before) { before.tap.last = true; }), Detector::Tiles, "an aborted tile");
     Truth last_tile = with(right, at, [](RawEvent& end) { end.tap.last = false; });
     const bool another = std::any_of(right.events.begin() + static_cast<std::ptrdiff_t>(at) + 1, right.events.end(),
                                      [](const RawEvent& later) { return shows(later, RawPort::Pixels); });

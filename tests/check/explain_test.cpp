@@ -75,9 +75,10 @@ TEST_F(Explained, AWeightByItsOwnColumnAndRow) {
       const auto name = [&](std::uint32_t phase, std::size_t at) {
         return "RLUT[0][" + std::to_string(phase) + "][" + std::to_string(at) + "]=" + hex(look(phase, at));
       };
-      const std::string expected =
-          name(mx, column) + " + " + name(my, row) + ": q=" + hex(q) + ", index=" + std::to_string(index) +
-          (index < radial.words.size() ? ", RADIAL=" + hex(radial.words[index]) : ", at or beyond the rim: 0");
+      const std::string expected = name(mx, column) + " + " + name(my, row) + ": q=" + hex(q) +
+                                   ", index=" + std::to_string(index) +
+                                   (index < radial.words.size() ? ", RADIAL=" + hex(radial.words[index])
+                                                                : ", at or beyond the footprint's edge: 0");
       EXPECT_EQ(explained(record, word), expected);
       ++compared;
       if (column >= lanes && row >= lanes && column != row) ++beyond_the_first_window;

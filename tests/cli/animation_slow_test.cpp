@@ -198,14 +198,14 @@ TEST(AnimationMisuse, IsOneLineWithTheFixAndNoFile) {
   const TempFolder folder;
   const std::string out = folder / "f.##.png";
   const std::vector<Misuse> all{
-      {{"--orbit", "30..30", "--frames", "4", "-o", out}, {"goes nowhere"}},
+      {{"--orbit", "30..30", "--frames", "4", "-o", out}, {"same angle"}},
       {{"--orbit", "30-60", "--frames", "4", "-o", out}, {"--orbit", "'30-60'"}},
       {{"--orbit", "0..", "--frames", "4", "-o", out}, {"--orbit", "'0..'"}},
       {{"--orbit", "0..nan", "--frames", "4", "-o", out}, {"--orbit", "'0..nan'"}},
       {{"--orbit", "0..1e9", "--frames", "4", "-o", out}, {"--orbit", "3600"}},
       {{"--orbit", "0..90", "--frames", "0", "-o", out}, {"--frames", "'0'"}},
       {{"--orbit", "0..90", "--frames", "-3", "-o", out}, {"--frames", "'-3'"}},
-      {{"--orbit", "0..90", "-o", out}, {"how many frames", "--frames N"}},
+      {{"--orbit", "0..90", "-o", out}, {"--orbit", "--frames N"}},
       {{"--frames", "4", "-o", out}, {"--frames", "--orbit"}},
       {{"--video", folder / "v.mp4", "-o", out}, {"--video", "--orbit"}},
       {{"--orbit", "0..90", "--frames", "4"}, {"nothing to write"}},
@@ -215,13 +215,14 @@ TEST(AnimationMisuse, IsOneLineWithTheFixAndNoFile) {
       {{"--orbit", "0..90", "--frames", "4", "-o", folder / "f.##.jpg"}, {".exr"}},
       {{"--orbit", "0..90", "--frames", "4", "-o", out, "--azimuth", "3"}, {"--azimuth"}},
       {{"--orbit", "0..90", "--frames", "4", "-o", out, "--save-scene", folder / "s.toml"}, {"--save-scene"}},
-      {{"--orbit", "0..90", "--frames", "4", "-o", out, "--sequence"}, {"exclude each other"}},
+      {{"--orbit", "0..90", "--frames", "4", "-o", out, "--sequence"}, {"--orbit", "--sequence"}},
       {{"--sequence", "-o", out}, {"--sequence", "--scene"}},
       {{"--orbit", "0..90", "--frames", "4", "-o", folder / "f.##.exr", "--video", folder / "v.mp4"}, {"PNG"}},
       {{"--orbit", "0..90", "--frames", "4", "-o", out, "--video", folder / "v.txt"}, {"v.txt", ".mp4"}},
       {{"--orbit", "0..90", "--frames", "4", "-o", out, "--video", folder / "v.mp4", "--rate", "0"}, {"--rate", "0.1"}},
       {{"--orbit", "0..90", "--frames", "4", "-o", out, "--rate", "12"}, {"--rate", "--video"}},
-      {{"--orbit", "0..90", "--frames", "4", "-o", out, "-o", folder / "./f.##.png"}, {"two files"}}};
+      {{"--orbit", "0..90", "--frames", "4", "-o", out, "-o", folder / "./f.##.png"},
+       {"the same name for two outputs"}}};
   for (const auto& misuse : all) {
     std::vector<std::string> words{"render", "--volume", "shells:8", "--size", "8"};
     words.insert(words.end(), misuse.arguments.begin(), misuse.arguments.end());

@@ -158,9 +158,9 @@ TEST(BadInput, TomlSaysFileLineAndHint) {
   expect_refused("scene", folder.write("d.toml", "[camera]\nzoom = nan\n"), folder, {"d.toml:2"});
   // What would be ignored; a flag may give it a meaning, or take it away.
   const auto idle = folder.write("idle.toml", "volume = \"shells:8\"\n[lens]\naperture = 3\n");
-  expect_refused("scene", idle, folder, {"idle.toml:3:", "lens.aperture means nothing", "--depth-of-field splats"});
+  expect_refused("scene", idle, folder, {"idle.toml:3:", "lens.aperture has no effect", "--depth-of-field splats"});
   const auto exposed = folder.write("exposed.toml", "volume = \"shells:8\"\n[xray]\nexposure = 0.1\n");
-  expect_refused("scene", exposed, folder, {"exposed.toml:3:", "xray.exposure means nothing", "--method xray"});
+  expect_refused("scene", exposed, folder, {"exposed.toml:3:", "xray.exposure does not apply", "--method xray"});
   const std::vector<std::string> quietly{"--size", "8", "--json", "-", "--quiet"};
   for (const std::vector<std::string>& words : {std::vector<std::string>{"--scene", exposed, "--method", "xray"},
                                                 {"--scene", "demo:fire", "--splat-texture", "0"}}) {

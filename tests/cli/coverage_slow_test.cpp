@@ -41,7 +41,7 @@ TEST(VerifyCoverage, AddsUpOverRuns) {
   folder.write("d.json", "{}");
   const auto foreign = fastsplat({"verify", "--random", "50", "--config", "tiny", "--coverage", folder / "d.json"});
   EXPECT_EQ(foreign.code, 3);
-  EXPECT_NE(foreign.err.find("is no coverage file"), std::string::npos) << foreign.err;
+  EXPECT_NE(foreign.err.find("not a coverage file"), std::string::npos) << foreign.err;
 }
 
 // Which file, what it should hold and what it holds, in that order, and the way out.

@@ -104,7 +104,7 @@ TEST(ErrorsBound, HoldsAndSaysSo) {
   const auto result = fastsplat(
       with({"errors", "bound", "--config", "small", "--json", folder / "b.json", "--maps", folder / "b"}, kSmall));
   expect_success(result);
-  EXPECT_NE(result.out.find("no value errs by more than its bound"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("no error exceeds its bound"), std::string::npos) << result.out;
   const Json json = Json::parse(read_bytes(folder / "b.json"));
   EXPECT_EQ(json.at("schema"), "fastsplat.bound/1");
   EXPECT_TRUE(json.at("holds").get<bool>());

@@ -20,7 +20,7 @@ TEST(ErrorsRanges, SaysWhatWouldDoAndAgreesWithTheDevicesCounters) {
   const TempFolder folder;
   const auto result = fastsplat(with(kRanges, with(kSmall, {"--config", "tiny", "--json", folder / "r.json"})));
   expect_success(result);
-  EXPECT_NE(result.out.find("would do: "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("would suffice: "), std::string::npos) << result.out;
   const Json json = Json::parse(read_bytes(folder / "r.json"));
   EXPECT_EQ(json.at("schema"), "fastsplat.ranges/1");
   const auto rendered = fastsplat(with({"render", "--engine", "cmodel", "--config", "tiny", "-o", folder / "a.exr",
@@ -106,7 +106,7 @@ TEST(ErrorsPropose, AnUnreachableTargetIsExit1AndWritesNothing) {
   const TempFolder folder;
   const auto result = fastsplat(with({"errors", "propose", "--target", "psnr>=250", "-o", folder / "p.toml"}, kSmall));
   EXPECT_EQ(result.code, 1) << result.err;
-  EXPECT_NE(result.out.find("psnr>=250 is not met: PSNR "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("psnr>=250 is not met: the best result is PSNR "), std::string::npos) << result.out;
   EXPECT_TRUE(folder.entries().empty());
 }
 
@@ -122,8 +122,8 @@ TEST(ErrorsPropose, BadInputIsOneLine) {
   };
   const Words propose{"errors", "propose"};
   refused(with(propose, kSmall), 2, {"--target"});
-  refused(with(propose, {"--target", "good"}), 2, {"--target", "is no target", "'good'", "psnr>="});
-  refused(with(propose, {"--target", "psnr>=high"}), 2, {"--target", "no number"});
+  refused(with(propose, {"--target", "good"}), 2, {"--target", "not a target", "'good'", "psnr>="});
+  refused(with(propose, {"--target", "psnr>=high"}), 2, {"--target", "not a number"});
   refused(with(propose, {"--target", "max<=-1"}), 2, {"--target", "above 0"});
   refused(with(kPropose, {"--scenes", "demo:nonsuch"}), 2, {"nonsuch", "fire"});
   refused(with(kPropose, {"--scenes", folder / "none.toml"}), 3, {"none.toml"});
@@ -138,7 +138,8 @@ TEST(ErrorsPropose, BadInputIsOneLine) {
   refused(with(kPropose, with(kSmall, {"--from", linear})), 2, {"index.kind = rlut", "linear", "family"});
   refused(with(kPropose, with(kSmall, {"--journal", no_journal})), 3, {"j.jsonl:1", "journal"});
   refused(with(kPropose, with(kSmall, {"-o", folder / "no/p.toml"})), 3, {"no/p.toml"});
-  refused(with(kPropose, with(kSmall, {"-o", folder / "x", "--journal", folder / "x"})), 2, {"one name for two files"});
+  refused(with(kPropose, with(kSmall, {"-o", folder / "x", "--journal", folder / "x"})), 2,
+          {"the same name for two outputs"});
   refused(with(kRanges, {"--scenes", "demo:nonsuch"}), 2, {"nonsuch", "fire"});
   refused(with(kRanges, with(kSmall, {"--method", "raycast"})), 2, {"raycast"});
   refused(with(kRanges, with(kSmall, {"--config", "bose"})), 2, {"bose", "base"});

@@ -48,9 +48,10 @@ TEST(FrameNames, SayWhatIsNumbered) {
     FrameNames("a#b#.fss", 18, "stream");
     ADD_FAILURE();
   } catch (const UserError& error) {
-    EXPECT_STREQ(error.what(),
-                 "a#b#.fss: two places for the stream number (expected one run of # in the file's name); for example "
-                 "stream.####.fss");
+    EXPECT_STREQ(
+        error.what(),
+        "a#b#.fss: the name has two places for the stream number (expected one group of # in the file name); for "
+        "example stream.####.fss");
   }
 }
 

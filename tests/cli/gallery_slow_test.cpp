@@ -129,7 +129,7 @@ TEST(GalleryMustFail, AManifestWithAMistakeIsToldWhere) {
   };
   for (const Bad& bad : {Bad{good + "captoin = \"g\"\n", ":8: unknown key captoin"},
                          Bad{good + "[[picture]]\nname = \"x\"\n", "lacks section"},
-                         Bad{good + good, "two pictures are named c"}, Bad{good + "enlarge = 3\n", ":8: expected"}}) {
+                         Bad{good + good, "duplicate picture name c"}, Bad{good + "enlarge = 3\n", ":8: expected"}}) {
     folder.write("docs/gallery.toml", bad.text);
     const auto result = run_words({kRoot / "tools/helpers/gallery_page", "--markdown", folder.path()});
     EXPECT_NE(result.err.find(bad.said), std::string::npos) << result.err;

@@ -117,7 +117,7 @@ TEST(GaussiansRun, DamagedFilesAreExit3) {
   refused("cut.ply", ply.substr(0, ply.size() / 2), {"cut.ply", "shorter"});
   refused("empty.ply", "", {"empty.ply", "empty"});
   refused("cut.splat", splat.substr(0, 77), {"cut.splat", "multiple of 32"});
-  refused("nan.splat", std::string(64, '\xff'), {"nan.splat", "none of its 2 Gaussians", "x is not finite"});
+  refused("nan.splat", std::string(64, '\xff'), {"nan.splat", "none of the 2 Gaussians", "x is not finite"});
   refused("packed.spz", "NGSP", {"packed.spz", ".spz file", "splat-transform"});
   std::string missing = ply;
   missing.replace(missing.find("property float opacity"), 22, "property float opacitx");

@@ -103,7 +103,7 @@ class OwnInput : public ::testing::Test {
     SCOPED_TRACE(danger.command[0] + " " + danger.command[1] + " ... " + danger.command.back());
     const auto bytes = read_bytes(danger.file);
     const auto before = folder_.entries();
-    expect_error(fastsplat(danger.command), 2, {"one name for two files", "another name"});
+    expect_error(fastsplat(danger.command), 2, {"the same name for an input and an output", "another name"});
     EXPECT_TRUE(read_bytes(danger.file) == bytes) << danger.file << " was replaced";
     EXPECT_EQ(folder_.entries(), before);
   }

@@ -67,8 +67,9 @@ TEST_P(Usage, IsOneLineWithTheFix) {
 INSTANTIATE_TEST_SUITE_P(
     CommandLine, Usage,
     ::testing::Values(
-        Misuse{"nothing", {}, {"which verb", "render"}}, Misuse{"verb_mistyped", {"rendr"}, {"did you mean 'render'"}},
-        Misuse{"verb_unknown", {"paint"}, {"unknown verb 'paint'"}},
+        Misuse{"nothing", {}, {"requires a subcommand", "render"}},
+        Misuse{"verb_mistyped", {"rendr"}, {"did you mean 'render'"}},
+        Misuse{"verb_unknown", {"paint"}, {"unknown subcommand 'paint'"}},
         Misuse{"inner_verb_missing", {"stream"}, {"record, dump, replay"}},
         Misuse{"inner_verb_mistyped", {"volume", "inof"}, {"did you mean 'info'"}},
         Misuse{"flag_mistyped", {"render", "--sise", "9"}, {"--sise", "did you mean '--size'"}},
@@ -81,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{"value_empty", {"render", "--size="}, {"--size needs a value"}},
         Misuse{"value_blank", {"render", "--size", ""}, {"--size needs a value"}},
         Misuse{"flag_twice", {"render", "--size", "9", "--size", "8"}, {"--size is given twice"}},
-        Misuse{"flag_with_value", {"render", "--quiet=yes"}, {"--quiet takes no value"}},
+        Misuse{"flag_with_value", {"render", "--quiet=yes"}, {"--quiet does not take a value"}},
         Misuse{"positional_missing", {"compare", "a.exr"}, {"TEST is required"}},
         Misuse{"positional_extra", {"compare", "a", "b", "c"}, {"unexpected 'c'"}},
         Misuse{"required_flag_missing", {"stream", "record", "--volume", "shells:8"}, {"--out is required"}},
@@ -102,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(
                {"--seed 9223372036854775807 --seeds 2", "at most 9223372036854775806"}},
         Misuse{"more_splats_than_fit",
                {"verify", "--random", "10000001", "--config", "tiny"},
-               {"--random", "at most 10000000", "lower --random, raise --seeds"}},
+               {"--random", "at most 10000000", "lower --random and raise --seeds"}},
         Misuse{"junit_to_stdout",
                {"verify", "--random", "9", "--config", "tiny", "--junit", "-"},
                {"--junit -", "only --json", "name a file"}},
@@ -111,20 +112,20 @@ INSTANTIATE_TEST_SUITE_P(
                {"--coverage -", "name a file"}},
         Misuse{"background_of_no_picture",
                {"verify", "--volume", "shells:8", "--config", "tiny", "--background", "1,1,1"},
-               {"--background", "no picture is made", "render"}},
+               {"--background", "writes no picture", "render"}},
         Misuse{"negative_of_no_picture",
                {"verify", "--volume", "shells:8", "--config", "tiny", "--method", "xray", "--xray-invert", "on"},
-               {"--xray-invert", "no picture is made"}}));
+               {"--xray-invert", "writes no picture"}}));
 
 INSTANTIATE_TEST_SUITE_P(
     OtherVerbs, Usage,
     ::testing::Values(
         Misuse{"cycles_background",
                {"cycles", "--volume", "shells:8", "--background", "1,1,1"},
-               {"--background", "no picture is made"}},
+               {"--background", "writes no picture"}},
         Misuse{"record_background",
                {"stream", "record", "--volume", "shells:8", "--background", "1,1,1", "-o", "/nonexistent/a.fss"},
-               {"--background", "no picture is made"}},
+               {"--background", "writes no picture"}},
         Misuse{"timeline_without_json",
                {"cycles", "--volume", "shells:8", "--timeline"},
                {"--timeline", "--json FILE", "--trace FILE"}},

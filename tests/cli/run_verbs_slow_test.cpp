@@ -150,7 +150,7 @@ TEST(RunVerbs, WhatIsNotKnownIsRefusedAndNothingIsBuilt) {
       {{"nosuch"}, {"command 'nosuch'", "./run help"}},
       {{"nosuch", "--help"}, {"command 'nosuch'", "./run help"}},
       {{"help", "nosuch"}, {"help", "no arguments", "nosuch"}},
-      {{"evidence", "nosuch"}, {"evidence: no part 'nosuch'", "proofs", "page"}},
+      {{"evidence", "nosuch"}, {"evidence: unknown part 'nosuch'", "proofs", "page"}},
       {{"test", "--nosuch"}, {"test", "--nosuch", "-R NAME"}},
       {{"test", "base_fast"}, {"test", "base_fast", "-R NAME"}},
       {{"test", "-j2", "--nosuch"}, {"test", "--nosuch", "-R NAME"}},

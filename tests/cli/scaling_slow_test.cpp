@@ -153,7 +153,8 @@ TEST(Scaling, NamesTheLimit) {
     EXPECT_EQ(limit["name"], name) << limit;
     EXPECT_NE(limit["help"].get<std::string>().find(said), std::string::npos) << limit;
   };
-  expect_limit(kScene + Words{"--devices", "4", "--bytes-per-cycle", "8"}, "bandwidth", "128 are as good as no limit");
+  expect_limit(kScene + Words{"--devices", "4", "--bytes-per-cycle", "8"}, "bandwidth",
+               "128 are equivalent to no limit");
   // Most devices have no tile at all, but no tile would come faster if they had.
   expect_limit(kScene + Words{"--devices", "40", "--bytes-per-cycle", "2"}, "bandwidth", "bytes a cycle");
   expect_limit(kScene + Words{"--devices", "1", "--input", "every-20"}, "bandwidth", "--input");
@@ -163,7 +164,7 @@ TEST(Scaling, NamesTheLimit) {
   expect_limit(kScene + Words{"--devices", "1", "--ready", "every-50"}, "pixel_out", "--ready");
   expect_limit(Words{"--volume", "point:2", "--size", "2", "--config", "base", "--devices", "1"}, "fill", "tables");
   expect_limit(Words{"--volume", "shells:64", "--size", "128", "--config", "base", "--devices", "1"}, "work",
-               "hardly wait");
+               "are busy");
   const auto roofline = told(kScene + Words{"--bytes-per-cycle", "1"})["scaling"]["roofline"];
   EXPECT_EQ(roofline["ruling"], "stream");
 }

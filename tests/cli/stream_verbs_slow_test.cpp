@@ -147,7 +147,7 @@ TEST_F(StreamVerbs, TilesCoverTheImageForEveryVerb) {
 TEST_F(StreamVerbs, AResetBehindTheEndIsRefused) {
   const auto run = fastsplat({"verify", "--stream", stream_, "--config", "tiny", "--reset-after", "1000000"});
   EXPECT_EQ(run.code, 2) << run.out << run.err;
-  EXPECT_NE(run.err.find("the stream ends before it"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("the stream ends before this beat"), std::string::npos) << run.err;
   const auto beats = std::to_string(read_bytes(stream_).size() / cmodel::kBeatBytes);
   EXPECT_NE(run.err.find("at most " + beats), std::string::npos) << run.err;
   EXPECT_EQ(fastsplat({"verify", "--stream", stream_, "--config", "tiny", "--reset-after", beats}).code, 0);

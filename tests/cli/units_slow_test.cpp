@@ -105,7 +105,7 @@ TEST(Units, ASumThatWasCutIsSaid) {
   const Result cut = render(folder, "cut.exr",
                             {"--engine", "cmodel", "--config", "compact", "--method", "xray", "--xray-exposure", "50"});
   expect_success(cut);
-  EXPECT_NE(cut.out.find("unit: plain, 1 tile: in each a sum may have been cut"), std::string::npos) << cut.out;
+  EXPECT_NE(cut.out.find("unit: plain, 1 tile: in each, a sum may have saturated"), std::string::npos) << cut.out;
 }
 
 TEST(Units, OpaqueIsNoLossWhereTheFormatEndsBelowOne) {
@@ -114,11 +114,11 @@ TEST(Units, OpaqueIsNoLossWhereTheFormatEndsBelowOne) {
   const Result still = render(folder, "opaque.exr", opaque);
   expect_success(still);
   EXPECT_NE(still.err.find("output words of 1.0 are 255/256"), std::string::npos) << still.err;
-  EXPECT_EQ(still.err.find("output words cut"), std::string::npos) << still.err;
+  EXPECT_EQ(still.err.find("output words clamped"), std::string::npos) << still.err;
   const Result xray = render(folder, "xray.exr",
                              {"--engine", "cmodel", "--config", "tiny", "--method", "xray", "--xray-exposure", "50"});
   expect_success(xray);
-  EXPECT_NE(xray.err.find("output words cut to the largest word"), std::string::npos) << xray.err;
+  EXPECT_NE(xray.err.find("output words clamped to the largest word"), std::string::npos) << xray.err;
 }
 
 }  // namespace

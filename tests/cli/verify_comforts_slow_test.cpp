@@ -95,7 +95,7 @@ TEST_F(VerifyComforts, FaultsAreListedAndRefused) {
   expect_error(verify({"--random", "10", "--fault", "FORWARD_3", "--config", "tiny"}), 2,
                {"--fault FORWARD_3", "mustfail", "leave out --config"});
   expect_error(verify({"--random", "10", "--fault", "PORT_PIXEL", "--coverage", "a.json"}), 2,
-               {"--coverage", "wrong on purpose"});
+               {"--coverage", "--fault"});
 }
 
 /// First and last time of a waveform, from its header: after the block's type and length, big-endian.
@@ -150,7 +150,7 @@ TEST_F(VerifyComforts, WaveformsThatCannotBeAreRefused) {
   // Behind the run's end: the result is told, the waveform is not there.
   const auto late = with({"--wave", "a.fst", "--cycles", "1000000..1000001", "--json", "told.json"});
   EXPECT_EQ(late.code, 2);
-  EXPECT_NE(late.err.find("the run ends before them"), std::string::npos) << late.err;
+  EXPECT_NE(late.err.find("the run ends before these cycles"), std::string::npos) << late.err;
   EXPECT_EQ(told().at("verdict"), "pass");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a.fst"));
 }

@@ -105,9 +105,9 @@ TEST_F(VerifyFailure, KeepsTheFilesOfAnEarlierOne) {
   EXPECT_NE(second.out.find("verify-failure-2.fss"), std::string::npos) << second.out;
   EXPECT_TRUE(std::filesystem::exists(folder_ / "verify-failure-2.fss"));
   // A name that was given is taken, and what goes is said.
-  EXPECT_EQ(verify({"--random", "300", "--failure", "mine"}, here_).err.find("is replaced"), std::string::npos);
+  EXPECT_EQ(verify({"--random", "300", "--failure", "mine"}, here_).err.find("will be replaced"), std::string::npos);
   const auto again = verify({"--random", "300", "--failure", "mine"}, here_);
-  EXPECT_NE(again.err.find("mine.fss of an earlier failure is replaced"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("mine.fss of an earlier failure will be replaced"), std::string::npos) << again.err;
 }
 
 }  // namespace

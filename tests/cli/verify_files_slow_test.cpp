@@ -213,7 +213,7 @@ TEST_F(VerifyFiles, AStreamThatMemoryDoesNotTakeIsRefused) {
       here_);
   EXPECT_EQ(run.code, 3) << run.err;
   EXPECT_NE(run.err.find("--random 10000000: not enough memory"), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find("lower --random, raise --seeds"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("lower --random and raise --seeds"), std::string::npos) << run.err;
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST(ViewFlags, AreKeptBySavedScenesAndRefusedInOneLine) {
     words.insert(words.end(), flags.begin(), flags.end());
     expect_error(fastsplat(words), 2, said);
   };
-  refused({"--crop", "0..12,0..5,2..9"}, {"leaves the volume", "0..11,0..11,0..11"});
+  refused({"--crop", "0..12,0..5,2..9"}, {"exceeds the volume", "0..11,0..11,0..11"});
   refused({"--crop", "5..2,0..5,2..9"}, {"--crop", "A..B,C..D,E..F"});
   refused({"--crop", "0..2,0..5"}, {"--crop"});
   refused({"--background", "2,0,0"}, {"--background", "0..1"});

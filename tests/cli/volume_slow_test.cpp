@@ -50,7 +50,7 @@ TEST(VolumeVerbs, NanAsIsTakenWhereverVolumesAreRead) {
     if (reader[0] == "cycles" || reader[0] == "verify") {
       expect_success(result);
     } else {
-      expect_warned(result, {"holes.nrrd: 2 of 8 voxels are not finite numbers and were taken as -3.5"});
+      expect_warned(result, {"holes.nrrd: 2 of 8 voxels are not finite numbers and were replaced by -3.5"});
     }
   }
   std::printf("[figure] verbs_with_nan_as = %zu\n", readers.size());
@@ -60,9 +60,9 @@ TEST(VolumeVerbs, NanAsIsTakenWhereverVolumesAreRead) {
   // A saved scene keeps it, and a flag overrides the file.
   expect_success(fastsplat({"render", "--volume", path, "--nan-as", "5", "--save-scene", scene}));
   EXPECT_NE(read_bytes(scene).find("nan_as = 5.0\n"), std::string::npos);
-  expect_warned(fastsplat({"render", "--scene", scene, "--size", "8", "-o", folder / "b.exr"}), {"taken as 5"});
+  expect_warned(fastsplat({"render", "--scene", scene, "--size", "8", "-o", folder / "b.exr"}), {"replaced by 5"});
   expect_warned(fastsplat({"render", "--scene", scene, "--nan-as", "2", "--size", "8", "-o", folder / "b.exr"}),
-                {"taken as 2"});
+                {"replaced by 2"});
   expect_error(fastsplat({"volume", "info", path, "--nan-as", "1e39"}), 2, {"--nan-as"});
 }
 
@@ -77,7 +77,7 @@ TEST(VolumeVerbs, AConstantVolumeIsSaid) {
         {"render", "--volume", path, "--size", "8", "--orbit", "0..90", "--frames", "2", "-o", folder / "f#.png"}}) {
     SCOPED_TRACE(reader[0] + " " + reader[1]);
     const Result result = fastsplat(reader);
-    expect_warned(result, {"warning", "flat.nrrd: a constant volume, every voxel is 0"});
+    expect_warned(result, {"warning", "flat.nrrd: constant volume: every voxel is 0"});
     EXPECT_EQ(result.err.find("constant"), result.err.rfind("constant")) << "said twice";
   }
   EXPECT_EQ(fastsplat({"volume", "info", "constant:4"}).err, "");  // built to be constant
@@ -88,9 +88,9 @@ TEST(VolumeVerbs, SpacingsThatAreNoLengthsAreSaid) {
   expect_success(fastsplat({"volume", "convert", "shells:4", folder / "v.nii"}));
   const std::string whole = read_bytes(folder / "v.nii");
   int said = 0;
-  for (const auto& [value, words] : {std::pair{0.0f, "pixdim[2] is 0, not a length: 1 mm"},
-                                     {NAN, "pixdim[2] is nan, not a length: 1 mm"},
-                                     {-2.0f, "pixdim[2] is -2, not a length: 2 mm"}}) {
+  for (const auto& [value, words] : {std::pair{0.0f, "pixdim[2] is 0, which is not a length: 1 mm"},
+                                     {NAN, "pixdim[2] is nan, which is not a length: 1 mm"},
+                                     {-2.0f, "pixdim[2] is -2, which is not a length: 2 mm"}}) {
     std::string bytes = whole;
     std::memcpy(&bytes[76 + 4 * 2], &value, 4);
     std::memset(&bytes[252], 0, 4);  // no qform, no sform: they would say what the spacing is
@@ -100,7 +100,7 @@ TEST(VolumeVerbs, SpacingsThatAreNoLengthsAreSaid) {
   const std::string nrrd =
       "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: ascii\nspacings: 1 nan 2\n\n1 2 3 4 5 6 7 8\n";
   expect_warned(fastsplat({"volume", "info", folder.write("odd.nrrd", nrrd)}),
-                {"spacing of axis 2 is nan, not a length: 1 mm"});
+                {"spacing of axis 2 is nan, which is not a length: 1 mm"});
   std::printf("[figure] spacings_said = %d\n", said + 1);
 }
 
@@ -112,7 +112,7 @@ TEST(VolumeVerbs, InfoSaysWhichValuesShowSomething) {
   const Result result = fastsplat({"volume", "info", path});
   expect_success(result);
   for (const char* words :
-       {"-1000 to 399, as of a CT: 0 HU is 0", "1 %: -1000, 25 %: -1000, 50 %: -1000, 75 %: 149, 99 %: 389",
+       {"-1000 to 399, as in a CT: 0 HU is 0", "1 %: -1000, 25 %: -1000, 50 %: -1000, 75 %: 149, 99 %: 389",
         "shown    -900 to 398; background to -900, 60.0 % of the voxels", "counts   [@"})
     EXPECT_NE(result.out.find(words), std::string::npos) << words << "\n" << result.out;
   const auto values = nlohmann::json::parse(fastsplat({"volume", "info", path, "--json", "-"}).out)["values"];
@@ -132,7 +132,7 @@ TEST(VolumeVerbs, PresetsInHounsfieldUnitsSayWhenTheValuesAreNot) {
   const auto render = [&](const std::string& volume, const char* tf) {
     return fastsplat({"render", "--volume", volume, "--tf", tf, "--size", "8", "-o", folder / "a.exr"});
   };
-  expect_warned(render(bytes, "bone"), {"bytes.nrrd", "'bone' is in Hounsfield units", "taken for -1000 to 3000 HU"});
+  expect_warned(render(bytes, "bone"), {"bytes.nrrd", "'bone' is in Hounsfield units", "mapped to -1000 to 3000 HU"});
   EXPECT_EQ(render(bytes, "linear").err.find("Hounsfield"), std::string::npos);
   EXPECT_EQ(render("shells:8", "bone").err.find("Hounsfield"), std::string::npos);  // built in: no unit
 }

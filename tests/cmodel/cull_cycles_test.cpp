@@ -132,7 +132,7 @@ TEST(CullCycles, FetchedSetsLieTogether) {
     const std::string counted = what([&] { cycles.consume(beats); });
     EXPECT_EQ(counted, what([&] { cmodel::fetch_commands(config, beats, 0); }));
     (counted.empty() ? taken : refused) += 1;
-    EXPECT_TRUE(counted.empty() || (i % 2 == 0 && counted.find("between the splats of a set") != std::string::npos))
+    EXPECT_TRUE(counted.empty() || (i % 2 == 0 && counted.find("between the splats of a group") != std::string::npos))
         << counted;
   }
   std::printf("[figure] streams taken by a fetching source = %d, refused = %d\n", taken, refused);

@@ -283,27 +283,27 @@ TEST(CullingRule, PromisesAreChecked) {
     std::printf("[figure] %s\n", text.c_str());
     told.insert(text);
   };
-  refused(promise(0, 0, 0, y, 7 + first + lanes, lanes, 3), "outside of the rectangle that cull_block 0 promised");
-  refused(promise(1, 1, 5 + first, y, 9 + lanes, lanes, 2), "outside of the rectangle");
-  refused(promise(0, 0, 0, y + 1, 30, lanes, 1), "outside of the rectangle");
-  refused(promise(0, 0, 0, y, 30, lanes - 1, 1), "outside of the rectangle");
+  refused(promise(0, 0, 0, y, 7 + first + lanes, lanes, 3), "outside the rectangle of cull_block 0");
+  refused(promise(1, 1, 5 + first, y, 9 + lanes, lanes, 2), "outside the rectangle");
+  refused(promise(0, 0, 0, y + 1, 30, lanes, 1), "outside the rectangle");
+  refused(promise(0, 0, 0, y, 30, lanes - 1, 1), "outside the rectangle");
   refused(promise(0, 1, 0, 0, 30, 30, 3), "tag");
-  refused(promise(1, 1, 0, 0, 30, 30, 3), "end_sheet before the splats that cull_block promised");
+  refused(promise(1, 1, 0, 0, 30, 30, 3), "end_sheet before all splats of cull_block");
   refused(
       [&](StreamWriter& w, int splat) {
         for (std::uint32_t i = 0; splat == 0 && i <= cmodel::cull_sets(config); ++i) w.cull_block(i, 0, 0, 30, 30, 1);
       },
-      "more cull_blocks");
-  // Tags are compared modulo 2^32: with more to come, splats outside of the rectangle would pass for later ones.
+      "too many open cull_blocks");
+  // Tags are compared modulo 2^32: with more to come, splats outside the rectangle would pass for later ones.
   const std::uint32_t most = 1U << 31;
-  refused(promise(0, 0, 0, 0, 1, 1, most), "outside of the rectangle");
-  refused(promise(0, 0, 0, 0, 1, 1, most + 1), "more splats promised than tags can tell apart");
-  refused(promise(0, 0, 0, 0, 1, 1, 0xFFFFFFFF), "more splats promised");
+  refused(promise(0, 0, 0, 0, 1, 1, most), "outside the rectangle");
+  refused(promise(0, 0, 0, 0, 1, 1, most + 1), "too many open splats");
+  refused(promise(0, 0, 0, 0, 1, 1, 0xFFFFFFFF), "too many open splats");
   refused(
       [&](StreamWriter& w, int splat) {
         for (std::uint32_t i = 0; splat == 0 && i < 2; ++i) w.cull_block(i * most, 0, 0, 30, 30, most);
       },
-      "more splats promised");
+      "too many open splats");
   EXPECT_EQ(told.size(), 11U);
   // Without the key it is a hint.
   EXPECT_EQ(refusal(culling(config, CullMap::Off), promise(0, 77, 0, 0, 1, 1, 99)), "");

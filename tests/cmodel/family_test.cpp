@@ -312,8 +312,9 @@ TEST(FamilyStream, WhatIsNoEllipseIsRefused) {
     EXPECT_EQ(line(words).find('\n'), std::string::npos);
     ++refused;
   }
-  EXPECT_NE(line({100, 0, 100, 4}, static_cast<std::uint32_t>(config.lanes)).find("base of a set without columns"),
-            std::string::npos);
+  EXPECT_NE(
+      line({100, 0, 100, 4}, static_cast<std::uint32_t>(config.lanes)).find("base given for a set without columns"),
+      std::string::npos);
   std::printf("[figure] sets refused = %d\n", refused + 1);
 }
 

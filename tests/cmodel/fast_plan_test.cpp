@@ -63,7 +63,7 @@ TEST(SamplePlan, TakesWordsAndRoundingsUpToItsLanes) {
     Config config = base;
     config.*bits = 17;
     if (cmodel::first_violation(config)) continue;
-    refuses(config, "too wide for its samples");
+    refuses(config, "too wide for the sample lanes");
   }
   std::printf("[figure] configurations whose samples are refused = %d\n", refused);
   EXPECT_GE(refused, 4);
@@ -86,7 +86,7 @@ std::optional<cmodel::fast::FrameTables> tables_of(const Config& config, const s
 // (tau + excess) * factor stays below 1.0 for every word of tau, with the largest factor that its segment has.
 TEST(FrameTables, ExcessIsTheMostThatKeepsEveryOpacityBelowOne) {
   // Without vectors the fast unit takes no frame, whatever its tables.
-  if (!cmodel::fast::has_vectors()) GTEST_SKIP() << "this processor has none of its vectors";
+  if (!cmodel::fast::has_vectors()) GTEST_SKIP() << "this processor lacks the required vector instructions";
   const Config config = named_config("small");
   const int shift = config.opacity_remainder_bits();
   const std::uint64_t one = std::uint64_t{1} << (config.sheet_frac_bits + config.opacity_frac_bits);

@@ -85,8 +85,8 @@ TEST(Patterns, TablesAreJudged) {
   };
   refused(config, nodes, words, "");
   refused(config, {}, {}, "");
-  refused(config, nodes, {}, "one table of a pattern without the other");
-  refused(config, {}, words, "one table of a pattern without the other");
+  refused(config, nodes, {}, "only one of a pattern's two tables");
+  refused(config, {}, words, "only one of a pattern's two tables");
   refused(plain, nodes, words, "unknown table (expected 0, 1 or 2, got 8)");
   refused(config, std::vector<std::uint32_t>(15), words, "wrong number of table words (expected 16, got 15)");
   refused(config, nodes, std::vector<std::uint32_t>(12), "wrong number of table words (expected 13, got 12)");

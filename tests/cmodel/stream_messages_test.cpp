@@ -17,8 +17,8 @@ struct Told {
   const char* advice;  ///< a part of it
 };
 
-constexpr const char* kWriter = "correct what wrote the stream";
-constexpr const char* kDamaged = "damaged or cut";
+constexpr const char* kWriter = "correct the program that wrote the stream";
+constexpr const char* kDamaged = "damaged or truncated";
 
 const Told kTold[] = {
     {"image width", 0, 4, 8U << 16, "at least 1", "0", kWriter},
@@ -70,7 +70,7 @@ TEST(StreamMessages, SayWhatWouldHaveBeenRight) {
 TEST(StreamMessages, TheLimitOfARadiusIsTheTrueOne) {
   const Verdict at = model_verdict(small_stream_config(), with(1, 2, 8));
   ASSERT_TRUE(at.refused_at);
-  EXPECT_EQ(at.text.find("radius above"), std::string::npos) << at.text;
+  EXPECT_EQ(at.text.find("radius too large"), std::string::npos) << at.text;
 }
 
 TEST(StreamMessages, ACutStreamSaysWhatIsMissing) {

@@ -80,7 +80,7 @@ TEST_F(ConfigFile, names_that_split_a_line_are_refused) {
       ++refused;
       const std::string said = error.what();
       EXPECT_EQ(error.code(), ExitCode::Input);
-      EXPECT_NE(said.find(":2:8: name is no name"), std::string::npos) << said;
+      EXPECT_NE(said.find(":2:8: invalid name"), std::string::npos) << said;
       EXPECT_EQ(said.find('\n'), std::string::npos) << said;
     }
   }

@@ -230,7 +230,7 @@ TEST(Ellipses, TooWideIsRefusedWithBothNumbers) {
   } catch (const UserError& error) {
     EXPECT_EQ(error.code(), ExitCode::Usage);
     const std::string what = error.what();
-    for (const char* said : {"wider than the device takes", "at most 64", "pixels", "rlut.columns"})
+    for (const char* said : {"too wide for the device", "at most 64", "pixels", "rlut.columns"})
       EXPECT_NE(what.find(said), std::string::npos) << what;
   }
 }

@@ -366,7 +366,7 @@ TEST(Gaussians, WhatDoesNotFitIsCountedOrRefused) {
       ADD_FAILURE() << other;
     } catch (const UserError& error) {
       EXPECT_EQ(error.code(), ExitCode::Usage);
-      EXPECT_EQ(error.parts().fix, "leave --config out, or --config ellipse --set composite.every_sample=1");
+      EXPECT_EQ(error.parts().fix, "leave --config out, or use --config ellipse --set composite.every_sample=1");
     }
   }
   // One that fills a picture larger than a record's reach, one too bright, one too thin.

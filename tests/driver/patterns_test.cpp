@@ -250,7 +250,7 @@ TEST(PatternsOnDevice, SheetsOfColoursAreTinted) {
   EXPECT_GE(measure(description, config, "marble on colours").psnr_db, 60.0);
   const auto drawn = render(scene::build_scene(description), config);
   ASSERT_NE(drawn.units.why_plain, nullptr);
-  EXPECT_STREQ(drawn.units.why_plain, "sheets of colours are tinted by a pattern");
+  EXPECT_STREQ(drawn.units.why_plain, "sheets are tinted by a pattern");
 }
 
 TEST(PatternsOnDevice, AmplitudeZeroChangesNoBit) {

@@ -188,7 +188,7 @@ TEST_F(StreamFile, a_dump_tells_the_end_that_is_wrong) {
   EXPECT_THAT(dumped(wrong), ::testing::HasSubstr("checksum"));
   wrong = whole;
   wrong.back()[1] += 1;
-  EXPECT_THAT(dumped(wrong), ::testing::HasSubstr("counts other beats"));
+  EXPECT_THAT(dumped(wrong), ::testing::HasSubstr("wrong number of beats"));
   wrong = whole;
   wrong.push_back(whole.back());
   EXPECT_THAT(dumped(wrong), ::testing::HasSubstr("nothing after end_frame"));

@@ -30,14 +30,14 @@ TEST(WhyPlain, SaysWhichNumbersOfTheConfiguration) {
 
   auto wide = base;
   wide.colour_frac_bits = 20;
-  EXPECT_NE(why_plain(wide).find("too wide for its lanes"), std::string::npos) << why_plain(wide);
+  EXPECT_NE(why_plain(wide).find("too wide for the vector lanes"), std::string::npos) << why_plain(wide);
 
   // A footprint of 8 x 8 pixels at 1024 x 1024 places is 128 MB.
   auto fine = base;
   fine.index_kind = static_cast<int>(cmodel::IndexKind::Squared);
   fine.phases = 1;
   fine.position_frac_bits = 10;
-  EXPECT_NE(why_plain(fine).find("more than it keeps"), std::string::npos) << why_plain(fine);
+  EXPECT_NE(why_plain(fine).find("exceed its memory"), std::string::npos) << why_plain(fine);
   auto perspective = view_of("shells:12", 24);
   perspective.camera.projection = scene::Projection::Perspective;
   perspective.footprint.shape = scene::FootprintShape::Ellipse;
@@ -48,7 +48,7 @@ TEST(WhyPlain, SaysWhichNumbersOfTheConfiguration) {
   };
   EXPECT_EQ(shaped(), "");
   culling.cull_map = static_cast<int>(cmodel::CullMap::Block);
-  EXPECT_NE(shaped().find("hides windows"), std::string::npos) << shaped();
+  EXPECT_NE(shaped().find("culls their windows"), std::string::npos) << shaped();
 
   perspective.method = scene::Method::Westover;
   culling = load_config("ellipse");
@@ -58,7 +58,7 @@ TEST(WhyPlain, SaysWhichNumbersOfTheConfiguration) {
   EXPECT_NE(shaped().find("samples are rounded to even"), std::string::npos) << shaped();
   culling.rounding_light = 1;
   culling.composite_frac_bits = 18;
-  EXPECT_NE(shaped().find("too wide for its samples"), std::string::npos) << shaped();
+  EXPECT_NE(shaped().find("too wide for the sample lanes"), std::string::npos) << shaped();
   figure("reasons told", 6);
 }
 

@@ -37,9 +37,9 @@ refused() { # EXIT WORDS ARGS...
   "$system" "$@" >refused.log 2>error.log || status=$?
   [ $status -eq "$expected" ] && [ ! -s refused.log ] && grep -q "$words" error.log || { cat refused.log error.log; fail "$*: exit code $status, expected $expected and '$words'"; }
 }
-refused 2 'would write what it reads' shells.fss ./shells.fss
+refused 2 'the output would replace the input' shells.fss ./shells.fss
 refused 3 'does not exist' shells.fss nowhere/shells.png
-refused 2 'no kind of picture' shells.fss shells.xyz
+refused 2 'unsupported picture format' shells.fss shells.xyz
 refused 2 'unknown flag' --help
 refused 3 'none.fss' none.fss none.png
 cmp shells.fss shells.copy || fail "the stream is another now"

@@ -92,7 +92,7 @@ TEST(Faces, JunitHasACasePerGate) {
 
 TEST(Faces, JunitTellsWhyAndHowToSeeItAgain) {
   const std::string compare = to_junit({kind("compare")});
-  EXPECT_TRUE(holds(compare, "message=\"min_psnr_db is 51.4384, no less than 60 allowed\"")) << compare;
+  EXPECT_TRUE(holds(compare, "message=\"min_psnr_db is 51.4384, required is at least 60\"")) << compare;
   EXPECT_TRUE(holds(compare, "&#10;reproduce: fastsplat compare a.exr 'b c.exr' --max-lsb 1</failure>")) << compare;
   const std::string verify = to_junit({kind("verify")});
   // The first failing seed is what was made small; the others come again with the campaign.
@@ -234,7 +234,7 @@ TEST(Faces, MarkdownHasVerdictGatesAndTable) {
   EXPECT_EQ(count("\n" + text, "\n### "), all_kinds().size());
   EXPECT_TRUE(holds(text, "### compare `result-0.json`: **fail**\n")) << text;
   EXPECT_TRUE(holds(
-      text, "| min\\_psnr\\_db | **fail** | min\\_psnr\\_db is 51.4384, no less than 60 allowed | fastsplat compare "));
+      text, "| min\\_psnr\\_db | **fail** | min\\_psnr\\_db is 51.4384, required is at least 60 | fastsplat compare "));
   EXPECT_TRUE(holds(text, "| cycles | count | share |\n| --- | ---: | ---: |\n| ideal | 100 | 0.90909 |\n")) << text;
   // Every line of a table has as many bars as its head.
   std::istringstream lines(text);

@@ -298,8 +298,8 @@ TEST(FrameSweep, RefusesMoreSheetsThanMemoryHolds) {
     EXPECT_EQ(error.code(), ExitCode::Usage);
     EXPECT_STREQ(
         error.what(),
-        "402 sheets of 2048x2048 pixels are live at once (expected at most 4 GB, got 54.0 GB); use a larger slab "
-        "width or a smaller image");
+        "402 sheets of 2048x2048 pixels must be in memory at once (expected at most 4 GB, got 54.0 GB); use a larger "
+        "slab width or a smaller image");
   }
 }
 

@@ -144,7 +144,7 @@ TEST_F(Declared, ExrChannelsAreFoundByName) {
   for (const std::vector<std::string>& names : std::vector<std::vector<std::string>>{
            {"BY", "RY", "Y"}, {"x.R", "y.G", "z.B"}, {"R", "G"}, {"R", "G", "B", "A", "Z"}}) {
     write("a.exr", names);
-    EXPECT_THAT(refused("a.exr"), HasSubstr("RGB or RGBA by name"));
+    EXPECT_THAT(refused("a.exr"), HasSubstr("RGB or RGBA"));
   }
 }
 
@@ -152,7 +152,7 @@ TEST_F(Declared, ExrChannelsThatAreNotSortedAreDamage) {
   write("a.exr", {"R", "G", "B", "A"});
   // Names and words of a channel are 18 bytes: A, B, G, R.
   change_channels("a.exr", [](std::string& bytes, std::size_t at) { std::swap(bytes[at], bytes[at + 3 * 18]); });
-  EXPECT_THAT(refused("a.exr"), HasSubstr("corrupt or truncated EXR: a list of channels that is not sorted by name"));
+  EXPECT_THAT(refused("a.exr"), HasSubstr("corrupt or truncated EXR: the channel list is not sorted by name"));
   write("a.exr", {"R", "G", "B", "A"});
   change_channels("a.exr", [](std::string& bytes, std::size_t at) { bytes[at + 18] = 'A'; });
   EXPECT_THAT(refused("a.exr"), HasSubstr("not sorted by name")) << "twice the same";
@@ -182,7 +182,7 @@ TEST_F(Declared, ExrPrimariesAreNamed) {
 TEST_F(Declared, ATurnedImageIsRefused) {
   for (const char* name : {"a.tif", "a.exr", "a.jpg"}) {
     write(name, {"R", "G", "B"}, [](OIIO::ImageSpec& spec) { spec.attribute("Orientation", 6); });
-    EXPECT_THAT(refused(name), HasSubstr("stored turned: orientation 6")) << name;
+    EXPECT_THAT(refused(name), HasSubstr("orientation 6")) << name;
   }
 }
 
@@ -260,7 +260,7 @@ TEST_F(Declared, TiffModelsAreFollowedOrRefused) {
                         [&, &tag = tag] {
                           read({{tag, {1, 2, 3, 4}}}, "\x33\xff");
                         }),
-                HasSubstr("the tag " + std::string(name) + " is not followed"));
+                HasSubstr("unsupported TIFF tag " + std::string(name)));
   }
 }
 

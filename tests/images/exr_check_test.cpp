@@ -103,7 +103,7 @@ TEST(ExrHeader, AValueOfAnotherLengthIsNamed) {
 TEST(ExrHeader, ALengthBeyondTheEndIsNamed) {
   for (const std::uint32_t length : {3u, 0x7fffffffu, 0x80000000u, 0xffffffffu}) {
     const std::string bytes = kOnePart + text("a") + text("string") + word(length) + "xy";
-    EXPECT_EQ(defect(bytes), "an attribute of " + std::to_string(length) + " bytes where 2 are left at byte 8");
+    EXPECT_EQ(defect(bytes), "an attribute of " + std::to_string(length) + " bytes exceeds the remaining 2 at byte 8");
   }
   // A list of texts whose own lengths lie.
   EXPECT_NE(defect(kOnePart + attribute("stringvector", word(0x7fffffff) + "abc") + kEnd), "");

@@ -241,7 +241,7 @@ TEST(ImageFile, RefusesWhatItCannotMeasure) {
     spec.alpha_channel = -1;
   });
   EXPECT_THAT(read_refusal(folder / "xyz.exr"),
-              HasSubstr("expected Y, YA, RGB or RGBA by name, or one channel, got X, Y, Z"));
+              HasSubstr("expected channels named Y, YA, RGB or RGBA, or a single channel, got X, Y, Z"));
   write_foreign(folder / "depth.exr", [](auto& spec) {
     spec.channelnames = {"R", "G", "B", "Z"};
     spec.alpha_channel = -1;

@@ -71,7 +71,7 @@ TEST(PngCheck, NamesEveryDefect) {
       {start + good, "ends inside a chunk"},
       {start + kEnd, "pixels are missing before chunk IEND"},
       {start + pixels(rows({"abc"})) + kEnd, "pixels are missing"},
-      {start + pixels(rows({"abc", "def", "ghi"})) + kEnd, "more pixels than the header says"},
+      {start + pixels(rows({"abc", "def", "ghi"})) + kEnd, "more pixels than the header declares"},
       {start + pixels(kPixels + "x") + kEnd, "more pixels"},
       {start +
            pixels("\x05"

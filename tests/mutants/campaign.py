@@ -96,7 +96,7 @@ def run(binary: str, config: str, numbers: list[int], jobs: int, until=None, jou
     results = {number: journal.said[number] for number in numbers if number in journal.said} if journal else {}
     errors, left, lock = [], [number for number in numbers if number not in results], threading.Lock()
     if results:
-        print(f"mutate: {len(results)} of {len(numbers)} were tried before: {journal.path}", file=sys.stderr, flush=True)
+        print(f"mutate: {len(results)} of {len(numbers)} were run before: {journal.path}", file=sys.stderr, flush=True)
     began, shown = time.monotonic(), [0.0]
 
     def work():

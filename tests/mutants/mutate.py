@@ -37,15 +37,15 @@ class Parser(argparse.ArgumentParser):
 
 
 def parse(words):
-    parser = Parser(prog="tools/mutate", allow_abbrev=False, description="Mutants of rtl/ against the checks: each is killed, or "
-                                     "tests/mutants/exclusions.toml says why it cannot be. Exit code 1: one lives that is not explained there, or one "
-                                     "that is explained was killed.")
-    parser.add_argument("--module", action="append", metavar="M", help="all mutants of this module (more than once: of these)")
-    parser.add_argument("--all", action="store_true", help="all mutants; what they come to is kept in docs/evidence/mutants.json, of the modules that were tried to the end")
+    parser = Parser(prog="tools/mutate", allow_abbrev=False, description="Runs mutants of rtl/ against the checks: each is killed, or "
+                                     "tests/mutants/exclusions.toml explains why it cannot be. Exit code 1: an unexplained mutant lives, or an "
+                                     "explained one was killed.")
+    parser.add_argument("--module", action="append", metavar="M", help="all mutants of this module; repeatable")
+    parser.add_argument("--all", action="store_true", help="all mutants; results of completed modules are kept in docs/evidence/mutants.json")
     parser.add_argument("--seed", type=int, default=1, metavar="S", help=f"which {SAMPLE}, without --all or --module (1)")
-    parser.add_argument("--budget", type=float, metavar="MIN", help="begin no mutant after so many minutes; what was not tried is told")
+    parser.add_argument("--budget", type=float, metavar="MIN", help="start no mutant after this many minutes; mutants not run are listed")
     parser.add_argument("--jobs", type=int, default=2, metavar="N", help="mutants at the same time, and proofs of them (2)")
-    parser.add_argument("--one", type=int, metavar="N", help="this mutant alone: what it is, and what every check says of it")
+    parser.add_argument("--one", type=int, metavar="N", help="only this mutant: describe it, and run every check on it")
     return parser.parse_args(words)
 
 
@@ -53,13 +53,13 @@ def chosen(arguments, mutants):
     if arguments.one is not None:
         found = [m for m in mutants if m["number"] == arguments.one]
         if not found:
-            campaign.usage(f"--one {arguments.one}: none of {len(mutants)} mutants; their numbers are told where they live, and in build/mutants/corners/mutants.json")
+            campaign.usage(f"--one {arguments.one}: not one of {len(mutants)} mutants; see the list of living mutants and build/mutants/corners/mutants.json")
         return found
     if arguments.module:
         known = sorted({m["module"] for m in mutants}) + ["cmodel and driver (without others)"]
         for module in arguments.module:
             if module not in known:
-                campaign.usage(f"--module {module}: no such module; there are {', '.join(known)}")
+                campaign.usage(f"--module {module}: unknown module; expected one of {', '.join(known)}")
         return [m for m in mutants if m["module"] in arguments.module]
     if arguments.all:
         return mutants
@@ -254,7 +254,7 @@ def main(words) -> int:
         print(f"EXCLUDES NOTHING: {entry['module']}: {entry['line']}")
         red = True
     if untried:
-        print(f"not tried: {len(untried)} (the budget is over)")
+        print(f"not run: {len(untried)} (the budget is exhausted)")
     campaign.write(f"{build}/mutants/killed.json", json.dumps({str(n): k for n, k in sorted(killed.items())}, indent=0))
     if arguments.all or arguments.module:
         short = {m["module"] for m in mutants if m["number"] in set(untried)}

@@ -45,10 +45,10 @@ class Results : public ::testing::Test {
 TEST_F(Results, AFailedCompareNamesItsLimits) {
   const Verdict told = verdict(kCompare);
   EXPECT_EQ(told.status, Status::Fail);
-  EXPECT_EQ(told.sentence, "PSNR 41.25 dB, no less than 48 allowed, worst error 7.5 LSB, no more than 3 allowed");
+  EXPECT_EQ(told.sentence, "PSNR 41.25 dB (required: at least 48), worst error 7.5 LSB (required: at most 3)");
   Json passed = kCompare;
   passed["verdict"] = "pass";
-  EXPECT_EQ(verdict(passed).sentence, "41.2 dB, worst error 7.5 LSB of 8 bits: within every limit");
+  EXPECT_EQ(verdict(passed).sentence, "41.2 dB, worst error 7.5 LSB of 8 bits: within all limits");
   passed["identical"] = true;
   passed["psnr_db"] = nullptr;
   EXPECT_EQ(verdict(passed).sentence, "the pictures are identical");
@@ -124,15 +124,15 @@ TEST_F(Results, TheWorstIsTheReportsVerdict) {
 
 TEST_F(Results, WhatIsNoResultIsRefusedInOneLine) {
   expect_refused("", {"empty"});
-  expect_refused("{\"verb\": \"compare\", ", {"cut off"});
-  expect_refused("not json", {"is no result", "no JSON, a mistake at byte 2"});
-  expect_refused("\x89PNG\r\n\x1a\n", {"no JSON", "--picture"});
-  expect_refused("[1, 2]", {"is no result", "a JSON array"});
+  expect_refused("{\"verb\": \"compare\", ", {"truncated"});
+  expect_refused("not json", {"not a result", "invalid JSON at byte 2"});
+  expect_refused("\x89PNG\r\n\x1a\n", {"invalid JSON", "--picture"});
+  expect_refused("[1, 2]", {"not a result", "a JSON array"});
   expect_refused("{\"a\": 1}", {"without a \"verb\""});
   expect_refused("{\"verb\": 7}", {"without a \"verb\""});
-  expect_refused("{\"verb\": \"frobnicate\"}", {"'frobnicate' has no report", "known"});
+  expect_refused("{\"verb\": \"frobnicate\"}", {"'frobnicate' is not supported", "known"});
   expect_refused("{\"verb\": \"comparee\"}", {"did you mean 'compare'"});
-  expect_refused("{\"verb\": \"line\\nbreak\"}", {"has no report"});
+  expect_refused("{\"verb\": \"line\\nbreak\"}", {"is not supported"});
 }
 
 TEST_F(Results, DamageIsNamed) {

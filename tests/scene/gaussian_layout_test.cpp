@@ -69,7 +69,7 @@ TEST(GaussianLayout, EmptyBytesBehindTheLastRowArePassedOver) {
     const TestFile padded(".ply", twelve(format) + std::string(4096, '\0'));
     const GaussianCloud read = load_gaussians(padded.path());
     EXPECT_EQ(read.gaussians.size(), 12U);
-    EXPECT_THAT(read.remarks, ElementsAre(HasSubstr("empty bytes behind its last row")));
+    EXPECT_THAT(read.remarks, ElementsAre(HasSubstr("empty bytes after the last row")));
     for (const char* behind : {"\n1 2 3\n", "x"}) {
       const TestFile longer(".ply", twelve(format) + behind);
       EXPECT_THAT([&] { load_gaussians(longer.path()); }, ::testing::ThrowsMessage<UserError>(HasSubstr("longer")));
@@ -140,8 +140,8 @@ TEST(OtherFormats, AreNamedByContentAndByEnding) {
       {"zip", ".ply", std::string("PK\3\4", 4) + std::string(99, 'x'), {"a zip archive", "unpack"}},
       {"checkpoint", ".ckpt", std::string("PK\3\4", 4) + std::string(99, 'x'), {"checkpoint", "ns-export"}},
       {"glTF", ".ply", "glTF\2", {"a glTF file"}},
-      {"splat named ply", ".ply", splat(), {".splat file by its content", "rename"}},
-      {"splat named dat", ".dat", splat(), {".splat file by its content", "rename"}},
+      {"splat named ply", ".ply", splat(), {".splat file with another extension", "rename"}},
+      {"splat named dat", ".dat", splat(), {".splat file with another extension", "rename"}},
       {"text", ".txt", "hello world", {".ply or .splat"}},
   };
   for (const auto& one : files) {

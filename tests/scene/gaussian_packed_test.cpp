@@ -152,12 +152,12 @@ TEST(PackedPly, DamageIsNamed) {
     std::string bytes;
     const char* said;
   } files[] = {
-      {replaced(whole, "element chunk 2", "element chunk 1"), "chunks are not of 256"},
-      {replaced(whole, "element chunk 2", "element chink 2"), "elements are other ones"},
+      {replaced(whole, "element chunk 2", "element chunk 1"), "chunks of 256"},
+      {replaced(whole, "element chunk 2", "element chink 2"), "wrong elements"},
       {replaced(whole, "uint packed_scale", "int packed_scale"), "packed_scale"},
       {replaced(whole, "uint packed_scale", "uint packed_size"), "packed_scale"},
       {replaced(whole, "float max_scale_y", "float max_scala_y"), "max_scale_y"},
-      {replaced(whole, "element sh 300", "element sh 299"), "not every Gaussian has harmonics"},
+      {replaced(whole, "element sh 300", "element sh 299"), "sh rows"},
       {replaced(whole, "property uchar f_rest_8\n", ""), "9, 24 or 45"},
       {whole.substr(0, whole.size() - 1), "shorter"},
       {whole.substr(0, whole.size() - 3000), "shorter"},

@@ -47,7 +47,7 @@ TEST(GaussianRows, BadOnesAreDroppedAndNamed) {
       {"nan harmonic", twelve().with("f_rest_44", kNan), "f_rest_44 is not finite"},
       {"infinite harmonic", twelve().with("f_rest_15", kInfinite), "f_rest_15 is not finite"},
       {"nan rotation", twelve().with("rot_3", kNan), "rot_3 is not finite"},
-      {"no rotation", turned_nowhere(twelve(), 5), "rot_0 to rot_3 give no direction"},
+      {"no rotation", turned_nowhere(twelve(), 5), "rotation (rot_0 to rot_3) is zero"},
       {"nan filter", twelve().and_of("filter_3D", 0.0).with("filter_3D", kNan), "filter_3D is not finite"}};
   int files = 0;
   for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
@@ -99,7 +99,7 @@ TEST(GaussianRows, SplatFilesAsWell) {
   } kinds[] = {{"y is not finite", [](Gaussian& one) { one.position.y = static_cast<float>(kNan); }},
                {"scale_1 is not finite", [](Gaussian& one) { one.scale.y = static_cast<float>(kNan); }},
                {"scale_2 is negative", [](Gaussian& one) { one.scale.z = -1.0F; }},
-               {"rot_0 to rot_3 give no direction", [](Gaussian& one) { one.rotation = glm::vec4(0.0F); }}};
+               {"rotation (rot_0 to rot_3) is zero", [](Gaussian& one) { one.rotation = glm::vec4(0.0F); }}};
   for (const auto& kind : kinds) {
     const TestFile some(".splat", splats(kind.change, 3, 5));
     const GaussianCloud read = load_gaussians(some.path());
@@ -107,7 +107,7 @@ TEST(GaussianRows, SplatFilesAsWell) {
     EXPECT_THAT(read.remarks, ElementsAre(AllOf(HasSubstr("2 of 8"), HasSubstr("Gaussian 3"), HasSubstr(kind.fault))));
     const TestFile all(".splat", splats(kind.change, 0, 8));
     EXPECT_THAT([&] { load_gaussians(all.path()); },
-                ::testing::ThrowsMessage<UserError>(AllOf(HasSubstr("none of its 8"), HasSubstr(kind.fault))));
+                ::testing::ThrowsMessage<UserError>(AllOf(HasSubstr("none of the 8"), HasSubstr(kind.fault))));
   }
 }
 
@@ -121,7 +121,7 @@ TEST(GaussianRows, NoneLeftIsRefused) {
   } catch (const UserError& error) {
     std::printf("%s\n", error.what());
     EXPECT_EQ(error.code(), ExitCode::Input);
-    EXPECT_THAT(error.what(), AllOf(HasSubstr(file.path().string()), HasSubstr("none of its 12 Gaussians"),
+    EXPECT_THAT(error.what(), AllOf(HasSubstr(file.path().string()), HasSubstr("none of the 12 Gaussians"),
                                     HasSubstr("z is not finite")));
   }
 }

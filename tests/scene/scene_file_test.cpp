@@ -115,7 +115,7 @@ TEST_F(SceneFile, RefusesWithLineColumnAndHint) {
   EXPECT_THAT(refused("[image]\nwidth = 16385\n"), HasSubstr("expected a whole number in 1..16384, got 16385"));
   EXPECT_THAT(refused("[image]\nwidth = 0.5\n"), HasSubstr("wrong type"));
   EXPECT_THAT(refused("[image]\nsize = 5\nwidth = 6\n"), HasSubstr("either size, or width and height"));
-  EXPECT_THAT(refused("[kernel]\nname = \"gauss2\"\na = 2\n"), HasSubstr("either a name or a shape"));
+  EXPECT_THAT(refused("[kernel]\nname = \"gauss2\"\na = 2\n"), HasSubstr("both a name and a shape"));
   EXPECT_THAT(refused("[kernel]\nname = \"gaus2\"\n"), HasSubstr("did you mean 'gauss2'?"));
   EXPECT_THAT(refused("transfer_function = \"bon\"\n"), HasSubstr("did you mean 'bone'?"));
   EXPECT_THAT(refused("camera = 3\n"), HasSubstr("a table"));

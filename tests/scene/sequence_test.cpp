@@ -88,10 +88,10 @@ TEST_F(SequenceFile, WhatMakesNoSenseIsOneLineWithPlaceAndFix) {
     const char* table;
     std::vector<std::string> said;
   };
-  const std::vector<Bad> all{{"", {"no [sequence]"}},
+  const std::vector<Bad> all{{"", {"[sequence] is missing"}},
                              {"[sequence]\ncamera.azimuth = [0, 9]\n", {"frames", "missing"}},
                              {"[sequence]\nframes = 0\ncamera.azimuth = [0, 9]\n", {"frames", "1..1000000"}},
-                             {"[sequence]\nframes = 3\n", {"nothing changes"}},
+                             {"[sequence]\nframes = 3\n", {"changes no setting"}},
                              {"[sequence]\nframes = 3\ncamera.azimut = [0, 9]\n", {"azimut", "did you mean 'azimuth'"}},
                              {"[sequence]\nframes = 3\ncamrea.azimuth = [0, 9]\n", {"camrea", "did you mean 'camera'"}},
                              {"[sequence]\nframes = 3\ncamera.azimuth = 9\n", {"azimuth", "array"}},

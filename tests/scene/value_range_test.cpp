@@ -122,7 +122,7 @@ TEST(ValueRange, CtsAreToldFromOtherScans) {
 TEST(ValueRange, OtherScansAreStretchedAndThatIsSaid) {
   const TransferFunction bone = load_transfer_function("bone");
   const auto bytes = values_of(0, 200, {});
-  EXPECT_NE(remark_on(bone, bytes).find("0 to 200 are not: they are taken for -1000 to 3000 HU"), std::string::npos);
+  EXPECT_NE(remark_on(bone, bytes).find("0 to 200 are not: they are mapped to -1000 to 3000 HU"), std::string::npos);
   EXPECT_EQ(resolved(bone, bytes).points[0].at, 62.0);  // (240 + 1000) / 4000 of 200
 }
 

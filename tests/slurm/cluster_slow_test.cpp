@@ -153,7 +153,7 @@ TEST_F(PlanOnACluster, ANodeGoesAwayAndATaskIsLostAndTheResultIsTheSame) {
   EXPECT_EQ(state(held.at("merge_job")), "FAILED");
   EXPECT_FALSE(std::filesystem::exists(*plan_ / "lost.merged.json"));
   const auto said = logs_of(*plan_ / "lost");
-  EXPECT_THAT(said, HasSubstr("shard 2 of 3 gave no result of 3 cases"));
+  EXPECT_THAT(said, HasSubstr("shard 2 of 3 has no result for 3 cases"));
   for (const auto& file : plan_->files_of("lost", 2, kShards)) EXPECT_THAT(said, HasSubstr(file.stem().string()));
 
   const json again = submit(submission("lost"));

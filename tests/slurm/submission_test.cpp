@@ -205,7 +205,7 @@ TEST_F(Scripts, AMachineThatDoesNotSeeTheFoldersSaysSo) {
   std::filesystem::remove(s_.plan);
   const auto ran = shell(slurm_array_script(s_, arrays_of(s_)[0]), {"SLURM_ARRAY_TASK_ID=3"});
   EXPECT_EQ(ran.code, 3);
-  EXPECT_THAT(ran.err, HasSubstr("does not see " + s_.plan.string()));
+  EXPECT_THAT(ran.err, HasSubstr("cannot read " + s_.plan.string()));
   EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
   EXPECT_EQ(said(), "");
 }

@@ -58,7 +58,7 @@ TEST_F(Submit, WhatWasQueuedBeforeARefusalIsTakenBack) {
            "wc -l <sent\n");
   stand_in("scancel", "echo \"$@\" >>taken_back\n");
   expect_error(plan_.run({"plan", "submit", "plan.json", "--engine", "slurm"}, with_stand_ins()), 3,
-               {"sbatch: ", "Job violates policy", "nothing is queued"});
+               {"sbatch: ", "Job violates policy", "nothing was queued"});
   const auto sent = read_bytes(plan_ / "sent");
   EXPECT_THAT(sent, HasSubstr("--parsable --array=0 /"));
   EXPECT_THAT(sent, HasSubstr("array-2"));

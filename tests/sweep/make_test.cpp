@@ -82,20 +82,20 @@ TEST(PlanMake, RefusesWithTheLineWhatMeansNothing) {
   const std::pair<const char*, const char*> wrong[] = {
       {"kind = \"cycles\"\n[axes]\nn = []\n", "spec.toml:3:5: n has no value"},
       {"kind = \"cycles\"\n[axes]\nn = [1, 1]\n", "spec.toml:3:9: n has the value 1 twice"},
-      {"kind = \"cycles\"\n[axes]\nm = [1]\n", "m is no flag of cycles"},
-      {"kind = \"cycles\"\n[axes]\nn = {from = 4, to = 1}\n", "spec.toml:3:5: the range of n goes nowhere"},
+      {"kind = \"cycles\"\n[axes]\nm = [1]\n", "m is not a flag of cycles"},
+      {"kind = \"cycles\"\n[axes]\nn = {from = 4, to = 1}\n", "spec.toml:3:5: the range of n is empty or invalid"},
       {"kind = \"cycles\"\n[constants]\nn = 1\n[axes]\nn = [1]\n", "spec.toml:5:5: n is set twice"},
       {"kind = \"cycles\"\n[[zip]]\nn = [1, 2]\nvolume = [\"v\"]\n", "spec.toml:4:10: volume has 1 values (expected 2"},
       {"kind = \"cycles\"\nkidn = 1\n", "spec.toml:2:8: unknown key 'kidn'; did you mean 'kind'?"},
-      {"[axes]\nn = [1]\n", "says no kind of case"},
+      {"[axes]\nn = [1]\n", "the key 'kind' is missing"},
       {"kind = \"cycles\"\n", "has no axis"},
-      {"kind = \"cycles\"\n[axes]\njson = [\"x\"]\n", "json is no setting"},
+      {"kind = \"cycles\"\n[axes]\njson = [\"x\"]\n", "json cannot be set"},
       {"kind = \"cycles\"\n[axes]\nn = [\"{x}\"]\n", "words in braces"},
-      {"kind = \"cycles\"\n[axes]\nmap = [\"/x.png\"]\n", "map is no setting"},
+      {"kind = \"cycles\"\n[axes]\nmap = [\"/x.png\"]\n", "map cannot be set"},
       {"kind = \"cycles\"\n[[zip]]\naxis = \"n\"\nlabel = [\"a\"]\nn = [1]\n",
-       "spec.toml:3:8: axis = \"n\" names the column of the labels, and n is a setting, too"},
+       "spec.toml:3:8: axis = \"n\" names the label column, but n is also a setting"},
       {"kind = \"cycles\"\n[constants]\nn = 1\n[[zip]]\naxis = \"n\"\nlabel = [\"a\"]\nvolume = [\"v\"]\n",
-       "spec.toml:5:8: axis = \"n\" names the column"},
+       "spec.toml:5:8: axis = \"n\" names the label column"},
       {"kind = \"cycles\"\n[axes]\nn = [1\n", "not valid TOML"},
   };
   for (const auto& [spec, words] : wrong)
@@ -126,8 +126,8 @@ TEST(PlanMake, AFileThatWasChangedIsNoPlan) {
   std::string changed = text;
   changed.replace(changed.rfind("\"2\""), 3, "\"7\"");
   EXPECT_THAT(error_of([&] { plan::read_plan(folder.write("p.json", changed)); }), HasSubstr("was changed"));
-  EXPECT_THAT(error_of([&] { plan::read_plan(folder.write("p.json", text.substr(0, 200))); }), HasSubstr("is no plan"));
-  EXPECT_THAT(error_of([&] { plan::shard_from("3/2"); }), HasSubstr("no part of a plan"));
+  EXPECT_THAT(error_of([&] { plan::read_plan(folder.write("p.json", text.substr(0, 200))); }), HasSubstr("not a plan"));
+  EXPECT_THAT(error_of([&] { plan::shard_from("3/2"); }), HasSubstr("invalid shard"));
 }
 
 /// With every hash computed again, a plan from elsewhere still runs nothing but what plan make writes.
@@ -161,13 +161,13 @@ TEST(PlanMake, AForgedPlanIsRefused) {
       },
   };
   for (const auto& forge : forges)
-    EXPECT_THAT(error_of([&] { read_forged(forge); }), HasSubstr("is not what `fastsplat plan make` writes"));
+    EXPECT_THAT(error_of([&] { read_forged(forge); }), HasSubstr("was not written by `fastsplat plan make`"));
   const char* const outside[] = {"../../x.exr", "/x.exr", "..", "a/b.exr"};
   for (const std::string name : outside) {
     EXPECT_THAT(error_of([&] { read_forged([&](plan::Case& one) { one.steps[1].words.back() = "{" + name + "}"; }); }),
-                HasSubstr("the file '" + name + "' lies outside its folder"));
+                HasSubstr("the file '" + name + "' is outside its folder"));
     EXPECT_THAT(error_of([&] { read_forged([&](plan::Case& one) { one.steps[0].shared = name; }); }),
-                HasSubstr("lies outside its folder"));
+                HasSubstr("is outside its folder"));
   }
   std::printf("[figure] forged plans refused = %zu\n", std::size(forges) + 2 * std::size(outside));
 }

@@ -184,7 +184,7 @@ TEST_F(PlanDisturbed, ByAModuleThatIsMissing) {
   fs::copy(program(), folder_ / "fastsplat");
   const auto run = run_words({folder_ / "fastsplat", "plan", "run", plan_, "--results", folder_ / "bare"});
   EXPECT_EQ(run.code, 3) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("the module for the image library is missing"));
+  EXPECT_THAT(run.err, HasSubstr("the image library's module is missing"));
   EXPECT_EQ(results_in(folder_ / "bare"), 0u);
 }
 
@@ -254,11 +254,11 @@ TEST(PlanProgram, ExamplesExpandAndEditedFilesAreSeen) {
   expect_success(fastsplat({"plan", "make", spec, "-o", plan}));
   expect_success(fastsplat({"plan", "run", plan}));
   folder.write("mine.toml", fastsplat({"config", "show", "small", "--set", "radial.entries=64"}).out);
-  expect_error(fastsplat({"plan", "make", spec, "-o", mine}), 2, {"mine.toml", "it is read"});
-  expect_error(fastsplat({"plan", "merge", plan, "-o", folder / "plan.results/m.json"}), 2, {"among the results"});
+  expect_error(fastsplat({"plan", "make", spec, "-o", mine}), 2, {"mine.toml", "an input and an output"});
+  expect_error(fastsplat({"plan", "merge", plan, "-o", folder / "plan.results/m.json"}), 2, {"folder of results"});
   const auto result = fastsplat({"plan", "run", plan});
   EXPECT_EQ(result.code, 3);
-  EXPECT_THAT(result.err, HasSubstr("is not what the plan was made of"));
+  EXPECT_THAT(result.err, HasSubstr("changed after the plan was made"));
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ TEST(PlanRun, SkipsWhatIsDoneAndMakesAgainWhatIsDamaged) {
     folder.write("results/" + plan.cases[2].id + ".json", damaged);
     EXPECT_THAT(
         error_of([&] { merged(folder, plan); }),
-        HasSubstr(plan.cases[2].id + ".json: " + (damaged.empty() ? "the file is empty" : "is no whole result")));
+        HasSubstr(plan.cases[2].id + ".json: " + (damaged.empty() ? "the file is empty" : "not a complete result")));
     const auto partial = plan::merge(plan, folder / "results", {.partial = true});
     EXPECT_EQ(partial.rows.size(), 4u);
     EXPECT_EQ(partial.missing, std::vector{plan.cases[2].id});
@@ -103,9 +103,9 @@ TEST(PlanRun, WhatTheMachineDidIsNoResult) {
   ASSERT_EQ(told.size(), 8u);
   EXPECT_EQ(told[0], "`cycles` was ended by signal 9");
   EXPECT_THAT(told[1], HasSubstr("No space left on device"));
-  EXPECT_THAT(told[2], HasSubstr("exit code 0 and left no JSON"));
-  EXPECT_THAT(told[3], HasSubstr("no readable JSON"));
-  EXPECT_THAT(told[4], HasSubstr("exit code 1 and left no JSON"));
+  EXPECT_THAT(told[2], HasSubstr("exit code 0 without JSON"));
+  EXPECT_THAT(told[3], HasSubstr("without readable JSON"));
+  EXPECT_THAT(told[4], HasSubstr("exit code 1 without JSON"));
   EXPECT_EQ(results_in(folder / "results").size(), 1u);
   EXPECT_EQ(plan::status_of(plan, folder / "results", "p", 0).all.missing, 8u);
   EXPECT_THAT(error_of([&] { merged(folder, plan); }), HasSubstr("8 of 9 results missing"));
@@ -170,11 +170,12 @@ TEST(PlanMerge, NamesWhatIsMissingOrForeign) {
   EXPECT_EQ(partial.missing, (std::vector{plan.cases[1].id, plan.cases[3].id}));
   run(folder, plan, program);
   fs::copy(plan::result_path(folder / "results", plan.cases[0].id), folder / "results" / "stranger.json");
-  EXPECT_THAT(error_of([&] { merged(folder, plan); }), HasSubstr("no result of plan spec: stranger.json"));
+  EXPECT_THAT(error_of([&] { merged(folder, plan); }),
+              HasSubstr("a file that is not a result of plan spec: stranger.json"));
   EXPECT_EQ(plan::merge(plan, folder / "results", {.allow_foreign = true}).rows.size(), 5u);
   fs::rename(folder / "results" / "stranger.json", plan::result_path(folder / "results", plan.cases[1].id));
   EXPECT_THAT(error_of([&] { merged(folder, plan); }),
-              HasSubstr(plan.cases[1].id + ".json: is of case " + plan.cases[0].id));
+              HasSubstr(plan.cases[1].id + ".json: belongs to case " + plan.cases[0].id));
 }
 
 TEST(PlanMerge, AnotherProgramsResultsAreNeverMixedIn) {

@@ -151,10 +151,11 @@ TEST(Plan, RefusesWhatItDoesNotUnderstand) {
   };
   const std::string point = "[[testpoint]]\nname = \"a\"\nproves = \"b\"\n";
   EXPECT_NE(refused(point + "bin = [\"x\"]\n").find(":4:1: unknown key 'bin'"), std::string::npos);
-  EXPECT_NE(refused(point + "bins = [\"x\"]\n").find("need each other"), std::string::npos);
-  EXPECT_NE(refused(point).find("nothing decides it"), std::string::npos);
-  EXPECT_NE(refused(point + "tests = [3]\n").find(":4:10: tests holds something else"), std::string::npos);
-  EXPECT_NE(refused(point + "tests = [\"t\"]\n" + point + "tests = [\"t\"]\n").find("a second testpoint"),
+  EXPECT_NE(refused(point + "bins = [\"x\"]\n").find("require each other"), std::string::npos);
+  EXPECT_NE(refused(point).find("neither bins nor tests"), std::string::npos);
+  EXPECT_NE(refused(point + "tests = [3]\n").find(":4:10: tests contains a value that is not a string"),
+            std::string::npos);
+  EXPECT_NE(refused(point + "tests = [\"t\"]\n" + point + "tests = [\"t\"]\n").find("duplicate testpoint"),
             std::string::npos);
   EXPECT_NE(refused("").find("empty"), std::string::npos);
   EXPECT_EQ(refused(point + "tests = [\"t\"]\n"), "");
@@ -196,11 +197,11 @@ TEST(Closure, IsRedForEveryKindOfGap) {
   };
   EXPECT_EQ(findings(point_of("p", {"hazards"}, {"g.x"})), "");
   EXPECT_EQ(findings(point_of("p", {"hazard"}, {"g.x"})), "p: unknown campaign hazard\np, c: g.x was never hit\n");
-  EXPECT_EQ(findings(point_of("p", {"hazards"}, {"g.x", "g.y"})), "p: no bin is called g.y\n");
+  EXPECT_EQ(findings(point_of("p", {"hazards"}, {"g.x", "g.y"})), "p: unknown bin g.y\n");
   EXPECT_EQ(findings(point_of("p", {"hazards"}, {"h.*"})),
-            "c: bin g.x belongs to no testpoint\np: no bin is called h.*\nno bin was looked at\n");
+            "c: bin g.x belongs to no testpoint\np: unknown bin h.*\nno bins were checked\n");
   run.declare("g", "z");
-  EXPECT_EQ(findings(point_of("p", {"hazards"}, {"g.*"})), "c, hazards: bin g.z was declared by nobody\n");
+  EXPECT_EQ(findings(point_of("p", {"hazards"}, {"g.*"})), "c, hazards: bin g.z is not declared\n");
   input.planned.declare("g", "z");
   Testpoint tested = point_of("p", {"hazards"}, {"g.*"});
   tested.tests = {"testbench.Suite.Name"};
@@ -222,7 +223,7 @@ TEST(Closure, NeedsATestWhereThereAreNoBins) {
   };
   EXPECT_EQ(findings({{"testbench.Suite.Name", true}}), std::vector<std::string>{});
   EXPECT_EQ(findings({{"testbench.Suite.Other", true}}),
-            (std::vector<std::string>{"t: none of its tests passed, and it has no bins"}));
+            (std::vector<std::string>{"t: no test passed, and there are no bins"}));
   EXPECT_EQ(findings({}), std::vector<std::string>{}) << "tests were not looked at";
 }
 
@@ -280,8 +281,8 @@ TEST_F(Lines, AreRedUnreachedAndWithWrongExclusions) {
   EXPECT_EQ(findings({{"m.sv", "if (never) x;", "else", "because"}, {"m.sv", "begin", "line", "why"}}),
             (std::vector<std::string>{"excluded, but reached: m.sv:2 (line): begin"}));
   EXPECT_EQ(findings({{"m.sv", "if (never) x;", "else", "because"}, {"m.sv", "gone", "line", "why"}}),
-            (std::vector<std::string>{"excluded, but not there: m.sv: gone"}));
-  EXPECT_EQ(close_lines({}, folder_, {}).findings, (std::vector<std::string>{"no line of rtl/ was looked at"}));
+            (std::vector<std::string>{"excluded, but missing: m.sv: gone"}));
+  EXPECT_EQ(close_lines({}, folder_, {}).findings, (std::vector<std::string>{"no lines of rtl/ were checked"}));
 }
 
 TEST(Exclusions, NameLinesThatAreThere) {

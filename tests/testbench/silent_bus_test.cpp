@@ -84,20 +84,20 @@ void expect_hang(const std::function<void()>& action, const char* told) {
 }
 
 TEST(SilentBus, AReadThatIsNeverTakenEndsTheRun) {
-  expect_hang([] { make(Reads::Never); }, "no register read taken");
+  expect_hang([] { make(Reads::Never); }, "no register read accepted");
 }
 
 TEST(SilentBus, AWriteThatIsNeverTakenEndsTheRun) {
   const auto device = make(Reads::AsThePageSays);
-  expect_hang([&] { device->write_register(0, 1, 0); }, "no register write taken");
+  expect_hang([&] { device->write_register(0, 1, 0); }, "no register write accepted");
 }
 
 TEST(SilentBus, AReadThatIsAnsweredEarlyEndsTheRun) {
-  expect_hang([] { make(Reads::ACycleEarly); }, "answered in the cycle after it was taken");
+  expect_hang([] { make(Reads::ACycleEarly); }, "answered one cycle after it was accepted");
 }
 
 TEST(SilentBus, AReadThatIsTakenBesideAnotherEndsTheRun) {
-  expect_hang([] { make(Reads::OneBehindTheOther); }, "a second register read is taken");
+  expect_hang([] { make(Reads::OneBehindTheOther); }, "a second register read is accepted");
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ TEST_F(SaveVolume, RefusesUnknownEndingsAndBadPlaces) {
   EXPECT_THAT(refusal([&] { save_volume(with(1, VoxelType::U8), folder_ / "out.raw", VoxelType::U8); }),
               HasSubstr(".nrrd, .nhdr, .nii, .nii.gz, .mha or .mhd"));
   EXPECT_THAT(refusal([&] { save_volume(with(1, VoxelType::U8), folder_ / ".nrrd", VoxelType::U8); }),
-              HasSubstr("unknown kind"));
+              HasSubstr("unknown volume format"));
   EXPECT_THAT(refusal([&] { save_volume(with(1, VoxelType::U8), folder_ / "no" / "out.nrrd", VoxelType::U8); }),
               HasSubstr("folder"));
 }

@@ -20,7 +20,7 @@ expect_names() {
 expect_benchmark_flags() {
   local argument
   for argument in "${@:2}"; do
-    [[ $argument == --benchmark_* ]] || fail "$1: expected Google Benchmark's flags, --benchmark_filter=REGEX and so on; got '$argument'" 2
+    [[ $argument == --benchmark_* ]] || fail "$1: expected flags of Google Benchmark such as --benchmark_filter=REGEX, got '$argument'" 2
   done
 }
 
@@ -38,7 +38,7 @@ page() {
   shift
   "$build/bin/fastsplat_${name}_table" "$@" >"$build/$name.md"
   mv -- "$build/$name.md" "$root/docs/$name.md"
-  say "docs/$name.md; its figures are in $*"
+  say "docs/$name.md; figures from $*"
 }
 
 # keep_evidence FILE NAME: with its day and the RTL that it is of, as docs/evidence/NAME.json.
@@ -51,7 +51,7 @@ keep_evidence() {
 keep_figures() {
   mkdir -p "$build/evidence"
   "$build/bin/$3" --gtest_filter="${4:-*}" --gtest_output="json:$build/evidence/$1.json" >&2 || fail "$3 failed"
-  "$build/bin/fastsplat_evidence" figures "$2" "$build/evidence/$1.json" >"$build/evidence/$1.new" || fail "$1: no figures"
+  "$build/bin/fastsplat_evidence" figures "$2" "$build/evidence/$1.json" >"$build/evidence/$1.new" || fail "$1: the tests printed no figures"
   keep_evidence "$build/evidence/$1.new" "$1"
 }
 
@@ -59,5 +59,5 @@ evidence_page() {
   python3 -B "$root/tools/helpers/evidence_stamp.py" "$root" >"$build/evidence/now.json"
   "$build/bin/fastsplat_evidence" page "$root/docs/evidence" "$build/evidence/now.json" >"$build/evidence/evidence.md"
   mv -- "$build/evidence/evidence.md" "$root/docs/evidence.md"
-  say "docs/evidence.md, of docs/evidence/*.json"
+  say "docs/evidence.md, from docs/evidence/*.json"
 }

@@ -20,7 +20,7 @@ def rtl(root):
         name = os.path.basename(path).rsplit(".", 1)[0].removeprefix("fastsplat_")
         hashes[name] = hashlib.sha256(" ".join(text.split()).encode()).hexdigest()[:12]
     if not hashes:
-        raise SystemExit(f"evidence_stamp: there is no RTL in {root}/rtl")
+        raise SystemExit(f"evidence_stamp: no RTL found in {root}/rtl")
     return dict(sorted(hashes.items()))
 
 

@@ -16,13 +16,13 @@ def main():
         instance = yaml.safe_load(file)
     config = (instance.get("parameters") or {}).get("config")
     if not config:
-        sys.exit("fusesoc_package: parameter config is missing: a built-in name or a TOML file")
+        sys.exit("fusesoc_package: parameter config is missing: add a built-in name or a TOML file")
     if config.endswith(".toml"):
         config = os.path.join(instance["files_root"], config)
     tool = os.environ.get("FASTSPLAT_EMIT_PACKAGE",
                           os.path.join(HERE, os.pardir, "build", "bin", "fastsplat_emit_package"))
     if not os.path.exists(tool):
-        sys.exit(f"fusesoc_package: {tool} is not there; run ./run build fastsplat_emit_package, "
+        sys.exit(f"fusesoc_package: {tool} is missing; run ./run build fastsplat_emit_package, "
                  "or name it in FASTSPLAT_EMIT_PACKAGE")
     made = subprocess.run([tool, config], capture_output=True, text=True)
     if made.returncode:

@@ -93,7 +93,7 @@ class Decoder {
   void check_header() {
     if (spec_.deep || spec_.depth != 1) refuse("deep or volume image", "a flat image");
     if (spec_.width < 1 || spec_.height < 1 || spec_.width > kLargestSide || spec_.height > kLargestSide) {
-      refuse("unusable image size", "sides of 1 to " + std::to_string(kLargestSide), size_text());
+      refuse("unsupported image size", "sides of 1 to " + std::to_string(kLargestSide), size_text());
     }
     const int channels = spec_.nchannels;
     find_channels();
@@ -103,7 +103,7 @@ class Decoder {
     const bool whole = spec_.x == spec_.full_x && spec_.y == spec_.full_y && spec_.width == spec_.full_width &&
                        spec_.height == spec_.full_height;
     if (!whole) {
-      refuse("the data window is not the display window", {}, {}, "convert with oiiotool --croptofull");
+      refuse("the data window differs from the display window", {}, {}, "convert with oiiotool --croptofull");
     }
     const std::string compression = spec_.get_string_attribute("compression");
     static constexpr std::array kLossless{"none", "lzw", "zip", "packbits", "zstd", "lzma"};
@@ -141,14 +141,14 @@ class Decoder {
     }
     std::string all;
     for (const auto& name : names) all += (all.empty() ? "" : ", ") + name;
-    refuse(names.size() == 4 ? "four channels of which the fourth is not alpha" : "unsupported channels",
-           "Y, YA, RGB or RGBA by name, or one channel", all, "select or name channels with oiiotool --ch");
+    refuse(names.size() == 4 ? "four channels, but the fourth is not alpha" : "unsupported channels",
+           "channels named Y, YA, RGB or RGBA, or a single channel", all, "select or name channels with oiiotool --ch");
   }
 
   /// What cannot be followed: samples are taken as stored.
   void check_declared() {
     if (const int orientation = spec_.get_int_attribute("Orientation", 1); orientation != 1) {
-      refuse("the image is stored turned: orientation " + std::to_string(orientation), "1", {},
+      refuse("the image is stored rotated or mirrored: orientation " + std::to_string(orientation), "1", {},
              "write it upright with oiiotool --reorient");
     }
     const std::string model = spec_.get_string_attribute(std::string(input_->format_name()) + ":ColorSpace");
@@ -160,7 +160,7 @@ class Decoder {
     const bool white_is_zero = std::strcmp(input_->format_name(), "tiff") == 0 &&
                                spec_.get_int_attribute("tiff:PhotometricInterpretation", 1) == 0;
     if (white_is_zero && spec_.format != TypeDesc::UINT8)
-      refuse("white is 0 (WhiteIsZero)", "BlackIsZero where samples have more than 8 bits", {}, "invert it");
+      refuse("WhiteIsZero is not supported for samples of more than 8 bits", "BlackIsZero", {}, "invert it");
   }
 
   std::string encoding() const {

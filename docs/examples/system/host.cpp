@@ -40,7 +40,7 @@ void Host::expect(bool holds, const char* what) const {
                                          .what = what,
                                          .expected = {},
                                          .got = {},
-                                         .fix = "look at docs/integration.md, \"Programming\""});
+                                         .fix = "see docs/integration.md, \"Programming\""});
 }
 
 void Host::clock() {
@@ -76,7 +76,7 @@ std::uint32_t Host::read(std::uint32_t address) {
   top_->s_axil_araddr = static_cast<std::uint16_t>(address);
   top_->s_axil_arvalid = 1;
   int waited = 0;
-  for (bool taken = false; !taken; expect(++waited < kBusPatience, "no register read is taken")) {
+  for (bool taken = false; !taken; expect(++waited < kBusPatience, "no register read is accepted")) {
     top_->eval();
     taken = top_->s_axil_arready != 0;
     clock();
@@ -84,16 +84,16 @@ std::uint32_t Host::read(std::uint32_t address) {
   top_->s_axil_arvalid = 0;
   while (!top_->s_axil_rvalid) {
     clock();
-    expect(++waited < kBusPatience, "a register read is not answered");
+    expect(++waited < kBusPatience, "no response to a register read");
   }
   const std::uint32_t word = top_->s_axil_rdata;
-  expect(top_->s_axil_rresp == 0, "a register read is answered with SLVERR");
+  expect(top_->s_axil_rresp == 0, "a register read returns SLVERR");
   clock();
   return word;
 }
 
 void Host::write(std::uint32_t address, std::uint32_t word) {
-  expect(write_bytes(address, word, 0xf), "a register write is answered with SLVERR");
+  expect(write_bytes(address, word, 0xf), "a register write returns SLVERR");
 }
 
 bool Host::write_bytes(std::uint32_t address, std::uint32_t word, unsigned strobe) {
@@ -102,7 +102,7 @@ bool Host::write_bytes(std::uint32_t address, std::uint32_t word, unsigned strob
   top_->s_axil_wstrb = static_cast<std::uint8_t>(strobe);
   top_->s_axil_awvalid = top_->s_axil_wvalid = 1;
   int waited = 0;
-  for (bool taken = false; !taken; expect(++waited < kBusPatience, "no register write is taken")) {
+  for (bool taken = false; !taken; expect(++waited < kBusPatience, "no register write is accepted")) {
     top_->eval();
     taken = top_->s_axil_awready != 0 && top_->s_axil_wready != 0;
     clock();
@@ -110,7 +110,7 @@ bool Host::write_bytes(std::uint32_t address, std::uint32_t word, unsigned strob
   top_->s_axil_awvalid = top_->s_axil_wvalid = 0;
   while (!top_->s_axil_bvalid) {
     clock();
-    expect(++waited < kBusPatience, "a register write is not answered");
+    expect(++waited < kBusPatience, "no response to a register write");
   }
   const bool okay = top_->s_axil_bresp == 0;
   clock();

@@ -46,7 +46,7 @@ void meet(Host& host, const Config& config) {
                                               .what = "the device was built for another configuration",
                                               .expected = hash_text(config_hash(config)),
                                               .got = hash_text(hash),
-                                              .fix = "build both for the same"});
+                                              .fix = "build both for the same configuration"});
   }
 }
 
@@ -57,10 +57,10 @@ void write_a_byte(Host& host) {
   say("device: a write of one byte: {}, IRQ_MASK {:#x}", okay ? "OKAY" : "SLVERR", mask);
   if (!okay && mask == 0) return;
   throw UserError(ExitCode::Simulation, {.where = "IRQ_MASK",
-                                         .what = "a write of one byte was taken",
+                                         .what = "a write of one byte was accepted",
                                          .expected = "SLVERR, and 0 as before",
                                          .got = {},
-                                         .fix = "look at WSTRB in fastsplat_top"});
+                                         .fix = "check WSTRB in fastsplat_top"});
 }
 
 /// A beat of a tile with a bit that has no name: refused. The host reads why, and resets.
@@ -97,7 +97,7 @@ Words words_of(std::span<char*> args) {
                  .what = what,
                  .expected = "STREAM.fss PICTURE.png [--break]",
                  .got = got,
-                 .fix = "`fastsplat stream record --config small` writes a stream"});
+                 .fix = "write a stream with `fastsplat stream record --config small`"});
   };
   for (const std::string_view arg : args.subspan(1)) {
     if (arg == "--break")
@@ -107,11 +107,13 @@ Words words_of(std::span<char*> args) {
     else if (++files <= 2)
       (files == 1 ? words.stream : words.picture) = arg;
   }
-  if (files != 2) refuse("needs two files", std::to_string(files));
+  if (files != 2) refuse("requires two files", std::to_string(files));
   std::error_code none;
-  if (std::filesystem::equivalent(words.stream, words.picture, none)) refuse("would write what it reads", args[1]);
+  if (std::filesystem::equivalent(words.stream, words.picture, none))
+    refuse("the output would replace the input", args[1]);
   const auto ending = words.picture.extension();
-  if (ending != ".png" && ending != ".exr" && ending != ".tif") refuse("no kind of picture", words.picture.string());
+  if (ending != ".png" && ending != ".exr" && ending != ".tif")
+    refuse("unsupported picture format", words.picture.string());
   images::require_library();
   const AtomicFile probe(words.picture);  // whether it could be written
   return words;
@@ -157,7 +159,7 @@ int run(std::span<char*> args) {
   say("cycle {}: interrupt {:#x}: {}", host.cycle(), irq, (irq & kIrqFrame) != 0 ? "the frame has left" : "an error");
   if (!done || (irq & kIrqError) != 0)
     throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(host.cycle()),
-                                           .what = "the frame did not come out",
+                                           .what = "no complete frame was output",
                                            .expected = {},
                                            .got = {},
                                            .fix = {}});

@@ -81,13 +81,13 @@ def _load():
     try:
         library = ctypes.CDLL(chosen)
     except OSError as error:
-        raise ImportError(f"{error}; FASTSPLAT_LIBRARY is to name libfastsplat.so.3") from None
+        raise ImportError(f"{error}; set FASTSPLAT_LIBRARY to libfastsplat.so.3") from None
     for name in ("fastsplat_version", "fastsplat_last_error", "fastsplat_checker_first_mismatch",
                  "fastsplat_checker_summary"):
         getattr(library, name).restype = ctypes.c_char_p
     library.fastsplat_api_version.restype = ctypes.c_uint32
     if library.fastsplat_api_version() >> 16 != _API_MAJOR:
-        raise ImportError(f"{chosen}: another version of the interface than this fastsplat.py")
+        raise ImportError(f"{chosen}: its interface version differs from that of this fastsplat.py")
     return library
 
 
@@ -128,7 +128,7 @@ def read_stream(path):
     if words.size > 1 and words[1] == _STREAM_MAGIC and words[0] >> 16 != STREAM_VERSION:
         raise ValueError(f"{path}: stream version {words[0] >> 16}, this library reads version {STREAM_VERSION}: record it again")
     if octets.size == 0 or octets.size % (4 * BEAT_WORDS):
-        raise ValueError(f"{path}: {octets.size} bytes are not whole beats of {4 * BEAT_WORDS}")
+        raise ValueError(f"{path}: {octets.size} bytes are not a multiple of the beat size, {4 * BEAT_WORDS}")
     return words.reshape(-1, BEAT_WORDS)
 
 
@@ -153,13 +153,13 @@ def _number(what, value, dtype):
 def _text(what, value):
     """For C, where a text ends at the first NUL."""
     if "\0" in value:
-        raise ValueError(f"{what}: there is a NUL in {value!r}")
+        raise ValueError(f"{what}: {value!r} contains a NUL")
     return value.encode()
 
 
 def _place(what, choices, name):
     if name not in choices:
-        raise ValueError(f"no {what} {name!r}; there are {', '.join(choices)}")
+        raise ValueError(f"unknown {what} {name!r}; expected one of {', '.join(choices)}")
     return choices.index(name)
 
 
@@ -168,7 +168,7 @@ def _beats(beats):
     if beats.ndim == 1 and beats.size == BEAT_WORDS:
         beats = beats.reshape(1, BEAT_WORDS)
     if beats.ndim != 2 or beats.shape[1] != BEAT_WORDS:
-        raise ValueError(f"beats have the shape (n, {BEAT_WORDS}), not {beats.shape}")
+        raise ValueError(f"beats: expected the shape (n, {BEAT_WORDS}), got {beats.shape}")
     return beats
 
 
@@ -191,7 +191,7 @@ class Config(_Handle):
     def __init__(self, name=None, *, path=None, text=None):
         super().__init__()
         if (name is not None) + (path is not None) + (text is not None) != 1:
-            raise ValueError("one of name, path and text")
+            raise ValueError("expected exactly one of name, path and text")
         out = ctypes.byref(self._pointer)
         if text is not None:
             data = text.encode()
@@ -285,7 +285,7 @@ class Checker(_Handle):
         words = _whole("words", words, np.uint32)
         for name, value in dict(fields, cycle=cycle).items():
             if name not in self._FIELDS:
-                raise TypeError(f"showed: no field {name}; there are {', '.join(self._FIELDS)}")
+                raise TypeError(f"showed: unknown field {name}; expected one of {', '.join(self._FIELDS)}")
             _number(name, value, np.uint64 if name == "cycle" else np.uint32)
         given = sum(bit for name, bit in self._GIVEN.items() if name in fields)
         shown = _Shown(struct_size=ctypes.sizeof(_Shown), port=_place("port", self.PORTS, port), given=given, cycle=cycle,

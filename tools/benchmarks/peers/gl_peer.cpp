@@ -47,8 +47,7 @@ void pictures(benchmark::State& state, Sums sums, const std::string& what) {
   state.counters["psnr_db"] = db;
   state.counters["quads"] = static_cast<double>(gl(sums).quads());
   state.SetLabel(gl(sums).renderer());
-  if (!(db >= (sums == Sums::Half ? 30.0 : 60.0)))
-    throw std::runtime_error("not the same picture: nothing is to be compared");
+  if (!(db >= (sums == Sums::Half ? 30.0 : 60.0))) throw std::runtime_error("the pictures differ: nothing to compare");
 }
 
 void gl_draw(benchmark::State& state, Sums sums) {
@@ -69,7 +68,7 @@ void draw_tiles(benchmark::State& state, const driver::CompiledFrame& frame, con
   for (auto _ : state) {
     for (int tile = 0; tile < frame.grid().count(); ++tile) {
       frame.draw_band(tile, 0, unit);
-      if (!unit.sound()) throw std::runtime_error("a sum was cut: another thing would be measured");
+      if (!unit.sound()) throw std::runtime_error("a sum saturated: the measurement would be invalid");
     }
   }
 }
@@ -78,7 +77,7 @@ void device_draw(benchmark::State& state, const std::string& config) {
   const cmodel::Config device = driver::load_config(config);
   const driver::CompiledFrame frame(xray(), device);
   const auto tables = cmodel::fast::frame_tables(device, frame.preamble());
-  if (!tables) throw std::runtime_error("no fast unit here");
+  if (!tables) throw std::runtime_error("the fast unit is not available");
   if (tables->plan.narrow)
     draw_tiles<std::uint16_t>(state, frame, *tables);
   else
@@ -111,7 +110,7 @@ int main(int count, char** arguments) {
   setenv("GALLIUM_DRIVER", "llvmpipe", 1);
   setenv("LP_NUM_THREADS", "0", 1);
   return fastsplat::bench::run_peer(count, arguments, [] {
-    if (!std::filesystem::exists(fastsplat::bench::kHead)) throw std::runtime_error("no mricron-data here");
+    if (!std::filesystem::exists(fastsplat::bench::kHead)) throw std::runtime_error("mricron-data is not installed");
     fastsplat::bench::register_all();
   });
 }

@@ -17,7 +17,7 @@ constexpr int kExtent = 7;
 std::unique_ptr<ScSplatter> splatter_of(const cmodel::Config& config) {
   auto splatter = make_sc_splatter(config, driver::rlut_table(config, 0, kExtent / 2.0, 0),
                                    driver::radial_table(config, scene::kernel_by_name("smooth")));
-  if (!splatter) throw std::runtime_error("no SystemC types have the widths of " + config.name);
+  if (!splatter) throw std::runtime_error("unsupported SystemC widths of " + config.name);
   return splatter;
 }
 
@@ -62,7 +62,7 @@ void same_words(benchmark::State& state, const std::string& config) {
   state.counters["different"] = static_cast<double>(beside.different);
   state.counters["saturated"] = static_cast<double>(model.counters().sheet_saturated);
   if (beside.different != 0 || beside.words == 0 || model.counters().sheet_saturated == 0)
-    throw std::runtime_error("the SystemC description of " + config + " is not the plain unit's");
+    throw std::runtime_error("the SystemC description of " + config + " differs from the plain unit");
 }
 
 void systemc(benchmark::State& state, const std::string& config) {

@@ -75,7 +75,7 @@ void alike(benchmark::State& state, const Image& a, const Image& b, double least
   state.counters["psnr_db"] = db;
   state.counters["overlap"] = overlap;
   if (!(db >= least_psnr && overlap >= least_overlap))
-    throw std::runtime_error("not the same picture: nothing is to be compared");
+    throw std::runtime_error("the pictures differ: nothing to compare");
 }
 
 /// The scene in VTK's order: interpolated, then classified, and neither shades.
@@ -156,7 +156,7 @@ void post_classified(benchmark::State& state, const Subject& subject, const Post
     const double db = psnr(theirs, ours);
     state.counters[who] = db;
     if (as.points > 1 && !(db > psnr(vtk_post(subject, 1, as.samples), ours)))
-      throw std::runtime_error("VTK's picture of the filtered volume is not nearer to ours than that of the volume");
+      throw std::runtime_error("VTK's picture of the filtered volume is not closer to ours than that of the volume");
   }
   state.counters["overlap"] = silhouette_overlap(theirs, our_post(subject, "golden", as.sheets));
   state.counters["points"] = as.points;

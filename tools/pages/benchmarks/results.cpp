@@ -93,7 +93,7 @@ Results read_results(std::span<const std::string> files) {
     results.machine = machine_of(json.at("context"));
     results.date = json.at("context").at("date").get<std::string>().substr(0, 10);
   }
-  if (results.lines.empty()) throw std::runtime_error("the JSON holds no run");
+  if (results.lines.empty()) throw std::runtime_error("the JSON contains no runs");
   return results;
 }
 

@@ -37,7 +37,7 @@ constexpr double kShare = 0.02;
 
 Json design_of(const std::string& work, const std::string& name) {
   const auto dash = name.find('-');
-  if (dash == std::string::npos) throw std::runtime_error(name + " is no FAMILY-CONFIG");
+  if (dash == std::string::npos) throw std::runtime_error(name + " is not a FAMILY-CONFIG");
   return read_synthesis(work, name.substr(0, dash), name.substr(dash + 1));
 }
 
@@ -81,7 +81,7 @@ int ratchet(const Json& baseline, const std::string& work, std::span<const std::
 
 int seed(const Json& baseline, const std::string& name) {
   const auto dash = name.find('-');
-  if (dash == std::string::npos) throw std::runtime_error(name + " is no FAMILY-CONFIG");
+  if (dash == std::string::npos) throw std::runtime_error(name + " is not a FAMILY-CONFIG");
   const auto kept = find_design(baseline, {{"family", name.substr(0, dash)}, {"design", name.substr(dash + 1)}});
   if (kept != baseline.end() && kept->contains("placement"))
     std::cout << kept->at("placement").at("seed").get<int>() << "\n";
@@ -102,7 +102,7 @@ Json proofs(const std::string& tool, const std::string& seconds, const std::stri
         fields.push_back(line.substr(at, bar == std::string::npos ? bar : bar - at));
         at = bar == std::string::npos ? bar : bar + 3;
       }
-      if (fields.size() != 4) throw std::runtime_error(file + " is no list of proofs");
+      if (fields.size() != 4) throw std::runtime_error(file + " is not a list of proofs");
       all.push_back({{"property", fields[0]},
                      {"how", fields[1]},
                      {"seconds", std::stod(fields[2])},
@@ -165,7 +165,7 @@ int run(const std::vector<std::string>& words) {
     return 0;
   }
   if (is("page", 1)) {
-    if (!std::filesystem::is_directory(words[1])) throw std::runtime_error(words[1] + ": no folder");
+    if (!std::filesystem::is_directory(words[1])) throw std::runtime_error(words[1] + ": not a folder");
     std::cout << page(words[1], words.size() > 2 ? read_json(words[2]) : Json());
     return 0;
   }

@@ -60,7 +60,7 @@ std::map<std::string, Cells> read_stat(const std::filesystem::path& path) {
       (*current)[match[1]] += std::stoll(match[2]);
     }
   }
-  if (modules.empty()) throw std::runtime_error(path.string() + " holds no statistics");
+  if (modules.empty()) throw std::runtime_error(path.string() + " contains no statistics");
   return modules;
 }
 
@@ -215,7 +215,7 @@ Json read_synthesis(const std::filesystem::path& work, const std::string& family
   if (family == "hx8k") {
     json["placement"] = read_placement(base + ".report");
     const auto fastest = std::max_element(seeds.begin(), seeds.end());  // the first of equals: the one that is kept
-    if (fastest == seeds.end()) throw std::runtime_error(base + ".tools names no seed of the placer");
+    if (fastest == seeds.end()) throw std::runtime_error(base + ".tools contains no seed of the placer");
     json["placement"]["seed"] = std::stoi(fastest.key());
     json["placement"]["seeds_mhz"] = seeds;
   }

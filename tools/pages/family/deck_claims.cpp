@@ -24,7 +24,7 @@ class Cells {
           (!cell.has_table || cell.config.radial_entries == entries))
         return cell;
     }
-    throw_usage({.where = "the family", .what = "has no such cell", .expected = {}, .got = name_of(kind), .fix = {}});
+    throw_usage({.where = "the family", .what = "unknown cell", .expected = {}, .got = name_of(kind), .fix = {}});
   }
   /// The kind's least error of the turned field at r = 4 with at most so many bits; null where it needs more.
   const FamilyCell* best_within(IndexKind kind, std::uint64_t bits) const {

@@ -128,7 +128,7 @@ TEST(GalleryMustFail, AManifestWithAMistakeIsToldWhere) {
     std::string text, said;
   };
   for (const Bad& bad : {Bad{good + "captoin = \"g\"\n", ":8: unknown key captoin"},
-                         Bad{good + "[[picture]]\nname = \"x\"\n", "lacks section"},
+                         Bad{good + "[[picture]]\nname = \"x\"\n", "lacks the key section"},
                          Bad{good + good, "duplicate picture name c"}, Bad{good + "enlarge = 3\n", ":8: expected"}}) {
     folder.write("docs/gallery.toml", bad.text);
     const auto result = run_words({kRoot / "tools/helpers/gallery_page", "--markdown", folder.path()});

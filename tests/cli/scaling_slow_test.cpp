@@ -162,7 +162,8 @@ TEST(Scaling, NamesTheLimit) {
   expect_limit(Words{"--volume", "point:2", "--size", "500", "--zoom", "0.02", "--config", "small", "--devices", "1"},
                "pixel_out", "second set");
   expect_limit(kScene + Words{"--devices", "1", "--ready", "every-50"}, "pixel_out", "--ready");
-  expect_limit(Words{"--volume", "point:2", "--size", "2", "--config", "base", "--devices", "1"}, "fill", "tables");
+  expect_limit(Words{"--volume", "point:2", "--size", "2", "--config", "base", "--devices", "1"}, "fill",
+               "table loading");
   expect_limit(Words{"--volume", "shells:64", "--size", "128", "--config", "base", "--devices", "1"}, "work",
                "are busy");
   const auto roofline = told(kScene + Words{"--bytes-per-cycle", "1"})["scaling"]["roofline"];
@@ -186,7 +187,7 @@ TEST(Scaling, MisuseIsToldBeforeAnyWork) {
   expect_error(fastsplat(scene + Words{"--devices", "65"}), 2, {"--devices", "1 to 64", "'65'"});
   for (const std::string list : {"1,2,65", "2,2", "4,2", "1,,2", "1,2,", ",", "1,two"})
     expect_error(fastsplat(scene + Words{"--devices", list}), 2,
-                 {"--devices", "1 to 64", "increase", "'" + list + "'"});
+                 {"--devices", "1 to 64", "increasing", "'" + list + "'"});
   expect_error(fastsplat(scene + Words{"--bytes-per-cycle", "-1"}), 2, {"--bytes-per-cycle", "0 to 65536", "'-1'"});
   expect_error(fastsplat(scene + Words{"--bytes-per-cycle", "1.5"}), 2, {"--bytes-per-cycle", "'1.5'"});
   for (const std::string clock : {"0", "-5", "nan", "1e9", "fast"})

@@ -17,8 +17,10 @@ std::string words(const Need& need) {
   std::string text = fmt::format("{} {} -> {} would {}: {}", need.key, need.has, need.needs,
                                  need.needs > need.has ? "avoid saturation" : "suffice", need.why);
   if (need.possible != need.needs) {
-    text += need.possible == need.has ? fmt::format("; but {} then", need.limit)
-                                      : fmt::format("; at most {}, because {} then", need.possible, need.limit);
+    const bool least = need.needs < need.has;
+    text += need.possible == need.has ? fmt::format("; but not possible: {}", need.limit)
+                                      : fmt::format("; {} is the {} possible: {} it {}", need.possible,
+                                                    least ? "least" : "most", least ? "below" : "above", need.limit);
   }
   return text + "\n";
 }

@@ -108,7 +108,7 @@ async function draw(page: PageData, of_all: Subject): Promise<boolean> {
   }
   if (others.size)
     document.getElementById("top")?.append(
-      h("p", { class: "note others" }, "The verdict is not of these panels' figures:", [...others].map(([what, titles]) => [h("br"), h("strong", {}, what), `: ${titles.join("; ")}`])),
+      h("p", { class: "note others" }, "These panels show other runs than the verdict's:", [...others].map(([what, titles]) => [h("br"), h("strong", {}, what), `: ${titles.join("; ")}`])),
     );
   if (!drawing.length) main.append(h("p", { class: "note" }, "There is no result in this report."));
   await Promise.all(drawing);

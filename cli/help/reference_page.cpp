@@ -188,8 +188,8 @@ std::string capabilities() {
   return "\n## What goes with what\n\nSettings that are not listed go with everything. `golden` is the floating-point "
          "engine.\n"
          "`device` stands for `cmodel` and `rtl`. [Scenes](scenes.md#settings-that-do-not-apply) explains the\n"
-         "table.\n\n<!-- capability table: generated -->\n" +
-         scene::capability_guide(engines) + "<!-- end of capability table -->\n";
+         "table.\n\n" +
+         scene::capability_guide(engines);
 }
 
 std::string configurations() {

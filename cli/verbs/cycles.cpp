@@ -375,7 +375,7 @@ void declare(Options& options, CyclesArguments& to) {
 
 }  // namespace
 
-const Verb verbs::cycles{"cycles", "count clock cycles of a scene or stream on the device, and how they are spent",
+const Verb verbs::cycles{"cycles", "count the clock cycles of a scene or stream on the device, and show how they are spent",
                          verb<CyclesArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -40,8 +40,8 @@ module fastsplat_fetch #(
     input  logic         verdict_valid,
     input  logic [31:0]  verdict_tag,
     input  logic         verdict_hidden,
-    // While high nothing is requested, commands are taken and dropped, verdicts are ignored. Once busy is 0 all is as after a reset;
-    // it stays high until the device has no verdicts to give.
+    // While high nothing is requested, commands are taken and dropped, verdicts are ignored. Once busy is 0 all is as after a reset.
+    // The host keeps it high until the device has no verdicts to give.
     input  logic         stop,
     output logic         busy,   // there is a command, or a beat that was asked for and not sent
     output logic [1:0]   error   // the first error; stays until stop or reset, and nothing is asked for

@@ -21,6 +21,9 @@ with open(f"{source}/fastsplat.core") as file:
 assert text.startswith("CAPI=2:\n"), "the first line is the format's"
 core = yaml.safe_load(text.split("\n", 1)[1])
 assert set(core) <= KEYS[""], set(core) - KEYS[""]
+with open(f"{source}/CMakeLists.txt") as file:
+    version = re.search(r"project\(fastsplat VERSION ([0-9.]+)", file.read())[1]
+assert core["name"] == f"::fastsplat:{version}", f"{core['name']}, but CMakeLists.txt has version {version}"
 for section, keys in KEYS.items():
     for name, entry in (core[section] if section else {}).items():
         assert set(entry) <= keys, (section, name, set(entry) - keys)

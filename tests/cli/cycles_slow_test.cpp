@@ -24,7 +24,7 @@ std::uint64_t sum_of(const json& account) {
 
 TEST(Cycles, AddUpAndAreTheSameForSceneAndStream) {
   const TempFolder folder;
-  const std::vector<std::string> scene{"--volume", "shells:24", "--size", "100", "--config", "small"};
+  const std::vector<std::string> scene{"--volume", "shells:24", "--size", "110x90", "--config", "small"};
   const std::vector<std::string> channel{"--input", "random-70", "--ready", "burst-9", "--json", "-"};
   auto words = scene;
   words.insert(words.begin(), {"stream", "record"});
@@ -46,8 +46,9 @@ TEST(Cycles, AddUpAndAreTheSameForSceneAndStream) {
   EXPECT_NE(json::parse(from_scene.out)["scene"].get<std::string>().find(" pixels"), std::string::npos)
       << from_scene.out;
   EXPECT_EQ(json::parse(from_stream.out)["stream"], folder / "s.fss");
-  const auto width = std::to_string(json::parse(from_stream.out)["width"].get<int>());
-  EXPECT_NE(json::parse(from_scene.out)["scene"].get<std::string>().find(" " + width + "x"), std::string::npos);
+  EXPECT_NE(json::parse(from_scene.out)["scene"].get<std::string>().find(" 110x90 "), std::string::npos);
+  EXPECT_EQ(json::parse(from_stream.out)["width"], 110);
+  EXPECT_EQ(json::parse(from_stream.out)["height"], 90);
   EXPECT_EQ(json::parse(recorded.out)["scene"], json::parse(from_scene.out)["scene"]);
   const auto a = json::parse(from_scene.out)["cycles"], b = json::parse(from_stream.out)["cycles"];
   EXPECT_GT(a["actual"].get<std::uint64_t>(), 0U);

@@ -48,8 +48,8 @@ TEST(ReadmePicture, PicturesAndCaptionAreOfOneRun) {
   EXPECT_TRUE(rounded_to(caption[3], psnr)) << psnr;
   EXPECT_TRUE(rounded_to(caption[4], largest)) << largest;
 
-  // A processor or a C library may round one value of golden to another step of 8 bits; the device's are words.
-  for (const auto& [name, lsb] : {std::pair{"golden.png", "1"}, {"cmodel.png", "0"}, {"error-map.png", "8"}}) {
+  // The last bit of a float of golden may round to the next step of 8 bits; the device's pixels are words.
+  for (const auto& [name, lsb] : {std::pair{"golden.png", "1"}, {"cmodel.png", "0"}, {"error-map.png", "1"}}) {
     const auto same = fastsplat({"compare", kRoot / "docs/images" / name, folder / name, "--max-lsb", lsb});
     EXPECT_EQ(same.code, 0) << name << ": run ./run demo, copy " << name << " from demo/ to docs/images/\n"
                             << same.out << same.err;

@@ -74,6 +74,22 @@ TEST(Top, TheNextFrameIsWholeBehindASoftReset) {
   EXPECT_GT(words, 1000U);
 }
 
+TEST(Top, AWriteOfSomeBytesResetsNothing) {
+  const auto beats = frame(3);
+  const Tiles wanted = tiles_of(beats);
+  int writes = 0;
+  for (std::uint64_t cycle = 300; cycle < 1500; cycle += 100) {
+    for (const unsigned strobe : {0U, 1U, 7U, 14U}) {
+      const TopResult seen = run_top(beats, {}, {.reset_at = cycle, .strobe = strobe});
+      ASSERT_EQ(seen.finding, "") << "cycle " << cycle << ", strobe " << strobe;
+      ASSERT_EQ(seen.tiles, wanted.tiles) << "cycle " << cycle << ", strobe " << strobe;
+      EXPECT_EQ(seen.error, 0U);
+      ++writes;
+    }
+  }
+  std::printf("[figure] writes of some bytes = %d\n", writes);
+}
+
 // The source goes on where it was: what is left of its frame is no frame.
 TEST(Top, TheNextFrameIsFoundBehindAHardReset) {
   std::uint64_t resets = 0, words = 0;

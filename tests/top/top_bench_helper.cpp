@@ -19,6 +19,7 @@ using cmodel::Beat;
 
 constexpr std::uint64_t kPatience = 20'000;  ///< cycles
 constexpr std::uint32_t kSoftReset = 2, kDrop = 4, kBusy = 1;
+constexpr unsigned kAllBytes = 15;  ///< WSTRB
 constexpr std::size_t kPixelWords = 4, kPixelBytes = 16;
 
 class Bench {
@@ -41,7 +42,7 @@ class Bench {
     top_->aresetn = 0;
     top_->s_axis_tvalid = top_->m_axis_tready = top_->s_axil_awvalid = top_->s_axil_wvalid = top_->s_axil_arvalid = 0;
     top_->s_axil_bready = top_->s_axil_rready = 1;
-    top_->s_axil_wstrb = 0xf;
+    top_->s_axil_wstrb = kAllBytes;
     for (int i = 0; i < 3; ++i) edge();
     top_->aresetn = 1;
     while (out_.finding.empty() && !done()) {
@@ -75,6 +76,12 @@ class Bench {
 
   void reset() {
     if (at_ == last_ && !offering_ && !busy()) return;  // the frame is over
+    if (run_.strobe != kAllBytes) {
+      top_->s_axil_wstrb = static_cast<std::uint8_t>(run_.strobe);
+      write(cmodel::kRegControl.address, kSoftReset | kDrop);
+      top_->s_axil_wstrb = kAllBytes;
+      return;
+    }
     out_.reset = true;
     if (run_.hard) {
       top_->aresetn = 0;

@@ -17,6 +17,7 @@ struct TopRun {
   std::uint64_t reset_at = 0;  ///< cycle
   bool hard = false;
   bool drops = true;     ///< the host writes DROP with RESET
+  unsigned strobe = 15;  ///< of that write; any other is refused, and nothing may happen
   std::size_t more = 0;  ///< beats of the first frame behind a hard reset, made alike to a begin_frame in w0
   testbench::Pattern source = {}, sink = {};
 };

@@ -18,7 +18,7 @@ struct TopRun {
   bool hard = false;
   bool drops = true;     ///< the host writes DROP with RESET
   unsigned strobe = 15;  ///< of that write; any other is refused, and nothing may happen
-  std::size_t more = 0;  ///< beats of the first frame behind a hard reset, made alike to a begin_frame in w0
+  std::size_t more = 0;  ///< beats of the first frame after a hard reset; their w0 is made to look like a begin_frame
   testbench::Pattern source = {}, sink = {};
 };
 

@@ -6,7 +6,9 @@
 `include "assertions.svh"
 `include "fault.svh"
 
-module fastsplat_core (
+module fastsplat_core #(
+    parameter bit SLICED = 1'b0  // 1: register slices lie between these streams and source and sink, and report below (fastsplat_top)
+) (
     input  logic         clk_i,
     input  logic         rst_ni,
     // AXI4-Stream in: one beat of docs/stream.md
@@ -62,7 +64,13 @@ module fastsplat_core (
     output logic [31:0]  tap_tile_o,
     output logic         tap_sheet_done_o,
     output logic         error_o,
-    output logic         irq_o
+    output logic         irq_o,
+    // where SLICED: end_frame was carried out and all pixels have left this module; the slices hold something, the sink has taken the last
+    // beat of a tile, of a frame
+    output logic         frame_end_o,
+    input  logic         slices_busy_i,
+    input  logic         tile_left_i,
+    input  logic         frame_left_i
 );
   localparam int BANKS = fastsplat_pkg::BANKS;
 
@@ -525,9 +533,9 @@ module fastsplat_core (
   end
 
   // A frame has left when its end_frame was carried out and its last picture is gone.
-  logic frame_ending_q, frame_left;
-  assign frame_left = frame_ending_q && pixel_idle;
-  always_ff @(posedge clk_i) frame_ending_q <= rst_ni && (frame_end || (frame_ending_q && !frame_left));
+  logic frame_ending_q;
+  assign frame_end_o = frame_ending_q && pixel_idle;
+  always_ff @(posedge clk_i) frame_ending_q <= rst_ni && (frame_end || (frame_ending_q && !frame_end_o));
 
   fastsplat_csr u_csr (
       .clk_i,
@@ -548,20 +556,20 @@ module fastsplat_core (
       .rready_i,
       .rdata_o,
       .rresp_o,
-      .busy_i(running || check_busy || !cull_idle),
+      .busy_i(running || check_busy || !cull_idle || (SLICED && slices_busy_i)),
       .error_i(error_o),
       .error_rule_i(error_rule),
       .error_opcode_i(error_opcode),
       .error_beat_i(error_beat),
       .reset_o(soft_reset),
-      .frame_i(frame_left),
-      .tile_i(pixel_taken && m_tlast_o),
+      .frame_i(SLICED ? frame_left_i : frame_end_o),
+      .tile_i(SLICED ? tile_left_i : pixel_taken && m_tlast_o),
       .irq_o,
       .clear_o(clear_counters),
       .increments_i(increments)
   );
   logic unused;
-  assign unused = &{1'b0, table_index, table_word, event_test, event_hidden_set, event_hidden, event_hidden_windows};
+  assign unused = &{1'b0, table_index, table_word, event_test, event_hidden_set, event_hidden, event_hidden_windows, slices_busy_i, tile_left_i, frame_left_i};
   `FASTSPLAT_ASSERT(no_beat_while_wiping, !(wiping_q && s_tready_o))
   `FASTSPLAT_ASSERT(pixel_beat_not_empty, !m_tvalid_o || m_tkeep_o[0])
 

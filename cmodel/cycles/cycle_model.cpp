@@ -62,14 +62,16 @@ void CycleModel::empty(std::uint64_t from, std::uint64_t to) {
 }
 
 std::uint64_t CycleModel::judged(std::uint64_t taken) const {
-  return std::max(taken + stages::kWeigh, judge_free_) + stages::kJudge;
+  return std::max(std::max(arrives(taken), check_free_) + stages::kWeigh, judge_free_) + stages::kJudge;
 }
 
 std::uint64_t CycleModel::enter(Opcode opcode, bool payload) {
   const std::uint64_t offered = options_.input == nullptr ? next_offer_ : options_.input->next(next_offer_);
-  const std::uint64_t taken = std::max(offered, check_free_);
+  const std::uint64_t free = options_.sliced ? beats_in_.free() : check_free_;
+  const std::uint64_t taken = std::max(offered, free);
   const std::uint64_t verdict = judged(taken);
-  beat_.wanted = std::max(next_offer_, check_free_);
+  if (options_.sliced) beats_in_.pass(taken, std::max(arrives(taken), check_free_));
+  beat_.wanted = std::max(next_offer_, free);
   beat_.offered = offered;
   beat_.taken = taken;
   next_offer_ = taken + 1;
@@ -440,17 +442,24 @@ void CycleModel::end_tile(std::uint64_t at) {
 void CycleModel::picture(std::uint64_t at) {
   const int beats_per_row = (tile_.width + config_.lanes - 1) / config_.lanes;
   const auto beats = static_cast<std::uint64_t>(beats_per_row) * static_cast<std::uint64_t>(tile_.height);
-  std::uint64_t shown = at + stages::kPixel;
+  std::uint64_t shown = at + stages::kPixel, left = 0, out = 0;  // offered by pixel out; taken of it; gone
   if (options_.output == nullptr && options_.taps == nullptr) {
     shown += beats;
+    out = shown + (options_.sliced ? 1 : 0);
   } else {
     for (int y = 0; y < tile_.height; ++y) {
       for (int x = 0; x < tile_.width; x += config_.lanes) {
+        if (options_.sliced) {
+          left = std::max(shown, pixels_out_.free());
+          shown = pixels_out_.offers(left);
+        }
         const std::uint64_t taken = options_.output == nullptr ? shown : options_.output->next(shown);
         if (options_.taps != nullptr) {
           for (int i = x; i < std::min(tile_.width, x + config_.lanes); ++i) tap(Tap::Pixel, taken, 0, i, y);
         }
-        shown = taken + 1;
+        if (options_.sliced) pixels_out_.pass(left, taken);
+        shown = (options_.sliced ? left : taken) + 1;
+        out = taken + 1;
       }
     }
   }
@@ -458,7 +467,7 @@ void CycleModel::picture(std::uint64_t at) {
   picture_to_ = shown;
   const std::uint64_t working = beats + stages::kPixel - 1;
   accountant_.pixels(working, picture_to_ - picture_from_ - working);
-  end_ = std::max(end_, picture_to_);
+  end_ = std::max(end_, out);
 }
 
 void CycleModel::finish() {

@@ -14,6 +14,7 @@
 #include "cmodel/cull/cull_unit.hpp"
 #include "cmodel/cycles/cull_pipe.hpp"
 #include "cmodel/cycles/cycle_account.hpp"
+#include "cmodel/cycles/register_slice.hpp"
 #include "cmodel/cycles/willing.hpp"
 #include "cmodel/decode/stream_decode.hpp"
 #include "cmodel/numbers/config.hpp"
@@ -82,6 +83,7 @@ struct CycleOptions {
   const Willing* input = nullptr;   ///< when the source begins to offer a beat; null: always
   const Willing* output = nullptr;  ///< when the sink takes pixels; null: always
   std::uint64_t first_beat = 0;     ///< cycle after reset from which the source has a beat
+  bool sliced = false;              ///< the ports are fastsplat_top's: a register slice lies at each stream
   TapSink* taps = nullptr;          ///< every event with its cycle; payloads are empty
   CycleSink* spans = nullptr;
   const CullLog* culls = nullptr;   ///< of all tiles, for a device that culls; null: nothing is hidden
@@ -124,6 +126,8 @@ class CycleModel final : public Device {
   };
 
   void take(const Beat& beat);
+  /// The cycle in which a beat taken in this one at the port is offered to check.
+  std::uint64_t arrives(std::uint64_t taken) const { return options_.sliced ? beats_in_.offers(taken) : taken; }
   /// The beat enters the register at the returned cycle; accounts for the empty register before it.
   std::uint64_t enter(Opcode opcode, bool payload);
   /// The next answer of the open tile's tests; false where none are made.
@@ -187,6 +191,7 @@ class CycleModel final : public Device {
 
   std::uint64_t payload_words_ = 0;  ///< of the open table
   std::uint64_t next_offer_ = 0;     ///< earliest cycle in which the next beat can be offered
+  RegisterSlice beats_in_, pixels_out_;
   std::uint64_t check_free_ = 0;     ///< earliest cycle in which check's first stage takes the next beat
   std::uint64_t judge_free_ = 0;     ///< earliest cycle in which its second stage takes it from there
   std::uint64_t ready_ = 0;          ///< earliest cycle in which decode takes the next beat from it

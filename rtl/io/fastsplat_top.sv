@@ -89,9 +89,30 @@ module fastsplat_top (
     assign m_axis_tkeep[16*g+:16] = {16{keep_q[g]}};
   end
 
+  // BUSY and interrupts wait for the sink. A frame has left when the sink has taken the tiles that lay in the slice at its end.
+  logic frame_end, tile_left, frame_left, frame_waits_q;
+  logic [1:0] tiles_q, waits_q, tiles;  // in the slice; of these before the frame's end
+  assign tile_left = m_axis_tvalid && m_axis_tready && m_axis_tlast;
+  assign tiles = tiles_q - 2'(tile_left);
+  assign frame_left = frame_waits_q && waits_q == '0;
+  always_ff @(posedge aclk) begin
+    tiles_q <= tiles + 2'(pixels_valid && pixels_ready && last);
+    if (tile_left && waits_q != '0) waits_q <= waits_q - 2'd1;
+    if (frame_left) frame_waits_q <= 1'b0;
+    if (frame_end) begin
+      frame_waits_q <= 1'b1;
+      waits_q <= tiles;
+    end
+    if (!aresetn) begin
+      tiles_q <= '0;
+      waits_q <= '0;
+      frame_waits_q <= 1'b0;
+    end
+  end
+
   // Taps are left open, and error_o: it is STATUS and an interrupt.
   // verilator lint_off PINMISSING
-  fastsplat_core u_core (
+  fastsplat_core #(.SLICED(1'b1)) u_core (
       .clk_i(aclk),
       .rst_ni(aresetn),
       .s_tvalid_i(core_valid),
@@ -122,7 +143,11 @@ module fastsplat_top (
       .verdict_valid_o,
       .verdict_tag_o,
       .verdict_hidden_o,
-      .irq_o(irq)
+      .irq_o(irq),
+      .frame_end_o(frame_end),
+      .slices_busy_i(core_valid || m_axis_tvalid),
+      .tile_left_i(tile_left),
+      .frame_left_i(frame_left)
   );
   // verilator lint_on PINMISSING
   logic unused;

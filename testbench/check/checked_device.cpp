@@ -23,7 +23,7 @@ void CheckedDevice::unchecked(const std::function<void(RtlDevice&)>& action) {
 
 void CheckedDevice::consume(std::span<const cmodel::Beat> beats) {
   // The device's clock runs before the first beat: it was asked for its configuration.
-  if (!checker_.started()) checker_.start(device_->cycles());
+  if (!checker_.started()) checker_.start(device_->cycles(), device_->sliced());
   for (const auto& beat : beats) {
     if (stopped()) return;
     device_->consume({&beat, 1});

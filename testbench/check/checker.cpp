@@ -34,11 +34,12 @@ Checker::Checker(const cmodel::Config& config, cmodel::StreamScope scope, cmodel
   model_.log_culls(&culls_);
 }
 
-void Checker::start(std::uint64_t first_beat) {
+void Checker::start(std::uint64_t first_beat, bool sliced) {
   cycle_model_.emplace(config_, scope_,
                        cmodel::CycleOptions{.input = options_.source,
                                             .output = options_.sink,
                                             .first_beat = first_beat,
+                                            .sliced = sliced,
                                             .spans = options_.verdicts ? &verdicts_ : nullptr,
                                             .culls = &culls_});
 }

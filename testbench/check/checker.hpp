@@ -64,9 +64,9 @@ class Checker final : public RawTapSink {
   Checker(const cmodel::Config& config, cmodel::StreamScope scope, cmodel::PixelSink& pixels,
           const CheckOptions& options = {});
 
-  /// The cycle after reset from which the source has the first beat. Without it neither cycles nor verdicts are
-  /// compared.
-  void start(std::uint64_t first_beat);
+  /// The cycle after reset from which the source has the first beat, and whether register slices lie at the streams.
+  /// Without it neither cycles nor verdicts are compared.
+  void start(std::uint64_t first_beat, bool sliced = false);
   bool started() const { return cycle_model_.has_value(); }
   /// By the cycle model, of a beat that breaks a rule and is taken in that cycle; 0 where cycles are not compared.
   std::uint64_t judged(std::uint64_t taken) const { return cycle_model_ ? cycle_model_->judged(taken) : 0; }

@@ -76,7 +76,8 @@ VerifyResult verify(const BeatSource& source, const VerifyOptions& options, cmod
                                  .input = options.input,
                                  .fill = to_string(options.fill),
                                  .source = &driven.input,
-                                 .sink = &driven.output});
+                                 .sink = &driven.output,
+                                 .sliced = checked.device().sliced()});
   }
   VerifyResult out;
   try {

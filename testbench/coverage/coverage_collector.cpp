@@ -48,9 +48,13 @@ Coverage CoverageCollector::declare(const cmodel::Config& config) {
 
 void CoverageCollector::interrupted(std::span<const cmodel::Beat> beats, std::uint64_t first_beat,
                                     std::uint64_t cycle) {
-  cmodel::CycleModel model(
-      config_, cmodel::StreamScope::Subset,
-      {.input = run_.source, .output = run_.sink, .first_beat = first_beat, .taps = nullptr, .spans = &resets_});
+  cmodel::CycleModel model(config_, cmodel::StreamScope::Subset,
+                           {.input = run_.source,
+                            .output = run_.sink,
+                            .first_beat = first_beat,
+                            .sliced = run_.sliced,
+                            .taps = nullptr,
+                            .spans = &resets_});
   model.consume(beats);
   resets_.reset(cycle);
 }
@@ -60,6 +64,7 @@ void CoverageCollector::start(std::uint64_t first_beat) {
                   cmodel::CycleOptions{.input = run_.source,
                                        .output = run_.sink,
                                        .first_beat = first_beat,
+                                       .sliced = run_.sliced,
                                        .taps = &times_,
                                        .spans = &times_,
                                        .culls = &culls_});

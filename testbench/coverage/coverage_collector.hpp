@@ -24,6 +24,7 @@ struct CoverageRun {
   std::string fill;          ///< what memories held before reset
   const cmodel::Willing* source = nullptr;
   const cmodel::Willing* sink = nullptr;
+  bool sliced = false;  ///< RtlDevice::sliced()
 };
 
 class CoverageCollector {

@@ -30,6 +30,7 @@ class PassingDevice : public RtlDevice {
   std::optional<Refusal> refuse(const cmodel::Beat& beat) override { return device_->refuse(beat); }
   void soft_reset(bool wait) override { device_->soft_reset(wait); }
   bool interrupt() const override { return device_->interrupt(); }
+  bool sliced() const override { return device_->sliced(); }
   std::uint64_t aborted_tiles() const override { return device_->aborted_tiles(); }
 
  private:

@@ -19,6 +19,7 @@ enum class RawPort : std::uint8_t {
   SheetDone,  ///< the walk of a sheet picked its last block
   Pixels,     ///< a pixel beat was taken: P pixels of 4 words of 32 bits; last
   Verdict,    ///< what the source is told of a cull_block: tag; hidden
+  TileLeft,   ///< a tile's last pixels left the core for the register slice; only where there is one
 };
 
 struct RawTap {

@@ -81,6 +81,8 @@ class RtlDevice : public cmodel::Device {
   /// wait for that.
   virtual void soft_reset(bool wait = true) = 0;
   virtual bool interrupt() const = 0;
+  /// Its ports are fastsplat_top's, with a register slice at each stream; else fastsplat_core's.
+  virtual bool sliced() const = 0;
   /// Tiles whose pixels came out marked as cut short, since reset was released. While no refusal and no soft reset was
   /// asked for, one is UserError (Simulation).
   virtual std::uint64_t aborted_tiles() const = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "cmodel/cycles/cycle_stages.hpp"
 #include "cmodel/stream/records.hpp"
@@ -51,10 +52,14 @@ std::int32_t TapAssembly::origin(std::uint32_t port) const {
   return static_cast<std::int32_t>(port << (32 - origin_bits_)) >> (32 - origin_bits_);
 }
 
-const cmodel::BeginTile& TapAssembly::tile() const { return tiles_.complete() ? kNone : tiles_.front().begin; }
+const cmodel::BeginTile* TapAssembly::open_tile() const {
+  return left_ < tiles_.size() ? &tiles_.tile(left_).begin : nullptr;
+}
+
+const cmodel::BeginTile& TapAssembly::tile() const { return open_tile() != nullptr ? *open_tile() : kNone; }
 
 std::uint32_t TapAssembly::sheet_of(std::uint32_t tag) const {
-  if (tiles_.complete()) return 0;
+  if (open_tile() == nullptr) return 0;
   const auto& begun = sheets_.front().begun;
   for (std::size_t i = begun.size(); i-- > 0;) {
     if (begun[i].first_tag <= tag) return begun[i].number;
@@ -65,7 +70,7 @@ std::uint32_t TapAssembly::sheet_of(std::uint32_t tag) const {
 void TapAssembly::emit(cmodel::Tap tap, std::uint64_t cycle, std::uint32_t sheet, std::uint32_t tag, Place at,
                        std::span<const std::uint32_t> payload) {
   taps_.on_tap({.tap = tap,
-                .tile = tiles_.complete() ? kNoTile : shown_tile_.value_or(tile().tile),
+                .tile = open_tile() == nullptr ? kNoTile : shown_tile_.value_or(tile().tile),
                 .sheet = sheet,
                 .tag = tag,
                 .cycle = cycle,
@@ -91,6 +96,10 @@ void TapAssembly::on_raw(const RawTap& tap) {
       return pixels(tap);
     case RawPort::Verdict:
       return;  // no tap of the model's: VerdictCheck
+    case RawPort::TileLeft:
+      tile_left(tap.cycle);
+      if (left_ < tiles_.size()) ++left_;
+      return;
   }
 }
 
@@ -172,7 +181,15 @@ std::uint32_t TapAssembly::composited_sheet() const {
   return sheets.composited < sheets.begun.size() ? sheets.begun[sheets.composited].number : 0;
 }
 
+void TapAssembly::tile_left(std::uint64_t cycle) {
+  if (sheets_.empty()) return;
+  // A tile of one beat may end in the very cycle that counts its last, empty sheet.
+  pass_sheets(cycle + 1);
+  sheets_.pop_front();
+}
+
 void TapAssembly::pixels(const RawTap& tap) {
+  const std::size_t behind = std::exchange(left_, 0);  // pixels are the earliest tile's
   const auto place = tiles_.complete() ? TileAssembly::Place{.x = 0, .y = 0, .count = lanes_} : tiles_.next_place();
   const std::uint32_t keep = tap.keep.value_or(static_cast<std::uint32_t>((std::uint64_t{1} << place.count) - 1));
   for (int i = 0; i < lanes_; ++i) {
@@ -180,11 +197,8 @@ void TapAssembly::pixels(const RawTap& tap) {
     emit(cmodel::Tap::Pixel, tap.cycle, 0, 0, {.x = place.x + i, .y = place.y},
          tap.words.subspan(kWords * static_cast<std::size_t>(i), kWords));
   }
-  if (tap.last && !sheets_.empty()) {
-    // A tile of one beat may end in the very cycle that counts its last, empty sheet.
-    pass_sheets(tap.cycle + 1);
-    sheets_.pop_front();
-  }
+  if (tap.last && behind == 0) tile_left(tap.cycle);
+  left_ = tap.last && behind > 0 ? behind - 1 : behind;
   tiles_.pixels(tap.words, tap.last);
 }
 

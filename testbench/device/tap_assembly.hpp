@@ -43,7 +43,9 @@ class TapAssembly final : public RawTapSink {
     Place at;
     std::uint32_t tag = 0;
   };
-  /// The tile whose events come now; an empty one if there is none.
+  /// The tile whose events come now; null if there is none.
+  const cmodel::BeginTile* open_tile() const;
+  /// The same; an empty one if there is none.
   const cmodel::BeginTile& tile() const;
   void snap(const RawTap& tap);
   void window(const RawTap& tap);
@@ -52,6 +54,8 @@ class TapAssembly final : public RawTapSink {
   void pixels(const RawTap& tap);
   std::int32_t origin(std::uint32_t port) const;
   std::uint32_t sheet_of(std::uint32_t tag) const;
+  /// All events of the tile but its pixels have come.
+  void tile_left(std::uint64_t cycle);
   /// Counts the sheets whose blocks have all been shown before the cycle.
   void pass_sheets(std::uint64_t cycle);
   std::uint32_t composited_sheet() const;
@@ -69,6 +73,7 @@ class TapAssembly final : public RawTapSink {
   PortFields sheet_fields_, weight_fields_, state_fields_;
   TileAssembly tiles_;
   std::deque<Sheets> sheets_;
+  std::size_t left_ = 0;                     ///< tiles that have left the core and are not out yet
   std::optional<std::uint32_t> shown_tile_;  ///< by the event at hand
   std::deque<Window> windows_;               ///< between the footprint and the sheet tap, or composite of every sample
   std::deque<std::uint64_t> finished_;       ///< cycles of sheet_done whose blocks are still in the pipe

@@ -34,8 +34,9 @@ class TileAssembly {
 
   /// All accepted tiles were delivered.
   bool complete() const { return tiles_.empty(); }
-  /// The tile whose pixels come next; not when complete().
-  const Tile& front() const { return tiles_.front(); }
+  /// Tiles that were begun and have not come out, and one of them; the pixels of tile(0) come next.
+  std::size_t size() const { return tiles_.size(); }
+  const Tile& tile(std::size_t number) const { return tiles_[number]; }
 
   /// The pixel, relative to the tile, at which its next pixel beat begins, and how many pixels of that beat lie in it.
   struct Place {

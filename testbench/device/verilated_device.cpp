@@ -73,6 +73,11 @@ class VerilatedDevice final : public RtlDevice {
   }
 
   void soft_reset(bool wait) override {
+    // Beats in the slice would be dropped: they reach the core first.
+    for (const std::uint64_t since = cycle_; sliced() && *ports_.tap_beat_held_o;) {
+      cycle();
+      if (hangs(since)) time_out("the core takes no beat");
+    }
     expecting_ = resetting_ = true;  // of an open tile
     write_register(cmodel::kRegControl.address, cmodel::kControlReset, 0);
     if (!wait) return;
@@ -81,6 +86,7 @@ class VerilatedDevice final : public RtlDevice {
   }
 
   bool interrupt() const override { return ports_.irq_o != 0; }
+  bool sliced() const override { return ports_.tap_tile_left_o != nullptr; }
   std::uint64_t aborted_tiles() const override { return aborted_tiles_; }
 
   const cmodel::Counters& counters() const override {
@@ -321,6 +327,8 @@ class VerilatedDevice final : public RtlDevice {
   /// Taps of this cycle, the pixel beat, if one is taken, and the verdict, if one is told.
   void sample() {
     if (options_.taps != nullptr) sample_taps(*options_.taps);
+    if (options_.taps != nullptr && sliced() && *ports_.tap_tile_left_o)
+      options_.taps->on_raw({.port = RawPort::TileLeft, .cycle = cycle_, .words = {}});
     if (ports_.m_tvalid_o && ports_.m_tready_i) sample_pixels();
     if (options_.taps != nullptr && ports_.verdict_valid_o) {
       options_.taps->on_raw({.port = RawPort::Verdict,
@@ -343,7 +351,7 @@ class VerilatedDevice final : public RtlDevice {
                              .cycle = cycle_,
                              .last = last,
                              .keep = ports_.m_tkeep_o.value(),
-                             .tile = ports_.tap_tile_o.value(),
+                             .tile = sliced() ? std::nullopt : std::optional(ports_.tap_tile_o.value()),
                              .words = words});
     tiles_.pixels(words, last);
   }

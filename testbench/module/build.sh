@@ -30,9 +30,9 @@ speed=-O2
 case " $* " in *" --trace-fst "*) speed=-O0 ;; esac
 
 verilator --cc --exe --quiet-exit -Wno-fatal -Wno-lint -O3 --assert --x-assign unique --x-initial unique \
-  --prefix Vfs --top-module fastsplat_core --Mdir "$work" "-I$share/rtl" \
+  --prefix Vfs --top-module fastsplat_dut --Mdir "$work" "-I$share/rtl" \
   -CFLAGS "$flags" -LDFLAGS "-shared" -o module.so \
-  "$@" "$package" "$share"/rtl/*.sv "$share"/rtl/*/*.sv "$source/module.cpp" "$source/simulator_output.cpp"
+  "$@" "$package" "$share"/rtl/*.sv "$share"/rtl/*/*.sv "$source"/*.sv "$source/module.cpp" "$source/simulator_output.cpp"
 # Each of the many files of a large device reads the same long headers: some are compiled as one.
 # together VARIABLE COUNT: the files that VARIABLE of Vfs_classes.mk lists, in COUNT files that include them.
 together() {

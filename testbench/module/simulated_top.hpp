@@ -1,4 +1,5 @@
-// A simulated fastsplat_core as a testbench drives it: its ports and its clock edges. Programs and modules of RTL
+// A simulated device as a testbench drives it: its ports and its clock edges. It is fastsplat_top inside
+// fastsplat_dut.sv, or fastsplat_core alone. Programs and modules of RTL
 // (rtl_module.hpp) share this header and nothing else, so it needs the standard library alone.
 #pragma once
 
@@ -62,12 +63,18 @@ class WidePort {
   std::size_t bytes_;
 };
 
+/// Ports that only fastsplat_dut has.
+#define FASTSPLAT_SLICE_PORTS(X) X(tap_tile_left_o) X(tap_beat_held_o)
+
 struct Ports {
 #define X(name) std::uint8_t& name;
   FASTSPLAT_NARROW_PORTS(X)
 #undef X
 #define X(name) WidePort name;
   FASTSPLAT_WIDE_PORTS(X)
+#undef X
+#define X(name) const std::uint8_t* name = nullptr;  ///< null: fastsplat_core alone
+  FASTSPLAT_SLICE_PORTS(X)
 #undef X
 };
 

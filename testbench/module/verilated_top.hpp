@@ -54,6 +54,9 @@ class VerilatedTop final : public SimulatedTop {
 #define X(name) WidePort(top_->name),
             FASTSPLAT_WIDE_PORTS(X)
 #undef X
+#define X(name) name(*top_),
+                FASTSPLAT_SLICE_PORTS(X)
+#undef X
     };
   }
   /// What is printed meanwhile, of an assertion that fails, goes by the thread's context: another device's that came
@@ -87,6 +90,14 @@ class VerilatedTop final : public SimulatedTop {
   }
 
  private:
+#define X(name)                                             \
+  static const std::uint8_t* name(const auto& top) {        \
+    if constexpr (requires { top.name; }) return &top.name; \
+    return nullptr;                                         \
+  }
+  FASTSPLAT_SLICE_PORTS(X)
+#undef X
+
   VerilatedContext context_;
   std::unique_ptr<Top> top_;
 #if VM_TRACE_FST

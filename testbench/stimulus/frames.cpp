@@ -98,9 +98,9 @@ bool Frames::bad(const std::string& what, const Beats& beats, const Refused& exp
   check_.equal(what + ": refused", 1, refusal ? 1 : 0, bin);
   if (refusal) check_.equal(what + ": checked in cycle", checker_->judged(refusal->taken), refusal->judged, bin);
   const Closers closers = closers_of(before);
-  // Its own ends lie where the refused beat lay, a cycle later: as if they had been taken in the cycle before the
+  // Its own ends lie where the refused beat lay, a cycle later: as if check had taken them in the cycle before the
   // verdict.
-  if (refusal) source_.pause(0, refusal->judged - 1);
+  if (refusal) source_.pause(0, refusal->judged - (device_->sliced() ? 2 : 1));
   for (const auto& beat : closers.beats) checker_->accept(beat);
   const auto opcode = static_cast<std::uint32_t>(get(beats[expected.beat], cmodel::layout::kOpcode));
   const auto error = [&] {
@@ -179,7 +179,7 @@ void Frames::begin() {
                    CheckOptions{.source = &source_, .sink = &sink_, .verdicts = true});
   relay_.to = &*checker_;
   relay_.tiles_left = 0;
-  checker_->start(device_->cycles());
+  checker_->start(device_->cycles(), device_->sliced());
 }
 
 void Frames::pause(const std::function<void()>& meanwhile) {

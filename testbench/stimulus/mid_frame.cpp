@@ -82,7 +82,7 @@ void count_anew(const Config& config, Frames& frames, const Beats& beats, Check&
   const auto hard = check.bin("refusal", kMidFrameBins[2]), soft = check.bin("refusal", kMidFrameBins[3]);
   const auto part = std::span(beats).first(behind_first(beats, Opcode::Splat));
   const auto all = violations(config, beats);
-  for (const StreamRule rule : {StreamRule::Format, StreamRule::EndCount}) {
+  for (const StreamRule rule : {StreamRule::Configuration, StreamRule::EndCount}) {
     Beats spoiled = beats;
     std::ranges::find(all, rule, &Violation::rule)->commit(spoiled);
     const auto expected = refused_by_model(config, spoiled);

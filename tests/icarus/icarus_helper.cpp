@@ -110,7 +110,8 @@ Icarus::Icarus(const cmodel::Config& config, const std::string& name,
   std::ofstream(folder_ / "fastsplat_pkg.sv") << cmodel::sv_package(config);
   const std::string at = "'" + folder_.string() + "'";
   shell("cd " + at + " && iverilog -g2012 -o bench.vvp -Irtl -s icarus_bench fastsplat_pkg.sv rtl/*.sv '" +
-            (source / "tests/icarus/icarus_bench.sv").string() + "'",
+            (source / "testbench/module").string() + "'/*.sv '" + (source / "tests/icarus/icarus_bench.sv").string() +
+            "'",
         folder_ / "iverilog.log");
 }
 

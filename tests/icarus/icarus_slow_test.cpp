@@ -104,6 +104,7 @@ Comparison compare(const cmodel::Config& config, const Played& played, const Tra
     cmodel::CycleModel cycles(config, cmodel::StreamScope::Subset,
                               {.input = &played.patterns.at(play.input),
                                .output = &played.patterns.at(play.ready),
+                               .sliced = true,
                                .culls = &expected.culls});
     cycles.consume(played.beats);
     cycles.finish();
@@ -287,7 +288,7 @@ TEST_P(SecondSimulatorOfVariants, StreamsEqualTheModel) {
   description.classify = classify;
   Played played = scene_of(config, description);
   const Expected expected = expected_of(config, played.beats);
-  cmodel::CycleModel cycles(config, cmodel::StreamScope::Subset, {.culls = &expected.culls});
+  cmodel::CycleModel cycles(config, cmodel::StreamScope::Subset, {.sliced = true, .culls = &expected.culls});
   cycles.consume(played.beats);
   cycles.finish();
   const std::uint64_t hidden = cycles.stalls().hidden_splats + cycles.stalls().hidden_windows;

@@ -36,7 +36,7 @@ TEST(AssertionInVerify, IsASimulationFaultWithNameInstanceAndCycle) {
   EXPECT_EQ(result.verdict, testbench::Verdict::Simulation);
   EXPECT_EQ(static_cast<int>(testbench::exit_code(result.verdict)), 5);
   EXPECT_EQ(result.check.mismatches, 0u);
-  EXPECT_NE(result.error.find("assertion sheet_has_one_owner of the RTL failed in fastsplat_core.u_splat.gen_owner"),
+  EXPECT_NE(result.error.find("assertion sheet_has_one_owner of the RTL failed in fastsplat_dut.u_top.u_core.u_splat.gen_owner"),
             std::string::npos);
   EXPECT_NE(result.error.find("(fastsplat_splat_array.sv:"), std::string::npos);
   EXPECT_EQ(result.error.find('\n'), std::string::npos);

@@ -157,6 +157,7 @@ CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmo
                            {.input = &input,
                             .output = &output,
                             .first_beat = rtl->cycles(),
+                            .sliced = rtl->sliced(),
                             .taps = &expected,
                             .spans = &ideal,
                             .culls = &culls});

@@ -35,7 +35,8 @@ module fastsplat_bench;
       .tap_snap_valid_o(), .tap_snap_tag_o(), .tap_snap_x_o(), .tap_snap_y_o(), .tap_snap_mx_o(), .tap_snap_my_o(),
       .tap_window_valid_o(), .tap_window_tag_o(), .tap_window_x_o(), .tap_window_y_o(), .tap_weights_o(),
       .tap_sheet_valid_o(), .tap_sheet_tag_o(), .tap_sums_o(), .tap_composite_valid_o(), .tap_composite_block_o(),
-      .tap_state_o(), .tap_tile_o(), .tap_sheet_done_o(), .error_o, .irq_o(), .m_tuser_o(), .verdict_valid_o(), .verdict_tag_o(), .verdict_hidden_o()
+      .tap_state_o(), .tap_tile_o(), .tap_sheet_done_o(), .error_o, .irq_o(), .m_tuser_o(), .verdict_valid_o(), .verdict_tag_o(), .verdict_hidden_o(),
+      .frame_end_o(), .slices_busy_i(1'b0), .tile_left_i(1'b0), .frame_left_i(1'b0)
   );
 
   // The ports of the device by name: nothing to connect.

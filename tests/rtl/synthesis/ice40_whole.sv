@@ -49,6 +49,7 @@ module ice40_whole (
   fastsplat_core u_core (
       .clk_i, .rst_ni, .s_tvalid_i, .s_tready_o, .s_tdata_i(beat_q), .m_tvalid_o, .m_tready_i, .m_tdata_o(pixels), .m_tkeep_o(keep),
       .m_tlast_o, .m_tuser_o, .awvalid_i, .awready_o, .awaddr_i, .wvalid_i, .wready_o, .wdata_i, .bvalid_o, .bready_i, .bresp_o,
-      .arvalid_i, .arready_o, .araddr_i, .rvalid_o, .rready_i, .rdata_o, .rresp_o, .error_o, .irq_o
+      .arvalid_i, .arready_o, .araddr_i, .rvalid_o, .rready_i, .rdata_o, .rresp_o, .error_o, .irq_o,
+      .slices_busy_i(1'b0), .tile_left_i(1'b0), .frame_left_i(1'b0)
   );
 endmodule

@@ -121,6 +121,10 @@ module fastsplat_csr (
         fastsplat_pkg::REG_CAP_WEIGHT: rdata_o <= fastsplat_pkg::CAP_WEIGHT;
         fastsplat_pkg::REG_CAP_SHEET: rdata_o <= fastsplat_pkg::CAP_SHEET;
         fastsplat_pkg::REG_CAP_PIXEL: rdata_o <= fastsplat_pkg::CAP_PIXEL;
+        fastsplat_pkg::REG_CAP_FEATURES: rdata_o <= fastsplat_pkg::CAP_FEATURES;
+        fastsplat_pkg::REG_CAP_COMPOSITE: rdata_o <= fastsplat_pkg::CAP_COMPOSITE;
+        fastsplat_pkg::REG_CAP_FREEZE: rdata_o <= fastsplat_pkg::CAP_FREEZE;
+        fastsplat_pkg::REG_CAP_ROUNDING: rdata_o <= fastsplat_pkg::CAP_ROUNDING;
         default: begin
           if (chosen_q == '0) begin
             rresp_o <= SLVERR;

@@ -71,6 +71,30 @@ constexpr RegisterField kPixel[] = {
     built_for<&Config::pixel_int_bits>("PIXEL_INT", 7, 0, "integer bits of a pixel's words"),
     built_for<&Config::pixel_frac_bits>("PIXEL_FRAC", 15, 8, "fraction bits of a pixel's words"),
 };
+constexpr RegisterField kFeatures[] = {
+    built_for<&Config::ellipse_frac_bits>("ELLIPSE_FRAC", 4, 0, "fraction bits of an ellipse's q; 0: no ellipses"),
+    built_for<&Config::composite_every_sample>("EVERY_SAMPLE", 8, 8, "1: modes 4 and 5, every sample composited"),
+    built_for<&Config::cull_map>("CULL_MAP", 10, 9, "cells of the cull map: 0 none, 1 blocks, 2 pixels"),
+    built_for<&Config::radial_interpolate>("INTERPOLATE", 11, 11, "1: the radial table is interpolated, with N + 1 words"),
+    built_for<&Config::classify_segment_bits>("CLASSIFY_BITS", 15, 12, "log2 of CLASSIFY's segments; 0: no densities"),
+    built_for<&Config::pattern_node_bits>("PATTERN_BITS", 18, 16, "log2 of a pattern's nodes per axis; 0: no patterns"),
+    built_for<&Config::index_kind>("INDEX_KIND", 22, 20, "order of docs/numerics.md, section 2: 4 is rlut"),
+};
+constexpr RegisterField kComposite[] = {
+    built_for<&Config::composite_lanes>("COMPOSITE_LANES", 10, 0, "pixels composited in a cycle; 0: P x P"),
+    built_for<&Config::counter_bits>("COUNTER_BITS", 22, 16, "counters count modulo 2^this"),
+};
+constexpr RegisterField kFreeze[] = {
+    built_for<&Config::freeze_below>("FREEZE_BELOW", 20, 0, "early-termination threshold on transmittance"),
+};
+constexpr RegisterField kRounding[] = {
+    built_for<&Config::rounding_snap>("SNAP", 1, 0, "of centres; here and below 0 trn, 1 rnd, 2 rnd_conv"),
+    built_for<&Config::rounding_product>("PRODUCT", 3, 2, "of colour times weight"),
+    built_for<&Config::rounding_fall>("FALL", 5, 4, "of the slab factor's interpolation"),
+    built_for<&Config::rounding_slab>("SLAB", 7, 6, "of slab colour and opacity"),
+    built_for<&Config::rounding_light>("LIGHT", 9, 8, "of transmittance times slab"),
+    built_for<&Config::rounding_pixel>("PIXEL", 11, 10, "of output words"),
+};
 
 constexpr RegisterEntry kEntries[] = {
     {kRegMagic, Access::Read, "\"FSS1\", as in begin_frame", {}},
@@ -91,6 +115,10 @@ constexpr RegisterEntry kEntries[] = {
     {kRegCapWeight, Access::Read, "built for: weights", kWeight},
     {kRegCapSheet, Access::Read, "built for: sheets, compositing", kSheet},
     {kRegCapPixel, Access::Read, "built for: pixels", kPixel},
+    {kRegCapFeatures, Access::Read, "built for: features that not every device has", kFeatures},
+    {kRegCapComposite, Access::Read, "built for: compositing, counters", kComposite},
+    {kRegCapFreeze, Access::Read, "built for: early termination", kFreeze},
+    {kRegCapRounding, Access::Read, "built for: roundings", kRounding},
 };
 
 }  // namespace

@@ -18,7 +18,8 @@ inline constexpr Register kRegMagic{"MAGIC", 0x00}, kRegVersion{"VERSION", 0x04}
 // What the device was built for; their words are capabilities() of register_fields.hpp.
 inline constexpr Register kRegCapTile{"CAP_TILE", 0x40}, kRegCapLanes{"CAP_LANES", 0x44}, kRegCapRlut{"CAP_RLUT", 0x48},
     kRegCapTables{"CAP_TABLES", 0x4C}, kRegCapSplat{"CAP_SPLAT", 0x50}, kRegCapWeight{"CAP_WEIGHT", 0x54},
-    kRegCapSheet{"CAP_SHEET", 0x58}, kRegCapPixel{"CAP_PIXEL", 0x5C};
+    kRegCapSheet{"CAP_SHEET", 0x58}, kRegCapPixel{"CAP_PIXEL", 0x5C}, kRegCapFeatures{"CAP_FEATURES", 0x60},
+    kRegCapComposite{"CAP_COMPOSITE", 0x64}, kRegCapFreeze{"CAP_FREEZE", 0x68}, kRegCapRounding{"CAP_ROUNDING", 0x6C};
 /// Counter n has its low word at 0x80 + 8 n, its high word 4 bytes on.
 inline constexpr Register kRegCounters{"COUNTERS", 0x80};
 

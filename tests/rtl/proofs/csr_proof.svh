@@ -43,6 +43,10 @@ always @* begin
   else if (f_address_q == 12'h054) f_word = fastsplat_pkg::CAP_WEIGHT;
   else if (f_address_q == 12'h058) f_word = fastsplat_pkg::CAP_SHEET;
   else if (f_address_q == 12'h05C) f_word = fastsplat_pkg::CAP_PIXEL;
+  else if (f_address_q == 12'h060) f_word = fastsplat_pkg::CAP_FEATURES;
+  else if (f_address_q == 12'h064) f_word = fastsplat_pkg::CAP_COMPOSITE;
+  else if (f_address_q == 12'h068) f_word = fastsplat_pkg::CAP_FREEZE;
+  else if (f_address_q == 12'h06C) f_word = fastsplat_pkg::CAP_ROUNDING;
   else if (f_address_q == 12'h080) f_word = f_truth_q[0][31:0];
   else if (f_address_q == 12'h084) f_word = f_high_q;
   else if (f_address_q == 12'h088) f_word = f_truth_q[1][31:0];

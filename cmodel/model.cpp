@@ -209,7 +209,8 @@ void Model::window(const Record& record, std::int32_t x, std::int32_t y, Observe
   sheet_.accumulate(x + rim_, y + rim_, weights_, record.colour, counters_, observer);
   if (taps_ != nullptr) {
     tap(Tap::Footprint, record.tag, x, y, weights_);
-    tap(Tap::Sheet, record.tag, x, y, gather(x, y, [&](int i, int j) { return sheet_.at(i + rim_, j + rim_).data(); }));
+    tap(Tap::Sheet, record.tag, x, y,
+        gather(x, y, [&](int i, int j) { return sheet_.at(i + rim_, j + rim_).data(); }, rim_));
   }
 }
 
@@ -301,10 +302,10 @@ void Model::tap(Tap kind, std::uint32_t tag, std::int32_t x, std::int32_t y,
 }
 
 template <class At>
-std::span<const std::uint32_t> Model::gather(std::int32_t x, std::int32_t y, At at) {
+std::span<const std::uint32_t> Model::gather(std::int32_t x, std::int32_t y, At at, int halo) {
   const int lanes = config_.lanes;
-  const int left = std::clamp(-x, 0, lanes), right = std::clamp(tile_.width - x, 0, lanes);
-  const int top = std::clamp(-y, 0, lanes), bottom = std::clamp(tile_.height - y, 0, lanes);
+  const int left = std::clamp(-halo - x, 0, lanes), right = std::clamp(tile_.width + halo - x, 0, lanes);
+  const int top = std::clamp(-halo - y, 0, lanes), bottom = std::clamp(tile_.height + halo - y, 0, lanes);
   if (right - left < lanes || bottom - top < lanes) std::ranges::fill(scratch_, 0);
   for (int j = top; j < bottom; ++j) {
     std::uint32_t* out = &scratch_[static_cast<std::size_t>(j) * lanes * 4];

@@ -74,9 +74,10 @@ class Model final : public Device {
   template <class Observer>
   void end_tile(Observer& observer);
   void tap(Tap kind, std::uint32_t tag, std::int32_t x, std::int32_t y, std::span<const std::uint32_t> payload) const;
-  /// The four words `at` each pixel of the window whose first pixel is (x,y), in their order; 0 outside of the tile.
+  /// The four words `at` each pixel of the window whose first pixel is (x,y), in their order; 0 outside of the tile and
+  /// so many pixels around it.
   template <class At>
-  std::span<const std::uint32_t> gather(std::int32_t x, std::int32_t y, At at);
+  std::span<const std::uint32_t> gather(std::int32_t x, std::int32_t y, At at, int halo = 0);
 
   Config config_;
   StreamDecode decode_;

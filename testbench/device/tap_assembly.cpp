@@ -123,11 +123,11 @@ void TapAssembly::window(const RawTap& tap) {
   emit(cmodel::Tap::Footprint, tap.cycle, sheet_of(tap.tag), tap.tag, at, {payload_.data(), banks_});
 }
 
-void TapAssembly::arrange(Place at, const cmodel::BeginTile& begin) {
+void TapAssembly::arrange(Place at, const cmodel::BeginTile& begin, int halo) {
   const int mask = lanes_ - 1, rim = rim_of(begin);
   // A window that crosses the tile's edge keeps 0 where nothing is copied.
-  const int left = std::clamp(-at.x, 0, lanes_), right = std::clamp(begin.width - at.x, 0, lanes_);
-  const int top = std::clamp(-at.y, 0, lanes_), bottom = std::clamp(begin.height - at.y, 0, lanes_);
+  const int left = std::clamp(-halo - at.x, 0, lanes_), right = std::clamp(begin.width + halo - at.x, 0, lanes_);
+  const int top = std::clamp(-halo - at.y, 0, lanes_), bottom = std::clamp(begin.height + halo - at.y, 0, lanes_);
   if (right - left < lanes_ || bottom - top < lanes_) std::ranges::fill(payload_, 0);
   for (int j = top; j < bottom; ++j) {
     const std::uint32_t* row = &banked_[kWords * static_cast<std::size_t>((at.y + rim + j) & mask) * lanes_];
@@ -147,7 +147,7 @@ TapAssembly::Window TapAssembly::next_window() {
 void TapAssembly::sheet(const RawTap& tap) {
   const Place at = next_window().at;
   sheet_fields_.unpack(tap.words.data(), kWords * banks_, banked_.data());
-  arrange(at, tile());
+  arrange(at, tile(), rim_of(tile()));
   emit(cmodel::Tap::Sheet, tap.cycle, sheet_of(tap.tag), tap.tag, at, payload_);
 }
 

@@ -211,7 +211,7 @@ class Renderer {
     for (std::size_t ch = 0; ch < 4; ++ch) {
       const Wide p = sat(c.Rp, v[ch] * w, c.cf + c.wf, u(c.si, c.sf), "product_saturated");
       S[ch] = sat(Rounding::Trn, S[ch] + p, c.sf, u(c.si, c.sf), "sheet_saturated");
-      sums.push_back(inside(x, y) ? word(S[ch]) : 0);
+      sums.push_back(word(S[ch]));
     }
   }
 

@@ -154,7 +154,7 @@ std::int32_t CheckerRun::verdict() const {
 
 std::string CheckerRun::first_mismatch() const {
   const auto so_far = report();
-  if (!so_far.detector) return {};
+  if (!so_far.detector) return broken_;  // a refused stream; empty: neither
   // A record of a tap, unless it was one of the others that saw it first.
   if (*so_far.detector < testbench::Detector::Tiles && so_far.first) return describe(setup_.config, *so_far.first);
   return so_far.differences.front();

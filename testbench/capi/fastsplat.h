@@ -255,8 +255,8 @@ typedef struct fastsplat_report {
 
 /// At any time.
 FASTSPLAT_API fastsplat_status fastsplat_checker_report(const fastsplat_checker* checker, fastsplat_report* out);
-/// The first difference in the domain's words (stage, tile, sheet, splat, pixel, both values); "" if there is none, or
-/// for no checker. Valid until the next call that takes the checker; never NULL.
+/// The first difference in the domain's words (stage, tile, sheet, splat, pixel, both values), else why the stream was
+/// refused; "" if there is neither, or for no checker. Valid until the next call that takes the checker; never NULL.
 FASTSPLAT_API const char* fastsplat_checker_first_mismatch(const fastsplat_checker* checker);
 /// One line on the run: verdict, configuration, comparisons, mismatches, cycles. As above.
 FASTSPLAT_API const char* fastsplat_checker_summary(const fastsplat_checker* checker);

@@ -33,7 +33,7 @@ constexpr RegisterField kIrq[] = {
     {"ERROR", 2, 2, "a beat was refused"},
 };
 static_assert(kStatus[0].mask() == kStatusBusy && kStatus[1].mask() == kStatusError);
-static_assert(kControl[0].mask() == kControlClear && kControl[1].mask() == kControlReset);
+static_assert(kControl[0].mask() == kControlClear && kControl[1].mask() == kControlReset && kControl[2].mask() == kControlDrop);
 static_assert(kIrq[0].mask() == kIrqFrame && kIrq[1].mask() == kIrqTile && kIrq[2].mask() == kIrqError);
 constexpr RegisterField kTile[] = {
     built_for<&Config::tile_width>("WIDTH", 15, 0, "pixels of a tile, across"),

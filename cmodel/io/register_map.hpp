@@ -29,7 +29,7 @@ inline constexpr std::array kRegisters{kRegMagic, kRegVersion,   kRegHashLow, kR
 // Bits of STATUS.
 inline constexpr std::uint32_t kStatusBusy = 1, kStatusError = 2;
 // Bits of CONTROL, written.
-inline constexpr std::uint32_t kControlClear = 1, kControlReset = 2;
+inline constexpr std::uint32_t kControlClear = 1, kControlReset = 2, kControlDrop = 4;
 // Bits of IRQ and IRQ_MASK.
 inline constexpr std::uint32_t kIrqFrame = 1, kIrqTile = 2, kIrqError = 4;
 

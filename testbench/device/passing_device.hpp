@@ -28,6 +28,7 @@ class PassingDevice : public RtlDevice {
   void leave_answers_waiting(bool read_too) override { device_->leave_answers_waiting(read_too); }
   void warm_reset(int cycles) override { device_->warm_reset(cycles); }
   std::optional<Refusal> refuse(const cmodel::Beat& beat) override { return device_->refuse(beat); }
+  void drop(std::span<const cmodel::Beat> beats) override { device_->drop(beats); }
   void soft_reset(bool wait) override { device_->soft_reset(wait); }
   bool interrupt() const override { return device_->interrupt(); }
   bool sliced() const override { return device_->sliced(); }

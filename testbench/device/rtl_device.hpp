@@ -77,6 +77,8 @@ class RtlDevice : public cmodel::Device {
   /// Offers an illegal beat. Returns when it was taken and checked, or nullopt if the device does not refuse it.
   /// Neither it nor any later beat is reported to observers, until a reset.
   virtual std::optional<Refusal> refuse(const cmodel::Beat& beat) = 0;
+  /// Offers beats that the device drops without an error: they are not reported to observers.
+  virtual void drop(std::span<const cmodel::Beat> beats) = 0;
   /// Asks CONTROL for a soft reset. With `wait` until the device is at rest; without, the beats that are offered next
   /// wait for that.
   virtual void soft_reset(bool wait = true) = 0;

@@ -72,6 +72,17 @@ class VerilatedDevice final : public RtlDevice {
     return Refusal{.taken = taken, .judged = cycle_ - 1};
   }
 
+  void drop(std::span<const cmodel::Beat> beats) override {
+    const bool before = std::exchange(expecting_, true);
+    for (const auto& beat : beats) {
+      offer(beat);
+      for (const std::uint64_t since = cycle_; !cycle();) {
+        if (hangs(since)) time_out("no beat dropped");
+      }
+    }
+    expecting_ = before;
+  }
+
   void soft_reset(bool wait) override {
     // Beats in the slice would be dropped: they reach the core first.
     for (const std::uint64_t since = cycle_; sliced() && *ports_.tap_beat_held_o;) {

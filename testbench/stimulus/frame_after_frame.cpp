@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "testbench/stimulus/cull_frames.hpp"
+#include "testbench/stimulus/directed_stream.hpp"
 #include "testbench/stimulus/left_out.hpp"
 #include "testbench/stimulus/random.hpp"
 #include "testbench/stimulus/stimulus.hpp"
@@ -15,7 +16,7 @@ namespace {
 using namespace cmodel;
 
 constexpr const char* kFrameAfterFrameBins[] = {"tables_that_look_like_records", "frames_behind_each_other",
-                                                "soft_reset_behind_a_reset"};
+                                                "soft_reset_behind_a_reset", "beats_dropped_before_a_frame"};
 
 constexpr std::uint64_t kFrames = 12, kSplats = 60;
 /// Reads, of two cycles, after which a sheet of some blocks is copied, or walked and through the pixel stage.
@@ -154,6 +155,45 @@ void reset_at_once(Frames& frames, std::span<const Beat> beats, int most_waits, 
   }
 }
 
+/// A beat that is no begin_frame: one bit beside the opcode, or beside the magic.
+Beat beside(const Beat& begin, const cmodel::Field& field, int bit) {
+  Beat out = begin;
+  overwrite(out, field, static_cast<std::uint64_t>(get(begin, field)) ^ (std::uint64_t{1} << bit));
+  return out;
+}
+
+/// Of a device with slices: behind a reset beats are dropped up to the next begin_frame, and all while CONTROL says so.
+void drop_what_a_reset_leaves(Frames& frames, std::span<const Beat> beats, Check& check) {
+  const auto bin = check.bin("refusal", kFrameAfterFrameBins[3]);
+  const std::size_t part = beats.size() / 2;
+  Beats left(beats.begin() + static_cast<std::ptrdiff_t>(part), beats.end());
+  for (int bit = 0; bit < 8; ++bit) left.push_back(beside(beats[0], layout::kOpcode, bit));
+  for (int bit = 0; bit < 32; ++bit) left.push_back(beside(beats[0], layout::kFrameMagic, bit));
+  const auto next = [&](const std::string& what) {
+    check.equal(what + ": STATUS", 0, frames.read(kRegStatus), bin);
+    check.equal(what + ": IRQ, error", 0, frames.read(kRegIrq) & kIrqError, bin);
+    frames.good("a frame after " + what, Beats(beats.begin(), beats.end()), bin);
+  };
+  frames.drop(beats.first(part), 1);
+  frames.device().drop(left);
+  next("beats that a hard reset left");
+  frames.cut("an aborted frame", beats.first(part), 1, bin);
+  frames.device().drop(left);
+  next("beats that a soft reset left");
+  for (const std::uint32_t control : {kControlReset | kControlDrop, kControlReset | kControlDrop | kControlClear}) {
+    frames.write(kRegControl, control);
+    frames.device().drop(beats);
+    frames.write(kRegIrq, 0);  // another register: beats are still dropped
+    frames.device().drop(beats.first(part));
+    frames.write(kRegControl, 0);
+    frames.device().drop(left);
+    next("beats that CONTROL dropped");
+  }
+  // DROP alone does nothing: the frame goes on.
+  frames.good("a frame in which DROP is written without RESET", Beats(beats.begin(), beats.end()), bin,
+              {part, [&] { frames.write(kRegControl, kControlDrop); }});
+}
+
 }  // namespace
 
 std::span<const char* const> frame_after_frame_bins() { return kFrameAfterFrameBins; }
@@ -168,6 +208,7 @@ void check_frame_after_frame(const Config& config, Frames& frames, const Beats& 
     const auto [densities, end_of_tile] = small_densities(config);
     reset_at_once(frames, std::span(densities).first(end_of_tile + 1), kWalked, check);
   }
+  if (frames.device().sliced()) drop_what_a_reset_leaves(frames, beats, check);
   frames.good("a frame after frames", beats, check.bin("refusal", kFrameAfterFrameBins[1]));
 }
 

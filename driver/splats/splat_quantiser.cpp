@@ -59,7 +59,8 @@ SplatQuantiser::Shaped SplatQuantiser::shaped(const scene::Splat& splat, std::ui
   }
   const scene::ScreenShape footprint = drawn_footprint(s, scene_.kernel.radius());
   const double square = scene_.kernel.radius() * scene_.kernel.radius();
-  out.widened = footprint.xx != square * s.xx;
+  // Along an axis only the other one grows.
+  out.widened = footprint.xx != square * s.xx || footprint.yy != square * s.yy;
   const double fainter = out.widened ? std::sqrt(square * square * s.determinant() / footprint.determinant()) : 1.0;
   for (std::size_t c = 0; c < 4; ++c) values[c] = shape.value[c] * fainter;
   out.ellipse.shape = ellipse_words(config_, footprint);

@@ -41,6 +41,8 @@ scene::Scene random_scene(test::Random& random, const cmodel::Config& config, sc
     description.camera.azimuth = real(random, -180.0, 180.0);
     description.camera.elevation = real(random, -90.0, 90.0);
     description.camera.roll = random.once_in(2) ? 0.0 : real(random, -180.0, 180.0);
+    const bool along_x = random.once_in(6);  // motion, and so the footprints, exactly along a row
+    if (along_x) description.camera.azimuth = description.camera.elevation = description.camera.roll = 0.0;
     const bool lens = (shapers & kLens) != 0, view = (shapers & kView) != 0;
     if (view || lens || random.once_in(2)) description.camera.projection = scene::Projection::Perspective;
     description.camera.fov = real(random, 10.0, 90.0);
@@ -48,7 +50,8 @@ scene::Scene random_scene(test::Random& random, const cmodel::Config& config, sc
     description.footprint.antialias = (shapers & kGrowth) != 0;
     if ((shapers & kMotion) != 0 && random.once_in(2)) description.motion.orbit = real(random, -30.0, 30.0);
     if ((shapers & kMotion) != 0 && description.motion.orbit == 0.0)
-      description.motion.translate = {real(random, -3.0, 3.0), real(random, -3.0, 3.0), real(random, -3.0, 3.0)};
+      description.motion.translate = {real(random, -3.0, 3.0), along_x ? 0.0 : real(random, -3.0, 3.0),
+                                      along_x ? 0.0 : real(random, -3.0, 3.0)};
     if (lens) {
       description.lens.depth_of_field = scene::DepthOfField::Splats;
       description.lens.aperture = real(random, 0.1, 3.0);

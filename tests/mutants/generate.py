@@ -22,9 +22,13 @@ endpackage
 """
 
 
+BESIDE = {"fastsplat_fetch.sv", "fastsplat_queue.sv"}
+
+
 def paths_of(rtl: str) -> dict[str, str]:
-    """The files of the device by name, and their paths; what lies around it is in io/."""
-    return {os.path.basename(path): path for path in glob.glob(f"{rtl}/**/*.sv*", recursive=True) if not path.startswith(f"{rtl}/io/")}
+    """The files of the device by name, and their paths; fetch and its queue lie beside it."""
+    names = {os.path.basename(path): path for path in glob.glob(f"{rtl}/**/*.sv*", recursive=True)}
+    return {name: path for name, path in names.items() if name not in BESIDE}
 
 
 def files_of(rtl: str) -> list[str]:

@@ -28,7 +28,7 @@ constexpr RegisterField kError[] = {
     {"OPCODE", 15, 8, "opcode byte of that beat"},
 };
 constexpr RegisterField kIrq[] = {
-    {"FRAME", 0, 0, "a frame left the device"},
+    {"FRAME", 0, 0, "a frame left the device: the sink has taken its last beat"},
     {"TILE", 1, 1, "a tile's last beat was taken"},
     {"ERROR", 2, 2, "a beat was refused"},
 };

@@ -75,6 +75,8 @@ Json failure_json(const Failure& failure) {
   return {{"first", report.original},
           {"smallest", report.divergence},
           {"operands", report.operands},
+          {"module", report.place ? report.place->module : ""},
+          {"instance", report.place ? report.place->instance : ""},
           {"splats_before", report.shrink.splats_before},
           {"splats_after", report.shrink.splats_after},
           {"shrink_runs", report.shrink.runs},
@@ -153,6 +155,7 @@ std::string to_text(const Failure& failure) {
                      report.shrink.finished ? "" : " (a smaller one may exist)") +
          "smallest stream: " + report.divergence + "\n" +
          (report.operands.empty() ? "" : "  " + report.operands + "\n") +
+         (report.place ? fmt::format("look at: {} ({})\n", report.place->instance, report.place->module) : "") +
          (failure.waveform.empty()
               ? ""
               : fmt::format("waveform: {} (cycles {} to {})\n", failure.waveform, report.wave_from, report.wave_to)) +

@@ -48,6 +48,12 @@ StreamDocument start(const BeatSource& source, const cmodel::Config& config, con
   return gather(source, config, std::nullopt);
 }
 
+int halo_of(const StreamDocument& document, const Divergence& divergence) {
+  const std::uint32_t number = (divergence.model ? divergence.model : divergence.rtl)->tile;
+  const auto tile = std::ranges::find(document.tiles, number, [](const auto& one) { return one.begin.tile; });
+  return tile != document.tiles.end() && cmodel::holds_densities(tile->begin.mode) ? 1 : 0;
+}
+
 }  // namespace
 
 std::string first_divergence(const VerifyResult& result, const cmodel::Config& config) {
@@ -88,8 +94,11 @@ FailureReport investigate(const BeatSource& source, const VerifyOptions& options
   last.timeout = trial.timeout;
   const VerifyResult smallest = verify(source_of(beats), last);
   report.divergence = first_divergence(smallest, options.config);
-  if (smallest.check.first) report.operands = explain(source_of(beats), options.config, *smallest.check.first);
   const auto& diverged = smallest.check.first;
+  if (diverged) {
+    report.operands = explain(source_of(beats), options.config, *diverged);
+    report.place = rtl_place(options.config, *diverged, halo_of(report.document, *diverged));
+  }
   const std::uint64_t cycle = diverged && diverged->rtl ? diverged->rtl->cycle : smallest.last_cycle;
   report.wave_from = cycle > kCyclesBefore ? cycle - kCyclesBefore : 0;
   report.wave_to = cycle + kCyclesAfter;

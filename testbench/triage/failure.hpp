@@ -3,9 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "testbench/check/verify.hpp"
+#include "testbench/triage/rtl_place.hpp"
 #include "testbench/triage/shrink.hpp"
 
 namespace fastsplat::testbench {
@@ -14,6 +16,7 @@ struct FailureReport {
   std::string original;    ///< the first divergence of the stream as it was
   std::string divergence;  ///< that of the small one: stage, place, both values, bit difference; or what the device did
   std::string operands;    ///< what the model computed it from; may be empty
+  std::optional<RtlPlace> place;  ///< what makes the word that diverged
   ShrinkReport shrink;
   std::uint64_t wave_from = 0, wave_to = 0;  ///< cycles of the waveform
   std::string no_waveform;                   ///< why there is none although it was asked for

@@ -1,5 +1,7 @@
 #include "driver/tiles/gaussian_frame.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -29,6 +31,19 @@ const cmodel::Config& checked(const cmodel::Config& config) {
                .expected = "ellipse.frac_bits above 0 and composite.every_sample = 1",
                .got = {},
                .fix = "leave --config out, or use --config ellipse --set composite.every_sample=1"});
+}
+
+/// No variance is below the low-pass, so the words A and C of every shape fit if they fit there.
+void check_low_pass(const scene::GaussianDescription& description, const cmodel::Config& config) {
+  const double square = description.cutoff * description.cutoff;
+  const double rim = std::ldexp(static_cast<double>(config.rlut_rim()), -2 * config.position_frac_bits);
+  const double least = rim / square / std::ldexp(1.0, cmodel::kEllipseTermBits);
+  if (description.low_pass > least) return;
+  throw_usage({.where = "--low-pass with configuration " + config.name,
+               .what = "the shapes of the smallest footprints exceed an ellipse's words",
+               .expected = fmt::format("above {:.4g}", least),
+               .got = fmt::format("{}", description.low_pass),
+               .fix = "raise --low-pass or --cutoff, or lower rlut.guard_bits"});
 }
 
 /// Some of the Gaussian's pixels in the picture lie beyond the reach of a record.
@@ -61,6 +76,7 @@ GaussianFrame::GaussianFrame(const scene::GaussianScene& scene, const std::vecto
   cmodel::append(preamble_, radial_table(config_, kernel_of(scene)));
   cmodel::append(preamble_, factor_table(config_));
 
+  check_low_pass(scene.description, config_);
   const Target place = target(Site::EllipseCentre, config_), sample = target(Site::Gaussian, config_);
   const int reach = gaussian_reach(config_);
   const double rim = scene.description.cutoff * scene.description.cutoff;

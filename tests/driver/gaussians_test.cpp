@@ -80,6 +80,29 @@ TEST(Gaussians, AreWithin70dBOfGolden) {
 }
 
 // base's own words with ellipses of every sample: positions of 6 bits, frozen below 64.
+// Words of shapes are made without a limit of their own: what would exceed them is refused.
+TEST(Gaussians, FootprintsTooSmallForTheWordsAreRefused) {
+  cmodel::Config config = usual_config();
+  config.rlut_guard_bits = 12;
+  config.position_frac_bits = 3;
+  ASSERT_FALSE(cmodel::first_violation(config));
+  // 2^(10 + 12 - 6) steps per square pixel, and words below 2^22.
+  const double least = std::ldexp(1.0, -6);
+  auto scene = scene_of("cloud:50", 64, 64);
+  scene.description.cutoff = 1.0;
+  scene.description.low_pass = 1.01 * least;
+  EXPECT_GT(render_gaussians({scene, scene::project_all(scene), config}).counters.splats, 0U);
+  scene.description.low_pass = 0.99 * least;
+  try {
+    render_gaussians({scene, scene::project_all(scene), config});
+    ADD_FAILURE() << "drawn";
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.code(), ExitCode::Usage);
+    EXPECT_NE(std::string(error.what()).find("0.01562"), std::string::npos) << error.what();
+    std::printf("[figure] %s\n", error.what());
+  }
+}
+
 TEST(Gaussians, BasesWordsAreAbove50dB) {
   auto config = load_config("base");
   config.ellipse_frac_bits = 11;

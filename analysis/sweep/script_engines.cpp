@@ -59,7 +59,7 @@ std::string array_script(const Submission& s, const JobArray& array) {
          "case $task in '' | 0 | *[!0-9]*) echo \"not a task of an array: submit this script with bsub or qsub\" >&2; "
          "exit 2 ;; "
          "esac\n" +
-         fmt::format("exec >>{}/array-{}_\"$task\".log 2>&1\n", shell_word(s.logs()), array.number) + check_lines(s) +
+         fmt::format("exec >>{}/array-{}_$((task - 1)).log 2>&1\n", shell_word(s.logs()), array.number) + check_lines(s) +
          "exec " + run_line(s, fmt::format("$((task + {}))", array.first - 1)) + "\n";
 }
 

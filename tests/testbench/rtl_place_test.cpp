@@ -35,8 +35,8 @@ std::string module_at(const std::string& instance) {
     if (!std::regex_search(source, match, std::regex("(fastsplat_\\w+)[^;]*\\b" + name + " \\("))) return {};
     // The nearest module's name in front of the instance's.
     const std::string before = match.prefix().str() + match.str();
-    for (const std::regex word("fastsplat_(?!pkg)\\w+");
-         std::sregex_iterator it(before.begin(), before.end(), word), end; it != end; ++it)
+    const std::regex word("fastsplat_(?!pkg)\\w+");
+    for (std::sregex_iterator it(before.begin(), before.end(), word), end; it != end; ++it)
       if (!source_of(it->str()).empty()) module = it->str();
     source = source_of(module);
   }

@@ -49,7 +49,7 @@ class Finder {
         }
       }
     }
-    // Row order, so that sum and first worst do not depend on how the flood ran.
+    // Row order, so that sum and first worst do not depend on the order of the flood fill.
     std::sort(members.begin(), members.end(), [](Pixel a, Pixel b) { return std::tie(a.y, a.x) < std::tie(b.y, b.x); });
     Cluster cluster{
         .x0 = x, .y0 = y, .x1 = x, .y1 = y, .pixels = members.size(), .max_lsb = -1, .sum_lsb = 0, .worst = {}};

@@ -1,4 +1,4 @@
-// Where the large errors sit together.
+// Finds clusters of large errors.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace fastsplat::analysis {
 
-/// 8-connected groups of pixels with |error| >= threshold, the `most` worst: by max, then sum, then place.
-/// `pixel_errors` is worst_channel(); Cluster::worst has place and error only (channel and values are the caller's).
+/// 8-connected groups of pixels with |error| >= threshold: the `most` worst, by max, then sum, then position.
+/// `pixel_errors` is worst_channel(); Cluster::worst has position and error only (the caller adds channel and values).
 std::vector<Cluster> find_clusters(const std::vector<double>& pixel_errors, int width, int height, double threshold,
                                    int most);
 

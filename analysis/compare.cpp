@@ -40,7 +40,7 @@ Place place_at(const Image& ref, const Image& test, const std::vector<double>& e
           .error_lsb = errors[i]};
 }
 
-/// Which channel of a pixel has the error that stands for the pixel.
+/// The channel whose error stands for the pixel.
 Place worst_of_pixel(const Image& ref, const Image& test, const std::vector<double>& errors, const Place& at) {
   std::size_t i = (static_cast<std::size_t>(at.y) * ref.width + at.x) * ref.channels;
   while (errors[i] != at.error_lsb) ++i;

@@ -1,4 +1,4 @@
-// How far is TEST from REF: in LSB, in dB, where.
+// Compares TEST with REF: errors in LSB and dB, and where they are.
 #pragma once
 
 #include <array>
@@ -30,14 +30,14 @@ struct Place {
 
 /// An 8-connected group of pixels whose worst channel errs by at least CompareReport::cluster_threshold_lsb.
 struct Cluster {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< its box, both corners inside
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< bounding box, both corners included
   std::uint64_t pixels = 0;
   double max_lsb = 0, sum_lsb = 0;  ///< of the worst channel's |error| per pixel
   Place worst;
 };
 
-/// Over all finite values of all channels alike, alpha included (docs/compare.md has the formulas). NaN without any
-/// finite value.
+/// Over all finite values of all channels alike, alpha included (docs/compare.md has the formulas). NaN if no value is
+/// finite.
 struct Figures {
   double psnr_db = 0;  ///< +inf when identical; printed as "inf", null in JSON with "identical": true
   double max_abs_lsb = 0, mean_abs_lsb = 0, rmse_lsb = 0, bias_lsb = 0;
@@ -57,7 +57,7 @@ struct CompareReport {
   std::uint64_t values = 0;  ///< compared channel values: finite in both; 0 is a failure
   std::uint64_t nonfinite_ref = 0, nonfinite_test = 0;
   Figures figures;
-  Figures floor;  ///< REF rounded once to the LSB grid (half up, no clamp) against REF: what this width costs by itself
+  Figures floor;  ///< REF rounded once to the LSB grid (half up, no clamp) against REF: the error of this width alone
   Place worst;
   /// |error| in LSB: [0,0.5), [0.5,1.5), [1.5,2.5), ... up to the worst; a 257th bin holds everything from 255.5 on.
   std::vector<std::uint64_t> histogram;
@@ -68,10 +68,10 @@ struct CompareReport {
   bool pass = false;  ///< every applied limit is kept
 };
 
-/// Sizes or channels that differ are a UserError (NotComparable); options out of range a UserError (Usage).
+/// Throws UserError (NotComparable) if sizes or channels differ, UserError (Usage) if options are out of range.
 CompareReport compare(const Image& ref, const Image& test, const CompareOptions& options = {});
 
-/// One JSON object, schema "fastsplat.compare/1" (docs/compare.md). Strict: what is not a finite number is null.
+/// One JSON object, schema "fastsplat.compare/1" (docs/compare.md). Strict: NaN and infinity are null.
 std::string to_json(const CompareReport& report);
 std::string to_text(const CompareReport& report);  ///< for a person, no colour
 

@@ -1,4 +1,4 @@
-// TEST - REF in LSB, value by value: what every figure, cluster and map is made from.
+// TEST - REF in LSB, value by value: the input of every figure, cluster and map.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ void check_comparable(const Image& ref, const Image& test, const CompareOptions&
 
 /// Per value, NaN where REF or TEST is not finite.
 std::vector<double> error_values(const Image& ref, const Image& test, const CompareOptions& options);
-/// `value`, a float's, on the grid of `unit` LSB per 1.0 (half up); as it is where no float is nearer to the grid.
+/// `value` (a float) rounded half up to the grid of `unit` LSB per 1.0; unchanged if no float is nearer to the grid.
 double rounded_once(double value, double unit);
 /// REF rounded once to the LSB grid (half up), against REF. NaN in the same places as error_values.
 std::vector<double> floor_values(const Image& ref, const Image& test, const CompareOptions& options);

@@ -31,7 +31,7 @@ std::span<const Percentile, 6> percentiles();
 /// interpolation.
 std::array<double, 6> percentile_values(const std::vector<double>& errors);
 
-/// All but the SSIM.
+/// All figures but the SSIM.
 Figures figures_of(const std::vector<double>& errors, const ErrorSums& sums, const CompareOptions& options);
 
 }  // namespace fastsplat::analysis

@@ -19,7 +19,7 @@ namespace {
 
 constexpr Colour kPaper{255, 255, 255};
 constexpr Colour kInk{32, 32, 32};
-constexpr int kLeastWidth = 256;  // what the legend needs
+constexpr int kLeastWidth = 256;  // required by the legend
 
 struct Tick {
   double position;  ///< 0 left end of the bar, 1 right end
@@ -30,7 +30,7 @@ struct Legend {
   std::string title;
   std::function<Colour(double)> colour;  ///< of a bar position
   std::vector<Tick> ticks;
-  std::size_t anchor = 0;  ///< the tick that is labelled however little room there is
+  std::size_t anchor = 0;  ///< the tick that always has a label
 };
 
 /// The errors of a picture, one per pixel, and how the map is laid out.
@@ -131,8 +131,8 @@ class Map {
   double largest_ = 0;
 };
 
-/// An end of scale with round numbers inside: 1, 2, 3, 4, 5, 6 or 8 times a power of ten, and into how many steps it
-/// divides evenly.
+/// The end of a scale with round numbers inside, 1, 2, 3, 4, 5, 6 or 8 times a power of ten. It divides evenly into
+/// `steps`.
 struct Scale {
   double end;
   int steps;

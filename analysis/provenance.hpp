@@ -20,11 +20,11 @@ images::Metadata render_metadata(const std::string& engine, const scene::SceneDe
                                  const std::optional<HardwareConfig>& config = {});
 
 /// The same for a scene that has been built: also volume (where it came from) and content_hash. The scene's text names
-/// files; the hash tells whether what was read from them is still the same.
+/// files; the hash shows whether their content is still the same.
 images::Metadata render_metadata(const std::string& engine, const scene::Scene& scene,
                                  const std::optional<HardwareConfig>& config = {});
 
-/// Of the voxels, their grid and the transfer function.
+/// Hash of the voxels, their grid and the transfer function.
 std::uint64_t content_hash(const scene::Scene& scene);
 
 }  // namespace fastsplat::analysis

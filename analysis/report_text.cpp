@@ -10,7 +10,7 @@
 namespace fastsplat::analysis {
 namespace {
 
-constexpr std::size_t kMostRows = 10;  // of the histogram
+constexpr std::size_t kMostRows = 10;  // rows of the histogram
 constexpr int kBarLength = 30;
 
 std::string number(double value, int decimals) {

@@ -26,7 +26,7 @@ std::vector<double> gaussian_window(int size) {
   return weights;
 }
 
-/// What the window averages: x, y, x^2, y^2, xy, and the share of values that are not finite.
+/// Averages over the window: x, y, x^2, y^2, xy, and the share of non-finite values.
 constexpr std::size_t kMoments = 6;
 using Rows = std::array<std::vector<double>, kMoments>;
 

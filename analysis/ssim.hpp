@@ -5,7 +5,7 @@
 
 namespace fastsplat::analysis {
 
-/// Writes row y of one channel; what is not finite is NaN.
+/// Writes row y of one channel; non-finite values are NaN.
 using RowSource = std::function<void(int channel, int y, double* row)>;
 
 /// Mean over channels and windows of SSIM with an 11 x 11 Gaussian window (sigma 1.5, weights summing to 1), K1 = 0.01,

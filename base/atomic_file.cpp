@@ -25,7 +25,7 @@ namespace {
 
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
   std::error_code ignored;
-  // The rename must replace what a link points to, not the link, and never a device node or a protected file.
+  // The rename must replace a link's target, not the link, and never a device node or a protected file.
   for (int links = 0; links < 40 && std::filesystem::is_symlink(path_, ignored); ++links) {
     path_ =
         path_.parent_path() / std::filesystem::read_symlink(path_, ignored);  // an absolute target replaces the folder

@@ -19,7 +19,7 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Where to write; same folder and ending (.nii.gz too) as the final path.
+  /// Where to write: in the folder of the final path, with the same extension (.nii.gz, too).
   const std::filesystem::path& temporary() const { return temporary_; }
 
   /// Flushes the temporary file to disk and renames it to the final path.

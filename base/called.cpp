@@ -29,13 +29,13 @@ using Clock = std::chrono::steady_clock;
   ::dup2(nothing, STDIN_FILENO);
   ::dup2(out, STDOUT_FILENO);
   ::dup2(err, STDERR_FILENO);
-  ::signal(SIGPIPE, SIG_DFL);  // what this process ignores, clients need not
+  ::signal(SIGPIPE, SIG_DFL);  // ignored in this process, but not for clients
   ::signal(SIGXFSZ, SIG_DFL);
   ::execvp(words[0], words);
   ::_exit(127);
 }
 
-/// Appends what there is; false at the end.
+/// Appends the available bytes to `to`; false at the end or on an error.
 bool drain(int from, std::string& to) {
   std::array<char, 4096> buffer{};
   const ssize_t got = ::read(from, buffer.data(), buffer.size());
@@ -66,7 +66,7 @@ Called call(const std::vector<std::string>& words, int seconds, const Heard& hea
   const int reason = errno;
   std::optional<HelperProcess> helper;
   if (child > 0) {
-    ::setpgid(child, child);  // it may not have come so far itself
+    ::setpgid(child, child);  // the child may not have done it yet
     helper.emplace(child, HelperProcess::Leads::Group);
   }
   for (const int end : {out[1], err[1]}) ::close(end);

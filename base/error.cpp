@@ -5,7 +5,7 @@
 namespace fastsplat {
 namespace {
 
-/// What a user quotes may be a megabyte. Longer than any path, it is identified by its begin and its end.
+/// Quoted input may be a megabyte. Texts longer than any path keep their beginning and end.
 void shorten(std::string& text) {
   constexpr std::size_t kMost = 4500, kEnd = 400;
   if (text.size() > kMost) text.replace(kMost - kEnd, text.size() - kMost, "...");

@@ -13,7 +13,7 @@ enum class ExitCode : int {
   Failed = 1,         ///< a verification or threshold failed
   Usage = 2,          ///< invalid command line or parameter
   Input = 3,          ///< invalid file or format, or a result cannot be written
-  NotComparable = 4,  ///< two things that differ in size, channels or format
+  NotComparable = 4,  ///< the inputs differ in size, channels or format
   Simulation = 5,     ///< timeout, deadlock, assertion in the simulated device
   Internal = 70,
   Interrupted = 130,

@@ -8,7 +8,7 @@ namespace fastsplat {
 
 inline constexpr std::uint64_t kFnv1aStart = 0xcbf29ce484222325U;
 
-/// Extends `hash` by one value: a byte as the hash is defined, or a word of eight bytes at once.
+/// Extends `hash` by one value: a byte, as FNV-1a defines, or a 64-bit word in one step.
 constexpr std::uint64_t fnv1a(std::uint64_t hash, std::uint64_t value) { return (hash ^ value) * 0x100000001b3U; }
 /// Extends `hash` by the bytes of a text.
 constexpr std::uint64_t fnv1a(std::uint64_t hash, std::string_view text) {

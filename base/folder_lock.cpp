@@ -13,7 +13,7 @@
 namespace fastsplat {
 
 FolderLock::FolderLock(const std::filesystem::path& path) {
-  // Through links, as what is written goes: two names of one file lie in one folder.
+  // Resolve links, as writing does: two names of one file must lock the same folder.
   std::error_code ignored;
   const auto whole = std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
   const auto folder = whole.has_parent_path() ? whole.parent_path() : std::filesystem::path(".");

@@ -15,8 +15,8 @@ namespace fastsplat {
 
 /// The expected content of a file, for error messages.
 struct JsonKind {
-  std::string what;      ///< "is no plan"
-  std::string expected;  ///< "what `fastsplat plan make` writes"
+  std::string what;      ///< "not a result"
+  std::string expected;  ///< "a file written by fastsplat with --json"
   std::string fix;
   std::size_t most_bytes = std::size_t{1} << 28;
 };
@@ -42,7 +42,7 @@ auto from_json_file(const std::filesystem::path& path, const JsonKind& kind, con
   try {
     return make(parse_json<Json>(text));
   } catch (const typename Json::parse_error& error) {
-    // Its message quotes the file and is long; the place is what helps.
+    // The parser's message is long and quotes the file; the place is enough.
     got = error.byte > text.size() ? "truncated JSON, " + std::to_string(text.size()) + " bytes"
                                    : "invalid JSON at byte " + std::to_string(error.byte);
   } catch (const std::exception& error) {

@@ -6,7 +6,7 @@
 namespace fastsplat {
 
 std::string without_controls(std::string json) {
-  // They stand in strings only, the first as one byte, the others behind 0xc2.
+  // They occur only in strings: U+007F as one byte, the others after 0xc2.
   for (std::size_t at = json.find_first_of("\x7f\xc2"); at != std::string::npos;
        at = json.find_first_of("\x7f\xc2", at + 1)) {
     const std::size_t length = json[at] == '\x7f' ? 1 : 2;

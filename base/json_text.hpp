@@ -1,4 +1,4 @@
-// JSON as text, in one place for every file and every --json.
+// Formats the JSON of every file and every --json.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace fastsplat {
 std::string without_controls(std::string json);
 
 /// `json` (an nlohmann::json) as lines indented by `indent`; -1: one line. File names and picture metadata may contain
-/// any bytes. Invalid UTF-8 becomes U+FFFD, because JSON cannot represent it and a name must not cost a result.
+/// any bytes. Invalid UTF-8 becomes U+FFFD, because JSON cannot represent it and a name must not lose a result.
 template <class Json>
 std::string json_text(const Json& json, int indent) {
   return without_controls(json.dump(indent, ' ', false, Json::error_handler_t::replace));

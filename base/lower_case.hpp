@@ -1,4 +1,4 @@
-// ASCII letters in lower case: names of formats and endings of files, whatever the user's language.
+// Lower-cases ASCII letters of format names and file extensions, independent of the locale.
 #pragma once
 
 #include <filesystem>

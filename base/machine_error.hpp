@@ -15,7 +15,7 @@ class MachineError : public UserError {
 
 [[noreturn]] inline void throw_machine(ErrorParts parts) { throw MachineError(std::move(parts)); }
 
-/// Rethrows `error` with other words and another code.
+/// Throws `parts` and `code` as an error of the kind of `error`: a MachineError if it is one.
 [[noreturn]] void throw_again(const UserError& error, ErrorParts parts, ExitCode code);
 
 /// The exit code of every MachineError in a process whose environment has kReportMachine.

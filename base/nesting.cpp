@@ -7,7 +7,7 @@
 namespace fastsplat {
 namespace {
 
-/// The offset behind the string that begins at `at`. One that is not closed on its line ends there.
+/// The offset after the string that begins at `at`. An unclosed one-line string ends with its line.
 std::size_t behind_toml_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const std::string_view three = quote == '"' ? R"(""")" : "'''";
@@ -27,11 +27,11 @@ std::size_t behind_toml_string(std::string_view text, std::size_t at) {
   return text.size();
 }
 
-/// What is open at a place in TOML.
+/// An array, an inline table or the file itself, open at a place in TOML.
 struct TomlLevel {
   bool braces;              ///< an inline table, or the file itself: it has keys
-  std::size_t dots = 0;     ///< of the key before the value
-  bool in_value = !braces;  ///< dots are those of numbers and dates
+  std::size_t dots = 0;     ///< dots in the key before the value
+  bool in_value = !braces;  ///< dots belong to numbers and dates
 };
 
 }  // namespace
@@ -54,8 +54,8 @@ std::optional<std::size_t> json_too_deep(std::string_view json) {
 std::optional<std::size_t> toml_too_deep(std::string_view toml) {
   std::vector<TomlLevel> open{{.braces = true}};
   std::size_t header = 0;  // parts of the [header] above
-  bool in_header = false;  // on its line
-  std::size_t dots = 0;    // of all keys that are open
+  bool in_header = false;  // inside the line of a header
+  std::size_t dots = 0;    // in all open keys
   const auto forget_key = [&] { dots -= std::exchange(open.back().dots, 0); };
   for (std::size_t at = 0; at < toml.size();) {
     const char c = toml[at];

@@ -9,7 +9,7 @@
 namespace fastsplat {
 namespace {
 
-/// Bytes of the character at the front; 0 where they are not UTF-8.
+/// Length in bytes of the first character; 0 if it is not UTF-8.
 std::size_t character(std::string_view text) {
   for (std::size_t length = 1; length <= std::min<std::size_t>(4, text.size()); ++length) {
     if (is_utf8(text.substr(0, length))) return length;

@@ -1,14 +1,14 @@
-// Other programs that this one may call.
+// Finds other programs in PATH.
 #pragma once
 
 #include <string>
 
 namespace fastsplat {
 
-/// The path at which the shell would find it; empty if it would not.
+/// The path at which a shell would find `program`; empty if it would not.
 std::string path_of(const std::string& program);
 
-/// Whether the shell would find it.
+/// Whether a shell would find `program`.
 bool in_path(const std::string& program);
 
 }  // namespace fastsplat

@@ -22,12 +22,12 @@ namespace {
   throw_input({.where = path.string(), .what = std::move(what), .expected = {}, .got = {}, .fix = std::move(fix)});
 }
 
-/// A file that is not there or cannot be read: a sweep read it before.
+/// Missing and unreadable files: failures of the machine, as a sweep read them before.
 [[noreturn]] void unreadable(const std::filesystem::path& path, std::string what, std::string fix) {
   throw_machine({.where = path.string(), .what = std::move(what), .expected = {}, .got = {}, .fix = std::move(fix)});
 }
 
-/// The nearest name in the folder, if any is near.
+/// Suggests the most similar name in the folder, if any.
 std::string similar_in_folder(const std::filesystem::path& path) {
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   std::error_code error;
@@ -54,9 +54,9 @@ std::string similar_in_folder(const std::filesystem::path& path) {
 
 namespace {
 
-/// Its size.
+/// Its size in bytes. Refuses all but readable regular files.
 off_t size_of_regular_file(const std::filesystem::path& path, const std::string& fix_if_missing) {
-  // O_NONBLOCK: opening a pipe nobody writes to must not hang before it can be refused.
+  // O_NONBLOCK: opening a pipe without a writer must not hang before it can be refused.
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) {
     const int reason = errno;

@@ -6,7 +6,7 @@
 namespace fastsplat {
 
 int edit_distance(std::string_view a, std::string_view b) {
-  // Rows of the table for the prefixes of `a` that end two before, one before, and here.
+  // Rows of the table for the prefixes of `a` of i-2, i-1 and i characters.
   std::vector<int> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(j);
   for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -25,7 +25,7 @@ int edit_distance(std::string_view a, std::string_view b) {
 bool may_mean(std::string_view got, std::string_view name) {
   const auto letters = got.size() - std::min(got.find_first_not_of('-'), got.size());
   const int allowed = std::clamp(static_cast<int>(letters + 1) / 3, 1, 3);
-  // The lengths alone refuse a word of a megabyte.
+  // The lengths alone exclude a word of a megabyte.
   const std::size_t apart = got.size() > name.size() ? got.size() - name.size() : name.size() - got.size();
   if (apart > static_cast<std::size_t>(allowed)) return false;
   const int distance = edit_distance(got, name);

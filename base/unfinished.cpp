@@ -14,7 +14,7 @@
 namespace fastsplat {
 namespace {
 
-// What there is now, where a signal handler can read it: fixed storage, no locks.
+// The current paths and children, readable by a signal handler: fixed storage, no locks.
 enum SlotState : int { Free, Claimed, Live };
 struct Slot {
   std::atomic<int> state{Free};
@@ -23,7 +23,7 @@ struct Slot {
 std::array<Slot, 64> unfinished;
 std::array<std::atomic<pid_t>, 8> helpers;
 
-// When all slots are taken or the path is too long, only an interrupt leaves the file behind.
+// If all slots are taken or the path is too long, an interrupt leaves the file behind.
 void remember(const std::string& path) {
   if (path.size() >= unfinished[0].path.size()) return;
   for (auto& slot : unfinished) {
@@ -75,7 +75,7 @@ void HelperProcess::forget() {
 }
 
 int HelperProcess::wait() {
-  // Forgotten before its number is free for another process, which a signal would otherwise end.
+  // Forget the child before another process can get its number, or a signal would end that.
   siginfo_t ended{};
   while (::waitid(P_PID, static_cast<id_t>(child_), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
   }
@@ -88,7 +88,7 @@ int HelperProcess::wait() {
 
 void end_with_parent(pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (::getppid() != parent) ::_exit(128 + SIGTERM);  // it ended before that was asked for
+  if (::getppid() != parent) ::_exit(128 + SIGTERM);  // the parent ended before prctl()
 }
 
 void remove_unfinished_files() noexcept {
@@ -112,7 +112,7 @@ void remove_unfinished_files() noexcept {
   for (auto& slot : unfinished) {
     if (slot.state == Live) ::unlink(slot.path.data());
   }
-  // Folders once nothing of ours is in them.
+  // Then the folders, unless other files are in them.
   for (auto& slot : unfinished) {
     if (slot.state == Live) ::rmdir(slot.path.data());
   }

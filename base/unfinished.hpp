@@ -1,4 +1,4 @@
-// Removes what must not stay behind when a signal ends the process: half-written files, their folders, child processes.
+// Cleans up when a signal ends the process: unfinished files, their folders, child processes.
 #pragma once
 
 #include <sys/types.h>
@@ -8,8 +8,8 @@
 
 namespace fastsplat {
 
-/// A file, or a folder made for files, that is removed unless it is kept: by the destructor, or by the handler of a
-/// signal. It need not exist; a folder is removed only if it is empty.
+/// A file, or a folder made for files, that destructor or signal handler remove unless it is kept. It need not exist; a
+/// folder is removed only if it is empty.
 class UnfinishedPath {
  public:
   explicit UnfinishedPath(std::filesystem::path path);

@@ -18,7 +18,7 @@ bool is_utf8(std::string_view bytes) {
       if ((at(i + k) & 0xc0) != 0x80) return false;
     }
     if (length > 1) {
-      // The second byte decides what is overlong, a surrogate or too large.
+      // The second byte shows overlong forms, surrogates and values that are too large.
       const unsigned char second = at(i + 1);
       if ((lead == 0xe0 && second < 0xa0) || (lead == 0xed && second >= 0xa0)) return false;
       if ((lead == 0xf0 && second < 0x90) || (lead == 0xf4 && second >= 0x90)) return false;

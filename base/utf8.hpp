@@ -5,7 +5,7 @@
 
 namespace fastsplat {
 
-/// Well-formed UTF-8: no stray or missing continuation, no surrogate, nothing longer than needed or above U+10FFFF.
+/// Well-formed UTF-8: no stray or missing continuation, surrogate or overlong form, nothing above U+10FFFF.
 bool is_utf8(std::string_view bytes);
 
 }  // namespace fastsplat

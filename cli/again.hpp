@@ -1,4 +1,4 @@
-// The command that makes a result again: every result carries its own.
+// The command line that reproduces a result; results carry it as "command".
 #pragma once
 
 #include <span>
@@ -6,10 +6,10 @@
 
 namespace fastsplat::cli {
 
-/// `fastsplat WORDS...` without what changes no result: --json, --quiet, --threads.
+/// `fastsplat WORDS...` without --json, --quiet and --threads, which change no result.
 std::string command_text(std::span<const std::string> words);
 
-/// Of this process; `parse` tells it once, before any verb runs.
+/// Stores the command of this process; `parse` calls it once, before any subcommand runs.
 void remember_command(std::span<const std::string> words);
 const std::string& command_again();
 

@@ -54,7 +54,7 @@ FrameFiles files_of(const RenderArguments& arguments, int frame, int frames) {
   return files;
 }
 
-/// The file is a whole image that carries every entry of `metadata`.
+/// Whether the file is a complete image with every entry of `metadata`.
 bool is_current(const std::string& path, const images::Metadata& metadata) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return false;
@@ -65,7 +65,7 @@ bool is_current(const std::string& path, const images::Metadata& metadata) {
       return at != found.end() && at->second == entry.second;
     });
   } catch (const UserError&) {
-    return false;  // torn, or no image of ours: render it
+    return false;  // truncated, or not our image: render it
   }
 }
 
@@ -75,7 +75,7 @@ bool is_current(const FrameFiles& files, const images::Metadata& metadata) {
          (files.raw.empty() || is_current(files.raw, metadata));
 }
 
-/// The frames that a video is made of: the first --out that is a PNG, for it alone is ready to be looked at.
+/// The frames of the video: the first --out that is a PNG, because only PNGs are display pictures.
 const std::string& video_source(const RenderArguments& arguments) {
   const auto png = std::find_if(arguments.out.begin(), arguments.out.end(),
                                 [](const std::string& path) { return path.ends_with(".png"); });
@@ -84,11 +84,11 @@ const std::string& video_source(const RenderArguments& arguments) {
   return *png;
 }
 
-/// An animation in words; one that ended early has no `seconds`.
+/// Figures of an animation; `seconds` is absent if it ended early.
 struct Result {
   struct Frame {
     FrameFiles files;
-    std::optional<FrameReport> report;  ///< none: kept from an earlier run
+    std::optional<FrameReport> report;  ///< absent: kept from an earlier run
   };
   std::string engine;
   std::vector<Frame> frames;
@@ -174,7 +174,7 @@ void check_animation(const RenderArguments& arguments, const scene::Sequence& se
   check_outputs(names);
 }
 
-/// The scene of a frame; what is wrong with it is told with the frame's number.
+/// The scene of a frame; errors name the frame's number.
 scene::Scene scene_of(const scene::Sequence& sequence, const scene::SceneDescription& still, std::size_t frame,
                       const std::shared_ptr<const volume::Volume>& volume) {
   const auto description = scene::at_frame(sequence, still, static_cast<int>(frame));
@@ -187,8 +187,7 @@ scene::Scene scene_of(const scene::Sequence& sequence, const scene::SceneDescrip
   }
 }
 
-/// A last frame that cannot be is told before the first is rendered. X-rays are left out: their exposure walks the
-/// volume.
+/// Reports invalid frames before the first is rendered. Skips X-rays, whose automatic exposure traverses the volume.
 void check_frames(const scene::Sequence& sequence, const scene::SceneDescription& still, std::size_t count,
                   const std::shared_ptr<const volume::Volume>& volume) {
   if (still.method == scene::Method::XRay) return;
@@ -215,7 +214,7 @@ ExitCode run_animation(const RenderArguments& arguments, const Renderer& rendere
     const auto metadata = metadata_of(renderer, scene);
     Result::Frame& entry = result.frames.emplace_back(Result::Frame{files, {}});
     ExitCode code = ExitCode::Pass;
-    // A kept frame cannot be checked: where every tap is asked for, every frame is rendered.
+    // A kept frame cannot be checked: with --check every frame is rendered.
     if (renderer.checking == Checking::Off && is_current(files, metadata)) {
       for (const auto& path : files.out) output.line(path + " kept");
     } else {

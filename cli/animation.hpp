@@ -1,4 +1,4 @@
-// Numbered frames of a sequence: what is asked for, what is still good from an earlier run, the frames, the video.
+// Animations: renders numbered frames, keeps up-to-date ones of earlier runs, and writes the video.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,14 @@
 
 namespace fastsplat::cli {
 
-/// What --orbit, --sequence and --frames ask for; nothing for a still. UserError (Usage) where they contradict.
+/// The sequence selected by --orbit, --sequence and --frames; empty for a still. UserError (Usage) if they contradict.
 std::optional<scene::Sequence> sequence_of(const RenderArguments& arguments);
 
-/// Every name of every frame can be written, and so can the video; before any time is spent.
+/// Throws UserError unless all files of all frames and the video can be written; called before any rendering.
 void check_animation(const RenderArguments& arguments, const scene::Sequence& sequence);
 
-/// Frame after frame, in order. A frame whose every file is a whole image with the very metadata it would get is kept,
-/// anything else under its name is replaced. Ends early with the exit code of a frame whose check fails.
+/// Renders the frames in order. A frame whose files are all complete images with the metadata it would get is kept;
+/// other files under its names are replaced. Returns early with the exit code of the first frame whose check fails.
 ExitCode run_animation(const RenderArguments& arguments, const Renderer& renderer, const scene::SceneDescription& still,
                        const scene::Sequence& sequence, const Output& output);
 

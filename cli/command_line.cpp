@@ -29,7 +29,7 @@ std::string footer() {
          ".\nRun `fastsplat help SUBCOMMAND` (or SUBCOMMAND --help) for details; docs/guide.md is the user's guide.";
 }
 
-/// The help begins with what may be copied.
+/// The help begins with examples to copy.
 std::string with_examples(const Description& verb) {
   std::string text = verb.summary + "\n";
   if (!verb.examples.empty()) text += "\nExamples:\n";
@@ -37,7 +37,7 @@ std::string with_examples(const Description& verb) {
   return text;
 }
 
-/// The tree of verbs, by name and summary; a verb's flags are declared once it is known that it is meant.
+/// The tree of subcommands, by name and summary; only the flags of the one that is used are declared.
 class CommandLine {
  public:
   explicit CommandLine(const std::vector<Verb>& verbs) {
@@ -55,11 +55,11 @@ class CommandLine {
   }
 
   struct Declared {
-    Action action;  ///< none for a group's head
+    Action action;  ///< null for a group
     Description description;
   };
 
-  /// Declares the flags of `verb`, which its help begins to tell with examples.
+  /// Declares the flags of `verb` and adds its examples to its help.
   Declared declare(CLI::App& verb) const {
     Options options(verb);
     Declared out;
@@ -77,7 +77,7 @@ class CommandLine {
 
  private:
   std::map<const CLI::App*, Action (*)(Options&)> declare_;
-  std::vector<CLI::App*> subs_;  ///< in the order of the verbs
+  std::vector<CLI::App*> subs_;  ///< in the order of `verbs`
 };
 
 std::string called(const CLI::App& verb) {
@@ -102,7 +102,7 @@ std::vector<std::string> flag_names(const CLI::App& verb) {
   return names;
 }
 
-/// `verb` as it is called.
+/// `verb`: full name, as typed.
 [[noreturn]] void misused(const std::string& verb, const std::string& what, std::string fix = {}) {
   if (fix.empty()) fix = "`" + verb + " --help` lists flags and subcommands";
   throw_usage({.where = {}, .what = what, .expected = {}, .got = {}, .fix = std::move(fix)});
@@ -112,7 +112,7 @@ std::vector<std::string> flag_names(const CLI::App& verb) {
   misused(called(verb), what, fix);
 }
 
-// Descends words of verbs from `app`; `at` ends on the first word that is none.
+// Finds the subcommand that `words` name, starting at `app`; `at` becomes the index of the first remaining word.
 CLI::App* find_verb(CLI::App& app, const std::vector<std::string>& words, std::size_t& at) {
   CLI::App* verb = &app;
   while (at < words.size()) {
@@ -128,13 +128,13 @@ CLI::App* find_verb(CLI::App& app, const std::vector<std::string>& words, std::s
   return verb;
 }
 
-// The one flag that may have been meant; nothing rather than a list of thirty.
+// The flag that was probably meant; empty rather than a list of thirty.
 std::string near_flag(const CLI::App& verb, const std::string& flag) {
   const auto hint = flag.starts_with("--") ? suggestion(flag, flag_names(verb)) : std::string{};
   return hint;
 }
 
-// Unknown flags, flags without their value and flags given twice, in the user's order.
+// Reports unknown flags, missing values and repeated flags, in the user's order.
 void check_words(const CLI::App& verb, std::span<const std::string> words) {
   std::map<const CLI::Option*, int> seen;
   for (std::size_t at = 0; at < words.size(); ++at) {
@@ -209,7 +209,8 @@ Action parse(int argc, const char* const* argv, const std::vector<Verb>& verbs) 
             fmt::format("add one of {}; `{} --help` describes them", fmt::join(subcommand_names(*verb), ", "),
                         called(*verb)));
   }
-  // By the verb alone, so that a word behind it that is another verb's name is just a word. It forgets its parents.
+  // Parses with the subcommand alone, so that names of other subcommands are ordinary words. Parsing clears its parent,
+  // hence the name first.
   const std::string name = called(*verb);
   std::vector<std::string> reversed(rest.rbegin(), rest.rend());
   try {
@@ -222,7 +223,7 @@ Action parse(int argc, const char* const* argv, const std::vector<Verb>& verbs) 
   } catch (const CLI::ParseError& error) {
     misused(name, error.what());
   }
-  if (command_again().empty()) remember_command(words);  // a plan has other commands understood later
+  if (command_again().empty()) remember_command(words);  // a plan parses other commands later
   return action;
 }
 

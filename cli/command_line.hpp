@@ -1,4 +1,4 @@
-// From words to the verb that was meant.
+// Parses the command line into the action of a subcommand.
 #pragma once
 
 #include <string>
@@ -8,20 +8,20 @@
 
 namespace fastsplat::cli {
 
-/// Whatever makes no sense is a UserError (Usage) with the fix. --help, --version and `help` print.
+/// Throws UserError (Usage), with the fix, for an invalid command line. --help, --version and `help` become actions
+/// that print.
 Action parse(int argc, const char* const* argv, const std::vector<Verb>& verbs = all_verbs());
 
-/// Every long flag of a verb, "--size"; UserError (Usage) where there is no such verb.
+/// All long flags of a subcommand, such as "--size"; UserError (Usage) for unknown subcommands.
 std::vector<std::string> flags_of(const std::string& verb, const std::vector<Verb>& verbs = all_verbs());
 
-/// The help on the verb that `words` name, on the program where there are none. Words that name none are a UserError
-/// (Usage).
+/// Help text of the subcommand that `words` name, or of the program if empty. UserError (Usage) for unknown names.
 std::string help_on(const std::vector<std::string>& words, const std::vector<Verb>& verbs = all_verbs());
 
-/// All that the verbs declare, the program's own flags first, then the order of `verbs`.
+/// Descriptions of the program itself, then of all subcommands in the order of `verbs`.
 std::vector<Description> describe(const std::vector<Verb>& verbs = all_verbs());
 
-/// The one of `all` that `words` name, the program where there are none; UserError (Usage) where there is none.
+/// The entry of `all` named by `words`; the program's own if empty. UserError (Usage) for unknown names.
 const Description& described(const std::vector<std::string>& words, const std::vector<Description>& all);
 
 }  // namespace fastsplat::cli

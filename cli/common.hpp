@@ -1,4 +1,4 @@
-// The flags that every verb has.
+// The flags that every subcommand has.
 #pragma once
 
 #include <string>

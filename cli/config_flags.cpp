@@ -9,7 +9,7 @@ namespace {
 
 const char* const kBase = "base";
 
-/// "radial.entries=" of every key; where the values are words, each: "index.kind=rlut".
+/// "radial.entries=" for every key; keys whose values are words give one entry per word, "index.kind=rlut".
 std::vector<std::string> key_words() {
   std::vector<std::string> words;
   for (const auto& key : cmodel::config_keys()) {

@@ -12,10 +12,10 @@ namespace fastsplat::cli {
 
 struct ConfigFlags {
   std::optional<std::string> config;  ///< a name or a file; absent: base
-  std::vector<std::string> changes;   ///< "radial.entries=256"; of --index KIND "index.kind=KIND"
+  std::vector<std::string> changes;   ///< "radial.entries=256"; --index KIND adds "index.kind=KIND"
 };
 
-/// `help` of --config.
+/// `help`: help text of --config.
 void declare(Options& options, ConfigFlags& to, const char* help);
 void declare_changes(Options& options, std::vector<std::string>& to);
 

@@ -10,7 +10,7 @@
 namespace fastsplat::cli {
 namespace {
 
-constexpr int kPricedRadius = 2;  ///< pixels: the footprint of a voxel as large as a pixel
+constexpr int kPricedRadius = 2;  ///< pixels: the footprint of a voxel one pixel wide
 
 }  // namespace
 
@@ -20,7 +20,7 @@ nlohmann::ordered_json config_identity_json(const cmodel::Config& config) {
 
 nlohmann::ordered_json priced_config_json(const cmodel::Config& config) {
   auto json = config_identity_json(config);
-  // What is counted is the device of rtl/.
+  // The cost model covers the device of rtl/ only.
   const bool counted = config.index() == cmodel::IndexKind::Rlut;
   json["cost"] = counted ? analysis::to_json(analysis::cost(config)) : nlohmann::ordered_json(nullptr);
   json["synthesis"] = analysis::synthesised(config);

@@ -1,4 +1,4 @@
-// A configuration in the JSON of the verbs.
+// Configurations in the subcommands' JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,12 +9,12 @@ namespace fastsplat::cli {
 
 /// {"name", "hash"}
 nlohmann::ordered_json config_identity_json(const cmodel::Config& config);
-/// The same with what it costs: the device's `cost` (docs/errors.md, section 5; null where the index is not the RTL's),
-/// and `index_cost`, the tables and cycles of its kind of index for a footprint of 2 pixels' radius (docs/family.md).
+/// Identity with `cost` (docs/errors.md, section 5; null unless the index kind is the RTL's), `synthesis` (null if none
+/// is kept) and `index_cost` (docs/family.md). The latter is table bits and cycles per splat for a radius of 2 pixels.
 nlohmann::ordered_json priced_config_json(const cmodel::Config& config);
-/// A number, or the word of a key of words.
+/// A number, or a word for keys whose values are words.
 nlohmann::ordered_json value_json(const cmodel::Config& config, const cmodel::ConfigKey& key);
-/// Identity, description and every key.
+/// Identity, description, the costs above and all keys.
 nlohmann::ordered_json config_json(const cmodel::Config& config);
 
 }  // namespace fastsplat::cli

@@ -1,4 +1,4 @@
-// What a table of culling says, and its JSON (docs/culling.md).
+// The table of `cycles --cull-table` as text and JSON (docs/culling.md).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,8 +9,8 @@
 
 namespace fastsplat::cli {
 
-/// A line per device: cycles and how many times fewer, milliseconds at 100 MHz, share of splat records drawn, and where
-/// the cycles went.
+/// A line per device: cycles and speed-up, milliseconds at 100 MHz, share of splat records drawn, and how the cycles
+/// were spent.
 std::string to_text(const std::vector<driver::CullRow>& rows);
 nlohmann::ordered_json to_json(const std::vector<driver::CullRow>& rows);
 

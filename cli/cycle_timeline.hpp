@@ -1,5 +1,4 @@
-// A run's timeline as part of the result: when each sheet and each tile went through the device, as the report draws
-// it.
+// A run's timeline in the JSON result, for the report to draw: when each sheet and tile passed through the device.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,12 +8,12 @@
 
 namespace fastsplat::cli {
 
-/// Keeps the first sheets and tiles, counts the others: a report is to stay small.
+/// Keeps the first sheets and tiles and counts the others, so that reports stay small.
 class CycleTimeline final : public cmodel::CycleSink {
  public:
   static constexpr std::size_t kMostSheets = 5000, kMostTiles = 1000;
 
-  /// What is seen is passed on to `next` too; null: to none.
+  /// Forwards all callbacks to `next`, unless null.
   explicit CycleTimeline(cmodel::CycleSink* next = nullptr) : next_(next) {}
 
   void on_beat(const cmodel::BeatCycles& beat) override;
@@ -22,7 +21,8 @@ class CycleTimeline final : public cmodel::CycleSink {
   void on_sheet(const cmodel::SheetCycles& sheet) override;
   void on_tile(const cmodel::TileCycles& tile) override;
 
-  /// {"sheets", "tiles": a row each, named by "sheet_columns" and "tile_columns"; "sheets_left_out", "tiles_left_out"}.
+  /// {"sheets", "tiles": rows whose columns are named by "sheet_columns" and "tile_columns"; "sheets_left_out",
+  /// "tiles_left_out": counts}.
   nlohmann::ordered_json json() const;
 
  private:

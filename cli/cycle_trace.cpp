@@ -39,7 +39,7 @@ void CycleTrace::on_sheet(const cmodel::SheetCycles& sheet) {
                                             sheet.windows, sheet.blocks, sheet.closed + 1 - sheet.begun);
   slice(kDecode, "wait for a sheet buffer", sheet.offered, sheet.begun, "");
   slice(kDecode, name, sheet.begun, sheet.closed + 1, arguments);
-  // A sheet's first window may follow begin_sheet at once; the last comes right before end_sheet.
+  // The first window may come right after begin_sheet; the last comes right before end_sheet.
   if (sheet.windows > 0) {
     slice(kSplat, name, sheet.begun + 1 + cmodel::stages::kSheet, sheet.closed + cmodel::stages::kSheet, arguments);
   }

@@ -13,7 +13,7 @@ class CycleTrace final : public cmodel::CycleSink {
   CycleTrace();
   void on_sheet(const cmodel::SheetCycles& sheet) override;
   void on_tile(const cmodel::TileCycles& tile) override;
-  /// The whole file. One microsecond stands for one cycle.
+  /// The complete file. One microsecond stands for one cycle.
   std::string text() const;
 
  private:

@@ -1,5 +1,5 @@
-// What there is to know of a verb besides how to carry it out: its flags, their values, examples. Help, man pages and
-// completion are all made of this.
+// Describes a subcommand: its flags, their values, examples. Help, man pages and shell completion are generated from
+// it.
 #pragma once
 
 #include <functional>
@@ -8,38 +8,38 @@
 
 namespace fastsplat::cli {
 
-/// Asked when somebody wants them, never on an ordinary run.
+/// Called only when the values are needed, never on an ordinary run.
 using Values = std::function<std::vector<std::string>()>;
 
-/// A flag, or a word without one.
+/// A flag, or a positional argument.
 struct Flag {
-  std::vector<std::string> names;  ///< "-o", "--out"; a word without a flag has one that does not begin with '-'
-  std::string unit;                ///< what its value is called; empty: it takes none
+  std::vector<std::string> names;  ///< "-o", "--out"; a positional argument has one name, without leading '-'
+  std::string unit;                ///< name of its value in the help; empty: the flag takes no value
   std::string help, group;
   bool required = false;
   bool repeatable = false;
-  Values values = {};        ///< null: none are known
-  bool only_values = false;  ///< a word without a flag that names no file
+  Values values = {};        ///< null: unknown
+  bool only_values = false;  ///< a positional argument that never names a file
 
   bool positional() const { return !names.front().starts_with('-'); }
   bool takes_value() const { return positional() || !unit.empty(); }
-  /// What its value may name, by its unit: "NAME|FILE", "PATH", "PREFIX" of files.
+  /// Whether its value may name a file, by its unit: "NAME|FILE", "PATH", "PREFIX" of files.
   bool takes_file() const;
   bool takes_folder() const;
 };
 
 struct Example {
-  enum Speed { Quick, Slow };  ///< Slow: too slow for a test to run, so that it only has to parse
+  enum Speed { Quick, Slow };  ///< Slow: tests only parse it
   std::string command, does;
   Speed speed = Quick;
 };
 
 struct Description {
-  std::string name;     ///< as typed behind `fastsplat`: "stream record"; empty: the program itself
+  std::string name;     ///< as typed after `fastsplat`: "stream record"; empty: the program itself
   std::string summary;  ///< one line
   std::vector<Flag> flags;
   std::vector<Example> examples;
-  bool group = false;  ///< the head of verbs "NAME ...": takes nothing itself
+  bool group = false;  ///< a group "NAME ..." of subcommands, which does nothing itself
 };
 
 }  // namespace fastsplat::cli

@@ -14,7 +14,7 @@
 namespace fastsplat::cli {
 namespace {
 
-// What to do about a counter of lost bits; the counter's own words say what it counts.
+// The fix for a counter of lost bits; the counter's own text says what it counts.
 std::string fix_for(std::string_view counter) {
   if (counter == "snap_saturated")
     return "the picture exceeds the range of the configuration's positions: reduce --size or --zoom";
@@ -28,7 +28,7 @@ std::string fix_for(std::string_view counter) {
 
 bool is_loss(std::string_view name) { return name.ends_with("_saturated"); }
 
-/// Where words end below 1.0, every opaque pixel is cut to the largest one: that is how the format says "opaque".
+/// If the format ends below 1.0, every opaque pixel saturates to the largest word, which stands for "opaque".
 bool only_opaque(const DeviceReport& report) {
   return !report.sums && report.config.pixel_int_bits == 0 && report.counters.composite_saturated == 0 &&
          report.counters.opacity_saturated == 0;
@@ -62,7 +62,7 @@ nlohmann::ordered_json to_json(const driver::UnitReport& units) {
 }
 
 std::string to_text(const driver::DriverReport& report) {
-  // A replayed stream no longer knows its voxels.
+  // A replayed stream does not contain its number of voxels.
   const std::string voxels = report.voxels > 0 ? counted(report.voxels, "voxel") + ", " : "";
   return fmt::format("driver: {}{}, {}, {}\n", voxels, counted(report.splat_records, "splat record"),
                      counted(report.sheets, "sheet"), counted(report.tiles, "tile"));
@@ -91,7 +91,7 @@ std::vector<Remark> remarks(const driver::DriverReport& report) {
                                       grouped(report.saturated_voxels), grouped(report.saturated_records))});
   }
   if (report.vanished_voxels > 0 && !report.carried) {
-    // What is lost of a picture whose brightest pixel is 1.0 shows from half a step of an 8-bit display on.
+    // With a brightest pixel of 1.0, a loss is visible from half a step of an 8-bit display.
     const bool shows = report.vanished_share >= 0.5 / 255.0;
     remarks.push_back(
         {shows ? Remark::Warning : Remark::Note,

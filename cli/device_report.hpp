@@ -1,5 +1,4 @@
-// What `render --engine cmodel` and `stream replay` share: the device's counters told, its frame written, its origin
-// kept.
+// Shared by `render --engine cmodel` and `stream replay`: reports the device's counters and writes its images.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -12,28 +11,28 @@
 
 namespace fastsplat::cli {
 
-/// What a device made of a scene or a stream, without its picture.
+/// Figures of a device's run on a scene or a stream, without its picture.
 struct DeviceReport {
   cmodel::Config config;
   driver::DriverReport driver;
   cmodel::Counters counters;
   driver::UnitReport units{};  ///< of the integer model
-  bool sums = false;           ///< an X-ray: its words may truly be too large
+  bool sums = false;           ///< an X-ray: sums can exceed 1.0, so saturation is a real loss
 };
 
-/// Which unit drew; `counters` of the same frame.
+/// Which unit rendered the tiles; `counters` are of the same frame.
 std::string to_text(const driver::UnitReport& units, const cmodel::Counters& counters);
 std::string to_text(const driver::DriverReport& report);
 std::string to_text(const DeviceReport& report);
-/// Keys for the JSON of a verb.
+/// Keys of a subcommand's JSON.
 nlohmann::ordered_json to_json(const driver::UnitReport& units);
 nlohmann::ordered_json to_json(const driver::DriverReport& report);
 nlohmann::ordered_json to_json(const DeviceReport& report);
-/// Every loss that is not zero, with the fix.
+/// All nonzero losses, each with its fix.
 std::vector<Remark> remarks(const driver::DriverReport& report);
 std::vector<Remark> remarks(const DeviceReport& report);
 
-/// `description`: of the scene that says how the picture is shown; absent for a replay.
+/// `description`: the scene's, whose display settings apply; null for a replay.
 void write_device_images(const driver::DeviceRender& result, const std::vector<std::string>& out,
                          const std::string& raw, const images::Metadata& metadata, const Output& output,
                          const scene::SceneDescription* description = nullptr);

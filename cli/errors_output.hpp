@@ -1,4 +1,4 @@
-// What the verbs of `errors` say and write alike.
+// Output shared by the subcommands of `errors`.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -16,9 +16,9 @@ std::string errors_heading(const std::string& scene, const cmodel::Config& confi
 /// {"verb", "version", "scene", "config"}
 nlohmann::ordered_json errors_identity(const char* verb, const std::string& scene, const cmodel::Config& config);
 
-/// A map with its legend, to be looked at.
+/// Writes a map with its legend as a display picture.
 void write_map(const std::string& path, const Image& map);
-/// Numbers of a scene on a configuration, with what made them ("errors", "bound").
+/// Writes per-pixel values; the metadata identify scene, configuration and `what` ("errors", "bound").
 void write_values(const std::string& path, const Image& values, const char* what, const scene::Scene& scene,
                   const cmodel::Config& config);
 

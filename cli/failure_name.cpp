@@ -29,7 +29,7 @@ bool free_of_files(const std::string& prefix, const std::vector<std::string>& ta
   const auto files = failure_files(prefix);
   return std::none_of(files.begin(), files.end(), [&](const std::string& file) {
     std::error_code ignored;
-    // A link that leads nowhere is there, too.
+    // Dangling links exist, too.
     return fs::exists(fs::symlink_status(file, ignored)) ||
            std::any_of(taken.begin(), taken.end(), [&](const std::string& name) { return same_place(name, file); });
   });
@@ -42,7 +42,7 @@ FailureName::FailureName(const std::string& stem, const std::vector<std::string>
     prefix_ = number == 1 ? stem : fmt::format("{}-{}", stem, number);
     const fs::path path(prefix_);
     const fs::path claim = path.parent_path() / (".tmp-claim." + path.filename().string());
-    // Of all runs that ask, the system lets one make the file. Only who has it looks for the others' results.
+    // The system lets only one of several runs create the claim; only that run looks for existing files.
     const int descriptor = ::open(claim.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (descriptor < 0) {
       if (errno == EEXIST) continue;

@@ -1,4 +1,4 @@
-// Where a failure's files go when nobody named them: a name of which nothing is there, and that no other run has.
+// Chooses an unused default name for a failure's files, unique among concurrent runs.
 #pragma once
 
 #include <optional>
@@ -9,22 +9,21 @@
 
 namespace fastsplat::cli {
 
-/// The first of STEM, STEM-2, STEM-3, ... that is free. It belongs to this run until the object ends, by which time the
-/// files are there: runs that fail at the same time in one folder never have the same. UserError (Input) where the
-/// folder takes no file.
+/// The first free of STEM, STEM-2, STEM-3, ... It is reserved for this run until the object is destroyed, by which time
+/// the files exist; concurrent runs in one folder never share it. UserError (Input) if the folder is not writable.
 class FailureName {
  public:
-  /// `taken`: what the command writes besides.
+  /// `taken`: other files that the command writes.
   FailureName(const std::string& stem, const std::vector<std::string>& taken);
-  /// Without ending.
+  /// Without extension.
   const std::string& prefix() const { return prefix_; }
 
  private:
   std::string prefix_;
-  std::optional<UnfinishedPath> claim_;  ///< an empty file, made by one run only
+  std::optional<UnfinishedPath> claim_;  ///< an empty file, created exclusively
 };
 
-/// The names of the files.
+/// Names of the failure's files: PREFIX.fss (stream) and PREFIX.fst (waveform).
 std::vector<std::string> failure_files(const std::string& prefix);
 
 }  // namespace fastsplat::cli

@@ -18,11 +18,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kNarrow = 2.0;  // pixels: such a footprint covers one to four of them
+constexpr double kNarrow = 2.0;  // pixels: a narrower footprint covers one to four of them
 
 const std::vector<std::string> kEngines{"golden", "cmodel", "rtl"};
 
-/// For the techniques that collect no splats: the ray caster, and densities classified after splatting.
+/// For techniques that do not count splats: the ray caster, and densities classified after splatting.
 std::uint64_t voxel_count(const scene::Scene& scene) {
   const scene::Traversal traversal(scene);
   return traversal.count(traversal.all());

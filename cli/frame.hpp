@@ -1,4 +1,4 @@
-// One frame of a scene through one engine: what a still and each picture of an animation have in common.
+// Renders one frame of a scene with one engine: a still, or a frame of an animation.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -18,7 +18,7 @@ namespace fastsplat::cli {
 
 enum class Engine { Golden, CModel, Rtl };
 
-/// UserError (Usage) with the nearest known name.
+/// UserError (Usage), with the nearest known name, for unknown names.
 Engine engine_from(const std::string& name);
 const char* to_string(Engine engine);
 
@@ -27,7 +27,7 @@ struct Renderer {
   Engine engine = Engine::Golden;
   std::optional<cmodel::Config> config;  ///< present for a device
   Checking checking = Checking::Off;
-  driver::Unit unit = driver::Unit::Fast;  ///< of the integer model, and of the golden renderer
+  driver::Unit unit = driver::Unit::Fast;  ///< for the integer model and the golden renderer
   int threads = 0;
 };
 
@@ -39,11 +39,11 @@ struct FrameFiles {
 
 struct RenderedFrame {
   std::variant<Image, driver::DeviceRender> picture;
-  golden::RenderReport golden;  ///< of the golden engine
+  golden::RenderReport golden;  ///< golden engine only
   std::optional<RtlRun> checked;
 };
 
-/// What the golden renderer counted; 0 sheets where the method has none.
+/// Counts of the golden renderer; 0 sheets for methods without sheets.
 struct GoldenReport {
   std::uint64_t voxels = 0;
   int sheets = 0;
@@ -62,7 +62,7 @@ images::Metadata metadata_of(const Renderer& renderer, const scene::Scene& scene
 RenderedFrame render_frame(const Renderer& renderer, const scene::Scene& scene, const Progress& progress);
 FrameReport report_of(const Renderer& renderer, const scene::Scene& scene, const RenderedFrame& frame);
 std::string to_text(const FrameReport& report);
-/// Keys for the JSON of a verb.
+/// Keys of a subcommand's JSON.
 nlohmann::ordered_json to_json(const FrameReport& report);
 std::vector<Remark> remarks(const FrameReport& report);
 void write_frame(const RenderedFrame& frame, const scene::Scene& scene, const FrameFiles& files,

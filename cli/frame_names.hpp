@@ -5,17 +5,17 @@
 
 namespace fastsplat::cli {
 
-/// UserError (Usage) where the name of a still's file has a place for a frame's number.
+/// UserError (Usage) if the file name of a still contains a place for frame numbers.
 void check_still_name(const std::string& path);
 
 class FrameNames {
  public:
-  /// UserError (Usage) unless the file name in `pattern` holds exactly one run of '#', wide enough for the number of
-  /// the last of `frames`. `of`: what is numbered, if not frames.
+  /// UserError (Usage) unless the file name in `pattern` has exactly one run of '#', wide enough for the last of
+  /// `frames` numbers. `of`: noun for error messages.
   FrameNames(const std::string& pattern, int frames, const std::string& of = "frame");
 
-  std::string operator()(int frame) const;  ///< padded with zeros to the width of the run
-  /// The same as a printf format: head.%04d.png, where a % of the name is doubled.
+  std::string operator()(int frame) const;  ///< zero-padded to the width of the run
+  /// The pattern as a printf format: head.%04d.png; a % in the name is doubled.
   std::string format() const;
 
  private:

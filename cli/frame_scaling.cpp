@@ -14,7 +14,7 @@ namespace {
 constexpr double kMostMhz = 100'000.0;
 constexpr int kMostDevices = 64;
 
-/// "1,2,8"; nothing where it is no list of that kind.
+/// Parses "1,2,8"; empty for an invalid list.
 std::optional<std::vector<int>> devices_from(const std::string& text) {
   std::vector<int> out;
   std::istringstream words(text + ",");

@@ -16,29 +16,30 @@
 namespace fastsplat::cli {
 
 struct ScalingFlags {
-  std::vector<int> devices;  ///< how many, increasing; empty: not given, which is one
+  std::vector<int> devices;  ///< numbers of devices, increasing; empty: one
   std::optional<int> bytes_per_cycle;
   std::optional<double> clock;  ///< MHz
 
-  /// Whether any was given: only then scaling is told.
+  /// Whether any flag was given; scaling is reported only then.
   bool any() const { return !devices.empty() || bytes_per_cycle || clock; }
 };
 
 void declare(Options& options, ScalingFlags& to);
-/// UserError (Usage) for flags that have no meaning together; `timeline` is the flag that asks for one, empty for none.
+/// UserError (Usage) if a timeline is requested for several devices. `timeline`: the flag that requests it, empty for
+/// none.
 void check(const ScalingFlags& flags, const std::string& timeline);
 
-/// The figures of one frame. Cycles count from reset; shares are summed over the devices.
+/// Figures of one frame on `devices` devices. Cycles count from reset; shares are summed over the devices.
 struct FrameScaling {
   std::uint64_t devices = 1, bytes_per_cycle = 0;  ///< 0: no limit
   std::optional<double> clock;                     ///< MHz
-  std::uint64_t frame = 0, one_device = 0;         ///< cycles; of one device on the same link
+  std::uint64_t frame = 0, one_device = 0;         ///< cycles: of this frame, and on one device with the same link
   std::uint64_t bytes_in = 0, bytes_out = 0;
   std::uint64_t splats = 0, windows = 0;
   cmodel::FrameShares shares;
   cmodel::Roofline roofline;
   cmodel::CycleAccount account;  ///< summed over the devices
-  std::uint64_t wipe = 0;        ///< of fill: after reset, until the first beat lies in decode; summed
+  std::uint64_t wipe = 0;  ///< part of fill: from reset until the first beat is in decode; summed over the devices
   std::vector<cmodel::DeviceCycles> each;
 
   std::uint64_t device_cycles() const { return devices * frame; }
@@ -52,7 +53,7 @@ std::string to_text(const FrameScaling& scaling);
 std::string to_table(const std::vector<FrameScaling>& scalings);
 nlohmann::ordered_json to_json(const FrameScaling& scaling);
 
-/// A frame on each number of devices that was asked for, and on a single one to compare with; all take the same stream.
+/// Runs the same stream on each requested number of devices, and on one device for comparison.
 class ScalingRun final : public cmodel::Device {
  public:
   ScalingRun(const cmodel::Config& config, cmodel::StreamScope scope, const ScalingFlags& flags,
@@ -62,7 +63,7 @@ class ScalingRun final : public cmodel::Device {
   void finish() override;
   const cmodel::Counters& counters() const override { return clusters_.front().counters(); }
 
-  /// After finish(): of each number of devices asked for, in that order.
+  /// After finish(): one entry for each requested number of devices, in that order.
   std::vector<FrameScaling> scalings() const;
 
  private:
@@ -72,7 +73,7 @@ class ScalingRun final : public cmodel::Device {
   std::optional<double> clock_;
   std::uint64_t bytes_per_cycle_;
   bool single_asked_for_;
-  std::deque<cmodel::CycleCluster> clusters_;  ///< the first of one device
+  std::deque<cmodel::CycleCluster> clusters_;  ///< the first has one device
 };
 
 }  // namespace fastsplat::cli

@@ -1,4 +1,4 @@
-// What a frame's scaling says: figures, the limit and what would help against it.
+// A frame's scaling as text and JSON: figures, the limit, and what would help.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ struct Named {
   std::uint64_t cycles = 0;
 };
 
-/// The largest of what `table` tells, the first of equals; `but` is no candidate.
+/// The largest entry of `table`, the first of equals; ignores `but`.
 template <class Table>
 Named largest(const Table& table, std::string_view but = {}) {
   Named out;
@@ -27,10 +27,10 @@ Named largest(const Table& table, std::string_view but = {}) {
   return out;
 }
 
-/// docs/scaling.md, "Where the frame goes".
+/// What limits the frame: docs/scaling.md, "Where the frame goes".
 Named limit(const FrameScaling& scaling) {
   if (10 * scaling.shares.work >= 9 * scaling.device_cycles()) return {"work", scaling.shares.work};
-  // Then nothing but a faster link helps, whichever devices it is that wait.
+  // Then only a faster link helps, whichever devices wait.
   if (10 * scaling.roofline.stream >= 9 * scaling.frame) return {"bandwidth", scaling.shares.bandwidth};
   return largest(scaling.shares, "work");
 }
@@ -74,7 +74,7 @@ std::string help_against_tail(const FrameScaling& scaling) {
 
 std::string help_against_bandwidth(const FrameScaling& scaling) {
   if (scaling.bytes_per_cycle == 0) return "the source of --input is late: the devices accept every beat at once";
-  // Had the device that ended last not waited, the same bytes would have gone in so many cycles less.
+  // If the device that ended last had not waited, the same bytes would have passed in `waited` fewer cycles.
   const auto last = std::max_element(scaling.each.begin(), scaling.each.end(),
                                      [](const auto& x, const auto& y) { return x.end < y.end; });
   const std::uint64_t waited = last->account.input + last->idle - scaling.wipe / scaling.devices;
@@ -91,7 +91,7 @@ std::string help_against_pixel_out(const FrameScaling& scaling) {
          "set of tile registers would hide it";
 }
 
-/// What would help, in words.
+/// Advice against the limit.
 std::string help(const FrameScaling& scaling) {
   const std::string name = limit(scaling).name;
   if (name == "work") return help_against_work(scaling);

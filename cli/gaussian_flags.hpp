@@ -1,4 +1,4 @@
-// --gaussians and what goes with it: from flags to a view of 3-D Gaussians.
+// --gaussians and its related flags: from flags to a view of 3-D Gaussians.
 #pragma once
 
 #include <optional>
@@ -22,27 +22,28 @@ struct GaussianFlags {
 
 void declare(Options& options, GaussianFlags& to);
 
-/// A view and how it is shown.
+/// A view and its display settings.
 struct GaussianView {
   scene::GaussianDescription description;
-  scene::SceneDescription shown;  ///< of which only `display` is meant
+  scene::SceneDescription shown;  ///< only `display` is used
   golden::GaussianOrder order = golden::GaussianOrder::Centres;
 };
 
-/// `flags.file` is there. Of the scene's flags those of the camera, --size and --background; UserError (Usage) for any
-/// other. Perspective unless --orthographic; up is --up, else -y, of a built-in scene z.
+/// Precondition: `flags.file` is set. Of the scene's flags it accepts the camera's, --size and --background; UserError
+/// (Usage) for others. Perspective unless --orthographic; up is --up, else -y for files and z for built-in scenes.
 GaussianView describe(const GaussianFlags& flags, const SceneFlags& scene);
-/// UserError (Usage) for a flag that means nothing without --gaussians.
+/// UserError (Usage) for flags that require --gaussians.
 void refuse_without_gaussians(const GaussianFlags& flags);
-/// What the command reads.
+/// Files that the command reads.
 std::vector<std::string> inputs_of(const GaussianFlags& flags);
 
-/// Reads the file, or makes the built-in scene; unknown names are Usage. Up is --up, else what the file declares.
+/// Reads the file or generates the built-in scene; UserError (Usage) for unknown names. Up is --up, else as the file
+/// declares.
 scene::GaussianScene build(const GaussianFlags& flags, const GaussianView& view);
-/// GaussianCloud::remarks, each a warning that names the scene.
+/// GaussianCloud::remarks as warnings that name the scene.
 std::vector<Remark> remarks(const scene::GaussianCloud& cloud);
-/// The configuration named; without a name `ellipse` that composites every sample and finishes pixels where golden
-/// does.
+/// The named configuration; without a name, `ellipse` with every sample composited and golden's early-termination
+/// threshold.
 cmodel::Config load_for_gaussians(const ConfigFlags& flags);
 /// "lastchance.splat, 14,007 Gaussians, degree 0, 512x512 pixels".
 std::string summary(const scene::GaussianScene& scene);

@@ -51,7 +51,7 @@ struct DeviceGaussians {
   cmodel::Counters counters;
   driver::UnitReport units;
   double lanes() const { return static_cast<double>(config.lanes) * config.lanes; }
-  /// Of the lanes of all windows, those with a weight.
+  /// Share of the lanes of all windows that have a weight.
   double used() const {
     return static_cast<double>(counters.lanes_weighted) /
            (lanes() * static_cast<double>(std::max<std::uint64_t>(counters.windows, 1)));
@@ -173,8 +173,8 @@ std::vector<Remark> remarks(const DeviceGaussians& device) {
   return said;
 }
 
-/// As it is shown: colours of trained scenes are those of photographs, encoded as sRGB, and are blended so, unless the
-/// file says that they are linear. Behind them the background.
+/// The display picture. Colours of trained scenes are sRGB-encoded, as in photographs, and are blended in that encoding
+/// unless the file declares them linear. Blends over the background.
 Image shown_of(const Image& image, const scene::Display& display, bool linear) {
   const bool behind = display.background != glm::dvec3(0.0);
   Image shown = image;
@@ -191,7 +191,7 @@ Image shown_of(const Image& image, const scene::Display& display, bool linear) {
   return shown;
 }
 
-/// Which numbers are the picture's: a picture of the same ones can be compared with it.
+/// Everything that determines the picture's values: pictures with equal entries are comparable.
 images::Metadata metadata_of(const Result& result, const std::optional<cmodel::Config>& config,
                              golden::GaussianOrder order) {
   const auto& scene = result.scene;

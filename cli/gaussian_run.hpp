@@ -1,4 +1,4 @@
-// `render --gaussians`: a view of 3-D Gaussians through the floating-point renderer or the integer device.
+// `render --gaussians`: renders 3-D Gaussians with the floating-point renderer or the integer device.
 #pragma once
 
 #include "base/error.hpp"
@@ -6,7 +6,7 @@
 
 namespace fastsplat::cli {
 
-/// `arguments.gaussians.file` is there, and whatever has a meaning for volumes as well was checked.
+/// Preconditions: `arguments.gaussians.file` is set; flags shared with volumes have been checked.
 ExitCode run_gaussians(const RenderArguments& arguments);
 
 }  // namespace fastsplat::cli

@@ -1,4 +1,4 @@
-// The pictures a render or a replay leaves behind: names checked before the work, written after it.
+// Image files of a render or a replay: --out and --raw.
 #pragma once
 
 #include <string>
@@ -10,15 +10,14 @@
 
 namespace fastsplat::cli {
 
-/// --out and --raw.
 void declare_images(Options& options, std::vector<std::string>& out, std::string& raw);
 
-/// By ending: .exr float, .tif 16 bit linear, .png 8 bit for looking. An .exr gets the picture, the others what is
-/// shown of it (scene/display.hpp). Warns where values had to be clamped.
+/// By extension: .exr float, .tif 16-bit linear, .png 8-bit for display. An .exr file gets `image`, the others `shown`
+/// (scene/display.hpp). Warns if values were clamped.
 void write_images(const std::vector<std::string>& paths, const Image& image, const Image& shown,
                   const images::Metadata& metadata, const Output& output);
 
-/// Nothing in the picture is almost always a mistake worth a word.
+/// Warns if all values are 0, which is almost always a mistake.
 void warn_if_empty(const Image& image, const Output& output);
 
 }  // namespace fastsplat::cli

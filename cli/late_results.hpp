@@ -1,4 +1,4 @@
-// Results that a run writes one behind the other: one that cannot be written takes none of the others away.
+// Results written at the end of a run: a failure to write one does not prevent the others.
 #pragma once
 
 #include <functional>
@@ -12,14 +12,14 @@ namespace fastsplat::cli {
 
 class LateResults {
  public:
-  /// Calls `write`. A UserError that it throws is kept for tell(); what else it throws goes on.
+  /// Calls `write`. A UserError from it is kept for tell(); other exceptions propagate.
   void write(const std::function<void()>& write);
 
-  /// Why there is none, of those that could not be written.
+  /// Error messages of the results that could not be written.
   const std::vector<std::string>& unwritten() const { return unwritten_; }
 
-  /// Says of each why. `run`: the exit code of the run, which stays where it is none of a pass, and that is a warning
-  /// then; else an error, and the code of the first.
+  /// Reports the failed writes: as warnings if `run`, the run's exit code, is not a pass; else as errors. Returns
+  /// `run`, or after a pass the code of the first failed write.
   ExitCode tell(ExitCode run, const Output& output) const;
 
  private:

@@ -27,7 +27,7 @@ void as_word(const std::string& word, const std::function<void()>& resolve) {
 
 void check_volume_name(const std::string& word) {
   const auto known = volume::known_volume_names();
-  // A scan that is known and not installed is a file that is missing.
+  // A known scan that is not installed is a missing file.
   const bool scan = word.find(':') == std::string::npos && std::find(known.begin(), known.end(), word) != known.end();
   if (is_name(word) && !scan) as_word(word, [&] { volume::read_volume_header(word); });
 }

@@ -1,4 +1,4 @@
-// Words of the command line that name what is built in.
+// Built-in names on the command line.
 #pragma once
 
 #include <functional>
@@ -7,21 +7,22 @@
 
 namespace fastsplat::cli {
 
-/// A name, and no path: no folder and no ending in it (before a colon: "shells:1.5" is a name), and no such file.
+/// Whether `word` is a name and not a path: no folder, no extension (before a colon: "shells:1.5" is a name), and no
+/// existing file.
 bool is_name(const std::string& word);
 
-/// Runs `resolve`, which looks up `word`. What is wrong with a file is Input; a name that there is none of, or that
-/// takes no such size, is a command line that makes no sense: Usage.
+/// Runs `resolve`, which looks up `word`. For names, its UserError (Input) becomes UserError (Usage): unknown names and
+/// unsupported sizes are usage errors, problems with files remain input errors.
 void as_word(const std::string& word, const std::function<void()>& resolve);
 
-/// A volume of the command line: throws as loading it would where its name alone is wrong.
+/// Throws the error of loading volume `word` if it is an unknown or invalid built-in name.
 void check_volume_name(const std::string& word);
 
-/// What --index may name.
+/// Values of --index.
 std::vector<std::string> index_kinds();
-/// Patterns of beats; those that end in "-" go on with a number.
+/// Valid and ready patterns; a number follows those ending in "-".
 std::vector<std::string> pattern_words();
-/// ... and "all", of streams that are random.
+/// The same and "all", for random streams.
 std::vector<std::string> ready_words();
 /// Classes of random streams, "all" first.
 std::vector<std::string> stimulus_words();

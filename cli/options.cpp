@@ -20,7 +20,7 @@ bool names_any(const std::string& unit, std::initializer_list<const char*> words
 }  // namespace
 
 bool Flag::takes_file() const {
-  // A word without a flag is a file unless all its names are known.
+  // A positional argument may be a file unless all its values are known.
   return positional() ? !only_values : names_any(unit, {"FILE", "PATH", "PREFIX"});
 }
 bool Flag::takes_folder() const { return names_any(unit, {"FOLDER"}); }

@@ -1,4 +1,4 @@
-// How a verb declares its flags: names, values, limits, help. Verbs include this and never CLI11, which compiles
+// Declares a subcommand's flags: names, values, limits, help. Subcommands include this instead of CLI11, which compiles
 // slowly.
 #pragma once
 
@@ -16,18 +16,18 @@ class App;
 
 namespace fastsplat::cli {
 
-/// The flags of one verb. What is declared is filled in when the command line is parsed, so it must still be there
-/// then. `name` is as the user writes it ("--size", "-o,--out", "VOLUME"); `unit` what the help calls the value. A
-/// target that is no std::optional keeps its value, the default, when the flag is absent.
+/// The flags of one subcommand. Targets are filled when the command line is parsed, so they must outlive parsing.
+/// `name` is as the user types it ("--size", "-o,--out", "VOLUME"), `unit` the value's name in the help. If the flag is
+/// absent, the target keeps its value: the default, or an empty std::optional.
 class Options {
  public:
-  /// What is wrong with the text of a value; empty for nothing. It may rewrite the text.
+  /// Describes what is wrong with a value's text; empty if valid. It may rewrite the text.
   using Problem = std::function<std::string(std::string&)>;
   using Take = std::function<void(const std::string&)>;
 
   explicit Options(CLI::App& verb);
 
-  /// The heading in the help over what follows.
+  /// Heading in the help for the flags that follow.
   void group(const std::string& title) { group_ = title; }
   void flag(const char* name, bool& to, const char* help);
   /// Any word.
@@ -58,28 +58,28 @@ class Options {
     value(
         name, finite(), [&to](const std::string& text) { to = *number_from(text); }, unit, help);
   }
-  /// What none of the above is.
+  /// A value with its own check and conversion.
   void value(const char* name, Problem problem, Take take, const char* unit, const char* help);
 
-  /// A word without a flag that has to be there; in the order declared.
+  /// A required positional argument; they are parsed in the order declared.
   void positional(const char* name, std::string& to, const char* help);
-  /// One or more of them, in the user's order; none are well where `least` is 0.
+  /// Positional arguments in the user's order, at least `least`.
   void positionals(const char* name, std::vector<std::string>& to, int least, const char* help);
-  /// A word that has to be there.
+  /// A required flag with any word.
   void required(const char* name, std::string& to, const char* unit, const char* help);
 
-  /// Names that the value declared last may have, for shells to offer: beside files where it takes those by its unit.
+  /// Values that shells offer for the flag declared last, besides files if its unit allows them.
   void values(Values names) { description_.flags.back().values = std::move(names); }
-  /// ... and no file, where it is a word without a flag.
+  /// The same for a positional argument that never names a file.
   void only_values(Values names) {
     values(std::move(names));
     description_.flags.back().only_values = true;
   }
 
-  /// A command that does something worth knowing, and what: one line. The help begins with them; a test runs each.
+  /// An example command and its purpose, in one line. The help begins with the examples; a test runs each.
   void example(const std::string& command, const std::string& does, Example::Speed speed = Example::Quick);
 
-  /// What was declared so far.
+  /// Everything declared so far.
   const Description& description() const { return description_; }
 
  private:

@@ -22,9 +22,9 @@ using Clock = std::chrono::steady_clock;
 
 struct Known {
   const char* name;
-  std::vector<const char*> commands;  ///< the first that is found is it
-  const char* ask;                    ///< its flag for the version
-  const char* says;                   ///< what its answer holds; another program may have its name
+  std::vector<const char*> commands;  ///< in order of preference
+  const char* ask;                    ///< flag that prints the version
+  const char* says;                   ///< text that its answer contains; another program may have the same name
   const char* use;
   const char* package;
 };
@@ -55,16 +55,16 @@ const std::vector<Known>& known() {
   return all;
 }
 
-/// A program that was asked and has perhaps not answered yet.
+/// A program started for its version.
 struct Asked {
   pid_t child = -1;
-  int answer = -1;  ///< its stdout and stderr; -1: at its end
+  int answer = -1;  ///< reads its stdout and stderr; -1: at its end
   std::string text;
   bool in_time = false;
 };
 
 [[noreturn]] void become(const std::string& path, const char* flag, int answer) {
-  ::setpgid(0, 0);  // what it starts is ended with it
+  ::setpgid(0, 0);  // its children are killed with it
   const int nothing = ::open("/dev/null", O_RDONLY);
   ::dup2(nothing, STDIN_FILENO);
   ::dup2(answer, STDOUT_FILENO);
@@ -99,7 +99,7 @@ void read_some(Asked& asked) {
   }
 }
 
-/// Waits for all answers, at most until `deadline`; nothing that was started is left.
+/// Waits for all answers until `deadline` at most, then kills what still runs.
 void wait_for(std::vector<Asked>& all, Clock::time_point deadline) {
   while (true) {
     std::vector<pollfd> ends;
@@ -119,7 +119,7 @@ void wait_for(std::vector<Asked>& all, Clock::time_point deadline) {
   for (Asked& asked : all) {
     if (asked.answer >= 0) ::close(asked.answer);
     if (asked.child <= 0) continue;
-    // One that closed its output and goes on is as bad.
+    // A program that closed its output and keeps running also counts as late.
     int status = 0;
     while (::waitpid(asked.child, &status, WNOHANG) == 0) {
       if (Clock::now() >= deadline) {
@@ -134,7 +134,7 @@ void wait_for(std::vector<Asked>& all, Clock::time_point deadline) {
   }
 }
 
-/// "5.006" of "Verilator 5.006 2023-01-22": the first word that is a number, perhaps behind a v.
+/// "5.006" for "Verilator 5.006 2023-01-22": the first word that is a number, with or without a leading v.
 std::string version_in(const std::string& text) {
   std::istringstream words(text);
   for (std::string word; words >> word;) {
@@ -147,7 +147,7 @@ std::string version_in(const std::string& text) {
   return {};
 }
 
-/// Of what a program said, for one line of ours.
+/// Last line of a program's output, printable, at most 120 characters.
 std::string last_line(std::string text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) text.pop_back();
   text.erase(0, text.rfind('\n') == text.npos ? 0 : text.rfind('\n') + 1);

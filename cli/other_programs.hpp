@@ -1,4 +1,4 @@
-// The programs of others that this one or its tests call: whether they are there, which version, how to get them.
+// External programs that fastsplat or its tests call: whether they are installed, their versions, how to get them.
 #pragma once
 
 #include <chrono>
@@ -8,17 +8,17 @@
 namespace fastsplat::cli {
 
 struct OtherProgram {
-  std::string name;          ///< what it is known by
-  std::string use;           ///< what goes without it
-  std::string get;           ///< a command
+  std::string name;          ///< common name
+  std::string use;           ///< what requires it
+  std::string get;           ///< command that installs it
   std::string path;          ///< empty: not found
-  std::string version = {};  ///< as it says itself; empty where it does not
-  std::string problem = {};  ///< why it is of no use though it is there, one line
+  std::string version = {};  ///< as it reports itself; empty if it does not
+  std::string problem = {};  ///< why it cannot be used although installed, one line
   bool usable() const { return !path.empty() && problem.empty(); }
 };
 
-/// Looks for each on the PATH and runs those it finds, all at once, to ask for their versions. One that has not
-/// answered within `limit` is ended, with what it has started.
+/// Searches the PATH for each and runs all that it finds in parallel for their versions. A program that does not answer
+/// within `limit` is killed, with its children.
 std::vector<OtherProgram> look_for_programs(std::chrono::milliseconds limit = std::chrono::seconds(5));
 
 }  // namespace fastsplat::cli

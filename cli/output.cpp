@@ -18,7 +18,7 @@
 namespace fastsplat::cli {
 namespace {
 
-// False with errno set when the descriptor does not take it all.
+// Returns false, with errno set, if the descriptor does not take all of it.
 bool write_all(int descriptor, std::string_view text) noexcept {
   while (!text.empty()) {
     const ssize_t written = ::write(descriptor, text.data(), text.size());
@@ -38,7 +38,7 @@ bool set(const char* variable) {
 
 void talk(const std::string& label, const char* colour, const std::string& words) {
   const std::string text = printable_lines(words);
-  // What goes wrong on stderr cannot be told anyone.
+  // Errors on stderr cannot be reported anywhere.
   if (stderr_has_colour()) {
     write_all(STDERR_FILENO, fmt::format("\033[{}m{}\033[0m {}\n", colour, label, text));
   } else {

@@ -1,4 +1,4 @@
-// Where words go: results to stdout, talk to stderr, JSON where --json says.
+// Output channels: results to stdout, messages to stderr, JSON to the target of --json.
 #pragma once
 
 #include <chrono>
@@ -11,13 +11,13 @@
 
 namespace fastsplat::cli {
 
-/// Writes all of `text` to stdout. False when the reader has gone (`| head`): stop producing, it is no error.
-/// Any other failure (disk full, closed stdout) is a UserError (Input).
+/// Writes all of `text` to stdout. Returns false if the reader has gone (`| head`): stop producing output, this is not
+/// an error. Any other failure (disk full, closed stdout) is a UserError (Input).
 bool write_stdout(std::string_view text);
 
-/// stderr is a terminal that understands control sequences.
+/// Whether stderr is a terminal that supports control sequences.
 bool stderr_is_terminal();
-/// ... and the user did not switch colour off (NO_COLOR).
+/// The same, unless the user disabled colour (NO_COLOR).
 bool stderr_has_colour();
 
 /// "fastsplat: error: ..." as exactly one line on stderr.
@@ -28,30 +28,31 @@ std::string grouped(unsigned long long number);
 /// "1 tile", "1,234 tiles".
 std::string counted(unsigned long long number, const std::string& what);
 
-/// part / whole; 0 of nothing.
+/// part / whole; 0 if whole is 0.
 double ratio(std::uint64_t part, std::uint64_t whole);
 
-/// What a result has to say on stderr.
+/// A message about a result, for stderr.
 struct Remark {
   enum Kind { Note, Warning } kind = Note;
   std::string text;
 };
 
-/// One verb's output, obeying --json and --quiet. A verb's result is a struct; to_text(), to_json() and remarks() of it
-/// are what this is given.
+/// Output of one subcommand, controlled by --json and --quiet. A result is a struct; its to_text(), to_json() and
+/// remarks() produce the arguments of these functions.
 class Output {
  public:
   explicit Output(const Common& common) : common_(common) {}
 
-  /// The result, or a part of it, as lines to stdout; not when --quiet, nor when stdout belongs to the JSON.
+  /// Prints the result or a part of it to stdout; not with --quiet or if stdout carries the JSON.
   void line(const std::string& text) const;
-  /// The result as JSON, to --json's file or stdout, with the "command" that makes it again; nothing without --json.
+  /// Writes the result as JSON to --json's file or stdout, with the "command" that reproduces it; nothing without
+  /// --json.
   void json(const nlohmann::ordered_json& json) const;
-  /// A warning or a remark on stderr; not when --quiet.
+  /// Prints a warning or note to stderr; not with --quiet.
   void warn(const std::string& text) const;
   void note(const std::string& text) const;
   void remark(const std::vector<Remark>& remarks) const;
-  /// A note of the seconds since this object was made.
+  /// Prints a note with the seconds since construction.
   void note_time(const std::string& what) const;
 
   double seconds() const;

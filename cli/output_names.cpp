@@ -30,7 +30,7 @@ void require_ending(const std::string& path, const std::vector<std::string>& kno
                .fix = "end the name in " + known.front()});
 }
 
-// A device or a pipe takes text, whatever becomes of it; anything else must be creatable.
+// Devices and pipes accept text; other files must be creatable.
 void require_writable(const std::string& path) {
   std::error_code ignored;
   const auto status = fs::status(path, ignored);
@@ -38,12 +38,12 @@ void require_writable(const std::string& path) {
   const AtomicFile probe(path);
 }
 
-/// Which files are taken: by where they lie and, once they are there, by what they are.
+/// Files in use, identified by path and, if they exist, by inode.
 class Taken {
  public:
   enum class Role { Read, Written };
 
-  /// The role under which the file is here already, if it is.
+  /// The role of a file already in use; null if it is free.
   const Role* find(const std::string& path) const {
     for (const auto& key : keys(path)) {
       const auto found = roles_.find(key);
@@ -60,7 +60,7 @@ class Taken {
     std::error_code ignored;
     std::vector<std::string> keys{fs::weakly_canonical(fs::absolute(path, ignored), ignored).string()};
     struct stat status {};
-    // What is no regular file (a terminal, /dev/null) is nobody's.
+    // Only regular files conflict; a terminal or /dev/null may be named repeatedly.
     if (::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode))
       keys.push_back(fmt::format("inode {}:{}", status.st_dev, status.st_ino));
     return keys;

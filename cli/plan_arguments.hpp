@@ -1,4 +1,4 @@
-// What the verbs of a plan share: its file, and the folder of its results.
+// Flags shared by the subcommands of `plan`: the plan's file and the folder of its results.
 #pragma once
 
 #include <string>

@@ -7,7 +7,7 @@
 namespace fastsplat::cli {
 
 struct RowFlags {
-  std::string merged;  ///< what `plan merge` wrote
+  std::string merged;  ///< file written by `plan merge`
   std::string columns;
   std::vector<std::string> where, sort;
   int most = 0;

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 34;
 
-/// The hash of a file's bytes; the same file is read once.
+/// The hash of a file's bytes; each file is read once.
 std::string hash_of_file(const fs::path& path) {
   static std::map<fs::path, std::string> known;
   auto& hash = known[path];
@@ -52,7 +52,7 @@ Action parse_words(const plan::Words& words, const std::vector<Verb>& verbs) {
   return parse(static_cast<int>(argv.size()), argv.data(), verbs);
 }
 
-/// Of all that a scene says and the bytes of the files it names; where those lie is none of it.
+/// Hash of a scene's settings and the bytes of the files it names; their paths do not count.
 std::string hash_of_scene(const SceneFlags& flags) {
   scene::SceneDescription description = describe(flags);
   const scene::SceneDescription plain;
@@ -66,7 +66,7 @@ std::string hash_of_scene(const SceneFlags& flags) {
   return hash_text(fnv1a(hash, scene::to_toml(description)));
 }
 
-/// Of the settings that are a scene's; the same ones are looked up once.
+/// Hash of the scene that `settings` describe, cached.
 std::string scene_hash(const plan::Settings& settings) {
   static SceneFlags flags;
   static const std::vector<Verb> verbs{{"scene", "", [](Options& options) {

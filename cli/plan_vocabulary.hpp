@@ -1,4 +1,4 @@
-// What a plan asks the program: which flags its verbs have, whether words make sense, what is behind names.
+// What parameter sweeps query from the program: the flags of subcommands, whether commands parse, content hashes.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@ namespace fastsplat::cli {
 
 plan::Vocabulary plan_vocabulary();
 
-/// UserError (Input) where what is behind the names of a plan's cases is not what it was made of: an edited file,
-/// another program. `plan_file` is named as the one to make again.
+/// UserError (Input) if the content behind the names of the plan's cases has changed since it was made: an edited file
+/// or another program. The error asks to make `plan_file` again.
 void require_content(const plan::Plan& plan, const std::string& plan_file);
 
-/// Of the running program and its image library: results of one are never taken for those of another.
+/// Hash of the running program and its image library, so that results of different programs are never mixed.
 std::string program_hash();
 
 }  // namespace fastsplat::cli

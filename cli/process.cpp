@@ -22,9 +22,9 @@ extern "C" void end_on_signal(int signal) {
 }  // namespace
 
 void prepare_process() {
-  // The system would call a child of `plan run` by the link that it was started by, exe.
+  // A child of `plan run` is started through /proc/self/exe; without this the system would name it "exe".
   ::prctl(PR_SET_NAME, "fastsplat");
-  // Opened the wrong way round, so that using them fails as it would have.
+  // Opened in the wrong direction, so that using them still fails.
   if (::fcntl(STDIN_FILENO, F_GETFD) < 0) ::open("/dev/null", O_WRONLY);
   if (::fcntl(STDOUT_FILENO, F_GETFD) < 0) ::open("/dev/null", O_RDONLY);
   if (::fcntl(STDERR_FILENO, F_GETFD) < 0) ::open("/dev/null", O_RDONLY);
@@ -34,7 +34,7 @@ void prepare_process() {
 
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction action {};
-    // Whoever started us with the signal ignored (nohup, a background job) meant it.
+    // Keep signals that the parent ignored on purpose (nohup, a background job).
     if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) continue;
     action = {};
     action.sa_handler = end_on_signal;

@@ -1,11 +1,11 @@
-// How the process meets its surroundings: closed descriptors, signals, limits.
+// Process-wide setup: closed descriptors, signals, limits.
 #pragma once
 
 namespace fastsplat::cli {
 
-/// Before anything else in main. Standard descriptors that the caller closed are occupied, so that no result file can
-/// become stdout; a gone reader or a file-size limit becomes an ordinary write error; Ctrl-C, TERM and HUP remove
-/// unfinished files and end with 128 + signal (130 for Ctrl-C).
+/// Call first in main. Occupies standard descriptors that the caller closed, so that no result file can become stdout.
+/// Turns a gone reader or a file-size limit into an ordinary write error. Makes Ctrl-C, TERM and HUP remove unfinished
+/// files and exit with 128 + signal (130 for Ctrl-C).
 void prepare_process();
 
 }  // namespace fastsplat::cli

@@ -38,7 +38,7 @@ Progress ProgressBar::callback() {
 
 void ProgressBar::show(std::size_t done, std::size_t total) {
   const std::unique_lock lock(mutex_, std::try_to_lock);
-  if (!lock.owns_lock()) return;  // another thread is drawing; the caller has better things to do than wait
+  if (!lock.owns_lock()) return;  // another thread is drawing: do not wait
   const auto now = std::chrono::steady_clock::now();
   if (drawn_ && now - last_ < 100ms) return;
   last_ = now;

@@ -1,4 +1,4 @@
-// One line on a terminal that tells how far a long call has come; nothing anywhere else.
+// A one-line progress bar; drawn on terminals only.
 #pragma once
 
 #include <chrono>
@@ -17,13 +17,13 @@ inline Watching watching(const Common& common) { return common.quiet ? Watching:
 class ProgressBar {
  public:
   using Clock = std::chrono::steady_clock;
-  /// `start`: since when the time shown is counted.
+  /// `start`: origin of the elapsed time shown.
   ProgressBar(std::string label, Watching watching, Clock::time_point start = Clock::now());
-  ~ProgressBar();  ///< wipes the line
+  ~ProgressBar();  ///< erases the line
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// For the call to report to; empty when nobody is watching. Must not outlive the bar.
+  /// Progress callback; empty if the bar is not shown. Must not outlive the bar.
   Progress callback();
 
  private:

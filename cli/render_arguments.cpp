@@ -12,7 +12,7 @@ void declare(Options& options, RenderArguments& to) {
   options.word("--engine", to.engine, "golden|cmodel|rtl",
                "golden (floating point), cmodel (the integer device model) or rtl (its Verilated RTL)");
   options.values([] { return std::vector<std::string>{"golden", "cmodel", "rtl"}; });
-  declare(options, to.config, "cmodel, rtl: hardware configuration, a name or a TOML file (default base)");
+  declare(options, to.config, "cmodel, rtl: hardware configuration, a name or TOML file (base)");
   options.flag("--check", to.check, "rtl: compare every tap, pixel and counter with the model (exit 1 on a mismatch)");
   declare(options, to.wave);
   options.flag("--plain", to.plain,

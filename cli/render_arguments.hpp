@@ -1,4 +1,4 @@
-// What `render` was asked for: a still, or an animation where --orbit or --sequence is given.
+// Arguments of `render`: a still, or an animation if --orbit or --sequence is given.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ namespace fastsplat::cli {
 struct RenderArguments {
   Common common;
   SceneFlags scene;
-  GaussianFlags gaussians;  ///< instead of a scene of a volume
+  GaussianFlags gaussians;  ///< instead of a volume's scene
   std::string engine = "golden";
   ConfigFlags config;
   std::vector<std::string> out;
@@ -24,10 +24,10 @@ struct RenderArguments {
   std::string save_scene;  ///< where to write the scene as TOML; empty for none
   WaveFlags wave;          ///< rtl
   bool check = false;      ///< rtl: compares every tap with the model
-  bool plain = false;      ///< golden, cmodel: drawn as it is written down, not the fast way
-  // An animation; its names in `out` and `raw` hold a run of '#' for the frame's number.
+  bool plain = false;      ///< golden, cmodel: the plain implementation instead of the fast one
+  // Animation: names in `out` and `raw` contain a run of '#' for the frame number.
   std::optional<std::string> orbit;  ///< "A..B", degrees
-  bool sequence = false;             ///< as the scene's [sequence] says
+  bool sequence = false;             ///< as in the scene's [sequence]
   std::optional<int> frames;
   std::string video;           ///< empty for none
   std::optional<double> rate;  ///< of the video, frames a second

@@ -1,4 +1,4 @@
-// The command that runs a failed stream again.
+// The command that replays a failed stream.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,7 @@
 
 namespace fastsplat::cli {
 
-/// `fastsplat verify --stream ... --config ... [--set ...] --ready ... --seed ... [--fault ...]`, quoted as a shell
-/// reads it back.
+/// `fastsplat verify --stream ... --config ... [--set ...] --ready ... --seed ... [--fault ...]`, quoted for a shell.
 std::string replay_line(const std::filesystem::path& stream, const ConfigFlags& config,
                         const testbench::VerifyOptions& options, const std::string& fault = {});
 

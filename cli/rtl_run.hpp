@@ -1,4 +1,4 @@
-// What `render --engine rtl` and `verify` share: a scene through the Verilated device, and its result in words.
+// Shared by `render --engine rtl` and `verify`: a scene through the Verilated device, and the result as text.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -15,8 +15,8 @@
 
 namespace fastsplat::cli {
 
-/// Finds the simulators of `config` with these abilities, or builds them, with a note and a progress bar; those that
-/// are built later in this process have them too. `otherwise`: the way out where RTL cannot be built.
+/// Finds or builds the simulators of `config` with these abilities, with a note and a progress bar; later builds in
+/// this process report in the same way. `otherwise`: alternative that the error suggests if RTL cannot be built.
 void prepare_rtl(const cmodel::Config& config, const std::vector<testbench::RtlAbilities>& abilities,
                  const Common& common, const std::string& otherwise = {});
 
@@ -27,7 +27,7 @@ struct RtlRun {
   cmodel::Config config;
   cmodel::StallCounters stalls;
   std::optional<testbench::CheckReport> check;
-  std::string difference;        ///< first one, in words
+  std::string difference;        ///< the first, as text
   std::uint64_t last_cycle = 0;  ///< after reset, at the end of the run
 
   ExitCode exit_code() const;
@@ -36,17 +36,17 @@ struct RtlRun {
 driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config& config,
                                 const driver::RenderOptions& options, Checking checking, std::optional<RtlRun>& run);
 
-/// The waveform of such a frame.
+/// Simulates the frame again and writes its waveform.
 Wave write_wave(const WaveFlags& flags, const scene::Scene& scene, const cmodel::Config& config, const RtlRun& run);
 
 std::string to_text(const RtlRun& run);
-/// Keys for the JSON of a verb.
+/// Keys of a subcommand's JSON.
 nlohmann::ordered_json to_json(const RtlRun& run);
 
-/// "222 mismatches"; "1,000 mismatches, stopped there" where there may be more.
+/// "222 mismatches"; "1,000 mismatches, stopped there" if there may be more.
 std::string mismatches_text(const testbench::CheckReport& check);
 
-/// null where there is none
+/// null if absent
 nlohmann::ordered_json optional_json(const std::optional<std::uint64_t>& value);
 /// {"snap": n, ...}
 nlohmann::ordered_json by_tap_json(const testbench::CheckReport& check);

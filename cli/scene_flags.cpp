@@ -36,7 +36,7 @@ Size size_from(const std::string& text) {
   return {*width, *height};
 }
 
-// Both engines keep some frames of doubles or words; a picture that cannot fit in memory is refused before it is begun.
+// Both engines hold several frames of doubles or words; refuses pictures that cannot fit in memory before rendering.
 void check_memory(int width, int height) {
   constexpr double kBytesPerPixel = 96.0;
   const double need = kBytesPerPixel * width * height;
@@ -59,7 +59,7 @@ void set(T& to, const std::optional<U>& from) {
   if (from) to = *from;
 }
 
-// --kernel-a alone keeps the radius of the kernel that was named before, and the other way round.
+// --kernel-a alone keeps the radius of the kernel named before; likewise --kernel-radius.
 void apply_kernel(const SceneFlags& flags, scene::SceneDescription& to) {
   const bool shaped = flags.settings.contains("--kernel-a") || flags.settings.contains("--kernel-radius");
   if (flags.kernel && shaped) {
@@ -87,7 +87,7 @@ std::vector<std::string> demo_words() {
   return words;
 }
 
-/// The flags that were given, of those that settings have.
+/// The given flags that belong to settings.
 std::vector<scene::Given> given_by(const SceneFlags& flags) {
   std::vector<scene::Given> given;
   for (const scene::Setting& setting : scene::settings()) {
@@ -117,10 +117,9 @@ volume::ReadOptions reading(const std::optional<double>& nan_as) {
 void declare(Options& options, SceneFlags& to) {
   options.group("Scene");
   options.word("--scene", to.file, "FILE|demo:NAME",
-               "a scene.toml or a built-in demo:NAME (listed by `doctor`); the flags below override it");
+               "scene.toml or demo:NAME (listed by `doctor`); flags below override it");
   options.values(demo_words);
-  options.word("--volume", to.volume, "NAME|PATH",
-               "a NRRD, NIfTI or MetaImage file, a built-in such as shells:128, or ch2, ch2bet, inia19-t1-brain");
+  options.word("--volume", to.volume, "NAME|PATH", "NRRD/NIfTI/MetaImage file or built-in like shells:128");
   options.values(volume::known_volume_names);
   declare_nan_as(options, to.nan_as);
   options.word("--tf", to.transfer_function, "NAME|FILE", "transfer function: a preset or a TOML file");

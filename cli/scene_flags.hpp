@@ -1,4 +1,4 @@
-// From flags to a scene: file first, flags over it, everything checked before anything is read or allocated.
+// From flags to a scene: flags override the file; everything is checked before reading data or allocating.
 #pragma once
 
 #include <map>
@@ -11,28 +11,28 @@
 
 namespace fastsplat::cli {
 
-/// A scene: a file, single flags, or a file overridden by flags. Absent ones leave the file's or the default value.
+/// A scene: a file, flags, or both. Absent flags keep the file's or the default value.
 struct SceneFlags {
   std::optional<std::string> file, volume, transfer_function, kernel, size;
   std::optional<double> nan_as;
   bool perspective = false, orthographic = false;
-  /// The flags made from scene::settings() ("--slab-width"), with their texts, which have no problem.
+  /// Flags generated from scene::settings() ("--slab-width") and their validated texts.
   std::map<std::string, std::string> settings;
   bool operator==(const SceneFlags&) const = default;
 };
 
 void declare(Options& options, SceneFlags& to);
 
-/// --nan-as, wherever volumes are read.
+/// --nan-as, for all subcommands that read volumes.
 void declare_nan_as(Options& options, std::optional<double>& to);
 volume::ReadOptions reading(const std::optional<double>& nan_as);
 
-/// UserError where a flag, or a key of the file, changes nothing: neither in the scene nor in any frame of `sequence`.
-/// A key may also have its meaning in the file's own scene, before the flags.
+/// UserError if a flag or a key of the file has no effect on the scene or on any frame of `sequence`. A key may also
+/// have its effect in the file's own scene, before the flags apply.
 scene::SceneDescription describe(const SceneFlags& flags, const scene::Sequence* sequence = nullptr);
 
-/// UserError (Usage) for flags that only say how a picture is shown, of a verb that makes none. A file's keys stay: the
-/// scene is the same.
+/// UserError (Usage) for display-only flags, for subcommands that write no picture. Display keys of a file are
+/// accepted.
 void refuse_display(const SceneFlags& flags);
 
 /// Reads the volume and resolves all names.

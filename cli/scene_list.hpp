@@ -1,4 +1,4 @@
-// Several scenes of one command: files or demos named one after the other, the scene flags over each of them.
+// Several scenes of one command: a list of files or demos; the scene flags apply to each.
 #pragma once
 
 #include <string>
@@ -16,10 +16,10 @@ struct SceneList {
 
 void declare(Options& options, SceneList& to);
 
-/// A scene's flags for each name; the flags alone where there is no name. UserError (Usage) where --scene names one,
-/// too, a name is empty or stands there twice.
+/// One SceneFlags per name; the flags alone if there are no names. UserError (Usage) if --scene is also given, or a
+/// name is empty or repeated.
 std::vector<SceneFlags> scenes_of(const SceneList& list);
-/// What the command reads.
+/// Files that the command reads.
 std::vector<std::string> inputs_of(const SceneList& list);
 
 }  // namespace fastsplat::cli

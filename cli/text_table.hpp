@@ -1,4 +1,4 @@
-// A table in plain text: columns as wide as they need, numbers to the right.
+// A plain-text table: columns as wide as needed, numbers right-aligned.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ struct TextTable {
   std::vector<std::vector<std::string>> rows;  ///< each with a cell per column
 };
 
-/// A line for the header and one per row. A column whose cells are all numbers or "-" stands to the right.
+/// A line for the header and one per row. A column whose cells are all numbers or "-" is right-aligned.
 std::string to_text(const TextTable& table);
 
 }  // namespace fastsplat::cli

@@ -1,4 +1,4 @@
-// A verb of the command line: its name, its flags, what it does. One file each, in cli/verbs/.
+// A subcommand: its name, its flags, its action. One file each in cli/verbs/.
 #pragma once
 
 #include <functional>
@@ -10,13 +10,13 @@
 
 namespace fastsplat::cli {
 
-/// A command line, understood and not begun. What goes wrong when it is carried out is a UserError.
+/// A parsed command line, not yet run. Throws UserError for run-time errors.
 using Action = std::function<ExitCode()>;
 
 struct Verb {
   const char* name;             ///< as typed: "render", "stream record"
   const char* summary;          ///< one line of the help
-  Action (*declare)(Options&);  ///< null for the head of a group, "stream"
+  Action (*declare)(Options&);  ///< null for a group such as "stream"
 };
 
 /// A Verb's `declare`, from the two functions that its file holds.
@@ -27,7 +27,7 @@ Action verb(Options& options) {
   return [arguments] { return run(*arguments); };
 }
 
-/// All of them, in the order of the help; a group's head before its verbs.
+/// All subcommands in the order of the help; a group precedes its subcommands.
 const std::vector<Verb>& all_verbs();
 
 }  // namespace fastsplat::cli

@@ -17,14 +17,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kShrinkRuns = 400;
-/// Rows of a list: a result is to stay small.
+/// Most rows of a list, to keep results small.
 constexpr std::size_t kMost = 2000;
 
 const char* where(const testbench::PlantedFault& fault) {
   return fault.where == testbench::PlantedFault::Where::Rtl ? "rtl" : "ports";
 }
 
-/// Seeds that failed and the first others: a result is to stay small.
+/// Adds failed seeds and the first others, to keep results small.
 void add_seeds(Json& json, const std::vector<testbench::SeedResult>& by_seed) {
   if (by_seed.empty()) return;
   std::size_t left_out = 0;
@@ -46,7 +46,7 @@ void add_seeds(Json& json, const std::vector<testbench::SeedResult>& by_seed) {
   json["by_seed_left_out"] = left_out;
 }
 
-/// Streams that failed and the first others.
+/// Adds failed streams and the first others.
 void add_streams(Json& json, const std::vector<testbench::StreamResult>& by_stream) {
   if (by_stream.empty()) return;
   std::size_t left_out = 0;
@@ -88,7 +88,7 @@ Json failure_json(const Failure& failure) {
           {"unwritten", failure.unwritten}};
 }
 
-/// {"snap": n, ..., "other": n}: tiles, counters and cycles have no tap.
+/// {"snap": n, ..., "other": n}; "other": mismatches of tiles, counters and cycles, which have no tap.
 Json mismatches_by_tap(const testbench::CheckReport& check) {
   Json json;
   std::uint64_t other = check.mismatches;

@@ -1,4 +1,4 @@
-// What `verify` says of a run: its result in words and as JSON, a failure with the files that show it again.
+// Output of `verify`: the result as text and JSON, and a failure with the files that reproduce it.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,29 +11,29 @@
 
 namespace fastsplat::cli {
 
-/// A failure in words, with the files that show it again.
+/// A failure as text, with the files that reproduce it.
 struct Failure {
   testbench::FailureReport report;
-  std::string stream, waveform, replay;  ///< empty where there is none
-  std::vector<std::string> unwritten;    ///< why there is none
+  std::string stream, waveform, replay;  ///< empty if absent
+  std::vector<std::string> unwritten;    ///< errors of files that could not be written
 };
 
-/// What cannot be written does not take the failure away. No files where the prefix is empty.
+/// Shrinks a failure and writes its files; write errors go to Failure::unwritten. Writes no files if `prefix` is empty.
 Failure investigate(const Checked& checked, const VerifyArguments& arguments, const ConfigFlags& config,
                     const std::string& prefix);
 
-/// How much of the configuration's coverage is hit, this run's added to what the file held.
+/// Coverage of the configuration: this run's added to the file's.
 struct Gain {
   std::string path;
   std::size_t bins = 0, hit = 0;
 };
 
-/// A random stream in a file, and the command that runs it.
+/// A saved random stream, and the command that replays it.
 struct SavedStream {
   std::string file, replay;
 };
 
-/// Everything said about a run.
+/// Everything reported about a run.
 struct VerifyReport {
   const VerifyArguments& arguments;
   cmodel::Config config;
@@ -46,25 +46,25 @@ struct VerifyReport {
   std::optional<Gain> coverage;
   std::vector<SavedStream> saved;
   Wave wave;
-  std::vector<std::string> unwritten;  ///< why coverage or streams are not written
+  std::vector<std::string> unwritten;  ///< errors of coverage or streams that could not be written
   double seconds = 0.0;
 };
 
 std::string to_text(const Failure& failure);
-/// Verdict, first divergence and what shows it again, in one line. `fault`: that was planted; empty for none.
+/// Verdict, first divergence, files and replay command in one line. `fault`: the planted fault; empty for none.
 std::string in_short(testbench::Verdict verdict, const Failure& failure, const std::string& fault);
 std::string to_text(const Gain& gain);
-/// The fault that was planted; empty for none.
+/// The planted fault as text; empty for none.
 std::string planted_text(const VerifyArguments& arguments);
 /// Verdict and counts.
 std::string to_text(const VerifyReport& report);
-/// How many of `streams` were saved, and the replay of the last.
+/// How many of `streams` were saved, and the replay command of the last.
 std::string saved_text(const std::vector<SavedStream>& saved, std::size_t streams);
 /// The rows of --all-mismatches; empty without it.
 std::string mismatches_text(const VerifyReport& report);
 nlohmann::ordered_json to_json(const VerifyReport& report);
 
-/// The faults that can be planted, a line each.
+/// All faults that can be planted, one per line.
 std::string fault_list_text();
 nlohmann::ordered_json fault_list_json();
 

@@ -15,7 +15,7 @@
 namespace fastsplat::cli {
 namespace {
 
-/// UserError (Usage) where the fault is not in this configuration's RTL.
+/// UserError (Usage) if the configuration's RTL does not have the fault.
 const testbench::PlantedFault& fault_of(const VerifyArguments& arguments, const cmodel::Config& config) {
   const auto& fault = testbench::planted_fault_from(arguments.fault);
   const std::string name = testbench::breakable_config(fault);
@@ -41,11 +41,11 @@ Checked verify_one(cmodel::BeatSource source, const testbench::VerifyOptions& op
 }
 
 constexpr auto kLastSeed = static_cast<std::uint64_t>(std::numeric_limits<long>::max());
-/// A stream is built whole before it runs, at some 150 bytes a splat.
+/// A stream is built completely before it runs, at about 150 bytes per splat.
 constexpr int kMostSplats = 10'000'000;
 
 void check_numbers(const VerifyArguments& arguments) {
-  // Every seed of a run is one that --seed takes: a failure's replay line names it.
+  // --seed must accept every seed of the run, because a failure's replay line names it.
   const auto more = static_cast<std::uint64_t>(arguments.seeds) - 1;
   if (arguments.seed > kLastSeed - more) {
     throw_usage({.where = fmt::format("--seed {} --seeds {}", arguments.seed, arguments.seeds),
@@ -69,7 +69,7 @@ void declare(Options& options, VerifyArguments& to) {
   options.group("Stimulus");
   options.word("--stream", to.stream, "FILE", "verify a recorded stream, .fss");
   options.integer("--random", to.random, 1, 1'000'000'000, "N", "verify random streams of about N splats per seed");
-  options.word("--class", to.stimulus, "NAME", "random: stimulus class (all); an unknown name lists the classes");
+  options.word("--class", to.stimulus, "NAME", "random: stimulus class (all)");
   options.values(stimulus_words);
   options.integer("--seed", to.seed, 0, std::numeric_limits<long>::max(), "S",
                   "seed of random streams, patterns and reset fill");
@@ -185,7 +185,7 @@ testbench::VerifyOptions options_from(const VerifyArguments& arguments, const cm
     options.stop_after = std::numeric_limits<std::uint64_t>::max();
     options.keep = static_cast<std::size_t>(*arguments.all_mismatches);
   }
-  if (options.ready != "all") testbench::Pattern(options.ready, 0);  // an unknown pattern is told before any work
+  if (options.ready != "all") testbench::Pattern(options.ready, 0);  // rejects unknown patterns before any work
   testbench::Pattern(options.input, 0);
   if (arguments.stimulus != "all") testbench::stimulus_class_from(arguments.stimulus);
   return options;
@@ -209,7 +209,7 @@ Checked verify_stream(const VerifyArguments& arguments, const testbench::VerifyO
   driver::naming(path, [&] {
     out = verify_one([path](const cmodel::BeatSink& sink) { driver::read_beats(path, sink); }, options, "stream");
   });
-  // As replay and cycles have it; a device that is wrong is told first.
+  // Same check as in replay and cycles; a device's failure is reported first.
   const auto verdict = out.result.verdict;
   if (verdict == testbench::Verdict::Pass || verdict == testbench::Verdict::NothingCompared)
     driver::require_covered(path);
@@ -248,7 +248,7 @@ Checked verify_scene(const VerifyArguments& arguments, testbench::VerifyOptions 
     compiled->emit(sink, progress);
   };
   Checked out = verify_one(source, options, "scene");
-  // Pixels of a device that was given no splat are equal whatever is wrong with it.
+  // Without splats, the pixels are equal whatever is wrong with the device.
   if (out.result.verdict == testbench::Verdict::Pass && out.result.counters.splats == 0)
     out.result.verdict = testbench::Verdict::NothingCompared;
   return out;

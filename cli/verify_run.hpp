@@ -1,4 +1,4 @@
-// What `verify` was asked for, and the runs behind it: a scene, a recorded stream or random streams through the RTL.
+// Arguments of `verify` and its runs: a scene, a recorded stream or random streams through the RTL.
 #pragma once
 
 #include <cstdint>
@@ -30,30 +30,29 @@ struct VerifyArguments {
   ConfigFlags config;
   std::string ready = "always", input = "always", fill = "random";
   std::optional<int> reset_after;     ///< beats before a warm reset
-  std::string fault;                  ///< planted on purpose; empty for none
-  std::optional<int> all_mismatches;  ///< goes on to the end, and tells so many
-  std::string coverage;               ///< where functional coverage is added up; empty for none
-  std::string failure;                ///< where a failure's stream and waveform go, without ending; empty: by source
-  std::string save_stream;            ///< of random streams; # stands for their numbers; empty for none
-  std::string junit;                  ///< the result as JUnit XML; empty for none
+  std::string fault;                  ///< planted fault; empty for none
+  std::optional<int> all_mismatches;  ///< runs to the end and lists up to this many mismatches
+  std::string coverage;               ///< file to which functional coverage is added; empty for none
+  std::string failure;                ///< prefix of a failure's stream and waveform; empty: chosen by source
+  std::string save_stream;            ///< files for random streams, # stands for their numbers; empty for none
+  std::string junit;                  ///< file for the result as JUnit XML; empty for none
   WaveFlags wave;
 };
 
 void declare(Options& options, VerifyArguments& to);
 
 enum class Source { Scene, Stream, Random };
-/// UserError (Usage) for flags that do not go together.
+/// UserError (Usage) for flags that cannot be combined.
 Source source_from(const VerifyArguments& arguments);
 
-/// How many streams a run has if none fails.
+/// Number of streams of a run without failures.
 std::uint64_t stream_count(const VerifyArguments& arguments, Source source);
 
-/// `config` has RTL, or the fault that is to be planted. UserError (Usage) for a pattern, class or fault that is
-/// unknown.
+/// UserError (Usage) for an unknown pattern, class or fault, or a fault that the RTL of `config` does not have.
 testbench::VerifyOptions options_from(const VerifyArguments& arguments, const cmodel::Config& config);
 testbench::CampaignOptions campaign_from(const VerifyArguments& arguments, const testbench::VerifyOptions& options);
 
-/// A result with what it takes to look into a failure.
+/// A result with everything needed to investigate a failure.
 struct Checked {
   testbench::VerifyResult result;
   std::uint64_t streams = 1, resets_late = 0;

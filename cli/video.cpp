@@ -45,7 +45,7 @@ void check_video(const std::string& path) {
 
 void write_video(const Video& video) {
   AtomicFile file(video.path);
-  // "file:" keeps a colon or a leading dash in a name from meaning anything; players want even sides and 4:2:0.
+  // "file:" makes a colon or leading dash in a name literal; players need even sides and 4:2:0.
   const std::vector<std::string> words{"ffmpeg",
                                        "-nostdin",
                                        "-loglevel",

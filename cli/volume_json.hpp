@@ -1,4 +1,4 @@
-// A volume in the words of the verbs: what it is, without its voxels, and what was odd about it.
+// A volume's properties as JSON, without voxels, and its warnings.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,7 +11,7 @@
 namespace fastsplat::cli {
 
 nlohmann::ordered_json volume_json(const volume::Volume& volume);
-/// Volume::remarks and Scene::remarks, each a warning that names the volume.
+/// Volume::remarks and Scene::remarks as warnings that name the volume.
 std::vector<Remark> remarks(const volume::Volume& volume);
 std::vector<Remark> remarks(const scene::Scene& scene);
 

@@ -1,4 +1,4 @@
-// --wave and --cycles: a waveform of the cycles of one's choice, of any run that simulates RTL.
+// --wave and --cycles: waveforms of runs that simulate RTL.
 #pragma once
 
 #include <cstdint>
@@ -21,32 +21,32 @@ struct WaveFlags {
 
 void declare(Options& options, WaveFlags& to);
 
-/// The simulators that a run needs: one that writes waveforms beside the fast one where a waveform is wanted.
+/// Abilities of the simulators that a run needs: the fast one and, for a waveform, one that writes waveforms.
 std::vector<testbench::RtlAbilities> wanted_abilities(const WaveFlags& flags);
 
 /// Cycles after reset: [from, to).
 struct WaveRange {
   std::uint64_t from = 0, to = 0;
 };
-/// UserError (Usage) for what is no range, for a range without a file and for a name that does not end in .fst.
+/// UserError (Usage) for an invalid range, a range without a file, or a name that does not end in .fst.
 WaveRange range_of(const WaveFlags& flags);
 
-/// A waveform that was written, or why not; `file` is empty where none was asked for.
+/// A written waveform or why it was not; `file` is empty if none was requested.
 struct Wave {
   std::string file;
-  std::uint64_t from = 0, to = 0;  ///< [from, to), those that the run had
-  std::string unwritten;           ///< why there is none, one line
-  ExitCode code = ExitCode::Pass;  ///< that it then has
+  std::uint64_t from = 0, to = 0;  ///< [from, to), clipped to the run
+  std::string unwritten;           ///< error if not written, one line
+  ExitCode code = ExitCode::Pass;  ///< exit code of that error
 };
 
-/// Runs the RTL once more for its waveform. `last_cycle`: where the run ended; a range that lies behind it has none.
+/// Simulates once more for the waveform. `last_cycle`: end of the run; a range after it is reported in Wave::unwritten.
 Wave write_wave(const WaveFlags& flags, const testbench::BeatSource& source, testbench::VerifyOptions options,
                 std::uint64_t last_cycle);
 
-/// What became of it: its name and cycles to stdout. Why there is none is an error after a run that passed, whose exit
-/// code this returns; else a warning, for the failure comes first.
+/// Prints the waveform's name and cycles to stdout. A missing waveform is an error after a run that passed, and its
+/// code is returned; else it is a warning, because the failure takes precedence.
 ExitCode tell(const Wave& wave, ExitCode run, const Output& output);
-/// Empty where there is none.
+/// Empty if not written.
 std::string to_text(const Wave& wave);
 nlohmann::ordered_json to_json(const Wave& wave);
 

@@ -10,8 +10,8 @@ namespace fastsplat::golden {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A pixel's four sums at once where vectors hold four, else in parts. Wider vectors would take two pixels: footprints
-// are a few pixels wide and begin anywhere, and what is won by half the instructions is lost in cache lines crossed.
+// All four sums of a pixel at once if vectors hold four, else in parts. Wider vectors would take two pixels. But
+// footprints are only a few pixels wide and begin anywhere: crossed cache lines cost what fewer instructions save.
 #if HWY_TARGET == HWY_SCALAR
 using Part = hn::CappedTag<double, 1>;
 #elif HWY_MAX_BYTES < 32
@@ -22,7 +22,7 @@ using Part = hn::CappedTag<double, 4>;
 constexpr std::size_t kLanes = HWY_TARGET == HWY_SCALAR ? 1 : HWY_MAX_BYTES < 32 ? 2 : 4;
 constexpr std::size_t kParts = 4 / kLanes;
 
-/// kSheets sheets at once: a weight is fetched once for all.
+/// kSheets sheets at once, so each weight is loaded once.
 template <std::size_t kSheets>
 void add_to(const Footprint& footprint, int first_row, std::size_t pitch, const Sums* values, Sums* const* sheets) {
   const Part d;

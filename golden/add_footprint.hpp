@@ -9,13 +9,13 @@
 
 namespace fastsplat::golden {
 
-/// Adds values[s] * weight to sheet s on every pixel of the footprint. sheets[s] is pixel (0, first_row), `pitch`
-/// pixels lie from row to row. Every sum gets one product and one addition, each rounded on its own, as in Sheet::add:
-/// the same bits. Vectors run over the four sums of a pixel; no sum is reordered.
+/// Adds values[s] * weight to sheet s at every pixel of the footprint. sheets[s] points to pixel (0, first_row); rows
+/// lie `pitch` pixels apart. Each product and each sum is rounded separately, as in Sheet::add, so the bits are the
+/// same. Vectors hold the four sums of one pixel; no sum is reordered.
 void add_footprint(const Footprint& footprint, int first_row, std::size_t pitch, std::span<const Sums> values,
                    std::span<Sums* const> sheets);
 
-/// "AVX2" and the like: what add_footprint runs on.
+/// Name of the instruction set that add_footprint uses, for example "AVX2".
 const char* add_footprint_target();
 
 }  // namespace fastsplat::golden

@@ -13,7 +13,7 @@ namespace fastsplat::golden {
 
 namespace {
 
-/// Work that tells how many bands are done.
+/// Wraps `work` to report the number of finished bands.
 std::function<void(std::size_t)> counted(std::size_t count, const Progress& progress,
                                          const std::function<void(int band)>& work, std::atomic<std::size_t>& done) {
   return [count, &progress, &work, &done](std::size_t band) {
@@ -48,7 +48,7 @@ BandRange bands_of(const ProjectedSplat& splat, const Bands& bands, int width) {
 }
 
 // A stable counting sort: find every splat's place, count every bucket, turn the counts into starts, fill. Places are
-// kept, since finding one costs a projection and keeping it 8 bytes.
+// kept because finding one costs a projection and storing it only 8 bytes.
 BandIndex::BandIndex(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const Bands& bands, int keys,
                      int threads, const std::function<int(const ProjectedSplat&)>& key)
     : bands_(static_cast<std::size_t>(bands.count())), keys_(static_cast<std::size_t>(keys)) {

@@ -1,5 +1,5 @@
-// Bands of image rows: the unit of parallel work. A pixel belongs to one band, and a band meets its splats in an order
-// that depends on the scene alone; so the bits of the image do not depend on the number of threads.
+// Bands of image rows: the unit of parallel work. Each pixel belongs to one band, and the order of a band's splats
+// depends on the scene alone. So the image does not depend on the number of threads.
 #pragma once
 
 #include <algorithm>
@@ -19,17 +19,17 @@ namespace fastsplat::golden {
 
 struct Bands {
   int image_height = 0;
-  /// By default few enough that a band's ring of sheets stays in cache, and enough that most splats lie in one band.
+  /// Default: few enough to keep a band's ring of sheets in cache, enough that most splats lie in one band.
   int rows_per_band = 16;
 
   int count() const { return (image_height + rows_per_band - 1) / rows_per_band; }
   Rows rows(int band) const { return {band * rows_per_band, std::min((band + 1) * rows_per_band, image_height)}; }
 };
 
-/// Runs work(band) for every band on `threads` threads (0: all cores; more than cores are honoured), in any order.
+/// Runs work(band) for every band, in any order, on `threads` threads (0: all cores; may exceed the number of cores).
 void for_each_band(const Bands& bands, int threads, const Progress& progress,
                    const std::function<void(int band)>& work);
-/// The same, the bands of the largest `cost` first: so that no thread ends with a long one alone.
+/// The same, bands of the largest `cost` first, so that no thread finishes last with a long one.
 void for_each_band(std::span<const std::uint64_t> cost, int threads, const Progress& progress,
                    const std::function<void(int band)>& work);
 
@@ -37,13 +37,13 @@ struct BandRange {
   int first = 0;
   int end = 0;  ///< first == end: outside the image
 };
-/// The bands that the splat's footprint may reach into.
+/// The bands that the splat's footprint may reach.
 BandRange bands_of(const ProjectedSplat& splat, const Bands& bands, int width);
 
-/// For every band the indices of the splats that reach into it, sorted by key; equal keys stay in the order given.
+/// For each band, the indices of the splats that reach it, sorted by key. Splats of equal key keep their order.
 class BandIndex {
  public:
-  /// key(splat) in [0, keys), asked for by several threads. At most 2^32 - 1 splats.
+  /// key(splat) must be in [0, keys); it is called from several threads. At most 2^32 - 1 splats.
   BandIndex(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const Bands& bands, int keys,
             int threads, const std::function<int(const ProjectedSplat&)>& key);
 
@@ -51,8 +51,8 @@ class BandIndex {
     const std::size_t cell = static_cast<std::size_t>(band) * keys_ + key;
     return std::span(indices_).subspan(start_[cell], start_[cell + 1] - start_[cell]);
   }
-  std::size_t size() const { return indices_.size(); }  ///< of all bands
-  /// How many splats reach into each band.
+  std::size_t size() const { return indices_.size(); }  ///< over all bands
+  /// Number of splats that reach each band.
   std::vector<std::uint64_t> splats_per_band() const;
 
  private:

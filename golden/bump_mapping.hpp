@@ -8,7 +8,7 @@
 
 namespace fastsplat::golden {
 
-/// The gradient keeps its length up to the lean, so that the shader treats weak ones alike; amplitude 0 changes no bit.
+/// The tilt scales with the gradient's length, so weak gradients stay weak for the shader. Amplitude 0 changes no bit.
 class BumpMapping final : public PixelStage {
  public:
   explicit BumpMapping(const scene::Bump& bump) : bump_(bump) {}

@@ -1,4 +1,4 @@
-// The splats of a scene, by several threads.
+// Collects the splats of a scene on several threads.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace fastsplat::golden {
 
-/// What scene::collect_splats gives, in its order, on `threads` threads (0: all cores). They are counted first, so that
-/// memory holds each splat once and none is ever moved.
+/// Returns scene::collect_splats' splats in the same order, on `threads` threads (0: all cores). Counts them first, so
+/// that each splat is stored once and never moved.
 std::vector<scene::Splat> collect_splats(const scene::Scene& scene, int threads);
 
 }  // namespace fastsplat::golden

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kBrick = 4;  // voxels along an edge
 
-/// The largest value of every brick, then of every brick's surroundings.
+/// For each brick, the largest value within reach_voxels of it or a little farther.
 class BrickMaxima {
  public:
   BrickMaxima(const volume::Volume& volume, const glm::ivec3& reach_voxels)
@@ -57,7 +57,7 @@ class BrickMaxima {
   std::vector<float> largest_;
 };
 
-/// Of all rays one of the corners' leans most: the first, unless the picture is off the view axis.
+/// Largest tilt of any ray: always that of a ray at a corner of the image.
 double largest_tilt(const SheetGeometry& geometry) {
   const scene::Camera& camera = geometry.camera();
   double largest = 0.0;
@@ -67,18 +67,18 @@ double largest_tilt(const SheetGeometry& geometry) {
   return largest;
 }
 
-/// From a voxel to the farthest voxel that shares a pixel's density or gradient with it, kernel units: a pixel's
-/// density takes voxels within R across and R + W in depth; its gradient those of the next pixel and sheet.
+/// Largest distance between two voxels that affect the same pixel's density or gradient, kernel units. A pixel's
+/// density takes voxels within R across and R + W in depth; its gradient takes those of the next pixel and sheet.
 double influence(const scene::Scene& scene, const SheetGeometry& geometry) {
   const double radius = scene.kernel.radius();
   const double pixel = 1.0 / geometry.pixels_per_unit(geometry.sheets() - 1);
   const double across = 2.0 * radius + pixel;
   const double along = 2.0 * radius + 3.0 * geometry.width();
-  // A leaning ray carries a slab's depth across.
+  // Over a slab's depth a tilted ray also moves across.
   return std::hypot(across + largest_tilt(geometry) * along, along);
 }
 
-/// How far a ball of radius 1 reaches along each of the grid's axes: farther than 1 where they are sheared.
+/// Extent of a ball of radius 1 along each of the grid's axes: more than 1 if the grid is sheared.
 glm::dvec3 reach_across(const volume::Volume& volume) {
   if (!volume.oblique) return glm::dvec3(1.0);
   const glm::dmat3 rows = glm::transpose(volume.across);
@@ -105,7 +105,7 @@ DensityField collect_densities(const scene::Scene& scene, bool skip) {
   const scene::Classifier classify(scene.transfer_function, volume);
   const glm::ivec3 reach(
       glm::ceil(influence(scene, geometry) * geometry.unit() * reach_across(volume) / volume.spacing));
-  // How far grown and elliptical footprints reach, and how high textured ones add up, is not worked out here.
+  // The reach of grown and elliptical footprints and the largest sum of textured ones are not computed: skip nothing.
   const scene::FootprintSettings& footprint = scene.description.footprint;
   skip = skip && footprint.shape == scene::FootprintShape::Circle && !footprint.antialias &&
          !(footprint.texture.amplitude > 0.0);

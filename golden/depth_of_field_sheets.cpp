@@ -22,7 +22,7 @@ DepthOfFieldSheets::DepthOfFieldSheets(const scene::Lens& lens, const SheetGeome
   for (int sheet = 0; sheet < geometry.sheets(); ++sheet) {
     const double diameter = scene::circle_of_confusion(geometry.camera(), lens, geometry.depth_mm(sheet));
     if (!(diameter > 0.0)) continue;
-    // A disc's weights are a table of its own size; one as wide as the picture leaves nothing to be seen in it.
+    // The table of weights grows with the disc. Under a disc wider than the picture nothing is recognisable.
     const int side = std::max(geometry.camera().width(), geometry.camera().height());
     if (!(diameter <= side)) {
       throw_usage({.where = "lens.aperture",

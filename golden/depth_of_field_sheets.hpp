@@ -10,10 +10,11 @@
 
 namespace fastsplat::golden {
 
-/// The circle is that of the sheet's middle; a sheet whose circle is a point is left alone. What lies outside the
-/// picture does not spread into it.
+/// Uses the circle of confusion at the middle of the sheet; a sheet whose circle is a point is unchanged. Nothing
+/// spreads into the picture from outside.
 class DepthOfFieldSheets final : public LayerFilter {
  public:
+  /// UserError (Usage) if a circle is wider than the picture.
   DepthOfFieldSheets(const scene::Lens& lens, const SheetGeometry& geometry);
 
   bool leaves(int sheet) const override { return discs_.find(sheet) == discs_.end(); }

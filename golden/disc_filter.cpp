@@ -7,7 +7,7 @@
 namespace fastsplat::golden {
 namespace {
 
-/// Of the area between the x axis and the circle, the part from 0 to x.
+/// Area between the x axis and the circle, from 0 to x.
 double under_arc(double x, double radius) {
   const double ratio = std::min(x / radius, 1.0);
   return 0.5 * (x * std::sqrt(std::max(0.0, radius * radius - x * x)) + radius * radius * std::asin(ratio));

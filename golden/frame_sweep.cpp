@@ -46,7 +46,7 @@ class FrameSweep {
       index_.emplace(scene, splats, bands_, assignment.sheets(), options.threads,
                      [&assignment](const ProjectedSplat& splat) { return assignment.first(splat); });
     }
-    // Live at once: the sheets that the splats at hand reach, and where neighbours are read the two in front of these.
+    // Live at once: all sheets that the current splats reach and, if neighbours are read, the two in front of them.
     const int live = assignment.reach() + (needs_neighbours_ ? 2 : 0);
     check_memory(live);
     ring_.assign(live, Sheet({0, height_}, width_));
@@ -97,7 +97,7 @@ class FrameSweep {
                  [&](std::size_t band) { work(static_cast<int>(band), bands_.rows(static_cast<int>(band))); });
   }
 
-  /// What is visible is decided before the sheet's first splat, by the picture as it is then, for all bands alike.
+  /// Visibility is decided for all bands before the sheet's first splat is drawn, from the picture at that moment.
   void splat_sheet(int sheet) {
     std::span<const ProjectedSplat> visible;
     if (stages_.occlusion) {
@@ -135,7 +135,7 @@ class FrameSweep {
     }
   }
 
-  /// Sheet::add of all sheets at once.
+  /// Sheet::add on all sheets at once.
   void add_to_sheets(int sheet, const ProjectedSplat& splat, int band) {
     SplatSums& sums = sums_[band];
     sums.clear();
@@ -154,7 +154,7 @@ class FrameSweep {
     });
   }
 
-  /// Stages, layer, filter, compositing.
+  /// Runs the stages, makes layers, filters and composites them.
   void finish(const SheetWindow& window) {
     const bool filtered = stages_.filter && !stages_.filter->leaves(window.number);
     for_each_row_band([&](int, Rows rows) {
@@ -172,7 +172,7 @@ class FrameSweep {
     after_layers(window.number, filtered);
   }
 
-  /// finish and clear in one go, each row while it is at hand.
+  /// finish() and clear() in one pass, while each row is in cache.
   void finish_plain(int number) {
     Sheet& sheet = at(number);
     const bool filtered = stages_.filter && !stages_.filter->leaves(number);
@@ -253,8 +253,8 @@ class FrameSweep {
   std::vector<Sheet> ring_;
   std::optional<Sheet> nothing_;
   LayerFrame layers_;
-  std::vector<std::vector<std::uint32_t>> visible_in_;  ///< with Occlusion: by band, of the sheet's visible splats
-  std::vector<Run> changed_;                            ///< by row, of the sheet composited last
+  std::vector<std::vector<std::uint32_t>> visible_in_;  ///< with Occlusion: per band, of the sheet's visible splats
+  std::vector<Run> changed_;                            ///< per row, of the sheet composited last
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
-// Sheets, front to back, each over the whole frame: for techniques that look beyond one pixel of one sheet. The
-// work of sweep_sheets band by band is done here sheet by sheet. Stages can therefore read a sheet's neighbours in y
-// and in depth, filter across it, and read the picture in front of it. Without a stage the picture is that of
-// composite_sheets, bit for bit; with any stages it does not depend on the number of threads.
+// Front-to-back sweep of sheets over the whole frame, for techniques that read beyond one pixel of one sheet. It does
+// sheet by sheet what sweep_sheets does band by band. Stages can therefore read a sheet's neighbours in y and in depth,
+// filter across it, and read the picture in front of it. Without stages the picture equals that of composite_sheets,
+// bit for bit. With stages it does not depend on the number of threads.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +14,17 @@
 
 namespace fastsplat::golden {
 
-/// What a sheet gets of a splat. The default of the sweep is share * value * footprint.
+/// What a splat adds to a sheet. The sweep's default is share * value * footprint.
 class Deposit {
  public:
   virtual ~Deposit() = default;
-  /// Adds the splat's share of sheet number `sheet` to the pixels of the footprint. Called for different rows of one
-  /// sheet at once.
+  /// Adds the splat's share of sheet number `sheet` to the pixels of the footprint. Called concurrently for different
+  /// rows of one sheet.
   virtual void add(Sheet& to, int sheet, const Footprint& footprint, const ProjectedSplat& splat,
                    double share) const = 0;
 };
 
-/// A finished sheet and its neighbours as the splats left them; beyond the first and the last sheet all sums are 0.
+/// A finished sheet and its neighbours as splatted; before the first and behind the last sheet all sums are 0.
 struct SheetWindow {
   int number = 0;  ///< of `here`; 0 is nearest to the eye
   const Sheet& before;
@@ -32,25 +32,25 @@ struct SheetWindow {
   const Sheet& behind;
 };
 
-/// Turns a finished sheet's sums into material: premultiplied emission and optical depth. Stages run one after another
-/// on the same pixels, each on what the one before it made; the window always shows what was splatted.
+/// Turns a finished sheet's sums into material: premultiplied emission and optical depth. Stages run in sequence on the
+/// same pixels, each on the output of the previous one; the window always holds the splatted sums.
 class SheetStage {
  public:
   virtual ~SheetStage() = default;
-  /// Whether it reads `before` and `behind`; else these are not to be touched.
+  /// Whether the stage reads `before` and `behind`. If not, it must not touch them.
   virtual bool needs_neighbours() const = 0;
-  /// By how many pixels it reads beyond its own.
+  /// How many pixels beyond its own the stage reads.
   virtual int margin() const { return 0; }
-  /// Pixels of row y that can come out with material, all others having none: `so_far` of the stage before.
+  /// Pixels of row y that can come out with material; all others have none. `so_far` is the previous stage's extent.
   virtual Run extent(const SheetWindow& window, int y, Run so_far) const {
     (void)window, (void)y;
     return so_far;
   }
-  /// Pixels begin, begin+1, ... of row y, in place. Called for different rows at once.
+  /// Processes pixels begin, begin+1, ... of row y in place. Called concurrently for different rows.
   virtual void row(const SheetWindow& window, int y, int begin, std::span<Sums> pixels) const = 0;
 };
 
-/// A whole frame of layers. Outside a row's run there is nothing, whatever `layers` holds there.
+/// A whole frame of layers. Outside a row's run the frame is empty, whatever `layers` holds there.
 struct LayerFrame {
   int width = 0;
   std::vector<Layer> layers;  ///< row by row
@@ -63,40 +63,40 @@ struct LayerFrame {
 class LayerFilter {
  public:
   virtual ~LayerFilter() = default;
-  /// True: the sheet is composited as it is.
+  /// True: the sheet is composited unfiltered.
   virtual bool leaves(int sheet) const = 0;
-  /// The farthest that any sheet's pixel can reach, pixels.
+  /// Largest distance, over all sheets, that a pixel can spread, pixels.
   virtual int margin() const = 0;
   /// Pixels of row y that can come out with opacity.
   virtual Run extent(int sheet, const LayerFrame& in, int y) const = 0;
-  /// Pixels begin, begin+1, ... of row y. Called for different rows at once.
+  /// Filters pixels begin, begin+1, ... of row y. Called concurrently for different rows.
   virtual void row(int sheet, const LayerFrame& in, int y, int begin, std::span<Layer> out) const = 0;
 };
 
-/// Which splats need not be splatted, since what is in front of them is opaque.
+/// Finds splats that need not be drawn because everything in front of them is opaque.
 class Occlusion {
  public:
   virtual ~Occlusion() = default;
-  /// The splats that reach the image and whose nearest sheet is `sheet`, in their order, without those of which every
-  /// pixel of the footprint grown by `margin` pixels on every side is opaque. Asked once per sheet, front to back;
-  /// valid until asked again.
+  /// Returns the splats that reach the image and whose nearest sheet is `sheet`, in order. Leaves out a splat if every
+  /// pixel of its footprint, grown by `margin` pixels on each side, is opaque. Called once per sheet, front to back;
+  /// the span is valid until the next call.
   virtual std::span<const ProjectedSplat> visible(int sheet, int margin) = 0;
-  /// The picture after each sheet, and the pixels of each row that the sheet may have changed.
+  /// Called after each sheet with the picture and, for each row, the pixels that the sheet may have changed.
   virtual void composited(std::span<const FrontToBack> picture, std::span<const Run> changed) = 0;
 };
 
-/// What is done besides adding and compositing; null and empty: nothing. Nothing is owned.
+/// Optional steps besides adding and compositing; null and empty: none. Owns nothing.
 struct FrameStages {
   const Deposit* deposit = nullptr;
   std::vector<const SheetStage*> sheet_stages{};
   const LayerFilter* filter = nullptr;
   Occlusion* occlusion = nullptr;
-  /// A pixel whose transmittance is below this no longer changes (docs/numerics.md, "freeze").
+  /// A pixel whose transmittance is below this is terminated: it no longer changes (docs/numerics.md, N-6-6).
   double freeze_below = 0.0;
 };
 
-/// Composites the sheets front to back by the scene's slab opacity. Progress counts sheets. UserError (Usage) when the
-/// sheets that are live at once do not fit into kFrameSweepBytes.
+/// Composites the sheets front to back with the scene's slab opacity. Progress counts sheets. UserError (Usage) if the
+/// sheets in memory at once exceed kFrameSweepBytes.
 Image sweep_frame(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options,
                   const SheetAssignment& assignment, const FrameStages& stages);
 

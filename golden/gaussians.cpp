@@ -12,7 +12,7 @@ namespace {
 
 using scene::ProjectedGaussian;
 
-/// The pixels from `from` to `to`, both excluded, that the picture has: [first, end).
+/// The picture's pixels strictly between `from` and `to`: [first, end).
 struct Between {
   int first, end;
   Between(double from, double to, int least, int most)
@@ -20,7 +20,7 @@ struct Between {
         end(static_cast<int>(std::clamp(std::ceil(to), double(least), double(most)))) {}
 };
 
-/// Numbers of the Gaussians that reach into each band, in their order.
+/// For each band, the indices of the Gaussians that reach it, in order.
 std::vector<std::vector<std::uint32_t>> bins_of(const std::vector<ProjectedGaussian>& splats, const Bands& bands,
                                                 double cutoff) {
   std::vector<std::vector<std::uint32_t>> bins(static_cast<std::size_t>(bands.count()));
@@ -35,13 +35,13 @@ std::vector<std::vector<std::uint32_t>> bins_of(const std::vector<ProjectedGauss
   return bins;
 }
 
-/// What one Gaussian does at one pixel.
+/// The contribution of one Gaussian to one pixel.
 struct Sample {
   double depth = 0.0, alpha = 0.0;
   glm::dvec3 colour{0.0};
 };
 
-/// sample(x, y, alpha) for every pixel of the rows inside the cutoff.
+/// Calls take(x, y, alpha) for every pixel of the rows inside the cutoff.
 template <class Take>
 void rasterise(const ProjectedGaussian& splat, double cutoff, const Rows& rows, int width, const Take& take) {
   const double a = splat.shape.yy / splat.shape.determinant(), b = -splat.shape.xy / splat.shape.determinant(),

@@ -10,21 +10,21 @@
 
 namespace fastsplat::golden {
 
-/// What lies in front of what: decided once, by the depth of centres, as common renderers and the device do; or at
-/// every pixel, by the depth at which each Gaussian is densest there.
+/// Order of Gaussians in depth: sorted once by the depth of their centres, as common renderers and the device do, or
+/// sorted at every pixel by the depth at which each Gaussian is densest there.
 enum class GaussianOrder { Centres, Pixels };
 
 struct GaussianOptions {
   int threads = 0;  ///< 0: all cores. Never changes the result.
   Progress progress = {};
   GaussianOrder order = GaussianOrder::Centres;
-  /// Opacity is not cut to kMostAlpha before it meets the kernel but after, as Kerbl et al. do: `projected` must then
-  /// hold opacities that are not cut.
+  /// Caps opacity at kMostAlpha after multiplying by the kernel instead of before, as Kerbl et al. do. `projected` must
+  /// then hold uncapped opacities.
   bool cap_samples = false;
-  std::uint64_t* samples = nullptr;  ///< gets how many were composited
+  std::uint64_t* samples = nullptr;  ///< receives the number of composited samples
 };
 
-/// RGBA, premultiplied, linear in what the file's colours are; A is the opacity. `projected` from project_all().
+/// Returns RGBA, premultiplied, linear in the file's colours; A is the opacity. `projected` comes from project_all().
 Image render_gaussians(const scene::GaussianScene& scene, const std::vector<scene::ProjectedGaussian>& projected,
                        const GaussianOptions& options = {});
 

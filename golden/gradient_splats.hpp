@@ -1,4 +1,4 @@
-// Gradient splats: three more footprints beside the density's, the kernel's derivatives (Mueller, Moeller, Crawfis
+// Gradient splats: besides the density's footprint three more, for the kernel's derivatives (Mueller, Moeller, Crawfis
 // 1999; splatting.md section 2 item 5).
 #pragma once
 
@@ -7,11 +7,11 @@
 
 namespace fastsplat::golden {
 
-/// A sheet's sums are d/dx, d/dy, d/dz of the density and the density, integrated over the slab, per kernel unit; x
-/// right, y down, z along the ray per unit of depth. Of a splat with density v, centred at depth zc, the slab [z0, z1)
-/// gets
+/// A sheet's sums are d/dx, d/dy, d/dz of the density and the density itself, integrated over the slab, per kernel
+/// unit. x points right, y down, z along the ray per unit of depth. A splat of density v, centred at depth zc, adds to
+/// slab [z0, z1)
 ///     density  v F(rho) (Phi(z1-zc) - Phi(z0-zc))
-///     d/dx     -2a dx times that, with dx in kernel units; so too d/dy
+///     d/dx     -2a dx times the density, with dx in kernel units; d/dy likewise
 ///     d/dz     v F(rho) (Phi'(z1-zc) - Phi'(z0-zc))
 class GradientSplats final : public Deposit {
  public:

@@ -1,6 +1,6 @@
 // Image-aligned sheets (Mueller and Crawfis 1998): slabs parallel to the image cut each splat's kernel into slices, and
-// all the material between two planes is added before compositing. Nothing depends on the volume's axes, so nothing
-// pops. What looks at pixels of whole sheets is put together here.
+// all material between two planes is added before compositing. Nothing depends on the volume's axes, so nothing pops.
+// This file also assembles the stages that read pixels of whole sheets.
 #include <optional>
 
 #include "golden/bump_mapping.hpp"
@@ -21,7 +21,7 @@ bool textured_pixels(const scene::Scene& scene) {
   return texture.kind != scene::SolidKind::None && texture.where == scene::TextureWhere::Pixel;
 }
 
-/// Depth of field, if it is to be had from sheets.
+/// Depth of field, if the scene computes it from sheets.
 std::optional<DepthOfFieldSheets> lens_on_sheets(const scene::Scene& scene, const SheetGeometry& geometry) {
   const scene::Lens& lens = scene.description.lens;
   if (lens.depth_of_field != scene::DepthOfField::Sheets) return std::nullopt;

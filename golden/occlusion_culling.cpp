@@ -10,7 +10,7 @@
 namespace fastsplat::golden {
 namespace {
 
-/// Adds the time it lives to a sum.
+/// Adds its lifetime to `seconds`.
 class Stopwatch {
  public:
   explicit Stopwatch(double& seconds) : seconds_(seconds) {}
@@ -68,7 +68,7 @@ std::span<const ProjectedSplat> OcclusionCulling::visible(int sheet, int margin)
 
 void OcclusionCulling::open_blocks(int sheet, int margin) {
   std::vector<std::uint32_t>& waiting = waiting_blocks_[sheet];
-  for (std::size_t i = 0; i < waiting.size(); ++i) {  // grows on the way
+  for (std::size_t i = 0; i < waiting.size(); ++i) {  // `waiting` grows in the loop
     const VoxelBlock& block = blocks_.blocks()[waiting[i]];
     const BlockView view = view_of(scene_, assignment_, block, margin);
     if (view.first_sheet > sheet) {
@@ -101,7 +101,7 @@ void OcclusionCulling::open(std::span<const std::uint32_t> splats) {
 void OcclusionCulling::test_splats(int sheet, int margin) {
   constexpr std::size_t kChunk = 1024;
   std::vector<std::uint32_t>& waiting = waiting_splats_[sheet];
-  std::sort(waiting.begin(), waiting.end());  // as they would have been splatted: sums of doubles know their order
+  std::sort(waiting.begin(), waiting.end());  // splatting order: sums of doubles depend on it
   projected_.resize(waiting.size());
   hidden_.resize(waiting.size());
   parallel_for((waiting.size() + kChunk - 1) / kChunk, threads_, [&](std::size_t chunk) {

@@ -1,6 +1,6 @@
-// Early splat elimination: before a sheet is splatted, the splats that it begins with are tested against the occlusion
-// map of the sheets so far (Mueller, Shareef, Huang, Crawfis 1999). Front to back a pixel's transmittance only falls,
-// and an opaque pixel is frozen: so with VisibilityTest::Count what is left out could not have changed a bit.
+// Early splat elimination (Mueller, Shareef, Huang, Crawfis 1999): before a sheet is splatted, the splats that begin in
+// it are tested against the occlusion map of the sheets so far. Front to back a pixel's transmittance only falls, and
+// an opaque pixel is terminated. So with VisibilityTest::Count no culled splat could have changed a bit.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@
 
 namespace fastsplat::golden {
 
-/// CullingMode::Blocks: a block waits for the nearest sheet that it can reach. Then it is tested; if hidden, its voxels
-/// are never looked at; if not, its eight children wait for their own sheets in turn, and a leaf's splats for theirs.
-/// CullingMode::Splats: every splat waits from the beginning. In both every splat that is left is tested by its own
+/// CullingMode::Blocks: a block waits for the nearest sheet that it can reach and is tested there. If it is hidden, its
+/// voxels are never read. If not, its children wait for their own sheets, and a leaf's splats for theirs.
+/// CullingMode::Splats: every splat waits from the beginning. In both modes each remaining splat is tested by its own
 /// footprint's window.
 class OcclusionCulling final : public Occlusion {
  public:
-  /// culling.mode is not Off; culling.freeze is the transmittance below which a pixel counts as opaque. Nothing is
-  /// copied: all must outlive it.
+  /// culling.mode must not be Off; culling.freeze is the transmittance below which a pixel counts as opaque. Nothing is
+  /// copied: all arguments must outlive this object.
   OcclusionCulling(const scene::Scene& scene, const std::vector<scene::Splat>& splats, int threads,
                    const SheetAssignment& assignment, const scene::Culling& culling);
 
@@ -45,12 +45,12 @@ class OcclusionCulling final : public Occlusion {
   OcclusionMap map_;
   VoxelBlocks blocks_;
   std::vector<std::vector<std::uint32_t>> waiting_blocks_, waiting_splats_;  ///< by sheet
-  std::vector<ProjectedSplat> projected_;                                    ///< of the sheet at hand
-  std::vector<std::uint8_t> hidden_;                                         ///< of these
+  std::vector<ProjectedSplat> projected_;                                    ///< of the current sheet
+  std::vector<std::uint8_t> hidden_;                                         ///< of the splats tested
 };
 
-/// The sheets composited front to back with the scene's own freezing and culling, and with `stages` (whose occlusion
-/// and freeze_below are taken from the scene). Without any of these it is composite_sheets.
+/// Composites the sheets front to back with the scene's early termination and culling, and with `stages`, whose
+/// occlusion and freeze_below are taken from the scene. Without culling and stages it is composite_sheets.
 Image composite_visible(const scene::Scene& scene, const std::vector<scene::Splat>& splats,
                         const RenderOptions& options, const SheetAssignment& assignment, FrameStages stages = {});
 

@@ -14,7 +14,7 @@ OcclusionMap::OcclusionMap(int width, int height, const scene::Culling& culling)
       table_(width, height) {}
 
 namespace {
-/// Opacity in bytes of 1/256, rounded down.
+/// Opacity in units of 1/256, rounded down.
 std::uint8_t opacity_byte(double transmittance) {
   return static_cast<std::uint8_t>(std::clamp(256.0 * (1.0 - transmittance), 0.0, 255.0));
 }
@@ -51,7 +51,7 @@ bool OcclusionMap::hides(const Window& window) const {
 }
 
 Window window_around(double x, double y, double reach_x, double reach_y, int width, int height) {
-  // Clipped as real numbers: the centre may be far outside what an int holds.
+  // Clipped as real numbers: the centre may be far outside the range of int.
   const auto first = [](double at, double reach, int end) {
     return static_cast<int>(std::clamp(std::ceil(at - reach), 0.0, static_cast<double>(end)));
   };

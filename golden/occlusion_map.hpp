@@ -1,4 +1,4 @@
-// The occlusion map: which pixels are opaque after the sheets so far, and whether a whole window of them is.
+// Occlusion map: which pixels are opaque after the sheets so far, and whether all pixels of a window are.
 #pragma once
 
 #include <span>
@@ -15,19 +15,19 @@ class OcclusionMap {
  public:
   OcclusionMap(int width, int height, const scene::Culling& culling);
 
-  /// After a sheet: takes the pixels of each row's run anew. The picture's transmittances must not have grown.
+  /// Call after each sheet: rereads the pixels of each row's run. The picture's transmittances must not have grown.
   void update(std::span<const FrontToBack> picture, std::span<const Run> changed);
 
-  /// The visibility test, of a window inside the image that is not empty.
+  /// Visibility test of a non-empty window inside the image.
   ///   Count: every pixel's transmittance is below culling.freeze. Exact.
-  ///   Average: the mean opacity is at least theta, so the transmittances in it add up to at most area * (1 - theta). A
-  ///   hidden splat can contribute up to min(1, area * (1 - theta)) to one pixel. Opacities are rounded down to
-  ///   1/256 (a map of bytes, as in the papers), so the mean can only seem smaller than it is.
+  ///   Average: the mean opacity is at least theta, so its transmittances add up to at most area * (1 - theta). A
+  ///   hidden splat can contribute up to min(1, area * (1 - theta)) to one pixel. Opacities are rounded down to 1/256
+  ///   (a map of bytes, as in the papers), so the mean is never overestimated.
   bool hides(const Window& window) const;
 
-  /// By pixel: Count 1 where opaque; Average the opacity in 1/256, at most 255.
+  /// Per pixel. Count: 1 if opaque. Average: the opacity in units of 1/256, at most 255.
   std::span<const std::uint8_t> levels() const { return levels_; }
-  /// By pixel: after how many updates its transmittance was below culling.freeze; 0: not yet.
+  /// Per pixel: number of updates after which its transmittance was below culling.freeze; 0: not yet.
   const std::vector<std::uint32_t>& opaque_after() const { return opaque_after_; }
 
  private:
@@ -38,7 +38,7 @@ class OcclusionMap {
   std::vector<std::uint32_t> opaque_after_;
   std::uint32_t updates_ = 0;
   SummedAreaTable table_;
-  bool any_ = false;  ///< whether any level is above 0: before that nothing hides anything
+  bool any_ = false;  ///< whether any level is above 0; until then nothing is hidden
 };
 
 /// Pixels whose centres lie within reach_x, reach_y of (x,y), clipped to the image; empty outside it.

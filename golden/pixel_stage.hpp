@@ -1,4 +1,4 @@
-// What is known of one pixel of one sheet once its density is classified, and what may be done to it.
+// A classified pixel of one sheet, and the steps that modify it before shading.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -11,7 +11,7 @@ struct PixelSample {
   glm::dvec3 colour{0.0};    ///< 0..1, not multiplied by opacity
 };
 
-/// One step from the classified pixel to the shaded one; steps run one after another.
+/// One step between classifying and shading a pixel; steps run in sequence.
 class PixelStage {
  public:
   virtual ~PixelStage() = default;

@@ -19,7 +19,7 @@ Run PostClassified::extent(const SheetWindow& window, int, Run so_far) const {
   return base_is_clear_ ? so_far : Run{0, window.here.width()};
 }
 
-/// Beyond the outermost voxels' cells; asked only where nothing would be seen otherwise.
+/// Whether the position is beyond the outermost voxels' cells. Called only if the base value is visible.
 bool PostClassified::outside(const glm::dvec3& position) const {
   const glm::dvec3 half = 0.5 * glm::dvec3(scene_.volume->dims) * scene_.volume->spacing;
   return glm::any(glm::greaterThan(glm::abs(scene_.volume->to_grid(position)), half));
@@ -42,7 +42,7 @@ glm::dvec3 PostClassified::gradient(const SheetWindow& window, int x, int y, dou
            std::max(below - above, 1);
     along = (density(window.behind, x, y) - density(window.before, x, y)) / (2.0 * geometry_.width());
   }
-  // `along` follows the pixel's ray; the view axis is what is left without the ray's way to the side.
+  // `along` follows the pixel's ray; subtracting the ray's sideways part leaves the view axis.
   const glm::dvec2 tilt = geometry_.tilt(x, y);
   const double ahead = along - tilt.x * across - tilt.y * down;
   const scene::Camera& camera = geometry_.camera();

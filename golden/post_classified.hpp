@@ -12,12 +12,12 @@
 
 namespace fastsplat::golden {
 
-/// From density (and its gradient) to material: value = base + sum / W, classified by the transfer function; the
-/// pixel's stages; shading by the gradient; times the slab's depth W.
+/// Converts density (and its gradient) to material: classifies value = base + sum / W by the transfer function, applies
+/// the pixel stages, shades by the gradient, and multiplies by the slab's depth W.
 class PostClassified final : public SheetStage {
  public:
-  /// Which gradients is the scene's choice; splatted ones want the sums of GradientSplats. The scene and the stages
-  /// must outlive this.
+  /// The scene chooses the kind of gradients; GradientKind::Splats needs the sums of GradientSplats. The scene and the
+  /// stages must outlive this object.
   PostClassified(const scene::Scene& scene, const SheetGeometry& geometry, double base,
                  std::vector<const PixelStage*> stages);
 
@@ -25,11 +25,11 @@ class PostClassified final : public SheetStage {
     return needs_gradient_ && scene_.description.gradients == scene::GradientKind::Central;
   }
   int margin() const override { return needs_neighbours() ? 1 : 0; }
-  /// All of the row where the transfer function does not leave the base clear.
+  /// The whole row if the base value is visible, else `so_far`.
   Run extent(const SheetWindow& window, int y, Run so_far) const override;
   void row(const SheetWindow& window, int y, int begin, std::span<Sums> pixels) const override;
 
-  /// World, value per mm.
+  /// In world space, value per mm.
   glm::dvec3 gradient(const SheetWindow& window, int x, int y, double pixels_per_unit) const;
 
  private:

@@ -1,15 +1,15 @@
-// Ray casting: the reference of references. For every pixel the fields of extinction and emission are reconstructed
-// along its ray from the kernels nearby, and the transmittance integral
+// Ray casting: the reference for all other techniques. For every pixel, extinction and emission along its ray are
+// reconstructed from nearby kernels, and the transmittance integral
 //     C = Int e(z) exp(-Int_{<z} kappa dz') dz,   A = 1 - exp(-Int kappa dz)
-// is taken in fine steps. Image order and point samples of h, where the splatting techniques work in object order with
-// integrals of h: nothing is shared but the kernel, so that each checks the other.
+// is evaluated in fine steps. It works in image order with point samples of h; the splatting techniques work in object
+// order with integrals of h. They share only the kernel, so that each checks the other.
 //
-// Depth runs along the view axis, and the distance of a kernel from the ray is measured in the plane of constant depth
+// Depth runs along the view axis. The distance of a kernel from the ray is measured in the plane of constant depth
 // through the kernel's centre: the same cylinder support and, in perspective, the same circular footprint as splatting.
 //
-// Two ways to the same bits. The plain one walks every kernel near a ray, sample by sample, and integrates at the end.
-// The other goes along the ray part by part, takes from the tree only the kernels that reach the part, walks four of
-// them side by side, and stops where nothing behind can change the pixel any more (settled_pixels.hpp).
+// Two ways to the same bits. The plain one evaluates every kernel near a ray, then integrates. The fast one proceeds
+// along the ray in parts. It takes from the tree only the kernels that reach the part, evaluates four of them side by
+// side, and stops once nothing behind can change the pixel (settled_pixels.hpp).
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -27,7 +27,7 @@ namespace fastsplat::golden {
 
 namespace {
 
-/// splats[k] becomes what splats[order[k]] was. Round by round, since a copy would be the most memory of all.
+/// splats[k] becomes the old splats[order[k]]. Follows the permutation's cycles: a copy would be the peak of memory.
 void sort_in_place(std::vector<scene::Splat>& splats, const std::vector<std::uint32_t>& order) {
   std::vector<bool> placed(splats.size());
   for (std::size_t first = 0; first < order.size(); ++first) {
@@ -43,7 +43,7 @@ void sort_in_place(std::vector<scene::Splat>& splats, const std::vector<std::uin
   }
 }
 
-/// What the kernels of a scene are to a ray.
+/// A scene prepared for ray casting.
 struct RayScene {
   RayScene(const scene::Scene& scene, int threads)
       : kernel(scene.kernel),
@@ -80,12 +80,12 @@ struct RayScene {
   glm::dvec3 forward;
   double density;
   double ray_end;                    ///< a ray ends where its transmittance is below this
-  std::vector<scene::Splat> splats;  ///< in the tree's order: next to each other in memory as they are there
+  std::vector<scene::Splat> splats;  ///< in the tree's order, so that its neighbours are adjacent in memory
   SplatTree tree;
-  bool bounded;  ///< settled() may be asked
+  bool bounded;  ///< settled() is applicable
 };
 
-/// Whether a ray goes on.
+/// Whether the ray continues.
 bool goes_on(const FrontToBack& pixel, const RayScene& of) { return !(pixel.transmittance < of.ray_end); }
 
 FrontToBack plain_ray(const RayScene& of, const scene::Ray& ray, RayProfile& profile) {
@@ -102,9 +102,9 @@ FrontToBack plain_ray(const RayScene& of, const scene::Ray& ray, RayProfile& pro
 }
 
 FrontToBack fast_ray(const RayScene& of, const scene::Ray& ray, RayProfile& profile) {
-  // Long against a kernel, most of which lie in one part then; short against what a ray may pass in the dark.
+  // Long compared with a kernel, so that most kernels lie in one part; short compared with the hidden part of a ray.
   constexpr std::size_t kPart = 8 * kSamplesPerUnit;
-  // A kernel within R of a part's samples reaches it; a step more for rounding.
+  // A kernel within R of a part's samples reaches it; the rest is a margin for rounding.
   const double reach = of.radius * kSamplesPerUnit + 2.0;
   FrontToBack pixel;
   bool open = true;

@@ -50,7 +50,7 @@ void RayProfile::add_to_part(const RayHit& hit) {
 
 void RayProfile::flush() {
   if (waiting_.empty()) return;
-  // The first sums of samples that no hit reaches stay 0, so touching the whole part would do; this is what they reach.
+  // Samples that no hit reaches stay 0, so marking the whole part as touched would do. These are the samples reached.
   double first = waiting_.front().position, last = first;
   for (const RayHit& hit : waiting_) first = std::min(first, hit.position), last = std::max(last, hit.position);
   const double reach = radius_ * kSamplesPerUnit + 2.0;

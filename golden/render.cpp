@@ -28,7 +28,7 @@ Image render_splats(Technique technique, const scene::Scene& scene, const Render
   return image;
 }
 
-/// Collects its own densities; all its time is splatting.
+/// Collects its own densities; all its time counts as splatting.
 Image timed_post_classified(const scene::Scene& scene, const RenderOptions& options) {
   const auto start = Clock::now();
   Image image = post_classified(scene, options);

@@ -8,7 +8,7 @@
 namespace fastsplat::golden {
 
 bool never_brighter_than_opaque(const std::vector<scene::Splat>& splats) {
-  // Far below what any sum or product could overflow, and so that NaN is refused.
+  // Far below overflow of any sum or product; the comparison also rejects NaN.
   constexpr float kLargest = 1e30f;
   return std::ranges::all_of(splats, [](const scene::Splat& splat) {
     const float most = splat.extinction;
@@ -33,7 +33,7 @@ int SettledPixels::next(int begin, int end, int y, std::uint64_t flip) const {
   if (begin >= end) return end;
   const std::uint64_t* words = row(y);
   int at = begin >> 6;
-  // Bits that are looked for are 1.
+  // Matching bits are 1.
   std::uint64_t found = ~(words[at] ^ flip) & (~std::uint64_t{0} << (begin & 63));
   while (found == 0) {
     if (++at * 64 >= end) return end;
@@ -42,8 +42,8 @@ int SettledPixels::next(int begin, int end, int y, std::uint64_t flip) const {
   return std::min(end, at * 64 + std::countr_zero(found));
 }
 
-// The window holds every pixel of the footprint: Footprint::rasterise rounds a row's ends towards its middle from no
-// farther than reach_x, but for the rounding of its square root; hence the slack.
+// The window holds every pixel of the footprint: Footprint::rasterise rounds a row's ends towards its middle, starting
+// at most reach_x away. Only the rounding of its square root may exceed that; hence the slack.
 Rows SettledPixels::open_rows(const ProjectedSplat& splat, Rows rows) const {
   if (!any_) return rows;
   constexpr double kSlack = 1e-6;

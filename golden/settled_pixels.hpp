@@ -1,5 +1,5 @@
-// Which pixels of a band of rows are settled: whatever is behind them, what is stored of them stays the same. A splat
-// that reaches none but settled pixels need not be drawn.
+// Settled pixels of a band of rows: their stored value stays the same whatever lies behind. A splat that reaches only
+// settled pixels need not be drawn.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ inline bool settled(const FrontToBack& pixel) {
   return fixed(pixel.red) && fixed(pixel.green) && fixed(pixel.blue);
 }
 
-/// Whether no splat is brighter than it is opaque, and all are finite: what settled() takes for granted. Footprints and
-/// shares are the same factors for all channels and rounding is monotone, so what holds of splats holds of sums.
+/// Whether all splats are finite and none is brighter than it is opaque, as settled() assumes. Footprints and shares
+/// are the same factors for all channels and rounding is monotone, so this carries over from splats to sums.
 bool never_brighter_than_opaque(const std::vector<scene::Splat>& splats);
 
 class SettledPixels {
@@ -33,11 +33,11 @@ class SettledPixels {
 
   void settle(int x, int y);
   bool at(int x, int y) const { return (word(x, y) >> (x & 63) & 1u) != 0; }
-  /// The first pixel of [begin, end) in row y that is not settled (or is); `end` if there is none.
+  /// First pixel of [begin, end) in row y that is not settled (next_settled: that is settled); `end` if none.
   int next_open(int begin, int end, int y) const { return next(begin, end, y, 0); }
   int next_settled(int begin, int end, int y) const { return next(begin, end, y, ~std::uint64_t{0}); }
 
-  /// `rows` without those at either end in which the splat can reach settled pixels only. Empty: it cannot be seen.
+  /// Drops rows at either end in which the splat reaches only settled pixels. Empty: the splat cannot be seen.
   Rows open_rows(const ProjectedSplat& splat, Rows rows) const;
 
  private:
@@ -47,7 +47,7 @@ class SettledPixels {
 
   Rows rows_;
   int width_;
-  std::size_t words_;  ///< in a row
+  std::size_t words_;  ///< per row
   std::vector<std::uint64_t> bits_;
   bool any_ = false;
 };

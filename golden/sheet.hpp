@@ -20,7 +20,7 @@ struct Run {
   int size() const { return empty() ? 0 : end - begin; }
 };
 
-/// Memory for sums of which each lies in one cache line.
+/// Allocates memory aligned to cache lines, so that each Sums lies in one line.
 template <class T>
 struct LineAllocator {
   using value_type = T;
@@ -75,8 +75,8 @@ class Sheet {
   }
 
  private:
-  /// Rows that lie a multiple of 4 KiB apart would push each other out of the cache: a footprint has several, in
-  /// several sheets. So they lie an odd number of cache lines apart.
+  /// Rows a multiple of 4 KiB apart would evict each other from the cache: a footprint has several, in several sheets.
+  /// So rows lie an odd number of cache lines apart.
   static std::size_t pitch_for(int width) {
     constexpr std::size_t kPixelsInLine = 64 / sizeof(Sums);
     const std::size_t lines = (static_cast<std::size_t>(width) + kPixelsInLine - 1) / kPixelsInLine;

@@ -1,4 +1,4 @@
-// Where the pixels of an image-aligned sheet are in the world.
+// World positions of the pixels of image-aligned sheets.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -22,18 +22,18 @@ class SheetGeometry {
   double depth_mm(int sheet) const {
     return (near_side(sheet) + 0.5 * grid_.width) * unit_;
   }  ///< of the sheet's middle
-  /// At the depth of the sheet's middle.
+  /// Scale at the depth of the sheet's middle.
   double pixels_per_unit(int sheet) const {
     return camera_.project(camera_.direction() * depth_mm(sheet)).scale * unit_;
   }
 
-  /// World, mm: where the ray of a pixel passes the sheet's middle.
+  /// World position, mm, where a pixel's ray passes the sheet's middle.
   glm::dvec3 position(double x, double y, int sheet) const {
     const scene::Ray ray = camera_.ray(x, y);
     return ray.origin + ray.direction * (depth_mm(sheet) / ray.depth_per_mm);
   }
 
-  /// How far the ray of a pixel leads right (x) and down (y) per unit of depth; 0 for orthographic cameras.
+  /// How far a pixel's ray moves right (x) and down (y) per unit of depth; 0 for orthographic cameras.
   glm::dvec2 tilt(double x, double y) const {
     const scene::Ray ray = camera_.ray(x, y);
     return glm::dvec2(glm::dot(ray.direction, camera_.right()), glm::dot(ray.direction, camera_.down())) /

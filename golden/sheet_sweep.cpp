@@ -17,7 +17,7 @@
 namespace fastsplat::golden {
 
 int KernelSlices::reach() const {
-  // One more than 2R/W slabs when the ends fall inside slabs, one more for the rounding of the ends' positions.
+  // 2R/W slabs, one more if the ends fall inside slabs, and one more for the rounding of the ends' positions.
   return std::min(grid_.count, static_cast<int>(std::ceil(2.0 * kernel_.radius() * largest_growth_ / grid_.width)) + 2);
 }
 
@@ -45,7 +45,7 @@ KernelSlices image_slabs(const scene::Scene& scene) {
 
 namespace {
 
-/// Thin slabs need long rings; then bands are narrower, to keep a thread's ring below this many bytes.
+/// Thin slabs need long rings. Bands are then narrower, to keep a thread's ring below this many bytes.
 constexpr double kRingBytes = 64e6;
 
 int rows_for_ring(int sheets, int width) {
@@ -53,7 +53,7 @@ int rows_for_ring(int sheets, int width) {
   return static_cast<int>(std::clamp(kRingBytes / row_bytes, 4.0, 16.0));
 }
 
-/// The sweep of one band. `pixels` are those of its rows.
+/// Sweeps the sheets of one band of rows.
 class BandSweep {
  public:
   BandSweep(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const SheetAssignment& assignment,
@@ -68,7 +68,7 @@ class BandSweep {
         pixels_(static_cast<std::size_t>(rows.end - rows.first) * width_, sink.initial) {}
   virtual ~BandSweep() = default;
 
-  /// Splats by their nearest sheet.
+  /// Visits splats by their nearest sheet.
   void run(const Projector& project, const BandIndex& index, int band) {
     for (int sheet = 0; sheet < assignment_.sheets(); ++sheet) {
       add(sheet, project, index.bucket(band, sheet));
@@ -107,14 +107,14 @@ class BandSweep {
  private:
   /// Adds the splats whose nearest sheet this is.
   virtual void add(int sheet, const Projector& project, std::span<const std::uint32_t> bucket) = 0;
-  /// Hands the touched runs over and leaves the sheet empty.
+  /// Passes the touched runs to the sink and clears the sheet.
   virtual void drain(Sheet& sheet) = 0;
 
   std::vector<Sheet> ring_;
   std::vector<Sums> pixels_;
 };
 
-/// As it is said.
+/// The definition, without shortcuts.
 class PlainBandSweep final : public BandSweep {
  public:
   using BandSweep::BandSweep;
@@ -142,7 +142,7 @@ class PlainBandSweep final : public BandSweep {
   }
 };
 
-/// The same pixels with vectors, and without what settled pixels hide.
+/// The same pixels with vectors, without splats hidden by settled pixels.
 class FastBandSweep final : public BandSweep {
  public:
   FastBandSweep(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const SheetAssignment& assignment,
@@ -202,7 +202,7 @@ class FastBandSweep final : public BandSweep {
   }
 
   SettledPixels settled_;
-  SplatSums sums_;  ///< of the splat at hand
+  SplatSums sums_;  ///< of the current splat
 };
 
 }  // namespace

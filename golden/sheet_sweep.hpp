@@ -1,5 +1,5 @@
-// Sheets, front to back: what xray, axis_aligned and image_aligned share. A sheet method is two choices:
-// which sheets get which share of a splat, and what becomes of a finished sheet.
+// Front-to-back sweep of sheets, shared by xray, axis_aligned and image_aligned. A sheet method makes two choices:
+// which sheets get which share of a splat, and what happens to a finished sheet.
 #pragma once
 
 #include <functional>
@@ -26,7 +26,7 @@ class SheetAssignment {
   virtual void shares(const ProjectedSplat& splat, std::vector<double>& out) const = 0;
 };
 
-/// Every splat whole into one sheet.
+/// Assigns every splat whole to one sheet.
 class WholeSplats final : public SheetAssignment {
  public:
   explicit WholeSplats(int sheets) : sheets_(sheets) {}
@@ -39,12 +39,12 @@ class WholeSplats final : public SheetAssignment {
   int sheets_;
 };
 
-/// Kernel slices: the slab [z0,z1) of depth gets Phi((z1-z)/l) - Phi((z0-z)/l) of a splat centred at z, Phi =
-/// Kernel::cumulative, l its depth_growth. The first slab reaches to the eye and the last to infinity, so nothing is
+/// Kernel slices: of a splat centred at z, the slab [z0,z1) of depth gets Phi((z1-z)/l) - Phi((z0-z)/l), with Phi =
+/// Kernel::cumulative and l = depth_growth. The first slab reaches to the eye and the last to infinity, so nothing is
 /// lost.
 class KernelSlices final : public SheetAssignment {
  public:
-  /// `largest_growth`: of any splat.
+  /// `largest_growth`: upper bound on any splat's depth_growth.
   KernelSlices(const scene::Kernel& kernel, const scene::SlabGrid& grid, double largest_growth)
       : kernel_(kernel), grid_(grid), largest_growth_(largest_growth) {}
   int sheets() const override { return grid_.count; }
@@ -61,24 +61,24 @@ class KernelSlices final : public SheetAssignment {
 /// The sheets of image_aligned.
 KernelSlices image_slabs(const scene::Scene& scene);
 
-/// What becomes of finished sheets.
+/// Receives finished sheets.
 struct SheetSink {
-  Sums initial{};  ///< every pixel, to begin with
-  /// Takes a run of pixels of a finished sheet into the picture.
+  Sums initial{};  ///< initial value of every pixel
+  /// Combines a run of pixels of a finished sheet with the picture.
   std::function<void(std::span<Sums> pixels, std::span<const Sums> sheet)> take;
-  /// One finished pixel to RGBA.
+  /// Converts one finished pixel to RGBA.
   std::function<void(const Sums& pixel, float* rgba)> store;
-  /// Whether no further sheet can change what will be stored of the pixel. Empty: never.
+  /// Whether no further sheet can change the stored value of the pixel. Empty: never.
   std::function<bool(const Sums& pixel)> settled{};
 };
 
-/// Adds every splat into its sheets, in the order given, and hands each sheet over when no later splat can reach it.
-/// Pixels that no splat of a sheet touches need not be handed over; nor, unless options.plain, settled ones. Splats
-/// that reach only settled pixels are then not drawn.
+/// Adds every splat to its sheets in the given order, and passes each sheet to `sink` once no later splat can reach it.
+/// Pixels that no splat of a sheet touches may be omitted; so may settled ones, unless options.plain. Splats that reach
+/// only settled pixels are then not drawn.
 Image sweep_sheets(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options,
                    const SheetAssignment& assignment, const SheetSink& sink);
 
-/// sweep_sheets with the sheets composited front to back by the scene's slab opacity; a pixel whose transmittance is
+/// sweep_sheets that composites the sheets front to back with the scene's slab opacity; a pixel whose transmittance is
 /// below culling.freeze no longer changes.
 Image composite_sheets(const scene::Scene& scene, const std::vector<scene::Splat>& splats, const RenderOptions& options,
                        const SheetAssignment& assignment);

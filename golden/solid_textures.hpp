@@ -1,5 +1,5 @@
-// Procedural solid textures per pixel (docs/techniques/solid-textures.md): the tint at each pixel of each sheet, for
-// densities that are classified there and for colours that were splatted.
+// Procedural solid textures per pixel (docs/techniques/solid-textures.md): tints each pixel of each sheet, whether
+// densities are classified there or colours were splatted.
 #pragma once
 
 #include "golden/frame_sweep.hpp"
@@ -19,7 +19,7 @@ class TextureOfPixel final : public PixelStage {
   scene::Texture texture_;
 };
 
-/// Tints what pre-classified splats emit.
+/// Tints the emission of pre-classified splats.
 class TextureOfSheet final : public SheetStage {
  public:
   TextureOfSheet(const scene::Texture& texture, const SheetGeometry& geometry)

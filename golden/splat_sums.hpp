@@ -8,7 +8,7 @@
 
 namespace fastsplat::golden {
 
-/// Reused from splat to splat to avoid allocations. Does not touch() the sheets: who knows more splats does it once.
+/// Reused from splat to splat to avoid allocations. Does not touch() the sheets: callers do so once for many splats.
 class SplatSums {
  public:
   void clear() { values_.clear(), rows_.clear(); }

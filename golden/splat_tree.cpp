@@ -9,7 +9,7 @@ namespace fastsplat::golden {
 namespace {
 constexpr std::uint32_t kLeafSplats = 32;
 
-/// A word that is ordered as (place, index) is; indices break ties, and -0 is 0.
+/// A word that sorts like (place, index): indices break ties, and -0 equals 0.
 std::uint64_t ordered(float place, std::uint32_t index) {
   const auto bits = std::bit_cast<std::uint32_t>(place + 0.0f);
   const std::uint32_t rising = bits >> 31 != 0 ? ~bits : bits | 0x80000000u;
@@ -42,8 +42,8 @@ void SplatTree::build(const std::vector<scene::Splat>& splats, std::vector<std::
     nodes_[self].end = end;
     std::sort(order_.begin() + begin, order_.begin() + end);
   } else {
-    // Halve along the longest side. Ties in position are broken by index: the tree must not depend on the library.
-    // Sorted are words that hold both, one after the other in memory.
+    // Halve along the longest side. Indices break ties in position, so the tree does not depend on the library. The
+    // sorted words hold both and are contiguous in memory.
     const glm::vec3 size = high - low;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
     const std::uint32_t middle = begin + (end - begin) / 2;

@@ -1,4 +1,4 @@
-// Which kernels does a ray pass through? A tree of bounding balls over the splats' centres.
+// Finds the kernels that a ray passes through: a tree of bounding balls over the splats' centres.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@ class SplatTree {
  public:
   explicit SplatTree(const std::vector<scene::Splat>& splats);
 
-  /// Indices in the order in which the splats are visited.
+  /// Splat indices in the order of visits.
   const std::vector<std::uint32_t>& order() const { return order_; }
 
   /// Calls visit(place) for every splat whose centre is within `distance` of the line and between two planes, low <=
-  /// dot(centre, axis) <= high, and for some beyond; always in the same order. `axis` is a unit vector, `place` the
-  /// splat's place in order().
+  /// dot(centre, axis) <= high. May visit others nearby; the order is always the same. `axis` is a unit vector, `place`
+  /// the splat's index in order().
   template <class Visit>
   void near_line_between(const glm::dvec3& origin, const glm::dvec3& unit_direction, double distance,
                          const glm::dvec3& axis, double low, double high, Visit&& visit) const {
@@ -46,7 +46,7 @@ class SplatTree {
     std::uint32_t skip = 0;
     std::uint32_t begin = 0, end = 0;
   };
-  /// `words`: room for one a splat.
+  /// `words`: scratch space, one word per splat.
   void build(const std::vector<scene::Splat>& splats, std::vector<std::uint64_t>& words, std::uint32_t begin,
              std::uint32_t end);
 

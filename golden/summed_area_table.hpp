@@ -18,17 +18,17 @@ struct Window {
   }
 };
 
-/// S(x,y) = v(x,y) + S(x-1,y) + S(x,y-1) - S(x-1,y-1), modulo 2^32: every difference of entries is right as long as the
-/// sum itself is below 2^32, whatever the size of the image.
+/// S(x,y) = v(x,y) + S(x-1,y) + S(x,y-1) - S(x-1,y-1), modulo 2^32. Differences of entries are exact if the sum itself
+/// is below 2^32, whatever the size of the image.
 class SummedAreaTable {
  public:
   /// All values 0.
   SummedAreaTable(int width, int height);
 
-  /// Takes the values, row by row. Those of the rows above `first_row` must be what they were the last time.
+  /// Replaces the values, row by row. Rows above `first_row` must be unchanged since the last call.
   void rebuild(std::span<const std::uint8_t> values, int first_row);
 
-  /// Of a window inside the image; below 2^32 or reduced by it.
+  /// Sum over a window inside the image, modulo 2^32.
   std::uint32_t sum(const Window& window) const {
     return at(window.right, window.bottom) - at(window.left, window.bottom) - at(window.right, window.top) +
            at(window.left, window.top);

@@ -8,7 +8,7 @@
 namespace fastsplat::golden {
 namespace {
 
-/// Bits of a brick's coordinates interleaved, x lowest: eight bricks of one parent differ in the last three bits only.
+/// Interleaves a brick's coordinate bits, x lowest: eight bricks of one parent differ only in the last three bits.
 std::uint64_t morton(const glm::uvec3& at) {
   std::uint64_t code = 0;
   for (unsigned bit = 0; bit < 21; ++bit) {
@@ -21,10 +21,10 @@ std::uint64_t morton(const glm::uvec3& at) {
 
 struct Brick {
   std::uint64_t code = 0;
-  std::uint32_t place = 0;  ///< in the grid of bricks
+  std::uint32_t place = 0;  ///< index in the grid of bricks
 };
 
-/// Takes in another block or splat.
+/// Grows a block by another block or splat.
 void include(VoxelBlock& block, const glm::vec3& low, const glm::vec3& high, std::uint16_t sheet) {
   block.low = glm::min(block.low, low);
   block.high = glm::max(block.high, high);
@@ -65,7 +65,7 @@ VoxelBlocks::VoxelBlocks(const volume::Volume& volume, const std::vector<scene::
   }
   std::sort(bricks.begin(), bricks.end(), [](const Brick& a, const Brick& b) { return a.code < b.code; });
 
-  // A stable counting sort of the splats by brick; `count` becomes the place of the brick's next splat.
+  // A stable counting sort of the splats by brick; `count` becomes the position of the brick's next splat.
   std::vector<std::uint64_t> codes;
   std::uint32_t start = 0;
   for (const Brick& brick : bricks) {
@@ -103,7 +103,7 @@ VoxelBlocks::VoxelBlocks(const volume::Volume& volume, const std::vector<scene::
 }
 
 // A box in front of the eye projects into the convex hull of its projected corners, and depth is linear: its extremes
-// are at corners. The slack covers the rounding of corners and splats, which take different ways.
+// are at corners. The slack covers rounding, since corners and splats are computed differently.
 BlockView view_of(const scene::Scene& scene, const SheetAssignment& assignment, const VoxelBlock& block, int margin) {
   constexpr double kSlack = 1.0 / 1024.0;  // pixels; kernel units
   constexpr double kFar = std::numeric_limits<double>::max();

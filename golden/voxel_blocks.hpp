@@ -1,4 +1,4 @@
-// Voxel sets for occlusion culling: an octree whose leaves are bricks of b x b x b voxels, over the splats of a scene.
+// Voxel blocks for occlusion culling: an octree over the splats of a scene, with leaves of b x b x b voxels.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +14,20 @@ namespace fastsplat::golden {
 
 struct VoxelBlock {
   glm::vec3 low{0.0f}, high{0.0f};  ///< box of the splats' centres, mm
-  std::uint16_t axis_sheet = 0;     ///< the nearest axis-aligned sheet of its splats
+  std::uint16_t axis_sheet = 0;     ///< nearest axis-aligned sheet of its splats
   bool leaf = true;
-  std::uint32_t first = 0, count = 0;  ///< leaf: splats, by VoxelBlocks::splats; else blocks
-  std::uint32_t splats = 0;            ///< in all
+  std::uint32_t first = 0, count = 0;  ///< leaf: splats, see VoxelBlocks::splats; else child blocks
+  std::uint32_t splats = 0;            ///< in the whole subtree
 };
 
 class VoxelBlocks {
  public:
-  /// `edge` voxels. Blocks without splats are left out; no splats, no blocks.
+  /// `edge` is in voxels. Blocks without splats are left out; without splats there are no blocks.
   VoxelBlocks(const volume::Volume& volume, const std::vector<scene::Splat>& splats, int edge);
 
-  /// The last one is the root: children lie before their parents, side by side.
+  /// The last block is the root. Children precede their parents and are contiguous.
   std::span<const VoxelBlock> blocks() const { return blocks_; }
-  /// Indices of a leaf's splats, rising.
+  /// Indices of a leaf's splats, ascending.
   std::span<const std::uint32_t> splats(const VoxelBlock& leaf) const {
     return std::span(order_).subspan(leaf.first, leaf.count);
   }
@@ -37,8 +37,8 @@ class VoxelBlocks {
   std::vector<VoxelBlock> blocks_;
 };
 
-/// Bounds of a block's visible part: at least every pixel that a circular footprint of its splats can reach, and the
-/// nearest sheet that one of them can reach, or one before it.
+/// Bounds of a block's visible part. `window` holds every pixel that a circular footprint of its splats can reach.
+/// `first_sheet` is the nearest sheet that one of them can reach, or an earlier one.
 struct BlockView {
   Window window;
   int first_sheet = 0;

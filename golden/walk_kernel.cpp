@@ -12,13 +12,13 @@
 #define FASTSPLAT_GOLDEN_WALK_ONCE
 namespace fastsplat::golden {
 
-/// One way from the centres of up to four hits: what the recurrence begins with, and what it comes to.
+/// Start and results of the recurrence in one direction from the centres of up to four hits.
 struct Walk {
-  static constexpr std::size_t kMostSteps = 8 * kSamplesPerUnit + 2;  // Kernel: radius at most 8
+  static constexpr std::size_t kMostSteps = 8 * kSamplesPerUnit + 2;  // the kernel's radius is at most 8
   alignas(64) double distance[kWalkedTogether] = {};
   alignas(64) double value[kWalkedTogether] = {};
   alignas(64) double ratio[kWalkedTogether] = {};
-  alignas(64) double steps[kWalkedTogether] = {};  ///< how many samples lie within the kernel
+  alignas(64) double steps[kWalkedTogether] = {};  ///< number of samples within the kernel
   alignas(64) double values[kMostSteps][kWalkedTogether];
 
   void begin(const WalkShape& shape, std::size_t hit, double from) {
@@ -46,7 +46,7 @@ constexpr std::size_t kLanes = 4;
 constexpr std::size_t kParts = 4 / kLanes;
 using Part = hn::CappedTag<double, kLanes>;
 
-/// The recurrence of all hits, to where none is within the kernel.
+/// Runs all hits' recurrence until all are outside the kernel.
 void run(const WalkShape& shape, Walk& walk) {
   const Part d;
   const auto radius = hn::Set(d, shape.radius), step = hn::Set(d, kSampleStep), shrink = hn::Set(d, shape.shrink);
@@ -67,7 +67,7 @@ void run(const WalkShape& shape, Walk& walk) {
   }
 }
 
-/// Steps [first, end) of one hit into the samples at sample + direction * step.
+/// Adds steps [first, end) of one hit to the samples at sample + direction * step.
 void add(const Walk& walk, std::size_t hit, const Sums& amount, Sums* samples, std::ptrdiff_t sample,
          std::ptrdiff_t direction, std::ptrdiff_t first, std::ptrdiff_t end) {
   const Part d;
@@ -88,7 +88,7 @@ void walk_all(const WalkShape& shape, const RayHit* hits, std::size_t count, Sum
   Walk nearer, farther;
   std::ptrdiff_t nearest[kWalkedTogether] = {};
   for (std::size_t h = 0; h < kWalkedTogether; ++h) {
-    // Lanes without a hit walk with the first.
+    // Lanes without a hit repeat the first.
     const double position = hits[h < count ? h : 0].position;
     const double floor = std::floor(position);
     const double offset = (floor - position) * kSampleStep;

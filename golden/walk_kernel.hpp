@@ -1,4 +1,4 @@
-// Walking kernels along a ray with vector instructions, chosen for the processor at run time (Highway).
+// Evaluates kernels along a ray with vector instructions, chosen for the processor at run time (Highway).
 #pragma once
 
 #include <cstddef>
@@ -8,16 +8,16 @@
 
 namespace fastsplat::golden {
 
-/// So many hits at most in one call.
+/// Largest number of hits per call.
 inline constexpr std::size_t kWalkedTogether = 4;
 
 struct WalkShape {
-  double a = 0.0, radius = 0.0;  ///< the kernel's
+  double a = 0.0, radius = 0.0;  ///< of the kernel
   double shrink = 0.0;           ///< exp(-2 a step^2)
 };
 
-/// Adds hits to samples[begin..end), to each sample in the order given, each value and sum rounded as in
-/// RayProfile::add: the same bits. Vectors run over hits for the values, over a sample's four sums for the sums.
+/// Adds hits to samples[begin..end). Each sample gets them in the given order, each value and sum rounded as in
+/// RayProfile::add, so the bits are the same. Vectors run over hits for the values, over a sample's sums for the sums.
 void walk_hits(const WalkShape& shape, std::span<const RayHit> hits, Sums* samples, std::size_t begin, std::size_t end);
 
 }  // namespace fastsplat::golden

@@ -1,5 +1,5 @@
-// Composite every sample (Westover 1989): each splat is composited on its own, in traversal order. Overlapping kernels
-// of one layer, which ought to be added, dim one another instead: the picture depends on the order inside a layer.
+// Composite every sample (Westover 1989): each splat is composited by itself, in traversal order. Overlapping kernels
+// of one layer should be added but dim one another, so the picture depends on the order inside a layer.
 #include <atomic>
 
 #include "golden/bands.hpp"

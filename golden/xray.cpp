@@ -1,5 +1,5 @@
 // X-ray: the line integral of emission (RGB) and of extinction (A), times the exposure. Exact for splatting, since the
-// integral of a sum of kernels is the sum of their footprints; no order, no compositing.
+// integral of a sum of kernels is the sum of their footprints. Needs neither order nor compositing.
 #include "golden/render.hpp"
 #include "golden/sheet_sweep.hpp"
 #include "scene/kernel_growth.hpp"

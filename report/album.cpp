@@ -13,7 +13,7 @@
 namespace fastsplat::report {
 namespace {
 
-/// Smaller than this nobody sees anything.
+/// Smaller windows are useless.
 constexpr int kLeastSide = 64;
 
 std::string metadata_of(const Picture& picture, const char* key) {
@@ -21,7 +21,7 @@ std::string metadata_of(const Picture& picture, const char* key) {
   return found == picture.metadata.end() ? std::string{} : found->second;
 }
 
-/// What can be looked at in one viewer: pictures of one scene. 3-D Gaussians have a view instead.
+/// Key of the pictures that one viewer shows together: their scene, or the view for 3-D Gaussians.
 std::string scene_of(const Picture& picture) {
   if (metadata_of(picture, "gaussians").empty()) return metadata_of(picture, "scene");
   return fmt::format("{} {}x{} {}", metadata_of(picture, "content_hash"), picture.full_width, picture.full_height,
@@ -33,7 +33,7 @@ bool is_better(const Picture& a, const Picture& b) {
   return rank(a) > rank(b);
 }
 
-/// The same picture of the same device, perhaps in another format.
+/// Whether both are the same picture of the same device, perhaps in different formats.
 bool one_picture(const Picture& a, const Picture& b) {
   return a.role == b.role && scene_of(a) == scene_of(b) &&
          metadata_of(a, "config_hash") == metadata_of(b, "config_hash") && same_values(a, b);
@@ -76,9 +76,9 @@ Encoded encoded(const Picture& picture) {
 
 std::size_t base64_size(const std::string& bytes) { return (bytes.size() + 2) / 3 * 4; }
 
-/// Of pictures already encoded, equal ones once.
+/// Size in the page; equal pictures count once.
 std::size_t total_size(const std::vector<Encoded>& all) {
-  std::map<std::string, std::size_t> once;  // by what would lie in the page
+  std::map<std::string, std::size_t> once;  // keyed by the bytes in the page
   for (const Encoded& one : all) once[one.bytes] = base64_size(one.bytes);
   std::size_t sum = 0;
   for (const auto& [unused, size] : once) sum += size;
@@ -91,7 +91,7 @@ std::vector<Encoded> encoded(const std::vector<Picture>& pictures) {
   return all;
 }
 
-/// A window of about `share` of the sides around the focus.
+/// Crops to about `share` of the sides, around `focus`.
 Picture window(const Picture& picture, Focus focus, double share) {
   const auto part = [&](int full, int centre, int& start) {
     const int side = std::clamp(static_cast<int>(full * share), std::min(kLeastSide, full), full);
@@ -142,8 +142,8 @@ bool seen_together(const Picture& a, const Picture& b) {
   });
 }
 
-/// Numbers of groups, from 0 in the order of the first picture of each: pictures of one scene, or of one compare, and
-/// what hangs together by such; pictures of which nothing is known join the first.
+/// Group of each picture, numbered from 0 in order of first appearance. Pictures of one scene or one compare share a
+/// group, transitively; pictures without either join the first group.
 std::vector<std::size_t> groups_of(const std::vector<Picture>& pictures) {
   std::vector<std::size_t> first(pictures.size());
   for (std::size_t i = 0; i < pictures.size(); ++i) {
@@ -163,7 +163,7 @@ std::vector<std::size_t> groups_of(const std::vector<Picture>& pictures) {
   return numbers;
 }
 
-/// Titles that two pictures of a group share get their files' names.
+/// Appends file names to titles that are not unique within their group.
 void tell_apart(Json& entries) {
   std::map<std::string, int> times;
   const auto key = [](const Json& json) { return json["group"].dump() + json["title"].get<std::string>(); };
@@ -175,7 +175,7 @@ void tell_apart(Json& entries) {
   }
 }
 
-/// Each file once: the user's role wins.
+/// Lists each file once; the user's role wins.
 std::vector<std::pair<NamedPicture, std::vector<std::string>>> by_file(const std::vector<NamedPicture>& named) {
   std::vector<std::pair<NamedPicture, std::vector<std::string>>> files;
   const auto place = [](const std::filesystem::path& file) {
@@ -215,7 +215,7 @@ Album load_album(const std::vector<NamedPicture>& named) {
     picture.ties = ties;
     add(album.pictures, std::move(picture));
   }
-  // Whatever the order of the results: as the viewer shows them.
+  // The viewer's order, whatever the order of the results.
   static const std::vector<std::string> order{"golden", "reference", "integer", "test", "rtl", "blame", "saturation"};
   std::stable_sort(album.pictures.begin(), album.pictures.end(), [](const Picture& a, const Picture& b) {
     return std::find(order.begin(), order.end(), a.role) < std::find(order.begin(), order.end(), b.role);
@@ -227,7 +227,7 @@ Pages fit(const Album& album, Focus focus, std::size_t bytes) {
   Pages pages;
   std::vector<Picture> pictures = album.pictures;
   auto all = encoded(pictures);
-  // Cropping leaves every pane the same window; size goes with the area, so a second or third try fits.
+  // All panes get the same window. Size follows the area, so two or three tries suffice.
   double share = 1.0;
   for (int tries = 0; tries < 12 && total_size(all) > bytes; ++tries) {
     share *= 0.97 * std::sqrt(static_cast<double>(bytes) / static_cast<double>(total_size(all)));
@@ -255,7 +255,7 @@ Pages fit(const Album& album, Focus focus, std::size_t bytes) {
   }
 
   const auto groups = groups_of(pictures);
-  std::map<std::string, std::string> block_of;  // by shape and hash: equal pictures lie in the page once
+  std::map<std::string, std::string> block_of;  // by shape and hash: equal pictures share one block
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     const Picture& picture = pictures[i];
     const std::string id = "picture-" + std::to_string(i);

@@ -1,4 +1,4 @@
-// Base64 (RFC 4648), the way bytes travel in a page.
+// Base64 (RFC 4648), the encoding of bytes in a page.
 #pragma once
 
 #include <string>

@@ -11,7 +11,7 @@ namespace {
 
 std::string deflated(const std::string& bytes) {
   z_stream stream{};
-  // Negative window bits: raw deflate, what the browser's DecompressionStream('deflate-raw') takes.
+  // Negative window bits: raw deflate, as the browser's DecompressionStream('deflate-raw') expects.
   if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, -MAX_WBITS, 9, Z_DEFAULT_STRATEGY) != Z_OK)
     throw std::runtime_error("zlib cannot start");
   std::string out(deflateBound(&stream, static_cast<uLong>(bytes.size())), '\0');

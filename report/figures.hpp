@@ -1,5 +1,5 @@
-// Figures of a result by their place in it, "cycles/account/ideal"; one that is not there is the user's error: the
-// result is damaged.
+// Reads figures of a result by path, "cycles/account/ideal". A missing figure means that the result is damaged, which
+// is a UserError.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@ class Figures {
  public:
   explicit Figures(const Result& result) : result_(result) {}
 
-  /// The value at `place`, of whatever type. UserError (Input) when there is none.
+  /// The value at `place`, of any type. UserError (Input) if it is missing.
   const Json& at(const std::string& place) const;
   double number(const std::string& place) const;
   std::uint64_t count(const std::string& place) const;
   std::string text(const std::string& place) const;
   bool flag(const std::string& place) const;
   const Json& list(const std::string& place) const;
-  /// Null where it is not there.
+  /// Null if it is missing.
   const Json* find(const std::string& place) const;
 
   [[noreturn]] void damaged(const std::string& place, const std::string& expected) const;
@@ -30,7 +30,7 @@ class Figures {
   const Result& result_;
 };
 
-/// Runs `make`, which reads `result`: a figure of another type than it has becomes UserError (Input).
+/// Runs `make`, which reads `result`; figures of a wrong type become UserError (Input).
 template <class Make>
 void reading(const Result& result, const Make& make) {
   try {

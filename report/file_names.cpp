@@ -14,7 +14,7 @@ bool is_blank(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0;
 bool is_quote(char c) { return c == '"' || c == '\'' || c == '`'; }
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 
-/// Whether something else than a path can stand right before `at`; -o/a/b is a flag with its value.
+/// Whether a path can begin at `at`, judging by the text before it; -o/a/b is a flag with its value.
 bool may_begin(std::string_view text, std::size_t at) {
   if (at == 0) return true;
   const std::string_view before = text.substr(0, at);
@@ -25,7 +25,7 @@ bool may_begin(std::string_view text, std::size_t at) {
   return is_word(last) && at >= 2 && text[at - 2] == '-' && (at == 2 || is_blank(text[at - 3]));
 }
 
-/// The length of what marks a path's beginning: "/", "~", "../"; 0 for none. Dates, shares and URLs are none.
+/// Length of the mark that begins a path: "/", "~", "../"; 0 for none. Dates, fractions and URLs are not paths.
 std::size_t beginning(std::string_view rest) {
   const auto names = [&](std::size_t at) {
     return at < rest.size() && (is_word(rest[at]) || static_cast<unsigned char>(rest[at]) >= 0x80 ||
@@ -39,13 +39,13 @@ std::size_t beginning(std::string_view rest) {
   return slash < rest.size() && rest[slash] == '/' && names(slash + 1) ? slash + 1 : 0;
 }
 
-/// Where the path that begins at `at` ends. In quotes it goes to the closing one; a text that is nothing but a path
-/// may hold blanks; elsewhere blanks and quotes end it, and punctuation before them does not belong to it.
+/// End of the path that begins at `at`. In quotes: the closing one. A text that is only a path may contain blanks;
+/// otherwise it ends at a blank or quote, without the punctuation before it.
 std::size_t ending(std::string_view text, std::size_t at) {
   const std::string_view rest = text.substr(at);
   if (at > 0 && is_quote(text[at - 1])) {
     std::size_t quote = text.find(text[at - 1], at);
-    // As a shell and as TOML have a quote within quotes.
+    // Escaped quotes, as in a shell and in TOML.
     while (quote != std::string_view::npos && (text[quote - 1] == '\\' || text.substr(quote).starts_with("'\\''")))
       quote = text.find(text[at - 1], quote + (text[quote - 1] == '\\' ? 1 : 4));
     if (quote != std::string_view::npos) return quote;
@@ -68,7 +68,7 @@ struct Split {
   std::string_view folder, name;  ///< "/a/b/", "c"
 };
 
-/// A folder of people is no name to show: who is at home there would be told.
+/// Hides the whole path for a child of /home or /Users, whose name is a user's.
 Split split(std::string_view path) {
   std::string_view stem = path;
   while (stem.size() > 1 && stem.ends_with('/')) stem.remove_suffix(1);
@@ -78,7 +78,7 @@ Split split(std::string_view path) {
   return {.folder = folder, .name = path.substr(slash + 1)};
 }
 
-/// The paths in a text, in order; `take` gets each path and gives what is to stand in its place.
+/// Replaces each path in a text, in order, by the result of `take`.
 std::string each_path(std::string_view text, const std::function<std::string(std::string_view)>& take) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
@@ -109,14 +109,14 @@ Json each_text(const Json& json, const std::function<std::string(const std::stri
   return out;
 }
 
-/// One folder in a command and elsewhere: without a shell's quotes within quotes.
+/// A folder without a shell's escaped quotes, so that it is the same in a command and elsewhere.
 std::string plain(std::string_view folder) {
   std::string text(folder);
   for (auto at = text.find("'\\''"); at != std::string::npos; at = text.find("'\\''", at + 1)) text.replace(at, 4, "'");
   return text;
 }
 
-/// What stands for each folder: nothing, or a number where its files' names occur in another, too.
+/// Replacement of each folder: empty, or a number if its files' names also occur in another folder.
 class Folders {
  public:
   void meet(std::string_view path) {
@@ -141,7 +141,7 @@ class Folders {
     return (label == label_.end() ? "" : label->second) + std::string(name);
   }
 
-  /// Messages name files without quotes: a folder with blanks or quotes is known from elsewhere.
+  /// Messages name files without quotes; finds folders with blanks or quotes that are known from elsewhere.
   std::string without_blanks(std::string text) const {
     for (const auto& [folder, label] : label_) {
       if (folder.find_first_of(" '\"`") == std::string::npos || !folder.ends_with('/')) continue;
@@ -159,8 +159,8 @@ class Folders {
   }
 
   std::vector<std::string> order_;
-  std::map<std::string, std::string, std::greater<>> label_;  ///< longer ones before those that they begin with
-  std::map<std::string, std::set<std::string>> names_;        ///< the folders of each name
+  std::map<std::string, std::string, std::greater<>> label_;  ///< longer folders before their prefixes
+  std::map<std::string, std::set<std::string>> names_;        ///< by file name: its folders
 };
 
 }  // namespace

@@ -1,13 +1,13 @@
-// A report is sent by mail: files are named in it, the folders in which they lay are not.
+// Removes folders from a report, which may be sent by mail: files are named in it, their folders are not.
 #pragma once
 
 #include "report/results.hpp"
 
 namespace fastsplat::report {
 
-/// `data` with every path that tells a folder outside of the working one (/a/b, ~/b, ../b, file:///a/b) cut to its last
-/// name, in every text and key: whole texts, words of commands, quoted names, messages. Relative paths stay. Where two
-/// folders hold files of one name, "folder-2/" and so on tell them apart, by first appearance.
+/// `data` with every path outside the working folder (/a/b, ~/b, ../b, file:///a/b) cut to its last name, in all texts
+/// and keys: whole texts, words of commands, quoted names, messages. Relative paths stay. If several folders hold files
+/// of the same name, "folder-2/" and so on distinguish them, in order of first appearance.
 Json without_folders(const Json& data);
 
 }  // namespace fastsplat::report

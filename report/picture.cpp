@@ -10,7 +10,7 @@
 namespace fastsplat::report {
 namespace {
 
-/// Fraction bits of floats: those of the finest device, so that its pictures stay exact.
+/// Fraction bits for floats: the finest device's, so that its pictures stay exact.
 constexpr int kFractionBits = 16;
 
 void take_samples(const images::LoadedImage& loaded, std::int64_t scale, Picture& to) {
@@ -23,7 +23,7 @@ void take_samples(const images::LoadedImage& loaded, std::int64_t scale, Picture
       continue;
     }
     to.words[i] = std::llround(value * static_cast<double>(scale));
-    // Integer samples come as floats that round back to themselves.
+    // Integer samples are read as floats that round back exactly.
     if (to.frac_bits >= 0)
       to.exact = to.exact && static_cast<double>(to.words[i]) == value * static_cast<double>(scale);
   }

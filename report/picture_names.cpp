@@ -15,7 +15,8 @@ std::string text_at(const Json& json, const char* place) {
   return json.at(pointer).get<std::string>();
 }
 
-/// Results travel with their pictures: as named, or of that name in the result's own folder.
+/// Searches at the named place, then relative to the result's folder, then in it: results may be moved with their
+/// pictures.
 std::filesystem::path found(const Result& result, const std::string& name) {
   const std::filesystem::path named(name), folder = result.file.parent_path();
   std::error_code error;
@@ -25,7 +26,7 @@ std::filesystem::path found(const Result& result, const std::string& name) {
   return named;
 }
 
-/// The file among a render's outputs that says most; empty for none.
+/// The most precise of a render's outputs; empty for none.
 std::string best_of(const Json& json) {
   std::string best = text_at(json, "/raw");
   const auto outputs = json.find("outputs");

@@ -1,4 +1,4 @@
-// The pictures of a report: the ones named by its results, and the user's.
+// Finds the pictures of a report: those named by its results, and the user's.
 #pragma once
 
 #include <filesystem>
@@ -10,23 +10,23 @@
 namespace fastsplat::report {
 
 struct NamedPicture {
-  std::string role;            ///< empty: as the file's own metadata tell, else `otherwise`
+  std::string role;            ///< empty: from the file's metadata, else `otherwise`
   std::filesystem::path file;  ///< where it is
-  std::string otherwise;       ///< role of a file that does not tell
-  bool wanted = false;         ///< the user asked for it: that it is missing is an error
-  /// "ref" or "test" of a compare, empty of others; in a report behind the result's place: "0.ref". Pictures of one
-  /// compare are seen together.
+  std::string otherwise;       ///< role if the metadata have none
+  bool wanted = false;         ///< requested by the user: an error if missing
+  /// "ref" or "test" for pictures of a compare, else empty; in a report with the result's index in front: "0.ref".
+  /// Pictures of one compare are shown together.
   std::string tie = {};
 };
 
-/// The files a result names, one of each picture: raw words rather than .exr, .exr rather than .tif, that rather than
-/// .png. A file that is not where the result says is looked for beside the result.
+/// The files that a result names, one per picture, by preference: raw words, .exr, .tif, .png. Files that are not at
+/// the named place are searched for beside the result.
 std::vector<NamedPicture> pictures_of(const Result& result);
 
-/// "ROLE=FILE". UserError (Usage) for what has another shape; a role is [a-z][a-z0-9-]*.
+/// Parses "ROLE=FILE", where a role is [a-z][a-z0-9-]*. UserError (Usage) for other texts.
 NamedPicture picture_from(const std::string& text);
 
-/// The role of what an engine drew: golden, integer, rtl; empty for another.
+/// The role of an engine's pictures: golden, integer, rtl; empty for unknown engines.
 std::string role_of_engine(const std::string& engine);
 
 }  // namespace fastsplat::report

@@ -17,7 +17,7 @@ std::vector<Verdict> verdicts_of(const std::vector<Result>& results) {
   return verdicts;
 }
 
-/// The worst pixel of the first compare that has one.
+/// The worst pixel of the first compare that has one, else the middle of the first picture.
 Focus focus_of(const std::vector<Result>& results, const Album& album) {
   for (const Result& result : results) {
     const Json::json_pointer x("/worst/x"), y("/worst/y");
@@ -62,7 +62,7 @@ Report make_report(const Request& request) {
 
   Json data = page_data(request.results);
   const std::size_t text = filled(page_template(), json_text(data, -1), {}).size();
-  // What describes a picture, its scene above all: three thousand bytes are more than it takes.
+  // A picture's description, mostly its scene, takes less than 3000 bytes.
   const std::size_t others = text + 3000 * album.pictures.size();
   const Pages pages =
       fit(album, focus_of(request.results, album), request.most_bytes - std::min(request.most_bytes, others));

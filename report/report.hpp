@@ -1,4 +1,4 @@
-// One offline page from results and pictures.
+// Makes one offline page from results and pictures.
 #pragma once
 
 #include <cstddef>
@@ -12,22 +12,22 @@ namespace fastsplat::report {
 
 struct Request {
   std::vector<Result> results;
-  std::vector<NamedPicture> pictures;  ///< the user's, beside those that the results name
-  std::size_t most_bytes = 5'000'000;  ///< of the page; pictures are cropped to keep below
+  std::vector<NamedPicture> pictures;  ///< the user's, besides those named by the results
+  std::size_t most_bytes = 5'000'000;  ///< of the page; pictures are cropped to stay below
 };
 
 struct Report {
   std::string html;
-  Verdict verdict;                   ///< of all results; Measured and empty when there are none
-  std::size_t pictures = 0;          ///< that are in it
-  std::vector<std::string> remarks;  ///< pictures that are missing, cropped or left out; in the page too
+  Verdict verdict;                   ///< of all results; Measured and empty without results
+  std::size_t pictures = 0;          ///< in the page
+  std::vector<std::string> remarks;  ///< missing, cropped or omitted pictures; also in the page
 };
 
-/// The same request gives the same bytes (with the same zlib). UserError (Input) for pictures of the user's that cannot
-/// be read.
+/// Deterministic: equal requests give equal bytes (with the same zlib). UserError (Input) for pictures of the user's
+/// that cannot be read.
 Report make_report(const Request& request);
 
-/// "data" of the page but for its pictures: docs/report.md has its keys.
+/// The page's "data" without its pictures: docs/report.md has its keys.
 Json page_data(const std::vector<Result>& results);
 
 }  // namespace fastsplat::report

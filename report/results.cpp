@@ -11,7 +11,7 @@
 namespace fastsplat::report {
 namespace {
 
-/// More than any merged plan has.
+/// Larger than any merged plan.
 constexpr std::size_t kLargest = std::size_t{256} << 20;
 
 JsonKind a_result() {
@@ -21,7 +21,7 @@ JsonKind a_result() {
           .most_bytes = kLargest};
 }
 
-/// Results of `compare` had a schema before they had a verb; a book of `verify --coverage` tells its format.
+/// Old results of `compare` have a schema instead of a verb; coverage files of `verify --coverage` have a format.
 std::string verb_in(const Json& json) {
   const auto text = [&](const char* key) {
     const auto found = json.find(key);
@@ -50,7 +50,7 @@ Result read_result(const std::filesystem::path& file) {
                  .got = {},
                  .fix = suggestion(result.verb, known)});
   }
-  reading(result, [&] { verdict_of(result); });  // its figures are there
+  reading(result, [&] { verdict_of(result); });  // checks that its figures exist
   return result;
 }
 

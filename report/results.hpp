@@ -1,4 +1,4 @@
-// The input of a report: the JSON results of the subcommands, read and identified.
+// The input of a report: reads and identifies the subcommands' JSON results.
 #pragma once
 
 #include <filesystem>
@@ -13,20 +13,20 @@ using Json = nlohmann::ordered_json;
 struct Result {
   std::filesystem::path file;  ///< as the user named it
   std::string verb;            ///< "compare", "errors bound"
-  Json json;                   ///< the whole object, as the verb wrote it
+  Json json;                   ///< the complete object
 };
 
-/// What a --json of a verb that can be reported wrote. UserError (Input), in one line that names the file, for what is
-/// missing, no JSON, cut off, of another program, of a verb without a report, or without the figures of its verb.
+/// Reads a --json result. UserError (Input), in one line that names the file, if it is missing, truncated, not JSON,
+/// not written by fastsplat, or of a subcommand without a report, or if it lacks figures.
 Result read_result(const std::filesystem::path& file);
 
-/// Which verbs that are, sorted.
+/// Subcommands that have reports, sorted.
 std::vector<std::string> reported_verbs();
 
 enum class Status {
   Pass,
   Fail,      ///< a verification or a limit failed
-  Error,     ///< it could not be decided: the device stood still, a case broke
+  Error,     ///< undecided: the device hung or a case failed to run
   Measured,  ///< figures without a limit
 };
 /// "pass", "fail", "error", "none".
@@ -34,17 +34,17 @@ const char* to_string(Status status);
 
 struct Verdict {
   Status status = Status::Measured;
-  std::string sentence;  ///< the one that matters, with its figures; no full stop
+  std::string sentence;  ///< the main statement, with its figures; no full stop
 };
 
-/// Of one result.
+/// The verdict on one result.
 Verdict verdict_of(const Result& result);
 
-/// Of all: the worst status (Error, Fail, Pass, Measured), and the sentence of the first result that has it.
-/// `verdicts` holds one at least.
+/// The overall verdict: the worst status (Error, Fail, Pass, Measured) and the sentence of the first result that has
+/// it. `verdicts` must not be empty.
 Verdict verdict_of(const std::vector<Verdict>& verdicts);
 
-/// The command that makes a result again; empty where the result does not tell.
+/// The command that reproduces a result; empty if it is not recorded.
 std::string command_of(const Result& result);
 
 }  // namespace fastsplat::report

@@ -18,7 +18,7 @@ std::string counted(std::uint64_t number, const char* what) {
   return grouped(number) + " " + what + (number == 1 ? "" : "s");
 }
 
-/// "psnr_db" of a limit, in words and with its unit.
+/// A limit such as "min_psnr_db" in words, with its unit.
 std::string limit_text(const std::string& name, double value) {
   static const std::map<std::string, std::pair<const char*, const char*>> words{
       {"min_psnr_db", {"PSNR", " dB"}},
@@ -73,7 +73,7 @@ Verdict verify_unplanted(const Figures& f) {
   return {Status::Error, fmt::format("the simulated device failed ({}) after {}", verdict, of)};
 }
 
-/// Of a device that was broken on purpose, that it was.
+/// For a planted fault, the sentence names it.
 Verdict verify(const Figures& f) {
   Verdict verdict = verify_unplanted(f);
   if (f.find("planted_fault") != nullptr)
@@ -185,7 +185,7 @@ Verdict plan(const Figures& f) {
 }
 
 Verdict coverage(const Figures& f) {
-  std::map<std::string, bool> hit;  // by bin: in any campaign
+  std::map<std::string, bool> hit;  // by bin: hit in any campaign
   for (const auto& [campaign, bins] : f.at("campaigns").items())
     for (const auto& [bin, hits] : bins.items()) hit[bin] |= hits.get<std::uint64_t>() > 0;
   const auto hits = std::count_if(hit.begin(), hit.end(), [](const auto& bin) { return bin.second; });

@@ -1,4 +1,4 @@
-// The one sentence that matters of each verb's result: the only place that knows which verbs can be reported.
+// The one-sentence verdict of each subcommand's result. Only this table defines which subcommands have reports.
 #pragma once
 
 #include <map>
@@ -10,7 +10,7 @@ namespace fastsplat::report {
 
 using SentenceOf = Verdict (*)(const Figures&);
 
-/// By verb. Each throws UserError (Input) where a figure that it tells is missing.
+/// By subcommand. Each throws UserError (Input) if a figure that it uses is missing.
 const std::map<std::string, SentenceOf>& verdicts();
 
 }  // namespace fastsplat::report

@@ -15,8 +15,8 @@
 
 `ifdef VERILATOR
 
-// Checked where flip-flops are clocked, on what they see. A property would be the same in more words, but of all that it
-// reads Verilator keeps a copy, made anew on both edges of the clock: a tenth of the time of a small device.
+// Immediate assertions at the clock edge, on the values that flip-flops sample. For an equivalent concurrent property
+// Verilator copies every operand on both clock edges: a tenth of a small device's run time.
 `define FASTSPLAT_ASSERT(NAME, ALWAYS) \
   always_ff @(posedge clk_i) NAME: assert (!rst_ni || (ALWAYS)) else $error(`"NAME`");
 `define FASTSPLAT_ASSERT_NEXT(NAME, IF, THEN) \
@@ -81,7 +81,7 @@
 `define FASTSPLAT_COVER(NAME, SOMETIMES)
 `endif
 
-// Yosys has no formatted elaboration errors: it prints the text, then misses the module.
+// Yosys has no formatted elaboration errors: it prints the text, then reports a missing module.
 `define FASTSPLAT_INIT(NAME, LEGAL, TEXT, A, B) \
   if (!(LEGAL)) begin : gen_illegal_``NAME \
     initial begin $display(TEXT, A, B); end \

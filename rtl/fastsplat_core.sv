@@ -2,7 +2,8 @@
 //
 //   stream -> check -> [cull] -> decode -> splat array (snap, RLUT, lanes, sheet banks) -> compositor -> pixel out -> pixels
 //
-// Synchronous reset, active low. After reset the sheet memories are wiped (BLOCKS cycles) before the first beat is taken.
+// Synchronous reset, active low. After reset the sheet memories are wiped (BLOCKS cycles) before the first beat is
+// taken.
 `include "assertions.svh"
 `include "fault.svh"
 
@@ -22,7 +23,7 @@ module fastsplat_core #(
     output logic [fastsplat_pkg::LANES-1:0] m_tkeep_o,
     output logic         m_tlast_o,
     output logic         m_tuser_o,  // the tile was cut short: on all of its beats
-    // culling: of each cull_block that was let through, a pulse: its set is hidden, the device wants none of its splats
+    // culling: a pulse for each cull_block that passed check: its tag; whether its group is hidden and need not be sent
     output logic         verdict_valid_o,
     output logic [31:0]  verdict_tag_o,
     output logic         verdict_hidden_o,
@@ -137,7 +138,7 @@ module fastsplat_core #(
       .error_opcode_o(error_opcode),
       .error_beat_o(error_beat)
   );
-  // What decode takes: check's beats, or behind the test unit those with their verdicts.
+  // Beats to decode: check's, or the test unit's with their verdicts.
   logic tested_valid, tested_ready, tested_payload, tested_aborted, swallowed, hidden, culls, sheet_odd;
   logic [fastsplat_pkg::BEAT_BITS-1:0] tested;
   logic [fastsplat_pkg::COL_BITS-1:0] tested_extent;
@@ -468,14 +469,14 @@ module fastsplat_core #(
   end
   logic pixel_taken, running, clear_counters;
   assign pixel_taken = m_tvalid_o && m_tready_i;
-  // An open tile counts even while nothing moves: its input is late. The compositor only works in one.
+  // An open tile counts even while nothing moves: its input is late. The compositor only works in a tile.
   assign running = !stall_input || tile_open || !pixel_idle;
 
-  // What a counter counts: bits set in a cycle.
+  // Events of each counter: the number of bits set in a cycle.
   localparam int MOST = (fastsplat_pkg::CULL_MAP != 0 && fastsplat_pkg::WINDOWS_X > 4 * BANKS) ? fastsplat_pkg::WINDOWS_X : 4 * BANKS;
   logic [MOST-1:0] events[0:fastsplat_pkg::COUNTERS-1];
   always_comb begin
-    // Those that not every device has.
+    // Counters that not every device has.
     for (int n = 0; n < fastsplat_pkg::COUNTERS; n++) begin
       events[n] = (n == fastsplat_pkg::CNT_HIDDEN_WINDOWS) ? MOST'(event_hidden_windows)
                   : MOST'((n == fastsplat_pkg::CNT_STALL_HAZARD && stall_hazard) || (n == fastsplat_pkg::CNT_CULL_TESTS && event_test) ||

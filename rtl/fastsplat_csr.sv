@@ -1,6 +1,6 @@
-// Configuration and status registers behind AXI4-Lite (docs/microarchitecture.md, "Registers").
-// A read's address is taken, registers are read in the next cycle, the answer is there in the one behind; writes take address
-// and data together and answer in the next. Counters count an event in the third cycle after it.
+// Configuration and status registers behind AXI4-Lite (docs/microarchitecture.md, "Registers"). A read takes its
+// address in cycle c, reads the register in c+1 and answers in c+2. A write takes address and data together and answers
+// in the next cycle. Counters count an event in the third cycle after it.
 `include "assertions.svh"
 
 module fastsplat_csr (
@@ -34,7 +34,7 @@ module fastsplat_csr (
     input  logic        frame_i,
     input  logic        tile_i,
     output logic        irq_o,
-    // increments, one 16-bit field a counter; clear: those on their way are forgotten, too
+    // increments, one 16-bit field a counter; clear also drops those on their way
     output logic        clear_o,
     input  logic [16*fastsplat_pkg::COUNTERS-1:0] increments_i
 );
@@ -60,7 +60,7 @@ module fastsplat_csr (
     end
   end
 
-  // Interrupts: error, tile, frame. What happens while it is cleared stays.
+  // Interrupts: error, tile, frame. An event in the cycle in which its bit is cleared stays.
   logic [2:0] irq_q, irq_mask_q;
   logic error_q;
   always_ff @(posedge clk_i) begin
@@ -78,7 +78,7 @@ module fastsplat_csr (
   logic writable;
   assign writable = awaddr_i == fastsplat_pkg::REG_CONTROL || awaddr_i == fastsplat_pkg::REG_IRQ || awaddr_i == fastsplat_pkg::REG_IRQ_MASK;
 
-  // Which counter is meant is known before counters are looked at.
+  // The counter's number is known before the counters are read.
   logic reading_q;
   logic [11:0] address_q, number;
   logic [N-1:0] chosen_q;

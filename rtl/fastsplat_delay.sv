@@ -1,10 +1,10 @@
-// A word some cycles later. No stage: a wire.
+// Delays a word by STAGES cycles; 0: a wire.
 module fastsplat_delay #(
     parameter int BITS = 1,
     parameter int STAGES = 1
 ) (
     input  logic            clk_i,
-    input  logic            rst_ni,  // clears all stages; tied to 1: none is reset
+    input  logic            rst_ni,  // clears all stages; tied to 1: no reset
     input  logic [BITS-1:0] data_i,
     output logic [BITS-1:0] data_o
 );

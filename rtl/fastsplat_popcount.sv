@@ -1,5 +1,5 @@
-// Unit "popcount": how many bits of a word are set, in two cycles: 16 bits a partial sum, then the sum of those. What `clear_i`
-// meets half-way is forgotten (docs/microarchitecture.md, "Registers").
+// Unit "popcount": the number of bits set in a word, in two cycles: partial sums of 16 bits each, then their sum.
+// `clear_i` drops what is on its way (docs/microarchitecture.md, M-register-13).
 module fastsplat_popcount #(
     parameter int BITS = 16
 ) (

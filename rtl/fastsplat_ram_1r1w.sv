@@ -1,6 +1,6 @@
-// Memory with one registered read port and one write port. What a read of the word being written returns is undefined:
-// nobody may depend on it. Every memory of the device is one of these: here a vendor's macro takes its place, by BITS and WORDS, with
-// its self-test and its error correction, which have no cycle of their own (docs/integration.md, "Memories").
+// Memory with one registered read port and one write port. A read of the word being written returns an undefined value
+// that nothing may depend on. All memories of the device are instances of it. A vendor's macro with self-test and error
+// correction can replace it by BITS and WORDS; these get no cycle of their own (docs/integration.md, "Memories").
 module fastsplat_ram_1r1w #(
     parameter int BITS  = 8,
     parameter int WORDS = 16,

@@ -1,5 +1,5 @@
-// Places where the must-fail suite breaks the device (testbench/faults/faults.def). In every other build the macro is the
-// constant 0 and leaves nothing behind: only a build that defines FASTSPLAT_FAULT_SELECT can set a fault, and it also
+// Places where the must-fail suite breaks the device (testbench/faults/faults.def). In all other builds the macro is
+// the constant 0 and leaves nothing behind: only a build that defines FASTSPLAT_FAULT_SELECT can set a fault. It also
 // needs fastsplat_fault_pkg.sv (testbench/faults), which is not part of the device.
 //   FASTSPLAT_FAULT_SELECT=fastsplat_fault_pkg::selected      one simulation, fault chosen at run time
 //   FASTSPLAT_FAULT_SELECT=fastsplat_fault_pkg::FORWARD_2     that fault always

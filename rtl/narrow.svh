@@ -1,10 +1,10 @@
-// The one place that loses bits (docs/numerics.md, section 1; cmodel/numbers/narrow.hpp). A function, not a module: called under an
-// enable it costs nothing, in gates or in simulation, while there is nothing to narrow.
+// The one place that loses bits (docs/numerics.md, section 1; cmodel/numbers/narrow.hpp). A function, not a module:
+// called under an enable it costs nothing, in gates or in simulation, while there is nothing to narrow.
 //
 //   FASTSPLAT_NARROW(NAME, IN_BITS, OUT_BITS, SITE)
 //                               declares function NAME(value), which returns {overflow, word}
 //
-// What happens at SITE comes from the package, and so from cmodel/numbers/sites.cpp: the value is unsigned with SHIFT_<SITE>
+// The package, and so cmodel/numbers/sites.cpp, defines what happens at SITE: the value is unsigned with SHIFT_<SITE>
 // fraction bits more than the word (fewer when negative). Overflow saturates.
 //   ROUND_<SITE>  0: TRN, towards minus infinity  1: RND, nearest, halves up  2: RND_CONV, nearest, halves to even
 //   UNIT_<SITE>   0: U format, largest word all ones  1: One format, largest word 1.0 = 2^(OUT_BITS-1)

@@ -7,7 +7,7 @@
 
 namespace fastsplat::scene {
 
-/// What fits the picture at zoom 1: the volume's bounding sphere, in any view, or the non-empty voxels.
+/// Content that fits the picture at zoom 1: the volume's bounding sphere, in any view, or the non-empty voxels.
 enum class Fit { Sphere, Content };
 enum class Projection { Orthographic, Perspective };
 
@@ -19,7 +19,7 @@ struct CameraParams {
   double elevation = 15.0;  ///< degrees, positive looks down from above
   double roll = 0.0;        ///< degrees about the view axis
   double zoom = 1.0;        ///< 1: the bounding sphere (plus the kernel's radius) fits the smaller image side
-  Fit fit = Fit::Sphere;    ///< Content: scene/content_fit; zoom then enlarges the picture, the eye stays
+  Fit fit = Fit::Sphere;    ///< Content: see scene/content_fit; zoom then enlarges the picture, the eye stays
   double fov = 30.0;        ///< degrees across the smaller image side, perspective only
 };
 
@@ -41,7 +41,7 @@ struct Ray {
 class Camera {
  public:
   /// Perspective zoom moves the eye nearer and keeps the field of view. Throws UserError (Usage) for zoom <= 0, fov
-  /// outside (1,150), an eye inside the bounding sphere, sizes < 1.
+  /// outside (1,150), an eye inside the bounding sphere, or sizes < 1.
   Camera(const CameraParams& params, const volume::Volume& volume, double kernel_radius_mm, int width, int height);
   /// The same for content within a sphere of `radius` about the origin, in any unit.
   Camera(const CameraParams& params, double radius, int width, int height);

@@ -16,7 +16,7 @@ ErrorParts parts(std::string where, std::string what, std::string fix) {
 
 std::string filled(const char* text, const char* with) { return fmt::format(fmt::runtime(text), with); }
 
-/// Why the technique, which is on, does not go with the method or with what else is on or off.
+/// Why the active technique conflicts with the method, lacks a requirement or meets an exclusion.
 std::optional<ErrorParts> contradiction(const TechniqueRow& row, const SceneDescription& description) {
   if (!(row.methods & only(description.method)))
     return parts(row.key, filled(row.no_method, to_string(description.method)), row.method_fix);

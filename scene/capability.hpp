@@ -1,6 +1,5 @@
 // Which combinations are valid: the techniques of each method and engine, their requirements and exclusions, and where
-// a setting has an effect. One table (capability_table.cpp); two functions of this header refuse settings without
-// effect.
+// a setting has an effect. All rules are in one table (capability_table.cpp).
 #pragma once
 
 #include <optional>
@@ -20,7 +19,7 @@ using Methods = unsigned;
 constexpr Methods only(Method method) { return 1u << static_cast<unsigned>(method); }
 inline constexpr Methods kAllMethods = (1u << 5) - 1;
 
-/// Features of an engine beyond circles of the splats' own scale that are added into sheets.
+/// Features of an engine beyond adding circles of the splats' own scale to sheets.
 enum class Feature : unsigned {
   None,
   Footprints = 1,
@@ -72,13 +71,13 @@ enum class Technique {
   Exposure,
 };
 
-/// Where a setting has an effect. Without a default: a setting that lacks it does not compile.
+/// Where a setting has an effect. Has no default, so a setting without it does not compile.
 class Capability {
  public:
   /// `probe`: a value other than the default, as a flag's text, that changes the picture wherever the setting has an
   /// effect.
   static constexpr Capability everywhere(const char* probe) { return Capability(probe); }
-  /// Only with some methods. `why` names what the others lack ("has no slabs"), `fix` is the remedy.
+  /// Only with some methods. `why` names what the others lack ("has no slabs"), `fix` is the suggestion.
   static constexpr Capability with_methods(Methods methods, const char* why, const char* fix, const char* probe) {
     Capability c(probe);
     c.methods = methods, c.why = why, c.fix = fix;
@@ -96,7 +95,7 @@ class Capability {
     c.turns = technique;
     return c;
   }
-  /// Additionally requires this one.
+  /// Additionally requires `technique`.
   constexpr Capability and_with(Technique technique) const {
     Capability c = *this;
     c.needs[c.needs[0] ? 1 : 0] = technique;

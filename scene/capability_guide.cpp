@@ -8,7 +8,7 @@
 namespace fastsplat::scene {
 namespace {
 
-/// What one line of the table says.
+/// Content of one line of the table.
 struct Line {
   Methods methods = kAllMethods;
   unsigned features = 0;
@@ -19,7 +19,7 @@ void add_once(std::vector<std::string>& names, const std::string& name) {
   if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
-/// All that `technique` asks for once it is on.
+/// Adds everything that `technique` requires.
 void add(Line& line, Technique technique) {
   const TechniqueRow& row = row_of(technique);
   line.methods &= row.methods;
@@ -49,7 +49,7 @@ std::string methods_of(Methods methods) {
   return fmt::format("`{}`", fmt::join(names, "`, `"));
 }
 
-/// Engines that have the features, and at least one of the methods.
+/// Engines that have the features and at least one of the methods.
 std::string engines_of(const Line& line, std::span<const Offers> engines) {
   std::vector<std::string> names;
   for (const Offers& offers : engines) {
@@ -82,7 +82,7 @@ std::string capability_guide(std::span<const Offers> engines) {
     text +=
         cells(*setting.flag ? fmt::format("`{}`", setting.flag) : fmt::format("`{}`", dotted(setting)), line, engines);
   }
-  // What a value of a setting asks for, beyond what the setting does.
+  // Requirements of single values of a setting, beyond those of the setting itself.
   for (const TechniqueRow& row : technique_rows()) {
     const bool whole = std::any_of(settings().begin(), settings().end(),
                                    [&](const Setting& s) { return s.capability.turns == row.technique; });

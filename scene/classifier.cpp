@@ -12,13 +12,13 @@ namespace {
 
 bool is_integer(volume::VoxelType type) { return type != volume::VoxelType::F32; }
 
-/// How a domain's positions become values: value = zero + position * unit.
+/// Converts a domain's positions to values: value = zero + position * unit.
 struct Scale {
   double zero, unit;
 };
 
-/// From 0 at the span's low end to 1 at its high one. A volume of one value has no span; its value then counts as the
-/// top of one, so that it is visible.
+/// 0 at the span's low end, 1 at its high end. If all voxels are equal the span is empty; their value then counts as
+/// the high end, so that they are visible.
 Scale across(ValueSpan span) {
   if (span.high > span.low) return {span.low, span.high - span.low};
   return span.high > 0.0 ? Scale{0.0, span.high} : Scale{span.high - 1.0, 1.0};
@@ -94,7 +94,7 @@ bool Classifier::transparent(double low, double high) const {
 }
 
 Material Classifier::evaluate(double value) const {
-  // The first point beyond the value: of two at the same place the later one rules there and above.
+  // The first point beyond the value. Of two at the same place the later one applies there and above.
   const auto above =
       std::find_if(points_.begin(), points_.end(), [value](const ControlPoint& p) { return p.at > value; });
   const ControlPoint& high = above == points_.end() ? points_.back() : *above;

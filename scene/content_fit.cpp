@@ -26,7 +26,7 @@ Camera fitted_to_content(const Scene& scene, double zoom) {
   Rectangle all;
   for (int k = 0; k < volume.dims.z; ++k) {
     for (int j = 0; j < volume.dims.y; ++j) {
-      // Along a row, coordinates and scale go one way: its ends reach farthest.
+      // Coordinates and scale are monotone along a row, so its ends reach farthest.
       int first = 0, last = volume.dims.x - 1;
       while (first <= last && !seen(first, j, k)) ++first;
       if (first > last) continue;

@@ -14,7 +14,7 @@ class DepthOfFieldSplats {
       : lens_(lens), camera_(camera), per_pixel2_(1.0 / (16.0 * kernel.variance())) {}
 
   /// A point spread evenly over a disc of diameter c has the second moment c^2/16 along each axis (half of the mean
-  /// squared radius (c/2)^2/2), which is added to the footprint's.
+  /// squared radius (c/2)^2/2). It is added to the footprint's.
   void apply(double depth, ShapedSplat& splat) const {
     if (lens_.depth_of_field != DepthOfField::Splats) return;
     const double c = circle_of_confusion(camera_, lens_, depth);

@@ -9,7 +9,7 @@
 namespace fastsplat::scene {
 namespace {
 
-/// Of linear light what a film's negative shows: a grey as far from white as this is from black, to the eye.
+/// Film negative of linear light: perceptually as far from white as the original is from black.
 float negative(float linear) {
   return static_cast<float>(srgb_decode(1.0 - srgb_encode(std::clamp(static_cast<double>(linear), 0.0, 1.0))));
 }

@@ -13,8 +13,8 @@ MotionBlur::MotionBlur(const Motion& motion, const Camera& camera, const Kernel&
       cos_(std::cos(0.5 * motion.orbit * std::numbers::pi / 180.0)),
       per_pixel2_(1.0 / (12.0 * kernel.variance())) {}
 
-/// Where the camera sees the point at the shutter's opening (end = -1) or closing (+1). A camera that goes on in
-/// azimuth sees the volume turn the other way, anticlockwise from above.
+/// Screen position of the point at the shutter's opening (end = -1) or closing (+1). As the camera's azimuth increases,
+/// the volume appears to turn the other way, anticlockwise from above.
 glm::dvec2 MotionBlur::on_screen(const glm::dvec3& world, double end) const {
   const glm::dvec3 moved = world + 0.5 * end * translate_;
   const double sin = end * sin_;

@@ -1,4 +1,4 @@
-// Motion blur: a footprint stretched along its way over the screen while the shutter is open (Mueller et al. 1998).
+// Motion blur: a footprint stretched along its path over the screen while the shutter is open (Mueller et al. 1998).
 // docs/techniques/motion-blur.md
 #pragma once
 
@@ -15,8 +15,7 @@ class MotionBlur {
  public:
   MotionBlur(const Motion& motion, const Camera& camera, const Kernel& kernel);
 
-  /// A point spread evenly over the straight way u has the second moment u u^T / 12, which is added to the
-  /// footprint's.
+  /// A point spread evenly over the straight path u has the second moment u u^T / 12. It is added to the footprint's.
   void apply(const glm::dvec3& world, ShapedSplat& splat) const;
 
  private:

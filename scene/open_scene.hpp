@@ -7,7 +7,7 @@
 
 namespace fastsplat::scene {
 
-/// As load_scene_file, whose path it is.
+/// `path` is a scene.toml or "demo:NAME", as for load_scene_file.
 TomlTable open_scene(const std::filesystem::path& path);
 
 }  // namespace fastsplat::scene

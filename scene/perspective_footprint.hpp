@@ -9,9 +9,9 @@
 
 namespace fastsplat::scene {
 
-/// The map (X,Y,Z) -> (f X/Z, f Y/Z) has at the splat the derivative J = s (1 0 -gx; 0 1 -gy), g = (X,Y)/Z the tangents
-/// of its direction. A sphere becomes S = J J^T = s^2 (I + g g^T). It is longer by 1/cos(angle) away from the image's
-/// centre. Orthographic: g = 0, the circle, bit for bit.
+/// At the splat, the map (X,Y,Z) -> (f X/Z, f Y/Z) has the derivative J = s (1 0 -gx; 0 1 -gy), with g = (X,Y)/Z the
+/// tangents of its direction. A sphere becomes S = J J^T = s^2 (I + g g^T). It is longer by 1/cos(angle) away from the
+/// image's centre. Orthographic: g = 0, the circle, bit for bit.
 inline void apply_perspective(const Camera& camera, const glm::dvec3& world, double depth, ShapedSplat& splat) {
   const double from_eye = camera.eye_distance() + depth;  // mm; infinite for an orthographic camera
   const double gx = glm::dot(world, camera.right()) / from_eye;

@@ -13,8 +13,8 @@ struct RealSplat {
   ScreenPoint at;                    ///< centre: pixels; depth, mm; pixels per mm there
   double depth = 0.0;                ///< at.depth in kernel units
   std::array<double, 4> material{};  ///< emission R, G, B and extinction, per kernel unit
-  int sheet = 0;                     ///< of the grid, 0 nearest to the eye
-  glm::vec3 place{};                 ///< in the volume, mm: which picture a textured splat shows
+  int sheet = 0;                     ///< grid sheet, 0 nearest to the eye
+  glm::vec3 place{};                 ///< position in the volume, mm; selects a textured splat's phase
 };
 
 inline RealSplat real_splat(const Scene& scene, const Splat& splat) {

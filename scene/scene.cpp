@@ -16,7 +16,7 @@
 namespace fastsplat::scene {
 namespace {
 
-/// A transfer function that suits the volume, by what it was called.
+/// Default transfer function for a volume, chosen by its name.
 std::string preset_for(const std::string& volume) {
   const std::string name = volume.substr(0, volume.find(':'));
   if (name == "binary-cube" || name == "constant" || name == "point") return "binary";
@@ -28,7 +28,7 @@ std::string preset_for(const std::string& volume) {
   return "default";
 }
 
-/// What `load` gives; its refusal says where a scene file names what it loads.
+/// Returns load(). Errors get the place at which a scene file names the input.
 template <class Load>
 auto named_at(const std::string& place, const Load& load) {
   try {
@@ -72,7 +72,7 @@ Scene build_scene(const SceneDescription& description, std::shared_ptr<const vol
   });
   auto remarks = whole->remarks;
   if (const auto remark = remark_on(tf, *whole); !remark.empty()) remarks.push_back(remark);
-  if (!description.crop.everything()) tf = resolved(tf, *whole);  // colours stay as they were
+  if (!description.crop.everything()) tf = resolved(tf, *whole);  // cropping keeps the colours
   Shading shading = tf.shading;
   if (description.shading >= 0) shading.on = description.shading == 1;
   double xray_scale = 1.0;

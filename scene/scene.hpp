@@ -23,7 +23,7 @@ enum class Method { RayCast, XRay, Westover, AxisAligned, ImageAligned };
 enum class SlabOpacity { Additive, Exponential };
 /// Whether voxels are classified before they are splatted, or pixels after.
 enum class ClassifyOrder { Pre, Post };
-/// Of post-classified densities: differences between pixels and sheets, or splatted derivatives.
+/// Gradients of post-classified densities: differences between pixels and sheets, or splatted derivatives.
 enum class GradientKind { Central, Splats };
 
 /// The content of scene.toml; flags override single fields before `build_scene`.
@@ -37,7 +37,7 @@ struct SceneDescription {
   Method method = Method::ImageAligned;
   double slab_width = 1.0;  ///< kernel units
   SlabOpacity slab_opacity = SlabOpacity::Exponential;
-  double ray_end = 0.0;        ///< ray caster: a ray ends below this transmittance; 0: where nothing can change
+  double ray_end = 0.0;        ///< ray caster: a ray ends below this transmittance; 0: once nothing can change
   int xray_sheets = 1;         ///< number of sheets of an X-ray (the image must not depend on it)
   double xray_exposure = 0.0;  ///< pixel = exposure * integral; 0: automatic, see Scene::xray_scale
   int shading = -1;            ///< -1 as the transfer function suggests, 0 off, 1 on
@@ -51,8 +51,8 @@ struct SceneDescription {
   Bump bump{};
   Culling culling{};
   VoxelBox crop{};                 ///< voxels outside are ignored
-  Display display{};               ///< for pictures for display
-  std::optional<double> nan_as{};  ///< replaces non-finite voxels; without it they are refused
+  Display display{};               ///< only for displayed pictures
+  std::optional<double> nan_as{};  ///< replaces non-finite voxels, which are refused without it
   /// "scene.toml:1:10" if a file names the volume and the transfer function, else empty.
   std::string volume_place{}, transfer_function_place{};
 };
@@ -61,7 +61,7 @@ struct SceneDescription {
 struct Scene {
   SceneDescription description;
   std::shared_ptr<const volume::Volume> volume;  ///< cropped
-  TransferFunction transfer_function;            ///< where cropped, with the domain of the whole volume resolved
+  TransferFunction transfer_function;            ///< if cropped, resolved to the domain of the whole volume
   Kernel kernel;
   Camera camera;
   Shading shading;
@@ -70,16 +70,16 @@ struct Scene {
   double amplitude = 0.0;
   /// Method::XRay: pixel = xray_scale * summed emission. Given, or automatic_exposure() (xray_exposure.hpp).
   double xray_scale = 1.0;
-  std::shared_ptr<const volume::Volume> whole{};  ///< as it was read: build_scene takes it again
+  std::shared_ptr<const volume::Volume> whole{};  ///< before cropping, for further calls of build_scene
   std::vector<std::string> remarks{};             ///< assumptions and oddities of the input, a sentence each
 };
 
-/// A scene.toml, or a built-in scene as "demo:NAME". Unknown keys and bad values are UserErrors with file:line and a
-/// hint; for an unknown demo with the nearest name. Relative volume paths are relative to the file.
+/// Loads a scene.toml, or a built-in scene as "demo:NAME". Unknown keys and bad values are UserErrors with file:line
+/// and a hint; the error for an unknown demo names the nearest. Relative volume paths are relative to the file.
 SceneDescription load_scene_file(const std::filesystem::path& path);
 std::vector<std::string> demo_names();  ///< sorted
-/// TOML from which load_scene_file makes a scene of the same picture, and to_toml the same text again. Settings without
-/// effect (scene/capability.hpp) are left out unless they are at their default.
+/// TOML that load_scene_file turns into a scene of the same picture, and to_toml again into the same text. Settings
+/// without effect (scene/capability.hpp) are left out unless they are at their default.
 std::string to_toml(const SceneDescription& description);
 
 Scene build_scene(const SceneDescription& description);

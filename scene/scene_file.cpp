@@ -1,7 +1,7 @@
-// scene.toml: every key is optional, what is absent keeps its default. The keys are those of scene/settings_list.cpp,
-// and here what is more than a plain setting: volume and transfer_function (relative to the file), nan_as (or none),
-// image.size for width and height, kernel.name in place of its a and radius. A table [sequence] (scene/sequence.cpp)
-// must make sense but changes no still.
+// scene.toml: every key is optional; absent keys keep their defaults. The keys are those of scene/settings_list.cpp.
+// This file adds the ones that are more than a plain setting: volume and transfer_function (relative to the file),
+// nan_as (or none), image.size for width and height, kernel.name in place of its a and radius. A table [sequence]
+// (scene/sequence.cpp) must be valid but does not change the still.
 #include "scene/scene_file.hpp"
 
 #include <fmt/format.h>

@@ -18,7 +18,7 @@ struct SceneFile {
   std::vector<Given> idle;
 };
 
-/// As load_scene_file, but the caller handles settings without effect.
+/// Like load_scene_file, but the caller handles settings without effect.
 SceneFile read_scene_file(const std::filesystem::path& path);
 
 }  // namespace fastsplat::scene

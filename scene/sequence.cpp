@@ -19,7 +19,7 @@ struct Limits {
   double low, high;
 };
 
-/// Nothing for what is not a number: names and switches have nothing between them.
+/// nullopt unless the setting is numeric: names and switches cannot be interpolated.
 std::optional<Limits> limits_of(const Setting& setting) {
   if (const auto* real = std::get_if<Real>(&setting.value)) return Limits{real->low, real->high};
   if (const auto* whole = std::get_if<Integer>(&setting.value))
@@ -27,7 +27,7 @@ std::optional<Limits> limits_of(const Setting& setting) {
   return std::nullopt;
 }
 
-/// A kernel's name stands for its numbers: spelt out, they can change.
+/// Replaces a kernel's name by its numbers, so that they can change.
 void spell_out_kernel(SceneDescription& description) {
   if (description.kernel.empty()) return;
   const Kernel named = kernel_by_name(description.kernel);
@@ -43,8 +43,8 @@ void set_number(const Setting& setting, double value, SceneDescription& descript
     whole->of(description) = static_cast<int>(std::lround(value));
 }
 
-/// Value at `step` of `steps`, where the keys are spread over 0..steps. Exact at every key and, between whole keys that
-/// are a step apart, at every step.
+/// Value at `step` of `steps`, where the keys are spread over 0..steps. Exact at every key, and at every step between
+/// whole keys that differ by as much as they are steps apart.
 double between(const std::vector<double>& keys, std::int64_t step, std::int64_t steps) {
   if (keys.size() == 1 || steps == 0) return keys.front();
   const std::int64_t place = step * static_cast<std::int64_t>(keys.size() - 1);

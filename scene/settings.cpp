@@ -12,7 +12,7 @@
 namespace fastsplat::scene {
 namespace {
 
-/// Calls the one function that fits what the setting is.
+/// Overloads for std::visit: calls the function for the setting's kind.
 template <class... Functions>
 struct Each : Functions... {
   using Functions::operator()...;
@@ -55,7 +55,7 @@ bool inside(const Kind& kind, const Value& value) {
   }
 }
 
-/// What a flag should have said; empty where `text` is fine.
+/// What a flag expects instead of `text`; empty if `text` is valid.
 std::string expected_instead(const Setting& setting, const std::string& text) {
   const auto unless = [](bool fine, std::string expected) { return fine ? std::string{} : std::move(expected); };
   return std::visit(

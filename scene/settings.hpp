@@ -16,9 +16,9 @@
 namespace fastsplat::scene {
 
 inline constexpr int kMaxImageSide = 16384;      ///< pixels
-inline constexpr double kLargestVoxel = 3.4e38;  ///< a float
+inline constexpr double kLargestVoxel = 3.4e38;  ///< limit of a float
 
-// What a setting is. Limits are inclusive; `of` finds the value in a description.
+// The kinds of settings. Limits are inclusive; `of` returns the value in a description.
 struct Real {
   double low, high;
   double& (*of)(SceneDescription&);
@@ -53,7 +53,7 @@ struct Setting {
   const char* unit;   ///< of the flag's value, in the help
   const char* help;
   std::variant<Real, Integer, Triple, Box, Switch, Choice> value;
-  Capability capability;  ///< where it has a meaning
+  Capability capability;  ///< where it has an effect
 };
 
 /// Its name as in scene.toml: "camera.azimuth", "opacity_scale".
@@ -61,9 +61,9 @@ std::string dotted(const Setting& setting);
 /// Whether it has its default value.
 bool at_default(const Setting& setting, const SceneDescription& description);
 
-/// All of them, table by table in the order scene.toml is written.
+/// All settings, table by table, in the order in which scene.toml is written.
 std::span<const Setting> settings();
-/// The tables of the list, "" first, in its order.
+/// The tables in the order of the list, "" first.
 std::vector<std::string> setting_tables();
 
 /// The problem with a flag's text ("expected a number in 0.01..64, got '0'"), empty if valid. Numbers are

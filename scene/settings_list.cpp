@@ -1,5 +1,5 @@
-// The list itself. To add a setting: its field in SceneDescription and one entry here; key, flag, limits, saved scene,
-// where it is refused, its line in the guide and their tests follow. A new technique is a row of capability_table.cpp.
+// The list itself. To add a setting, add its field to SceneDescription and one entry here. Its key, flag, limits, saved
+// scene, refusals, line in the guide and tests follow. A new technique is a row of capability_table.cpp.
 #include <array>
 
 #include "scene/settings.hpp"
@@ -13,7 +13,7 @@ constexpr Methods kWithSheets = only(Method::ImageAligned) | only(Method::AxisAl
 
 constexpr double kDegrees = 3600.0;
 constexpr double kMotion = 1e4;  // mm
-constexpr double kOrbit = 30.0;  // degrees: the way is taken as straight, 3.4 % of the radius off an arc of 30 degrees
+constexpr double kOrbit = 30.0;  // degrees: the path is taken as straight, 3.4 % of the radius off an arc of 30 degrees
 
 const std::vector<std::string>& shading_names() {
   static const std::vector<std::string> names = {"auto", "off", "on"};
@@ -45,7 +45,7 @@ const std::vector<std::string>& where_names() {
   return names;
 }
 
-// The enums that are settings, by reference.
+// References to the enums that are settings.
 Method& method(D& d) { return d.method; }
 Projection& projection(D& d) { return d.camera.projection; }
 Fit& fit(D& d) { return d.camera.fit; }

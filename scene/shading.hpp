@@ -10,8 +10,8 @@
 namespace fastsplat::scene {
 
 /// Shades a colour by a gradient; a voxel's is its central difference. The light is directional, slightly above and to
-/// the left of the view axis; surfaces are lit from both sides. Where the gradient is weaker than
-/// Shading::gradient_floor the colour stays as classified; up to twice the floor it is blended in.
+/// the left of the view axis; surfaces are lit from both sides. If the gradient is weaker than Shading::gradient_floor
+/// the colour stays as classified; up to twice the floor shading is blended in.
 class Shader {
  public:
   Shader(const Shading& shading, const Camera& camera, const volume::Volume& volume);

@@ -16,7 +16,7 @@ struct ScreenShape {
 
 struct ShapedSplat {
   ScreenShape shape;
-  double depth_growth = 1.0;      ///< the kernel's extent along z, relative to its own
+  double depth_growth = 1.0;      ///< factor on the kernel's extent along z
   std::array<double, 4> value{};  ///< times the footprint of its shape: the whole splat's contribution to a pixel
 };
 

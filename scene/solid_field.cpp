@@ -10,7 +10,7 @@
 namespace fastsplat::scene {
 namespace {
 
-/// A bijection of 32-bit words that moves half of the bits for any one bit changed.
+/// A bijection of 32-bit words; changing one input bit flips about half of the output bits.
 std::uint32_t mix(std::uint32_t x) {
   x ^= x >> 16;
   x *= 0x7feb352du;
@@ -22,7 +22,7 @@ std::uint32_t mix(std::uint32_t x) {
 
 std::uint32_t hash(std::uint32_t i, std::uint32_t j, std::uint32_t k) { return mix(i + mix(j + mix(k))); }
 
-/// Of `offset` from a lattice point, with one of the twelve directions to the edges of a cube.
+/// Dot product of `offset` from a lattice point with one of the twelve directions to a cube's edges.
 double slope(std::uint32_t lattice_hash, const glm::dvec3& offset) {
   const std::uint32_t edge = lattice_hash % 12;
   const double first = edge < 4 ? offset.y : offset.x;
@@ -45,7 +45,7 @@ double octaves(glm::dvec3 p, int count) {
 }
 
 double marble(const glm::dvec3& p) {
-  constexpr double kStir = 1.6;  // of a vein's distance
+  constexpr double kStir = 1.6;  // in units of the veins' distance
   const double wave = 0.5 + 0.5 * std::cos(2.0 * std::numbers::pi * (p.x + kStir * octaves(p, 4)));
   return 1.0 - std::pow(1.0 - wave, 3.0);  // wide ground, narrow veins
 }

@@ -1,4 +1,4 @@
-// From a splat to its shape on the screen: a pipeline in which each technique changes the shape of the previous one.
+// Shapes a splat on the screen: a pipeline in which each technique changes the shape of the previous one.
 //
 //   circle -> ellipse (perspective) -> growth (anti-aliasing) -> + motion -> + lens
 //
@@ -16,7 +16,7 @@ namespace fastsplat::scene {
 
 class SplatShaper {
  public:
-  /// The scene outlives it.
+  /// The scene must outlive this object.
   explicit SplatShaper(const Scene& scene);
   /// Shapes a splat that adds `value` to a pixel as a circle of its own scale. `real` is the projected splat.
   ShapedSplat operator()(const Splat& splat, const RealSplat& real, const std::array<double, 4>& value) const;

@@ -21,16 +21,16 @@ struct Splat {
   std::uint16_t sheet;  ///< axis-aligned sheet number, 0 nearest to the eye
 };
 
-/// A part of the grid as it is traversed: slices first_slice..end_slice-1, 0 nearest to the eye, and of each the rows
+/// A part of the grid in traversal order: slices first_slice..end_slice-1, 0 nearest to the eye, and in each the rows
 /// first_row..end_row-1 of its outer loop.
 struct GridPart {
   int first_slice = 0, end_slice = 0;
   int first_row = 0, end_row = 0;
 };
 
-/// The material of a voxel's splat. In order: emission and extinction from the transfer function; or densities. A
-/// density is the extinction of every voxel above the volume's least value: its height above it, in parts of the range,
-/// over the slab's width W. A slab's sums are then densities from 0 (the least value) to about 1 (the largest).
+/// The material of a voxel's splat. Colours: emission and extinction from the transfer function. Densities: every voxel
+/// above the volume's least value has an extinction, namely its height above it, as a fraction of the range, divided by
+/// the slab's width W. A slab's sums are then densities from 0 (the least value) to about 1 (the largest).
 enum class SplatKind { Colours, Densities };
 
 /// Every voxel with extinction > 0, slice by slice along the volume axis most parallel to the view direction, nearest
@@ -38,7 +38,7 @@ enum class SplatKind { Colours, Densities };
 /// For Method::XRay the order is the same (it does not matter there). Parts may be visited by several threads at once.
 class Traversal {
  public:
-  /// The scene outlives it.
+  /// The scene must outlive this object.
   explicit Traversal(const Scene& scene, SplatKind kind = SplatKind::Colours);
   ~Traversal();
   /// Number of sheets of the grid, for Splat::sheet.
@@ -49,8 +49,8 @@ class Traversal {
   GridPart slab(int first_slice, int end_slice) const { return {first_slice, end_slice, 0, rows()}; }
   /// Number of splats that visit() would visit; classifies, but does not shade.
   std::size_t count(const GridPart& part) const;
-  /// The splats of a row, each with the number of its voxel's line across the slices: row times columns() plus
-  /// column.
+  /// Receives the splats of a row. `lines` holds, for each, the number of its voxel's line across the slices: row times
+  /// columns() plus column.
   using Visit = std::function<void(std::span<const Splat> splats, std::span<const std::uint32_t> lines)>;
   /// Called once for every row with splats.
   void visit(const GridPart& part, const Visit& visit) const;
@@ -60,7 +60,7 @@ class Traversal {
   std::unique_ptr<const State> state_;
 };
 
-/// Visits them one by one.
+/// Visits all splats one by one.
 template <class Each>
 void for_each_splat(const Scene& scene, Each each) {
   const Traversal traversal(scene);

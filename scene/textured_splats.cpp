@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint32_t kSeed = 1993;
 constexpr int kOctaves = 2;
-constexpr double kDrawnOut = 2.0;           // along v, the way it rises
-constexpr double kContrast = 3.0;           // of the noise about its middle, before it is cut to 0..1
+constexpr double kDrawnOut = 2.0;           // stretch along v, the direction in which it rises
+constexpr double kContrast = 3.0;           // of the noise about its middle, before clamping to 0..1
 constexpr double kSamplesPerFeature = 6.0;  // of the finest octave
 constexpr int kMostSamples = 256;           // along a side
 
@@ -42,8 +42,7 @@ struct Grid {
   std::size_t count() const { return static_cast<std::size_t>(side) * side; }
 };
 
-/// Noise that rises (towards smaller v) by one period and changes as it does, and is at the end of the cycle what it
-/// was at its beginning.
+/// Noise that rises (towards smaller v) by one period per cycle and changes. The cycle's end equals its beginning.
 std::vector<double> rising_noise(const Grid& grid, double scale, int phase, int phases) {
   const double along = kDrawnOut * scale;
   const int period = static_cast<int>(std::ceil(2.0 * grid.radius / along)) + 1;
@@ -67,8 +66,7 @@ std::vector<double> rising_noise(const Grid& grid, double scale, int phase, int 
   return samples;
 }
 
-/// Takes away what all phases have in common, and what each has on the average under the footprint; then the largest of
-/// all becomes 1.
+/// Subtracts the phases' mean at each place and each phase's mean under the footprint; scales the largest to 1.
 void balance(std::vector<std::vector<double>>& phases, const Grid& grid, const Kernel& kernel) {
   for (std::size_t i = 0; i < grid.count(); ++i) {
     double sum = 0.0;

@@ -27,12 +27,12 @@ class TexturePhase {
 
 class TexturedSplats {
  public:
-  /// Makes no phases when the amplitude is 0. The phases are a function of the settings and the kernel's shape alone.
+  /// Makes no phases if the amplitude is 0. The phases depend only on the settings and the kernel's shape.
   ///     sum over all phases of t_i(u,v) = 0 at every place,
   ///     integral of F(rho) t_i = 0 for every phase, F the kernel's footprint.
   TexturedSplats(const SplatTexture& settings, const Kernel& kernel);
 
-  /// The phase a splat shows now: (hash of its place + frame) mod N. 0, or null, when off.
+  /// The current phase of a splat: (hash of its place + frame) mod N. 0, or null, when off.
   std::size_t number_of(const glm::vec3& position) const;
   const TexturePhase* phase_of(const glm::vec3& position) const {
     return phases_.empty() ? nullptr : &phases_[number_of(position)];

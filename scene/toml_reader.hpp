@@ -1,4 +1,4 @@
-// Strict TOML: every key must be expected, every value in range; each refusal has file:line:column and a hint.
+// Strict TOML: every key must be known, every value in range; each error has file:line:column and a hint.
 #pragma once
 
 #include <array>

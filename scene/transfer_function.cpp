@@ -1,7 +1,7 @@
 // A transfer function file:
 //
-//   domain = "percentile"      # "value", "range" (default), "percentile", "hounsfield" or "content": how `at` is read
-//   reference_length = 1.0     # kernel units of material that `opacity` speaks of (default 1); or reference_length_mm
+//   domain = "percentile"      # how `at` is read: "value", "range" (default), "percentile", "hounsfield" or "content"
+//   reference_length = 1.0     # thickness to which `opacity` refers, kernel units (default 1); or reference_length_mm
 //   points = [                 # ascending in `at`; linear between; two at the same place make a step
 //     {at = 0.3, colour = [0.9, 0.7, 0.6], opacity = 0.0},
 //     {at = 0.6, colour = [1.0, 0.9, 0.9], opacity = 0.7},

@@ -1,4 +1,4 @@
-// From a voxel's value to colour and opacity; presets and files in TOML (docs/guide/transfer-functions.md).
+// Maps a voxel's value to colour and opacity; presets and files in TOML (docs/guide/transfer-functions.md).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -14,7 +14,7 @@ namespace fastsplat::scene {
 enum class Domain {
   Value,       ///< raw voxel values
   Range,       ///< 0..1 of the volume's [min,max]
-  Percentile,  ///< 0..1 of shown_span(): scanners without units (MRI)
+  Percentile,  ///< 0..1 of shown_span(), for scanners without units (MRI)
   Hounsfield,  ///< HU, by Volume::water; for volumes without it -1000..3000 HU are the volume's [min,max]
   Content,     ///< 0..1 from background_top() to the volume's max
 };
@@ -22,8 +22,7 @@ enum class Domain {
 struct ControlPoint {
   double at = 0.0;       ///< in the domain
   glm::dvec3 colour{0};  ///< linear RGB, 0..1
-  double opacity =
-      0.0;  ///< of one reference length of this material, 0..1 (exclusive of 1 unless it is clamped: 1 -> 0.9999)
+  double opacity = 0.0;  ///< of one reference length of this material, 0..1 (1 is clamped to 0.9999)
 };
 
 struct Shading {
@@ -36,12 +35,12 @@ struct TransferFunction {
   std::string name;
   Domain domain = Domain::Range;
   double reference_length = 1.0;                ///< in kernel units (Volume::kernel_unit)
-  std::optional<double> reference_length_mm{};  ///< in its place, in millimetres
+  std::optional<double> reference_length_mm{};  ///< used instead if present, in millimetres
   std::vector<ControlPoint> points;             ///< ascending in `at`, linear between, clamped outside
   Shading shading;                              ///< preset's suggestion; scene.toml and flags override
 };
 
-/// The same in raw values and kernel units of this volume.
+/// `tf` in raw values and kernel units of this volume.
 TransferFunction resolved(const TransferFunction& tf, const volume::Volume& volume);
 
 /// A remark for the user about a transfer function on this volume, a sentence; "" without one.

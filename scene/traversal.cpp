@@ -17,7 +17,7 @@ struct Walk {
   int index(int step) const { return ascending ? step : extent - 1 - step; }
 };
 
-/// The view's direction in the grid's own axes: slices of one index lie one behind the other along it.
+/// View direction in the grid's axes.
 glm::dvec3 direction_in_grid(const Scene& scene) { return scene.volume->to_grid(scene.camera.direction()); }
 
 Walk walk_along(int axis, const Scene& scene) {
@@ -67,10 +67,10 @@ int Traversal::slices() const { return state_->order[0].extent; }
 int Traversal::rows() const { return state_->order[1].extent; }
 int Traversal::columns() const { return state_->order[2].extent; }
 
-/// Every voxel of the part that is not empty: each(at, slice, line, material, extinction); after each row end_row().
+/// Calls each(at, slice, line, material, extinction) for every non-empty voxel of the part, end_row() after each row.
 template <class Each, class EndRow>
 void Traversal::State::walk(const GridPart& part, Each each, EndRow end_row) const {
-  // Copies of one's own: what other code might write to is read again for every voxel.
+  // Local copies: members would be reloaded for every voxel, since other code might write to them.
   const Classifier classifier = classify;
   const std::array<Walk, 3> axes = order;
   const volume::Volume& volume = *scene.volume;

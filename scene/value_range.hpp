@@ -21,7 +21,7 @@ class RankedValues {
  public:
   RankedValues(const volume::Volume& volume, double above);
   std::size_t count() const { return count_; }
-  /// The value that `share` (0..1) of the voxels do not exceed. There is at least one voxel.
+  /// The value that `share` (0..1) of the voxels do not exceed. count() must be above 0.
   double at(double share);
 
  private:

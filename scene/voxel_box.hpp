@@ -10,7 +10,7 @@
 
 namespace fastsplat::scene {
 
-/// From `low` to `high`, both included; without an axis to it, everything.
+/// From `low` to `high`, both included; everything() if high.x < low.x.
 struct VoxelBox {
   glm::ivec3 low{0}, high{-1};
   bool everything() const { return high.x < low.x; }

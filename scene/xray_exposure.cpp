@@ -8,7 +8,7 @@
 namespace fastsplat::scene {
 namespace {
 
-/// One of each pair of opposite neighbours: that which comes later in memory.
+/// One of each pair of opposite neighbours: the one later in memory.
 constexpr std::array<glm::ivec3, 13> kDirections = {{{1, 0, 0},
                                                      {-1, 1, 0},
                                                      {0, 1, 0},
@@ -23,7 +23,7 @@ constexpr std::array<glm::ivec3, 13> kDirections = {{{1, 0, 0},
                                                      {0, 1, 1},
                                                      {1, 1, 1}}};
 
-/// Sums along the lines of one direction, up to and with each voxel of a slice z; border cells stay 0.
+/// Sums along the lines of one direction, up to and including each voxel of a slice z; border cells stay 0.
 class Lines {
  public:
   Lines(const glm::ivec3& direction, const glm::ivec3& dims)
@@ -33,7 +33,7 @@ class Lines {
         before_(pitch_ * (static_cast<std::size_t>(dims.y) + 2)),
         now_(before_) {}
 
-  /// `row`: extinctions of the voxels (0.., y, z); rows come in the order of memory.
+  /// `row`: extinctions of the voxels (0.., y, z). Call in the order of memory.
   void add(int y, const float* row) {
     const std::vector<double>& from = direction_.z == 0 ? now_ : before_;
     const double* last = from.data() + at(y - direction_.y) - direction_.x;
@@ -53,7 +53,7 @@ class Lines {
   double largest_ = 0.0;
 };
 
-/// From a voxel to its neighbour, in kernel units.
+/// Distance from a voxel to its neighbour, in kernel units.
 double step(const volume::Volume& volume, const glm::ivec3& d) {
   const glm::dvec3 from = volume.position(0, 0, 0), to = volume.position(d.x, d.y, d.z);
   return glm::length(to - from) / volume.kernel_unit();
@@ -81,7 +81,7 @@ double densest_line(const volume::Volume& volume, const Classifier& classify) {
 }
 
 double automatic_exposure(const volume::Volume& volume, const Classifier& classify, double opacity_scale) {
-  constexpr double kRipple = 1.05;  // a sum of the named kernels stays below: 4.38 % at a = 2
+  constexpr double kRipple = 1.05;  // upper bound for the named kernels: 4.38 % at a = 2
   const double densest = densest_line(volume, classify);
   return densest > 0.0 ? 1.0 / (kRipple * densest * opacity_scale) : 1.0;
 }

@@ -1,4 +1,4 @@
-// The automatic exposure of X-rays (docs/numerics.md, section 8). It depends on the volume, not on the view, so that a
+// The automatic exposure of X-rays (docs/numerics.md, N-8-23). It depends on the volume, not on the view, so that a
 // turning volume keeps its brightness.
 #pragma once
 

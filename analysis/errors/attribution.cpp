@@ -31,7 +31,7 @@ Amount floor_of(const Picture& real, int bits) {
   return amount_of(error);
 }
 
-/// Frames of mixtures, counted.
+/// Draws frames with mixtures and counts them.
 class Frames {
  public:
   Frames(const stages::Chain& chain, int total, const AttributionOptions& options)
@@ -50,7 +50,7 @@ class Frames {
   std::size_t total_, done_ = 0;
 };
 
-/// Shapley values of the groups, of v(S) = E[(S's error) e] / E[e^2]: v of all is 1.
+/// Shapley values of the groups, for v(S) = E[(S's error) e] / E[e^2]; v of all groups is 1.
 std::vector<GroupShare> shapley(const std::vector<stages::StepSet>& groups, const Picture& real, const Picture& error,
                                 Frames& frames) {
   const std::size_t n = groups.size(), all = (std::size_t{1} << n) - 1;
@@ -100,7 +100,7 @@ std::vector<PixelStory> stories_of(const Attribution& a, const Picture& error) {
     }
     return worst;
   };
-  std::vector<std::pair<double, std::size_t>> wrong;  // pixels, the worst last; of equals the first in row order
+  std::vector<std::pair<double, std::size_t>> wrong;  // pixels, the worst last; ties in reverse row order
   for (std::size_t i = 0; i < error.pixels.size(); ++i) {
     const double size = std::abs(error.pixels[i][worst_channel(i)]);
     if (size > 0.0) wrong.emplace_back(size, i);
@@ -166,9 +166,9 @@ Attribution attribute(const stages::Chain& chain, const AttributionOptions& opti
   const std::vector<stages::StepSet> sets = chain.sets();
   const auto n = static_cast<int>(sets.size());
   const std::vector<stages::StepSet> groups = stages::group_sets(chain.holds_densities());
-  const int coalitions = (1 << groups.size()) - 2;  // neither nobody nor all
-  // Both ends, what lies between them one after the other, each alone (the first is the first increment), each left
-  // out (the last is the last but one of the chain).
+  const int coalitions = (1 << groups.size()) - 2;  // without the empty one and the full one
+  // Both ends; the n - 1 mixtures between them; each step alone (the first is known), each step left out (the last is
+  // known).
   Frames frames(chain, 2 + (n - 1) + (options.quick ? 0 : 2 * (n - 1)) + (options.shapley ? coalitions : 0), options);
   out.real = frames(Mixture{});
   out.device = frames(Mixture::all_device());

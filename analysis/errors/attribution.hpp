@@ -1,4 +1,4 @@
-// Because of which step is the device's picture not golden's (docs/errors.md, section 2).
+// Attributes the device's error to the steps of the pipeline (docs/errors.md, section 2).
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace fastsplat::analysis {
 
-/// Of a signed error over all values of a picture, all four channels alike; 1.0 is full scale.
+/// Figures of a signed error over all values of a picture, all four channels alike; 1.0 is full scale.
 struct Amount {
-  double rms = 0.0, greatest = 0.0, bias = 0.0;  ///< greatest: of magnitudes
+  double rms = 0.0, greatest = 0.0, bias = 0.0;  ///< greatest: largest magnitude
 };
 Amount amount_of(const stages::Picture& error);
 /// a - b, value by value.
 stages::Picture difference(const stages::Picture& a, const stages::Picture& b);
-/// A part d of the whole error e has the share E[d e] / E[e^2]: not centred, since bias is error too. 0 if the error is
+/// The share E[d e] / E[e^2] of a part d in the whole error e: not centred, since bias is error too. 0 if the error is
 /// 0.
 double share_of(const stages::Picture& part, const stages::Picture& error);
 
@@ -28,9 +28,9 @@ struct StepError {
   stages::StepSet set;
   double share = 0.0;  ///< of its increment, see Attribution::increments
   Amount increment;
-  double only_share = 0.0;  ///< of the error where this step alone is the device's
+  double only_share = 0.0;  ///< of the error with this step alone on the device
   Amount only;
-  Amount without;             ///< the error that is left where this step alone is real
+  Amount without;             ///< the error that remains with this step alone real
   double pixels_ruled = 0.0;  ///< share of the pixels with an error, see Attribution::blame
 };
 
@@ -47,24 +47,24 @@ struct GroupShare {
 };
 
 struct Attribution {
-  bool quick = false;  ///< no step alone, none left out
+  bool quick = false;  ///< without `only` and `without`
   stages::Picture real, device;
   Amount total;
   Amount floor8, floor16;        ///< of rounding the real picture once to 8 and to 16 bits
-  std::vector<StepError> steps;  ///< in pipeline order; their shares add up to 1, or are all 0 where there is no error
+  std::vector<StepError> steps;  ///< in pipeline order; their shares add up to 1, or are all 0 without an error
   double driver_share = 0.0, device_share = 0.0, both_share = 0.0;
   double only_remainder = 0.0;  ///< 1 less the sum of only_share
   std::vector<GroupShare> groups;
-  /// Step by step, what it changes when it becomes the device's after all before it: they add up to the error.
+  /// Per step, the change of the picture when it joins all earlier steps on the device. They add up to the error.
   std::vector<stages::Picture> increments;
-  std::vector<int> blame;  ///< per pixel the step with the largest part of its error, -1 where there is none
+  std::vector<int> blame;  ///< per pixel the step with the largest part of its error; -1: no error
   std::vector<PixelStory> stories;
   int chains = 0;  ///< frames computed
 };
 
 struct AttributionOptions {
   bool quick = false;    ///< increments only: a third of the frames
-  bool shapley = false;  ///< over the groups: of five 30 frames more, of six 62
+  bool shapley = false;  ///< of the groups: 30 more frames for five groups, 62 for six
   int threads = 0;       ///< 0: all cores; never changes the result
   Progress progress{};   ///< counts frames
 };

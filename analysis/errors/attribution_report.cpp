@@ -40,7 +40,7 @@ std::string answer(const Attribution& a, const std::optional<TriedRemedy>& tried
   return text + "\n";
 }
 
-/// In percent, without a minus before nothing.
+/// In percent, never "-0".
 double percent(double share) { return std::abs(share) < 0.5e-4 ? 0.0 : 100.0 * share; }
 
 std::string story(const PixelStory& s, int bits) {

@@ -13,8 +13,8 @@ namespace {
 
 constexpr Colour kPaper{255, 255, 255}, kInk{32, 32, 32}, kNoError{236, 236, 236};
 
-/// As far apart as seventeen colours can be; in pipeline order warm to cold, so that neighbours in the pipeline are
-/// kin. The eight of densities, where they are met, are paler and darker ones in between.
+/// Seventeen colours as distinct as possible; in pipeline order warm to cold, so that neighbouring steps look similar.
+/// The eight steps of densities have paler and darker colours in between.
 constexpr std::array<Colour, stages::kStepCount> kColours{
     {{166, 30, 30},  {230, 90, 40},   {245, 160, 50}, {240, 215, 60},  {190, 200, 50}, {120, 170, 50},  {50, 140, 60},
      {30, 160, 130}, {60, 190, 200},  {40, 140, 220}, {40, 80, 190},   {90, 60, 190},  {0, 0, 110},     {150, 190, 255},

@@ -13,10 +13,10 @@ namespace {
 
 using stages::Step;
 
-/// For what doubles lose.
+/// Allowance for the rounding of doubles.
 constexpr double kSlack = 1e-12;
 
-/// As many rows as keep a band's cells below this.
+/// Limit on the size of a band's cells.
 constexpr double kBandBytes = 48e6;
 int rows_of_band(int sheets, int width) {
   return static_cast<int>(
@@ -57,7 +57,7 @@ Bound bound(const stages::Chain& chain, const stages::Picture& real, Known known
 }
 
 void check_bounded(const stages::Chain& chain) {
-  // What is proved is proved of circles in sheets of colours.
+  // Only circles in sheets of colours are covered by the proof.
   const scene::Methods methods = driver::offers(chain.config()).methods & ~scene::only(scene::Method::Westover);
   scene::check_capability(chain.scene(), {"error bound", methods, 0u});
 }
@@ -70,7 +70,7 @@ Bound bound(const stages::Chain& chain, const stages::Picture& real, const stage
   const auto splats = chain.steps().staged(chain.list(), mixture, false, threads).splats;
   const int width = real.width, height = real.height;
   const double more = roundings.place + [&] {
-    double most = 0.0;  // by how much a radius set can be larger than the splat's own
+    double most = 0.0;  // most that a radius set exceeds the splat's own radius
     if (roundings.radius) {
       const auto& sets = chain.steps().sets();
       for (const auto& splat : splats) most = std::max(most, sets.radius(sets.nearest(splat.radius)) - splat.radius);
@@ -96,7 +96,7 @@ Bound bound(const stages::Chain& chain, const stages::Picture& real, const stage
     terms[number] = sweep.terms();
   });
 
-  // What is known of the error, to the bit; the words of the picture; a picture that may be cut at the largest one.
+  // Adds the known part, saturation of an X-ray's sums, and rounding and saturation of output words.
   const stages::Picture there = chain(mixture, threads);
   const double values = 4.0 * static_cast<double>(real.pixels.size());
   for (const auto& band : terms) {
@@ -126,7 +126,7 @@ BoundCheck check(const Bound& bound, const stages::Picture& real, const stages::
       const double measured = std::abs(device.pixels[i][c] - real.pixels[i][c]);
       const double allowed = bound.greatest.pixels[i][c];
       ++out.values;
-      out.over += measured <= allowed ? 0 : 1;  // a bound that is no number holds nothing
+      out.over += measured <= allowed ? 0 : 1;  // a NaN bound does not hold
       out.worst = std::max(out.worst, measured / allowed);
       error = std::max(error, measured);
       most = std::max(most, allowed);

@@ -11,10 +11,10 @@
 
 namespace fastsplat::analysis {
 
-/// What is known of the device's numbers; the known part of the error is exact, the bound is on the rest.
+/// Which of the device's numbers are known. Their part of the error is exact; the bound is on the rest.
 enum class Known : std::uint8_t {
   Scene,     ///< golden's numbers and the configuration
-  Geometry,  ///< also places, radius sets, weights, depths and their shares: everything but colours
+  Geometry,  ///< also positions, radius sets, weights, depths and their shares: everything but colours
   Words,     ///< every word that the driver makes
 };
 inline constexpr std::array kLevels{Known::Scene, Known::Geometry, Known::Words};
@@ -22,7 +22,7 @@ const char* to_string(Known known);  ///< "scene", "geometry", "words"
 /// The steps whose results are known.
 stages::Mixture known_steps(Known known);
 
-/// What the bound consists of, by step; in the order of docs/errors.md.
+/// Terms of the bound by step, in the order of docs/errors.md.
 enum class Term : std::uint8_t {
   Known,  ///< the exact part
   Place,
@@ -39,7 +39,7 @@ enum class Term : std::uint8_t {
   Composite,
   Freeze,
   Pixel,
-  Transmittance,  ///< that the device's differs from the real one
+  Transmittance,  ///< error of the device's transmittance
   SecondOrder,
 };
 inline constexpr std::size_t kTermCount = 17;
@@ -51,23 +51,23 @@ struct Bound {
   Term dominant() const;
 };
 
-/// Throws UserError (Usage) where nothing is proved of such frames: of ellipses, of every sample, of densities.
+/// Throws UserError (Usage) for frames without a proof: with ellipses, every sample composited, or densities.
 void check_bounded(const stages::Chain& chain);
 
 /// `threads` (0: all cores) never change the result.
 Bound bound(const stages::Chain& chain, const stages::Picture& real, Known known, int threads = 0);
-/// The same on the distance to the picture of which only the steps of `device` are the device's, `known` among them:
-/// what some steps can do alone. (Position and snap go together, and numbers that are no words are rounded where words
-/// would not be: not every step can stand alone.)
+/// Bounds the distance to the picture with only the steps of `device` on the device, `known` among them: the effect of
+/// some steps alone. (Not every step can stand alone: position and snap go together, and numbers that are not words are
+/// rounded where words would not be.)
 Bound bound(const stages::Chain& chain, const stages::Picture& real, const stages::Mixture& known,
             const stages::Mixture& device, int threads = 0);
 
-/// How near the measured error comes.
+/// The measured error against the bound.
 struct BoundCheck {
-  std::uint64_t values = 0, over = 0;         ///< over: measured more than the bound; a bound that is one has none
+  std::uint64_t values = 0, over = 0;         ///< over: values above the bound; 0 if the bound holds
   double worst = 0.0;                         ///< greatest measured / bound
   std::uint64_t pixels = 0;                   ///< with an error
-  double median = 0.0, p90 = 0.0, p99 = 0.0;  ///< of bound / measured, of the largest channel each, over these pixels
+  double median = 0.0, p90 = 0.0, p99 = 0.0;  ///< of bound / measured over these pixels, each by its largest channel
   double greatest_bound = 0.0, greatest_error = 0.0;
 };
 BoundCheck check(const Bound& bound, const stages::Picture& real, const stages::Picture& device);

@@ -7,15 +7,15 @@
 namespace fastsplat::analysis {
 namespace {
 
-/// exp(-tau) (exp(by) - 1), 0 <= by <= tau: in this order no factor is infinite, however great tau.
+/// exp(-tau) (exp(by) - 1), 0 <= by <= tau: in this order no factor overflows, however large tau is.
 double dimmed_growth(double tau, double by) { return std::exp(by - tau) * -std::expm1(-by); }
 
-/// Most that the opacity 1 - exp(-tau) changes where tau does by at most `error`, and stays at 0 or above.
+/// Largest change of the opacity 1 - exp(-tau) if tau changes by at most `error` and stays at 0 or above.
 double opacity_change(double tau, double dims, double error) {
   return std::max(dimmed_growth(tau, std::min(error, tau)), dims * -std::expm1(-error));
 }
 
-/// Most that this change differs from dims times that of tau.
+/// Largest difference between this change and dims times that of tau.
 double beyond_linear(double tau, double dims, double error) {
   const double less = std::min(error, tau);
   return std::max(dimmed_growth(tau, less) - dims * less, dims * (error + std::expm1(-error)));
@@ -55,8 +55,7 @@ void BoundBand::run(const stages::BandBins& bins, int band) {
   }
   for (std::size_t at = 0; at < total_.size(); ++at) {
     for (std::size_t c = 0; c < 4; ++c) {
-      if (closed_[at] == 0 && !(total_[at][c] <= greatest_[at][c]))
-        greatest_[at][c] = total_[at][c];  // no number stays one
+      if (closed_[at] == 0 && !(total_[at][c] <= greatest_[at][c])) greatest_[at][c] = total_[at][c];  // NaN stays NaN
     }
   }
 }
@@ -105,7 +104,7 @@ void BoundBand::look_through() {
         at.behind = behind;
         const double tau = at.sums[3];
         for (std::size_t c = 0; c < 3; ++c) {
-          at.colour[c] = tau > 0.0 ? at.sums[c] / tau : behind[c];  // any number will do where there is nothing
+          at.colour[c] = tau > 0.0 ? at.sums[c] / tau : behind[c];  // any value will do if the sheet is empty
           const double shown = additive_ ? std::min(1.0, at.sums[c]) : at.sums[c] * at.factor;
           behind[c] = shown + (1.0 - at.opacity) * behind[c];
         }
@@ -158,7 +157,7 @@ void BoundBand::slice(const stages::StagedSplat& splat) {
   Sliced& s = sliced_;
   steps.shares(splat, known_, s.value);
   s.first = splat.first;
-  // The device's words are of the value times this, and its weights are; here the weights have all of it.
+  // The device's words contain this factor. Here the weights contain all of it, so errors of words are divided by it.
   double ratio = 1.0;
   if (r_.radius) {
     const auto& sets = steps.sets();
@@ -249,10 +248,10 @@ BoundBand::Effect BoundBand::effect(const SheetCell& at, std::size_t c) const {
 
 void BoundBand::add_pixel(const stages::StagedSplat& splat, const Touch& touch, int x, int y) {
   const Sliced& s = sliced_;
-  const double greatest = touch.weight + touch.error;  // of the device's weight
+  const double greatest = touch.weight + touch.error;  // largest weight of the device
   const std::size_t n = s.size(), at = pixel(x, y);
   for (std::size_t c = 0; c < 4; ++c) {
-    // One unknown acts on all sheets alike: with signs. T is that of the known mixture.
+    // An unknown acts on all sheets alike: signed sums. T is that of the known mixture.
     double weight_sum = 0.0, colour_sum = 0.0, tau_sum = 0.0;
     double cuts = 0.0, words = 0.0, products = 0.0, absolute = 0.0;
     Effect before{};
@@ -269,7 +268,7 @@ void BoundBand::add_pixel(const stages::StagedSplat& splat, const Touch& touch, 
       weight_sum += now.of(s.value[m], c);
       colour_sum += now.colour * s.part[m];
       tau_sum += now.tau * s.part[m];
-      // A product that is rounded cannot lose more than there is.
+      // Rounding cannot take more than the product itself.
       const auto product = [&](std::size_t channel) {
         return std::min(r_.product, (s.value[m][channel] + s.share_error[m][channel]) * greatest);
       };
@@ -327,7 +326,7 @@ void BoundBand::finish(int sheet) {
 
 void BoundBand::finish_pixel(int sheet, SheetCell& here, std::size_t at, int x, int y) {
   const double upper = upper_[at], lower = lower_[at];
-  // The device may stop here: what it has not drawn is what lies behind, seen through what it has left.
+  // The device may terminate here: it then lacks what lies behind, seen through the remaining transmittance.
   if (lower < r_.freeze) {
     const double left = std::min(r_.freeze, upper);
     for (std::size_t c = 0; c < 4; ++c) {
@@ -351,7 +350,7 @@ void BoundBand::finish_pixel(int sheet, SheetCell& here, std::size_t at, int x, 
   if (most <= 0.0 &&
       here.sums[0] + here.sums[1] + here.sums[2] + here.spread[0] + here.spread[1] + here.spread[2] <= 0.0)
     return;
-  // Sums that may be cut are off by as much as they may be cut.
+  // Sums that may saturate are off by up to their excess.
   const double cut = std::max(0.0, most - r_.largest_sum);
   const double tau_error = here.tau_error + cut;
   const double off = std::max(upper - here.transmittance, here.transmittance - lower);

@@ -1,5 +1,5 @@
-// The bound on a band of image rows: forward for what each sheet shows, backward for what lies behind it, then splat by
-// splat what each rounding can do (docs/errors.md, section 3).
+// The bound on a band of image rows. A forward pass finds what each sheet shows, a backward pass what lies behind it;
+// then each rounding is bounded splat by splat (docs/errors.md, section 3).
 #pragma once
 
 #include <array>
@@ -15,25 +15,25 @@ namespace fastsplat::analysis {
 
 using golden::Sums;
 
-/// What is known of a sheet at a pixel, and what gathers there. Channels: R, G, B, and alpha or tau.
+/// Known values of a sheet at a pixel, and the errors gathered there. Channels: R, G, B, and alpha or tau.
 struct SheetCell {
   Sums sums{};                 ///< of the known mixture
   double transmittance = 1.0;  ///< in front of the sheet
   double dims = 1.0;           ///< exp(-tau), the derivative of opacity; 1 where sums are added
   double factor = 1.0;         ///< (1-exp(-tau))/tau
   double opacity = 0.0;
-  Sums colour{};                   ///< sums over tau; of alpha 1
-  Sums behind{};                   ///< what lies behind the sheet, by itself
-  double tau_error = 0.0;          ///< most that tau can be off
-  std::array<double, 3> spread{};  ///< most that sums less colour times tau can be off
-  Sums moved{};                    ///< most that the sheet's layer can be off, of first order, T not applied
-  Sums straddling{};  ///< of splats whose last sheet this is: what they add where a pixel freezes amid them
+  Sums colour{};                   ///< sums over tau; 1 for alpha
+  Sums behind{};                   ///< colour behind the sheet, by itself
+  double tau_error = 0.0;          ///< largest error of tau
+  std::array<double, 3> spread{};  ///< largest error of (sums - colour * tau)
+  Sums moved{};                    ///< largest first-order error of the sheet's layer, without T
+  Sums straddling{};               ///< added by splats whose last sheet this is, if the pixel terminates amid them
 };
 
 class BoundBand {
  public:
-  /// Keeps references. `splats` are of the known mixture, binned by the sheet before their first one where depths are
-  /// open ("lead" 1).
+  /// Keeps references. `splats`: of the known mixture, binned by the sheet before their first one if depths are open
+  /// ("lead" 1).
   BoundBand(const stages::Chain& chain, const stages::Mixture& known, const Roundings& roundings,
             const std::vector<stages::StagedSplat>& splats, golden::Rows rows, int width);
 
@@ -42,24 +42,24 @@ class BoundBand {
   const std::array<double, kTermCount>& terms() const { return terms_; }  ///< sums over values
 
  private:
-  /// One splat, one pixel.
+  /// A splat at a pixel.
   struct Touch {
-    double weight = 0.0, error = 0.0;  ///< known; most that the device's differs
+    double weight = 0.0, error = 0.0;  ///< known weight; largest error of the device's
     double by_place = 0.0, by_radius = 0.0, by_lookup = 0.0, by_weight = 0.0;  ///< parts of the error
   };
-  /// What a splat gives to sheets first .. first + size - 1, and most that each part of it can be off.
+  /// A splat's shares in sheets first .. first + size - 1, and the largest error of each part.
   struct Sliced {
     int first = 0;
     std::vector<Sums> value;        ///< known share
-    std::vector<double> part;       ///< of the kernel
-    std::vector<double> cut;        ///< of the kernel at boundary i, in front of sheet i; one more than sheets
-    std::vector<double> word;       ///< of a channel's word there
-    Sums whole_error{};             ///< of the whole splat
-    std::vector<Sums> share_error;  ///< of a share, all in all
-    std::vector<Sums> over;         ///< of it, what is cut at the largest word
+    std::vector<double> part;       ///< fraction of the kernel
+    std::vector<double> cut;        ///< error of the fraction at boundary i, in front of sheet i; one more than sheets
+    std::vector<double> word;       ///< error of a channel's word there
+    Sums whole_error{};             ///< error of the whole splat
+    std::vector<Sums> share_error;  ///< error of a share, in total
+    std::vector<Sums> over;         ///< its part that saturation adds
     std::size_t size() const { return value.size(); }
   };
-  /// What a sum of the sheet that is off by 1 does to the pixel behind T = 1: a colour's own, and tau's.
+  /// Effect on the pixel behind T = 1 of an error of 1 in a sum of the sheet: the colour's own, and tau's.
   struct Effect {
     double colour = 0.0, tau = 0.0;
     double of(const Sums& value, std::size_t c) const { return colour * value[c] + tau * value[3]; }
@@ -97,8 +97,8 @@ class BoundBand {
   double entries_;  ///< N
   stages::WeightSteps weights_;
   std::vector<SheetCell> cells_;
-  std::vector<double> upper_, lower_;  ///< of the device's transmittance in front of the sheet at hand
-  std::vector<char> closed_;           ///< frozen for certain
+  std::vector<double> upper_, lower_;  ///< bounds on the device's transmittance in front of the current sheet
+  std::vector<char> closed_;           ///< certainly terminated
   std::vector<Sums> total_, greatest_;
   std::array<double, kTermCount> terms_{};
   Sliced sliced_;

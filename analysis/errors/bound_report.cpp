@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kMeaning[] = {"the scene and the configuration", "also positions, weights and depths",
                                     "every word of the driver"};
 
-/// Terms by their mean, the largest first, without those that are nothing.
+/// Terms by their mean, the largest first, without zeros.
 std::vector<Term> ranked(const Bound& bound) {
   std::vector<Term> terms;
   for (std::size_t t = 0; t < kTermCount; ++t) {
@@ -39,7 +39,7 @@ BoundReport bounds(const stages::Chain& chain, int threads, const Progress& prog
   check_bounded(chain);
   BoundReport out{chain(stages::Mixture{}, threads), chain(stages::Mixture::all_device(), threads), {}};
   for (const Known known : kLevels) {
-    // What a place that is not known does to a weight was worked out for the RLUT alone.
+    // The effect of an unknown position on a weight is derived for the RLUT only.
     if (known == Known::Scene && chain.config().index() != cmodel::IndexKind::Rlut) continue;
     BoundResult level{known, bound(chain, out.real, known, threads), {}};
     level.check = check(level.bound, out.real, out.device);

@@ -1,4 +1,4 @@
-// Bounds in words and as JSON.
+// Bounds as text and as JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

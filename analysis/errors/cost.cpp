@@ -14,14 +14,15 @@ Cost cost(const cmodel::Config& c) {
                unit = c.composite_frac_bits + 1.0, rest = c.opacity_remainder_bits(),
                position = c.position_int_bits + c.position_frac_bits, out_word = c.pixel_int_bits + c.pixel_frac_bits;
   Cost out;
-  // A table that all lanes read in the same cycle is there once a lane.
+  // A table that all lanes read in the same cycle exists once per lane.
   out.storage_bits = 2.0 * c.rlut_columns * c.phases * distance        // RLUT: x and y
                      + lanes * c.radial_entries * weight               // radial table
                      + composited * c.opacity_segments * 2.0 * factor  // factor table: start and fall of a segment
                      + 2.0 * pixels * 4.0 * sheet                      // two sheet buffers
                      + pixels * 4.0 * std::max(unit, sheet);           // picture, or an X-ray's sums
-  // A splat: its place on the two axes. A lane: q; four products and sums; then a pixel of a slice: the factor's fall
-  // and its subtraction, four products with it, four with T, three sums and a difference. A row's pixels going out.
+  // Per splat: its position on the two axes. Per lane: q; four products and sums. Per composited pixel: the factor's
+  // fall and its subtraction, four products with it, four with T, three sums and a difference. Per row: its output
+  // pixels.
   out.adder_bits = 2.0 * position + lanes * (distance + 4.0 * sheet) + composited * (2.0 * factor + 4.0 * unit) +
                    c.lanes * 4.0 * out_word;
   out.multiplier_bits =
@@ -32,8 +33,8 @@ Cost cost(const cmodel::Config& c) {
     out.adder_bits += lanes * (2.0 * weight + 1.0);
   }
   if (c.has_ellipses()) {
-    // Of a record: four products of 22 and 24 bits with X and Y, then two of those sums. A window: its polynomial from
-    // the one before, a few sums a column and a row, multiples by constants. A lane: one multiple, and three words.
+    // Per record: four products of 22 and 24 bits with X and Y, then two of these sums. Per window: its polynomial from
+    // the one before, a few sums per column and row, multiples by constants. Per lane: one multiple, and three words.
     const double word = c.ellipse_format().word_bits, way = 11.0 + c.position_frac_bits;
     out.multiplier_bits += 92.0 * way + way * (26.0 + way) + way * (24.0 + way);
     out.adder_bits += word * (8.0 + 14.0 * c.lanes + 3.0 * lanes);

@@ -40,7 +40,7 @@ Journal::Journal(const std::filesystem::path& path) : path_(path) {
   if (std::ifstream in(path, std::ios::binary); in) {
     std::size_t number = 0;
     for (std::string line; std::getline(in, line);) {
-      if (in.eof()) {  // torn: but a file that begins with anything else is no journal at all
+      if (in.eof()) {  // incomplete line; a file that begins with anything else is not a journal
         if (number == 0 && !std::string_view(kFirstLine).starts_with(line)) refuse(path, 1, kFirstLine);
         break;
       }

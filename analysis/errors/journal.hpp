@@ -1,4 +1,4 @@
-// What configurations did, kept in a file: JSON lines that a later search finds instead of simulating again.
+// Results of configurations in a file of JSON lines, which a later search reads instead of simulating again.
 #pragma once
 
 #include <cstdint>
@@ -15,16 +15,16 @@ namespace fastsplat::analysis {
 
 class Journal {
  public:
-  /// What became of a configuration and a scene; no fidelity where it could not be drawn.
+  /// The result of a configuration and a scene; nullopt if it could not be drawn.
   using Entry = std::optional<Fidelity>;
 
-  /// Without a file nothing is kept. Else its entries are read and new ones appended. A line that a killed program left
-  /// incomplete is cut off the next time. Throws UserError (Input) if another line is not an entry.
+  /// Without a file, entries are kept in memory only. Otherwise its entries are read and new ones appended. A line that
+  /// a killed program left incomplete is removed. Throws UserError (Input) if another line is not an entry.
   explicit Journal(const std::filesystem::path& path = {});
 
-  /// Null where nothing is known.
+  /// Null if unknown.
   const Entry* find(std::uint64_t config, std::uint64_t scene) const;
-  /// On disk before this returns.
+  /// Flushed to the file before this returns.
   void add(std::uint64_t config, std::uint64_t scene, const Entry& entry);
 
  private:

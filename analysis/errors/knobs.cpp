@@ -47,8 +47,8 @@ std::optional<Config> turned(const Config& from, const Steps& steps) {
     value = 1 << log2;
   }
   out.position_frac_bits += steps[kPhases];
-  // The level at which pixels freeze: as it was, halved as often as the knob says. Words too short to say it have the
-  // shortest that is not nothing.
+  // The early-termination level: as before, halved once per step of the knob. Words too short for it use their least
+  // value above 0.
   if (steps[kFreeze] < 0 || out.composite_frac_bits < 1) return std::nullopt;
   const int shift = out.composite_frac_bits - from.composite_frac_bits - steps[kFreeze];
   if (from.freeze_below > 0) {

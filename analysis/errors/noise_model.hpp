@@ -1,4 +1,4 @@
-// As if the noises of single keys added: says what is worth simulating, never what is good enough.
+// Assumes that the noises of single keys add. Selects what is worth simulating, never what is good enough.
 #pragma once
 
 #include <map>
@@ -11,15 +11,15 @@ namespace fastsplat::analysis {
 class NoiseModel {
  public:
   NoiseModel() = default;
-  /// `begin` has the excess `excess` (error over the error allowed).
+  /// `begin` has the excess `excess` (error / allowed error).
   NoiseModel(Steps begin, double excess);
 
-  /// Measured: with `knob` alone at `step`, lower than it began, the excess was that.
+  /// Records a measurement: the excess with `knob` alone at `step`, below its start.
   void learn(std::size_t knob, int step, double excess);
-  /// Squared excess that the knob adds there: as measured, or four times less for each step back from the nearest lower
-  /// step that was.
+  /// Squared excess that the knob adds at `step`: as measured, or from the nearest measured step below it, four times
+  /// less for each step up.
   double added(std::size_t knob, int step) const;
-  /// Squared excess of all together.
+  /// Squared excess of all knobs together.
   double square(const Steps& steps) const;
 
  private:

@@ -1,4 +1,4 @@
-// The cheapest configuration that meets a target on all of some scenes, when simulated (docs/errors.md, "Propose").
+// Finds the cheapest configuration that meets a target on all given scenes when simulated (docs/errors.md, section 6).
 #pragma once
 
 #include <filesystem>
@@ -16,17 +16,17 @@
 
 namespace fastsplat::analysis {
 
-/// Device against golden, over some scenes. Golden is drawn once a scene, and only if anything has to be simulated.
+/// Compares device and golden over some scenes. Golden is drawn once per scene, and only if a simulation needs it.
 class Simulator {
  public:
   /// Keeps references to both.
   Simulator(const std::vector<scene::Scene>& scenes, Journal& journal, int threads);
 
-  /// The worst of all scenes by the target's figure; empty where one cannot be drawn.
+  /// The worst of all scenes by the target's figure; empty if one cannot be drawn.
   Journal::Entry worst(const cmodel::Config& config, const Target& target);
-  /// The same, but throws UserError where a scene cannot be drawn.
+  /// The same, but throws UserError if a scene cannot be drawn.
   Journal::Entry worst_drawn(const cmodel::Config& config, const Target& target);
-  /// Whether every scene meets the target. Gives up at the first that does not, and begins there the next time.
+  /// Whether every scene meets the target. Stops at the first that does not, and begins there the next time.
   bool meets(const cmodel::Config& config, const Target& target);
 
   int simulated() const { return simulated_; }  ///< frames drawn
@@ -44,7 +44,7 @@ class Simulator {
   int simulated_ = 0, recalled_ = 0;
 };
 
-/// Of everything that decides a scene's picture.
+/// Hash of everything that decides a scene's picture.
 std::uint64_t scene_hash(const scene::Scene& scene);
 
 struct Proposal {
@@ -54,12 +54,12 @@ struct Proposal {
   std::vector<std::string> scenes;
   /// The worst of the scenes by the target's figure.
   Journal::Entry error_from, error;
-  Journal::Entry error_geometry;  ///< of search.geometry, where there is one
+  Journal::Entry error_geometry;  ///< of search.geometry, if present
   Cost cost_from, cost;
   int simulated = 0, recalled = 0;
 };
 
-/// Throws UserError where `from` cannot draw a scene. `names`: of the scenes.
+/// Throws UserError if `from` cannot draw a scene. `names`: of the scenes.
 Proposal propose(const std::vector<scene::Scene>& scenes, std::vector<std::string> names, const cmodel::Config& from,
                  const Target& target, Journal& journal, int threads, const Progress& progress = {});
 

@@ -21,7 +21,7 @@ double value_of(const cmodel::WideSum& sum) {
   return static_cast<double>(static_cast<std::int64_t>(sum.high)) * kWord + static_cast<double>(sum.low);
 }
 
-/// Few bits may hide between large halves of opposite sign: the sum's magnitude first, then its sign.
+/// Few bits may hide between large halves of opposite sign: converts the sum's magnitude first, then its sign.
 double signed_value_of(const cmodel::WideSum& sum) {
   if (!sum.negative()) return value_of(sum);
   cmodel::WideSum minus{~sum.low, ~sum.high};
@@ -65,7 +65,7 @@ SiteRange site_range(Site site, const Narrowing& narrowing, const Range& range) 
   return out;
 }
 
-/// A key and the sites whose words it makes: their heads tell its integer bits, their tails its fraction bits.
+/// A key and the sites whose words it shapes: heads give its integer bits, tails its fraction bits.
 struct Signal {
   const char* key;
   int Config::*member;
@@ -109,7 +109,7 @@ std::optional<Need> need(const Config& config, const Config& wide, const Signal&
                 ? fmt::format("the largest value is {:.6g}", greatest)
                 : (out.needs < out.has ? fmt::format("the last {} bits are 0 in every word", out.has - out.needs)
                                        : std::string("every bit is needed"));
-  // What no configuration can be is no advice: the nearest one that can.
+  // A value that no configuration allows is replaced by the nearest allowed one.
   const int step = out.needs > out.has ? -1 : 1;
   const auto sound = [&](int value) {
     Config changed = config;

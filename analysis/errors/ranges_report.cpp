@@ -25,7 +25,7 @@ std::string words(const Need& need) {
   return text + "\n";
 }
 
-/// Shares by leading bit, tenths of the most frequent one: '.' for none.
+/// Shares by leading bit, in tenths of the largest one; '.': none.
 std::string bars(const SiteRange& site) {
   if (site.histogram.empty()) return "only zeros";
   std::uint64_t most = 0;

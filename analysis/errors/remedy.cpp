@@ -8,7 +8,7 @@ namespace {
 using cmodel::Config;
 using stages::Step;
 
-/// Transmittance words get finer; the level at which pixels freeze stays.
+/// Transmittance words get finer; the early-termination threshold stays.
 void finer_picture(Config& config) {
   config.composite_frac_bits += 2;
   config.freeze_below *= 4;
@@ -26,7 +26,7 @@ void finer_factor(Config& config) {
 
 void apply(Step step, Config& config) {
   switch (step) {
-    case Step::Position:  // where the snap is a step of its own
+    case Step::Position:  // if the snap is a separate step
       config.position_frac_bits += 2;
       return;
     case Step::Snap:
@@ -63,7 +63,7 @@ void apply(Step step, Config& config) {
     case Step::Transfer:
       config.classify_segment_bits += 2;
       return;
-    case Step::Colour:  // the words of densities with it
+    case Step::Colour:  // also refines the words of densities
       config.sheet_frac_bits += 2;
       return;
     case Step::Slope:

@@ -1,4 +1,4 @@
-// What would make a step's error smaller: the nearest finer configuration.
+// A suggestion that makes a step's error smaller: the nearest finer configuration.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@ struct Remedy {
   std::string changes;  ///< "snap.phases 64 -> 256, position.frac_bits 6 -> 8"
 };
 
-/// Two more bits for the step's words (a quarter of its step size), or for a range one. None where the limits of the
-/// configuration allow no more.
+/// Two more bits for the step's words (a quarter of its step size), or one more integer bit. nullopt if the limits of
+/// the configuration do not allow it.
 std::optional<Remedy> remedy(stages::Step step, const cmodel::Config& config);
 
 /// Keys that differ, in the order of the table: "snap.phases 64 -> 256".

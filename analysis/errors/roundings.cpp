@@ -12,14 +12,14 @@ namespace {
 
 using stages::Step;
 
-/// The most that a site moves a number: half an ulp, all of one that is cut off, nothing where no bit is dropped.
+/// The most that a site moves a number: half an ulp, one ulp if it truncates, 0 if no bit is dropped.
 double step_of(const cmodel::Config& config, cmodel::Site site) {
   const cmodel::Narrowing narrowing = cmodel::narrowing(config, site);
   if (narrowing.dropped_bits() == 0) return 0.0;
   return std::ldexp(narrowing.rounding() == cmodel::Rounding::TRN ? 1.0 : 0.5, -narrowing.to().frac_bits);
 }
 
-/// Positions and snap together: where they round once, half a step of the 1/k grid.
+/// Position and snap together: half a step of the 1/K grid if they round once.
 double place_of(const cmodel::Config& c) {
   const bool once = driver::target(driver::Site::Position, c).rounding == driver::Target::Rounding::Down;
   if (once) return std::ldexp(0.5, -c.grid_bits());
@@ -36,15 +36,15 @@ double weight_of(const cmodel::Config& config, const scene::Kernel& kernel) {
   return config.interpolates() ? most + step_of(config, cmodel::Site::RadialFall) : most;
 }
 
-/// What a line of an interpolated table is above F at most, or below it where its ends were scaled down: in the middle
-/// of a step h a chord of exp(-u) is h^2/8 of it too high, and scale = tanh(h/2)/(h/2) > 1 - h^2/12.
+/// Largest height of an interpolated table's line above F, or depth below it where its ends were scaled down. In the
+/// middle of a step h a chord of exp(-u) is h^2/8 of it too high, and scale = tanh(h/2)/(h/2) > 1 - h^2/12.
 double chord_of(const cmodel::Config& config, const scene::Kernel& kernel) {
   const double step = kernel.a() * kernel.radius() * kernel.radius() / config.radial_entries;
   return step * step / 8.0;
 }
 
-/// With the carry a word differs from its own value by what the splat before left: rest = t - shown(floor(t)) lies
-/// between the least and the largest of V - shown(V), and up to 1 above; the word between rest - 1 and rest more.
+/// With error diffusion a word differs from its own value by the error of the splat before. rest = t - shown(floor(t))
+/// lies between the least and the largest of V - shown(V), and up to 1 above; the word between rest - 1 and rest more.
 double emission_of(const cmodel::Config& config, const scene::Kernel& kernel, bool carries) {
   const double ulp = std::ldexp(1.0, -config.colour_frac_bits);
   if (!carries) return 0.5 * ulp;

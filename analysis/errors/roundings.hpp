@@ -1,4 +1,4 @@
-// How far each step of a configuration can move a value: what the bound is made of (docs/errors.md, section 3).
+// How far each step of a configuration can move a value: input of the bound (docs/errors.md, section 3).
 #pragma once
 
 #include "analysis/pipeline/splat_steps.hpp"
@@ -8,25 +8,25 @@
 
 namespace fastsplat::analysis {
 
-/// Each 0 where the step is known, or not the device's. Values, not words.
+/// Each is 0 if the step is known, or not the device's. Values, not words.
 struct Roundings {
   Roundings(const scene::Scene& scene, const cmodel::Config& config, const stages::SplatSteps& steps,
             const stages::Mixture& known, const stages::Mixture& device);
 
   double place = 0.0;          ///< of a centre along an axis, pixels
-  bool radius = false;         ///< the radius set is still to be taken
+  bool radius = false;         ///< step radius is open
   double lookup = 0.0;         ///< of the squared distance, in radial table entries
   double weight = 0.0;         ///< of an entry of the radial table
   double emission = 0.0;       ///< of a channel of a whole splat
-  double largest_whole = 0.0;  ///< splats are cut here; infinite where they are known
+  double largest_whole = 0.0;  ///< splats saturate here; infinite if they are known
   double depth = 0.0;          ///< of a centre and a boundary together, kernel units
   double phi = 0.0;            ///< of a cumulative weight
   bool shares_known = false;   ///< word by word
-  double share = 0.0;          ///< of what lies in front of a boundary, per channel
-  double last_share = 0.0;     ///< the same behind the splat: 0 where the whole splat is a word
-  double largest_share = 0.0;  ///< shares are cut here; infinite where they are known
+  double share = 0.0;          ///< of the part in front of a boundary, per channel
+  double last_share = 0.0;     ///< the same behind the splat: 0 if the whole splat is a word
+  double largest_share = 0.0;  ///< shares saturate here; infinite if they are known
   double product = 0.0;        ///< half or all of an ulp
-  double largest_sum = 0.0;    ///< infinite where sums are not cut
+  double largest_sum = 0.0;    ///< infinite if sums do not saturate
   double factor = 0.0;         ///< of the slab factor: interpolation, table and rounding
   double slab = 0.0, composite = 0.0;
   double freeze = 0.0;  ///< eps

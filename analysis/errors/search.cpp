@@ -9,9 +9,9 @@ namespace fastsplat::analysis {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-/// Finer than anything is told apart from noise: after so many steps of all keys, nothing will.
+/// Most steps by which all keys get finer: after that, nothing else helps.
 constexpr int kMostRaised = 6;
-/// What a search with these keys takes, about; for the progress shown.
+/// Typical number of configurations in a search; for the progress shown.
 constexpr std::size_t kUsual = 200;
 
 double square(double x) { return x * x; }
@@ -67,11 +67,11 @@ double Search::price(const Steps& steps) const {
   return config ? price_(*config) : kInfinite;
 }
 
-/// `from`, or all keys finer by as little as it takes; pixels freeze as they did unless nothing else helps.
+/// `from`, or all keys finer by as little as necessary. Early termination gets later only if nothing else helps.
 std::optional<Steps> Search::start() {
   Steps steps(knobs().size(), 0);
   nearest_ = steps;
-  if (judge(steps)->meets) return steps;  // its figure counts, too: it may be the nearest of all
+  if (judge(steps)->meets) return steps;  // counts, too: it may be the nearest of all
   for (const int freeze : {0, 2, 20}) {
     if (freeze > 0 && from_.freeze_below == 0) break;
     steps.assign(knobs().size(), 0);
@@ -99,7 +99,7 @@ std::optional<Steps> Search::start() {
   return std::nullopt;
 }
 
-/// Each knob alone from the start: by halving, for errors grow as bits go.
+/// Lowers each knob alone from the start, by bisection: errors grow as bits go.
 void Search::lowest_alone(const Steps& start) {
   begin_ = start;
   lowest_ = start;
@@ -130,7 +130,7 @@ void Search::lowest_alone(const Steps& start) {
   }
 }
 
-/// As if noises added: from the least of each knob up, where a step takes most noise for its price.
+/// Under the model: from the least of each knob up, each time the step that removes most noise for its price.
 Steps Search::cheapest_by_model(double budget) const {
   Steps steps = lowest_;
   while (noises_.square(steps) > budget) {
@@ -142,7 +142,7 @@ Steps Search::cheapest_by_model(double budget) const {
       Steps finer = steps;
       ++finer[k];
       const double gain = noises_.added(k, steps[k]) - noises_.added(k, finer[k]);
-      // The least of all together may be no configuration: out of there first.
+      // The least of all together may be an invalid configuration, which is left first.
       const double more = std::isfinite(now) ? price(finer) - now : 1.0;
       if (!std::isfinite(more)) continue;
       const double worth = gain / std::max(more, 1e-3);
@@ -154,7 +154,7 @@ Steps Search::cheapest_by_model(double budget) const {
   return steps;
 }
 
-/// The model's proposals, with the budget turned until they just meet the target when they are tried.
+/// Tries the model's proposals, adjusting the budget until they just meet the target.
 Steps Search::combine(const Steps& start) {
   Steps best = start;
   double price_of_best = price(start), passes = 0.0, fails = 0.0, budget = 1.0;
@@ -178,8 +178,8 @@ Steps Search::combine(const Steps& start) {
   return best;
 }
 
-/// Lowers single knobs, what saves most first, as long as the target is met. What failed once is not tried again
-/// before the end: with less of the others it would not do better. At the end all are tried: none can be lowered alone.
+/// Lowers single knobs, the largest saving first, as long as the target is met. A failed knob is not tried again before
+/// the end: with less of the others it would not do better. At the end all are tried: none can be lowered alone.
 Steps Search::descend(Steps steps) {
   std::vector<bool> hopeless(steps.size(), false);
   for (bool last = false;;) {
@@ -188,7 +188,7 @@ Steps Search::descend(Steps steps) {
     for (std::size_t k = 0; k < steps.size(); ++k) {
       Steps lower = steps;
       --lower[k];
-      // Fewer segments leave longer remainders to multiply: what is dearer is not lower.
+      // Fewer segments leave longer remainders to multiply: a dearer step does not count as lower.
       if (!hopeless[k] && turned(from_, lower) && price(lower) <= now) order.emplace_back(price(lower) - now, k);
     }
     std::ranges::stable_sort(order, {}, [](const auto& entry) { return entry.first; });
@@ -211,7 +211,7 @@ Steps Search::descend(Steps steps) {
   }
 }
 
-/// All knobs but one a step finer, as far as that is a configuration.
+/// All knobs but one a step finer, as far as the configuration stays valid.
 Steps Search::finer_by_one(Steps steps, std::size_t but) const {
   for (std::size_t k = 0; k < freeze_knob(); ++k) {
     if (k == but) continue;
@@ -222,8 +222,8 @@ Steps Search::finer_by_one(Steps steps, std::size_t but) const {
 }
 
 /// One knob down by one or two steps and another up by one: the cheapest such pair that meets the target and is cheaper
-/// than `steps`. A step down that fails with all other knobs finer fails with any one of them, for errors grow as bits
-/// go; all other pairs are tried.
+/// than `steps`. A step down that fails with all other knobs finer fails with any one of them, because errors grow as
+/// bits go. All other pairs are tried.
 std::optional<Steps> Search::exchange(const Steps& steps) {
   const double now = price(steps);
   struct Candidate {

@@ -1,4 +1,4 @@
-// The cheapest configuration that is good enough, found by asking what each candidate does (docs/errors.md, "Propose").
+// Searches for the cheapest configuration that is good enough, checking each candidate (docs/errors.md, section 6).
 #pragma once
 
 #include <functional>
@@ -18,45 +18,45 @@ namespace fastsplat::analysis {
 
 struct Verdict {
   bool meets = false;
-  /// Error over the error that is allowed; infinite where the configuration cannot draw the scene.
+  /// Error / allowed error; infinite if the configuration cannot draw the scene.
   double excess = std::numeric_limits<double>::infinity();
 };
 /// Called once per configuration.
 using Judge = std::function<Verdict(const cmodel::Config&)>;
-/// Verdict::meets alone, for which less work may do: one failed scene says no.
+/// Verdict::meets alone, which may take less work: one failed scene decides.
 using Check = std::function<bool(const cmodel::Config&)>;
-/// To be made small; of two equally cheap ones that with fewer bits is taken.
+/// To be minimised; of two equally cheap configurations the one with fewer bits is taken.
 using Price = std::function<double(const cmodel::Config&)>;
 
-/// A key as it ended.
+/// The outcome of a key.
 struct KeyOutcome {
   const char* key = "";
-  std::string from, alone, proposed;  ///< alone: the least that met the target with all other keys as they began
-  std::string lower;                  ///< what it would be one step lower; empty where nothing is lower
-  bool dearer = false;                ///< that would cost more
+  std::string from, alone, proposed;  ///< alone: the least that met the target with all other keys at their start
+  std::string lower;                  ///< its value one step lower; empty at the minimum
+  bool dearer = false;                ///< the lower step would cost more
   Verdict lowered;                    ///< otherwise the verdict on that step alone: it does not meet the target
 };
 
 struct SearchOutcome {
   bool met = false;
-  cmodel::Config best;  ///< or what came nearest
+  cmodel::Config best;  ///< if not met, the nearest one
   Verdict verdict;
-  cmodel::Config start;                    ///< met the target, and the descent began there: `from` or finer
-  std::vector<KeyOutcome> keys;            ///< in the order of knobs(); empty where not met
-  std::optional<cmodel::Config> geometry;  ///< where not met: what of the kept keys would bring it nearer
+  cmodel::Config start;                    ///< where the descent began; met the target: `from` or finer
+  std::vector<KeyOutcome> keys;            ///< in the order of knobs(); empty if not met
+  std::optional<cmodel::Config> geometry;  ///< if not met: a change of the kept keys that would bring it nearer
   Verdict geometry_verdict;
   int judged = 0;
 };
 
-/// Deterministic: the same answers of the judge give the same outcome.
+/// Deterministic: the same verdicts give the same outcome.
 class Search {
  public:
-  /// `check`: absent, the judge is called.
+  /// Without `check`, the judge is called.
   Search(const cmodel::Config& from, Judge judge, Price price, Progress progress = {}, Check check = {});
   SearchOutcome run();
 
  private:
-  /// Nothing for what no configuration is.
+  /// nullopt for an invalid configuration.
   std::optional<Verdict> judge(const Steps& steps);
   bool meets(const Steps& steps);
   void report_progress() const;
@@ -77,7 +77,7 @@ class Search {
   Progress progress_;
   Check check_;
   std::map<std::uint64_t, Verdict> known_;  ///< by configuration hash
-  std::set<std::uint64_t> failed_;          ///< hashes that were checked and not judged
+  std::set<std::uint64_t> failed_;          ///< hashes that failed the check and were not judged
   Steps begin_, lowest_, nearest_;          ///< the start; per knob the least that meets alone; least excess so far
   double nearest_excess_ = std::numeric_limits<double>::infinity();
   NoiseModel noises_;

@@ -34,7 +34,7 @@ Fidelity fidelity(const Image& ref, const Image& test, int threads) {
   const CompareOptions options{.lsb_bits = kBits, .threads = threads};
   check_comparable(ref, test, options);
   const ErrorSums sums = sum_errors(error_values(ref, test, options), threads);
-  // What cannot be compared at all is no good picture.
+  // Pictures with NaN or infinity meet no target.
   if (sums.count < ref.data.size()) return {std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
   return {std::sqrt(sums.sum_squares / static_cast<double>(sums.count)), sums.max_abs};
 }

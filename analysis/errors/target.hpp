@@ -8,13 +8,13 @@
 
 namespace fastsplat::analysis {
 
-/// Over all values of all channels alike, alpha too: compare's figures of the same name.
+/// compare's figures of the same name: over all values of all channels alike, alpha too.
 struct Fidelity {
   double rms_lsb = 0.0, max_lsb = 0.0;
-  double psnr_db() const;  ///< +inf where rms_lsb is 0
+  double psnr_db() const;  ///< +inf if rms_lsb is 0
   bool operator==(const Fidelity&) const = default;
 };
-/// Throws UserError (NotComparable) where sizes differ.
+/// Throws UserError (NotComparable) if sizes differ.
 Fidelity fidelity(const Image& ref, const Image& test, int threads);
 
 struct Target {
@@ -23,13 +23,13 @@ struct Target {
   std::string text;  ///< as it was given
 
   bool met(const Fidelity& of) const;
-  /// Error over the error that is allowed: at most 1 where the target is met, but for the last bit of a double.
+  /// Error / allowed error: at most 1 if the target is met, up to the last bit of a double.
   double excess(const Fidelity& of) const;
   /// "PSNR 50.32 dB", "max 0.83 LSB8", "RMS 0.0921 LSB8"
   std::string told(const Fidelity& of) const;
 };
 
-/// Throws UserError (Usage) in the name of --target.
+/// Throws UserError (Usage) that names --target.
 Target parse_target(const std::string& text);
 
 }  // namespace fastsplat::analysis

@@ -20,19 +20,19 @@ namespace {
 
 constexpr int kEllipseEntries = 1024, kEllipseGrid = 64;
 constexpr int kSide = 160;            // pixels of the square that a splat is drawn in, its centre near the middle
-constexpr int kVoxels = 32;           // of the volume's side
+constexpr int kVoxels = 32;           // per side of the volume
 constexpr int kEllipsePicture = 128;  // pixels
-constexpr int kSplats = 500;          // of one row, about
+constexpr int kSplats = 500;          // per row, about
 constexpr double kWidest = 64;        // pixels: base's rlut.columns / 2
 
-/// The i-th of numbers that fill 0..1 evenly, whatever their number; each `line` by itself (Kronecker).
+/// The i-th number of a Kronecker sequence, which fills 0..1 evenly at any length; each `line` has its own sequence.
 double spread(int i, double line) { return (i + 1) * std::sqrt(line) - std::floor((i + 1) * std::sqrt(line)); }
 
 cmodel::Config config_of(cmodel::IndexKind kind) {
   return family_config(kind, kEllipseGrid, static_cast<int>(kWidest), kEllipseEntries);
 }
 
-/// The model's unit, a set at a time.
+/// The model's unit, loaded with one set at a time.
 class Unit {
  public:
   Unit(const cmodel::Config& config, const scene::Kernel& kernel) : config_(config), snap_(config), unit_(config) {
@@ -67,7 +67,7 @@ class Unit {
   cmodel::SquaredUnit unit_;
 };
 
-/// A FieldError in the making.
+/// Accumulates a FieldError.
 struct Sum {
   double largest = 0.0, squares = 0.0, all = 0.0;
   void add(double apart) {
@@ -81,8 +81,8 @@ struct Sum {
   }
 };
 
-/// Takes splat after splat. `circle_radius`: the radius set's, pixels, 0 for none; `energy`: what a circle's weights
-/// are times so that it adds what the ellipse adds.
+/// Compares splat after splat. `circle_radius`: the radius set's, pixels; 0: none. `energy`: factor on a circle's
+/// weights that gives them the ellipse's total.
 class Comparison {
  public:
   Comparison()
@@ -113,7 +113,7 @@ class Comparison {
       if (circle_radius > 0.0) circle_sum_.add(energy * circle_[at] - exact_[at]);
     }
     follow_q(shape, table, x, y);
-    // Half axes: the roots of S.
+    // middle +- apart are the eigenvalues of S.
     const double middle = (shape.xx + shape.yy) / 2.0, apart = std::hypot((shape.xx - shape.yy) / 2.0, shape.xy);
     const double aspect = std::sqrt((middle + apart) / (middle - apart));
     out_.aspect = std::max(out_.aspect, aspect);
@@ -145,7 +145,7 @@ class Comparison {
         exact_[static_cast<std::size_t>(span.y * kSide + span.x + n)] = weights[n] / kernel_.peak();
     }
   }
-  /// q by the words and by the shape, at the pixels of the square that holds the ellipse.
+  /// Compares q by the words with q by the shape, at the pixels of the square that holds the ellipse.
   void follow_q(const scene::ScreenShape& shape, const cmodel::LoadTable& table, std::int32_t x, std::int32_t y) {
     const cmodel::Quadric f = cmodel::quadric_of(table.words);
     const double R2 = kernel_.radius() * kernel_.radius(), determinant = shape.determinant();
@@ -198,7 +198,7 @@ EllipseErrors perspective_ellipses(double fov) {
   for (std::size_t i = 0; i < splats.size(); i += step) {
     const auto shape = project(splats[i]).shape;
     const double own = radius(splats[i]), set = sets.radius(sets.nearest(own));
-    // Of the ellipse's peak: its area is pi sqrt(det S).
+    // Area of the ellipse over pi.
     const double area = std::sqrt(shape.determinant()) * comparison.kernel().radius() * comparison.kernel().radius();
     comparison.add(shape, set, area / (set * set));
   }

@@ -27,7 +27,7 @@ std::uint64_t weight_bits(const cmodel::Config& config) {
 bool has_radial_table(IndexKind kind) { return kind != IndexKind::Blit2d && kind != IndexKind::Separable; }
 
 Operations operations(const cmodel::Config& config, int radius) {
-  // One multiply and one add are the product's and the sheet's, whatever the kind.
+  // One multiply and one add belong to product and sheet, for every kind.
   switch (config.index()) {
     case IndexKind::Linear: {
       const double squared = 2.0 * std::pow(static_cast<double>(radius) * config.grid(), 2);

@@ -12,13 +12,13 @@ namespace {
 
 using cmodel::IndexKind;
 
-/// What may move a field along the pixels, 1/255 of its mean; a and R are the kernel's, s the voxel's pixels.
+/// Bounds on the error of a field along the pixels, 1/255 of its mean; a and R are the kernel's, s is pixels per voxel.
 struct AlignedBound {
-  double steps = 0.0;  ///< the table's, all of one sign: aR^2/(2N) over the square, sqrt(pi a) R/(2N) over the distance
+  double steps = 0.0;  ///< table steps, all of one sign: aR^2/(2N) over the square, sqrt(pi a) R/(2N) over the distance
   double ripple =
       0.0;  ///< half a step of the grid on both axes, at the steepest of the field's ripple: 4 pi exp(-pi^2/a) / (s K)
   double rest =
-      0.0;  ///< half a word in each of pi R^2 splats, of a mean of pi/a; a rim's worth in as many as lie on it
+      0.0;  ///< half a word in each of pi R^2 splats, of a mean of pi/a; and the edge weight of splats that lie on it
 };
 AlignedBound aligned_bound(const FamilyCell& cell, const scene::Kernel& kernel) {
   const double a = kernel.a(), R = kernel.radius(), pi = std::numbers::pi;

@@ -1,4 +1,4 @@
-// The family's table as text.
+// The table of index kinds as text.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace fastsplat::analysis {
 
-/// A Markdown table, a row a cell; nanoseconds where they were taken. Remarks are letters, explained below it.
+/// A Markdown table with one row per cell; nanoseconds if measured. Remarks are letters, explained below it.
 std::string family_text(const std::vector<FamilyCell>& cells);
 /// "max | rms | bias".
 std::string error_cells(const FieldError& error);

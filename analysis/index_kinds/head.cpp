@@ -32,11 +32,11 @@ Picture picture_of(const Image& image) {
   return out;
 }
 
-/// Whole ones; never "-0".
+/// Whole percents; never "-0".
 std::string percents(double part) { return fmt::format("{:.0f} %", std::round(100.0 * part) + 0.0); }
 
-/// What places and indices alone do to the picture. Both are the same for kinds that have one grid, and of kinds over
-/// the squared distance the index is the same, too: the words of distances are left real.
+/// Changes of the picture by positions and index alone. Kinds with one grid share both; the index only among kinds over
+/// the squared distance, as the words of distances stay real.
 class Parts {
  public:
   Parts(const scene::Scene& scene, int threads) : scene_(scene), threads_(threads) {}

@@ -1,5 +1,5 @@
-// A real picture by every kind of index: the head scan by the integer model against golden, and what part of its error
-// the places of the splats and the index have.
+// A real picture with every index kind: the head scan by the integer model against golden, and the shares of its error
+// that splat positions and the index cause.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace fastsplat::analysis {
 
-/// The scan with its transfer function at 128 x 128; a synthetic one where the scan is not installed.
+/// The scan with its transfer function at 128 x 128; a synthetic volume if the scan is not installed.
 struct HeadScene {
   scene::Scene scene;
   bool is_scan = false;
@@ -25,15 +25,15 @@ struct HeadRange {
   std::vector<cmodel::IndexKind> kinds;
   std::vector<int> grids, entries;
 };
-/// All kinds, k 4..64, N 256 and 1024. squared_elliptic is not among them: of circles it has squared's words.
+/// All kinds, k 4..64, N 256 and 1024; without squared_elliptic, which has squared's words for circles.
 HeadRange whole_head();
 
 struct HeadCell {
   cmodel::Config config;
   bool has_table = false;
   FieldError error;  ///< of the picture's values, 1/255
-  /// E[d e] / E[e^2], e the error and d what the picture changes when the splats' places alone are the device's
-  /// (position and snap), and then the index as well (docs/errors.md, section 2).
+  /// E[d e] / E[e^2] (docs/errors.md, section 2): e is the error. d is the change of the picture if the splats'
+  /// positions (steps position and snap) are the device's, then if the index is, too.
   double place_share = 0.0, index_share = 0.0;
 };
 /// `threads` (0: all cores) never change the result.

@@ -17,7 +17,7 @@ constexpr double kTurn = 0.4;    // radians
 constexpr int kTurnedSide = 64;  // pixels
 constexpr int kAway = 64;        // pixels; a single splat lies far from the field's edge
 
-/// Number of the pixel in the lattice's field, or -1. Single centres count modulo the voxel.
+/// Index of the pixel in the lattice's field, or -1. Single centres count modulo the voxel.
 int place(const Lattice& lattice, std::size_t centre, int x, int y) {
   if (lattice.wrapped > 0) {
     const int cell = lattice.wrapped;

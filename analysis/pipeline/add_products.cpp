@@ -10,7 +10,7 @@ namespace fastsplat::stages {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A pixel's four sums at once where vectors hold four, else in parts.
+// All four sums of a pixel at once if vectors hold four, else in parts.
 #if HWY_TARGET == HWY_SCALAR
 using Part = hn::CappedTag<double, 1>;
 constexpr std::size_t kLanes = 1;
@@ -22,7 +22,7 @@ using Part = hn::CappedTag<double, 4>;
 constexpr std::size_t kLanes = 4;
 #endif
 
-/// What is added, as a value; `product` has 2^sf units where it is rounded.
+/// The rounded product as a value. `product` is in units of 2^-sf unless kKind is Exact.
 template <ProductRule::Kind kKind, class V>
 V rounded(V product, V greatest, V ulp) {
   const Part d;

@@ -1,4 +1,4 @@
-// What a splat adds to a row of a sheet: the steps `product` and sum, with vectors.
+// Adds a splat to a row of a sheet: step `product` and the sum, vectorised.
 #pragma once
 
 #include <span>
@@ -8,14 +8,14 @@
 
 namespace fastsplat::stages {
 
-/// The product's rounding, or none.
+/// How a product is rounded; Exact: not at all.
 struct ProductRule {
   enum class Kind { Exact, Down, HalfUp, HalfEven } kind = Kind::Exact;
   double scale = 1.0;     ///< 2^sf
-  double greatest = 0.0;  ///< the largest sheet word, in words
+  double greatest = 0.0;  ///< the largest sheet word
 };
 
-/// sums[i][c] += product(weights[i], value[c]). The bits do not depend on the processor's vectors.
+/// sums[i][c] += product(weights[i], value[c]). The result does not depend on the processor's vector width.
 void add_products(std::span<const double> weights, const golden::Sums& value, const ProductRule& rule,
                   golden::Sums* sums);
 

@@ -1,4 +1,4 @@
-// A splat among the sheets of its slab: its weights, which are there, times the share of each.
+// Adds a splat to its sheets: its weights, already rasterised, times its share in each sheet.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace fastsplat::stages {
 
-/// `sheet_at(n)`: sheet n, a golden::Sheet&. Shares of nothing touch none.
+/// `sheet_at(n)`: sheet n, a golden::Sheet&. Empty shares touch no sheet.
 template <class SheetAt>
 void add_to_sheets(const StagedSplat& splat, const WeightSteps& weights, std::span<const golden::Sums> shares,
                    const ProductRule& product, SheetAt sheet_at) {

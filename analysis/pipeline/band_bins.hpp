@@ -18,11 +18,11 @@ inline driver::TileGrid band_grid(const cmodel::Config& config, int width, int h
   return grid;
 }
 
-/// How far from its centre a splat's pixels lie, along x and y.
+/// How far a splat's pixels lie from its centre along x and y, pixels.
 struct Reach {
   double x = 0.0, y = 0.0;
 };
-/// `more`: of circles. An ellipse's rounded distances may be inside the rim at a pixel beyond it.
+/// `more`: for circles. An ellipse gets one pixel: rounding may move pixels beyond its edge inside.
 inline Reach reach_of(const StagedSplat& splat, const StagedShape* shape, double more) {
   if (shape != nullptr && shape->own) return {shape->reach_x + 1.0, shape->reach_y + 1.0};
   return {splat.radius + more, splat.radius + more};
@@ -36,7 +36,7 @@ inline driver::Extent extent_of(const StagedSplat& splat, const StagedShape* sha
   return {from(splat.x, reach.x), to(splat.x, reach.x), from(splat.y, reach.y), bottom, bottom};
 }
 
-/// Splats by the band they touch and a sheet, in their order.
+/// Splats by band and sheet; a bin keeps their order.
 class BandBins {
  public:
   template <class ExtentOf, class SheetOf>
@@ -47,7 +47,7 @@ class BandBins {
   }
   int sheets() const { return sheets_; }
   std::span<const std::uint32_t> bin(int band, int sheet) const { return bins_.bin(band, 0, sheet); }
-  /// Splats of each band.
+  /// Number of splats in each band.
   std::span<const std::uint64_t> work() const { return work_; }
 
  private:

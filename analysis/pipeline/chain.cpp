@@ -19,12 +19,12 @@
 namespace fastsplat::stages {
 namespace {
 
-constexpr int kRows = 16;  ///< of a band: its sheets stay in the cache
+constexpr int kRows = 16;  ///< rows of a band: its sheets stay in the cache
 
 const scene::Scene& drawable(const scene::Scene& scene, const cmodel::Config& config) {
   scene::Offers offers = driver::offers(config);
   scene::check_capability(scene, offers);
-  // Steps are of sheets without a pattern, and of footprints without pictures.
+  // Steps cover neither patterns nor textured splats.
   for (const auto feature : {scene::Feature::Details, scene::Feature::Patterns})
     offers.features &= ~static_cast<unsigned>(feature);
   offers.engine = "error attribution";
@@ -36,7 +36,7 @@ const scene::Scene& drawable(const scene::Scene& scene, const cmodel::Config& co
 
 }  // namespace
 
-/// Rows of the picture, sheet by sheet.
+/// Draws a band of rows, sheet by sheet.
 class Chain::Band {
  public:
   Band(const Chain& chain, const Mixture& mixture, const Staged& splats, bool golden_units, golden::Rows rows,
@@ -83,7 +83,7 @@ class Chain::Band {
     add_to_sheets(splat, weights_, shares_, product_, [this](int sheet) -> golden::Sheet& { return at(sheet); });
   }
 
-  /// Each sample of the splat by itself.
+  /// Composites each sample of the splat separately.
   void composite() {
     for (const auto& span : weights_.spans()) {
       products_.assign(static_cast<std::size_t>(span.width), {});
@@ -129,7 +129,7 @@ Chain::Chain(const scene::Scene& scene, const cmodel::Config& config)
 }
 
 Picture Chain::operator()(const Mixture& mixture, int threads) const {
-  // Where nothing is rounded before the sheets are full, the order of the factors is free, and golden's is taken.
+  // If nothing is rounded up to step sheet, the order of the factors is free, and golden's is used.
   const bool golden_units = mixture.real(Step::Position, Step::Sheet);
   const int width = scene_.description.width, height = scene_.description.height;
   const Staged splats = steps_.staged(list_, mixture, golden_units, threads);

@@ -1,5 +1,5 @@
-// A frame by any mixture of the device's steps and golden's. All real is golden's picture, all device the integer
-// model's, bit for bit: words are exact in a double, so one chain serves both (docs/errors.md).
+// Draws a frame with a hybrid pipeline: each step in device or real arithmetic. All real is golden's picture, all
+// device the integer model's, bit for bit. Words are exact in a double, so one chain serves both (docs/errors.md).
 #pragma once
 
 #include <optional>
@@ -20,17 +20,17 @@ struct Picture {
   bool operator==(const Picture&) const = default;
 };
 
-/// Every sheet adds its splats in the order of their first sheet, those of one first sheet in traversal order: golden's
-/// own order (of densities in the order of memory). The device's sums do not depend on it.
+/// Every sheet adds its splats in golden's order: by first sheet, then in traversal order (densities: in memory order).
+/// The device's sums do not depend on the order.
 class Chain {
  public:
-  /// Throws UserError (Usage) where the device cannot draw the scene. Keeps references to both.
+  /// Throws UserError (Usage) if the device cannot draw the scene. Keeps references to both.
   Chain(const scene::Scene& scene, const cmodel::Config& config);
 
   /// `threads` (0: all cores) never change the result.
   Picture operator()(const Mixture& mixture, int threads = 1) const;
 
-  /// The frame's steps as they are reported.
+  /// The frame's steps, grouped as they are reported.
   std::vector<StepSet> sets() const { return step_sets(config_, steps_.carries(), holds_densities()); }
   bool holds_densities() const { return densities_.has_value(); }
   const SplatSteps& steps() const { return steps_; }
@@ -46,7 +46,7 @@ class Chain {
   const cmodel::Config& config_;
   SplatSteps steps_;
   SplatList list_;
-  std::optional<DensitySteps> densities_;  ///< of a frame whose sheets hold them
+  std::optional<DensitySteps> densities_;  ///< only if the sheets hold densities
 };
 
 }  // namespace fastsplat::stages

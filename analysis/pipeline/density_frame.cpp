@@ -19,7 +19,7 @@ DensityBand::DensityBand(const Frame& frame, golden::Rows rows)
       weights_(frame.scene.kernel, frame.config),
       pixels_(frame.scene, frame.config, frame.mixture, frame.golden_units),
       product_(product_rule(frame.config, frame.mixture)),
-      // Those that splats at hand reach, and the two in front of them.
+      // The sheets that current splats reach, and the two in front of them.
       ring_(static_cast<std::size_t>(frame.steps.reach()) + 2, golden::Sheet(with_rim_, width_)),
       nothing_(with_rim_, width_),
       picture_(static_cast<std::size_t>(rows.end - rows.first) * static_cast<std::size_t>(width_), pixels_.initial()),

@@ -1,6 +1,5 @@
-// Rows of a frame whose sheets are densities, sheet by sheet: what a band of the chain is where sheets are colours. Of
-// sheets three are looked at together, of pixels those around, and none is ever left out of a sheet (docs/numerics.md,
-// section 6.2).
+// Draws a band of rows sheet by sheet if sheets hold densities; Chain::Band does so for colours. A pixel reads three
+// sheets and its neighbours, so no splat is ever left out of a sheet (docs/numerics.md, section 6.2).
 #pragma once
 
 #include <vector>
@@ -17,9 +16,9 @@ namespace fastsplat::stages {
 
 class DensityBand {
  public:
-  static constexpr int kRim = 1;  ///< pixels around a band whose densities it looks at
+  static constexpr int kRim = 1;  ///< halo around a band whose densities are read, pixels
 
-  /// What bands have in common; referred to.
+  /// What all bands share; DensityBand keeps the references.
   struct Frame {
     const scene::Scene& scene;
     const cmodel::Config& config;
@@ -27,11 +26,11 @@ class DensityBand {
     const DensitySteps& densities;
     const Mixture& mixture;
     const Staged& splats;
-    bool golden_units = false;  ///< of `splats` and weights
+    bool golden_units = false;  ///< units of `splats` and weights
   };
   DensityBand(const Frame& frame, golden::Rows rows);
 
-  /// Bins of splats that reach the band or its rim.
+  /// `bins`: splats that reach the band or its halo.
   void run(const BandBins& bins, int band);
   /// R, G, B, A of the band's pixels, row by row.
   void store(golden::Sums* out) const;
@@ -39,7 +38,7 @@ class DensityBand {
  private:
   golden::Sheet& at(int sheet) { return ring_[static_cast<std::size_t>(sheet) % ring_.size()]; }
   void add(const StagedSplat& splat, const StagedShape* shape);
-  /// No more splats come to the sheet: step sheet.
+  /// Step sheet, once the sheet has all its splats.
   void end(golden::Sheet& sheet) const;
   void classify(const golden::SheetWindow& window);
   DensityPixel pixel_of(const golden::SheetWindow& window, int x, int y) const;
@@ -55,8 +54,8 @@ class DensityBand {
   std::vector<golden::Sheet> ring_;
   golden::Sheet nothing_;
   std::vector<golden::Sums> picture_, shares_, material_;
-  std::vector<char> settled_;  ///< pixels that nothing behind can change
-  std::size_t open_;           ///< the others
+  std::vector<char> settled_;  ///< pixels that cannot change any more
+  std::size_t open_;           ///< number of the others
 };
 
 }  // namespace fastsplat::stages

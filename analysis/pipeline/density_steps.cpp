@@ -12,11 +12,11 @@ namespace {
 
 namespace words = cmodel::classify;
 
-/// To the nearest, halves up, cut to the format: all that section 6.2 narrows with.
+/// Rounds to nearest, halves up, and saturates, as section 6.2 always does.
 RealNarrowing nearest(const cmodel::Format& to) {
   return RealNarrowing({cmodel::Rounding::RND, cmodel::Overflow::SAT, to.frac_bits, to});
 }
-/// Of what falls off an entry with f fraction bits.
+/// Narrows the fall from a table entry with `frac_bits` fraction bits.
 RealNarrowing fall(int frac_bits) { return nearest(cmodel::signed_format(8, frac_bits)); }
 
 double value_of(std::uint32_t word, int frac_bits) {
@@ -128,7 +128,7 @@ DensitySteps::Vector DensitySteps::slope(const DensityPixel& pixel, bool device)
   const Scales& scales = (device ? words_ : real_)[static_cast<std::size_t>(pixel.sheet)];
   const double right = pixel.across[0] * scales.across, down = pixel.across[1] * scales.across,
                along = pixel.across[2] * scales.along;
-  // What follows the pixel's ray is not what follows the view axis.
+  // Along the pixel's own ray, not along the view axis.
   if (!device) {
     const glm::dvec2 tilt = geometry_.tilt(pixel.x, pixel.y);
     return {right, down, along - tilt.x * right - tilt.y * down};

@@ -1,6 +1,6 @@
-// The steps of a pixel between sheets of densities and sums of colours: transfer, slope, normal, facing, phong, blend,
+// The steps of a pixel from sheets of densities to sums of colours: transfer, slope, normal, facing, phong, blend,
 // shaded, colour (docs/numerics.md, section 6.2; docs/errors.md, section 1, "Densities"). Numbers are values: a word of
-// f fraction bits is a multiple of 2^-f, and where all steps before are the device's these are its words.
+// f fraction bits is a multiple of 2^-f. If all earlier steps are the device's, values are its words.
 #pragma once
 
 #include <array>
@@ -20,10 +20,10 @@
 
 namespace fastsplat::stages {
 
-/// What is known of a pixel of a sheet. Densities are parts of the volume's range, 0 its least value.
+/// A pixel of a sheet with its differences. Densities are fractions of the volume's range, 0 at its least value.
 struct DensityPixel {
   double density = 0.0;
-  /// Right less left, below less above, behind less before; where the picture ends, twice what is on one side.
+  /// Right - left, below - above, behind - before; at the picture's edge twice the one-sided difference.
   std::array<double, 3> across{};
   int x = 0, y = 0;  ///< of the image
   int sheet = 0;
@@ -33,40 +33,41 @@ class DensitySteps {
  public:
   /// Keeps references to the scene's parts.
   DensitySteps(const scene::Scene& scene, const cmodel::Config& config, const scene::SlabGrid& slabs);
-  DensitySteps(const DensitySteps&) = delete;  // golden's stage keeps a reference to a part
+  DensitySteps(const DensitySteps&) = delete;  // golden's stage keeps a reference to a member
   DensitySteps& operator=(const DensitySteps&) = delete;
 
   /// R, G, B (premultiplied) and optical depth: what a sheet of colours would hold there.
   golden::Sums operator()(const DensityPixel& pixel, const Mixture& mixture) const;
 
-  /// All steps of the frame real, sums in golden's units: golden itself, float by float. Pixels begin, begin+1, ... of
-  /// row y.
+  /// Golden itself, float by float: for frames with all steps real and sums in golden's units. Writes pixels begin,
+  /// begin+1, ... of row y.
   void golden_row(const golden::SheetWindow& window, int y, int begin, std::span<golden::Sums> pixels) const {
     classified_.row(window, y, begin, pixels);
   }
-  /// A density in golden's units as a part of the range.
+  /// A density in golden's units as a fraction of the range.
   double part_of_range(double golden_sum) const { return golden_sum * per_golden_; }
 
  private:
   using Vector = std::array<double, 3>;  ///< right, down, ahead
 
-  /// Words of a table in linear segments, as values.
+  /// A table of linear segments: its words, as values.
   struct Lines {
     std::vector<double> entries;
     std::size_t channels = 1;
     std::size_t segments() const { return entries.size() / channels - 1; }
-    /// At `position` segments from its beginning, cut to its ends; what falls off the entry before is rounded.
+    /// The value `position` segments from the beginning, clamped to the ends; the fall from the entry before is
+    /// rounded.
     double at(double position, const RealNarrowing& fall, std::size_t channel = 0) const;
   };
   struct Visible {
     Vector colour{};
-    double tau = 0.0;  ///< 0: nothing to be seen
+    double tau = 0.0;  ///< 0: invisible
   };
-  /// What makes a gradient's length 1, and its length.
+  /// The factor that normalises a gradient, and the gradient's length.
   struct Normal {
     double inverse = 0.0, length = 0.0;
   };
-  /// What a sheet's gradients are measured with, on both sides.
+  /// Scales of a sheet's gradients, on either side.
   struct Scales {
     double across = 0.0, along = 0.0;  ///< the larger one is 1
     double per_floor = 0.0;            ///< 1 over the gradient floor, in units of these gradients
@@ -80,9 +81,9 @@ class DensitySteps {
 
   Visible transfer(double density, bool device) const;
   Vector slope(const DensityPixel& pixel, bool device) const;
-  /// None of a gradient of 0.
+  /// nullopt if the gradient is 0.
   std::optional<Normal> normal(const Vector& slope, bool device) const;
-  /// |n . V| of V, light or half vector on either side.
+  /// |n . V|, V the light or the half vector: `real` or `words`, by `device`.
   double facing(const Vector& slope, const Normal& normal, const Vector& real, const Vector& words, bool device) const;
   /// Share of shading.
   double blend(double length, int sheet, bool device) const;
@@ -92,7 +93,7 @@ class DensitySteps {
   golden::SheetGeometry geometry_;
   scene::Classifier classify_;
   golden::PostClassified classified_;
-  double base_, range_, depth_;  ///< the volume's least value, its range; of a slab, times opacity_scale
+  double base_, range_, depth_;  ///< the volume's least value; its range; a slab's depth times opacity_scale
   double per_golden_;
   Lines classify_lines_, root_lines_, glint_lines_;
   RealNarrowing colour_fall_, tau_fall_, root_fall_, glint_fall_;

@@ -1,4 +1,4 @@
-// Step `distance` of a splat with a shape of its own: the radial table entries at its pixels.
+// Step `distance` of an ellipse: q at its pixels, in radial table entries.
 #pragma once
 
 #include <span>
@@ -13,15 +13,16 @@
 
 namespace fastsplat::stages {
 
-/// Real: q of the shape, wherever it is below N. Device: at the pixels of the records' windows the sum of six
-/// coefficients, each rounded once at the record's first pixel; below 0 it is 0. Where shape or centre are real, their
-/// own coefficients are rounded there.
+/// Real: q of the shape, where it is below N. Device: q at the pixels of the records' windows, at least 0, from six
+/// coefficients, each rounded once at the record's first pixel. If shape or centre are real, the coefficients of the
+/// reals are rounded there.
 class EllipseDistance {
  public:
   explicit EllipseDistance(const cmodel::Config& config)
       : config_(config), unit_(config), step_(config.rlut_guard_bits + config.ellipse_format().frac_bits) {}
 
-  /// visit(y, x, entries): rows of pixels from x on, inside `rows` and an image of `width` columns, q at each.
+  /// visit(y, x, entries): rows of pixels from x on, inside `rows` and an image of `width` columns, with q at each
+  /// pixel.
   template <class Visit>
   void rows(const StagedSplat& splat, const StagedShape& shape, const Mixture& mixture, golden::Rows rows, int width,
             Visit visit) {

@@ -11,7 +11,7 @@
 namespace fastsplat::stages {
 namespace {
 
-/// What lies behind less than this adds less to a pixel than a double of it can hold.
+/// At a transmittance below this, what lies behind adds less to a pixel than a double can hold.
 constexpr double kSpent = 1e-20;
 
 }  // namespace
@@ -49,7 +49,7 @@ golden::Sums PixelSteps::cut(const golden::Sums& sums) const {
 
 double PixelSteps::factor(double tau) const {
   if (!factor_) return tau > 0.0 ? -std::expm1(-tau) / tau : 1.0;
-  // Sums that are not cut can lie beyond the table: there its last segment goes on as the factor at its end.
+  // Sums that are not saturated can lie beyond the table, where the factor is its last entry.
   const double at = std::min(tau * segments_per_tau_, last_segment_ + 1.0), i = std::min(std::floor(at), last_segment_);
   const auto segment = static_cast<std::size_t>(i);
   return factors_[segment] - fall_((factors_[segment] - factors_[segment + 1]) * (at - i));

@@ -1,4 +1,4 @@
-// The steps of a pixel: what a finished sheet does to it, and what is put out: sheet, factor, slab, composite, freeze,
+// The steps that composite a finished sheet into a pixel and output the pixel: sheet, factor, slab, composite, freeze,
 // pixel.
 #pragma once
 
@@ -20,14 +20,14 @@ struct RealSlab {
 
 class PixelSteps {
  public:
-  /// With `golden_units`, an X-ray's exposure is still to be applied. Sums that were densities have passed step sheet.
+  /// With `golden_units`, an X-ray's exposure is applied here. Sums of classified densities have passed step sheet.
   PixelSteps(const scene::Scene& scene, const cmodel::Config& config, const Mixture& mixture, bool golden_units);
 
   /// A pixel before the first sheet: C and T, or an X-ray's sums.
   golden::Sums initial() const { return {0.0, 0.0, 0.0, xray_ ? 0.0 : 1.0}; }
-  /// The sheet's sums, or one sample's products, into the pixel; true where nothing behind can be seen in it any more.
+  /// Composites a sheet's sums, or one sample's products, into the pixel. Returns true if nothing behind can change it.
   bool take(const golden::Sums& sums, golden::Sums& pixel) const;
-  /// R, G, B, A.
+  /// The output R, G, B, A.
   golden::Sums out(const golden::Sums& pixel) const;
   /// (1-exp(-tau))/tau, of the table or real.
   double factor(double tau) const;

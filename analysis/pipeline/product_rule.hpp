@@ -1,4 +1,4 @@
-// The step `product` of a mixture, as add_products takes it.
+// The rounding of step `product` in a hybrid pipeline, for add_products().
 #pragma once
 
 #include "analysis/pipeline/add_products.hpp"

@@ -1,5 +1,5 @@
-// The device's narrowing (docs/numerics.md, section 1) of numbers that need not be words: on words it is
-// cmodel::Narrowing's, bit for bit. Numbers are values, not words: 0.5 is 0.5 in any format.
+// The device's narrowing (docs/numerics.md, section 1) for numbers that need not be words; words narrow as in
+// cmodel::Narrowing, bit for bit. Numbers are values, not words: 0.5 is 0.5 in any format.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace fastsplat::stages {
 
 class RealNarrowing {
  public:
-  /// Rounding as the site's, overflow to the nearer end. Words of less than 2^52 and factors of powers of two: exact.
+  /// Rounds as the site does and saturates. Exact for words below 2^52: all factors are powers of two.
   explicit RealNarrowing(const cmodel::Narrowing& site)
       : rounding_(site.rounding()),
         scale_(std::ldexp(1.0, site.to().frac_bits)),
@@ -22,7 +22,7 @@ class RealNarrowing {
   RealNarrowing(const cmodel::Config& config, cmodel::Site site) : RealNarrowing(cmodel::narrowing(config, site)) {}
 
   double operator()(double value) const { return cut(rounded(value * scale_) * ulp_); }
-  /// The range alone: for sums of words, which have the format's fraction bits by themselves.
+  /// Saturates only: for sums of words, which have the format's fraction bits already.
   double cut(double value) const { return std::clamp(value, least_, greatest_); }
 
   cmodel::Rounding rounding() const { return rounding_; }
@@ -39,7 +39,7 @@ class RealNarrowing {
       case cmodel::Rounding::RND_CONV:
         break;
     }
-    return std::nearbyint(word);  // ties to even, the rounding mode of every program that does not change it
+    return std::nearbyint(word);  // ties to even, the default rounding mode
   }
 
   cmodel::Rounding rounding_;

@@ -16,7 +16,7 @@
 namespace fastsplat::stages {
 namespace {
 
-/// Positions of the whole image: the format has no end.
+/// The position format widened to the whole image.
 cmodel::Config without_end(cmodel::Config config) {
   config.position_int_bits = 30 - config.position_frac_bits;
   return config;
@@ -93,8 +93,8 @@ SplatSteps::SplatSteps(const scene::Scene& scene, const cmodel::Config& config)
 
 int SplatSteps::reach() const {
   if (plan_.use != scene::SheetUse::Sliced) return 1;
-  // One more slab than the kernel is long where its ends fall inside slabs, and one at each end for rounded depths;
-  // a shrink is half a word off at most.
+  // One slab more than the kernel's length if its ends fall inside slabs, and one at each end for rounded depths; a
+  // shrink is off by half a word at most.
   const double growth = shaped() ? scene::largest_growth(scene_) : 1.0, ulp = 0.5 / shrink_.scale;
   const double deepest = growth > 1.0 ? 1.0 / std::max(1.0 / growth - ulp, ulp) : 1.0;
   return std::min(plan_.slabs.count,
@@ -162,7 +162,7 @@ StagedShape SplatSteps::shape(const scene::Splat& voxel, const scene::RealSplat&
     out.reach_y = std::sqrt(footprint.yy);
     return out;
   }
-  if (drawn.xx != footprint.xx)  // it was too thin: as much fainter
+  if (drawn.xx != footprint.xx)  // too thin: fainter by the same factor
     splat.value = golden::scaled(splat.value, std::sqrt(square * square * s.determinant() / drawn.determinant()));
   const int steps = 2 * config_.position_frac_bits - config_.rlut_guard_bits - static_cast<int>(out.words.shift);
   out.a = std::ldexp(out.words.a, steps);
@@ -186,7 +186,7 @@ Staged SplatSteps::staged(const SplatList& list, const Mixture& mixture, bool go
   if (shaped()) out.shapes.resize(list.splats.size());
   const auto stage = [&](std::size_t i) {
     scene::RealSplat real = scene::real_splat(scene_, list.splats[i]);
-    // Step emission takes the driver's densities, which are floats.
+    // The device's step emission uses the driver's densities, which are floats.
     if (!list.above.empty() && !emission)
       real.material[3] = golden_units ? static_cast<double>(list.above[i]) : list.above[i] * density_;
     StagedSplat& splat = out.splats[i];
@@ -205,7 +205,7 @@ Staged SplatSteps::staged(const SplatList& list, const Mixture& mixture, bool go
                   : 0.0;
     splat.first = first_sheet(real, splat.z, mixture, growth);
   };
-  if (carry) {  // what rounding left goes from splat to splat
+  if (carry) {  // rounding errors go from splat to splat
     for (std::size_t i = 0; i < out.splats.size(); ++i) stage(list.traversed.empty() ? i : list.traversed[i]);
   } else {
     constexpr std::size_t kPiece = 1 << 14;
@@ -252,8 +252,8 @@ void SplatSteps::shares(const StagedSplat& splat, const Mixture& mixture, std::v
     out.push_back(words ? cut(splat.value) : splat.value);
     return;
   }
-  double before = 0.0;      // of the kernel
-  golden::Sums in_front{};  // of the words
+  double before = 0.0;      // of the kernel in front of the slab
+  golden::Sums in_front{};  // words in front of the slab
   for (int slab = splat.first; slab < plan_.slabs.count && before < 1.0; ++slab) {
     const double behind = phi(splat, slab + 1, mixture, growth);
     if (!words) {

@@ -18,7 +18,7 @@
 
 namespace fastsplat::stages {
 
-/// A splat of a mixture.
+/// A splat of a hybrid pipeline.
 struct StagedSplat {
   double x = 0.0, y = 0.0;  ///< centre, image pixels
   double radius = 0.0;      ///< support, pixels
@@ -27,76 +27,76 @@ struct StagedSplat {
   int first = 0;            ///< nearest sheet that it reaches
 };
 
-/// A kernel's depth, relative to its own.
+/// How much deeper a kernel is than its own.
 struct Growth {
   double real = 1.0;
   std::uint32_t shrink = 1U << 16;  ///< driver::DepthGrowth's
 };
 
-/// What more a splat of a frame with ellipses has.
+/// Additional data of a splat in a frame with ellipses.
 struct StagedShape {
-  bool own = false;                     ///< an ellipse; else a circle of a radius set, with a growth perhaps
-  scene::ScreenShape screen;            ///< golden's
+  bool own = false;                     ///< an ellipse; else a circle of a radius set, perhaps grown in depth
+  scene::ScreenShape screen;            ///< golden's shape
   double a = 0.0, b = 0.0, c = 0.0;     ///< q = a dx^2 + b dx dy + c dy^2, radial table entries, pixels
-  double reach_x = 0.0, reach_y = 0.0;  ///< pixels, of q < N
-  cmodel::EllipseShape words;           ///< the device's, whatever the side
+  double reach_x = 0.0, reach_y = 0.0;  ///< half sides of the box where q < N, pixels
+  cmodel::EllipseShape words;           ///< the device's words, on either side of step radius
   std::int32_t word_x = 0, word_y = 0;  ///< likewise the centre, pf fraction bits
   Growth growth;
 };
 
 struct Staged {
   std::vector<StagedSplat> splats;
-  std::vector<StagedShape> shapes;  ///< of each, or none: a frame of circles
+  std::vector<StagedShape> shapes;  ///< one for each splat; empty in a frame of circles
   const StagedShape* shape(std::size_t i) const { return shapes.empty() ? nullptr : &shapes[i]; }
 };
 
-/// The splats of a scene in the order in which golden adds the splats of one nearest sheet: in traversal order,
-/// densities in the order of memory. Each has the line of voxels on which it lies (scene::Traversal).
+/// The splats of a scene in golden's order within a nearest sheet: traversal order, densities in memory order. Each has
+/// the line of voxels on which it lies (scene::Traversal).
 struct SplatList {
   explicit SplatList(const scene::Scene& scene);
   std::vector<scene::Splat> splats;
   std::vector<std::uint32_t> lines;
   int rows = 0, columns = 0;
-  // Of densities only:
-  std::vector<float> above;              ///< value less the volume's least: golden's "extinction" of each
-  std::vector<std::uint32_t> traversed;  ///< traversal order
+  // Only for densities:
+  std::vector<float> above;              ///< value less the volume's least, which is golden's "extinction"
+  std::vector<std::uint32_t> traversed;  ///< indices into `splats` in traversal order
 
  private:
   void order_densities(const volume::Volume& volume);
 };
 
-/// What a frame's splats have in common, on either side. Keeps references to `scene` and `config`.
+/// The steps of a frame's splats, on either side. Keeps references to `scene` and `config`.
 class SplatSteps {
  public:
   SplatSteps(const scene::Scene& scene, const cmodel::Config& config);
 
-  /// In the order of the list. With `golden_units`, values are golden's: material times density, which golden's weights
-  /// multiply by the kernel's peak; else the device's, X-ray exposure in them. Values of densities are parts of the
-  /// volume's range over the slabs' width, in golden's units the volume's own.
+  /// In the order of the list. With `golden_units`, values are golden's: material times density, without the kernel's
+  /// peak, which golden's weights contain. Otherwise they are the device's, with the X-ray exposure. Values of
+  /// densities are fractions of the volume's range over the slabs' width, in golden's units the volume's own.
   Staged staged(const SplatList& list, const Mixture& mixture, bool golden_units, int threads) const;
 
-  /// What each sheet gets, from splat.first on.
+  /// The splat's share in each sheet, from splat.first on.
   void shares(const StagedSplat& splat, const Mixture& mixture, std::vector<golden::Sums>& out,
               const Growth& growth = {}) const;
 
-  bool carries() const { return quantiser_.carries(); }  ///< what rounding takes of a splat, to the next
+  bool carries() const { return quantiser_.carries(); }  ///< rounding errors are diffused to the next splat
   int sheets() const { return plan_.slabs.count; }
   int reach() const;  ///< the most sheets that one splat reaches
   const driver::RadiusSets& sets() const { return sets_; }
   bool shaped() const { return shaper_.has_value(); }  ///< a frame with ellipses
 
-  /// Of the kernel in front of boundary `boundary`: 0 before the first one, 1 behind the last.
+  /// Fraction of the kernel in front of boundary `boundary`: 0 at the first one, 1 at the last.
   double phi(const StagedSplat& splat, int boundary, const Mixture& mixture, const Growth& growth = {}) const;
-  /// Where boundary `boundary` lies behind the splat's centre, kernel units.
+  /// Distance of boundary `boundary` behind the splat's centre, kernel units.
   double behind(const StagedSplat& splat, int boundary, const Mixture& mixture) const;
   bool sliced() const { return plan_.use == scene::SheetUse::Sliced; }
 
  private:
   int first_sheet(const scene::RealSplat& splat, double z, const Mixture& mixture, const Growth& growth) const;
-  /// Centre, radius and, not yet rounded, value of a splat that is a circle.
+  /// Sets centre, radius and value (not yet rounded) of a splat that is a circle.
   void circle(const scene::RealSplat& real, const Mixture& mixture, double unit_value, StagedSplat& splat) const;
-  /// What `real` becomes where it is an ellipse or a circle of such a frame; `splat`,
-  /// until now what circle() made of it, is changed where it is none.
+  /// The shape of a splat in a frame with ellipses. Changes `splat`, made by circle(), unless step radius is the
+  /// device's and it is a circle of the radius set.
   StagedShape shape(const scene::Splat& voxel, const scene::RealSplat& real, const Mixture& mixture, double unit_value,
                     StagedSplat& splat) const;
 
@@ -110,11 +110,11 @@ class SplatSteps {
   std::optional<scene::SplatShaper> shaper_;
   RealNarrowing snap_;
   bool xray_;
-  double density_;  ///< 1 over the volume's range times the slabs' width
+  double density_;  ///< 1 / (volume's range times slab width)
   double whole_ulp_, largest_share_, depth_ulp_;
   std::vector<double> boundary_;   ///< B_s 2^-zf
   std::vector<double> phi_table_;  ///< PHI 2^-hf
-  std::vector<double> phi_real_;   ///< the same places, unrounded
+  std::vector<double> phi_real_;   ///< the same entries, unrounded
 };
 
 }  // namespace fastsplat::stages

@@ -1,5 +1,5 @@
 // The steps from a real splat to an output word. Each has two sides: `device`, as docs/numerics.md rounds it, and
-// `real`, as golden computes it; a mixture says which side each step takes (docs/errors.md).
+// `real`, as golden computes it. A mixture (hybrid pipeline) selects the side of each step (docs/errors.md).
 #pragma once
 
 #include <array>
@@ -15,38 +15,38 @@
 
 namespace fastsplat::stages {
 
-/// In the order of the pipeline: a step works on what those before it made.
+/// In pipeline order: each step takes the results of the steps before.
 enum class Step : std::uint8_t {
   Position,  ///< a centre as a word S pi.pf (driver)
-  Snap,      ///< that onto the 1/k grid
+  Snap,      ///< the centre snapped to the 1/K grid
   Radius,    ///< the nearest radius set instead of the splat's own radius (driver)
-  Emission,  ///< colour and optical depth of a whole splat as words U 4.cf, with the carry (driver)
+  Emission,  ///< colour and optical depth of a whole splat as words U 4.cf, with error diffusion (driver)
   Depth,     ///< depths and slab boundaries in steps of 2^-zf kernel unit (driver)
   Phi,       ///< cumulative slice weight as One.hf (driver)
   Share,     ///< a slab's part of a splat as words U 0.cf (driver)
   Distance,  ///< q: squared distance along an axis as an RLUT word (driver)
-  Index,     ///< t: of the radial table, whose entry stands for the middle of its step
+  Index,     ///< t: radial table entry, which stands for the middle of its step
   Weight,    ///< an entry as a word U wi.wf (driver)
   Product,   ///< colour times weight as U si.sf
-  Sheet,     ///< sums are cut at the largest word U si.sf
-  // Of frames whose sheets are densities (DensitySteps), pixel by pixel; others have nothing to do here:
-  Transfer,   ///< colour and optical depth by straight lines between words, of a density of at most 1
+  Sheet,     ///< sums saturate at the largest word U si.sf
+  // Only in frames whose sheets hold densities (DensitySteps), pixel by pixel:
+  Transfer,   ///< colour and optical depth interpolated between words, density at most 1
   Slope,      ///< the density's differences as words of a gradient, S 4.16
-  Normal,     ///< what makes its length 1, and its length: 1/sqrt from a table
-  Facing,     ///< its cosines to light and half vector, One.14
-  Phong,      ///< what light makes of them, U 5.12 and One.12
+  Normal,     ///< factor that normalises it, and its length: 1/sqrt from a table
+  Facing,     ///< cosines of the normal to light and half vector, One.14
+  Phong,      ///< diffuse and specular light, U 5.12 and One.12
   Blend,      ///< share of shading, by the gradient floor, One.8
   Shaded,     ///< shaded colour as One.16
-  Colour,     ///< that times optical depth as U si.sf
+  Colour,     ///< shaded colour times optical depth as U si.sf
   Factor,     ///< slab factor from a table, interpolated, One.of
   Slab,       ///< slab colour and opacity as One.tf
   Composite,  ///< transmittance times slab as One.tf
-  Freeze,     ///< below eps nothing changes any more
+  Freeze,     ///< early termination below eps
   Pixel,      ///< output words U xi.xf
 };
 inline constexpr std::size_t kStepCount = 25;
 
-/// Steps that are exchanged together where their number has to be small.
+/// Steps that are exchanged together, to keep the number of combinations small.
 enum class Group : std::uint8_t { Place, Material, Footprint, Sheets, Classification, Picture };
 inline constexpr std::size_t kGroupCount = 6;
 
@@ -55,10 +55,10 @@ struct StepFacts {
   Group group;
   bool driver;          ///< made by the driver and loaded; else the device's own
   const char* meaning;  ///< "colour and optical depth as words"
-  const char* keys;     ///< of the configuration that decide it; empty: its formats are the device's design
+  const char* keys;     ///< configuration keys that decide it; empty: its formats are fixed
 };
 const StepFacts& facts(Step step);
-/// Only of frames whose sheets are densities.
+/// Whether the step is only for sheets of densities.
 inline bool of_densities(Step step) { return facts(step).group == Group::Classification; }
 const char* to_string(Group group);
 inline constexpr std::array<Step, kStepCount> all_steps() {
@@ -67,7 +67,7 @@ inline constexpr std::array<Step, kStepCount> all_steps() {
   return steps;
 }
 
-/// Which steps are the device's; the others are real.
+/// A hybrid pipeline: the steps that are the device's; all others are real.
 class Mixture {
  public:
   constexpr Mixture() = default;
@@ -86,7 +86,7 @@ class Mixture {
     for (const Step step : steps) out.set(step, device);
     return out;
   }
-  /// None of the steps first..last is the device's.
+  /// Whether all steps first..last are real.
   bool real(Step first, Step last) const {
     for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i) {
       if (device_[i]) return false;
@@ -102,15 +102,14 @@ class Mixture {
 
 /// Steps whose errors are reported as one.
 struct StepSet {
-  std::string name;  ///< of its steps, with '+'
+  std::string name;  ///< names of its steps, joined by '+'
   std::vector<Step> steps;
   const char* by = "";  ///< who rounds: "driver", "device" or "both"
 };
-/// Every step by itself, in order, except that position and snap are one step if together they round once. If k = 2^pf,
+/// Every step by itself, in order, except that position and snap are one step if together they round once. If K = 2^pf,
 /// the snap of a position is the position. If the driver leaves the rounding to the snap, each alone would move every
-/// splat.
-/// With error diffusion, the words of splats make up for what products lose: `carried` has emission and product as one,
-/// in the product's place. Steps of densities exist only if the frame has them: `densities`.
+/// splat. With error diffusion (`carried`), the words of splats compensate what products lose: emission and product are
+/// one step, in the product's place. Steps of densities are included with `densities`.
 std::vector<StepSet> step_sets(const cmodel::Config& config, bool carried, bool densities);
 std::vector<StepSet> group_sets(bool densities);
 

@@ -12,7 +12,7 @@ namespace {
 
 using cmodel::IndexKind;
 
-/// p / 2^shift, whose whole part is exact.
+/// p / 2^shift, with an exact integer part.
 double shifted(std::uint64_t product, std::uint32_t shift) {
   const auto whole = static_cast<double>(product >> shift);
   const double rest =
@@ -54,7 +54,7 @@ void WeightSteps::distances(double centre, double radius, int first, int end, bo
 
 double WeightSteps::interpolated(double entries, const Mixture& mixture) const {
   const auto t = static_cast<std::size_t>(entries);
-  // What lies below a guard step is cut off; that is exact in a double, and so is the words' line.
+  // Bits below a guard step are cut off. This is exact in a double, and so is the line between the words.
   const double steps = std::floor((entries - static_cast<double>(t)) / per_entry_);
   const double line = real_[t] - (real_[t] - real_[t + 1]) * (steps * per_entry_);
   const double fall = std::ldexp((words_[t] - words_[t + 1]) * steps, config_.radial_frac_bits);
@@ -69,7 +69,7 @@ double WeightSteps::weight(double entries, const Mixture& mixture) const {
   if (config_.interpolates()) return interpolated(entries, mixture);
   const auto t = static_cast<std::size_t>(entries);
   if (mixture.device(Step::Index)) return mixture.device(Step::Weight) ? words_[t] : real_[t];
-  // The word's own error, at the place where the real weight is read.
+  // Adds the word's error to the real weight.
   const double part = entries / entries_, u = config_.index() == IndexKind::Linear ? part * part : part;
   const double real = std::exp(-fall_ * u);
   return mixture.device(Step::Weight) ? std::max(0.0, real + (words_[t] - real_[t])) : real;

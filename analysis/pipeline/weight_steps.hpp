@@ -1,4 +1,4 @@
-// The steps from a splat's place to the weights of its pixels: distance, index, weight.
+// The steps from a splat's position to the weights of its pixels: distance, index, weight.
 #pragma once
 
 #include <span>
@@ -22,15 +22,15 @@ inline double more_reach(const cmodel::Config& config) {
   return config.index() == cmodel::IndexKind::Linear ? 1.0 / config.grid() : 0.0;
 }
 
-/// Weights are F(u) = exp(-a R^2 u), u the squared distance over the squared radius, 0 from u = 1 on. If all steps up
-/// to the sheets are real ("golden_units"), they are golden's own, with the kernel's peak in them.
+/// Weights are F(u) = exp(-a R^2 u), u the squared distance over the squared radius, and 0 from u = 1 on. If all steps
+/// up to sheet are real ("golden_units"), they are golden's own, which contain the kernel's peak.
 class WeightSteps {
  public:
   /// Keeps references.
   WeightSteps(const scene::Kernel& kernel, const cmodel::Config& config);
 
-  /// Rows and columns of a splat's pixels inside `rows` and an image of `width` columns. `shape`: in a frame with
-  /// ellipses.
+  /// Computes spans and weights of a splat's pixels inside `rows` and an image of `width` columns. `shape`: null in a
+  /// frame without ellipses.
   void rasterise(const StagedSplat& splat, const StagedShape* shape, const Mixture& mixture, bool golden_units,
                  golden::Rows rows, int width);
 
@@ -38,29 +38,29 @@ class WeightSteps {
   std::span<const double> weights(const golden::Footprint::Span& span) const {
     return {weights_ + span.weights, static_cast<std::size_t>(span.width)};
   }
-  /// Weight at `entries` radial table entries, below N: of squared distance, of index.kind linear of distance.
+  /// Weight at `entries` < N radial table entries: of squared distance, for index.kind linear of distance.
   double weight(double entries, const Mixture& mixture) const;
 
  private:
-  /// weight() where the table is interpolated.
+  /// weight() of an interpolated table.
   double interpolated(double entries, const Mixture& mixture) const;
-  /// What a radius makes of distances.
+  /// How a radius scales distances.
   struct Rim {
     double radius = -1.0;  ///< pixels
-    driver::Scale scale;   ///< of the kinds that compute
+    driver::Scale scale;   ///< for kinds that compute distances
   };
   void rasterise_golden(const StagedSplat& splat, const StagedShape* shape, golden::Rows rows, int width);
   void rasterise_circle(const StagedSplat& splat, const Mixture& mixture, golden::Rows rows, int width);
   void rasterise_ellipse(const StagedSplat& splat, const StagedShape& shape, const Mixture& mixture, golden::Rows rows,
                          int width);
-  /// The pixels of row y from x on that lie inside the rim; `entries`(i) of the i-th of `count`.
+  /// Adds the pixels of row y from x on that lie inside the edge; `entries`(i) of the i-th of `count`.
   template <class Entries>
   void add_row(int y, int x, int count, Entries entries, const Mixture& mixture);
   void rasterise_rlut(const StagedSplat& splat, const Mixture& mixture, const driver::Extent& box);
   void rasterise_other(const StagedSplat& splat, const Mixture& mixture, const driver::Extent& box);
-  /// RLUT words or what they stand for, in table entries, of the pixels from first to before end.
+  /// Distances of pixels first..end-1 in table entries: RLUT words, or the reals behind them.
   void distances(double centre, double radius, int first, int end, bool words, std::vector<double>& out) const;
-  /// Step distance of the kinds that compute it: radial table entries at (dx, dy) pixels.
+  /// Step distance of kinds without an RLUT: radial table entries at (dx, dy) pixels.
   double computed(double dx, double dy, const Rim& rim, bool device) const;
   double other_weight(double dx, double dy, const Rim& rim, const Mixture& mixture) const;
 
@@ -72,7 +72,7 @@ class WeightSteps {
   double entries_;                    ///< N
   double per_entry_;                  ///< 2^-g
   double fall_;                       ///< a R^2
-  std::vector<double> real_, words_;  ///< what entry t stands for; RADIAL[t] 2^-wf
+  std::vector<double> real_, words_;  ///< the sample of entry t; RADIAL[t] 2^-wf
   Rim rim_;
   EllipseDistance ellipse_;
   golden::Footprint golden_;

@@ -18,7 +18,7 @@ namespace fastsplat::plan {
 namespace {
 
 constexpr timespec kSoon{.tv_sec = 0, .tv_nsec = 100'000'000};
-constexpr int kPatience = 50;  ///< times kSoon, between TERM and KILL
+constexpr int kPatience = 50;  ///< number of kSoon between TERM and KILL
 constexpr off_t kMostErrors = 1 << 16;
 
 /// The last error line, or the last line of all.
@@ -70,7 +70,7 @@ Children::Children() {
 
 Children::~Children() {
   end_all();
-  // A stop that came in the meantime is known already to who asked signal().
+  // Discards repetitions of the stop signal that signal() already reports.
   while (signal_ != 0 && ::sigtimedwait(&taken_, nullptr, &kSoon) == signal_) {
   }
   ::sigprocmask(SIG_SETMASK, &before_, nullptr);
@@ -97,7 +97,7 @@ pid_t Children::start(const std::string& program, const Words& words) {
                    .got = {},
                    .fix = "use fewer --jobs"});
   }
-  ::setpgid(pid, pid);  // whichever of the two comes first
+  ::setpgid(pid, pid);  // set by parent and child, whichever runs first
   running_.push_back({pid, errors});
   return pid;
 }
@@ -122,7 +122,7 @@ std::optional<Ended> Children::reap() {
 std::optional<Ended> Children::wait() {
   while (true) {
     if (auto ended = reap()) {
-      // Whoever ends a child from outside often ends this process, too, and a moment later: then it was no result.
+      // A signal that ends a child often reaches this process a moment later: then the child has no result.
       if (ended->signal == 0) return ended;
       sigset_t stops = taken_;
       sigdelset(&stops, SIGCHLD);

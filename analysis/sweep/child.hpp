@@ -1,4 +1,4 @@
-// Runs of the program as children: started, awaited together with signals, ended.
+// Runs the program as child processes: starts them, waits for them and for signals, ends them.
 #pragma once
 
 #include <signal.h>
@@ -11,40 +11,40 @@
 
 namespace fastsplat::plan {
 
-/// How a child ended, and what it took.
+/// How a child ended, and its CPU time.
 struct Ended {
   pid_t pid = 0;
   int exit_code = 0;  ///< 128 + signal where a signal ended it
-  int signal = 0;     ///< that ended it, or that it says it was ended by (exit code above 128); else 0
+  int signal = 0;     ///< the signal that ended it, or that its exit code above 128 reports; else 0
   double cpu_seconds = 0.0;
   std::string message{};  ///< the last line it wrote to stderr, without "fastsplat: error:"
 };
 
-/// The children of this process, in process groups of their own: Ctrl-C reaches this process alone, which ends them.
-/// A child does not outlive this process, however that ends. As long as this lives, SIGINT, SIGTERM and SIGHUP are
-/// taken by wait() alone (where they are ignored, they stay so). One thread only.
+/// The children of this process, each in its own process group: Ctrl-C reaches only this process, which ends them. No
+/// child outlives this process, however it ends. While the object exists, only wait() receives SIGINT, SIGTERM and
+/// SIGHUP (ignored signals stay ignored). For one thread only.
 class Children {
  public:
   Children();
-  ~Children();  ///< ends what still runs
+  ~Children();  ///< ends the children that still run
   Children(const Children&) = delete;
   Children& operator=(const Children&) = delete;
 
-  /// Starts `program`, called fastsplat, with `words` after its name; stdin and stdout are /dev/null, the environment
-  /// has kReportMachine. MachineError where the system has no process left.
+  /// Starts `program` under the name fastsplat with the arguments `words`. stdin and stdout are /dev/null; the
+  /// environment contains kReportMachine. Throws MachineError if the system cannot start a process.
   pid_t start(const std::string& program, const Words& words);
 
-  /// Waits for the next event: a child's end, or a signal that asks to stop (then `signal()` tells it).
+  /// Waits for the next event: the end of a child, or a signal to stop (nullopt; see signal()).
   std::optional<Ended> wait();
   int signal() const { return signal_; }
 
-  /// TERM to all, after five seconds KILL, and waits for their ends.
+  /// Sends TERM to all, after five seconds KILL, and waits for their ends.
   void end_all();
 
  private:
   struct Child {
     pid_t pid;
-    int errors;  ///< what it wrote to stderr, in memory
+    int errors;  ///< memory file with its stderr
   };
   std::optional<Ended> reap();
 

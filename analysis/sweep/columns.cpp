@@ -76,7 +76,7 @@ std::string title_of(const Merged& merged, const std::string& column) {
   return printable(fmt::format("{} [{}]", column, metric->unit));
 }
 
-/// What is not there comes last, numbers before texts.
+/// Numbers come before texts and missing values.
 bool before(const Cell& a, const Cell& b) {
   if (a.number && b.number) return *a.number < *b.number;
   if (a.number.has_value() != b.number.has_value()) return a.number.has_value();

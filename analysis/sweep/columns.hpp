@@ -1,4 +1,4 @@
-// Rows of merged results as a table: which columns, which rows, in which order, and how each is written.
+// Merged results as a table: its columns, rows, order and formats.
 #pragma once
 
 #include <string>
@@ -10,15 +10,14 @@ namespace fastsplat::plan {
 
 struct TableOptions {
   /// Names of axes, metrics, or id, kind, status, message, config_hash, scene_hash, program_hash, command. Empty: the
-  /// axes with more than one value, the status where not all pass, the metrics that are not the same in all rows, the
-  /// configuration's hash.
+  /// axes with several values, the status unless all pass, the metrics that differ between rows, config_hash.
   std::vector<std::string> columns{};
-  std::vector<std::string> where{};  ///< "NAME=VALUE": rows whose column reads so
-  std::vector<std::string> sort{};   ///< columns, the first one first; "-NAME" from large to small
-  std::size_t most = 0;              ///< rows; 0 all
+  std::vector<std::string> where{};  ///< "NAME=VALUE": rows whose column NAME reads VALUE
+  std::vector<std::string> sort{};   ///< columns, the most significant first; "-NAME": descending
+  std::size_t most = 0;              ///< most rows; 0: all
 };
 
-/// A cell: its text in full, and as a number where it is one.
+/// A cell: its full text, and its number if it is one.
 struct Cell {
   std::string text;
   std::optional<double> number{};
@@ -35,10 +34,10 @@ Table table_of(const Merged& merged, const TableOptions& options);
 
 /// Throws as table_of does.
 Cell cell_of(const Merged& merged, const Row& row, const std::string& column);
-/// Rows that `where` keeps, in the order of `sort`.
+/// Rows selected by `where`, in the order of `sort`.
 std::vector<const Row*> chosen_rows(const Merged& merged, const TableOptions& options);
 
-/// Numbers to six digits, right under each other.
+/// Aligned columns; numbers have six digits.
 std::string to_text(const Table& table);
 std::string to_markdown(const Table& table);
 /// RFC 4180, numbers in full; the first line names the columns.

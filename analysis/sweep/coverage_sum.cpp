@@ -12,7 +12,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kBookFormat = "fastsplat coverage 1";
 
-/// Adds every count of `from`, however deep; what is no count has to be equal.
+/// Adds every count of `from`, at any depth; all other values must be equal.
 void add_counts(Json& to, const Json& from, const std::string& name) {
   if (to.is_number_unsigned() && from.is_number_unsigned()) {
     to = to.get<std::uint64_t>() + from.get<std::uint64_t>();
@@ -40,7 +40,7 @@ void CoverageSum::add(const Json& book, const std::string& where) {
       books_.push_back(book);
     } else {
       Json sum = *same;
-      // The same numbers under two names are one configuration.
+      // Two names with the same hash are one configuration.
       Json more = book;
       more["config"] = sum["config"];
       add_counts(sum, more, "book");

@@ -1,4 +1,4 @@
-// Books of coverage, as `verify --coverage` writes them, added up.
+// Sums coverage books as `verify --coverage` writes them.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,11 +7,11 @@
 
 namespace fastsplat::plan {
 
-/// One book for each configuration, in the order in which they came.
+/// One book for each configuration, in order of first appearance.
 class CoverageSum {
  public:
-  /// Adds counts, and the bins of every campaign. Throws UserError (Input) for an invalid book and for one of another
-  /// configuration; `where` names it.
+  /// Adds counts, and the bins of every campaign. Throws UserError (Input) that names `where` for an invalid book, and
+  /// for one whose other values differ from earlier books of its configuration.
   void add(const nlohmann::ordered_json& book, const std::string& where);
 
   const std::vector<nlohmann::ordered_json>& books() const { return books_; }

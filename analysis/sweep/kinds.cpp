@@ -28,7 +28,7 @@ std::vector<StepOfKind> steps_of(const std::string& kind) {
 bool is_given_by_run(const std::string& flag) {
   constexpr const char* kGiven[] = {
       "json", "quiet", "threads", "jobs", "out", "coverage", "failure", "junit", "wave", "save-stream", "set",
-      // files that no case puts into its folder
+      // files that would lie outside the case's folder
       "map", "heat", "trace", "blame", "journal", "raw", "video", "save-scene", "man-pages", "markdown", "csv"};
   return std::ranges::find(kGiven, flag) != std::end(kGiven);
 }

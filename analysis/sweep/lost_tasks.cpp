@@ -18,7 +18,7 @@ bool is_done(const Case& one, const fs::path& path, const std::string& program_h
   try {
     result = read_result(path);
   } catch (const UserError&) {
-    return false;  // plan run makes it again, and says so
+    return false;  // `plan run` repeats the case and reports it
   }
   if (const auto why = foreign(result, one, program_hash); !why.empty()) {
     throw_input({.where = path.string(),
@@ -30,7 +30,7 @@ bool is_done(const Case& one, const fs::path& path, const std::string& program_h
   return true;
 }
 
-/// The youngest log of a shard's task: one for each time it was sent.
+/// The latest log of a shard's task; each submission of the task has its own.
 fs::path latest_log(const Submission& submission, std::size_t shard) {
   fs::path latest;
   fs::file_time_type when;

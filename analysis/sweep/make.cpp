@@ -16,10 +16,10 @@ namespace fastsplat::plan {
 namespace {
 
 constexpr std::size_t kMostCases = 1'000'000;
-/// Settings whose value may be a file, which a specification names as it lies from its own folder.
+/// Settings whose value may be a file, named relative to the specification's folder.
 constexpr const char* kFiles[] = {"config", "scene", "volume", "tf", "stream"};
 
-/// A combination of values: what is set, and how the row is told from others.
+/// A combination of values: all settings, and the axes that identify the row.
 struct Point {
   Settings settings, axes;
 };
@@ -45,7 +45,7 @@ class Maker {
     check_names();
   }
 
-  /// The case of these settings as it is made now.
+  /// Makes the case again from its settings.
   Case again(const Case& one) const { return case_of({.settings = one.settings, .axes = one.axes}); }
 
   Made make() const {
@@ -185,7 +185,7 @@ class Maker {
     } else if (const auto* flag = std::get_if<bool>(&setting.value)) {
       if (*flag) to.push_back("--" + setting.name);
     } else if (text.starts_with('-')) {
-      to.push_back("--" + setting.name + "=" + text);  // a negative number, no flag
+      to.push_back("--" + setting.name + "=" + text);  // a negative number, not a flag
     } else {
       to.insert(to.end(), {"--" + setting.name, text});
     }
@@ -239,7 +239,7 @@ Made make(const Spec& spec, const Vocabulary& vocabulary) { return Maker(spec, v
 
 void require_made(const Plan& plan, const Vocabulary& vocabulary, const std::filesystem::path& file) {
   Vocabulary unchecked = vocabulary;
-  unchecked.check = [](const Words&) {};  // the program itself refuses words that it does not know
+  unchecked.check = [](const Words&) {};  // the program itself refuses unknown words
   for (const Case& one : plan.cases) {
     const auto refuse = [&](const std::string& got) {
       throw_input({.where = file.string(),

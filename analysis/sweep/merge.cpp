@@ -58,7 +58,7 @@ void refuse_missing(const Plan& plan, const fs::path& folder, const std::vector<
                .fix = "make them with `fastsplat plan run`, or merge available results with --partial"});
 }
 
-/// One program made all rows.
+/// Refuses results of a program other than `program`.
 void require_own(const Case& one, const CaseResult& result, const fs::path& path, const std::string& program) {
   const auto why = foreign(result, one, program);
   if (why.empty()) return;
@@ -69,7 +69,7 @@ void require_own(const Case& one, const CaseResult& result, const fs::path& path
                .fix = "replace such results with `fastsplat plan run --again`"});
 }
 
-/// Every figure's value in its column; columns in the order in which metrics are known.
+/// Collects every figure in its column; columns are in the order of the known metrics.
 class Columns {
  public:
   explicit Columns(const Plan& plan) : wanted_(known_metrics()) {
@@ -79,7 +79,7 @@ class Columns {
   void add(const CaseResult& result, Row& row) {
     for (const Metric& metric : wanted_) {
       for (const Figure& figure : figures(result.results, {metric})) {
-        if (row.metric(figure.metric.name)) continue;  // under another path already
+        if (row.metric(figure.metric.name)) continue;  // already found under another path
         row.metrics.emplace_back(figure.metric.name, figure.value);
         found_[&metric].try_emplace(figure.metric.name, figure.metric);
         order_.try_emplace(figure.metric.name, order_.size());

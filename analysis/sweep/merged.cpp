@@ -26,7 +26,7 @@ Json to_json(const Row& row) {
   for (const auto& [name, value] : row.axes) json["axes"][name] = plan::to_json(value);
   json["metrics"] = Json::object();
   for (const auto& [name, value] : row.metrics) {
-    // A count stays a count.
+    // Counts are written as integers.
     const auto whole = static_cast<std::int64_t>(value);
     json["metrics"][name] = static_cast<double>(whole) == value ? Json(whole) : Json(value);
   }

@@ -1,4 +1,4 @@
-// The merged results of a plan: a row a case, in the plan's order (docs/plan.md, "The merged file").
+// The merged results of a plan: one row per case, in the plan's order (docs/plan.md, "The merged file").
 #pragma once
 
 #include <filesystem>
@@ -26,24 +26,25 @@ struct Row {
 
 struct Merged {
   std::string name, title, hash;  ///< of the plan
-  std::string program;            ///< that made every row
+  std::string program;            ///< hash of the program that made every row
   std::vector<Axis> axes;
-  std::vector<Metric> metrics;  ///< that a row has; `path` as in the rows' results
+  std::vector<Metric> metrics;  ///< metrics of any row; `path` as in the rows' results
   std::vector<Row> rows;
-  std::vector<std::string> missing;              ///< ids; only where that was allowed
+  std::vector<std::string> missing;              ///< ids; only with MergeOptions::partial
   std::vector<nlohmann::ordered_json> coverage;  ///< a book for each configuration verified
 };
 
 struct MergeOptions {
-  bool partial = false;        ///< rows that are missing or not whole are left out, and listed
-  bool allow_foreign = false;  ///< results in the folder that are no case of the plan are passed over
+  bool partial = false;        ///< missing and damaged results are left out and listed
+  bool allow_foreign = false;  ///< results of cases outside the plan are ignored
 };
 
-/// UserError (Input) names the results that are missing, damaged, of other content or programs, or no case of the plan.
+/// Throws UserError (Input) that names results that are missing, damaged, of other content or programs, or outside the
+/// plan.
 Merged merge(const Plan& plan, const std::filesystem::path& results, const MergeOptions& options);
 
 nlohmann::ordered_json to_json(const Merged& merged);
-/// Throws UserError (Input) for a file that is none.
+/// Throws UserError (Input) if the file is not a merged file.
 Merged read_merged(const std::filesystem::path& path);
 
 }  // namespace fastsplat::plan

@@ -27,7 +27,7 @@ Json read_json(const fs::path& path) {
   return json;
 }
 
-/// Exit 1 in words: the limits of `compare` that are broken, the mismatches of `verify`.
+/// Explains exit code 1: the broken limits of `compare`, the mismatches of `verify`.
 std::string why_failed(const Json& json, const std::string& verb) {
   std::string text;
   if (json.is_object() && json.contains("limits") && json["limits"].is_array()) {

@@ -1,7 +1,7 @@
-// What a run of a case came to: its JSON, its book of coverage, and in words what went wrong.
+// The outcome of a run of a case: its JSON, its coverage book, and a message if something went wrong.
 //
-// Only what the program said is a result. What the machine did (disk, memory, signals, a crash) is an accident: it says
-// nothing about the case, which is run again.
+// Only what the program reports is a result. What the machine does (disk, memory, signals, a crash) is an accident: it
+// says nothing about the case, which is run again.
 #pragma once
 
 #include "analysis/sweep/child.hpp"
@@ -15,19 +15,19 @@ inline constexpr const char* kFailure = "failure";  ///< with .fss and .fst
 
 struct Outcome {
   Status status = Status::Pass;
-  bool accident = false;  ///< no result; `status` is Error
+  bool accident = false;  ///< not a result; `status` is Error
   int exit_code = 0;
   std::string message{};                      ///< empty for Pass
   nlohmann::ordered_json json{}, coverage{};  ///< null for none
 };
 
-/// Where its files lie: what is said of them forgets that.
+/// Folders of its files; outcomes do not mention them.
 struct Places {
   std::filesystem::path folder, shared;
 };
 
-/// `ended` is the program's answer where its exit code is one that docs/guide/reference.md gives to answers and its
-/// files are whole.
+/// An outcome is a result, not an accident, if the exit code is one of the results in docs/guide/reference.md and the
+/// files are complete.
 Outcome outcome_of(const Step& step, const Ended& ended, const Places& places);
 
 void write_file(const std::filesystem::path& path, const std::string& text);

@@ -8,7 +8,7 @@
 namespace fastsplat::plan {
 namespace {
 
-/// So that less is better.
+/// The value such that less is better.
 double badness(const Row& row, const Metric& metric) {
   const double value = *row.metric(metric.name);
   return metric.better == Better::More ? -value : value;
@@ -59,7 +59,7 @@ Pareto pareto(const std::vector<const Row*>& rows, const Metric& x, const Metric
     if (last == nullptr || equal || badness(*row, y) < badness(*last, y)) {
       out.front.push_back(row);
     } else {
-      // Of the front's rows that beat it, the best one in x: what it would cost to have the same y for less.
+      // Of the front's rows that beat it, the best in x: the cheapest way to the same y.
       const auto by =
           std::ranges::find_if(out.front, [&](const Row* other) { return badness(*other, y) <= badness(*row, y); });
       beaten_by.emplace_back(row, *by);

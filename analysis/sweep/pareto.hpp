@@ -1,4 +1,4 @@
-// Which rows are worth having by two metrics, and by which of these every other row is beaten.
+// The Pareto front of rows by two metrics, and for every other row one of the front that beats it.
 #pragma once
 
 #include <string>

@@ -63,7 +63,7 @@ Json to_json(const Case& one) {
   return json;
 }
 
-/// Files of a case lie in its folder.
+/// Refuses files outside the case's folder.
 void require_own_file(const Case& one, const std::string& name) {
   if (name.find('/') == std::string::npos && name != "." && name != ".." && !name.empty()) return;
   throw std::runtime_error(fmt::format("case {}: the file '{}' is outside its folder", one.id, name));
@@ -103,7 +103,7 @@ Metric metric_from(const Json& json) {
           .path = json.at("path")};
 }
 
-/// Everything but the hash itself and the version, which changes nothing.
+/// Hash of everything but the hash itself and the version, which changes nothing.
 std::string hash_of(const Json& json) {
   Json rest = json;
   rest.erase("hash");
@@ -154,7 +154,7 @@ std::string command_of(const Case& one) {
 }
 
 std::string id_of(const Case& one) {
-  // Not its place: the same command with the same content is the same case in any plan.
+  // Without its place: the same command with the same content is the same case in any plan.
   Json json{{"case", 1},
             {"kind", one.kind},
             {"config", one.content.config_hash},

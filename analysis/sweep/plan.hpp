@@ -1,4 +1,4 @@
-// A plan: cases with the commands that they are, each named by the hash of what it is (docs/plan.md, "The plan").
+// A plan: cases with their commands, each named by a hash of its content (docs/plan.md, "The plan").
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,17 @@
 
 namespace fastsplat::plan {
 
-/// What is behind the names in a case's words, as hashes; empty where a case has none.
+/// Hashes of the content behind the names in a case's words; empty if it has none.
 struct Content {
   std::string config_hash, scene_hash;
   bool operator==(const Content&) const = default;
 };
 
-/// A run of this program. Words in braces, "{model.exr}", are files of the case: they lie where the run puts them.
+/// A run of this program. Words in braces, "{model.exr}", are files of the case, which lie where the run puts them.
 struct Step {
-  Words words{};          ///< from the verb on; neither --json nor --threads, which the run adds
-  std::string result{};   ///< the verb, where its JSON is part of the case's result; else empty
-  std::string shared{};   ///< the file it makes, where cases share that: "golden-HASH.exr"; else empty
+  Words words{};          ///< from the subcommand on, without --json and --threads, which the run adds
+  std::string result{};   ///< the subcommand if its JSON is part of the case's result; else empty
+  std::string shared{};   ///< the file that it makes for several cases: "golden-HASH.exr"; else empty
   bool coverage = false;  ///< it writes a book of coverage, "{coverage.json}"
   bool operator==(const Step&) const = default;
 };
@@ -34,7 +34,7 @@ struct Case {
   std::string id;     ///< 16 hex digits
   Settings axes;      ///< its place in the plan
   std::string kind;   ///< "compare", "compare+cycles"
-  Settings settings;  ///< everything set, for what is behind the names
+  Settings settings;  ///< all settings, which give the names for `content`
   Content content;
   std::vector<Step> steps;
 };
@@ -42,21 +42,21 @@ struct Case {
 struct Plan {
   std::string name, title, hash;
   std::vector<Axis> axes;
-  std::vector<Metric> metrics;  ///< of the specification; the known ones come before
+  std::vector<Metric> metrics;  ///< of the specification; the known ones come first
   std::vector<Case> cases;
 };
 
-/// The file of a case's words in braces; nothing for any other word.
+/// The file that a word in braces names; nullopt for any other word.
 std::optional<std::string> file_of(const std::string& word);
 
-/// The commands that make a case again, to be pasted into a shell: its files lie in the folder where that is.
+/// The commands that repeat a case, to be pasted into a shell; its files go to the shell's folder.
 std::string command_of(const Case& one);
 
-/// Of everything that makes a case what it is.
+/// Hash of a case's kind, content and steps.
 std::string id_of(const Case& one);
 
 nlohmann::ordered_json to_json(const Plan& plan);
-/// Throws UserError (Input) for an invalid or changed plan: every hash is computed again.
+/// Throws UserError (Input) for an invalid or changed plan: every hash is recomputed.
 Plan read_plan(const std::filesystem::path& path);
 
 /// A part of a plan: every `of`-th case, from the `index`-th (1 the first) on.

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A case under way.
+/// A case in progress.
 struct Going {
   const Case* one;
   std::size_t step = 0;
@@ -65,7 +65,7 @@ class Runner {
   }
 
  private:
-  /// The result that stands, if it is one that is not made again.
+  /// The existing result, unless the case must run again.
   std::optional<CaseResult> done_before(const Case& one) const {
     const fs::path path = result_path(options_.results, one.id);
     std::error_code ignored;
@@ -100,7 +100,7 @@ class Runner {
     if (options_.progress) options_.progress(done, summary_.cases);
   }
 
-  /// Starts what there is room for.
+  /// Starts as many cases as there are free jobs.
   void fill() {
     while (going_.size() < options_.jobs && !ready_.empty()) {
       Going next = std::move(ready_.front());
@@ -124,7 +124,7 @@ class Runner {
     return options_.results / kSharedFolder / (options_.program_hash + "-" + name);
   }
 
-  /// Starts the case's next run, or waits for what another one is making, or ends it.
+  /// Starts the case's next run, or parks the case until a shared file is made, or finishes the case.
   void advance(Going going) {
     while (going.step < going.one->steps.size()) {
       const Step& step = going.one->steps[going.step];
@@ -151,7 +151,7 @@ class Runner {
     finish(std::move(going));
   }
 
-  /// The step's words with real files, and what every run is given.
+  /// The step's words with real file names, and the flags of every run.
   Words words_of(const Going& going, const Step& step) const {
     std::set<std::string> shared;
     for (const Step& other : going.one->steps) shared.insert(other.shared);
@@ -190,7 +190,7 @@ class Runner {
       }
     }
     take_outcome(going, outcome);
-    // A limit that is broken says nothing against the figures that come after.
+    // A broken limit does not invalidate later figures.
     if (outcome.status == Status::Error) return finish(std::move(going));
     ++going.step;
     advance(std::move(going));
@@ -231,7 +231,7 @@ class Runner {
     tell_progress();
   }
 
-  /// A verification that failed leaves a small stream and a waveform: failures/ID.fss and .fst.
+  /// Keeps the small stream and waveform of a failed verification: failures/ID.fss and .fst.
   void keep_evidence(const Going& going) const {
     for (const char* ending : {".fss", ".fst"}) {
       std::error_code ignored;
@@ -246,10 +246,10 @@ class Runner {
   Scratch scratch_;
   Children children_;
   std::deque<const Case*> waiting_;  ///< not begun
-  std::deque<Going> ready_;          ///< what they waited for is there
+  std::deque<Going> ready_;          ///< the shared file they waited for exists
   std::map<pid_t, Going> going_;
-  std::set<std::string> making_;                      ///< shared files under way
-  std::map<std::string, std::vector<Going>> parked_;  ///< wait for one of them
+  std::set<std::string> making_;                      ///< shared files being made
+  std::map<std::string, std::vector<Going>> parked_;  ///< cases that wait for one of them
   std::map<std::string, Outcome> broken_;             ///< shared files that could not be made, and why
 };
 

@@ -30,7 +30,7 @@ std::string host() {
   return name.data();
 }
 
-/// The lock of a folder, without waiting; -1 where another has it.
+/// Locks a folder without waiting; -1 if another process holds the lock.
 int lock_of(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return -1;
@@ -58,7 +58,7 @@ Scratch::Scratch(const fs::path& folder) {
   make_folder(all);
   const std::string own = host() + ".";
   remove_left_behind(all, own);
-  // A folder that was just made and is not locked yet may be taken for one left behind.
+  // Another process may remove a new folder that is not locked yet, as left behind.
   for (int tries = 0; tries < 100 && lock_ < 0; ++tries) {
     std::string name = (all / (own + "XXXXXX")).string();
     if (::mkdtemp(name.data()) == nullptr) cannot_write(folder, errno);

@@ -1,4 +1,4 @@
-// Where runs write before their files are published: a folder of this process alone, which goes when it goes.
+// A folder of this process for files that are not published yet; removed with the process.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace fastsplat::plan {
 
-/// FOLDER/.scratch/HOST.XXXXXX, locked as long as it is in use. Processes that were killed leave theirs behind: those
-/// of this host that nobody locks are removed first. MachineError if FOLDER cannot be written.
+/// FOLDER/.scratch/HOST.XXXXXX, locked while in use. Killed processes leave theirs behind: unlocked ones of this host
+/// are removed first. Throws MachineError if FOLDER cannot be written.
 class Scratch {
  public:
   explicit Scratch(const std::filesystem::path& folder);
@@ -20,11 +20,10 @@ class Scratch {
   /// An empty folder in it.
   std::filesystem::path fresh(const std::string& name) const;
 
-  /// `folder` with those above it. MachineError where it cannot be made.
+  /// Creates `folder` and its parents. Throws MachineError on failure.
   static void make_folder(const std::filesystem::path& folder);
 
-  /// Flushes `file` and gives it its name in the results: it is there whole or not at all, whoever else writes the
-  /// same.
+  /// Flushes `file` and renames it to `as`: atomic even if others publish the same file.
   static void publish(const std::filesystem::path& file, const std::filesystem::path& as);
 
  private:

@@ -17,7 +17,7 @@ std::string array_name(const Submission& s, const JobArray& array) {
   return fmt::format("{}-{}", s.name, array.number);
 }
 
-/// LSF's hours:minutes, and SGE's hours:minutes:seconds; at least what was asked for.
+/// LSF's hours:minutes, rounded up, and SGE's hours:minutes:seconds.
 std::string hours_minutes(long seconds) {
   const long minutes = (seconds + 59) / 60;
   return fmt::format("{}:{:02}", minutes / 60, minutes % 60);
@@ -26,8 +26,8 @@ std::string hours_minutes_seconds(long seconds) {
   return fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
 }
 
-/// What both schedulers are told: a line begins with #BSUB for LSF and with #$ for SGE. Paths are not among them: how
-/// they would have to be quoted there is nowhere written; the script itself says where it talks to.
+/// Directives for both schedulers: lines begin with #BSUB for LSF and with #$ for SGE. They contain no paths, because
+/// neither documents how to quote them; the script redirects its output itself.
 std::string directives(const Submission& s, const std::string& name, int processors) {
   std::string text;
   const auto both = [&](const std::string& lsf, const std::string& sge) {
@@ -66,7 +66,7 @@ std::string array_script(const Submission& s, const JobArray& array) {
 std::string merge_script(const Submission& s) {
   return fmt::format("#!/bin/sh\n# {}: merge after all tasks end\n#BSUB -J {}\n", s.what, s.merge_name()) +
          directives(s, s.merge_name(), 1) +
-         // By hand, or after GNU parallel, it talks to whoever started it.
+         // Started by hand, or after GNU parallel, it writes to its caller's output.
          fmt::format("[ -z \"$JOB_ID$LSB_JOBID\" ] || exec >>{}/merge.log 2>&1\n", shell_word(s.logs())) +
          merge_lines(s, "script");
 }

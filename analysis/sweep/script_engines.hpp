@@ -1,5 +1,5 @@
-// Scripts for schedulers that this program does not call itself: array jobs that LSF and SGE both read, and a command a
-// line for GNU parallel or whatever else runs lines.
+// Scripts for schedulers that this program does not call itself: array jobs for LSF and SGE, and a list of one command
+// per line for GNU parallel and similar tools.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace fastsplat::plan {
 
-/// An array script for every array with something to do, the merge script and the command list, in this order. A task
-/// whose cases are done ends at once, so that arrays are sent whole.
+/// An array script for every array with tasks to do, the merge script and the command list, in this order. Tasks
+/// without remaining cases end at once, so that arrays are submitted whole.
 std::vector<ScriptFile> engine_scripts(const Submission& submission);
 
-/// How the files are sent, a scheduler a paragraph: what a user copies into a shell.
+/// Shell commands that submit the files, one paragraph per scheduler.
 std::string engine_recipes(const Submission& submission);
 
 }  // namespace fastsplat::plan

@@ -11,10 +11,10 @@
 namespace fastsplat::plan {
 namespace {
 
-/// Clients try for nine seconds by themselves to reach the controller, and longer to look up names.
+/// Clients retry the controller for nine seconds, and look up names for longer.
 constexpr int kSeconds = 60;
 
-/// "sbatch: error: Batch job submission failed: Invalid partition name specified" without what is said anyway.
+/// "sbatch: error: Batch job submission failed: Invalid partition name specified" without its prefix.
 std::string reason_of(const Called& called) {
   std::string text = called.last_words();
   for (const char* before : {": error: ", ": fatal: "}) {
@@ -66,7 +66,7 @@ std::string slurm_queued(const std::string& names) {
 
 std::string slurm_submit(const std::vector<std::string>& words) {
   const Called called = call(words, kSeconds);
-  // "12", or "12;cluster" at sites with several.
+  // "12", or "12;cluster" at sites with several clusters.
   const std::string id = called.out.substr(0, called.out.find_first_of(";\n"));
   const bool number = !id.empty() && std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::isdigit(c); });
   if (called.code != 0 || !number)

@@ -1,4 +1,4 @@
-// Slurm as its clients tell of it: what the site allows, what is queued, what is sent and taken back.
+// Calls Slurm's clients: reads the site's limits and the queue, submits and cancels jobs.
 #pragma once
 
 #include <cstddef>
@@ -7,17 +7,18 @@
 
 namespace fastsplat::plan {
 
-/// Tasks that one array may have (MaxArraySize: indices are below it). Throws UserError (Input) where Slurm does not
-/// say, or allows no arrays.
+/// Largest number of tasks in an array (MaxArraySize: indices are below it). Throws UserError (Input) if Slurm does not
+/// report it or does not allow arrays.
 std::size_t slurm_array_max();
 
-/// Jobs of these names, with commas between, that have not ended: "12 13".
+/// Jobs of these names (comma-separated) that have not ended: "12 13".
 std::string slurm_queued(const std::string& names);
 
-/// Calls sbatch with these words (itself the first): the job's number. Throws UserError (Input) with what sbatch said.
+/// Calls sbatch with these words (itself the first); returns the job's number. Throws UserError (Input) with its
+/// message.
 std::string slurm_submit(const std::vector<std::string>& words);
 
-/// Takes jobs back, as well as it can be done.
+/// Cancels jobs; ignores failures.
 void slurm_cancel(const std::vector<std::string>& jobs);
 
 }  // namespace fastsplat::plan

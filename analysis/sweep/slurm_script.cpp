@@ -5,7 +5,7 @@
 namespace fastsplat::plan {
 namespace {
 
-/// A value on an #SBATCH line, where blanks, quotes and # mean something.
+/// A quoted value for an #SBATCH line, where blanks, quotes and # are special.
 std::string directive_value(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -15,7 +15,7 @@ std::string directive_value(const std::string& text) {
   return out + "\"";
 }
 
-/// A path where sbatch puts numbers in: a percent sign that is its own.
+/// Escapes percent signs, which sbatch expands in file names.
 std::string in_pattern(const std::string& path) {
   std::string out;
   for (const char c : path) out += c == '%' ? std::string("%%") : std::string(1, c);
@@ -28,7 +28,7 @@ std::string directives(const Submission& s, const std::string& name, const std::
   add("--job-name=" + name);
   add("--output=" + directive_value(in_pattern(s.logs().string()) + "/" + log));
   add("--chdir=" + directive_value(s.folder.string()));
-  // What was said before a task was requeued stays.
+  // Keeps the log from before a task was requeued.
   add("--open-mode=append");
   add("--requeue");
   add("--ntasks=1");

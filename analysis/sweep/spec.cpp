@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kMostValues = 1'000'000;
 constexpr const char* kKeys[] = {"name", "title", "kind", "refused", "constants", "axes", "zip", "metrics"};
 
-/// A name with its value, as deep as tables nest: snap.phases = 64.
+/// A name with its value; nested tables give dotted names: snap.phases = 64.
 struct Entry {
   std::string name;
   const toml::node* node;
@@ -110,7 +110,7 @@ class Reader {
     refuse(node, name + " is not a single value", "a number, text, true or false");
   }
 
-  /// A list, one value, or a range {from, to} with a step, or times a factor.
+  /// A list, one value, or a range {from, to} with `step` or `times`.
   std::vector<Value> list(const toml::node& node, const std::string& name) const {
     if (const auto* table = node.as_table()) return range(*table, name);
     const auto* array = node.as_array();
@@ -173,7 +173,7 @@ class Reader {
     }
   }
 
-  /// Everything in a table, in the order of the file.
+  /// All entries of a table, in the order of the file.
   std::vector<Entry> entries(const toml::node& node, const char* what) const {
     const auto* table = node.as_table();
     if (table == nullptr) refuse(node, fmt::format("{} is not a table", what), fmt::format("[{}]", what));
@@ -196,7 +196,7 @@ class Reader {
     return out;
   }
 
-  /// The name, which no other has taken.
+  /// Registers the name; refuses one that is already set.
   std::string taken(const Entry& entry) {
     if (!names_.insert(entry.name).second)
       refuse(*entry.node, fmt::format("{} is set twice", entry.name), "", "make it a constant, or put it on one axis");
@@ -226,7 +226,7 @@ class Reader {
     return out;
   }
 
-  /// `label` names the values for the reader; its column is called as `axis` says.
+  /// `label` names the values for the reader; `axis` names its column.
   Zip zip(const toml::table& table) {
     const std::string label = text_of(table, "axis").value_or("label");
     if (const auto* axis = table.get("axis"); axis != nullptr && (table.contains(label) || names_.contains(label))) {
@@ -249,7 +249,7 @@ class Reader {
     return out;
   }
 
-  /// A zip's values may repeat: what is told apart is the row.
+  /// Values of a zip may repeat: only its rows matter.
   std::vector<Value> list_of_zip(const toml::node& node, const std::string& name) const {
     const auto* array = node.as_array();
     if (array == nullptr || array->empty()) return list(node, name);

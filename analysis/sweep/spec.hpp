@@ -1,4 +1,4 @@
-// SPEC.toml: which kinds of case, over which axes, and what is the same in all (docs/plan.md, "The specification").
+// SPEC.toml: the kinds of case, their axes and constants (docs/plan.md, "The specification").
 #pragma once
 
 #include <filesystem>
@@ -10,24 +10,24 @@
 
 namespace fastsplat::plan {
 
-/// What a setting goes through. No value stands twice.
+/// A setting and its values, which are distinct except in a zip.
 struct Axis {
   std::string name;
   std::vector<Value> values;
-  bool is_label = false;  ///< shown in the results, and no word of any command
+  bool is_label = false;  ///< shown in the results, but not part of any command
 };
 
-/// Axes of one length, which are gone through together.
+/// Axes of one length that advance together.
 using Zip = std::vector<Axis>;
 
 struct Spec {
-  std::filesystem::path file;  ///< files that settings name lie relative to its folder
+  std::filesystem::path file;  ///< files in settings are relative to its folder
   std::string name, title;
   std::vector<std::string> kinds;  ///< of each case, in order; at least one
   Settings constants;
-  std::vector<Zip> axes;           ///< crossed, the last one fastest, as they stand in the file
-  std::vector<Metric> metrics;     ///< besides those that the kinds have
-  bool leave_out_refused = false;  ///< settings that do not go together make no case; else they are an error
+  std::vector<Zip> axes;           ///< crossed in the order of the file, the last one fastest
+  std::vector<Metric> metrics;     ///< in addition to the kinds' own
+  bool leave_out_refused = false;  ///< combinations that the program refuses are skipped; else they are an error
 };
 
 /// Throws UserError (Input) with line and column for an invalid specification.

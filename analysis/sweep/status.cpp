@@ -15,7 +15,7 @@ double cpu_seconds_of(const fs::path& results, const std::string& id) {
     const auto json = parse_json<nlohmann::ordered_json>(read_text_file(results / kTimesFolder / (id + ".json")));
     return json.at("cpu_seconds").get<double>();
   } catch (const std::exception&) {
-    return 0.0;  // only told for information
+    return 0.0;  // for information only
   }
 }
 

@@ -1,4 +1,4 @@
-// A value of a setting: what SPEC.toml says of a flag or of a configuration key, and what a row of results shows.
+// A value of a setting: for a flag or a configuration key in SPEC.toml, and in a row of results.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ nlohmann::ordered_json to_json(const Value& value);
 /// Throws std::runtime_error unless it is a single value.
 Value value_from(const nlohmann::ordered_json& json);
 
-/// A setting by its name: a flag of a verb without its dashes ("size"), or a configuration key ("snap.phases").
+/// A setting by its name: a flag of a subcommand without its dashes ("size"), or a configuration key ("snap.phases").
 struct Setting {
   std::string name;
   Value value;
@@ -27,12 +27,12 @@ struct Setting {
 };
 using Settings = std::vector<Setting>;
 
-/// Configuration keys have a dot in them, flags never.
+/// Configuration keys contain a dot, flags never do.
 inline bool is_key(std::string_view name) { return name.find('.') != std::string_view::npos; }
 
 using Words = std::vector<std::string>;
 
-/// As a shell reads them back.
+/// The words, quoted for a shell.
 std::string shell_line(const Words& words);
 
 }  // namespace fastsplat::plan

@@ -20,7 +20,7 @@ constexpr const char* kWhat = "cannot read or write pictures: the image library'
   throw_machine({where.string(), kWhat + what, std::move(expected), std::move(got), std::move(fix)});
 }
 
-/// By the program's own place: a copied or installed program takes the module that came with it, and no other.
+/// Relative to the program: copied or installed, it uses only the module that came with it.
 fs::path find_module() {
   std::error_code unreadable;
   const fs::path folder = fs::read_symlink("/proc/self/exe", unreadable).parent_path();
@@ -34,8 +34,8 @@ fs::path find_module() {
          "run `./run build`, or copy the module together with the program");
 }
 
-/// libtiff prints to stderr what is wrong with a file; our message reports it. OpenImageIO 2.4 replaces the functions
-/// that print, 2.5 does not for files in memory.
+/// libtiff prints its errors to stderr; our message reports them already. OpenImageIO 2.4 replaces the printing
+/// functions, 2.5 does not for files in memory.
 void silence_libtiff(void* module) {
   using Handler = void (*)(const char* place, const char* format, std::va_list);
   for (const char* setter : {"TIFFSetErrorHandler", "TIFFSetWarningHandler"}) {
@@ -45,7 +45,7 @@ void silence_libtiff(void* module) {
 
 const Codec& open_module() {
   const fs::path path = find_module();
-  // Lazily, as the program itself is: hundreds of libraries hold far more functions than a picture calls.
+  // Bind lazily, like the program itself: hundreds of libraries have far more functions than a picture calls.
   void* module = ::dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (module == nullptr) {
     const char* reason = ::dlerror();

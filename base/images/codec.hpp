@@ -25,7 +25,7 @@ struct Encoding {
   Metadata metadata;
 };
 
-/// `what` of a refusal for lack of memory, a failure of the machine.
+/// ErrorParts::what when memory runs out, which is a failure of the machine.
 inline constexpr const char* kNoMemory = "not enough memory to decode";
 
 /// The operations of the module. Refusals are returned as data, not thrown, so that program and module share no symbol.

@@ -7,7 +7,7 @@ namespace fastsplat::images {
 
 std::string with_primaries(const std::string& transfer, const Primaries& primaries) {
   constexpr Primaries kOfSrgb{0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290};
-  constexpr double kStep = 1e-3;  // three digits are what writers give
+  constexpr double kStep = 1e-3;  // writers store three digits
   std::string text;
   bool differ = false;
   for (std::size_t i = 0; i < primaries.size(); ++i) {

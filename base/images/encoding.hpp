@@ -1,4 +1,4 @@
-// Names for the colour encodings that files declare. Samples of equal names may be compared.
+// Names of the colour encodings that files declare. Samples may be compared if their names are equal.
 #pragma once
 
 #include <array>

@@ -11,7 +11,7 @@ namespace {
 
 using Bytes = std::span<const unsigned char>;
 
-/// Reads from the front; nothing where the bytes end before.
+/// Reads from the front; returns nothing if too few bytes are left.
 class Reader {
  public:
   explicit Reader(Bytes bytes) : rest_(bytes) {}
@@ -24,7 +24,7 @@ class Reader {
     rest_ = rest_.subspan(count);
     return taken;
   }
-  /// Up to a zero byte, which is taken too.
+  /// The text up to a zero byte; consumes that byte, too.
   std::optional<std::string_view> name() {
     const auto end = std::find(rest_.begin(), rest_.end(), 0);
     if (end == rest_.end()) return {};
@@ -44,7 +44,7 @@ class Reader {
   Bytes rest_;
 };
 
-/// What OpenEXR reads of a type whatever the length says; 0: it goes by the length.
+/// Bytes that OpenEXR reads for a type, whatever the declared length; 0 if it follows the length.
 std::size_t fixed_size(std::string_view type) {
   struct Type {
     std::string_view name;
@@ -80,7 +80,7 @@ std::size_t fixed_size(std::string_view type) {
 
 constexpr std::size_t kChannel = 16;  // sample type, linearity and three reserved bytes, sampling in x and y
 
-/// Channels up to an empty name, each of four words behind its name; nothing behind.
+/// Channels, each a name and four words, up to an empty name; no bytes follow.
 bool is_channel_list(Bytes value) {
   Reader reader(value);
   for (auto name = reader.name(); name; name = reader.name()) {
@@ -90,7 +90,7 @@ bool is_channel_list(Bytes value) {
   return false;
 }
 
-/// Each channel's name and four words.
+/// Calls visit(name, words) for each channel.
 template <class Visit>
 void each_channel(Bytes list, const Visit& visit) {
   Reader reader(list);
@@ -118,7 +118,7 @@ bool is_subsampled(Bytes list) {
   return found;
 }
 
-/// Texts, each behind its length.
+/// Texts, each preceded by its length.
 bool is_text_list(Bytes value) {
   Reader reader(value);
   while (reader.left() > 0) {
@@ -128,7 +128,7 @@ bool is_text_list(Bytes value) {
   return true;
 }
 
-/// Width and height, then as many pixels of four bytes.
+/// Width and height, then width x height pixels of four bytes.
 bool is_preview(Bytes value) {
   Reader reader(value);
   const auto width = reader.word();
@@ -144,7 +144,7 @@ bool fits(std::string_view type, Bytes value) {
   return type != "preview" || is_preview(value);
 }
 
-/// Calls visit(type, value) with each attribute of all parts; it returns what is wrong, or an empty text.
+/// Calls visit(type, value) for each attribute of all parts. Returns the first defect with its offset.
 template <class Visit>
 std::string walk(Bytes bytes, const Visit& visit) {
   constexpr std::uint32_t kMagic = 20000630, kSeveralParts = 1u << 12;
@@ -157,7 +157,7 @@ std::string walk(Bytes bytes, const Visit& visit) {
     const auto name = reader.name();
     if (!name) return "the file ends inside its header" + where;
     if (name->empty()) {
-      // An empty header is the end of the list of parts.
+      // An empty header ends the list of parts.
       if ((*version & kSeveralParts) == 0 || first_of_header) return {};
       first_of_header = true;
       continue;

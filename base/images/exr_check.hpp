@@ -8,11 +8,11 @@
 namespace fastsplat::images {
 
 /// Walks the headers of all parts ("OpenEXR File Layout": name, type, length, value, until an empty name). Returns the
-/// first defect with its byte offset, or an empty text. Lengths are as OpenEXR will read them: the fixed size of
-/// types that have one; a list of channels up to its empty name. OpenEXR itself checks the values and the pixels.
+/// first defect with its byte offset, or an empty text. Lengths are as OpenEXR will read them: the fixed size of a type
+/// that has one, and channel lists up to their empty name. OpenEXR itself checks the values and the pixels.
 std::string exr_defect(std::span<const unsigned char> bytes);
 
-/// A defect of the lists of channels, or an empty text. They have to be sorted: pixels lie in the order of names, and
+/// A defect of the channel lists, or an empty text. They must be sorted: pixels are stored in the order of names, and
 /// readers sort the list. Requires that exr_defect() found nothing.
 std::string exr_channel_defect(std::span<const unsigned char> bytes);
 

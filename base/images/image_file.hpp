@@ -1,5 +1,5 @@
 // Image files: EXR (float, half, raw integer words), PNG (8/16), TIFF (8/16/float); JPEG is read only. OpenImageIO
-// decodes and encodes. It is loaded for the first picture, because it takes a fifth of a second and 100 MB.
+// decodes and encodes. It is loaded at the first picture, because loading takes 0.2 s and 100 MB.
 #pragma once
 
 #include <cstddef>
@@ -43,16 +43,16 @@ void require_library();
 /// Version of OpenImageIO at run time, "2.4.7". Loads it.
 std::string library_version();
 
-/// The values' encoding: as declared, else the format's default: sRGB for PNG and JPEG, linear for EXR and TIFF.
+/// The values' encoding: as declared, or else the format's default (sRGB for PNG and JPEG, linear for EXR and TIFF).
 std::string encoding_of(const LoadedImage& loaded);
 
 /// Reads EXR, PNG, TIFF or JPEG, recognised by content and not by name; 1, 3 (RGB) or 4 (RGBA) channels. Grey with
 /// alpha becomes RGBA. Channels are found by name, after a common prefix ("diffuse.R"). Samples are taken as stored: no
 /// alpha (un)premultiplication, no colour conversion. `encoding` and `unassociated` hold the file's declarations.
 /// Throws UserError (Input) if the file is missing, not an image, truncated, corrupt or too large (a side > 65536 or
-/// more than 2^31 values). Other unsupported content: channels, sample type, lossy (JPEG in TIFF), cropped, an
-/// orientation other than 1, a colour model other than grey and RGB, several images.
-/// Memory grows with the decoded data, so that a wrong size in a header costs nothing.
+/// more than 2^31 values). Unsupported content also throws: channels, sample type, lossy (JPEG in TIFF), cropped, an
+/// orientation other than 1, a colour model other than grey and RGB, several images. Memory grows with the decoded
+/// data, so that a wrong size in a header costs nothing.
 LoadedImage read_image(const std::filesystem::path& path);
 
 /// Without `kind`: .exr Float, .png/.tif/.tiff Uint16; Uint8 if `display` is set.
@@ -62,9 +62,9 @@ struct WriteOptions {
 };
 
 /// Writes premultiplied linear values unchanged (integer kinds: clamped to [0,1], round half up; Half: clamped to
-/// +-65504, round half even). Returns how many values had to be clamped (NaN is written as 0 and counted; Float clamps
-/// nothing). Metadata keys are [a-z0-9_]+, values any text without NUL. The same input gives the same bytes.
-/// Atomic; every failure (unknown extension, kind that the format lacks, read-only, disk full) is a UserError (Input).
+/// +-65504, round half even). Returns the number of clamped values (NaN is written as 0 and counted; Float clamps
+/// nothing). Metadata keys are [a-z0-9_]+, values any text without NUL. The same input gives the same bytes. Atomic;
+/// every failure (unknown extension, kind that the format lacks, read-only, disk full) is a UserError (Input).
 std::size_t write_image(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
                         const WriteOptions& options = {});
 

@@ -18,9 +18,9 @@
 namespace fastsplat::images {
 namespace {
 
-constexpr std::size_t kLargestFile = std::size_t{1} << 34;  // 2^31 float values and some
+constexpr std::size_t kLargestFile = std::size_t{1} << 34;  // bytes; twice 2^31 float values
 
-// The format by its magic number: extensions lie, and trying every reader on hostile bytes only adds risk.
+// The format by its magic number: extensions may lie, and trying every reader on hostile bytes adds risk.
 const char* format_of(std::span<const unsigned char> bytes) {
   struct Magic {
     const char* format;
@@ -77,7 +77,7 @@ LoadedImage read_image(const std::filesystem::path& path) {
       refuse({{}, "several images in one file (animated PNG)", "one", {}, "write a single image"});
     if (const std::string tag = std::strcmp(format, "tiff") == 0 ? tiff_unfollowed(bytes) : ""; !tag.empty())
       refuse({{}, "unsupported TIFF tag " + tag, "sRGB or linear samples", {}, "convert it to sRGB or linear values"});
-    // The decoder fills up with grey what a cut file lacks.
+    // The decoder fills the missing part of a truncated file with grey.
     if (std::strcmp(format, "jpeg") == 0 && file.rfind("\xff\xd9") == std::string::npos)
       refuse({{}, "corrupt or truncated JPEG: its end is missing", {}, {}, "write the file again"});
     if (auto refusal = codec().decode(format, file, loaded)) {

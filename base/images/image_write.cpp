@@ -46,7 +46,7 @@ void write_encoded(const std::filesystem::path& path, Encoding picture) {
   write_text_file(path, std::string(bytes.begin(), bytes.end()));
 }
 
-/// [lowest, highest]; NaN becomes 0. Both are counted.
+/// Clamps to [lowest, highest]; NaN becomes 0. Counts both.
 double clamp_counted(double value, double lowest, double highest, std::size_t& clamped) {
   if (value >= lowest && value <= highest) return value;
   ++clamped;
@@ -62,7 +62,7 @@ std::vector<T> quantised(const std::vector<float>& values, double one, std::size
   return out;
 }
 
-/// Premultiplied colours over black are the colours themselves: alpha falls away and the curve goes on top.
+/// Premultiplied colours are colours over black: drops alpha and applies the sRGB curve.
 Image display_image(const Image& image, std::size_t& clamped) {
   Image shown(image.width, image.height, image.channels == 4 ? 3 : image.channels);
   for (int y = 0; y < image.height; ++y) {

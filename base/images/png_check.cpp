@@ -48,7 +48,7 @@ class PixelStream {
   PixelStream(const PixelStream&) = delete;
   PixelStream& operator=(const PixelStream&) = delete;
 
-  /// Empty when all is well so far.
+  /// Returns the first defect, or an empty text.
   std::string feed(Bytes data) {
     std::array<unsigned char, 65536> out;
     stream_.next_in = const_cast<unsigned char*>(data.data());
@@ -72,7 +72,7 @@ class PixelStream {
  private:
   int passes() const { return header_.interlace == 0 ? 1 : 7; }
 
-  /// Rows of the next pass that has any pixel.
+  /// Advances to the next pass that has a pixel.
   void next_pass() {
     // Adam7: first column, first row, column step, row step of each pass.
     static constexpr std::array<std::array<std::uint32_t, 4>, 7> kAdam7{

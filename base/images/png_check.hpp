@@ -1,5 +1,4 @@
-// Checks that a PNG is complete before libpng reads it: libpng prints its errors to stderr and accepts a missing
-// end.
+// Checks that a PNG is complete before libpng reads it: libpng prints errors to stderr and accepts a missing end.
 #pragma once
 
 #include <span>

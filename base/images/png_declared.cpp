@@ -18,7 +18,7 @@ std::uint32_t number_at(Bytes bytes, std::size_t at) {
          bytes[at + 3];
 }
 
-/// The chunks before the pixels by name, the first of each.
+/// The chunks before the pixels, by name; the first of each name.
 std::map<std::string_view, Bytes> chunks_before_pixels(Bytes bytes) {
   std::map<std::string_view, Bytes> chunks;
   for (std::size_t at = 8; at + 12 <= bytes.size();) {
@@ -36,7 +36,7 @@ std::map<std::string_view, Bytes> chunks_before_pixels(Bytes bytes) {
 double scaled(Bytes chunk, std::size_t at) { return number_at(chunk, at) * 1e-5; }
 
 std::string gamma_encoding(double gamma) {
-  constexpr double kOfSrgb = 1.0 / 2.2, kStep = 5e-4;  // what writers of sRGB put there
+  constexpr double kOfSrgb = 1.0 / 2.2, kStep = 5e-4;  // the value that sRGB writers store
   if (std::abs(gamma - 1.0) < kStep) return kLinear;
   if (std::abs(gamma - kOfSrgb) < kStep) return kSrgb;
   return "gamma " + std::to_string(gamma);
@@ -60,7 +60,7 @@ std::string png_encoding(Bytes bytes) {
   const std::string transfer = gamma == chunks.end() ? std::string() : gamma_encoding(scaled(gamma->second, 0));
   if (primaries == chunks.end() || primaries->second.size() != 32) return transfer;
   Primaries declared{};
-  // White is first there.
+  // cHRM stores white first.
   for (std::size_t i = 0; i < declared.size(); ++i) declared[i] = scaled(primaries->second, 4 * ((i + 2) % 8));
   return with_primaries(transfer.empty() ? kSrgb : transfer, declared);
 }

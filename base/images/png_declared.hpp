@@ -1,4 +1,4 @@
-// The declarations of a PNG about its samples.
+// What a PNG declares: colour encoding and animation.
 #pragma once
 
 #include <span>

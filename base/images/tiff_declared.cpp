@@ -5,7 +5,7 @@
 namespace fastsplat::images {
 namespace {
 
-/// Numbers of a file in its own order of bytes; 0 beyond its end.
+/// Reads numbers in the file's byte order; 0 beyond its end.
 class Numbers {
  public:
   explicit Numbers(std::span<const unsigned char> bytes) : bytes_(bytes) {}
@@ -43,7 +43,7 @@ const char* name_of(std::uint64_t tag) {
 
 std::string tiff_unfollowed(std::span<const unsigned char> bytes) {
   const Numbers numbers(bytes);
-  const bool big = numbers.at(2, 2) == 43;  // BigTIFF: addresses of eight bytes
+  const bool big = numbers.at(2, 2) == 43;  // BigTIFF: eight-byte offsets
   const std::uint64_t directory = big ? numbers.at(8, 8) : numbers.at(4, 4), count_size = big ? 8 : 2,
                       entry_size = big ? 20 : 12;
   if (directory > bytes.size()) return {};

@@ -6,8 +6,8 @@
 
 namespace fastsplat::images {
 
-/// The name of a tag in the first directory that changes the colour of samples; empty without one. Incomplete files are
-/// left to the decoder.
+/// The name of the first tag in the first directory that changes sample colours; empty without one. Incomplete files
+/// are left to the decoder.
 std::string tiff_unfollowed(std::span<const unsigned char> bytes);
 
 }  // namespace fastsplat::images

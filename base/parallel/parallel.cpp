@@ -24,8 +24,8 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
   std::optional<tbb::global_control> allow;
   if (threads > tbb::info::default_concurrency())
     allow.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  // Each worker takes the next job there is. Left to itself, oneTBB halves the range ahead of time, whatever the jobs
-  // hold: one of two threads then had 59 to 72 % of a frame.
+  // Each worker takes the next job. By default oneTBB splits the range in advance, whatever the jobs' cost: one of two
+  // threads then had 59 to 72 % of a frame.
   std::atomic<std::size_t> next{0};
   tbb::task_arena arena(static_cast<int>(std::max<std::size_t>(wanted, 1)));
   arena.execute([&] {
@@ -35,7 +35,7 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
           try {
             for (std::size_t i = next++; i < count; i = next++) job(i);
           } catch (...) {
-            next = count;  // the others finish what they have begun
+            next = count;  // the other workers finish their current jobs
             throw;
           }
         },

@@ -1,5 +1,5 @@
-// Independent jobs on several threads (oneTBB). Jobs write to disjoint places, so that results do not depend on the
-// schedule.
+// Runs independent jobs on several threads (oneTBB). Jobs must write to disjoint places, so that results do not depend
+// on the schedule.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,14 @@
 
 namespace fastsplat {
 
-/// The number of threads that `threads` stands for: itself, or all cores if it is 0.
+/// The number of threads: `threads`, or all cores if it is 0.
 std::size_t thread_count(int threads);
 
 /// Calls job(i) once for every i in [0, count), on at most `threads` threads (0: all cores).
 /// An exception of a job reaches the caller; jobs not yet begun are then skipped.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& job);
 
-/// The same for every i in [0, work.size()), those with the most work first, so that no long job runs last and alone.
+/// The same for every i in [0, work.size()), in order of decreasing work[i], so that no long job runs last and alone.
 void parallel_for(std::span<const std::uint64_t> work, int threads, const std::function<void(std::size_t)>& job);
 
 }  // namespace fastsplat

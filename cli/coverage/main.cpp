@@ -29,7 +29,7 @@ namespace tb = testbench;
 
 const std::filesystem::path kSource = FASTSPLAT_SOURCE_DIR;
 
-/// How much each configuration runs: the smaller it is, the faster. Scenes only fit the products.
+/// The runs of each configuration; smaller ones are faster and run more. Scenes fit the product configurations only.
 struct Run {
   const char* config;
   tb::CoverageVolume volume;
@@ -64,7 +64,7 @@ std::vector<std::pair<std::string, cmodel::BeatSource>> scenes(const cmodel::Con
   for (const Frame& frame : kFrames) {
     scene::SceneDescription description;
     description.volume = "shells:24";
-    description.width = 72;  // more than a tile of the small configurations, and no multiple of one
+    description.width = 72;  // wider than a tile of the small configurations and not a multiple of one
     description.height = 40;
     description.method = frame.method;
     description.slab_opacity = frame.opacity;
@@ -74,7 +74,7 @@ std::vector<std::pair<std::string, cmodel::BeatSource>> scenes(const cmodel::Con
   return out;
 }
 
-/// The device of a configuration whose lines are counted, where the build has one.
+/// Makes a configuration's device with line coverage, if the build has one.
 class Covered {
  public:
   explicit Covered(const cmodel::Config& config) {
@@ -88,10 +88,10 @@ class Covered {
       };
     }
   }
-  const tb::MakeDevice& device() const { return device_; }  ///< empty: not counted
+  const tb::MakeDevice& device() const { return device_; }  ///< empty: no line coverage
   const tb::LineCoverage& lines() const { return lines_; }
 
-  /// Its cover points, as bins.
+  /// The cover points as bins.
   tb::Coverage cover_points() const {
     tb::Coverage out;
     for (const auto& [name, hits] : lines_.cover_points()) out.hit(out.declare("cover", name), hits);
@@ -131,8 +131,8 @@ std::map<std::string, bool> tests_of(const std::string& path, std::vector<std::s
   return results;
 }
 
-/// Coverage of one of the configurations that are run, as they are now: told before minutes of campaigns, and never
-/// left out.
+/// Reads a coverage file. Reports files of other or changed configurations before minutes of campaigns instead of
+/// ignoring them.
 tb::CoverageBook book_of(const std::string& path) {
   auto book = tb::read_book(path);
   std::string names;
@@ -148,7 +148,7 @@ tb::CoverageBook book_of(const std::string& path) {
                .fix = "leave the file out, or open it with `fastsplat report`"});
 }
 
-/// As `fastsplat report` makes it.
+/// The page that `fastsplat report` makes.
 std::string page_of(const std::filesystem::path& result) {
   report::Request request;
   request.results.push_back(report::read_result(result));

@@ -8,7 +8,7 @@
 namespace fastsplat::cli {
 namespace {
 
-// The words up to the cursor are taken from the line itself: bash would take them apart at = and :, which values hold.
+// Splits the line itself, because bash breaks words at = and :, which occur in values.
 const char* const kHead = R"(# bash completion of fastsplat, made by `fastsplat completion bash`; do not edit.
 # For one session: source <(fastsplat completion bash)
 
@@ -90,7 +90,7 @@ std::string quoted_list(const std::vector<std::string>& words) {
   return shell_word(text);
 }
 
-/// Sets what is known of a verb: its flags, the verbs behind it, what its words without a flag may be.
+/// Generates the function that sets a subcommand's completions: flags, nested subcommands, positional arguments.
 std::string verbs_function(const std::vector<Description>& all) {
   std::string text = "_fastsplat_of() {\n  inner='' names='' name_files='' name_folders='' flags=''\n  case $1 in\n";
   for (const Description& verb : all) {
@@ -117,8 +117,8 @@ std::string verbs_function(const std::vector<Description>& all) {
   return text + "_fastsplat_verb() { case $1 in " + inner + ") return 0 ;; esac; return 1; }\n";
 }
 
-/// Says whether $2, of verb $1, takes a value, and sets what is known of it. Flags that mean the same in every verb
-/// that has them, as most do, stand there once.
+/// Generates the function that returns whether flag $2 of subcommand $1 takes a value and sets its completions. Most
+/// flags mean the same in all subcommands that have them; these appear once.
 std::string values_function(const std::vector<Description>& all) {
   struct Use {
     std::string verb;

@@ -1,4 +1,4 @@
-// Completion scripts: every verb, flag and name of a value, for the shell to know without asking the program.
+// Completion scripts: all subcommands, flags and value names; the shell does not run the program to complete.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace fastsplat::cli {
 /// "bash", "zsh", "fish".
 const std::vector<std::string>& completion_shells();
 
-/// The script for one of them; `all`: every verb, the program's own description first.
+/// The script for `shell`. `all`: all subcommands, the program's own description first.
 std::string completion_script(const std::string& shell, const std::vector<Description>& all);
 
 }  // namespace fastsplat::cli

@@ -1,4 +1,4 @@
-// What the program ends with, in words: for help and man pages (docs/guide/reference.md, "Exit codes").
+// Exit codes in words, for help and man pages (docs/guide/reference.md, "Exit codes").
 #pragma once
 
 #include <array>

@@ -25,7 +25,7 @@ end
 
 )";
 
-/// In single quotes, where fish knows \\ and \' alone.
+/// Single-quoted for fish, which then interprets only \\ and \'.
 std::string in_quotes(const std::string& text) {
   std::string out = "'";
   for (const char c : text) {
@@ -35,7 +35,7 @@ std::string in_quotes(const std::string& text) {
   return out + "'";
 }
 
-/// -a takes words apart at spaces, after expanding them: each in quotes of its own.
+/// The words as one quoted list: -a expands it and splits it at spaces.
 std::string list(const std::vector<std::string>& words) {
   std::string text;
   for (const auto& word : words) text += (text.empty() ? "" : " ") + word;

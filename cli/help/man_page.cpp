@@ -10,7 +10,7 @@
 namespace fastsplat::cli {
 namespace {
 
-/// As roff reads it back: no escape, no macro, and minus signs that can be copied.
+/// Escaped for roff: no escape, no macro, and minus signs that can be copied.
 std::string roff(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -25,7 +25,7 @@ std::string roff(const std::string& text) {
   return out.starts_with('.') || out.starts_with('\'') ? "\\&" + out : out;
 }
 
-/// The argument of a macro: spaces stay in it.
+/// An argument of a macro, with its spaces kept.
 std::string argument(const std::string& text) {
   std::string out = roff(text);
   for (std::size_t at = 0; (at = out.find('"', at)) != out.npos; at += 4) out.replace(at, 1, "\\(dq");
@@ -78,7 +78,7 @@ std::string entry(const Flag& flag) {
   return text;
 }
 
-/// Words without a flag first, then the flags under their headings, in the order declared.
+/// Positional arguments first, then the flags under their headings, in the order declared.
 std::string options(const Description& verb) {
   std::vector<std::string> headings;
   for (const Flag& flag : verb.flags) {

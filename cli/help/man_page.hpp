@@ -1,4 +1,4 @@
-// Manual pages, in the man macros that man, groff and mandoc read: one of the program, one of each verb.
+// Man pages in the man macros of man, groff and mandoc: one for the program, one per subcommand.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace fastsplat::cli {
 
-/// "fastsplat-stream-record" of "stream record", "fastsplat" of the program.
+/// "fastsplat-stream-record" for "stream record", "fastsplat" for the program.
 std::string man_page_name(const Description& verb);
 
-/// The page of `verb`, which is one of `all`; the program's own where its name is empty.
+/// The page of `verb`, an entry of `all`; the program's own if its name is empty.
 std::string man_page(const Description& verb, const std::vector<Description>& all);
 
 }  // namespace fastsplat::cli

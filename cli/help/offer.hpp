@@ -1,4 +1,4 @@
-// What a shell may offer for a value, and words as its scripts hold them.
+// Completions that a shell offers for a value, and quoting for the shells' scripts.
 #pragma once
 
 #include <string>
@@ -13,20 +13,20 @@ struct Offer {
   bool files = false, folders = false;
 
   bool nothing() const { return words.empty() && !files && !folders; }
-  /// Some word is only a beginning, "radial.entries=", "every-": no space may follow it.
+  /// Whether some word is a prefix such as "radial.entries=" or "every-", which no space may follow.
   bool goes_on() const;
   bool operator==(const Offer&) const = default;
 };
 
 Offer offer_of(const Flag& flag);
-/// Of all of a verb's words without a flag together.
+/// Of all positional arguments of a subcommand together.
 Offer offer_of_words(const Description& verb);
 
-/// Whether verbs "NAME ..." follow this one.
+/// Whether subcommands "NAME ..." exist.
 bool has_inner(const Description& verb, const std::vector<Description>& all);
-/// "record" of "stream record".
+/// "record" for "stream record".
 std::string last_word(const std::string& name);
-/// The verbs "HEAD x" of `head`, or those of one word where it is the program.
+/// The subcommands "HEAD x" of `head`; for the program, those of one word.
 std::vector<const Description*> inner_of(const Description& head, const std::vector<Description>& all);
 
 std::string bash_script(const std::vector<Description>& all);

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kColumns = 100;
 /// A flag that at least this many subcommands declare alike is listed once, in a table of its own.
 constexpr int kShared = 3;
-/// Longer lists of values are left to the shell's completion.
+/// Longer lists of values are omitted; shell completion offers them.
 constexpr std::size_t kMostValues = 24;
 
 std::string cell(const std::string& text) {
@@ -38,13 +38,13 @@ std::string link(const std::string& title) {
   return fmt::format("[{}](#{})", title, anchor);
 }
 
-/// A sentence of its own, from the one line that the help has.
+/// Makes the help's line a sentence.
 std::string sentence(std::string text) {
   if (text.front() >= 'a' && text.front() <= 'z') text.front() = static_cast<char>(text.front() - 'a' + 'A');
   return text.ends_with('?') ? text : text + ".";
 }
 
-/// "Also: a, b, c." in lines.
+/// "Also: a, b, c.", wrapped.
 std::string listed(const std::string& head, const std::vector<std::string>& words) {
   std::string text = "\n" + head;
   std::size_t length = head.size();

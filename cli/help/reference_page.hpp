@@ -1,5 +1,5 @@
-// The reference in Markdown (docs/guide/reference.md): every subcommand and flag, the keys of scene.toml, what goes
-// with what, configurations and exit codes. All of it comes from what the program itself reads.
+// The reference in Markdown (docs/guide/reference.md): all subcommands and flags, keys of scene.toml, which keys
+// combine, configurations, exit codes. Generated from the tables that the program itself uses.
 #pragma once
 
 #include <string>

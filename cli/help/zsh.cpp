@@ -9,7 +9,7 @@
 namespace fastsplat::cli {
 namespace {
 
-/// In a specification of _arguments: what it would read as its own is escaped.
+/// Escaped for a specification of _arguments.
 std::string plain(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -19,7 +19,7 @@ std::string plain(const std::string& text) {
   return out;
 }
 
-/// A word of _describe's list: colons part it from its explanation.
+/// A word of _describe's list, separated from its explanation by a colon.
 std::string described(const std::string& word, const std::string& what) { return shell_word(plain(word) + ":" + what); }
 
 std::string function_of(const Description& verb) {
@@ -28,7 +28,7 @@ std::string function_of(const Description& verb) {
   return name;
 }
 
-/// Functions that offer the names of a value, one for each list of names.
+/// Functions that offer a value's names, one per distinct list.
 class Lists {
  public:
   /// What _arguments runs for `offer`.

@@ -1,4 +1,4 @@
-// fastsplat compare: how far TEST is from REF, and whether that is within the limits.
+// fastsplat compare: measures the difference of TEST from REF and checks limits.
 #include "analysis/compare.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ struct CompareArguments {
   int clusters = 5;
   std::optional<double> min_psnr, max_lsb, max_mean_lsb, max_rmse_lsb, max_bias_lsb, max_p99_lsb, min_ssim;
   bool allow_nonfinite = false;
-  bool srgb = false;  ///< both are display pictures, whoever wrote them
+  bool srgb = false;  ///< both are display pictures, whatever wrote them
 };
 
 using Json = nlohmann::ordered_json;
@@ -77,7 +77,7 @@ analysis::CompareOptions options_from(const CompareArguments& arguments) {
   throw UserError(ExitCode::NotComparable, {.where = where, .what = what, .expected = {}, .got = {}, .fix = fix});
 }
 
-/// Where the file declares nothing, what is taken for it.
+/// The declared encoding, or the one assumed.
 std::string described_encoding(const images::LoadedImage& loaded) {
   if (!loaded.encoding.empty()) return "declares the encoding " + loaded.encoding;
   return images::encoding_of(loaded) == images::kSrgb
@@ -85,7 +85,7 @@ std::string described_encoding(const images::LoadedImage& loaded) {
              : "declares no encoding and is read as linear values";
 }
 
-/// Both are for looking: the user says so, and no file may say otherwise.
+/// Requires a display picture, as --srgb states; no file may declare otherwise.
 void require_looks(const std::string& file, const images::LoadedImage& picture) {
   if (picture.kind != images::PixelKind::Uint8 && picture.kind != images::PixelKind::Uint16) {
     not_comparable(file,
@@ -104,7 +104,7 @@ bool opaque(const Image& image) {
   return true;
 }
 
-/// Samples are compared as they are stored, so both must mean the same by them.
+/// Stored samples are compared, so they must mean the same in both pictures.
 void check_comparable(const CompareArguments& arguments, const images::LoadedImage& ref,
                       const images::LoadedImage& test) {
   if (arguments.srgb) {
@@ -133,7 +133,7 @@ void check_comparable(const CompareArguments& arguments, const images::LoadedIma
   }
 }
 
-/// Pictures for looking come as grey, RGB or with an alpha that is 1 everywhere: the same colours in three channels.
+/// Converts grey pictures, and pictures whose alpha is 1 everywhere, to three channels with the same colours.
 void spell_out(images::LoadedImage& picture) {
   Image& image = picture.image;
   if (image.channels == 3 || (image.channels == 4 && !opaque(image))) return;
@@ -159,11 +159,11 @@ struct Origin {
   images::Metadata metadata;
 };
 
-/// The measurement and of what.
+/// The measurement and the pictures' origins.
 struct CompareResult {
   analysis::CompareReport report;
   Origin ref, test;
-  std::string all_black;  ///< the one of the two that is, where the other is not; else empty
+  std::string all_black;  ///< the file that is all black while the other is not; else empty
   bool hidden = false;    ///< the worst error is a colour where alpha is 0 in both
 };
 

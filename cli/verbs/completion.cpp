@@ -1,4 +1,4 @@
-// fastsplat completion: what a shell needs to complete verbs, flags and the names of values.
+// fastsplat completion: scripts that complete subcommands, flags and values in a shell.
 #include "cli/help/completion.hpp"
 
 #include "cli/command_line.hpp"

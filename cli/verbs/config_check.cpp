@@ -1,4 +1,4 @@
-// fastsplat config check: is a configuration file one that the device can be?
+// fastsplat config check: whether a configuration is valid and whether RTL can be built from it.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -43,7 +43,7 @@ ExitCode run(const ConfigCheckArguments& arguments) {
   const auto wrong = cmodel::rtl_violation(config);
   json["rtl"] = !wrong;
   if (wrong) {
-    // The fix says again that there is the model.
+    // Without the fix, which repeats that the model supports it.
     const auto why = one_line({wrong->where, wrong->what, wrong->expected, wrong->got, {}});
     output.line("for the model only, no RTL can be built from it: " + why);
     json["no_rtl"] = why;

@@ -32,7 +32,7 @@ void declare(Options& options, ConfigDiffArguments& to) {
   options.example("fastsplat config diff base base --json -", "the same as JSON");
 }
 
-/// What the device would see; names and descriptions are none of that.
+/// Differences that the device sees; names and descriptions do not count.
 struct ConfigDiffResult {
   cmodel::Config a, b;
   std::vector<const cmodel::ConfigKey*> differ;

@@ -1,4 +1,4 @@
-// fastsplat config show: a configuration as the TOML that gives it back.
+// fastsplat config show: a configuration as TOML that reproduces it.
 #include <nlohmann/json.hpp>
 
 #include "cli/common.hpp"

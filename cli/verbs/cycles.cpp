@@ -1,4 +1,4 @@
-// fastsplat cycles: how long the device takes and where the cycles go.
+// fastsplat cycles: how many cycles the device takes and how they are spent.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@
 namespace fastsplat::cli {
 namespace {
 
-constexpr int kLatency = 40;  ///< of the memory in a table of culling, cycles
+constexpr int kLatency = 40;  ///< cycles of memory latency in --cull-table by default
 
 struct CyclesArguments {
   Common common;
@@ -43,12 +43,12 @@ struct CyclesArguments {
   ScalingFlags scaling;
   std::string input = "always", ready = "always", trace;
   bool timeline = false, cull_table = false;
-  int seed = 1, fetch = -1;  ///< none
+  int seed = 1, fetch = -1;  ///< not given
 };
 
 using Json = nlohmann::ordered_json;
 
-/// What is kept of the model after the run.
+/// Results of the model.
 struct Counts {
   cmodel::CycleAccount account;
   cmodel::StallCounters stalls;
@@ -62,7 +62,7 @@ struct Counts {
     idle = model.idle_cycles();
     end = model.end_cycle();
   }
-  /// Of all devices together; the end is that of the last.
+  /// Sums over all devices; `end` is the last device's.
   void take(const ScalingRun& run, const FrameScaling& scaling) {
     counters = run.counters();
     for (const auto& device : scaling.each) {
@@ -83,17 +83,17 @@ struct CyclesResult {
   std::string input, ready;  ///< patterns
   int seed = 1;
   Counts counts;
-  std::vector<FrameScaling> scalings;       ///< if asked for, by devices; the counts are those of the last
+  std::vector<FrameScaling> scalings;       ///< if requested, by number of devices; `counts` are those of the last
   std::string trace;                        ///< empty for none
-  std::optional<Json> timeline;             ///< if asked for
+  std::optional<Json> timeline;             ///< if requested
   std::optional<cmodel::CullCounts> culls;  ///< of a device that culls
   std::optional<int> fetch;
-  std::vector<driver::CullRow> cull_table;  ///< if asked for
+  std::vector<driver::CullRow> cull_table;  ///< if requested
   double seconds = 0.0;
 };
 
-/// Of the splats, those all of whose blocks were frozen when they came: the device computes them for nothing. The fast
-/// unit counts them, by whole tiles; none where the configuration is drawn by the plain one.
+/// Share of the splats whose blocks had all terminated: the device computes them in vain. Counted by the fast unit with
+/// bands of whole tiles; empty if the plain unit drew any tile.
 std::optional<double> hidden_share(const scene::Scene& scene, const cmodel::Config& config, int threads) {
   const auto drawn =
       driver::render(scene, config, {.threads = threads, .band_rows = config.tile_height, .progress = {}});
@@ -101,7 +101,7 @@ std::optional<double> hidden_share(const scene::Scene& scene, const cmodel::Conf
   return static_cast<double>(drawn.units.hidden_splats) / static_cast<double>(drawn.counters.splats);
 }
 
-/// Of devices that cull only.
+/// Whether the cause exists only on devices that cull.
 bool of_culling(std::string_view cause) { return cause == "hidden" || cause == "map"; }
 
 std::string to_text(const cmodel::CullCounts& culls) {
@@ -114,7 +114,7 @@ std::string to_text(const Counts& counts, int slices, bool culls) {
   const auto& account = counts.account;
   const std::uint64_t composited = counts.counters.dirty_blocks * static_cast<std::uint64_t>(slices);
   std::string text;
-  // Of a sink that is hardly ever ready the last share is a million times the ideal: as wide as that takes.
+  // If the sink is rarely ready, the last share can be a million times the ideal: fit the column to it.
   const auto share = [&](std::uint64_t cycles) { return fmt::format("{:.3f}", 100.0 * ratio(cycles, account.ideal)); };
   const std::size_t wide = std::max<std::size_t>(8, share(counts.stalls.busy).size());
   const auto row = [&](char sign, std::string_view name, std::uint64_t cycles, std::string_view meaning) {
@@ -375,7 +375,8 @@ void declare(Options& options, CyclesArguments& to) {
 
 }  // namespace
 
-const Verb verbs::cycles{"cycles", "count the clock cycles of a scene or stream on the device, and show how they are spent",
+const Verb verbs::cycles{"cycles",
+                         "count the clock cycles of a scene or stream on the device, and show how they are spent",
                          verb<CyclesArguments, declare, run>};
 
 }  // namespace fastsplat::cli

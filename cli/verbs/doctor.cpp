@@ -1,4 +1,4 @@
-// fastsplat doctor: what this program is made of and what the machine offers it.
+// fastsplat doctor: the program's parts and what the machine provides.
 #include <fmt/format.h>
 #include <sched.h>
 #include <unistd.h>
@@ -30,7 +30,7 @@ using Json = nlohmann::ordered_json;
 
 struct Library {
   const char* name;
-  const char* version;  ///< null: loaded at need, so it is asked
+  const char* version;  ///< null: loaded on demand and queried
 };
 constexpr Library kLibraries[] = {
     {"CLI11", VERSION_CLI11},        {"fmt", VERSION_FMT},         {"GLM", VERSION_GLM},
@@ -39,7 +39,7 @@ constexpr Library kLibraries[] = {
     {"zlib", VERSION_ZLIB},
 };
 
-/// Processors that this process may use, which containers and taskset make fewer than there are.
+/// Processors available to this process; containers and taskset can reduce them.
 int usable_processors() {
   cpu_set_t set;
   CPU_ZERO(&set);
@@ -58,15 +58,15 @@ bool is_synthetic(const std::string& name) {
 
 struct Scan {
   std::string name;
-  std::optional<volume::Volume> header;  ///< none: missing
-  std::string reason;                    ///< of a missing one
+  std::optional<volume::Volume> header;  ///< absent: missing
+  std::string reason;                    ///< why it is missing
 };
 
 struct Missing {
   std::string what, fix;
 };
 
-/// What the program is and what it found.
+/// The program's parts and what it found.
 struct DoctorResult {
   int processors = 0;
   double memory_gb = 0.0;
@@ -77,7 +77,7 @@ struct DoctorResult {
   std::vector<Missing> missing;
 };
 
-/// Loaded on purpose: whether pictures can be read and written here is what is asked.
+/// Loads the library to find out whether pictures can be read and written here.
 std::string image_library(DoctorResult& result) {
   try {
     return images::library_version();

@@ -1,4 +1,4 @@
-// fastsplat errors: because of which step is the device's picture not the true one.
+// fastsplat errors: which steps cause the device picture's error.
 #include <nlohmann/json.hpp>
 
 #include "analysis/compare.hpp"
@@ -23,7 +23,7 @@ struct ErrorsArguments {
   ConfigFlags config;
   int lsb_bits = 8;
   bool quick = false, shapley = false;
-  std::string blame, maps;  ///< a file and a prefix; empty for none
+  std::string blame, maps;  ///< a file, and a prefix; empty for none
 };
 
 struct ErrorsResult {
@@ -41,7 +41,7 @@ nlohmann::ordered_json to_json(const ErrorsResult& result) {
   return json;
 }
 
-/// "PREFIX.STEP.png" (or .exr) of the whole error and of every step.
+/// "PREFIX.STEP.png" (or .exr) for the total error and each step.
 std::vector<std::string> map_names(const std::string& prefix, const std::vector<stages::StepSet>& sets,
                                    const char* ending) {
   if (prefix.empty()) return {};

@@ -1,4 +1,4 @@
-// fastsplat errors bound: a proved worst case of every pixel's error, beside the error itself.
+// fastsplat errors bound: a proved bound of every pixel's error, beside the error itself.
 #include <nlohmann/json.hpp>
 
 #include "analysis/compare.hpp"

@@ -1,4 +1,4 @@
-// fastsplat errors propose: the cheapest configuration that is good enough for some scenes.
+// fastsplat errors propose: the cheapest configuration that meets a target on all given scenes.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -24,7 +24,7 @@ struct ErrorsProposeArguments {
   std::string target, from = "base", out, journal;
 };
 
-/// "proposed-psnr50": the target's letters and digits.
+/// "proposed-psnr50": from the target's letters and digits.
 std::string name_of(const analysis::Target& target) {
   std::string name = "proposed-";
   for (const char c : target.text) {
@@ -87,7 +87,7 @@ void declare(Options& options, ErrorsProposeArguments& to) {
   options.group("Search");
   options.required("--target", to.target, "TARGET",
                    "target psnr>=DB, max<=LSB or rms<=LSB against golden, in 8-bit LSB over colours and alpha");
-  options.word("--from", to.from, "NAME|FILE", "configuration to start from, which also sets all other keys (base)");
+  options.word("--from", to.from, "NAME|FILE", "configuration to start from, which sets all other keys (base)");
   options.values(driver::config_names);
   options.word("--journal", to.journal, "FILE", "results of tried configurations, reused by later runs; JSON lines");
   options.group("Output");

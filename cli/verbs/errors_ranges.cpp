@@ -1,4 +1,4 @@
-// fastsplat errors ranges: how large what passes each narrowing site gets, and what formats would have done.
+// fastsplat errors ranges: the value ranges at each narrowing site and the effect of other formats.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// fastsplat family: every kind of index, what it costs and what it gets wrong.
+// fastsplat family: cost and error of every index kind.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -61,7 +61,7 @@ Json to_json(const std::vector<analysis::FamilyCell>& cells) {
   return json;
 }
 
-/// --head stands alone: it is of all kinds, and text.
+/// --head covers all kinds and prints text, so it accepts neither --kind, --entries nor --json.
 void check(const FamilyArguments& arguments) {
   if (!arguments.head || (arguments.kind.empty() && !arguments.entries && arguments.common.json.empty())) return;
   throw_usage({.where = "--head",

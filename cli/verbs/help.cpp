@@ -1,4 +1,4 @@
-// fastsplat help: on the program or a verb, to read here or as manual pages.
+// fastsplat help: help on the program or a subcommand, as text, man pages or Markdown.
 #include <filesystem>
 
 #include "base/atomic_file.hpp"
@@ -55,7 +55,7 @@ ExitCode run(const HelpArguments& arguments) {
   return ExitCode::Pass;
 }
 
-/// Every word that a verb's name begins with or goes on with.
+/// All words of subcommand names.
 std::vector<std::string> verb_words() {
   std::vector<std::string> words;
   for (const Verb& verb : all_verbs()) {

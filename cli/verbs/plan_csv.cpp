@@ -20,7 +20,7 @@ struct PlanCsvArguments {
   std::string out;
 };
 
-/// Every column there is, unless some were named.
+/// All columns, unless some were named.
 plan::TableOptions options_from(const PlanCsvArguments& arguments, const plan::Merged& merged) {
   auto options = arguments.rows.options();
   if (!options.columns.empty()) return options;

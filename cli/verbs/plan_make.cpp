@@ -1,4 +1,4 @@
-// fastsplat plan make: a specification's axes expanded into cases, each named by the hash of what it is.
+// fastsplat plan make: expands a specification's axes into cases, each named by its content hash.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -30,7 +30,7 @@ std::string to_text(const plan::Made& made, const PlanMakeArguments& arguments) 
                      arguments.out.empty() ? "" : arguments.out + "\n");
 }
 
-/// The specification and what its settings name; words that are no files do no harm.
+/// The specification and the files named by its settings; words that name no file are harmless.
 std::vector<std::string> inputs_of(const PlanMakeArguments& arguments, const plan::Plan& plan) {
   std::set<std::string> words;
   for (const auto& one : plan.cases) {

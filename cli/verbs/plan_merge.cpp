@@ -1,4 +1,4 @@
-// fastsplat plan merge: the results of a plan in one file, a row a case, in the plan's order.
+// fastsplat plan merge: a plan's results in one file, one row per case, in the plan's order.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ std::string to_text(const plan::Merged& merged, const std::string& out) {
       merged.missing.empty() ? "" : fmt::format("; {} missing", merged.missing.size()), out.empty() ? "" : out + "\n");
 }
 
-/// A file among the results that is none of them would be in the next merge's way.
+/// A foreign file among the results would disturb the next merge.
 void refuse_among_results(const std::string& path, const std::string& results) {
   namespace fs = std::filesystem;
   std::error_code ignored;

@@ -1,4 +1,4 @@
-// fastsplat plan pareto: which rows of merged results are worth having by two metrics.
+// fastsplat plan pareto: the Pareto front of merged results for two metrics.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,10 +28,10 @@ using Json = nlohmann::ordered_json;
 struct PlanParetoResult {
   plan::Merged merged;
   plan::Pareto pareto;
-  plan::Table front, beaten;  ///< as they are shown
+  plan::Table front, beaten;  ///< as printed
 };
 
-/// Rows in their order with, in front, the two metrics; and at the end what `last` says of each.
+/// A table of `rows` with both metrics, and a last column `title` with `last` of each row.
 template <class Last>
 plan::Table table_of(const PlanParetoResult& result, const std::vector<const plan::Row*>& rows,
                      const plan::TableOptions& options, const char* title, const Last& last) {
@@ -40,7 +40,7 @@ plan::Table table_of(const PlanParetoResult& result, const std::vector<const pla
   for (const auto* row : rows) some.rows.push_back(*row);
   plan::TableOptions own{.columns = options.columns, .most = options.most};
   if (own.columns.empty()) {
-    // What tells the front's rows apart tells all of them apart less well: every axis that varies anywhere.
+    // The axes that distinguish the front's rows may not distinguish all rows: use every axis that varies anywhere.
     const auto usual = plan::table_of(result.merged, {}).columns;
     for (const auto& axis : result.merged.axes) {
       if (std::ranges::find(usual, axis.name) != usual.end()) own.columns.push_back(axis.name);

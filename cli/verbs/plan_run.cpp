@@ -1,4 +1,4 @@
-// fastsplat plan run: what is left of a plan, or of a shard of it; killed anywhere, it goes on the next time.
+// fastsplat plan run: runs the remaining cases of a plan or a shard; can be killed at any time and resumes.
 #include <fmt/format.h>
 
 #include <algorithm>

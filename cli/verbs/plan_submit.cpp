@@ -1,4 +1,4 @@
-// fastsplat plan submit: a plan given to a cluster, its shards as tasks of job arrays and a merge after them.
+// fastsplat plan submit: submits a plan to a cluster, its shards as tasks of job arrays, followed by a merge.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,8 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMostTasks = 1000;      ///< of a submission, unless --shards says another number
-constexpr std::size_t kUsualArrayMax = 1001;  ///< Slurm's own, where a dry run cannot ask
+constexpr std::size_t kMostTasks = 1000;      ///< per submission, unless --shards is given
+constexpr std::size_t kUsualArrayMax = 1001;  ///< Slurm's default, for a dry run without scontrol
 
 struct PlanSubmitArguments {
   Common common;
@@ -42,7 +42,7 @@ struct PlanSubmitArguments {
   bool slurm() const { return engine == "slurm"; }
 };
 
-/// What was sent, or would be.
+/// What was submitted, or would be in a dry run.
 struct PlanSubmitResult {
   plan::Submission submission;
   std::vector<plan::JobArray> arrays;
@@ -62,7 +62,7 @@ struct PlanSubmitResult {
        .fix = "submit on a machine of the cluster, or use --engine script; --dry-run prints what would be sent"});
 }
 
-/// Directives are lines of a script: what would be more than one, or none, is refused.
+/// Directives become single lines of a script: refuses those with line ends or without a dash.
 void check(const PlanSubmitArguments& arguments) {
   if (arguments.engine.empty()) {
     throw_usage({.where = "--engine",
@@ -98,8 +98,8 @@ std::string merged_name(const PlanSubmitArguments& arguments) {
 
 std::size_t array_max(const PlanSubmitArguments& arguments) {
   if (arguments.array_max) return *arguments.array_max;
-  if (!arguments.slurm()) return 1000;  // LSF's usual limit, the smaller one
-  // A task's merge may look at what was lost on a machine without clients, and a dry run may be anywhere.
+  if (!arguments.slurm()) return 1000;  // LSF's usual limit, smaller than SGE's
+  // --lost may run in the merge job on a machine without Slurm clients, and a dry run anywhere.
   if ((arguments.dry_run || arguments.lost) && !in_path("scontrol")) return kUsualArrayMax;
   return plan::slurm_array_max();
 }
@@ -138,7 +138,7 @@ void write_files(const PlanSubmitResult& result) {
   for (const auto& file : result.files) write_text_file(file.path, file.text);
 }
 
-/// All of it or nothing: what was queued before sbatch refused is taken back.
+/// Submits everything or nothing: if sbatch fails, cancels the arrays already queued.
 void send(PlanSubmitResult& result) {
   const auto& s = result.submission;
   const std::string names = s.name + "," + s.merge_name();
@@ -158,7 +158,7 @@ void send(PlanSubmitResult& result) {
   }
 }
 
-/// In a dry run there are no numbers yet.
+/// A dry run has placeholders instead of numbers.
 std::vector<std::string> job_numbers(const PlanSubmitResult& result) {
   if (!result.jobs.empty()) return result.jobs;
   std::vector<std::string> names;
@@ -222,7 +222,7 @@ Json to_json(const PlanSubmitResult& result, const PlanSubmitArguments& argument
   return json;
 }
 
-/// What the merge says when results are missing: which tasks, and where they talked.
+/// Lists the tasks whose results are missing, and their logs.
 ExitCode tell_lost(const Output& output, const plan::Plan& plan, const plan::Submission& submission) {
   const auto lost = plan::lost_tasks(plan, submission, plan::cases_to_do(plan, submission.results, program_hash()));
   std::string text;

@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Everything about the flags that can be wrong without reading a file.
+// Checks the flags as far as possible without reading files.
 void check(const RenderArguments& arguments, Engine engine) {
   if (arguments.out.empty() && arguments.raw.empty() && arguments.common.json.empty() && arguments.save_scene.empty() &&
       arguments.wave.file.empty()) {
@@ -71,7 +71,7 @@ void check(const RenderArguments& arguments, Engine engine) {
   }
 }
 
-/// A picture in words; its pixels are in the files.
+/// Figures of a picture; its pixels are in the files.
 struct RenderResult {
   std::string engine;
   scene::Scene scene;
@@ -110,7 +110,7 @@ Json to_json(const RenderResult& result) {
   return json;
 }
 
-/// TOML is text: a file whose name is none cannot be named in it.
+/// TOML is UTF-8 text and cannot name files whose names are not.
 void require_saveable(const scene::SceneDescription& description) {
   if (is_utf8(scene::to_toml(description))) return;
   throw_usage({.where = "--save-scene",

@@ -1,4 +1,4 @@
-// fastsplat report: results and their pictures as one page that opens from disk, and as JUnit XML, CSV and Markdown.
+// fastsplat report: results and pictures as one page that opens from disk, and as JUnit XML, CSV and Markdown.
 #include "report/report.hpp"
 
 #include <fmt/format.h>
@@ -75,7 +75,7 @@ void check(const ReportArguments& arguments, const std::vector<report::NamedPict
   check_outputs({.images = {}, .maps = {}, .raws = {}, .others = written_by(arguments), .inputs = inputs});
 }
 
-/// The faces that are asked for. All texts are there before the first file is.
+/// Writes the requested output formats; generates all texts before the first file.
 void write_faces(const ReportArguments& arguments, const std::vector<report::Result>& results) {
   const std::string junit = arguments.junit.empty() ? "" : report::to_junit(results);
   const std::string csv = arguments.csv.empty() ? "" : report::to_csv(results);
@@ -99,7 +99,7 @@ ExitCode run(const ReportArguments& arguments) {
   check(arguments, request.pictures);
   for (const auto& name : arguments.results) {
     request.results.push_back(report::read_result(name));
-    // Neither may it take the place of a picture that a result names.
+    // An output must not replace a picture that a result names.
     for (const auto& picture : report::pictures_of(request.results.back()))
       check_outputs({.others = written_by(arguments), .inputs = {picture.file.string()}});
   }

@@ -47,7 +47,7 @@ ExitCode run(const StreamDumpArguments& arguments) {
     buffer.clear();
     return more;
   };
-  // What is wrong with the stream is told after what could be told of it.
+  // Dumps the valid part of the stream before reporting its error.
   std::optional<UserError> wrong;
   try {
     driver::dump_stream(arguments.stream, tell);

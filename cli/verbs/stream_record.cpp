@@ -1,4 +1,4 @@
-// fastsplat stream record: what the device is fed for a scene, in a file.
+// fastsplat stream record: records the device's input stream of a scene to a file.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -46,7 +46,7 @@ void declare(Options& options, StreamRecordArguments& to) {
                   "the stream of 3-D Gaussians");
 }
 
-/// What was recorded, in words.
+/// Figures of the recording.
 struct StreamRecordResult {
   std::string scene;  ///< its summary
   std::string stream;

@@ -36,7 +36,7 @@ void declare(Options& options, StreamReplayArguments& to) {
                   "the raw words, and the device's counters as JSON");
 }
 
-/// What was replayed, in words; its pixels are in the files.
+/// Figures of the replay; its pixels are in the files.
 struct StreamReplayResult {
   std::string stream;
   int width = 0, height = 0;

@@ -1,4 +1,4 @@
-// fastsplat stream vectors: a recorded stream and what the device makes of it, as plain text.
+// fastsplat stream vectors: a recorded stream and its expected taps and pixels, as plain text.
 #include "driver/files/stream_vectors.hpp"
 
 #include <filesystem>
@@ -35,7 +35,7 @@ void declare(Options& options, StreamVectorsArguments& to) {
                   "the list of written files as JSON");
 }
 
-/// What was written, in words.
+/// Figures of the written files.
 struct StreamVectorsResult {
   std::string stream, folder;
   cmodel::Config config;
@@ -66,7 +66,7 @@ Json to_json(const StreamVectorsResult& result) {
   return json;
 }
 
-/// The files to be, where their folder is there: only there can one of them be what the command reads.
+/// The output files if the folder exists; only then can one of them be an input.
 std::vector<std::string> outputs_in(const std::string& folder) {
   std::vector<std::string> names;
   if (std::filesystem::is_directory(folder))

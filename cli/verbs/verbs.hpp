@@ -1,4 +1,4 @@
-// The verbs, each defined in the file of its name.
+// The subcommands, each defined in the file of its name.
 #pragma once
 
 #include "cli/verb.hpp"

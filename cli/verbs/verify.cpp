@@ -1,4 +1,4 @@
-// fastsplat verify: a scene, a recorded stream or random streams through the RTL, beside the model.
+// fastsplat verify: compares the RTL with the model on a scene, a recorded stream or random streams.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,8 +24,7 @@
 namespace fastsplat::cli {
 namespace {
 
-/// Where a failure's files go, without ending and number, when they were not named: never onto the stream that is
-/// verified.
+/// Default prefix of a failure's files, without number; never the verified stream itself.
 std::string failure_stem(const VerifyArguments& arguments) {
   return arguments.stream.empty() ? "verify-failure"
                                   : std::filesystem::path(arguments.stream).replace_extension().string() + "-smaller";
@@ -36,7 +35,7 @@ bool has_rtl_fault(const VerifyArguments& arguments) {
          testbench::planted_fault_from(arguments.fault).where == testbench::PlantedFault::Where::Rtl;
 }
 
-/// A fault of the RTL brings the configuration that it is in.
+/// A fault in the RTL implies its configuration, unless one is given.
 ConfigFlags config_of(const VerifyArguments& arguments) {
   ConfigFlags config = arguments.config;
   if (arguments.fault.empty() || config.config) return config;
@@ -82,8 +81,7 @@ void check_wave(const VerifyArguments& arguments, Source source) {
   }
 }
 
-/// The results that were named. Those of a failure are only tried beforehand where they are among them: a run that
-/// passes writes none.
+/// Named output files. Files of a failure are included only if named, because a passing run writes none.
 std::vector<std::string> named_files(const VerifyArguments& arguments, const std::vector<std::string>& saved) {
   auto names = joined({arguments.common.json, arguments.coverage, arguments.junit, arguments.wave.file}, saved);
   return arguments.failure.empty() ? names : joined(names, failure_files(arguments.failure));
@@ -99,7 +97,7 @@ void check_files(const VerifyArguments& arguments, const ConfigFlags& config, So
   check_outputs(names);
 }
 
-/// What the coverage file holds may be of another configuration, or no coverage: told before any work.
+/// Rejects, before any work, a coverage file that is invalid or belongs to another configuration.
 void check_coverage(const std::string& path, const cmodel::Config& config) {
   if (path.empty() || !std::filesystem::exists(path)) return;
   testbench::read_book_for(path, config.name, cmodel::config_hash(config));
@@ -118,8 +116,7 @@ Gain save_coverage(const Checked& checked, const std::string& path, const cmodel
   return {.path = path, .bins = all.bins().size(), .hit = static_cast<std::size_t>(hit)};
 }
 
-/// The streams that were run, as they were run: those of a passing campaign, or up to the one that failed.
-/// Nothing behind the first that cannot be written.
+/// Saves the streams that ran: all of a passing campaign, or up to the failed one. Stops at the first write error.
 std::vector<SavedStream> save_streams(const VerifyArguments& arguments, const Checked& checked,
                                       const ConfigFlags& config, const testbench::VerifyOptions& options,
                                       const std::vector<std::string>& names, LateResults& results) {
@@ -140,8 +137,8 @@ bool failed(testbench::Verdict verdict) {
   return verdict == testbench::Verdict::Mismatch || verdict == testbench::Verdict::Simulation;
 }
 
-/// The first divergence as it was, then small, with its files; where they cannot be, that is told and takes nothing
-/// away. `named`: what the command writes besides.
+/// Reports the first divergence, then a shrunk one with its files; write errors become warnings. `named`: other files
+/// of the command.
 Failure look_into(const Checked& checked, const VerifyArguments& arguments, const ConfigFlags& config,
                   const std::vector<std::string>& named, const Output& output) {
   std::string prefix = arguments.failure, no_place;
@@ -161,7 +158,7 @@ Failure look_into(const Checked& checked, const VerifyArguments& arguments, cons
   if (!no_place.empty()) failure.unwritten.push_back(no_place);
   output.line(to_text(failure));
   for (const auto& why : failure.unwritten) output.warn(why);
-  // A verdict without a word is no use to whoever reads the log: errors are said, quiet or not.
+  // Even with --quiet, a failure prints its reason.
   if (arguments.common.quiet) print_error(in_short(checked.failed.verdict, failure, arguments.fault));
   return failure;
 }
@@ -205,7 +202,7 @@ ExitCode verify_and_tell(const VerifyArguments& arguments) {
   prepare_rtl(config, abilities, arguments.common);
   check_coverage(arguments.coverage, config);
   const std::string seed = fmt::format("seed {}", arguments.seed);
-  // The seed comes first, so that it is known whatever happens next, and last, where the eye is.
+  // The seed is printed first, so that it is known if the run dies, and last, where it is seen.
   arguments.common.json == "-" ? output.note(seed) : output.line(seed);
 
   const Checked checked = check(arguments, source, options, output);
@@ -225,7 +222,7 @@ ExitCode verify_and_tell(const VerifyArguments& arguments) {
   if (!arguments.fault.empty() && result.run.verdict == testbench::Verdict::Pass)
     result.run.verdict = testbench::Verdict::FaultUnseen;
   const auto verdict = result.run.verdict;
-  output.line(to_text(result));  // what follows takes time
+  output.line(to_text(result));  // investigating takes time
   if (source == Source::Scene && verdict == testbench::Verdict::NothingCompared) {
     output.warn(
         "no splat of the scene reached the device; try a larger --opacity-scale or --xray-exposure, another --tf or "
@@ -234,7 +231,7 @@ ExitCode verify_and_tell(const VerifyArguments& arguments) {
   if (verdict == testbench::Verdict::FaultUnseen)
     output.warn(
         "this stimulus does not reveal the fault; try more splats, every --class, --ready all or --reset-after N");
-  // As of a failure: quiet or not, why there is no pass is said.
+  // As for a failure: even with --quiet, print why the run did not pass.
   if (arguments.common.quiet && verdict != testbench::Verdict::Pass && !failed(verdict))
     print_error(fmt::format("{}{}{}; {}", testbench::to_string(verdict), arguments.fault.empty() ? "" : ": ",
                             arguments.fault, seed));
@@ -276,7 +273,7 @@ ExitCode run(const VerifyArguments& arguments) {
                      .got = {},
                      .fix = "record it at a smaller --size"});
     }
-    if (!arguments.random) throw;  // a scene is what takes memory: told as everywhere
+    if (!arguments.random) throw;  // the scene takes the memory: handled as everywhere
     throw_machine({.where = fmt::format("--random {}", *arguments.random),
                    .what = "not enough memory for streams of this many splats",
                    .expected = {},

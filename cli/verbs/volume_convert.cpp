@@ -1,4 +1,4 @@
-// fastsplat volume convert: a volume of any format read here, in one that is written here.
+// fastsplat volume convert: converts any readable volume format to a writable one.
 #include <fmt/format.h>
 
 #include <map>
@@ -44,7 +44,7 @@ volume::VoxelType type_from(const std::string& name) {
                                                               {"u16", volume::VoxelType::U16},
                                                               {"i16", volume::VoxelType::I16},
                                                               {"f32", volume::VoxelType::F32}};
-  return types.at(name);  // declare() lets no other name through
+  return types.at(name);  // declare() accepts no other names
 }
 
 /// What was written.

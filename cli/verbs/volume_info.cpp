@@ -40,10 +40,10 @@ void declare(Options& options, VolumeInfoArguments& to) {
 
 std::string angle(double degrees) { return fmt::format("{:.1f} degrees", degrees); }
 
-/// How the volume lies in the body, where its file says so.
+/// Position and orientation in the body, if the file has them.
 std::string place_text(const volume::Volume& volume) {
   if (!volume.placed) return {};
-  // Not -0, which nobody wants to read.
+  // Turns -0 into 0.
   const auto vector = [](const glm::dvec3& v) {
     return fmt::format("({:.4g}, {:.4g}, {:.4g})", v.x + 0.0, v.y + 0.0, v.z + 0.0);
   };
@@ -54,14 +54,14 @@ std::string place_text(const volume::Volume& volume) {
   return text + (turn.shear > 0.05 ? fmt::format(", sheared by {}\n", angle(turn.shear)) : "\n");
 }
 
-/// What the voxels' values are, beyond the least and the greatest.
+/// Statistics of the voxels' values, besides minimum and maximum.
 struct Values {
   static constexpr std::array<double, 5> kShares{0.01, 0.25, 0.5, 0.75, 0.99};
   std::array<double, kShares.size()> percentiles{};  ///< of all voxels
-  double background = 0.0;                           ///< its greatest value
+  double background = 0.0;                           ///< its largest value
   std::size_t background_voxels = 0;
-  scene::ValueSpan shown{};                 ///< of the other voxels, without the few at both ends
-  std::array<std::size_t, 64> histogram{};  ///< bins of one width from the least value to the greatest
+  scene::ValueSpan shown{};                 ///< range of the other voxels, without outliers at both ends
+  std::array<std::size_t, 64> histogram{};  ///< equal bins from the least to the largest value
 };
 
 Values values_of(const volume::Volume& volume) {
@@ -79,7 +79,7 @@ Values values_of(const volume::Volume& volume) {
   return values;
 }
 
-/// One character a bin, by the logarithm of its count.
+/// One character per bin, by the logarithm of its count.
 std::string drawn(const Values& values) {
   constexpr std::string_view kInk = " .:-=+*#%@";
   const double most = static_cast<double>(*std::max_element(values.histogram.begin(), values.histogram.end()));

@@ -1,5 +1,4 @@
-// What the tables of a device that classifies densities consist of (docs/numerics.md, section 6.2; docs/stream.md):
-// words of each and what a word may be.
+// Number and range of the words of density tables (docs/numerics.md, section 6.2; S-table-11).
 #pragma once
 
 #include <cstddef>
@@ -13,7 +12,7 @@ namespace fastsplat::cmodel {
 
 namespace classify {
 
-// Fraction bits of the section's words.
+// Fraction bits of the words of section 6.2.
 inline constexpr int kColour = 14;  ///< E, One
 inline constexpr int kScale = 12;   ///< of differences, One
 inline constexpr int kSlope = 16;   ///< g, S 4.16
@@ -34,17 +33,17 @@ inline constexpr std::size_t kVectors = 0;  ///< light: right, down, ahead; half
 inline constexpr std::size_t kAmbient = 6, kDiffuse = 7, kSpecular = 8;
 inline constexpr std::size_t kTilts = 9;  ///< TX, DX, TY, DY
 inline constexpr std::size_t kLightWords = 13;
-inline constexpr std::size_t kSheetWords = 2;  ///< of SHEETS, of each sheet: scales; 1/floor
-inline constexpr int kSheetsBits = 12;         ///< SHEETS speaks of at most 2^this sheets
+inline constexpr std::size_t kSheetWords = 2;  ///< words of SHEETS for each sheet: scales; 1/floor
+inline constexpr int kSheetsBits = 12;         ///< SHEETS describes at most 2^this sheets
 
-/// How all of the section narrows.
+/// n(v, f, F) of section 6.2, which narrows all of its words (N-6.2-7).
 inline Narrowing nearest(int from_frac, const Format& to) { return {Rounding::RND, Overflow::SAT, from_frac, to}; }
 
 }  // namespace classify
 
-/// Words of CLASSIFY, ROOT, GLINT or LIGHTING.
+/// Number of words of CLASSIFY, ROOT, GLINT or LIGHTING.
 std::int64_t classify_words(const Config& config, Table table);
-/// What word `word` of one of the tables may be; the two halves of SHEETS' first are not looked at.
+/// Range of word `word` of a table. Does not check the two scales in SHEETS' first word of a sheet.
 WordRange classify_word_range(const Config& config, Table table, std::size_t word);
 
 }  // namespace fastsplat::cmodel

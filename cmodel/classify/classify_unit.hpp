@@ -1,5 +1,5 @@
-// Unit "classify": a pixel's density and its differences to the neighbours' become what a sheet of colours would hold
-// there (docs/numerics.md, section 6.2). Pure steps on tables that the driver loads.
+// Unit "classify": turns a pixel's density and its differences to neighbours into the sums that a sheet of colours
+// would hold (N-6.2-8 to N-6.2-13). Pure functions on tables that the driver loads.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@
 
 namespace fastsplat::cmodel {
 
-/// Differences of density words: right less left, below less above, behind less before; to both sides, so that one to
-/// one side counts twice.
+/// Differences of density words: right - left, below - above, behind - before. One-sided differences are doubled
+/// (N-6.2-9).
 struct DensitySlope {
   std::int64_t x = 0, y = 0, z = 0;
 };
@@ -25,21 +25,21 @@ class ClassifyUnit {
  public:
   explicit ClassifyUnit(const Config& config);
 
-  /// The words of a checked load_table record of one of its tables.
+  /// Loads a checked load_table record of one of its tables.
   void load(Table table, std::span<const std::uint32_t> words);
 
   const PatternUnit& pattern() const { return pattern_; }
 
-  /// Density (U si.sf) of pixel (x,y) of the image in sheet `sheet`: R, G, B, tau as section 6 takes them from a sheet.
+  /// R, G, B, tau to composite at pixel (x,y) of the image in sheet `sheet`, U si.sf, from its density (U si.sf).
   SheetWord operator()(std::uint32_t density, const DensitySlope& slope, std::int32_t x, std::int32_t y,
                        std::uint32_t sheet) const;
 
  private:
-  /// A table in linear segments, words of f fraction bits: its value at segment i, `rest` of 2^rest_bits on.
+  /// A piecewise linear table of words with `frac_bits` fraction bits, interpolated at `rest` of 2^rest_bits (N-6.2-7).
   class Lines {
    public:
     Lines(int frac_bits, int rest_bits);
-    /// `first` of a table of several channels, `step` words from one entry to the next.
+    /// Value at `position`; `first`: channel of a table with several, `step`: words of an entry.
     std::int64_t at(std::span<const std::uint32_t> words, std::int64_t position, std::size_t first = 0,
                     std::size_t step = 1) const;
 
@@ -47,17 +47,17 @@ class ClassifyUnit {
     int rest_bits_;
     Narrowing fall_;
   };
-  /// g, and what makes its length 1.
+  /// The gradient g, and the factors that normalise it (N-6.2-11).
   struct Normal {
-    std::array<std::int64_t, 3> g;  ///< right, down, ahead; S 4.16, S 14.16 where it leans
+    std::array<std::int64_t, 3> g;  ///< right, down, ahead; S 4.16, after lean() S 14.16
     std::int64_t m = 0;             ///< |g| is sqrt(m) 2^half_shift words; 16 fraction bits, 1..4
     int half_shift = 0;             ///< e/2
     std::int64_t root = 0;          ///< 1/sqrt(m), One.14
   };
-  /// Of normal.g what makes its length 1; false where it has none.
+  /// Computes the factors that normalise normal.g; false if g is 0.
   bool measure(Normal& normal) const;
   std::int64_t length(const Normal& normal) const;  ///< |g|, U 5.24
-  /// Adds to g, by its length, what of `by` (S 10.16) does not lie along it.
+  /// Adds the part of `by` (S 10.16) perpendicular to g, times |g|, to g (N-6.3-11).
   void lean(Normal& normal, const std::array<std::int64_t, 3>& by) const;
   std::int64_t facing(const Normal& normal, std::size_t vector) const;
   std::int64_t tilt(std::size_t axis, std::int32_t pixel) const;

@@ -1,5 +1,5 @@
-// Unit "density ring": the live sheets of a tile of densities. A sheet waits for the one behind it, to be classified
-// between its neighbours (docs/numerics.md, section 6.2).
+// Unit "density ring": the live sheets of a tile of densities. A sheet waits for the one behind it and is then
+// classified between its neighbours (N-6.2-4).
 #pragma once
 
 #include <algorithm>
@@ -9,13 +9,13 @@
 
 namespace fastsplat::cmodel {
 
-/// A finished sheet of densities, the rim of one pixel with it.
+/// A finished sheet of densities with a halo of one pixel.
 class DensitySheet {
  public:
-  /// Of width x height pixels, all 0: the sheet that is not there.
+  /// A missing sheet: width x height pixels, all 0.
   DensitySheet(int width, int height)
       : width_(width), words_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0) {}
-  /// Takes what was splatted out of the buffer, which is clear after that.
+  /// Moves the densities out of the buffer, which is clear after that.
   template <class Buffer>
   void take(Buffer& from, std::uint32_t number, int lanes) {
     number_ = number;
@@ -33,11 +33,11 @@ class DensitySheet {
   }
 
   std::uint32_t number() const { return number_; }
-  /// Pixel (0,0) is the rim's.
+  /// Pixel (0,0) is the halo's.
   std::int64_t at(int x, int y) const {
     return words_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
   }
-  /// Dirty ones, row by row.
+  /// Dirty blocks, row by row.
   const std::vector<std::pair<int, int>>& blocks() const { return blocks_; }
 
  private:
@@ -49,13 +49,13 @@ class DensitySheet {
 
 class DensityRing {
  public:
-  /// Sides with the rim.
+  /// Sides include the halo.
   void begin_tile(int width, int height) {
     const DensitySheet none(width, height);
     before_ = here_ = behind_ = empty_ = none;
     waiting_ = false;
   }
-  /// The sheet that was splatted has ended: classify(before, here, behind) of the one that waited.
+  /// Ends the sheet in `splatted` and calls classify(before, here, behind) for the one that waited, if any.
   template <class Buffer, class Classify>
   void end_sheet(Buffer& splatted, std::uint32_t number, int lanes, Classify classify) {
     behind_.take(splatted, number, lanes);

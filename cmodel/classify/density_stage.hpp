@@ -17,11 +17,11 @@ class DensityStage {
  public:
   explicit DensityStage(const Config& config) : lanes_(config.lanes), classify_(config) {}
 
-  /// The words of a checked load_table record of one of its tables.
+  /// Loads a checked load_table record of one of its tables.
   void load(Table table, std::span<const std::uint32_t> words) { classify_.load(table, words); }
-  /// The frame's solid pattern, which sheets of colours have, too.
+  /// The frame's solid pattern, which also tints sheets of colours.
   const PatternUnit& pattern() const { return classify_.pattern(); }
-  /// Pixels that a sheet holds around those of the tile.
+  /// Halo: pixels that a sheet holds on each side of the tile.
   static int rim(Mode mode) { return holds_densities(mode) ? 1 : 0; }
   void begin_tile(const BeginTile& tile, const BeginFrame& frame) {
     tile_ = tile;
@@ -29,14 +29,14 @@ class DensityStage {
     frame_height_ = frame.height;
     ring_.begin_tile(tile.width + 2, tile.height + 2);
   }
-  /// Sheet `number` has ended, in `splatted`: that has drain(visit(bx, by)), at(x, y) with the rim's pixel at (0,0),
-  /// and is clear after it. Of the sheet that waited: pixel(sums, x, y) for the tile's pixels of each of its dirty
-  /// blocks, and then block(x, y, its number), that block's first pixel, in the rim perhaps.
+  /// Ends sheet `number`, which is in `splatted`: that has drain(visit(bx, by)), at(x, y) with the halo's first pixel
+  /// at (0,0), and is clear after it. For the sheet that waited, calls pixel(sums, x, y) for the tile's pixels of each
+  /// dirty block, then block(x, y, sheet number) with the block's first pixel, perhaps in the halo.
   template <class Buffer, class Pixel, class Block>
   void end_sheet(Buffer& splatted, std::uint32_t number, Pixel pixel, Block block) {
     ring_.end_sheet(splatted, number, lanes_, [&](const auto&... sheets) { visit(sheets..., pixel, block); });
   }
-  /// The same of the sheet that waits for none any more.
+  /// The same for the last sheet, which nothing follows.
   template <class Pixel, class Block>
   void end_tile(Pixel pixel, Block block) {
     ring_.end_tile([&](const auto&... sheets) { visit(sheets..., pixel, block); });
@@ -45,7 +45,7 @@ class DensityStage {
  private:
   DensitySlope slope(const DensitySheet& before, const DensitySheet& here, const DensitySheet& behind, int x,
                      int y) const {
-    // At the picture's edges to one side, which counts twice.
+    // One-sided at the image's edges, and doubled (N-6.2-9).
     const bool left = tile_.x + x == 0, right = tile_.x + x == frame_width_ - 1;
     const bool top = tile_.y + y == 0, bottom = tile_.y + y == frame_height_ - 1;
     const int i = x + 1, j = y + 1;

@@ -11,7 +11,7 @@ using namespace pattern;
 
 using classify::nearest;
 
-/// 0..M-1 nodes.
+/// Places 0 .. M-1 among the nodes (N-6.3-4).
 Format place_format(const Config& config) {
   return {0, ((std::int64_t{1} << config.pattern_node_bits) - 1) << kPlace, kPlace, 0};
 }
@@ -51,7 +51,7 @@ PatternUnit::Node PatternUnit::line(const Node& a, const Node& b, std::int64_t r
 PatternUnit::Node PatternUnit::between(const Pixel& pixel) const {
   const std::array<std::int64_t, 3> at{pixel.x, pixel.y, pixel.sheet};
   std::size_t number = 0;
-  std::array<std::size_t, 3> next{};  // to the next node along each axis; 0 where it is not read
+  std::array<std::size_t, 3> next{};  // step to the next node along each axis; 0 if it is not read
   std::array<std::int64_t, 3> rest;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::int64_t away = std::clamp<std::int64_t>(at[axis] - words_[kPlaces + axis], 0, kFar);

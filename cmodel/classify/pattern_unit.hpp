@@ -1,5 +1,5 @@
-// Unit "pattern": a solid pattern's tint and lean at a pixel of a sheet, between the nodes of a table that the driver
-// loads (docs/numerics.md, section 6.3).
+// Unit "pattern": a solid pattern's tint and lean at a pixel of a sheet, interpolated between the nodes of a table
+// (docs/numerics.md, section 6.3).
 #pragma once
 
 #include <array>
@@ -18,12 +18,12 @@ class PatternUnit {
  public:
   explicit PatternUnit(const Config& config);
 
-  /// The words of a checked load_table record of one of its tables.
+  /// Loads a checked load_table record of one of its tables.
   void load(Table table, std::span<const std::uint32_t> words);
-  /// Whether the frame has a pattern; without one nothing below may be asked.
+  /// Whether the frame has a pattern; all functions below require one.
   bool loaded() const { return nodes_ != nullptr; }
 
-  /// Where a pixel of the image lies in a sheet.
+  /// A pixel of the image in a sheet.
   struct Pixel {
     std::int64_t x = 0, y = 0, sheet = 0;
   };
@@ -33,9 +33,9 @@ class PatternUnit {
   };
   Sample operator()(const Pixel& pixel) const;
 
-  /// What section 6 takes of a sheet of colours: R, G, B of the sums, tinted; tau as it is.
+  /// A sheet's sums with R, G and B tinted; tau unchanged (N-6.3-8).
   SheetWord tinted(const SheetWord& sums, const Pixel& pixel) const;
-  /// A classified colour (One.14), tinted.
+  /// A classified colour (One.14), tinted (N-6.3-9).
   std::int64_t tinted(std::int64_t colour, std::int64_t tint) const { return colour_(colour * tint).word; }
 
  private:

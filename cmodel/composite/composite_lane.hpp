@@ -1,5 +1,5 @@
-// Unit "composite lane": the pure steps of one pixel of a block, a slab over it, front to back, with freezing; or X-ray
-// sums (docs/numerics.md, section 6; rtl/composite/fastsplat_composite_lane.sv).
+// Unit "composite lane": pure functions that composite one pixel front to back with early termination, or add X-ray
+// sums (N-6-6 to N-6-9; rtl/composite/fastsplat_composite_lane.sv).
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace fastsplat::cmodel {
 
-/// State of one pixel. Modes 0 and 1: C_R, C_G, C_B (U 1.tf) and T (One.tf). Mode 2: the four sums (U si.sf).
+/// State of one pixel. Mode 2: the four sums (U si.sf). Other modes: C_R, C_G, C_B (U 1.tf) and T (One.tf).
 using PixelState = std::array<std::uint32_t, 4>;
 
 class CompositeLane {
@@ -40,7 +40,7 @@ class CompositeLane {
     return static_cast<std::uint32_t>(sum_over_(std::int64_t{sum} + sheet, observer));
   }
 
-  /// One slab over one pixel; returns true where the pixel was frozen.
+  /// Composites one slab; returns true if the pixel was already terminated.
   template <class Observer>
   bool composite(const Slab& slab, PixelState& pixel, Observer& observer) const {
     if (frozen(pixel)) return true;

@@ -1,4 +1,4 @@
-// Unit "compositor": the picture of a tile, to which sheets are composited or added (docs/numerics.md, section 6).
+// Unit "compositor": the picture of a tile, into which sheets are composited or added (docs/numerics.md, section 6).
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ class Compositor {
     pixels_.assign(static_cast<std::size_t>(width) * height, PixelState{0, 0, 0, mode == Mode::Sum ? 0 : one_});
   }
 
-  /// The sums of a sheet, or of one sample, at pixel (x,y) into the picture.
+  /// Composites the sums of a sheet, or the products of one sample, at pixel (x,y).
   template <class Observer>
   void step(const SheetWord& sums, int x, int y, Counters& counters, Observer& observer) {
     PixelState& pixel = pixels_[static_cast<std::size_t>(y) * width_ + x];
@@ -37,7 +37,7 @@ class Compositor {
         mode_ == Mode::Exponential ? opacity_.exponential(sums, observer) : opacity_.additive(sums, observer);
     counters.frozen_pixels += lane_.composite(slab, pixel, observer) ? 1 : 0;
   }
-  /// Of modes 0, 1, 4 and 5.
+  /// Whether the pixel is terminated; not for mode 2.
   bool frozen(int x, int y) const { return lane_.frozen(at(x, y)); }
   const PixelState& at(int x, int y) const { return pixels_[static_cast<std::size_t>(y) * width_ + x]; }
 

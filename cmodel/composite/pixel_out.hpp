@@ -1,4 +1,4 @@
-// Unit "pixel out": a pixel's state as output words (docs/numerics.md, section 7).
+// Unit "pixel out": converts a pixel's state to output words (N-7-2).
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Unit "slab opacity": a sheet's sums become the slab's colour and opacity (docs/numerics.md, section 6).
+// Unit "slab opacity": a sheet's sums become the slab's colour and opacity (N-6-2 to N-6-5).
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ class SlabOpacity {
         added_colour_(config),
         added_opacity_(config) {}
 
-  /// G+1 words One.of of (1-exp(-tau))/tau, never increasing.
+  /// FACTOR: G+1 words One.of of (1-exp(-tau))/tau, never increasing.
   void load(std::span<const std::uint32_t> words) { factor_.assign(words.begin(), words.end()); }
 
   /// (1-exp(-tau))/tau, One.of, by linear interpolation.

@@ -1,5 +1,5 @@
-// What the tests of a frame found and where its map changed, tile by tile: timing depends on it, and nothing else of
-// the pixels (docs/microarchitecture.md, "Culling").
+// Log of a frame's cull tests and of its map's changes, by tile. Timing depends on no other property of the pixels
+// (M-cull-2).
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace fastsplat::cmodel {
 
-/// What the cull unit did: tests made, and what they found.
+/// Numbers of cull tests and of their results.
 struct CullCounts {
   std::uint64_t set_tests = 0, hidden_sets = 0;
-  std::uint64_t splat_tests = 0, hidden_splats = 0;  ///< of those that were not swallowed
-  std::uint64_t swallowed = 0;                       ///< splats of hidden sets, as far as they were sent
+  std::uint64_t splat_tests = 0, hidden_splats = 0;  ///< without splats that were dropped
+  std::uint64_t swallowed = 0;                       ///< splats of hidden cull groups that were sent, and dropped
   std::uint64_t hidden_windows = 0;                  ///< of splats that are not hidden
 
   CullCounts& operator+=(const CullCounts& other) {
@@ -29,7 +29,8 @@ struct CullCounts {
 
 /// Answers of one tile's tests in the order of the stream: one for each cull_block and for each splat that is not
 /// dropped. A visible splat of several windows has one more for each of them, row by row. Also, for each sheet, the
-/// first row of blocks with a cell that became opaque, or the number of rows. Both are empty in a tile without tests.
+/// first row of blocks in which a cell became opaque; the number of rows if none did. Both are empty in a tile without
+/// tests.
 class CullAnswers {
  public:
   void add(bool hidden) { bits_.push_back(hidden); }
@@ -44,11 +45,11 @@ class CullAnswers {
   std::vector<int> rows_;  ///< by sheet
 };
 
-/// By tile number. Tiles are independent: logs of some of them each are put together by merge().
+/// Answers by tile number. Tiles are independent: merge() joins logs of different tiles.
 class CullLog {
  public:
   CullAnswers& tile(std::uint32_t number) { return tiles_[number]; }
-  /// Null if nothing is known of it.
+  /// Null if the tile is not in the log.
   const CullAnswers* find(std::uint32_t number) const {
     const auto found = tiles_.find(number);
     return found == tiles_.end() ? nullptr : &found->second;

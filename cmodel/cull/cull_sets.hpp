@@ -1,4 +1,4 @@
-// Sets of splats that cull_block records announce, and which splats belong to them (docs/stream.md, cull_block).
+// Cull groups, announced by cull_block records, and their splats (docs/stream.md, "Culling").
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace fastsplat::cmodel {
 
-/// Cells of a tile, each of so many pixels a side: P, or twice that and so on where the cells would be too many.
+/// Side of a tile's square cull cells in pixels: P, doubled until they number at most kMostCullCells (N-8-55).
 inline constexpr std::int64_t kMostCullCells = 1024;
 inline int cull_cell_pixels(const Config& config) {
   const auto cells = [&](int side) {
@@ -18,24 +18,24 @@ inline int cull_cell_pixels(const Config& config) {
   while (cells(side) > kMostCullCells) side *= 2;
   return side;
 }
-/// As many sets may wait for their splats.
+/// Most cull groups with splats to come: one for each cull cell (S-cull-6).
 inline std::int64_t cull_sets(const Config& config) {
   const int side = cull_cell_pixels(config);
   return std::int64_t{(config.tile_width + side - 1) / side} * ((config.tile_height + side - 1) / side);
 }
 
-/// A queue of sets with splats to come, oldest first, each with what its owner wants to know of it. It goes by tags,
-/// for a source may leave out the splats of hidden sets, and tags go on as if they had come.
+/// A queue of cull groups with splats to come, oldest first, each with a note of its owner. Splats are found by tag: a
+/// source may leave out splats of hidden groups, and tags go on as if they had come.
 template <class Note>
 class CullSets {
  public:
-  /// Of `splats` splats, the first of which has the tag `tag`: the one behind those announced before.
+  /// Appends a group of `splats` splats from tag `tag` on, which follow those announced before.
   void announce(std::uint32_t tag, std::uint32_t splats, const Note& note) {
     if (splats == 0) return;
     if (open_.empty()) next_ = tag;
     open_.push_back({tag + splats, note});
   }
-  /// A splat came: its set; null if it belongs to none. The pointer lives until the next call.
+  /// For a splat that comes: the note of its group, or null without one. Valid until the next call.
   const Note* next(std::uint32_t tag) {
     const auto passed = [&] { return static_cast<std::int32_t>(tag - open_.front().end) >= 0; };
     while (!open_.empty() && passed()) open_.pop_front();
@@ -45,14 +45,14 @@ class CullSets {
     if (next_ == open_.front().end) open_.pop_front();
     return &last_;
   }
-  /// Splats of sets to come, if none is left out.
+  /// Splats of groups to come, if none is left out.
   std::uint32_t waiting() const { return open_.empty() ? 0 : open_.back().end - next_; }
   std::size_t open() const { return open_.size(); }
   void clear() { open_.clear(); }
 
  private:
   struct Open {
-    std::uint32_t end;  ///< tag behind its last splat
+    std::uint32_t end;  ///< tag after its last splat
     Note note;
   };
   std::deque<Open> open_;

@@ -1,5 +1,4 @@
-// Opaque cells of a tile as a summed-area table: four words say whether a rectangle is hidden (docs/numerics.md,
-// section 6.1).
+// Opaque cells of a tile as a summed-area table: four words decide whether a rectangle is hidden (N-6.1-5 to N-6.1-7).
 #pragma once
 
 #include <algorithm>
@@ -14,7 +13,7 @@ struct PixelBox {
   std::int64_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 
   bool empty() const { return x0 >= x1 || y0 >= y1; }
-  /// What of it lies in a tile of width x height pixels.
+  /// The part inside a tile of width x height pixels.
   PixelBox clipped(int width, int height) const {
     return {std::max<std::int64_t>(x0, 0), std::max<std::int64_t>(y0, 0), std::min<std::int64_t>(x1, width),
             std::min<std::int64_t>(y1, height)};
@@ -26,13 +25,13 @@ struct PixelBox {
 
 class CullTable {
  public:
-  /// Cells of `cell` x `cell` pixels; a power of two. Words count modulo 2^b, enough for a whole tile of the device.
+  /// Cells of `cell` x `cell` pixels, a power of two. Words count modulo 2^b, enough for a tile of this size.
   CullTable(int tile_width, int tile_height, int cell)
       : cell_bits_(std::countr_zero(static_cast<unsigned>(cell))),
         mask_((std::uint32_t{1} << std::bit_width(static_cast<unsigned>(cells(tile_width) * cells(tile_height)))) - 1) {
   }
 
-  /// A tile without an opaque cell.
+  /// Begins a tile without an opaque cell.
   void begin_tile(int width, int height) {
     width_ = width;
     height_ = height;
@@ -42,13 +41,13 @@ class CullTable {
   int columns() const { return cells(width_); }
   int rows() const { return cells(height_); }
 
-  /// Words of all rows of cells from `first` on; opaque(column, row) of each cell. Rows before must be as they were.
+  /// Rebuilds the rows of cells from `first` on with opaque(column, row). Rows before must not have changed.
   template <class Opaque>
   void build(int first, Opaque opaque) {
     for (int y = first; y < rows(); ++y) {
       const std::uint32_t* above = &words_[static_cast<std::size_t>(y) * row_];
       std::uint32_t* word = &words_[(static_cast<std::size_t>(y) + 1) * row_];
-      std::uint32_t count = 0;  // of the row
+      std::uint32_t count = 0;  // opaque cells of the row
       for (int x = 0; x < columns(); ++x) {
         count += opaque(x, y) ? 1 : 0;
         word[x + 1] = (above[x + 1] + count) & mask_;
@@ -56,7 +55,7 @@ class CullTable {
     }
   }
 
-  /// All cells that the rectangle meets inside the tile are opaque; also where there is none.
+  /// Whether all cells that the rectangle meets inside the tile are opaque; true if it meets none.
   bool hidden(const PixelBox& box) const {
     const PixelBox in = box.clipped(width_, height_);
     if (in.empty()) return true;
@@ -79,7 +78,7 @@ class CullTable {
   int cell_bits_;
   std::uint32_t mask_;
   int width_ = 0, height_ = 0;
-  std::size_t row_ = 0;  ///< words from row to row
+  std::size_t row_ = 0;  ///< words of a row
   std::vector<std::uint32_t> words_;
 };
 

@@ -33,7 +33,7 @@ void CullUnit::begin_tile(Mode mode, int width, int height) {
 
 void CullUnit::end_sheet() {
   if (!on_) return;
-  // The sheet's own table, which nobody asks any more, becomes that of the next but one.
+  // The sheet's own table is free now and becomes that of the sheet after the next.
   int& row = changed_[now_];
   const auto columns = static_cast<std::size_t>(blocks_[0].columns()), width = static_cast<std::size_t>(width_);
   blocks_[now_].build(row, [&](int x, int y) {

@@ -1,4 +1,4 @@
-// Unit "cull": what of a sheet is hidden by the sheets up to the last but one (docs/numerics.md, section 6.1).
+// Unit "cull": tests what the sheets up to the last but one hide of a sheet (docs/numerics.md, section 6.1).
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace fastsplat::cmodel {
 
-/// Modes 0 and 1: the others have no sheets in which pixels freeze.
+/// Only modes 0 and 1 cull (N-6.1-2).
 constexpr bool culls_in(Mode mode) { return mode == Mode::Exponential || mode == Mode::Additive; }
 
 inline PixelBox box_of(const CullBlock& set) {
@@ -23,20 +23,20 @@ class CullUnit {
   explicit CullUnit(const Config& config);
 
   void begin_tile(Mode mode, int width, int height);
-  /// The next sheet of the tile; its tests are made against the map as it was two sheets before.
+  /// Begins the next sheet of the tile. It is tested against the map that the sheet two before it left (N-6.1-4).
   void begin_sheet() {
     now_ = 1 - now_;
     first_changed_ = blocks_[0].rows();
   }
-  /// Tests are made in this tile.
+  /// Whether tests are made in this tile.
   bool on() const { return on_; }
 
-  /// All cells that the rectangle meets in the tile are opaque.
+  /// Whether all cells that the rectangle meets in the tile are opaque.
   bool hidden(const PixelBox& box) const { return cells()[now_].hidden(box); }
-  /// All blocks that it meets.
+  /// The same for P x P blocks, whatever the map's cells (N-6.1-10).
   bool window_hidden(const PixelBox& box) const { return blocks_[now_].hidden(box); }
 
-  /// The sheet was composited; changed block by block, frozen(x, y) of its pixels.
+  /// Block (bx,by) of the open sheet was composited; frozen(x, y): whether a pixel is terminated.
   template <class Frozen>
   void composited(int bx, int by, Frozen frozen) {
     if (!on_) return;
@@ -62,10 +62,9 @@ class CullUnit {
     first_changed_ = std::min(first_changed_, by);
     for (int& row : changed_) row = std::min(row, by);
   }
-  /// Among the reported blocks of the open sheet, the first row with a cell that became opaque; number of rows: none
-  /// did.
+  /// First row of blocks in which a cell became opaque in this sheet; the number of rows if none did.
   int first_changed() const { return first_changed_; }
-  /// All of its blocks were reported.
+  /// Ends the sheet, after composited() for all of its blocks.
   void end_sheet();
 
   const CullTable& table() const { return cells()[now_]; }
@@ -77,9 +76,9 @@ class CullUnit {
   bool by_pixels_, culls_;
   bool on_ = false;
   int width_ = 0, height_ = 0;
-  std::array<CullTable, 2> blocks_, pixels_;         ///< after the sheet before the last one, and after the last one
-  std::vector<std::uint8_t> block_map_, pixel_map_;  ///< of today
-  std::array<int, 2> changed_{};                     ///< first row of blocks that a table does not know yet
+  std::array<CullTable, 2> blocks_, pixels_;         ///< by parity of the sheet
+  std::vector<std::uint8_t> block_map_, pixel_map_;  ///< the current maps
+  std::array<int, 2> changed_{};                     ///< first row of blocks to rebuild, for each table
   int first_changed_ = 0;
   std::size_t now_ = 0;
 };

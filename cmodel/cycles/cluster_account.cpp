@@ -10,7 +10,7 @@ constexpr std::uint64_t up(std::uint64_t whole, std::uint64_t by) { return (whol
 }  // namespace
 
 FrameShares frame_shares(const Config& config, const CycleCluster& cluster) {
-  // The first beat is taken in the cycle after the wipe at the earliest, judged, and lies in decode one later.
+  // The first beat is taken in the cycle after the wipe at the earliest, is checked, and lies in decode one later.
   const std::uint64_t start = wipe_cycles(config) + stages::kWeigh + stages::kJudge + 1;
   const std::uint64_t frame = cluster.frame_cycles();
   FrameShares shares;

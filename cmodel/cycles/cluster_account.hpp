@@ -1,4 +1,4 @@
-// Where the cycles of a frame on several devices went, and what bounds it: shares and roofline of docs/scaling.md.
+// Where the cycles of a frame on several devices go, and what bounds it: shares and roofline of docs/scaling.md.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ namespace fastsplat::cmodel {
   X(pixel_out, "pixel beats / devices")
 // clang-format on
 
-/// Cycles, summed over the devices; all together are devices * frame_cycles().
+/// Cycles, summed over the devices; together devices * frame_cycles().
 struct FrameShares {
 #define X(name, meaning) std::uint64_t name = 0;
   FASTSPLAT_FRAME_SHARES(X)
@@ -37,7 +37,7 @@ struct FrameShares {
   bool operator==(const FrameShares&) const = default;
 };
 
-/// Cycles the frame takes at least, were only this part to work; rounded up.
+/// Lower bounds of a frame's cycles: each as if only this part took time, rounded up.
 struct Roofline {
 #define X(name, meaning) std::uint64_t name = 0;
   FASTSPLAT_ROOFLINE(X)
@@ -51,9 +51,9 @@ struct Roofline {
   bool operator==(const Roofline&) const = default;
 };
 
-/// Of a cluster that finished.
+/// Requires a finished cluster.
 FrameShares frame_shares(const Config& config, const CycleCluster& cluster);
-/// `bytes_per_cycle` of its link; 0: no limit, and no bound from it.
+/// `bytes_per_cycle` of the link; 0: no limit, and no bound from it.
 Roofline roofline(const Config& config, const CycleCluster& cluster, std::uint64_t bytes_per_cycle);
 
 }  // namespace fastsplat::cmodel

@@ -1,4 +1,4 @@
-// When beats pass the cull unit's registers and when its tables are whole (docs/microarchitecture.md, "Culling").
+// When beats pass the cull unit's registers and when its tables are complete (docs/microarchitecture.md, "Culling").
 #pragma once
 
 #include <algorithm>
@@ -20,9 +20,9 @@ class CullPipe {
     std::uint64_t entered = 0;  ///< it moves into t0
     std::uint64_t verdict = 0;  ///< first cycle in t3, where its verdict is known
     std::uint64_t left = 0;     ///< it moves into decode's register
-    std::uint64_t waited = 0;   ///< cycles in t0 for nothing but a table
+    std::uint64_t waited = 0;   ///< cycles in t0 only because of a table
   };
-  /// Judged in cycle `judged` by check; decode takes a beat from cycle `ready` on.
+  /// Check passes it in cycle `judged`; decode takes a beat from cycle `ready` on.
   Passage pass(std::uint64_t judged, std::uint64_t ready, bool begin_sheet) {
     Passage out;
     out.entered = std::max(judged, free_[0]);
@@ -52,18 +52,18 @@ class CullPipe {
     done_ = 0;
     built_ = 0;
     whole_.fill(0);
-    changed_.fill(0);  // what the tables hold is another tile's
+    changed_.fill(0);  // the tables hold another tile
     opaque_ = false;
   }
   int rows() const { return rows_; }  ///< of blocks
 
-  /// A sheet's last block was picked in cycle `last`; the first row of blocks with a cell that became opaque, rows()
-  /// if there is none.
+  /// A sheet's last block was picked in cycle `last`. `row`: the first row of blocks in which a cell became opaque, or
+  /// rows().
   void composited(std::uint64_t last, int row) {
     opaque_ = opaque_ || row < rows_;
     const std::size_t table = done_++ % 2;
-    built_ = std::max(built_, last + stages::kComposite);  // only then is it known what there is to be built
-    if (opaque_) {                                         // else no cell of the tile is yet
+    built_ = std::max(built_, last + stages::kComposite);  // what to build is not known before
+    if (opaque_) {                                         // else no cell of the tile is opaque yet
       for (int& first : changed_) first = std::min(first, row);
       built_ += static_cast<std::uint64_t>(rows_ - changed_[table]) * row_cycles_;
       changed_[table] = rows_;
@@ -74,11 +74,11 @@ class CullPipe {
  private:
   int lanes_;
   bool by_pixels_;
-  std::array<std::uint64_t, stages::kCullStages> free_{};  ///< from which cycle on each takes a beat
+  std::array<std::uint64_t, stages::kCullStages> free_{};  ///< first cycle in which each takes a beat
   std::array<std::uint64_t, 2> whole_{};                   ///< of sheets 0, 2, 4 and of 1, 3, 5: readable from then on
-  std::array<int, 2> changed_{};                           ///< first row of blocks that is not in the table
+  std::array<int, 2> changed_{};                           ///< first row of blocks to rebuild in each table
   std::uint64_t built_ = 0;                                ///< last cycle in which a table was written
-  std::uint64_t row_cycles_ = 1;                           ///< of a row of blocks
+  std::uint64_t row_cycles_ = 1;                           ///< to build a row of blocks
   std::uint64_t sheet_ = 0, done_ = 0;
   int rows_ = 0;
   bool opaque_ = false;

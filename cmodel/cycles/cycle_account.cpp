@@ -19,8 +19,8 @@ void Accountant::sheet(std::size_t buffer, std::uint64_t windows, std::uint64_t 
 void Accountant::settle(std::size_t buffer) {
   Walk& walk = walks_[buffer];
   const std::uint64_t picks = walk.to - walk.from;
-  // Slices of blocks that could not hide behind windows of the next sheet cost a cycle even in an ideal device. At
-  // least so many of the walk's cycles lie where decode paused.
+  // Slices that the next sheet's windows cannot hide cost a cycle even in an ideal device. Decode pauses in at least as
+  // many of the walk's cycles.
   std::uint64_t exposed = picks > walk.windows_beside ? picks - walk.windows_beside : 0;
   account_.ideal += exposed;
   for (std::size_t kind = 0; kind < pauses_.size(); ++kind) {

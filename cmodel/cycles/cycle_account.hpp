@@ -1,4 +1,4 @@
-// Where the cycles of a run went: every busy cycle belongs to exactly one kind (docs/microarchitecture.md, "Account").
+// Where the cycles of a run go: every busy cycle has exactly one cause (M-account-2).
 #pragma once
 
 #include <array>
@@ -34,8 +34,7 @@ struct CycleAccount {
 #undef X
     return sum;
   }
-  /// visit(name, cycles, meaning) in the order above; `hazard`, which only tiles of every sample know, where there is
-  /// any.
+  /// visit(name, cycles, meaning) in the order above; `hazard`, which only modes 4 and 5 have, is left out if it is 0.
   template <class Visit>
   void for_each(Visit visit) const {
 #define X(name, meaning) \
@@ -52,12 +51,12 @@ struct CycleAccount {
   bool operator==(const CycleAccount&) const = default;
 };
 
-/// What decode does in a cycle in which it issues no window; the order is that in which ideal compositing cycles are
-/// taken out of them.
+/// Why decode issues no window in a cycle. Ideal compositing cycles are taken out of these in this order (M-account-5,
+/// M-cull-17).
 enum class Pause : std::uint8_t { Buffer, Drain, Map, Input, Hidden, Records, Hazard };
 inline constexpr std::size_t kPauses = 7;
 
-/// Splits the cycles of one tile after another. Half-open spans [from, to) in rising order.
+/// Finds the causes of cycles, tile after tile. Spans are half-open, [from, to), in rising order.
 class Accountant {
  public:
   /// Decode issued no window during the span.
@@ -68,7 +67,7 @@ class Accountant {
   }
   /// A sheet with `windows` windows was closed; the compositor picks its blocks' slices in [from, to).
   void sheet(std::size_t buffer, std::uint64_t windows, std::uint64_t from, std::uint64_t to);
-  /// The walk of this buffer is over and so is what it overlapped.
+  /// The walk of this buffer is over, and so is all that it overlapped.
   void settle(std::size_t buffer);
   void table_words(std::uint64_t words) { account_.table_load += words; }
   void pixels(std::uint64_t working, std::uint64_t held) {
@@ -76,13 +75,13 @@ class Accountant {
     account_.output += held;
   }
 
-  /// Valid when every walk was settled.
+  /// Requires that every walk was settled.
   CycleAccount account() const;
 
  private:
   struct Walk {
     std::uint64_t from = 0, to = 0;
-    std::uint64_t windows_beside = 0;  ///< of the sheet splatted meanwhile
+    std::uint64_t windows_beside = 0;  ///< windows of the sheet splatted meanwhile
     std::array<std::uint64_t, kPauses> paused{};
     void add(Pause kind, std::uint64_t a, std::uint64_t b);
   };

@@ -41,7 +41,7 @@ void CycleCluster::take(const Beat& beat) {
 }
 
 void CycleCluster::broadcast(const Beat& beat) {
-  link_.wait_until(devices_.front()->room());  // all are alike until the first tile
+  link_.wait_until(devices_.front()->room());  // all devices are alike until the first tile
   const std::uint64_t arrived = link_.carry();
   for (const auto& device : devices_) device->arrive(beat, arrived);
 }
@@ -75,7 +75,7 @@ std::uint64_t CycleCluster::wake() const {
   std::uint64_t first = kNever;
   for (const auto& device : devices_) {
     if (device->wants()) first = std::min(first, device->room());
-    // Who asks when there is no tile left never gets one.
+    // A request that comes when no tile is left is never served.
     else if (!ended_ || !undealt_.empty())
       first = std::min(first, device->asks());
   }
@@ -83,8 +83,8 @@ std::uint64_t CycleCluster::wake() const {
 }
 
 void CycleCluster::pump() {
-  // All that is sent later arrives at or after the link's cycle, and who takes it asks after that: whoever asks up to
-  // this cycle is known by now, so tiles are dealt in the order of asking.
+  // Beats sent later arrive at or after the link's cycle, and cause later requests. So all requests up to this cycle
+  // are known, and tiles are dealt in their order.
   while (deal(link_.cycle())) {
     if (QueuedDevice* device = turn(link_.cycle())) {
       device->arrive(link_.carry());

@@ -1,5 +1,5 @@
-// The clock cycles of several devices that share a frame's tiles and one stream link (docs/scaling.md). As the cycle
-// model of one device, it goes by records and computes no pixel.
+// The clock cycles of several devices that share a frame's tiles and one stream link (docs/scaling.md). Like the cycle
+// model of one device, it goes by records and computes no pixels.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ struct ClusterOptions {
   int devices = 1;                    ///< >= 1
   std::uint64_t bytes_per_cycle = 0;  ///< of the link, in all; 0: no limit
   std::uint64_t queue_beats = 512;    ///< before each device's decode; >= 1
-  CycleOptions device{};              ///< of each alike; taps and spans hear all devices mixed
+  CycleOptions device{};              ///< of each device; taps and spans receive events of all devices mixed
 };
 
-/// One device on a link without limit counts what a CycleModel counts. A tile is in memory from its first beat until it
-/// was sent: at most one more than there are devices.
+/// A single device on an unlimited link has the counts of a CycleModel. A tile is in memory from its first beat until
+/// it is sent: at most one tile more than there are devices.
 class CycleCluster final : public Device {
  public:
-  /// What `options` points to outlives it.
+  /// What `options` points to must outlive it.
   CycleCluster(const Config& config, StreamScope scope, const ClusterOptions& options);
 
   void consume(std::span<const Beat> beats) override {
@@ -37,7 +37,7 @@ class CycleCluster final : public Device {
   // After finish():
   /// One for each device.
   const std::vector<DeviceCycles>& devices() const { return done_; }
-  /// Cycles from reset until the last device has nothing to do.
+  /// Cycles from reset until all devices are done.
   std::uint64_t frame_cycles() const;
   /// Beats the link carried; a broadcast one counts once.
   std::uint64_t beats_in() const { return link_.beats(); }
@@ -47,24 +47,24 @@ class CycleCluster final : public Device {
  private:
   void take(const Beat& beat);
   void broadcast(const Beat& beat);
-  /// Deals and sends as far as what follows cannot matter.
+  /// Deals and sends until the result may depend on beats to come.
   void pump();
-  /// Deals tiles to who asked up to `cycle`; false if one is due that is not here yet.
+  /// Deals tiles to the devices that requested one up to `cycle`; false if one is due that has not arrived.
   bool deal(std::uint64_t cycle);
   /// The device whose beat the link begins in `cycle`; nullptr for none.
   QueuedDevice* turn(std::uint64_t cycle);
-  /// The next cycle in which there is something to deal or to send; `never` for none.
+  /// The next cycle with a tile to deal or a beat to send; kNever without one.
   std::uint64_t wake() const;
 
   Config config_;
   StreamDecode decode_;
   StreamLink link_;
   std::vector<std::unique_ptr<QueuedDevice>> devices_;
-  std::size_t last_ = 0;                   ///< served last
+  std::size_t last_ = 0;                   ///< device served last
   bool tables_ = true;                     ///< no tile was begun yet
-  bool ended_ = false;                     ///< the stream
-  std::vector<Beat> arriving_;             ///< from a begin_tile to its end_tile
-  std::deque<std::vector<Beat>> undealt_;  ///< whole tiles, in stream order; at last end_frame
+  bool ended_ = false;                     ///< the stream has ended
+  std::vector<Beat> arriving_;             ///< beats of the open tile
+  std::deque<std::vector<Beat>> undealt_;  ///< whole tiles, in stream order; finally end_frame
   std::uint64_t pixel_beats_ = 0;
   Counters counters_;
   std::vector<DeviceCycles> done_;

@@ -25,7 +25,7 @@ std::optional<ErrorParts> cycle_violation(const Config& config) {
                       .got = std::to_string(config.pattern_node_bits),
                       .fix = "use pattern.node_bits = 0"};
   }
-  if (config.has_phases()) return std::nullopt;  // a window a cycle, like the RLUT's
+  if (config.has_phases()) return std::nullopt;  // one window a cycle, as for rlut
   return ErrorParts{.where = "index.kind",
                     .what = "works along scan lines, but the cycle model assumes P x P pixels at once",
                     .expected = "rlut, blit2d or separable",
@@ -99,7 +99,7 @@ std::uint64_t CycleModel::enter(Opcode opcode, bool payload) {
 }
 
 void CycleModel::leave(std::uint64_t since, std::uint64_t at) {
-  ready_ = at;  // the next beat moves in behind it
+  ready_ = at;  // the next beat follows
   register_free_ = at + 1;
   stalls_.busy += at + 1 - since;
   end_ = std::max(end_, at + 1);
@@ -185,7 +185,7 @@ bool CycleModel::swallowed(const Record& record) {
   if (const auto* ellipse = std::get_if<EllipseRecord>(&record)) set = cull_sets_.next(ellipse->tag);
   if (set == nullptr) {
     if (behind_set_ && cull_sets_.waiting() > 0) refuse_parted_sets(decode_.beats() - 1, cull_sets_.waiting());
-    if (behind_set_) fetch_behind(last_verdict_);  // of the last set
+    if (behind_set_) fetch_behind(last_verdict_);  // verdict of the last group
     behind_set_ = false;
     return false;
   }
@@ -301,7 +301,7 @@ void CycleModel::some_windows(std::uint64_t at, std::uint32_t tag, std::int32_t 
       ++at;
     }
     if (windows > before) continue;
-    accountant_.pause(Pause::Hidden, at, at + 1);  // the walk looks at one row of windows a cycle
+    accountant_.pause(Pause::Hidden, at, at + 1);  // the walk takes one row of windows a cycle
     ++at;
   }
   counters_.windows += windows;
@@ -325,10 +325,10 @@ void CycleModel::begin_tile(const BeginTile& record, std::uint64_t at) {
   answered_ = 0;
   cull_sheet_ = 0;
   if (!config_.culls()) return;
-  cull_sets_.clear();  // whose splats a source left out
+  cull_sets_.clear();  // groups whose splats the source left out
   cull_.begin_tile(record.width, record.height);
   if (options_.culls == nullptr || !culls_in(record.mode)) return;
-  // A tile without a cull_block and a splat has no answers; who misses any is told by CullAnswers.
+  // A tile without cull_blocks and splats has no answers. If answers are missing, CullAnswers throws.
   static const CullAnswers kNone;
   answers_ = options_.culls->find(record.tile);
   if (answers_ == nullptr) answers_ = &kNone;
@@ -353,9 +353,9 @@ void CycleModel::end_sheet(std::uint64_t at) {
   // Densities are only copied here, a block a cycle.
   const std::uint64_t slices = rim_ > 0 ? 1 : static_cast<std::uint64_t>(config_.slices()), picks = blocks * slices;
   const std::uint64_t first = std::max(at + delay_ + weight_delay_ + stages::kWalk, walk_free_);
-  const std::uint64_t last = first + std::max<std::uint64_t>(picks, 1) - 1;  // an empty walk is noticed in one cycle
+  const std::uint64_t last = first + std::max<std::uint64_t>(picks, 1) - 1;  // an empty walk takes a cycle
   walk_free_ = last + stages::kNextWalk;
-  std::uint64_t done = last, worked = first + picks;  // a walk's last cycle, and the one behind its work
+  std::uint64_t done = last, worked = first + picks;  // the walk's last cycle, and the one after its last pick
   if (rim_ > 0) {
     if (waits_) worked = (done = classify(last)) + 1;
     waits_ = {.number = sheet_.sheet, .blocks = {}};
@@ -390,7 +390,7 @@ std::uint64_t CycleModel::classify(std::uint64_t at) {
   const std::uint64_t blocks = waits_->blocks.size(), steps = stages::density_steps(config_);
   const std::uint64_t first = at + stages::kClassify, last = first + std::max<std::uint64_t>(blocks * steps, 1) - 1;
   walk_free_ = std::max(walk_free_, last + stages::kAfterClassify);
-  // A sheet without blocks may be over before the pipe has left the one before.
+  // A sheet without blocks may end before the pipe has finished the one before it.
   compositor_idle_ = std::max(
       compositor_idle_, last + stages::density_late(config_) + (blocks > 0 ? stages::kIdle : stages::kIdleAfterEmpty));
   counters_.dirty_blocks += blocks;
@@ -410,7 +410,7 @@ void CycleModel::end_tile(std::uint64_t at) {
   span_.picks = 0;
   std::uint64_t drained = at;
   if (waits_) {
-    // Its turn comes when the sheet before it has been classified, and it was copied.
+    // Its turn comes when it was copied and the sheet before it was classified.
     const std::uint64_t turn = std::max(at, buffer_free_[1 - buffer_]);
     const std::uint64_t from = turn + stages::kClassify, to = classify(turn) + 1;
     accountant_.pause(Pause::Drain, at, from);

@@ -1,6 +1,6 @@
-// When everything happens: the clock cycle of each event of the RTL, computed from the stream alone, without a clock
-// (docs/microarchitecture.md). Time goes by records, not by cycles; no pixel is computed. Where the device culls, what
-// its tests found is taken from a log that Model wrote.
+// The clock cycle of each event of the RTL, computed from the stream without a clock (docs/microarchitecture.md). Time
+// goes by records, not by cycles; pixels are not computed. For devices that cull, the results of tests come from a log
+// that Model wrote.
 #pragma once
 
 #include <array>
@@ -24,20 +24,21 @@
 
 namespace fastsplat::cmodel {
 
-/// Cycles after reset in which memories are wiped, a word each: the blocks of a whole tile. No beat is taken in them.
+/// Cycles after reset in which memories are wiped, a word a cycle: the blocks of a W x H tile (M-reset-4). No beat is
+/// taken meanwhile.
 std::uint64_t wipe_cycles(const Config& config);
 
-/// A sheet's way through the device. Half-open spans of cycles.
+/// A sheet's cycles in the device. Spans are half-open.
 struct SheetCycles {
   std::uint32_t tile = 0, sheet = 0;
   std::uint64_t offered = 0;                 ///< begin_sheet lies in decode from here
   std::uint64_t begun = 0, closed = 0;       ///< begin_sheet and end_sheet carried out
   std::uint64_t windows = 0, blocks = 0;     ///< P x P windows; dirty blocks
   std::uint64_t walk_from = 0, walk_to = 0;  ///< the compositor picks blocks, slice by slice
-  std::uint64_t picks = 0;                   ///< of these cycles; of densities all, for the sheet before is classified
+  std::uint64_t picks = 0;                   ///< cycles with a pick; all in densities: the sheet before is classified
 };
 
-/// A tile's. `picture_to` is the cycle after the one in which its last pixels were taken.
+/// A tile's cycles. `picture_to` is the cycle after the one in which its last pixels were taken.
 struct TileCycles {
   std::uint32_t tile = 0;
   std::uint64_t begun = 0, closed = 0;  ///< begin_tile and end_tile carried out
@@ -45,7 +46,7 @@ struct TileCycles {
   std::uint64_t picks = 0;  ///< of densities: cycles in which the last sheet is classified
 };
 
-/// A beat's way through check and decode.
+/// A beat's cycles in check and decode.
 struct BeatCycles {
   Opcode opcode{};                       ///< of its record; of a table's payload, load_table
   bool payload = false;                  ///< table words
@@ -55,7 +56,7 @@ struct BeatCycles {
   std::uint64_t left = 0;                ///< its last cycle there
 };
 
-/// What the device tells its source of a cull_block, and the cycle in which it does.
+/// The verdict on a cull_block, and the cycle in which the device reports it to its source.
 struct VerdictCycles {
   std::uint32_t tag = 0;
   bool hidden = false;
@@ -72,11 +73,11 @@ class CycleSink {
   virtual void on_tile(const TileCycles& tile) = 0;
 };
 
-/// The source is a master that reads the stream from a memory and does not ask for the splats of hidden sets, where any
-/// are (rtl/io/fastsplat_fetch.sv). It refuses, with UserError (Input), sets that cull_blocks lie between
+/// A source that reads the stream from a memory and never requests the splats of hidden cull groups
+/// (rtl/io/fastsplat_fetch.sv). Throws UserError (Input) for a cull_block between the splats of a group
 /// (cmodel/io/fetch_commands.hpp).
 struct Fetch {
-  std::uint64_t latency = 1;  ///< of the memory: cycles from an address taken to its first beat; 0 is taken for 1
+  std::uint64_t latency = 1;  ///< of the memory: cycles from an address taken to its first beat; 0 counts as 1
 };
 
 struct CycleOptions {
@@ -87,15 +88,15 @@ struct CycleOptions {
   TapSink* taps = nullptr;          ///< every event with its cycle; payloads are empty
   CycleSink* spans = nullptr;
   const CullLog* culls = nullptr;   ///< of all tiles, for a device that culls; null: nothing is hidden
-  std::optional<Fetch> fetch = {};  ///< none: every beat is sent
+  std::optional<Fetch> fetch = {};  ///< empty: every beat is sent
 };
 
-/// What of a configuration has another timing than the RTL's, which this model has; empty where the timing holds.
+/// Why the model does not have the timing of a configuration; empty if it does.
 std::optional<ErrorParts> cycle_violation(const Config& config);
 
 class CycleModel final : public Device {
  public:
-  /// What `options` points to outlives the model.
+  /// What `options` points to must outlive the model.
   CycleModel(const Config& config, StreamScope scope, const CycleOptions& options = {});
 
   void consume(std::span<const Beat> beats) override {
@@ -104,8 +105,8 @@ class CycleModel final : public Device {
   void finish() override;
   /// tiles, sheets, splats, windows, cull_blocks and dirty_blocks; the others need pixels and stay 0.
   const Counters& counters() const override { return counters_; }
-  /// The cycle in which the verdict falls on a beat that is taken in this one, after those consumed. One that breaks a
-  /// rule is consumed by nobody.
+  /// The cycle in which check decides on a beat that is taken in cycle `taken`, after those consumed. One that breaks a
+  /// rule is not consumed.
   std::uint64_t judged(std::uint64_t taken) const;
 
   // After finish():
@@ -116,7 +117,7 @@ class CycleModel final : public Device {
   std::uint64_t end_cycle() const { return end_; }
   /// Cycles after reset in which the device waited for a frame: the wipe, and a late source outside of tiles.
   std::uint64_t idle_cycles() const { return end_ - stalls_.busy; }
-  /// Beats the source sent: all but those of hidden sets where it need not.
+  /// Beats that the source sent: all but skipped ones of hidden cull groups.
   std::uint64_t sent_beats() const { return sent_; }
 
  private:
@@ -130,28 +131,28 @@ class CycleModel final : public Device {
   std::uint64_t arrives(std::uint64_t taken) const { return options_.sliced ? beats_in_.offers(taken) : taken; }
   /// The beat enters the register at the returned cycle; accounts for the empty register before it.
   std::uint64_t enter(Opcode opcode, bool payload);
-  /// The next answer of the open tile's tests; false where none are made.
+  /// The next answer of the open tile's tests; false if it has no tests.
   bool answer();
   void cull_block(const CullBlock& record);
-  /// A splat of which nothing is done, in its cycle.
+  /// Accounts for the cycle of a splat that is hidden or dropped.
   void hide(std::uint64_t at);
-  /// The splat belongs to a hidden set. What was never sent takes no time; what is waits for its verdict.
+  /// Whether the splat's cull group is hidden. With a fetching source, it is never sent, or waits for the verdict.
   bool swallowed(const Record& record);
-  /// A fetching source has the next beat, which waits for the verdict of cycle `verdict`, from then on.
+  /// A fetching source requests the next beat after the verdict of cycle `verdict`.
   void fetch_behind(std::uint64_t verdict);
-  /// A splat some of whose windows are hidden.
+  /// Accounts for a splat some of whose windows are hidden.
   void some_windows(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y, std::int32_t width,
                     std::int32_t height, const std::vector<bool>& hidden);
   void window(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y) const;
   /// The register is empty in [from, to).
   void empty(std::uint64_t from, std::uint64_t to);
-  /// A record carried out in cycle `at`, in the register since `since`.
+  /// A record is carried out in cycle `at`; it lay in the register since `since`.
   void leave(std::uint64_t since, std::uint64_t at);
   void splat(const SplatRecord& record, std::uint64_t at);
   void ellipse(const EllipseRecord& record, std::uint64_t at);
   /// The cycle in which a record's first window, at (x,y), is issued; accounts for its wait (every sample).
   std::uint64_t issue(std::uint64_t at, std::int32_t x, std::int32_t y);
-  /// A splat's windows, the first at (x,y): width x height pixels.
+  /// Accounts for a splat's windows, the first at (x,y): width x height pixels.
   void footprint(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y, std::int32_t width,
                  std::int32_t height);
   void load(const LoadTable& table);
@@ -159,8 +160,8 @@ class CycleModel final : public Device {
   void begin_sheet(const BeginSheet& record, std::uint64_t at);
   void end_sheet(std::uint64_t at);
   void end_tile(std::uint64_t at);
-  /// Densities. The sheet that waits is classified from cycle `at` on, when the one behind it was copied or there is
-  /// none; the last cycle of its walk.
+  /// Densities: classifies the waiting sheet. `at` is the last cycle of the next sheet's copy, or end_tile's turn.
+  /// Returns the last cycle of its walk.
   std::uint64_t classify(std::uint64_t at);
   void picture(std::uint64_t at);
   void tap(Tap kind, std::uint64_t cycle, std::uint32_t tag, std::int32_t x, std::int32_t y) const;
@@ -173,8 +174,8 @@ class CycleModel final : public Device {
   StallCounters stalls_;
   std::vector<Set> sets_;
   DirtyMap dirty_;
-  std::uint64_t delay_;         ///< of the splat path
-  std::uint64_t weight_delay_;  ///< of it, from the weights on
+  std::uint64_t delay_;         ///< added to the splat path (ellipses)
+  std::uint64_t weight_delay_;  ///< added from the weights on (interpolation)
 
   CullPipe cull_;
   const CullAnswers* answers_ = nullptr;  ///< of the open tile
@@ -185,8 +186,9 @@ class CycleModel final : public Device {
   };
   CullSets<Verdict> cull_sets_;
   std::uint64_t last_verdict_ = 0, sent_ = 0;
-  // A fetching source. In order: it has passed a splat of a set, and nothing after the last set yet. A set with splats
-  // is hidden, among the sets announced together now; and among the previous ones. It sends all their splats.
+  // Flags of a fetching source. A splat of a cull group came, and nothing after the last group yet (behind_set_). A
+  // group with splats is hidden, among those announced together now (hides_) or before (hid_). All splats of the groups
+  // are sent (trusts_, M-fetch-4).
   bool behind_set_ = false, hides_ = false, hid_ = false, trusts_ = false;
 
   std::uint64_t payload_words_ = 0;  ///< of the open table
@@ -214,9 +216,9 @@ class CycleModel final : public Device {
   // Of a tile of densities.
   struct DensitySheet {
     std::uint32_t number = 0;
-    std::vector<std::pair<int, int>> blocks;  ///< dirty ones: column, row
+    std::vector<std::pair<int, int>> blocks;  ///< dirty blocks: column, row
   };
-  int rim_ = 0;                        ///< pixels around the tile that its sheets hold
+  int rim_ = 0;                        ///< halo of its sheets, pixels
   std::optional<DensitySheet> waits_;  ///< for the sheet behind it
 };
 

@@ -1,4 +1,4 @@
-// A device of several: the cycle model behind its queue of arrived beats, with the tile dealt to it (docs/scaling.md).
+// One of several devices: the cycle model with a queue of arrived beats and the tile dealt to it (docs/scaling.md).
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace fastsplat::cmodel {
 
-/// What one device did with a frame. Cycles count from reset.
+/// Results of one device for a frame. Cycles count from reset.
 struct DeviceCycles {
   std::vector<std::uint32_t> tiles;  ///< numbers, in the order dealt
-  Counters counters;                 ///< those the cycle model has
+  Counters counters;                 ///< as in CycleModel::counters()
   StallCounters stalls;
   CycleAccount account;            ///< sums to stalls.busy
   std::uint64_t idle = 0;          ///< before `end`, and not busy
@@ -19,25 +19,25 @@ struct DeviceCycles {
   std::uint64_t longest_tile = 0;  ///< cycles from begin_tile carried out to the last pixel taken
 };
 
-/// Arrivals must be given in the order of the beats and never decrease.
+/// Arrivals must come in the order of the beats and never decrease.
 class QueuedDevice final : private CycleSink {
  public:
-  /// `queue_beats` >= 1. `options` as for a CycleModel; input holds for what has arrived.
+  /// `queue_beats` >= 1. `options` as for a CycleModel; its input pattern applies to beats that have arrived.
   QueuedDevice(const Config& config, std::uint64_t queue_beats, const CycleOptions& options);
   QueuedDevice(const QueuedDevice&) = delete;
   QueuedDevice& operator=(const QueuedDevice&) = delete;
 
-  /// The cycle in which it asks for a tile, if no beat of the last one is left to be sent. No tile is dealt before it.
+  /// The cycle in which the device requests a tile, once all beats of the last one were sent. No tile is dealt earlier.
   std::uint64_t asks() const { return asks_; }
-  /// Gives it all beats of a tile, or of what else is dealt.
+  /// Deals all beats of a tile, or end_frame.
   void deal(std::vector<Beat>&& tile);
-  /// A beat of its tile is left to be sent.
+  /// Whether a beat of its tile is still to be sent.
   bool wants() const { return sent_ < tile_.size(); }
   /// The first cycle in which the queue has a place for its next beat.
   std::uint64_t room() const { return free_[place_]; }
   /// The next beat of its tile has arrived.
   void arrive(std::uint64_t cycle) { arrive(tile_[sent_++], cycle); }
-  /// A broadcast beat has.
+  /// A broadcast beat has arrived.
   void arrive(const Beat& beat, std::uint64_t cycle);
 
   void finish() { model_.finish(); }
@@ -45,7 +45,7 @@ class QueuedDevice final : private CycleSink {
   DeviceCycles cycles() const;
 
  private:
-  /// The source as decode sees it: the beat fed next is there from `at` on, whenever the pattern is willing.
+  /// The source as decode sees it: the next beat is offered from `at` on, in the pattern's ready cycles.
   struct Arrival final : Willing {
     std::uint64_t at = 0;
     const Willing* pattern = nullptr;
@@ -62,9 +62,9 @@ class QueuedDevice final : private CycleSink {
   Arrival arrival_;
   CycleModel model_;
   std::vector<Beat> tile_;
-  std::size_t sent_ = 0;             ///< of them
+  std::size_t sent_ = 0;             ///< beats of tile_ sent
   std::vector<std::uint64_t> free_;  ///< per place of the queue: cycle from which it is free
-  std::size_t place_ = 0;            ///< of the next beat
+  std::size_t place_ = 0;            ///< place of the next beat
   std::uint64_t asks_ = 0;
   std::vector<std::uint32_t> tiles_;
   std::uint64_t longest_tile_ = 0;

@@ -1,4 +1,4 @@
-// When a side of a ready/valid channel is willing, as a pure function of the clock cycle.
+// Ready pattern: when one side of a ready/valid channel is ready, as a pure function of the clock cycle.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@ namespace fastsplat::cmodel {
 class Willing {
  public:
   virtual ~Willing() = default;
-  /// The first willing cycle at or after `cycle`. There must be one.
+  /// The first ready cycle at or after `cycle`. There must be one.
   virtual std::uint64_t next(std::uint64_t cycle) const = 0;
 };
 

@@ -18,12 +18,12 @@ namespace {
 std::string at_least(std::int64_t bound) { return "at least " + std::to_string(bound); }
 std::string at_most(std::int64_t bound) { return "at most " + std::to_string(bound); }
 
-/// Bits of the tables of densities, and of patterns.
+/// Bits of loaded_: the tables of densities, and those of patterns.
 constexpr std::uint32_t kClassifyTables = 0xF8, kPatternTables = 0x300;
 
 bool of_patterns(Table table) { return table > Table::Sheets; }
 
-/// The tables that a device knows, as a refusal says it.
+/// The tables of a device, as text for a refusal.
 std::string known_tables(const Config& config) {
   if (!config.has_patterns()) return config.classifies() ? "0 to 7" : "0, 1 or 2";
   return config.classifies() ? "0 to 9" : "0, 1, 2, 8 or 9";
@@ -153,7 +153,7 @@ void StreamDecode::check(const LoadTable& header, std::uint32_t words) {
     case Table::Rlut: {
       expect_most(header.radius.set, config_.rlut_sets - 1, "radius set above the last");
       expect_least(header.radius.rho, 1, "radius is 0");
-      // As many columns as there are hold a radius of half of them; K steps to the pixel.
+      // The columns hold a diameter, so the radius is at most half of them; K steps a pixel.
       expect_most(header.radius.rho, std::int64_t{config_.rlut_columns} * config_.grid() / 2,
                   "radius too large for the RLUT");
       if (!config_.has_columns())
@@ -180,7 +180,7 @@ void StreamDecode::check(const LoadTable& header, std::uint32_t words) {
     case Table::Lighting:
       expected_words = classify_words(config_, header.table);
       break;
-    case Table::Sheets:  // as many as the frame has
+    case Table::Sheets:  // number of sheets depends on the frame
       expect_least(words, classify::kSheetWords, "no scales of sheets");
       expect_most(words, std::int64_t{classify::kSheetWords} << classify::kSheetsBits, "scales of too many sheets");
       expected_words = words - words % classify::kSheetWords;
@@ -201,7 +201,7 @@ const Record* StreamDecode::payload(const Beat& beat) {
   WordRange range;
   switch (table.table) {
     case Table::Rlut:
-      break;  // of each word its own
+      break;  // each word has its own range
     case Table::Radial:
       range.most = config_.weight_format().max;
       break;
@@ -215,7 +215,7 @@ const Record* StreamDecode::payload(const Beat& beat) {
     case Table::Sheets:
     case Table::Nodes:
     case Table::Pattern:
-      break;  // of each word its own
+      break;  // each word has its own range
   }
   for (const std::uint32_t word : beat) {
     if (words_left_ == 0) {
@@ -279,7 +279,7 @@ void StreamDecode::check(const BeginTile& record) {
                                                       : "2"),
            std::to_string(static_cast<int>(record.mode)));
   expect_most(std::int64_t{record.tile} + 1, frame_.tiles, "more tiles than announced");
-  const int rim = densities ? 2 : 0;  // a pixel of each side
+  const int rim = densities ? 2 : 0;  // halo of a pixel on each side
   expect_within(record.width, 1, config_.tile_width - rim, "tile width");
   expect_within(record.height, 1, config_.tile_height - rim, "tile height");
   expect_least(record.x, 0, "tile begins outside the image in x");
@@ -356,7 +356,7 @@ void StreamDecode::check_promise(const CullBlock& record) {
   expect(record.tag == static_cast<std::uint32_t>(next_tag_ + sets_.waiting()),
          "the tag of cull_block differs from that of its first splat",
          static_cast<std::int64_t>(next_tag_ + sets_.waiting()), record.tag);
-  // (Sets that were jumped over show when the next splat comes.)
+  // With jumps_ skipped groups show only at the next splat, so their number is not limited (S-cull-11).
   expect_most(jumps_ ? 0 : static_cast<std::int64_t>(sets_.open()) + (record.splats > 0 ? 1 : 0), cull_sets(config_),
               "too many open cull_blocks for the device");
   constexpr std::int64_t kMostPromised = std::int64_t{1} << 31;  // tags are compared modulo 2^32
@@ -425,7 +425,7 @@ const Record* StreamDecode::feed(const Beat& beat) {
   if (state_ == State::Payload) {
     done = payload(beat);
   } else if (state_ == State::Sheet && get(beat, layout::kOpcode) == static_cast<std::int64_t>(Opcode::Splat)) {
-    // Of a splat's bits w0[31:16], w6 and w7 have no name: the common case skips the general check.
+    // A splat's w0[31:16], w6 and w7 have no name: a fast check for the common case.
     if (((beat[0] >> 16) | beat[6] | beat[7]) != 0)
       check_reserved(beat, *find_layout(static_cast<std::uint32_t>(Opcode::Splat)));
     record_ = to_splat(beat);

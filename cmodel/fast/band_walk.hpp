@@ -1,5 +1,5 @@
-// How the fast unit draws a tile: sheet by sheet, from splats and not from records. A splat is placed once for all of
-// its sheets, and no record is ever in memory.
+// Draws a tile with the fast unit, sheet by sheet, from splats instead of records. A splat is placed once for all of
+// its sheets, and records are never stored.
 #pragma once
 
 #include <algorithm>
@@ -14,42 +14,42 @@
 
 namespace fastsplat::cmodel::fast {
 
-/// What one band's splats add to its tile's.
+/// What a band contributes to its tile's report.
 struct BandReport {
   std::uint64_t splat_records = 0, saturated_records = 0;
-  std::vector<std::uint8_t> sheets;  ///< of all the frame's: 1 with a record, else 0
+  std::vector<std::uint8_t> sheets;  ///< for each sheet of the frame: 1 with a record, else 0
 };
 
-// The interface of Splats, the splats of one band by number, that a walk requires:
+// The interface that a walk requires of Splats, the splats of one band by number:
 // - band(): its BeginTile
 // - sheets(), reach(): sheets of the frame; a splat has records in at most reach() sheets after its first
 // - numbers(sheet): the splats whose first sheet this is, a span
 // - prefetch(number): announces that the splat begins soon
-// - for_each_place(unit, number, keep, visit): calls visit(Ready) for each record that a sheet has of the splat, placed
-//   by the unit; with `keep`, an ellipse's weights are in Ready::weights
+// - for_each_place(unit, number, keep, visit): calls visit(Ready) for each record of the splat in a sheet, placed by
+//   the unit; with `keep`, Ready::weights holds an ellipse's weights
 // - next_share(splat, sheet): {words, saturated, empty()} of its records in this sheet; sheets come in order
-// - for_each_outline(splat, sheet, last, visit): calls visit({largest, excess, saturated}) for its shares of these
-//   sheets
+// - for_each_outline(splat, sheet, last, visit): calls visit({largest, excess, saturated}) for its share of each of
+//   these sheets
 //
-// Splats of a device that culls also have cells(), sheet_sets(sheet, written), numbers(sheet, cell) and
+// Splats for a device that culls also have cells(), sheet_sets(sheet, written), numbers(sheet, cell) and
 // share(number, sheet).
 
-/// A splat of a band, or one record of its ellipse, ready for its next sheet. `Rest` is what Splats keeps of it.
+/// An active splat of a band, or one record of its ellipse, before its next sheet. `Rest` is the state that Splats
+/// keeps.
 template <class Rest>
 struct Ready {
   Placed placed;
-  std::unique_ptr<std::uint16_t[]> weights;  ///< an ellipse's own
-  std::int32_t last_sheet = 0;               ///< beyond it, its shares are empty
+  std::unique_ptr<std::uint16_t[]> weights;  ///< of an ellipse
+  std::int32_t last_sheet = 0;               ///< after it all shares are empty
   Rest rest;
 };
 
-/// Draws a band, sheet by sheet. Splats that can still be seen wait in a list; of a hidden one, all sheets are counted
-/// at once.
+/// Draws a band, sheet by sheet. Visible splats wait in a list; a hidden one's sheets are all counted at once.
 template <class Word, class Splats>
 class BandWalk {
  public:
   using Splat = Ready<typename Splats::Rest>;
-  /// Both outlive it. `first`: of the tile's bands.
+  /// `splats` and `unit` must outlive it. `first`: this is the tile's first band.
   BandWalk(const Splats& splats, bool first, TileUnit<Word>& unit) : splats_(splats), unit_(unit) {
     unit_.begin_band(splats.band(), first, splats.reach());
     report_.sheets.resize(static_cast<std::size_t>(splats.sheets()));
@@ -64,7 +64,7 @@ class BandWalk {
           ++i;
           continue;
         }
-        // Their order means nothing: sums do not depend on it.
+        // Any order will do: sums do not depend on it.
         done(waiting_[i]);
         waiting_[i] = std::move(waiting_.back());
         waiting_.pop_back();
@@ -89,11 +89,11 @@ class BandWalk {
     report_.splat_records += records;
     report_.saturated_records += saturated;
   }
-  /// It has no more to come; its weights may have.
+  /// Retires a splat. Its weights are kept until the sheet ends, because they may not be drawn yet.
   void done(Splat& splat) {
     if (splat.weights) done_.push_back(std::move(splat.weights));
   }
-  /// A splat in its first sheet. Where it is drawn once, its weights need not be kept.
+  /// Begins a splat in its first sheet. If it is drawn once, its weights need not be kept.
   void begin(std::uint32_t number, int sheet) {
     splats_.for_each_place(unit_, number, splats_.reach() > 0, [&](Splat splat) {
       if (draw(splat, sheet))
@@ -102,7 +102,7 @@ class BandWalk {
         done(splat);
     });
   }
-  /// The splat's part of a sheet; true if there is more to come.
+  /// Draws the splat's share of a sheet; true if more are to come.
   bool draw(Splat& splat, int sheet) {
     if (unit_.hidden(splat.placed) && hide(splat, sheet)) return false;
     const auto share = splats_.next_share(splat.rest, sheet);
@@ -113,7 +113,7 @@ class BandWalk {
     }
     return splat.last_sheet > sheet;
   }
-  /// Its parts of this and all later sheets; false, and nothing is done, if the unit cannot have them at once.
+  /// Hides the splat's shares of this and all later sheets. Returns false, with nothing done, if the unit cannot.
   bool hide(const Splat& splat, int sheet) {
     const auto count = static_cast<std::size_t>(splat.last_sheet - sheet + 1);
     if (hidden_.size() < count) hidden_.resize(count);
@@ -133,18 +133,18 @@ class BandWalk {
     return true;
   }
 
-  static constexpr std::size_t kAhead = 8;  ///< splats, asked for while others are drawn
+  static constexpr std::size_t kAhead = 8;  ///< splats prefetched while others are drawn
 
   const Splats& splats_;
   TileUnit<Word>& unit_;
   BandReport report_;
   std::vector<Splat> waiting_;
-  std::vector<std::unique_ptr<std::uint16_t[]>> done_;  ///< weights of the open sheet
-  std::vector<HiddenShare> hidden_;                     ///< of one splat
+  std::vector<std::unique_ptr<std::uint16_t[]>> done_;  ///< weights in use by the open sheet
+  std::vector<HiddenShare> hidden_;                     ///< shares of one splat
 };
 
-/// Draws a tile as a device that culls does, sheet by sheet and cell by cell. Once a set is hidden, its splats are not
-/// looked at again, unless they are too few for a set: then they are counted one by one.
+/// Draws a tile like a device that culls, sheet by sheet and cull cell by cull cell. Splats of a hidden cull group are
+/// not visited again. In its cells, later ones that are too few for a group are counted one by one.
 template <class Word, class Splats>
 class CullWalk {
  public:
@@ -182,8 +182,8 @@ class CullWalk {
 
  private:
   struct Cell {
-    std::vector<Splat> waiting;  ///< in no order that means anything
-    bool hidden = false;         ///< all of it, for good
+    std::vector<Splat> waiting;  ///< in any order
+    bool hidden = false;         ///< for the rest of the tile
   };
 
   static void hide(Cell& cell) {
@@ -212,7 +212,7 @@ class CullWalk {
       });
     }
   }
-  /// The splat's part of a sheet; true if there is more to come.
+  /// Draws the splat's share of a sheet; true if more are to come.
   bool draw(Splat& splat, int sheet) {
     const auto share = splats_.next_share(splat.rest, sheet);
     if (!share.empty()) {
@@ -225,7 +225,7 @@ class CullWalk {
     }
     return splat.last_sheet > sheet;
   }
-  /// Records of a hidden cell that go in no set: each is hidden by itself.
+  /// Counts the records of a hidden cell that are in no cull group: each is hidden by itself.
   void count(int number, int sheet) {
     for (int from = std::max(0, sheet - splats_.reach()); from <= sheet; ++from) {
       for (const std::uint32_t splat : splats_.numbers(from, number)) {
@@ -238,7 +238,7 @@ class CullWalk {
     }
   }
 
-  static constexpr std::size_t kAhead = 8;  ///< splats, asked for while others are drawn
+  static constexpr std::size_t kAhead = 8;  ///< splats prefetched while others are drawn
 
   const Splats& splats_;
   TileUnit<Word>& unit_;

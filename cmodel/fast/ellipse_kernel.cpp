@@ -21,7 +21,7 @@ std::uint32_t weigh(const EllipseTable&, const EllipseCoefficients&, const Ellip
 
 #else
 
-/// Down a strip of as many columns as a vector holds: two additions and a look into the table each.
+/// Goes down strips of a vector's width, with two additions and one table read for each row.
 std::uint32_t weigh(const EllipseTable& table, const EllipseCoefficients& f, const EllipseBox& box,
                     std::uint16_t* out) {
   const hn::CappedTag<std::uint64_t, 8> d;

@@ -1,5 +1,4 @@
-// The weights of an ellipse's pixels by vector instructions (Highway): cmodel/splat/ellipse_unit.hpp for whole
-// rectangles.
+// Weights of an ellipse's pixels by vector instructions (Highway): cmodel/splat/ellipse_unit.hpp for whole rectangles.
 #pragma once
 
 #include <cstdint>
@@ -13,24 +12,25 @@
 namespace fastsplat::cmodel::fast {
 
 /// The radial table as the kernel reads it. q is shifted left in 64-bit lanes, so that it wraps as its word does. The
-/// upper half has the sign and, shifted right, the table's index.
+/// upper half holds the sign and, shifted right, the table's index.
 struct EllipseTable {
-  std::vector<std::uint32_t> weights;  ///< N of them, shifted left as those of circles, and a 0 for all that is behind
-  std::uint32_t heaviest = 0;          ///< weight, unshifted
+  std::vector<std::uint32_t> weights;  ///< N weights, shifted left as those of circles, then a 0 for all indices beyond
+  std::uint32_t heaviest = 0;          ///< largest weight, unshifted
   int above = 0;                       ///< bits of a lane above the word
-  int index_shift = 0;                 ///< of a lane's upper half
+  int index_shift = 0;                 ///< right shift of a lane's upper half
 };
 
-/// `radial` unshifted. Empty where the configuration has no ellipses or an index may be wider than half a lane.
+/// Made of `radial`, unshifted. Empty if the configuration has no ellipses or an index may exceed half a lane.
 std::optional<EllipseTable> ellipse_table(const Config& config, std::span<const std::uint32_t> radial,
                                           int weight_shift);
 
-/// Pixels of a record, from its first one.
+/// A rectangle of a record's pixels, counted from its first one.
 struct EllipseBox {
   std::int32_t column = 0, row = 0, columns = 0, rows = 0;
 };
 
-/// Their weights, in rows of pitch_of(columns) words, 0 behind the columns; returns how many are above 0.
+/// Writes the weights of `box` to `out`, in rows of pitch_of(columns) words, 0 after the columns. Returns how many are
+/// above 0.
 std::uint32_t weigh(const EllipseTable& table, const EllipseCoefficients& f, const EllipseBox& box, std::uint16_t* out);
 
 }  // namespace fastsplat::cmodel::fast

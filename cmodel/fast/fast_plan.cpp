@@ -28,7 +28,7 @@ std::optional<FastPlan> fast_plan(const Config& config, const char** why_not) {
     return none("cull.map = pixel finds hidden splats by single pixels");
 
   FastPlan plan{.largest_sum = static_cast<std::uint32_t>(config.sheet_format().max)};
-  // The factors together shifted left so far that 15 bits are dropped, each still a positive word of 16 bits.
+  // Shift both factors left until 15 bits of the product are dropped. Each must remain a positive word of 16 bits.
   const int grow = 15 - dropped, colour_room = 15 - colour_bits, weight_room = 15 - weight_bits;
   if (nearest && dropped > 0 && grow >= 0 && colour_room >= 0 && weight_room >= 0 &&
       grow <= colour_room + weight_room && sheet_bits <= 16) {
@@ -43,7 +43,7 @@ std::optional<FastPlan> fast_plan(const Config& config, const char** why_not) {
   plan.bias = nearest && dropped > 0 ? std::uint32_t{1} << (dropped - 1) : 0;
   if (largest_product + plan.bias > std::int64_t{0xFFFFFFFF}) return none("products are wider than 32 bits");
   plan.carries = plan.largest_sum > std::uint32_t{1} << 24;
-  // Both factors are positive words of 16 bits, and the largest whole sum is below half of the lane's end.
+  // Both factors are positive words of 16 bits, and the largest valid sum is below half of the lane's range.
   plan.hides = weight_bits <= 15;
   plan.hidden_unit = std::max({0, sheet_bits - 15, colour_bits + 1 - dropped});
   plan.hidden_shift = dropped + plan.hidden_unit - 15;

@@ -12,13 +12,13 @@ namespace fastsplat::cmodel::fast {
 namespace {
 
 constexpr std::size_t kMemoBytes = std::size_t{1} << 28;
-/// Of kinds of index other than rlut, whose footprints take longer to fill in than to draw a few splats with.
+/// For index kinds other than rlut: filling in more footprints takes longer than drawing a few splats.
 constexpr std::size_t kOtherMemoBytes = std::size_t{1} << 25;
-constexpr int kWidest = 128;    ///< pixels of a footprint
-constexpr int kTableSlack = 8;  ///< what the widest vector writes
+constexpr int kWidest = 128;    ///< side of a footprint, pixels
+constexpr int kTableSlack = 8;  ///< pixels that vectors may write beyond a row
 
-/// The most that (tau + excess) * factor(tau) stays within 1.0 with, for every tau: within a segment the factor is at
-/// most its first word. Nothing if it is not so even without an excess.
+/// The largest excess with which (tau + excess) * factor(tau) stays within 1.0 for every tau. Within a segment the
+/// factor is at most its first word. Empty if 1.0 is exceeded without any excess.
 std::optional<std::uint64_t> opacity_excess(const Config& config, std::span<const std::uint32_t> factor) {
   const int shift = config.opacity_remainder_bits();
   const std::uint64_t one = std::uint64_t{1} << (config.sheet_frac_bits + config.opacity_frac_bits);

@@ -1,4 +1,4 @@
-// What a frame's tables say, made ready for the fast unit once and shared by all tiles.
+// A frame's tables, prepared for the fast unit once and shared by all tiles.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace fastsplat::cmodel::fast {
 
-/// What a frame has besides circles in sheets.
+/// What the fast unit has to draw besides circles in sheets.
 struct FrameNeeds {
   bool ellipses = false, samples = false;
   bool tints = false;  ///< sheets of colours are tinted by a solid pattern
@@ -27,21 +27,21 @@ struct FrameTables {
   FastPlan plan;
   WeightMemo memo;
   SlabOpacity opacity;
-  /// No sum of tau makes an opacity above 1.0 in mode Exponential, so no colour that is not above tau does, nor one
-  /// that is above by no more than opacity_excess.
+  /// In mode Exponential no sum of tau gives an opacity above 1.0. Then a colour does not either, unless it exceeds tau
+  /// by more than opacity_excess.
   bool opacity_holds = false;
   std::uint64_t opacity_excess = 0;
-  std::optional<EllipseTable> ellipses;   ///< none: tiles with ellipses are given up
-  std::optional<SampleTables> samples;    ///< none: tiles whose samples are composited one by one are given up
-  std::optional<DensityStage> densities;  ///< none: tiles of densities are given up
-  /// Tiles of colours are given up: the picture's kernel knows no tint.
+  std::optional<EllipseTable> ellipses;   ///< empty: tiles with ellipses are not sound()
+  std::optional<SampleTables> samples;    ///< empty: tiles of modes 4 and 5 are not sound()
+  std::optional<DensityStage> densities;  ///< empty: tiles of densities are not sound()
+  /// Whether sheets of colours are tinted, which the picture's kernel cannot: their tiles are not sound().
   bool tints() const { return densities && densities->pattern().loaded(); }
   BeginFrame frame{};
-  int reach = 0;  ///< largest extent of a footprint with what vectors write beyond it, pixels
+  int reach = 0;  ///< largest footprint extent plus what vectors write beyond it, pixels
 };
 
-/// From the beats before the first tile: begin_frame and the tables. Empty where only the plain unit will do;
-/// `why_not`, where given, is then set to words that say why.
+/// Made of the beats before the first tile: begin_frame and the tables. Empty if the frame needs the plain unit;
+/// `why_not`, if given, is then set to the reason.
 std::optional<FrameTables> frame_tables(const Config& config, std::span<const Beat> preamble,
                                         const FrameNeeds& needs = {}, const char** why_not = nullptr);
 

@@ -56,7 +56,7 @@ struct Lanes32 {
   int dropped;
 };
 
-/// The same, looking for sums that come round.
+/// The same, with a check for sums that wrap.
 struct Carries32 : Lanes32 {
   explicit Carries32(const FastPlan& plan) : Lanes32(plan), lost(hn::Zero(D{})) {}
   hn::Vec<D> sum(hn::Vec<D> before, hn::Vec<D> colour, hn::Vec<D> weight) {
@@ -155,7 +155,7 @@ void hidden(const FastPlan& plan, const HiddenJob& job, std::span<const HiddenSh
   const hn::RebindToSigned<decltype(d)> s;
   const std::size_t pitch = pitch_of(job.columns);
   const int down = std::max(0, plan.hidden_shift), up = std::max(0, -plan.hidden_shift);
-  // Where products are exact, so are these; else this is what rounding may have taken off, and a little more.
+  // Narrow plans give the device's own products; otherwise add what rounding may have taken off, and a little more.
   const auto lost = hn::Set(d, static_cast<std::uint16_t>(plan.narrow ? 0 : 1));
   std::size_t plane = planes.first;
   for (const HiddenShare& share : shares) {

@@ -28,7 +28,7 @@ V narrowed(V value, const Rounded& how) {
   return hn::Shr(hn::Add(value, hn::Set(D{}, how.bias)), hn::Set(D{}, static_cast<std::uint32_t>(how.dropped)));
 }
 
-/// A product of 64 bits narrowed; it is known to fit 32 bits then.
+/// Narrows a 64-bit product; the result is known to fit 32 bits.
 V narrowed_product(V a, V b, const Rounded& how) {
   const Wide wide;
   const auto bias = hn::Set(wide, how.bias);
@@ -37,7 +37,7 @@ V narrowed_product(V a, V b, const Rounded& how) {
   return hn::BitCast(D{}, hn::Or(part(a, b), hn::ShiftLeft<32>(part(up(a), up(b)))));
 }
 
-/// (1-exp(-tau))/tau.
+/// (1-exp(-tau))/tau, interpolated (N-6-2).
 V factor(const SampleTables& tables, V tau) {
   const hn::RebindToSigned<D> index;
   const auto* const words = reinterpret_cast<const std::int32_t*>(tables.factor.data());
@@ -49,7 +49,7 @@ V factor(const SampleTables& tables, V tau) {
   return hn::Sub(near, narrowed(hn::Mul(hn::Sub(near, far), rest), tables.plan.fall));
 }
 
-/// How products become slabs: additive ones as they are where no bit comes or goes.
+/// How products become slabs. Same: additive, and neither format has more fraction bits.
 enum class Rule { Same, Added, Exponential };
 
 class Compositor {
@@ -60,7 +60,7 @@ class Compositor {
         most_(hn::Set(D{}, tables.plan.most)),
         freeze_(hn::Set(D{}, tables.plan.freeze_below)) {}
 
-  /// kSmall: no slab of the job is 1.0.
+  /// kSmall: every word of the job's slabs is below 1.0.
   template <Rule kRule, bool kSmall>
   void draw(const SplatJob& job, std::uint32_t* picture, std::size_t row) {
     const D d;
@@ -84,7 +84,7 @@ class Compositor {
         V light = narrowed(hn::Mul(seen, slab), tables_.plan.light);
         if constexpr (!kSmall) {
           opaque_ = hn::Sub(opaque_, hn::VecFromMask(d, hn::Gt(slab, one_)));
-          // 1.0 times transmittance is transmittance, and does not fit a lane.
+          // 1.0 times transmittance is transmittance; the product may not fit a lane.
           light = hn::IfThenElse(hn::Eq(hn::Min(slab, one_), one_), seen, light);
         }
         const V shown = hn::IfThenZeroElse(closed, light);
@@ -111,7 +111,7 @@ class Compositor {
   }
 
  private:
-  /// ~0 where light is taken, from transmittance, 0 where it is added.
+  /// ~0 in T's lanes, from which light is taken; 0 in the others, to which it is added.
   static V take() {
     HWY_ALIGN static constexpr std::uint32_t kTake[4] = {0, 0, 0, ~0U};
     return hn::LoadDup128(D{}, kTake);
@@ -123,7 +123,7 @@ class Compositor {
     if constexpr (kRule == Rule::Added) return narrowed(hn::ShiftLeftSame(product, plan.grown), plan.added);
     return narrowed_product(product, factor(tables_, hn::Broadcast<3>(product)), plan.slab);
   }
-  /// A slab's words are at most those of an additive one: factors are at most 1.0, and both are rounded alike.
+  /// Whether additive slabs are below 1.0. So are exponential ones: the factor is at most 1.0, and both round alike.
   bool is_small(const SplatJob& job) const {
     const auto rounded = [](std::uint64_t value, const Rounded& how) { return (value + how.bias) >> how.dropped; };
     const SamplePlan& plan = tables_.plan;

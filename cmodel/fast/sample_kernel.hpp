@@ -1,5 +1,4 @@
-// Compositing every sample of whole footprints with vector instructions (Highway): docs/numerics.md, section 6, modes 4
-// and 5.
+// Composites every sample of whole footprints with vector instructions (Highway): modes 4 and 5 (N-6-12).
 #pragma once
 
 #include <cstddef>
@@ -15,17 +14,17 @@ namespace fastsplat::cmodel::fast {
 struct SampleTables {
   SamplePlan plan;
   std::vector<std::uint32_t> factor;  ///< G+1 words One.of
-  std::uint32_t heaviest = 0;         ///< no weight is larger, shifted as they are
+  std::uint32_t heaviest = 0;         ///< largest shifted weight
 };
 
-/// What samples add to the counters of the same names.
+/// Contributions to frozen_pixels, opacity_saturated and composite_saturated.
 struct SampleCounts {
   std::uint64_t frozen = 0, opacity_saturated = 0, composite_saturated = 0;
 };
 
-/// Composites the footprints one after the other; none reaches beyond the tile. The picture has words C_R, C_G, C_B
-/// (U 1.tf) and T (One.tf) a pixel, `row` pixels from one row to the next; pixels behind a row's columns are written as
-/// they were, up to pitch_of(columns).
+/// Composites the footprints one after the other; none reaches beyond the tile. A pixel of the picture has the words
+/// C_R, C_G, C_B (U 1.tf) and T (One.tf); rows are `row` pixels apart. Pixels after a footprint's columns, up to
+/// pitch_of(columns), are written unchanged.
 void composite_samples(const SampleTables& tables, bool exponential, std::span<const SplatJob> jobs,
                        std::uint32_t* picture, std::size_t row, SampleCounts& counts);
 

@@ -1,4 +1,4 @@
-// What of a configuration lets samples be composited in lanes of 32 bits, proved from its numbers alone.
+// Whether and how samples can be composited exactly in lanes of 32 bits, proved from the configuration alone.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@ struct Rounded {
   int dropped = 0;
 };
 
-/// How a sample becomes light (docs/numerics.md, sections 5 and 6) where colours and weights are shifted as FastPlan
-/// says. Transmittance and opacity are at most 1.0 = `one`, and their product is below 2^32 but for 1.0 times 1.0.
+/// The narrowings from a sample to light (docs/numerics.md, sections 5 and 6), with colours and weights shifted as in
+/// FastPlan. Transmittance and opacity are at most 1.0 = `one`. Their product is below 2^32 except for 1.0 times 1.0.
 struct SamplePlan {
   Rounded product;  ///< U si.sf
-  Rounded added;    ///< additive: product to One.tf, behind `grown` bits more
+  Rounded added;    ///< additive: product, with `grown` bits added, to One.tf
   int grown = 0;
   Rounded fall;                     ///< of the slab factor, One.of
-  int segment_bits = 0;             ///< b: of tau, those within a segment
-  Rounded slab;                     ///< exponential: product times factor to One.tf, of 64 bits
+  int segment_bits = 0;             ///< b: bits of tau within a segment
+  Rounded slab;                     ///< exponential: 64-bit product times factor, to One.tf
   Rounded light;                    ///< One.tf
-  std::uint32_t one = 0, most = 0;  ///< as One.tf; the largest word U 1.tf
+  std::uint32_t one = 0, most = 0;  ///< 1.0 as One.tf; the largest word U 1.tf
   std::uint32_t freeze_below = 0;
 };
 
-/// Empty where only the plain unit is exact; `why_not`, where given, is then set to words that say why.
+/// Empty if only the plain unit is exact; `why_not`, if given, is then set to the reason.
 std::optional<SamplePlan> sample_plan(const Config& config, const FastPlan& plan, const char** why_not = nullptr);
 
 }  // namespace fastsplat::cmodel::fast

@@ -11,15 +11,15 @@
 
 namespace fastsplat::cmodel::fast {
 
-/// Words of T (16 or 32 bits), four a pixel. What lies in the guard band is never read.
+/// Words of T (16 or 32 bits), four a pixel. The guard band is never read.
 template <class T>
 class Sheet {
  public:
-  /// Room for footprints of up to `reach` pixels, wherever they meet the tile; all words zero.
+  /// Resizes to a tile and room for footprints of up to `reach` pixels, wherever they meet it; all words zero.
   void resize(int width, int height, int reach) {
     guard_ = reach;
     row_ = static_cast<std::size_t>(width) + 2 * static_cast<std::size_t>(guard_);
-    // Rows a multiple of 4 KiB apart would all want the same lines of the first-level cache.
+    // Rows a multiple of 4 KiB apart would share the same lines of the first-level cache.
     if (row_ * 4 * sizeof(T) % 4096 < 64) row_ += 16;
     words_.assign(row_ * (static_cast<std::size_t>(height) + 2 * static_cast<std::size_t>(guard_)) * 4, 0);
   }
@@ -27,7 +27,7 @@ class Sheet {
   std::size_t at(int x, int y) const {
     return (static_cast<std::size_t>(y + guard_)) * row_ + static_cast<std::size_t>(x + guard_);
   }
-  std::size_t pixels() const { return words_.size() / 4; }  ///< guard band and all
+  std::size_t pixels() const { return words_.size() / 4; }  ///< including the guard band
   T* words() { return words_.data(); }
   SheetWord sums(int x, int y) const {
     const T* at = words_.data() + this->at(x, y) * 4;

@@ -9,7 +9,7 @@
 namespace fastsplat::cmodel::fast {
 namespace {
 
-constexpr std::size_t kPictureSlack = 8;  ///< what the widest vector writes
+constexpr std::size_t kPictureSlack = 8;  ///< pixels that the widest vector writes
 constexpr std::size_t kRoom = 16384;      ///< words: half a first-level cache
 
 /// Bits a..b-1.
@@ -36,7 +36,7 @@ TileUnit<T>::TileUnit(const FrameTables& tables, PixelSink& pixels)
   const std::uint64_t brightest = (std::uint64_t{1} << tables.config.colour_frac_bits) - 1;
   for (std::uint32_t set = 0; set < tables.memo.sets(); ++set) heaviest_.push_back(tables.memo.shape(set).heaviest);
   heaviest_.push_back(tables.ellipses ? tables.ellipses->heaviest : 0);
-  // Rounding adds less than one to what the bits kept say.
+  // Rounding adds less than one to the bits that are kept.
   for (const std::uint32_t weight : heaviest_)
     largest_product_.push_back(static_cast<std::uint32_t>((brightest * weight) >> dropped_) + 1);
 }
@@ -276,7 +276,7 @@ void TileUnit<T>::draw() {
     counters_.composite_saturated += counts.composite_saturated;
     return;
   }
-  // Words of 16 bits stay at their end when they reach it; those of 32 bits must not come round.
+  // Words of 16 bits saturate; those of 32 bits must not wrap.
   if (sizeof(T) == 4 && !tables_.plan.carries && bound_ + waiting_ > 0xFFFFFFFFU) {
     bound_ = largest_word();
     if (bound_ > tables_.plan.largest_sum || bound_ + waiting_ > 0xFFFFFFFFU) sound_ = false;
@@ -314,14 +314,14 @@ void TileUnit<T>::end_sheet(const EndSheet&) {
     dirty_[by] = slot.dirty[by] = 0;
   }
   if (tables_.plan.carries) {
-    // What lies in the guard band would come round in the end.
+    // Sums in the guard band would wrap in the end.
     sheet_.clear();
   }
   if (slot.hidden)
     std::fill_n(hidden_sums_.begin() + static_cast<std::ptrdiff_t>(now_ * sheet_.pixels()), sheet_.pixels(), 0);
   slot.hidden = false;
   if (culls_) {
-    // The open sheet's map, which nobody asks any more, becomes that of the next but one.
+    // The open sheet's map is free now and becomes that of the sheet after the next.
     opaque_[sheet_parity_] = frozen_;
     sheet_parity_ = 1 - sheet_parity_;
   }
@@ -356,7 +356,7 @@ void TileUnit<T>::composite(int bx, int by) {
         continue;
       }
       if (std::max({sums[0], sums[1], sums[2], sums[3]}) > largest_whole()) {
-        // No word of the sheet's format: the opacity's table has nothing for it.
+        // Outside the sheet's format: the slab factor table has no entry for it.
         sound_ = false;
         return;
       }
@@ -372,13 +372,13 @@ void TileUnit<T>::composite(int bx, int by) {
   }
   sheet_.clear(x0, y0, x1, y1);
   if (all_frozen) {
-    // From here on nothing can change: colours under tau leave no range, whatever their sums.
+    // From here on the block cannot change, and colours below tau stay in range, whatever their sums.
     frozen_[static_cast<std::size_t>(by)] |= bit;
     any_frozen_ = any_frozen_ || tile_.mode == Mode::Additive || tables_.opacity_holds;
   }
 }
 
-/// As DensityStage asks for it.
+/// The sheet, as DensityStage reads it.
 template <class T>
 struct TileUnit<T>::Splatted {
   TileUnit& unit;
@@ -439,12 +439,12 @@ void TileUnit<T>::count_frozen(int x0, int y0, int x1, int y1) {
 
 template <class T>
 bool TileUnit<T>::hidden_slab_fits(const SheetWord& seen, std::uint64_t hidden) const {
-  // The factor is at most 1.0, so that what is at most 1.0 before it is so behind it.
+  // The slab factor is at most 1.0: what is at most 1.0 before it is so after it.
   const std::uint32_t colour = std::max({seen[0], seen[1], seen[2]});
   const std::uint64_t one = std::uint64_t{1} << tables_.config.sheet_frac_bits;
   if (std::max(colour, seen[3]) + hidden <= one) return true;
   if (tile_.mode == Mode::Additive) return false;
-  // Colours are above tau by no more than this.
+  // Colours exceed tau by at most this.
   const std::uint64_t above = slots_[now_].excess + (colour > seen[3] ? colour - seen[3] : 0);
   return above <= tables_.opacity_excess;
 }

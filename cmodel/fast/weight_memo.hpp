@@ -1,5 +1,5 @@
-// The weights of every footprint of a device's tables, by radius set and phases: results of the unit of the
-// configuration's index.kind for a whole splat, computed once per frame instead of once per pixel.
+// The weights of every footprint of a frame's tables, by radius set and phases: the weight unit's results for a whole
+// splat, computed once per frame instead of once per pixel.
 #pragma once
 
 #include <cstddef>
@@ -15,19 +15,19 @@ namespace fastsplat::cmodel::fast {
 struct Shape {
   std::uint32_t rho = 0;       ///< support radius, 1/K pixel
   int padded = 0;              ///< Ea, pixels: what the windows cover
-  int extent = 0;              ///< pixels from the origin that any phase weights; <= Ea
+  int extent = 0;              ///< pixels from the origin with a weight in any phase; <= Ea
   int pitch = 0;               ///< words from row to row: pitch_of(extent)
-  std::uint32_t windows = 0;   ///< of one splat
+  std::uint32_t windows = 0;   ///< windows of one splat
   std::uint32_t heaviest = 0;  ///< largest weight, unshifted
-  std::size_t first = 0;       ///< of words(), phases (0,0)
+  std::size_t first = 0;       ///< index in words_ of phases (0,0)
 };
 
 class WeightMemo {
  public:
-  /// Weights are kept shifted left by `weight_shift`, as words of 16 bits.
+  /// Weights are stored as words of 16 bits, shifted left by `weight_shift`.
   WeightMemo(const Config& config, WeightUnit& unit, std::uint32_t sets, int weight_shift);
 
-  /// Bytes the footprints of one set take.
+  /// Most bytes that the footprints of one set take.
   static std::size_t bytes(const Config& config, std::uint32_t rho);
 
   std::uint32_t sets() const { return static_cast<std::uint32_t>(shapes_.size()); }
@@ -36,7 +36,7 @@ class WeightMemo {
   std::size_t number(std::uint32_t phase_x, std::uint32_t phase_y) const {
     return (static_cast<std::size_t>(phase_y) << phase_bits_) | phase_x;
   }
-  /// extent rows of pitch words.
+  /// The footprint's weights: extent rows of pitch words.
   const std::uint16_t* words(const Shape& shape, std::size_t number) const {
     return words_.data() + shape.first + number * (static_cast<std::size_t>(shape.extent) * shape.pitch);
   }

@@ -8,7 +8,7 @@
 namespace fastsplat::cmodel {
 namespace {
 
-/// Beats behind one another, until they are a command.
+/// Consecutive beats that become a command.
 class Run {
  public:
   explicit Run(std::uint64_t address) : address_(address) {}
@@ -20,7 +20,7 @@ class Run {
   }
   bool has_sets() const { return sets_ > 0; }
   std::uint64_t splats() const { return splats_; }
-  /// Ends it; the next one begins behind the splats.
+  /// Appends the command to `out`; the next one begins after the splats.
   void close(std::vector<FetchCommand>& out) {
     if (beats_ == 0) return;
     if (beats_ >> 32 != 0 || splats_ >> 32 != 0 || sets_ > kMostFetchSets)

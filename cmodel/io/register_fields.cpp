@@ -8,7 +8,7 @@
 namespace fastsplat::cmodel {
 namespace {
 
-/// The only field of its register or one of several; a capability's value is a member of the configuration.
+/// A capability's field, whose value is a member of the configuration.
 template <auto Member>
 constexpr RegisterField built_for(const char* name, int high, int low, const char* says) {
   return {name, high, low, says, [](const Config& config) -> int { return config.*Member; }};

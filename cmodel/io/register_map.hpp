@@ -1,5 +1,5 @@
-// Addresses of the device's registers (docs/microarchitecture.md, "Registers"): the package and the testbench both read
-// them here. What their bits are: register_fields.hpp.
+// Addresses of the device's registers (docs/microarchitecture.md, "Registers"), for the package and the testbench.
+// register_fields.hpp has their fields.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ struct Register {
 inline constexpr Register kRegMagic{"MAGIC", 0x00}, kRegVersion{"VERSION", 0x04}, kRegHashLow{"HASH_LOW", 0x08},
     kRegHashHigh{"HASH_HIGH", 0x0C}, kRegStatus{"STATUS", 0x10}, kRegControl{"CONTROL", 0x14}, kRegError{"ERROR", 0x18},
     kRegErrorBeat{"ERROR_BEAT", 0x1C}, kRegIrq{"IRQ", 0x20}, kRegIrqMask{"IRQ_MASK", 0x24};
-// What the device was built for; their words are capabilities() of register_fields.hpp.
+// What the device was built for; capabilities() of register_fields.hpp makes their words.
 inline constexpr Register kRegCapTile{"CAP_TILE", 0x40}, kRegCapLanes{"CAP_LANES", 0x44}, kRegCapRlut{"CAP_RLUT", 0x48},
     kRegCapTables{"CAP_TABLES", 0x4C}, kRegCapSplat{"CAP_SPLAT", 0x50}, kRegCapWeight{"CAP_WEIGHT", 0x54},
     kRegCapSheet{"CAP_SHEET", 0x58}, kRegCapPixel{"CAP_PIXEL", 0x5C}, kRegCapFeatures{"CAP_FEATURES", 0x60},

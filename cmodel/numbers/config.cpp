@@ -167,7 +167,7 @@ ErrorParts multiple_of_lanes(const char* key, int got, int lanes) {
                    "use " + std::to_string((got + lanes - 1) / lanes * lanes));
 }
 
-/// What the key's own limits say of a value.
+/// Checks a value against the key's own limits.
 std::optional<ErrorParts> key_violation(const ConfigKey& key, int value) {
   if (value < key.min || value > key.max)
     return violation(key.name, "out of range", allowed(key), value, std::string(key.name) + " is " + key.meaning);
@@ -179,10 +179,10 @@ std::optional<ErrorParts> key_violation(const ConfigKey& key, int value) {
   return std::nullopt;
 }
 
-/// Words of blit2d's widest footprint: as many as one load_table record should bring.
+/// Most words of blit2d's widest set, which is one load_table record.
 constexpr std::int64_t kMostBlitWords = std::int64_t{1} << 24;
 
-/// Limits of index.kind (docs/numerics.md, section 4: widths of each kind).
+/// Limits of index.kind (N-2-7).
 std::optional<ErrorParts> index_violation(const Config& config) {
   const int side_bits = std::bit_width(static_cast<unsigned>(config.rlut_columns - 1)) + config.position_frac_bits;
   if (config.index_symmetry != static_cast<int>(IndexSymmetry::Off) && config.index() != IndexKind::Blit2d) {
@@ -226,7 +226,7 @@ std::optional<ErrorParts> index_violation(const Config& config) {
   return std::nullopt;
 }
 
-/// Limits of interpolation (docs/numerics.md, section 4.7): it has something to do.
+/// Limits of radial.interpolate (N-2-7).
 std::optional<ErrorParts> interpolation_violation(const Config& config) {
   if (!config.interpolates()) return std::nullopt;
   const IndexKind kind = config.index();
@@ -245,7 +245,7 @@ std::optional<ErrorParts> interpolation_violation(const Config& config) {
   return std::nullopt;
 }
 
-/// Limits of classification by pixel (docs/numerics.md, section 6.2).
+/// Limits of classification by pixel (N-2-7).
 std::optional<ErrorParts> classify_violation(const Config& config) {
   if (!config.classifies()) return std::nullopt;
   const char* key = "classify.segment_bits";
@@ -274,7 +274,7 @@ std::optional<ErrorParts> classify_violation(const Config& config) {
   return std::nullopt;
 }
 
-/// Limits of ellipses (docs/numerics.md, section 4.6).
+/// Limits of ellipses (N-2-7).
 std::optional<ErrorParts> ellipse_violation(const Config& config) {
   if (!config.has_ellipses()) return std::nullopt;
   const char* key = "ellipse.frac_bits";
@@ -425,7 +425,7 @@ std::optional<ErrorParts> first_violation(const Config& config) {
   }
   if (config.grid() == 1 && config.rounding_snap == static_cast<int>(Rounding::RND_CONV) &&
       (config.tile_width % 2 != 0 || config.tile_height % 2 != 0)) {
-    // An even pixel of the tile may be an odd one of the image: a splat would lie elsewhere in every other tile.
+    // An even pixel of the tile may be odd in the image: splats would snap differently in every other tile.
     return violation("rounding.snap",
                      "rounds ties to even pixels of the tile, which differ from the image's in tiles of odd sides",
                      "snap.phases of 2 or more, or tile sides that are even",

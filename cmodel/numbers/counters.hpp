@@ -1,4 +1,5 @@
-// What the device counts while it works. Every number saturating or dropping bits has one, so nothing is lost silently.
+// The device's counters (docs/numerics.md, section 9). Every narrowing site that may saturate has one, so no overflow
+// is silent.
 #pragma once
 
 #include <cstdint>

@@ -5,7 +5,7 @@
 
 namespace fastsplat::cmodel {
 
-/// The words a quantity may take. value = word / 2^frac_bits.
+/// The range of a quantity's words; value = word / 2^frac_bits.
 struct Format {
   std::int64_t min = 0;
   std::int64_t max = 0;

@@ -6,7 +6,7 @@ namespace fastsplat::cmodel {
 
 std::int64_t stored_phases(const Config& config) {
   const bool all = config.index_symmetry == static_cast<int>(IndexSymmetry::Off) || config.phases == 1;
-  return all ? config.phases : config.phases / 2 + 1;  // a mirror has two phases that are their own images
+  return all ? config.phases : config.phases / 2 + 1;  // two phases are their own mirror images
 }
 
 std::int64_t set_words(const Config& config, std::uint32_t rho) {

@@ -1,5 +1,4 @@
-// What a radius set consists of, by the kind of index: how many words load_table brings and what each may be
-// (docs/numerics.md, section 4; docs/stream.md).
+// The contents of a radius set by index kind: number and range of its words (docs/numerics.md, section 4; S-table-5).
 #pragma once
 
 #include <cstddef>
@@ -12,26 +11,26 @@
 
 namespace fastsplat::cmodel {
 
-/// The largest mantissa of a scale: c, A and C, about 2^23..2^24.
+/// Largest mantissa of a scale (c, A, C); the driver's are about 2^23..2^24.
 constexpr std::int64_t kLargestScale = std::int64_t{1} << 24;
 /// The largest shift h.
 constexpr std::int64_t kLargestShift = 62;
 
-/// Words of a set whose support radius is `rho` 1/K pixel.
+/// Number of words of a set with support radius `rho`, in 1/K pixel.
 std::int64_t set_words(const Config& config, std::uint32_t rho);
 
-/// What a word may be; a negative `least`: the word is two's complement.
+/// Range of a word; `least` < 0: the word is two's complement.
 struct WordRange {
   std::int64_t least = 0, most = 0;
 };
 WordRange set_word_range(const Config& config, std::size_t word);
 
-/// squared_elliptic: 4 A C >= B^2, or q would be negative somewhere. What is wrong, or nothing; other kinds have no
-/// such rule.
+/// The error if a squared_elliptic set breaks 4 A C >= B^2 (N-4.3-2): q would be negative somewhere. Empty for other
+/// kinds.
 std::optional<ErrorParts> set_violation(const Config& config, std::span<const std::uint32_t> words);
 
-/// Window phases whose footprints are stored (blit2d): all k, or with eightfold symmetry all except mirror images of a
-/// smaller one.
+/// blit2d: number of window phases whose footprints are stored (N-4.4-3). All k, or with eightfold symmetry all but
+/// mirror images of a smaller one.
 std::int64_t stored_phases(const Config& config);
 
 }  // namespace fastsplat::cmodel

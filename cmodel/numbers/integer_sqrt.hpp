@@ -1,4 +1,4 @@
-// floor(sqrt(v)) of a word: eight bits of it from a table, two steps of Newton's in integers, one correction.
+// floor(sqrt(v)) of a word: eight bits from a table, two Newton steps in integers, one correction.
 #pragma once
 
 #include <array>
@@ -7,9 +7,9 @@
 
 namespace fastsplat::cmodel {
 
-/// For t = 64..255 the a with (a - 1)^2 < m < (a + 1)^2 for every m of t's 16-bit words, 256 t .. 256 t + 255: the root
-/// f of the first where that is a square, else f + 1. (256 t + 255 < (f + 1)^2 in the one case, since f >= 128, and so
-/// the more below (f + 2)^2 in the other.)
+/// For t = 64..255 an a with (a - 1)^2 < m < (a + 1)^2 for every 16-bit word m of 256 t .. 256 t + 255. It is f =
+/// floor(sqrt(256 t)) if 256 t is a square, else f + 1. (For a square, 256 t + 255 < (f + 1)^2, since f >= 128; in the
+/// other case it is below (f + 2)^2 all the more.)
 consteval std::array<std::uint16_t, 192> sqrt_seeds() {
   std::array<std::uint16_t, 192> seeds{};
   std::uint32_t f = 128;
@@ -25,10 +25,11 @@ inline constexpr std::array<std::uint16_t, 192> kSqrtSeeds = sqrt_seeds();
 ///
 /// n is v shifted by an even number of bits into 2^62 .. 2^64 - 1: its root is v's, shifted by half as many. Let m be
 /// the first 2d + 2 bits of n and r = sqrt(m). An a is accurate to e bits if (a - 1)^2 < (m >> 2(d - e)) < (a + 1)^2.
-/// One step makes it accurate to d = 2e + 1 bits. Let A = a 2^(d-e), |A - r| <= 2^(d-e). Newton's x = (A + m / A) / 2
-/// is too large by (A - r)^2 / (2 A) <= 2^(d-e) / (2 a) <= 1, as a >= 2^e. Equality does not occur: |A - r| < 2^(d-e)
-/// since both sides above are strict. Rounded down it is a' = a 2^(d-e-1) + ((m >> (d-e+1)) / a), which is within 1 of
-/// r. The seed is accurate to e = 7 bits; then 15 and 31, all of n.
+/// One step makes it accurate to d = 2e + 1 bits. Let A = a 2^(d-e), so |A - r| <= 2^(d-e). Newton's
+/// x = (A + m / A) / 2 is too large by (A - r)^2 / (2 A) <= 2^(d-e) / (2 a) <= 1, as a >= 2^e. Equality does not occur:
+/// |A - r| < 2^(d-e), since both inequalities above are strict. Rounded down, x is
+/// a' = a 2^(d-e-1) + ((m >> (d-e+1)) / a), which is within 1 of r. The seed is accurate to 7 bits, the steps' results
+/// to 15 and 31, all of n.
 constexpr std::uint64_t integer_sqrt(std::uint64_t v) {
   if (v == 0) return 0;
   const int half = std::countl_zero(v) / 2;
@@ -36,7 +37,7 @@ constexpr std::uint64_t integer_sqrt(std::uint64_t v) {
   std::uint32_t near = kSqrtSeeds[(n >> 56) - 64];
   near = (near << 7) + static_cast<std::uint32_t>(n >> 41) / near;
   const std::uint64_t root = (std::uint64_t{near} << 15) + (n >> 17) / near;
-  // root is the one sought or one more; of 2^32 the square is 0, and the comparison still right.
+  // root is right or one too large. The square of 2^32 wraps to 0, and the comparison is still right.
   return (root - (root * root - 1 >= n ? 1 : 0)) >> half;
 }
 

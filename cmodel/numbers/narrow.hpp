@@ -1,4 +1,4 @@
-// The one function that loses bits (docs/numerics.md, section 1). Everything else in the device is exact.
+// Narrowing, the one operation that loses bits (N-1-2 to N-1-5). Everything else in the device is exact.
 #pragma once
 
 #include <cassert>
@@ -25,7 +25,7 @@ struct Narrowed {
   bool overflow = false;  ///< the rounded value lay outside the format
 };
 
-/// A narrowing made ready: what follows from rounding and formats is worked out once.
+/// A prepared narrowing: what depends on rounding and formats is computed once.
 class Narrowing {
  public:
   constexpr Narrowing(Rounding rounding, Overflow overflow, int from_frac, const Format& to)
@@ -41,27 +41,26 @@ class Narrowing {
     bias_ = rounding == Rounding::TRN ? 0 : half - even_;
   }
 
-  /// `value` has from_frac() fraction bits. |value| < 2^62, and unless it wraps the result before overflow handling
-  /// fits 63 bits.
+  /// `value` has from_frac() fraction bits and |value| < 2^62. Unless it wraps, the rounded result must fit 63 bits.
   constexpr Narrowed operator()(std::int64_t value) const {
     Narrowed out;
     if (dropped_bits_ == 0) {
       out.word = static_cast<std::int64_t>(static_cast<std::uint64_t>(value) << grown_bits_);
     } else {
-      // Half less one, and one more where the word would be odd: only then does a tie go up.
+      // RND_CONV: half - 1, and one more if the word would be odd. Only then does a tie round up.
       out.word = (value + bias_ + ((value >> dropped_bits_) & even_)) >> dropped_bits_;
       out.inexact = dropped(value) != 0;
     }
     return fitted(out);
   }
-  /// The same of a value that already has the word's fraction bits: only its range is in question.
+  /// The same for a value that already has the word's fraction bits: only checks its range.
   constexpr Narrowed of_word(std::int64_t value) const { return fitted({.word = value}); }
 
   constexpr Rounding rounding() const { return rounding_; }
   constexpr int from_frac() const { return from_frac_; }
   constexpr const Format& to() const { return to_; }
   constexpr int dropped_bits() const { return dropped_bits_; }  ///< 0 where no bit is lost
-  /// The bits of `value` that are lost.
+  /// The bits of `value` that are dropped.
   constexpr std::int64_t dropped(std::int64_t value) const { return value & ((std::int64_t{1} << dropped_bits_) - 1); }
 
  private:
@@ -88,7 +87,7 @@ class Narrowing {
   std::int64_t even_ = 0;  ///< 1: ties go to even
 };
 
-/// One value, see Narrowing.
+/// Narrows one value, see Narrowing.
 template <Rounding R, Overflow O>
 constexpr Narrowed narrow(std::int64_t value, int from_frac, const Format& to) {
   return Narrowing(R, O, from_frac, to)(value);

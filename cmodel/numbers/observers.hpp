@@ -1,5 +1,5 @@
-// Who watches the narrowing sites (cmodel/numbers/sites.hpp): nobody, the device's counters, ranges of values, or two
-// at once. An observer is any type that can be called with (Site, const Narrowing&, value, const Narrowed&).
+// Observers of the narrowing sites (cmodel/numbers/sites.hpp): none, the device's counters, ranges of values, or two of
+// them. An observer is any type callable with (Site, const Narrowing&, value, const Narrowed&).
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct Nothing {
   void operator()(Site /*site*/, const Narrowing& /*narrowing*/, std::int64_t /*value*/, const Narrowed& /*to*/) {}
 };
 
-/// The device's own: a word that left its range raises its site's counter.
+/// The device's counters: an overflow increments its site's counter.
 struct Counting {
   Counters& counters;
   void operator()(Site site, const Narrowing& /*narrowing*/, std::int64_t /*value*/, const Narrowed& narrowed) {
@@ -26,18 +26,18 @@ struct Counting {
   }
 };
 
-/// What passed one site. Nothing passed: count = 0, least > greatest.
+/// Statistics of the values at one site. Without values count = 0 and least > greatest.
 struct Range {
   std::uint64_t count = 0;
   std::uint64_t inexact = 0;                                         ///< values that lost a 1 bit
-  std::uint64_t overflow = 0;                                        ///< words that left the format
+  std::uint64_t overflow = 0;                                        ///< results outside the format
   std::int64_t least = std::numeric_limits<std::int64_t>::max();     ///< before narrowing, from_frac() fraction bits
   std::int64_t greatest = std::numeric_limits<std::int64_t>::min();  ///< likewise
   std::int64_t dropped = 0;                                          ///< which of the dropped bits were ever 1
   std::int64_t ones = 0;                                             ///< which bits of the words were ever 1
-  /// Of words that stayed in the format: word less value, in steps of 2^-from_frac().
+  /// Sums over words inside the format: word - value, and its square, in steps of 2^-from_frac().
   WideSum error{}, error_squares{};
-  /// Magnitudes before narrowing by their leading bit: of `leading[n]` it is bit n-1, `leading[0]` are zeros.
+  /// Histogram of magnitudes before narrowing: leading[n] counts those whose leading bit is bit n-1, leading[0] zeros.
   std::array<std::uint64_t, 64> leading{};
 
   Range& operator+=(const Range& other) {
@@ -55,23 +55,23 @@ struct Range {
   }
   bool operator==(const Range&) const = default;
 
-  /// Low bits that are 0 in every word; all of the word's where no word has a bit.
+  /// Low bits that are 0 in every word; all bits if every word is 0.
   int idle_tail(const Narrowing& narrowing) const {
     const int bits = std::bit_width(static_cast<std::uint64_t>(narrowing.to().max));
     return ones == 0 ? bits : std::countr_zero(static_cast<std::uint64_t>(ones));
   }
-  /// Fraction bits more than the word has that would have lost nothing.
+  /// Additional fraction bits with which nothing would have been lost.
   int missing_bits(const Narrowing& narrowing) const {
     return dropped == 0 ? 0 : narrowing.dropped_bits() - std::countr_zero(static_cast<std::uint64_t>(dropped));
   }
-  /// Integer bits that were never needed (negative: so many were missing). Of a sign, none is counted.
+  /// Integer bits that were never needed, without the sign; if negative, the number of missing bits.
   int headroom(const Narrowing& narrowing) const {
     return magnitude_bits(narrowing.to().min, narrowing.to().max) -
            magnitude_bits(unbounded(narrowing, least), unbounded(narrowing, greatest));
   }
 
  private:
-  /// The word, had it no largest and no smallest.
+  /// The word in a format without limits.
   static std::int64_t unbounded(const Narrowing& narrowing, std::int64_t value) {
     constexpr Format kAny{std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max(), 0, 0};
     Format wide = kAny;
@@ -103,7 +103,7 @@ class Ranges {
     range.error.add(error);
     range.error_squares.add_square(error);
   }
-  /// What both have seen.
+  /// Merges what both observed.
   Ranges& operator+=(const Ranges& other) {
     for (std::size_t site = 0; site < ranges_.size(); ++site) ranges_[site] += other.ranges_[site];
     return *this;

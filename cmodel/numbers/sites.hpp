@@ -1,5 +1,5 @@
-// Every place where the device narrows, by name: one table of rounding, overflow and formats, made from the
-// configuration. An observer sees each value on its way (cmodel/numbers/observers.hpp).
+// The narrowing sites that observers see, by name: rounding, overflow and formats of each in a configuration.
+// Observers: cmodel/numbers/observers.hpp.
 #pragma once
 
 #include <array>
@@ -16,10 +16,10 @@ namespace fastsplat::cmodel {
 enum class Site : std::uint8_t {
   Snap,          ///< xs, S pi.kl
   AxisProduct,   ///< index.kind separable: g(dx) g(dy), U wi.wf
-  RadialFall,    ///< what interpolation takes off RADIAL[t], S (wi+1).wf
+  RadialFall,    ///< what interpolation subtracts from RADIAL[t], S (wi+1).wf
   Product,       ///< p_c, U si.sf
   Sum,           ///< S_c, U si.sf
-  Fall,          ///< what interpolation takes off FACTOR[i], One.of
+  Fall,          ///< what interpolation subtracts from FACTOR[i], One.of
   SlabColour,    ///< mode 0: c_c, One.tf
   SlabOpacity,   ///< mode 0: a, One.tf
   AddedColour,   ///< mode 1: c_c, One.tf
@@ -35,7 +35,7 @@ constexpr std::size_t kSiteCount = 16;
 
 struct SiteFacts {
   const char* name;                 ///< "slab_colour"; the RTL writes it in capitals
-  std::uint64_t Counters::*counts;  ///< words that left the range; null where none can
+  std::uint64_t Counters::*counts;  ///< counter of overflows; null where none can occur
 };
 constexpr std::array<SiteFacts, kSiteCount> kSiteFacts{{
     {"snap", &Counters::snap_saturated},
@@ -55,11 +55,11 @@ constexpr std::array<SiteFacts, kSiteCount> kSiteFacts{{
     {"pixel_out", &Counters::pixel_saturated},
     {"pixel_sum", &Counters::pixel_saturated},
 }};
-/// Sums of words of one format: no bit can be lost, whatever the configuration.
+/// Sums of words of one format: no fraction bit is dropped, whatever the configuration.
 constexpr bool is_sum(Site site) { return site == Site::Sum || site == Site::Over || site == Site::SumOver; }
 constexpr const SiteFacts& facts(Site site) { return kSiteFacts[static_cast<std::size_t>(site)]; }
 
-/// What the configuration makes of a site.
+/// The site's narrowing in a configuration.
 Narrowing narrowing(const Config& config, Site site);
 
 /// All sites of a configuration.
@@ -72,13 +72,13 @@ class Sites {
   std::array<Narrowing, kSiteCount> table_;
 };
 
-/// One site, ready for use by a unit.
+/// The narrowing of one site, for use in a unit.
 template <Site S>
 class NarrowAt {
  public:
   explicit NarrowAt(const Config& config) : narrowing_(narrowing(config, S)) {}
 
-  /// The word. The observer is called with (site, narrowing, value, Narrowed).
+  /// Returns the narrowed word. Calls the observer with (site, narrowing, value, Narrowed).
   template <class Observer>
   std::int64_t operator()(std::int64_t value, Observer& observer) const {
     const Narrowed narrowed = is_sum(S) ? narrowing_.of_word(value) : narrowing_(value);

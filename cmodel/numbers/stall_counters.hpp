@@ -1,5 +1,5 @@
-// The counters of the device whose registers come after those of FASTSPLAT_COUNTERS: how long it worked, for what it
-// waited, and what it left out.
+// The counters whose registers follow those of FASTSPLAT_COUNTERS: busy cycles, waits, and culled work (M-register-16,
+// M-register-17).
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 namespace fastsplat::cmodel {
 
 // clang-format off
-/// X(name, register, what it counts). From STALL_HAZARD on not every device has them: has_counter().
+/// X(name, register, what it counts). Not every device has those from STALL_HAZARD on: see has_counter().
 #define FASTSPLAT_STALL_COUNTERS(X)                                     \
   X(busy, CYCLES, "cycles")                                             \
   X(stall_input, STALL_INPUT, "cycles without input")                   \
@@ -24,8 +24,8 @@ namespace fastsplat::cmodel {
   X(hidden_windows, HIDDEN_WINDOWS, "hidden windows of visible splats (cull.map not off)")
 // clang-format on
 
-/// The device of this configuration has a counter of that register name. Their numbers have no gaps: one that culls has
-/// STALL_HAZARD, too, and without composite.every_sample it stays 0.
+/// Whether a device of this configuration has the counter of that register name. Counter numbers have no gaps: a device
+/// that culls also has STALL_HAZARD, which stays 0 without composite.every_sample.
 inline bool has_counter(const Config& config, std::string_view counter) {
   if (counter == "STALL_HAZARD") return config.composite_every_sample != 0 || config.culls();
   const bool of_culling = counter == "CULL_TESTS" || counter.starts_with("HIDDEN_");

@@ -1,4 +1,4 @@
-// An exact sum of many words: two's complement of 128 bits in two 64-bit words.
+// An exact sum of many words: 128 bits, two's complement, in two 64-bit words.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ struct WideSum {
     return *this;
   }
   void add(std::int64_t value) { *this += {static_cast<std::uint64_t>(value), value < 0 ? ~std::uint64_t{0} : 0}; }
-  /// |value| < 2^62, so that 2^3 of the largest squares fit, and 2^39 of the device's, whose words lose at most 43
-  /// bits.
+  /// |value| < 2^62: the sum holds 2^3 of the largest squares, or 2^39 of the device's errors, which are at most 43
+  /// bits long.
   void add_square(std::int64_t value) {
     const std::uint64_t size =
         value < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);

@@ -1,4 +1,4 @@
-// How large a radius set's footprint is: a function of its support radius (docs/numerics.md, section 4).
+// The size of a radius set's footprint, which follows from its support radius (N-3-3).
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace fastsplat::cmodel {
 
-/// Along one side of the footprint.
+/// One side of the footprint.
 struct WindowGeometry {
   std::uint32_t extent = 0;   ///< E = ceil(2 rho / K): pixels that can lie inside the support
   std::uint32_t padded = 0;   ///< Ea: E up to the next multiple of P, pixels; columns of the set in the RLUT

@@ -19,7 +19,7 @@
 namespace fastsplat::cmodel {
 namespace {
 
-/// Of densities: numerics.md cuts what lies between two entries to S 8.f, and the RTL has no bits for more.
+/// For densities: interpolation narrows to S 8.f (N-6.2-7), and the RTL has no bits for more.
 constexpr int kDensityMostInt = 7;
 
 /// Bits that hold 0..largest, at least one.
@@ -193,7 +193,7 @@ std::string sv_package(const Config& config) {
     const std::string name = upper(kSiteFacts[i].name);
     p.number("SHIFT_" + name, site.from_frac() - site.to().frac_bits);
     p.number("ROUND_" + name, static_cast<int>(site.rounding()));
-    const bool is_signed = site.to().min < 0;  // there the RTL knows the format
+    const bool is_signed = site.to().min < 0;  // the RTL fixes the format of signed sites
     if (!is_signed) p.number("UNIT_" + name, site.to().word_bits == 0 ? 1 : 0);
   }
 

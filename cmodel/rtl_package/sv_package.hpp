@@ -11,7 +11,7 @@ namespace fastsplat::cmodel {
 /// Text of rtl's `fastsplat_pkg`. The configuration must have passed first_violation() and rtl_violation().
 std::string sv_package(const Config& config);
 
-/// What the RTL does not build although the model does; empty where it does.
+/// The first limit of the RTL (N-2-8) that a configuration breaks; empty if the RTL can be made for it.
 std::optional<ErrorParts> rtl_violation(const Config& config);
 
 }  // namespace fastsplat::cmodel

@@ -10,7 +10,7 @@ namespace fastsplat::cmodel {
 StoredAxis stored_axis(const Config& config, std::uint32_t rho, std::uint32_t m) {
   const auto k = static_cast<std::uint32_t>(config.phases);
   if (config.index_symmetry == static_cast<int>(IndexSymmetry::Off)) return {.phase = m};
-  // d(m,i) = (i+1) k - m - rho has its opposite at phase m', column (m + m' + 2 rho) / k - 2 - i.
+  // d(m,i) = (i+1) k - m - rho has its opposite at phase m', column (m + m' + 2 rho) / k - 2 - i (N-4.4-3).
   const auto image = [&](std::uint32_t phase) { return (2 * k - phase - 2 * rho % k) % k; };
   const std::uint32_t other = image(m), smaller = std::min(m, other);
   std::uint32_t number = 0;
@@ -39,7 +39,7 @@ void BlitUnit::place(std::uint32_t set, const SnappedAxis& x, const SnappedAxis&
 std::uint32_t BlitUnit::weight(std::uint32_t i, std::uint32_t j) const {
   std::int32_t column = x_(i), row = y_(j);
   if (transposed_) std::swap(column, row);
-  // The mirror image of a padded column may lie before the first.
+  // The mirror image of a padded column may lie outside the footprint (N-4.4-5).
   if (column < 0 || row < 0 || column >= side_ || row >= side_) return 0;
   return footprint_[static_cast<std::size_t>(row) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(column)];
 }

@@ -1,5 +1,5 @@
-// Unit "blit2d": weights read from footprints made beforehand, one for each pair of window phases (docs/numerics.md,
-// section 4.4). No arithmetic on the way to a weight.
+// Unit "blit2d": reads weights from precomputed footprints, one for each pair of window phases, without arithmetic
+// (docs/numerics.md, section 4.4).
 #pragma once
 
 #include <cstdint>
@@ -11,20 +11,20 @@
 
 namespace fastsplat::cmodel {
 
-/// Where one axis of a footprint is stored: with the phases, in whose order along the axis.
+/// How one axis of a footprint is stored: its stored phase and the order of its columns.
 struct StoredAxis {
   std::uint32_t phase = 0;  ///< number among the stored phases
   std::int32_t first = 0;   ///< stored column of column 0
   std::int32_t step = 1;    ///< -1: mirrored
   std::int32_t operator()(std::uint32_t column) const { return first + step * static_cast<std::int32_t>(column); }
 };
-/// Of window phase m of a set with support radius rho.
+/// For window phase m of a set with support radius `rho`, 1/K pixel (N-4.4-3).
 StoredAxis stored_axis(const Config& config, std::uint32_t rho, std::uint32_t m);
 
-/// Where the footprint of two phases is stored.
+/// Where the footprint of two stored phases lies (N-4.4-4).
 struct StoredFootprint {
   std::uint32_t number = 0;  ///< in the order of load_table
-  bool transposed = false;   ///< its columns are our rows
+  bool transposed = false;   ///< rows and columns are exchanged
 };
 StoredFootprint stored_footprint(const Config& config, const StoredAxis& x, const StoredAxis& y);
 
@@ -40,7 +40,7 @@ class BlitUnit {
     places_.load(table.radius);
     sets_[table.radius.set] = table.words;
   }
-  /// Its weights are in its footprints.
+  /// Ignored: weights are in the footprints (N-4.4-9).
   void load_radial(std::span<const std::uint32_t> /*words*/) {}
   std::uint32_t rho(std::uint32_t set) const { return places_.rho(set); }
   std::uint32_t extent(std::uint32_t set) const { return places_.extent(set); }
@@ -61,7 +61,7 @@ class BlitUnit {
   std::uint32_t lanes_;
   SetPlaces places_;
   std::vector<std::vector<std::uint32_t>> sets_;  ///< [footprint][row][column]
-  // Of the splat in flight.
+  // Of the current splat.
   StoredAxis x_, y_;
   bool transposed_ = false;
   std::int32_t side_ = 0;                     ///< Ea

@@ -1,4 +1,4 @@
-// Which P x P blocks of a sheet any window reached: geometry only, no sums (docs/microarchitecture.md, "Dirty walk").
+// The P x P blocks of a sheet that windows meet: geometry only, no sums (M-walk-1).
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ class DirtyMap {
     marks_.assign(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(words_), 0);
   }
 
-  /// The footprint of width x height pixels whose first pixel is (x,y).
+  /// Marks the blocks that a footprint of width x height pixels from pixel (x,y) on meets inside the tile.
   void mark(std::int32_t x, std::int32_t y, std::int32_t width, std::int32_t height) {
     const std::int32_t x0 = std::max(0, x), x1 = std::min(width_, x + width);
     const std::int32_t y0 = std::max(0, y), y1 = std::min(height_, y + height);
@@ -42,7 +42,7 @@ class DirtyMap {
     return sum;
   }
 
-  /// Visits (block column, block row) of every mark, row by row.
+  /// Calls visit(block column, block row) for every marked block, row by row.
   template <class Visit>
   void each(Visit visit) const {
     for (int row = 0; row < rows_; ++row) {

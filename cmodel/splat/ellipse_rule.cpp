@@ -25,7 +25,7 @@ std::optional<ErrorParts> ellipse_violation(const Config& config, const EllipseR
   if (std::max(right, bottom) > kEllipseReach)
     return wrong("windows reach too far from the centre", "at most " + std::to_string(kEllipseReach) + " pixels",
                  std::max(right, bottom));
-  // q is convex: it is nowhere larger than at a corner.
+  // q is convex, so it is largest at a corner.
   const EllipseAxis x = ellipse_axis(config, record.x, windows.left), y = ellipse_axis(config, record.y, windows.top);
   const std::int64_t pixel = std::int64_t{1} << config.position_frac_bits;
   const std::int64_t far_x = x.distance + (std::int64_t{windows.columns} * config.lanes - 1) * pixel;

@@ -1,4 +1,4 @@
-// What makes an ellipse's record one that can be drawn (docs/stream.md, rule 18).
+// Checks whether an ellipse record can be drawn (docs/stream.md, rule 18).
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace fastsplat::cmodel {
 
-/// What is wrong with the shape or the windows; x and y are in range.
+/// The first error of shape or windows, or empty. Requires x and y in range.
 std::optional<ErrorParts> ellipse_violation(const Config& config, const EllipseRecord& record);
 
 }  // namespace fastsplat::cmodel

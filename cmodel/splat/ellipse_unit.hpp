@@ -1,5 +1,5 @@
-// Unit "ellipse": the weights of a splat with a shape of its own (docs/numerics.md, section 4.6). Six coefficients a
-// record, narrowed once at its first pixel; from there every pixel's q is a sum of whole multiples of them, the same
+// Unit "ellipse": the weights of a splat with its own shape (docs/numerics.md, section 4.6). A record has six
+// coefficients, each narrowed once, at its first pixel. Every pixel's q is a sum of whole multiples of them, the same
 // whatever window, bank or tile it is computed in.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace fastsplat::cmodel {
 
-/// Where a record's first pixel lies, along one axis.
+/// Place of a record's first pixel along one axis (N-4.6-3).
 struct EllipseAxis {
   std::int32_t origin = 0;    ///< tile-relative pixel
   std::int64_t distance = 0;  ///< from the centre, 2^-pf pixel
@@ -32,7 +32,7 @@ constexpr std::int64_t exact_q(const EllipseShape& shape, std::int64_t dx, std::
   return std::int64_t{shape.a} * dx * dx + std::int64_t{shape.b} * dx * dy + std::int64_t{shape.c} * dy * dy;
 }
 
-/// q(i,j) = u0 + i u1 + i^2 u2 + j v1 + j^2 v2 + i j e modulo the word, f fraction bits.
+/// q(i,j) = u0 + i u1 + i^2 u2 + j v1 + j^2 v2 + i j e modulo the word, f fraction bits (N-4.6-6).
 struct EllipseCoefficients {
   std::int64_t u0 = 0, u1 = 0, u2 = 0, v1 = 0, v2 = 0, e = 0;
 };
@@ -42,7 +42,7 @@ class EllipseUnit {
   explicit EllipseUnit(const Config& config) : config_(config), format_(config.ellipse_format()) {}
 
   EllipseCoefficients coefficients(const EllipseShape& shape, std::int64_t dx, std::int64_t dy) const;
-  /// q at pixel (i,j), counted from the record's first.
+  /// q at pixel (i,j), counted from the record's first pixel.
   std::int64_t q(const EllipseCoefficients& f, std::int64_t i, std::int64_t j) const {
     const auto times = [](std::int64_t n, std::int64_t word) {  // modulo 2^64, which the word divides
       return static_cast<std::uint64_t>(n) * static_cast<std::uint64_t>(word);
@@ -54,7 +54,7 @@ class EllipseUnit {
   std::uint64_t steps(const EllipseCoefficients& f, std::int64_t i, std::int64_t j) const {
     return static_cast<std::uint64_t>(std::max<std::int64_t>(q(f, i, j), 0)) >> format_.frac_bits;
   }
-  /// The radial table's index there; the rim's and above are past the table's end.
+  /// The radial table's index at pixel (i,j); N or more at and beyond the rim.
   std::uint64_t index(const EllipseCoefficients& f, std::int64_t i, std::int64_t j) const {
     return steps(f, i, j) >> config_.rlut_guard_bits;
   }

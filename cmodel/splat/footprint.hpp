@@ -1,5 +1,5 @@
 // Unit "footprint": the P x P weights of one window (docs/numerics.md, sections 4 and 4.7). One adder and one table
-// read per lane; where the table is interpolated a second word of it and a multiplier more.
+// read per lane; interpolation takes a second word and a multiplier.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ class RadialTable {
   std::uint32_t weight(std::uint64_t q, Observer& observer) const {
     return at(q >> guard_bits_, q, observer);
   }
-  /// The same at index t; of `steps`, which are modulo any power of two from 2^g on, only what interpolation reads.
+  /// The same at index t. Of `steps` only the g bits that interpolation reads matter, so higher bits may be missing.
   template <class Observer>
   std::uint32_t at(std::uint64_t index, std::uint64_t steps, Observer& observer) const {
     if (index >= entries_) return 0;
@@ -42,12 +42,12 @@ class RadialTable {
  private:
   int guard_bits_;
   std::size_t entries_;
-  std::uint64_t rest_;  ///< the bits of q that lie between two entries; 0: none is looked at
+  std::uint64_t rest_;  ///< mask of q's bits between two entries; 0: no interpolation
   std::vector<std::uint32_t> weights_;
   NarrowAt<Site::RadialFall> fall_;
 };
 
-/// weights[j*P+i] for the columns' and rows' RLUT words of one window.
+/// Fills weights[j*P+i] from the columns' and rows' RLUT words of one window.
 template <class Observer>
 void footprint(const RadialTable& radial, std::span<const std::uint32_t> columns, std::span<const std::uint32_t> rows,
                std::span<std::uint32_t> weights, Observer& observer) {

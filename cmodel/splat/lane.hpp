@@ -1,4 +1,4 @@
-// Unit "lane": the pure steps of one pixel of a window, from squared distance to sum (docs/numerics.md, sections 4 and
+// Unit "lane": pure functions for one pixel of a window, from squared distance to sum (docs/numerics.md, sections 4 and
 // 5; rtl/splat/fastsplat_lane.sv, and the sum of rtl/splat/fastsplat_sheet_bank.sv).
 #pragma once
 
@@ -12,8 +12,8 @@ namespace fastsplat::cmodel {
 /// One pixel's sums, U si.sf: R, G, B, tau.
 using SheetWord = std::array<std::uint32_t, 4>;
 
-/// t: the radial table's index at q, the sum of two RLUT words with `guard_bits` fraction bits. At and beyond the rim
-/// it lies past the table's end.
+/// t: the radial table's index at q, the sum of two RLUT words with `guard_bits` fraction bits. N or more at and beyond
+/// the rim.
 constexpr std::uint32_t radial_index(std::uint32_t q, int guard_bits) { return q >> guard_bits; }
 
 class Lane {

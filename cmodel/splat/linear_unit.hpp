@@ -1,4 +1,4 @@
-// Unit "linear": weight from a table over the distance itself, the integer square root of the exact squared distance
+// Unit "linear": weights from a table over the distance, the integer square root of the exact squared distance
 // (docs/numerics.md, section 4.1). Centres are not snapped.
 #pragma once
 

@@ -1,6 +1,5 @@
-// q = A dx^2 + B dx dy + C dy^2 over pixels, and how it goes from pixel to pixel by additions alone: forward
-// differences, exact in integers (docs/numerics.md, section 4.2). A circle has A = C and B = 0; the squared distance
-// itself A = C = 1.
+// q = A dx^2 + B dx dy + C dy^2 over pixels, by additions alone from pixel to pixel: forward differences, exact in
+// integers (N-4.2-3, N-4.3-4). A circle has A = C and B = 0; the squared distance A = C = 1.
 #pragma once
 
 #include <cstddef>
@@ -39,8 +38,8 @@ constexpr std::uint64_t quadric_steps(std::int64_t q, int shift, int guard_bits)
   return shift < guard_bits ? word << (guard_bits - shift) : word >> (shift - guard_bits);
 }
 
-/// q at the P x P pixels of a window, made at its first pixel and taken to the next window by q(x+P) = q(x) + step,
-/// step += second difference. Only begin() multiplies.
+/// q at the P x P pixels of a window, computed from the first pixel. next() moves on by q(x+P) = q(x) + step, step +=
+/// second difference. Only begin() multiplies.
 class QuadricScan {
  public:
   explicit QuadricScan(const Config& config)
@@ -49,7 +48,7 @@ class QuadricScan {
         q_(static_cast<std::size_t>(lanes_) * static_cast<std::size_t>(lanes_)),
         leap_(q_.size()) {}
 
-  /// The window whose first pixel lies (dx, dy) 1/K pixel from the centre.
+  /// Begins at the window whose first pixel lies (dx, dy) 1/K pixel from the centre.
   void begin(const Quadric& f, std::int64_t dx, std::int64_t dy) {
     const std::int64_t one = pixel_, wide = one * lanes_;
     std::int64_t row = quadric(f, dx, dy), down = step_down(f, dx, dy, one);
@@ -71,21 +70,21 @@ class QuadricScan {
       row_leap += f.b * wide * one;
     }
   }
-  /// The next window to the right.
+  /// Moves to the next window on the right.
   void next() {
     for (std::size_t lane = 0; lane < q_.size(); ++lane) {
       q_[lane] += leap_[lane];
       leap_[lane] += second_leap_;
     }
   }
-  /// Row by row.
+  /// q at the window's pixels, row by row.
   std::span<const std::int64_t> values() const { return q_; }
 
  private:
   int lanes_;
   std::int64_t pixel_;              ///< K
-  std::vector<std::int64_t> q_;     ///< of the window in flight
-  std::vector<std::int64_t> leap_;  ///< q P pixels on, less q
+  std::vector<std::int64_t> q_;     ///< of the current window
+  std::vector<std::int64_t> leap_;  ///< q(x+P) - q(x)
   std::int64_t second_leap_ = 0;
 };
 

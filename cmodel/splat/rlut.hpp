@@ -1,4 +1,4 @@
-// Unit "RLUT": squared distance along one axis, per radius set, window phase and column (docs/numerics.md, section 4).
+// Unit "RLUT": squared distance along one axis, per radius set, window phase and column (N-4-1).
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ class Rlut {
  public:
   explicit Rlut(const Config& config);
 
-  /// The words of a checked load_table record.
+  /// Loads a checked load_table record.
   void load(const LoadTable& table);
 
   std::uint32_t rho(std::uint32_t set) const { return sets_[set].rho; }

@@ -1,5 +1,5 @@
-// Unit "rlut": weight from a table over the squared distance, the sum of two words read by window phase
-// (docs/numerics.md, section 4). The device that rtl/ is.
+// Unit "rlut": weights from a table over the squared distance, the sum of two words read by window phase (N-4-6). The
+// index kind of rtl/.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ class RlutUnit {
  private:
   Rlut rlut_;
   RadialTable radial_;
-  std::uint32_t set_ = 0, x_ = 0, y_ = 0;  ///< of the splat in flight
+  std::uint32_t set_ = 0, x_ = 0, y_ = 0;  ///< of the current splat
 };
 
 }  // namespace fastsplat::cmodel

@@ -1,5 +1,5 @@
-// Unit "separable": weight = g(dx) g(dy), for Gaussians, which alone are such products (docs/numerics.md, section 4.5).
-// One multiplier a lane instead of adder and radial table.
+// Unit "separable": weight = g(dx) g(dy), which holds for Gaussians only (docs/numerics.md, section 4.5). One
+// multiplier a lane instead of adder and radial table.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class SeparableUnit {
   explicit SeparableUnit(const Config& config) : axis_(config), narrow_(config) {}
 
   void load(const LoadTable& table) { axis_.load(table); }
-  /// Its weights are in its columns.
+  /// Ignored: weights are in the columns (N-4.5-4).
   void load_radial(std::span<const std::uint32_t> /*words*/) {}
   std::uint32_t rho(std::uint32_t set) const { return axis_.rho(set); }
   std::uint32_t extent(std::uint32_t set) const { return axis_.extent(set); }
@@ -37,9 +37,9 @@ class SeparableUnit {
   }
 
  private:
-  Rlut axis_;  ///< the same memory with other words: [phase][column]
+  Rlut axis_;  ///< the RLUT's memory with other words: [phase][column]
   NarrowAt<Site::AxisProduct> narrow_;
-  std::uint32_t set_ = 0, x_ = 0, y_ = 0;  ///< of the splat in flight
+  std::uint32_t set_ = 0, x_ = 0, y_ = 0;  ///< of the current splat
 };
 
 }  // namespace fastsplat::cmodel

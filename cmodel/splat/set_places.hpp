@@ -1,5 +1,4 @@
-// How large the footprints of the loaded radius sets are, and where a splat's pixels lie: what all kinds of index
-// share.
+// Footprint sizes of the loaded radius sets and places of their pixels, for index kinds without columns.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@ class SheetBuffer {
   explicit SheetBuffer(const Config& config)
       : lane_(config), lanes_(config.lanes), lane_bits_(Config::log2_exact(config.lanes)) {}
 
-  /// A new tile of width x height pixels, all zero.
+  /// Begins a tile of width x height pixels, all zero.
   void begin_tile(int width, int height);
 
   /// Adds one window's products: first pixel (x,y), tile-relative, weights row by row. Pixels outside the tile are
@@ -49,7 +49,7 @@ class SheetBuffer {
   const SheetWord& at(int x, int y) const { return words_[index(x, y)]; }
   bool inside(std::int64_t x, std::int64_t y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }
 
-  /// Visits each dirty P x P block (block coordinates), then clears its words and its mark.
+  /// Calls visit(bx, by) for each dirty P x P block, then clears its words and its mark.
   template <class Visit>
   void drain(Visit visit) {
     for (int by = 0; by < blocks_y_; ++by) {
@@ -65,7 +65,7 @@ class SheetBuffer {
 
  private:
   std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width_ + x; }
-  /// The blocks of columns x0..x1-1 and rows y0..y1-1 are dirty.
+  /// Marks the blocks of pixel columns x0..x1-1 and rows y0..y1-1 dirty.
   void mark(int x0, int y0, int x1, int y1);
   void clear_block(int bx, int by);
 

@@ -1,4 +1,4 @@
-// Unit "snap": a splat's centre onto the 1/K grid, its window's origin and phase (docs/numerics.md, section 3).
+// Unit "snap": rounds a splat's centre to the 1/K grid and finds its windows' origin and phase (N-3-4, N-3-5).
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ class Snap {
   NarrowAt<Site::Snap> narrow_;
 };
 
-/// One centre that nobody watches.
+/// Snaps one centre without an observer.
 inline SnappedAxis snap(const Config& config, std::int32_t centre, std::uint32_t rho) {
   Nothing nobody;
   return Snap(config)(centre, rho, nobody);

@@ -1,4 +1,4 @@
-// Units "squared" and "squared_elliptic": weight from a table over q, the squared distance in radial table steps, by
+// Units "squared" and "squared_elliptic": weights from a table over q, the squared distance in radial table steps, by
 // forward differences (docs/numerics.md, sections 4.2 and 4.3). Centres are not snapped.
 #pragma once
 
@@ -13,13 +13,13 @@
 
 namespace fastsplat::cmodel {
 
-/// The words of a set: c, h of a circle; A, B, C, h of an ellipse.
+/// From a set's words: c, h of a circle; A, B, C, h of an ellipse.
 inline Quadric quadric_of(std::span<const std::uint32_t> words) {
   if (words.size() == 2) return {.a = words[0], .b = 0, .c = words[0], .shift = static_cast<int>(words[1])};
   return {.a = words[0], .b = static_cast<std::int32_t>(words[1]), .c = words[2], .shift = static_cast<int>(words[3])};
 }
 
-/// Takes the windows of a footprint along a scan line; see cmodel/splat/weight_unit.hpp for what each function is for.
+/// Goes through a footprint's windows along scan lines; cmodel/splat/weight_unit.hpp describes the functions.
 class WindowScan {
  public:
   explicit WindowScan(const Config& config) : lanes_(static_cast<std::uint32_t>(config.lanes)), scan_(config) {}
@@ -31,7 +31,7 @@ class WindowScan {
     pixel_ = places.distance(set, x.phase, 1) - first_x_;
     next_column_ = kNone;
   }
-  /// q of the window's pixels: by one addition a pixel where it lies to the right of the last one.
+  /// q of the window's pixels: by two additions a pixel if the window is to the right of the last one.
   std::span<const std::int64_t> window(std::uint32_t column, std::uint32_t row) {
     if (column == next_column_ && row == row_) {
       scan_.next();
@@ -48,7 +48,7 @@ class WindowScan {
   std::uint32_t lanes_;
   QuadricScan scan_;
   Quadric quadric_;
-  std::int64_t first_x_ = 0, first_y_ = 0;  ///< of the footprint's first pixel, 1/K pixel from the centre
+  std::int64_t first_x_ = 0, first_y_ = 0;  ///< distance of the first pixel from the centre, 1/K pixel
   std::int64_t pixel_ = 0;                  ///< K
   std::uint32_t next_column_ = kNone, row_ = 0;
 };

@@ -1,13 +1,13 @@
-// Where weights come from: the unit of the configuration's index.kind. All have the same functions, so that whoever
-// walks windows chooses once a splat (std::visit) and pays nothing a pixel:
+// The weight unit of the configuration's index.kind. All units have the same functions, so that callers choose once a
+// splat (std::visit), not once a pixel:
 //
 // - load(table): a checked load_table of a radius set
 // - load_radial(words): the radial table; units without one ignore it
-// - rho(set), extent(set): 1/K pixel; Ea, pixels
-// - place(set, x, y): the splat in flight, from snap()
+// - rho(set), extent(set): support radius, 1/K pixel; Ea, pixels
+// - place(set, x, y): starts a splat, at the axes that snap() returned
 // - window(column, row, weights, observer): the P x P weights, row by row, of the window whose first pixel is pixel
-//   (column, row) of the footprint; both are multiples of P. In any order; kinds that work along scan lines use
-//   additions in that order
+//   (column, row) of the footprint; both are multiples of P. In any order; linear and squared are fastest along scan
+//   lines
 #pragma once
 
 #include <variant>
@@ -20,7 +20,7 @@
 
 namespace fastsplat::cmodel {
 
-/// squared and squared_elliptic are one unit: a circle is an ellipse without B.
+/// squared and squared_elliptic share a unit: a circle is an ellipse with B = 0.
 using WeightUnit = std::variant<RlutUnit, LinearUnit, SquaredUnit, BlitUnit, SeparableUnit>;
 
 WeightUnit weight_unit(const Config& config);

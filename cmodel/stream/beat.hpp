@@ -7,9 +7,9 @@
 
 namespace fastsplat::cmodel {
 
-/// Eight 32-bit words: one transfer of the stream (docs/stream.md).
+/// Eight 32-bit words: one transfer of the stream (S-record-1).
 using Beat = std::array<std::uint32_t, 8>;
-// Its size has one home: whatever counts in beats, bytes of a stream or bits of a transfer follows it.
+// All sizes in words, bytes and bits derive from Beat.
 constexpr std::size_t kBeatWords = std::tuple_size_v<Beat>;
 constexpr int kBeatBytes = static_cast<int>(sizeof(Beat));
 constexpr int kBeatBits = 8 * kBeatBytes;

@@ -10,7 +10,7 @@ namespace fastsplat::cmodel {
 
 class Crc32 {
  public:
-  /// Takes the beat's bytes, words little-endian.
+  /// Adds the beat's bytes, words little-endian.
   void add(const Beat& beat) {
     for (std::size_t i = 0; i < beat.size(); i += 2) {
       const std::uint32_t low = state_ ^ beat[i], high = beat[i + 1];

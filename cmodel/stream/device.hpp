@@ -1,4 +1,4 @@
-// What driver and checker know of a device, whether it is this model or the RTL: beats in, pixels out, taps, counters.
+// The device as driver and checker see it, model or RTL: beats in, pixels out, taps, counters.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 namespace fastsplat::cmodel {
 
-/// Takes beats in stream order, some thousands at a time.
+/// Receives beats in stream order, some thousands at a time.
 using BeatSink = std::function<void(std::span<const Beat>)>;
-/// Delivers a stream in pieces; each call the same one from the start. It may be longer than memory.
+/// Delivers a stream in pieces; each call delivers the same stream from the start. It may be larger than memory.
 using BeatSource = std::function<void(const BeatSink&)>;
 
 /// A finished tile: RGBA words, row by row.
@@ -31,7 +31,7 @@ class PixelSink {
   virtual void on_tile(TilePixels&& tile) = 0;
 };
 
-/// For runs whose pixels nobody looks at.
+/// Discards all pixels.
 struct NullPixels final : PixelSink {
   void on_tile(TilePixels&&) override {}
 };
@@ -39,9 +39,10 @@ struct NullPixels final : PixelSink {
 class Device {
  public:
   virtual ~Device() = default;
-  /// Takes whole or partial streams; a beat that breaks docs/stream.md is a UserError (Input) naming beat and offset.
+  /// Takes whole or partial streams. Throws UserError (Input) with beat and offset for a beat that breaks
+  /// docs/stream.md.
   virtual void consume(std::span<const Beat> beats) = 0;
-  /// No more beats: runs until all is delivered. Throws UserError (Input) if the stream ended where it may not.
+  /// Ends the stream: runs until all is delivered. Throws UserError (Input) if the stream is incomplete.
   virtual void finish() = 0;
   virtual const Counters& counters() const = 0;
 };

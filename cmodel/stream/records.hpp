@@ -41,7 +41,7 @@ struct EllipseShape {
   std::int32_t b = 0;          ///< 24 bits, two's complement
   std::uint32_t shift = 0;     ///< h, 0..63
 };
-/// P x P windows, row by row: the first pixel relative to the pixel that the centre lies in or right and below of.
+/// A rectangle of P x P windows. Its first pixel lies `left`, `top` pixels from floor(centre) (N-4.6-3).
 struct EllipseWindows {
   std::int32_t left = 0, top = 0;       ///< -512..511 pixels
   std::uint32_t columns = 1, rows = 1;  ///< 1..32
@@ -52,7 +52,7 @@ struct SplatRecord {
   std::int32_t x = 0, y = 0;              ///< S pi.pf, relative to the tile
   std::array<std::uint32_t, 4> colour{};  ///< R, G, B, tau; U 0.cf
 };
-/// A splat with a shape of its own (docs/numerics.md, section 4.6), its window rectangle where the driver wants it.
+/// A splat with its own shape and its own windows, which the driver chooses (docs/numerics.md, section 4.6).
 struct EllipseRecord {
   std::uint32_t tag = 0;
   std::int32_t x = 0, y = 0;              ///< S pi.pf, relative to the tile
@@ -81,19 +81,18 @@ using Record = std::variant<BeginFrame, LoadTable, BeginTile, BeginSheet, SplatR
 
 /// Appends the record's beats.
 void append(std::vector<Beat>& beats, const Record& record);
-/// The same without the variant: the driver's inner loop.
+/// The same without the variant, for the driver's inner loop.
 Beat to_beat(const SplatRecord& splat);
 Beat to_beat(const EllipseRecord& ellipse);
 SplatRecord to_splat(const Beat& beat);
 
-/// Every record but load_table, whose words follow in later beats: there only the header is filled.
-/// The opcode must be known (find_layout).
+/// The record of `beat`. Of load_table it is the header only: the words follow in later beats. The opcode must be known
+/// (find_layout).
 Record from_beat(const Beat& beat);
 
-/// Word count that load_table's header announces.
+/// Number of words that load_table's header announces.
 std::uint32_t announced_words(const Beat& load_table);
-/// The beats that belong to a record behind its first, `header`: load_table's words. Whoever goes from record to record
-/// passes over so many.
+/// Number of beats that follow `header` in its record: load_table's words, else 0. To reach the next record, skip them.
 std::uint64_t announced_beats(const Beat& header);
 
 }  // namespace fastsplat::cmodel

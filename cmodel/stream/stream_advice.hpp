@@ -1,4 +1,4 @@
-// What everyone who refuses a stream says alike: where, and what to do about it.
+// Shared texts of all refusals of a stream: the place and the suggestion.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ inline std::string version_message(std::int64_t got) {
   return "stream version " + std::to_string(got) + ", this program reads version " + std::to_string(kStreamVersion);
 }
 
-// By what is wrong: the file, when or by whom it was written, or the configuration it is given to.
+// Suggestions by cause: damaged file, faulty writer, other version, other configuration.
 inline constexpr const char* kDamagedStream = "the stream is damaged or truncated: copy or record it again";
 inline constexpr const char* kMiswrittenStream =
     "see the rule in docs/stream.md: correct the program that wrote the stream, or record it again";

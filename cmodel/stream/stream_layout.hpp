@@ -1,4 +1,5 @@
-// Where every field of every record lies: the one description that encoders, decoders, docs and RTL are made from.
+// The place of every field of every record: the source of encoders, decoders and the RTL's package. A test compares
+// docs/stream.md with it.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ enum class Opcode : std::uint8_t {
   EndFrame = 0x66,
 };
 
-/// From Classify on of a device that classifies densities, from Nodes on of one with solid patterns.
+/// Classify to Sheets: only devices that classify densities. Nodes and Pattern: only devices with solid patterns.
 enum class Table : std::uint8_t {
   Rlut = 0,
   Radial = 1,
@@ -34,8 +35,7 @@ enum class Table : std::uint8_t {
   Nodes = 8,
   Pattern = 9
 };
-/// What a tile does with sums: of a sheet, or (bit 2) with the products of every window; (bit 3) the sums are
-/// densities.
+/// How a tile composites: the sums of sheets, the products of every window (bit 2), or sums that are densities (bit 3).
 enum class Mode : std::uint8_t {
   Exponential = 0,
   Additive = 1,
@@ -65,7 +65,7 @@ inline constexpr Field kTileMode{0, 8, 4}, kTileNumber{1, 0, 32}, kTileX{2, 0, 3
 inline constexpr Field kSheetNumber{1, 0, 32};
 inline constexpr Field kSplatSet{0, 8, 8}, kSplatTag{1, 0, 32}, kSplatX{2, 0, 32, true}, kSplatY{3, 0, 32, true},
     kSplatR{4, 0, 16}, kSplatG{4, 16, 16}, kSplatB{5, 0, 16}, kSplatTau{5, 16, 16};
-// Both in one beat: where, how much and which windows as well as the shape.
+// One beat holds position, colour, windows and shape.
 inline constexpr Field kEllipseB{0, 8, 24, true}, kEllipseTag{1, 0, 32}, kEllipseX{2, 0, 22, true},
     kEllipseColumns{2, 22, 5}, kEllipseRows{2, 27, 5}, kEllipseY{3, 0, 22, true}, kEllipseShift{3, 22, 6},
     kEllipseR{4, 0, 16}, kEllipseG{4, 16, 16}, kEllipseBlue{5, 0, 16}, kEllipseTau{5, 16, 16}, kEllipseA{6, 0, 22},
@@ -90,7 +90,7 @@ struct RecordLayout {
 
 /// All records, in the order of docs/stream.md.
 std::span<const RecordLayout> record_layouts();
-/// The bits of a beat of this record that have a name; the others are 0.
+/// Mask of the record's bits that have a name; the others must be 0 (S-record-3).
 Beat used_bits(const RecordLayout& record);
 /// nullptr for an unknown opcode.
 const RecordLayout* find_layout(std::uint32_t opcode);

@@ -14,7 +14,7 @@ namespace {
   throw_usage(std::move(parts));
 }
 
-/// The key that was set.
+/// Applies `change`; returns its key.
 std::string set(cmodel::Config& config, const std::string& change) {
   const auto equals = change.find('=');
   if (equals == std::string::npos || equals == 0) {
@@ -26,13 +26,13 @@ std::string set(cmodel::Config& config, const std::string& change) {
   }
   const std::string key = change.substr(0, equals);
   if (auto wrong = cmodel::set(config, key, change.substr(equals + 1))) {
-    wrong->where.clear();  // the key stands in the change
+    wrong->where.clear();  // the change already names the key
     misused(change, *wrong);
   }
   return key;
 }
 
-/// The keys in which `config` differs from what it was, each with `before`: " radial.entries=256".
+/// The keys whose values differ between `was` and `config`, each preceded by `before`: " radial.entries=256".
 std::string differences(const cmodel::Config& was, const cmodel::Config& config, char before) {
   std::string text;
   for (const auto& key : cmodel::config_keys()) {

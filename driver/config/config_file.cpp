@@ -34,7 +34,7 @@ std::string to_toml(const cmodel::Config& config) {
   std::string text =
       fmt::format("# hash {}\nname = {}\ndescription = {}\nverified = {}\n", hash_text(cmodel::config_hash(config)),
                   quoted(config.name), quoted(config.description), quoted(config.verified));
-  // By table: a key that came later stands beside the others.
+  // Grouped by table, so that later keys stand with the others of their table.
   std::vector<std::pair<std::string, std::string>> tables;
   for (const auto& key : cmodel::config_keys()) {
     const std::string name = key.name;

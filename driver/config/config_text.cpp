@@ -29,7 +29,7 @@ std::string text_value(const std::string& file, const toml::node& node, const st
                .fix = "write " + key + " = \"...\""});
 }
 
-/// A number or a word, as cmodel::set() takes it.
+/// The value as text for cmodel::set(): a whole number or a name.
 std::string value_text(const std::string& file, const toml::node& node, const cmodel::ConfigKey& key) {
   if (!key.names.empty()) return text_value(file, node, key.name);
   if (const auto value = node.value_exact<std::int64_t>()) return std::to_string(*value);
@@ -40,7 +40,7 @@ std::string value_text(const std::string& file, const toml::node& node, const cm
                .fix = fmt::format("{} is {}", key.name, key.meaning)});
 }
 
-/// A name stands in lines of text, between other words.
+/// Names are printed within lines of text.
 void refuse_unspeakable(const std::string& file, const toml::node& node, const std::string& name) {
   const auto odd = std::find_if(name.begin(), name.end(), [](char c) {
     const auto byte = static_cast<unsigned char>(c);

@@ -74,7 +74,7 @@ class Writer {
 
 std::string hex(std::uint32_t word) { return fmt::format("0x{:08x}", word); }
 
-/// Before anything else is said of a file: whether it is a stream at all, and of the version that is read.
+/// Checks first that the file is a stream, and of the supported version.
 void require_stream(const Beat& first) {
   const auto opcode = static_cast<std::uint32_t>(get(first, cmodel::layout::kOpcode));
   const auto magic = static_cast<std::uint32_t>(get(first, cmodel::layout::kFrameMagic));
@@ -96,7 +96,7 @@ void require_stream(const Beat& first) {
        .fix = "name a stream file (.fss)"});
 }
 
-/// Beats of a file in blocks.
+/// Reads the beats of a file in blocks.
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& path) : path_(path) {
@@ -108,8 +108,8 @@ class Reader {
     if (error) cannot_read(error.message());
   }
 
-  /// visit(beat) for every whole beat, the first of which begins a stream; stops when it returns false. A last beat
-  /// that is cut is refused where it lies.
+  /// visit(beat) for every whole beat; stops when it returns false. Throws UserError (Input) if the first beat does not
+  /// begin a stream or the last one is truncated.
   template <class Visit>
   void each(Visit visit) {
     std::vector<Beat> block(4096);
@@ -156,7 +156,7 @@ class Reader {
   std::uintmax_t bytes_ = 0;
 };
 
-/// Refuses a beat that dump_stream cannot tell; `layout` is null for an unknown opcode.
+/// Refuses a beat that dump_stream cannot print; `layout` is null for an unknown opcode.
 void check_dumped(std::uint64_t number, const Beat& beat, const cmodel::RecordLayout* layout, bool ended) {
   if (layout == nullptr) {
     throw_input({.where = cmodel::beat_place(number),
@@ -174,7 +174,7 @@ void check_dumped(std::uint64_t number, const Beat& beat, const cmodel::RecordLa
   }
 }
 
-/// " name=value" of each field; the magic and the configuration's hash as they are written everywhere.
+/// " name=value" of each field; the magic and the configuration's hash in their usual form.
 std::string fields_of(const Beat& beat, const cmodel::RecordLayout& layout) {
   std::string text;
   for (const auto& [name, field] : layout.fields) {
@@ -194,7 +194,7 @@ std::string fields_of(const Beat& beat, const cmodel::RecordLayout& layout) {
   return text;
 }
 
-/// end_frame against what came before it.
+/// Checks the beat count and the checksum of end_frame.
 void check_end(std::uint64_t number, const Beat& beat, const cmodel::Crc32& crc) {
   const auto end = std::get<cmodel::EndFrame>(cmodel::from_beat(beat));
   if (end.beats != number) {
@@ -215,7 +215,7 @@ void check_end(std::uint64_t number, const Beat& beat, const cmodel::Crc32& crc)
 
 std::int64_t opcode(const Beat& beat) { return get(beat, cmodel::layout::kOpcode); }
 
-/// The frame of a replay: made when the header is known to be sound; the model hands it tiles only after that.
+/// The frame of a replay, made once the header has been checked; the model delivers tiles only after that.
 class ReplayFrame final : public cmodel::PixelSink {
  public:
   void begin(const cmodel::Config& config, int width, int height) { frame_.emplace(config, width, height); }
@@ -226,7 +226,7 @@ class ReplayFrame final : public cmodel::PixelSink {
   std::optional<FrameSink> frame_;
 };
 
-/// Every beat to the device, which has checked begin_frame when `header` is called with it.
+/// Feeds every beat to the device; calls `header` with begin_frame after the device has checked it.
 template <class Header>
 void feed(Reader& reader, const std::filesystem::path& path, cmodel::Device& device, const RenderOptions& options,
           Header header) {

@@ -39,10 +39,10 @@ cmodel::BeginFrame feed_stream(const std::filesystem::path& path, cmodel::Device
                                const RenderOptions& options = {});
 
 /// Passes the file's beats to the sink in order, some thousands at a time, contents unchecked. Errors that the sink
-/// reports at a beat get the file's name.
+/// reports at a beat are prefixed with the file's name.
 void read_beats(const std::filesystem::path& path, const cmodel::BeatSink& sink);
 
-/// Runs `action`; errors that it reports at a beat get the file's name.
+/// Runs `action`; errors that it reports at a beat are prefixed with the file's name.
 void naming(const std::filesystem::path& path, const std::function<void()>& action);
 
 /// Throws UserError (Input) if the tiles of an otherwise valid stream leave out pixels of its image. replay_stream and
@@ -52,8 +52,8 @@ void require_covered(const std::filesystem::path& path);
 /// Writes beats unchanged and atomically.
 void write_beats(const std::filesystem::path& path, std::span<const cmodel::Beat> beats);
 
-/// Passes one line of text per record to `line`; stops when it returns false. A stream that is truncated, or whose
-/// number of beats or checksum differs from its end, is refused after the lines of its records.
+/// Passes one line of text per record to `line`; stops when it returns false. A truncated stream, or one that does not
+/// match the beat count and checksum of its end_frame, is refused after the lines of its records.
 void dump_stream(const std::filesystem::path& path, const std::function<bool(const std::string&)>& line);
 
 }  // namespace fastsplat::driver

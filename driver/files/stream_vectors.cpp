@@ -23,7 +23,7 @@ namespace {
 
 std::string tap_file(cmodel::Tap tap) { return std::string(to_string(tap)) + ".hex"; }
 
-/// A text file in the making, with its lines and checksum.
+/// A text file being written, with its line count and checksum.
 class TextFile {
  public:
   TextFile(const std::filesystem::path& folder, const std::string& name)
@@ -71,7 +71,7 @@ std::string array(const Words& words) {
   return fmt::format("[{}]", fmt::join(words, ","));
 }
 
-/// A device that writes down what goes in and what the model has of it.
+/// A device that records its input beats and the model's taps and pixels for them.
 class Scribe final : public cmodel::Device, private cmodel::TapSink, private cmodel::PixelSink {
  public:
   Scribe(const cmodel::Config& config, const std::filesystem::path& folder)
@@ -104,7 +104,7 @@ class Scribe final : public cmodel::Device, private cmodel::TapSink, private cmo
   }
   const cmodel::Counters& counters() const override { return model_.counters(); }
 
-  /// All files to their names, the table of contents last.
+  /// Gives all files their names, vectors.json last.
   VectorReport commit(const std::filesystem::path& stream, const std::filesystem::path& folder) {
     std::vector<TextFile*> all{&beats_, &output_, &records_};
     for (auto& tap : taps_) all.push_back(&tap);
@@ -121,7 +121,7 @@ class Scribe final : public cmodel::Device, private cmodel::TapSink, private cmo
   }
 
  private:
-  /// The records come out one a line, with a comma behind each but the last.
+  /// Writes one record per line, with a comma after each but the last.
   void record(const std::string& text) {
     if (!open_.empty()) records_.line(open_ + ",");
     open_ = text;
@@ -138,7 +138,8 @@ class Scribe final : public cmodel::Device, private cmodel::TapSink, private cmo
                                  array(record.payload)));
   }
 
-  /// The beats of fastsplat_pixel_out: P pixels of a row, pixel 0 lowest; outside the tile zeros that keep leaves out.
+  /// The beats of fastsplat_pixel_out: P pixels of a row, pixel 0 lowest. Pixels outside the tile are 0 and not in
+  /// keep.
   void on_tile(cmodel::TilePixels&& tile) override {
     const int lanes = config_.lanes, digits = (lanes + 3) / 4;
     for (int y = 0; y < tile.height; ++y) {
@@ -185,14 +186,14 @@ class Scribe final : public cmodel::Device, private cmodel::TapSink, private cmo
   cmodel::Config config_;
   TextFile beats_, output_, records_;
   std::deque<TextFile> taps_;
-  std::vector<std::string> shown_;  ///< of the beat that is being taken
-  std::string open_;                ///< the record that waits to know whether another follows
+  std::vector<std::string> shown_;  ///< records of the current beat
+  std::string open_;                ///< the last record, held back until the next one is known to follow
   VectorReport report_;
   cmodel::Model model_;
 };
 
-/// True if it was not there. Where it lies has to be there, as for every other result: a name with a slip of the pen
-/// makes no tree of folders.
+/// Creates the folder; false if it existed. Its parent must exist, as for every other result, so that a typo does not
+/// create a tree of folders.
 bool make_folder(const std::filesystem::path& folder) {
   const auto plain = folder.has_filename() ? folder : folder.parent_path();  // without a slash at its end
   const auto parent = plain.has_parent_path() ? plain.parent_path() : std::filesystem::path(".");
@@ -200,7 +201,7 @@ bool make_folder(const std::filesystem::path& folder) {
   const bool lies = std::filesystem::is_directory(parent, error);
   const bool made = lies && std::filesystem::create_directory(plain, error);
   if (lies && !error && std::filesystem::is_directory(plain)) return made;
-  // Of a file that is in the way libraries say either nothing or that there is one.
+  // If a file is in the way, libraries report either nothing or that it exists.
   std::error_code ignored;
   const bool in_the_way = lies && std::filesystem::exists(plain, ignored);
   throw_input({.where = folder.string(),
@@ -223,7 +224,7 @@ std::vector<std::string> vector_file_names() {
 
 VectorReport write_vectors(const std::filesystem::path& stream, const cmodel::Config& config,
                            const std::filesystem::path& folder, const RenderOptions& options) {
-  std::optional<UnfinishedPath> made;  // before the files in it, so that it goes after them
+  std::optional<UnfinishedPath> made;  // declared before the files in it, so that it is removed after them
   if (make_folder(folder)) made.emplace(folder);
   Scribe scribe(config, folder);
   feed_stream(stream, scribe, options);

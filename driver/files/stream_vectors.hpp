@@ -31,9 +31,10 @@ struct VectorReport {
 /// The files' names, vectors.json last.
 std::vector<std::string> vector_file_names();
 
-/// Feeds the stream to the model and writes beats.hex, output.hex and a .hex file a tap, records.json with the same
-/// records, and last vectors.json, which names them all with their checksums. Creates the folder if its parent exists.
-/// Replaces all files of these names or none. Throws UserError (Input) as replay_stream does. Memory stays bounded.
+/// Feeds the stream to the model and writes beats.hex, output.hex, one .hex file per tap, and records.json with the
+/// same records. Writes vectors.json last, which lists all files with their checksums. Creates the folder if its parent
+/// exists. Replaces all files of these names or none. Throws UserError (Input) as replay_stream does. Memory stays
+/// bounded.
 VectorReport write_vectors(const std::filesystem::path& stream, const cmodel::Config& config,
                            const std::filesystem::path& folder, const RenderOptions& options = {});
 

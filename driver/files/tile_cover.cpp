@@ -9,7 +9,7 @@
 namespace fastsplat::driver {
 namespace {
 
-/// Over the places xs[0] < xs[1] < ..., how often each stretch between two is covered, and how much is at all.
+/// Segment tree over xs[0] < xs[1] < ...: how often each stretch is covered, and the length covered at least once.
 class Stretches {
  public:
   explicit Stretches(std::vector<std::int64_t> xs) : xs_(std::move(xs)), nodes_(4 * xs_.size()) {}
@@ -19,7 +19,7 @@ class Stretches {
 
  private:
   struct Node {
-    int whole = 0;  ///< rectangles over all of it that are counted here
+    int whole = 0;  ///< rectangles that cover the whole node and are counted here
     std::int64_t covered = 0;
   };
 

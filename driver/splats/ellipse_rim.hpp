@@ -1,4 +1,4 @@
-// The edge of an ellipse given by its words, row by row (docs/numerics.md, section 8, "Spans").
+// The edge of an ellipse given by its words, row by row (docs/numerics.md, N-8-31 and N-8-32).
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ inline double determinant(const cmodel::EllipseShape& shape) {
          static_cast<double>(shape.b) * static_cast<double>(shape.b);
 }
 
-/// A footprint's edge along one row, 2^-pf pixel from the centre.
+/// A footprint's edge row by row, in 2^-pf pixel from the centre.
 class Rim {
  public:
   Rim(const cmodel::Config& config, const cmodel::EllipseShape& shape)

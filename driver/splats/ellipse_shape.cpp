@@ -10,7 +10,7 @@
 namespace fastsplat::driver {
 namespace {
 
-/// The pixels strictly between two places: [first, end).
+/// The pixels strictly between two positions: [first, end).
 struct PixelRange {
   std::int32_t first = 0, end = 0;
 };
@@ -23,18 +23,19 @@ PixelRange between(double from, double to) {
 scene::ScreenShape drawn_footprint(const scene::ScreenShape& shape, double kernel_radius) {
   const double square = kernel_radius * kernel_radius;
   scene::ScreenShape out{square * shape.xx, square * shape.xy, square * shape.yy};
-  // Roots of the matrix; the lesser one is raised along its own axis.
+  // Eigenvalues of the matrix; the lesser one is raised along its own axis.
   const double middle = 0.5 * (out.xx + out.yy), apart = std::hypot(0.5 * (out.xx - out.yy), out.xy);
   const double least = middle - apart, wanted = kThinnest * kThinnest;
   if (least >= wanted) return out;
   if (middle + apart <= wanted || apart == 0.0) return {wanted, 0.0, wanted};
-  // out = least I + 2 apart n n^T with n along the longer axis: the part of n n^T stays, that across becomes wanted.
+  // out = least I + 2 apart n n^T with n along the longer axis: keeps the extent along n, raises the one across to
+  // `wanted`.
   const double keep = (middle + apart - wanted) / (2.0 * apart);
   return {wanted + keep * (out.xx - least), keep * out.xy, wanted + keep * (out.yy - least)};
 }
 
 cmodel::EllipseShape ellipse_words(const cmodel::Config& config, const scene::ScreenShape& footprint) {
-  // Beside the steps of the roundings: a kernel grown to one pixel a voxel lies on one, and a last bit would decide.
+  // Avoids rounding ties: a kernel grown to one pixel a voxel lies on one, and the last bit would decide (N-8-29).
   constexpr double kAside = 1.0 - 0x1p-40;
   const double rim = kAside * static_cast<double>(config.rlut_rim());
   const double scale = std::ldexp(rim, -2 * config.position_frac_bits);  // per square of 2^-pf pixel
@@ -42,7 +43,7 @@ cmodel::EllipseShape ellipse_words(const cmodel::Config& config, const scene::Sc
   const double c = scale / (footprint.yy - footprint.xy * (footprint.xy / footprint.xx));
   const double b = -2.0 * (a * (footprint.xy / footprint.yy));
   const Target term = target(Site::EllipseTerm, config), cross = target(Site::EllipseCross, config);
-  // The larger of A and C has its leading bit in the word's first place, unless rounding up carries beyond it.
+  // Moves the leading bit of the larger of A and C to the word's top bit, unless rounding up would overflow the word.
   int h = std::clamp(cmodel::kEllipseTermBits - 1 - std::ilogb(std::max(a, c)), 0, cmodel::kEllipseMostShift);
   if (h > 0 && std::ceil(std::ldexp(std::max(a, c), h)) > term.to.max) --h;
   const auto size = quantise_to<std::int32_t>(std::ldexp(std::abs(b), h), cross);

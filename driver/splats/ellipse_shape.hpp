@@ -1,4 +1,4 @@
-// A splat's shape on the screen as an ellipse's words, and the windows that hold it (docs/numerics.md, section 8).
+// A splat's shape on the screen as an ellipse's words, and the windows that cover it (docs/numerics.md, section 8).
 #pragma once
 
 #include <array>
@@ -13,19 +13,19 @@ namespace fastsplat::driver {
 /// Half the width of the thinnest footprint, pixels. Thinner ones are drawn this wide and fainter by the same factor.
 inline constexpr double kThinnest = 0.25;
 
-/// The footprint of a shape: d^T F^-1 d < 1, F = R^2 S. Shapes thinner than kThinnest grow across.
+/// The footprint of a shape: d^T F^-1 d < 1, F = R^2 S. Shapes thinner than kThinnest are widened across (N-8-26).
 scene::ScreenShape drawn_footprint(const scene::ScreenShape& shape, double kernel_radius);
 
 /// The words of a footprint; 4 A C >= B^2 after any rounding.
 cmodel::EllipseShape ellipse_words(const cmodel::Config& config, const scene::ScreenShape& footprint);
 
-/// A record's part of a footprint: its windows, and the pixels that may be inside, relative as the record's are.
+/// One record's part of a footprint: its windows and the pixels that may be inside, all relative to the centre's pixel.
 struct EllipseSpan {
   cmodel::EllipseWindows windows;
   std::int32_t right = 0, bottom = 0;  ///< the last pixels of `windows` that matter, exclusive
 };
 
-/// A footprint cut into rows of windows; neighbours in the same columns are one span.
+/// A footprint cut into rows of windows; adjacent rows in the same columns are one span.
 class EllipseSpans {
  public:
   /// `x`, `y`: the centre's words of S pi.pf, of which only the fraction matters.
@@ -38,7 +38,7 @@ class EllipseSpans {
   std::size_t count_ = 0;
 };
 
-/// The half sides of the box that holds the footprint of these words, pixels.
+/// Half sides, in pixels, of the box that holds the footprint of these words.
 struct EllipseReach {
   double x = 0.0, y = 0.0;
 };

@@ -39,9 +39,9 @@ RadiusRange radius_range(const scene::Scene& scene) {
 struct Piece {
   scene::GridPart part;
   std::vector<QuantisedSplat> splats;
-  std::vector<SplatEllipse> ellipses;  ///< of each, in a frame with ellipses
-  std::vector<std::size_t> ends;       ///< per slice of the part, of its splats
-  std::vector<std::size_t> places;     ///< likewise, of the frame's splats: where the slice's begin
+  std::vector<SplatEllipse> ellipses;  ///< of each splat, in a frame with ellipses
+  std::vector<std::size_t> ends;       ///< per slice of the part, where its splats end
+  std::vector<std::size_t> places;     ///< per slice of the part, where its splats begin in the frame
   std::uint64_t voxels = 0, saturated = 0, vanished = 0;
   double asked = 0.0, lost = 0.0;
   std::uint64_t widened = 0;
@@ -78,8 +78,8 @@ struct Piece {
   }
 };
 
-/// Parts that do not depend on each other: slabs of slices, or, where a splat needs to know what those before it in its
-/// line left, bands of rows. Their number is not that of the threads: no sum depends on that.
+/// Independent parts: slabs of slices, or bands of rows if a splat needs the rounding errors of earlier splats on its
+/// line. Their number is fixed, so that sums do not depend on the number of threads.
 std::vector<Piece> pieces_of(const scene::Traversal& traversal, bool bands) {
   constexpr int kPieces = 32;
   const int extent = bands ? traversal.rows() : traversal.slices(), count = std::min(extent, kPieces);
@@ -92,7 +92,7 @@ std::vector<Piece> pieces_of(const scene::Traversal& traversal, bool bands) {
   return pieces;
 }
 
-/// In traversal order: slice by slice, of each one piece after the other.
+/// Concatenates in traversal order: slice by slice, within a slice piece by piece.
 void join(std::vector<Piece>& pieces, int slices, int threads, Projected& to) {
   std::size_t total = 0;
   for (int slice = 0; slice < slices; ++slice) {
@@ -120,8 +120,8 @@ void join(std::vector<Piece>& pieces, int slices, int threads, Projected& to) {
   });
 }
 
-/// Pictures are in sets of footprints: a shape of its own has none. With detail a footprint is up to 1 + m; a weight
-/// that stops at 1 would cut it off.
+/// Only radius sets have pictures; ellipses do not. Detail raises weights to 1 + m; a format that ends at 1 would cut
+/// them.
 void check_textures(const scene::TexturedSplats& textures, const scene::Scene& scene, const cmodel::Config& config) {
   if (textures.phases().empty()) return;
   if (draws_ellipses(scene, config)) {
@@ -141,7 +141,7 @@ void check_textures(const scene::TexturedSplats& textures, const scene::Scene& s
 
 }  // namespace
 
-// A device holds footprints as wide as the RLUT, whoever makes their weights.
+// The device holds footprints no wider than the RLUT, whatever computes their weights.
 void check_reach(double reach, const cmodel::Config& config) {
   const double widest = config.rlut_columns / 2.0;
   if (reach <= widest) return;
@@ -155,7 +155,7 @@ void check_reach(double reach, const cmodel::Config& config) {
 
 RadiusSets radius_sets(const scene::Scene& scene, const cmodel::Config& config, std::size_t pictures) {
   const RadiusRange range = radius_range(scene);
-  // With shapes of their own, splats of other radii than the largest are ellipses.
+  // If splats have individual shapes, any radius but the largest is drawn as an ellipse.
   return RadiusSets(config, draws_ellipses(scene, config) ? range.largest : range.smallest, range.largest, pictures);
 }
 

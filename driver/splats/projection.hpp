@@ -12,7 +12,7 @@ struct Projected {
   Uninitialised<QuantisedSplat> splats;  ///< in traversal order, without vanished ones
   Uninitialised<SplatEllipse> ellipses;  ///< one for each splat in a frame with ellipses; else empty
   RadiusSets sets;
-  scene::TexturedSplats textures;  ///< whose pictures the sets have; or none
+  scene::TexturedSplats textures;  ///< the sets' pictures, if any
   std::uint64_t voxels = 0;        ///< non-empty voxels
   std::uint64_t saturated = 0;     ///< voxels whose colour or optical depth left U 4.cf
   std::uint64_t vanished = 0;      ///< voxels whose words are all 0
@@ -22,10 +22,10 @@ struct Projected {
   std::uint32_t least_shrink = 1 << 16;  ///< shrink of the deepest kernel (DepthGrowth)
 };
 
-/// Throws UserError (Usage) if an ellipse's half sides are longer than the device's limit.
+/// Throws UserError (Usage) if `reach`, an ellipse's half side in pixels, exceeds the device's limit.
 void check_reach(double reach, const cmodel::Config& config);
 
-/// The radius sets that the scene's splats need; `pictures` of each radius.
+/// The radius sets that the scene's splats need; each radius has `pictures` sets.
 RadiusSets radius_sets(const scene::Scene& scene, const cmodel::Config& config, std::size_t pictures = 1);
 
 /// Every real splat of the scene, quantised. `threads` (0: all cores) never changes the result.

@@ -7,8 +7,8 @@
 namespace fastsplat::driver {
 namespace {
 
-/// What a line's sum is shifted by: spread evenly over -1/2..1/2 among neighbours (65536 over the plastic number, and
-/// over its square), so that equal lines do not step all at once.
+/// Offset of a line's sum, spread evenly over -1/2..1/2 among neighbours (65536 over the plastic number, and over its
+/// square), so that equal lines do not step all at once (N-8-41).
 double shift(std::uint32_t row, std::uint32_t column) {
   const std::uint32_t word = 32768U + 49472U * row + 37345U * column;
   return static_cast<double>(word & 0xFFFFU) / 65536.0 - 0.5;
@@ -46,7 +46,7 @@ RoundingCarry::Line& RoundingCarry::next(std::uint32_t line, int slice) {
     out.run = 0;
   }
   out.slice = slice;
-  // With the third splat: shorter runs are rounded at least as well as each splat by itself, which a shift would spoil.
+  // At the third splat: shorter runs already round at least as well as single splats, which an offset would spoil.
   if (++out.run == 3)
     for (double& rest : out.rest) rest += shift(line / columns_, line % columns_);
   return out;

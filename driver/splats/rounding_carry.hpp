@@ -1,5 +1,5 @@
 // Error diffusion along the traversal: the rounding error of a splat is added to the neighbour behind it
-// (docs/numerics.md, section 8, "carry"). The sum along a run of thin splats survives, though each would round to 0.
+// (docs/numerics.md, N-8-38 to N-8-41). The sum along a run of thin splats survives, though each would round to 0.
 #pragma once
 
 #include <algorithm>
@@ -14,9 +14,9 @@
 
 namespace fastsplat::driver {
 
-/// The value that the sheets show for a word V, in words: less than V where the products of thin splats and weights
-/// round to 0. A mean over the radial table, whose entries are even in area and so in the pixels of all sub-pixel
-/// places.
+/// Mean value, in words, that the sheets show for a word V (N-8-40). It is less than V where products of thin splats
+/// and weights round to 0. The mean is over the radial table, weighted by area and so by pixels at all sub-pixel
+/// positions.
 class ShownWords {
  public:
   ShownWords(const cmodel::Config& config, const scene::Kernel& kernel);
@@ -29,8 +29,8 @@ class ShownWords {
   std::array<double, 256> shown_{};
 };
 
-/// State of the lines of voxels that run across the slices, rows first_row..end_row-1. A line's splats come front to
-/// back.
+/// Error diffusion state of the lines of voxels across the slices, rows first_row..end_row-1. A line's splats come
+/// front to back.
 class RoundingCarry {
  public:
   struct Line {
@@ -44,7 +44,7 @@ class RoundingCarry {
 
   /// The line of the next splat, which lies in `slice`.
   Line& next(std::uint32_t line, int slice);
-  /// The channel's word, cut to U 4.cf.
+  /// The channel's word, saturated to U 4.cf.
   Quantised operator()(double value, Line& line, std::size_t channel) const {
     double& rest = line.rest[channel];
     const double sum = value * carried_.scale + rest;  // below 0 if more was shown than required
@@ -56,7 +56,7 @@ class RoundingCarry {
  private:
   Target carried_;
   const ShownWords& shown_;
-  std::uint32_t columns_, first_;  ///< lines of a row; the first line
+  std::uint32_t columns_, first_;  ///< lines per row; the first line
   std::vector<Line> lines_;
 };
 

@@ -38,7 +38,7 @@ int Slices::reach() const { return reach({.half = middle_}); }
 
 int Slices::reach(const DepthGrowth& growth) const {
   int most = 0;
-  // The deepest of the kernels whose first slab is s.
+  // Back end of the deepest kernel whose first slab is s.
   for (int s = 0; s < count(); ++s) {
     const std::int32_t back = boundary_[static_cast<std::size_t>(s) + 1] - 1 + 2 * growth.half;
     most = std::max(most, last_that(back, [back](std::int32_t boundary) { return boundary < back; }) - s);

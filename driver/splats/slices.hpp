@@ -1,4 +1,4 @@
-// Distributes a splat among the sheets it reaches (docs/numerics.md, section 8): integers only, telescoping.
+// Distributes a splat among the sheets it reaches (docs/numerics.md, N-8-44 to N-8-48): integers only, telescoping.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct Share {
 
 /// A kernel that anti-aliasing stretched along the view axis (docs/numerics.md, section 8, "Ellipses").
 struct DepthGrowth {
-  std::uint32_t shrink = 1U << 16;  ///< factor on depths, One.16: at least 1
+  std::uint32_t shrink = 1U << 16;  ///< factor on depths, One.16; its word is at least 1
   std::int32_t half = 0;            ///< the kernel's half depth, depth steps
 };
 
@@ -51,7 +51,7 @@ class Slices {
   }
   /// The most slabs that a kernel reaches beyond its first.
   int reach() const;
-  // The same of a kernel that has grown; beyond all depths there are it is not deeper.
+  // The same for a grown kernel. Half depths are limited to kDeepest, beyond any depth.
   static constexpr std::uint64_t kDeepest = std::uint64_t{1} << 28;
   DepthGrowth growth(std::uint32_t shrink) const {
     const auto words = static_cast<std::uint32_t>(middle_) << 16;
@@ -85,7 +85,7 @@ class Slices {
   }
   /// The part of a hidden share that counters need.
   struct Outline {
-    std::uint32_t largest = 0;  ///< of the four words; 0: the share is empty
+    std::uint32_t largest = 0;  ///< largest of the four words; 0: the share is empty
     std::uint32_t excess = 0;   ///< its excess over tau
     bool saturated = false;
   };
@@ -94,7 +94,7 @@ class Slices {
     const std::uint32_t largest = std::max({words[0], words[1], words[2], words[3]});
     return {largest, largest - words[3], share.saturated};
   }
-  /// visit(outline) of slabs first to last.
+  /// visit(outline) for slabs first to last.
   template <class Visit>
   void outlines(const SplatWords& whole, std::int32_t depth, int first, int last, Visit visit) const {
     const std::uint32_t tau = whole[3], colour = std::max({whole[0], whole[1], whole[2]});
@@ -150,8 +150,8 @@ class Slices {
     while (s > 0 && !before(boundary_[static_cast<std::size_t>(s)])) --s;
     return s;
   }
-  /// narrow<RND, SAT>(word * phi) to the whole's format; phi is at most 1.0, so that nothing saturates. phi has 32
-  /// fraction bits instead of hf, zeros, so that the shift is a constant.
+  /// narrow<RND, SAT>(word * phi) to the whole's format; phi is at most 1.0, so nothing saturates. Zeros extend phi
+  /// from hf to 32 fraction bits, so that the shift is a constant.
   static std::uint32_t part(std::uint32_t word, std::uint64_t phi) {
     return static_cast<std::uint32_t>((word * phi + (std::uint64_t{1} << 31)) >> 32);
   }
@@ -162,7 +162,7 @@ class Slices {
   Target depth_;
   std::vector<std::uint64_t> phi_;      ///< M+1 words One.hf, with zeros to 32 fraction bits
   std::vector<std::int32_t> boundary_;  ///< B_s
-  std::vector<std::int32_t> cut_;       ///< B_s, but the first and the last one out of every kernel's reach
+  std::vector<std::int32_t> cut_;       ///< B_s, with the first and the last out of every kernel's reach
 };
 
 /// The slices of a frame; unused if its splats are not sliced.

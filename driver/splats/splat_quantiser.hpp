@@ -1,4 +1,4 @@
-// A real splat as the device's numbers (docs/numerics.md, section 8), not yet cut into slabs or tiles.
+// Quantises real splats to the device's words (docs/numerics.md, section 8), before they are cut into slabs and tiles.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace fastsplat::driver {
 
-/// r = (R u) s: a splat's support radius in pixels where a mm is `pixels_per_mm` pixels.
+/// r = (R u) s: a splat's support radius in pixels at a scale of `pixels_per_mm`.
 inline double pixel_radius(const scene::Scene& scene, double pixels_per_mm) {
   return scene.kernel.radius() * scene.volume->kernel_unit() * pixels_per_mm;
 }
@@ -26,8 +26,8 @@ inline double pixel_radius(const scene::Scene& scene, double pixels_per_mm) {
 /// Whether rounding errors are diffused to the next splat behind (rounding.carry).
 bool carries(scene::Method method, const cmodel::Config& config);
 
-/// Whether splats have individual shapes, which only a device with ellipses draws; else all are circles of a radius
-/// set.
+/// Whether splats have individual shapes, which only a device with ellipses draws. Otherwise all are circles of a
+/// radius set.
 bool draws_ellipses(const scene::Scene& scene, const cmodel::Config& config);
 
 /// A splat as a frame keeps it in memory: 32 bytes, never across two cache lines.
@@ -47,7 +47,7 @@ struct SplatEllipse {
 
 class SplatQuantiser {
  public:
-  /// Keeps references to `scene`, `sets`, `slices` and, where there are any, `textures`, whose pictures the sets have.
+  /// Keeps references to all arguments but `plan`. `textures` holds the pictures of the sets; null: none.
   SplatQuantiser(const scene::Scene& scene, const cmodel::Config& config, const RadiusSets& sets, const Slices& slices,
                  const scene::SheetPlan& plan, const scene::TexturedSplats* textures = nullptr);
 
@@ -62,16 +62,17 @@ class SplatQuantiser {
   Result operator()(const scene::RealSplat& splat, const RoundingCarry& carry, RoundingCarry::Line& line) const {
     return quantised(splat, [&](double value, std::size_t channel) { return carry(value, line, channel); });
   }
-  /// The same where splats have shapes of their own. What is not sliced, or is a circle of a radius set, is as above.
+  /// The same for splats with individual shapes. A circle of the radius set gets the result above.
   struct Shaped {
     Result result;
     SplatEllipse ellipse;
-    EllipseReach reach;    ///< pixels; 0 of a circle
+    EllipseReach reach;    ///< pixels; 0 for a circle of the set
     bool widened = false;  ///< it was thinner than kThinnest
   };
   Shaped shaped(const scene::Splat& splat, std::uint32_t line, RoundingCarry* carry) const;
-  /// Those of a row of the grid, in order, `lines` of the grid (scene::Traversal), Splat::sheet its slice: take(Result,
-  /// sheet), or take(Shaped, sheet) where splats have shapes of their own. `carry`: null unless carries().
+  /// Quantises a row of the grid in order and calls take(Result, sheet), or take(Shaped, sheet) if splats have
+  /// individual shapes. `lines`: their lines in the grid (scene::Traversal); Splat::sheet: their slice. `carry`: null
+  /// unless carries().
   template <class Take>
   void row(std::span<const scene::Splat> splats, std::span<const std::uint32_t> lines, RoundingCarry* carry,
            Take take) const {
@@ -85,7 +86,7 @@ class SplatQuantiser {
         take((*this)(scene::real_splat(scene_, splats[i])), splats[i].sheet);
     }
   }
-  /// Whether roundings are carried on: then no splat is lost by being too thin.
+  /// Whether rounding errors are diffused. If so, no splat is lost by being too thin.
   bool carries() const { return carries_; }
   RoundingCarry carry(int first_row, int end_row, int columns) const {
     return {carried_, *shown_, first_row, end_row, columns};
@@ -110,7 +111,7 @@ class SplatQuantiser {
                          .depth = depth(splat),
                          .set = sets_.nearest(radius, textures_ == nullptr ? 0 : textures_->number_of(splat.place)),
                          .words = {}}};
-    // The set's footprint is a little wider or narrower than the splat's own: as much is added in all.
+    // The set's footprint is a little wider or narrower than the splat's: scaled so that total energy is preserved.
     const double width_ratio = radius / sets_.radius(out.splat.set);
     const double amplitude = exposed_ * width_ratio * width_ratio;
     std::array<double, 4> values{};
@@ -126,9 +127,9 @@ class SplatQuantiser {
   scene::SheetPlan plan_;
   const cmodel::Config& config_;
   Target position_, centre_, whole_, carried_, shrink_;
-  std::optional<scene::SplatShaper> shaper_;  ///< of a frame with ellipses
+  std::optional<scene::SplatShaper> shaper_;  ///< only in a frame with ellipses
   bool carries_;
-  std::optional<ShownWords> shown_;  ///< where roundings are carried
+  std::optional<ShownWords> shown_;  ///< only with error diffusion
   double exposed_;                   ///< amplitude times exposure
 };
 

@@ -15,7 +15,7 @@ namespace {
 using cmodel::Table;
 namespace classify = cmodel::classify;
 
-/// floor(value 2^f + 1/2), cut to low..high.
+/// floor(value 2^f + 1/2), clamped to low..high.
 std::int64_t nearest(double value, int frac_bits, std::int64_t low, std::int64_t high) {
   const double scaled = std::floor(std::ldexp(value, frac_bits) + 0.5);
   return static_cast<std::int64_t>(std::clamp(scaled, static_cast<double>(low), static_cast<double>(high)));
@@ -24,8 +24,8 @@ std::uint32_t word(double value, const cmodel::Format& format) {
   return static_cast<std::uint32_t>(nearest(value, format.frac_bits, format.min, format.max));
 }
 
-/// At i/Q of the volume's range. Where nothing is seen the colour is that of the nearest entry that is: a line from a
-/// clear entry to a visible one must not begin in black.
+/// Materials at i/Q of the volume's range. A clear entry has the colour of the nearest visible one: a line from a clear
+/// entry to a visible one must not begin in black (N-8-69).
 cmodel::LoadTable classify_table(const cmodel::Config& config, const scene::Scene& scene) {
   const scene::Classifier classify(scene.transfer_function, *scene.volume);
   const double base = scene.volume->min, range = static_cast<double>(scene.volume->max) - base;
@@ -102,7 +102,7 @@ cmodel::LoadTable sheets_table(const scene::Scene& scene, const scene::SlabGrid&
   const cmodel::Format scale = cmodel::unit_format(classify::kScale);
   constexpr std::int64_t kMost = 0xFFFFFFFF;
   const double range = static_cast<double>(scene.volume->max) - scene.volume->min;
-  const double part = range > 0.0 ? scene::spread(*scene.volume) / range : 1.0;  // densities are of the whole range
+  const double part = range > 0.0 ? scene::spread(*scene.volume) / range : 1.0;  // relative to the whole range
   const double floor = scene.shading.gradient_floor * part;
   for (int s = 0; s < slabs.count; ++s) {
     const double depth = (slabs.first + (s + 0.5) * slabs.width) * unit;

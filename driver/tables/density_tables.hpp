@@ -14,8 +14,8 @@ namespace fastsplat::driver {
 /// Whether a frame's sheets hold densities (modes 8 and 9).
 bool holds_densities(const scene::SceneDescription& description);
 
-/// Throws UserError (Usage) where the transfer function shows the volume's least value: of what lies around the volume
-/// a device knows nothing.
+/// Throws UserError (Usage) if the transfer function shows the volume's least value: the device cannot detect where the
+/// volume ends.
 void check_densities(const scene::Scene& scene);
 
 /// CLASSIFY, ROOT, GLINT, LIGHTING and SHEETS, in this order.

@@ -13,8 +13,8 @@ namespace fastsplat::driver {
 cmodel::LoadTable ellipse_table(const cmodel::Config& config, std::uint32_t set, const EllipseRim& rim) {
   assert(config.index() == cmodel::IndexKind::SquaredElliptic);
   const double entries = config.radial_entries, grid = config.grid();
-  // S^-1, in radial table entries per square of 1/K pixel. Divided out so that without xy nothing but what a circle's
-  // scale has is rounded.
+  // S^-1, in radial table entries per square of 1/K pixel. Divided such that, without xy, only the roundings of a
+  // circle's scale remain.
   const double a = entries / ((rim.xx - rim.xy * (rim.xy / rim.yy)) * (grid * grid));
   const double c = entries / ((rim.yy - rim.xy * (rim.xy / rim.xx)) * (grid * grid));
   const double b = -2.0 * (a * (rim.xy / rim.yy));

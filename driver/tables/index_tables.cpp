@@ -46,7 +46,7 @@ std::vector<std::uint32_t> axis_words(const cmodel::Config& config, const scene:
   return words;
 }
 
-/// Window phases of which footprints are stored.
+/// Window phases whose footprints are stored.
 std::vector<int> stored(const cmodel::Config& config, std::uint32_t rho) {
   std::vector<int> phases;
   for (int m = 0; m < config.phases; ++m) {
@@ -56,7 +56,7 @@ std::vector<int> stored(const cmodel::Config& config, std::uint32_t rho) {
   return phases;
 }
 
-/// 1 + m t(u,v), what a picture makes of a footprint; without one, 1.
+/// The factor 1 + m t(u,v) by which a picture scales a footprint; 1 without a picture.
 class Detail {
  public:
   Detail(const scene::Kernel& kernel, const Footprint& f, const SetPicture& picture)

@@ -1,4 +1,4 @@
-// What a radius set loads, by the kind of index: doubles in, words out (docs/numerics.md, section 4).
+// The table words of a radius set for each index kind: doubles in, words out (docs/numerics.md, section 4).
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace fastsplat::driver {
 
-/// What a splat's footprint shows (blit2d only): a picture of `textures`, or none.
+/// The picture that a set's footprint shows (blit2d only): `number` of `textures`; null: none.
 struct SetPicture {
   const scene::TexturedSplats* textures = nullptr;
   std::size_t number = 0;
@@ -22,7 +22,7 @@ struct SetPicture {
 cmodel::LoadTable set_table(const cmodel::Config& config, const scene::Kernel& kernel, std::uint32_t set, double radius,
                             std::uint32_t base, const SetPicture& picture = {});
 
-/// Weight along one axis at `distance`, of a footprint whose rim lies at `rim`: both in 1/K pixel. `word` is the target
+/// Weight along one axis at `distance`, of a footprint with its edge at `rim`; both in 1/K pixel. `word` is the target
 /// of Site::Axis.
 std::uint32_t axis_word(const scene::Kernel& kernel, double distance, double rim, const Target& word);
 /// Weight at the squared distance `squared`, times `detail`; `word` is the target of Site::Footprint.

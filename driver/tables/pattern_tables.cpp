@@ -22,7 +22,7 @@ std::uint32_t near_word(double value, const cmodel::Format& format) {
   return quantise_to<std::uint32_t>(value, {Target::Rounding::Nearest, Target::Overflow::Saturates, format});
 }
 
-/// The least value that a voxel has near which something is seen.
+/// The least voxel value near which something may be visible (N-8-75).
 float least_seen(const cmodel::Config& config, const scene::Scene& scene) {
   const scene::Classifier classify(scene.transfer_function, *scene.volume);
   const double base = scene.volume->min, range = static_cast<double>(scene.volume->max) - base;
@@ -30,16 +30,16 @@ float least_seen(const cmodel::Config& config, const scene::Scene& scene) {
   int first = 1;
   while (first <= segments && !(classify.evaluate(base + range * first / segments).extinction > 0.0F)) ++first;
   if (first > segments) return std::numeric_limits<float>::infinity();
-  // Less than a tenth of a value is what kernels' sums over voxels ripple.
+  // A kernel's sum over the voxels ripples by less than a tenth of a value.
   return static_cast<float>(base + 0.9 * range * (first - 1) / segments);
 }
 
-/// Columns, rows or numbers of sheets between which something is seen, rounded outwards.
+/// The visible range of columns, rows or sheets, rounded outwards.
 struct Range {
   std::int64_t first = 0, last = 0;
 };
 
-/// Of what may be seen, in this order: columns, rows, sheets.
+/// The visible ranges in this order: columns, rows, sheets.
 std::array<Range, 3> seen(const cmodel::Config& config, const scene::Scene& scene, const scene::SlabGrid& slabs) {
   const volume::Volume& volume = *scene.volume;
   const scene::Classifier classify(scene.transfer_function, volume);
@@ -72,7 +72,7 @@ std::array<Range, 3> seen(const cmodel::Config& config, const scene::Scene& scen
   return out;
 }
 
-/// Where nodes lie along one axis.
+/// Node positions along one axis.
 struct Axis {
   std::uint32_t first = 0, step = 0;                                           ///< words
   bool between() const { return step != std::uint32_t{1} << pattern::kStep; }  ///< pixels lie between nodes
@@ -86,7 +86,7 @@ Axis axis_of(const Range& range, int nodes) {
           .step = near_word(step, cmodel::unsigned_format(8, pattern::kStep))};
 }
 
-/// A pattern and its lean at a node.
+/// A pattern's value and its lean at a node.
 struct Node {
   double value = 0.0;
   glm::dvec3 lean{0.0};  ///< right, down, ahead
@@ -121,8 +121,8 @@ std::vector<Node> nodes_of(const scene::Scene& scene, const scene::SlabGrid& sla
   return out;
 }
 
-/// A straight line between two points of a curve lies beside it, by 1/12 of the second difference on average: nodes are
-/// moved by as much the other way.
+/// A line between two points of a curve is off by 1/12 of the second difference on average: nodes are moved by as much
+/// the other way (N-8-78).
 std::vector<Node> levelled(const std::vector<Node>& nodes, const std::array<Axis, 3>& axes, int side, int threads) {
   const auto n = static_cast<std::size_t>(side);
   std::vector<Node> out = nodes;
@@ -144,7 +144,7 @@ std::vector<Node> levelled(const std::vector<Node>& nodes, const std::array<Axis
   return out;
 }
 
-/// lo and hi: the tint runs in a straight line from that of 0 to that of 1.
+/// The tints lo and hi of pattern values 0 and 1; between them the tint is linear.
 std::array<glm::dvec3, 2> tints_of(const scene::Texture& texture) {
   if (texture.kind == scene::SolidKind::None) return {glm::dvec3(1.0), glm::dvec3(1.0)};
   return {scene::tint_of_value(texture, 0.0), scene::tint_of_value(texture, 1.0)};

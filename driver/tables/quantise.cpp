@@ -17,8 +17,8 @@ cmodel::Format unsigned_word(int frac_bits) { return cmodel::unsigned_format(32 
 /// U 4.cf
 cmodel::Format whole_word(const cmodel::Config& config) { return cmodel::unsigned_format(4, config.colour_frac_bits); }
 
-/// The snap still has bits to round half up: floor(x 2^pf) and the snap together round x once, half up. Rounded here as
-/// well, a splat would move by 2^-(pf+1) pixel on average.
+/// Whether the snap still has bits to round half up. Then floor(x 2^pf) and the snap together round x once, half up.
+/// Rounded here as well, a splat would move by 2^-(pf+1) pixel on average (N-8-19).
 bool rounded_by_the_snap(const cmodel::Config& config) {
   return config.grid_bits() < config.position_frac_bits &&
          config.rounding_snap == static_cast<int>(cmodel::Rounding::RND);
@@ -33,7 +33,7 @@ Target target(Site site, const cmodel::Config& config) {
               signed_word(config.position_frac_bits)};
     case Site::EllipseCentre:
       return {Rounding::Nearest, Overflow::Impossible, signed_word(config.position_frac_bits)};
-    case Site::EllipseTerm:  // up, as Scale; and B towards 0, as Cross
+    case Site::EllipseTerm:  // up, like Scale; |B| towards 0, like Cross
       return {Rounding::Up, Overflow::Impossible, cmodel::unsigned_format(cmodel::kEllipseTermBits, 0)};
     case Site::EllipseCross:
       return {Rounding::Down, Overflow::Impossible, cmodel::unsigned_format(cmodel::kEllipseTermBits + 1, 0)};
@@ -45,7 +45,7 @@ Target target(Site site, const cmodel::Config& config) {
       return {Rounding::Nearest, Overflow::Impossible, signed_word(config.slice_phase_bits)};
     case Site::Whole:
       return {Rounding::Nearest, Overflow::Saturates, whole_word(config)};
-    case Site::Carried:  // what is cut off goes to the next splat
+    case Site::Carried:  // the rest is carried to the next splat
       return {Rounding::Down, Overflow::Saturates, whole_word(config)};
     case Site::Gaussian:
       return {Rounding::Nearest, Overflow::Saturates, config.colour_format()};
@@ -55,7 +55,7 @@ Target target(Site site, const cmodel::Config& config) {
       return {Rounding::Up, Overflow::Impossible, unsigned_word(config.grid_bits())};
     case Site::Rlut:
       return {Rounding::Nearest, Overflow::Impossible, cmodel::Format{.min = 0, .max = config.rlut_rim()}};
-    case Site::Scale:  // up: no pixel beyond the rim is weighted
+    case Site::Scale:  // up: pixels beyond the edge have no weight
       return {Rounding::Up, Overflow::Saturates, cmodel::Format{.min = 0, .max = cmodel::kLargestScale}};
     case Site::Cross:  // towards 0: 4 A C >= B^2 stays true
       return {Rounding::Down, Overflow::Saturates, cmodel::Format{.min = 0, .max = 2 * cmodel::kLargestScale}};
@@ -63,7 +63,7 @@ Target target(Site site, const cmodel::Config& config) {
       return {Rounding::Nearest, Overflow::Saturates, config.axis_weight_format()};
     case Site::Footprint:
       return {Rounding::Nearest, Overflow::Saturates, config.weight_format()};
-    case Site::Radial:  // a word may be raised out of U wi.wf: it is saturated after that
+    case Site::Radial:  // raised words may leave U wi.wf; radial_table() saturates them
       return {Rounding::Down, Overflow::Impossible, unsigned_word(config.radial_frac_bits)};
     case Site::RadialSum:
       return {Rounding::Nearest, Overflow::Impossible, cmodel::unsigned_format(52, 0)};

@@ -1,4 +1,4 @@
-// Real numbers to the device's words: every place where the driver rounds, by name (docs/numerics.md, section 8).
+// Real numbers to the device's words: every site where the driver rounds, by name (docs/numerics.md, section 8).
 #pragma once
 
 #include <algorithm>
@@ -13,29 +13,29 @@ namespace fastsplat::driver {
 
 enum class Site {
   Position,       ///< a projected centre, image pixels
-  Depth,          ///< of a centre behind the first slab boundary, kernel units
-  Boundary,       ///< between two slabs, behind the first one, kernel units
+  Depth,          ///< depth of a centre behind the first slab boundary, kernel units
+  Boundary,       ///< depth of a slab boundary behind the first one, kernel units
   Whole,          ///< a channel of a whole splat
-  Carried,        ///< a channel of a whole splat and what the splat before left
-  Gaussian,       ///< opacity of a 3-D Gaussian, or a channel of its colour times that
+  Carried,        ///< a channel of a whole splat plus the rounding error of the splat before
+  Gaussian,       ///< opacity of a 3-D Gaussian, or a channel of its colour times its opacity
   Phi,            ///< cumulative slice weight
   Rho,            ///< support radius, pixels
-  Rlut,           ///< scaled squared distance, in words already
-  Scale,          ///< index.kind linear, squared, squared_elliptic: radial table steps per distance, in words already
-  Cross,          ///< squared_elliptic: B without its sign, in words already
+  Rlut,           ///< scaled squared distance, already in words
+  Scale,          ///< index.kind linear, squared, squared_elliptic: radial table steps per distance, already in words
+  Cross,          ///< squared_elliptic: |B|, already in words
   Axis,           ///< separable: weight along one axis
   Footprint,      ///< blit2d: weight of a pixel
-  EllipseCentre,  ///< a projected centre that no device snaps, image pixels
-  EllipseTerm,    ///< an ellipse's A and C, in words already
-  EllipseCross,   ///< its B without the sign, in words already
-  Shrink,         ///< of a kernel's depths where it has grown: One.16
+  EllipseCentre,  ///< an ellipse's projected centre, not snapped, image pixels
+  EllipseTerm,    ///< an ellipse's A and C, already in words
+  EllipseCross,   ///< an ellipse's |B|, already in words
+  Shrink,         ///< factor on the depths of a grown kernel, One.16
   Radial,         ///< radial weight, before the largest remainders are raised
-  RadialSum,      ///< of all radial weights, in words already
+  RadialSum,      ///< sum of all radial weights, already in words
   Factor,         ///< slab factor
 };
 
-/// What a site makes of a number v: with s = v 2^frac_bits the word is floor(s), floor(s + 1/2) or ceil(s), where s +
-/// 1/2 is rounded as a double is.
+/// How a site rounds a number v: with s = v 2^frac_bits the word is floor(s), floor(s + 1/2) or ceil(s). The sum s +
+/// 1/2 is a double.
 struct Target {
   enum class Rounding { Down, Nearest, Up };
   enum class Overflow {
@@ -58,7 +58,7 @@ struct Quantised {
   bool saturated = false;  ///< the rounded value lay outside the format
 };
 
-/// `value` is a number. (Inline, and by a product that is exact: the driver quantises seven numbers a voxel.)
+/// `value` must not be NaN. (Inline, with an exact product: the driver quantises seven numbers a voxel.)
 inline Quantised quantise(double value, const Target& target) {
   const double scaled = value * target.scale;
   const double word = target.rounding == Target::Rounding::Down      ? std::floor(scaled)

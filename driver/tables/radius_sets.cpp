@@ -24,8 +24,8 @@ RadiusSets::RadiusSets(const cmodel::Config& config, double smallest, double lar
                  .got = fmt::format("{}", pictures),
                  .fix = "use fewer --splat-phases, or a larger rlut.sets"});
   }
-  // On the grid of its radius, so that the set's columns fit: less than half of the RLUT only where that is half a
-  // step.
+  // The largest radius on the 1/K grid whose columns fit. It is less than half the RLUT only if that half is off the
+  // grid.
   const double widest =
       std::ldexp(std::floor(std::ldexp(config.rlut_columns, config.grid_bits() - 1)), -config.grid_bits());
   if (!(largest <= widest)) {

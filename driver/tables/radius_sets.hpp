@@ -1,5 +1,5 @@
-// Which footprints a frame loads, and which one a splat uses: of some radii, and of textured splats each with several
-// pictures.
+// The footprints that a frame loads and the one that a splat uses. There is one for each radius, times one for each
+// picture of textured splats.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,18 @@
 
 namespace fastsplat::driver {
 
-/// Radii that differ by no more than this, relatively, are one.
+/// Radii that differ by no more than this, relatively, count as equal.
 inline constexpr double kSameRadius = 1e-9;
 
-/// rho = ceil(r K): the radius in pixels as the device takes it, 1/K pixel.
+/// rho = ceil(r K): the radius (pixels) as a word, in 1/K pixel.
 std::uint32_t support_radius(double radius, const cmodel::Config& config);
 
-/// Radii in pixels, geometric between the smallest and the largest a frame needs; one for orthographic views. All of
-/// them again for each picture (scene::TexturedSplats) that a splat may show.
+/// Radii in pixels, in geometric steps between the smallest and the largest that a frame needs; one for orthographic
+/// views. They repeat for each picture (scene::TexturedSplats) that a splat may show.
 class RadiusSets {
  public:
-  /// Throws UserError (Usage) when the largest footprint does not fit the RLUT, or the pictures are more than sets.
+  /// Throws UserError (Usage) if the largest footprint does not fit the RLUT, or if there are more pictures than
+  /// rlut.sets.
   RadiusSets(const cmodel::Config& config, double smallest, double largest, std::size_t pictures = 1);
 
   std::uint32_t nearest(double radius, std::size_t picture = 0) const;
@@ -32,8 +33,8 @@ class RadiusSets {
  private:
   std::vector<double> radii_;
   std::vector<std::uint32_t> rho_;
-  std::uint32_t columns_ = 0;  ///< RLUT columns of the largest set, as many as every set gets; or none
-  std::uint32_t each_ = 1;     ///< radii, of each picture
+  std::uint32_t columns_ = 0;  ///< RLUT columns of the largest set, allotted to every set; 0 for kinds without columns
+  std::uint32_t each_ = 1;     ///< radii per picture
   double smallest_ = 0.0, bins_per_log_ = 0.0;
 };
 

@@ -11,7 +11,7 @@
 namespace fastsplat::driver {
 namespace {
 
-/// Numbers of the remainders, the largest first, the first of equal ones first.
+/// Indices of the remainders, largest first; ties keep their order.
 std::vector<std::size_t> by_remainder(const std::vector<double>& remainder) {
   std::vector<std::size_t> order(remainder.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -20,8 +20,8 @@ std::vector<std::size_t> by_remainder(const std::vector<double>& remainder) {
   return order;
 }
 
-/// Each value rounded down or up such that the words' sum is the rounded sum of the values; the largest remainders go
-/// up, the first of equal ones first.
+/// Rounds each value down or up so that the words' sum is the rounded sum of the values. The largest remainders go up,
+/// ties in order.
 std::vector<std::uint32_t> quantise_preserving_sum(const std::vector<double>& values, const cmodel::Config& config) {
   const Target each = target(Site::Radial, config), total = target(Site::RadialSum, config);
   std::vector<std::uint32_t> words(values.size());
@@ -41,7 +41,7 @@ std::vector<std::uint32_t> quantise_preserving_sum(const std::vector<double>& va
   return words;
 }
 
-/// The same where word t stands for a ring of area 2t+1: the words' sum by area is that of the values to within half of
+/// The same where word t stands for a ring of area 2t+1. The words' sum by area is that of the values to within half of
 /// the last ring.
 std::vector<std::uint32_t> quantise_preserving_area(const std::vector<double>& values, const cmodel::Config& config) {
   const Target each = target(Site::Radial, config);
@@ -62,7 +62,7 @@ std::vector<std::uint32_t> quantise_preserving_area(const std::vector<double>& v
   return words;
 }
 
-/// The radial table's samples lie even in distance, not in its square.
+/// Whether the radial samples are even in distance, not in its square.
 bool even_in_distance(const cmodel::Config& config) { return config.index() == cmodel::IndexKind::Linear; }
 
 }  // namespace

@@ -12,7 +12,7 @@
 
 namespace fastsplat::driver {
 
-/// The RLUT's word at `distance` along an axis, of a footprint whose rim lies at `rim_distance`: both in 1/k pixel.
+/// The RLUT's word at `distance` along an axis, for a footprint with its edge at `rim_distance`; both in 1/k pixel.
 /// `scaled` is the target of Site::Rlut.
 inline std::uint32_t rlut_word(double distance, double rim_distance, const Target& scaled) {
   const auto rim = static_cast<double>(scaled.to.max);
@@ -24,15 +24,15 @@ inline std::uint32_t rlut_word(double distance, double rim_distance, const Targe
 /// RLUT of one radius set: `radius` in pixels, `base` its first column. Words in load_table order.
 cmodel::LoadTable rlut_table(const cmodel::Config& config, std::uint32_t set, double radius, std::uint32_t base);
 
-/// F in the middle of each of the N steps of the radial table: of squared distance, of index.kind linear of distance.
-/// Where the table is interpolated, what its N+1 words stand for: F at the ends of the steps, scaled such that the area
-/// below the lines is that below F.
+/// F in the middle of each of the N steps of the radial table. Steps are even in squared distance, or in distance for
+/// index.kind linear. An interpolated table has N+1 samples: F at the ends of the steps, scaled so that the area below
+/// the lines is that below F.
 std::vector<double> radial_samples(const cmodel::Config& config, const scene::Kernel& kernel);
 
-/// Radial table, U wi.wf, quantised with its sum preserved: the largest remainders are rounded up. Of index.kind linear
-/// even in distance, its sum by area preserved.
+/// Radial table, U wi.wf, quantised with its sum preserved: the largest remainders are rounded up. For index.kind
+/// linear the sum by area is preserved.
 cmodel::LoadTable radial_table(const cmodel::Config& config, const scene::Kernel& kernel);
-/// The share of the footprint's area that entry t stands for, up to a factor that all have.
+/// The footprint area that entry t stands for, up to a common factor.
 double radial_area(const cmodel::Config& config, std::size_t t);
 
 /// (1-exp(-tau))/tau at the G+1 segment ends, One.of.

@@ -1,4 +1,4 @@
-// A tile's records as beats, handed on in blocks.
+// Writes a tile's records as beats, in blocks.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ namespace fastsplat::driver {
 
 class BeatWriter final : public cmodel::RecordSink {
  public:
-  /// Keeps a reference to `sink`. `hides`: of CompiledFrame::emit_tile().
+  /// Keeps a reference to `sink`. `hides`: see CompiledFrame::emit_tile().
   explicit BeatWriter(const cmodel::BeatSink& sink, Hides hides = {}) : sink_(sink), hides_(std::move(hides)) {
     beats_.reserve(kBlock + 512);
   }
@@ -32,7 +32,7 @@ class BeatWriter final : public cmodel::RecordSink {
   }
   bool would_hide(const cmodel::CullBlock& set) override {
     if (!hides_) return false;
-    flush();  // what it is hidden by is what came before
+    flush();  // the answer depends on all earlier beats
     return hides_(set);
   }
   void end_sheet(const cmodel::EndSheet& sheet) override { append(beats_, sheet); }

@@ -149,7 +149,7 @@ scene::Offers offers(const cmodel::Config& config) {
   }
   if (config.classifies()) out.features |= static_cast<unsigned>(scene::Feature::Densities);
   if (config.has_patterns()) out.features |= static_cast<unsigned>(scene::Feature::Patterns);
-  // A footprint with a picture is none that has mirror images or a radial table.
+  // Textured footprints have neither mirror images nor a radial table.
   if (config.index() == cmodel::IndexKind::Blit2d &&
       config.index_symmetry == static_cast<int>(cmodel::IndexSymmetry::Off))
     out.features |= static_cast<unsigned>(scene::Feature::Details);

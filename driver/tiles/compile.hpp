@@ -25,12 +25,11 @@ namespace fastsplat::driver {
 /// Whether a frame's samples are composited one by one (modes 4 and 5), not summed in sheets.
 bool every_sample(const scene::SceneDescription& description);
 
-/// The sheets that the device takes, whatever the method that makes them; where every sample is composited one holds
-/// them all. Of a scene that a device offers.
+/// The sheets that the device receives, whichever method makes them; one sheet if every sample is composited. The scene
+/// must have passed scene::check_capability().
 scene::SheetPlan plan_for_device(const scene::Scene& scene);
 
-/// What a device of this configuration has: all have the methods of sheets, those with ellipses footprints of any
-/// shape.
+/// What a device of this configuration offers: always the methods with sheets; with ellipses, footprints of any shape.
 scene::Offers offers(const cmodel::Config& config);
 
 /// Contribution of one tile's records to the report.
@@ -46,14 +45,14 @@ class CompiledFrame {
  public:
   struct State;
 
-  /// Throws UserError (Usage) where the scene does not fit the configuration. `threads` (0: all cores) and `band_rows`,
-  /// the height of what draw_band() draws (rounded up to blocks, 0: a tile), never change the result.
+  /// Throws UserError (Usage) if the scene does not fit the configuration. `threads` (0: all cores) and `band_rows`,
+  /// the height of a band of draw_band() (rounded up to blocks, 0: a tile), never change the result.
   CompiledFrame(const scene::Scene& scene, const cmodel::Config& config, int threads = 1, int band_rows = 0);
   ~CompiledFrame();
 
   const cmodel::Config& config() const;
   const TileGrid& grid() const;
-  /// Of each tile.
+  /// Number of bands in each tile.
   int bands() const;
   /// begin_frame and the tables.
   std::span<const cmodel::Beat> preamble() const;
@@ -62,15 +61,16 @@ class CompiledFrame {
   /// The same as beats. With `hides`, a device that has taken all earlier beats reports whether it would hide a set;
   /// the splats of hidden sets are then skipped. The device's words and counters do not change.
   TileReport emit_tile(int tile, const cmodel::BeatSink& sink, const Hides& hides = {}) const;
-  /// Draws a band of the tile directly into the fast unit, which then has its words and counters. There are no records,
-  /// and a splat's place in the band is computed once, not once a sheet.
+  /// Draws a band of the tile directly into the fast unit, which then has its words and counters. No records are made,
+  /// and a splat's place in the band is computed once instead of once per sheet.
   template <class Word>
   cmodel::fast::BandReport draw_band(int tile, int band, cmodel::fast::TileUnit<Word>& unit) const;
   /// Preamble and all tiles in order: a subset stream, without end_frame. Progress counts tiles.
   DriverReport emit(const cmodel::BeatSink& sink, const Progress& progress = {}) const;
-  /// Voxels and tiles; what the tiles hold is in what emit() returns, or added to it by those who emit them singly.
+  /// Voxels and tiles. The contributions of tiles are in the result of emit(); callers of emit_tile() add them
+  /// themselves.
   DriverReport report() const;
-  /// Splats that touch each band, tile by tile: a measure of the work it makes.
+  /// Number of splats that touch each band, tile by tile: an estimate of its work.
   std::vector<std::uint64_t> work() const;
 
  private:

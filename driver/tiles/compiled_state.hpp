@@ -29,10 +29,10 @@ class Windows {
     cmodel::Nothing nobody;
     return snap_(centre, sets_.rho(set), nobody);
   }
-  /// Of an ellipse: the box of all its windows.
+  /// The box of all windows of an ellipse.
   Extent operator()(const QuantisedSplat& splat, const cmodel::EllipseShape& shape) const {
     const std::int32_t x = splat.x >> config_.position_frac_bits, y = splat.y >> config_.position_frac_bits;
-    Extent out{.x0 = x, .x1 = x, .y0 = y, .y1 = y, .window_end = y};  // of no pixel
+    Extent out{.x0 = x, .x1 = x, .y0 = y, .y1 = y, .window_end = y};  // empty
     bool first = true;
     for (const EllipseSpan& span : EllipseSpans(config_, shape, splat.x, splat.y)) {
       const std::int32_t top = y + span.windows.top;
@@ -51,7 +51,7 @@ class Windows {
     return {x0, x0 + extent, y0, y0 + extent, y0 + static_cast<std::int32_t>(extents_[splat.set].padded)};
   }
 
-  /// Sides of the widest and the narrowest footprint, pixels, whole windows.
+  /// Sides of the widest and the narrowest footprint, in pixels, rounded up to whole windows.
   std::int32_t widest() const {
     return static_cast<std::int32_t>(std::ranges::max(extents_, {}, &cmodel::WindowGeometry::padded).padded);
   }
@@ -70,9 +70,9 @@ class Windows {
   std::vector<cmodel::WindowGeometry> extents_;  ///< per set
 };
 
-/// A cull group: one cell, two neighbours, or four, whose splats form one set.
+/// A cull group of one cell, two neighbours, or four.
 struct CellSet {
-  cmodel::CullBlock block;  ///< pixels of all windows of the splats that they can have; no tag, no splats yet
+  cmodel::CullBlock block;  ///< holds all windows of any splats of the cells; tag and splats not set yet
   std::vector<int> cells;   ///< row by row
 };
 struct SheetSets {
@@ -97,7 +97,7 @@ struct CompiledFrame::State {
 
   State(const scene::Scene& scene, const cmodel::Config& device, int threads, int band_rows);
 
-  int rim() const { return cmodel::holds_densities(mode) ? 1 : 0; }  ///< pixels around a tile that its sheets hold
+  int rim() const { return cmodel::holds_densities(mode) ? 1 : 0; }  ///< width of the halo, pixels
   bool sliced() const { return plan.use == scene::SheetUse::Sliced; }
   bool shaped() const { return !projected.ellipses.empty(); }
   int first_sheet(std::uint32_t number) const {
@@ -105,7 +105,7 @@ struct CompiledFrame::State {
     if (!sliced()) return depth;
     return shaped() ? slices.first(depth, growth(number)) : slices.first(depth);
   }
-  /// The splat's kernel is stretched in depth: its shares are those of the stretched kernel.
+  /// Whether the splat's kernel is stretched in depth; if so, its shares are those of the stretched kernel.
   bool grown(std::uint32_t number) const {
     return sliced() && shaped() && projected.ellipses[number].shrink != DepthGrowth{}.shrink;
   }
@@ -127,15 +127,16 @@ struct CompiledFrame::State {
     out.height = bands.height(band, out.height);
     return out;
   }
-  /// Records of one sheet of one tile; begin_sheet only when there is something to say.
+  /// Emits one sheet of one tile; nothing if it is empty. Returns the number of records.
   std::uint32_t emit_sheet(int tile, int sheet, std::uint32_t& tag, cmodel::RecordSink& out, TileReport& report) const;
-  /// The same if the tile's splats are grouped into sets; returns true if the sheet was written.
+  /// The same if the tile's splats are in cull groups; returns true if the sheet was written.
   bool emit_sets(int tile, int sheet, std::uint32_t& tag, cmodel::RecordSink& out, TileReport& report) const;
-  /// Ellipses are not grouped into cull sets; each is tested individually.
+  /// Whether splats are in cull groups. Ellipses never are: each is tested individually.
   bool in_sets() const { return config.culls() && cmodel::culls_in(mode) && !shaped(); }
-  /// The sets of a tile's sheet, after `written` earlier sets of the tile, and the ungrouped cells.
+  /// The cull groups of a tile's sheet, after `written` earlier sheets of the tile, and the ungrouped cells.
   SheetSets sheet_sets(int tile, int sheet, std::uint64_t written) const;
-  /// visit(EllipseRecord) for every record of a splat with kOwnShape that meets the tile, without its tag; none may.
+  /// visit(EllipseRecord), with tag 0, for every record of a splat with kOwnShape that meets the tile; there may be
+  /// none.
   template <class Visit>
   void for_each_ellipse(int tile, std::uint32_t number, const SplatWords& colour, Visit visit) const {
     const QuantisedSplat& splat = projected.splats[number];

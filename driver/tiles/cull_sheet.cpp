@@ -1,5 +1,5 @@
-// A sheet whose splats go in sets (docs/numerics.md, section 8, "Sets"): cells of the screen, their cull_blocks in
-// front.
+// Emits a sheet whose splats are in cull groups of screen cells, cull_blocks first (docs/numerics.md, N-8-54 to
+// N-8-59).
 #include <algorithm>
 #include <vector>
 
@@ -8,9 +8,9 @@
 namespace fastsplat::driver {
 namespace {
 
-/// A set's record should cost no more than a hundredth of what its splats do where they can be seen.
+/// Least number of windows in a group: its cull_block then costs at most a hundredth of its splats (N-8-56).
 constexpr std::uint64_t kWindowsOfASet = 100;
-/// Sheets of a tile in which nothing can be hidden (docs/numerics.md, section 6.1).
+/// Sheets of a tile in which nothing can be hidden (N-8-57).
 constexpr std::uint64_t kSheetsUnhidden = 2;
 
 }  // namespace
@@ -24,7 +24,7 @@ SheetSets CompiledFrame::State::sheet_sets(int tile, int sheet, std::uint64_t wr
       of += bins.cell(tile, from, cell).size() * side * side;
   }
   SheetSets out;
-  // Of the cells in columns x0..x1-1 and rows y0..y1-1 that have any, one set, if it is worth it.
+  // Whether the cells in columns x0..x1-1 and rows y0..y1-1 have enough candidates for one group, or none at all.
   const auto worth = [&](int x0, int y0, int x1, int y1) {
     std::uint64_t sum = 0;
     for (int y = y0; y < y1; ++y)

@@ -18,7 +18,7 @@ namespace fastsplat::driver {
 struct CullRow {
   std::string map;                      ///< off, block or pixel
   std::optional<std::uint64_t> fetch;   ///< the memory's latency; absent: every beat is sent
-  std::uint64_t cycles = 0, beats = 0;  ///< busy; sent
+  std::uint64_t cycles = 0, beats = 0;  ///< busy cycles; beats sent
   cmodel::CycleAccount account;
   cmodel::Counters counters;  ///< counters of the cycle model
   cmodel::CullCounts culls;

@@ -1,4 +1,4 @@
-// The splats of a compiled frame as the fast unit's walk asks for them (cmodel/fast/band_walk.hpp).
+// Provides the splats of a compiled frame to the fast unit's walk (cmodel/fast/band_walk.hpp).
 #include "cmodel/fast/band_walk.hpp"
 #include "driver/tiles/compiled_state.hpp"
 
@@ -9,9 +9,9 @@ template <class Word>
 class BandSplats {
  public:
   using Unit = cmodel::fast::TileUnit<Word>;
-  /// What a splat's shares come from.
+  /// State from which a splat's shares are computed.
   struct Rest {
-    SplatWords words{}, before{};  ///< whole; of it, what lies in front of the next sheet
+    SplatWords words{}, before{};  ///< the whole splat; its part in front of the next sheet
     std::int32_t depth = 0;
     std::uint32_t number = 0;
     bool grown = false;  ///< CompiledFrame::State::grown()
@@ -52,7 +52,7 @@ class BandSplats {
       visit(std::move(one));
     });
   }
-  /// The splat's part of a sheet: sheet after sheet.
+  /// The splat's share in a sheet; called for consecutive sheets.
   Share next_share(Rest& splat, int sheet) const {
     if (!s_.sliced()) return s_.slices.whole(splat.words);
     if (splat.grown) return s_.share(splat.number, sheet);

@@ -16,7 +16,7 @@ FrameRanges frame_ranges(const scene::Scene& scene, const cmodel::Config& config
   out.report = compiled.report();
   std::mutex mutex;
   std::size_t done = 0;
-  // All that is merged are counts, sums of integers, ends and ones: in which order does not matter.
+  // Counts, integer sums, extremes and bitwise ORs are merged, so the order does not matter.
   parallel_for(compiled.work(), options.threads, [&](std::size_t number) {
     cmodel::NullPixels nowhere;
     cmodel::Ranges ranges;

@@ -21,7 +21,7 @@
 namespace fastsplat::driver {
 namespace {
 
-/// exp(-q/2), to the cutoff.
+/// exp(-q/2), cut at the cutoff.
 scene::Kernel kernel_of(const scene::GaussianScene& scene) { return {0.5, scene.description.cutoff}; }
 
 const cmodel::Config& checked(const cmodel::Config& config) {
@@ -46,7 +46,7 @@ void check_low_pass(const scene::GaussianDescription& description, const cmodel:
                .fix = "raise --low-pass or --cutoff, or lower rlut.guard_bits"});
 }
 
-/// Some of the Gaussian's pixels in the picture lie beyond the reach of a record.
+/// Whether some of the Gaussian's pixels in the picture lie beyond the reach of a record.
 bool too_far(const scene::GaussianScene& scene, const scene::ProjectedGaussian& splat, int reach) {
   const auto far_along = [&](double at, double variance, int size) {
     const double half = scene.description.cutoff * std::sqrt(variance);
@@ -57,7 +57,7 @@ bool too_far(const scene::GaussianScene& scene, const scene::ProjectedGaussian& 
          far_along(splat.y, splat.shape.yy, scene.camera.height());
 }
 
-/// A pixel of the picture lies within reach of the centre.
+/// Whether a pixel of the picture lies within reach of the centre.
 bool reachable(const scene::GaussianScene& scene, const scene::ProjectedGaussian& splat, int reach) {
   return splat.x > -reach && splat.x < scene.camera.width() + reach && splat.y > -reach &&
          splat.y < scene.camera.height() + reach;
@@ -110,7 +110,7 @@ void GaussianFrame::bin(std::uint32_t number) {
   const QuantisedGaussian& one = gaussians_[number];
   const EllipseReach box = reach(config_, one.shape);
   const double pixel = std::ldexp(1.0, -config_.position_frac_bits), most = gaussian_reach(config_);
-  // The first and last tile along an axis; `end` tiles there are.
+  // The range [first, end) of tiles along an axis that has `end` tiles.
   const auto tiles = [&](double centre, double half, int size, int end) {
     const double from = std::floor((centre - std::min(half, most)) / size), to = (centre + std::min(half, most)) / size;
     return std::pair(static_cast<int>(std::clamp(from, 0.0, double(end))),
@@ -204,7 +204,7 @@ DrawnTile draw_plain(const GaussianFrame& frame, int tile, cmodel::PixelSink& pi
   return out;
 }
 
-/// By the plain unit where the fast one gives the tile up.
+/// Falls back to the plain unit if the fast one gives the tile up.
 template <class Word>
 DrawnTile draw_fast(const GaussianFrame& frame, const cmodel::fast::FrameTables& tables, int tile,
                     cmodel::PixelSink& pixels) {

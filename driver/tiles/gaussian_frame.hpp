@@ -33,7 +33,7 @@ struct GaussianReport {
   std::uint64_t tiles = 0;
 };
 
-/// The words of a Gaussian in the image's own frame.
+/// The words of a Gaussian in image coordinates.
 struct QuantisedGaussian {
   std::int32_t x = 0, y = 0;  ///< 2^-pf pixel
   std::array<std::uint32_t, 4> colour{};
@@ -59,7 +59,7 @@ class GaussianFrame {
   GaussianReport emit(const cmodel::BeatSink& sink, const Progress& progress = {}) const;
   /// The report without contributions of tiles.
   const GaussianReport& report() const { return report_; }
-  /// Gaussians of each tile: a measure of the work it makes.
+  /// Number of Gaussians in each tile: an estimate of its work.
   std::vector<std::uint64_t> work() const;
 
  private:
@@ -69,7 +69,7 @@ class GaussianFrame {
   TileGrid grid_;
   std::vector<cmodel::Beat> preamble_;
   std::vector<QuantisedGaussian> gaussians_;      ///< nearest first
-  std::vector<std::vector<std::uint32_t>> bins_;  ///< of each tile, nearest first; some may meet no pixel of it
+  std::vector<std::vector<std::uint32_t>> bins_;  ///< per tile, nearest first; some may meet no pixel of it
   GaussianReport report_;
 };
 

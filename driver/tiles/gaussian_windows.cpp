@@ -13,14 +13,14 @@ struct WindowPixels {
   std::int32_t first = 0, end = 0;
 };
 
-/// Those strictly between two places that lie in `within`; no place is too far away.
+/// The pixels of `within` strictly between two positions, which may be arbitrarily far away.
 WindowPixels between(double from, double to, const WindowPixels& within) {
   const double least = within.first, most = within.end;
   return {static_cast<std::int32_t>(std::clamp(std::floor(from) + 1.0, least, most)),
           static_cast<std::int32_t>(std::clamp(std::ceil(to), least, most))};
 }
 
-/// What a tile that begins `centre` pixels before the centre and is `size` long has within reach.
+/// The pixels within reach in a tile that begins `centre` pixels before the centre and is `size` pixels long.
 WindowPixels visible(std::int32_t centre, int size, std::int32_t reach) {
   const std::int32_t first = std::clamp(-centre, -reach, reach);
   return {first, std::clamp(size - centre, first, reach)};
@@ -29,8 +29,8 @@ WindowPixels visible(std::int32_t centre, int size, std::int32_t reach) {
 }  // namespace
 
 int gaussian_reach(const cmodel::Config& config) {
-  // A record's windows end within kEllipseReach, those that are filled up too; and the centre fits S pi.pf in whatever
-  // tile it is within reach of.
+  // A record's windows, padded ones too, end within kEllipseReach. The centre fits S pi.pf relative to every tile
+  // within its reach (N-8-64).
   const int positions = (1 << (config.position_int_bits - 1)) - 1 - std::max(config.tile_width, config.tile_height);
   return std::min(cmodel::kEllipseReach - config.lanes, positions);
 }

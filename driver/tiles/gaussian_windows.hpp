@@ -13,9 +13,9 @@ namespace fastsplat::driver {
 /// Reach of a footprint from its centre, pixels: the limit of a record's windows and position.
 int gaussian_reach(const cmodel::Config& config);
 
-/// Rows of windows, cut to the tile and to the reach, each as long as the footprint in that row; neighbours in the same
-/// columns are merged. `x`, `y`: the centre's words relative to the tile of `width` x `height` pixels. Empty if the
-/// footprint meets no pixel of the tile.
+/// Rows of windows, clipped to the tile and to the reach, each as long as the footprint in that row; adjacent rows in
+/// the same columns are merged. `x`, `y`: the centre's words relative to the tile of `width` x `height` pixels. Empty
+/// if the footprint meets no pixel of the tile.
 std::vector<cmodel::EllipseWindows> gaussian_windows(const cmodel::Config& config, const cmodel::EllipseShape& shape,
                                                      std::int32_t x, std::int32_t y, int width, int height);
 

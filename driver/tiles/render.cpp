@@ -22,10 +22,11 @@ namespace fastsplat::driver {
 
 namespace {
 
-/// What a thread draws at once, so that few busy tiles keep several threads busy. Taller bands share fewer splats.
+/// Height of a band, the work unit of a thread, so that few busy tiles keep several threads busy. Taller bands share
+/// fewer splats.
 constexpr int kBandRows = 64;
 
-/// A tile is done.
+/// Called when a tile is done.
 using Told = std::function<void()>;
 
 /// One tile's result besides its pixels.
@@ -49,7 +50,7 @@ TileResult draw_plain(const CompiledFrame& compiled, int tile, cmodel::PixelSink
   return out;
 }
 
-/// The same of one band, and whether it can be believed.
+/// The same for one band; `sound`: no sum can have been cut.
 struct BandResult {
   cmodel::Counters counters;
   cmodel::fast::BandReport report;
@@ -65,7 +66,7 @@ BandResult draw_fast(const CompiledFrame& compiled, const cmodel::fast::FrameTab
   return {unit.counters(), std::move(report), unit.hidden_splats(), unit.sound()};
 }
 
-/// The tile that its bands make; none if one of them is not sound.
+/// Combines the bands of a tile; nullopt if one of them is not sound.
 std::optional<TileResult> whole_tile(std::span<const BandResult> bands) {
   TileResult out;
   std::vector<std::uint8_t> sheets(bands.front().report.sheets.size());
@@ -82,7 +83,7 @@ std::optional<TileResult> whole_tile(std::span<const BandResult> bands) {
   return out;
 }
 
-/// Tiles are independent: each has a device of its own, as several chips would.
+/// Tiles are independent: each has its own device, as with several chips.
 std::vector<TileResult> draw_all_plain(const CompiledFrame& compiled, int threads, cmodel::PixelSink& pixels,
                                        const Told& told) {
   std::vector<TileResult> results(static_cast<std::size_t>(compiled.grid().count()));
@@ -96,7 +97,7 @@ std::vector<TileResult> draw_all_plain(const CompiledFrame& compiled, int thread
   return results;
 }
 
-/// Bands are, too. Whoever ends a tile's last one puts them together, or draws the tile again.
+/// Bands are independent, too. The thread that finishes a tile's last band combines them or redraws the tile.
 std::vector<TileResult> draw_all_fast(const CompiledFrame& compiled, const cmodel::fast::FrameTables& tables,
                                       int threads, cmodel::PixelSink& pixels, const Told& told) {
   const auto tiles = static_cast<std::size_t>(compiled.grid().count());

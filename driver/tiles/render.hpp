@@ -1,4 +1,4 @@
-// A scene through the integer device: compile to the stream, tile by tile, feed the device, gather the frame.
+// Renders a scene with the integer device: compiles it to the stream tile by tile, feeds the device, gathers the frame.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@
 
 namespace fastsplat::driver {
 
-/// The two software devices: the same words and counters.
+/// The two software devices, with the same words and counters.
 enum class Unit {
   Plain,  ///< cmodel/model.*: readable, tapped, the reference for the RTL
-  Fast,   ///< cmodel/fast/: where the configuration and its tables allow, else plain
+  Fast,   ///< cmodel/fast/: if the configuration and its tables allow it, else plain
 };
 
 struct RenderOptions {
@@ -37,15 +37,15 @@ struct DriverReport {
   std::uint64_t saturated_records = 0;  ///< records whose share left the input format U 0.cf
   std::uint64_t vanished_voxels = 0;    ///< voxels whose words are all 0
   double vanished_share = 0.0;          ///< their share of all colour and opacity; 0 with error diffusion
-  std::uint64_t widened_voxels = 0;     ///< drawn with a wider footprint than theirs (driver/splats/ellipse_shape.hpp)
-  bool carried = false;                 ///< rounding errors were diffused from voxel to voxel (rounding.carry)
+  std::uint64_t widened_voxels = 0;  ///< drawn with a wider footprint than their own (driver/splats/ellipse_shape.hpp)
+  bool carried = false;              ///< rounding errors were diffused from voxel to voxel (rounding.carry)
 };
 
 /// Which unit drew the tiles of a frame.
 struct UnitReport {
-  std::uint64_t fast = 0, plain = 0;  ///< tiles; all plain where the fast unit cannot be
-  std::uint64_t redone = 0;           ///< plain tiles that the fast unit gave up, because a sum may have been cut
-  /// Records the fast unit counted without drawing: nothing could change in the band of the tile they begin in.
+  std::uint64_t fast = 0, plain = 0;  ///< tiles; all plain if the fast unit cannot draw the frame
+  std::uint64_t redone = 0;  ///< tiles that the fast unit gave up and the plain one drew: a sum might have been cut
+  /// Records that the fast unit counted but did not draw: they could not change the band of the tile they begin in.
   std::uint64_t hidden_splats = 0;
   const char* vectors = nullptr;    ///< the fast unit's instructions, "AVX2" and the like
   const char* why_plain = nullptr;  ///< reason why the requested fast unit could not draw

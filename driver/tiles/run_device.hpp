@@ -11,8 +11,8 @@ namespace fastsplat::driver {
 
 using DeviceFactory = std::function<std::unique_ptr<cmodel::Device>(cmodel::PixelSink& pixels)>;
 
-/// Feeds preamble and tiles (a subset stream: no end_frame) to one device and gathers the frame. `device` receives the
-/// device after it has finished, to read further results.
+/// Feeds preamble and tiles (a subset stream: no end_frame) to one device and gathers the frame. `finished` receives
+/// the device at the end, to read further results.
 DeviceRender run_device(const scene::Scene& scene, const cmodel::Config& config, const DeviceFactory& make,
                         const RenderOptions& options = {}, const std::function<void(cmodel::Device&)>& finished = {});
 

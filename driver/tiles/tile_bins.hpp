@@ -17,7 +17,7 @@ namespace fastsplat::driver {
 struct TileGrid {
   int image_width = 0, image_height = 0, tile_width = 0, tile_height = 0;
 
-  /// `rim`: the halo, pixels on each side of the picture's that a device's tile also holds.
+  /// `rim`: the halo, pixels on each side of the picture's tile that the device's tile also holds.
   TileGrid(const cmodel::Config& config, int width, int height, int rim = 0)
       : image_width(width),
         image_height(height),
@@ -32,12 +32,11 @@ struct TileGrid {
   int height(int tile) const { return y(tile) + tile_height <= image_height ? tile_height : image_height - y(tile); }
 };
 
-/// Tiles cut into bands: whole rows of blocks, drawn by themselves, so that a tile can keep several threads busy. Bands
-/// of all tiles are counted from the top of the image; what lies below the image belongs to the last band that has a
-/// pixel.
+/// Tiles cut into bands of whole rows of blocks, drawn separately so that a tile can keep several threads busy. Bands
+/// of all tiles are numbered from the top of the image; rows below the image belong to the last band with a pixel.
 class Bands {
  public:
-  /// `rows`: pixels, a multiple of P; a tile's height or more: every tile is one band.
+  /// `rows`: pixels, a multiple of P. From a tile's height on, every tile is one band.
   Bands(const TileGrid& grid, int rows)
       : tile_height_(grid.tile_height),
         image_height_(grid.image_height),
@@ -49,7 +48,7 @@ class Bands {
     y = std::min(y, image_height_ - 1);
     return y / tile_height_ * of_tile_ + y % tile_height_ / rows_;
   }
-  /// First row and height of band b of a tile `height` pixels high; height 0: no pixel of the image.
+  /// First row and height of band b of a tile `height` pixels high; height 0: the band has no pixel of the image.
   int first_row(int band) const { return band * rows_; }
   int height(int band, int height) const { return std::clamp(height - first_row(band), 0, rows_); }
 
@@ -57,8 +56,8 @@ class Bands {
   int tile_height_, image_height_, rows_, of_tile_;
 };
 
-/// Pixels that a splat may touch: [x0,x1) x [y0,y1) of the image, unclipped. In a tile that these meet, its windows
-/// reach down to window_end, on pixels without a weight.
+/// Pixels that a splat may touch: [x0,x1) x [y0,y1) of the image, unclipped. In a tile that they meet, its windows
+/// extend down to window_end with weights 0.
 struct Extent {
   std::int32_t x0 = 0, x1 = 0, y0 = 0, y1 = 0, window_end = 0;
 };
@@ -68,7 +67,7 @@ inline Extent widened(const Extent& e, int rim) {
   return {e.x0 - rim, e.x1 + rim, e.y0 - rim, e.y1 + rim, e.window_end + rim};
 }
 
-/// A tile cut into square cells, row by row, for sets of splats (docs/numerics.md, section 8); one cell: no sets.
+/// A tile cut into square cull cells, row by row (docs/numerics.md, N-8-55); a single cell: no cull groups.
 class Cells {
  public:
   Cells() = default;
@@ -76,7 +75,7 @@ class Cells {
   Cells(const TileGrid& grid, int side)
       : side_(side), columns_((grid.tile_width + side - 1) / side), rows_((grid.tile_height + side - 1) / side) {}
   int count() const { return columns_ * rows_; }
-  /// The cell of the windows that begin at this pixel, relative to the tile.
+  /// The cell of windows that begin at this pixel, relative to the tile.
   int number(std::int32_t x, std::int32_t y) const {
     if (count() == 1) return 0;
     return std::clamp(y / side_, 0, rows_ - 1) * columns_ + std::clamp(x / side_, 0, columns_ - 1);
@@ -94,7 +93,7 @@ class Cells {
 class TileBins {
  public:
   /// extent(i) and first_sheet(i) for i in [0, splats) are called once each, by several threads. With several cells a
-  /// tile is one band.
+  /// tile must be one band.
   template <class ExtentOf, class SheetOf>
   TileBins(const TileGrid& grid, const Bands& bands, const Cells& cells, int sheets, std::size_t splats, int threads,
            ExtentOf extent, SheetOf first_sheet)
@@ -118,7 +117,7 @@ class TileBins {
               e.x0,
               e.y0};
     };
-    // Of a tile's column and row.
+    // Cull cell of a splat in tile (x, y).
     const auto cell = [&](const Place& at, int x, int y) -> std::size_t {
       if (cells_ == 1) return 0;
       return static_cast<std::size_t>(cells.number(at.px - x * grid.tile_width, at.py - y * grid.tile_height));
@@ -158,7 +157,7 @@ class TileBins {
     const std::size_t at = first_bin(tile, band) + static_cast<std::size_t>(sheet) * cells_;
     return {order_.data() + start_[at], order_.data() + start_[at + cells_]};
   }
-  /// Of one cell, in a tile of one band.
+  /// The splats of one cull cell, in a tile of one band.
   std::span<const std::uint32_t> cell(int tile, int sheet, int cell) const {
     const std::size_t at =
         first_bin(tile, 0) + static_cast<std::size_t>(sheet) * cells_ + static_cast<std::size_t>(cell);
@@ -186,7 +185,7 @@ class TileBins {
  private:
   /// The columns of tiles and the bands a splat touches, and its first sheet.
   struct Place {
-    std::int16_t x0, x1, y0, y1;  ///< the last ones included
+    std::int16_t x0, x1, y0, y1;  ///< inclusive
     std::int32_t sheet;
     std::int32_t px, py;  ///< first pixel
   };
@@ -199,12 +198,12 @@ class TileBins {
     Intervals(int pixels, NumberOf number) {
       for (int at = 0; at < pixels; ++at) number_.push_back(static_cast<std::int16_t>(number(at)));
     }
-    /// Of the pixels' first; behind the last one if they begin there.
+    /// The number at pixel `begin`; one past the last if `begin` lies beyond it.
     std::int16_t first(std::int32_t begin) const {
       if (begin < 0) return 0;
       return begin < size() ? number_[static_cast<std::size_t>(begin)] : static_cast<std::int16_t>(number_.back() + 1);
     }
-    /// Of the pixels' last; -1 if they end before the first one.
+    /// The number at pixel `end` - 1; -1 if that lies before the first.
     std::int16_t last(std::int32_t end) const {
       return end <= 0 ? static_cast<std::int16_t>(-1) : number_[static_cast<std::size_t>(std::min(end, size()) - 1)];
     }
@@ -213,7 +212,7 @@ class TileBins {
     std::int32_t size() const { return static_cast<std::int32_t>(number_.size()); }
     std::vector<std::int16_t> number_;
   };
-  /// As many as there are threads, unless their counts would be larger than what they count.
+  /// One part per thread, unless their counters would outnumber the splats.
   static std::size_t parts_of(std::size_t splats, std::size_t bins, int threads) {
     return std::clamp<std::size_t>(splats / std::max<std::size_t>(bins, 1), 1, thread_count(threads));
   }
@@ -232,7 +231,7 @@ class TileBins {
   }
 
   std::size_t columns_, bands_, sheets_, cells_;
-  std::vector<std::uint64_t> start_;    ///< per (band, column of tiles, sheet)
+  std::vector<std::uint64_t> start_;    ///< per (row of bands, column of tiles, sheet, cell)
   Uninitialised<std::uint32_t> order_;  ///< splat numbers
 };
 

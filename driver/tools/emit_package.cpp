@@ -1,4 +1,4 @@
-// Build-time tool, to standard output: the SystemVerilog package of a configuration, or its hash as a C++ literal.
+// Build-time tool: prints the SystemVerilog package of a configuration, or its hash as a C++ literal.
 #include <cstdio>
 #include <cstring>
 #include <exception>

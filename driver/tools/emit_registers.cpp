@@ -1,5 +1,4 @@
-// Build-time tool, to standard output: the map of the device's registers, as the page docs/registers.md or as a header
-// in C.
+// Build-time tool: prints the map of the device's registers, as the page docs/registers.md or as a C header.
 #include <cstdio>
 #include <cstring>
 

@@ -1,4 +1,4 @@
-// From the sums of a sheet (or of one splat, or of one step along a ray) to colour and opacity, and front to back.
+// Converts sums (of a sheet, a splat, or a step along a ray) to colour and opacity, and composites front to back.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ inline Layer make_layer(const Sums& sums, scene::SlabOpacity opacity) {
   return {sums[0] * dimming, sums[1] * dimming, sums[2] * dimming, alpha};
 }
 
-/// A pixel seen front to back: colour so far, and the transmittance to whatever lies behind.
+/// A pixel composited front to back: its colour so far, and the transmittance to whatever lies behind.
 struct FrontToBack {
   double red = 0.0, green = 0.0, blue = 0.0, transmittance = 1.0;
 

@@ -31,7 +31,7 @@ void Footprint::rasterise(const scene::Kernel& kernel, const ProjectedSplat& spl
     const double right = std::min(std::floor(middle + half), static_cast<double>(image_width - 1));
     if (left > right) continue;
 
-    // The rim's own pixels are decided by the kernel's strict test, which returns 0 there.
+    // Pixels on the boundary are decided by the kernel's strict test, which returns 0 there.
     const int width = static_cast<int>(right - left) + 1;
     spans_.push_back({static_cast<int>(y), static_cast<int>(left), width, used});
     if (weights_.size() < used + static_cast<std::size_t>(width)) weights_.resize(2 * (used + width));

@@ -28,7 +28,7 @@ class Footprint {
   };
 
   /// Weight of pixel (i,j) = kernel.footprint(q) with q = d^T S^-1 d, d its offset from the centre and S the splat's
-  /// shape; strict support. A textured splat's is times 1 + m t(u,v), (u,v) = d in kernel units along x and y.
+  /// shape; strict support. For a textured splat times 1 + m t(u,v), (u,v) = d in kernel units along x and y.
   void rasterise(const scene::Kernel& kernel, const ProjectedSplat& splat, Rows rows, int image_width);
 
   const std::vector<Span>& spans() const { return spans_; }
@@ -38,7 +38,7 @@ class Footprint {
   void modulate(const ProjectedSplat& splat);
 
   std::vector<Span> spans_;
-  std::vector<double> weights_;  ///< longer than what is used of it
+  std::vector<double> weights_;  ///< may be longer than its used part
 };
 
 }  // namespace fastsplat::golden

@@ -1,4 +1,4 @@
-// A splat as the image sees it: where its footprint lies, its shape on the screen, what it adds.
+// A projected splat: the place and shape of its footprint on the screen, and what it adds.
 #pragma once
 
 #include "scene/shaped_splat.hpp"
@@ -16,13 +16,13 @@ inline Sums scaled(const Sums& value, double share) {
   return {value[0] * share, value[1] * share, value[2] * share, value[3] * share};
 }
 
-/// `value` is times Kernel::footprint().
+/// `value` is to be multiplied by Kernel::footprint().
 struct ProjectedSplat : scene::ShapedSplat {
   double x = 0.0, y = 0.0;                       ///< pixels; pixel centres are at integers
   double z = 0.0;                                ///< depth of the centre, kernel units
   double reach_x = 0.0, reach_y = 0.0;           ///< pixels; the footprint's support is strictly inside
   int sheet = 0;                                 ///< axis-aligned sheet
-  const scene::TexturePhase* texture = nullptr;  ///< of the Projector; null for a plain splat
+  const scene::TexturePhase* texture = nullptr;  ///< owned by the Projector; null for a plain splat
   double texture_amplitude = 0.0;
 };
 

@@ -1,4 +1,4 @@
-// From a splat to its footprint on the screen.
+// Projects a splat to its footprint on the screen.
 #pragma once
 
 #include "golden/splat/projected_splat.hpp"
@@ -9,7 +9,7 @@
 
 namespace fastsplat::golden {
 
-/// Kernel::footprint() integrates to the volume of one cubic cell; on an anisotropic grid a voxel stands for less.
+/// Kernel::footprint() integrates to the volume of one cubic cell; a voxel of an anisotropic grid fills less.
 inline double cell_density(const scene::Scene& scene) { return scene.amplitude / scene.kernel.peak(); }
 
 class Projector {

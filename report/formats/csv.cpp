@@ -8,7 +8,7 @@
 namespace fastsplat::report {
 namespace {
 
-/// RFC 4180: in quotes where it holds what would end it, quotes doubled.
+/// RFC 4180: quoted if it contains a delimiter or quote; quotes are doubled.
 std::string field(const std::string& raw) {
   const std::string text = printable_lines(raw);
   if (text.find_first_of("\",\r\n") == text.npos) return text;
@@ -25,7 +25,7 @@ std::string text_of(const Json& value) {
 std::string line(const std::vector<std::string>& fields) {
   std::string text;
   for (std::size_t at = 0; at < fields.size(); ++at) text += (at ? "," : "") + field(fields[at]);
-  // A line of one empty field is no line at all to some readers.
+  // Some readers ignore empty lines, so a single empty field is quoted.
   return (text.empty() ? "\"\"" : text) + "\r\n";
 }
 

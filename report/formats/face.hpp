@@ -1,4 +1,4 @@
-// A result as build servers, spreadsheets and reviewers take it: gates that held or did not, and rows.
+// A result as gates and rows, for build servers, spreadsheets and reviewers.
 #pragma once
 
 #include <string>
@@ -8,26 +8,26 @@
 
 namespace fastsplat::report {
 
-/// Something that may fail, and did or did not.
+/// A check that passed or failed.
 struct Gate {
   std::string name;
   Status status = Status::Pass;
-  std::string message;  ///< one line or more; of those that hold, too
-  std::string command;  ///< that shows it again; empty where the result does not tell
+  std::string message;  ///< one or more lines, also of passed gates
+  std::string command;  ///< that reproduces it; empty if not recorded
 };
 
-/// Of a verb's result, the gates in its order; of one that only measures, that it was done. UserError (Input) where a
-/// figure is missing or none that can be.
+/// The gates of a result, in its order; a single passed gate for results without limits. UserError (Input) for missing
+/// or invalid figures.
 std::vector<Gate> gates_of(const Result& result);
 
-/// What a result lists: each row has a value, maybe null, for each column.
+/// A table: each row has one value per column, null if absent.
 struct Table {
   std::vector<std::string> columns;
   std::vector<std::vector<Json>> rows;
 };
 
-/// The list that matters of a verb's result: a plan's rows, the steps of `errors`, the losses of `cycles`, the cells of
-/// `family`. Objects in a row become columns, "config.name"; lists stay JSON. UserError (Input) as above.
+/// The main list of a result: a plan's rows, the steps of `errors`, the losses of `cycles`, the cells of `family`.
+/// Nested objects become columns, "config.name"; lists stay JSON. UserError (Input) as above.
 Table table_of(const Result& result);
 
 }  // namespace fastsplat::report

@@ -1,4 +1,4 @@
-// Results in the formats of others: JUnit XML for build servers, CSV for spreadsheets, Markdown for a review.
+// Output formats for other tools: JUnit XML for build servers, CSV for spreadsheets, Markdown for reviews.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace fastsplat::report {
 
-/// A test suite per result and a test case per gate; one that failed says why and how to see it again.
+/// A test suite per result and a test case per gate; failures give the reason and the command that reproduces them.
 std::string to_junit(const std::vector<Result>& results);
 
-/// RFC 4180: a header and the rows of all results, numbers as they are in the JSON. Of several results, the first
-/// column says which one a row is of, and a column that a result does not have is empty in its rows.
+/// RFC 4180: a header and the rows of all results, numbers as in the JSON. With several results, the first column names
+/// the result of each row; columns that a result does not have are empty in its rows.
 std::string to_csv(const std::vector<Result>& results);
 
-/// Per result a heading with its verdict, its gates where it has limits, and its rows as a table; a long one is cut,
-/// and says so.
+/// Per result a heading with its verdict, its gates if it has limits, and its rows as a table; says if the table is
+/// cut.
 std::string to_markdown(const std::vector<Result>& results);
 
 }  // namespace fastsplat::report

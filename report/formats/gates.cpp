@@ -12,18 +12,18 @@ namespace {
 
 using GatesOf = std::vector<Gate> (*)(const Figures&);
 
-/// Sums of doubles that were each rounded once.
+/// For sums of doubles that were each rounded once.
 constexpr double kSumTolerance = 1e-6;
 
 Status held(bool ok) { return ok ? Status::Pass : Status::Fail; }
 
-/// The texts of an object's own member; damaged where there is none.
+/// A text member of an object; throws if it is missing.
 std::string member(const Figures& f, const Json& object, const std::string& place, const char* key) {
   if (!object.is_object() || !object.contains(key) || !object[key].is_string()) f.damaged(place + "/" + key, "a text");
   return object[key].get<std::string>();
 }
 
-/// "3.2"; "none" of null, which stands for what is not finite.
+/// "3.2"; "none" for null, which stands for non-finite values.
 std::string number_text(const Json& value) {
   return value.is_number() ? fmt::format("{:.6g}", value.get<double>()) : value.is_null() ? "none" : value.dump();
 }
@@ -55,8 +55,8 @@ std::string compared(const Figures& f, const std::string& place) {
                      f.count(place + "mismatches"));
 }
 
-/// A gate for each stream of a campaign (for each seed, of results that tell no streams), for the whole of what has no
-/// seeds; then the cycles. The first that failed is the one that was looked into.
+/// A gate per stream of a campaign (per seed for results without streams), or one for results without seeds; then one
+/// for the cycles. The failure's details belong to the first gate that failed.
 std::vector<Gate> verify(const Figures& f) {
   std::vector<Gate> gates;
   const std::string list = f.find("by_stream") != nullptr ? "by_stream" : "by_seed";
@@ -118,7 +118,7 @@ std::vector<Gate> errors(const Figures& f) {
     bias += f.number(fmt::format("steps/{}/increment/bias_lsb8", at));
   }
   const double total = f.number("total/bias_lsb8");
-  // A picture without an error has shares of nothing.
+  // Without an error, the shares are undefined.
   const bool errs = f.number("total/rms_lsb8") > 0.0;
   return {{.name = "shares of the steps = 1",
            .status = held(!errs || std::abs(share - 1.0) <= kSumTolerance),
@@ -180,7 +180,7 @@ std::vector<Gate> plan(const Figures& f) {
   return gates;
 }
 
-/// A gate for each testpoint that was looked at, then for what else may be open.
+/// A gate per testpoint that was run, then gates for everything else that may be open.
 std::vector<Gate> closure(const Figures& f) {
   std::vector<Gate> gates;
   const auto findings = [&](const std::string& name, const std::string& place, const std::string& held_text) {
@@ -219,7 +219,7 @@ std::vector<Gate> gates_of(const Result& result) {
   const auto found = all.find(result.verb);
   std::vector<Gate> gates;
   if (found != all.end()) gates = found->second(Figures(result));
-  // What fails without a gate that says so has not to pass for it; and a result without a gate was at least made.
+  // A failure that no gate shows needs one, and a result without gates gets one.
   const bool told =
       std::any_of(gates.begin(), gates.end(), [](const Gate& gate) { return gate.status != Status::Pass; });
   const bool failed = verdict.status == Status::Fail || verdict.status == Status::Error;

@@ -8,7 +8,7 @@
 namespace fastsplat::report {
 namespace {
 
-/// UTF-8 as XML 1.0 holds it, in text and in attributes: no control character may be there, however it is written.
+/// Escapes UTF-8 for text and attributes of XML 1.0, where other control characters are invalid even when escaped.
 std::string xml(const std::string& text) {
   std::string out;
   for (std::size_t at = 0; at < text.size(); ++at) {
@@ -29,7 +29,7 @@ std::string xml(const std::string& text) {
       if (byte >= 0x20) at += 2;
     } else if (byte == 0x7f ||
                (byte == 0xc2 && at + 1 < text.size() && static_cast<unsigned char>(text[at + 1]) < 0xa0)) {
-      out += "\xEF\xBF\xBD";  // XML has them, and terminals obey them
+      out += "\xEF\xBF\xBD";  // XML allows DEL and C1 controls, but terminals obey them
       if (byte == 0xc2) ++at;
     } else {
       out += c;
@@ -38,7 +38,7 @@ std::string xml(const std::string& text) {
   return out;
 }
 
-/// Of a class name: build servers make folders of it at dots.
+/// A test case's class name: build servers split it into folders at dots.
 std::string class_name(const Result& result) {
   std::string name = "fastsplat." + result.verb;
   std::replace(name.begin(), name.end(), ' ', '_');
@@ -77,7 +77,7 @@ struct Count {
   }
 };
 
-/// Adds what it has to `all`.
+/// Adds its counts to `all`.
 std::string suite(const Result& result, Count& all) {
   const auto gates = gates_of(result);
   Count count{.tests = gates.size(), .failures = 0, .errors = 0, .seconds = seconds_of(result)};

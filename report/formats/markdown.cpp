@@ -10,10 +10,10 @@
 namespace fastsplat::report {
 namespace {
 
-/// More, nobody reads in a review; all are in the CSV.
+/// Limits for a review; the CSV has everything.
 constexpr std::size_t kMostRows = 50, kMostColumns = 12, kMostText = 100;
 
-/// In a cell: no bar, no line end, no mark of Markdown's or HTML's own.
+/// Escaped for a cell: no bars, line ends, or marks of Markdown or HTML.
 std::string cell(const std::string& text) {
   std::string out;
   for (const char c : printable_lines(text)) {
@@ -29,7 +29,7 @@ std::string cell(const std::string& text) {
   return out;
 }
 
-/// Between marks of code, of which it may hold some itself: a bar would still end a cell, so this is for lines alone.
+/// A code span of text that may contain backquotes. Not for table cells, which a bar would end.
 std::string code(const std::string& text) {
   std::string marks = "`";
   while (text.find(marks) != text.npos) marks += "`";
@@ -43,13 +43,13 @@ std::string shown(const Json& value) {
   const std::string text = value.is_string() ? value.get<std::string>() : json_text(value, -1);
   if (text.size() <= kMostText) return cell(text);
   std::size_t end = kMostText;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a letter
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a UTF-8 character
   return cell(text.substr(0, end)) + "...";
 }
 
 std::string row_text(const std::vector<std::string>& cells) { return fmt::format("| {} |\n", fmt::join(cells, " | ")); }
 
-/// Columns that hold something, numbers to the right; long tables are cut.
+/// Columns that are not empty, numbers right-aligned; long tables are cut.
 std::string table_text(const Table& table) {
   std::vector<std::size_t> columns;
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
@@ -87,7 +87,7 @@ const char* mark(Status status) {
                                       : "**error**";
 }
 
-/// Those of a plan are its rows: only what failed is told apart.
+/// A plan's gates are its rows, so only its failures are listed.
 std::string gates_text(const Result& result) {
   std::string text;
   std::size_t told = 0, left = 0;

@@ -7,7 +7,7 @@
 namespace fastsplat::report {
 namespace {
 
-/// Rows of objects: columns come in the order in which they are first met.
+/// Rows made from objects; columns are in order of first appearance.
 class Rows {
  public:
   void begin() { table_.rows.emplace_back(table_.columns.size()); }
@@ -19,7 +19,7 @@ class Rows {
     if (row.size() <= at) row.resize(at + 1);
     row[at] = value;
   }
-  /// All of an object's members, those of objects within it by "outer.inner".
+  /// All members of an object; nested ones as "outer.inner".
   void put_all(const Json& object, const std::string& before = {}) {
     for (const auto& [name, value] : object.items()) {
       if (value.is_object()) {
@@ -38,7 +38,7 @@ class Rows {
   Table table_;
 };
 
-/// A list of objects as it is.
+/// A list of objects, one row each.
 Table list(const Figures& f, const std::string& place) {
   Rows rows;
   std::size_t at = 0;
@@ -51,7 +51,7 @@ Table list(const Figures& f, const std::string& place) {
   return rows.take();
 }
 
-/// An object's numbers, a row each: under `name` what it is, under `value` how much.
+/// One row per number of an object: its key in column `name`, its value in column `value`.
 Table members(const Json& object, const char* name, const char* value) {
   Rows rows;
   for (const auto& [key, number] : object.items()) {
@@ -93,7 +93,7 @@ Table ranges(const Figures& f) { return list(f, "sites"); }
 Table propose(const Figures& f) { return list(f, "keys"); }
 Table family(const Figures& f) { return list(f, "cells"); }
 Table plan(const Figures& f) { return list(f, "rows"); }
-/// Seeds of a campaign; of what has none, the taps.
+/// Seeds of a campaign; without seeds, the taps.
 Table verify(const Figures& f) {
   return f.find("by_seed") != nullptr ? list(f, "by_seed") : members(f.at("by_tap"), "tap", "comparisons");
 }
@@ -130,7 +130,7 @@ Table closure(const Figures& f) {
   return rows.take();
 }
 
-/// What a device counted; nothing of engines that count nothing.
+/// A device's counters; empty for engines without counters.
 Table counters(const Figures& f) {
   const Json* counters = f.find("counters");
   return counters != nullptr && counters->is_object() ? members(*counters, "counter", "count") : Table{};

@@ -1,17 +1,18 @@
-// One lane of the pixel stage: a pixel's density and its neighbours' become what a sheet of colours would hold there
-// (docs/numerics.md, section 6.2; cmodel/classify/classify_unit.hpp). Registers: d1 words -> d2 differences, place in CLASSIFY -> d5 its
-// colour and depth, beside them normal and shading to d23.
+// One lane of the pixel stage: classifies and shades one pixel from its density and its neighbours'. Returns the sums
+// of a sheet of colours (docs/numerics.md, section 6.2; cmodel/classify/classify_unit.hpp).
+// Registers: d1 words -> d2 differences, place in CLASSIFY -> d5 colour and depth; beside these normal and shading to
+// d23.
 `include "fault.svh"
 module fastsplat_classify_lane (
     input  logic clk_i,
-    // segments of the tables
+    // load of the tables' segments
     input  logic [5:0] segment_we_i,
     input  logic [fastsplat_pkg::DENSITY_ADDR-1:0]   segment_i,
     input  logic [2*fastsplat_pkg::DENSITY_WORD-1:0] segment_word_i,
     input  logic [13*32-1:0] lighting_i,
     input  logic [15:0] image_width_i,
     input  logic [15:0] image_height_i,
-    // the sheet's: at d2 and at d14
+    // the sheet's words of SHEETS: at d2 and at d14
     input  logic [31:0] scales_i,
     input  logic [31:0] floor_i,
     // d0
@@ -33,7 +34,7 @@ module fastsplat_classify_lane (
   localparam int Q = fastsplat_pkg::CLASSIFY_LOG2;
   localparam int REST = SF - Q;
 
-  // d1, d2: at the picture's edges to one side, which counts twice
+  // d1, d2: at the image's edges the difference is one-sided and doubled (N-6.2-9)
   logic [SB-1:0] here_q, left_q, right_q, above_q, below_q, before_q, behind_q;
   logic [15:0] x_q, y_q, x_q2, y_q2;
   logic first_x_q, last_x_q, first_y_q, last_y_q;

@@ -1,5 +1,6 @@
-// A table between whose entries lie straight lines (docs/numerics.md, section 6.2; cmodel/classify/classify_unit.hpp, Lines). A memory word is
-// an entry and the next one. Registers: memory -> product -> value; an index of this cycle is a value three cycles later.
+// A table with linear interpolation (docs/numerics.md, N-6.2-7; cmodel/classify/classify_unit.hpp, Lines). A memory
+// word holds an entry and the next one.
+// Registers: memory -> product -> value, three cycles after the index.
 module fastsplat_classify_line #(
     parameter int BITS  = 8,
     parameter int WORDS = 16,  // segments

@@ -1,6 +1,8 @@
-// How a pixel's density rises: from differences to its slope's length and its products with the light and the half vector
-// (docs/numerics.md, section 6.2; cmodel/classify/classify_unit.cpp). No normal is made: what needs one is divided by the length at its end.
-// Registers: d3 products -> d4 slopes -> d5 tilt -> d6 ahead -> d7 squares -> d8 sums -> d9 even power -> d12 root -> d13 -> d14.
+// A pixel's density gradient: from differences to its length and its products with the light and half vectors
+// (docs/numerics.md, N-6.2-10 to N-6.2-12; cmodel/classify/classify_unit.cpp). The unit normal is never formed: the
+// products are scaled by 1/length instead.
+// Registers: d3 products -> d4 slopes -> d5 tilt -> d6 ahead -> d7 squares -> d8 sums -> d9 even power -> d12 root ->
+// d13 -> d14.
 `include "fault.svh"
 `include "narrow.svh"
 module fastsplat_classify_normal (
@@ -19,18 +21,18 @@ module fastsplat_classify_normal (
     input  logic signed [fastsplat_pkg::SHEET_BITS:0]   dz_i,
     input  logic [15:0] x_i,
     input  logic [15:0] y_i,
-    // d9: there is a slope
+    // d9: the gradient is not 0
     output logic        sloped_o,
-    // d14: its length U 5.24, |n.L| and |n.H| One.14
+    // d14: length U 5.24, |n.L| and |n.H| One.14
     output logic [28:0] length_o,
     output logic [14:0] light_o,
     output logic [14:0] half_o
 );
   localparam int SB = fastsplat_pkg::SHEET_BITS;
   localparam int SF = fastsplat_pkg::SHEET_FRAC;
-  localparam int GB = 20;             // of a slope, S 4.16
-  localparam int AB = SB + 16;        // of a difference times its scale
-  localparam int ZB = SB + 15 + 16 - SF;  // of dz, scaled, with 28 fraction bits
+  localparam int GB = 20;             // bits of a slope, S 4.16
+  localparam int AB = SB + 16;        // bits of a difference times its scale
+  localparam int ZB = SB + 15 + 16 - SF;  // bits of dz, scaled, with 28 fraction bits
   localparam int HB = (ZB > 37 ? ZB : 37) + 2;
   `FASTSPLAT_NARROW_SIGNED(narrow_across, AB, GB, SF - 4)
   `FASTSPLAT_NARROW_SIGNED(narrow_along, HB, GB, 12)

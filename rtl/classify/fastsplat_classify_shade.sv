@@ -1,5 +1,7 @@
-// A pixel's colour under the light, times its optical depth (docs/numerics.md, section 6.2; cmodel/classify/classify_unit.cpp). Registers: d15 share and
-// matt in full -> d16 -> d17 GLINT, colour times matt -> d18 -> d19 shaded less plain -> d20 share of it -> d21 colour -> d22 -> d23 sums.
+// Shades a pixel's colour and multiplies it by its optical depth (docs/numerics.md, N-6.2-11 to N-6.2-13;
+// cmodel/classify/classify_unit.cpp).
+// Registers: d15 share and matt, not rounded -> d16 -> d17 GLINT, colour times matt -> d18 -> d19 shaded minus unshaded
+// -> d20 share of it -> d21 colour -> d22 -> d23 sums.
 module fastsplat_classify_shade (
     input  logic clk_i,
     // GLINT
@@ -67,7 +69,7 @@ module fastsplat_classify_shade (
 
   for (genvar c = 0; c < 3; c++) begin : gen_channel
     logic [31:0] matt_d17_q, matt_d18_q;
-    logic signed [33:0] more_q;       // shaded less plain
+    logic signed [33:0] more_q;       // shaded minus unshaded
     logic signed [42:0] more_share_q;
     logic signed [43:0] lit;
     logic [16:0] lit_q;               // One.16

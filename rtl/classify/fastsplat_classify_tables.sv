@@ -1,5 +1,5 @@
-// Tables of densities on their way in (docs/numerics.md, section 6.2; cmodel/classify/classify_tables.hpp): words become the segments that lanes
-// keep, LIGHTING stays in registers, of SHEETS the words of one sheet are read.
+// Loads the tables of densities (docs/numerics.md, section 6.2; cmodel/classify/classify_tables.hpp): writes words as
+// segments into the lanes, keeps LIGHTING in registers and reads one sheet's words of SHEETS.
 module fastsplat_classify_tables (
     input  logic        clk_i,
     // load: one word a cycle

@@ -1,6 +1,7 @@
-// Unit "densities": between the sheet buffers and the compositor of a device that classifies by pixel (docs/numerics.md, section 6.2;
-// docs/microarchitecture.md, "Densities"). A finished sheet is copied into the ring; the sheet that waited there, now between its
-// neighbours, goes through the pixel stage, COMPOSITE_LANES pixels a cycle, to the compositor, as the sums of a sheet of colours.
+// Unit "densities": between the sheet buffers and the compositor of a device that classifies by pixel
+// (docs/numerics.md, section 6.2; docs/microarchitecture.md, "Densities"). A finished sheet is copied into the ring.
+// The sheet that waited there now has both neighbours. It goes through the pixel stage, COMPOSITE_LANES pixels a cycle,
+// to the compositor, as the sums of a sheet of colours.
 `include "assertions.svh"
 
 module fastsplat_densities (
@@ -21,13 +22,13 @@ module fastsplat_densities (
     input  logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::SHEET_BITS-1:0] sheet_data_i,
     input  logic                                flush_i,
     output logic                                hold_o,
-    output logic                                free_o,    // pulse: the sheet copied last is the one that waits now
+    output logic                                free_o,    // pulse: the sheet copied last now waits
     output logic                                idle_o,
-    // to the compositor: a slice in k0, what it is in k1
+    // to the compositor: a slice in k0, its sums in k1
     output logic                                valid_o,
     output logic [fastsplat_pkg::SLICE_BITS-1:0] slice_o,
     output logic [fastsplat_pkg::ADDR_BITS-1:0] block_o,
-    output logic                                done_o,    // pulse: the sheet's last, or that it has none
+    output logic                                done_o,    // pulse: the sheet's last slice, or a sheet without slices
     output logic [fastsplat_pkg::COMPOSITE_LANES*4*fastsplat_pkg::SHEET_BITS-1:0] sums_o
 );
   localparam int P = fastsplat_pkg::LANES;
@@ -120,7 +121,7 @@ module fastsplat_densities (
   );
   fastsplat_delay #(.BITS(32), .STAGES(14)) u_floor (.clk_i, .rst_ni(1'b1), .data_i(per_floor), .data_o(floor_d14));
 
-  // The rim's first pixel is column and row 0.
+  // Column and row 0 are the halo.
   localparam int BANK = 2 * fastsplat_pkg::LANE_LOG2;
   logic [15:0] block_x, block_y;
   logic [AB-1:0] column, row;
@@ -157,13 +158,13 @@ module fastsplat_densities (
     );
   end
 
-  // Beside the lanes; k0 is the stage before the sums.
+  // Parallel to the lanes; k0 is the stage before the sums.
   fastsplat_delay #(.BITS(1), .STAGES(STAGES - 1)) u_valid (.clk_i, .rst_ni, .data_i(slice_valid), .data_o(valid_o));
   fastsplat_delay #(.BITS(AB + LB), .STAGES(STAGES - 1)) u_place (
       .clk_i, .rst_ni(1'b1), .data_i({block, slice}), .data_o({block_o, slice_o})
   );
 
-  // At rest: no sheet waits, is walked or comes in, and the last one's end has passed on, three cycles ago.
+  // At rest: no sheet waits, is walked or comes in, and done_o of the last one was three cycles ago.
   localparam int LATE = fastsplat_pkg::DENSITY_LATE;  // from the walk's last cycle to the last slice in k0
   logic [LATE:1] done_q;
   logic active, still_q, still_q2;

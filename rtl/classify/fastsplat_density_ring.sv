@@ -1,7 +1,8 @@
-// The sheets of densities that are live: three parts of one channel, and what the pixels of a block need of them
-// (docs/microarchitecture.md, "Densities"; cmodel/classify/density_ring.hpp). A block is read in five cycles: the rows above and below it, the
-// columns beside it, then itself, of all three sheets; then it is worked on, slice by slice, while the next one is read.
-// A part's word counts where the block's bit is set: no memory is ever wiped.
+// The live sheets of densities: a ring of three parts of one channel each, and what the pixels of a block need of them
+// (docs/microarchitecture.md, "Densities"; cmodel/classify/density_ring.hpp). A block is read in five cycles: the
+// blocks above, left, right and below, then itself, of all three sheets. It is processed slice by slice while the next
+// one is read.
+// A part's word is valid only where the block's bit is set, so memories are never wiped.
 `include "assertions.svh"
 `include "fault.svh"
 
@@ -40,7 +41,7 @@ module fastsplat_density_ring (
   localparam int BX = fastsplat_pkg::BLOCKS_X;
   localparam int SB = fastsplat_pkg::SHEET_BITS;
 
-  // ---- which block is read: at the edges of the tile's memory the block itself stands for one that is not there
+  // ---- which block is read: at the edges of the tile's memory the block itself replaces a missing neighbour
   logic [AB-1:0] address, column;
   assign column = block_i & AB'(BX - 1);
   always_comb begin
@@ -70,7 +71,7 @@ module fastsplat_density_ring (
     `FASTSPLAT_ASSERT(copied_part_stays, !(copy_i && part_i == 2'(s) && clear_i[s]))
   end
 
-  // ---- memories, and what comes out of them
+  // ---- memories and their outputs
   logic [4:0] got_q;  // steps
   logic [AB-1:0] got_block_q;
   always_ff @(posedge clk_i) begin

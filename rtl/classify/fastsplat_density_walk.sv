@@ -1,6 +1,7 @@
-// Which sheet of densities is worked on, and block by block (docs/microarchitecture.md, "Densities"; cmodel/classify/density_ring.hpp). A finished
-// sheet's dirty blocks are noted as they are copied out of its buffer; when the sheet behind it is there, too, they are read again, STEPS
-// cycles each: the first five name what a block's pixels need, the rest wait for the pixel stage's lanes.
+// Walks a sheet of densities block by block (docs/microarchitecture.md, "Densities"; cmodel/classify/density_ring.hpp).
+// A finished sheet's dirty blocks are listed while they are copied out of its buffer. Once the next sheet is copied,
+// too, the listed blocks are read, STEPS cycles each. The first five cycles address what a block's pixels need; the
+// others wait for the pixel stage's lanes.
 `include "assertions.svh"
 `include "fault.svh"
 
@@ -14,12 +15,12 @@ module fastsplat_density_walk (
     input  logic [31:0]                         number_i,
     // the tile ends and no sheet is on its way: the one that waits is the last
     input  logic                                flush_i,
-    output logic                                hold_o,      // nothing may be copied
-    output logic                                free_o,      // pulse: what was copied last is what waits now
-    // which part of the ring is copied to; the waiting sheet's is the one before, the one before it the one before that
+    output logic                                hold_o,      // no copy may begin
+    output logic                                free_o,      // pulse: the sheet copied last now waits
+    // part of the ring copied to; the waiting sheet lies in the part before it, its predecessor before that
     output logic [1:0]                          part_o,
     output logic [2:0]                          clear_o,     // parts that are empty from the next cycle on
-    // gather: part n of what a block needs, from the fifth on nothing
+    // gather: one step in each of a block's first five cycles, then none
     output logic                                gather_o,
     output logic [4:0]                          step_o,      // one bit each: above, left, right, below, the block itself
     output logic [fastsplat_pkg::ADDR_BITS-1:0] block_o,
@@ -32,10 +33,10 @@ module fastsplat_density_walk (
   localparam int STEPS = fastsplat_pkg::DENSITY_STEPS;
   localparam int CB = $clog2(STEPS);
 
-  // Sheets: the one that is copied has list half_q and part part_q; the one that waits the others.
+  // The sheet being copied has list half_q and part part_q, the waiting one the other list and the part before.
   logic waiting_q, half_q;
   logic [1:0] part_q;
-  logic [AB:0] copied_q, blocks_q;  // so many of either
+  logic [AB:0] copied_q, blocks_q;  // lengths of the two lists
   logic [31:0] copied_number_q, number_q;
   logic starts, last;
 
@@ -62,7 +63,7 @@ module fastsplat_density_walk (
       .wdata_i(copy_block_i)
   );
 
-  // What was copied is what waits now. `next`: it comes right behind the one that waited.
+  // The copied sheet becomes the waiting one. next: it directly follows the one that waited (M-density-9).
   logic advances, next;
   logic [1:0] part_before, part_next;
   assign advances = (finish_i && !waiting_q) || (last && !flushes_q);

@@ -1,12 +1,12 @@
-// One lane of the compositor: a slab over a pixel, front to back, with freezing; or X-ray sums
-// (docs/numerics.md, section 6; cmodel/composite/composite_lane.hpp). Registers: k5 (products), k6 (new state). A stage without a
-// block holds.
+// One lane of the compositor: composites a slab over a pixel, front to back, with early termination; or adds X-ray sums
+// (docs/numerics.md, N-6-6 to N-6-9; cmodel/composite/composite_lane.hpp).
+// Registers: k5 (products), k6 (new state). A stage without a block holds.
 `include "assertions.svh"
 `include "fault.svh"
 `include "narrow.svh"
 module fastsplat_composite_lane (
     input  logic                                   clk_i,
-    input  logic                                   rst_ni,    // of the assertions
+    input  logic                                   rst_ni,    // for the assertions
     input  logic [5:4]                             valid_i,   // stages that hold a block: k4, k5
     input  logic [1:0]                             mode_i,    // held over a tile
     // k4
@@ -40,7 +40,7 @@ module fastsplat_composite_lane (
   assign sum_mode = mode_i == 2'd2;
   assign transmittance = state_i[3*DB+:TB];
   always_ff @(posedge clk_i) begin
-    // freeze_below 0: nothing ever freezes
+    // freeze_below 0: no pixel is ever terminated
     // verilator lint_off UNSIGNED
     if (valid_i[4]) frozen_k5_q <= !sum_mode && transmittance < TB'(fastsplat_pkg::FREEZE_BELOW) && !`FASTSPLAT_FAULT(UNFROZEN);
     // verilator lint_on UNSIGNED
@@ -68,7 +68,7 @@ module fastsplat_composite_lane (
       end
       if (valid_i[5]) {saturated_o[c], state_o[c*DB+:DB]} <= stepped(sum_mode, frozen_k5_q, c == 3, state_k5_q, light_k5_q);
     end
-    // Nobody asks for it where only sheets are composited.
+    // Unused where only sheets are composited.
     if (fastsplat_pkg::EVERY_SAMPLE != 0) begin : gen_next
       logic overflow;
       assign {overflow, next_o[c*DB+:DB]} = stepped(1'b0, frozen_k5_q, c == 3, state_k5_q, light_k5_q);
@@ -78,7 +78,7 @@ module fastsplat_composite_lane (
       assign next_o[c*DB+:DB] = '0;
     end
   end
-  // What is absorbed comes off the transmittance: it never rises and never wraps.
+  // Absorbed light is subtracted from the transmittance, which never rises and never wraps.
   `FASTSPLAT_ASSERT(transmittance_falls,
                     !valid_i[5] || sum_mode || frozen_k5_q || gen_channel[3].light_k5_q <= gen_channel[3].state_k5_q)
 endmodule

@@ -1,11 +1,11 @@
-// Unit "compositor": takes the dirty blocks of a finished sheet, lowest number first, one slice of COMPOSITE_LANES pixels of a
-// P x P block a cycle, clears them behind itself and composites them over the picture (docs/numerics.md, section 6;
-// docs/microarchitecture.md).
+// Unit "compositor": takes the dirty blocks of a finished sheet, lowest number first, one slice of COMPOSITE_LANES
+// pixels of a P x P block a cycle. Clears them behind itself and composites them over the picture (docs/numerics.md,
+// section 6; docs/microarchitecture.md).
 // k0 pick -> k1 sums -> k2 factor -> k3 slope, picture -> k4 slab, state -> k5 products -> k6 new state, written.
-// In a tile that composites every sample the splat array's windows go down the same pipe, their products in place of sums, each bank
-// at an address of its own (fastsplat_sample_places.sv); nothing is dirty then.
-// In a tile of densities dirty blocks are only handed on, a block a cycle, and come back classified (fastsplat_densities.sv); the picture
-// then lies a pixel further to the right and down, as the sheets do.
+// In tiles that composite every sample, the splat array's windows use the same pipe: products in place of sums, each
+// bank with its own address (fastsplat_sample_places.sv). No block is dirty then.
+// In tiles of densities, dirty blocks are only passed on, a block a cycle, and come back classified
+// (fastsplat_densities.sv). Sheets and picture then lie one pixel further right and down.
 `include "assertions.svh"
 `include "fault.svh"
 
@@ -24,7 +24,7 @@ module fastsplat_compositor (
     input  logic                                   every_sample_i,
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]    width_i,
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]    height_i,
-    // every sample: a window comes in k0, what it is in k1
+    // every sample: a window comes in k0, its products and places in k1
     input  logic                                   sample_valid_i,
     input  logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::SHEET_BITS-1:0] sample_products_i,
     input  logic [fastsplat_pkg::LANES*fastsplat_pkg::BLK_BITS-1:0] sample_column_i,
@@ -32,7 +32,7 @@ module fastsplat_compositor (
     input  logic [fastsplat_pkg::LANES-1:0]        sample_inside_x_i,
     input  logic [fastsplat_pkg::LANES-1:0]        sample_inside_y_i,
     input  logic [fastsplat_pkg::BANKS-1:0]        sample_weighted_i,
-    // densities: their tables, the tile's place in the image, the number of a finished sheet, and that no sheet comes any more
+    // densities: their tables, the tile's place in the image, a finished sheet's number; flush: no sheet comes any more
     input  logic                                   densities_i,
     input  logic                                   density_we_i,
     input  logic [7:0]                             table_i,
@@ -46,7 +46,7 @@ module fastsplat_compositor (
     input  logic [fastsplat_pkg::LANES*fastsplat_pkg::BLK_BITS-1:0] dirty_row_i,
     input  logic [fastsplat_pkg::LANES-1:0]        dirty_inside_x_i,
     input  logic [fastsplat_pkg::LANES-1:0]        dirty_inside_y_i,
-    // sheets: marked says that all of its windows have marked, done hands a buffer over, free gives it back
+    // sheets: marked: all windows of the sheet have marked; done hands a buffer over; free gives it back
     input  logic                                   marked_i,
     input  logic                                   marked_buffer_i,
     input  logic                                   done_i,
@@ -69,15 +69,15 @@ module fastsplat_compositor (
     output logic [fastsplat_pkg::ADDR_BITS-1:0]    tap_block_o,
     output logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::STATE_BITS-1:0] tap_state_o,
     output logic                                   tap_sheet_o,     // pulse: a sheet's walk ended
-    // culling, k6 of a block's last slice: pixels that are frozen now or lie outside the tile, whether one was not before
+    // culling, k6 of a block's last slice: pixels now terminated or outside the tile; whether one is newly terminated
     output logic [fastsplat_pkg::BANKS-1:0]        cull_frozen_o,
     output logic                                   cull_changed_o,
-    // the picture's words that are blanked
+    // the picture's words being blanked
     output logic                                   blank_o,
     output logic [fastsplat_pkg::ADDR_BITS-1:0]    blank_addr_o,
     // events of a slice, k6
     output logic                                   event_valid_o,
-    output logic [fastsplat_pkg::COMPOSITE_LANES-1:0]   event_inside_o,  // the tile; of a window's lanes those of weight
+    output logic [fastsplat_pkg::COMPOSITE_LANES-1:0]   event_inside_o,  // in the tile; of windows only those of weight
     output logic [fastsplat_pkg::COMPOSITE_LANES-1:0]   event_frozen_o,
     output logic [4*fastsplat_pkg::COMPOSITE_LANES-1:0] event_opacity_saturated_o,
     output logic [4*fastsplat_pkg::COMPOSITE_LANES-1:0] event_saturated_o
@@ -95,13 +95,14 @@ module fastsplat_compositor (
   localparam int TB = fastsplat_pkg::TRANS_BITS;
   localparam int SIDE = fastsplat_pkg::SIDE_BITS;
 
-  // ---- k0: a slice of a dirty block a cycle. Its first slice reads the block's sums; the banks hold them for the others.
+  // ---- k0: a slice of a dirty block a cycle. Its first slice reads the block's sums; the banks hold them for the
+  // others.
   logic issue, finish, walk_idle;
   logic [AB-1:0] pick;
   logic [LB-1:0] slice;
   logic classified;  // densities are composited
   assign classified = fastsplat_pkg::DENSITIES != 0 && densities_i;
-  // Between the walk of dirty blocks and the pipe: they go out in k0, slices come back in k0, their sums in k1.
+  // Unit "densities", between dirty walk and pipe: blocks leave in k0, slices come back in k0, their sums in k1.
   logic density_hold, density_free, density_idle, density_valid, density_done;
   logic [AB-1:0] density_block;
   logic [LB-1:0] density_slice;
@@ -164,7 +165,7 @@ module fastsplat_compositor (
   );
   assign sheet_re_o = issue && (R == 1 || slice == '0);
   assign sheet_addr_o = pick;
-  // Of densities a buffer is free when the sheet before the copied one has been classified.
+  // In tiles of densities a buffer is free once the sheet before the copied one has been classified.
   if (fastsplat_pkg::DENSITIES != 0) begin : gen_late_free
     logic buffer_q;
     always_ff @(posedge clk_i) if (finish) buffer_q <= sheet_buffer_o;
@@ -186,7 +187,7 @@ module fastsplat_compositor (
   logic [6:1] valid_q;
   logic [AB-1:0] addr_q[1:6];
   logic [LB-1:0] slice_q[1:6];
-  logic still_q;  // valid_q is 0: what waits for rest waits for no comparison
+  logic still_q;  // valid_q is 0; registered, so that waiting for rest costs no comparison
   always_ff @(posedge clk_i) begin
     valid_q <= {valid_q[5:1], picked};
     still_q <= !rst_ni || {valid_q[5:1], picked} == '0;
@@ -230,7 +231,7 @@ module fastsplat_compositor (
       for (int g = 0; g < P; g++) begin
         inside_x_q[g] <= (block_x + (SIDE + 2)'(g)) < (SIDE + 2)'(width_i);
         inside_y_q[g] <= !sampling && (block_y + (SIDE + 2)'(g)) < (SIDE + 2)'(height_i);
-        if (classified) begin  // without the rim
+        if (classified) begin  // without the halo
           inside_x_q[g] <= (block_x + (SIDE + 2)'(g)) <= (SIDE + 2)'(width_i) && (g != 0 || block_x != '0);
           inside_y_q[g] <= (block_y + (SIDE + 2)'(g)) <= (SIDE + 2)'(height_i) && (g != 0 || block_y != '0);
         end
@@ -241,12 +242,12 @@ module fastsplat_compositor (
     assign in_tile[b] = inside_x_q[b%P] && inside_y_q[b/P];
   end
 
-  // ---- picture: blank is 0, so the top bit of a transmittance is kept inverted (1.0 is that bit alone). Written rows lie in
-  // the tile: pixel out reads each of them once, and what was read is blanked in the next cycle.
+  // ---- picture: blank is 0, so the top bit of a transmittance is kept inverted (1.0 is that bit alone). Written rows
+  // lie in the tile. Pixel out reads each of them once; a word that was read is blanked in the next cycle.
   logic [AB-1:0] picture_raddr, picture_waddr, sent_addr_q;
   logic sent_q;
   logic [4*DB-1:0] transparent;
-  // Of densities a beat begins in bank column 1: column 0 is that of the next block, if there is one.
+  // In tiles of densities a beat begins in bank column 1 (M-density-5); column 0 is that of the next block, if any.
   logic [AB-1:0] beside_addr, beside_sent_q;
   if (fastsplat_pkg::DENSITIES != 0) begin : gen_beside
     assign beside_addr = picture_addr_i + AB'(classified && (picture_addr_i & AB'(BX - 1)) != AB'(BX - 1));
@@ -264,14 +265,14 @@ module fastsplat_compositor (
     if (!rst_ni) sent_q <= 1'b0;
   end
 
-  // k2 reads. The first block of a sheet may be the last of the one before, whose last slice was picked at least four cycles ago:
-  // then it is written in this cycle, and the lane holds it in the next. In a block of several slices each of them is read later
-  // than that, and no state is met on its way.
+  // Read in k2. The first block of a sheet may be the last of the sheet before, picked at least four cycles ago. It is
+  // then written in this cycle, and the lane still holds it in the next (M-walk-5). With several slices a block, all of
+  // it was written before (M-slices-4).
   logic forward_q;
   always_ff @(posedge clk_i) forward_q <= R == 1 && valid_q[6] && addr_q[6] == addr_q[2];
 
-  // Every sample: by bank, where its pixel lies in k2 and k6, whether it lies in the tile and has a weight in k6, and whether in k3
-  // a window 2, 3 or 4 cycles ago had the same.
+  // Every sample, by bank: address of its pixel in k2 and k6; whether it lies in the tile and has a weight in k6. By
+  // distance: whether in k3 a window 2, 3 or 4 cycles ago had the same pixel.
   logic [P*P*AB-1:0] sample_raddr, sample_waddr;
   logic [P*P-1:0] sample_written, sample_weighted, sample_forward_2, sample_forward_3, sample_forward_4;
   if (fastsplat_pkg::EVERY_SAMPLE != 0) begin : gen_samples
@@ -320,7 +321,7 @@ module fastsplat_compositor (
           .waddr_i((sampling && !wipe_i && !sent_q) ? sample_waddr[B*AB+:AB] : (BESIDE && !wipe_i && sent_q) ? beside_sent_q : picture_waddr),
           .wdata_i((wipe_i || sent_q) ? '0 : states[LANE] ^ transparent)
       );
-      // The tap shows a whole block: what was made of it in slices before the last is kept.
+      // The tap shows a whole block: results of earlier slices are kept.
       if (B / C == R - 1) begin : gen_last
         assign shown[B] = states[LANE];
       end else begin : gen_kept
@@ -378,7 +379,7 @@ module fastsplat_compositor (
         .frozen_o(event_frozen_o[c]),
         .saturated_o(event_saturated_o[4*c+:4])
     );
-    // Forwarded is what was written: rows of the tile. Where a block is one slice, lane c is bank c.
+    // Only written rows, those in the tile, are forwarded. Where a block is one slice, lane c is bank c.
     always_ff @(posedge clk_i) begin
       if (valid_q[3]) state_k4_q[c] <= (forward_q && inside_y_q[c/P]) ? states[c] : stored ^ transparent;
       if (valid_q[3] && sample_forwarded) state_k4_q[c] <= sample_state;
@@ -386,8 +387,8 @@ module fastsplat_compositor (
       if (valid_q[5]) opacity_saturated_k6_q <= opacity_saturated_k5_q;
     end
     assign event_opacity_saturated_o[4*c+:4] = opacity_saturated_k6_q;
-    // A window's pixel may be that of another one 2, 3 or 4 cycles ago, whose new state is just being made, is in k6, or was
-    // written while this one read. The last of them counts.
+    // A window 2, 3 or 4 cycles ago may have had the same pixel. Its new state is in k5, in k6, or was written while
+    // this one was read. The latest window counts (M-hazard-2).
     if (fastsplat_pkg::EVERY_SAMPLE != 0) begin : gen_forward
       logic [4*DB-1:0] past_q;  // of the cycle before
       always_ff @(posedge clk_i) if (valid_q[6]) past_q <= states[c];
@@ -402,12 +403,12 @@ module fastsplat_compositor (
     end
   end
 
-  // What the cull map is told. A pixel that is frozen now is new to it unless it was before this slab.
+  // Reported to the cull map. A terminated pixel is new unless it was terminated before this slab.
   assign blank_o = wipe_i || sent_q;
   assign blank_addr_o = wipe_i ? wipe_addr_i : sent_addr_q;
   if (fastsplat_pkg::CULL_MAP != 0) begin : gen_frozen
     logic [C-1:0] frozen, changed;
-    logic changed_q;  // by the block's slices before
+    logic changed_q;  // by the block's earlier slices
     for (genvar c = 0; c < C; c++) begin : gen_pixel
       // verilator lint_off UNSIGNED
       assign frozen[c] = states[c][3*DB+:TB] < TB'(fastsplat_pkg::FREEZE_BELOW);

@@ -1,4 +1,5 @@
-// Unit "pixel out": the finished tile, row by row, P pixels a beat (docs/numerics.md, section 7; cmodel/composite/pixel_out.hpp).
+// Unit "pixel out": the finished tile, row by row, P pixels a beat (docs/numerics.md, section 7;
+// cmodel/composite/pixel_out.hpp).
 // r0 address -> r1 state -> r2 beat. All stages stand still while a beat waits for ready.
 `include "assertions.svh"
 `include "fault.svh"

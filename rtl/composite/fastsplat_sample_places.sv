@@ -1,23 +1,24 @@
-// Where the pixels of windows lie in the picture while their samples go down the compositor's pipe, and which of them are needed again
-// before they are written (docs/microarchitecture.md, "Every sample"). A window meets every bank once; its block is its column's and
-// its row's, so that both ride along, and are compared, by axis.
-// Read in k2, written in k6: a pixel of a window 2, 3 or 4 cycles ago is forwarded into k4. Of 1 cycle ago there is none: decode waits.
+// Every sample: where the windows in the compositor's pipe lie in the picture, and which of their pixels are needed
+// again before they are written (docs/microarchitecture.md, M-hazard-1). A window meets every bank once. A bank's block
+// is that of its column and of its row, so places are carried and compared by axis.
+// Read in k2, written in k6: a pixel of a window 2, 3 or 4 cycles ago is forwarded into k4. Distance 1 does not occur:
+// decode waits.
 `include "assertions.svh"
 `include "fault.svh"
 
 module fastsplat_sample_places (
     input  logic                                                    clk_i,
-    input  logic                                                    rst_ni,   // of the assertions
+    input  logic                                                    rst_ni,   // for the assertions
     input  logic [6:2]                                              valid_i,  // stages of the pipe that hold a window: k2 to k6
     // k1
     input  logic [fastsplat_pkg::LANES*fastsplat_pkg::BLK_BITS-1:0] column_i,  // by bank column: column of blocks
     input  logic [fastsplat_pkg::LANES*fastsplat_pkg::BLK_BITS-1:0] row_i,
     input  logic [fastsplat_pkg::LANES-1:0]                         inside_x_i,  // the tile
     input  logic [fastsplat_pkg::LANES-1:0]                         inside_y_i,
-    input  logic [fastsplat_pkg::BANKS-1:0]                         weighted_i,  // inside and of weight
+    input  logic [fastsplat_pkg::BANKS-1:0]                         weighted_i,  // inside, weight > 0
     // by bank: k2
     output logic [fastsplat_pkg::BANKS*fastsplat_pkg::ADDR_BITS-1:0] raddr_o,
-    // k3: the pixel is that of the window so many cycles ago
+    // k3: the pixel is that of the window 2, 3, 4 cycles ago
     output logic [fastsplat_pkg::BANKS-1:0]                         forward_2_o,
     output logic [fastsplat_pkg::BANKS-1:0]                         forward_3_o,
     output logic [fastsplat_pkg::BANKS-1:0]                         forward_4_o,

@@ -1,9 +1,9 @@
-// Culling: the test unit between check and decode, and the map that it asks (docs/microarchitecture.md, "Culling").
+// Culling: the test unit between check and decode, and the map that it reads (docs/microarchitecture.md, "Culling").
 
 module fastsplat_cull (
     input  logic                                       clk_i,
     input  logic                                       rst_ni,
-    // beats that keep the rules
+    // legal beats
     input  logic                                       valid_i,
     output logic                                       ready_o,
     input  logic [fastsplat_pkg::BEAT_BITS-1:0]        data_i,
@@ -35,7 +35,7 @@ module fastsplat_cull (
     input  logic                                       every_sample_i,
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]        width_i,
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]        height_i,
-    // the compositor's k6 and k0, and the words that it blanks
+    // the compositor's k6 and k0, and the picture's words that it blanks
     input  logic                                       block_valid_i,
     input  logic [fastsplat_pkg::ADDR_BITS-1:0]        block_i,
     input  logic [fastsplat_pkg::BANKS-1:0]            frozen_i,

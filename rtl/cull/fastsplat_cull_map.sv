@@ -1,20 +1,20 @@
-// The map of opaque cells and its two tables (docs/numerics.md, section 6.1; docs/microarchitecture.md, "Map"; cmodel/cull/cull_unit.hpp,
-// cmodel/cycles/cull_pipe.hpp). Sheets j of a tile have table j mod 2. What the compositor writes while a table is built belongs to the next
-// sheet: each table has a block map of its own, taken when its sheet left k6; of pixels, what a sheet froze is kept apart by j mod 2
-// and put to the rest as the table is built.
+// The map of opaque cull cells and its two tables (docs/numerics.md, section 6.1; docs/microarchitecture.md, "Map";
+// cmodel/cull/cull_unit.hpp, cmodel/cycles/cull_pipe.hpp). Sheet j of a tile has table j mod 2. What the compositor
+// writes while a table is built belongs to the next sheet (M-cull-13). So each table has its own copy of the block map,
+// taken when its sheet left k6. Pixels that a sheet terminated are kept by j mod 2 and merged as the table is built.
 `include "assertions.svh"
 `include "fault.svh"
 
 module fastsplat_cull_map (
     input  logic                                        clk_i,
     input  logic                                        rst_ni,
-    // tile: begun, ended; in it tests are made; its sides
+    // tile: begun, ended; whether it is culled; its sides
     input  logic                                        tile_begin_i,
     input  logic                                        tile_end_i,
     input  logic                                        culls_i,
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]         width_i,
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]         height_i,
-    // k6 of a block's last slice: its frozen pixels, those outside the tile too; whether one of the tile's was not before
+    // k6 of a block's last slice: pixels terminated or outside the tile; whether one in the tile is newly terminated
     input  logic                                        block_valid_i,
     input  logic [fastsplat_pkg::ADDR_BITS-1:0]         block_i,
     input  logic [fastsplat_pkg::BANKS-1:0]             frozen_i,
@@ -24,7 +24,7 @@ module fastsplat_cull_map (
     input  logic                                        blank_i,
     input  logic [fastsplat_pkg::ADDR_BITS-1:0]         blank_addr_i,
     output logic                                        whole_o,   // a sheet's table is whole from the next cycle on
-    // a rectangle of cells; a cycle later how many of them are opaque
+    // a rectangle of cells; a cycle later the number of opaque cells in it
     input  logic                                        re_i,
     input  logic                                        sheet_i,   // j mod 2
     input  logic [fastsplat_pkg::CULL_CELL_BITS-1:0]    i0_i,
@@ -55,17 +55,18 @@ module fastsplat_cull_map (
   localparam int WR = PIXELS ? RB + PL : RB;  // a row of cells
   localparam int AW = AB + WR;  // a row of cells has more bits than its block's address, or fewer
 
-  // ---- today's block map
+  // ---- current block map
   logic parity_q;  // of the sheet in k6
   logic [BX-1:0] column_bit;
-  logic opaque, came;  // the block is; it made a cell opaque
+  logic opaque, came;  // the block is opaque; it made a cell opaque
   logic [RB-1:0] block_row;
   assign block_row = RB'(block_i >> BXL);
   assign opaque = frozen_i == '1;
   assign came = block_valid_i && culls_i && changed_i && (PIXELS || opaque);
   assign column_bit = BX'(1) << (block_i & AB'(BX - 1));
 
-  // ---- its copies, a row each: two cycles after k6 of a sheet's last pick. The next sheet's first block is in k6 two more later.
+  // ---- copies of the map, by row: two cycles after k6 of a sheet's last pick. The next sheet's first block is in k6
+  // two cycles later.
   logic [7:1] finish_q;
   logic [BX-1:0] copy[0:2*BY-1];
   for (genvar r = 0; r < BY; r++) begin : gen_row
@@ -92,12 +93,12 @@ module fastsplat_cull_map (
     end
   end
 
-  // ---- from which row of blocks on a table has to be built
+  // ---- first row of blocks from which a table has to be built
   logic sheet_came_q, any_q;  // a cell became opaque: of this sheet, of the tile
   logic [RB-1:0] sheet_row_q, sheet_row, left_row, other_row;
   logic sheet_came, left_any;
-  logic [1:0] built_q;  // by table: in this tile
-  logic [1:0] old_q;  // by table: rows from old_row_q on are not of today
+  logic [1:0] built_q;  // by table: built in this tile
+  logic [1:0] old_q;  // by table: rows from old_row_q on are out of date
   logic [RB-1:0] old_row_q[0:1];
   assign sheet_came = sheet_came_q || came;
   assign sheet_row = sheet_came_q ? sheet_row_q : block_row;  // blocks come row by row
@@ -106,7 +107,7 @@ module fastsplat_cull_map (
   assign left_row = (old_q[parity_q] && (!sheet_came || old_row_q[parity_q] <= sheet_row)) ? old_row_q[parity_q] : sheet_row;
   assign other_row = (old_q[!parity_q] && old_row_q[!parity_q] <= sheet_row) ? old_row_q[!parity_q] : sheet_row;
 
-  // ---- building: a row of cells, or P of them, a cycle. b0 is the cycle that counts; b1 has the map's bits and the words above
+  // ---- building: a row of cells, or P of them, a cycle. b0 counts cycles; b1 has the map's bits and the words above
   logic leaves;  // k6 of a sheet's last pick
   logic work_q, table_q, waits_q, waits_any_q, last, start, start_waiting;
   logic [RB-1:0] waits_row_q;
@@ -121,7 +122,7 @@ module fastsplat_cull_map (
   assign unused_columns = &{1'b0, columns};
   assign leaves = finish_q[6] && culls_i;
   assign last = work_q && row_q == last_row && chunk_q == chunks - (BXL + 1)'(1);
-  // A sheet that leaves while another one's table is built waits; there is no third.
+  // A sheet that leaves while another table is built waits; there is never a third.
   assign start = leaves && left_any && (!work_q || last);
   assign start_waiting = waits_q && waits_any_q && last;
   assign whole_o = last || (leaves && !left_any && !work_q) || (waits_q && !waits_any_q && !work_q);
@@ -171,7 +172,7 @@ module fastsplat_cull_map (
       sheet_came_q <= 1'b0;
       any_q <= 1'b0;
       built_q <= '0;
-      old_q <= 2'b11;  // of both tables all
+      old_q <= 2'b11;  // all rows of both tables
       old_row_q[0] <= '0;
       old_row_q[1] <= '0;
       work_q <= 1'b0;
@@ -189,7 +190,7 @@ module fastsplat_cull_map (
   logic [TA-1:0] address;
   assign address = (TA'(row_q) << NL) | ((NC > 1) ? TA'(chunk_q) : '0);
   always_comb begin
-    // Where a row is one memory word of the tile, the row above was written in this cycle: it is still here.
+    // Where a row is one memory word of the tile, the row above was written in this cycle and is still in sums_q.
     above = (b1_row_q == '0) ? '0 : (chunks == (BXL + 1)'(1) && !b1_begin_q) ? sums_q : b1_table_q ? above_1 : above_0;
     sums = '0;
     for (int k = 0; k < K; k++) begin
@@ -203,7 +204,7 @@ module fastsplat_cull_map (
     b1_addr_q <= address;
     b1_row_q <= row_q;
     b1_first_q <= chunk_q == '0;
-    b1_begin_q <= !begun_q;  // the words above are of another time
+    b1_begin_q <= !begun_q;  // a build begins: sums_q is not the row above
     begun_q <= work_q && !last;
     if (b1_valid_q) begin
       sums_q <= sums;

@@ -1,13 +1,13 @@
-// Frozen pixels of a tile, by block, for the tables of pixels: what was frozen earlier, and apart from it what sheets of either number
-// modulo 2 found, until the sheet's own table is built (docs/microarchitecture.md, "Map"). So a table holds what its sheet left behind,
-// whatever the next one freezes meanwhile.
+// Terminated pixels of a tile, by block, for the tables of pixels. Those found by even and by odd sheets are kept apart
+// until the sheet's own table is built (docs/microarchitecture.md, M-cull-13). So a table shows what its sheet left
+// behind, whatever the next one terminates meanwhile.
 
 module fastsplat_cull_pixels (
     input  logic                                clk_i,
     // a block becomes blank
     input  logic                                blank_i,
     input  logic [fastsplat_pkg::ADDR_BITS-1:0] blank_addr_i,
-    // k6: all frozen pixels of a block
+    // k6: all terminated pixels of a block
     input  logic                                frozen_valid_i,
     input  logic                                frozen_sheet_i,
     input  logic [fastsplat_pkg::ADDR_BITS-1:0] frozen_block_i,
@@ -25,8 +25,9 @@ module fastsplat_cull_pixels (
   localparam int AB = fastsplat_pkg::ADDR_BITS;
 
   logic [PP-1:0] earlier, stored, fresh[0:1], frozen;
-  logic put_q, sheet_q;  // the block's last row: all of it is put to the rest
-  // Right behind a table that waited for it comes the next one, and may begin with the block that is being put: its word is passed on.
+  logic put_q, sheet_q;  // the block's last row: all of it is merged
+  // A table that waited starts right behind the other one and may begin with the block being merged: its word is
+  // forwarded.
   logic passed_q;
   logic [PP-1:0] passed_word_q;
   logic [AB-1:0] block_q;

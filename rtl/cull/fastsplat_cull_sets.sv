@@ -1,28 +1,30 @@
-// Sets of splats that cull_block records announced, and whether a splat that comes belongs to a hidden one (docs/stream.md, cull_block;
-// cmodel/cull/cull_sets.hpp). It goes by tags, for a source need not send what is hidden: kept are the sets that can be seen, oldest first, and how
-// far sets were announced; what lies before that and in none of them is hidden. A set can be announced and a splat taken in every cycle: the oldest
-// set lies in a register; of those behind it the newest lies in another one, for the memory has it two cycles later.
+// Cull groups announced by cull_block records; decides whether a splat belongs to a hidden one
+// (docs/microarchitecture.md, M-cull-15; cmodel/cull/cull_sets.hpp). Tags decide, because a source need not send hidden
+// splats. The unit keeps the visible groups, oldest first, and the tag up to which groups were announced. A splat
+// before that tag and in none of these groups is hidden.
+// A group can be announced and a splat taken in every cycle. The oldest group lies in a register. The newest of the
+// others lies in another one, because the memory has it two cycles later.
 `include "assertions.svh"
 
 module fastsplat_cull_sets (
     input  logic        clk_i,
     input  logic        rst_ni,
     input  logic        clear_i,   // a tile begins
-    input  logic [31:0] tag_i,     // of the set's first splat, or of the splat
-    // a set of at least one splat
+    input  logic [31:0] tag_i,     // of the group's first splat, or of the splat
+    // a cull group of at least one splat
     input  logic        push_i,
     input  logic [31:0] splats_i,
     input  logic        hidden_i,
     // a splat came
     input  logic        splat_i,
-    output logic        hidden_o   // the splat that comes belongs to a hidden set
+    output logic        hidden_o   // the splat that comes belongs to a hidden group
 );
   localparam int AB = fastsplat_pkg::CULL_SETS_BITS;
 
-  logic [31:0] announced_q;  // tag behind the sets announced
+  logic [31:0] announced_q;  // tag behind the announced groups
   logic valid_q;
-  logic [31:0] first_q, last_q;  // tags of the oldest set
-  logic [AB:0] behind_q;  // sets behind it, in the memory
+  logic [31:0] first_q, last_q;  // tags of the oldest group
+  logic [AB:0] behind_q;  // groups behind it, in the memory
   logic [AB-1:0] read_q, read_next, end_q;  // of those
   logic [63:0] newest_q, stored, second, set;
   logic seen, ends, pops, stores;

@@ -1,5 +1,6 @@
-// One of the two summed-area tables of opaque cells, and the four words of a rectangle (docs/numerics.md, section 6.1;
-// cmodel/cull/cull_table.hpp). A memory word is WORDS of them, side by side; the words of row 0 and column 0 are 0 and not stored.
+// One of the two summed-area tables of opaque cull cells, and the four words of a rectangle (docs/numerics.md, N-6.1-5;
+// cmodel/cull/cull_table.hpp). A memory word holds WORDS words of the table. The words of row 0 and column 0 are 0 and
+// not stored.
 `include "fault.svh"
 
 module fastsplat_cull_table (
@@ -28,7 +29,8 @@ module fastsplat_cull_table (
   localparam int CB = fastsplat_pkg::CULL_CELL_BITS;
   localparam int AB = fastsplat_pkg::CULL_ADDR_BITS;
 
-  // Corner c is column i0 (even c) or i1, row j0 (c < 2) or j1. Where a row is one memory word, both columns come from one memory.
+  // Corner c is column i0 (even c) or i1, row j0 (c < 2) or j1. Where a row is one memory word, one memory gives both
+  // columns.
   localparam int COPIES = (NC > 1) ? 4 : 2;
   logic [K*B-1:0] rows[0:COPIES-1];
   logic [B-1:0] words[0:3];

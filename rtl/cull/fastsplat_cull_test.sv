@@ -1,13 +1,14 @@
-// Unit "cull": four registers between check and decode, in which sets and splats are tested (docs/microarchitecture.md, "Test unit";
-// cmodel/cycles/cull_pipe.hpp, cmodel/model.cpp).
-// t0 beat, its centre on the grid -> t1 rectangle, clipped to the tile, in cells -> t2 the table's words -> t3 verdict.
+// Unit "cull": four registers between check and decode, in which cull groups and splats are tested
+// (docs/microarchitecture.md, "Test unit"; cmodel/cycles/cull_pipe.hpp, cmodel/model.cpp).
+// Registers: t0 beat, its centre on the grid -> t1 rectangle, clipped to the tile, in cells -> t2 the table's words ->
+// t3 verdict.
 `include "assertions.svh"
 `include "fault.svh"
 
 module fastsplat_cull_test (
     input  logic                                       clk_i,
     input  logic                                       rst_ni,
-    // beats that keep the rules
+    // legal beats
     input  logic                                       valid_i,
     output logic                                       ready_o,
     input  logic [fastsplat_pkg::BEAT_BITS-1:0]        data_i,
@@ -21,9 +22,9 @@ module fastsplat_cull_test (
     output logic                                       payload_o,
     output logic                                       aborted_o,
     output logic [fastsplat_pkg::COL_BITS-1:0]         extent_o,  // of the beat in t3
-    output logic                                       swallowed_o,  // a splat of a hidden set
+    output logic                                       swallowed_o,  // a splat of a hidden group
     output logic                                       hidden_o,     // a splat that is hidden itself
-    output logic                                       culls_o,      // tests are made in its tile
+    output logic                                       culls_o,      // its tile is culled
     output logic                                       sheet_o,      // its sheet's number in the tile, modulo 2
     output logic signed [fastsplat_pkg::ORG_BITS-1:0]  x_o,          // a splat's first pixel
     output logic signed [fastsplat_pkg::ORG_BITS-1:0]  y_o,
@@ -37,13 +38,13 @@ module fastsplat_cull_test (
     output logic [fastsplat_pkg::CULL_CELL_BITS-1:0]   j0_o,
     output logic [fastsplat_pkg::CULL_CELL_BITS-1:0]   j1_o,
     input  logic [fastsplat_pkg::CULL_BITS-1:0]        count_i,       // a cycle after re_o
-    // to the source: of each cull_block, in its first cycle in t3
+    // to the source: for each cull_block, in its first cycle in t3
     output logic                                       verdict_valid_o,
     output logic [31:0]                                verdict_tag_o,
     output logic                                       verdict_hidden_o,
     // status
     output logic                                       idle_o,        // no beat is here
-    output logic                                       event_test_o,  // a test is made of the beat that goes to decode
+    output logic                                       event_test_o,  // the beat that goes to decode was tested
     output logic                                       event_hidden_set_o
 );
   localparam int BITS = fastsplat_pkg::BEAT_BITS;
@@ -57,7 +58,7 @@ module fastsplat_cull_test (
   localparam int TB = fastsplat_pkg::CULL_BITS;
   localparam int XB = (ORG > 32 ? ORG : 32) + 2;  // sums of a rectangle's corner and side
 
-  // ---- what rides along, by register
+  // ---- carried with the beat, by register
   logic [3:0] valid_q;
   logic [BITS-1:0] beat_q[0:3];
   logic [3:0] payload_q, aborted_q;
@@ -87,7 +88,7 @@ module fastsplat_cull_test (
   logic second_q;                  // there were two, or more
   logic begins_sheet;
   assign begins_sheet = !payload_q[0] && opcode == fastsplat_pkg::OP_BEGIN_SHEET;
-  // A third begin_sheet is here when the tile's begin_tile was carried out: four records lie between them.
+  // When a third begin_sheet is here, the tile's begin_tile was carried out: four records lie between them.
   assign holds = begins_sheet && tile_culls_q && second_q && begun_q - whole_q == 2'd2;
   always_ff @(posedge clk_i) begin
     if (whole_i) whole_q <= whole_q + 2'd1;
@@ -172,7 +173,7 @@ module fastsplat_cull_test (
   assign re_o = moves[1] && test_q[1] && t1_mapped_q && !empty_q;
   assign re_sheet_o = sheet_q[1] != `FASTSPLAT_FAULT(CULL_NEWER_MAP);
 
-  // ---- t2: as many cells are opaque as there are; t3
+  // ---- t2: all cells of the rectangle are opaque; t3
   logic t2_empty_q, t2_mapped_q, hidden_q, new_q;
   logic [TB-1:0] area_q;
   always_ff @(posedge clk_i) begin
@@ -221,7 +222,7 @@ module fastsplat_cull_test (
     if (!rst_ni) valid_q <= '0;
   end
 
-  // ---- t3: which set a splat belongs to
+  // ---- t3: which cull group a splat belongs to
   logic of_set, of_splat, set_hidden;
   assign of_set = test_q[3] && data_o[7:0] == fastsplat_pkg::OP_CULL_BLOCK;
   assign of_splat = test_q[3] && data_o[7:0] == fastsplat_pkg::OP_SPLAT;

@@ -1,13 +1,13 @@
-// Which windows of a row of windows can be seen: those that meet a block of the tile that is not opaque (docs/numerics.md, section 6.1,
-// "window"; docs/microarchitecture.md, "Test unit"). A row of windows meets two rows of blocks, a window two columns of them.
+// Visible windows of a row of windows: they meet a block of the tile that is not opaque (docs/numerics.md, N-6.1-10;
+// docs/microarchitecture.md, "Test unit"). A row of windows meets two rows of blocks, a window two columns of them.
 
 module fastsplat_cull_windows (
-    input  logic                                       culls_i,  // else all can be
+    input  logic                                       culls_i,  // else all are visible
     input  logic signed [fastsplat_pkg::ORG_BITS-1:0]  x_i,      // the row's first pixel
     input  logic signed [fastsplat_pkg::ORG_BITS-1:0]  y_i,
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]        width_i,  // of the tile
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]        height_i,
-    input  logic [fastsplat_pkg::WINDOWS_X-1:0]        there_i,  // windows that there are, from the first on
+    input  logic [fastsplat_pkg::WINDOWS_X-1:0]        there_i,  // existing windows, from the first on
     // the map
     output logic [fastsplat_pkg::BLK_BITS-1:0]         row_o,
     input  logic [fastsplat_pkg::BLOCKS_X-1:0]         row_i,    // opaque blocks of that row
@@ -30,9 +30,9 @@ module fastsplat_cull_windows (
   assign rows = $signed(((ORG + 1)'(height_i) + (ORG + 1)'(fastsplat_pkg::LANES - 1)) >> PL);
   assign row_o = row[fastsplat_pkg::BLK_BITS-1:0];
 
-  logic first_out, second_out;  // nothing of the windows lies in the tile there: in the row of blocks, in the row below
+  logic first_out, second_out;  // the windows miss the tile: in the row of blocks, in the row below
   logic [BX-1:0] seen;          // columns of blocks
-  logic [NW-1:0] first, second;  // by window: it meets such a one in its first column, in the next one
+  logic [NW-1:0] first, second;  // by window: it meets a visible block in its first column, in the next one
   assign first_out = row < 0 || (ORG + 1)'(y_i) >= $signed((ORG + 1)'(height_i));
   assign second_out = row < -1 || row >= rows - 1 || !between_y;
   always_comb begin
@@ -41,7 +41,7 @@ module fastsplat_cull_windows (
     second = '0;
     for (int w = 0; w < NW; w++) begin
       for (int b = 0; b < BX; b++) begin
-        // Of the tile's last column the windows may begin behind its last pixel.
+        // In the tile's last column of blocks, windows may begin behind the tile's last pixel.
         if (column + (ORG + 1)'(w) == (ORG + 1)'(b)) first[w] = seen[b] && (SIDE'(b << PL) | SIDE'(x_i[PL-1:0])) < width_i;
         if (column + (ORG + 1)'(w) + (ORG + 1)'(1) == (ORG + 1)'(b)) second[w] = seen[b] && between_x;
       end

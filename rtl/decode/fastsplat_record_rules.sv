@@ -1,6 +1,6 @@
-// Rules of docs/stream.md that a record can be held against before its place in the grammar is known: all but order, loaded and words.
-// Combinational; part of unit "check" (fastsplat_stream_check.sv), whose first stage it is. What it compares with is of the records before this
-// one, each taken for what its opcode says: where that is wrong, order is broken here, or was before.
+// Rules of docs/stream.md that can be checked before a record's place in the grammar is known: all but order, loaded
+// and words. Combinational first stage of unit "check" (fastsplat_stream_check.sv). It compares with earlier records,
+// each interpreted by its opcode. Where an opcode misleads, rule order is broken here or was before.
 
 module fastsplat_record_rules (
     input  logic [fastsplat_pkg::BEAT_BITS-1:0] beat_i,
@@ -16,7 +16,7 @@ module fastsplat_record_rules (
     input  logic [31:0]  splats_i,        // in the sheet
     input  logic [31:0]  tag_i,           // due next
     input  logic         densities_i,     // the tile is of densities
-    input  logic [fastsplat_pkg::SHEETS_LOG2:0] scaled_sheets_i,  // that SHEETS speaks of
+    input  logic [fastsplat_pkg::SHEETS_LOG2:0] scaled_sheets_i,  // described by SHEETS
     output logic [fastsplat_pkg::RULE_END_COUNT:0] broken_o,  // by number of the rule
     output logic [fastsplat_pkg::COL_BITS-1:0] extent_o  // of load_table: the set's, padded to whole windows
 );
@@ -81,10 +81,11 @@ module fastsplat_record_rules (
   end
 
   logic tile_good, set_good, position_good, ellipse_position_good, colour_good, sides_good;
-  logic mode_good, rimmed;  // 4 and 5: of every sample; 8 and 9: of densities, two pixels smaller
+  logic mode_good, rimmed;  // 4, 5: every sample; 8, 9: densities, two pixels smaller
   assign rimmed = densities && w0[11:9] == 3'd4;
   assign mode_good = w0[11:8] <= 4'd2 || (fastsplat_pkg::EVERY_SAMPLE != 0 && w0[11:9] == 3'd2) || rimmed;
-  // x + w <= W is x + w + (2^16 - 1 - W) < 2^16: three numbers made two by a carry-save adder, then one long carry instead of two.
+  // x + w <= W is x + w + (2^16 - 1 - W) < 2^16: a carry-save adder makes two numbers of three, then one long carry
+  // instead of two.
   logic [15:0] sum_x, carry_x, sum_y, carry_y, unused_x, unused_y;
   logic [1:0] right, bottom;  // of the image: 0 inside
   assign sum_x = w2[15:0] ^ w4[15:0] ^ ~image_width_i;
@@ -107,7 +108,7 @@ module fastsplat_record_rules (
   assign ellipse_position_good = (w2[EX-1:PB-1] == '0 || w2[EX-1:PB-1] == '1) && (w3[EX-1:PB-1] == '0 || w3[EX-1:PB-1] == '1);
   assign colour_good = (w4[15:0] >> CB) == '0 && (w4[31:16] >> CB) == '0 && (w5[15:0] >> CB) == '0 && (w5[31:16] >> CB) == '0;
 
-  // A device that culls need not get the splats of hidden sets: tags rise, and the count goes on with them.
+  // The source of a device that culls may leave out hidden splats: tags rise, and counts follow them (S-cull-10).
   logic tag_good, count_good;
   if (fastsplat_pkg::CULL_MAP != 0) begin : gen_jumps
     assign tag_good = w1 >= tag_i;
@@ -117,10 +118,10 @@ module fastsplat_record_rules (
     assign count_good = w2 == splats_i;
   end
 
-  logic unscaled;  // SHEETS says nothing of it
+  logic unscaled;  // SHEETS does not describe it
   assign unscaled = densities && densities_i && w1 >= 32'(scaled_sheets_i);
 
-  // Side by side, not one after another: the long comparisons are late as it is.
+  // In parallel, not one after another: the long comparisons are late already.
   logic begin_frame, load_table, begin_tile, begin_sheet, splat, ellipse, cull_block, end_sheet, end_tile;
   assign begin_frame = opcode == fastsplat_pkg::OP_BEGIN_FRAME;
   assign load_table = opcode == fastsplat_pkg::OP_LOAD_TABLE;

@@ -1,9 +1,9 @@
-// Unit "check": judges each beat before decode sees it, by every rule of docs/stream.md that a device can judge
-// (cmodel/decode/stream_decode.hpp, StreamScope::Subset; cmodel/stream/stream_rules.hpp). Two beat registers in front of decode's: long comparisons in
-// the first stage, the beat's place in the grammar in the second.
-// A beat that breaks a rule is not passed on, nor is any after it: rule, opcode and number of the beat stay in registers, and
-// a tile that is open is ended by an end_sheet and an end_tile of the device's own, so that its picture goes out, marked, and
-// all memories are left as a tile leaves them. A soft reset does the same, and then waits for a begin_frame.
+// Unit "check": checks each beat before decode sees it, by every rule of docs/stream.md that a device checks
+// (cmodel/decode/stream_decode.hpp, StreamScope::Subset; cmodel/stream/stream_rules.hpp). Two beat registers in front
+// of decode's: long comparisons in the first stage, the beat's place in the grammar in the second.
+// The first illegal beat and all later ones are dropped. Its rule, opcode and number stay in registers. An open tile is
+// ended by an end_sheet and an end_tile of the device's own: its picture goes out, marked, and all memories are left as
+// after any tile. A soft reset does the same, then waits for a begin_frame.
 `include "assertions.svh"
 
 module fastsplat_stream_check (
@@ -35,19 +35,20 @@ module fastsplat_stream_check (
   localparam int FB = fastsplat_pkg::FACTOR_BITS;
   localparam int WB = fastsplat_pkg::WORDS_BITS;
   localparam int RULES = fastsplat_pkg::RULE_END_COUNT;
-  // Judged by what is counted of the beats before.
+  // Rules checked against counts of earlier beats.
   localparam logic [RULES:0] COUNTED = (RULES + 1)'(1) << fastsplat_pkg::RULE_SHEET | (RULES + 1)'(1) << fastsplat_pkg::RULE_TAG |
                                        (RULES + 1)'(1) << fastsplat_pkg::RULE_END_NUMBER | (RULES + 1)'(1) << fastsplat_pkg::RULE_END_COUNT;
-  // Comparisons of order, not of equality, with words that are no constants, or are sums.
+  // Rules that compare magnitudes, not only equality, with words that are variable or sums.
   localparam logic [RULES:0] LATE = (RULES + 1)'(1) << fastsplat_pkg::RULE_TABLE | (RULES + 1)'(1) << fastsplat_pkg::RULE_TILE |
                                     (RULES + 1)'(1) << fastsplat_pkg::RULE_SHEET;
 
   // Where in the grammar the beat stands.
   typedef enum logic [2:0] {PlStart, PlTables, PlWords, PlTile, PlSheet} place_e;
 
-  // ---- first stage: what is known of a beat before its place is. Numbers and counts are of the records before it, words of tables
-  // taken for records too: those lie outside of tiles, and begin_tile and begin_sheet begin anew. A beat is counted in its first cycle
-  // here, for no handshake decides that; what counts said of it is kept while it waits.
+  // ---- first stage: what can be checked before the beat's place is known. Numbers and counts are of earlier records.
+  // Table words are taken for records, too: harmless, because they lie outside tiles, and begin_tile and begin_sheet
+  // start anew. A beat is counted in its first cycle here, without a handshake; the verdict of the counts is kept while
+  // it waits.
   logic next_valid_q, next_moves, next_new_q;
   logic [fastsplat_pkg::BEAT_BITS-1:0] next_q;
   logic [31:0] n1;
@@ -57,7 +58,7 @@ module fastsplat_stream_check (
   logic [31:0] tile_q, sheets_q, sheet_q, splats_q, tag_q;
   logic densities_q;
   logic [FB-1:0] word_before_q;
-  // of begin_frame and load_table, which are never the beat before one that asks for them
+  // of begin_frame and load_table, which never directly precede a beat that uses them
   logic [15:0] image_width_q, image_height_q;
   logic [31:0] tiles_q;
   logic [fastsplat_pkg::RLUT_SETS-1:0] sets_loaded_q;
@@ -99,7 +100,7 @@ module fastsplat_stream_check (
       .tilts_o(next_tilts),
       .sheets_o(next_sheets)
   );
-  place_e next_place;  // the one in which the record may come
+  place_e next_place;  // where the record is allowed
   always_comb begin
     case (next_opcode)
       fastsplat_pkg::OP_BEGIN_FRAME: next_place = PlStart;
@@ -108,7 +109,7 @@ module fastsplat_stream_check (
       default: next_place = PlTables;
     endcase
   end
-  logic [31:0] left_out;  // splats of hidden sets that a source did not send, in front of this record
+  logic [31:0] left_out;  // hidden splats that the source left out before this record
   if (fastsplat_pkg::CULL_MAP != 0) begin : gen_left_out
     assign left_out = (next_opcode == fastsplat_pkg::OP_END_SHEET) ? next_q[95:64] - splats_q : n1 - tag_q;
   end else begin : gen_none_left_out
@@ -174,11 +175,11 @@ module fastsplat_stream_check (
   logic [WB-1:0] words_left_q, words_left_next;
   logic [fastsplat_pkg::BEAT_WORDS-1:0] there_q;   // which words of the next beat are the table's
   logic last_words_q;    // it has the last of them
-  logic first_words_q;   // the beat before it is no word
+  logic first_words_q;   // the beat before it holds no words
   assign words_left_next = (place_q == PlWords) ? words_left_q - WB'(fastsplat_pkg::BEAT_WORDS) : beat_q[96+:WB];
 
   logic leaves;
-  // Tables of densities: which are loaded, and which words are fit for the one that is.
+  // Tables of densities: which are loaded; which words are legal for the one being loaded.
   logic [fastsplat_pkg::BEAT_WORDS-1:0] density_good;
   logic densities_loaded;
   if (fastsplat_pkg::DENSITIES != 0) begin : gen_densities
@@ -229,7 +230,7 @@ module fastsplat_stream_check (
                       : factor_q[i] && (falls_q[i] || (i == 0 && first_words_q));
     assign word_good[i] = there_q[i] ? of_table : zero_q[i];
   end
-  // That a rule is broken at once, for a handshake waits for it; which is the first, for the register.
+  // broken: any rule, early, because a handshake waits for it. rule: the first of them, for the register.
   logic broken;
   logic [RULES:0] rules_broken;
   logic [7:0] rule;
@@ -248,10 +249,11 @@ module fastsplat_stream_check (
   end
 
   // ---- passing on, or ending what is open
-  // No enable of a register waits for the verdict: where decode is ready a beat leaves, and the one behind it follows, be it broken or
-  // not. A refusal empties both, and what else was written in that cycle counts for nothing: the next begin_frame begins anew.
+  // No register's enable waits for the verdict: where decode is ready a beat leaves and the next one follows, legal or
+  // not. A refusal empties both registers. Other registers written in that cycle do no harm: the next begin_frame
+  // starts anew.
   logic reset_q, stopped, judged, refused, ends;
-  assign stopped = error_o || (reset_q && !next_valid_q && !beat_valid_q);  // beats that are here are judged still
+  assign stopped = error_o || (reset_q && !next_valid_q && !beat_valid_q);  // beats already here are still checked
   assign judged = beat_valid_q && !error_o;
   assign refused = judged && broken;
   assign leaves = judged && ready_i;
@@ -265,8 +267,8 @@ module fastsplat_stream_check (
   assign busy_o = next_valid_q || beat_valid_q || ends || reset_q;
 
   always_ff @(posedge clk_i) begin
-    if (next_moves) next_valid_q <= 1'b0;  // nothing need come after it: a soft reset takes none
-    if (ready_o && !error_o) begin  // after a refusal all is swallowed
+    if (next_moves) next_valid_q <= 1'b0;  // no beat need follow: a soft reset takes none
+    if (ready_o && !error_o) begin  // after a refusal all beats are dropped
       next_valid_q <= valid_i;
       next_q <= data_i;
     end
@@ -301,7 +303,7 @@ module fastsplat_stream_check (
             place_q <= PlWords;
             table_q <= beat_q[15:8];
             extent_o <= extent_q;
-            // Its words follow before anything else does.
+            // Its words follow directly.
             if (beat_q[15:8] == fastsplat_pkg::TABLE_RLUT) sets_loaded_q[beat_q[32+:fastsplat_pkg::SET_BITS]] <= 1'b1;
           end
           fastsplat_pkg::OP_BEGIN_TILE: begin
@@ -322,7 +324,7 @@ module fastsplat_stream_check (
     if (refused) begin
       next_valid_q <= 1'b0;
       beat_valid_q <= 1'b0;
-      place_q <= place_q;  // what is open is what is ended
+      place_q <= place_q;  // keeps what is open: it has to be ended
       error_o <= 1'b1;
       error_rule_o <= rule;
       error_opcode_o <= opcode;
@@ -351,7 +353,7 @@ module fastsplat_stream_check (
       error_beat_o <= '0;
     end
   end
-  // A soft reset forgets a beat that is offered (fastsplat_top drops it).
+  // A soft reset forgets an offered beat (fastsplat_top drops it).
   `FASTSPLAT_ASSUME_HELD(input_held, valid_i && !ready_o && !reset_i && !reset_q, valid_i, data_i)
   `FASTSPLAT_ASSERT_HELD(judged_beat_held, valid_o && !ready_i, valid_o, {data_o, payload_o, aborted_o})
   `FASTSPLAT_ASSERT(refused_beat_stays_out, !(refused && valid_o))

@@ -1,24 +1,24 @@
-// Unit "decode": judged beats in (fastsplat_stream_check.sv), table words, windows and sheet tokens out (docs/stream.md;
-// cmodel/cycles/cycle_model.hpp).
-// One beat register; a beat is done in one cycle but for table payload (a cycle per word), splats (a cycle per window),
-// and begin_tile, begin_sheet and end_tile, which wait for the compositor and pixel out.
+// Unit "decode": checked beats in (fastsplat_stream_check.sv), table words, windows and sheet tokens out
+// (docs/stream.md; cmodel/cycles/cycle_model.hpp).
+// One beat register. A beat takes one cycle, except table payload (a cycle per word), splats (a cycle per window), and
+// begin_tile, begin_sheet and end_tile, which wait for the compositor and pixel out.
 `include "assertions.svh"
 `include "fault.svh"
 
 module fastsplat_stream_decode (
     input  logic                                       clk_i,
     input  logic                                       rst_ni,
-    // beats that keep the rules
+    // legal beats
     input  logic                                       valid_i,
     output logic                                       ready_o,
     input  logic [fastsplat_pkg::BEAT_BITS-1:0]                               data_i,
     input  logic                                       payload_i,   // words of the table announced last
-    input  logic                                       aborted_i,   // an end_tile that nobody sent
+    input  logic                                       aborted_i,   // an end_tile of the device's own
     input  logic [fastsplat_pkg::COL_BITS-1:0]         extent_i,    // padded extent of the set announced last
     // culling: verdicts of the beat, and a splat's first pixel
     input  logic                                       swallowed_i,
     input  logic                                       hidden_i,
-    input  logic                                       culls_i,     // tests are made in its tile
+    input  logic                                       culls_i,     // its tile is culled
     input  logic                                       sheet_i,     // its sheet's number in the tile, modulo 2
     input  logic signed [fastsplat_pkg::ORG_BITS-1:0]  x_i,
     input  logic signed [fastsplat_pkg::ORG_BITS-1:0]  y_i,
@@ -47,8 +47,9 @@ module fastsplat_stream_decode (
     output logic                                       every_sample_o,  // mode bit 2
     output logic                                       densities_o,     // mode bit 3
     output logic                                       tile_flush_o,    // end_tile is here, and all sheets have left their buffers
-    output logic [63:0]                                place_o,         // of densities, as what follows: {image height, width, tile y, x}
-    output logic [31:0]                                sheet_number_o,  // of the sheet in the buffer that is given back
+    output logic [63:0]                                place_o,         // densities: {image height, width, tile y, x}
+    output logic [31:0]                                sheet_number_o,  // densities: of the sheet in the buffer given
+                                                                        // back
     output logic [31:0]                                tile_number_o,
     output logic [fastsplat_pkg::SIDE_BITS-1:0]        width_o,
     output logic [fastsplat_pkg::SIDE_BITS-1:0]        height_o,
@@ -128,7 +129,7 @@ module fastsplat_stream_decode (
   localparam int WIN = fastsplat_pkg::WINDOW_BITS;
   logic [WIN-1:0] column_q, row_q, extent_x, extent_y;
   logic [fastsplat_pkg::RLUT_SETS-1:0] single_q;  // by set: one window
-  logic last_column_q, last_row_q, last_window;   // foretold a cycle ahead: the source's handshake waits for it
+  logic last_column_q, last_row_q, last_window;   // computed a cycle ahead: the source's handshake waits for it
   logic is_ellipse;
   if (fastsplat_pkg::ELLIPSES != 0) begin : gen_ellipse
     assign is_ellipse = opcode == fastsplat_pkg::OP_ELLIPSE;
@@ -146,10 +147,10 @@ module fastsplat_stream_decode (
     assign window_shape_o = '0;
   end
   assign last_window = last_column_q && last_row_q;
-  logic issues, window_first;  // a window of the splat in the register goes on; it is its first
-  logic swallowed_q;           // of a hidden set
+  logic issues, window_first;  // a window of the splat in the register is issued; it is its first
+  logic swallowed_q;           // of a hidden group
 
-  logic ellipse_next, one_column;  // coming into the register; of the record in it
+  logic ellipse_next, one_column;  // the record entering the register; of the one in it
   assign ellipse_next = fastsplat_pkg::ELLIPSES != 0 && data_i[7:0] == fastsplat_pkg::OP_ELLIPSE;
   assign one_column = is_ellipse && w2[26:22] == '0;
 
@@ -157,7 +158,7 @@ module fastsplat_stream_decode (
   logic [1:0] busy_q;
   logic buffer_q;
 
-  // Of what kind the record in the register is: read off on its way there, for the source's handshake waits for it.
+  // Kind of the record in the register, decoded on its way there, because the source's handshake waits for it.
   logic splat_q, begins_sheet_q, waits_for_rest_q;
   logic is_splat, wait_buffer, wait_tile, wait_hazard;
   assign is_splat = beat_valid_q && splat_q;
@@ -174,8 +175,9 @@ module fastsplat_stream_decode (
 
   logic accepted;  // the record in the register is carried out in this cycle
   logic tile_begin;
-  // Every sample: a window over that of the cycle before would read a state that is not there yet (docs/microarchitecture.md,
-  // "Hazard"). Windows of one record never meet, so only a record's first one waits, a cycle.
+  // Every sample: a window over that of the cycle before would read a state that is not there yet
+  // (docs/microarchitecture.md, M-hazard-1). Windows of one record never meet, so only a record's first one waits, a
+  // cycle.
   if (fastsplat_pkg::EVERY_SAMPLE != 0) begin : gen_samples
     logic overlap;
     localparam int PB = fastsplat_pkg::POS_BITS;
@@ -204,7 +206,7 @@ module fastsplat_stream_decode (
   end
   assign stall_hazard_o = wait_hazard;
 
-  // Densities: what their classification has to know.
+  // What the classification of densities needs.
   if (fastsplat_pkg::DENSITIES != 0) begin : gen_densities
     logic [31:0] number_q[0:1];  // by buffer
     always_ff @(posedge clk_i) begin
@@ -270,7 +272,7 @@ module fastsplat_stream_decode (
       index_q <= index_q + 32'd1;
       left_q <= left_q - 32'd1;
       last_word_q <= left_q == 32'd1;
-      word_in_beat_q <= word_in_beat_q + WORD_BITS'(1);  // a power of two of them
+      word_in_beat_q <= word_in_beat_q + WORD_BITS'(1);  // their number is a power of two
       table_column_q <= table_column_q + COL'(1);
       if (table_column_q + COL'(1) == table_extent_q) begin
         table_column_q <= '0;
@@ -314,7 +316,7 @@ module fastsplat_stream_decode (
     end
   end
 
-  // ---- which window is next: each of the footprint's, or those that can be seen
+  // ---- next window: each of the footprint's, or only the visible ones
   logic last_row_next;
   assign last_row_next = (WIN + 1)'(row_q) + (WIN + 1)'(2 * P) >= (WIN + 1)'(extent_y);
   if (fastsplat_pkg::CULL_MAP != 0) begin : gen_seen
@@ -374,7 +376,7 @@ module fastsplat_stream_decode (
           last_row_q <= last_row_next;
         end
       end
-      // Of a row without any a cycle is spent all the same.
+      // A row without visible windows takes a cycle, too.
       if (new_row || issues) begin
         seen_q <= next;
         column_q <= column;
@@ -400,7 +402,7 @@ module fastsplat_stream_decode (
       if (is_splat && !wait_hazard) begin
         column_q <= last_column_q ? '0 : column_q + WIN'(P);
         if (last_column_q) row_q <= last_window ? '0 : row_q + WIN'(P);
-        if (!last_window) begin  // so that there are two columns or rows at the least, of a circle both
+        if (!last_window) begin  // then there are at least two columns or two rows, of a circle both
           last_column_q <= last_column_q ? one_column : (WIN + 1)'(column_q) + (WIN + 1)'(2 * P) >= (WIN + 1)'(extent_x);
           if (last_column_q) last_row_q <= last_row_next;
         end

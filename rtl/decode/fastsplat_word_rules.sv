@@ -1,5 +1,6 @@
-// What each word of a beat is fit for, if the beat is table words (docs/stream.md, rule 8). Combinational; part of unit "check"
-// (fastsplat_stream_check.sv), whose first stage it is: how many of the words are the table's, and which table's, its second stage knows.
+// For each word of a beat: which tables it is legal in (docs/stream.md, rule 8), if the beat is table words.
+// Combinational first stage of unit "check" (fastsplat_stream_check.sv). The second stage knows the table and the
+// number of its words.
 
 module fastsplat_word_rules (
     input  logic [fastsplat_pkg::BEAT_BITS-1:0] beat_i,

@@ -1,21 +1,22 @@
-// The source beside a device: an AXI4 read master that reads a stream from memory, command by command, and asks for the splats of a set
-// when the device can see it (docs/microarchitecture.md, "Fetch"; cmodel/io/fetch_commands.hpp makes the commands).
-// Requests: command -> run of beats -> burst -> address channel. Beats: data channel -> queue -> stream. Verdicts: a set that was sent
-// is judged by the device -> run of beats, or the address goes on without it.
+// Source for a device: an AXI4 read master that reads a stream from memory, command by command. It requests the splats
+// of a cull group only if the device can see it (docs/microarchitecture.md, "Fetch"; cmodel/io/fetch_commands.hpp makes
+// the commands).
+// Requests: command -> run of beats -> burst -> address channel. Beats: data channel -> queue -> stream. Verdicts: a
+// group that was sent -> run of beats, or the address advances without it.
 `include "assertions.svh"
 `include "fault.svh"
 
 module fastsplat_fetch #(
-    parameter int ADDRESS_BITS = 64,  // of the memory
+    parameter int ADDRESS_BITS = 64,  // bits of a memory address
     parameter int BURST = 16,         // most beats of a burst
-    parameter int DEPTH_LOG2 = 6,     // of the beats that may be asked for and not sent yet
-    parameter int OUTSTANDING = 64,   // most bursts that may be under way
-    parameter int SETS_LOG2 = 10,     // of the most sets of a command
-    parameter int JUDGED_LOG2 = 4     // of the most sets that may be sent and not judged yet
+    parameter int DEPTH_LOG2 = 6,     // log2 of the beats that may be requested and not sent yet
+    parameter int OUTSTANDING = 64,   // most bursts in flight
+    parameter int SETS_LOG2 = 10,     // log2 of the most groups of a command
+    parameter int JUDGED_LOG2 = 4     // log2 of the most groups sent without a verdict yet
 ) (
     input  logic         aclk,
     input  logic         aresetn,  // synchronous
-    // commands: splats, sets, beats, 32 bits each, and an address of 64, the lowest
+    // commands: splats, sets, beats, 32 bits each, and in the lowest bits an address of 64
     input  logic         s_axis_cmd_tvalid,
     output logic         s_axis_cmd_tready,
     input  logic [159:0] s_axis_cmd_tdata,
@@ -40,11 +41,11 @@ module fastsplat_fetch #(
     input  logic         verdict_valid,
     input  logic [31:0]  verdict_tag,
     input  logic         verdict_hidden,
-    // While high nothing is requested, commands are taken and dropped, verdicts are ignored. Once busy is 0 all is as after a reset.
-    // The host keeps it high until the device has no verdicts to give.
+    // While high nothing is requested, commands are taken and dropped, verdicts are ignored. Once busy is 0 the state
+    // is that after a reset. The host keeps it high until the device has no more verdicts to give.
     input  logic         stop,
-    output logic         busy,   // there is a command, or a beat that was asked for and not sent
-    output logic [1:0]   error   // the first error; stays until stop or reset, and nothing is asked for
+    output logic         busy,   // a command is at work, or a requested beat was not sent
+    output logic [1:0]   error   // the first error; stays until stop or reset; nothing is requested meanwhile
 );
   localparam int AB = ADDRESS_BITS;
   localparam int BEAT_LOG2 = 5, PAGE_LOG2 = 12;  // bytes of a beat; no burst crosses a page
@@ -63,19 +64,19 @@ module fastsplat_fetch #(
   assign clk_i = aclk;
   assign rst_ni = aresetn;
 
-  // Names that more than one part uses.
-  logic failed, forget;  // all that is not memory's or the device's is as after a reset
+  // Used in several parts below.
+  logic failed, forget;  // forget: resets all but the ports to memory and device
   logic [31:0] run_beats, run_skip;
-  logic [DB-1:0] unsent_q;  // beats that arrived
+  logic [DB-1:0] unsent_q;  // beats that arrived and were not sent
   assign failed = error != NONE;
 
   logic unused;  // high bits of counts, where addresses are short
   assign unused = &{1'b0, run_skip, run_beats};
 
-  // ---- verdicts: sets that were sent, oldest first, and what follows of the answer
+  // ---- verdicts: cull groups that were sent, oldest first, and what follows from their verdicts
   logic sent_set, sent_counted, judged_valid, judged_counted;
   logic [31:0] judged_tag, judged_splats;
-  // A set waits to be sent while as many as there is room for are not judged, except while all is given up.
+  // A cull_block waits while the queue for verdicts is full, except during stop (M-fetch-16, M-fetch-22).
   logic [JUDGED_LOG2:0] unjudged_q;
   logic judged_full;
   assign judged_full = unjudged_q[JUDGED_LOG2];
@@ -96,11 +97,11 @@ module fastsplat_fetch #(
       .take_i(verdict_valid),
       .data_o({judged_counted, judged_splats, judged_tag})
   );
-  // Sets of the command that were not judged yet; splats behind the last run that are left out.
+  // Groups of the command without a verdict; splats left out behind the last run.
   logic [SB-1:0] undecided_q;
   logic [31:0] skipped_q;
   logic judges, last_set, wrong_verdict;
-  // Whether a set of the command was hidden, and whether none of the one before was: then this one's are asked for unjudged.
+  // hides_q: a group of the command was hidden. trusts_q: none of the one before was (M-fetch-4).
   logic hides_q, trusts_q;
   assign wrong_verdict = verdict_valid && !stop && (!judged_valid || (judged_tag != verdict_tag && !`FASTSPLAT_FAULT(FETCH_ANY_TAG)));
   assign judges = verdict_valid && judged_valid && judged_counted;
@@ -124,9 +125,9 @@ module fastsplat_fetch #(
       .data_o({run_last, run_beats, run_skip})
   );
 
-  // ---- commands and runs: what is asked for next
+  // ---- commands and runs: what is requested next
   typedef enum logic [1:0] {PhNone, PhPlain, PhSets, PhRuns} phase_e;
-  phase_e phase_q;  // what the run at hand is of: nothing, beats of the command, its sets, their splats
+  phase_e phase_q;  // what the current run reads: nothing, beats of the command, its cull_blocks, their splats
   logic [AB-1:0] command_address, address_q, body_q, run_address;
   logic [31:0] command_beats, command_sets, command_splats, left_q, burst_left;
   logic [SB-1:0] sets_q;
@@ -150,7 +151,7 @@ module fastsplat_fetch #(
   assign wants_all = phase_q == PhSets && counted_q && trusts_q;
   assign wants_run = (phase_q == PhSets && counted_q && !trusts_q) || (phase_q == PhRuns && !last_run_q);
   assign run_take = (!run_valid_q || ends_run) && wants_run && run_valid && !failed && !stop;
-  // The last set's run may be empty: then the next command's is the next.
+  // The last group's run may be empty; the next command's then follows at once.
   assign wants_command = (!run_valid_q || ends_run) && !failed && (!(wants_sets || wants_all || wants_run) || (run_take && run_beats == '0));
   assign s_axis_cmd_tready = wants_command || stop;
   assign takes_command = s_axis_cmd_tvalid && wants_command && !stop;
@@ -188,7 +189,7 @@ module fastsplat_fetch #(
       .data_o({arrived_counted, arrived_set})
   );
 
-  // ---- beats: there is room for all that was asked for
+  // ---- beats: there is room for all requested ones
   logic arrives, bad, hole_q;  // a beat could not be read: none behind it may be sent
   assign m_axi_rready = 1'b1;
   assign bad = m_axi_rvalid && m_axi_rresp != 2'b00 && !`FASTSPLAT_FAULT(FETCH_BAD_RESPONSE);
@@ -213,7 +214,7 @@ module fastsplat_fetch #(
   assign sent_set = sends && sending_set;
   assign sent_counted = sending_counted;
 
-  logic waits;  // something was asked for and has not been sent
+  logic waits;  // a requested beat has not been sent
   assign waits = m_axi_arvalid || outstanding_q != '0 || unsent_q != '0;
   assign forget = stop && !waits;
   assign busy = waits || ((run_valid_q || wants_sets || wants_all || wants_run) && !failed);
@@ -294,13 +295,13 @@ module fastsplat_fetch #(
     end
   end
 
-  // AXI4: what is offered stays; no burst crosses a page or is longer than it may be; there is room for what comes.
+  // AXI4: an offer stays; bursts keep within a page and their longest length; there is room for what arrives.
   `FASTSPLAT_ASSERT_HELD(asked_until_taken, m_axi_arvalid && !m_axi_arready, m_axi_arvalid, {m_axi_araddr, m_axi_arlen})
   `FASTSPLAT_ASSERT(burst_within_page, !m_axi_arvalid || 32'(m_axi_araddr[PAGE_LOG2-1:BEAT_LOG2]) + 32'(m_axi_arlen) < 32'd1 << (PAGE_LOG2 - BEAT_LOG2))
   `FASTSPLAT_ASSERT(burst_short_enough, !m_axi_arvalid || 32'(m_axi_arlen) < 32'(BURST))
   `FASTSPLAT_ASSERT_HELD(sent_until_taken, m_axis_tvalid && !m_axis_tready, m_axis_tvalid, sending_set)
   `FASTSPLAT_ASSERT(room_for_all, room_q <= DB'(1 << DEPTH_LOG2))
-  // Of the memory: nothing that was not asked for.
+  // The memory answers only what was requested.
   `FASTSPLAT_ASSUME(answers_what_was_asked, !m_axi_rvalid || burst_known)
   `FASTSPLAT_COVER(jumped, judges && verdict_hidden)
 endmodule

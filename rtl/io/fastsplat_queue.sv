@@ -1,14 +1,15 @@
-// A queue over a memory: one in and one out a cycle. What is put in cycle t is shown from t+2 on, or from the cycle after the one
-// before it was taken (docs/microarchitecture.md, "Fetch"). Who puts knows that there is room: WORDS at least.
+// A queue over a memory: one word in and one out a cycle. A word put in cycle t is shown from t+2 on, or from the cycle
+// after the one before it was taken (docs/microarchitecture.md, "Fetch"). Holds at least WORDS words; the writer makes
+// sure that there is room.
 `include "assertions.svh"
 
 module fastsplat_queue #(
     parameter int BITS = 8,
-    parameter int LOG2 = 4  // of WORDS
+    parameter int LOG2 = 4  // log2 of WORDS
 ) (
     input  logic            clk_i,
     input  logic            rst_ni,
-    input  logic            clear_i,  // all that is in it is forgotten, what is put in this cycle too
+    input  logic            clear_i,  // empties the queue; what is put in this cycle is dropped, too
     input  logic            put_i,
     input  logic [BITS-1:0] data_i,
     output logic            valid_o,
@@ -17,7 +18,8 @@ module fastsplat_queue #(
 );
   localparam int WORDS = 1 << LOG2;
 
-  // In the memory, read in the cycle before, and read earlier and not taken: of those the second is still the memory's output.
+  // put_q - read_q: words in the memory. fetched_q: one was read in the cycle before. held_q: read earlier and not
+  // taken; the second of these is still the memory's output.
   logic [LOG2:0] put_q, read_q;
   logic fetched_q;
   logic [1:0] held_q, shown, left;

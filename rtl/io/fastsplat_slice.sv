@@ -1,5 +1,5 @@
-// A register slice: a ready/valid channel whose valid, data and ready all come from registers, one transfer a cycle, a cycle late
-// (docs/integration.md).
+// A register slice: a ready/valid channel whose valid, data and ready all come from registers. One transfer a cycle,
+// one cycle later (docs/integration.md).
 module fastsplat_slice #(
     parameter int BITS = 1
 ) (

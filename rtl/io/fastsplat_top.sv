@@ -1,5 +1,5 @@
-// The device as a block of a system: AXI4-Stream in and out and AXI4-Lite under the names that packagers look for, register slices
-// at both streams, no taps (docs/integration.md). What it computes is fastsplat_core's.
+// The device as a block of a system: AXI4-Stream in and out and AXI4-Lite under the names that packagers look for,
+// register slices on both streams, no taps (docs/integration.md). fastsplat_core does the work.
 module fastsplat_top (
     input  logic         aclk,
     input  logic         aresetn,  // synchronous
@@ -34,7 +34,7 @@ module fastsplat_top (
     input  logic         s_axil_rready,
     output logic [31:0]  s_axil_rdata,
     output logic [1:0]   s_axil_rresp,
-    // culling: of each cull_block a pulse, for who fetches the stream
+    // culling: a pulse for each cull_block, for the source of the stream
     output logic         verdict_valid_o,
     output logic [31:0]  verdict_tag_o,
     output logic         verdict_hidden_o,
@@ -56,8 +56,8 @@ module fastsplat_top (
       .data_o(beat)
   );
 
-  // A reset forgets the frame, but a source may not withdraw what it offers: beats are dropped while the host says so (CONTROL.DROP), then up
-  // to the next begin_frame.
+  // A reset drops the frame, but a source may not withdraw an offered beat. So beats are dropped while the host says so
+  // (CONTROL.DROP), then up to the next begin_frame.
   logic drops_q, seeks_q, begins, core_valid, core_ready, writes_control;
   logic [11:0] write_address;
   assign begins = beat[7:0] == fastsplat_pkg::OP_BEGIN_FRAME && beat[63:32] == fastsplat_pkg::STREAM_MAGIC;
@@ -110,7 +110,7 @@ module fastsplat_top (
     end
   end
 
-  // Taps are left open, and error_o: it is STATUS and an interrupt.
+  // Taps are left open; so is error_o, which is in STATUS and an interrupt.
   // verilator lint_off PINMISSING
   fastsplat_core #(.SLICED(1'b1)) u_core (
       .clk_i(aclk),

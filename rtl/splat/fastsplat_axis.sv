@@ -1,6 +1,6 @@
-// One axis of a window: RLUT words turned from window order into bank order, with each bank's block and validity.
-// Bank g (pixel mod P = g) takes window lane (g - origin) mod P. Any window hits every bank exactly once.
-// One register; holds while there is no window.
+// One axis of a window: turns RLUT words from window order into bank order, with each bank's block and validity. Bank g
+// (pixel mod P = g) takes window lane (g - origin) mod P. Any window hits every bank exactly once.
+// One register, which holds without a window.
 `include "fault.svh"
 
 module fastsplat_axis (

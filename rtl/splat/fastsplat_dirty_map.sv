@@ -1,7 +1,7 @@
-// The dirty blocks of both sheet buffers and the walk over those of a finished sheet: lowest number first, one slice of a
-// block a cycle (docs/microarchitecture.md, "Dirty walk" and "Slices"; cmodel/splat/dirty_map.hpp).
-// No cycle looks at the whole map: f1 lowest dirty row -> f2 its blocks -> f3 the row being walked -> k0 block. The three
-// cycles of f1 to f3 pass while the end of the sheet goes down the splat path, or while the last blocks of the sheet
+// The dirty blocks of both sheet buffers and the walk over those of a finished sheet: lowest number first, one slice of
+// a block a cycle (docs/microarchitecture.md, "Dirty walk" and "Slices"; cmodel/splat/dirty_map.hpp).
+// No cycle looks at the whole map: f1 lowest dirty row -> f2 its blocks -> f3 the row being walked -> k0 block. The
+// three cycles of f1 to f3 pass while the end of the sheet goes down the splat path, or the last blocks of the sheet
 // before go down the compositor's.
 `include "assertions.svh"
 `include "fault.svh"
@@ -9,7 +9,7 @@
 module fastsplat_dirty_map (
     input  logic                                   clk_i,
     input  logic                                   rst_ni,
-    input  logic                                   whole_i,   // a block is one slice, whatever it is else; held over a tile
+    input  logic                                   whole_i,   // a block is one slice, whatever SLICES is; held over a tile
     input  logic                                   hold_i,    // no walk begins
     // c3: a window marks the blocks it meets inside the tile, at most two block columns and two block rows
     input  logic                                   mark_i,
@@ -29,7 +29,7 @@ module fastsplat_dirty_map (
     output logic                                   buffer_o,
     output logic [fastsplat_pkg::ADDR_BITS-1:0]    block_o,
     output logic [fastsplat_pkg::SLICE_BITS-1:0]   slice_o,
-    output logic                                   finish_o,  // the last slice of the sheet's last block, or that it has none
+    output logic                                   finish_o,  // the sheet's last slice, or a sheet without blocks
     output logic                                   idle_o     // no finished sheet waits or is walked, nor was in the last 2 cycles
 );
   localparam int P = fastsplat_pkg::LANES;
@@ -60,7 +60,7 @@ module fastsplat_dirty_map (
   logic [1:0] marked_q, full_q;
   logic f1_valid_q, f2_valid_q;
   logic [BX-1:0] f2_row_q, f3_row_q, f3_rest_q, f2_rest, rest;  // rest: a row without its lowest block
-  logic start, advance, walking, go, one_left_q, finish;  // go: the block's last slice, or the walk of nothing
+  logic start, advance, walking, go, one_left_q, finish;  // go: the block's last slice, or an empty walk
   logic [2:0] finish_q;
   logic [fastsplat_pkg::SLICE_BITS-1:0] slice_q;
   assign start = state_q == StIdle && marked_q[buffer_q];
@@ -72,10 +72,10 @@ module fastsplat_dirty_map (
   assign finish = go && one_left_q && !f2_valid_q;
   assign advance = start || state_q == StRow || state_q == StBlocks || (go && one_left_q);
 
-  // ---- the maps, of buffer 0 and 1: which rows hold dirt, and which blocks of a row. What is fetched is forgotten.
+  // ---- the maps, of buffer 0 and 1: which rows hold dirt, and which blocks of a row. Fetched bits are cleared.
   logic [BY-1:0] rows_q[0:1], f1_row, f1_row_q;
   logic [BX-1:0] dirty[0:2*BY-1], f2_row;
-  logic [BY-1:0] fetched_q;  // the row that went to f2: cleared a cycle later, for all of it waits for this
+  logic [BY-1:0] fetched_q;  // the row that went to f2; cleared a cycle later, because the whole map waits for this
   logic fetched_buffer_q;
   assign f1_row = rows_q[buffer_q] & (~rows_q[buffer_q] + BY'(1));
   for (genvar m = 0; m < 2; m++) begin : gen_buffer
@@ -119,7 +119,7 @@ module fastsplat_dirty_map (
       f2_valid_q <= f1_valid_q;
       f3_number_q <= f2_number_q;
     end
-    // One block left in the row, or none: known a cycle ahead, for all of the fetch waits for it.
+    // One block left in the row, or none: known a cycle ahead, because the whole fetch waits for it.
     if (advance) begin
       f3_row_q <= f2_row_q;
       f3_rest_q <= f2_rest;

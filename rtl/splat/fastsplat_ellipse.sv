@@ -1,12 +1,13 @@
-// Unit "ellipse": from a record's shape to words by bank column and bank row, at c3 of the splat path (docs/numerics.md, section
-// 4.6; docs/microarchitecture.md, "Ellipses"; cmodel/splat/ellipse_unit.hpp). Circles' windows pass through and mean nothing.
-// 13 registers, e1 to e13: as many as the splat path has from the c0 that the windows of decode are delayed to reach.
+// Unit "ellipse": from a record's shape to words by bank column and bank row, at c3 of the splat path
+// (docs/numerics.md, section 4.6; docs/microarchitecture.md, "Ellipses"; cmodel/splat/ellipse_unit.hpp). Results for
+// circles are ignored.
+// 13 registers, e1 to e13, parallel to the 10 cycles by which decode's windows are delayed and to c1 to c3.
 module fastsplat_ellipse (
     input  logic                                      clk_i,
     // c0 as decode issues it
     input  logic                                      first_i,
     input  logic                                      new_row_i,
-    input  logic                                      densities_i,  // the tile's memory begins a pixel before it
+    input  logic                                      densities_i,  // the tile's memory begins a pixel earlier
     input  logic signed [fastsplat_pkg::POS_BITS-1:0] x_i,
     input  logic signed [fastsplat_pkg::POS_BITS-1:0] y_i,
     input  logic [fastsplat_pkg::SHAPE_BITS-1:0]      shape_i,

@@ -1,7 +1,8 @@
 // A window's polynomial as words by bank column and bank row, so that a lane adds three of them and multiplies nothing
-// (docs/numerics.md, section 4.6; docs/microarchitecture.md, "Ellipses").
-// Bank (g,h) takes pixel (X,Y) of the window, X = g - ox or g - ox + P, Y alike: a window meets at most two blocks a side. With
-// X Y e = X b e + a h e + g h e, b = Y - h and a = X - g (two values each), q is
+// (docs/microarchitecture.md, M-ellipse-5).
+// Bank (g,h) takes pixel (X,Y) of the window, X = g - ox or g - ox + P, Y alike: a window meets at most two blocks a
+// side.
+// With X Y e = X b e + a h e + g h e, b = Y - h and a = X - g (two values each), q is
 //   column: u0 + X (u1 + b e) + X^2 u2, for both b      row: Y v1 + Y^2 v2 + h a e, for both a      cross: g h e
 // Registers: e10 u1 + b e, a e -> e11 multiples -> e12 sums by window lane -> e13 (with c3) by bank.
 `include "fault.svh"
@@ -17,7 +18,7 @@ module fastsplat_ellipse_lanes (
     input  logic [fastsplat_pkg::ELLIPSE_BITS-1:0]                       v1_i,
     input  logic [fastsplat_pkg::ELLIPSE_BITS-1:0]                       v2_i,
     input  logic [fastsplat_pkg::ELLIPSE_BITS-1:0]                       e_i,
-    // e13: by bank column g, for banks whose row lies in the window's first block, and in its second; by bank row likewise
+    // e13: by bank column g, for banks whose row lies in the window's first block, and in its second; by row likewise
     output logic [2*fastsplat_pkg::LANES*fastsplat_pkg::ELLIPSE_BITS-1:0] columns_o,
     output logic [2*fastsplat_pkg::LANES*fastsplat_pkg::ELLIPSE_BITS-1:0] rows_o,
     output logic [fastsplat_pkg::BANKS*fastsplat_pkg::ELLIPSE_BITS-1:0]   cross_o,

@@ -1,7 +1,7 @@
-// What a record's shape comes to at its first pixel: six coefficients, each exact and then narrowed once
-// (docs/numerics.md, section 4.6; cmodel/splat/ellipse_unit.cpp). A record a cycle; a window's record is made anew with every window.
-// Registers: e1 way from the centre -> e2 first products -> e3 sums -> e4 second products -> e5 u0 -> e6 shift by eights
-// -> e7 shift by ones -> e8 rounded. All words are two's complement, modulo their width.
+// A record's shape as six coefficients at its first pixel, each exact and then narrowed once (docs/numerics.md,
+// N-4.6-5; cmodel/splat/ellipse_unit.cpp). One record a cycle; its coefficients are computed anew for each window.
+// Registers: e1 way from the centre -> e2 first products -> e3 sums -> e4 second products -> e5 u0 -> e6 shift by
+// eights -> e7 shift by ones -> e8 rounded. All words are two's complement, modulo their width.
 `include "fault.svh"
 
 module fastsplat_ellipse_setup (

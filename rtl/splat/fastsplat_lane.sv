@@ -1,7 +1,7 @@
-// One lane of the splat array: q, radial table, four products (docs/numerics.md, sections 4 and 5; cmodel/splat/footprint.hpp,
-// cmodel/splat/lane.hpp).
-// Registers: c4 (q), c5 (table read), c6 (products); with interpolation two more behind c5. Outputs belong to the inputs of three
-// cycles before, or five, and hold while no window is in the stage before.
+// One lane of the splat array: q, radial table, four products (docs/numerics.md, sections 4 and 5;
+// cmodel/splat/footprint.hpp, cmodel/splat/lane.hpp).
+// Registers: c4 (q), c5 (table read), c6 (products); with interpolation two more behind c5. Outputs follow their inputs
+// by three cycles, or five, and hold while the stage before has no window.
 `include "fault.svh"
 `include "narrow.svh"
 
@@ -34,21 +34,21 @@ module fastsplat_lane (
   localparam int LAST = 5 + fastsplat_pkg::WEIGHT_DELAY;  // the stage that holds the weight
   `FASTSPLAT_NARROW(narrow_product, CB + WB, SB, PRODUCT)
 
-  // c4: the rim and everything beyond read as weight 0
+  // c4: the edge of the support and everything beyond read as weight 0
   logic [QW-1:0] q;
   logic [fastsplat_pkg::RADIAL_LOG2-1:0] index_q;
   logic outside_q, outside_q2;
   assign q = {1'b0, column_i} + {1'b0, row_i};
   logic [fastsplat_pkg::RADIAL_LOG2-1:0] ellipse_index;
   logic ellipse_outside;
-  logic [(GB>0?GB:1)-1:0] ellipse_rest;  // of q below the index
+  logic [(GB>0?GB:1)-1:0] ellipse_rest;  // bits of q below the index
   if (fastsplat_pkg::ELLIPSES != 0) begin : gen_ellipse
     localparam int QB = fastsplat_pkg::ELLIPSE_BITS;
     localparam int BELOW = fastsplat_pkg::GUARD + fastsplat_pkg::ELLIPSE_FRAC;
     logic [QB-1:0] sum;
     logic below;
     assign sum = ellipse_column_i + ellipse_row_i + ellipse_cross_i;
-    // A centre may come out a little below 0.
+    // q at a centre may be slightly below 0.
     assign below = sum[QB-1] && !`FASTSPLAT_FAULT(ELLIPSE_BELOW);
     assign ellipse_index = below ? '0 : sum[BELOW+:fastsplat_pkg::RADIAL_LOG2];
     assign ellipse_outside = !below && sum[QB-2:BELOW+fastsplat_pkg::RADIAL_LOG2] != '0;
@@ -90,7 +90,7 @@ module fastsplat_lane (
       .wdata_i
   );
 
-  // i1: what the entries differ by, times the rest; i2: the weight, on the line between them (numerics.md, section 4.7).
+  // i1: difference of the entries times the rest; i2: the interpolated weight (docs/numerics.md, N-4.7-3).
   if (fastsplat_pkg::INTERPOLATE != 0) begin : gen_line
     localparam int FALL = WB + 1 + GB + 1;  // of the product, two's complement
     localparam int SHIFT = fastsplat_pkg::SHIFT_RADIAL_FALL;

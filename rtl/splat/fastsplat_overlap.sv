@@ -1,6 +1,6 @@
-// Whether the first window of a record that just came into decode's register lies over the window that was issued in the cycle before:
-// |dx| < P and |dy| < P of their first pixels (docs/microarchitecture.md, "Hazard"). The record is snapped on its way into the
-// register, so that a subtraction is all that the handshake waits for.
+// Whether the first window of a record just taken into decode's register lies over the window issued in the cycle
+// before: |dx| < P and |dy| < P of their first pixels (docs/microarchitecture.md, M-hazard-3). The record is snapped on
+// its way into the register, so the handshake only waits for a subtraction.
 `include "fault.svh"
 
 module fastsplat_overlap (
@@ -51,7 +51,7 @@ module fastsplat_overlap (
     assign unused_shape = &{1'b0, ellipse_i, left_i, top_i};
   end
 
-  // and later; window of the cycle before
+  // first pixel now and in later cycles; window of the cycle before
   logic signed [ORG-1:0] x_here, y_here, x_held_q, y_held_q, x_last_q, y_last_q;
   assign x_here = fresh_q ? x : x_held_q;
   assign y_here = fresh_q ? y : y_held_q;

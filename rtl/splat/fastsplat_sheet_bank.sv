@@ -1,10 +1,10 @@
 // One bank of the sheet buffer: two memories, read-modify-write at one word a cycle with forwarding, whatever the
-// addresses; the compositor reads and clears the other memory meanwhile (docs/numerics.md, section 5;
+// addresses. The compositor reads and clears the other memory meanwhile (docs/numerics.md, section 5;
 // cmodel/splat/sheet_buffer.hpp).
 //
-// Splat side: A (c6: read issued) -> B (c7: base chosen) -> C (c8: sum) -> W (c9: written). A word needed again 1, 2 or 3
-// cycles later is not in the memory yet: distance 1 is forwarded into C, distances 2 (in W) and 3 (just written; the
-// read met the write) into B.
+// Splat side: A (c6: read issued) -> B (c7: base chosen) -> C (c8: sum) -> W (c9: written). A word needed again 1, 2 or
+// 3 cycles later is not in the memory yet. Distance 1 is forwarded into C, distances 2 (in W) and 3 (just written; the
+// read met the write) into B (M-forward-2).
 `include "assertions.svh"
 `include "fault.svh"
 `include "narrow.svh"

@@ -1,5 +1,5 @@
-// Unit "snap", one axis: centre onto the 1/k grid, window origin and phase (docs/numerics.md, section 3; cmodel/splat/snap.hpp).
-// One register: outputs belong to the inputs of the cycle before.
+// Unit "snap", one axis: centre onto the 1/k grid, window origin and phase (docs/numerics.md, section 3;
+// cmodel/splat/snap.hpp). One register: outputs belong to the inputs of the cycle before.
 `include "fault.svh"
 
 module fastsplat_snap (

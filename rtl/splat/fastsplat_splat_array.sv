@@ -1,6 +1,6 @@
 // The splat path: one window a cycle, always moving (docs/microarchitecture.md, "Splat path").
-// c0 window in -> c1 snapped -> c2 RLUT words -> c3 bank order -> c4 q -> c5 weight -> c6 products = A -> B -> C -> W. With
-// interpolated weights i1 and i2 lie between c5 and c6.
+// c0 window in -> c1 snapped -> c2 RLUT words -> c3 bank order -> c4 q -> c5 weight -> c6 products = A -> B -> C -> W.
+// With interpolated weights i1 and i2 lie between c5 and c6.
 `include "assertions.svh"
 `include "fault.svh"
 
@@ -18,7 +18,7 @@ module fastsplat_splat_array (
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]             width_i,
     input  logic [fastsplat_pkg::SIDE_BITS-1:0]             height_i,
     input  logic                                            every_sample_i,  // windows are composited, not summed up
-    input  logic                                            densities_i,     // sheets have a rim of a pixel
+    input  logic                                            densities_i,     // sheets have a halo of one pixel
     // c0
     input  logic                                            valid_i,     // a window
     input  logic                                            last_i,      // an end-of-sheet token; needs no window
@@ -74,7 +74,7 @@ module fastsplat_splat_array (
     output logic [fastsplat_pkg::BANKS*fastsplat_pkg::WEIGHT_BITS-1:0] tap_weights_o,  // by bank
     output logic [fastsplat_pkg::LANES-1:0]                 tap_inside_x_o,        // by bank column and row, c6
     output logic [fastsplat_pkg::LANES-1:0]                 tap_inside_y_o,
-    output logic [fastsplat_pkg::BANKS-1:0]                 tap_weighted_o,        // inside and of weight, by bank, c6
+    output logic [fastsplat_pkg::BANKS-1:0]                 tap_weighted_o,        // inside, weight > 0, by bank, c6
     output logic [4*fastsplat_pkg::BANKS-1:0]               tap_product_saturated_o,  // weighted, by bank and channel, c6
     output logic                                            tap_sheet_valid_o,     // W
     output logic [31:0]                                     tap_sheet_tag_o,
@@ -91,12 +91,12 @@ module fastsplat_splat_array (
   localparam int ORG = fastsplat_pkg::ORG_BITS;
   localparam int COL = fastsplat_pkg::COL_BITS;
   localparam int QB = fastsplat_pkg::ELLIPSE_BITS;
-  // Numbers of stages: of the weight, of the products, and of W.
+  // Numbers of the stages of the weight, of the products, and of W.
   localparam int WEIGHT = 5 + fastsplat_pkg::WEIGHT_DELAY;
   localparam int PRODUCTS = WEIGHT + 1;
   localparam int WRITTEN = PRODUCTS + 3;
 
-  // Radial table: where weights lie between entries word j closes step j-1.
+  // Radial table: with interpolation word j closes step j-1 (M-weights-2).
   logic radial_we;
   logic [fastsplat_pkg::RADIAL_LOG2-1:0] radial_waddr;
   logic [fastsplat_pkg::RADIAL_BITS-1:0] radial_word;
@@ -114,7 +114,7 @@ module fastsplat_splat_array (
     assign unused_index = &{1'b0, radial_waddr_i[fastsplat_pkg::RADIAL_LOG2]};
   end
 
-  // c0, later by what an ellipse's words take.
+  // c0, delayed by the ellipse unit's latency.
   logic valid, last, first_window, buffer, ellipse;
   logic [31:0] tag;
   logic signed [fastsplat_pkg::POS_BITS-1:0] x, y;
@@ -135,7 +135,7 @@ module fastsplat_splat_array (
       .data_o({first_window, buffer, ellipse, tag, x, y, rho, base, column, row, colour})
   );
 
-  // What rides along: index = stage (1..9, more with interpolation).
+  // Carried along: index = stage (1..9, more with interpolation).
   logic [WRITTEN:1] valid_q, last_q, buffer_q;
   logic first_c1_q;
   logic [31:0] tag_q[1:WRITTEN];
@@ -150,7 +150,7 @@ module fastsplat_splat_array (
   fastsplat_snap u_snap_x (.clk_i, .centre_i(x), .rho_i(rho), .column_i(column[COL-1:0]), .origin_o(circle_x), .phase_o(mx_c1), .saturated_o(saturated_x));
   fastsplat_snap u_snap_y (.clk_i, .centre_i(y), .rho_i(rho), .column_i(row[COL-1:0]), .origin_o(circle_y), .phase_o(my_c1), .saturated_o(saturated_y));
 
-  // An ellipse's own way to c1 and c3.
+  // An ellipse's own path to c1 and c3.
   logic ellipse_c1, ellipse_c3;
   logic [fastsplat_pkg::WAY_BITS-1:0] way_x_c1, way_y_c1;
   logic [2*P*QB-1:0] ellipse_columns, ellipse_rows;
@@ -232,7 +232,7 @@ module fastsplat_splat_array (
       .words_o(rlut_y)
   );
 
-  // c3. A rim moves windows a pixel to the right and down, and what counts as inside is two pixels longer.
+  // c3. A halo moves windows one pixel right and down, and the inside is two pixels longer (M-density-3).
   localparam int SIDE = fastsplat_pkg::SIDE_BITS;
   logic [SIDE-1:0] held_width, held_height;
   logic signed [ORG-1:0] held_x, held_y;
@@ -273,7 +273,7 @@ module fastsplat_splat_array (
       .inside_o(inside_y_c3)
   );
 
-  logic summing;  // into sheets
+  logic summing;  // windows go into sheets
   assign summing = fastsplat_pkg::EVERY_SAMPLE == 0 || !every_sample_i;
   assign dirty_valid_o = valid_q[3] && summing;
   assign dirty_buffer_o = buffer_q[3];
@@ -307,7 +307,7 @@ module fastsplat_splat_array (
       localparam int B = h * P + g;
       logic [4*SB-1:0] products;
       logic [3:0] saturated;
-      // Lanes outside the tile work, too, but count nothing.
+      // Lanes outside the tile work, too, but are not counted.
       assign tap_weighted_o[B] = inside_x_q[PRODUCTS][g] && inside_y_q[PRODUCTS][h] && weights[B] != '0;
       assign tap_product_saturated_o[4*B+:4] = tap_weighted_o[B] ? saturated : '0;
       fastsplat_lane u_lane (
@@ -380,7 +380,7 @@ module fastsplat_splat_array (
 
   assign tap_snap_valid_o = valid_q[1] && first_c1_q;
   assign tap_snap_tag_o = tag_q[1];
-  // A splat's first pixel, which is that of its first window unless that one is hidden.
+  // A splat's first pixel: that of its first window unless that window is hidden.
   if (fastsplat_pkg::CULL_MAP != 0) begin : gen_corner
     logic signed [ORG-1:0] column_q, row_q;
     always_ff @(posedge clk_i) begin
@@ -412,7 +412,7 @@ module fastsplat_splat_array (
       if (tap_sheet_valid_o) tap_sums_o[b*4*SB+:4*SB] = sums[b];
     end
   end
-  // The compositor reads and clears a memory that no window is on its way to: A to W.
+  // The compositor never reads or clears a memory that a window is about to write (A to W).
   for (genvar s = PRODUCTS; s <= WRITTEN; s++) begin : gen_owner
     `FASTSPLAT_ASSERT(sheet_has_one_owner, !(comp_re_i && valid_q[s] && summing && buffer_q[s] == comp_buffer_i))
   end

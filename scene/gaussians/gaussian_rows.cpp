@@ -16,7 +16,7 @@ std::string fault_of_rotation(const glm::dvec4& rotation) {
   return length > 0.0 && std::isfinite(length) ? "" : "rotation (rot_0 to rot_3) is zero or too large";
 }
 
-/// The name of channel `c` of harmonic `i`, of `count` a channel.
+/// Name of the property for channel `c` of harmonic `i`; a channel has `count` harmonics.
 std::string harmonic_name(std::size_t i, int c, std::size_t count) {
   return i == 0 ? fmt::format("f_dc_{}", c)
                 : fmt::format("f_rest_{}", static_cast<std::size_t>(c) * (count - 1) + i - 1);

@@ -10,7 +10,7 @@
 namespace fastsplat::scene {
 namespace {
 
-/// A turn, no mirror, after which `up` is z.
+/// A rotation, without mirroring, after which `up` is z.
 glm::dmat3 turn_of(UpAxis up) {
   const auto rows = [](const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z) {
     return glm::transpose(glm::dmat3(x, y, z));
@@ -32,7 +32,7 @@ glm::dmat3 turn_of(UpAxis up) {
   return glm::dmat3(1.0);
 }
 
-/// The value that `share` of the others do not exceed.
+/// The value that `share` of the values do not exceed.
 double quantile(std::vector<double>& values, double share) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());

@@ -17,7 +17,7 @@ struct GaussianDescription {
   int width = 512, height = 512;
   UpAxis up = UpAxis::MinusY;
   double low_pass = 0.3;  ///< square pixels added to each projected variance, 0.01..100
-  double cutoff = 3.0;    ///< standard deviations to where a footprint reaches, 1..4
+  double cutoff = 3.0;    ///< reach of a footprint, standard deviations, 1..4
 };
 
 /// World: the file's axes turned so that `up` is z, its origin in the scene's middle.
@@ -26,11 +26,11 @@ struct GaussianScene {
   std::shared_ptr<const GaussianCloud> cloud;
   glm::dmat3 turn;      ///< from the file's axes
   glm::dvec3 middle;    ///< in the file's axes: medians of the positions
-  double radius = 1.0;  ///< of the sphere about it that 95 of 100 Gaussians lie in, with their cutoff
+  double radius = 1.0;  ///< of the sphere about it that holds 95 % of the Gaussians with their cutoff
   Camera camera;        ///< zoom 1 fits that sphere
 };
 
-/// Throws UserError (Usage) where the description's limits do not hold.
+/// Throws UserError (Usage) if the description exceeds its limits.
 GaussianScene build_gaussian_scene(const GaussianDescription& description, std::shared_ptr<const GaussianCloud> cloud);
 
 }  // namespace fastsplat::scene

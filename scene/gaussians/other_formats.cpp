@@ -18,7 +18,7 @@
 namespace fastsplat::scene {
 namespace {
 
-/// What a file is, and how a .ply is made of it; in the fix {0} stands for its name, {1} for the name of the .ply.
+/// A foreign format and how to convert it to .ply. In `fix`, {0} is the file's name and {1} that of the .ply.
 struct Format {
   const char* ending;
   const char* what;
@@ -48,7 +48,7 @@ std::uint32_t head_word(std::string_view bytes, std::size_t at) {
   return word;
 }
 
-/// The first bytes behind gzip.
+/// The first bytes of a gzip file, unpacked.
 std::string unpacked_head(std::string_view head) {
   std::string packed(head), out(16, '\0');
   z_stream stream{};
@@ -63,7 +63,7 @@ std::string unpacked_head(std::string_view head) {
   return out;
 }
 
-/// The header of a .ksplat: version 0.x, sections and Gaussians no more than there is room for, and a level of 0..2.
+/// Whether the head is that of a .ksplat: version 0.x, sections and Gaussians within their declared maxima, level 0..2.
 bool is_ksplat(std::string_view head) {
   constexpr std::size_t kHeader = 4096;
   if (head.size() < kHeader || head[0] != 0 || head[1] < 1) return false;
@@ -73,12 +73,12 @@ bool is_ksplat(std::string_view head) {
          level <= 2;
 }
 
-/// The ending that a file's content asks for, or none.
+/// The ending that matches a file's content, or nullptr.
 const char* ending_by_content(std::string_view head, const std::string& ending) {
   if (head.starts_with("NGSP")) return ".spz";
   if (head.starts_with("\x1f\x8b")) return unpacked_head(head).starts_with("NGSP") ? ".spz" : ".gz";
   if (head.starts_with("PK\x03\x04")) {
-    // A .sog names its pictures and meta.json; others are known by their endings alone.
+    // A .sog archive names pictures and meta.json; other archives are recognised by their endings alone.
     if (head.find("meta.json") != head.npos || head.find(".webp") != head.npos) return ".sog";
     return std::ranges::find(kFormats, ending, &Format::ending) == kFormats.end() ? ".zip" : nullptr;
   }
@@ -107,7 +107,7 @@ bool looks_like_splat(std::string_view head) {
       const std::uint32_t word = head_word(head, at + 4 * i);
       float value = 0.0F;
       std::memcpy(&value, &word, sizeof value);
-      // Positions and deviations of a scene; numbers that are tiny and not 0 are other data.
+      // Plausible positions and deviations; tiny nonzero numbers mean other data.
       const float size = std::abs(value);
       if (!(size == 0.0F || (size > 1e-12F && size < 1e6F)) || (i >= 3 && value < 0.0F)) return false;
     }
@@ -127,7 +127,7 @@ void refuse_other_formats(const std::filesystem::path& path, std::string_view he
   const auto* const format = std::ranges::find(kFormats, content != nullptr ? std::string_view(content) : ending,
                                                [](const Format& one) { return std::string_view(one.ending); });
   if (format != kFormats.end()) {
-    // Converters know a file by its ending.
+    // Converters recognise a file by its ending.
     std::filesystem::path named = path, made = path;
     named.replace_extension(format->ending), made.replace_extension(".ply");
     const bool misnamed = ending != format->ending && std::string_view(format->fix).find("{0}") != std::string::npos;

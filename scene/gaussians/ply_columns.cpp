@@ -17,14 +17,14 @@ bool any_named(const PlyElement& vertices, std::string_view start) {
   return std::ranges::any_of(vertices.properties, [&](const auto& one) { return one.name.starts_with(start); });
 }
 
-/// At most eight names, and how many others.
+/// At most eight names, and the number of others.
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t kShown = 8;
   if (names.size() <= kShown) return fmt::format("{}", fmt::join(names, " "));
   return fmt::format("{} and {} others", fmt::join(names.begin(), names.begin() + kShown, " "), names.size() - kShown);
 }
 
-/// Vertices with every property of a Gaussian that are something else all the same.
+/// Refuses vertices that have all properties of a Gaussian but are something else.
 void refuse_other_kinds(const PlyElement& vertices, const std::string& where) {
   const auto refuse = [&](const char* what, const char* got, const char* fix) {
     throw_input(
@@ -112,7 +112,7 @@ void PlyColumns::find_unused(const PlyElement& vertices) {
   used[opacity_] = true;
   for (const auto& i : {scale_[0], scale_[1], scale_[2], filter_})
     if (i) used[*i] = true;
-  // Normals say nothing of a Gaussian; colours beside harmonics are the same ones, rounded.
+  // Normals do not describe a Gaussian; colours beside harmonics repeat them, rounded.
   for (const char* harmless : {"nx", "ny", "nz", "red", "green", "blue"})
     if (const auto i = vertices.find(harmless)) used[*i] = true;
   std::vector<std::string> names;
@@ -131,7 +131,7 @@ std::vector<std::string> PlyColumns::remarks() const {
 }
 
 void PlyColumns::read(std::span<const double> row, GaussianRows& to) {
-  constexpr double kDisc = 1e-6;  // the thickness of 2-D Gaussians, which have none
+  constexpr double kDisc = 1e-6;  // thickness given to 2-D Gaussians
   Gaussian one;
   glm::dvec4 rotation;
   double opacity = 1.0 / (1.0 + std::exp(-row[opacity_]));
@@ -143,7 +143,7 @@ void PlyColumns::read(std::span<const double> row, GaussianRows& to) {
     one.position[i] = static_cast<float>(row[position_[at]]);
     double scale = scale_[at] ? std::exp(row[*scale_[at]]) : kDisc;
     if (filter != 0.0) {
-      // Smoothed by a Gaussian of this deviation, and as much fainter as it is larger.
+      // Smoothed by a Gaussian of this deviation, and dimmed in proportion.
       const double smoothed = std::hypot(scale, filter);
       opacity *= scale / smoothed;
       scale = smoothed;
@@ -168,7 +168,7 @@ void PlyColumns::read(std::span<const double> row, GaussianRows& to) {
     constant = (constant / white_ - 0.5) / kConstantHarmonic;
   }
   harmonics_.emplace_back(constant);
-  const std::size_t each = rest_.size() / 3;  // of a channel
+  const std::size_t each = rest_.size() / 3;  // per channel
   for (std::size_t i = 0; i < each; ++i)
     harmonics_.emplace_back(row[rest_[i]], row[rest_[each + i]], row[rest_[2 * each + i]]);
   to.add(one, rotation, harmonics_);

@@ -35,9 +35,9 @@ class PlyColumns {
   std::size_t opacity_ = 0;
   std::optional<std::size_t> filter_{};  ///< the deviation of Mip-Splatting's smoothing filter
   std::vector<std::size_t> rest_{};      ///< f_rest_0 ..
-  double white_ = 0.0;                   ///< red, green and blue of 1; 0: constant_ are harmonics
+  double white_ = 0.0;                   ///< value of red, green and blue that means 1; 0: constant_ are harmonics
   int degree_ = 0;
-  bool encoded_ = false;  ///< some scale is below 0 or some opacity beyond 0..1: they are logarithms and logits
+  bool encoded_ = false;  ///< some scale is not above 0 or some opacity not in 0..1: they are logarithms and logits
   std::vector<std::string> remarks_{};
   std::vector<glm::vec3> harmonics_{};  ///< harmonics of the current row
 };

@@ -44,7 +44,7 @@ void read_vertices(const PlyElement& element, PlyRows& rows, const std::string& 
   to.remarks.insert(to.remarks.end(), remarks.begin(), remarks.end());
 }
 
-/// The colour space that SHARP writes behind its Gaussians: 0 is sRGB, 1 linear light.
+/// The colour space that SHARP writes after its Gaussians: 0 is sRGB, 1 linear light.
 void read_colour_space(const PlyElement& element, PlyRows& rows, GaussianCloud& to) {
   rows.require(element);
   std::vector<double> row(element.properties.size());
@@ -55,7 +55,7 @@ void read_colour_space(const PlyElement& element, PlyRows& rows, GaussianCloud& 
     to.remarks.push_back(fmt::format("unknown colour space {:g}: colours are read as sRGB", row[0]));
 }
 
-/// Reads the vertices and passes over other elements. False behind a list, whose end only its data say.
+/// Reads the vertices and skips other elements. Returns false at a list, whose length is only in its data.
 bool read_elements(const PlyHeader& header, PlyRows& rows, const std::string& where, GaussianCloud& to) {
   bool read = false, moves = false;
   for (const PlyElement& element : header.elements) {
@@ -77,7 +77,7 @@ bool read_elements(const PlyHeader& header, PlyRows& rows, const std::string& wh
   return true;
 }
 
-/// The properties in the order that trainers write them.
+/// The properties in the order in which trainers write them.
 std::vector<std::string> written_names(int degree) {
   std::vector<std::string> names{"x", "y", "z", "nx", "ny", "nz", "f_dc_0", "f_dc_1", "f_dc_2"};
   for (int i = 0; i < 3 * (harmonic_count(degree) - 1); ++i) names.push_back(fmt::format("f_rest_{}", i));

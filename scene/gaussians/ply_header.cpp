@@ -45,7 +45,7 @@ std::vector<std::string> words_of(std::string_view line) {
   return words;
 }
 
-/// Line after line of a header.
+/// Reads a header line by line.
 class Lines {
  public:
   Lines(std::string_view text, const std::string& where) : text_(text), where_(where) {}
@@ -53,7 +53,7 @@ class Lines {
   std::size_t number() const { return number_; }
   std::string here() const { return fmt::format("{}:{}", where_, number_); }
 
-  /// The words of the next line. Comments are kept aside.
+  /// The words of the next line. Collects comments separately.
   std::vector<std::string> next() {
     while (true) {
       const std::string_view line = next_line();

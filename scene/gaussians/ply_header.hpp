@@ -30,7 +30,7 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::Ascii;
   std::vector<PlyElement> elements;
-  std::vector<std::string> comments;  ///< and obj_info, without that word
+  std::vector<std::string> comments;  ///< text of comment and obj_info lines
   std::size_t size = 0;               ///< bytes, to the end of the line end_header
   std::size_t lines = 0;              ///< of the header
 

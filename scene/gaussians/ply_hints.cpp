@@ -16,12 +16,12 @@ namespace {
 
 bool has(std::string_view text, std::string_view part) { return text.find(part) != text.npos; }
 
-/// "Vertical Axis: z" as the key verticalaxis and the value z; without a colon or equals sign the first word is the
+/// "Vertical Axis: z" as the key verticalaxis and the value z. Without a colon or equals sign the first word is the
 /// key.
 struct Hint {
-  std::string key{}, value{};  ///< lower case; of the key letters only
-  std::string text{};          ///< as it stands in the file
-  bool marked = false;         ///< by a colon or an equals sign: no free text
+  std::string key{}, value{};  ///< lower case; the key keeps only letters
+  std::string text{};          ///< as in the file
+  bool marked = false;         ///< has a colon or an equals sign, so it is not free text
 };
 
 Hint hint_of(const std::string& text) {
@@ -40,7 +40,7 @@ bool is_one_of(const std::string& word, std::initializer_list<std::string_view> 
   return std::ranges::find(words, word) != words.end();
 }
 
-/// Three numbers: the axis that they lie along, and whether they lie exactly along it.
+/// A direction of three numbers: the nearest axis, and whether it lies exactly along it.
 struct Direction {
   UpAxis nearest = UpAxis::Z;
   bool exact = true;
@@ -65,7 +65,7 @@ std::optional<Direction> direction_of(const std::string& text) {
   return Direction{static_cast<UpAxis>(axis + (*longest < 0.0 ? 3 : 0)), exact};
 }
 
-/// x, +y, -z, and with "up" behind it.
+/// x, +y, -z, also followed by "up".
 std::optional<UpAxis> axis_named(std::string text) {
   if (text.ends_with("up")) text.erase(text.find_last_not_of(" -_", text.size() - 3) + 1);
   if (text.starts_with('+')) text.erase(0, 1);
@@ -101,7 +101,7 @@ class Reader {
   }
   void up(const Hint& hint) {
     auto axis = axis_named(hint.value);
-    // Brush names the vertical axis of frames whose y points down, and then not which way is up.
+    // Brush names only the vertical axis, not its sign, and its frames have y pointing down.
     if (brush_ && axis == UpAxis::Y) axis = UpAxis::MinusY;
     if (const auto direction = direction_of(hint.value); !axis && direction) {
       axis = direction->nearest;

@@ -17,8 +17,8 @@ struct PlyHints {
   std::vector<std::string> remarks{};        ///< unsupported declarations, a sentence each
 };
 
-/// `comments`: the text after the words `comment` and `obj_info`, in the file's order. Of two comments with the same
-/// key the last one counts. Comments with other keys are free text and are ignored without a remark.
+/// `comments`: the text after the words `comment` and `obj_info`, in the file's order. If two comments have the same
+/// key, the last one counts. Comments with other keys are free text and are ignored without a remark.
 PlyHints hints_of(std::span<const std::string> comments);
 
 }  // namespace fastsplat::scene

@@ -24,7 +24,7 @@ constexpr std::size_t kChunk = 256;  // Gaussians
                .fix = "write it again or as an uncompressed .ply"});
 }
 
-/// Where the properties stand in a row.
+/// Positions of the properties in a row.
 template <std::size_t kCount>
 std::array<std::size_t, kCount> places(const PlyElement& element, const std::array<const char*, kCount>& names,
                                        const std::string& where) {
@@ -37,7 +37,7 @@ std::array<std::size_t, kCount> places(const PlyElement& element, const std::arr
   return out;
 }
 
-/// The bounds that the Gaussians of a chunk lie between.
+/// Bounds of the Gaussians of a chunk.
 struct Bounds {
   glm::dvec3 low{0.0}, high{1.0};
   glm::dvec3 between(const glm::dvec3& share) const { return low * (1.0 - share) + high * share; }
@@ -69,7 +69,7 @@ std::vector<Chunk> chunks_of(const PlyElement& element, PlyRows& rows, const std
   return out;
 }
 
-/// `bits` bits of a word as a share of 0..1.
+/// `bits` bits of a word as a fraction of 0..1.
 double share_of(std::uint32_t word, unsigned shift, unsigned bits) {
   const std::uint32_t most = (1U << bits) - 1U;
   return static_cast<double>((word >> shift) & most) / most;
@@ -78,7 +78,7 @@ glm::dvec3 shares_11_10_11(std::uint32_t word) {
   return {share_of(word, 21, 11), share_of(word, 11, 10), share_of(word, 0, 11)};
 }
 
-/// Three components of w, x, y, z within +-1/sqrt(2), in 10 bits each; the first two bits say which one is left out.
+/// Three components of w, x, y, z within +-1/sqrt(2), in 10 bits each; the top two bits select the omitted one.
 glm::dvec4 rotation_of(std::uint32_t word) {
   glm::dvec4 out(0.0);
   const auto largest = static_cast<int>(word >> 30U);
@@ -94,7 +94,7 @@ glm::dvec4 rotation_of(std::uint32_t word) {
   return out;
 }
 
-/// Between -4 and 4: 0 and 255 are the ends, the others the middles of 256 steps.
+/// Maps a byte to -4..4: 0 and 255 are the ends, the others the middles of 256 steps.
 double harmonic_of(double byte) {
   return 8.0 * (byte == 0.0 ? -0.5 : byte == 255.0 ? 0.5 : (byte + 0.5) / 256.0 - 0.5);
 }

@@ -29,7 +29,7 @@ double value_of(const char* bytes, bool swap) {
 
 void PlyRows::require(const PlyElement& element) const {
   const std::uint64_t left = text_.size() - at_;
-  // Of ascii at least a digit and a blank a number; the very last blank may be missing.
+  // Ascii needs at least a digit and a blank per number; the last blank may be missing.
   const bool ascii = header_.format == PlyFormat::Ascii;
   const std::uint64_t row = ascii ? 2 * element.properties.size() : element.row_bytes();
   if (row == 0 || element.count <= (left + (ascii ? 1 : 0)) / row) return;
@@ -48,7 +48,7 @@ void PlyRows::skip(const PlyElement& element) {
     return;
   }
   std::vector<double> row(element.properties.size());
-  if (row.empty()) return;  // any number of rows, and nothing in them
+  if (row.empty()) return;  // rows without properties have no data
   for (std::uint64_t i = 0; i < element.count; ++i) read(element, i, row);
 }
 
@@ -106,7 +106,7 @@ double PlyRows::word(const PlyElement& element, std::uint64_t number) {
                  .fix = "the file is damaged: write or download it again"});
   }
   at_ += text.size();
-  // Too large for a double, or too small: said by whoever asks for finite numbers, or as good as 0.
+  // Outside a double's range, too large or too small: infinity, which callers that need finite numbers reject.
   return error == std::errc::result_out_of_range ? std::numeric_limits<double>::infinity() : value;
 }
 

@@ -8,8 +8,8 @@
 namespace fastsplat::scene {
 namespace {
 
-/// Beyond this many half pictures off the axis the projection is linearised where it is there: farther out a tangent
-/// plane says nothing, and footprints would grow without end.
+/// Largest distance from the axis, in half pictures, at which the projection is linearised. Farther out the
+/// linearisation is useless and footprints would grow without bound.
 constexpr double kWidest = 1.3;
 
 glm::dvec3 world_position(const GaussianScene& scene, const Gaussian& gaussian) {
@@ -21,7 +21,7 @@ glm::dmat3 view_of(const Camera& camera) {
   return glm::transpose(glm::dmat3(camera.right(), camera.down(), camera.direction()));
 }
 
-/// J Sigma_view J^T of the upper two rows of J.
+/// J Sigma_view J^T for the upper two rows of J.
 ScreenShape squeezed(const glm::dmat3& sigma, const glm::dvec3& row_x, const glm::dvec3& row_y) {
   return {glm::dot(row_x, sigma * row_x), glm::dot(row_x, sigma * row_y), glm::dot(row_y, sigma * row_y)};
 }
@@ -64,7 +64,7 @@ bool project(const GaussianScene& scene, std::uint32_t number, ProjectedGaussian
   shape.yy += scene.description.low_pass;
   const double dimmed = scene.cloud->antialiased ? std::sqrt(unfiltered / shape.determinant()) : 1.0;
 
-  // From the eye to the Gaussian, in the file's axes: what its harmonics are of.
+  // From the eye to the Gaussian, in the file's axes: the argument of its harmonics.
   const glm::dvec3 from_eye =
       perspective ? glm::normalize(world + camera.eye_distance() * camera.direction()) : camera.direction();
   out = {.number = number,
@@ -98,7 +98,7 @@ std::vector<ProjectedGaussian> project_all(const GaussianScene& scene, Projectio
 double depth_of_maximum(const GaussianScene& scene, const ProjectedGaussian& splat, double x, double y) {
   const Gaussian& gaussian = scene.cloud->gaussians[splat.number];
   const Ray ray = scene.camera.ray(x, y);
-  // In the Gaussian's own axes, each divided by its deviation: the nearest point of a line to the origin.
+  // In the Gaussian's own axes, each divided by its deviation, this is the point of the line nearest to the origin.
   const glm::dmat3 to_own = glm::transpose(scene.turn * axes_of(gaussian));
   glm::dvec3 way = to_own * ray.direction, start = to_own * (world_position(scene, gaussian) - ray.origin);
   constexpr double kFlattest = 1e-3;

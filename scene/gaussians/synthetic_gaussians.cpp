@@ -35,17 +35,17 @@ class Random {
   std::uint64_t state_;
 };
 
-/// w, x, y, z of the shortest turn that takes z to `direction`.
+/// Quaternion (w, x, y, z) of the shortest rotation that takes z to `direction`.
 glm::vec4 turn_to(const glm::dvec3& direction) {
   const glm::dvec4 q(1.0 + direction.z, -direction.y, direction.x, 0.0);
   const double length = glm::length(q);
   return length < 1e-9 ? glm::vec4(0.0F, 1.0F, 0.0F, 0.0F) : glm::vec4(q / length);
 }
 
-/// Of a colour 0..1 as it is seen on average.
+/// Constant coefficient for a mean colour of 0..1.
 glm::vec3 constant_of(const glm::dvec3& colour) { return (colour - glm::dvec3(0.5)) / kConstantHarmonic; }
 
-/// Colours from the normal; each is brighter seen along its normal, so harmonics of every degree are not 0.
+/// Colours from the normal; each is brighter along its normal, so that harmonics of every degree are nonzero.
 void append_shell_colour(const glm::dvec3& normal, int shell, std::vector<glm::vec3>& to) {
   constexpr std::array<std::array<double, 3>, 3> kTints{{{0.95, 0.35, 0.2}, {0.3, 0.75, 0.4}, {0.3, 0.45, 0.95}}};
   const auto& tint = kTints[static_cast<std::size_t>(shell)];
@@ -109,7 +109,7 @@ void cloud_of(int count, GaussianCloud& cloud) {
     cloud.harmonics.push_back(
         constant_of({random.between(0.1, 0.9), random.between(0.1, 0.9), random.between(0.1, 0.9)}));
     for (int k = 1; k < 4; ++k) {
-      // Blue first: as the arguments of one call were evaluated when the hashes were recorded.
+      // Blue first: the order in which the recorded hashes were computed.
       glm::dvec3 one_of_degree;
       for (int c = 2; c >= 0; --c) one_of_degree[c] = random.between(-0.1, 0.1);
       cloud.harmonics.emplace_back(one_of_degree);

@@ -17,7 +17,7 @@
 namespace fastsplat::volume {
 namespace {
 
-constexpr int kGzipWindow = 16 + MAX_WBITS;    // zlib's way to say: gzip header and checksum
+constexpr int kGzipWindow = 16 + MAX_WBITS;    // zlib's code for gzip header and checksum
 constexpr int kEitherWindow = 32 + MAX_WBITS;  // gzip or zlib, whichever the data begins with
 constexpr std::size_t kChunk = std::size_t{1} << 17;
 
@@ -59,8 +59,7 @@ namespace {
 
 using Unpacker = ByteReader::Unpacker;
 
-/// What zlib and bzip2 have in common: their C interfaces differ in names only. `Codec` holds the stream and says how
-/// to go on.
+/// Common part of zlib and bzip2, whose C interfaces differ only in names. `Codec` holds the stream and advances it.
 template <class Codec>
 class Unpacked : public Unpacker {
  public:
@@ -158,7 +157,7 @@ struct Bunzip2 {
   bool magic_missing_ = false;
 };
 
-/// Two digits a byte; blanks and line ends anywhere between.
+/// Two digits per byte, with blanks and line ends anywhere between.
 class HexDigits : public Unpacker {
  public:
   explicit HexDigits(PlainFile file) : Unpacker(std::move(file)), text_(kChunk) {}
@@ -176,7 +175,7 @@ class HexDigits : public Unpacker {
   }
 
  private:
-  /// -1 at the end.
+  /// Returns -1 at the end.
   int digit() {
     for (;; ++at_) {
       if (at_ == end_) {

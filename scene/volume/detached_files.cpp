@@ -38,7 +38,7 @@ fs::path file_beside(const TextHeader& header, int line, const std::string& text
   return data;
 }
 
-/// `before%05dafter` in its parts. No std::regex: it recurses over every character, and a line has up to a megabyte.
+/// The parts of `before%05dafter`. No std::regex: it recurses per character, and a line has up to a megabyte.
 struct Numbered {
   std::string_view before, after;
   int width = 0;
@@ -61,12 +61,13 @@ std::optional<Numbered> numbered_name(std::string_view name) {
   return parts;
 }
 
-/// The names that `PATTERN MIN MAX STEP [DIMENSION]` stands for; nothing where `text` is not of that form.
+/// The names that `PATTERN MIN MAX STEP [DIMENSION]` stands for; nullopt if `text` is not of that form.
 std::optional<std::vector<std::string>> names_of_pattern(const TextHeader& header, int line, const std::string& text) {
   const std::vector<std::string> words = words_of(text);
   if (words.size() != 4 && words.size() != 5) return std::nullopt;
   const auto parts = numbered_name(words[0]);
-  const auto first = integer_from<int>(words[1]), last = integer_from<int>(words[2]), step = integer_from<int>(words[3]);
+  const auto first = integer_from<int>(words[1]), last = integer_from<int>(words[2]),
+             step = integer_from<int>(words[3]);
   if (!parts || !first || !last || !step) return std::nullopt;
   const std::int64_t way = std::int64_t{*last} - *first;
   const bool leads = *step != 0 && (way == 0 || (way < 0) == (*step < 0));
@@ -78,10 +79,10 @@ std::optional<std::vector<std::string>> names_of_pattern(const TextHeader& heade
   std::vector<std::string> names;
   for (std::int64_t i = 0; i <= steps; ++i) {
     const std::int64_t number = *first + i * *step;
-    names.push_back(fmt::format("{}{}{}", parts->before,
-                                parts->zeros ? fmt::format("{:0{}}", number, parts->width)
-                                             : fmt::format("{:{}}", number, parts->width),
-                                parts->after));
+    names.push_back(fmt::format(
+        "{}{}{}", parts->before,
+        parts->zeros ? fmt::format("{:0{}}", number, parts->width) : fmt::format("{:{}}", number, parts->width),
+        parts->after));
   }
   return names;
 }

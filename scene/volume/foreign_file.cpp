@@ -42,7 +42,7 @@ const Format* format_of(const fs::path& path) {
   return found == kFormats.end() ? nullptr : found;
 }
 
-/// Size and type of raw voxels, from a name as open data sets have it.
+/// Size and type of raw voxels, taken from a file name as open data sets use them.
 struct RawName {
   std::string sizes = "X Y Z", type = "uint8";
   bool sized = false;

@@ -6,7 +6,7 @@
 
 namespace fastsplat::volume {
 
-/// The name of a format that other programs read, by its first bytes; "" for others.
+/// The name of a format that other programs read, by its first bytes; "" if unknown.
 std::string foreign_format(const std::filesystem::path& path);
 
 /// A suggestion: a program that converts it, or the header to write for raw voxels. The file's name may give their size

@@ -3,7 +3,7 @@
 namespace fastsplat::volume {
 namespace {
 
-/// Of the voxels above air, the share that is soft tissue; 0 where there are none.
+/// Share of soft tissue among the voxels above air; 0 without such voxels.
 double share_of_tissue(const Volume& volume, double water) {
   constexpr double kFat = -200.0, kMuscle = 300.0;
   std::size_t above_air = 0, tissue = 0;

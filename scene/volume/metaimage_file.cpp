@@ -1,4 +1,4 @@
-// Written after MetaIO's own reader: names of fields, their synonyms and defaults are its.
+// Follows MetaIO's own reader: field names, synonyms and defaults are the same.
 #include "scene/volume/metaimage_file.hpp"
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ constexpr const char* kCorrect = "correct the header";
 
 using Field = TextHeader::Field;
 
-/// Fields of MetaIO's images. Programs add more of their own, which say nothing about the voxels.
+/// MetaIO's image fields. Programs add others, which do not describe the voxels.
 const std::vector<std::string> kFields{"ObjectType",
                                        "ObjectSubType",
                                        "NDims",
@@ -77,7 +77,7 @@ std::optional<std::pair<std::string, std::string>> assignment(const std::string&
   return std::pair{trimmed(line.substr(0, equals)), trimmed(line.substr(equals + 1))};
 }
 
-/// A field that is nearly one of MetaIO's is misspelt; others are free.
+/// Refuses a field that nearly matches one of MetaIO's as misspelt; other names are free.
 void refuse_misspelt(const TextHeader& header, int line, const std::string& name) {
   if (is_known(name)) return;
   const auto meant = std::find_if(kFields.begin(), kFields.end(), [&name](const std::string& known) {
@@ -88,7 +88,7 @@ void refuse_misspelt(const TextHeader& header, int line, const std::string& name
                 fmt::format("did you mean '{}'?", *meant));
 }
 
-/// Up to and including ElementDataFile, which is the last field whatever follows.
+/// Reads up to and including ElementDataFile, always the last field.
 TextHeader split_header(const fs::path& path) {
   TextHeader header{.path = path, .format = "MetaImage"};
   HeaderLines lines(path);
@@ -119,7 +119,7 @@ TextHeader split_header(const fs::path& path) {
 bool flag_from(const TextHeader& header, std::initializer_list<const char*> names, bool otherwise) {
   const Field* field = header.find(names);
   if (field == nullptr) return otherwise;
-  const char first = field->value.empty() ? ' ' : field->value[0];  // MetaIO looks at no more
+  const char first = field->value.empty() ? ' ' : field->value[0];  // MetaIO reads only this character
   if (first == 'T' || first == 't' || first == '1') return true;
   if (first == 'F' || first == 'f' || first == '0') return false;
   header.refuse(field->line, "neither true nor false", "True or False", field->value.substr(0, 40), kCorrect);
@@ -181,7 +181,7 @@ Component component_of(const TextHeader& header) {
   return found->second;
 }
 
-/// ITK knows the two fields and does not apply them; what is not applied here either is not passed over in silence.
+/// ITK knows these two fields but does not apply them. Files that need them are refused.
 void refuse_scaling(const TextHeader& header) {
   for (const auto& [name, neutral] :
        {std::pair{"ElementToIntensityFunctionSlope", 1.0}, {"ElementToIntensityFunctionOffset", 0.0}}) {
@@ -192,7 +192,7 @@ void refuse_scaling(const TextHeader& header) {
   }
 }
 
-/// Millimetres of the header's unit of length.
+/// Millimetres per unit of length of the header.
 double unit_of(const TextHeader& header, std::vector<std::string>& remarks) {
   const Field* field = header.find({"DistanceUnits"});
   if (field == nullptr || field->value == "?") return 1.0;
@@ -210,7 +210,7 @@ void read_spacing(const TextHeader& header, std::size_t dimensions, double mm, V
   }
 }
 
-/// Nothing where the header has none of the fields.
+/// nullopt if the header has none of the fields.
 std::optional<Placement> placement_of(const TextHeader& header, std::size_t dimensions, double mm) {
   const Field* matrix = header.find({"TransformMatrix", "Rotation", "Orientation"});
   const Field* origin = header.find({"Offset", "Position", "Origin"});
@@ -219,7 +219,7 @@ std::optional<Placement> placement_of(const TextHeader& header, std::size_t dime
   Placement placement{.direction = {glm::dvec3(-1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1)}};
   if (matrix != nullptr) {
     const auto numbers = finite_numbers(header, *matrix, dimensions * dimensions);
-    for (std::size_t a = 0; a < 3; ++a) {  // the direction of one axis after the other
+    for (std::size_t a = 0; a < 3; ++a) {  // one axis direction per row
       const double* row = &numbers[a * dimensions];
       placement.direction[a] = ras * glm::dvec3(row[0], row[1], row[2]);
     }
@@ -236,7 +236,7 @@ std::optional<Placement> placement_of(const TextHeader& header, std::size_t dime
   return placement;
 }
 
-/// ITK places a volume by its matrix alone; an orientation in letters that nothing else says is not passed over.
+/// ITK places a volume by its matrix alone. Adds a remark if the header declares the orientation only in letters.
 void note_orientation(const TextHeader& header, std::vector<std::string>& remarks) {
   const Field* letters = header.find({"AnatomicalOrientation"});
   if (letters == nullptr || header.find({"TransformMatrix", "Rotation", "Orientation"}) != nullptr) return;
@@ -245,7 +245,7 @@ void note_orientation(const TextHeader& header, std::vector<std::string>& remark
                                 letters->value.substr(0, 20)));
 }
 
-/// HeaderSize: bytes before the voxels in a file of their own; -1: they are the file's end.
+/// HeaderSize: bytes before the voxels in a separate file; -1: the voxels are the end of the file.
 void skip_header(DataFile& file, const TextHeader& header, const VoxelSource& source) {
   const Field* field = header.find({"HeaderSize"});
   if (field == nullptr || field->value == "0") return;

@@ -1,5 +1,5 @@
-// libnifti2 interprets the header (byte order, scaling, axes); what it would trust is checked first, and it never opens
-// a file: it prints on errors, and replaces NaN by 0 when it reads.
+// libnifti2 interprets the header (byte order, scaling, axes), after checks of everything it would trust. It never
+// opens a file, since it prints errors and replaces NaN by 0 when it reads.
 #include "scene/volume/nifti_file.hpp"
 
 #include <fmt/format.h>
@@ -63,7 +63,7 @@ RawHeader read_raw(const fs::path& path) {
   return header;
 }
 
-/// The parts of the header that decide about memory and files, checked before libnifti2 sees it.
+/// The parts of the header that determine memory and files, checked before libnifti2 sees it.
 struct Checked {
   std::array<std::int64_t, 8> dim{};
   int datatype = 0;
@@ -195,7 +195,7 @@ std::optional<Placement> placement_by(const nifti_dmat44& matrix, double mm) {
   return placement;
 }
 
-/// How the grid's axes lie in the head, from sform, else qform; nothing where the header says nothing usable.
+/// Placement by the header's sform, else its qform; nullopt if neither is usable.
 std::optional<Placement> placement_of(const nifti_image& image, double mm, std::vector<std::string>& remarks) {
   std::string unusable;
   for (const auto& [name, code, matrix] :
@@ -217,7 +217,7 @@ std::optional<Placement> placement_of(const nifti_image& image, double mm, std::
   return std::nullopt;
 }
 
-/// NAME.hdr's voxels are in NAME.img or NAME.img.gz beside it, not behind a link to elsewhere.
+/// The voxels of NAME.hdr are in NAME.img or NAME.img.gz beside it; links to elsewhere are refused.
 fs::path paired_data(const fs::path& path) {
   fs::path stem = path;
   if (stem.extension() == ".gz") stem.replace_extension();
@@ -261,13 +261,13 @@ VoxelSource read_nifti_header(const fs::path& path) {
     source.extents[a] = static_cast<std::uint64_t>(checked.dim[a + 1]);
     source.spacing[a] = usable_length(checked.pixdim[a]) * mm;
   }
-  if (image->scl_slope != 0.0) {  // 0 means: as stored
+  if (image->scl_slope != 0.0) {  // 0 means unscaled
     source.slope = image->scl_slope;
     source.intercept = image->scl_inter;
   }
   source.placement = placement_of(*image, mm, source.remarks);
   if (source.placement) {
-    // The matrix says where voxels are; pixdim is kept where it says the same but for rounding.
+    // The matrix defines the places of the voxels; pixdim is kept if it agrees up to rounding.
     constexpr double kRounding = 1e-3;
     for (std::size_t a = 0; a < 3; ++a) {
       const double step = glm::length(source.placement->direction[a]);

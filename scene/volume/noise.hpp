@@ -1,4 +1,4 @@
-// Repeatable noise from integer hashing: the same bits on every machine, no state, any place first.
+// Repeatable noise from integer hashing: the same bits on every machine, stateless, in any order.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Teem interprets the header's types, spacings and directions; it is handed a header of its own, made of the checked
-// fields only, and never opens a file: it trusts sizes, and a detached header may name any file of the machine.
+// Teem interprets the header's types, spacings and directions. It gets a new header, made of the checked fields only,
+// and never opens a file: it trusts sizes, and a detached header may name any file of the machine.
 #include "scene/volume/nrrd_file.hpp"
 
 #include <fmt/format.h>
@@ -52,7 +52,7 @@ std::vector<std::uint64_t> parse_sizes(const TextHeader& header) {
   return sizes;
 }
 
-/// teem would refuse it as well, but its parser then loses memory (1.12).
+/// Refuses unpaired quotes. Teem would, too, but its parser then leaks memory (1.12).
 void refuse_unpaired_quote(const TextHeader& header, const Field& field, const char* name) {
   bool open = false;
   for (std::size_t i = 0; i < field.value.size(); ++i) {
@@ -64,10 +64,10 @@ void refuse_unpaired_quote(const TextHeader& header, const Field& field, const c
   }
 }
 
-/// The fields that say how the voxels lie, for teem: attached, raw, so that it looks for no other file.
+/// The fields that describe the voxels' layout, for teem: attached, raw, so that it looks for no other file.
 std::string header_for_teem(const TextHeader& header) {
   std::string text = "NRRD0005\n";
-  // In this order: teem wants the dimension before what has a word for each axis.
+  // In this order: teem needs the dimension before fields with a word per axis.
   for (const char* name : {"type", "dimension", "space", "space dimension", "sizes", "axis mins", "axis maxs",
                            "space directions", "centerings", "kinds", "units", "space units", "space origin"}) {
     const Field* field = header.find({name});
@@ -84,7 +84,7 @@ using NrrdPointer = std::unique_ptr<Nrrd, decltype(&nrrdNuke)>;
 
 std::string biff_message() {
   const std::unique_ptr<char, decltype(&std::free)> text(biffGetDone(NRRD), &std::free);
-  // The last line is the cause; those before say which of teem's functions were under way.
+  // The last line is the cause; earlier ones name teem's active functions.
   std::string cause;
   std::istringstream lines(text ? text.get() : "");
   for (std::string line; std::getline(lines, line);) {
@@ -110,7 +110,7 @@ bool has_direction(const Nrrd& nrrd, unsigned axis) {
   return nrrd.spaceDim > 0 && !std::isnan(nrrd.axis[axis].spaceDirection[0]);
 }
 
-/// Whether an axis may be one of the volume: its kind does not say otherwise, and it lies in space if any axis does.
+/// Whether an axis can be spatial: its kind allows it, and it has a direction if any axis does.
 bool may_be_spatial(const Nrrd& nrrd, unsigned axis) {
   const int kind = nrrd.axis[axis].kind;
   if (kind == nrrdKindTime || (kind != nrrdKindUnknown && nrrdKindIsDomain(kind) == 0)) return false;
@@ -119,8 +119,7 @@ bool may_be_spatial(const Nrrd& nrrd, unsigned axis) {
   return !any || has_direction(nrrd, axis);
 }
 
-/// The three axes that are the volume's. Axes that are 1 long are dropped: those of colours or time, then of more than
-/// three the slow ones first.
+/// The volume's three axes. Drops axes of length 1: those of colours or time, then of more than three the slowest.
 std::array<unsigned, 3> volume_axes(const TextHeader& header, const Nrrd& nrrd) {
   std::vector<unsigned> axes;
   bool several = false;
@@ -193,7 +192,7 @@ Packing packing_from(const TextHeader& header) {
                 "convert it (teem-unu save -f nrrd -e gzip)");
 }
 
-/// Where the voxels begin in one data file: `line skip`, then `byte skip`, of the unpacked bytes where they are packed.
+/// Where the voxels begin in one data file: after `line skip`, then `byte skip`, which counts unpacked bytes if packed.
 void skip_into(DataFile& file, const TextHeader& header, const VoxelSource& source) {
   require_readable_file(file.path);
   if (const Field* field = header.find({"line skip"}))
@@ -224,7 +223,7 @@ void skip_into(DataFile& file, const TextHeader& header, const VoxelSource& sour
   (packed ? file.stream_offset : file.file_offset) += size - need;
 }
 
-/// Sign of each world axis of `space` towards right, anterior, superior; nothing for spaces that are not anatomical.
+/// Sign of each world axis of `space` towards right, anterior, superior; nullopt for non-anatomical spaces.
 std::optional<std::array<double, 3>> towards_ras(int space) {
   switch (space) {
     case nrrdSpaceRightAnteriorSuperior:
@@ -247,7 +246,7 @@ struct Geometry {
   std::vector<std::string> remarks;
 };
 
-/// Millimetres of a unit that the header gives, with a remark where it is unknown.
+/// Millimetres per unit of the header; adds a remark if the unit is unknown.
 double known_unit(const char* unit, Geometry& geometry) {
   if (unit == nullptr || *unit == '\0') return 1.0;
   const auto mm = mm_per_unit(unit);
@@ -255,16 +254,16 @@ double known_unit(const char* unit, Geometry& geometry) {
   return mm.value_or(1.0);
 }
 
-/// Spacing of an axis that has no direction, in the header's unit: from `spacings`, else from `axis mins` and `maxs`.
+/// Spacing of an axis without direction, in the header's unit: from `spacings`, else from `axis mins` and `maxs`.
 double spacing_of(const TextHeader& header, const Nrrd& nrrd, unsigned axis) {
   const NrrdAxisInfo& info = nrrd.axis[axis];
   if (const Field* spacings = header.find({"spacings"})) return header.numbers(*spacings, nrrd.dim)[axis];
-  if (std::isnan(info.min) || std::isnan(info.max)) return 1.0;  // what everyone takes where nothing is said
+  if (std::isnan(info.min) || std::isnan(info.max)) return 1.0;  // the usual default
   const bool node = info.center == nrrdCenterNode;
   return (info.max - info.min) / static_cast<double>(info.size - (node ? std::min<std::size_t>(1, info.size - 1) : 0));
 }
 
-/// Placement from directions and origin in mm; where there are some that are not used, a remark.
+/// Sets the placement from directions and origin in mm. Adds a remark if some are given but unusable.
 void place_in_body(Geometry& geometry, const Nrrd& nrrd, const std::array<glm::dvec3, 3>& directions,
                    const glm::dvec3& origin) {
   const auto signs = towards_ras(nrrd.space);

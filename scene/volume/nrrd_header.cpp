@@ -24,7 +24,7 @@ std::string suggested_field(const std::string& got) {
   return suggestion(got, names) + " (a key of your own is written 'key:=value')";
 }
 
-/// "field: value" goes into the header; "key:=value", in which the key may hold colons, says nothing about the data.
+/// Adds "field: value" to the header. Ignores "key:=value" (the key may hold colons): it does not describe the data.
 void take_line(TextHeader& header, int line, const std::string& text) {
   const auto colon = text.find(':');
   const bool binary = is_binary(text);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kStraight = 1e-4;  // of a unit vector: 1/40 of a voxel over 256
 
-/// Which grid axis of the file runs along x, y and z of the volume, and whether backwards.
+/// Which grid axis of the file runs along x, y and z of the volume, and whether it is flipped.
 struct Order {
   std::array<int, 3> axis{0, 1, 2};
   std::array<bool, 3> flipped{false, false, false};
@@ -19,7 +19,7 @@ struct Order {
 
 double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 
-/// The order in which the axes run most along the world's in all.
+/// The order that aligns the axes best with the world's, in total.
 Order nearest_order(const std::array<glm::dvec3, 3>& unit) {
   std::array<int, 3> axis{0, 1, 2};
   Order best;

@@ -15,7 +15,7 @@ struct Placement {
   bool has_origin = true;
 };
 
-/// nullopt if the three vectors do not span space or are not numbers.
+/// Whether the three vectors span space; false also if one is not a number.
 bool spans_space(const std::array<glm::dvec3, 3>& direction);
 
 /// Turns whole axes of `volume`, which is in the file's axes, so that x, y and z point as nearly as possible to the

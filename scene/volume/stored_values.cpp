@@ -117,7 +117,7 @@ std::span<const double> StoredValues::next_words(std::uint64_t most) {
     auto* const begin = chunk_.data() + at_;
     auto* const stop = chunk_.data() + end_;
     auto* const after = std::find_if(begin, stop, is_blank);
-    if (after == stop) {  // the word, if any, may go on
+    if (after == stop) {  // a word may continue in the next chunk
       std::memmove(chunk_.data(), begin, static_cast<std::size_t>(stop - begin));
       end_ -= at_;
       at_ = 0;

@@ -21,7 +21,7 @@ float difference(const float* here, std::size_t stride, int position, int extent
 double Volume::bounding_radius() const {
   const glm::dvec3 diagonal = glm::dvec3(dims - 1) * spacing;
   if (!oblique) return 0.5 * glm::length(diagonal);
-  double longest = 0.0;  // of a sheared box not all are alike
+  double longest = 0.0;  // the diagonals of a sheared box differ
   for (const glm::dvec3 sign : {glm::dvec3(1, 1, 1), {-1, 1, 1}, {1, -1, 1}, {1, 1, -1}})
     longest = std::max(longest, glm::length(axes * (sign * diagonal)));
   return 0.5 * longest;

@@ -34,7 +34,7 @@ struct SyntheticName {
   int size;
 };
 
-/// "shells:64" or "shells"; nothing when the part before the colon is no built-in volume.
+/// "shells:64" or "shells"; nullopt unless the part before the colon is a built-in volume.
 std::optional<SyntheticName> as_synthetic(const std::string& text) {
   const auto colon = text.find(':');
   const std::string name = text.substr(0, colon);
@@ -73,7 +73,7 @@ fs::path find_scan(const std::string& name) {
                         "built-in volume such as shells:64"});
 }
 
-/// The file the user means. A file that is there wins over a known name.
+/// The file the user means. An existing file takes precedence over a known name.
 fs::path find_file(const std::string& text) {
   std::error_code ignored;
   if (fs::is_regular_file(text, ignored)) return text;
@@ -95,7 +95,7 @@ std::optional<VoxelSource> header_in(const fs::path& path) {
   return std::nullopt;
 }
 
-/// By the header beside it that names `path` as its data file: ct.hdr for ct.img.
+/// Reads the header beside `path` that names it as its data file: ct.hdr for ct.img.
 std::optional<VoxelSource> header_beside(const fs::path& path) {
   fs::path stem = path;
   if (stem.extension() == ".gz") stem.replace_extension();
@@ -160,7 +160,7 @@ std::vector<fs::path> files_of(const std::string& name_or_path) {
       if (file.path != files.front()) files.push_back(file.path);
     }
   } catch (const UserError&) {
-    // load_volume's to tell
+    // load_volume reports it
   }
   return files;
 }

@@ -15,9 +15,9 @@ struct ReadOptions {
   std::optional<float> nan_as{};
 };
 
-/// Finds what the user named: an existing path; a synthetic "name[:size]"; or a scan of the Debian package
-/// mricron-data by its bare name (`ch2`, `ch2bet`, `inia19-t1-brain`, searched in $FASTSPLAT_DATA and
-/// /usr/share/mricron/templates). Every failure is a UserError (ExitCode::Input) with the fix.
+/// Loads what the user named: an existing path; a synthetic "name[:size]"; or a scan of the Debian package mricron-data
+/// by its bare name (`ch2`, `ch2bet`, `inia19-t1-brain`, searched in $FASTSPLAT_DATA and /usr/share/mricron/templates).
+/// Every failure is a UserError (ExitCode::Input) with the fix.
 /// If a header declares the axes in a body (NIfTI sform/qform, NRRD space, MetaImage matrix), whole axes are turned so
 /// that +x is right, +y anterior, +z superior as nearly as possible. Volume::axes holds the remaining rotation; the
 /// voxels are not resampled.
@@ -30,9 +30,8 @@ Volume read_volume_header(const std::string& name_or_path);
 /// errors; load_volume does.
 std::vector<std::filesystem::path> files_of(const std::string& name_or_path);
 
-/// Writes by extension, atomically: .nrrd (gzip), .nhdr, .nii, .nii.gz, .mha (zlib), .mhd. The stored type is the
-/// volume's unless `type` is given; values that do not fit it are an error, not clamped. The file has the volume's
-/// place in the body.
+/// Writes by extension, atomically: .nrrd (gzip), .nhdr, .nii, .nii.gz, .mha (zlib), .mhd. Stores voxels as `type`;
+/// values that do not fit are an error, not clamped. The volume's place in the body is written, too.
 void save_volume(const Volume& volume, const std::filesystem::path& path, VoxelType type);
 
 /// The data file that save_volume writes beside a detached header, .nhdr or .mhd; empty for other endings.

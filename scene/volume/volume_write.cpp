@@ -86,7 +86,7 @@ void write_whole(const fs::path& path, const std::string& head, const std::strin
   file.commit();
 }
 
-/// The way from a voxel to the next along grid axis `a`, mm; where the volume lies in a body, if a file said so.
+/// Step from a voxel to the next along grid axis `a`, mm; in the body's axes if the file declared them.
 glm::dvec3 step(const Volume& volume, int a) {
   glm::dvec3 along(0.0);
   along[a] = volume.spacing[a];
@@ -130,13 +130,13 @@ const char* metaimage_type(VoxelType type) {
   return "";
 }
 
-/// ITK's axes are +x left, +y posterior; the matrix lists the direction of one grid axis after the other.
+/// ITK's axes are +x left, +y posterior; each row of the matrix is the direction of one grid axis.
 std::string metaimage_header(const Volume& volume, VoxelType type, std::size_t packed_size,
                              const std::string& data_file) {
   const auto& d = volume.dims;
   const auto& s = volume.spacing;
   const auto vector = [](const glm::dvec3& ras) {
-    // Not -0, which nobody wants to read.
+    // Avoids -0.
     return fmt::format("{} {} {}", 0.0 - ras.x, 0.0 - ras.y, ras.z);
   };
   std::string matrix;
@@ -165,7 +165,7 @@ short nifti_type(VoxelType type) {
 }
 
 std::string nifti_header(const Volume& volume, VoxelType type, std::size_t bytes_per_voxel, const fs::path& path) {
-  constexpr std::size_t kDataOffset = 352;  // the header and four bytes that say: no extensions
+  constexpr std::size_t kDataOffset = 352;  // the header, and four bytes for "no extensions"
   nifti_1_header header{};
   header.sizeof_hdr = 348;
   header.dim[0] = 3;

@@ -33,7 +33,7 @@ std::string extents_text(const VoxelSource& source) {
   return fmt::format("{} x {} x {}", source.extents[0], source.extents[1], source.extents[2]);
 }
 
-/// What the voxels of one data file are, for messages.
+/// Describes the voxels of one data file, for messages.
 std::string voxels_text(const VoxelSource& source) {
   return extents_text(source) + " voxels" +
          (source.files.size() > 1 ? fmt::format(" in {} files", source.files.size()) : "");
@@ -70,7 +70,7 @@ VoxelType integer_type(float min, float max) {
   return VoxelType::F32;
 }
 
-/// What must not enter a volume: counted while reading, told afterwards.
+/// Values that must not enter a volume: counted while reading, reported afterwards.
 struct Trouble {
   std::uint64_t count = 0;
   std::uint64_t first = 0;
@@ -98,7 +98,7 @@ void refuse_trouble(const VoxelSource& source, const Trouble& trouble, const cha
          fmt::format("{} {}", found * width + rest, unit), "download or copy the file again");
 }
 
-/// How many bytes `on_disk` can at most become.
+/// Upper bound on the unpacked size of `on_disk` bytes.
 std::uint64_t most_unpacked(const VoxelSource& source, std::uint64_t on_disk) {
   switch (source.packing) {
     case Packing::Plain:
@@ -110,13 +110,13 @@ std::uint64_t most_unpacked(const VoxelSource& source, std::uint64_t on_disk) {
       return std::min(on_disk, std::uint64_t{1} << 40) * kBzip2Limit;
     case Packing::Hex:
       return on_disk / 2;
-    case Packing::Text:  // a digit and a blank each
+    case Packing::Text:  // at least a digit and a blank each
       return (on_disk + 1) / 2 * size_of(source.component);
   }
   return on_disk;
 }
 
-/// What reading met besides good numbers.
+/// What reading found besides valid numbers.
 struct Findings {
   Trouble infinite;
   std::uint64_t replaced = 0;  ///< voxels that became `nan_as`
@@ -147,7 +147,7 @@ std::vector<float> read_voxels(const VoxelSource& source, std::optional<float> n
   const std::uint64_t count = source.voxels();
   std::vector<float> voxels;
   try {
-    voxels.reserve(count);  // not touched until data arrives, so that a lying gzip header costs nothing
+    voxels.reserve(count);  // untouched until data arrives, so that a false gzip header costs nothing
   } catch (const std::bad_alloc&) {
     throw_machine({.where = source.header.string(),
                    .what = "not enough memory for its voxels",
@@ -246,7 +246,7 @@ void check_source(const VoxelSource& source) {
 
 namespace {
 
-/// Sizes that are too small draw a part, or another picture. A few bytes at the end mean nothing.
+/// Adds a remark about surplus data: the declared sizes may be too small. Ignores a few bytes.
 void note_surplus(const VoxelSource& source, Volume& volume) {
   if (source.packing != Packing::Plain) return;
   const std::uint64_t size = size_of(source.component), need = source.voxels_per_file() * size;

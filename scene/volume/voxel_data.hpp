@@ -1,4 +1,4 @@
-// From the bytes of a volume file to voxels: bounds, byte order, scaling, placement. Shared by all formats.
+// Converts the bytes of a volume file to voxels: bounds, byte order, scaling, placement. Shared by all formats.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct DataFile {
 /// The declarations of a header, not yet checked.
 struct VoxelSource {
   std::filesystem::path header;  ///< for messages
-  std::vector<DataFile> files;   ///< the header's own, unless it is detached; each has as many voxels, x fastest
+  std::vector<DataFile> files;   ///< the header itself unless detached; each has the same number of voxels, x fastest
   Packing packing = Packing::Plain;
   Component component = Component::U8;
   std::endian order = std::endian::little;
@@ -42,7 +42,7 @@ struct VoxelSource {
 /// cannot shrink below 1/1032, bzip2 below a two-millionth). Allocates nothing.
 void check_source(const VoxelSource& source);
 
-/// dims, spacing, stored type; no voxels. Wider integers and doubles are announced as F32.
+/// dims, spacing, stored type; no voxels. Wider integers and doubles are reported as F32.
 Volume describe_source(const VoxelSource& source);
 
 /// Reads the voxels. Stored types: 8/16-bit unchanged; float, double and scaled values as F32; 32- and 64-bit integers

@@ -1,4 +1,4 @@
-// The checker behind its handle.
+// The checker of the C interface.
 #include <memory>
 
 #include "testbench/capi/checker_run.hpp"
@@ -9,7 +9,7 @@
 struct fastsplat_checker {
   fastsplat::capi::CheckerSetup setup;
   std::unique_ptr<fastsplat::capi::CheckerRun> run = std::make_unique<fastsplat::capi::CheckerRun>(setup);
-  mutable std::string text = {};  ///< the last that was handed out
+  mutable std::string text = {};  ///< the text returned last
 };
 
 namespace fastsplat::capi {
@@ -34,7 +34,7 @@ CheckerSetup setup_of(const char* call, const cmodel::Config& config, const fast
   return setup;
 }
 
-/// The text that `say` makes, kept with the checker; "" for none.
+/// The text of `say`, kept with the checker; "" if the checker is not a live one.
 template <class Say>
 const char* told(const fastsplat_checker* checker, const char* function, Say say) {
   const char* out = "";

@@ -137,7 +137,7 @@ void CheckerRun::finish(const char* call, std::span<const std::uint64_t> counter
       }
       checker_.finish(work, cycles);
     }
-  } catch (const UserError& error) {  // of a stream that is not whole
+  } catch (const UserError& error) {  // the stream is incomplete
     broken_ = error.what();
     throw;
   }
@@ -154,8 +154,8 @@ std::int32_t CheckerRun::verdict() const {
 
 std::string CheckerRun::first_mismatch() const {
   const auto so_far = report();
-  if (!so_far.detector) return broken_;  // a refused stream; empty: neither
-  // A record of a tap, unless it was one of the others that saw it first.
+  if (!so_far.detector) return broken_;  // why the stream was refused; may be empty
+  // The first difference is a tap record, unless a detector of another kind found one before.
   if (*so_far.detector < testbench::Detector::Tiles && so_far.first) return describe(setup_.config, *so_far.first);
   return so_far.differences.front();
 }

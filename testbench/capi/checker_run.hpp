@@ -1,4 +1,4 @@
-// One stream through the checker, with the order of the calls held: what a handle of the C interface keeps until reset.
+// One stream through the checker, until reset, behind a handle of the C interface. Checks the order of the calls.
 #pragma once
 
 #include <cstdint>
@@ -20,11 +20,11 @@ struct CheckerSetup {
   bool verdicts = false;
 };
 
-/// 32-bit words of the port's vector; 0 where there is none. `port` is one of FASTSPLAT_PORT_...
+/// Number of 32-bit words of the port's vector; 0 if it has none. `port` is one of FASTSPLAT_PORT_...
 std::size_t port_words(const cmodel::Config& config, std::uint32_t port);
 [[noreturn]] void unknown_port(const char* call, std::uint32_t port);
 
-/// `call` names the C function in the UserError (Usage) that is thrown for a call out of order or a wrong size.
+/// Throws UserError (Usage) for a call out of order or a wrong size; `call` names the C function in it.
 class CheckerRun {
  public:
   explicit CheckerRun(CheckerSetup setup);
@@ -45,12 +45,12 @@ class CheckerRun {
  private:
   void require_open(const char* call) const;
 
-  const CheckerSetup setup_;  ///< the checker looks at its patterns
+  const CheckerSetup setup_;  ///< outlives the checker, which reads its patterns
   cmodel::NullPixels pixels_;
   testbench::Checker checker_;
   bool fed_ = false, finished_ = false;
-  std::uint64_t cycle_ = 0;  ///< of the last that was shown
-  std::string broken_;       ///< what was wrong with the stream
+  std::uint64_t cycle_ = 0;  ///< of the last event shown
+  std::string broken_;       ///< the stream's error; empty: none
 };
 
 }  // namespace fastsplat::capi

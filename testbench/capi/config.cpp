@@ -62,7 +62,7 @@ extern "C" FASTSPLAT_API fastsplat_status fastsplat_config_file(const char* path
   return guarded(__func__, [&](const char* call) {
     require(call, "path", path);
     require(call, "out", out);
-    // A file that is called as a built-in one is called stays a file.
+    // A file stays a file, even if a built-in configuration has its name.
     const std::string named = path;
     std::error_code ignored;
     if (!std::filesystem::exists(named, ignored)) {

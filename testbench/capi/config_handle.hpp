@@ -1,4 +1,4 @@
-// What a configuration's handle holds.
+// Contents of a configuration's handle.
 #pragma once
 
 #include "cmodel/numbers/config.hpp"
@@ -10,7 +10,7 @@ struct fastsplat_config {
 
 namespace fastsplat::capi {
 
-/// Throws UserError (Usage) unless the handle is a live one.
+/// Throws UserError (Usage) unless the handle is live.
 const cmodel::Config& config_of(const char* function, const fastsplat_config* handle);
 
 }  // namespace fastsplat::capi

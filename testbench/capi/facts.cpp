@@ -1,4 +1,4 @@
-// What the library says of itself: versions, and the counters' names.
+// Facts about the library: versions and names of counters.
 #include "base/version.hpp"
 #include "cmodel/numbers/counters.hpp"
 #include "cmodel/numbers/stall_counters.hpp"

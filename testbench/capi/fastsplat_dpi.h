@@ -1,5 +1,5 @@
-// The functions of libfastsplat that SystemVerilog needs beside those of fastsplat.h: no structures, a vector port as
-// DPI-C hands it over (words of 32 bits, the least significant first). testbench/capi/sv/fastsplat_dpi_pkg.sv imports them.
+// Functions of libfastsplat that SystemVerilog needs beside fastsplat.h: no structures, and vector ports as DPI-C
+// passes them (32-bit words, least significant first). testbench/capi/sv/fastsplat_dpi_pkg.sv imports them.
 #pragma once
 
 #include "fastsplat.h"
@@ -8,16 +8,16 @@
 extern "C" {
 #endif
 
-/// A checker of a whole stream for the built-in configuration, or the TOML file, `config`, which must have the hash
-/// that the device was built with. `input`, `output`, `seed`: fastsplat_checker_options; verdicts are shown. NULL with
-/// fastsplat_last_error().
+/// Creates a checker of a whole stream. `config`: a built-in configuration or a TOML file, which must have the hash
+/// that the device was built with. `input`, `output`, `seed`: as in fastsplat_checker_options; verdicts are shown. On
+/// failure NULL, with fastsplat_last_error().
 FASTSPLAT_API void* fastsplat_dpi_checker(const char* config, uint64_t hash, const char* input, const char* output,
                                           uint64_t seed);
 
-/// A beat that was taken, 256 bits.
+/// Reports a beat that was taken, 256 bits.
 FASTSPLAT_API fastsplat_status fastsplat_dpi_took(void* checker, const uint32_t* beat);
 
-// What a port shows (fastsplat_shown, everything given); `words`: of the vector; `tile`: tap_tile_o.
+// Report what a port shows (fastsplat_shown, with all values given). `words`: the vector; `tile`: tap_tile_o.
 FASTSPLAT_API fastsplat_status fastsplat_dpi_snap(void* checker, uint64_t cycle, uint32_t tile, uint32_t tag,
                                                   uint32_t x, uint32_t y, uint32_t mx, uint32_t my);
 FASTSPLAT_API fastsplat_status fastsplat_dpi_sheet(void* checker, uint64_t cycle, uint32_t tile, uint32_t tag,

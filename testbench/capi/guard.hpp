@@ -1,4 +1,4 @@
-// The fence of the C interface: what is thrown within becomes a status and the thread's last error.
+// Exception barrier of the C interface: an exception becomes a status and the thread's last error.
 #pragma once
 
 #include <exception>
@@ -17,7 +17,7 @@ constexpr fastsplat_status status_of(ExitCode code) {
   return code == ExitCode::Input ? FASTSPLAT_INPUT : FASTSPLAT_INTERNAL;
 }
 
-/// The status that `action` returns, or that of what it throws. It is given the name of the function it stands for.
+/// Calls `action` with the function's name. Returns its status, or that of the exception it throws.
 template <class Action>
 fastsplat_status guarded(const char* function, Action action) noexcept {
   try {

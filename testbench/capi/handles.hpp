@@ -1,4 +1,4 @@
-// Which handles are alive, and of what kind: a pointer that is none of them is refused, never followed.
+// Registry of live handles and their kinds: any other pointer is refused, never followed.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@ namespace fastsplat::capi {
 enum class Kind { Config, Model, Pattern, Checker };
 
 void born(const void* handle, Kind kind);
-/// Throws as require_live does; the handle lives no more.
+/// Removes the handle from the registry; throws as require_live does.
 void bury(const char* function, const void* handle, Kind kind);
-/// Throws UserError (Usage) in the name of `function` unless the handle lives.
+/// Throws UserError (Usage), with the name of `function`, unless the handle is live.
 void require_live(const char* function, const void* handle, Kind kind);
 
-/// Throws UserError (Usage): the caller of `function` did what its contract excludes.
+/// Throws UserError (Usage): the caller of `function` broke its contract.
 [[noreturn]] void misuse(const char* function, const std::string& what, const std::string& expected = {},
                          const std::string& got = {});
 
@@ -26,10 +26,10 @@ Pointer* require(const char* function, const char* argument, Pointer* pointer) {
   return pointer;
 }
 
-/// Of a structure that the caller fills or has filled: what this version needs of it.
+/// Checks the struct_size of a caller's structure: at least what this version needs.
 void require_size(const char* function, std::size_t expected, std::size_t got);
 
-/// 0 or 1: FASTSPLAT_WHOLE or FASTSPLAT_SUBSET.
+/// Checks that `scope` is FASTSPLAT_WHOLE or FASTSPLAT_SUBSET.
 void require_scope(const char* function, std::uint32_t scope);
 
 }  // namespace fastsplat::capi

@@ -1,4 +1,4 @@
-// The model behind its handle: taps and tiles are kept until they are taken.
+// The model of the C interface: taps and tiles are kept until they are taken.
 #include "cmodel/model.hpp"
 
 #include <cstring>
@@ -77,7 +77,7 @@ class Run final : private cmodel::TapSink, private cmodel::PixelSink {
   std::deque<cmodel::TilePixels> tiles_;
   cmodel::TilePixels taken_;  ///< the tile whose words the caller may be reading
   cmodel::Model model_;
-  std::string broken_;  ///< what was wrong with the stream
+  std::string broken_;  ///< the stream's error; empty: none
   bool finished_ = false;
 };
 

@@ -1,4 +1,4 @@
-// Patterns of ready and valid behind their handle.
+// The ready/valid patterns of the C interface.
 #include "testbench/device/pattern.hpp"
 
 #include <memory>

@@ -32,7 +32,7 @@ bool TapQueue::pop(fastsplat_tap& out) {
 }
 
 void TapQueue::sweep() {
-  // Moving what is left costs no more than what was taken did.
+  // Amortised: no more is moved than was taken.
   if (head_ * 2 < data_.size()) return;
   data_.erase(data_.begin(), data_.begin() + static_cast<std::ptrdiff_t>(head_));
   head_ = 0;

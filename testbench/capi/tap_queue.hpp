@@ -13,9 +13,9 @@ namespace fastsplat::capi {
 class TapQueue {
  public:
   void push(const cmodel::TapRecord& record);
-  /// False when there is none. `out`'s payload lies in the queue until the next push or sweep.
+  /// False if the queue is empty. `out`'s payload lies in the queue until the next push or sweep.
   bool pop(fastsplat_tap& out);
-  /// Forgets what was taken.
+  /// Drops the taken records.
   void sweep();
 
  private:

@@ -3,7 +3,7 @@
 namespace fastsplat::testbench {
 namespace {
 
-/// An RtlDevice tells them.
+/// An RtlDevice reports verdicts.
 CheckOptions with_verdicts(CheckOptions options) {
   options.verdicts = true;
   return options;
@@ -22,7 +22,7 @@ void CheckedDevice::unchecked(const std::function<void(RtlDevice&)>& action) {
 }
 
 void CheckedDevice::consume(std::span<const cmodel::Beat> beats) {
-  // The device's clock runs before the first beat: it was asked for its configuration.
+  // The device's clock ran before the first beat: its configuration was read.
   if (!checker_.started()) checker_.start(device_->cycles(), device_->sliced());
   for (const auto& beat : beats) {
     if (stopped()) return;

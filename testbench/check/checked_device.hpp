@@ -1,5 +1,5 @@
-// A device under test that is checked while it works: drives it beat by beat and tells the checker what it takes and
-// shows.
+// A device under test that is checked while it works: drives it beat by beat and reports to the checker what it takes
+// and shows.
 #pragma once
 
 #include <functional>
@@ -12,8 +12,7 @@ namespace fastsplat::testbench {
 
 class CheckedDevice final : public cmodel::Device {
  public:
-  /// Makes the device under test; both sinks outlive it. Its raw taps are what is checked, its tiles are made from
-  /// them.
+  /// Makes the device under test; both sinks outlive it. Its raw taps are checked, its tiles are made from them.
   using Factory = std::function<std::unique_ptr<RtlDevice>(cmodel::PixelSink&, RawTapSink&)>;
 
   /// `pixels` receives the device's tiles (not the model's). What `options` points to outlives the device.
@@ -22,11 +21,11 @@ class CheckedDevice final : public cmodel::Device {
 
   void consume(std::span<const cmodel::Beat> beats) override;
   void finish() override;
-  /// The device's once it has come to rest; of a run that was stopped before, what the model counted of the same beats.
+  /// The device's once it has come to rest; of a run stopped before, the model's for the same beats.
   const cmodel::Counters& counters() const override { return finished_ ? counters_ : checker_.counted(); }
 
-  /// Runs `action` with the checker deaf: what the device takes and shows meanwhile (a stream cut off by a reset) is
-  /// not compared. Before the first beat only.
+  /// Runs `action` with the checker disconnected: what the device takes and shows meanwhile (a stream cut off by a
+  /// reset) is not compared. Only before the first beat.
   void unchecked(const std::function<void(RtlDevice&)>& action);
 
   bool stopped() const { return checker_.stopped(); }

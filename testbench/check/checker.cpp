@@ -63,7 +63,7 @@ void Checker::accept(const cmodel::Beat& beat) {
   // A record is expected before the device can show it, and no earlier than that.
   model_.consume({&beat, 1});
   if (cycle_model_) cycle_model_->consume({&beat, 1});
-  if (beat[0] % 256 == static_cast<std::uint32_t>(cmodel::Opcode::EndTile)) culls_.clear();  // or a word of a table
+  if (beat[0] % 256 == static_cast<std::uint32_t>(cmodel::Opcode::EndTile)) culls_.clear();  // or a table word
   assembly_.accept(beat);
   if (board_.backlog() > kBacklogWords) {
     silent_ = true;
@@ -104,7 +104,7 @@ void Checker::check_counters(const cmodel::Counters& rtl) {
 void Checker::check_cycles(const cmodel::StallCounters& rtl) {
   cycle_model_->finish();
   const cmodel::StallCounters& model = cycle_model_->stalls();
-  cycles_model_ = config_.counter_word(model.busy);  // a counter of few bits goes round
+  cycles_model_ = config_.counter_word(model.busy);  // a narrow counter wraps
   cycles_rtl_ = rtl.busy;
 #define X(name, counter, meaning)                                       \
   if (cmodel::has_counter(config_, #counter) || model.name != rtl.name) \

@@ -18,44 +18,44 @@
 
 namespace fastsplat::testbench {
 
-/// What part of the checker noticed a difference. The first five are the taps, in their order.
+/// Parts of the checker that can find a difference. The first five are the taps, in their order.
 enum class Detector : std::uint8_t {
   Snap,
   Footprint,
   Sheet,
   Composite,
   Pixel,
-  Tiles,     ///< whole tiles: cut short, too long, never there
-  Counters,  ///< the device's own, but for the next
+  Tiles,     ///< whole tiles: cut short, too long, missing
+  Counters,  ///< the device's, except the next
   Cycles,    ///< its cycle counters
-  Verdicts,  ///< what it tells its source of cull_blocks
+  Verdicts,  ///< the device's verdicts on cull_blocks
 };
 const char* to_string(Detector detector);
 
-/// What passed the checker.
+/// Result of a check, so far or at its end.
 struct CheckReport {
   std::uint64_t comparisons = 0;  ///< tap records, pixel words, counters, cycles and verdicts
   std::uint64_t mismatches = 0;
-  bool stopped = false;                                   ///< after the last of these: there may be more
-  std::optional<Detector> detector;                       ///< that saw the first of them
+  bool stopped = false;                                   ///< at the last of these: there may be more
+  std::optional<Detector> detector;                       ///< that found the first mismatch
   std::array<std::uint64_t, cmodel::kTapCount> by_tap{};  ///< records compared
   std::optional<Divergence> first;                        ///< of the taps
-  std::vector<Divergence> kept;                           ///< of the taps, in their order, as many as were asked for
-  std::array<std::uint64_t, cmodel::kTapCount> mismatches_by_tap{};  ///< records; all that were seen
+  std::vector<Divergence> kept;                           ///< of the taps, in their order, at most CheckOptions::keep
+  std::array<std::uint64_t, cmodel::kTapCount> mismatches_by_tap{};  ///< records; all mismatches
   std::vector<std::string> differences;  ///< tiles, counters, cycles and verdicts that differ, in words
-  /// Busy cycles of the device and of the cycle model; absent of a run that did not reach its end.
+  /// Busy cycles of the device and of the cycle model; absent if the run did not reach its end.
   std::optional<std::uint64_t> cycles_rtl, cycles_model;
 };
 
 struct CheckOptions {
   std::uint64_t stop_after = 1000;          ///< mismatches; then no more beats are taken
-  std::size_t keep = 0;                     ///< divergences told in CheckReport::kept
+  std::size_t keep = 0;                     ///< number of divergences listed in CheckReport::kept
   const cmodel::Willing* source = nullptr;  ///< when beats are offered to the device; null: always
   const cmodel::Willing* sink = nullptr;    ///< when its pixels are taken; null: always
-  bool verdicts = false;                    ///< the device's verdicts are told, too; else those told are passed over
+  bool verdicts = false;                    ///< the device's verdicts are reported, too; else they are ignored
 };
 
-/// Told everything in the order of the device's cycles (RawTapSink): start(), then beats and taps as they pass,
+/// Receives everything in the order of the device's cycles (RawTapSink): start(), then beats and taps as they pass,
 /// end_of_stream(), and finish() once the device has come to rest. Memory stays bounded by the device's depth, whatever
 /// the stream's length.
 class Checker final : public RawTapSink {
@@ -68,7 +68,8 @@ class Checker final : public RawTapSink {
   /// Without it neither cycles nor verdicts are compared.
   void start(std::uint64_t first_beat, bool sliced = false);
   bool started() const { return cycle_model_.has_value(); }
-  /// By the cycle model, of a beat that breaks a rule and is taken in that cycle; 0 where cycles are not compared.
+  /// The cycle in which an illegal beat taken in cycle `taken` is checked, by the cycle model; 0 if cycles are not
+  /// compared.
   std::uint64_t judged(std::uint64_t taken) const { return cycle_model_ ? cycle_model_->judged(taken) : 0; }
 
   /// Throws UserError (Input) for a beat that breaks docs/stream.md. After stopped() nothing more is expected.
@@ -77,9 +78,9 @@ class Checker final : public RawTapSink {
 
   /// Throws UserError (Input) if the stream ended where it may not.
   void end_of_stream() { model_.finish(); }
-  /// What the device has not shown by now never came. Its counters are compared, and its cycles after start().
+  /// Ends the check: what the device has not shown is missing. Compares its counters and, after start(), its cycles.
   CheckReport finish(const cmodel::Counters& counters, const cmodel::StallCounters& cycles);
-  /// The same of a device whose counters nobody reads: neither they nor cycles are compared.
+  /// The same for a device whose counters are not read: neither they nor cycles are compared.
   CheckReport finish();
 
   /// Too many mismatches, or a device that has gone silent.
@@ -103,7 +104,7 @@ class Checker final : public RawTapSink {
   void check_verdict(const RawTap& tap);
   void equal(Detector detector, const std::string& what, std::uint64_t model, std::uint64_t rtl);
   void differ(Detector detector, std::string text);
-  /// Of the first difference so far, `next` if there is none.
+  /// That of the first difference so far, `next` if there is none.
   std::optional<Detector> first_detector(std::optional<Detector> next) const;
 
   cmodel::Config config_;
@@ -116,7 +117,7 @@ class Checker final : public RawTapSink {
   TapAssembly assembly_;
   cmodel::Model model_;
   VerdictCheck verdicts_;
-  cmodel::CullLog culls_;  ///< of the open tile: the cycle model is told each answer by the beat that it needs it for
+  cmodel::CullLog culls_;  ///< of the open tile; has each answer by the beat for which the cycle model needs it
   std::optional<cmodel::CycleModel> cycle_model_;  ///< from start() on
   std::optional<std::uint64_t> cycles_rtl_, cycles_model_;
   bool silent_ = false;

@@ -11,11 +11,11 @@ namespace fastsplat::testbench {
 namespace {
 
 constexpr std::size_t kHeaderWords = sizeof(TapQueue::Header) / sizeof(std::uint32_t);
-/// Of a queue: a device's depth in small records. What stays short stays in the first-level cache.
+/// First size of a queue: a device's depth in small records. A short queue stays in the first-level cache.
 constexpr std::size_t kFirstWords = 512;
 constexpr std::size_t kWordsAtOnce = 4;
 
-/// Most payloads are a few words in fours: a call of the library's would cost more than they do.
+/// Most payloads are a few groups of four words: a library call would cost more than the copy.
 void copy_words(const std::uint32_t* from, std::size_t count, std::uint32_t* to) {
   std::size_t i = 0;
   for (; i + kWordsAtOnce <= count; i += kWordsAtOnce) std::memcpy(to + i, from + i, kWordsAtOnce * sizeof *to);
@@ -78,10 +78,11 @@ std::string place(const cmodel::Config& config, const TapCopy& record) {
   std::string text = std::string("stage ") + cmodel::to_string(record.tap) +
                      (record.tile == kNoTile ? ", outside any tile" : ", tile " + std::to_string(record.tile));
   if (record.tap != cmodel::Tap::Pixel) text += ", sheet " + std::to_string(record.sheet);
-  // A device that composites every sample shows windows there too, and the record does not tell them from blocks.
+  // A device that composites every sample shows windows there too, and the record does not distinguish them from
+  // blocks.
   const bool either = record.tap == cmodel::Tap::Composite && config.composite_every_sample != 0;
   if (record.tap <= cmodel::Tap::Sheet || either) text += ", splat " + std::to_string(record.tag);
-  // What lies at x, y is one pixel only where the picture goes out; a window may begin outside of the tile.
+  // x, y is one pixel only in the pixel tap; a window may begin outside the tile.
   const char* what = record.tap == cmodel::Tap::Pixel       ? ", pixel "
                      : either                               ? ", window or block at "
                      : record.tap == cmodel::Tap::Composite ? ", block at "

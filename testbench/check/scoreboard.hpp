@@ -1,4 +1,4 @@
-// Compares every tap of a device with the model's, joined by tap and order and held to the same tag; keeps the first
+// Compares every tap of a device with the model's, matched by tap and order, with equal tags; keeps the first
 // divergence. Knows no simulator type.
 #pragma once
 
@@ -32,17 +32,17 @@ struct Divergence {
   bool header = false;                ///< tile, sheet, tag or place differ
 };
 
-/// In the domain's words: stage, tile, sheet, splat, pixel, both values, their bit difference.
+/// As text: stage, tile, sheet, splat, pixel, both values, their bit difference.
 std::string describe(const cmodel::Config& config, const Divergence& divergence);
 
-/// The same for a row of a table: the place that the model expected, or where there is none that of the RTL.
+/// The same as a row of a table; the place is the model's or, if the model has no record, the RTL's.
 struct DivergenceRow {
   const char* tap = "";
-  std::optional<std::uint32_t> tile, sheet, splat;  ///< absent outside of tiles, or where the tap knows none
+  std::optional<std::uint32_t> tile, sheet, splat;  ///< absent outside tiles, or if the tap has none
   std::int32_t x = 0, y = 0;                        ///< of the window, block or pixel
-  std::optional<std::uint64_t> cycle;               ///< of the RTL; absent of what never came
+  std::optional<std::uint64_t> cycle;               ///< of the RTL; absent if the RTL has no record
   std::string what;           ///< which word: "pixel (5,1): sheet R"; or that the record itself differs
-  std::string expected, got;  ///< in hexadecimal; a record's place where `what` is that; "nothing"
+  std::string expected, got;  ///< hexadecimal; a place if the records differ; "nothing"
 };
 DivergenceRow row_of(const cmodel::Config& config, const Divergence& divergence);
 
@@ -50,7 +50,7 @@ DivergenceRow row_of(const cmodel::Config& config, const Divergence& divergence)
 /// record once it is as long as the device is deep.
 class TapQueue {
  public:
-  /// Everything but the payload: what two records are joined and held to.
+  /// Everything but the payload; records are matched and compared by it.
   struct Header {
     std::uint32_t tile, sheet, tag;
     std::int32_t x, y;
@@ -84,13 +84,13 @@ class Scoreboard {
   cmodel::TapSink& model() { return model_side_; }
   cmodel::TapSink& rtl() { return rtl_side_; }
 
-  /// Events that never came count as divergences.
+  /// Missing records count as divergences.
   void finish();
   std::uint64_t comparisons() const { return comparisons_; }  ///< records compared
   std::uint64_t mismatches() const { return mismatches_; }
   const std::array<std::uint64_t, cmodel::kTapCount>& by_tap() const { return by_tap_; }
   const std::array<std::uint64_t, cmodel::kTapCount>& mismatches_by_tap() const { return mismatches_by_tap_; }
-  /// How many divergences are kept, the first of them at least; before any record.
+  /// Number of divergences kept, at least one. To be called before any record.
   void keep(std::size_t most) { most_kept_ = std::max<std::size_t>(most, 1); }
   const std::vector<Divergence>& kept() const { return kept_; }
   const Divergence* first() const { return kept_.empty() ? nullptr : &kept_.front(); }

@@ -20,9 +20,9 @@ class VerdictCheck final : public cmodel::CycleSink {
   void on_sheet(const cmodel::SheetCycles& /*sheet*/) override {}
   void on_tile(const cmodel::TileCycles& /*tile*/) override {}
 
-  /// The difference of a verdict that was given, in words.
+  /// Compares a verdict that was given; returns the difference as text.
   std::optional<std::string> told(const RawTap& tap);
-  /// The next one that was not, in words, and goes on behind it.
+  /// Takes the next verdict that was not given; returns it as text.
   std::optional<std::string> missing();
 
  private:

@@ -27,15 +27,15 @@ struct VerifyOptions {
   std::uint64_t seed = 1;           ///< of patterns and fill
   std::uint64_t reset_after = 0;    ///< beats before a warm reset, after which the whole stream is fed; 0: none; more
                                     ///< than the stream has: UserError (Usage)
-  int reset_wait = 0;               ///< cycles, about, between those beats and that reset, without another beat
-  int reset_cycles = kResetCycles;  ///< of that reset
+  int reset_wait = 0;               ///< about so many cycles between the last of those beats and the reset
+  int reset_cycles = kResetCycles;  ///< length of that reset
   std::uint64_t timeout = 1u << 20;
   std::uint64_t stop_after = 1000;           ///< mismatches
-  std::size_t keep = 0;                      ///< divergences told in CheckReport::kept
+  std::size_t keep = 0;                      ///< number of divergences listed in CheckReport::kept
   std::filesystem::path wave;                ///< waveform of the cycles [wave_from, wave_to)
   std::uint64_t wave_from = 0, wave_to = 0;  ///< after the warm reset, if there is one
   bool coverage = false;  ///< samples functional coverage (testbench/coverage/coverage_collector.hpp)
-  /// Takes the RTL's place, to test the checker with a device that is wrong; empty: the Verilated device of `config`.
+  /// Replaces the RTL, to test the checker with a faulty device; empty: the Verilated device of `config`.
   std::function<std::unique_ptr<RtlDevice>(cmodel::PixelSink&, const RtlOptions&)> device;
 };
 
@@ -44,7 +44,7 @@ enum class Verdict {
   Mismatch,
   NothingCompared,
   Simulation,
-  FaultUnseen,  ///< nothing differs although a fault was planted; never verify()'s own
+  FaultUnseen,  ///< nothing differs although a fault was planted; verify() never returns it
 };
 const char* to_string(Verdict verdict);
 ExitCode exit_code(Verdict verdict);
@@ -52,7 +52,7 @@ ExitCode exit_code(Verdict verdict);
 struct VerifyResult {
   Verdict verdict = Verdict::NothingCompared;
   CheckReport check;
-  cmodel::Counters counters;                 ///< the RTL's; of a run that was stopped, the model's up to there
+  cmodel::Counters counters;                 ///< the RTL's; if the run was stopped, the model's so far
   std::uint64_t last_cycle = 0;              ///< after reset, at the end of the run
   std::string error;                         ///< of Verdict::Simulation: what the device did, where and when
   std::string fault;                         ///< the same without where and when

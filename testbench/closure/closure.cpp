@@ -48,7 +48,7 @@ ClosureRow row_of(const Testpoint& point, const ClosureInput& input) {
   return row;
 }
 
-/// Bins against plan, both ways.
+/// Checks the bins against the plan and the plan against the bins.
 void check_mapping(const VerificationPlan& plan, const std::vector<ClosureInput>& inputs,
                    std::vector<std::string>& findings) {
   for (const ClosureInput& input : inputs) {
@@ -139,7 +139,7 @@ bool is_test(const std::string& planned, const std::string& ctest_name) {
 }
 
 std::string tests_expression(const VerificationPlan& plan) {
-  // No parentheses: ctest bears only a few. What this matches besides the plan's tests does no harm.
+  // No parentheses: ctest accepts only a few. Matching other tests, too, does no harm.
   std::set<std::string> names;
   for (const Testpoint& point : plan.testpoints) {
     for (const auto& test : point.tests) {

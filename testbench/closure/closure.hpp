@@ -1,4 +1,4 @@
-// Coverage closure: is every testpoint of the plan decided, and every bin hit where the plan says?
+// Coverage closure: whether every testpoint of the plan is decided and every bin hit where the plan requires it.
 #pragma once
 
 #include <map>
@@ -20,7 +20,7 @@ struct ClosureBin {
 struct ClosureRow {
   std::string testpoint, config;
   std::vector<ClosureBin> bins;
-  std::size_t hit = 0;  ///< of them
+  std::size_t hit = 0;  ///< bins that were hit
 };
 
 enum class TestOutcome { NotRun, Passed, Failed };
@@ -28,33 +28,33 @@ enum class TestOutcome { NotRun, Passed, Failed };
 struct ClosureTest {
   std::string testpoint, test;
   TestOutcome outcome = TestOutcome::NotRun;
-  std::size_t runs = 0;  ///< its parameters that ran
+  std::size_t runs = 0;  ///< number of its parameters that ran
 };
 
 struct Closure {
   std::vector<ClosureRow> rows;
   std::vector<ClosureTest> tests;
-  std::vector<std::string> findings;  ///< what is red; empty: closed
+  std::vector<std::string> findings;  ///< why the coverage is open; empty: closed
   std::size_t bins = 0, hit = 0;      ///< over all rows
 };
 
-/// What a configuration was run with.
+/// Coverage of one configuration.
 struct ClosureInput {
   CoverageBook book;
   Coverage planned;  ///< every bin that has to be hit (planned_bins, and cover points where they were collected)
 };
 
-/// `results`: names of tests that ran, as ctest knows them, and whether they passed. Empty: tests are not looked at;
-/// else a testpoint that has only tests needs one that passed.
+/// `results`: names of tests that ran, as ctest knows them, and whether they passed. If it is empty, tests are ignored.
+/// Otherwise a testpoint that has only tests needs one that passed.
 Closure close_coverage(const VerificationPlan& plan, const std::vector<ClosureInput>& inputs,
                        const std::map<std::string, bool>& results);
 
 /// Campaign under which cover points are kept: they are counted over a whole configuration.
 inline constexpr const char* kCoverPoints = "rtl";
 
-/// Does ctest's name for a test belong to the plan's (`testbench.Suite.Name` is `testbench.Inst/Suite.Name/param`)?
+/// Whether ctest's name for a test belongs to the plan's (`testbench.Suite.Name` is `testbench.Inst/Suite.Name/param`).
 bool is_test(const std::string& planned, const std::string& ctest_name);
-/// The same as a regular expression for ctest.
+/// A regular expression for ctest that matches the plan's tests.
 std::string tests_expression(const VerificationPlan& plan);
 
 /// Names and verdicts of a JUnit file of ctest.

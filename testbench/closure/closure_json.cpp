@@ -31,7 +31,7 @@ Json to_json(const ClosureRow& row) {
   return json;
 }
 
-/// "closed"; "open": a bin without a hit, or a test that failed; "not run": it has tests alone, and none ran.
+/// "closed"; "open": a bin without a hit, or a failed test; "not run": it has only tests, and none ran.
 std::string status_of(std::size_t hit, std::size_t all, const std::vector<const ClosureTest*>& tests) {
   const auto any = [&](TestOutcome outcome) {
     return std::any_of(tests.begin(), tests.end(), [&](const auto* test) { return test->outcome == outcome; });
@@ -66,7 +66,7 @@ Json to_json(const Testpoint& point, const Closure& closure) {
           {"tests", std::move(listed)}};
 }
 
-/// Why a point that was never reached need not be; nothing where it was, or where no one says so.
+/// Reason why an unreached point is excused; nothing if it was reached or is not excused.
 const std::string* excuse(const LinePoint& point, const LineClosure& lines) {
   for (const LineFinding& found : lines.unreached) {
     if (found.point.file == point.file && found.point.line == point.line && found.point.column == point.column &&

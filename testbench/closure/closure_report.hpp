@@ -1,5 +1,4 @@
-// The closed (or open) coverage for people and programs: tables in Markdown, and a result that `fastsplat report`
-// draws.
+// Output formats of coverage closure: tables in Markdown, and JSON that `fastsplat report` draws.
 #pragma once
 
 #include <string>
@@ -12,7 +11,7 @@ namespace fastsplat::testbench {
 
 struct ClosureReport {
   std::string version;  ///< of the program
-  std::string command;  ///< that makes it again
+  std::string command;  ///< that reproduces it
   VerificationPlan plan;
   std::vector<ClosureInput> inputs;
   Closure closure;
@@ -23,7 +22,7 @@ struct ClosureReport {
 };
 
 std::string closure_markdown(const ClosureReport& report);
-/// As the verbs' --json has it, with the verb "closure"; docs/verify.md has its keys.
+/// In the format of the subcommands' --json, with the verb "closure"; docs/verify.md has the keys.
 std::string closure_json(const ClosureReport& report);
 
 }  // namespace fastsplat::testbench

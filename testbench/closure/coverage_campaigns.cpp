@@ -13,7 +13,7 @@ std::string what_failed(const std::string& campaign, const VerifyResult& result)
   return text;
 }
 
-/// Enough for sets that are hidden in front of, between and behind others.
+/// Enough for hidden cull groups before, between and after visible ones.
 constexpr std::uint64_t kLeftOutSplats = 150, kLeftOutStreams = 24;
 
 class Runner {
@@ -61,7 +61,7 @@ class Runner {
     }
   }
 
-  /// Of devices that cull: random streams from a source that leaves out what is hidden.
+  /// For devices that cull: random streams from a source that leaves out hidden splats.
   void left_out() {
     if (!order_.config.culls()) return;
     begin("left out");

@@ -14,7 +14,7 @@ namespace fastsplat::testbench {
 
 struct CoverageVolume {
   std::uint64_t splats = 0;  ///< per seed, shared by the classes
-  std::uint64_t seeds = 0;   ///< a multiple of the ready patterns: every class meets each
+  std::uint64_t seeds = 0;   ///< a multiple of the number of ready patterns: every class meets each
   std::uint64_t resets = 0;  ///< warm resets, in small streams
 };
 
@@ -32,13 +32,13 @@ struct CoverageOrder {
 /// Names that a testpoint may give as campaigns, besides the stimulus classes.
 inline constexpr const char* kOtherCampaigns[] = {"scene",     "resets",   "left out",
                                                   "registers", "refusals", "short resets"};
-/// Stands for the sum of all, in a plan.
+/// In a plan: the sum of all campaigns.
 inline constexpr const char* kAllCampaigns = "all";
 
 /// Every bin of the configuration but cover points.
 Coverage planned_bins(const cmodel::Config& config);
 
-/// What went wrong is in `failures`; then nothing is closed.
+/// If there are `failures`, nothing is closed.
 struct CoverageRuns {
   CoverageBook book;
   std::vector<std::string> failures;

@@ -29,10 +29,10 @@ struct VerificationPlan {
 /// Throws UserError (Input) with line and column for unknown keys, wrong types and testpoints without evidence.
 VerificationPlan read_plan(const std::filesystem::path& path);
 
-/// Does `pattern`, in which `*` stands for any text, match?
+/// Whether `pattern`, in which `*` stands for any text, matches.
 bool matches(const std::string& pattern, const std::string& text);
 
-/// Of docs/coverage_exclusions.toml.
+/// Reads docs/coverage_exclusions.toml.
 std::vector<LineExclusion> read_exclusions(const std::filesystem::path& path);
 
 }  // namespace fastsplat::testbench

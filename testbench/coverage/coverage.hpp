@@ -40,8 +40,8 @@ class Coverage {
   std::map<std::string, Id> index_;
 };
 
-/// Where a narrowing rounds: exact, below the half, at it (a tie), above it; and where it saturates. Only what its
-/// dropped bits and a largest value can reach is declared.
+/// Bins of a narrowing: exact, below the half, a tie, above the half, saturated. Only bins that its dropped bits and a
+/// largest value can reach are declared.
 class RoundingPoint {
  public:
   RoundingPoint() = default;
@@ -49,7 +49,7 @@ class RoundingPoint {
   RoundingPoint(Coverage& coverage, const std::string& group, const std::string& prefix,
                 const cmodel::Narrowing& narrowing, std::int64_t largest);
 
-  /// What becomes of the value, its bin hit.
+  /// Narrows the value and hits its bin.
   cmodel::Narrowed sample(Coverage& coverage, std::int64_t value) const {
     const cmodel::Narrowed narrowed = narrowing_(value);
     const std::int64_t twice = 2 * narrowing_.dropped(value), one = std::int64_t{1} << narrowing_.dropped_bits();

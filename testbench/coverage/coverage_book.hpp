@@ -20,17 +20,17 @@ struct CoverageBook {
   static CoverageBook of(const cmodel::Config& config) {
     return {.config = config.name, .config_hash = cmodel::config_hash(config)};
   }
-  /// Adds what another run saw. Throws UserError (NotComparable) if it was another configuration.
+  /// Adds the coverage of another run. Throws UserError (NotComparable) if that is of another configuration.
   void merge(const CoverageBook& other);
 };
 
 void write_book(const std::filesystem::path& path, const CoverageBook& book);
-/// Adds `more` to what the file holds, if it is there, and returns the sum. Runs that add to one file at the same time
-/// wait for each other, so none of them is lost.
+/// Adds `more` to what the file holds, if it exists, and returns the sum. Concurrent runs wait for each other, so none
+/// of them is lost.
 CoverageBook add_to_book(const std::filesystem::path& path, const CoverageBook& more);
-/// Throws UserError (Input) for a file that this program did not write as coverage.
+/// Throws UserError (Input) if this program did not write the file as coverage.
 CoverageBook read_book(const std::filesystem::path& path);
-/// ... and (NotComparable) for one of another configuration than the run's, which `config` and `hash` name.
+/// Also throws UserError (NotComparable) if the file's configuration is not the run's, which `config` and `hash` name.
 CoverageBook read_book_for(const std::filesystem::path& path, const std::string& config, std::uint64_t hash);
 
 }  // namespace fastsplat::testbench

@@ -10,7 +10,7 @@ namespace {
 
 constexpr ResetFill kFills[] = {ResetFill::Zero, ResetFill::One, ResetFill::Random};
 
-/// Counters that cannot rise: the configuration's largest operands do not overflow.
+/// False for counters that cannot rise, because the configuration's largest operands do not overflow.
 bool reachable(const cmodel::Config& config, const std::string& counter) {
   if (counter == "snap_saturated")
     return cmodel::narrowing(config, cmodel::Site::Snap)(config.position_format().max).overflow;

@@ -1,6 +1,6 @@
-// Samples the coverage of one run of the checked device: the same beats through the model for its taps and through the
-// cycle model for its cycles. Both are what the RTL did, for the run that is sampled proves it equal to them; the
-// coverage of a run that fails is thrown away. Knows no simulator type.
+// Samples the coverage of one run of the checked device. The run's beats go through the model for its taps and through
+// the cycle model for its cycles. A run that passes proves the RTL equal to both; the coverage of a run that fails is
+// discarded. Knows no simulator type.
 #pragma once
 
 #include <memory>
@@ -48,7 +48,7 @@ class CoverageCollector {
   struct ModelTaps final : cmodel::TapSink {
     explicit ModelTaps(CoverageCollector* collector) : owner(collector) {}
     CoverageCollector* owner;
-    // Words of densities, and of the pictures that are made of them, are of other shapes: they have no bins.
+    // Densities, and pictures made of them, have words of other shapes and no bins.
     void on_tap(const cmodel::TapRecord& record) override {
       if (cmodel::holds_densities(owner->mode_)) return;
       owner->splats_.on_tap(record);

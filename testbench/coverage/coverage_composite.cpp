@@ -31,7 +31,7 @@ CompositeCoverage::CompositeCoverage(const cmodel::Config& config, Coverage& cov
       sites_(config),
       picture_(columns_ * static_cast<std::size_t>(config.tile_height)),
       touched_(blocks(config)) {
-  // Colours end below 2.0, but the picture's alpha and, but for saturation, its colours at 1.0.
+  // Colours end below 2.0; the picture's alpha and, except for saturation, its colours end at 1.0.
   const std::int64_t sum = config.sheet_format().max, one = config.transmittance_format().max;
   const std::int64_t factor = config.factor_format().max;
   const std::int64_t remainder = (std::int64_t{1} << config.opacity_remainder_bits()) - 1;

@@ -1,5 +1,5 @@
 // Coverage of compositor and pixel out, from the model's Composite and Pixel taps: slab opacity, transmittance and
-// freezing, saturation, blocks, output rounding (docs/numerics.md, sections 6 and 7).
+// early termination, saturation, blocks, output rounding (docs/numerics.md, sections 6 and 7).
 #pragma once
 
 #include <array>

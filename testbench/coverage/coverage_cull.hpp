@@ -1,6 +1,6 @@
-// Coverage of culling: what tests of sets, splats and windows find, where sets lie, what a sheet does to the map,
-// splats that the source left out (docs/numerics.md, section 6.1; docs/microarchitecture.md, "Culling"). Bins of
-// devices that cull only.
+// Coverage of culling: results for cull groups, splats and windows, where groups lie, how a sheet changes the map, and
+// splats that the source left out (docs/numerics.md, section 6.1; docs/microarchitecture.md, "Culling"). Only devices
+// that cull have these bins.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ class CullCoverage {
  public:
   CullCoverage(const cmodel::Config& config, Coverage& coverage);
 
-  /// A record that the model has carried out; what it had found until then, and the answers of the open tile.
+  /// Call it after the model has carried out the record. `found`: counts so far; `log`: answers of the open tile.
   void after(const cmodel::Record& record, const cmodel::CullCounts& found, const cmodel::CullLog& log);
-  /// Of the whole stream.
+  /// Call it after the whole stream.
   void finish(const cmodel::CycleAccount& account);
 
  private:
@@ -31,8 +31,8 @@ class CullCoverage {
   Coverage& coverage_;
   int lanes_;
   cmodel::BeginTile tile_;
-  std::size_t sheets_ = 0;      ///< of the tile, carried out whole
-  std::uint32_t next_tag_ = 0;  ///< behind the splat before
+  std::size_t sheets_ = 0;      ///< of the tile, ended
+  std::uint32_t next_tag_ = 0;  ///< behind the last splat
   cmodel::CullCounts before_;
   Id set_ = 0, splat_ = 0, window_ = 0, map_ = 0, jump_ = 0, waits_ = 0;
 };

@@ -9,16 +9,16 @@
 namespace fastsplat::testbench {
 namespace {
 
-/// A device that culls has the counter of hazards for its place; none is counted where no sample waits.
+/// A device that culls has the hazard counter only for the numbering; without every sample it stays 0.
 bool can_rise(const cmodel::Config& config, std::string_view counter) {
   return counter != "stall_hazard" || config.composite_every_sample != 0;
 }
 
-/// Beyond four cycles a word is read from memory again; twice that is looked at.
+/// Beyond four cycles a word is read from memory again; bins go up to twice that.
 constexpr std::uint64_t kDistances = 8;
 /// end_sheet, begin_sheet, window: no word is met sooner across a swap.
 constexpr std::uint64_t kLeastSwap = 3;
-/// How much later than of a device of circles and entries as they are a window comes down the splat path.
+/// Delay of a window on the splat path by ellipses and interpolation.
 std::uint64_t path_delay(const cmodel::Config& config) {
   return cmodel::stages::splat_delay(config) + cmodel::stages::weight_delay(config);
 }
@@ -85,7 +85,7 @@ CycleCoverage::CycleCoverage(const cmodel::Config& config, Coverage& coverage)
   buffer_wait_ = lengths(coverage, "wait", "begin_sheet_");
   wait_begin_tile_ = lengths(coverage, "wait", "begin_tile_");
   wait_end_tile_ = lengths(coverage, "wait", "end_tile_");
-  // Before begin_frame nothing is late: a source may come when it likes.
+  // Before begin_frame the source is never late.
   bubble_ = coverage.bins().size();
   for (const auto& [opcode, name] : kOpcodes) {
     if (opcode != cmodel::Opcode::BeginFrame) coverage.declare("bubble", std::string("before_") + name);

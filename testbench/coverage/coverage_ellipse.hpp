@@ -1,4 +1,4 @@
-// Coverage of ellipses: shapes, windows and the places in which q ends (docs/numerics.md, section 4.6).
+// Coverage of ellipses: shapes, windows and ranges of q (docs/numerics.md, section 4.6).
 #pragma once
 
 #include "cmodel/numbers/config.hpp"
@@ -14,7 +14,7 @@ class EllipseCoverage {
   EllipseCoverage(const cmodel::Config& config, Coverage& coverage);
   void record(const cmodel::EllipseRecord& record, bool behind_a_circle);
   void circle_follows() { coverage_.hit(before_circle_); }
-  /// The window at pixel (column, row) of the record; `interpolation`: null of a device that does not.
+  /// The window at pixel (column, row) of the record; `interpolation`: null for a device without it.
   void window(std::uint32_t column, std::uint32_t row, InterpolationCoverage* interpolation);
 
  private:

@@ -1,5 +1,5 @@
-// Coverage of weights that lie between entries of the radial table (docs/numerics.md, section 4.7): of circles and of
-// ellipses, and how the fall rounds.
+// Coverage of weights between entries of the radial table (docs/numerics.md, N-4.7-3): of circles and of ellipses, and
+// how the fall rounds.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace fastsplat::testbench {
 
-/// Of a configuration that interpolates.
+/// For configurations that interpolate.
 class InterpolationCoverage {
  public:
   enum Kind : std::size_t { Circle, Ellipse };
 
   InterpolationCoverage(const cmodel::Config& config, Coverage& coverage);
   void load(const cmodel::LoadTable& table);
-  /// A weight is asked for at `steps` of 2^-g entries; nothing at and beyond the rim.
+  /// Samples a weight at `steps` of 2^-g entries; nothing at and beyond the support's edge.
   void weight(Kind kind, std::uint64_t steps);
 
  private:

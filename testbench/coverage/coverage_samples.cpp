@@ -8,7 +8,7 @@
 namespace fastsplat::testbench {
 namespace {
 
-/// Beyond four cycles a pixel is read from memory again; twice that is looked at.
+/// Beyond four cycles a pixel is read from memory again; bins go up to twice that.
 constexpr std::uint64_t kForwarded = 4, kSampleDistances = 8;
 
 }  // namespace

@@ -29,7 +29,7 @@ class SampleCoverage {
   Coverage& coverage_;
   std::size_t columns_;
   std::vector<std::uint64_t> written_;  ///< cycle in which a pixel of the tile was composited last; 0: not yet
-  std::uint64_t last_ = 0;              ///< of the window before; 0: there is none
+  std::uint64_t last_ = 0;              ///< of the window before; 0: none
   std::uint32_t tag_ = 0;
   std::int32_t x_ = 0, y_ = 0;
   Id distance_ = 0, whole_ = 0, part_ = 0, beside_ = 0, corner_ = 0;

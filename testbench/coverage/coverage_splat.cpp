@@ -39,7 +39,7 @@ SplatCoverage::SplatCoverage(const cmodel::Config& config, Coverage& coverage)
     for (std::size_t x = 0; x < classes; ++x)
       edges_[y * (Both + 1) + x] = coverage.declare("edge", std::string("x_") + kAxes[x] + "_y_" + kAxes[y]);
   }
-  // What a footprint needs per side; six is what stimuli go up to, the rest are repetitions.
+  // Windows per side of a footprint; stimuli go up to six, more are repetitions.
   windows_per_side_ = coverage.bins().size();
   for (int side = 1; side <= std::min(6, config.rlut_columns / config.lanes); ++side)
     coverage.declare("footprint", "windows_per_side_" + std::to_string(side));

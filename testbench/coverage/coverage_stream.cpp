@@ -41,8 +41,8 @@ Names<cmodel::Mode> modes_of(const cmodel::Config& config) {
   return out;
 }
 
-/// Fills of a table's last beat (0: one word, 1: two ...) that the configuration's tables can have. SHEETS, which has
-/// as many words as its frame has sheets, is not asked.
+/// Fills of a table's last beat (0: one word, 1: two ...) that the configuration's tables can have. SHEETS is left out:
+/// its length depends on the frame.
 std::set<std::size_t> last_beats(const cmodel::Config& config) {
   std::set<std::size_t> out{words_in_last_beat(static_cast<std::size_t>(config.radial_words())),
                             words_in_last_beat(static_cast<std::size_t>(config.opacity_segments) + 1)};
@@ -64,7 +64,7 @@ StreamCoverage::StreamCoverage(const cmodel::Config& config, Coverage& coverage)
       sets_(static_cast<std::size_t>(config.rlut_sets)),
       extents_(static_cast<std::size_t>(config.rlut_sets)) {
   record_ = coverage.bins().size();
-  // In the order of cmodel::Record, as they are.
+  // In the order of cmodel::Record's alternatives.
   for (const auto& record : cmodel::record_layouts())
     if (record.opcode != cmodel::Opcode::Ellipse || config.has_ellipses()) coverage.declare("record", record.name);
   for (const auto& [table, name] : tables_of(config))
@@ -113,7 +113,7 @@ StreamCoverage::StreamCoverage(const cmodel::Config& config, Coverage& coverage)
 }
 
 void StreamCoverage::on_record(const cmodel::Record& record) {
-  constexpr std::size_t kEllipse = 5;  // alternative
+  constexpr std::size_t kEllipse = 5;  // its alternative of cmodel::Record
   static_assert(std::is_same_v<std::variant_alternative_t<kEllipse, cmodel::Record>, cmodel::EllipseRecord>);
   const bool skipped = record.index() > kEllipse && !config_.has_ellipses();
   coverage_.hit(record_ + record.index() - (skipped ? 1 : 0));

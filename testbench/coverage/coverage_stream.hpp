@@ -1,4 +1,4 @@
-// Coverage of what a stream says: record kinds, tables, tiles, sheets, culling hints, colours (docs/stream.md).
+// Coverage of the contents of a stream: record kinds, tables, tiles, sheets, culling, colours (docs/stream.md).
 #pragma once
 
 #include <array>

@@ -46,20 +46,20 @@ class LineCoverage {
 struct LineFinding {
   LinePoint point;
   std::string text;    ///< of its line
-  std::string reason;  ///< why it is excused; empty: it is not
+  std::string reason;  ///< why it is excused; empty: not excused
 };
 
 struct LineClosure {
   std::vector<LinePoint> points;
   std::vector<LineFinding> unreached;  ///< excused or not
-  std::vector<std::string> findings;   ///< what is red: unexcused points, exclusions that are hit or match nothing
+  std::vector<std::string> findings;   ///< failures: unexcused points, exclusions that are hit or match nothing
   std::map<std::string, std::vector<std::string>> sources;  ///< file -> its lines
 };
 
 /// The files below a folder, by name; no two have the same name.
 std::map<std::string, std::filesystem::path> sources_in(const std::filesystem::path& folder);
 
-/// Sources are read from `rtl`, a folder, and those in it.
+/// Reads the sources from the folder `rtl` and its sub-folders.
 LineClosure close_lines(const LineCoverage& coverage, const std::filesystem::path& rtl,
                         const std::vector<LineExclusion>& exclusions);
 

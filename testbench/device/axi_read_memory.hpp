@@ -1,5 +1,5 @@
 // A memory of beats behind an AXI4 read port, cycle by cycle: latency, pauses, a beat that cannot be read. It answers
-// in order and tells the first rule that the master breaks.
+// in order and reports the first rule that the master breaks.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@
 
 namespace fastsplat::testbench {
 
-/// With no pauses it is regular: a burst's first beat comes `latency` cycles after its address was taken, or when the
-/// burst before has been answered, and then a beat a cycle.
+/// Without pauses it is regular: a burst's first beat comes `latency` cycles after its address was taken, or when the
+/// burst before has been answered. Then a beat comes each cycle.
 struct AxiTimings {
   unsigned latency = 1;       ///< cycles; 0 is taken for 1
-  unsigned more_latency = 0;  ///< of a burst up to so many more, by seed
+  unsigned more_latency = 0;  ///< up to so many more for a burst, by seed
   Pattern takes = {};         ///< when it takes an address
   Pattern has = {};           ///< when it has a beat
   std::uint64_t seed = 1;
@@ -45,12 +45,12 @@ class AxiReadMemory {
   // In the cycle that begins:
   bool ready() const { return ready_; }  ///< takes an address
   const AxiAnswer& answer() const { return answer_; }
-  /// The cycle ends, with this to be seen of the master.
+  /// Ends the cycle. The arguments are the master's signals in it.
   void edge(const AxiRequest& request, bool answer_ready);
 
-  /// This beat is answered with SLVERR and other words.
+  /// Answers this beat with SLVERR and other words.
   void spoil(std::size_t beat) { spoiled_ = beat; }
-  /// Beats asked for in the cycle that ended last, and how often each was in all.
+  /// Beats requested in the last cycle, and how often each was requested in all.
   const std::vector<std::size_t>& asked_now() const { return asked_now_; }
   const std::vector<std::uint32_t>& asked() const { return asked_; }
   std::uint64_t bursts() const { return bursts_; }

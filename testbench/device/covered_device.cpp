@@ -26,7 +26,7 @@ class CoveredDevice final : public PassingDevice {
       top_.write_coverage(path.c_str());
       dat_(read_text_file(path, std::size_t{1} << 26));
     } catch (const UserError&) {
-      dat_({});  // no counts: what was to be covered stays uncovered
+      dat_({});  // no counts: its lines stay uncovered
     }
     std::error_code ignored;
     std::filesystem::remove(path, ignored);

@@ -1,4 +1,4 @@
-// A device whose line counts are handed over when it goes.
+// A device that delivers its line counts when it is destroyed.
 #pragma once
 
 #include "testbench/device/covered_registry.hpp"

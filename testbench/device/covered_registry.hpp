@@ -10,7 +10,7 @@
 
 namespace fastsplat::testbench {
 
-/// Receives a device's counts, as Verilator writes them, when it goes.
+/// Receives a device's counts, as Verilator writes them, when the device is destroyed.
 using CoverageDat = std::function<void(const std::string& dat)>;
 
 struct CoveredEntry {

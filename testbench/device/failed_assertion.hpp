@@ -1,4 +1,4 @@
-// Reads a failed assertion out of what the simulator printed.
+// Parses a failed assertion from the simulator's output.
 #pragma once
 
 #include <string>

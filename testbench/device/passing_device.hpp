@@ -1,4 +1,4 @@
-// A device that hands everything on to another: for tests that change one thing on the way.
+// A device that forwards everything to another: for tests that change one thing on the way.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// When a side of a ready/valid channel is willing: a pure function of the cycle number, so that the RTL, the cycle
-// model and a replay see the same.
+// Ready/valid patterns: in which cycles a side of a channel is ready. A pure function of the cycle number, so that the
+// RTL, the cycle model and a replay see the same.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ class Pattern final : public cmodel::Willing {
   bool at(std::uint64_t cycle) const;
   std::uint64_t next(std::uint64_t cycle) const override;
   const std::string& text() const { return text_; }
-  /// So many cycles from one in which it is willing to the next; 0 where chance decides, which is soon.
+  /// Most cycles from one ready cycle to the next; 0 for `always`, and for `random-P`, where it is soon.
   std::uint64_t longest_wait() const;
   static std::vector<std::string> examples();
 

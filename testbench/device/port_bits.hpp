@@ -1,4 +1,4 @@
-// How wide the words of the RTL's vector ports are, by the configuration.
+// Word widths of the RTL's vector ports, by configuration.
 #pragma once
 
 #include <algorithm>

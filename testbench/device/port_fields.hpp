@@ -1,4 +1,4 @@
-// The fields of a vector port: equally wide ones packed one behind the other, each into a word of its own.
+// Unpacks a vector port: fields of equal width, packed one behind the other, each into a word of its own.
 #pragma once
 
 #include <array>
@@ -8,14 +8,14 @@
 
 namespace fastsplat::testbench {
 
-/// Made ready for one width, so that nothing about a field's place has to be worked out while a device runs.
+/// Prepared for one width, so that no field's place is computed while a device runs.
 class PortFields {
  public:
   /// 1 to 32 bits.
   explicit PortFields(int bits) : unpack_(kUnpack[static_cast<std::size_t>(bits) - 1]) {}
 
-  /// The first `count` fields of the port's words, the least significant first. Of `words` no more is read than holds
-  /// them.
+  /// Unpacks the first `count` fields of the port's words, the least significant first. Reads no more of `words` than
+  /// holds them.
   void unpack(const std::uint32_t* words, std::size_t count, std::uint32_t* out) const { unpack_(words, count, out); }
 
  private:

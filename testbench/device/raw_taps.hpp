@@ -1,5 +1,5 @@
-// What the RTL shows of itself, as its ports have it: words by bank, places in the port's width. Plain data, so that
-// any simulator can tell it.
+// What the RTL's ports show, unchanged: words by bank, places in the port's width. Plain data, so that any simulator
+// can provide it.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ enum class RawPort : std::uint8_t {
   Composite,  ///< block; BANKS x 4 words
   SheetDone,  ///< the walk of a sheet picked its last block
   Pixels,     ///< a pixel beat was taken: P pixels of 4 words of 32 bits; last
-  Verdict,    ///< what the source is told of a cull_block: tag; hidden
+  Verdict,    ///< the verdict on a cull_block: tag; hidden
   TileLeft,   ///< a tile's last pixels left the core for the register slice; only where there is one
 };
 
@@ -30,16 +30,16 @@ struct RawTap {
   std::uint32_t mx = 0, my = 0;
   std::uint32_t block = 0;  ///< number in the tile, row by row
   bool last = false;        ///< ends the tile
-  bool cut = false;         ///< marked as of a tile that was cut short, where none was
+  bool cut = false;         ///< marked as of a tile that was cut short, although none was
   bool hidden = false;      ///< of a verdict
   /// Of a pixel beat: which of its pixels lie in the tile, the first in bit 0. Absent where a bench does not show it.
   std::optional<std::uint32_t> keep = std::nullopt;
-  std::optional<std::uint32_t> tile = std::nullopt;  ///< number of the tile at hand; absent where it is not shown
+  std::optional<std::uint32_t> tile = std::nullopt;  ///< number of the current tile; absent if not shown
   /// A vector port in words of 32 bits, the least significant first; valid during the call.
   std::span<const std::uint32_t> words;
 };
 
-/// Told in the order of the cycles; of one cycle the taps in the order of RawPort, then the beat.
+/// Receives events in the order of the cycles; within a cycle the taps in the order of RawPort, then the beat.
 class RawTapSink {
  public:
   virtual ~RawTapSink() = default;

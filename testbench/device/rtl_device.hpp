@@ -19,7 +19,7 @@
 
 namespace fastsplat::testbench {
 
-/// Length of a reset, unless somebody asks for another.
+/// Default length of a reset, in cycles.
 constexpr int kResetCycles = 4;
 
 /// Whether the RTL's assertions are checked; without, a device is a little faster.
@@ -31,15 +31,15 @@ struct RtlOptions {
   ResetFill fill = ResetFill::Random;
   std::uint64_t seed = 1;            ///< of ResetFill::Random
   std::uint64_t timeout = 1u << 20;  ///< cycles without any transfer before UserError (Simulation)
-  RawTapSink* taps = nullptr;        ///< outlives the device; null: nothing is told
+  RawTapSink* taps = nullptr;        ///< outlives the device; null: nothing is reported
   /// A waveform of the cycles [wave_from, wave_to); none while the path is empty.
   std::filesystem::path wave;
   std::uint64_t wave_from = 0, wave_to = 0;
-  bool wave_after_reset = false;  ///< only behind the first warm_reset(), with which the cycles begin again
+  bool wave_after_reset = false;  ///< only after the first warm_reset(), which restarts the cycles
   Assertions assertions = Assertions::On;
 };
 
-/// What a register access was answered with.
+/// Answer to a register access.
 struct RegisterAnswer {
   std::uint32_t word = 0;  ///< of a read
   bool okay = false;       ///< false: SLVERR
@@ -48,57 +48,58 @@ struct RegisterAnswer {
 /// Half of a write's offer.
 enum class WriteHalf { Address, Data };
 
-/// Of a beat that breaks a rule. Judged: the cycle before that in which error rises; that of the transfer, for one that
-/// is swallowed because another was refused before.
+/// Refusal of an illegal beat. `judged`: the cycle before that in which error rises. If the beat is dropped because of
+/// an earlier refusal, the cycle of its transfer.
 struct Refusal {
   std::uint64_t taken = 0, judged = 0;
 };
 
-/// Of a stream that the device refuses, consume() throws UserError (Simulation) once; what follows is swallowed until a
-/// reset. Who expects a refusal asks for it (refuse()).
+/// If the device refuses the stream, consume() throws UserError (Simulation) once; later beats are dropped until a
+/// reset. Callers that expect a refusal use refuse().
 class RtlDevice : public cmodel::Device {
  public:
   /// Cycles since reset was released.
   virtual std::uint64_t cycles() const = 0;
   /// Read through AXI4-Lite.
   virtual cmodel::StallCounters cycle_counters() = 0;
-  /// One AXI4-Lite access; the answer is taken `wait` cycles after it came. The stream side goes on by its patterns. No
-  /// answer when the page has it, or one before, is UserError (Simulation).
+  /// One AXI4-Lite access; the answer is taken `wait` cycles after it came. The stream side goes on by its patterns.
+  /// Throws UserError (Simulation) if the answer is not in the cycle that docs/microarchitecture.md gives.
   virtual RegisterAnswer read_register(std::uint32_t address, int wait = 0) = 0;
   virtual RegisterAnswer write_register(std::uint32_t address, std::uint32_t word, int wait = 0) = 0;
   /// Offers one half of a write for so many cycles, then withdraws it: true if the device took it or answered.
   virtual bool takes_half_write(WriteHalf half, std::uint32_t address, std::uint32_t word, int cycles) = 0;
-  /// Has a read and a write taken and their answers left waiting, or only the write's, the read under way: what
-  /// follows is a reset.
+  /// Leaves the answers to a read and a write waiting; without `read_too` only the write's, with the read under way. A
+  /// reset has to follow.
   virtual void leave_answers_waiting(bool read_too) = 0;
   /// Resets again in the middle of whatever is going on, for so many cycles; memories keep what they hold, counters
-  /// restart. Nobody takes answers or pixels meanwhile; one that is still there afterwards is UserError (Simulation).
+  /// restart. Answers and pixels are not taken meanwhile. Throws UserError (Simulation) if one is still there
+  /// afterwards.
   virtual void warm_reset(int cycles = kResetCycles) = 0;
   /// Offers an illegal beat. Returns when it was taken and checked, or nullopt if the device does not refuse it.
   /// Neither it nor any later beat is reported to observers, until a reset.
   virtual std::optional<Refusal> refuse(const cmodel::Beat& beat) = 0;
-  /// Offers beats that the device drops without an error: they are not reported to observers.
+  /// Offers beats that the device drops without an error. They are not reported to observers.
   virtual void drop(std::span<const cmodel::Beat> beats) = 0;
-  /// Asks CONTROL for a soft reset. With `wait` until the device is at rest; without, the beats that are offered next
-  /// wait for that.
+  /// Requests a soft reset by CONTROL. With `wait` returns once the device is at rest; without, the next beats wait for
+  /// that.
   virtual void soft_reset(bool wait = true) = 0;
   virtual bool interrupt() const = 0;
-  /// Its ports are fastsplat_top's, with a register slice at each stream; else fastsplat_core's.
+  /// Whether its ports are fastsplat_top's, with a register slice at each stream; otherwise fastsplat_core's.
   virtual bool sliced() const = 0;
-  /// Tiles whose pixels came out marked as cut short, since reset was released. While no refusal and no soft reset was
-  /// asked for, one is UserError (Simulation).
+  /// Number of tiles that came out marked as cut short since reset was released. Unless a refusal or a soft reset was
+  /// requested, such a tile is UserError (Simulation).
   virtual std::uint64_t aborted_tiles() const = 0;
 };
 
-/// Makes the simulators of `config` with these abilities ready, built if need be: throws what rtl_module() throws.
-/// `otherwise` is the way out that the caller has without RTL.
+/// Prepares the simulators of `config` with these abilities, built if needed; throws as rtl_module(). `otherwise` is
+/// the caller's alternative without RTL.
 void require_rtl(const cmodel::Config& config, const std::vector<RtlAbilities>& abilities,
                  const std::string& otherwise = {});
 
-/// The RTL of the configuration, whatever it is called; built if need be (rtl_module.hpp). Throws as require_rtl()
-/// does, and UserError (Simulation) when the configuration hash in the device's registers is not `config`'s. While the
-/// device runs, UserError (Simulation) reports that it hangs, that it refused the stream, or which assertion of the RTL
-/// failed, where and in which cycle.
+/// The RTL of the configuration, whatever its name; built if needed (rtl_module.hpp). Throws as require_rtl(), and
+/// UserError (Simulation) if the configuration hash in the device's registers is not `config`'s. While the device runs,
+/// UserError (Simulation) reports that it hangs, that it refused the stream, or which assertion of the RTL failed,
+/// where and in which cycle.
 std::unique_ptr<RtlDevice> make_rtl_device(const cmodel::Config& config, cmodel::PixelSink& pixels,
                                            const RtlOptions& options = {});
 

@@ -112,7 +112,7 @@ void report(const Progress& progress, const std::string& printed) {
   progress(done, std::max(done, static_cast<std::size_t>(total)));
 }
 
-/// The line of a tool that says what is wrong.
+/// The line of a tool's output that has the error.
 std::string first_error(const Called& called) {
   const std::string all = called.out + called.err;
   for (const char* sign : {"%Error", "error:", "rror"}) {
@@ -124,7 +124,7 @@ std::string first_error(const Called& called) {
   return called.last_words();
 }
 
-/// Of a build, by its size: what grows is the array of P x P lanes.
+/// Expected duration of a build; it grows with the array of P x P lanes.
 std::string duration(const cmodel::Config& config) {
   const int lanes = config.lanes * config.lanes;
   return lanes <= 4 ? "takes half a minute" : lanes <= 16 ? "takes a minute" : "takes several minutes";

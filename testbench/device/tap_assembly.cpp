@@ -14,7 +14,7 @@ namespace {
 constexpr cmodel::BeginTile kNone{.mode = {}, .tile = kNoTile, .x = 0, .y = 0, .width = 0, .height = 0};
 constexpr std::size_t kWords = 4;  ///< of a pixel
 
-/// Pixels beside the tile that its sheets and picture begin with: bank 0 holds column and row -1 of densities.
+/// Width of the halo on the left and top: with densities bank 0 holds column and row -1.
 int rim_of(const cmodel::BeginTile& tile) { return cmodel::holds_densities(tile.mode) ? 1 : 0; }
 
 }  // namespace
@@ -37,12 +37,12 @@ void TapAssembly::accept(const cmodel::Beat& beat) {
   if (opcode == cmodel::Opcode::BeginTile) {
     sheets_.emplace_back();
   } else if (sheets_.empty()) {
-    return;  // of no tile: the device ended it before its records were all taken
+    return;  // outside tiles: the device ended the tile before all of its records were taken
   } else if (opcode == cmodel::Opcode::BeginSheet) {
     sheets_.back().begun.push_back(
         {static_cast<std::uint32_t>(get(beat, cmodel::layout::kSheetNumber)), sheets_.back().tags});
   } else if (opcode == cmodel::Opcode::Splat || opcode == cmodel::Opcode::Ellipse) {
-    // Not counted: a source may leave hidden ones out, and tags go on as if they had come.
+    // Taken from the tag, not counted: a source may leave out hidden splats, and tags go on as if they had come.
     const auto& field = opcode == cmodel::Opcode::Splat ? cmodel::layout::kSplatTag : cmodel::layout::kEllipseTag;
     sheets_.back().tags = static_cast<std::uint32_t>(get(beat, field)) + 1;
   }
@@ -156,7 +156,7 @@ void TapAssembly::composite(const RawTap& tap) {
     const Window window = next_window();
     state_fields_.unpack(tap.words.data(), kWords * banks_, banked_.data());
     arrange(window.at, tile());
-    // The port's block is 0 here; where it is not, the tap tells another place.
+    // The port's block must be 0 here; any other value makes the place differ.
     const Place told{.x = window.at.x + static_cast<std::int32_t>(tap.block), .y = window.at.y};
     emit(cmodel::Tap::Composite, tap.cycle, sheet_of(window.tag), window.tag, told, payload_);
     return;

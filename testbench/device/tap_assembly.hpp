@@ -15,7 +15,7 @@
 
 namespace fastsplat::testbench {
 
-/// Tile of a record that belongs to none: the device showed it before its first tile or after its last.
+/// Tile of a record outside tiles: the device showed it before its first tile or after its last.
 constexpr std::uint32_t kNoTile = ~std::uint32_t{0};
 
 class TapAssembly final : public RawTapSink {
@@ -30,11 +30,11 @@ class TapAssembly final : public RawTapSink {
   struct Sheet {
     std::uint32_t number = 0, first_tag = 0;
   };
-  /// Of a tile that has not come out, in the order of tiles_.
+  /// State of a tile that has not come out, in the order of tiles_.
   struct Sheets {
     std::vector<Sheet> begun;
-    std::size_t composited = 0;  ///< whose blocks have all passed
-    std::uint32_t tags = 0;      ///< behind the last splat that came
+    std::size_t composited = 0;  ///< number of sheets whose blocks have all passed
+    std::uint32_t tags = 0;      ///< tag behind the last splat
   };
   struct Place {
     std::int32_t x = 0, y = 0;
@@ -75,7 +75,7 @@ class TapAssembly final : public RawTapSink {
   TileAssembly tiles_;
   std::deque<Sheets> sheets_;
   std::size_t left_ = 0;                     ///< tiles that have left the core and are not out yet
-  std::optional<std::uint32_t> shown_tile_;  ///< by the event at hand
+  std::optional<std::uint32_t> shown_tile_;  ///< of the current event
   std::deque<Window> windows_;               ///< between the footprint and the sheet tap, or composite of every sample
   std::deque<std::uint64_t> finished_;       ///< cycles of sheet_done whose blocks are still in the pipe
   std::vector<std::uint32_t> banked_;        ///< of a port, by bank: one word or four of each

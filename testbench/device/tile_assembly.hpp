@@ -1,4 +1,4 @@
-// Finished tiles out of a device's pixel beats: which tile they belong to is known from the beats the device took.
+// Assembles finished tiles from a device's pixel beats; the beats that it took say which tile they belong to.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class TileAssembly {
 
   TileAssembly(const cmodel::Config& config, cmodel::PixelSink& pixels) : lanes_(config.lanes), pixels_(pixels) {}
 
-  /// A beat the device took. The record that begins with it; none for the words of a table.
+  /// A beat the device took. Returns the record that begins with it; nothing for the words of a table.
   std::optional<cmodel::Opcode> accept(const cmodel::Beat& beat);
   /// P pixels of 4 words; `last` ends the tile, whatever it lacks.
   void pixels(std::span<const std::uint32_t> words, bool last);

@@ -89,7 +89,7 @@ class VerilatedDevice final : public RtlDevice {
       cycle();
       if (hangs(since)) time_out("the core takes no beat");
     }
-    expecting_ = resetting_ = true;  // of an open tile
+    expecting_ = resetting_ = true;  // an open tile is cut short
     write_register(cmodel::kRegControl.address, cmodel::kControlReset, 0);
     if (!wait) return;
     come_to_rest();
@@ -177,7 +177,7 @@ class VerilatedDevice final : public RtlDevice {
     ports_.awaddr_i.drive(address);
     ports_.wdata_i.drive(word);
     (half == WriteHalf::Address ? ports_.awvalid_i : ports_.wvalid_i) = 1;
-    writing_ = true;  // whether it is one shows here
+    writing_ = true;  // allows an answer, which is looked for here
     bool taken = false;
     for (int i = 0; i < cycles; ++i) {
       top_->eval();  // ready answers valid within the cycle
@@ -210,7 +210,7 @@ class VerilatedDevice final : public RtlDevice {
   static constexpr int kOkay = 0, kSlverr = 2;  ///< of AXI4-Lite
 
   void end_soft_reset() {
-    tiles_.reset();  // of a table that was cut short
+    tiles_.reset();  // drops a table that was cut short
     expecting_ = resetting_ = refused_ = false;
   }
 
@@ -220,10 +220,10 @@ class VerilatedDevice final : public RtlDevice {
     }
   }
 
-  /// Who waits since then has waited too long without anything having been taken of either stream: a sink may be slow.
+  /// True if neither stream has moved for the timeout, counted from `since` at the earliest: a sink may be slow.
   bool hangs(std::uint64_t since) const { return cycle_ - std::max(since, moved_) > options_.timeout; }
 
-  /// The cycle behind that in which a read's address was taken: another one offered meanwhile is not.
+  /// The cycle after a read's address was taken: another address must not be taken in it.
   void read_in_a_cycle() {
     if (ports_.rvalid_o) wrong("a register read is answered one cycle after it was accepted", "two cycles after");
     ports_.araddr_i.drive(~ports_.araddr_i.value() & 0xFFF);
@@ -273,7 +273,7 @@ class VerilatedDevice final : public RtlDevice {
 
   void pulse_reset(int cycles) {
     quiet();
-    // What only drains away while it is taken has not been reset.
+    // Answers are not taken: one that disappears only by being taken was not reset.
     ports_.rready_i = ports_.bready_i = 0;
     ports_.rst_ni = 0;
     for (int i = 0; i < cycles; ++i) edge();
@@ -309,7 +309,7 @@ class VerilatedDevice final : public RtlDevice {
     sample();
     if (taken || (ports_.m_tvalid_o && ports_.m_tready_i)) moved_ = cycle_;
     if (taken) {
-      if (resetting_) end_soft_reset();  // none is taken before
+      if (resetting_) end_soft_reset();  // no beat is taken before
       if (!expecting_) {
         tiles_.accept(beat_);
         if (options_.taps != nullptr) options_.taps->accept(beat_);
@@ -335,7 +335,7 @@ class VerilatedDevice final : public RtlDevice {
     return taken;
   }
 
-  /// Taps of this cycle, the pixel beat, if one is taken, and the verdict, if one is told.
+  /// Samples the taps of this cycle, the pixel beat if one is taken, and the verdict if there is one.
   void sample() {
     if (options_.taps != nullptr) sample_taps(*options_.taps);
     if (options_.taps != nullptr && sliced() && *ports_.tap_tile_left_o)
@@ -454,13 +454,13 @@ class VerilatedDevice final : public RtlDevice {
   std::uint64_t moved_ = 0;  ///< the cycle in which a beat or pixels were taken last
   cmodel::Beat beat_{};
   bool pending_ = false;    ///< a beat waits to be offered
-  bool offering_ = false;   ///< and has been: valid stays up until taken
-  bool refused_ = false;    ///< the device said so since reset
-  bool expecting_ = false;  ///< that it does, or that it cuts a tile short
-  bool resetting_ = false;  ///< a soft reset that nobody saw the end of
+  bool offering_ = false;   ///< the beat is offered: valid stays up until it is taken
+  bool refused_ = false;    ///< the device has refused a beat since reset
+  bool expecting_ = false;  ///< a refusal or a cut tile is expected
+  bool resetting_ = false;  ///< a soft reset whose end was not awaited
   std::uint64_t aborted_tiles_ = 0;
   bool reading_ = false, writing_ = false;  ///< an access was begun whose answer was not taken
-  bool was_reset_ = false;                  ///< warm
+  bool was_reset_ = false;                  ///< by a warm reset
   cmodel::Counters counters_;
 };
 

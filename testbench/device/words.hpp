@@ -1,4 +1,4 @@
-// How reports and bins write the device's words.
+// Text of the device's words in reports and bins.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace fastsplat::testbench {
 
-/// Of colours, sums and X-ray sums, in the order of their words.
+/// Names of colours, sums and X-ray sums, in the order of their words.
 inline constexpr const char* kChannels[] = {"R", "G", "B", "tau"};
 
 /// "0x1F", "-0x1F".

@@ -13,15 +13,15 @@ enum class RtlFault : std::uint32_t {
 #undef FAULT
 };
 
-/// Configurations of configs/faults whose RTL can be broken: of every fault but the next ones, of SAMPLE_..., of
-/// CULL_..., of POST_...
+/// Configurations of configs/faults whose RTL can be broken: by every fault but the next ones, by SAMPLE_..., by
+/// CULL_..., by POST_...
 constexpr const char* kBreakableConfig = "mustfail";
 constexpr const char* kBreakableSamples = "westover";
 constexpr const char* kBreakableCull = "cull";
 constexpr const char* kBreakablePost = "post";
 
-/// Built if need be, as make_rtl_device() does. A fault of what `config` has not shows nowhere. With assertions on, one
-/// that fires ends the run. Devices on several threads may have different faults.
+/// Built if needed, as by make_rtl_device(). A fault in a part that `config` lacks shows nowhere. With assertions on,
+/// one that fires ends the run. Devices on several threads may have different faults.
 std::unique_ptr<RtlDevice> make_breakable_device(const cmodel::Config& config, cmodel::PixelSink& pixels,
                                                  const RtlOptions& options, RtlFault fault, Assertions assertions);
 

@@ -1,5 +1,5 @@
-// Faults to plant on purpose, to see what a failure looks like: in the RTL of the device that is made to be broken, or
-// at the ports of any device, where its checker looks.
+// Faults planted on purpose, to see what a failure looks like: in the RTL of a breakable device, or at the ports of any
+// device, in front of its checker.
 #pragma once
 
 #include <functional>
@@ -22,17 +22,17 @@ struct PlantedFault {
   const char* meaning;  ///< what is broken, one line
 };
 
-/// The configuration whose RTL has the fault; of the ports' faults, any has.
+/// The configuration whose RTL has the fault; faults at the ports exist in any.
 const char* breakable_config(const PlantedFault& fault);
 
-/// Those of the RTL as in faults.def, then those of the ports.
+/// The RTL's, as in faults.def, then the ports'.
 std::span<const PlantedFault> planted_faults();
 std::vector<std::string> planted_fault_names();
-/// Throws UserError (Usage) with the nearest name.
+/// Throws UserError (Usage) for unknown names, with the nearest one.
 const PlantedFault& planted_fault_from(const std::string& name);
 
-/// Makes devices that have the fault, for VerifyOptions::device; of the RTL with assertions off, so that the checker
-/// is what speaks.
+/// Makes devices with the fault, for VerifyOptions::device. Faults of the RTL run with assertions off, so that the
+/// checker reports them.
 using MakeDevice = std::function<std::unique_ptr<RtlDevice>(cmodel::PixelSink&, const RtlOptions&)>;
 MakeDevice with_fault(const PlantedFault& fault, const cmodel::Config& config);
 

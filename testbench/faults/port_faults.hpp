@@ -1,4 +1,4 @@
-// Faults between a device's ports and who looks at them.
+// Faults between a device's ports and their observers.
 #pragma once
 
 #include <memory>
@@ -26,7 +26,7 @@ enum class PortFault {
 };
 
 using MakeHealthy = std::unique_ptr<RtlDevice> (*)(const cmodel::Config&, cmodel::PixelSink&, const RtlOptions&);
-/// A device of `make` with the fault before it.
+/// A device of `make` with the fault at its ports.
 std::unique_ptr<RtlDevice> with_port_fault(PortFault fault, MakeHealthy make, const cmodel::Config& config,
                                            cmodel::PixelSink& pixels, const RtlOptions& options);
 

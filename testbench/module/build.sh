@@ -1,8 +1,9 @@
 #!/bin/sh
 # build.sh SHARE PACKAGE MODULE [wave] [faults]: builds the simulator of one configuration as a shared library.
-# SHARE holds rtl/ and testbench/module/; PACKAGE is the configuration's fastsplat_pkg.sv; MODULE the file to write, last of
-# all and at once. `wave`: it can write waveforms; `faults`: it holds every fault of SHARE/fastsplat_fault_pkg.sv, one of
-# them selected at run time. Prints "files N", then a line for each of the N files as it is compiled. CXX names the compiler, JOBS how many run at a time.
+# SHARE holds rtl/ and testbench/module/; PACKAGE is the configuration's fastsplat_pkg.sv; MODULE the file to write, last
+# and atomically. `wave`: it can write waveforms. `faults`: it holds every fault of SHARE/fastsplat_fault_pkg.sv, one of
+# them selected at run time. Prints "files N", then a line for each of the N files as it is compiled. CXX is the
+# compiler, JOBS the number of parallel jobs.
 set -eu
 share=$1 package=$2 module=$3
 shift 3
@@ -25,7 +26,7 @@ for ability; do
       set -- "$@" -DFASTSPLAT_FAULT_SELECT=fastsplat_fault_pkg::selected "$share/fastsplat_fault_pkg.sv" ;;
   esac
 done
-# A simulator that writes waveforms keeps every signal and runs briefly: it is compiled fast instead of to be fast.
+# A simulator that writes waveforms keeps every signal and runs briefly: compile time counts more than its speed.
 speed=-O2
 case " $* " in *" --trace-fst "*) speed=-O0 ;; esac
 
@@ -33,7 +34,7 @@ verilator --cc --exe --quiet-exit -Wno-fatal -Wno-lint -O3 --assert --x-assign u
   --prefix Vfs --top-module fastsplat_dut --Mdir "$work" "-I$share/rtl" \
   -CFLAGS "$flags" -LDFLAGS "-shared" -o module.so \
   "$@" "$package" "$share"/rtl/*.sv "$share"/rtl/*/*.sv "$source"/*.sv "$source/module.cpp" "$source/simulator_output.cpp"
-# Each of the many files of a large device reads the same long headers: some are compiled as one.
+# The many files of a large device all read the same long headers: some are compiled as one.
 # together VARIABLE COUNT: the files that VARIABLE of Vfs_classes.mk lists, in COUNT files that include them.
 together() {
   names=$(sed -n "/^$1 +=/,/^\$/s/^[[:space:]]\([A-Za-z0-9_]*\) .*/\1/p" "$work/Vfs_classes.mk")

@@ -81,7 +81,7 @@ struct Ports {
 struct SimulatorOptions {
   int fill = 2;             ///< of memories and registers before the reset: 0 zeros, 1 ones, 2 random
   int seed = 1;             ///< of random ones; above 0
-  bool assertions = true;   ///< checked
+  bool assertions = true;   ///< assertions are checked
   bool trace = false;       ///< trace() will be called
   std::uint32_t fault = 0;  ///< number of the planted fault (rtl/fault.svh); 0: none
 };
@@ -92,7 +92,7 @@ class SimulatedTop {
   virtual Ports ports() = 0;
   /// Settles all signals after inputs have changed.
   virtual void eval() = 0;
-  /// An assertion has failed since the start.
+  /// Whether an assertion has failed since the start.
   virtual bool failed() const = 0;
   /// What the simulator has printed in this thread since the last call.
   virtual std::string take_output() = 0;

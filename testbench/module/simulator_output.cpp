@@ -21,7 +21,7 @@ int simulator_print(const char* format, ...) {
   va_end(again);
   va_end(arguments);
   printed += text;
-  // The runtime is about to end the process: nobody else will tell why.
+  // The runtime is about to end the process: this is the last chance to print the reason.
   if (text.starts_with("Aborting")) std::fputs(printed.c_str(), stderr);
   return length;
 }

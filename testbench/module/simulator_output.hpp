@@ -6,7 +6,7 @@
 
 namespace fastsplat::testbench {
 
-/// Stands in for printf in the simulator's runtime. By thread: a device is run by one.
+/// Replaces printf in the simulator's runtime. Output is kept by thread: one thread runs a device.
 int simulator_print(const char* format, ...) __attribute__((format(printf, 1, 2)));
 /// What was printed since the last call.
 std::string take_simulator_output();

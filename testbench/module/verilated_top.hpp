@@ -40,7 +40,7 @@ class VerilatedTop final : public SimulatedTop {
 #if VM_TRACE_FST
     if (wave_) wave_->close();
 #endif
-    // The simulator's objects take leave of the thread's context, which is that of the device that ran last.
+    // The simulator's objects unregister from the thread's context, which is that of the device that ran last.
     Verilated::threadContextp(&context_);
     top_->final();
     top_.reset();
@@ -59,8 +59,8 @@ class VerilatedTop final : public SimulatedTop {
 #undef X
     };
   }
-  /// What is printed meanwhile, of an assertion that fails, goes by the thread's context: another device's that came
-  /// after this one, and may be gone.
+  /// A failing assertion is printed through the thread's context: without this, that of a later device, which may be
+  /// gone.
   void eval() override {
     Verilated::threadContextp(&context_);
     if (select_ != nullptr) select_(*top_, fault_);

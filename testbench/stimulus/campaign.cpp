@@ -74,7 +74,7 @@ CampaignRun make_run(const CampaignOptions& options, std::size_t index) {
     run.options.ready = patterns[(which + index / classes) % patterns.size()];
   }
   if (run.options.input == "all") {
-    // The other way round, so that over the seeds the pairs change as well.
+    // In reverse, so that over the seeds the pairs change as well.
     const auto patterns = Pattern::examples();
     run.options.input = patterns[(which + (patterns.size() - 1) * (index / classes)) % patterns.size()];
   }
@@ -89,7 +89,7 @@ CampaignRun make_run(const CampaignOptions& options, std::size_t index) {
 
 Coverage class_bins(const cmodel::Config& config, StimulusClass which) {
   Coverage coverage = CoverageCollector::declare(config);
-  // The class brings a pattern of its own where the sink was always ready.
+  // BackPressure replaces `always` of the sink by a pattern of its own.
   const bool pauses = which == StimulusClass::BackPressure;
   for (const auto& pattern : Pattern::examples()) {
     if (!pauses || pattern != "always") coverage.declare(kClassReady, with_pattern(which, pattern));
@@ -106,7 +106,7 @@ CampaignResult run_campaign(const CampaignOptions& options) {
   std::atomic<std::size_t> failed = count;  ///< the first run that did not pass
   std::mutex telling;
   parallel_for(count, options.threads, [&](std::size_t) {
-    // In order, whichever job a thread was given: a failure is known as soon as may be.
+    // In order, whichever thread takes it: a failure is known as early as possible.
     const std::size_t i = next++;
     if (i > failed) return;
     CampaignRun run = make_run(options, i);
@@ -126,7 +126,7 @@ CampaignResult run_campaign(const CampaignOptions& options) {
 
   CampaignResult out;
   out.total.verdict = Verdict::Pass;
-  // What was begun beside the failure and lies behind it does not count: another number of threads would not have it.
+  // Runs behind the failed one do not count: with another number of threads they might not have begun.
   for (std::size_t i = 0; i < count && i <= failed; ++i) {
     add(out.total, *results[i]);
     add(out.by_seed, options.verify.seed + i / options.classes.size(), *results[i]);

@@ -20,7 +20,7 @@ struct CampaignOptions {
   std::uint64_t seeds = 1;      ///< seed, seed+1, ...
   std::vector<StimulusClass> classes = stimulus_classes();
   bool keep_going = false;  ///< runs all, whatever fails
-  bool as_files = false;    ///< the streams lie as files have to (arranged()); what no image holds: UserError (Usage)
+  bool as_files = false;    ///< streams are laid out as files (arranged()); UserError (Usage) if no image holds them
   int threads = 0;          ///< streams in parallel; 0: all cores. Never changes a result.
   std::function<void(std::size_t done, std::size_t of)> progress;
 };
@@ -30,28 +30,28 @@ struct CampaignRun {
   StimulusClass which{};
   VerifyOptions options;
   std::vector<cmodel::Beat> beats;
-  bool reset_late = false;  ///< the stream is shorter than its reset is late: it comes after the last beat
+  bool reset_late = false;  ///< the stream is too short for its reset, which comes after the last beat
 };
 std::size_t run_count(const CampaignOptions& options);
 CampaignRun make_run(const CampaignOptions& options, std::size_t index);
 
-/// What a seed's streams came to, all classes together.
+/// Result of a seed's streams, all classes together.
 struct SeedResult {
   std::uint64_t seed = 0;
   Verdict verdict = Verdict::Pass;  ///< of the first of them that did not pass
   std::uint64_t streams = 0, splats = 0, comparisons = 0, mismatches = 0, cycles = 0;
 };
 
-/// What one stream came to.
+/// Result of one stream.
 struct StreamResult {
   std::uint64_t seed = 0;
   StimulusClass which{};
-  std::string ready, input;  ///< the patterns it met
+  std::string ready, input;  ///< the patterns it ran with
   Verdict verdict = Verdict::Pass;
   std::uint64_t splats = 0, comparisons = 0, mismatches = 0, cycles = 0;
 };
 
-/// A divergence and whose.
+/// A divergence and its run.
 struct StreamDivergence {
   std::size_t run = 0;  ///< index into CampaignResult::by_stream
   Divergence divergence;
@@ -60,7 +60,7 @@ struct StreamDivergence {
 struct CampaignResult {
   VerifyResult total;                          ///< sums; first divergence and error are the first failed run's
   std::uint64_t streams = 0;                   ///< run: all, or those up to the failed one
-  std::uint64_t resets_late = 0;               ///< streams too short for the reset that was asked for
+  std::uint64_t resets_late = 0;               ///< streams too short for their reset
   std::map<StimulusClass, Coverage> coverage;  ///< of each class's streams, if asked for
   std::vector<SeedResult> by_seed;             ///< in their order, as far as they were run
   std::vector<StreamResult> by_stream;         ///< likewise
@@ -69,7 +69,7 @@ struct CampaignResult {
   std::optional<VerifyResult> failure;         ///< its result
 };
 
-/// The bins of a class: those of the configuration, and that it met each ready pattern.
+/// The bins of a class: those of the configuration, and one for each ready pattern.
 Coverage class_bins(const cmodel::Config& config, StimulusClass which);
 
 /// Runs all, or without keep_going up to the first that fails: its result and the sums up to it are the same for any

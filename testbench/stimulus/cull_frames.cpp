@@ -10,7 +10,7 @@ namespace {
 
 using namespace cmodel;
 
-/// Splats of a set that lies beside the tile; of one over an opaque half; of a sheet.
+/// Number of splats in a cull group beside the tile; in one over an opaque half; in a sheet.
 constexpr std::uint32_t kBeside = 3, kOver = 4, kMany = 20;
 
 class CullGenerator {
@@ -43,8 +43,8 @@ class CullGenerator {
   }
 
  private:
-  /// Two sets, of one window and of as many as there are up to two; weights and factors as large as can be. No pixel of
-  /// a window asks for the first two entries of RADIAL, so they may be anything.
+  /// Up to two radius sets, of one window a side and of two; weights and factors as large as possible. No pixel of a
+  /// window reads the first two entries of RADIAL, so they may be anything.
   std::vector<LoadTable> tables() {
     std::vector<LoadTable> out;
     for (std::uint32_t set = 0; set < sets(); ++set) {
@@ -56,7 +56,7 @@ class CullGenerator {
     out.push_back(random_radial(config_, random_, TableStyle::Any));
     std::ranges::fill(out.back().words, static_cast<std::uint32_t>(config_.weight_format().max));
     out.push_back(random_factor(config_, random_, TableStyle::Unit));
-    // The larger set speaks last, or the smaller one.
+    // The larger set is loaded last, or the smaller one.
     if (random_.chance(50)) std::swap(out.front(), out[sets() - 1]);
     return out;
   }
@@ -72,7 +72,7 @@ class CullGenerator {
     tile.sheets.push_back({static_cast<std::uint32_t>(tile.sheets.size()), std::move(records)});
   }
 
-  /// As bright as can be; its windows begin at the pixel.
+  /// As bright as possible; its windows begin at the pixel.
   SplatRecord splat(std::uint32_t set, std::int64_t x, std::int64_t y) const {
     const auto most = static_cast<std::uint32_t>(config_.colour_format().max);
     return {.set = set,
@@ -90,7 +90,7 @@ class CullGenerator {
     for (std::uint32_t i = 0; i < kMany; ++i) out.emplace_back(anywhere());
     return out;
   }
-  /// Over so many rows of pixels.
+  /// Bright splats over so many rows of pixels.
   std::vector<SheetRecord> wall(int rows) const {
     std::vector<SheetRecord> out;
     for (int times = 0; times < 2; ++times)
@@ -99,7 +99,7 @@ class CullGenerator {
     return out;
   }
 
-  /// A set that lies beside the tile, and its splats.
+  /// Inserts a cull group beside the tile, and its splats.
   void hide(std::vector<SheetRecord>& records, std::size_t at) const {
     const std::int64_t far = config_.position_format().min >> config_.position_frac_bits;
     std::vector<SheetRecord> hidden{

@@ -44,7 +44,7 @@ constexpr const char* kRegisterBins[] = {"identity",
 struct ResetBin {
   cmodel::Opcode after;
   const char* name;
-  bool goes_on = false;  ///< what it begins goes on without any beat
+  bool goes_on = false;  ///< its work goes on without further beats
 };
 constexpr ResetBin kResetBins[] = {
     {cmodel::Opcode::LoadTable, "after_load_table"},   {cmodel::Opcode::BeginTile, "after_begin_tile"},
@@ -58,8 +58,8 @@ std::uint64_t read_counter(RtlDevice& device, int number) {
   return low | std::uint64_t{device.read_register(address + 4).word} << 32;
 }
 
-/// In a tile that waits for input each cycle is a busy one without input. A clear taken in cycle t counts t, and a read
-/// taken in cycle r tells what happened up to r - 2: both words of that, the high one too.
+/// In a tile that waits for input each cycle is a busy one without input. A clear taken in cycle t counts t. A read
+/// taken in cycle r returns the count up to r - 2, in both words.
 void count_cycles(RtlDevice& device, Check& check) {
   constexpr std::uint64_t kSeenAfter = 2;
   const auto pair = check.bin("register", "counter_of_one_moment");
@@ -124,7 +124,7 @@ DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& m
   cmodel::Model model(config, cmodel::StreamScope::Whole, pixels);
   model.consume(beats);
   check.equal("high word before any low one", 0, device->read_register(cmodel::kRegCounters.address + 4).word, no_low);
-  // Up to the last tile's last record but one: a tile is open.
+  // All but the last two records: a tile is open.
   device->consume(std::span(beats).first(beats.size() - 2));
   check.equal("STATUS in a tile", 1, read(cmodel::kRegStatus).word, busy);
   // The source is late, for longer than any pipe is: nothing moves, and the tile is still open.
@@ -142,13 +142,13 @@ DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& m
     });
   };
   all_counters(false, counters);
-  // Below the counters, between two of them, and above the last; while there is something to tell and to clear.
+  // Below the counters, between two of them, and above the last, while they are not 0.
   const auto beyond = cmodel::kRegCounters.address + 8 * static_cast<std::uint32_t>(cmodel::counters_of(config));
   for (const std::uint32_t address :
        {cmodel::kRegIrqMask.address + 4, cmodel::kRegCounters.address - 4, cmodel::kRegControl.address + 1,
         cmodel::kRegCounters.address + 1, cmodel::kRegCounters.address + 2, cmodel::kRegCounters.address + 3, beyond,
         0xffcU}) {
-    read(cmodel::kRegMagic);  // whose word is not to be told again
+    read(cmodel::kRegMagic);  // its word must not be returned again
     const auto answer = device->read_register(address);
     check.equal("unknown read answers SLVERR", 0, answer.okay ? 1 : 0, unknown_read);
     check.equal("unknown read returns", 0, answer.word, unknown_read);
@@ -170,7 +170,7 @@ DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& m
   count_cycles(*device, check);
   device->consume(std::span(beats).last(2));
   device->finish();
-  // A write is both its halves: one alone is neither taken nor answered, and clears nothing.
+  // A write needs both halves: one alone is neither taken nor answered, and clears nothing.
   for (const auto which : {WriteHalf::Address, WriteHalf::Data}) {
     check.equal("half a write is taken", 0,
                 device->takes_half_write(which, cmodel::kRegControl.address, 1, kWait) ? 1 : 0, half);
@@ -216,7 +216,7 @@ DirectedResult check_short_resets(const cmodel::Config& config, const MakeDevice
       if (opcode == reset.after) all.push_back(at);
     }
     if (all.empty()) continue;
-    // The first of each kind, its last, and one between: more of the same are more of the same.
+    // The first of each kind, its last, and one between: more would only repeat these.
     for (const std::size_t at : std::set{all.front(), all[all.size() / 2], all.back()}) {
       const int last_wait = reset.goes_on && at == all.back() ? kWaits : 0;
       for (options.reset_wait = 0; options.reset_wait <= last_wait; options.reset_wait += 3) reset_at(beats, at, reset);

@@ -1,5 +1,4 @@
-// Directed checks of what no legal stream reaches: the registers, streams that the device has to refuse, the
-// shortest resets
+// Directed checks beyond legal streams: the registers, streams that the device has to refuse, the shortest resets
 // (docs/microarchitecture.md, "Registers"). Each samples its own bins.
 #pragma once
 
@@ -23,7 +22,7 @@ struct DirectedResult {
   std::map<std::string, int> refused;  ///< streams that were refused as the model refuses them, by rule
 };
 
-/// Every bin of the three.
+/// All bins of the three.
 Coverage directed_bins();
 /// Those of check_refusals().
 Coverage refusal_bins();
@@ -35,9 +34,9 @@ DirectedResult check_damage(const cmodel::Config& config, const MakeDevice& make
 /// halves of writes, resets that drop answers.
 DirectedResult check_registers(const cmodel::Config& config, const MakeDevice& make);
 
-/// Breaks each rule that a device checks, in every way the small stream has. The device must refuse the model's beat by
-/// the model's rule, in ERROR and ERROR_BEAT. An open tile comes out as if it had ended there, marked, with every tap
-/// and cycle of the model; the rest is dropped. After a soft or hard reset a good frame comes out right. Also soft
+/// Breaks each rule that a device checks, in every way the small stream allows. The device must refuse the model's beat
+/// by the model's rule, in ERROR and ERROR_BEAT. An open tile comes out as if it had ended there, marked, with every
+/// tap and cycle of the model; the rest is dropped. After a soft or hard reset a good frame comes out right. Also soft
 /// resets within a tile, accesses in the middle of a frame (mid_frame.hpp), and state between frames
 /// (frame_after_frame.hpp).
 DirectedResult check_refusals(const cmodel::Config& config, const MakeDevice& make);

@@ -20,15 +20,15 @@ struct Record {
 std::vector<Record> records_of(const std::vector<cmodel::Beat>& beats);
 /// The beat of the first record of a kind that the stream has.
 std::size_t first_of(const std::vector<cmodel::Beat>& beats, cmodel::Opcode wanted);
-/// Writes a field that holds something else.
+/// Overwrites a field, whatever it holds.
 void overwrite(cmodel::Beat& beat, const cmodel::Field& field, std::uint64_t value);
 
-/// The first of the small streams that has a cull block and a tile of two sheets: not every one has, and every record
-/// is wanted. The last that is looked at where none has, whose bins then stay empty.
+/// The first small stream that has a cull_block and a tile of two sheets, so that every record occurs. If none has, the
+/// last one tried, whose bins then stay empty.
 std::vector<cmodel::Beat> small_stream(const cmodel::Config& config);
 
-/// A small stream whose first tile is one of densities in two sheets and more, and the beat of that tile's end_tile.
-/// Of configurations that classify; throws std::logic_error where no seed makes one.
+/// A small stream whose first tile is of densities, in two or more sheets, and the beat of that tile's end_tile. For
+/// configurations that classify; throws std::logic_error if no seed makes one.
 std::pair<std::vector<cmodel::Beat>, std::size_t> small_densities(const cmodel::Config& config);
 
 class Check {

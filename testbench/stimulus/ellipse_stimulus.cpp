@@ -16,7 +16,7 @@ std::int64_t root(std::int64_t square) {
   return b;
 }
 
-/// Of the terms one is large, the other as much smaller as the axes differ.
+/// One term is large, the other smaller by the ratio of the axes.
 cmodel::EllipseShape shape(const cmodel::Config& config, Random& random) {
   cmodel::EllipseShape out;
   const std::int64_t most = (std::int64_t{1} << cmodel::kEllipseTermBits) - 1;
@@ -56,7 +56,7 @@ cmodel::EllipseRecord random_ellipse(const cmodel::Config& config, Random& rando
   };
   windows.left = std::max(corner(windows.columns), -512);
   windows.top = std::max(corner(windows.rows), -512);
-  // Until the rule holds: nearer, then fewer, then flatter.
+  // Until the rule holds: move nearer, use fewer windows, then flatten.
   while (cmodel::ellipse_violation(config, out)) {
     if (windows.left < -lanes || windows.left > 0 || windows.top < -lanes || windows.top > 0) {
       windows.left = static_cast<std::int32_t>(std::clamp<std::int64_t>(windows.left / 2, -lanes * windows.columns, 0));

@@ -7,8 +7,8 @@
 
 namespace fastsplat::testbench {
 
-/// From thin to round and from less than a pixel to many windows, about (x,y), words of the position format. Of up to
-/// `most` windows a side, seldom more. Tag and colours are the caller's.
+/// From thin to round and from less than a pixel to many windows, about (x,y), words of the position format. Seldom
+/// more than `most` windows a side. The caller sets tag and colours.
 cmodel::EllipseRecord random_ellipse(const cmodel::Config& config, Random& random, std::int32_t x, std::int32_t y,
                                      std::int64_t most);
 

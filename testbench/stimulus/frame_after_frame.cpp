@@ -28,14 +28,14 @@ constexpr Opcode kOpcodes[] = {Opcode::BeginSheet, Opcode::LoadTable, Opcode::Cu
                                Opcode::BeginTile,  Opcode::EndSheet,  Opcode::EndTile,   Opcode::BeginFrame,
                                Opcode::Ellipse,    Opcode::EndFrame};
 
-/// Of a frame of sets: beside its first tile, and over the opaque half.
+/// Hidden cull groups of sets_frame(): two beside its first tile, one over the opaque half.
 constexpr std::uint64_t kHiddenSets = 3;
 
-/// So many of them are asked for in turn: the test unit would go by them.
+/// So many of kOpcodes take turns as the first: the test unit would act on them.
 constexpr std::size_t kAskedFor = 3;
 
-/// Beats of RLUT and RADIAL that begin as records do, with an opcode, then a small number, where their words may be as
-/// large: the first of RADIAL with the opcode asked for, and if `others` those behind with any. How many they are.
+/// Makes beats of RLUT and RADIAL look like records (an opcode, then a small number) where the range of their words
+/// allows it. The first beat of RADIAL gets `first`; with `others` later ones get any opcode. Returns their number.
 int look_like_records(const Config& config, Random& random, LoadTable& table, Opcode first, bool others) {
   const bool radial = table.table == Table::Radial;
   if (!radial && (!others || table.table != Table::Rlut)) return 0;
@@ -66,7 +66,7 @@ void frames_that_look_like_records(const Config& config, Frames& frames, Check& 
     Random random(seed);
     const Opcode first = kOpcodes[seed % kAskedFor];
     const std::string what = "frame " + std::to_string(seed) + " whose tables look like records";
-    // Of a device whose words are too small for an opcode it is any other frame.
+    // If the device's words are too small for an opcode, it is an ordinary frame.
     const auto bin = [&](StreamDocument& document, bool others) {
       return look_like_records(config, random, document, first, others) > 0
                  ? check.bin("refusal", kFrameAfterFrameBins[0])
@@ -100,14 +100,14 @@ void end_while_tables_are_built(const Config& config, Frames& frames, Check& che
   }
 }
 
-/// A table that the frame before loaded, as its last, is none of this frame's.
+/// A table that the frame before loaded last does not count as loaded in this frame.
 void refuse_missing_tables(const Config& config, Frames& frames, Check& check) {
   const auto good = check.bin("refusal", kFrameAfterFrameBins[1]), bin = check.bin("refusal", "rule_LOADED");
   StreamDocument document = read_document(config, small_densities(config).first);
   for (const Table table : {Table::Classify, Table::Root, Table::Glint, Table::Lighting, Table::Sheets}) {
     const std::string what = "table " + std::to_string(static_cast<int>(table));
     StreamDocument whole = document;
-    // Of <algorithm>: the subrange that std::ranges' one returns is more than clang 14 with libstdc++ 12 can read.
+    // From <algorithm>: clang 14 with libstdc++ 12 cannot compile the subrange that std::ranges' one returns.
     const auto others = std::stable_partition(whole.tables.begin(), whole.tables.end(),
                                               [&](const LoadTable& one) { return one.table != table; });
     frames.good("a frame that loads " + what + " last", write_document(config, whole), good);
@@ -141,7 +141,7 @@ void refuse_late_ends(const Config& config, Frames& frames, Check& check) {
   }
 }
 
-/// A soft reset that is asked for as soon as a hard one is over has nothing to wait for.
+/// A soft reset that is requested as soon as a hard one is over has nothing to wait for.
 void reset_at_once(Frames& frames, std::span<const Beat> beats, int most_waits, Check& check) {
   const auto bin = check.bin("refusal", kFrameAfterFrameBins[2]);
   for (int wait = 0; wait < most_waits; ++wait) {
@@ -176,6 +176,8 @@ void drop_what_a_reset_leaves(Frames& frames, std::span<const Beat> beats, Check
   };
   frames.drop(beats.first(part), 1);
   frames.device().drop(left);
+  // At once: the core wipes its memories. The slice is not ready in the first cycle after a reset.
+  check.equal("cycles in which beats are dropped after a hard reset", left.size() + 1, frames.device().cycles(), bin);
   next("beats that a hard reset left");
   frames.cut("an aborted frame", beats.first(part), 1, bin);
   frames.device().drop(left);

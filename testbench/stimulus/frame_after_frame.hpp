@@ -1,5 +1,5 @@
-// What one frame leaves behind in a device must not reach the next one: frames behind each other without a reset, whose
-// tables look like records, and resets that follow each other.
+// One frame must not leave anything in a device for the next: frames in sequence without a reset, whose tables look
+// like records, and resets in sequence.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace fastsplat::testbench {
 
-/// Names in the group `refusal`.
+/// Names of its bins in the group `refusal`.
 std::span<const char* const> frame_after_frame_bins();
 
 /// `frames`: a device that is at rest, without an error, and is left so. `beats`: a whole legal stream.

@@ -7,10 +7,10 @@ using cmodel::Opcode;
 
 constexpr std::uint64_t kFrameTimeout = 200000;  ///< beyond any wait within a small stream
 
-/// What ends the tile that is open after these beats; nothing if none is.
+/// The records that end the tile left open by these beats; nothing if none is open.
 struct Closers {
   Beats beats;
-  bool in_table = false;  ///< it is a table that is open
+  bool in_table = false;  ///< a table is open
 };
 Closers closers_of(std::span<const cmodel::Beat> beats) {
   namespace layout = cmodel::layout;
@@ -98,8 +98,8 @@ bool Frames::bad(const std::string& what, const Beats& beats, const Refused& exp
   check_.equal(what + ": refused", 1, refusal ? 1 : 0, bin);
   if (refusal) check_.equal(what + ": checked in cycle", checker_->judged(refusal->taken), refusal->judged, bin);
   const Closers closers = closers_of(before);
-  // Its own ends lie where the refused beat lay, a cycle later: as if check had taken them in the cycle before the
-  // verdict.
+  // The device's own end records lie where the refused beat lay, a cycle later: as if check had taken them in the cycle
+  // before the verdict.
   if (refusal) source_.pause(0, refusal->judged - (device_->sliced() ? 2 : 1));
   for (const auto& beat : closers.beats) checker_->accept(beat);
   const auto opcode = static_cast<std::uint32_t>(get(beats[expected.beat], cmodel::layout::kOpcode));
@@ -113,7 +113,7 @@ bool Frames::bad(const std::string& what, const Beats& beats, const Refused& exp
   end(what, closers.beats.empty() ? bin : check_.bin("refusal", "open_tile_is_ended"), closers.in_table);
   check_.equal(what + ": tiles marked as aborted", aborted + (closers.beats.empty() ? 0 : 1), device_->aborted_tiles(),
                bin);
-  // What comes after it changes nothing, and is not what ERROR tells.
+  // Later beats change nothing and do not show in ERROR.
   const auto swallowed = check_.bin("refusal", "rest_is_swallowed");
   const auto counters = device_->counters();
   const auto cycles = device_->cycle_counters().busy;
@@ -136,7 +136,7 @@ void Frames::cut(const std::string& what, std::span<const cmodel::Beat> beats, i
   check_.equal(what + ": no error", 0, read(cmodel::kRegStatus), bin);
   check_.equal(what + ": IRQ, error", 0, read(cmodel::kRegIrq) & cmodel::kIrqError, bin);
   relay_.to = nullptr;
-  // When the reset came is not the cycle model's to know.
+  // The cycle model does not know when the reset came.
   if (next.empty() && !closers.in_table) told(what, checker_->finish(), bin);
 }
 
@@ -148,7 +148,7 @@ void Frames::follow(const std::string& what, const Beats& next, bool in_table, C
   relay_.to = nullptr;
   if (!in_table) told(what, checker_->finish(), bin);
   told(what + ", the next frame", after.finish(), bin);
-  // Nobody cleared the counters in between: they are those of both.
+  // The counters were not cleared in between: they count both.
   cmodel::Counters both = checker_->counted();
   both += after.counted();
   std::vector<std::uint64_t> expected;

@@ -23,7 +23,7 @@ struct Refused {
 };
 std::optional<Refused> refused_by_model(const cmodel::Config& config, const Beats& beats);
 
-/// The beats up to and with the end_frame that a device takes; nothing if it takes none.
+/// Number of beats up to and including the end_frame that a device takes; nothing if it takes none.
 std::optional<std::size_t> first_end(const cmodel::Config& config, const Beats& beats);
 
 /// Something done between two beats of a frame while the source pauses.
@@ -34,32 +34,32 @@ struct Meanwhile {
 
 class Frames {
  public:
-  /// Pixels are taken by the pattern. `check` outlives it.
+  /// `sink`: when pixels are taken. `check` outlives it.
   Frames(const cmodel::Config& config, const MakeDevice& make, Check& check, const Pattern& sink = {});
 
   RtlDevice& device() { return *device_; }
   std::uint32_t read(const cmodel::Register& reg) { return device_->read_register(reg.address).word; }
   void write(const cmodel::Register& reg, std::uint32_t word) { device_->write_register(reg.address, word); }
-  /// Tiles whose last pixels were taken, of the frame at hand.
+  /// Tiles of the current frame whose last pixels were taken.
   int tiles_left() const { return relay_.tiles_left; }
 
-  /// A frame that nothing is wrong with.
+  /// Feeds a legal frame.
   void good(const std::string& what, const Beats& beats, Coverage::Id bin, const Meanwhile& meanwhile = {});
-  /// A frame of which the model refuses a beat: whether the device did all that it has to. It is left with its error.
+  /// Feeds a frame of which the model refuses a beat. Returns whether the device reacts as it has to; its error stays.
   /// `meanwhile` is done before that beat, while the source pauses.
   bool bad(const std::string& what, const Beats& beats, const Refused& expected, Coverage::Id bin,
            const std::function<void()>& meanwhile = {});
-  /// A soft reset behind some beats of a frame; `wait`: cycles, about, before it. With a frame to come, its beats are
+  /// A soft reset behind some beats of a frame, after about `wait` cycles. If a next frame is given, its beats are
   /// offered at once, whatever the reset still has to do.
   void cut(const std::string& what, std::span<const cmodel::Beat> beats, int wait, Coverage::Id bin,
            const Beats& next = {});
-  /// A hard reset behind some beats of a frame; `wait`: cycles, about, before it.
+  /// A hard reset behind some beats of a frame, after about `wait` cycles.
   void drop(std::span<const cmodel::Beat> beats, int reset_cycles, int wait = 0);
-  /// Its error is cleared and left behind by a soft reset.
+  /// Clears the device's error by a soft reset.
   void forgive();
 
  private:
-  /// When the source is willing: always, but for its pauses, which come in their order.
+  /// The source is always ready, except for its pauses, which come in their order.
   class Source final : public cmodel::Willing {
    public:
     void begin() { pauses_.clear(); }
@@ -75,7 +75,7 @@ class Frames {
     std::vector<std::pair<std::uint64_t, std::uint64_t>> pauses_;
   };
 
-  /// Told what the device shows; passes it to whoever checks the frame at hand.
+  /// Receives what the device shows and passes it to the checker of the current frame.
   struct Relay final : RawTapSink {
     Checker* to = nullptr;
     Checker* next = nullptr;  ///< takes over with the first beat that is taken

@@ -9,7 +9,7 @@
 
 namespace fastsplat::testbench {
 
-/// Of a legal stream; sets are hidden as the model says.
+/// `beats`: a legal stream. The model decides which cull groups are hidden.
 std::vector<cmodel::Beat> without_hidden_sets(const cmodel::Config& config, const std::vector<cmodel::Beat>& beats);
 
 }  // namespace fastsplat::testbench

@@ -21,8 +21,8 @@ constexpr int kReads = 24;
 /// More than a slow sink needs for a tile.
 constexpr std::uint64_t kMostReads = 1U << 20;
 
-/// Everything that answers SLVERR to a write: what is only read, and addresses that nothing has, most of them one bit
-/// beside one that is written.
+/// All addresses that answer SLVERR to a write: read-only registers and unused addresses, most of them one bit away
+/// from a writable one.
 std::set<std::uint32_t> refused_addresses(const Config& config) {
   constexpr std::uint32_t kEnd = 0x1000;
   std::set<std::uint32_t> out;
@@ -48,7 +48,7 @@ void refuse_writes(const Config& config, Frames& frames, const Beats& beats, Che
                    const auto state = [&] {
                      return std::array{frames.read(kRegStatus), frames.read(kRegIrq), frames.read(kRegIrqMask)};
                    };
-                   for (int i = 0; i < kReads; ++i) frames.read(kRegStatus);  // the beat has gone its way
+                   for (int i = 0; i < kReads; ++i) frames.read(kRegStatus);  // the beat was processed
                    const auto before = state();
                    for (const std::uint32_t address : refused_addresses(config))
                      check.equal(what + ", to " + std::to_string(address) + ": answers OKAY", 0,
@@ -86,7 +86,7 @@ void count_anew(const Config& config, Frames& frames, const Beats& beats, Check&
     Beats spoiled = beats;
     std::ranges::find(all, rule, &Violation::rule)->commit(spoiled);
     const auto expected = refused_by_model(config, spoiled);
-    if (!expected) continue;  // check_refusals() has said so
+    if (!expected) continue;  // check_refusals() has reported it
     const std::string what = "rule " + std::to_string(static_cast<int>(rule)) + " in the frame after an aborted one";
     frames.drop(part, 1);
     frames.bad(what + " by a hard reset", spoiled, *expected, hard);
@@ -97,8 +97,8 @@ void count_anew(const Config& config, Frames& frames, const Beats& beats, Check&
   }
 }
 
-/// The first tile as a frame of its own, and as large as a tile can be: without cull_blocks, for what they promise is
-/// of the pixels of the tile as it was.
+/// The first tile as a frame of its own, and as large as a tile can be. Without cull_blocks, which hold for the pixels
+/// of the original tile.
 Beats large_tile(const Config& config, const Beats& beats) {
   Beats out(beats.begin(), beats.begin() + static_cast<std::ptrdiff_t>(behind_first(beats, Opcode::EndTile)));
   out.push_back(beats.back());
@@ -138,7 +138,7 @@ void wait_for_the_last_pixels(const Config& config, const MakeDevice& make, cons
   check.equal("IRQ before the last pixels left", 0, irq, early);
   check.equal("IRQ once they have left", kIrqFrame | kIrqTile, frames.read(kRegIrq), early);
 
-  // The same, forgotten while the picture goes out, end_frame being carried out.
+  // The same, with a reset while the picture goes out and end_frame was carried out.
   frames.drop(tile, 1, 60);
   frames.write(kRegIrqMask, kIrqFrame | kIrqTile | kIrqError);
   irq = 0;

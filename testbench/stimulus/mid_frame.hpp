@@ -1,5 +1,5 @@
-// What a device has to go on doing in the middle of a frame: registers that answer, interrupts that wait for the last
-// pixel, resets after which it counts anew.
+// What has to go on working in the middle of a frame: registers that answer, interrupts that wait for the last pixel,
+// counting from 0 after a reset.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace fastsplat::testbench {
 
-/// Names in the group `refusal`.
+/// Names of its bins in the group `refusal`.
 std::span<const char* const> mid_frame_bins();
 
 /// `frames`: a device of `make` that is at rest, without an error. `beats`: a whole legal stream with every record.

@@ -50,7 +50,7 @@ void promise(const cmodel::Config& config, Random& random, const cmodel::BeginTi
     while (ends.size() < room && random.chance(in_front && promised < splats.size() ? 95 : 10)) {
       const std::size_t count =
           std::min(splats.size() - promised, static_cast<std::size_t>(random.between(0, random.between(1, 12))));
-      // A promise is of pixels of the tile; every third rectangle has those outside, too.
+      // A stream invariant covers pixels of the tile only; every third rectangle has the pixels outside, too.
       const bool across = (promised + count) % 3 == 0;
       PixelBox box;
       for (std::size_t i = promised; i < promised + count; ++i) {

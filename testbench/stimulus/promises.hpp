@@ -1,4 +1,4 @@
-// Random cull_blocks that are true, for devices that cull (docs/stream.md, cull_block).
+// Random cull_blocks that keep the stream invariant, for devices that cull (docs/stream.md, S-cull-3).
 #pragma once
 
 #include <array>

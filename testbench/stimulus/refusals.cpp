@@ -185,7 +185,7 @@ DirectedResult check_damage(const cmodel::Config& config, const MakeDevice& make
     if (end) damaged.resize(*end);
     const std::string what = "damaged stream " + std::to_string(i);
     if (const auto expected = refused_by_model(config, damaged)) {
-      if (!judged(expected->rule)) continue;  // an ellipse's shape: nobody asks the device
+      if (!judged(expected->rule)) continue;  // an ellipse's shape: devices do not check it
       check.result.refused[bin_of(expected->rule)] += frames.bad(what, damaged, *expected, refused) ? 1 : 0;
       frames.forgive();
     } else if (end) {

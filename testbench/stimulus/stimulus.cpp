@@ -192,7 +192,7 @@ class Generator {
     return tile;
   }
 
-  /// A tile of densities: smaller by the rim, at the picture's edges more often than not, for there is no neighbour.
+  /// A tile of densities: smaller by the halo, mostly at the picture's edges, where neighbours are missing.
   void densities(cmodel::BeginTile& tile) {
     tile.mode =
         tile.mode == cmodel::Mode::Exponential ? cmodel::Mode::DensityExponential : cmodel::Mode::DensityAdditive;
@@ -208,7 +208,7 @@ class Generator {
   TileDocument make_tile() {
     tile_ = begin_tile();
     TileDocument tile{tile_, {}};
-    // What happens once in a pixel's life wants many tiles.
+    // Events that happen once in a pixel's life need many tiles.
     const bool many_tiles = which_ == StimulusClass::Thresholds;
     const auto tile_splats = static_cast<std::uint64_t>(random_.between(20, many_tiles ? 60 : 600));
     std::uint64_t in_tile = std::min(left_, tile_splats);
@@ -253,9 +253,9 @@ class Generator {
     }
   }
 
-  /// Weights and factors pass words on evenly, so that the sum of a sheet's splats can be aimed at a word: the
-  /// optical depth that takes the transmittance from 1.0 to within two steps of the threshold, or the largest word of
-  /// each channel, or one more.
+  /// Weights and factors pass words on evenly, so the sum of a sheet's splats can be aimed at a word. It is the optical
+  /// depth that takes the transmittance from 1.0 to within two steps of the threshold, or the largest word of each
+  /// channel, or one more.
   std::uint64_t threshold_splats() {
     missing_.fill(-1);  // anything
     if (random_.chance(60)) {
@@ -274,7 +274,7 @@ class Generator {
   std::int64_t product(std::uint32_t colour) const {
     return (std::int64_t{colour} * unit_weight(config_) + (std::int64_t{1} << product_shift() >> 1)) >> product_shift();
   }
-  /// The colour for a sheet word, or the largest there is.
+  /// The colour for a sheet word, or the largest colour.
   std::uint32_t colour_for(std::int64_t word) const {
     const std::int64_t exact = ((word << product_shift()) + unit_weight(config_) - 1) / unit_weight(config_);
     return static_cast<std::uint32_t>(std::min(exact, config_.colour_format().max));
@@ -365,7 +365,7 @@ class Generator {
     return words;
   }
 
-  /// The hot spot, moved by up to a window's side: what just does and just does not lie over what was there.
+  /// The hot spot, moved by up to a window's side: windows just overlap what was there, or just miss it.
   Place beside_hot() {
     Place at = hot_;
     const auto format = config_.position_format();
@@ -377,8 +377,8 @@ class Generator {
     return at;
   }
 
-  /// The place before the last one, a whole tile of the device further: outside of the one where the other is inside,
-  /// its blocks have the same numbers but for the bits that addresses do not have.
+  /// The place before the last one, moved by a whole tile of the device: outside where the other is inside. Its block
+  /// numbers differ only in bits that addresses do not have.
   Place opposite() {
     Place at = before_;
     const auto format = config_.position_format();
@@ -416,7 +416,7 @@ class Generator {
     return place();
   }
 
-  /// Those that aim at words of tables, products or sums, or past the tile, are of circles.
+  /// Classes that aim at words of tables, products or sums, or past the tile, use circles only.
   bool ellipses() const {
     if (!config_.has_ellipses()) return false;
     switch (which_) {
@@ -455,12 +455,12 @@ class Generator {
     return sheet;
   }
 
-  /// Classes whose sheets mean something by themselves are left as they are.
+  /// Classes whose sheets have a purpose of their own are left as they are.
   bool walls() const {
     return which_ != StimulusClass::Thresholds && which_ != StimulusClass::OffTile &&
            which_ != StimulusClass::EmptySheets && which_ != StimulusClass::SparseSheets;
   }
-  /// Bright splats side by side over the tile or a part of it, for devices that cull: they freeze what they may.
+  /// Bright splats side by side over the tile or a part of it, for devices that cull: they terminate pixels.
   void wall(SheetDocument& sheet) {
     const std::int64_t from = random_.chance(50) ? 0 : random_.between(0, tile_.height - 1), lanes = config_.lanes;
     const auto most = static_cast<std::uint32_t>(config_.colour_format().max);
@@ -496,7 +496,7 @@ class Generator {
   int image_height_ = 0;
   std::uint64_t left_ = 0, distance_ = 1;
   std::int64_t phase_ = 0;
-  std::array<std::int64_t, 4> missing_{};  ///< of the words that a sheet aims at; negative: any colour will do
+  std::array<std::int64_t, 4> missing_{};  ///< of the words that a sheet aims at; negative: any colour
 };
 
 }  // namespace

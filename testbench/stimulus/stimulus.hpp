@@ -11,10 +11,10 @@ namespace fastsplat::testbench {
 
 enum class StimulusClass {
   Mixed,             ///< anything legal
-  TableCorners,      ///< RLUT words 0, just inside, at the rim; sums on both sides of the last radial entry
+  TableCorners,      ///< RLUT words 0, just inside, at the edge; sums on both sides of the last radial entry
   RoundingTies,      ///< products that lie exactly between two words, in every rounding
   Saturation,        ///< each channel alone and all, in product, sum, slab, picture and output
-  Thresholds,        ///< transmittances beside the freeze threshold, sums beside the largest word
+  Thresholds,        ///< transmittances beside the early-termination threshold, sums beside the largest word
   BankPhases,        ///< every window origin modulo P, in both axes
   ScreenEdges,       ///< windows across each edge and corner of partial tiles
   Hazards,           ///< the same words again after 1, 2, 3, ... windows
@@ -36,7 +36,7 @@ StimulusClass stimulus_class_from(const std::string& name);  ///< throws UserErr
 
 struct Stimulus {
   StreamDocument document;
-  std::string ready, input;       ///< patterns that the class asks for; empty: whatever the user wants
+  std::string ready, input;       ///< patterns that the class needs; empty: the user's
   std::uint64_t reset_after = 0;  ///< beats before a warm reset; 0: none
 };
 

@@ -73,7 +73,7 @@ cmodel::LoadTable random_rlut(const cmodel::Config& config, Random& random, Tabl
         value = any_word(random, rim);
         break;
       case TableStyle::Corners: {
-        // Sums of two fall on and beside the rim, the last entry and the first.
+        // Sums of two fall on and beside the support's edge, the last entry and the first.
         const std::int64_t corners[] = {0, 1, step - 1, step, rim / 2 - 1, rim / 2, rim - step, rim - 1, rim};
         value = corners[random.between(0, 8)];
         break;
@@ -124,15 +124,15 @@ cmodel::LoadTable random_density_table(const cmodel::Config& config, Random& ran
     if (sheets && i % 2 == 0) {
       value = any_word(random, scale);
       value |= any_word(random, scale) << 16;
-    } else if (range.least < 0) {  // directions, and tilts, of which most are gentle
+    } else if (range.least < 0) {  // directions and tilts, mostly gentle
       value = random.between(range.least, range.most);
       if (i > 6 && random.chance(70)) value >>= 12;
-      if (i < 6 && value % 4 == 0) value = range.most;  // the one that has a bit to itself
+      if (i < 6 && value % 4 == 0) value = range.most;  // the only value with this bit
     } else {
       value = any_word(random, range.most);
     }
-    // A last beat that looks like a record, for it may lie there when the table has ended: of SHEETS like the header of
-    // one without words, of others like begin_frame.
+    // A last beat that looks like a record, because it may still be there when the table has ended: in SHEETS like the
+    // header of a table without words, in others like begin_frame.
     if (value % 4 < 2 && i == last_beat && range.least >= 0) value = sheets ? kLooksLikeSheets : kLooksLikeFrame;
     if (sheets && i == last_beat + 3) value = 0;
     out.words.push_back(word(value));

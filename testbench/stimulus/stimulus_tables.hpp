@@ -26,7 +26,7 @@ std::int64_t unit_weight(const cmodel::Config& config);
 cmodel::LoadTable random_radial(const cmodel::Config& config, Random& random, TableStyle style);
 cmodel::LoadTable random_factor(const cmodel::Config& config, Random& random, TableStyle style);
 
-/// Of densities: one of CLASSIFY to SHEETS, which speaks of so many sheets.
+/// Of densities: one of CLASSIFY to SHEETS, which describes so many sheets.
 constexpr std::uint32_t kScaledSheets = 300;
 cmodel::LoadTable random_density_table(const cmodel::Config& config, Random& random, cmodel::Table table);
 

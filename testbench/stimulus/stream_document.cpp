@@ -61,7 +61,7 @@ StreamDocument arranged(StreamDocument document) {
     tile.begin.x = 0;
     tile.begin.y = y;
     if (const int left = width - static_cast<int>(tile.begin.width); left > 0) {
-      // No wider than a tile: the widest of them is one.
+      // Never wider than a tile: the image is as wide as its widest tile.
       TileDocument filler{tile.begin, {}};
       filler.begin.x = static_cast<std::int32_t>(tile.begin.width);
       filler.begin.width = static_cast<decltype(filler.begin.width)>(left);

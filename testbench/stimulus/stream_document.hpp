@@ -1,5 +1,5 @@
-// A stream as a tree of tables, tiles, sheets and splats, to generate, cut and put together again. Whatever is written
-// is a legal whole stream: tile numbers, tags, counts, beats and checksum are made when it is written.
+// A stream as a tree of tables, tiles, sheets and splats, to generate, cut and put together again. A written stream is
+// always whole and legal: tile numbers, tags, counts, beats and checksum are made when it is written.
 #pragma once
 
 #include <cstdint>

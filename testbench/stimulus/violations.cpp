@@ -44,7 +44,7 @@ class List {
     for (const Record& record : records_) {
       if (record.opcode == opcode && nth-- == 0) return record.at;
     }
-    return beats_.size();  // of a stream that lacks it: commits nothing there
+    return beats_.size();  // the stream lacks it: nothing is changed
   }
   std::size_t table(cmodel::Table which) const {
     for (const Record& record : records_) {
@@ -58,20 +58,20 @@ class List {
               std::uint64_t value) {
     if (beat < beats_.size()) add(rule, name, [=](Beats& b) { overwrite(b[beat], field, value); });
   }
-  /// One more and one less: whoever compares with less than equality believes one of them.
+  /// One more and one less: a check with an inequality accepts one of them.
   void beside(StreamRule rule, const std::string& name, std::size_t beat, const cmodel::Field& field) {
     if (beat >= beats_.size()) return;
     const auto right = static_cast<std::uint64_t>(get(beats_[beat], field));
     change(rule, name + " one more", beat, field, right + 1);
     change(rule, name + " one less", beat, field, right - 1);
   }
-  /// The same of splats and their tags: for a device that culls more of them are splats that were not sent.
+  /// The same of counts of splats and of tags: for a device that culls, higher ones mean splats that were not sent.
   void counted(StreamRule rule, const std::string& name, std::size_t beat, const cmodel::Field& field) {
     if (!config_.culls()) return beside(rule, name, beat, field);
     if (beat < beats_.size() && get(beats_[beat], field) > 0)
       change(rule, name + " one less", beat, field, static_cast<std::uint64_t>(get(beats_[beat], field)) - 1);
   }
-  /// One side 0, the other as it is, and small, large and largest: their product, sum or bits say nothing.
+  /// One side 0, the other unchanged, small, large and largest: a check of their product, sum or bits is not enough.
   void without_a_side(StreamRule rule, const std::string& name, std::size_t beat, const cmodel::Field& width,
                       const cmodel::Field& height) {
     change(rule, name + " without width", beat, width, 0);
@@ -170,7 +170,7 @@ class List {
     if (rlut < beats_.size())
       add(rule, "rho 0 with no words",
           [=](Beats& b) { overwrite(b[rlut], layout::kTableRho, 0), overwrite(b[rlut], layout::kTableWords, 0); });
-    // Bits above those that a column's number needs.
+    // Bits beyond the width of a column's number.
     for (int bit = std::bit_width(static_cast<std::uint32_t>(config_.rlut_columns)); bit < 32; ++bit)
       change(rule, "base 2^" + std::to_string(bit), rlut, layout::kTableBase, 1ULL << bit);
     change(rule, "base between lanes", rlut, layout::kTableBase, 1);
@@ -246,7 +246,7 @@ class List {
            static_cast<std::uint64_t>(get(frame, layout::kFrameTiles)));
     change(rule, "tile number 2^32 - 1", tile, layout::kTileNumber, 0xffffffffU);
     without_a_side(rule, "tile", tile, layout::kTileWidth, layout::kTileHeight);
-    // An image that would hold it: the tile's own limit is what refuses.
+    // An image that would hold it: only the tile's own limit refuses it.
     add(rule, "tile too wide", [=, w = config_.tile_width](Beats& b) {
       overwrite(b[0], layout::kFrameWidth, 0xffff);
       overwrite(b[tile], layout::kTileWidth, static_cast<std::uint64_t>(w) + 1);
@@ -267,7 +267,7 @@ class List {
            static_cast<std::uint64_t>(get(frame, layout::kFrameHeight) - height + 1));
   }
 
-  /// An image that is smaller than the tile, which lies at its edge: what the image leaves is below 0.
+  /// An image smaller than the tile, which lies at its edge: the difference of the two is below 0.
   void smaller_image(const std::string& how, const cmodel::Field& side, const cmodel::Field& begin, std::size_t tile,
                      std::uint64_t most) {
     for (const std::uint64_t size : {most / 2, most - 1}) {
@@ -293,7 +293,7 @@ class List {
     }
   }
 
-  /// Tables of densities and what a tile of them asks for, whatever the stream's own tile is.
+  /// Tables of densities and what tiles of densities require, whatever the stream's own tile is.
   void densities() {
     using cmodel::Table;
     const std::size_t tile = at(Opcode::BeginTile), sheet = at(Opcode::BeginSheet);
@@ -320,12 +320,12 @@ class List {
       });
     }
     change(StreamRule::Table, "SHEETS of too many", table(Table::Sheets), layout::kTableWords, 2 * 4096 + 2);
-    // The most there can be is a legal header: its first word is what is wrong.
+    // The most words make a legal header: its first word is what is refused.
     if (const std::size_t beat = table(Table::Sheets); beat < beats_.size())
       add(StreamRule::Words, "SHEETS of the most, a word too large",
           [=](Beats& b) { overwrite(b[beat], layout::kTableWords, 2 * 4096), b[beat + 1][0] = 4097; });
     density_words();
-    // A mode that there is not is said before what it would ask for.
+    // An unknown mode is reported before the tables it would need.
     if (const std::size_t beat = table(Table::Root); beat < beats_.size())
       add(StreamRule::Tile, "mode 10 without ROOT", [=, count = 1 + payload(beat)](Beats& b) {
         overwrite(b[tile], layout::kTileMode, 10);

@@ -18,7 +18,7 @@ struct Violation {
   std::function<void(Beats&)> commit;  ///< on a copy of the stream it was made for
 };
 
-/// Every rule that a device judges, broken in each way `beats` allows; numbers just beside the right ones, bits at both
+/// Every rule that a device checks, broken in each way `beats` allows; numbers just beside the right ones, bits at both
 /// ends. `beats` is a whole legal stream with every record and a tile of two sheets (small_stream()).
 std::vector<Violation> violations(const cmodel::Config& config, const Beats& beats);
 

@@ -1,5 +1,4 @@
-// Where a splat has to lie for its windows to begin at a pixel: snapping, the other way around (docs/numerics.md,
-// section 3).
+// The inverse of snapping: the centre of a splat whose windows begin at a pixel (docs/numerics.md, section 3).
 #pragma once
 
 #include <algorithm>
@@ -10,7 +9,7 @@
 namespace fastsplat::testbench {
 
 /// The centre word of a splat of radius `rho` whose first window begins at pixel `origin`, in phase `phase`
-/// (0..phases-1), or the nearest that the position format has.
+/// (0..phases-1), or the nearest one in the position format.
 inline std::int32_t window_centre(const cmodel::Config& config, std::uint32_t rho, std::int64_t origin,
                                   std::int64_t phase) {
   const auto format = config.position_format();

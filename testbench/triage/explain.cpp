@@ -74,7 +74,8 @@ class Walk {
     return at_.tap == tap && at_.tile == tile_.tile && at_.sheet == number_ && at_.tag == tag;
   }
 
-  /// A window's products into the sheet or, every sample, into the picture; true once what was asked for has been told.
+  /// Adds a window's products to the sheet or, every sample, to the picture; true once the requested word was
+  /// explained.
   template <class Record>
   bool window(const Record& record, std::int32_t left, std::int32_t top, const std::vector<std::uint32_t>& weights) {
     const bool wanted = at_.x == left && at_.y == top;
@@ -203,7 +204,7 @@ class Walk {
     });
   }
 
-  /// A pixel before the sums of `what` are composited.
+  /// Explains a pixel before the sums of `what` are composited.
   void composite(int x, int y, const cmodel::SheetWord& sums, const char* what) {
     if (!sheet_.inside(x, y))
       return tell("pixel (" + std::to_string(x) + "," + std::to_string(y) + ") is outside the tile");

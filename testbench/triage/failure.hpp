@@ -1,5 +1,5 @@
-// What a user gets of a failing stream: the divergence in words with its operands, the stream made small, a waveform of
-// the cycles around the divergence.
+// Report on a failing stream: the divergence in words with its operands, the stream made small, a waveform of the
+// cycles around the divergence.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 namespace fastsplat::testbench {
 
 struct FailureReport {
-  std::string original;    ///< the first divergence of the stream as it was
+  std::string original;    ///< first divergence of the original stream
   std::string divergence;  ///< that of the small one: stage, place, both values, bit difference; or what the device did
   std::string operands;    ///< what the model computed it from; may be empty
   std::optional<RtlPlace> place;  ///< what makes the word that diverged

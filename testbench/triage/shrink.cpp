@@ -54,7 +54,7 @@ class Shrinker {
   int runs_left_;
 };
 
-/// Leaves of `parts`, which have the numbers first, first+1, ..., those to keep; returns how many there were.
+/// Erases the parts that `keep` excludes; they have the numbers first, first+1, ... Returns how many there were.
 template <class Part>
 std::size_t leave_out(std::vector<Part>& parts, const Keep& keep, std::size_t first) {
   const std::size_t count = parts.size();

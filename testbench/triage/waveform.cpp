@@ -16,7 +16,7 @@
 namespace fastsplat::testbench {
 namespace {
 
-constexpr int kUnwanted = 2;  ///< exit code of a child whose run was another one
+constexpr int kUnwanted = 2;  ///< exit code of a child whose run was a different one
 
 /// No cycle takes more than one beat, so no more of them come before the last cycle that is wanted.
 std::vector<cmodel::Beat> wanted_beats(const BeatSource& source, const VerifyOptions& options) {
@@ -29,7 +29,7 @@ std::vector<cmodel::Beat> wanted_beats(const BeatSource& source, const VerifyOpt
   return taken;
 }
 
-/// As verify() does; a device that fails has shown what there is.
+/// Drives a device as verify() does. A failing device ends the run; its cycles are in the waveform.
 void drive(std::span<const cmodel::Beat> beats, const VerifyOptions& options) {
   cmodel::NullPixels none;
   const RtlOptions driven = rtl_options(options);
@@ -48,7 +48,7 @@ void drive(std::span<const cmodel::Beat> beats, const VerifyOptions& options) {
   }
 }
 
-/// In the child: neither the parent's buffers nor its handlers are its business.
+/// Runs in the child, which must not touch the parent's buffers and handlers.
 [[noreturn]] void write_and_leave(const BeatSource& source, std::span<const cmodel::Beat> beats,
                                   const VerifyOptions& options, const WantedRun& wanted_run, pid_t parent) {
   end_with_parent(parent);
@@ -78,7 +78,7 @@ std::string write_waveform(const BeatSource& source, const VerifyOptions& option
     VerifyOptions run = options;
     run.wave = file.temporary();
     const std::vector<cmodel::Beat> beats = wanted_run ? std::vector<cmodel::Beat>{} : wanted_beats(source, options);
-    const UnfinishedPath names(file.temporary().string() + ".hier");  // the writer has it beside until it is done
+    const UnfinishedPath names(file.temporary().string() + ".hier");  // the writer keeps it until it is done
     const pid_t parent = ::getpid(), child = ::fork();
     if (child < 0) return cannot_write(options.wave, std::strerror(errno));
     if (child == 0) write_and_leave(source, beats, run, wanted_run, parent);

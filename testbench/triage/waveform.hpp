@@ -8,7 +8,7 @@
 
 namespace fastsplat::testbench {
 
-/// Whether a run is the one that a waveform is wanted of.
+/// Whether a run is the one whose waveform is wanted.
 using WantedRun = std::function<bool(const VerifyResult&)>;
 
 /// Drives the device with `source` once more, as verify() does but without a checker, up to the last required cycle.

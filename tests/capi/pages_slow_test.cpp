@@ -49,6 +49,7 @@ class Pages : public ::testing::Test {
   std::string package_ = folder_ / "fastsplat_pkg.sv";
 };
 
+// M-port-1
 TEST_F(Pages, MicroarchitecturesLineIsRead) { read_by_verilator("microarchitecture.md", "--cc"); }
 TEST_F(Pages, CapisLineIsRead) { read_by_verilator("capi.md", "--binary"); }
 

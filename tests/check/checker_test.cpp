@@ -189,7 +189,7 @@ TEST_P(Checked, EveryBankOfAWindow) {
   }
 }
 
-/// Banks x 4 words: each that lies in the tile counts, no other does.
+/// Banks x 4 words: each that lies in the tile counts, no other does (M-tap-4).
 void each_word(const Truth& right, std::size_t at, int bits, const std::function<void(const Truth&)>& tell,
                int& outside) {
   const auto banks = static_cast<std::size_t>(right.config.lanes) * static_cast<std::size_t>(right.config.lanes);
@@ -240,7 +240,7 @@ TEST_P(Checked, EveryWordOfABlock) {
   EXPECT_GT(outside, 0);
 }
 
-// Nothing but the sheet's number tells which sheet a block was composited from.
+// Nothing but the sheet's number tells which sheet a block was composited from (M-tap-7).
 TEST_P(Checked, TheSheetOfABlock) {
   const Truth right = truth(testbench::StimulusClass::SwapHazards, 60);
   int tried = 0;

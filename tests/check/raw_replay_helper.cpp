@@ -93,7 +93,7 @@ class Replay final : public cmodel::TapSink, public cmodel::PixelSink {
   std::vector<RawEvent> events;
 
  private:
-  /// The bank of pixel (x, y), which may lie left of the tile or above it.
+  /// The bank of pixel (x, y), which may lie left of the tile or above it (M-tap-2).
   std::size_t bank(std::int32_t x, std::int32_t y) const {
     const std::int32_t mask = config_.lanes - 1;
     return static_cast<std::size_t>(y & mask) * lanes_ + static_cast<std::size_t>(x & mask);
@@ -103,6 +103,7 @@ class Replay final : public cmodel::TapSink, public cmodel::PixelSink {
   }
   bool inside(std::int32_t x, std::int32_t y) const { return x >= 0 && y >= 0 && x < tile_.width && y < tile_.height; }
 
+  /// M-tap-3
   void window(const cmodel::TapRecord& record) {
     Port port(lanes_ * lanes_, config_.radial_int_bits + config_.radial_frac_bits);
     auto weight = record.payload.begin();
@@ -117,7 +118,8 @@ class Replay final : public cmodel::TapSink, public cmodel::PixelSink {
     auto word = record.payload.begin();
     for (std::int32_t j = 0; j < config_.lanes; ++j) {
       for (std::int32_t i = 0; i < config_.lanes; ++i, word += 4) {
-        if (!inside(record.x + i, record.y + j)) continue;
+        if (!inside(record.x + i, record.y + j)) continue;  // M-tap-4
+        // M-tap-3
         for (std::size_t c = 0; c < 4; ++c) port.set(bank(record.x + i, record.y + j) * 4 + c, word[c]);
       }
     }
@@ -138,6 +140,7 @@ class Replay final : public cmodel::TapSink, public cmodel::PixelSink {
     const auto column = static_cast<std::uint32_t>(record.x / config_.lanes),
                row = static_cast<std::uint32_t>(record.y / config_.lanes),
                columns = static_cast<std::uint32_t>(config_.tile_width / config_.lanes);
+    // M-tap-5
     show({.port = RawPort::Composite, .block = row * columns + column, .words = {}},
          four_by_bank(record,
                       std::max(config_.sheet_int_bits + config_.sheet_frac_bits, config_.composite_frac_bits + 1)));

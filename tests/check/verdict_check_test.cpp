@@ -69,6 +69,7 @@ class Verdicts : public ::testing::Test {
   }
 };
 
+// M-port-8, M-cull-4: the checker's verdicts, which mustfail/cull_test.cpp compares with the RTL's.
 TEST_F(Verdicts, OnePerCullBlockInTheirOrder) {
   std::size_t cull_blocks = 0;
   cmodel::StreamDecode decode(config_, cmodel::StreamScope::Whole);
@@ -129,6 +130,7 @@ TEST_F(Verdicts, AreTheCheckersBusiness) {
   }
 }
 
+// M-port-9
 TEST_F(Verdicts, NoneOfADeviceThatDoesNotCull) {
   cmodel::NullPixels pixels;
   testbench::Checker deaf(named_config("tiny"), cmodel::StreamScope::Whole, pixels);

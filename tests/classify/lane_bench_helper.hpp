@@ -86,7 +86,7 @@ class LaneBench {
   }
 
  private:
-  static constexpr int kStages = static_cast<int>(cmodel::stages::kPixelStage);
+  static constexpr int kStages = static_cast<int>(cmodel::stages::kPixelStage);  ///< registers (M-density-19)
 
   void clock() {
     top_->clk_i = 0;
@@ -168,6 +168,7 @@ class LaneBench {
       top_->y_i = static_cast<std::uint16_t>(pixel.y);
       clock();
       if (cycle < kStages - 1) continue;
+      // The pixel put in 23 edges ago, this one counted (M-density-19): a lane of another length shows another one.
       const LanePixel& out = on_its_way[static_cast<std::size_t>((cycle + 1) % kStages)];
       const cmodel::SheetWord expected = stimulus.expected(out);
       ++result.pixels;

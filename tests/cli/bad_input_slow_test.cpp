@@ -185,6 +185,7 @@ TEST(BadInput, ConfigurationsNameKeyAndNumbers) {
   };
   expect_success(fastsplat({"config", "check", folder.write("same.toml", whole)}));
   expect_refused("config", edited("phases = 64", "phases = 63"), folder, {"phases"});
+  // N-2-2: a required key is missing, then a key is unknown.
   expect_refused("config", edited("phases = 64", ""), folder, {"phases", "missing"});
   expect_refused("config", edited("phases = 64", "phasis = 64"), folder, {"did you mean", "phases"});
   expect_refused("config", edited("lanes = 8", "lanes = \"8\""), folder, {"lanes"});

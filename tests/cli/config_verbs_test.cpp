@@ -131,6 +131,7 @@ TEST(Index, IsShortForSetWhereverThatIs) {
   EXPECT_EQ(config(index.out).name, "tiny+index.kind=linear");
 }
 
+// Of an engine rtl N-2-8: index.kind.
 TEST(Index, IsRefusedInOneLineWhereItCannotBe) {
   struct Case {
     std::vector<std::string> words, said;

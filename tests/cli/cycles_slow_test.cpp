@@ -54,7 +54,7 @@ TEST(Cycles, AddUpAndAreTheSameForSceneAndStream) {
   EXPECT_GT(a["actual"].get<std::uint64_t>(), 0U);
   EXPECT_EQ(sum_of(a["account"]), a["actual"].get<std::uint64_t>());
   EXPECT_EQ(sum_of(b["account"]), b["actual"].get<std::uint64_t>());
-  // The stream's only further record, end_frame, comes while the last picture goes out.
+  // The stream's only further record, end_frame, comes while the last picture goes out (M-account-3).
   EXPECT_EQ(a["account"], b["account"]);
   std::printf("[figure] busy cycles = %llu, sum of the causes %llu\n",
               static_cast<unsigned long long>(a["actual"].get<std::uint64_t>()),

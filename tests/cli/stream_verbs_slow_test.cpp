@@ -58,6 +58,7 @@ TEST_F(StreamVerbs, APipeIsNoFile) {
   std::printf("[figure] commands that refuse a pipe = %zu\n", commands.size());
 }
 
+// S-reader-3.
 TEST_F(StreamVerbs, ADumpTellsWhatIsThereAndThenWhatIsWrong) {
   const auto whole = read_bytes(stream_);
   const auto good = fastsplat({"stream", "dump", stream_});
@@ -84,7 +85,7 @@ TEST_F(StreamVerbs, ADumpTellsWhatIsThereAndThenWhatIsWrong) {
   expect_success(fastsplat({"stream", "dump", folder_ / "d.fss", "--limit", "4"}));
 }
 
-// Whatever is wrong with it besides: a text file is no stream that was cut.
+// Whatever is wrong with it besides: a text file is no stream that was cut (S-reader-1, S-reader-3).
 TEST_F(StreamVerbs, WhatIsNoStreamIsToldSo) {
   const auto whole = read_bytes(stream_);
   std::string other_magic = whole;
@@ -119,7 +120,7 @@ TEST_F(StreamVerbs, VerifyNamesTheFile) {
   }
 }
 
-// A hole in the picture is one to every verb that reads a stream file; as tiles alone the device takes it.
+// A hole in the picture is one to every verb that reads a stream file (S-file-1); as tiles alone the device takes it.
 TEST_F(StreamVerbs, TilesCoverTheImageForEveryVerb) {
   const auto config = driver::load_config("tiny");
   std::vector<cmodel::Beat> beats;
@@ -158,6 +159,7 @@ TEST_F(StreamVerbs, AResetBehindTheEndIsRefused) {
       << random.err;
 }
 
+// S-file-3.
 TEST_F(StreamVerbs, TheLimitOfARecordingIsSaidBeforeTheWork) {
   expect_error(
       fastsplat({"stream", "record", "--volume", "/nonexistent.nrrd", "--size", "9000", "-o", folder_ / "b.fss"}), 2,
@@ -176,7 +178,7 @@ TEST_F(StreamVerbs, AConfigurationWithoutRtlIsToldSo) {
   EXPECT_TRUE(nlohmann::json::parse(read_bytes(folder_ / "c.json")).at("rtl").get<bool>());
   const auto many = check({"--set", "tile.width=128", "--set", "tile.height=128", "--set", "position.int_bits=10"});
   EXPECT_NE(many.find("no RTL can be built"), std::string::npos) << many;
-  EXPECT_NE(many.find("at most 1024 blocks"), std::string::npos) << many;
+  EXPECT_NE(many.find("at most 1024 blocks"), std::string::npos) << many;  // N-2-8
   EXPECT_FALSE(nlohmann::json::parse(read_bytes(folder_ / "c.json")).at("rtl").get<bool>());
 }
 

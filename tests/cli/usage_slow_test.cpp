@@ -150,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{"ending_missing", {"render", "-o", "a"}, {".exr"}},
         Misuse{"raw_not_exr", {"render", "--engine", "cmodel", "--raw", "a.png"}, {"a.png", ".exr"}},
         Misuse{"same_name_twice", {"render", "-o", "a.exr", "-o", "./a.exr"}, {"two outputs"}},
-        Misuse{"raycast_on_device",
+        Misuse{"raycast_on_device",  // N-8-63
                {"render", "--volume", "point:4", "--engine", "cmodel", "--method", "raycast", "-o", "a.exr"},
                {"raycast"}},
         Misuse{"stream_not_fss", {"stream", "record", "-o", "a.bin"}, {".fss"}}));

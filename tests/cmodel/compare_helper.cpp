@@ -86,6 +86,7 @@ Comparison& Comparison::operator+=(const Comparison& other) {
 
 Comparison compare(const oracle::Rendering& model, const oracle::Rendering& expected) {
   Comparison result;
+  // One by one, in their order (N-9-4).
   for (std::size_t i = 0; i < std::max(model.events.size(), expected.events.size()); ++i) {
     if (i >= model.events.size() || i >= expected.events.size()) {
       differ(result, "event only in " + (i >= model.events.size() ? "oracle: " + describe(expected.events[i])

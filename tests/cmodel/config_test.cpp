@@ -30,6 +30,7 @@ TEST(ConfigLimits, NamedConfigurationsAreSound) {
   }
 }
 
+// N-2-1, N-2-7: the limits of the keys.
 TEST(ConfigLimits, EveryKeyBelowAboveAndBetweenPowers) {
   int broken = 0;
   for (const cmodel::ConfigKey& key : cmodel::config_keys()) {
@@ -184,6 +185,17 @@ const Between kBetween[] = {
      }},
     {"composite.lanes", "a divisor of array.lanes^2 = 64", "3", [](cmodel::Config& c) { c.composite_lanes = 3; }},
     {"composite.lanes", "a divisor of array.lanes^2 = 64", "128", [](cmodel::Config& c) { c.composite_lanes = 128; }},
+    {"composite.lanes", "0 or array.lanes^2 = 64 with composite.every_sample = 1", "16",
+     [](cmodel::Config& c) {
+       c.composite_every_sample = 1;
+       c.composite_lanes = 16;
+     }},
+    {"radial.interpolate", "rlut, squared or squared_elliptic", "blit2d",
+     [](cmodel::Config& c) {
+       c.radial_interpolate = 1;
+       c.index_kind = static_cast<int>(cmodel::IndexKind::Blit2d);
+       c.phases = 16;
+     }},
     {"radial.interpolate", "rlut, squared or squared_elliptic", "separable",
      [](cmodel::Config& c) {
        c.radial_interpolate = 1;
@@ -200,6 +212,12 @@ const Between kBetween[] = {
        c.sheet_frac_bits = 17;
        c.sheet_int_bits = 1;
      }},
+    {"sheet.frac_bits", "int_bits + frac_bits <= 18", "16",
+     [](cmodel::Config& c) {
+       c.classify_segment_bits = 9;
+       c.sheet_frac_bits = 16;
+       c.sheet_int_bits = 3;
+     }},
     {"classify.segment_bits", "8", "9",
      [](cmodel::Config& c) {
        c.classify_segment_bits = 9;
@@ -210,7 +228,12 @@ const Between kBetween[] = {
        c.classify_segment_bits = 9;
        c.lanes = c.tile_width = c.tile_height = 2;
      }},
-    {"cull.map", "off", "block",
+    {"tile.height", "3", "2",
+     [](cmodel::Config& c) {
+       c.classify_segment_bits = 9;
+       c.lanes = c.tile_height = 2;
+     }},
+    {"cull.map", "off", "block",  // M-density-2
      [](cmodel::Config& c) {
        c.classify_segment_bits = 9;
        c.cull_map = static_cast<int>(cmodel::CullMap::Block);
@@ -222,14 +245,17 @@ const Between kBetween[] = {
      }},
 };
 
+// N-2-7: the limits between keys.
 TEST(ConfigLimits, EveryLimitBetweenKeys) {
   for (const Between& limit : kBetween) {
     cmodel::Config config = named_config("base");
     limit.violate(config);
     expect_violation(config, limit.key, limit.expected, limit.got);
   }
+  std::printf("[figure] limits between keys broken and refused = %zu\n", std::size(kBetween));
 }
 
+// N-2-7: what just keeps a limit is taken.
 TEST(ConfigLimits, EdgesAreTaken) {
   cmodel::Config config = named_config("base");
   ties_to_even_pixels(config);
@@ -295,6 +321,7 @@ TEST(ConfigSet, EveryKeyTakesItsTextAndGivesItBack) {
   EXPECT_EQ(compared, 23 * 2 + 7 * 3 + 6 + 2 + 7 * 2 + 3);
 }
 
+// N-2-2: an unknown key; N-2-7: values out of their limits.
 TEST(ConfigSet, WhatIsWrongIsToldAndNothingChanges) {
   struct Wrong {
     const char *key, *value, *expected, *got;
@@ -336,6 +363,7 @@ TEST(ConfigSet, AMistypedWordIsSuggested) {
   EXPECT_EQ(cmodel::set(config, "index.kind", "rltu")->fix, "did you mean 'rlut'?");
 }
 
+// N-2-3, N-2-5, N-2-6.
 TEST(ConfigHash, ANeutralKeyDoesNotEnterItAndAnyOtherValueDoes) {
   const cmodel::Config base = named_config("base");
   EXPECT_EQ(cmodel::config_hash(base), oracle::hash(symbols_of(base)));

@@ -113,7 +113,7 @@ cmodel::Config config_of(const oracle::Symbols& symbols, const std::string& name
 
 namespace {
 
-/// What numerics.md, section 2, asks of a configuration with ellipses, as often at its edges as not.
+/// What N-2-7 requires of a configuration with ellipses, as often at its edges as not.
 void draw_ellipses(cmodel::Config& config, Random& random) {
   const auto draw = [&](std::int64_t least, std::int64_t most) {
     if (most <= least) return static_cast<int>(least);

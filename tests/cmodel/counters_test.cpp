@@ -58,19 +58,19 @@ TEST(Counters, OfATinyFrameAreThoseOfTheHand) {
   w.end_frame();
 
   const std::map<std::string, std::uint64_t> expected{
-      {"tiles", 2},
+      {"tiles", 2},  // N-9-9
       {"sheets", 4},
       {"splats", 7},
-      {"windows", 7},
+      {"windows", 7},        // N-9-8
       {"lanes_inside", 15},  // 4 + 4 + 1 + 0, 4, 1 + 1
       {"lanes_weighted", 15},
       {"cull_blocks", 1},
-      {"dirty_blocks", 5},        // 2 + 1 and 1 + 1
-      {"pixels_composited", 12},  // (4 + 2) + 4 and 1 + 1
-      {"frozen_pixels", 4},
-      {"sheet_saturated", 8},
-      {"opacity_saturated", 8},
-      {"composite_saturated", 1},
+      {"dirty_blocks", 5},         // 2 + 1 and 1 + 1 (N-9-12)
+      {"pixels_composited", 12},   // (4 + 2) + 4 and 1 + 1
+      {"frozen_pixels", 4},        // N-9-14
+      {"sheet_saturated", 8},      // N-9-11
+      {"opacity_saturated", 8},    // N-9-13
+      {"composite_saturated", 1},  // N-9-15
       {"pixel_saturated", 9},
   };
   const auto counts = run_model(config_of(c, "by_hand"), w.bytes()).counts;
@@ -94,8 +94,8 @@ TEST(Counters, SaturatedProductsAndCentres) {
   w.end_tile();
   w.end_frame();
   const auto counts = run_model(config_of(c, "by_hand"), w.bytes()).counts;
-  EXPECT_EQ(counts.at("snap_saturated"), 2U);
-  // 254/256 * 127/64 = 31.50/16: a tie, half up, so G is cut as well.
+  EXPECT_EQ(counts.at("snap_saturated"), 2U);  // N-9-10
+  // 254/256 * 127/64 = 31.50/16: a tie, half up, so G is cut as well (N-9-11).
   EXPECT_EQ(counts.at("product_saturated"), 12U);
 }
 

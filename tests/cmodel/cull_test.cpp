@@ -25,6 +25,7 @@ cmodel::Config culling(cmodel::Config config, CullMap map) {
 
 class Culling : public ::testing::TestWithParam<std::tuple<std::string, CullMap>> {};
 
+// What is left is done in its order, as if the rest were not there (N-6.1-12).
 TEST_P(Culling, ModelEqualsOracle) {
   const auto& [name, map] = GetParam();
   const cmodel::Config config = culling(named_config(name), map);
@@ -65,11 +66,12 @@ struct Ran {
 };
 
 /// The stream is any configuration's: the hash in its begin_frame becomes this one's.
-void run(const cmodel::Config& config, std::vector<std::uint8_t> bytes, Ran& out) {
+void run(const cmodel::Config& config, std::vector<std::uint8_t> bytes, Ran& out,
+         cmodel::StreamScope scope = cmodel::StreamScope::Whole) {
   const std::uint64_t hash = cmodel::config_hash(config);
   for (std::size_t i = 0; i < 8; ++i) bytes[8 + i] = static_cast<std::uint8_t>(hash >> (8 * i));
   seal(bytes);
-  cmodel::Model model(config, cmodel::StreamScope::Whole, out.seen);
+  cmodel::Model model(config, scope, out.seen);
   model.log_culls(&out.log);
   const auto beats = to_beats(bytes);
   model.consume(beats);
@@ -78,6 +80,7 @@ void run(const cmodel::Config& config, std::vector<std::uint8_t> bytes, Ran& out
   out.culls = model.culls();
 }
 
+// N-6.1-1
 TEST(CullingRandom, NoWordOfThePictureDependsOnTheMap) {
   Random random(seed_or(93));
   cmodel::CullCounts culls;
@@ -96,7 +99,7 @@ TEST(CullingRandom, NoWordOfThePictureDependsOnTheMap) {
     ASSERT_EQ(off.seen.rendering.tiles, pixel.seen.rendering.tiles) << "configuration " << i;
     EXPECT_EQ(off.log.size(), 0U);
     for (const Ran* one : {&block, &pixel}) {
-      // What numerics.md says of the counters.
+      // What numerics.md says of the counters (N-6.1-11, N-9-16).
       EXPECT_EQ(one->counters.tiles, off.counters.tiles);
       EXPECT_EQ(one->counters.sheets, off.counters.sheets);
       EXPECT_EQ(one->counters.cull_blocks, off.counters.cull_blocks);
@@ -157,6 +160,8 @@ std::vector<std::uint8_t> walls(const cmodel::Config& config, int mode, int shee
   return w.bytes();
 }
 
+// N-6.1-4; a hidden splat counts as one and has no window (N-6.1-9); in other modes there are no tests (N-6.1-2).
+// M-cull-2.
 TEST(CullingRule, SheetsAreTestedAgainstTheLastButOne) {
   for (const CullMap map : {CullMap::Block, CullMap::Pixel}) {
     cmodel::Config config = culling(named_config("tiny"), map);
@@ -181,6 +186,7 @@ TEST(CullingRule, SheetsAreTestedAgainstTheLastButOne) {
   }
 }
 
+// N-6.1-5, N-6.1-6 and N-6.1-7: as many bits as the page says decide every rectangle exactly.
 TEST(CullingRule, WordsOfTheTableAreModular) {
   Random random(seed_or(94));
   std::uint64_t tests = 0, hidden = 0;
@@ -219,6 +225,7 @@ TEST(CullingRule, WordsOfTheTableAreModular) {
   EXPECT_LT(hidden, tests * 9 / 10);
 }
 
+// N-2-8: with ellipses (M-cull-1).
 TEST(CullingRule, TheRtlHasNoneBesideEllipses) {
   for (const CullMap map : {CullMap::Off, CullMap::Block, CullMap::Pixel}) {
     EXPECT_FALSE(cmodel::rtl_violation(culling(named_config("tiny"), map)));
@@ -233,7 +240,8 @@ TEST(CullingRule, TheRtlHasNoneBesideEllipses) {
 
 /// A sheet of three splats in a row and what stands before each of them.
 using Writing = std::function<void(StreamWriter&, int splat)>;
-std::string refusal(const cmodel::Config& config, const Writing& before) {
+std::string refusal(const cmodel::Config& config, const Writing& before,
+                    cmodel::StreamScope scope = cmodel::StreamScope::Whole) {
   StreamWriter w(symbols_of(config));
   w.begin_frame(config.tile_width, config.tile_height, 1);
   w.load_table(1, 0, 0, 0, std::vector<std::uint32_t>(static_cast<std::size_t>(config.radial_entries), 1));
@@ -254,7 +262,7 @@ std::string refusal(const cmodel::Config& config, const Writing& before) {
   w.end_frame();
   Ran out;
   try {
-    run(config, w.bytes(), out);
+    run(config, w.bytes(), out, scope);
   } catch (const cmodel::StreamRefusal& refused) {
     EXPECT_EQ(refused.rule(), cmodel::StreamRule::Promise);
     return refused.what();
@@ -262,17 +270,32 @@ std::string refusal(const cmodel::Config& config, const Writing& before) {
   return "";
 }
 
+/// A cull_block before splat `at`.
+Writing promise(int at, std::uint32_t tag, int x, int y, int width, int height, std::uint32_t splats) {
+  return [=](StreamWriter& w, int splat) {
+    if (splat == at) w.cull_block(tag, x, y, width, height, splats);
+  };
+}
+/// One cull_block more than a tile has cells, each of one splat.
+Writing too_many_sets(const cmodel::Config& config) {
+  return [sets = cmodel::cull_sets(config)](StreamWriter& w, int splat) {
+    for (std::uint32_t i = 0; splat == 0 && i <= sets; ++i) w.cull_block(i, 0, 0, 30, 30, 1);
+  };
+}
+/// Tags are compared modulo 2^32: with more splats to come, splats outside the rectangle would pass for later ones.
+constexpr std::uint32_t kMostToCome = 1U << 31;
+/// Two cull_blocks, each of as many splats as may be to come.
+void twice_the_most(StreamWriter& w, int splat) {
+  for (std::uint32_t i = 0; splat == 0 && i < 2; ++i) w.cull_block(i * kMostToCome, 0, 0, 30, 30, kMostToCome);
+}
+
+// S-cull-4 to S-cull-8, and where each is not broken.
 TEST(CullingRule, PromisesAreChecked) {
   const cmodel::Config config = culling(named_config("tiny"), CullMap::Block);
   const int lanes = config.lanes, first = 1 - lanes / 2;
-  const auto promise = [](int at, std::uint32_t tag, int x, int y, int width, int height, std::uint32_t splats) {
-    return [=](StreamWriter& w, int splat) {
-      if (splat == at) w.cull_block(tag, x, y, width, height, splats);
-    };
-  };
   const int y = 5 - lanes / 2;
   EXPECT_EQ(refusal(config, [](StreamWriter&, int) {}), "");
-  // Of the first splat's windows, what lies left of the tile need not be promised.
+  // Of the first splat's windows, what lies left of the tile need not be promised (S-cull-7).
   EXPECT_EQ(refusal(config, promise(0, 0, 0, y, 8 + first + lanes, lanes, 3)), "");
   EXPECT_EQ(refusal(config, promise(1, 1, 4 + first, y, 4 + lanes, lanes, 2)), "");
   EXPECT_EQ(refusal(config, promise(3, 3, 0, 0, 1, 1, 0)), "");
@@ -287,26 +310,39 @@ TEST(CullingRule, PromisesAreChecked) {
   refused(promise(1, 1, 5 + first, y, 9 + lanes, lanes, 2), "outside the rectangle");
   refused(promise(0, 0, 0, y + 1, 30, lanes, 1), "outside the rectangle");
   refused(promise(0, 0, 0, y, 30, lanes - 1, 1), "outside the rectangle");
+  // S-cull-4, S-cull-8, S-cull-6.
   refused(promise(0, 1, 0, 0, 30, 30, 3), "tag");
   refused(promise(1, 1, 0, 0, 30, 30, 3), "end_sheet before all splats of cull_block");
-  refused(
-      [&](StreamWriter& w, int splat) {
-        for (std::uint32_t i = 0; splat == 0 && i <= cmodel::cull_sets(config); ++i) w.cull_block(i, 0, 0, 30, 30, 1);
-      },
-      "too many open cull_blocks");
-  // Tags are compared modulo 2^32: with more to come, splats outside the rectangle would pass for later ones.
-  const std::uint32_t most = 1U << 31;
-  refused(promise(0, 0, 0, 0, 1, 1, most), "outside the rectangle");
-  refused(promise(0, 0, 0, 0, 1, 1, most + 1), "too many open splats");
+  refused(too_many_sets(config), "too many open cull_blocks");
+  // S-cull-5.
+  refused(promise(0, 0, 0, 0, 1, 1, kMostToCome), "outside the rectangle");
+  refused(promise(0, 0, 0, 0, 1, 1, kMostToCome + 1), "too many open splats");
   refused(promise(0, 0, 0, 0, 1, 1, 0xFFFFFFFF), "too many open splats");
-  refused(
-      [&](StreamWriter& w, int splat) {
-        for (std::uint32_t i = 0; splat == 0 && i < 2; ++i) w.cull_block(i * most, 0, 0, 30, 30, most);
-      },
-      "too many open splats");
+  refused(twice_the_most, "too many open splats");
   EXPECT_EQ(told.size(), 11U);
-  // Without the key it is a hint.
+  // Without the key it is a hint (S-cull-2).
   EXPECT_EQ(refusal(culling(config, CullMap::Off), promise(0, 77, 0, 0, 1, 1, 99)), "");
+}
+
+// S-cull-11: the tag, the block's own w5 and the rectangle; neither the number of cull_blocks nor the sum of their w5.
+// Covered splats need not come (S-cull-10).
+TEST(CullingRule, TheReaderOfASubsetChecksThreeThings) {
+  const cmodel::Config config = culling(named_config("tiny"), CullMap::Block);
+  int refused = 0, taken = 0;
+  for (const auto& [writing, words] : {std::pair{promise(0, 1, 0, 0, 30, 30, 3), "tag"},
+                                       {promise(0, 0, 0, 0, 30, 30, kMostToCome + 1), "too many open splats"},
+                                       {promise(0, 0, 0, 0, 1, 1, 3), "outside the rectangle"}}) {
+    const std::string text = refusal(config, writing, cmodel::StreamScope::Subset);
+    EXPECT_NE(text.find(words), std::string::npos) << words << ": " << text;
+    ++refused;
+  }
+  for (const Writing& writing : {promise(0, 0, 0, 0, 30, 30, kMostToCome), promise(1, 1, 0, 0, 30, 30, 3),
+                                 too_many_sets(config), Writing{twice_the_most}}) {
+    EXPECT_NE(refusal(config, writing), "") << "a whole stream may not";
+    EXPECT_EQ(refusal(config, writing, cmodel::StreamScope::Subset), "");
+    ++taken;
+  }
+  std::printf("[figure] cull_blocks of a subset: refused = %d, taken = %d\n", refused, taken);
 }
 
 }  // namespace

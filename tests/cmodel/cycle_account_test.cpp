@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <iterator>
+#include <utility>
 
 #include "cmodel/cycles/cycle_model.hpp"
 #include "tests/cmodel/configs_helper.hpp"
@@ -19,7 +21,7 @@ struct Counted final : cmodel::TapSink {
 };
 
 TEST(CycleAccount, OfRunsIsThatOfTheirRecords) {
-  constexpr std::uint64_t kFill = 2;  // of pixel out, docs/microarchitecture.md, "Account"
+  constexpr std::uint64_t kFill = 2;  // of pixel out (M-account-4)
   Random random(seed_or(5));
   std::uint64_t tiles = 0, splats = 0;
   for (const char* name : {"tiny", "small", "base"}) {
@@ -32,7 +34,7 @@ TEST(CycleAccount, OfRunsIsThatOfTheirRecords) {
         if (opcode == cmodel::Opcode::LoadTable) at += cmodel::announced_beats(beats[at]);
         if (opcode != cmodel::Opcode::BeginTile) continue;
         const auto tile = std::get<cmodel::BeginTile>(cmodel::from_beat(beats[at]));
-        const int a_row = (tile.width + config.lanes - 1) / config.lanes;
+        const int a_row = (tile.width + config.lanes - 1) / config.lanes;  // M-pixel-1
         pictures += kFill + static_cast<std::uint64_t>(a_row) * static_cast<std::uint64_t>(tile.height);
         pixels += static_cast<std::uint64_t>(tile.width) * static_cast<std::uint64_t>(tile.height);
         ++tiles;
@@ -43,7 +45,7 @@ TEST(CycleAccount, OfRunsIsThatOfTheirRecords) {
       model.finish();
       EXPECT_EQ(model.account().pixels, pictures);
       EXPECT_EQ(model.account().output, 0u) << "the sink is always willing";
-      EXPECT_EQ(model.account().total(), model.stalls().busy);
+      EXPECT_EQ(model.account().total(), model.stalls().busy);  // M-account-2
       EXPECT_EQ(counted.of(cmodel::Tap::Snap), model.counters().splats);
       EXPECT_EQ(counted.of(cmodel::Tap::Footprint), model.counters().windows);
       EXPECT_EQ(counted.of(cmodel::Tap::Sheet), model.counters().windows);
@@ -56,6 +58,31 @@ TEST(CycleAccount, OfRunsIsThatOfTheirRecords) {
               static_cast<unsigned long long>(splats));
   EXPECT_GT(tiles, 12u);
   EXPECT_GT(splats, 100u);
+}
+
+// M-account-5, M-cull-17: what of a walk is exposed is taken out of the waits in their order.
+TEST(CycleAccount, ExposedSlicesAreTakenOutOfWaitsInTheirOrder) {
+  using cmodel::Pause, cmodel::CycleAccount;
+  constexpr std::pair<Pause, std::uint64_t CycleAccount::*> kOrder[] = {{Pause::Buffer, &CycleAccount::sheet_buffer},
+                                                                        {Pause::Drain, &CycleAccount::drain},
+                                                                        {Pause::Map, &CycleAccount::map},
+                                                                        {Pause::Input, &CycleAccount::input},
+                                                                        {Pause::Hidden, &CycleAccount::hidden},
+                                                                        {Pause::Records, &CycleAccount::records}};
+  constexpr std::size_t kWaits = std::size(kOrder);
+  for (std::size_t exposed = 0; exposed <= kWaits; ++exposed) {
+    cmodel::Accountant accountant;
+    accountant.sheet(0, 0, 10, 10 + kWaits);
+    accountant.sheet(1, kWaits - exposed, 0, 0);
+    // A cycle each, while the first sheet is walked; in another order than the one that counts.
+    for (std::size_t i = 0; i < kWaits; ++i) accountant.pause(kOrder[kWaits - 1 - i].first, 10 + i, 11 + i);
+    accountant.settle(0);
+    const CycleAccount account = accountant.account();
+    EXPECT_EQ(account.ideal, kWaits);
+    for (std::size_t i = 0; i < kWaits; ++i)
+      EXPECT_EQ(account.*kOrder[i].second, i < exposed ? 0u : 1u) << exposed << ", " << i;
+  }
+  std::printf("[figure] exposed slices tried = 0 to %zu\n", kWaits);
 }
 
 TEST(CycleAccount, AddsUpKindByKind) {

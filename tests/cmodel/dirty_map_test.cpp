@@ -23,6 +23,7 @@ Places marked(const cmodel::DirtyMap& map) {
   return out;
 }
 
+// N-9-6, N-9-4
 TEST(DirtyMap, HasEveryBlockThatAFootprintMeetsOnceAndInOrder) {
   Random random(seed_or(3));
   std::size_t blocks = 0, tiles = 0;
@@ -42,6 +43,7 @@ TEST(DirtyMap, HasEveryBlockThatAFootprintMeetsOnceAndInOrder) {
         for (int column = std::max(x, 0); column < std::min(x + side, width); ++column)
           expected.emplace(row / lanes, column / lanes);
     }
+    // M-walk-1, and in the order of the walk (M-walk-3)
     EXPECT_EQ(marked(map), Places(expected.begin(), expected.end())) << width << " x " << height << ", lanes " << lanes;
     EXPECT_EQ(map.count(), expected.size());
     blocks += expected.size();

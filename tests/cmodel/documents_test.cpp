@@ -67,6 +67,7 @@ std::string lower(std::string text) {
   return text;
 }
 
+// S-record-4.
 TEST(StreamPage, EveryFieldLiesWhereTheLayoutSays) {
   std::vector<std::vector<std::string>> rows;
   for (const std::string& line : lines_of("stream.md"))
@@ -133,6 +134,7 @@ TEST(StreamPage, MagicVersionAndEnumerations) {
   has(cmodel::Mode::Sum, "sum");
 }
 
+// S-rule-3.
 TEST(StreamPage, RulesByNumber) {
   std::vector<std::vector<std::string>> rows;
   bool here = false;
@@ -169,6 +171,7 @@ std::vector<std::vector<std::string>> key_rows() {
 
 bool may_be_absent(const std::vector<std::string>& row) { return row[4].ends_with("may be absent"); }
 
+// N-2-1, N-2-3: keys, their order, limits and base values; which may be absent.
 TEST(NumericsPage, KeysAndBaseValuesAreTheConfigurations) {
   const auto rows = key_rows();
   const auto base = read_keys(std::string(FASTSPLAT_SOURCE_DIR) + "/configs/base.toml");
@@ -201,6 +204,7 @@ TEST(NumericsPage, KeysAndBaseValuesAreTheConfigurations) {
   std::printf("[figure] configuration keys compared = %zu\n", rows.size());
 }
 
+// N-2-5, N-2-6.
 TEST(NumericsPage, HashIsThatOfThePagesLines) {
   // From nothing but the page: its keys, its order, its base values.
   std::uint64_t hash = 0xcbf29ce484222325U;
@@ -236,6 +240,7 @@ std::map<std::string, int> counter_numbers() {
   return numbers;
 }
 
+// M-register-15.
 TEST(MicroarchitecturePage, NumbersEveryCounterAsThePackageDoes) {
   std::map<std::string, int> named;
   static const std::regex row(R"(\| \d+ \| [A-Za-z_]+ \|.*)");
@@ -266,6 +271,7 @@ std::vector<std::string> split(const std::string& text) {
   return parts;
 }
 
+// M-register-5.
 TEST(MicroarchitecturePage, NamesEveryRegisterAtItsAddressAndNoOther) {
   std::map<std::string, std::uint32_t> page, code;
   std::vector<std::uint32_t> counters;  // of the row of low words, of that of high ones
@@ -350,6 +356,7 @@ int value_of(const cmodel::Config& config, const std::string& symbol) {
   return 0;
 }
 
+// M-register-5, M-register-8.
 TEST(MicroarchitecturePage, CapabilitiesArePackedAsTheirRowsSay) {
   static const std::regex field(R"((?:.* )?(\w+) in (?:bits )?(\d+)\.\.(\d+))");
   const auto rows = register_rows();
@@ -407,7 +414,8 @@ TEST(RulesPage, NamesFilesThatAreThereAndEverySection) {
   EXPECT_GT(sections, 15);
 }
 
-/// Who has only the page can connect the device: every port of the top module is there.
+/// Who has only the page can connect the device: every port of the top module is there (M-port-3, M-port-4, M-port-5,
+/// M-port-8, M-port-10, M-tap-1).
 TEST(MicroarchitecturePage, NamesEveryPort) {
   std::string page;
   for (const std::string& line : lines_of("microarchitecture.md")) page += line + '\n';
@@ -444,7 +452,7 @@ TEST(Documents, PagesOfFiguresHaveTheirPrefaces) {
 }
 
 TEST(Crc, KnownAnswer) {
-  // The check value of CRC-32/ISO-HDLC (zlib's): the nine digits.
+  // The check value of CRC-32/ISO-HDLC (zlib's): the nine digits (S-file-6).
   const std::string digits = "123456789";
   EXPECT_EQ(oracle::crc32({reinterpret_cast<const std::uint8_t*>(digits.data()), digits.size()}), 0xCBF43926U);
 }

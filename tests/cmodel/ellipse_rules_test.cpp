@@ -1,5 +1,5 @@
 // docs/stream.md, the rules of an ellipse record: each broken once is refused at its beat under its number, every bit
-// counts as the oracle says, and both sides of every edge of rule 18 are met.
+// counts as the oracle says, and both sides of every edge of rule 18 are met (S-ellipse-4, S-ellipse-5, S-ellipse-6).
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -85,6 +85,7 @@ void nothing(oracle::Ellipse&) {}
 const Broken kBroken[] = {
     {"reserved, lowest", StreamRule::Reserved, nothing, [](Bytes& b) { flip(b, 7, 3, 1U << 28); }},
     {"reserved, highest", StreamRule::Reserved, nothing, [](Bytes& b) { flip(b, 7, 3, 1U << 31); }},
+    // S-ellipse-2.
     {"x above its format", StreamRule::Range, [](oracle::Ellipse& e) { e.x = 128; }},
     {"x below its format", StreamRule::Range, [](oracle::Ellipse& e) { e.x = -129; }},
     {"y above its format", StreamRule::Range, [](oracle::Ellipse& e) { e.y = 128; }},
@@ -111,13 +112,14 @@ const Broken kBroken[] = {
      [](oracle::Ellipse& e) { e.A = 20, e.B = -40, e.C = 20, e.h = 0, e.left = -4, e.top = 3, e.nx = e.ny = 1; }},
     {"q at the last pixel of the last row", StreamRule::Shape,
      [](oracle::Ellipse& e) { e.A = 20, e.B = 40, e.C = 20, e.h = 0, e.left = e.top = 3, e.nx = e.ny = 1; }},
-    // Of two, the first.
+    // Of two, the first (S-rule-1).
     {"reserved and range", StreamRule::Reserved, [](oracle::Ellipse& e) { e.x = 128; },
      [](Bytes& b) { flip(b, 7, 3, 1U << 28); }},
     {"range and tag", StreamRule::Range, [](oracle::Ellipse& e) { e.v[0] = 256; }, [](Bytes& b) { flip(b, 7, 1, 1); }},
     {"tag and shape", StreamRule::Tag, [](oracle::Ellipse& e) { e.A = 0; }, [](Bytes& b) { flip(b, 7, 1, 1); }},
 };
 
+// N-4.6-2.
 TEST(EllipseRules, TheSoundOneIsTakenWithoutARadiusSet) {
   ASSERT_FALSE(cmodel::first_violation(ellipse_config())) << one_line(*cmodel::first_violation(ellipse_config()));
   bool taken = false;
@@ -150,7 +152,7 @@ TEST(EllipseRules, EachBrokenOnceIsRefusedUnderItsNumber) {
 
 TEST(EllipseRules, WhereItMayStandAndWhatCountsIt) {
   const cmodel::Config config = ellipse_config();
-  // Where the configuration has none, its opcode is unknown.
+  // Where the configuration has none, its opcode is unknown (N-4.6-1, S-ellipse-1).
   const cmodel::Config none = ellipse_config(0);
   std::uint64_t beat = 0;
   EXPECT_EQ(told(none, with_ellipse(none, sound()), &beat), StreamRule::Opcode);
@@ -163,7 +165,7 @@ TEST(EllipseRules, WhereItMayStandAndWhatCountsIt) {
   EXPECT_EQ(told(config, bytes, &beat), StreamRule::Order);
   EXPECT_EQ(beat, 6U);
   EXPECT_EQ(disagreement(config, bytes), "");
-  // end_sheet counts both.
+  // end_sheet counts both (S-ellipse-2).
   bytes = with_ellipse(config, sound());
   flip(bytes, 9, 2, 2 ^ 1);
   seal(bytes);

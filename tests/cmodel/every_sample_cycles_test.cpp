@@ -1,4 +1,4 @@
-// When windows are issued in a tile whose samples are composited one by one (docs/microarchitecture.md, "Hazard").
+// When windows are issued in a tile whose samples are composited one by one (docs/microarchitecture.md, M-hazard-3).
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -76,12 +76,13 @@ TEST(EverySampleCycles, OnePlaceGoesOnEveryOtherCycle) {
       std::printf("[figure] %s, %s: cycles waited = %llu of %d splats (expected %llu)\n", name, pattern.name,
                   static_cast<unsigned long long>(samples.stalls.stall_hazard), kSplats,
                   static_cast<unsigned long long>(waits));
-      EXPECT_EQ(samples.stalls.stall_hazard, waits);
-      EXPECT_EQ(samples.account.hazard, waits);
+      EXPECT_EQ(samples.stalls.stall_hazard, waits);  // M-hazard-3
+      EXPECT_EQ(samples.account.hazard, waits);  // M-account-4
+      // No block is walked (M-sample-5).
       EXPECT_EQ(samples.account.ideal, static_cast<std::uint64_t>(kSplats)) << "windows, and no block";
       EXPECT_EQ(samples.account.total(), samples.stalls.busy);
       EXPECT_EQ(sheets.stalls.stall_hazard, 0U);
-      // The page's time of a tile of one sheet, and the tables' in front of it.
+      // The page's time of a tile of one sheet (M-account-7), and the tables' in front of it.
       const auto beats = static_cast<std::uint64_t>((config.tile_width + side - 1) / side * config.tile_height);
       const std::uint64_t hints = pattern.cull ? kSplats - 1 : 0;
       EXPECT_EQ(samples.stalls.busy - samples.account.table_load,
@@ -99,7 +100,7 @@ struct Windows final : cmodel::TapSink {
     if (before && before->tile == record.tile) {
       const std::uint64_t apart = record.cycle - before->cycle;
       const bool over = std::abs(record.x - before->x) < lanes && std::abs(record.y - before->y) < lanes;
-      EXPECT_GE(apart, over && sampled(record.tile) ? 2U : 1U);
+      EXPECT_GE(apart, over && sampled(record.tile) ? 2U : 1U);  // M-hazard-3
       ++(over ? (apart == 2 ? waited : later) : (apart == 1 ? at_once : later));
     }
     before = record;
@@ -139,6 +140,7 @@ TEST(EverySampleCycles, NoWindowIsIssuedRightAfterOneItLiesOver) {
   EXPECT_GT(at_once, 1000U);
 }
 
+// C = P^2 (M-sample-1).
 TEST(EverySampleCycles, SlicesAreRefused) {
   cmodel::Config config = sampling("tiny");
   for (const int lanes : {0, 4}) {

@@ -75,7 +75,8 @@ TEST_P(Family, ModelEqualsOracleOverPhasesEntriesAndRoundings) {
   EXPECT_EQ(configs, 45U);
 }
 
-// Of interpolated tables, all of whose words are drawn: few entries and many, all that g can be, with ellipses beside.
+// Of interpolated tables (N-4.7-1, N-4.7-2, N-4.7-3), all of whose words are drawn: few entries and many, all that g
+// can be, with ellipses beside.
 TEST(Interpolated, ModelEqualsOracleOverEntriesAndGuardBits) {
   Random random(seed_or(65));
   Campaign total;
@@ -104,6 +105,7 @@ TEST(Interpolated, ModelEqualsOracleOverEntriesAndGuardBits) {
   EXPECT_GT(total.ellipses.weighted, 1000U);
 }
 
+// N-4.1-2: s.
 TEST(FamilySteps, TheRootIsTheLargestWhoseSquareFits) {
   std::uint64_t checked = 0;
   const auto check = [&](std::uint64_t v) {
@@ -129,7 +131,8 @@ TEST(FamilySteps, TheRootIsTheLargestWhoseSquareFits) {
   std::printf("[figure] roots checked = %llu\n", static_cast<unsigned long long>(checked));
 }
 
-// By additions alone the same q as by the formula, at both ends of the widths that a configuration may have.
+// By additions alone the same q as by the formula (N-4.2-3, N-4.3-4), at both ends of the widths that a configuration
+// may have.
 TEST(FamilySteps, ForwardDifferencesAreExact) {
   Random random(seed_or(64));
   std::uint64_t compared = 0;
@@ -224,7 +227,8 @@ TEST(FamilySteps, WindowsInAnyOrderAreTheSame) {
   EXPECT_GT(compared, 1000U);
 }
 
-// Eight images of a footprint are one: every pair of phases of a symmetric table is read back.
+// Eight images of a footprint are one: every pair of phases of a symmetric table is read back (N-4.4-3, N-4.4-4,
+// N-4.4-5).
 TEST(FamilySteps, EightfoldSymmetryReadsTheSameWeights) {
   std::uint64_t compared = 0, whole = 0, stored = 0;
   for (const int k : {1, 2, 4, 8, 16})
@@ -279,6 +283,8 @@ TEST(FamilySteps, EightfoldSymmetryReadsTheSameWeights) {
   EXPECT_GT(compared, 100000U);
 }
 
+// N-4.3-1, N-4.3-2.
+// S-table-5, S-table-4.
 TEST(FamilyStream, WhatIsNoEllipseIsRefused) {
   cmodel::Config config = named_config("small");
   config.index_kind = static_cast<int>(IndexKind::SquaredElliptic);

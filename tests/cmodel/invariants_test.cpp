@@ -39,7 +39,7 @@ void check(const cmodel::Config& config, const std::vector<std::uint8_t>& bytes,
       const Pixel before = state.try_emplace(key, Pixel{0, 0, 0, one}).first->second;
       ASSERT_LE(now[3], before[3]) << "transmittance rose";
       if (before[3] < static_cast<std::uint32_t>(config.freeze_below)) {
-        ASSERT_EQ(now, before) << "a frozen pixel changed";
+        ASSERT_EQ(now, before) << "a frozen pixel changed";  // N-6-6
         ++seen.frozen;
       }
       state[key] = now;
@@ -49,6 +49,7 @@ void check(const cmodel::Config& config, const std::vector<std::uint8_t>& bytes,
   for (const oracle::Picture& picture : rendering.tiles) {
     if (modes.at(picture.tile) == 2) continue;
     for (std::size_t i = 0; i < picture.words.size() / 4; ++i) {
+      // N-6-8
       const auto width = static_cast<std::size_t>(picture.width);
       const auto known =
           state.find({picture.tile, static_cast<std::int64_t>(i % width), static_cast<std::int64_t>(i / width)});

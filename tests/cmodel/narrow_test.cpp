@@ -1,4 +1,5 @@
-// narrow() against the definition by exact division: every word around every small format, and 62-bit values.
+// narrow() against the definition by exact division (N-1-3, N-1-4, N-1-5): every word around every small format
+// (N-1-1), and 62-bit values.
 #include "cmodel/numbers/narrow.hpp"
 
 #include <gtest/gtest.h>

@@ -43,6 +43,7 @@ class Order : public ::testing::TestWithParam<std::string> {
   RandomStream stream = random_stream(symbols_of(config), random, 1500);
 };
 
+// N-5-4
 TEST_P(Order, OfSplatsWithinASheetDoesNotMatter) {
   const oracle::Rendering expected = run_model(config, stream.bytes);
   std::uint64_t words = 0, moved = 0;
@@ -73,6 +74,7 @@ TEST_P(Order, OfSplatsWithinASheetDoesNotMatter) {
   EXPECT_GT(words, 0U);
 }
 
+// S-cull-2.
 TEST_P(Order, CullingHintsDoNotMatter) {
   std::vector<Chunk> chunks = to_chunks(stream.bytes);
   const auto first = chunks.begin() + static_cast<std::ptrdiff_t>(first_tile_beat(stream.bytes));

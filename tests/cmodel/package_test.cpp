@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <regex>
 #include <set>
@@ -57,7 +58,7 @@ TEST(Package, HasEveryNameThatTheRtlReads) {
   std::printf("[figure] names of the package that rtl/ reads = %zu, looked up = %zu\n", names.size(), checked);
 }
 
-// Tables are indexed by bits, so that one phase, lane or segment is none that the RTL can have.
+// N-2-8: tables are indexed by bits, so the RTL cannot have a single phase, lane or segment.
 TEST(Package, IsNotMadeForASingleLanePhaseOrSegment) {
   int refused = 0;
   const auto refuses = [&](int cmodel::Config::*key, int value, const char* where) {
@@ -75,8 +76,51 @@ TEST(Package, IsNotMadeForASingleLanePhaseOrSegment) {
   std::printf("[figure] configurations refused = %d\n", refused);
 }
 
-// A block of densities is read for max(5, slices) cycles, and its last slice is in k0 5 + 23 + slices - 1 behind the
-// first (docs/microarchitecture.md, "Densities").
+struct RtlLimit {
+  const char* where;
+  std::string got;  ///< empty: the RTL has this configuration
+  std::function<void(cmodel::Config&)> change;
+};
+
+// N-2-8: the configurations are legal (N-2-7). Each lies at a limit of the RTL or one step beyond.
+TEST(Package, IsMadeUpToTheLimitsOfTheRtl) {
+  std::vector<RtlLimit> limits;
+  const cmodel::ConfigKey& kind = *cmodel::find_key("index.kind");
+  for (int value = kind.min; value <= kind.max; ++value)
+    limits.push_back({"index.kind", value == static_cast<int>(cmodel::IndexKind::Rlut) ? "" : kind.names[value],
+                      [value](cmodel::Config& c) {
+                        c.index_kind = value;
+                        c.phases = 4;
+                      }});
+  for (const int segments : {512, 1024})  // of 2^10 sheet words
+    limits.push_back({"opacity.segments", segments == 512 ? "" : "0", [segments](cmodel::Config& c) {
+                        c.sheet_frac_bits = 8;
+                        c.opacity_segments = segments;
+                      }});
+  for (const auto& [width, height, got] :
+       {std::tuple{64, 16, ""}, {64, 17, "1088"}, {4, 3, ""}, {3, 4, "3"}, {1, 4, ""}})
+    limits.push_back({"tile.width", got, [width, height](cmodel::Config& c) {
+                        c.tile_width = width * c.lanes;
+                        c.tile_height = height * c.lanes;
+                      }});
+  int refused = 0, taken = 0;
+  for (const RtlLimit& limit : limits) {
+    cmodel::Config config = named_config("small");
+    limit.change(config);
+    ASSERT_FALSE(cmodel::first_violation(config)) << one_line(*cmodel::first_violation(config));
+    const auto violation = cmodel::rtl_violation(config);
+    ASSERT_EQ(violation.has_value(), !limit.got.empty()) << limit.where << ", refused after " << refused;
+    ++(violation ? refused : taken);
+    if (!violation) continue;
+    EXPECT_EQ(violation->where, limit.where) << one_line(*violation);
+    EXPECT_EQ(violation->got, limit.got);
+  }
+  std::printf("[figure] configurations beyond the RTL's limits = %d, at them = %d\n", refused, taken);
+  EXPECT_EQ(refused, 8);
+}
+
+// A block of densities is read for max(5, slices) cycles (M-density-10). Its last slice is in k0 5 + 23 + slices - 1
+// behind the first (M-density-12, M-density-15).
 TEST(Package, SaysWhenTheLastSliceOfABlockOfDensitiesComes) {
   cmodel::Config config = named_config("small");
   config.classify_segment_bits = 4;

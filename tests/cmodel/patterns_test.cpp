@@ -7,7 +7,7 @@
 #include "cmodel/rtl_package/sv_package.hpp"
 #include "tests/cmodel/campaign_helper.hpp"
 #include "tests/cmodel/configs_helper.hpp"
-#include "tests/cmodel/stream_writer_helper.hpp"
+#include "tests/cmodel/small_stream_helper.hpp"
 #include "tests/cmodel/verdict_helper.hpp"
 
 namespace fastsplat::test {
@@ -43,6 +43,7 @@ TEST(Patterns, ModelEqualsOracleOnRandomConfigurations) {
   EXPECT_GT(total.comparison.total(), 100000U);
 }
 
+// N-2-8: pattern.node_bits.
 TEST(Patterns, WhoDoesNotHaveThem) {
   cmodel::Config config = named_config("tiny");
   ASSERT_FALSE(cmodel::rtl_violation(config));
@@ -54,23 +55,17 @@ TEST(Patterns, WhoDoesNotHaveThem) {
   EXPECT_EQ(cmodel::cycle_violation(config)->where, "pattern.node_bits");
 }
 
-/// A stream of one empty tile, with tables 8 and 9 where they have words.
+/// A stream of one empty tile (S-tile-10), with tables 8 and 9 where they have words.
 std::vector<std::uint8_t> stream_with(const cmodel::Config& config, const std::vector<std::uint32_t>& nodes,
                                       const std::vector<std::uint32_t>& words) {
-  StreamWriter w(symbols_of(config));
-  w.begin_frame(16, 16, 1);
-  w.load_table(1, 0, 0, 0, std::vector<std::uint32_t>(static_cast<std::size_t>(config.radial_words())));
-  w.load_table(2, 0, 0, 0, std::vector<std::uint32_t>(static_cast<std::size_t>(config.opacity_segments) + 1));
-  if (!nodes.empty()) w.load_table(8, 0, 0, 0, nodes);
-  if (!words.empty()) w.load_table(9, 0, 0, 0, words);
-  w.begin_tile(0, 0, 0, 0, 8, 8);
-  w.end_tile();
-  w.end_frame();
-  auto bytes = w.bytes();
-  seal(bytes);
-  return bytes;
+  LoadedTables tables;
+  if (!nodes.empty()) tables[8] = nodes;
+  if (!words.empty()) tables[9] = words;
+  return stream_with_tables(config, 0, tables);
 }
 
+// N-6.3-2, N-6.3-3; both or neither (N-6.3-1).
+// S-table-1, S-table-13.
 TEST(Patterns, TablesAreJudged) {
   cmodel::Config plain = named_config("tiny"), config = plain;
   config.pattern_node_bits = 1;
@@ -121,6 +116,7 @@ cmodel::PatternUnit slope(const cmodel::Config& config, std::uint32_t most, std:
   return unit;
 }
 
+// N-6.3-4, N-6.3-5
 TEST(Patterns, LieInStraightLinesAndEndAtTheirNodes) {
   cmodel::Config config = named_config("tiny");
   config.pattern_node_bits = 1;
@@ -136,6 +132,7 @@ TEST(Patterns, LieInStraightLinesAndEndAtTheirNodes) {
   }
 }
 
+// N-6.3-4
 TEST(Patterns, PlacesAreCountedTo65535) {
   cmodel::Config config = named_config("tiny");
   config.pattern_node_bits = 1;
@@ -145,6 +142,7 @@ TEST(Patterns, PlacesAreCountedTo65535) {
   EXPECT_EQ(unit({.x = 400000, .y = 0, .sheet = 0}).tint[0], 256);
 }
 
+// N-6.3-13
 TEST(Patterns, NoTintChangesNoBit) {
   cmodel::Config config = named_config("tiny");
   config.pattern_node_bits = 1;

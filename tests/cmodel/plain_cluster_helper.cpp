@@ -30,7 +30,7 @@ class PlainDevice {
  public:
   PlainDevice(const cmodel::Config& config, std::size_t queue)
       : wipe_(static_cast<std::uint64_t>((config.tile_width / config.lanes) * (config.tile_height / config.lanes))),
-        walk_(12 + (config.has_ellipses() ? 10 : 0) + (config.interpolates() ? 2 : 0)),
+        walk_(12 + (config.has_ellipses() ? 10 : 0) + (config.interpolates() ? 2 : 0)),  // M-ellipse-1, M-weights-1
         slices_(static_cast<std::uint64_t>(config.slices())),
         places_(queue) {}
 
@@ -45,12 +45,15 @@ class PlainDevice {
 
   void clock(std::uint64_t cycle) {
     const bool picture = cycle < picture_end_;
+    // M-account-1
     if (beat_ || tile_open_ || picture) {
       ++out.stalls.busy;
       out.end = cycle + 1;
-      if (!beat_) ++out.stalls.stall_input;
+      if (!beat_) ++out.stalls.stall_input;  // M-register-16, and the other stalls below
     }
     out.end = std::max(out.end, wipe_);
+    // Each register takes what lies before it when it is empty or is emptied in this cycle (M-check-1, M-check-3,
+    // M-decode-1, M-decode-3); the source's beat follows (M-check-2), from the end of the wipe on (M-reset-5).
     const bool done = beat_ && carry_out(cycle);
     if (done) beat_.reset();
     if (!beat_ && judged_) {
@@ -80,16 +83,17 @@ class PlainDevice {
     if (beat_->payload) ++out.stalls.stall_table;
     if (beat_->payload || beat_->opcode == Opcode::Splat || beat_->opcode == Opcode::Ellipse)
       return spent_ == beat_->cycles;
-    switch (beat_->opcode) {
+    switch (beat_->opcode) {  // M-decode-2
       case Opcode::BeginTile:
         if (cycle < rest_ || cycle < picture_end_) return ++out.stalls.stall_tile, false;
         tile_open_ = true;
         return true;
       case Opcode::BeginSheet:
+        // M-decode-4, M-decode-5, M-pipe-2
         if (cycle < buffer_free_[buffer_]) return ++out.stalls.stall_buffer, false;
         return true;
       case Opcode::EndSheet: {
-        const auto first = std::max(cycle + walk_, walked_ + 4);
+        const auto first = std::max(cycle + walk_, walked_ + 4);  // M-walk-2, M-walk-4, and below
         walked_ = first + std::max<std::uint64_t>(beat_->blocks * slices_, 1) - 1;
         buffer_free_[buffer_] = walked_ + 1;
         rest_ = walked_ + (beat_->blocks > 0 ? 7 : 3);
@@ -99,7 +103,7 @@ class PlainDevice {
       case Opcode::EndTile:
         if (cycle < rest_) return ++out.stalls.stall_tile, false;
         tile_open_ = false;
-        picture_end_ = cycle + 3 + beat_->pixels;
+        picture_end_ = cycle + 3 + beat_->pixels;  // M-pixel-2, M-pixel-5
         return true;
       default:
         return true;

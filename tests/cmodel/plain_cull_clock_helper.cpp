@@ -39,13 +39,13 @@ struct Drawn final : cmodel::TapSink, cmodel::PixelSink {
 struct Item {
   Opcode opcode{};
   bool payload = false;
-  std::uint64_t cycles = 1;  ///< in decode, waits aside
+  std::uint64_t cycles = 1;  ///< in decode, waits aside; hidden splats have 1 (M-cull-6)
   bool skipped = false;      ///< of a hidden set
   bool trusted = false;      ///< ... that a fetching source sends all the same
   int set = -1;              ///< cull_block: its number
   int waits = -1;            ///< the cull_block whose verdict a fetching source must have
   std::uint64_t blocks = 0;  ///< end_sheet: dirty
-  int row = 0;               ///< end_sheet: the first row of blocks with a new opaque cell
+  int row = 0;               ///< end_sheet: the first row of blocks with a new opaque cell (M-cull-9)
   int mode = 0, width = 0, height = 0;
 };
 
@@ -73,7 +73,7 @@ std::vector<Item> items_of(const cmodel::Config& config, std::span<const cmodel:
     if (words > 0) {
       item.payload = true;
       item.opcode = Opcode::LoadTable;
-      item.cycles = std::min<std::uint64_t>(words, cmodel::kBeatWords);
+      item.cycles = std::min<std::uint64_t>(words, cmodel::kBeatWords);  // M-decode-2
       words -= item.cycles;
       out.push_back(item);
       continue;
@@ -99,7 +99,7 @@ std::vector<Item> items_of(const cmodel::Config& config, std::span<const cmodel:
     const auto splat = [&](std::uint32_t tag) {
       if (mode < 2 && !covered.empty()) {
         if (!behind) {
-          trusts = !hid;
+          trusts = !hid;  // M-fetch-4
           hid = hides;
           hides = false;
         }
@@ -108,7 +108,7 @@ std::vector<Item> items_of(const cmodel::Config& config, std::span<const cmodel:
         item.skipped = covered.front().second;
         covered.pop_front();
       }
-      if (item.skipped) return;
+      if (item.skipped) return;  // sent, it costs a cycle (M-cull-14)
       const auto& windows = drawn.windows[{tile, tag}];
       const bool hidden = next_answer();
       if (hidden != windows.empty()) throw std::logic_error("the log says another thing than the taps");
@@ -127,11 +127,11 @@ std::vector<Item> items_of(const cmodel::Config& config, std::span<const cmodel:
         rows = shaped.rows;
         if (shaped.rows * shaped.columns > 1 && mode < 2) answer += std::size_t{shaped.rows} * shaped.columns;
       }
-      item.cycles = all + rows - seen.size();
+      item.cycles = all + rows - seen.size();  // M-cull-6: of windows that are issued (M-cull-7), and of empty rows
     };
     if (const auto* one = std::get_if<cmodel::SplatRecord>(&record)) splat(one->tag);
     if (const auto* one = std::get_if<cmodel::EllipseRecord>(&record)) splat(one->tag);
-    // What comes behind the splats of sets waits for the last of these.
+    // What comes behind the splats of sets waits for the last of these (M-fetch-5).
     const bool covers = item.waits >= 0;
     if (behind && !covers) item.waits = sets - 1 - (item.set >= 0 ? 1 : 0);
     behind = covers;
@@ -175,7 +175,7 @@ class Clock {
   PlainCullClock run() {
     std::size_t sent = 0;
     for (const Item& item : items_) sent += latency_ && item.skipped && !item.trusted ? 0 : 1;
-    c_ = blocks(config_.tile_width) * blocks(config_.tile_height);  // the picture is wiped
+    c_ = blocks(config_.tile_width) * blocks(config_.tile_height);  // the picture is wiped (M-reset-5)
     for (; done_ < sent; ++c_) {
       if (held_[kDecode] < 0 && (open_ || c_ < picture_to_)) ++out_.starved;
       write_tables();
@@ -191,7 +191,7 @@ class Clock {
   }
 
  private:
-  // Registers: 0 and 1 check's, 2 .. 5 are t0 .. t3, 6 decode's.
+  // Registers: 0 and 1 check's, 2 .. 5 are t0 .. t3, 6 decode's (M-cull-3).
   static constexpr std::size_t kT0 = 2, kT3 = 5, kDecode = 6;
   struct Job {  ///< a table's
     std::uint64_t after, units;
@@ -206,7 +206,7 @@ class Clock {
     return held_[place] >= 0 && item(held_[place]).opcode == opcode && !item(held_[place]).payload;
   }
 
-  /// A table's row, or P words of it, is written in this cycle.
+  /// A table's row, or P words of it, is written in this cycle (M-cull-10).
   void write_tables() {
     for (; !jobs_.empty() && jobs_.front().units == 0 && jobs_.front().after < c_; jobs_.pop_front())
       --to_build_[jobs_.front().table];
@@ -216,6 +216,7 @@ class Clock {
       jobs_.pop_front();
     }
   }
+  /// The first cycle in t3 (M-cull-4).
   void tell_verdicts() {
     if (holds(kT3, Opcode::CullBlock)) verdict_.try_emplace(item(held_[kT3]).set, c_);
   }
@@ -224,7 +225,7 @@ class Clock {
   bool decode() {
     if (held_[kDecode] < 0) return false;
     const bool waits = (holds(kDecode, Opcode::BeginSheet) && c_ < buffer_from_[buffer_]) ||
-                       (holds(kDecode, Opcode::BeginTile) && c_ < picture_to_) ||
+                       (holds(kDecode, Opcode::BeginTile) && c_ < picture_to_) ||  // M-pixel-5
                        (holds(kDecode, Opcode::EndTile) && c_ < at_rest_);
     if (waits || --left_in_decode_ > 0) return false;
     out_.beats[static_cast<std::size_t>(held_[kDecode])].left = c_;
@@ -241,12 +242,12 @@ class Clock {
     first_row_ = {0, 0};
     ended_ = 0;
     opaque_yet_ = false;
-    jobs_.clear();
+    jobs_.clear();  // M-cull-11
     to_build_ = {};
   }
   void end_sheet(const Item& sheet) {
     const std::uint64_t m = sheet.blocks * slices_;
-    const std::uint64_t a = std::max(c_ + 12 + delay_, walked_ ? f_ + 4 : 0);
+    const std::uint64_t a = std::max(c_ + 12 + delay_, walked_ ? f_ + 4 : 0);  // M-walk-4, and below
     f_ = a + std::max<std::uint64_t>(m, 1) - 1;
     walked_ = true;
     buffer_from_[buffer_] = f_ + 1;
@@ -256,11 +257,12 @@ class Clock {
     const std::size_t table = ended_++ % 2;
     ++all_ended_;
     walk_end_[table] = f_ + 1;
-    if (tile_.mode < 2) change_tables(sheet.row, table);
+    if (tile_.mode < 2) change_tables(sheet.row, table);  // M-cull-12
   }
-  /// Where nothing has to be written the table is whole when the sheet has left k6 and the one before is.
+  /// Where nothing has to be written the table is whole when the sheet has left k6 (M-cull-8) and the one before is
+  /// (M-cull-10).
   void change_tables(int row, std::size_t table) {
-    if (opaque_yet_)
+    if (opaque_yet_)  // M-cull-9
       for (int& first : first_row_) first = std::min(first, row);
     const auto changed = opaque_yet_ ? static_cast<std::uint64_t>(rows_ - first_row_[table]) : 0;
     const std::uint64_t each =
@@ -272,10 +274,10 @@ class Clock {
   }
   void end_tile() {
     open_ = false;
-    picture_to_ = c_ + 3 + blocks(tile_.width) * static_cast<std::uint64_t>(tile_.height);
+    picture_to_ = c_ + 3 + blocks(tile_.width) * static_cast<std::uint64_t>(tile_.height);  // M-pixel-1, M-pixel-2
   }
 
-  /// Who moves on: from the last register to the first.
+  /// Who moves on: from the last register to the first (M-check-3, M-decode-1).
   void advance(bool decoded) {
     if (decoded) held_[kDecode] = -1;
     bool free = held_[kDecode] < 0;
@@ -290,7 +292,8 @@ class Clock {
       free = held_[i] < 0;
     }
   }
-  /// A sheet begins when the table that its splats are tested against is whole.
+  /// A sheet begins when the table that its splats are tested against is whole (M-cull-4, M-cull-10); in tiles of other
+  /// modes at once (M-cull-12).
   bool leaves_t0() {
     if (holds(kT0, Opcode::BeginTile)) begun_in_t0_ = 0, mode_in_t0_ = item(held_[kT0]).mode;
     if (!holds(kT0, Opcode::BeginSheet)) return true;
@@ -305,9 +308,11 @@ class Clock {
 
   void source() {
     const int all = static_cast<int>(items_.size());
+    // M-fetch-3, M-fetch-4
     while (latency_ && next_ < all && item(next_).skipped && !item(next_).trusted) ++next_;
     if (held_[0] >= 0 || next_ >= all) return;
     const Item& one = item(next_);
+    // M-fetch-8; a source that does not fetch sends all (M-cull-14).
     if (latency_ && one.waits >= 0 && !one.trusted &&
         (!verdict_.contains(one.waits) || c_ < verdict_.at(one.waits) + std::max<std::uint64_t>(*latency_, 1) + 6))
       return;

@@ -152,6 +152,7 @@ class Generator {
     return words;
   }
 
+  /// Words as no driver makes them: the device depends on the loaded words only (N-4-5).
   std::vector<std::uint32_t> rlut_words(std::int64_t count) {
     const std::int64_t rim = std::int64_t{c.N} << c.g;
     std::vector<std::uint32_t> words;
@@ -323,6 +324,7 @@ class Generator {
                std::pair{b.box.y0 / (2 * c.P), b.box.x0 / (2 * c.P)};
       });
     }
+    // S-cull-6.
     std::int64_t room = 0;
     for (std::int64_t side = c.P; room == 0 || room > 1024; side *= 2)
       room = ((c.W + side - 1) / side) * ((c.H + side - 1) / side);

@@ -15,6 +15,7 @@ std::vector<Beat> beats_of(const Record& record) {
   return beats;
 }
 
+// S-record-2.
 TEST(Records, ATableTakesTheBeatsThatItsHeaderAnnounces) {
   std::size_t words = 0;
   for (; words <= 4 * kBeatWords; ++words) {

@@ -1,5 +1,5 @@
 // composite.lanes and counters.bits are of time and of registers alone: no word of any tap depends on them, and what
-// they do to time is the page's rule (docs/microarchitecture.md, "Slices" and "Dirty walk").
+// they do to time is the page's rule (docs/microarchitecture.md, M-slices-1 and M-walk-4).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -73,11 +73,12 @@ struct Walk final : cmodel::CycleSink, cmodel::TapSink {
   }
   void on_sheet(const cmodel::SheetCycles& sheet) override {
     sheets_.push_back(sheet);
+    // M-walk-4, with R cycles a block (M-walk-3, M-slices-1)
     const std::uint64_t first = std::max(sheet.closed + way_, last_ == 0 ? 0 : last_ + 4);
     last_ = first + std::max<std::uint64_t>(sheet.blocks * slices_, 1) - 1;
     wrong += sheet.walk_from != first || sheet.walk_to != last_ + 1 ? 1 : 0;
     for (std::uint64_t block = 0; block < sheet.blocks; ++block)
-      expected_.push_back(first + block * slices_ + slices_ - 1 + 6);
+      expected_.push_back(first + block * slices_ + slices_ - 1 + 6);  // M-pipe-1
   }
   void on_tile(const cmodel::TileCycles&) override {}
   bool taps_in_time() const { return taps_ == expected_; }
@@ -114,6 +115,7 @@ TEST(Slices, ABlockTakesAsManyCyclesAsItHasSlices) {
   EXPECT_GT(taps, 0U);
 }
 
+// N-9-7, M-register-11
 TEST(Counters, ARegisterShowsACountModuloItsWidth) {
   cmodel::Config config = named_config("tiny");
   const std::uint64_t count = 0xfedcba9876543210U;

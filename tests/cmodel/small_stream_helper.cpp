@@ -43,4 +43,16 @@ std::vector<std::uint8_t> small_stream() {
   return w.bytes();
 }
 
+std::vector<std::uint8_t> stream_with_tables(const cmodel::Config& config, int mode, const LoadedTables& tables) {
+  StreamWriter w(symbols_of(config));
+  w.begin_frame(16, 16, 1);
+  w.load_table(1, 0, 0, 0, std::vector<std::uint32_t>(static_cast<std::size_t>(config.radial_words())));
+  w.load_table(2, 0, 0, 0, std::vector<std::uint32_t>(static_cast<std::size_t>(config.opacity_segments) + 1));
+  for (const auto& [table, words] : tables) w.load_table(table, 0, 0, 0, words);
+  w.begin_tile(mode, 0, 0, 0, 8, 8);
+  w.end_tile();
+  w.end_frame();
+  return w.bytes();
+}
+
 }  // namespace fastsplat::test

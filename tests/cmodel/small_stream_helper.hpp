@@ -1,7 +1,8 @@
-// One small legal stream with every kind of record, for tests that break it.
+// Small streams: a legal one with every kind of record, for tests that break it, and one with any tables.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "cmodel/numbers/config.hpp"
@@ -17,5 +18,10 @@ cmodel::Config small_stream_config();
 /// - 13 begin_sheet 5 · 14 end_sheet · 15 end_tile
 /// - 16 begin_tile 1 (x 8, sum) · 17 begin_sheet 0 · 18 splat · 19 end_sheet · 20 end_tile · 21 end_frame
 std::vector<std::uint8_t> small_stream();
+
+/// Words of tables by load_table's number.
+using LoadedTables = std::map<int, std::vector<std::uint32_t>>;
+/// One empty tile of 8 x 8 pixels, with RADIAL and FACTOR of zeros and with these tables.
+std::vector<std::uint8_t> stream_with_tables(const cmodel::Config& config, int mode, const LoadedTables& tables);
 
 }  // namespace fastsplat::test

@@ -40,6 +40,7 @@ struct Rule {
 };
 
 const Rule kRules[] = {
+    // S-frame-1, S-frame-3, S-frame-4.
     {"version before", 0, [](Edit& e) { e.set(0, 0, 0x10046); }},
     {"version after", 0, [](Edit& e) { e.set(0, 0, 0x30046); }},
     {"magic", 0, [](Edit& e) { e.set(0, 1, 0x32535346); }},
@@ -47,9 +48,11 @@ const Rule kRules[] = {
     {"hash high", 0, [](Edit& e) { e.set(0, 3, e.get(0, 3) ^ 0x80000000); }},
     {"image width 0", 0, [](Edit& e) { e.set(0, 4, 8U << 16); }},
     {"image height 0", 0, [](Edit& e) { e.set(0, 4, 16); }},
+    // S-grammar-1, S-record-4.
     {"first record is not begin_frame", 0, [](Edit& e) { e.erase(0); }},
     {"begin_frame twice", 1, [](Edit& e) { e.insert_copy(0, 1); }},
     {"unknown opcode", 8, [](Edit& e) { e.set(8, 0, 0x52); }},
+    // S-table-1, S-table-3, S-table-5.
     {"unknown table", 1, [](Edit& e) { e.set(1, 0, 0x34C); }},
     {"radius set above the last", 1, [](Edit& e) { e.set(1, 1, 3); }},
     {"rho 0", 1, [](Edit& e) { e.set(1, 2, 0); }},
@@ -61,17 +64,22 @@ const Rule kRules[] = {
     {"too few RLUT words", 1, [](Edit& e) { e.set(1, 3, 3); }},
     {"too many RLUT words", 1, [](Edit& e) { e.set(1, 3, 0xFFFFFFFF); }},
     {"RLUT word above the rim", 2, [](Edit& e) { e.set(2, 3, 9); }},
+    // S-record-2.
     {"padding", 2, [](Edit& e) { e.set(2, 5, 1); }},
+    // S-table-6, S-table-2.
     {"RADIAL words", 3, [](Edit& e) { e.set(3, 3, 5); }},
     {"RADIAL with a set", 3, [](Edit& e) { e.set(3, 1, 1); }},
     {"RADIAL with a rho", 3, [](Edit& e) { e.set(3, 2, 1); }},
     {"RADIAL with a base", 3, [](Edit& e) { e.set(3, 4, 2); }},
     {"RADIAL word above the format", 4, [](Edit& e) { e.set(4, 0, 8); }},
+    // S-table-7.
     {"FACTOR words", 5, [](Edit& e) { e.set(5, 3, 2); }},
     {"FACTOR word above 1.0", 6, [](Edit& e) { e.set(6, 0, 17); }},
     {"FACTOR rises", 6, [](Edit& e) { e.set(6, 2, 12); }},
+    // S-table-8.
     {"tile without RADIAL", 5, [](Edit& e) { e.erase(3, 2); }},
     {"tile without FACTOR", 5, [](Edit& e) { e.erase(5, 2); }},
+    // S-tile-1, S-tile-4, S-tile-2.
     {"mode 3", 7, [](Edit& e) { e.set(7, 0, 0x354); }},
     {"tile number", 7, [](Edit& e) { e.set(7, 1, 1); }},
     {"tile number repeated", 16, [](Edit& e) { e.set(16, 1, 0); }},
@@ -88,6 +96,7 @@ const Rule kRules[] = {
     {"tile right of the image", 16, [](Edit& e) { e.set(16, 2, 9); }},
     {"tile above the image", 7, [](Edit& e) { e.set(7, 3, 0x80000000); }},
     {"tile below the image", 7, [](Edit& e) { e.set(7, 3, 0x7FFFFFFF); }},
+    // S-grammar-1.
     {"load_table after a tile", 16,
      [](Edit& e) {
        e.insert_copy(6, 16);
@@ -97,9 +106,11 @@ const Rule kRules[] = {
     {"splat outside a sheet", 8, [](Edit& e) { e.erase(8); }},
     {"cull_block outside a sheet", 13, [](Edit& e) { e.insert_copy(10, 13); }},
     {"begin_sheet in a sheet", 9, [](Edit& e) { e.insert_copy(8, 9); }},
+    // S-tile-6.
     {"sheet number repeated", 13, [](Edit& e) { e.set(13, 1, 3); }},
     {"sheet number falls", 13, [](Edit& e) { e.set(13, 1, 2); }},
     {"end_tile in a sheet", 12, [](Edit& e) { e.erase(12); }},
+    // S-splat-1, S-splat-3, S-splat-2.
     {"radius set not loaded", 9, [](Edit& e) { e.set(9, 0, 0x50); }},
     {"radius set 255", 9, [](Edit& e) { e.set(9, 0, 0xFF50); }},
     {"tag skipped", 11, [](Edit& e) { e.set(11, 1, 2); }},
@@ -112,16 +123,20 @@ const Rule kRules[] = {
     {"G above its format", 9, [](Edit& e) { e.set(9, 4, 256U << 16); }},
     {"B above its format", 9, [](Edit& e) { e.set(9, 5, 256); }},
     {"tau above its format", 9, [](Edit& e) { e.set(9, 5, 256U << 16); }},
+    // S-cull-1.
     {"cull_block of no width", 10, [](Edit& e) { e.set(10, 4, 5U << 16); }},
     {"cull_block of no height", 10, [](Edit& e) { e.set(10, 4, 4); }},
+    // S-tile-8, S-tile-9.
     {"end of another sheet", 12, [](Edit& e) { e.set(12, 1, 4); }},
     {"splat count", 12, [](Edit& e) { e.set(12, 2, 3); }},
     {"end of another tile", 15, [](Edit& e) { e.set(15, 1, 1); }},
     {"sheet count", 15, [](Edit& e) { e.set(15, 2, 1); }},
+    // S-file-6, S-file-5.
     {"tiles missing", 21, [](Edit& e) { e.set(0, 5, 3); }},
     {"something after end_frame", 22, [](Edit& e) { e.insert_copy(0, 22); }},
 };
 
+// One of its sheets has no splat (S-tile-10).
 TEST(StreamRules, TheSmallStreamBreaksNone) {
   EXPECT_FALSE(cmodel::first_violation(small_stream_config()));
   bool taken = false;
@@ -129,6 +144,7 @@ TEST(StreamRules, TheSmallStreamBreaksNone) {
   EXPECT_TRUE(taken);
 }
 
+// S-reader-1.
 TEST(StreamRules, EachBrokenOnceIsRefusedAtItsBeatWithBothValues) {
   int refused = 0;
   for (const Rule& rule : kRules) {
@@ -149,6 +165,7 @@ TEST(StreamRules, EachBrokenOnceIsRefusedAtItsBeatWithBothValues) {
   EXPECT_GE(refused, 60);
 }
 
+// S-file-6.
 TEST(StreamRules, CountAndChecksumOfTheEnd) {
   for (const std::size_t word : {1, 2, 3}) {
     Edit edit;
@@ -165,6 +182,7 @@ TEST(StreamRules, CountAndChecksumOfTheEnd) {
   EXPECT_EQ(*model.refused_at, 21U) << model.text;
 }
 
+// S-reader-2.
 TEST(StreamRules, TruncatedAnywhereIsRefused) {
   const Bytes whole = small_stream();
   for (std::size_t beats = 0; beats < whole.size() / cmodel::kBeatBytes; ++beats) {
@@ -176,6 +194,7 @@ TEST(StreamRules, TruncatedAnywhereIsRefused) {
   }
 }
 
+// S-record-3, S-record-4, and whatever a bit breaks.
 TEST(StreamRules, EverySingleBitCountsAsTheOracleSays) {
   int flips = 0, taken = 0;
   for (std::size_t bit = 0; bit < small_stream().size() * 8; ++bit) {

@@ -82,6 +82,7 @@ void expect_equal(const char* name, const Comparison& comparison, std::uint64_t 
   EXPECT_EQ(comparison.mismatches, 0U) << comparison.first;
 }
 
+// N-3-4, N-3-5.
 TEST(Units, SnapEveryPositionAndRadius) {
   Comparison total;
   std::uint64_t cases = 0;
@@ -112,6 +113,7 @@ TEST(Units, SnapEveryPositionAndRadius) {
   expect_equal("snap", total, cases);
 }
 
+// N-5-2, N-5-3
 TEST(Units, AccumulateEveryColourWeightAndSum) {
   Comparison total;
   std::uint64_t cases = 0;
@@ -141,6 +143,7 @@ TEST(Units, AccumulateEveryColourWeightAndSum) {
   expect_equal("accumulate", total, cases);
 }
 
+// N-6-2, N-6-3, N-6-5
 TEST(Units, SlabEverySumAndTable) {
   Comparison total;
   std::uint64_t cases = 0;
@@ -165,6 +168,7 @@ TEST(Units, SlabEverySumAndTable) {
   expect_equal("slab", total, cases);
 }
 
+// N-6-6, N-6-7
 TEST(Units, CompositeEveryTransmittanceColourAndOpacity) {
   Comparison total;
   std::uint64_t cases = 0;
@@ -198,6 +202,7 @@ TEST(Units, CompositeEveryTransmittanceColourAndOpacity) {
   expect_equal("composite", total, cases);
 }
 
+// N-7-2
 TEST(Units, PixelOutEveryWord) {
   Comparison total;
   std::uint64_t cases = 0;

@@ -1,4 +1,4 @@
-// The extents of a radius set against pixels counted one by one.
+// The extents of a radius set (N-3-3) against pixels counted one by one.
 #include "cmodel/numbers/window_geometry.hpp"
 
 #include <gtest/gtest.h>

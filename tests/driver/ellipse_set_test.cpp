@@ -64,7 +64,7 @@ TEST(EllipseSets, QIsTheEllipsesToWithinTheBound) {
       const cmodel::Quadric f = cmodel::quadric_of(table.words);
       const double ratio = axes.longer / axes.shorter, limit = 1.5 * entries * ratio * ratio * 0x1p-23;
       const std::int64_t ox = random.between(0, 63), oy = random.between(0, 63), reach = table.radius.rho + 64;
-      EXPECT_GE(table.radius.rho, K * std::sqrt(std::max(axes.rim().xx, axes.rim().yy)));
+      EXPECT_GE(table.radius.rho, K * std::sqrt(std::max(axes.rim().xx, axes.rim().yy)));  // N-4.3-7
       for (std::int64_t dy = oy - reach; dy <= reach; dy += 64)
         for (std::int64_t dx = ox - reach; dx <= reach; dx += 64, ++pixels) {
           const std::int64_t q = cmodel::quadric(f, dx, dy);
@@ -87,7 +87,7 @@ TEST(EllipseSets, QIsTheEllipsesToWithinTheBound) {
   EXPECT_GT(worst, 0.25) << "the bound says nothing";
 }
 
-// No roots of the words' matrix below 0, up to the flattest that is promised.
+// N-4.3-7: h. No roots of the words' matrix below 0, up to the flattest that the page allows.
 TEST(EllipseSets, TheFlattestAreStillEllipses) {
   test::Random random(test::seed_or(82));
   const auto config = elliptic(1024);
@@ -107,7 +107,7 @@ TEST(EllipseSets, TheFlattestAreStillEllipses) {
   figure("flattest: (4AC - B^2) / 4AC (limit >= 0)", least);
 }
 
-// The circle's words are those of set_table, bit for bit.
+// The circle's words are those of set_table, bit for bit (N-4.3-5).
 TEST(EllipseSets, CirclesAreTheDriversOwn) {
   test::Random random(test::seed_or(83));
   const auto config = elliptic(1024);
@@ -123,7 +123,7 @@ TEST(EllipseSets, CirclesAreTheDriversOwn) {
   figure("circles", compared);
 }
 
-// A and C up, B towards 0, each by less than 1.
+// N-4.3-6: the reals; N-4.3-7: A and C up, B towards 0, each by less than 1.
 TEST(EllipseSets, WordsAreRoundedOnceAndTheirWay) {
   test::Random random(test::seed_or(85));
   const auto config = elliptic(1024);

@@ -100,6 +100,7 @@ scene::ScreenShape footprint(int i) {
   return {.xx = l * c * c + m * s * s, .xy = (l - m) * c * s, .yy = l * s * s + m * c * c};
 }
 
+// N-8-50, N-8-51, N-8-52.
 TEST(Ellipses, SpansHoldEveryPixelOfWeightOnceAndRecordsKeepTheRule) {
   const cmodel::Config config = load_config("ellipse");
   const std::int64_t pixel = std::int64_t{1} << config.position_frac_bits;
@@ -161,10 +162,11 @@ TEST(Ellipses, SpansHoldEveryPixelOfWeightOnceAndRecordsKeepTheRule) {
   EXPECT_GT(pixels, 50000u);
   EXPECT_GT(cut, 100u);
   EXPECT_LT(windows, boxed);
-  // 3/2 N (long/short)^2 2^-21 (numerics.md, section 8), of the thinnest here.
+  // 3/2 N (long/short)^2 2^-21 (numerics.md, below N-8-48), of the thinnest here.
   EXPECT_LE(worst_entries, 1.5 * config.radial_entries * 96.0 * 96.0 * 0x1p-21);
 }
 
+// N-8-43.
 TEST(Ellipses, WhereNothingIsShapedNoWordChanges) {
   int frames = 0;
   for (const scene::Method method : {scene::Method::ImageAligned, scene::Method::AxisAligned, scene::Method::XRay}) {
@@ -181,12 +183,14 @@ TEST(Ellipses, WhereNothingIsShapedNoWordChanges) {
   figure("frames equal", frames);
 }
 
+// N-8-53.
 TEST(Ellipses, TilesNeverShow) {
   auto description = view_of("shells:20", 80);
   kTechniques[std::size(kTechniques) - 1].on(description);
   expect_tiles_never_show(description, load_config("ellipse"));
 }
 
+// N-8-45.
 TEST(Ellipses, ThinFootprintsAreWidenedAndTold) {
   auto description = view_of("shells:64", 12);
   perspective(description);
@@ -203,6 +207,7 @@ TEST(Ellipses, ThinFootprintsAreWidenedAndTold) {
   EXPECT_DOUBLE_EQ(dot.yy, kThinnest * kThinnest);
 }
 
+// N-8-57.
 TEST(Ellipses, KernelsGrownBeyondTheWordShareOutAllTheSame) {
   auto description = view_of("shells:8", 16);
   description.method = scene::Method::XRay;
@@ -221,6 +226,7 @@ TEST(Ellipses, KernelsGrownBeyondTheWordShareOutAllTheSame) {
   EXPECT_EQ(device.counters.splats, 3 * voxels);
 }
 
+// N-8-54.
 TEST(Ellipses, TooWideIsRefusedWithBothNumbers) {
   auto description = view_of("shells:12", 64);
   description.motion.translate = {1000.0, 0.0, 0.0};

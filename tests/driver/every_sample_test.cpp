@@ -86,6 +86,7 @@ TEST(EverySample, TilesNeverShow) {
   expect_tiles_never_show(description, sampling("ellipse"));
 }
 
+// N-8-63.
 TEST(EverySample, IsRefusedByADeviceWithout) {
   try {
     render(scene::build_scene(westover("shells:12", 32)), load_config("base"));

@@ -34,7 +34,7 @@ TEST_P(DriverFamily, EveryBeatIsThePages) {
   EXPECT_GT(figures.met.carried_words, 0U);
 }
 
-// A scale has 24 bits and is not less than what it stands for, by less than a bit.
+// A scale has 24 bits and is not less than what it stands for, by less than a bit (N-4.1-3, N-4.2-4).
 TEST(FamilyTables, ScalesAreRoundedUp) {
   const auto config = load_config("base");
   test::Random random(test::seed_or(72));
@@ -51,7 +51,7 @@ TEST(FamilyTables, ScalesAreRoundedUp) {
   EXPECT_LT(most, 0x1p-23);
 }
 
-// A whole radius: the pixel that lies on the rim itself has no weight.
+// A whole radius: the pixel that lies on the rim itself has no weight (N-4.5-3).
 TEST(FamilyTables, TheRimOfAnAxisIsOutside) {
   auto config = load_config("base");
   config.index_kind = static_cast<int>(IndexKind::Separable);
@@ -63,7 +63,7 @@ TEST(FamilyTables, TheRimOfAnAxisIsOutside) {
   figure("word next to the rim", table.words[6]);
 }
 
-// linear: by area, the words' sum is that of the samples to within half of the last ring.
+// linear: by area, the words' sum is that of the samples to within half of the last ring (N-4.1-5).
 TEST(FamilyTables, LinearPreservesTheSumByArea) {
   int compared = 0;
   double worst = 0.0;

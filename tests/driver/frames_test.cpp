@@ -58,6 +58,7 @@ TEST(Frames, threads_do_not_matter) {
   }
 }
 
+// N-8-110: 0 where the product is kept.
 TEST(Frames, xray_in_any_number_of_sheets_is_bit_exact_where_the_product_is_kept) {
   auto description = view_of("shells:24", 96);
   description.method = Method::XRay;
@@ -101,7 +102,7 @@ class ProductCount final : public cmodel::TapSink {
   std::vector<std::uint64_t> count_;
 };
 
-/// One-tile frame with taps.
+/// One-tile frame with taps, and without an end_frame (S-file-7).
 cmodel::Frame tapped(const scene::Scene& scene, const cmodel::Config& config, cmodel::TapSink& taps) {
   const CompiledFrame compiled(scene, config);
   EXPECT_EQ(compiled.grid().count(), 1);
@@ -112,6 +113,7 @@ cmodel::Frame tapped(const scene::Scene& scene, const cmodel::Config& config, cm
   return frame.take();
 }
 
+// N-8-110.
 TEST(Frames, xray_sheets_elsewhere_stay_within_half_an_ulp_per_product) {
   auto description = view_of("shells:24", 96);
   description.method = Method::XRay;
@@ -147,6 +149,7 @@ TEST(Frames, order_of_splats_within_a_sheet_does_not_matter) {
     std::uint64_t splats = 0;
     FrameSink plain(config, 96, 96), shuffled(config, 96, 96);
     std::mt19937 random(20000);
+    // S-tile-5: to each device one tile.
     for (int tile = 0; tile < compiled.grid().count(); ++tile) {
       cmodel::Model a(config, cmodel::StreamScope::Subset, plain), b(config, cmodel::StreamScope::Subset, shuffled);
       a.consume(compiled.preamble());

@@ -14,7 +14,7 @@
 namespace fastsplat::driver {
 namespace {
 
-/// The words that the page says.
+/// The words that the page says (N-8-84).
 struct Words {
   std::int64_t x, y, a, b, c, h;
   std::array<std::int64_t, 4> colour;
@@ -46,6 +46,7 @@ Words words_of(const scene::ProjectedGaussian& splat, double cutoff, const cmode
   return out;
 }
 
+// N-8-84, and N-8-88: the mode, the only sheet, the order of records.
 TEST(GaussianWords, AreThoseOfThePage) {
   auto config = load_config("ellipse");
   config.composite_every_sample = 1;

@@ -57,6 +57,7 @@ Seen seen(const scene::GaussianScene& scene, const cmodel::Config& config) {
   return {std::move(device), apart};
 }
 
+// N-8-83: RADIAL.
 TEST(Gaussians, AreWithin70dBOfGolden) {
   const auto config = usual_config();
   for (const auto& [name, zoom, projection] : {std::tuple{"shells:2000", 1.0, scene::Projection::Perspective},
@@ -163,7 +164,7 @@ TEST(Gaussians, WordsThatMatter) {
   EXPECT_LT(found["position.frac_bits=2"], whole - 10.0);
 }
 
-// The windows of a tile hold every pixel with a weight, and each once; whatever the shape, place and tile.
+// N-8-86: the windows of a tile hold every pixel with a weight, and each once; whatever the shape, place and tile.
 TEST(Gaussians, WindowsHoldEveryWeightedPixelOnce) {
   auto config = usual_config();
   config.tile_width = 64, config.tile_height = 48;
@@ -246,7 +247,7 @@ TEST(Gaussians, ModelEqualsOracle) {
 }
 
 // A device whose positions are short: a record's centre fits S pi.pf in every tile that it is drawn in, and in the
-// farthest such tile it is the last pixel but one of what fits (docs/numerics.md, section 8, "Reach").
+// farthest such tile it is the last pixel but one of what fits (N-8-85).
 TEST(Gaussians, CentresOfRecordsFitThePositionFormat) {
   auto config = usual_config();
   config.position_int_bits = 10;  // pixels -512..511
@@ -290,7 +291,7 @@ TEST(Gaussians, CentresOfRecordsFitThePositionFormat) {
   EXPECT_EQ(gaussian_reach(config), 510 - 8) << "what a record's windows have room for";
 }
 
-// A footprint over all of a tile of 384 pixels: each row of windows is 32 and then 16 of them.
+// N-8-86, N-8-87: a footprint over all of a tile of 384 pixels: each row of windows is 32 and then 16 of them.
 TEST(Gaussians, LongRowsAreCutInto32WindowsAtATime) {
   auto config = usual_config();
   config.tile_width = 384;
@@ -380,6 +381,7 @@ TEST(Gaussians, TilesHardlyShow) {
   EXPECT_GE(apart.psnr_db, 85.0);
 }
 
+// N-8-83: what they need.
 TEST(Gaussians, WhatDoesNotFitIsCountedOrRefused) {
   const auto config = usual_config();
   for (const char* other : {"base", "ellipse"}) {

@@ -49,7 +49,7 @@ TEST(GoldenOnly, techniques_are_refused_by_their_key) {
   }
 }
 
-// A texture at the voxels is not golden only: the splats come tinted.
+// N-8-18: a texture at the voxels is not golden only: the splats come tinted.
 TEST(GoldenOnly, textured_voxels_are_the_devices_too) {
   auto description = view_of("shells:24", 96);
   const Image plain = golden::render(scene::build_scene(description));

@@ -24,6 +24,7 @@ double moved(double value, int bits) {
   return value;
 }
 
+// N-8-47: the factor 1 - 2^-40.
 TEST(LastBit, GrownKernelsHaveTheSameWords) {
   int words = 0, different = 0;
   for (const auto& name : config_names()) {
@@ -71,6 +72,7 @@ std::vector<cmodel::Beat> beats_of(const scene::SceneDescription& description) {
   return out;
 }
 
+// N-8-1, N-8-47.
 TEST(LastBit, DoesNotChangeAnAntiAliasedStream) {
   using scene::Method, scene::Projection;
   std::vector<scene::SceneDescription> views;
@@ -97,7 +99,7 @@ TEST(LastBit, DoesNotChangeAnAntiAliasedStream) {
   EXPECT_EQ(different, 0U);
 }
 
-// Recorded with GCC 12, and checked with every compiler that builds the tests.
+// N-8-1: recorded with GCC 12, and checked with every compiler that builds the tests.
 TEST(LastBit, AnAntiAliasedStreamIsTheSameUnderEveryCompiler) {
   using scene::Method, scene::Projection;
   const auto floor = floor_of(Projection::Perspective, Method::ImageAligned);

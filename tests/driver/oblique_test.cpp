@@ -82,6 +82,7 @@ glm::dmat3 pitched() {
   return {{1, 0, 0}, {0, std::cos(kPitch), std::sin(kPitch)}, {0, -std::sin(kPitch), std::cos(kPitch)}};
 }
 
+// N-8-4.
 TEST_F(Oblique, APitchedScanStandsUprightInEveryMethodAndEngine) {
   const auto straight = scanned(glm::dmat3(1.0), ".nii");
   const auto config = load_config("base");
@@ -114,6 +115,7 @@ TEST_F(Oblique, APitchedScanStandsUprightInEveryMethodAndEngine) {
   }
 }
 
+// N-8-4, N-8-7: the smaller cell.
 TEST_F(Oblique, AShearedScanIsDrawnAsItLiesAndSaid) {
   const glm::dmat3 tilted{{1, 0, 0}, {0, 1, 0}, {0, std::sin(kPitch), std::cos(kPitch)}};  // a CT's tilted gantry
   const auto straight = scanned(glm::dmat3(1.0), ".nii");
@@ -130,6 +132,7 @@ TEST_F(Oblique, AShearedScanIsDrawnAsItLiesAndSaid) {
   EXPECT_GT(heard, deaf + 15.0);
 }
 
+// N-8-20.
 TEST_F(Oblique, GradientsAreTheBodys) {
   for (const glm::dmat3& axes : {pitched(), glm::dmat3{{1, 0, 0}, {0, 1, 0}, {0, 0.3, 0.954}}}) {
     const auto grid = scanned(axes, ".nrrd");

@@ -43,7 +43,8 @@ scene::Scene row_of(int voxels, const scene::SceneDescription& description, glm:
                      volume_of({voxels, 1, 1}, spacing, std::vector<float>(static_cast<std::size_t>(voxels), 1.0F)));
 }
 
-// The first and last slab begin and end with the volume: a kernel whose rounded ends stick out of them loses nothing.
+// N-8-66: the first and last slab begin and end with the volume. A kernel whose rounded ends stick out of them loses
+// nothing.
 TEST(DriverOracle, RimsAtBothEndsOfTheSlabs) {
   OracleFigures figures;
   for (const auto& name : config_names()) {
@@ -62,8 +63,9 @@ TEST(DriverOracle, RimsAtBothEndsOfTheSlabs) {
   EXPECT_GT(figures.met.rims_kept, 0U);
 }
 
-// Slabs of one depth step each, or of three steps under splats at each third of them: every entry of the slice table is
-// in a record, also with an odd number of steps made even. (Steps so fine that slabs must have eleven: some entries.)
+// N-8-64: slabs of one depth step each, or of three steps under splats at each third of them: every entry of the slice
+// table is in a record, also with an odd number of steps made even. (Steps so fine that slabs must have eleven: some
+// entries.)
 TEST(DriverOracle, EveryStepOfTheSliceTable) {
   OracleFigures figures;
   for (const auto& name : config_names()) {
@@ -95,7 +97,8 @@ std::pair<double, double> change(double low, double high, const Is& is) {
   return {low, high};
 }
 
-// An X-ray's exposure scales a splat's words by any double: the last one with which a word is still 0, or still fits.
+// N-8-1, N-8-37, N-8-38: an X-ray's exposure scales a splat's words by any double: the last one with which a word is
+// still 0, or still fits.
 TEST(DriverOracle, WordsVanishAndSaturateAtTheSameDouble) {
   OracleFigures figures;
   std::uint64_t changes = 0;
@@ -131,6 +134,7 @@ TEST(DriverOracle, WordsVanishAndSaturateAtTheSameDouble) {
   print_and_expect_equal(figures);
 }
 
+// N-8-62: westover.
 TEST(DriverOracle, EverySampleIsOfOneSheetInItsOrder) {
   OracleFigures figures;
   for (const char* name : {"base", "tiny", "ellipse"}) {
@@ -149,7 +153,8 @@ TEST(DriverOracle, EverySampleIsOfOneSheetInItsOrder) {
   print_and_expect_equal(figures);
 }
 
-// A flat kernel in coarse sheets shows words longer than they are: what is owed is taken from the splats behind.
+// N-8-59, N-8-60: a flat kernel in coarse sheets shows words longer than they are: what is owed is taken from the
+// splats behind.
 TEST(DriverOracle, WhatIsShownTooLongIsOwed) {
   OracleFigures figures;
   for (const auto& name : config_names()) {
@@ -169,7 +174,7 @@ TEST(DriverOracle, WhatIsShownTooLongIsOwed) {
   EXPECT_GT(figures.met.carried_words, 100U);
 }
 
-// The largest radius that the RLUT holds, to the last double of the zoom.
+// N-8-26: the largest radius that the RLUT holds, to the last double of the zoom.
 TEST(DriverOracle, TheSameRadiusIsTheFirstRefused) {
   OracleFigures figures;
   for (const auto& name : config_names()) {
@@ -191,7 +196,7 @@ TEST(DriverOracle, TheSameRadiusIsTheFirstRefused) {
   EXPECT_EQ(figures.refused, config_names().size());
 }
 
-// Radii within 10^-9 of each other are one set: the turn of a row, in perspective, at which they no longer are.
+// N-8-27: radii within 10^-9 of each other are one set: the turn of a row, in perspective, at which they no longer are.
 TEST(DriverOracle, TheSameRatioOfRadiiIsTheFirstWithSeveralSets) {
   OracleFigures figures;
   const std::vector<std::string> names = {"base", "year2000"};
@@ -225,7 +230,8 @@ std::vector<cmodel::SplatRecord> splats_of(const CompiledFrame& compiled) {
   return splats;
 }
 
-// Without the oracle: thin slices of a splat beyond U 4.cf sum to its largest word, and one record has that of U 0.cf.
+// N-8-37, N-8-38, N-8-67, without the oracle: thin slices of a splat beyond U 4.cf sum to its largest word, and one
+// record has that of U 0.cf.
 TEST(DriverOracle, TheEndsOfTheFormatsAreTheirLargestWords) {
   int compared = 0;
   for (const auto& name : config_names()) {
@@ -258,7 +264,7 @@ TEST(DriverOracle, TheEndsOfTheFormatsAreTheirLargestWords) {
   EXPECT_GT(compared, 50);
 }
 
-// What render and record_stream make of a frame's beats: the whole stream, its end and its checksum.
+// N-8-72: what render and record_stream make of a frame's beats: the whole stream, its end and its checksum.
 TEST(DriverOracle, ARecordedStreamIsTheWholePage) {
   std::uint64_t compared = 0;
   for (const auto& name : config_names()) {

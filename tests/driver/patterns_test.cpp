@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "cmodel/classify/pattern_unit.hpp"
+#include "cmodel/stream/records.hpp"
 #include "driver/config/config_file.hpp"
 #include "driver/tables/pattern_tables.hpp"
 #include "driver/tiles/compile.hpp"
@@ -69,9 +70,30 @@ Lsb8 measure(const SceneDescription& description, const cmodel::Config& config, 
   return apart;
 }
 
-// Stripes of period L across nodes h apart lie within h^2 |f''| / 12 <= (2 pi h / L)^2 / 24 of the lines, h along the
-// stripes' way, which three axes share; and the second differences that level the nodes are not quite the second
-// derivatives, 1/12 (2 pi h / L)^2 of them.
+// N-8-101, N-8-103: stripes of period L across nodes h apart lie within h^2 |f''| / 12 <= (2 pi h / L)^2 / 24 of the
+// lines, h along the stripes' way, which three axes share; and the second differences that level the nodes are not
+// quite the second derivatives, 1/12 (2 pi h / L)^2 of them.
+// N-8-96, N-8-97: the tables of densities follow those of the radius sets, those of patterns all others.
+TEST(PatternTables, ComeInTheirOrder) {
+  for (const bool lit : {false, true}) {
+    const auto view = post_view();
+    const auto description =
+        lit ? with_bumps(with_texture(view, SolidKind::Marble, 8.0), SolidKind::Noise, 8.0, 0.2) : view;
+    const CompiledFrame frame(scene::build_scene(description), with_nodes("base", 4));
+    const auto beats = frame.preamble();
+    std::vector<std::int64_t> order;
+    for (std::size_t at = 0; at < beats.size(); at += 1 + cmodel::announced_beats(beats[at])) {
+      if (static_cast<cmodel::Opcode>(get(beats[at], cmodel::layout::kOpcode)) != cmodel::Opcode::LoadTable) continue;
+      const std::int64_t table = get(beats[at], cmodel::layout::kTableId);
+      if (order.empty() || table != 0 || order.back() != 0) order.push_back(table);  // a set after a set counts once
+    }
+    std::vector<std::int64_t> expected{1, 2, 0, 3, 4, 5, 6, 7};
+    if (lit) expected.insert(expected.end(), {8, 9});
+    EXPECT_EQ(order, expected);
+    std::printf("[figure] tables in their order = %zu\n", order.size());
+  }
+}
+
 TEST(PatternTables, StripesAreAsNearAsTheirNodesAllow) {
   for (const bool perspective : {false, true}) {
     auto description = with_texture(post_view(300), SolidKind::Stripes, 6.0);
@@ -117,7 +139,8 @@ TEST(PatternTables, StripesAreAsNearAsTheirNodesAllow) {
   }
 }
 
-// All that is seen lies between the nodes, and little else: a kernel's radius to each side, and a tenth of the values.
+// N-8-98, N-8-99, N-8-100: all that is seen lies between the nodes, and little else: a kernel's radius to each side, and
+// a tenth of the values.
 TEST(PatternTables, NodesLieWhereSomethingIsSeen) {
   for (const auto order : {scene::ClassifyOrder::Post, scene::ClassifyOrder::Pre}) {
     for (const bool perspective : {false, true}) {
@@ -152,8 +175,8 @@ TEST(PatternTables, NodesLieWhereSomethingIsSeen) {
   }
 }
 
-// A haze that is not seen fills the volume, and in its middle is a cube that is: nodes lie about the cube. A column
-// more on each side is what a place is rounded outwards.
+// N-8-98, N-8-99: a haze that is not seen fills the volume, and in its middle is a cube that is: nodes lie about the
+// cube. A column more on each side is what a place is rounded outwards.
 TEST(PatternTables, NodesLieAboutWhatIsSeenInAHaze) {
   auto description = with_texture(post_view(100), SolidKind::Marble, 6.0);
   auto scene = scene::build_scene(description,
@@ -186,7 +209,8 @@ TEST(PatternTables, NodesLieAboutWhatIsSeenInAHaze) {
   }
 }
 
-// Nodes are levelled between others, and at an end there is no other: at the corners they are the pattern itself.
+// N-8-101 to N-8-104: nodes are levelled between others, and at an end there is no other: at the corners they are the
+// pattern itself, at the place of the node (N-8-102).
 TEST(PatternTables, NodesAtTheCornersAreThePattern) {
   const auto description = with_texture(post_view(300), SolidKind::Stripes, 6.0);
   const auto scene = scene::build_scene(description);
@@ -233,6 +257,7 @@ TEST(PatternsOnDevice, TexturesAreWithin60DbOfGoldens) {
   EXPECT_GE(measure(near, config, "noise, perspective").psnr_db, 60.0);
 }
 
+// N-8-101, N-8-104: B and A.
 TEST(PatternsOnDevice, BumpsAreWithin60DbOfGoldens) {
   EXPECT_GE(measure(with_bumps(post_view(), SolidKind::Stripes, 6.0, 0.3), with_nodes("fine", 6), "stripes").psnr_db,
             60.0);
@@ -241,7 +266,7 @@ TEST(PatternsOnDevice, BumpsAreWithin60DbOfGoldens) {
   EXPECT_GE(measure(both, with_nodes("fine", 6), "marble, raised as wood").psnr_db, 60.0);
 }
 
-// Colours, classified before they are splatted: sheets are tinted. The plain unit draws them, and says why.
+// N-8-105: colours, classified before they are splatted: sheets are tinted. The plain unit draws them, and says why.
 TEST(PatternsOnDevice, SheetsOfColoursAreTinted) {
   auto description = with_texture(post_view(), SolidKind::Marble, 6.0);
   description.classify = scene::ClassifyOrder::Pre;
@@ -253,6 +278,7 @@ TEST(PatternsOnDevice, SheetsOfColoursAreTinted) {
   EXPECT_STREQ(drawn.units.why_plain, "sheets are tinted by a pattern");
 }
 
+// N-6.3-13
 TEST(PatternsOnDevice, AmplitudeZeroChangesNoBit) {
   const auto same = [](const SceneDescription& off, const SceneDescription& zero, const cmodel::Config& with) {
     auto without = with;
@@ -292,7 +318,7 @@ TEST(PatternsOnDevice, ThreadsAndUnitsDrawTheSame) {
   const auto config = with_nodes("base", 5);
   const auto tables = [&](int threads) { return pattern_tables(config, scene, plan_for_device(scene).slabs, threads); };
   const auto one = tables(1), three = tables(3);
-  ASSERT_EQ(one.size(), 2u);
+  ASSERT_EQ(one.size(), 2u);  // N-6.3-1
   EXPECT_EQ(one[0].words.size(), 2u * 32 * 32 * 32);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(one[i].words, three[i].words);
   const auto fast = render(scene, config, {.threads = 1}), several = render(scene, config, {.threads = 3}),

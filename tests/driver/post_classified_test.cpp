@@ -106,6 +106,7 @@ TEST(PostOnDevice, perspective_with_ellipses_is_within_50_db_of_golden) {
   }
 }
 
+// N-8-89.
 TEST(PostOnDevice, tiles_never_show) {
   auto description = post_view("shells:20", 60, "ct-head");
   description.camera.zoom = 1.7;
@@ -125,6 +126,7 @@ TEST(PostOnDevice, what_it_has_not_is_refused) {
   EXPECT_THROW(render(scene, load_config("base")), UserError) << "a device without densities";
   auto shown = scene;
   shown.transfer_function.points = {{0.0, glm::dvec3(1.0), 0.5}, {1.0, glm::dvec3(1.0), 0.5}};
+  // N-8-91
   EXPECT_THROW(render(shown, with_densities("base")), UserError) << "what lies around the volume would be seen";
 }
 

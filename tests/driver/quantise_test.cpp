@@ -1,4 +1,5 @@
-// Every site of the driver rounds and saturates as docs/numerics.md, section 8 says.
+// Every site of the driver rounds and saturates as docs/numerics.md, section 8 says: positions (N-8-36), whole splats
+// (N-8-37), what is carried (N-8-59), PHI (N-8-64), boundaries and depths (N-8-65).
 #include "driver/tables/quantise.hpp"
 
 #include <gtest/gtest.h>
@@ -52,7 +53,7 @@ TEST(Quantise, negative_halves_go_up) {
   }
 }
 
-// Where the snap has bits to round, driver and snap together round a position once: no splat moves on average.
+// N-8-36: where the snap has bits to round, driver and snap together round a position once: no splat moves on average.
 TEST(Quantise, a_position_is_rounded_once_whatever_the_snap_leaves_of_it) {
   constexpr int kPositions = 200000;
   test::Random random(14);
@@ -82,7 +83,7 @@ TEST(Quantise, a_position_is_rounded_once_whatever_the_snap_leaves_of_it) {
   EXPECT_EQ(twice, 0U);
 }
 
-/// U 4.cf: the last word that fits is reached by rounding, the next one saturates and says so.
+/// N-8-37, U 4.cf: the last word that fits is reached by rounding, the next one saturates and says so.
 TEST(Quantise, a_whole_splat_saturates_and_says_so) {
   for (const auto& name : config_names()) {
     const auto config = load_config(name);

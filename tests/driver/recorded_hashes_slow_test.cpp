@@ -110,6 +110,7 @@ std::string measure(const scene::Scene& scene, const cmodel::Config& config) {
   return stream.text() + " " + words.text() + " " + counts.text() + " " + std::to_string(cycles);
 }
 
+// N-8-2: the order of operations; of shells:18, which is shaded, N-8-19 and N-8-21, too.
 TEST(RecordedHashes, StreamsFramesCountersAndCycles) {
   std::map<std::string, std::string> recorded;
   std::ifstream in(kRecorded);

@@ -1,4 +1,4 @@
-// Thin splats: what rounding takes of one goes to the next behind it (docs/numerics.md, section 8, "carry").
+// Thin splats: what rounding takes of one goes to the next behind it (N-8-58 to N-8-61).
 #include "driver/splats/rounding_carry.hpp"
 
 #include <gtest/gtest.h>
@@ -36,8 +36,9 @@ std::vector<std::uint32_t> words_of(const scene::Scene& scene, const cmodel::Con
   return render(scene, config, {.threads = threads, .progress = {}}).frame.words;
 }
 
-// A line's words as the sheets show them sum to what was asked, but for what is left at its end: less than a word and
-// what one word is shown too short or too long. The flat kernel in coarse sheets shows more than it was asked.
+// N-8-59, N-8-60: a line's words as the sheets show them sum to what was asked, but for what is left at its end: less
+// than a word and what one word is shown too short or too long. The flat kernel in coarse sheets shows more than it was
+// asked.
 TEST(RoundingCarry, ALineShowsWhatWasAskedOfIt) {
   int lines = 0;
   double worst = 0.0, most_over = 0.0, most_under = 0.0;
@@ -82,6 +83,7 @@ TEST(RoundingCarry, ALineShowsWhatWasAskedOfIt) {
   EXPECT_GT(most_over, 1.0) << "no line went below 0";
 }
 
+// N-8-58.
 TEST(RoundingCarry, IsWhereItsKeySays) {
   for (const Method method : {Method::XRay, Method::ImageAligned}) {
     const auto scene = scene::build_scene(view_by(method));
@@ -134,8 +136,8 @@ TEST(RoundingCarry, TheReportSaysWhatVanished) {
   EXPECT_LT(kept.vanished_voxels, lost.vanished_voxels);
 }
 
-// What a splat leaves goes to its neighbour only. Alone it is rounded half up; two are nearer together than each by
-// itself: the mean squared error of a pair is 1/12 for 1/6.
+// N-8-58, N-8-61: what a splat leaves goes to its neighbour only. Alone it is rounded half up; two are nearer together
+// than each by itself: the mean squared error of a pair is 1/12 for 1/6.
 TEST(RoundingCarry, ReachesNeighboursOnly) {
   const auto config = load_config("exact");
   const ShownWords shown(config, scene::kernel_by_name("gauss2"));

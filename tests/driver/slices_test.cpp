@@ -12,6 +12,7 @@
 namespace fastsplat::driver {
 namespace {
 
+// N-8-66.
 TEST(Slices, telescope_for_every_phase_width_and_configuration) {
   std::uint64_t sums = 0, wrong = 0;
   for (const auto& name : config_names()) {
@@ -40,6 +41,7 @@ TEST(Slices, telescope_for_every_phase_width_and_configuration) {
   EXPECT_EQ(wrong, 0u);
 }
 
+// N-8-57.
 TEST(Slices, grown_kernels_telescope_too_and_reach_as_far_as_they_say) {
   std::uint64_t sums = 0, outside = 0, wrong = 0;
   const auto config = load_config("base");
@@ -77,6 +79,7 @@ TEST(Slices, grown_kernels_telescope_too_and_reach_as_far_as_they_say) {
   EXPECT_EQ(outside, 0u);
 }
 
+// N-8-57: deep, to its end.
 TEST(Slices, a_kernel_grown_beyond_the_word_is_as_deep_as_the_page_says) {
   auto config = load_config("base");
   config.slice_phase_bits = 12;  // the deepest kernel there is
@@ -133,6 +136,7 @@ TEST(Slices, outlines_are_those_of_the_shares) {
   EXPECT_EQ(wrong, 0u);
 }
 
+// N-8-68.
 TEST(Slices, nothing_lies_outside_first_and_last) {
   const auto config = load_config("base");
   const Slices slices(config, scene::kernel_by_name("gauss2"), 0.5, 60);
@@ -148,6 +152,7 @@ TEST(Slices, nothing_lies_outside_first_and_last) {
   ASSERT_GT(empty, 0);
 }
 
+// N-8-66: v_c is cut to U 0.cf.
 TEST(Slices, a_share_that_does_not_fit_a_record_says_so) {
   const auto config = load_config("base");
   const Slices slices(config, scene::kernel_by_name("gauss2"), 8.0, 2);
@@ -156,6 +161,7 @@ TEST(Slices, a_share_that_does_not_fit_a_record_says_so) {
   EXPECT_EQ(share.words[0], 65535u);
 }
 
+// N-8-65.
 TEST(Slices, slabs_thinner_than_a_depth_step_are_refused_with_both_numbers) {
   const auto config = load_config("base");
   try {

@@ -37,6 +37,14 @@ void write_beats(const std::filesystem::path& path, std::vector<cmodel::Beat> be
             static_cast<std::streamsize>(beats.size() * cmodel::kBeatBytes));
 }
 
+/// Number of the first beat behind begin_frame and the tables.
+std::size_t first_tile(const std::vector<cmodel::Beat>& beats) {
+  std::size_t at = 1;
+  while (get(beats[at], cmodel::layout::kOpcode) == static_cast<std::int64_t>(cmodel::Opcode::LoadTable))
+    at += 1 + cmodel::announced_beats(beats[at]);
+  return at;
+}
+
 /// What a UserError says; empty for none.
 std::string refusal(const std::function<void()>& action) {
   try {
@@ -73,6 +81,7 @@ TEST_F(StreamFile, replay_equals_render) {
   }
 }
 
+// S-file-1.
 TEST_F(StreamFile, a_hole_in_the_image_is_refused) {
   const auto config = load_config("base");
   record_stream(scene::build_scene(view_of("shells:16", 150)), config, path_);
@@ -107,8 +116,40 @@ TEST_F(StreamFile, a_hole_in_the_image_is_refused) {
   EXPECT_THAT(refusal([&] { replay_stream(path_, config); }), ::testing::HasSubstr(end));
 }
 
+// S-file-2: two tiles at the same place that differ in their mode, in either order.
+TEST_F(StreamFile, the_last_of_overlapping_tiles_wins) {
+  const auto config = load_config("tiny");
+  record_stream(scene::build_scene(view_of("shells:8", config.tile_width)), config, path_);
+  auto recorded = read_beats(path_);
+  recorded.pop_back();
+  const auto first = recorded.begin() + static_cast<std::ptrdiff_t>(first_tile(recorded));
+  const std::vector<cmodel::Beat> tile(first, recorded.end());
+  recorded.erase(first, recorded.end());
+  const auto picture = [&](std::initializer_list<cmodel::Mode> modes) {
+    auto beats = recorded;
+    beats[0][5] = static_cast<std::uint32_t>(modes.size());
+    std::uint32_t number = 0;
+    for (const cmodel::Mode mode : modes) {
+      auto copy = tile;
+      copy.front()[0] = static_cast<std::uint32_t>(cmodel::Opcode::BeginTile) | static_cast<std::uint32_t>(mode) << 8;
+      copy.front()[1] = copy.back()[1] = number++;
+      beats.insert(beats.end(), copy.begin(), copy.end());
+    }
+    write_beats(path_, beats);
+    return replay_stream(path_, config).frame.words;
+  };
+  using enum cmodel::Mode;
+  const auto exponential = picture({Exponential}), sum = picture({Sum});
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < sum.size(); ++i) different += sum[i] != exponential[i] ? 1 : 0;
+  figure("words in which the two tiles differ", static_cast<double>(different));
+  EXPECT_GT(different, 0U);
+  EXPECT_EQ(picture({Exponential, Sum}), sum);
+  EXPECT_EQ(picture({Sum, Exponential}), exponential);
+}
+
 // A file of version 1: 24 bytes a beat, so that whatever follows begin_frame lies elsewhere. It is refused by name, by
-// all.
+// all (S-frame-2).
 TEST_F(StreamFile, a_file_of_the_version_before_is_refused_by_name) {
   const auto config = load_config("tiny");
   record_stream(scene::build_scene(view_of("shells:8", 24)), config, path_);
@@ -139,7 +180,7 @@ TEST_F(StreamFile, a_file_of_the_version_before_is_refused_by_name) {
   EXPECT_EQ(readers, 4);
 }
 
-// Cut at any byte: refused at the beat that is missing or not whole, by every reader of the file.
+// Cut at any byte: refused at the beat that is missing or not whole, by every reader of the file (S-reader-2).
 TEST_F(StreamFile, a_short_file_is_refused_at_the_missing_beat) {
   const auto config = load_config("tiny");
   record_stream(scene::build_scene(view_of("shells:8", 24)), config, path_);
@@ -172,6 +213,7 @@ TEST_F(StreamFile, a_short_file_is_refused_at_the_missing_beat) {
   figure("cuts", cuts);
 }
 
+// S-reader-3.
 TEST_F(StreamFile, a_dump_tells_the_end_that_is_wrong) {
   const auto config = load_config("tiny");
   record_stream(scene::build_scene(view_of("shells:8", 24)), config, path_);
@@ -230,6 +272,7 @@ TEST_F(StreamFile, a_disk_that_fills_up_in_the_end_is_told) {
   EXPECT_EQ(left, 32U);
 }
 
+// S-file-3.
 TEST_F(StreamFile, what_no_replay_takes_is_not_recorded) {
   auto description = view_of("shells:8", 64);
   description.width = 8193;
@@ -238,6 +281,24 @@ TEST_F(StreamFile, what_no_replay_takes_is_not_recorded) {
               ::testing::HasSubstr("67108864"));
   EXPECT_FALSE(std::filesystem::exists(path_));
   EXPECT_NO_THROW(check_image_size(8192, 8192));
+}
+
+// S-file-4: a replay refuses the header. Readers without an image (`cycles`, `verify`, `dump`) miss nothing but the
+// pixels that no tile covers (S-file-1).
+TEST_F(StreamFile, only_a_replay_refuses_an_image_for_its_size) {
+  const auto config = load_config("tiny");
+  record_stream(scene::build_scene(view_of("shells:8", 24)), config, path_);
+  auto beats = read_beats(path_);
+  beats.pop_back();
+  beats[0][4] = 8192U << 16 | 8193U;
+  write_beats(path_, beats);
+  EXPECT_THAT(refusal([&] { replay_stream(path_, config); }),
+              ::testing::AllOf(::testing::HasSubstr("image too large to replay"), ::testing::HasSubstr("67108864")));
+  cmodel::CycleModel cycles(config, cmodel::StreamScope::Whole, {});
+  EXPECT_THAT(refusal([&] { feed_stream(path_, cycles); }), ::testing::HasSubstr("tiles do not cover the image"));
+  EXPECT_THAT(refusal([&] { require_covered(path_); }), ::testing::HasSubstr("tiles do not cover the image"));
+  EXPECT_EQ(refusal([&] { dump_stream(path_, [](const std::string&) { return true; }); }), "");
+  figure("pixels of the image", 8193.0 * 8192.0, "(limit of a replay 67108864)");
 }
 
 }  // namespace

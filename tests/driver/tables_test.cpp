@@ -13,6 +13,7 @@
 namespace fastsplat::driver {
 namespace {
 
+// N-4-3, N-4-4, N-4.7-4.
 TEST(RadialTable, sum_is_the_rounded_sum_of_the_samples) {
   for (const auto& name : config_names()) {
     const auto config = load_config(name);
@@ -36,6 +37,7 @@ TEST(RadialTable, sum_is_the_rounded_sum_of_the_samples) {
   }
 }
 
+// N-4-2.
 TEST(Rlut, exact_where_the_scale_is_a_whole_number) {
   auto config = load_config("base");
   // N 2^g / (r k)^2 = 1024 * 64 / (1 * 64)^2 = 16: every entry is 16 d^2 up to the rim.
@@ -91,7 +93,7 @@ TEST(FactorTable, interpolation_error_is_within_the_second_derivative_bound) {
   }
 }
 
-// Two materials, red and blue, with nothing between them, before and behind: 129..179 of 512 and 333..383.
+// N-8-92: two materials, red and blue, with nothing between them, before and behind: 129..179 of 512 and 333..383.
 TEST(ClassifyTable, clear_entries_have_the_colour_of_the_nearest_that_is_seen) {
   auto description = view_of("shells:8", 16);
   description.classify = scene::ClassifyOrder::Post;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "base/error.hpp"
 #include "driver/config/config_file.hpp"
@@ -14,6 +15,8 @@
 #include "driver/tiles/compile.hpp"
 #include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
+#include "tests/cmodel/configs_helper.hpp"
+#include "tests/driver/oracle/tables.hpp"
 #include "tests/driver/scenes_helper.hpp"
 
 namespace fastsplat::driver {
@@ -39,7 +42,7 @@ cmodel::Config with_pictures(int phases = 8) {
   return config;
 }
 
-// A centre lies up to 1/(2k) pixel off: half as far, 6 dB more, until something else rules.
+// N-4.4-7: the words. A centre lies up to 1/(2k) pixel off: half as far, 6 dB more, until something else rules.
 TEST(TexturedOnDevice, TheMorePlacesTheNearerToGolden) {
   for (const auto method : {scene::Method::ImageAligned, scene::Method::AxisAligned, scene::Method::XRay}) {
     const auto scene = scene::build_scene(flame(method));
@@ -74,7 +77,8 @@ TEST(TexturedOnDevice, PerspectiveHasPicturesOfSeveralRadii) {
   EXPECT_GE(apart.psnr_db, 50.0);
 }
 
-// Sets in their order: all radii of the first picture, then those of the next; a radius is nearest to its own.
+// N-4.4-7, N-8-29: a set for each picture of a radius. Sets in their order: all radii of the first picture, then those
+// of the next; a radius is nearest to its own.
 TEST(TexturedOnDevice, ASetIsAPictureOfARadius) {
   auto config = with_pictures();
   config.rlut_sets = 50;
@@ -90,6 +94,7 @@ TEST(TexturedOnDevice, ASetIsAPictureOfARadius) {
   }
 }
 
+// N-4.4-7.
 // The pictures of a cycle cancel out: at each place the sum of N words is N times the plain word, to half a word of
 // rounding for each of them and for each plain one.
 TEST(TexturedOnDevice, PicturesOfACycleCancelInTheTables) {
@@ -113,6 +118,45 @@ TEST(TexturedOnDevice, PicturesOfACycleCancelInTheTables) {
   EXPECT_EQ(different.size(), std::size_t{kPhases});
 }
 
+// N-4.4-7: every word, in the order of N-4.4-1.
+TEST(TexturedOnDevice, WordsAreThoseOfThePage) {
+  constexpr double kAmplitude = 0.7;
+  const scene::Kernel kernel(2.0, 2.0);
+  const double R = kernel.radius();
+  const scene::TexturedSplats textures({.phases = kPhases, .amplitude = kAmplitude, .frame = 0, .scale = 0.4}, kernel);
+  const auto config = with_pictures();
+  const std::int64_t k = config.phases;
+  std::size_t compared = 0, different = 0, above = 0;
+  for (const double r : {2.6, 6.3}) {
+    const auto set = scene_oracle::radius_set(test::symbols_of(config), r);
+    const double rk = r * static_cast<double>(k);
+    for (const std::size_t number : {std::size_t{0}, std::size_t{7}}) {
+      const auto words = set_table(config, kernel, 0, r, 0, {.textures = &textures, .number = number}).words;
+      ASSERT_EQ(words.size(), static_cast<std::size_t>(k * k * set.Ea * set.Ea));
+      for (std::size_t at = 0; at < words.size(); ++at) {
+        auto rest = static_cast<std::int64_t>(at);
+        const auto next = [&rest](std::int64_t count) { return std::exchange(rest, rest / count) % count; };
+        const std::int64_t i = next(set.Ea), j = next(set.Ea), mx = next(k), my = next(k);
+        const auto dx = static_cast<double>((i + 1) * k - mx - set.rho);
+        const auto dy = static_cast<double>((j + 1) * k - my - set.rho);
+        const double square = dx * dx + dy * dy, F = std::exp(-kernel.a() * R * R * (square / (rk * rk)));
+        const double t = textures.phases()[number](R * dx / rk, R * dy / rk);
+        const std::int64_t word =
+            square < rk * rk && i < set.E && j < set.E
+                ? scene_oracle::nearest(std::ldexp(F * (1.0 + kAmplitude * t), config.radial_frac_bits))
+                : 0;
+        different += words[at] != word ? 1 : 0;
+        above += word > 1 << config.radial_frac_bits ? 1 : 0;
+        ++compared;
+      }
+    }
+  }
+  figure("words of sets with pictures compared", static_cast<double>(compared));
+  figure("words above 1", static_cast<double>(above));
+  EXPECT_EQ(different, 0U);
+  EXPECT_GT(above, 0U);
+}
+
 // The plain unit, and any number of threads, draw the same words.
 TEST(TexturedOnDevice, UnitsAndThreadsNeverShow) {
   const auto scene = scene::build_scene(flame(scene::Method::ImageAligned));
@@ -126,7 +170,7 @@ TEST(TexturedOnDevice, UnitsAndThreadsNeverShow) {
   }
 }
 
-// No detail is plain splats, word for word, and N pictures on another frame are another picture.
+// N-8-29: no detail is plain splats, word for word, and N pictures on another frame are another picture.
 TEST(TexturedOnDevice, AmplitudeZeroIsOffAndFramesDiffer) {
   auto description = flame(scene::Method::ImageAligned);
   const auto config = with_pictures();
@@ -152,6 +196,7 @@ std::string refused(const scene::SceneDescription& description, const cmodel::Co
   return "";
 }
 
+// N-4.4-7: only without symmetry; N-4.4-8: only with wi = 1.
 TEST(TexturedOnDevice, WhatADeviceCannotIsRefused) {
   using ::testing::AllOf, ::testing::HasSubstr, ::testing::StartsWith;
   const auto description = flame(scene::Method::ImageAligned);
@@ -162,6 +207,7 @@ TEST(TexturedOnDevice, WhatADeviceCannotIsRefused) {
   EXPECT_THAT(refused(description, config), StartsWith("splat_texture.amplitude"));
   config = with_pictures();
   config.rlut_sets = kPhases - 1;
+  // N-8-29: floor(rlut.sets / N) is 0.
   EXPECT_THAT(refused(description, config),
               AllOf(StartsWith("splat_texture.phases"), HasSubstr("rlut.sets = 11"), HasSubstr("got 12")));
   config = with_pictures();
@@ -173,6 +219,7 @@ TEST(TexturedOnDevice, WhatADeviceCannotIsRefused) {
   EXPECT_EQ(refused(description, config), "") << "circles on a device that has ellipses, too";
   auto shaped = description;
   shaped.footprint.antialias = true;
+  // N-8-30
   EXPECT_THAT(refused(shaped, config), AllOf(StartsWith("splat_texture.amplitude"), HasSubstr("ellipses")));
   EXPECT_EQ(refused(description, with_pictures()), "");
 }

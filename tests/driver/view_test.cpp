@@ -49,6 +49,7 @@ Edges empty_edges(const Image& image) {
   return edges;
 }
 
+// N-8-14, and N-8-15: rays of such a camera.
 TEST(View, FitContentFillsThePictureWithWhatIsNotEmpty) {
   const auto volume = off_centre();
   int checked = 0;
@@ -81,6 +82,7 @@ TEST(View, FitContentFillsThePictureWithWhatIsNotEmpty) {
   EXPECT_EQ(checked, 8);
 }
 
+// N-8-3.
 TEST(View, ACropIsTheVolumeOfItsVoxelsInTheColoursOfTheWhole) {
   const auto whole = std::make_shared<const volume::Volume>(volume::make_volume(
       glm::ivec3(24), glm::dvec3(1.0), volume::VoxelType::U8, [](int i, int j, int k) { return 7 * i + j + k; }));

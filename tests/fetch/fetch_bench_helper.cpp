@@ -75,7 +75,8 @@ class Bench {
   void say(const std::string& what) {
     if (out_.finding.empty()) out_.finding = "cycle " + std::to_string(cycle_) + ": " + what;
   }
-  /// From `stop` to the next frame, state by state (docs/integration.md, "Fetching").
+  /// From `stop` to the next frame, state by state (docs/integration.md, "Fetching"; M-fetch-19): `stop` stays until the
+  /// device is at rest, and what verdicts come before that are no errors (M-fetch-21).
   void recover() {
     if (top_->busy != 0) return;
     if (!resetting_) {
@@ -122,7 +123,7 @@ class Bench {
     judge();
     eval(0);
     if ((out_.error == 0 || recovered_) && asked_ > out_.taken.size() && top_->busy == 0)
-      say("not busy, and beats that were asked for have not been sent");
+      say("not busy, and beats that were asked for have not been sent");  // M-fetch-19, step 1
     const Beat* offered = look();
     if (commands && top_->s_axis_cmd_tready != 0) {
       if (command_ == 0) out_.begun = cycle_;
@@ -137,14 +138,14 @@ class Bench {
                                         .size = top_->m_axi_arsize,
                                         .burst = top_->m_axi_arburst};
     memory_.edge(request, top_->m_axi_rready != 0);
-    if (!memory_.broken().empty()) say(memory_.broken());
+    if (!memory_.broken().empty()) say(memory_.broken());  // M-fetch-12, M-fetch-13
     asked_ += memory_.asked_now().size();
     for (const std::size_t beat : memory_.asked_now()) {
       const int set = stream_.set_of[beat];
       if (set < 0) continue;
       const auto number = static_cast<std::size_t>(set);
-      if (stream_.trusted[number]) continue;
-      if (stream_.hidden[number]) {
+      if (stream_.trusted[number]) continue;  // M-fetch-4
+      if (stream_.hidden[number]) {           // M-fetch-3
         say("beat " + std::to_string(beat) + " is of a hidden set");
       } else if (number >= judged_) {
         say("beat " + std::to_string(beat) + " is asked for before its set was judged");
@@ -159,7 +160,7 @@ class Bench {
                         (run_.stop_at > 0 && cycle_ >= run_.stop_at) ||
                         (run_.stop_after_error > 0 && out_.error != 0 && --until_stop_ == 0)))
       stopping_ = out_.stopped = true;
-    if (recovered_ && top_->error != 0) say("an error after all is as after a reset");
+    if (recovered_ && top_->error != 0) say("an error after all is as after a reset");  // M-fetch-19, step 3
     if (out_.error == 0 && top_->error != 0) out_.error = top_->error;
   }
 
@@ -169,7 +170,7 @@ class Bench {
     const bool stray = run_.stray > 0 && cycle_ >= run_.stray && out_.error == 0 && !verdict && device_.at_rest();
     top_->verdict_valid = verdict || stray ? 1 : 0;
     if (!verdict) return;
-    const std::size_t number = out_.verdicts.size();
+    const std::size_t number = out_.verdicts.size();  // a pulse for each, in order (M-port-8)
     if (number == stream_.hidden.size()) return say("a verdict of nothing");
     if (verdict->hidden != stream_.hidden[number])
       say("set " + std::to_string(number) + ": another verdict than the model's");
@@ -190,7 +191,7 @@ class Bench {
     const std::size_t at = out_.taken.size();
     if (at == wanted_.size()) return say("a beat behind the last"), nullptr;
     if (out_.offered.size() == at) out_.offered.push_back(cycle_);
-    if (wanted_[at] == spoiled_) return say("sends what could not be read"), nullptr;
+    if (wanted_[at] == spoiled_) return say("sends what could not be read"), nullptr;  // M-fetch-18
     if (beat_ != stream_.beats[wanted_[at]])
       return say("another beat than number " + std::to_string(wanted_[at]) + " is sent"), nullptr;
     if (!waiting_) {
@@ -210,7 +211,7 @@ class Bench {
     if (recovered_ && !out_.all_sent) return say("not all is sent once more");
     if (out_.error != 0 || out_.stopped) return;
     std::vector<std::uint32_t> once(stream_.beats.size(), 0);
-    for (const std::size_t beat : wanted_) once[beat] = 1;
+    for (const std::size_t beat : wanted_) once[beat] = 1;  // M-fetch-3: nothing is asked for in vain
     for (std::size_t i = 0; i < once.size(); ++i) {
       if (memory_.asked()[i] != once[i])
         return say("beat " + std::to_string(i) + " was asked for " + std::to_string(memory_.asked()[i]) + " times");
@@ -290,11 +291,11 @@ FetchStream fetch_stream(const cmodel::Config& config, std::vector<Beat> beats, 
   for (const cmodel::FetchCommand& command : out.commands) {
     bool hides = false;
     for (const std::size_t end = number + command.sets; number < end; ++number) {
-      out.trusted.push_back(!hid);
+      out.trusted.push_back(!hid);  // M-fetch-4
       const auto splats = std::ranges::count(out.set_of, static_cast<int>(number));
       hides = hides || (out.hidden[number] && splats > 0);
     }
-    if (command.splats > 0) hid = hides;
+    if (command.splats > 0) hid = hides;  // others are passed over (M-fetch-4)
   }
   return out;
 }

@@ -53,7 +53,8 @@ std::uint64_t different(const std::vector<cmodel::TilePixels>& seen, const std::
   return out;
 }
 
-// The device of a subset's reader: what a fetching source leaves out changes no word and no counter.
+// The device of a subset's reader: what a fetching source leaves out changes no word and no counter (N-6.1-8,
+// S-cull-9, S-cull-10, M-cull-15). The end's number of beats and checksum are still the whole stream's (S-file-7).
 TEST(FetchedStream, IsTheModelsToo) {
   std::uint64_t words = 0, left_out = 0;
   for (const char* name : {"tiny", "small", "faults/cull", "ellipse"}) {
@@ -75,7 +76,7 @@ TEST(FetchedStream, IsTheModelsToo) {
       fetched.consume(sent);
       fetched.finish();
       EXPECT_EQ(different(seen.tiles, expected.picture.tiles, words), 0U) << name;
-      EXPECT_EQ(fetched.culls().swallowed, swallowed);
+      EXPECT_EQ(fetched.culls().swallowed, swallowed);  // of trusted sets (M-fetch-4)
       EXPECT_EQ(log, expected.log);
       left_out += expected.stream.beats.size() - sent.size();
     }
@@ -85,6 +86,7 @@ TEST(FetchedStream, IsTheModelsToo) {
   EXPECT_GT(left_out, 100U);
 }
 
+// M-fetch-10
 TEST(FetchedDevice, TakesTheCycleModelsCycles) {
   const cmodel::Config config = named_config("faults/cull");
   std::uint64_t words = 0, busy = 0, unsent = 0, waited = 0;
@@ -121,6 +123,7 @@ TEST(FetchedDevice, TakesTheCycleModelsCycles) {
   EXPECT_GT(unsent, 30U);
 }
 
+// M-fetch-11, through the device
 TEST(FetchedDevice, DrawsTheModelsPictureFromAnyMemory) {
   const cmodel::Config config = named_config("faults/cull");
   std::uint64_t words = 0, cycles = 0, unsent = 0;

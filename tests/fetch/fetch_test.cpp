@@ -55,7 +55,8 @@ FetchStream stream_with_empty_sets(const std::vector<int>& empties) {
   return fetch_stream(config, to_beats(w.bytes()), kAddress);
 }
 
-/// What the page says of when beats are offered, from the cycles in which those before were taken.
+/// What the page says of when beats are offered, from the cycles in which those before were taken: M-fetch-8, the sums
+/// of M-fetch-7.
 std::vector<std::uint64_t> due(const FetchStream& stream, const FetchResult& seen, std::uint64_t latency) {
   std::vector<std::uint64_t> out;
   int last_block = -1, before = -1;  // of those passed; the set of the beat before, sent or not
@@ -63,6 +64,7 @@ std::vector<std::uint64_t> due(const FetchStream& stream, const FetchResult& see
   for (std::size_t i = 0; i < stream.beats.size(); ++i) {
     const int set = stream.set_of[i];
     const bool trusted = set >= 0 && stream.trusted[static_cast<std::size_t>(set)];
+    // M-fetch-4, M-fetch-5
     const int waits = trusted ? -1 : set >= 0 ? set : before >= 0 ? last_block : -1;
     before = set;
     if (stream.block[i] >= 0) last_block = stream.block[i];
@@ -75,6 +77,7 @@ std::vector<std::uint64_t> due(const FetchStream& stream, const FetchResult& see
   return out;
 }
 
+// M-fetch-7, M-fetch-8; RREADY never keeps a beat back (M-fetch-14).
 TEST(Fetch, IsExactWhereTheMemoryIsRegular) {
   std::uint64_t beats = 0, unsent = 0, waited = 0;
   for (const char* name : {"tiny", "small"}) {
@@ -105,7 +108,7 @@ TEST(Fetch, IsExactWhereTheMemoryIsRegular) {
   EXPECT_GT(waited, 100U);
 }
 
-// Beyond that requests wait for room: the same beats, later.
+// Beyond that requests wait for room: the same beats, later (M-fetch-9).
 TEST(Fetch, IsLateWhereThereIsNoRoomForTheLatency) {
   const FetchStream stream = stream_of("tiny", 11, 600, cmodel::CullMap::Off);
   for (const unsigned latency : {45U, 60U}) {
@@ -121,6 +124,7 @@ TEST(Fetch, IsLateWhereThereIsNoRoomForTheLatency) {
   }
 }
 
+// M-fetch-11
 TEST(Fetch, SendsTheSameBeatsFromAnyMemory) {
   std::uint64_t beats = 0, unsent = 0, bursts = 0, cycles = 0;
   std::size_t under_way = 0;
@@ -157,6 +161,7 @@ TEST(Fetch, SendsTheSameBeatsFromAnyMemory) {
   EXPECT_GT(under_way, 2U);
 }
 
+// Each error (M-fetch-17); commands that break M-fetch-1.
 TEST(Fetch, TellsErrorsAndStops) {
   const FetchStream stream = stream_of("tiny", 5, 200);
   int told = 0;
@@ -167,7 +172,7 @@ TEST(Fetch, TellsErrorsAndStops) {
       run.error = kResponse;
       const FetchResult seen = run_fetch(stream, run);
       EXPECT_EQ(seen.finding, "");
-      EXPECT_EQ(seen.taken.size(), number) << "what came before it is sent";
+      EXPECT_EQ(seen.taken.size(), number) << "what came before it is sent";  // M-fetch-18
       ++told;
     }
     for (const int set : {0, 3}) {
@@ -197,6 +202,7 @@ TEST(Fetch, TellsErrorsAndStops) {
   std::printf("[figure] errors told = %d\n", told);
 }
 
+// M-fetch-19, step 1.
 TEST(Fetch, StopsAnywhere) {
   const FetchStream stream = stream_of("tiny", 6, 200);
   std::uint64_t sent = 0;
@@ -217,7 +223,7 @@ TEST(Fetch, StopsAnywhere) {
   EXPECT_GT(stops, 10);
 }
 
-// Errors of two kinds in one frame: what is sent has no hole, whichever comes first.
+// Errors of two kinds in one frame: what is sent has no hole, whichever comes first (M-fetch-18).
 TEST(Fetch, SendsNothingBehindABeatThatCannotBeRead) {
   const FetchStream stream = stream_of("tiny", 5, 200);
   const std::size_t wanted = stream.wanted().size();
@@ -240,6 +246,7 @@ TEST(Fetch, SendsNothingBehindABeatThatCannotBeRead) {
   EXPECT_GT(both, 5);
 }
 
+// M-fetch-19, M-fetch-20, M-fetch-21
 TEST(Fetch, WorksAgainAfterAStop) {
   std::uint64_t runs = 0;
   for (const FetchBuild build : {FetchBuild::Default, FetchBuild::Narrow}) {
@@ -254,6 +261,7 @@ TEST(Fetch, WorksAgainAfterAStop) {
   EXPECT_GT(runs, 50U);
 }
 
+// The device gives no verdict any more, and the master has sets to send: M-fetch-19, M-fetch-22.
 TEST(Fetch, WorksAgainAfterARefusal) {
   const FetchStream stream = stream_with_empty_sets({30, 7, 40});
   std::uint64_t runs = 0, full = 0;
@@ -273,6 +281,7 @@ TEST(Fetch, WorksAgainAfterARefusal) {
   EXPECT_GT(full, 10U);
 }
 
+// M-fetch-19
 TEST(Fetch, WorksAgainAfterAnyError) {
   const FetchStream stream = stream_of("tiny", 7, 60);
   std::uint64_t runs = 0;
@@ -292,6 +301,7 @@ TEST(Fetch, WorksAgainAfterAnyError) {
   EXPECT_GT(runs, 100U);
 }
 
+// M-fetch-1 where splats is 0, M-fetch-4 behind such a command
 TEST(Fetch, VerdictsOfSetsWithoutSplatsChangeNothing) {
   const FetchStream stream = stream_with_empty_sets({1, 5, 2, 9});
   for (const unsigned wait : {0U, 12U, 40U}) {
@@ -304,7 +314,7 @@ TEST(Fetch, VerdictsOfSetsWithoutSplatsChangeNothing) {
   std::printf("[figure] sets = %zu, beats = %zu\n", stream.hidden.size(), stream.beats.size());
 }
 
-// More sets than the master keeps in mind lie between it and the verdicts, as behind a FIFO: it waits.
+// More sets than the master keeps in mind lie between it and the verdicts, as behind a FIFO: it waits (M-fetch-16).
 TEST(Fetch, WaitsWhileTooManySetsAreUnjudged) {
   std::uint64_t full = 0;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
@@ -325,6 +335,7 @@ TEST(Fetch, WaitsWhileTooManySetsAreUnjudged) {
   EXPECT_GT(full, 0U);
 }
 
+// M-fetch-17, error 2
 TEST(Fetch, RefusesAVerdictThatNobodyWaitsFor) {
   const FetchStream stream = stream_of("tiny", 5, 200);
   int told = 0;

@@ -34,7 +34,8 @@ TEST(FetchStops, WorksAgainAfterAStopInEveryCycle) {
   EXPECT_GT(runs, 5000U);
 }
 
-// The master in front of the RTL: stop, soft reset, and the frame again, as docs/integration.md says.
+// The master in front of the RTL: stop, soft reset, and the frame again, as docs/integration.md says (M-fetch-19,
+// M-fetch-20, M-fetch-21).
 TEST(FetchStops, TheDeviceDrawsTheNextFrame) {
   const cmodel::Config config = named_config("faults/cull");
   struct Tiles final : cmodel::PixelSink {

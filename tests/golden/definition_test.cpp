@@ -93,6 +93,7 @@ class Definition {
     double depth = 0.0, growth = 1.0, energy_kept = 1.0;
   };
 
+  /// N-8-40; N-8-41: motion; N-8-42: the energy that is kept.
   Placed place(const scene::Splat& splat) const {
     const scene::SceneDescription& techniques = scene_.description;
     const glm::dvec3 world(splat.position);

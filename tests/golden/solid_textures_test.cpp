@@ -45,6 +45,7 @@ double wave_amplitude(const Image& image, double length) {
   return 2.0 * std::hypot(c, s) / count;
 }
 
+// N-8-18 at voxels, and N-8-106, N-8-107 of stripes.
 // A stripe's tint is a wave of amplitude 0.4 about 0.6. At pixels it must arrive whole, whatever the voxels; at voxels
 // it is blurred by the kernel, whose spectrum is exp(-pi^2 (h/L)^2 / a) for voxels of h and waves of L (its cut at R
 // moves that by no more than exp(-a R^2)).
@@ -145,6 +146,7 @@ TEST(SolidTexture, AmplitudeZeroIsNoTexture) {
   figure("textures_of_amplitude_0_equal_to_none", compared, "9, bit for bit");
 }
 
+// N-8-109.
 TEST(BumpMapping, LeansTheNormalAlongThePattern) {
   // Stripes B = (1 + cos 2 pi x/L)/2 on a plane that faces z: the normal leans by -b pi sin(2 pi x/L) along x.
   const scene::Bump bump{SolidKind::Stripes, 5.0, 0.4};

@@ -39,6 +39,32 @@ scene::SplatTexture at_frame(int frame) {
   return texture;
 }
 
+// N-8-32, N-8-33 and N-8-35: values that were computed from the page alone.
+TEST(TexturedSplats, PlacesAndSamplesAreThePages) {
+  const scene::Kernel kernel(2.0, 2.0);
+  const glm::vec3 places[] = {{0.5F, -1.5F, 2.0F}, {-3.25F, 0.0F, 7.5F}, {10.0F, 20.0F, -30.0F}};
+  constexpr std::uint32_t kHashes[] = {814672935, 3251535873, 2184589110};
+  for (const int frame : {0, 5}) {
+    const scene::TexturedSplats textures({.phases = 12, .amplitude = 0.8, .frame = frame, .scale = 0.4}, kernel);
+    for (std::size_t i = 0; i < std::size(places); ++i)
+      EXPECT_EQ(textures.number_of(places[i]), (std::uint64_t{kHashes[i]} + static_cast<std::uint64_t>(frame)) % 12)
+          << i;
+  }
+  const scene::TexturedSplats textures({.phases = 5, .amplitude = 0.8, .frame = 0, .scale = 1.5}, kernel);
+  EXPECT_EQ(textures.phases().front().side(), 32);
+  const struct {
+    std::size_t phase;
+    double u, v, value;
+  } samples[] = {
+      {0, 0.3, -0.7, 0.204018041974213}, {2, -1.1, 0.4, 0.128062253873507}, {4, 1.9, 1.2, 0.643594082957448}};
+  double worst = 0.0;
+  for (const auto& [phase, u, v, value] : samples)
+    worst = std::max(worst, std::abs(textures.phases()[phase](u, v) - value));
+  std::printf("[figure] phases against the page: %.2g (limit 1e-12)\n", worst);
+  EXPECT_LT(worst, 1e-12);
+}
+
+// N-8-34, and N-8-35 at the samples.
 TEST(TexturedSplats, PhasesCancelAndCarryNoEnergy) {
   const scene::Kernel kernel(2.0, 2.0);
   double cycle = 0.0, energy = 0.0, largest = 0.0;

@@ -78,11 +78,11 @@ module icarus_bench;
     #5 clk_i = 1'b0;
   endtask
 
-  // One cycle outside reset. All that the device sees changes at its beginning and is looked at before the edge.
+  // One cycle outside reset. All that the device sees changes at its beginning and is looked at before the edge (M-port-3).
   task automatic step;
     offering = sent < to_send && (offering || willing[input_pattern*LENGTH+cycle%LENGTH]);
     s_tvalid_i = offering;
-    s_tdata_i = beats[sent];
+    s_tdata_i = beats[sent];  // w0 in the lowest bits (M-port-4)
     m_tready_i = willing[ready_pattern*LENGTH+cycle%LENGTH];
     #1 look;
     idle = idle + 1;

@@ -60,7 +60,8 @@ Expected expected_of(const cmodel::Config& config, const std::vector<Beat>& beat
   return expected;
 }
 
-/// The words of a beat's kept pixels; empty if one of them is not known, or if what is kept is no row from its left.
+/// The words of a beat's kept pixels (M-port-5); empty if one of them is not known, or if what is kept is no row from
+/// its left (M-port-6).
 std::vector<std::uint32_t> kept_words(const PixelBeat& beat) {
   std::vector<std::uint32_t> words;
   for (std::size_t lane = 0; lane < beat.keep.size(); ++lane) {

@@ -20,6 +20,8 @@ using testbench::Pattern;
 
 cmodel::Config culling() { return named_config(std::string("faults/") + testbench::kBreakableCull); }
 
+// Windows in their cycles, none of them hidden (M-cull-6, M-cull-7); sheets that wait for tables (M-cull-3, M-cull-4,
+// M-cull-8, M-cull-9, M-cull-10, M-cull-12); what is counted of both (M-register-17).
 TEST(Culling, EachEventHappensInItsCycle) {
   const cmodel::Config config = culling();
   Random random(seed_or(97));
@@ -43,6 +45,8 @@ TEST(Culling, EachEventHappensInItsCycle) {
   judge("culling, random", total);
 }
 
+// Whatever the ready patterns, the model's words (M-cull-2, M-cull-13) and its verdicts, each in its cycle (M-cull-4,
+// M-port-8); in tiles without tests nothing is hidden (M-port-9).
 TEST(Culling, RandomStreamsOfEveryClass) {
   testbench::CampaignOptions options{.verify = {.config = culling(), .ready = "all", .wave = {}, .device = {}},
                                      .splats = 6000,
@@ -63,7 +67,8 @@ TEST(Culling, RandomStreamsOfEveryClass) {
   EXPECT_EQ(result.total.check.mismatches, 0U);
 }
 
-// Frames behind each other as well, whose sets are hidden, sent and left out.
+// Frames behind each other as well, whose sets are hidden, sent (M-cull-14) and left out (S-cull-9, S-cull-10,
+// M-cull-15); tiles that end while a table is built (M-cull-11).
 TEST(Culling, RefusesWhatTheModelRefuses) {
   const cmodel::Config config = culling();
   const auto result =

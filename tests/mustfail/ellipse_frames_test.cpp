@@ -54,6 +54,7 @@ TEST(EllipseFrames, TheDeviceEqualsTheModel) {
     std::printf("[figure] %s: %llu comparisons, %llu ellipses, %s\n", blur.name,
                 static_cast<unsigned long long>(result.check.comparisons), static_cast<unsigned long long>(ellipses),
                 to_string(result.verdict));
+    // The weight of every lane of every window: M-ellipse-3, M-ellipse-4, M-ellipse-5.
     EXPECT_EQ(result.verdict, testbench::Verdict::Pass) << blur.name << ": " << result.error;
     EXPECT_GT(ellipses, 100u) << blur.name;
     EXPECT_GT(result.check.comparisons, 1000u) << blur.name;

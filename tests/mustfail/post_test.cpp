@@ -22,6 +22,13 @@ using testbench::Pattern;
 
 cmodel::Config post() { return named_config(std::string("faults/") + testbench::kBreakablePost); }
 
+// Copies, walks and the pixel stage of a device with ellipses, interpolation and two slices a block, beside tiles of
+// other modes (M-density-1, M-density-2). A tap of another block or cycle, a buffer or an end_tile that waits another
+// time is a mismatch:
+// - places: windows and blocks by the halo (M-density-3, M-density-4);
+// - copies of a cycle a block (M-density-6), walks of D (M-density-10), reads and slices (M-density-11, M-density-12);
+// - end_tile's turn (M-density-13), the formulas (M-density-14, M-density-15), rest (M-density-16, M-density-18);
+// - the sheet of each composite tap (M-density-17).
 TEST(PostClassified, EachEventHappensInItsCycle) {
   const cmodel::Config config = post();
   Random random(seed_or(93));
@@ -34,12 +41,18 @@ TEST(PostClassified, EachEventHappensInItsCycle) {
       const auto one = compare_cycles(config, beats, Pattern(input, seed), Pattern(output, seed + 1000),
                                       faulty(Fault::None, Assertions::On));
       total += one;
+      // Two registers more behind c5 (M-weights-1), on top of an ellipse's 10 (M-ellipse-1); two slices (M-slices-1).
       ASSERT_EQ(one.mismatches, 0U) << input << "/" << output << ": " << one.first;
     }
   }
   judge("post-classified, random", total);
 }
 
+// Every word of every tap and pixel, and every counter:
+// - by banks of the halo (M-density-4), and what tiles behind it find in the picture (M-density-5);
+// - of the ring's parts, those of older sheets and tiles being empty (M-density-7, M-density-8, M-density-9);
+// - with the words of SHEETS of each sheet (M-density-20);
+// - what is composited is counted (M-density-22).
 TEST(PostClassified, RandomStreamsOfEveryClass) {
   testbench::CampaignOptions options{.verify = {.config = post(), .ready = "all", .wave = {}, .device = {}},
                                      .splats = 6000,
@@ -58,6 +71,7 @@ TEST(PostClassified, RandomStreamsOfEveryClass) {
         static_cast<unsigned long long>(result.total.check.comparisons),
         static_cast<unsigned long long>(result.total.check.mismatches));
     EXPECT_GT(result.total.check.comparisons, 100000U);
+    // Weights of any table (M-weights-2); sums of two slices (M-slices-2).
     EXPECT_EQ(result.total.check.mismatches, 0U);
   }
 }
@@ -68,7 +82,7 @@ testbench::MakeDevice whole() {
   };
 }
 
-// Frames as the driver sends them: tiles that meet, sheets that are missing, perspective.
+// Frames as the driver sends them: tiles that meet, sheets that are missing (M-density-9), perspective.
 TEST(PostClassified, FramesEqualTheModel) {
   for (const bool perspective : {false, true}) {
     scene::SceneDescription description;
@@ -97,7 +111,9 @@ TEST(PostClassified, FramesEqualTheModel) {
   }
 }
 
-// Tables of densities, their words, tiles and sheets beside what is legal: refused for the model's rule.
+// Tables of densities and their words (N-6.2-6, S-table-11, S-table-12), tiles (N-6.2-3, S-tile-1, S-tile-3) and sheets
+// (S-tile-7) beside what is legal: refused for the model's rule. Tiles of densities that are cut short end in the cycle
+// model's cycles (M-density-13, M-density-18).
 TEST(PostClassified, RefusesWhatTheModelRefuses) {
   const auto result = testbench::check_refusals(post(), whole());
   testbench::expect_all(result);

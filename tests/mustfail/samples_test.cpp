@@ -1,6 +1,6 @@
 // The device that composites every sample, whole and with its assertions on: every event in the cycle model's cycle,
-// and windows that wait as docs/microarchitecture.md says, "Hazard". The device is that of the must-fail suite with no
-// fault selected.
+// and windows that wait as docs/microarchitecture.md says (M-hazard-3). The device is that of the must-fail suite with
+// no fault selected.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -36,6 +36,8 @@ TEST(EverySample, EachEventHappensInItsCycle) {
                                       faulty(Fault::None, Assertions::On));
       total += one;
       hazards += one.stalls.stall_hazard;
+      // Windows of every sample and of sheets, ellipses among them, in their cycles: M-sample-1, M-sample-3,
+      // M-sample-5, M-ellipse-1, M-ellipse-2, M-hazard-3.
       ASSERT_EQ(one.mismatches, 0U) << input << "/" << output << ": " << one.first;
     }
   }
@@ -62,6 +64,7 @@ TEST(EverySample, RandomStreamsOfEveryClass) {
                 input, static_cast<unsigned long long>(result.total.check.comparisons),
                 static_cast<unsigned long long>(result.total.check.mismatches));
     EXPECT_GT(result.total.check.comparisons, 100000U);
+    // Every word and counter (M-sample-2, M-sample-4, M-hazard-1, M-hazard-2), sheets after samples too (M-sample-6).
     EXPECT_EQ(result.total.check.mismatches, 0U);
   }
 }
@@ -122,7 +125,7 @@ TEST(EverySample, WindowsWaitAsThePageSays) {
           places, apart, static_cast<unsigned long long>(measured.windows),
           static_cast<unsigned long long>(measured.cycles), static_cast<unsigned long long>(measured.hazards),
           static_cast<unsigned long long>(waits));
-      EXPECT_EQ(measured.hazards, waits);
+      EXPECT_EQ(measured.hazards, waits);  // M-hazard-3
       EXPECT_EQ(measured.cycles, measured.windows + waits);
     }
   }

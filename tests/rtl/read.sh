@@ -14,6 +14,9 @@ verilator --lint-only -Wall --assert --top-module fastsplat_top "-I$source/rtl" 
 yosys -q -l "$work/yosys.log" -p "read_verilog -sv -I$source/rtl $work/fastsplat_pkg.sv $source/rtl/*.sv $source/rtl/*/*.sv; hierarchy -check -top fastsplat_top; proc; opt_clean; check -assert; tee -o $work/stat.txt stat" >/dev/null 2>&1 ||
   { tail -20 "$work/yosys.log"; echo "$config: Yosys refuses the RTL"; exit 1; }
 
+# M-reset-1: the reset is synchronous. Yosys makes these cells of registers that a reset changes between clock edges.
+! grep -q '\$\(adff\|aldff\|dffsr\)' "$work/stat.txt" || { echo "$config: the device has asynchronously reset registers"; exit 1; }
+
 # Every module of rtl/ must be in the elaborated design, as itself or with parameters.
 modules=0
 ellipses=$(sed -n 's/.* ELLIPSES = \([01]\);/\1/p' "$work/fastsplat_pkg.sv")

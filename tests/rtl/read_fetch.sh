@@ -10,6 +10,7 @@ for given in "" "-GBURST=1 -GDEPTH_LOG2=1 -GOUTSTANDING=2 -GSETS_LOG2=1 -GADDRES
   lint $given || { cat "$work/lint.log"; echo "read_fetch.sh: Verilator refuses '$given'"; exit 1; }
   read=$((read + 1))
 done
+# M-fetch-23: the defaults and the ends of the ranges above are taken, what lies beyond is not.
 refused=0
 for given in -GBURST=0 -GBURST=129 "-GBURST=16 -GDEPTH_LOG2=3" -GOUTSTANDING=1 -GOUTSTANDING=2000 -GADDRESS_BITS=15 -GADDRESS_BITS=65; do
   if lint $given; then echo "read_fetch.sh: takes '$given'"; exit 1; fi

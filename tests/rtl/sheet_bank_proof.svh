@@ -1,6 +1,6 @@
 // Proof of a sheet bank's forwarding, read inside sheet_bank under FASTSPLAT_PROOF: the sum shown at W for any one word is
 // the saturated sum of all products that went to it since it was last cleared, whatever the order of addresses, the gaps
-// between them and the word that a colliding read returns.
+// between them (M-forward-3) and the word that a colliding read returns (M-forward-1).
 
 // What the array promises (proved of the whole: proofs/core_proof.svh): memories are wiped first, each word once, before anything
 // moves, and the compositor touches a memory no window is on its way to.
@@ -25,7 +25,8 @@ always @* begin
   if (comp_clear_q) assume (!(valid_i && buffer_i == comp_buffer_q));
 end
 
-// The word's true value: products are added when they leave C, in one cycle, without a pipeline.
+// The word's true value (N-5-3): products are added when they leave C, in one cycle, without a pipeline (M-forward-2). Of one buffer and
+// one address (M-forward-4); the compositor clears behind itself (M-walk-3), as the wipe does (M-reset-4).
 logic [4*SB-1:0] truth, truth_next;
 logic at_c, at_w;
 assign at_c = valid_c_q && buffer_c_q == any_buffer && addr_c_q == any_addr;

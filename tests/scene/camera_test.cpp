@@ -26,6 +26,7 @@ Camera make(CameraParams params, int width = 320, int height = 200) {
   return Camera(params, box(), kKernelRadius, width, height);
 }
 
+// N-8-10, N-8-13: exact vectors.
 TEST(Camera, SeesAHeadFromTheFrontUpright) {
   const Camera front = make({.azimuth = 0.0, .elevation = 0.0});
   EXPECT_EQ(front.direction(), glm::dvec3(0, -1, 0));  // from anterior to posterior
@@ -38,6 +39,7 @@ TEST(Camera, SeesAHeadFromTheFrontUpright) {
   EXPECT_EQ(make({.azimuth = 0.0, .elevation = 0.0, .roll = 90.0}).right(), glm::dvec3(0, 0, -1));
 }
 
+// N-8-10.
 TEST(Camera, AxesAreRightHandedUnitVectors) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> angle(-400.0, 400.0);
@@ -49,6 +51,7 @@ TEST(Camera, AxesAreRightHandedUnitVectors) {
   }
 }
 
+// N-8-15.
 TEST(Camera, ProjectAndRayAgree) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -81,6 +84,7 @@ TEST(Camera, ProjectAndRayAgree) {
   EXPECT_LE(worst_depth, limit);
 }
 
+// N-8-11.
 TEST(Camera, ScaleIsPixelsPerMillimetreThere) {
   for (const Projection projection : {Projection::Orthographic, Projection::Perspective}) {
     const Camera camera = make({.projection = projection, .azimuth = 20.0, .elevation = 40.0});
@@ -96,6 +100,7 @@ TEST(Camera, ScaleIsPixelsPerMillimetreThere) {
   }
 }
 
+// N-8-12.
 TEST(Camera, BoundingSphereAndKernelFitTheSmallerSide) {
   const double radius = box().bounding_radius() + kKernelRadius;
   const Camera flat = make({.projection = Projection::Orthographic});
@@ -108,6 +113,7 @@ TEST(Camera, BoundingSphereAndKernelFitTheSmallerSide) {
   EXPECT_NEAR(deep.project(touch).y, 199.5, 1e-9);
 }
 
+// N-8-12.
 TEST(Camera, ZoomBringsTheEyeNearerAndKeepsTheFieldOfView) {
   const Camera one = make({.projection = Projection::Perspective, .zoom = 1.0});
   const Camera two = make({.projection = Projection::Perspective, .zoom = 2.0});
@@ -116,7 +122,7 @@ TEST(Camera, ZoomBringsTheEyeNearerAndKeepsTheFieldOfView) {
   EXPECT_NEAR(corner(one), corner(two), 1e-14);
 }
 
-// The formulas that docs/guide/vtk.md gives.
+// The formulas that docs/guide/vtk.md gives, and N-8-10, N-8-12.
 TEST(Camera, IsWhatTheGuideSaysToAVtkCamera) {
   const double a = 37.0 * M_PI / 180.0, e = -21.0 * M_PI / 180.0, zoom = 1.7;
   const Camera camera = make({.azimuth = 37.0, .elevation = -21.0, .zoom = zoom});

@@ -97,6 +97,7 @@ TEST_P(KernelIntegrals, TheWholeIsOne) {
   EXPECT_NEAR(sum, 1.0, limit);
 }
 
+// N-8-40: v.
 TEST_P(KernelIntegrals, VarianceIsTheFootprintsSecondMoment) {
   // Rings: pi rho^3 F(rho), midpoint; with t = sqrt(a) rho the second derivative is below sqrt(a) (6t + 14t^3 + 4t^5)
   // exp(-t^2) < 11 sqrt(a), over what the cut at R leaves of the volume.

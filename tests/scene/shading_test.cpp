@@ -7,6 +7,7 @@
 namespace fastsplat::scene {
 namespace {
 
+// N-8-20: neighbours, and ends.
 TEST(Gradient, IsExactOnALinearRamp) {
   // Powers of two: every operation is exact, borders included.
   const glm::dvec3 spacing(0.5, 1.0, 2.0);
@@ -21,6 +22,7 @@ TEST(Gradient, IsExactOnALinearRamp) {
   EXPECT_EQ(compared, 120);
 }
 
+// N-8-20.
 TEST(Gradient, IsZeroAlongAnAxisOfOneVoxel) {
   const volume::Volume volume =
       make_volume({3, 1, 1}, glm::dvec3(1), volume::VoxelType::F32, [](int i, int, int) { return i * i; });
@@ -41,6 +43,7 @@ class Light : public ::testing::Test {
       .on = true, .ambient = 0.25, .diffuse = 0.75, .specular = 0.0, .shininess = 10.0, .gradient_floor = 0.0};
 };
 
+// N-8-19.
 TEST_F(Light, ComesFromAboveLeftOfTheEye) {
   // Seen along -y: the eye is at +y, up is +z, the image's left is +x.
   const float towards_eye = shade(ramp({0, 1, 0}), shading_).x;
@@ -55,6 +58,7 @@ TEST_F(Light, ComesFromAboveLeftOfTheEye) {
 
 TEST_F(Light, IsTwoSided) { EXPECT_EQ(shade(ramp({1, 2, 3}), shading_), shade(ramp({-1, -2, -3}), shading_)); }
 
+// N-8-21.
 TEST_F(Light, NeverLeavesTheUnitRange) {
   shading_.specular = 1.0;
   shading_.ambient = 1.0;
@@ -62,6 +66,7 @@ TEST_F(Light, NeverLeavesTheUnitRange) {
   EXPECT_EQ(bright, glm::vec3(1.0f));
 }
 
+// N-8-21: floor.
 TEST_F(Light, LeavesWeakGradientsAlone) {
   const volume::Volume flat =
       make_volume({5, 5, 5}, glm::dvec3(1), volume::VoxelType::F32, [](int i, int, int) { return i == 0 ? 100 : 0; });

@@ -48,6 +48,7 @@ TEST(SheetPlan, AxisAlignedSheetsHoldEverySplat) {
   ASSERT_GT(splats, 0);
 }
 
+// N-8-62.
 TEST(SheetPlan, XRaySheetsShareTheSlabsDepthRange) {
   SceneDescription description = small();
   const SlabGrid slabs = slab_grid(build_scene(description));
@@ -60,7 +61,8 @@ TEST(SheetPlan, XRaySheetsShareTheSlabsDepthRange) {
   }
 }
 
-/// Grown kernels reach past the plain slabs: whole slabs come in front and behind, and the plain ones stay in place.
+/// N-8-55: grown kernels reach past the plain slabs: whole slabs come in front and behind, and the plain ones stay in
+/// place.
 TEST(SheetPlan, GrownKernelsFindSlabsAndThePlainOnesStay) {
   SceneDescription description = small();
   description.camera.zoom = 0.1;
@@ -86,7 +88,7 @@ TEST(SheetPlan, GrownKernelsFindSlabsAndThePlainOnesStay) {
   ASSERT_GT(reached, 0);
 
   description.camera.zoom = 1e-5;
-  EXPECT_THROW(sheet_plan(build_scene(description)), UserError);
+  EXPECT_THROW(sheet_plan(build_scene(description)), UserError);  // N-8-56
 }
 
 }  // namespace

@@ -82,6 +82,7 @@ TEST(GradientNoise, IsZeroOnTheLatticeAndSmoothBetween) {
   EXPECT_LE(jump, 1e-8);
 }
 
+// N-8-108.
 // The same everywhere: eight values worked out apart from this program (Python integers and doubles).
 TEST(GradientNoise, IsTheSameEverywhere) {
   EXPECT_NEAR(gradient_noise({9.83, 19.34, 23.62}), 0.495765109326027, 1e-13);
@@ -94,6 +95,7 @@ TEST(GradientNoise, IsTheSameEverywhere) {
   EXPECT_NEAR(gradient_noise({-27.23, 23.77, -28.9}), -0.134979060992077, 1e-13);
 }
 
+// N-8-106: the amplitude.
 TEST(Tint, AmplitudeBlendsFromWhite) {
   std::mt19937 random(4);
   for (const SolidKind kind : kKinds) {

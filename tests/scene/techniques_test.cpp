@@ -61,7 +61,7 @@ TEST(Techniques, MotionStaysInFrontOfTheEye) {
 }
 
 // c(z) = A f |z - zf| / (z (zf - f)) on a film at the image's distance zi, 1/zi = 1/f - 1/zf, which spans the image:
-// whatever f is, that is A |s(z) - s(zf)| pixels.
+// whatever f is, that is A |s(z) - s(zf)| pixels (N-8-40).
 TEST(Techniques, CircleOfConfusionIsTheThinLens) {
   SceneDescription d = perspective();
   d.lens = {DepthOfField::Splats, 4.0, 1.5};

@@ -35,6 +35,7 @@ Material by_hand(const TransferFunction& tf, double low, double high, double val
   return {glm::vec3(colour), static_cast<float>(-std::log(1.0 - opacity) / tf.reference_length)};
 }
 
+// N-8-16.
 TEST(Classifier, IsExactForEverySixteenBitValue) {
   TransferFunction tf;
   tf.domain = Domain::Range;
@@ -76,6 +77,7 @@ TEST(Classifier, FloatsAreEvaluatedDirectlyTheSameWay) {
   }
 }
 
+// N-8-16: of two points at one value the later one.
 TEST(Classifier, PointsAtOnePlaceMakeAStep) {
   TransferFunction tf;
   tf.domain = Domain::Value;
@@ -89,6 +91,7 @@ TEST(Classifier, PointsAtOnePlaceMakeAStep) {
   EXPECT_EQ(classify(10).extinction, classify(5).extinction);
 }
 
+// N-8-16.
 TEST(Classifier, OpacityOfOneReferenceLengthComesBack) {
   TransferFunction tf;
   tf.domain = Domain::Value;

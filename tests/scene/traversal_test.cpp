@@ -34,6 +34,7 @@ SceneDescription view(double azimuth, double elevation) {
 const std::vector<std::pair<double, double>> kViews = {{0, 0},   {90, 0},  {180, 0},   {270, 0}, {0, 90},
                                                        {0, -90}, {30, 15}, {200, -50}, {45, 0},  {110, 70}};
 
+// N-8-17: which voxels are splats.
 TEST(Traversal, VisitsEveryVisibleVoxelOnce) {
   for (const auto& [azimuth, elevation] : kViews) {
     const Scene scene = scene_of(view(azimuth, elevation), sparse());
@@ -56,6 +57,7 @@ TEST(Traversal, VisitsEveryVisibleVoxelOnce) {
   }
 }
 
+// N-8-8, N-8-9.
 TEST(Traversal, GoesFrontToBack) {
   for (const auto& [azimuth, elevation] : kViews) {
     const Scene scene = scene_of(view(azimuth, elevation), sparse());
@@ -88,6 +90,7 @@ TEST(Traversal, GoesFrontToBack) {
   }
 }
 
+// N-8-8.
 TEST(Traversal, SheetsFollowTheDominantAxisAcross45Degrees) {
   EXPECT_EQ(axis_sheet_count(scene_of(view(44.9, 0), sparse())), 6);  // y
   EXPECT_EQ(axis_sheet_count(scene_of(view(45.1, 0), sparse())), 7);  // x
@@ -107,6 +110,7 @@ TEST(Traversal, IsAFunctionOfTheSceneOnly) {
   }
 }
 
+// N-8-22: at most the extinction.
 TEST(Traversal, EmissionNeverExceedsExtinction) {
   std::size_t checked = 0;
   for (const auto& name : transfer_function_presets()) {
@@ -128,6 +132,7 @@ TEST(Traversal, EmissionNeverExceedsExtinction) {
   EXPECT_GT(checked, 10000u);
 }
 
+// N-8-17.
 TEST(Traversal, OpacityScaleMultipliesExtinction) {
   SceneDescription description = view(30, 15);
   const auto plain = collect_splats(scene_of(description, sparse()));
@@ -166,6 +171,7 @@ TEST(Slabs, CoverEveryKernelWithABoundaryInTheCentre) {
   }
 }
 
+// N-8-7.
 TEST(Scene, AmplitudeIsTheOpticalDepthOfAVoxel) {
   // A field of extinction 1 must give optical depth 1 per kernel unit: summed over a lattice, amplitude times the mean
   // footprint per area equals the cell's thickness.

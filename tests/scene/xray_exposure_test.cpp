@@ -38,7 +38,7 @@ double from_voxel(const volume::Volume& volume, const Classifier& classify, glm:
   return sum * length;
 }
 
-// In each volume one line stands out, of each of the 26 directions in turn, through the middle or a corner.
+// N-8-24: in each volume one line stands out, of each of the 26 directions in turn, through the middle or a corner.
 TEST(XrayExposure, TheDensestLineIsThatOfAll26Directions) {
   int lines = 0;
   double worst = 0.0;
@@ -73,6 +73,7 @@ TEST(XrayExposure, TheDensestLineIsThatOfAll26Directions) {
   EXPECT_GT(lines, 100000);
 }
 
+// N-8-23.
 TEST(XrayExposure, NothingVisibleHasExposureOne) {
   const volume::Volume volume =
       make_volume({3, 3, 3}, glm::dvec3(1.0), volume::VoxelType::U8, [](int i, int, int) { return i; });

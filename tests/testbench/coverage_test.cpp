@@ -151,6 +151,13 @@ TEST(Campaign, EveryClassMeetsEveryPatternOverSixSeeds) {
 
 class Directed : public ::testing::TestWithParam<const char*> {};
 
+// Every register, answer and counter of the device as a whole:
+// - the identity, and unknown addresses (M-register-3, M-register-5); answers that wait (M-register-1, M-register-2);
+// - answers beside a frame that is under way (M-register-4), and gone after a reset (M-reset-3);
+// - zeros after a reset (M-register-10), and the high word before any low one (M-register-9);
+// - when an event is in a counter (M-register-12), and what a clear forgets (M-register-13);
+// - STATUS before, in and after a frame, without input too (M-register-14);
+// - the counters by number (M-register-15), and none beyond them (M-register-16, M-register-17).
 TEST_P(Directed, RegistersAnswerAsThePageSays) {
   const auto config = driver::load_config(GetParam());
   expect_all(check_registers(config, rtl_of(config)));
@@ -159,6 +166,14 @@ TEST_P(Directed, RegistersAnswerAsThePageSays) {
 /// base, whose tables are long, is in broken_streams_slow_test.cpp.
 class DirectedRefusals : public ::testing::TestWithParam<const char*> {};
 
+// S-reader-4, S-rule-1, S-rule-2. A frame without its tiles is legal (S-file-7).
+// The beat is checked in its cycle (M-check-4, M-check-5) and reported (M-check-6). Later beats change no counter
+// (M-check-7). An open tile is ended in the model's cycles (M-check-8) and marked (M-check-9). A soft reset ends a
+// frame anywhere (M-check-10), clears the error (M-check-11) and keeps counters and IRQ_MASK (M-check-12).
+// IRQ and its mask (M-register-5, M-register-7) and the interrupt (M-port-11); STATUS while a beat is in check
+// (M-register-14, M-top-4); frames behind each other, whose counters go on (M-register-18), and that need their own
+// tables (M-register-10). IRQ before and after the sink has taken the last pixels (M-top-5); beats that are dropped
+// before a begin_frame (M-top-6) and by CONTROL (M-top-7), at once (M-top-8); verdicts in the model's cycles (M-top-3).
 TEST_P(DirectedRefusals, StreamsThatBreakARuleAreRefusedAsTheModelRefusesThem) {
   const auto config = driver::load_config(GetParam());
   const auto result = check_refusals(config, rtl_of(config));
@@ -176,6 +191,7 @@ TEST_P(DirectedRefusals, DamagedStreamsMeetTheModelsVerdict) {
 /// What differs between configurations is not what a reset clears; the largest takes seconds.
 class DirectedResets : public ::testing::TestWithParam<const char*> {};
 
+// One clock edge, in the middle of any work, clears all of it (M-reset-1, M-reset-2).
 TEST_P(DirectedResets, OfOneCycleForgetAnyRecord) {
   const auto config = driver::load_config(GetParam());
   expect_all(check_short_resets(config, rtl_of(config)));

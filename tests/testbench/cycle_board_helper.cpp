@@ -57,6 +57,10 @@ struct Checker final : cmodel::TapSink {
     }
     ++result.by_tap[tap];
     ++result.comparisons;
+    // Place and cycle of every event. Of every device: M-reset-5, M-check-4, M-decode-2, M-decode-3, M-path-1,
+    // M-path-2, M-path-3, M-walk-4, M-slices-1, M-pipe-1; of some: M-weights-1, M-ellipse-1, M-ellipse-2, M-sample-3,
+    // M-hazard-3.
+    // Each tap in its cycle (M-tap-1), of its tile (M-tap-6) and sheet (M-tap-7).
     if (!(queue.front() == rtl)) {
       mismatch(std::string(cmodel::to_string(record.tap)) + ": model " + text_of(queue.front()) + ", RTL " +
                text_of(rtl));
@@ -69,7 +73,8 @@ struct Checker final : cmodel::TapSink {
   }
 };
 
-/// The ideal by its formula, from each sheet's windows and its blocks' slices.
+/// The ideal by its formula, from each sheet's windows and its blocks' slices (M-account-4, M-account-5), of densities
+/// from its walk (M-density-21).
 struct Ideal final : cmodel::CycleSink {
   Ideal(const cmodel::Config& config, std::span<const cmodel::Beat> beats)
       : slices_(static_cast<std::uint64_t>(config.slices())), steps_(std::max<std::uint64_t>(5, slices_)) {
@@ -86,7 +91,7 @@ struct Ideal final : cmodel::CycleSink {
     cycles += std::max(sheet.windows, picks_before_);
     picks_before_ = sheet.blocks * slices_;
     if (!densities_.contains(sheet.tile)) return;
-    // Copied, a cycle later the sheet before is classified.
+    // Copied, a block a cycle (M-density-6); a cycle later the sheet before is classified (M-density-14).
     picks_before_ = waits_ ? std::max<std::uint64_t>(sheet.blocks, 1) + 1 + classified(*waits_) : sheet.blocks;
     waits_ = sheet.blocks;
   }
@@ -97,6 +102,7 @@ struct Ideal final : cmodel::CycleSink {
   }
 
  private:
+  /// D cycles a block (M-density-10).
   std::uint64_t classified(std::uint64_t blocks) const { return std::max<std::uint64_t>(blocks * steps_, 1); }
 
   std::uint64_t slices_, steps_, picks_before_ = 0;
@@ -157,7 +163,7 @@ CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmo
                            {.input = &input,
                             .output = &output,
                             .first_beat = rtl->cycles(),
-                            .sliced = rtl->sliced(),
+                            .sliced = rtl->sliced(),  // M-top-1, M-top-2
                             .taps = &expected,
                             .spans = &ideal,
                             .culls = &culls});
@@ -173,6 +179,7 @@ CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmo
   result.account = model.account();
   result.stalls = model.stalls();
   result.counters = model.counters();
+  // M-register-16, M-register-17; busy is M-account-1.
   const cmodel::StallCounters theirs = rtl->cycle_counters();
 #define X(name, counter, meaning) checker.equal(#counter, config.counter_word(model.stalls().name), theirs.name);
   FASTSPLAT_STALL_COUNTERS(X)
@@ -184,6 +191,7 @@ CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmo
   checker.equal("windows", config.counter_word(model.counters().windows), counts.windows);
   checker.equal("cull blocks", config.counter_word(model.counters().cull_blocks), counts.cull_blocks);
   checker.equal("dirty blocks", config.counter_word(model.counters().dirty_blocks), counts.dirty_blocks);
+  // M-account-2
   checker.equal("sum of the account", model.account().total(), model.stalls().busy);
   checker.equal("ideal of the account", model.account().ideal, ideal.cycles);
   return result;

@@ -123,9 +123,9 @@ TEST_P(EachConfig, IdenticalCentresTakeOneCycleEach) {
   model.finish();
   for (const Span& span : {rtl_span, model_span}) {
     ASSERT_EQ(span.count, static_cast<std::uint64_t>(kSplats));
-    EXPECT_EQ(span.last - span.first + 1, span.count);
+    EXPECT_EQ(span.last - span.first + 1, span.count);  // a window a cycle at one place (M-path-1, M-forward-3)
   }
-  // docs/microarchitecture.md, "Account": frame, tables, then the formula of a tile that never waits for a buffer.
+  // Frame, tables, then the formula of a tile that never waits for a buffer (M-account-6).
   const auto table_words = static_cast<std::uint64_t>(config().lanes) * static_cast<std::uint64_t>(config().phases) +
                            static_cast<std::uint64_t>(config().radial_entries) +
                            static_cast<std::uint64_t>(config().opacity_segments) + 1;
@@ -136,15 +136,15 @@ TEST_P(EachConfig, IdenticalCentresTakeOneCycleEach) {
   std::printf("[figure] %s busy cycles = %llu, by hand %llu\n", GetParam().c_str(),
               static_cast<unsigned long long>(model.stalls().busy), static_cast<unsigned long long>(by_hand));
   EXPECT_EQ(model.stalls().busy, by_hand);
-  EXPECT_EQ(rtl->cycle_counters().busy, by_hand);
-  EXPECT_EQ(model.account().drain, 17U);
+  EXPECT_EQ(rtl->cycle_counters().busy, by_hand);  // M-account-1
+  EXPECT_EQ(model.account().drain, 17U);  // M-account-4
 
   const double rate = static_cast<double>(rtl_span.count) / static_cast<double>(rtl_span.last - rtl_span.first + 1);
   std::printf("[figure] %s windows per cycle at identical centres = %.3f (limit 1.000)\n", GetParam().c_str(), rate);
   RecordProperty("windows_per_cycle", std::to_string(rate));
 }
 
-// docs/microarchitecture.md, "Account": from how many windows a sheet on begin_sheet never waits for a buffer.
+// From how many windows a sheet on begin_sheet never waits for a buffer (M-account-6).
 TEST_P(EachConfig, SheetsOfNineWindowsMoreThanBlocksNeverWait) {
   constexpr std::uint64_t kSheets = 6;
   const std::int32_t centre = (config().tile_width / 2) << config().position_frac_bits;
@@ -169,6 +169,7 @@ TEST_P(EachConfig, SheetsOfNineWindowsMoreThanBlocksNeverWait) {
               static_cast<unsigned long long>(enough.stalls.stall_buffer),
               static_cast<unsigned long long>(short_of_one.stalls.stall_buffer));
   EXPECT_EQ(enough.mismatches + short_of_one.mismatches, 0U) << enough.first << short_of_one.first;
+  // begin_sheet of s+2 waits until the last block of s was picked, and no longer (M-decode-5, M-pipe-2).
   EXPECT_EQ(enough.stalls.stall_buffer, 0U);
   EXPECT_GT(short_of_one.stalls.stall_buffer, 0U);
 }

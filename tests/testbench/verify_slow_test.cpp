@@ -25,6 +25,8 @@ struct Pixels final : cmodel::PixelSink {
   void on_tile(cmodel::TilePixels&& tile) override { words.insert(words.end(), tile.words.begin(), tile.words.end()); }
 };
 
+// Every word of every tap at its bits (M-port-2, M-tap-2, M-tap-3, M-tap-5) and of every pixel (M-port-5), of devices
+// of three widths; a verdict of them would be a mismatch (M-port-9).
 TEST_P(Rtl, WholeFramesEqualTheModelOnEveryTap) {
   struct Frame {
     scene::Method method;
@@ -67,6 +69,7 @@ TEST_P(Rtl, RandomStreamsEqualTheModelUnderEveryReadyPattern) {
               static_cast<unsigned long long>(result.total.check.cycles_rtl.value_or(0)));
 }
 
+// Power-up with any words, and a reset in the middle of work, are the same (M-reset-1): memories are wiped (M-reset-4).
 TEST_P(Rtl, ResetFillsAndPatternsNeverChangeAPixel) {
   const auto config = options().config;
   const auto source = source_of(write_document(config, make_stimulus(config, StimulusClass::Mixed, 9, 300).document));

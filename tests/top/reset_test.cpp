@@ -61,6 +61,8 @@ std::uint64_t reset_in_cycles(TopRun run, std::uint64_t from, std::uint64_t step
   }
 }
 
+// In any cycle of a frame (M-check-10, M-check-11); what the source still sends of it is dropped (M-check-14).
+// CONTROL's bits 1 and 2 (M-register-6, M-top-7), together and bit 1 alone.
 TEST(Top, TheNextFrameIsWholeBehindASoftReset) {
   std::uint64_t resets = 0, words = 0;
   for (const char* sink : {"always", "random-30", "burst-90"})
@@ -74,6 +76,7 @@ TEST(Top, TheNextFrameIsWholeBehindASoftReset) {
   EXPECT_GT(words, 1000U);
 }
 
+// M-top-9.
 TEST(Top, AWriteOfSomeBytesResetsNothing) {
   const auto beats = frame(3);
   const Tiles wanted = tiles_of(beats);
@@ -91,6 +94,7 @@ TEST(Top, AWriteOfSomeBytesResetsNothing) {
 }
 
 // The source goes on where it was: what is left of its frame is no frame.
+// Its beats are dropped without an error, up to the next begin_frame (M-check-14, M-top-6).
 TEST(Top, TheNextFrameIsFoundBehindAHardReset) {
   std::uint64_t resets = 0, words = 0;
   constexpr std::uint64_t kBegun = 320;  // cycles: memories are wiped, begin_frame is taken

@@ -1,5 +1,5 @@
 // The plain device model: windows per second of each configuration, nanoseconds per composited pixel, beats per second
-// of the stream decoder. Ratios within one run mean something; absolute times belong to the machine.
+// of the stream decoder. Only ratios within one run are meaningful; absolute times depend on the machine.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 using cmodel::Beat;
 using cmodel::Config;
 
-/// Numbers without a seed or a clock: the same stream every time.
+/// Pseudo-random numbers with a fixed seed: the same stream every time.
 class Sequence {
  public:
   std::uint32_t below(std::uint32_t n) {
@@ -29,7 +29,7 @@ class Sequence {
   std::uint64_t state_ = 1;
 };
 
-/// One full tile of `sheets` sheets with `splats` each, anywhere on it; radius so wide that the footprint fills one
+/// One full tile of `sheets` sheets with `splats` each at random positions; the footprint's radius just fills one
 /// window.
 std::vector<Beat> one_window_stream(const Config& config, int sheets, int splats) {
   const double radius = (config.lanes - 0.5) / 2;
@@ -41,7 +41,7 @@ std::vector<Beat> one_window_stream(const Config& config, int sheets, int splats
   append(beats, cmodel::BeginTile{.width = config.tile_width, .height = config.tile_height});
   Sequence sequence;
   std::uint32_t tag = 0;
-  // Dim: a pixel that freezes or saturates would take another path than the usual one.
+  // Dim, because terminated or saturated pixels take an unusual path.
   const std::uint32_t brightest = (1U << config.colour_frac_bits) / 16;
   for (int sheet = 0; sheet < sheets; ++sheet) {
     append(beats, cmodel::BeginSheet{static_cast<std::uint32_t>(sheet)});
@@ -88,7 +88,7 @@ void composite_pixels(benchmark::State& state, const std::string& name, cmodel::
   cmodel::Counters counters;
   cmodel::Counting observer{counters};
   Sequence sequence;
-  // So thin that no pixel freezes within the sheets of one round.
+  // So transparent that no pixel terminates within the sheets of one round.
   std::vector<cmodel::SheetWord> sums(4096);
   for (auto& word : sums)
     for (auto& sum : word) sum = sequence.below(1 + (1U << config.sheet_frac_bits) / 64);
@@ -117,7 +117,7 @@ void decode_beats(benchmark::State& state, cmodel::StreamScope scope) {
       static_cast<double>(state.iterations()) * static_cast<double>(beats.size()), benchmark::Counter::kIsRate);
 }
 
-/// Before main, so that every built-in configuration has its own line.
+/// Runs before main, so that every built-in configuration has its own line.
 const bool kRegistered = [] {
   for (const std::string& name : driver::config_names())
     benchmark::RegisterBenchmark(("windows/" + name).c_str(), splat_windows, name)->Unit(benchmark::kMillisecond);

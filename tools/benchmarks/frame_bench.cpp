@@ -1,6 +1,6 @@
-// Whole frames, and rows of footprints: the fast unit beside the plain one, in one run. The head is Debian's
-// (mricron-data); without it those lines are missing. Ratios within one run mean something; tools/performance makes
-// docs/performance.md of them.
+// Whole frames, and rows of footprints: the fast unit beside the plain one, in one run. The head is from Debian
+// (mricron-data); without it those lines are missing. Only ratios within one run are meaningful. tools/performance
+// makes docs/performance.md from them.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
@@ -44,7 +44,7 @@ void golden_frame(benchmark::State& state, int size, scene::Method method, bool 
   state.counters["hidden"] = static_cast<double>(report.hidden_footprints);
 }
 
-/// Before main. Names are unit/what/configuration: the table looks for them.
+/// Runs before main. docs/performance.md finds lines by these names: unit/what/configuration.
 const bool kRegistered = [] {
   using driver::Unit;
   const auto frame = [](const std::string& name, const std::string& volume, int size, const std::string& config,

@@ -1,4 +1,4 @@
-// How a frame's time grows with its splats, and what opaque volumes save: frames of the fast unit, one thread.
+// Growth of frame time with splats, and savings by early termination on opaque volumes: fast unit, one thread.
 #include <benchmark/benchmark.h>
 
 #include <map>
@@ -31,8 +31,8 @@ void growth(benchmark::State& state, int side) {
   frame(state, bench::scene_of("shells:" + std::to_string(side), 512), driver::load_config("base"));
 }
 
-/// The fast unit has no switch: a device that freezes no pixel hides no splat. Its picture differs in its last words,
-/// by what lies behind a transmittance of 2^-10; where nothing is hidden it is the same.
+/// The fast unit has no switch for this; a device without early termination hides no splat. Its picture differs in its
+/// last words, by what lies behind a transmittance of 2^-10; it is equal if nothing is hidden.
 void freezing(benchmark::State& state, const std::string& volume, const std::string& transfer_function,
               double opacity_scale, bool on) {
   static std::map<std::string, scene::Scene> scenes;
@@ -46,7 +46,7 @@ void freezing(benchmark::State& state, const std::string& volume, const std::str
   frame(state, found->second, on ? driver::load_config("base") : never_frozen());
 }
 
-/// Before main. Names are what/which/configuration: the table looks for them.
+/// Runs before main. docs/performance.md finds lines by these names: what/which/configuration.
 const bool kRegistered = [] {
   const auto line = [](const std::string& name, auto run, auto... with) {
     benchmark::RegisterBenchmark(name.c_str(), run, with...)

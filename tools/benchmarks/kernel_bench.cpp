@@ -1,4 +1,4 @@
-// The row kernel alone, against what the first-level cache allows: footprints of 7 pixels in words of 16 bits, that is
+// The row kernel alone, compared with the bound of the first-level cache: footprints of 7 pixels in 16-bit words, i.e.
 // 7 rows of 64 bytes each.
 #include <benchmark/benchmark.h>
 
@@ -15,7 +15,7 @@ namespace {
 using bench::Order;
 
 constexpr int kExtent = 7;
-constexpr std::size_t kJobs = 256;  ///< handed on at once, as the fast unit does
+constexpr std::size_t kJobs = 256;  ///< splats per call, as in the fast unit
 
 std::vector<cmodel::fast::SplatJob> jobs_of(const bench::Rows& rows, const cmodel::fast::FrameTables& tables) {
   cmodel::NullPixels nowhere;
@@ -34,7 +34,7 @@ std::vector<cmodel::fast::SplatJob> jobs_of(const bench::Rows& rows, const cmode
   return jobs;
 }
 
-/// Words stop at their end after some rounds, which takes no longer.
+/// Words saturate after some rounds, which takes no longer.
 void kernel(benchmark::State& state, Order order) {
   const bench::Rows rows("compact", kExtent, order);
   const auto tables = cmodel::fast::frame_tables(rows.config, rows.preamble);
@@ -51,8 +51,8 @@ void kernel(benchmark::State& state, Order order) {
   bench::count_splats(state, jobs.size());
 }
 
-/// As many rows, beginning at the same places within a line of the cache, but so that none waits for another: the next
-/// footprint lies beside, not upon the last.
+/// The same number of rows at the same offsets within a cache line, but without waiting for each other: each footprint
+/// lies beside the previous one, not over it.
 void bound(benchmark::State& state) {
   const bench::Rows rows("compact", kExtent, Order::Slice);
   constexpr std::size_t kBands = 4, kAcross = 6;  // 576 bytes x 32 rows: under 20 KB

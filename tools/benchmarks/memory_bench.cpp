@@ -1,4 +1,4 @@
-// How much memory a frame takes at its greatest: the peak of this process, which draws nothing else.
+// Peak memory of a frame: that of this process, which renders nothing else.
 #include <benchmark/benchmark.h>
 
 #include <fstream>

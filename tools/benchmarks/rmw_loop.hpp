@@ -1,4 +1,4 @@
-// The least that adding footprints can cost: their rows read, changed and written, in the first-level cache.
+// Lower bound for adding footprints: their rows are read, changed and written in the first-level cache.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,10 @@
 
 namespace fastsplat::bench {
 
-/// Reads, changes and writes `rows` rows of 64 bytes, kRmwRow bytes apart, from each place on: with the vectors that
-/// the row kernel has on this processor. A place and what follows it lie inside `memory`.
+/// From each place on, reads, changes and writes `rows` rows of 64 bytes, kRmwRow bytes apart, with the vectors that
+/// the row kernel uses on this processor. All rows must lie inside `memory`.
 void rmw(std::span<const std::uint32_t> places, std::size_t rows, std::uint16_t* memory);
 
-inline constexpr std::size_t kRmwRow = 576;  ///< bytes: no two rows of a place fall on the same lines of the cache
+inline constexpr std::size_t kRmwRow = 576;  ///< bytes: no two rows of a place share cache lines
 
 }  // namespace fastsplat::bench

@@ -1,4 +1,4 @@
-// The two units on a tile full of splats: what is timed.
+// The timed functions: both units on a tile full of splats.
 #pragma once
 
 #include <benchmark/benchmark.h>

@@ -1,4 +1,4 @@
-// A tile full of splats of one size: what the kernels are timed with.
+// A tile full of splats of one size, for timing kernels.
 #pragma once
 
 #include <cmath>
@@ -17,13 +17,14 @@ namespace fastsplat::bench {
 
 inline constexpr std::uint32_t kRowsSplats = 20000;
 
-/// Where one splat lies after the other.
+/// Order of the splats' positions.
 enum class Order {
-  Anywhere,  ///< by chance: rows of the sheet come from the second-level cache
-  Slice,     ///< as a volume's slice, turned by 0.3 rad, is traversed: neighbours overlap
+  Anywhere,  ///< random: rows of the sheet come from the second-level cache
+  Slice,     ///< traversal of a volume's slice, rotated by 0.3 rad: neighbours overlap
 };
 
-/// A turned grid of splats, row by row and again from its first: `spacing` pixels apart, in a square of `side` pixels.
+/// A rotated grid of splats, `spacing` pixels apart, in a square of `side` pixels; row by row, then from the start
+/// again.
 class TurnedGrid {
  public:
   TurnedGrid(double side, double spacing) : side_(side), spacing_(spacing) {}
@@ -49,7 +50,7 @@ struct Rows {
   std::vector<cmodel::Beat> preamble, tile;
   std::vector<cmodel::SplatRecord> records;
 
-  /// Splats `extent` pixels wide, inside the tile, no colour above 1/`dimmed`: at 512 no sum is cut.
+  /// Splats `extent` pixels wide, inside the tile, with colours up to 1/`dimmed`; at 512 no sum saturates.
   Rows(const std::string& name, int extent, Order order = Order::Anywhere, std::uint32_t splats = kRowsSplats,
        std::uint32_t dimmed = 512)
       : config(driver::load_config(name)) {
@@ -67,7 +68,7 @@ struct Rows {
     const auto side = static_cast<std::uint32_t>(config.tile_width - extent) << config.position_frac_bits;
     const std::int32_t first = (extent / 2) << config.position_frac_bits;
     const auto brightest = static_cast<std::uint32_t>(config.colour_format().max);
-    // Four splats to a footprint's width, as a kernel of radius 2 has it.
+    // Four splats per footprint width, as for a kernel of radius 2.
     TurnedGrid grid(config.tile_width - extent, (extent - 1) / 4.0);
     for (std::uint32_t i = 0; i < splats; ++i) {
       cmodel::SplatRecord splat{.tag = i, .x = first, .y = first};

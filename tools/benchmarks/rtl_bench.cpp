@@ -1,6 +1,6 @@
-// The Verilated device of each configuration on a scene's stream: clock cycles per second of the plain simulation
-// (no assertions, no checker), and beside it in the same run what the checks cost and how much faster the cycle model
-// is. Best of all iterations, by processor time: a ratio then means something on a machine that others use, too.
+// The Verilated device of each configuration on a scene's stream: clock cycles per second of the plain simulation (no
+// assertions, no checker) and, in the same run, the cost of the checks and the speed-up of the cycle model. Takes the
+// best processor time of all iterations, so that ratios are meaningful on a shared machine.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ double processor_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Two shells with default transfer function and kernel: dense sheets, as a driver sends them.
+/// Two shells with default transfer function and kernel: dense sheets, as sent by a driver.
 std::vector<cmodel::Beat> scene_stream(const cmodel::Config& config) {
   scene::SceneDescription description;
   description.volume = "shells:24";

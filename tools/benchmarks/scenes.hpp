@@ -1,4 +1,4 @@
-// What the benchmarks draw: a head that Debian has (mricron-data), and volumes made here. Scenes are read once.
+// Scenes of the benchmarks: a head from Debian (mricron-data), and generated volumes. Each is read once.
 #pragma once
 
 #include <map>
@@ -19,7 +19,7 @@ inline scene::SceneDescription description_of(const std::string& volume, int siz
   return description;
 }
 
-/// Kept until the program ends: frames are what is measured.
+/// Cached until the program ends, because only frames are measured.
 inline const scene::Scene& scene_of(const std::string& volume, int size) {
   static std::map<std::pair<std::string, int>, scene::Scene> scenes;
   const auto found = scenes.find({volume, size});

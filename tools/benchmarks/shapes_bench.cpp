@@ -1,5 +1,5 @@
-// Whole frames of what is not circles in sheets, the fast unit beside the plain one: a head in perspective with
-// ellipses, the same with every sample composited, and 3-D Gaussians. As frame_bench.cpp, whose head it is.
+// Whole frames of other shapes than circles in sheets, the fast unit beside the plain one: frame_bench.cpp's head in
+// perspective with ellipses, the same with every sample composited, and 3-D Gaussians.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
@@ -38,7 +38,7 @@ void head(benchmark::State& state, scene::Method method, driver::Unit unit) {
   count(state, frame.counters, frame.units);
 }
 
-/// 100,000 at 1920 x 1080, projected before: what the device does, and its records.
+/// 100,000 Gaussians at 1920 x 1080, projected beforehand: times the device and its records.
 void gaussians(benchmark::State& state, const std::string& cloud, driver::Unit unit) {
   scene::GaussianDescription description;
   description.width = 1920, description.height = 1080;
@@ -52,7 +52,7 @@ void gaussians(benchmark::State& state, const std::string& cloud, driver::Unit u
   count(state, drawn.counters, drawn.units);
 }
 
-/// Before main. Names are unit/what/configuration: the table looks for them.
+/// Runs before main. docs/performance.md finds lines by these names: unit/what/configuration.
 const bool kRegistered = [] {
   using driver::Unit;
   const auto line = [](const std::string& name, auto run, auto what) {

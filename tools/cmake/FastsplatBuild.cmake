@@ -1,4 +1,4 @@
-# Build settings shared by every target; nothing here is global except the language level.
+# Build settings shared by all targets; only the language level is global.
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -18,11 +18,11 @@ option(FASTSPLAT_FUZZ "The fuzz targets of tests/fuzz and all they call, under l
 
 find_program(FASTSPLAT_CCACHE ccache)
 if(FASTSPLAT_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # The sloppiness is what ccache asks for before it will cache anything that has precompiled headers.
+  # ccache requires this sloppiness to cache anything with precompiled headers.
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${FASTSPLAT_CCACHE})
 endif()
 
-# Warnings, sanitizers and the include root; every first-party target links it.
+# Warnings, sanitizers and the include root; all first-party targets link it.
 add_library(fastsplat_settings INTERFACE)
 target_include_directories(fastsplat_settings INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
 target_compile_options(fastsplat_settings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
@@ -31,7 +31,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   target_compile_options(fastsplat_settings INTERFACE -Wno-restrict)
 endif()
 if(FASTSPLAT_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  # Says of each class that it lies in an included file, which the sources of a batch are.
+  # In a unity build it warns about every class, because the sources are included files.
   target_compile_options(fastsplat_settings INTERFACE -Wno-subobject-linkage)
 endif()
 if(FASTSPLAT_WERROR)
@@ -48,20 +48,20 @@ if(FASTSPLAT_ASAN)
   target_link_options(fastsplat_settings INTERFACE -fsanitize=address,undefined)
 endif()
 
-# Floating-point code: no contraction, so that the compiler rounds each operation once, as it is written. The C library's
-# exp, erf and the like may still differ in the last bit from processor to processor (docs/decisions.md, 28).
+# Floating-point code: no contraction, so that each operation is rounded once, as written. The C library's exp, erf and
+# similar functions may still differ in the last bit between processors (docs/decisions.md, 28).
 add_library(fastsplat_strict_float INTERFACE)
 target_compile_options(fastsplat_strict_float INTERFACE -ffp-contract=off)
 
-# fastsplat_library(<name> [FOLDERS <sub-folders...>] DEPENDS <targets...>): every .cpp of the folder, and of the
-# sub-folders named, becomes libfastsplat_<name>.
+# fastsplat_library(<name> [FOLDERS <sub-folders...>] DEPENDS <targets...>): builds libfastsplat_<name> from all .cpp of
+# the folder and of the named sub-folders.
 function(fastsplat_library name)
   cmake_parse_arguments(arg "" "" "FOLDERS;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   list(TRANSFORM arg_FOLDERS REPLACE "(.+)" "${CMAKE_CURRENT_SOURCE_DIR}/\\1/*.cpp")
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${arg_FOLDERS})
   add_library(fastsplat_${name} STATIC ${sources})
-  # Sixteen sources are compiled as one: headers are most of what a compiler reads, and their templates of what it makes.
-  # Vector kernels stay alone: Highway includes them once for each instruction set.
+  # Compiles sixteen sources as one, because headers and their templates dominate compile time. Vector kernels stay
+  # separate: Highway includes them once per instruction set.
   foreach(source ${sources})
     file(STRINGS ${source} kernel REGEX "define HWY_TARGET_INCLUDE")
     if(kernel)
@@ -72,8 +72,8 @@ function(fastsplat_library name)
   target_link_libraries(fastsplat_${name} PUBLIC fastsplat_settings ${arg_DEPENDS} PRIVATE ${arg_PRIVATE_DEPENDS})
 endfunction()
 
-# fastsplat_shareable(<libraries...>): may be linked into libfastsplat as well (testbench/capi/). Hidden, or the compiler would not
-# inline what another library could replace.
+# fastsplat_shareable(<libraries...>): libraries that libfastsplat (testbench/capi/) may link as well. Symbols are hidden, because
+# otherwise the compiler could not inline functions that another library may replace.
 function(fastsplat_shareable)
   set_target_properties(${ARGN} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 endfunction()

@@ -1,9 +1,9 @@
-# The RTL with line coverage and cover points counted. Built only for the program that closes coverage (`tools/coverage`).
+# The RTL with line coverage and cover points. Built only for the program that closes coverage (`tools/coverage`).
 #   tiny      the smallest named configuration
-#   mustfail  what tiny does not have: centres that are rounded, two radius sets, early freezing
-#   westover  what neither has: every sample composited
-#   cull      what none of these has: hidden splats left out
-#   post      nor of those: weights between entries of the radial table, densities that are classified by pixel
+#   mustfail  adds rounded centres, two radius sets, early termination
+#   westover  adds compositing of every sample
+#   cull      adds occlusion culling
+#   post      adds weights between entries of the radial table, densities classified by pixel
 set(FASTSPLAT_COVERED_CONFIGS tiny mustfail westover cull post)
 set(declarations "")
 set(entries "")

@@ -1,5 +1,5 @@
-# fastsplat_fault_package(<list> <package>): <package>, generated now: the faults of <list>, lines FAULT(NAME, ...), by the number of the line, how many
-# they are, and the one that is selected (rtl/fault.svh).
+# fastsplat_fault_package(<list> <package>): generates <package> at configure time: the number of each FAULT(NAME, ...) line of
+# <list>, their count, and the selected one (rtl/fault.svh).
 function(fastsplat_fault_package list package)
   file(STRINGS ${list} lines REGEX "^FAULT\\(")
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${list})

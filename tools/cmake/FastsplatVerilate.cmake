@@ -1,12 +1,12 @@
-# Verilates rtl/ into a program: what tests and tools simulate that is no module of a configuration (testbench/device/rtl_module.hpp).
-# Verilator runs at build time, after the package of the configuration was generated.
+# Verilates rtl/ into a program, for tests and tools that simulate other RTL than a configuration's module (testbench/device/rtl_module.hpp).
+# Verilator runs at build time, after the configuration's package is generated.
 find_program(VERILATOR verilator REQUIRED)
 execute_process(COMMAND ${VERILATOR} --getenv VERILATOR_ROOT OUTPUT_VARIABLE VERILATOR_ROOT OUTPUT_STRIP_TRAILING_WHITESPACE)
 if(NOT EXISTS ${VERILATOR_ROOT}/include/verilated.cpp)
   set(VERILATOR_ROOT /usr/share/verilator)
 endif()
 
-# The simulator's own runtime, shared by all configurations.
+# The simulator's runtime, shared by all configurations.
 find_package(Threads REQUIRED)
 add_library(verilated_runtime STATIC ${VERILATOR_ROOT}/include/verilated.cpp ${VERILATOR_ROOT}/include/verilated_threads.cpp
                                       ${VERILATOR_ROOT}/include/verilated_cov.cpp
@@ -19,10 +19,10 @@ target_compile_options(verilated_runtime PRIVATE -w -include ${PROJECT_SOURCE_DI
 target_link_libraries(verilated_runtime PUBLIC Threads::Threads)
 
 # fastsplat_verilate(<target> <config> [ASSERT] [DEFINES ...] [SOURCES ...] [ARGS ...]): library <target> with class Vfs_<target>
-# and its headers. <config> names a file of configs/ or is the path of one. DEFINES and SOURCES are of the must-fail build (rtl/fault.svh); release builds have none.
+# and its headers. <config> is a name in configs/ or a path. DEFINES and SOURCES are for the must-fail build (rtl/fault.svh); release builds have none.
 # ASSERT: checks the assertions of rtl/.
-# RTL <folder>: the source is there, generated from rtl/ (tests/mutants); QUICK: compiled rather than run quickly.
-# TOP <module>: another one than the device, fastsplat_core. NETLIST <kind>: not the source but what Yosys makes of it (tools/cmake/netlist.sh); CUT <net>: with that net tied to 0.
+# RTL <folder>: uses the source generated from rtl/ there (tests/mutants). QUICK: favours compile time over simulation speed.
+# TOP <module>: another top module than fastsplat_core. NETLIST <kind>: simulates Yosys' netlist (tools/cmake/netlist.sh); CUT <net>: ties that net to 0.
 function(fastsplat_verilate target config)
   cmake_parse_arguments(arg "ASSERT;QUICK" "NETLIST;CUT;RTL;TOP" "DEFINES;SOURCES;ARGS" ${ARGN})
   set(abilities "")
@@ -38,14 +38,14 @@ function(fastsplat_verilate target config)
   set(top fastsplat_core)
   if(arg_TOP)
     set(top ${arg_TOP})
-    list(APPEND warnings -Wno-UNUSEDPARAM)  # a unit needs some of the package
+    list(APPEND warnings -Wno-UNUSEDPARAM)  # a unit uses only parts of the package
   endif()
   if(arg_RTL)
     list(FILTER RTL_SOURCES EXCLUDE REGEX "/fastsplat_(fetch|queue).sv")  # beside the device
     list(TRANSFORM RTL_SOURCES REPLACE "^.*/" "${arg_RTL}/")
     set(RTL_INCLUDES ${arg_RTL}/mutants.json)
     set(rtl_folder ${arg_RTL})
-    # What is wrong on purpose is not what a warning is for.
+    # Mutants are wrong on purpose; warnings are useless.
     set(warnings -Wno-lint -Wno-fatal)
   endif()
   if(arg_QUICK)
@@ -62,7 +62,7 @@ function(fastsplat_verilate target config)
   add_custom_command(
     OUTPUT ${package}
     COMMAND fastsplat_emit_package ${file} > ${package}.new
-    COMMAND ${CMAKE_COMMAND} -E copy_if_different ${package}.new ${package}  # same numbers: nothing to verilate again
+    COMMAND ${CMAKE_COMMAND} -E copy_if_different ${package}.new ${package}  # unchanged: nothing to verilate again
     DEPENDS fastsplat_emit_package ${file}
     COMMENT "Package of configuration ${config}")
   set(defines "")
@@ -72,9 +72,9 @@ function(fastsplat_verilate target config)
   set(sources ${package} ${arg_SOURCES} ${RTL_SOURCES})
   if(arg_NETLIST)
     set(sources ${folder}/netlist.v)
-    # Yosys' Verilog compares and assigns across widths wherever the language lets it.
+    # Yosys' Verilog mixes widths wherever the language allows it.
     set(warnings -Wno-lint -Wno-fatal)
-    # Cells are half a million lines of C++, simulated for seconds.
+    # The cells are half a million lines of C++, simulated for seconds only.
     if(arg_NETLIST STREQUAL "ice40")
       set(optimise -O0)
     endif()

@@ -1,15 +1,15 @@
 #!/bin/sh
-# netlist.sh KIND RTL_DIR PACKAGE OUT [NET]: the device as Yosys understands it, as one Verilog file with the same ports.
+# netlist.sh KIND RTL_DIR PACKAGE OUT [NET]: writes the device as read by Yosys to one Verilog file with the same ports.
 #   rtl    read, elaborated, flattened, optimised; memories stay memories
-#   ice40  mapped to iCE40 cells (hierarchy kept), each cell then written as what Yosys' own model of it says: the table of a LUT, a
-#          carry, a register; block RAMs stay modules. Registers hold anything at power-up, as in rtl/.
-# NET (of kind rtl) is tied to 0: a netlist that is wrong.
+#   ice40  mapped to iCE40 cells (hierarchy kept), each cell then replaced by Yosys' own model of it: a LUT's table, a carry,
+#          a register; block RAMs stay modules. Registers power up with any value, as in rtl/.
+# NET (for kind rtl) is tied to 0, which makes a wrong netlist.
 set -eu
 kind=$1 rtl=$2 package=$3 out=$4 net=${5-}
 log=$out.log
 map=$out.map
 cells="$(dirname "$(command -v yosys)")/../share/yosys/ice40/cells_sim.v"
-# The models of the modules that PATTERN names; without ports' defaults and first values of registers.
+# models PATTERN: the models of these modules, without default values of ports and initial values of registers.
 models() {
   for value in 0 1 'V(v)'; do printf '`define ICE40_DEFAULT_ASSIGNMENT_%s\n' "$value"; done
   awk -v pattern="^module $1" '/^\(\*/ { next } $0 ~ pattern { on = 1 } /`SB_DFF_INIT/ { next } on { print } /^endmodule/ { on = 0 }' "$cells"
@@ -22,14 +22,14 @@ case $kind in
       printf '  \\$lut #(.WIDTH(4), .LUT(LUT_INIT)) lut (.A({I3, I2, I1, I0}), .Y(O));\nendmodule\n'
       models 'SB_(CARRY|DFF)'
     } >"$map"
-    # A net is a bit of its own: a carry chain along a vector would be a circle to Verilator.
+    # Splits nets into bits: Verilator would see a carry chain along a vector as a loop.
     passes="synth_ice40 -noflatten -top fastsplat_core; techmap -autoproc -map $map; opt_clean; splitnets; opt_clean" ;;
   *) echo "netlist.sh: unknown kind $kind (rtl, ice40)" >&2; exit 2 ;;
 esac
 yosys -q -l "$log" -p "read_verilog -sv -I$rtl $package $rtl/*.sv $rtl/*/*.sv; hierarchy -check -top fastsplat_core; $passes; write_verilog -noattr $out.new" >/dev/null 2>&1 ||
   { tail -20 "$log" >&2; echo "netlist.sh: Yosys fails" >&2; exit 1; }
 if [ -n "$net" ]; then
-  # A net is assigned once, as a whole.
+  # The net must be assigned exactly once, as a whole.
   awk -v net="\\$net" '$1 == "assign" && $2 == net { print "  assign " net " = 1'"'"'b0;"; ++cut; next } { print }
        END { if (cut != 1) { print "netlist.sh: " net " is assigned " cut + 0 " times" >"/dev/stderr"; exit 1 } }' "$out.new" >"$out.cut"
   mv -- "$out.cut" "$out.new"

@@ -1,5 +1,5 @@
-# What the tools of maintainers share: each is a script of its own that begins with its help and sources this file.
-# Here are the functions of `run` (packages, build, messages), and what several tools do.
+# Shared by the maintainers' tools: each is a script that begins with its help text and sources this file. Provides the
+# functions of `run` (packages, build, messages) and those used by several tools.
 source "$(dirname -- "${BASH_SOURCE[0]}")/../../run"
 tool=${0##*/}
 needs+=(rtl tests)
@@ -8,7 +8,7 @@ for argument in "$@"; do
   case $argument in -h | --help) sed -n '2,/^[^#]/s/^# //p' "$0"; exit 0 ;; esac
 done
 
-# expect_names WHAT "KNOWN..." WHERE NAME...: where they are all told, if that is too much for a line
+# expect_names WHAT "KNOWN..." WHERE NAME...: fails on unknown names. WHERE: file that lists the known ones, if they are too many for a line
 expect_names() {
   local what=$1 known=$2 where=$3 name
   shift 3
@@ -24,7 +24,7 @@ expect_benchmark_flags() {
   done
 }
 
-# benchmark NAME [FLAGS]: repetitions interleaved at random, as JSON that is kept.
+# benchmark NAME [FLAGS]: runs repetitions, randomly interleaved, and keeps the JSON.
 benchmark() {
   local name="$1"
   shift
@@ -32,7 +32,7 @@ benchmark() {
     --benchmark_out="$build/$name.json" --benchmark_out_format=json "$@" >&2
 }
 
-# page NAME JSON...: docs/NAME.md.
+# page NAME JSON...: generates docs/NAME.md.
 page() {
   local name="$1"
   shift
@@ -41,13 +41,13 @@ page() {
   say "docs/$name.md; figures from $*"
 }
 
-# keep_evidence FILE NAME: with its day and the RTL that it is of, as docs/evidence/NAME.json.
+# keep_evidence FILE NAME: adds the date and the hashes of the RTL, and moves it to docs/evidence/NAME.json.
 keep_evidence() {
   python3 -B "$root/tools/helpers/evidence_stamp.py" "$root" "$1"
   mv -- "$1" "$root/docs/evidence/$2.json"
 }
 
-# keep_figures NAME TOOL PROGRAM [TESTS]: runs the test program (those of its tests), keeps what it measured as docs/evidence/NAME.json.
+# keep_figures NAME TOOL PROGRAM [TESTS]: runs (these tests of) the test program and keeps its figures as docs/evidence/NAME.json.
 keep_figures() {
   mkdir -p "$build/evidence"
   "$build/bin/$3" --gtest_filter="${4:-*}" --gtest_output="json:$build/evidence/$1.json" >&2 || fail "$3 failed"

@@ -1,7 +1,7 @@
-"""evidence_stamp.py ROOT [FILE]: of which RTL a figure is, and of which day.
+"""evidence_stamp.py ROOT [FILE]: stamps figures with the date and the RTL.
 
-Without FILE, to standard output: {"date": today, "rtl": {module: hash}} of all of rtl/, where comments and blanks do not count. With FILE,
-an object of docs/evidence: both are written into it. docs/evidence.md says of each what has changed since."""
+Without FILE, prints {"date": today, "rtl": {module: hash}} for all of rtl/; comments and blanks do not count. With FILE, an object of
+docs/evidence, adds both to it. docs/evidence.md names the modules that changed since each figure's stamp."""
 import datetime
 import glob
 import hashlib
@@ -12,7 +12,7 @@ import sys
 
 
 def rtl(root):
-    """A module's name is its file's, without the prefix."""
+    """Hashes by module, named as its file without the prefix."""
     hashes = {}
     for path in glob.glob(f"{root}/rtl/**/*.sv*", recursive=True):
         with open(path) as file:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""FuseSoC's generator of fastsplat_pkg: fusesoc_package.py INSTANCE.yml, called in the folder where its core goes."""
+"""FuseSoC generator of fastsplat_pkg: fusesoc_package.py INSTANCE.yml, called in the folder of the generated core."""
 import os
 import subprocess
 import sys

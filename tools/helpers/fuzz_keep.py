@@ -1,8 +1,8 @@
 """fuzz_keep.py KEPT RESULTS TARGETS TOOL: adds a run of tools/helpers/fuzz_targets to docs/evidence/fuzz.json.
 
-RESULTS has a line a target, as `one` in tools/helpers/fuzz_targets writes it. Processor time and runs add up; edges are the most that a run saw. A target
-with a finding starts again from nothing, the finding beside it until a run has none: what it ran before was of code that is about to change.
-One that was interrupted keeps what it has, one that never ran has nothing, and what TARGETS (targets.def) does not name is forgotten."""
+RESULTS has one line per target, as printed by `one` in tools/helpers/fuzz_targets. Processor time and runs add up; edges are the maximum of all runs.
+A finding resets its target to zero, because the code is about to change, and is kept until a run has none.
+Interrupted targets keep their figures, targets that never ran have zeros, and those not in TARGETS (targets.def) are removed."""
 import datetime
 import json
 import os

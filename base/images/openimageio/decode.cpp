@@ -22,12 +22,12 @@ using OIIO::TypeDesc;
 
 constexpr int kLargestSide = 1 << 16;
 constexpr std::int64_t kMostValues = std::int64_t{1} << 31;
-constexpr std::int64_t kBlockValues = std::int64_t{1} << 22;  // decoded at once: what a lying header can cost
+constexpr std::int64_t kBlockValues = std::int64_t{1} << 22;  // decoded at once: limits the cost of a wrong header
 
-constexpr const char* kUnnamed = "image";  // what the decoders call it; our message names the path
+constexpr const char* kUnnamed = "image";  // name for the decoders; our message gives the path
 constexpr const char* kAgain = "write the file again";
 
-/// Why a picture is not taken; never leaves this file.
+/// Why a picture is refused; caught in this file.
 struct Refused {
   ErrorParts parts;
 };
@@ -118,7 +118,8 @@ class Decoder {
     }
   }
 
-  /// By name, for libraries sort them: R, G, B, A or Y, A, all behind the same prefix. One channel may have any name.
+  /// Finds channels by name, because libraries sort them: R, G, B, A or Y, A after a common prefix. A single channel
+  /// may have any name.
   void find_channels() {
     const auto& names = spec_.channelnames;
     if (names.size() == 1) {
@@ -145,7 +146,7 @@ class Decoder {
            "channels named Y, YA, RGB or RGBA, or a single channel", all, "select or name channels with oiiotool --ch");
   }
 
-  /// What cannot be followed: samples are taken as stored.
+  /// Refuses declarations that would change samples, which are taken as stored.
   void check_declared() {
     if (const int orientation = spec_.get_int_attribute("Orientation", 1); orientation != 1) {
       refuse("the image is stored rotated or mirrored: orientation " + std::to_string(orientation), "1", {},
@@ -156,7 +157,7 @@ class Decoder {
     const bool followed = model.empty() || model == "palette";
     if (!followed || spec_.get_int_attribute("tiff:PhotometricInterpretation") > kPalette)
       refuse("unsupported colour model", "grey or RGB", model, "convert it to RGB");
-    // The decoder turns samples of 8 bits and less, and no others.
+    // The decoder inverts only samples of at most 8 bits.
     const bool white_is_zero = std::strcmp(input_->format_name(), "tiff") == 0 &&
                                spec_.get_int_attribute("tiff:PhotometricInterpretation", 1) == 0;
     if (white_is_zero && spec_.format != TypeDesc::UINT8)
@@ -173,7 +174,7 @@ class Decoder {
     return with_primaries(kLinear, primaries);
   }
 
-  /// Into the order R, G, B, A; grey with alpha is RGB with alpha.
+  /// Reorders to R, G, B, A; grey with alpha becomes RGBA.
   template <typename T>
   std::vector<T> in_order(std::vector<T> samples) const {
     const std::vector<std::size_t> as_rgba{order_[0], order_[0], order_[0], order_.back()};
@@ -218,7 +219,7 @@ class Decoder {
     return bits;
   }
 
-  /// All samples in `type`, block by block; grows only with what decodes.
+  /// Decodes all samples as `type`, block by block; memory grows only with the decoded data.
   template <typename T>
   std::vector<T> samples(TypeDesc type) {
     const std::int64_t row = std::int64_t{spec_.width} * spec_.nchannels;
@@ -237,7 +238,7 @@ class Decoder {
           tiled ? input_->read_tiles(0, 0, spec_.x, spec_.x + spec_.width, top, bottom, 0, 1, 0, spec_.nchannels, type,
                                      out.data() + filled)
                 : input_->read_scanlines(0, 0, top, bottom, 0, 0, spec_.nchannels, type, out.data() + filled);
-      // Some readers say yes and leave a message about the part they could not decode.
+      // Some readers return true but set an error for the part they could not decode.
       if (!read || input_->has_error()) corrupt("pixels");
       y = end;
     }
@@ -256,13 +257,13 @@ class Decoder {
     if (input_->seek_subimage(1, 0)) {
       refuse("several images in one file", "one", {}, "select one with oiiotool --subimage");
     }
-    (void)input_->geterror();  // "no such subimage" is the good case
+    (void)input_->geterror();  // clears "no such subimage", the good case
   }
 
   OIIO::Filesystem::IOMemReader memory_;
   std::unique_ptr<OIIO::ImageInput> input_;
   OIIO::ImageSpec spec_;
-  std::vector<std::size_t> order_;  ///< where each channel lies in a pixel
+  std::vector<std::size_t> order_;  ///< place of each channel in a pixel
 };
 
 }  // namespace
@@ -275,7 +276,7 @@ std::optional<ErrorParts> decode(const std::string& format, std::string_view byt
     return std::move(refused.parts);
   } catch (const std::bad_alloc&) {
     return ErrorParts{{}, kNoMemory, {}, {}, {}};
-  } catch (const std::exception& error) {  // the decoders' own
+  } catch (const std::exception& error) {  // thrown by a decoder
     return ErrorParts{{}, std::string("corrupt: ") + error.what(), {}, {}, {}};
   }
 }

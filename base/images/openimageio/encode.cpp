@@ -12,7 +12,7 @@ namespace {
 
 using OIIO::TypeDesc;
 
-/// Samples as they are stored, and as they are given.
+/// Sample types as stored in the file and as given in memory.
 std::pair<TypeDesc, TypeDesc> types_of(PixelKind kind) {
   switch (kind) {
     case PixelKind::Float:
@@ -39,17 +39,17 @@ std::string encode(const Encoding& picture, std::vector<unsigned char>& bytes) {
     OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, stored);
     set_metadata(spec, picture.format, picture.metadata);
     spec.attribute("Software", picture.software);
-    spec.attribute("DateTime", "");  // else OpenImageIO writes the clock and equal pictures get unequal bytes
+    spec.attribute("DateTime", "");  // else OpenImageIO writes the current time, and equal pictures differ
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", picture.srgb ? "sRGB" : "Linear");
-    // PNG defines alpha as unassociated and OpenImageIO would divide by it. TIFF's tag says associated, as it is.
+    // PNG defines alpha as unassociated, so OpenImageIO would divide by it. TIFF's tag rightly says associated.
     if (picture.format == "png") spec.attribute("oiio:UnassociatedAlpha", 1);
     OIIO::Filesystem::IOVecOutput memory(bytes);
     output->set_ioproxy(&memory);
     if (output->open(picture.name, spec) && output->write_image(given, picture.samples) && output->close()) return {};
     const std::string reason = output->geterror();
     return reason.empty() ? "no reason given" : reason;
-  } catch (const std::exception& error) {  // the encoders' own
+  } catch (const std::exception& error) {  // thrown by an encoder
     return error.what();
   }
 }

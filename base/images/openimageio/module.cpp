@@ -1,4 +1,4 @@
-// What the module shows: its tag and its table. Everything else in it is hidden.
+// The module's exported symbols: its tag and its table. All others are hidden.
 #include <OpenImageIO/imageio.h>
 
 #include "base/images/openimageio/operations.hpp"
@@ -12,7 +12,7 @@ std::string version() {
 
 }  // namespace
 
-// The names are base/images/codec.hpp's kTagSymbol and kTableSymbol.
+// Named by kTagSymbol and kTableSymbol of base/images/codec.hpp.
 extern "C" {
 [[gnu::visibility("default")]] extern const char fastsplat_codec_tag[] = FASTSPLAT_CODEC_TAG;
 [[gnu::visibility("default")]] extern const fastsplat::images::Codec fastsplat_codec_table{

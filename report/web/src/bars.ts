@@ -1,10 +1,10 @@
-// Bars: a waterfall that adds up, stacked shares, columns.
+// Bar charts: waterfalls that add up, stacked shares, columns.
 import { axis_below, axis_left, drawing, line, rectangle, text, text_width, type Drawing } from "./svg";
 import { linear, logarithmic } from "./scales";
 
 export interface Fall {
   name: string;
-  /** What it adds; of a total what all before add up to. */
+  /** What it adds; for a total, the sum of all rows before it. */
   value: number;
   /** Shown at the end of its row. */
   shown: string;
@@ -15,8 +15,8 @@ export interface Fall {
 
 const row = 24;
 
-/** A horizontal waterfall: each row begins where the one before ended; totals begin at 0. `from` shortens the axis: a
- *  first total so large that the parts after it would be hair lines is cut there, and marked. */
+/** A horizontal waterfall: each row begins where the one before ended; totals begin at 0. `from` shortens the axis:
+ *  the first total is cut there, and marked, if it would reduce the following parts to hairlines. */
 export function waterfall(
   root: HTMLElement,
   options: { title: string; about?: string; label: string; unit: string; from?: number },
@@ -55,7 +55,7 @@ export function waterfall(
   });
 }
 
-/** A slanted gap: this bar is longer than it is drawn. */
+/** A slanted gap that marks a bar as cut. */
 function cut_mark(x: number, y: number, height: number): SVGElement {
   return line(x + 4, y, x - 4, y + height, { stroke: "var(--paper)", "stroke-width": 4 });
 }
@@ -71,7 +71,7 @@ export interface Stack {
   shown: string;
 }
 
-/** One bar a row, its parts one after the other; all on one axis from 0. */
+/** One bar per row, its parts side by side; all on one axis from 0. */
 export function stacks(root: HTMLElement, options: { title: string; about?: string; label: string; unit: string; most?: number; format?: (value: number) => string; dense?: boolean }, rows: Stack[]): void {
   drawing(root, options, (to) => {
     const names = Math.min(Math.max(...rows.map((each) => text_width(each.name))) + 10, to.width * 0.36);
@@ -108,7 +108,7 @@ export interface Column {
   colour?: string;
 }
 
-/** Columns side by side; on a logarithmic axis a count of 1 is still seen. */
+/** Columns side by side; a count of 1 is still visible on a logarithmic axis. */
 export function columns(
   root: HTMLElement,
   options: { title: string; about?: string; label: string; unit: string; logs?: boolean; height?: number; x_name?: string },

@@ -1,5 +1,5 @@
-// Plots with two axes, by uPlot: lines over a shared x, and a scatter that can be brushed. uPlot draws on a canvas, so a
-// plot is made again when the colours or the width change.
+// Plots with two axes, drawn by uPlot: lines over a shared x, and scatter plots with a brush. uPlot draws on a canvas,
+// so plots are recreated when colours or width change.
 import uPlot from "uplot";
 import { h } from "./dom";
 import { number_text, tick_text } from "./figures";
@@ -9,20 +9,20 @@ import { colour, on_theme } from "./theme";
 export interface Axis {
   name: string;
   log?: boolean;
-  /** Only these ticks: for axes that hold few values. */
+  /** Fixed ticks, for axes with few values. */
   ticks?: number[];
 }
 
 export interface Line {
   name: string;
   colour: string;
-  /** By x; x may be missing. */
+  /** In any order; a line need not have every x of the others. */
   points: [x: number, y: number | null][];
   dash?: number[];
-  /** No line between points. */
+  /** Points without a line. */
   dots?: boolean;
   size?: number;
-  /** Diamonds instead of dots: what matters has another shape, not only another colour. */
+  /** Diamonds instead of dots, so that important points differ not only in colour. */
   diamond?: boolean;
 }
 
@@ -36,14 +36,14 @@ export interface PlotOptions {
   x: Axis;
   y: Axis;
   height?: number;
-  /** Called with the rectangle that was drawn with the mouse, in the axes' values; null when it is taken back. */
+  /** Called with the brushed rectangle in the axes' values, or null when it is cleared. */
   brushed?: (span: Span | null) => void;
-  /** Called when the pointer rests on a point (its x and y), or on none. */
+  /** Called when the pointer moves onto a point, or with null when it leaves. */
   hovered?: (point: { line: number; at: number } | null) => void;
   picked?: (point: { line: number; at: number }) => void;
 }
 
-/** Ticks of an axis: 1, 2 and 5 times powers of ten on a logarithmic one, fewer where it is long. */
+/** Ticks of an axis: 1, 2 and 5 times powers of ten on a logarithmic axis, fewer on long ones. */
 function ticks(axis: Axis, low: number, high: number, count: number): number[] {
   if (axis.ticks) return axis.ticks.filter((value) => value >= low && value <= high);
   if (!axis.log) {
@@ -95,15 +95,15 @@ function diamond(plot: uPlot, series: number, first: number, last: number): void
   ctx.restore();
 }
 
-/** Where each point of each line went in the shared, sorted x. */
+/** Maps the points of all lines to one shared, sorted x. */
 interface Joined {
   data: uPlot.AlignedData;
-  /** For line i and place j of the data: index of its point; -1 for none. */
+  /** Index of the point of line i at position j of the data; -1 for none. */
   points: number[][];
 }
 
 function joined(lines: Line[]): Joined {
-  // Points of one line may share an x, so every point has a place of its own, unless all lines have unique x.
+  // Points of one line may share an x, so each point gets its own position, unless x is unique in every line.
   const unique = lines.every((each) => new Set(each.points.map(([x]) => x)).size === each.points.length);
   const xs: number[] = [];
   const places: { x: number; line: number; at: number }[] = lines.flatMap((each, line) => each.points.map(([x], at) => ({ x, line, at })));
@@ -128,7 +128,7 @@ export interface Plot {
   clear_brush(): void;
 }
 
-/** A plot in `root`; update() draws it again with other lines. */
+/** A plot in `root`; update() redraws it with other lines. */
 export function plot(root: HTMLElement, options: PlotOptions, lines: Line[]): Plot {
   const place = h("div", { class: "chart plot", role: "img", "aria-label": options.label });
   root.append(place);
@@ -262,7 +262,7 @@ export function plot(root: HTMLElement, options: PlotOptions, lines: Line[]): Pl
   };
 }
 
-/** Key to the lines of a plot: colour and shape, and a number of the reader's choice. */
+/** Legend of a plot: colour, shape and name of each line. */
 export function line_legend(lines: Line[]): HTMLElement {
   return h(
     "ul",

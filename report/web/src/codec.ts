@@ -1,4 +1,4 @@
-// A picture's block back to words: base64, raw deflate, planes of bytes, differences (docs/report.md has the format).
+// Decodes a picture's block to words: base64, raw deflate, byte planes, differences (docs/report.md has the format).
 import type { Picture } from "./page";
 
 export type Words = Int32Array | Uint32Array;
@@ -15,14 +15,15 @@ async function inflated(bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Array> {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/** Bytes of a word: "split16-deflate" has two. */
+/** Bytes per word: 2 for "split16-deflate". */
 export function word_bytes(codec: string): number {
   const match = /^split(8|16|24|32)-deflate$/.exec(codec);
   if (!match) throw new Error(`no codec is called ${codec}`);
   return Number(match[1]) / 8;
 }
 
-/** From planes to words: per channel one plane a byte, lowest first; each word a difference to its left neighbour. */
+/** Planes to words: one plane per byte of each channel, lowest first; each word is a difference from its left
+ *  neighbour. */
 export function joined(planes: Uint8Array, width: number, height: number, channels: number, bytes: number, signed: boolean): Words {
   const pixels = width * height;
   if (planes.length !== pixels * channels * bytes) throw new Error(`${planes.length} bytes, expected ${pixels * channels * bytes}`);
@@ -42,7 +43,7 @@ export function joined(planes: Uint8Array, width: number, height: number, channe
   return words;
 }
 
-/** Little-endian, whatever the machine is. */
+/** Little-endian on every machine. */
 function plain_bytes(words: Words, bytes: number): Uint8Array<ArrayBuffer> {
   const out = new Uint8Array(words.length * bytes);
   for (let i = 0, at = 0; i < words.length; ++i) {
@@ -51,7 +52,7 @@ function plain_bytes(words: Words, bytes: number): Uint8Array<ArrayBuffer> {
   return out;
 }
 
-/** The words of a picture, proved by their hash; an Error names the picture and what is wrong with it. */
+/** Decodes a picture and checks its hash; throws an Error that names the picture and the problem. */
 export async function decoded(picture: Picture, block: string): Promise<Words> {
   try {
     const bytes = word_bytes(picture.codec);

@@ -1,4 +1,4 @@
-// Elements without a framework: make, fill, copy to the clipboard.
+// DOM helpers without a framework: create, fill, copy to the clipboard.
 
 export type Child = Node | string | number | null | undefined | false | Child[];
 type Attributes = Record<string, string | number | boolean | null | undefined | ((event: never) => void)>;
@@ -17,7 +17,8 @@ function give(element: Element, attributes: Attributes): void {
   }
 }
 
-/** h("p", { class: "x", click: f }, "text", child): functions are listeners; null, undefined and false are left out. */
+/** h("p", { class: "x", click: f }, "text", child): functions become listeners; null, undefined and false are
+ *  omitted. */
 export function h<K extends keyof HTMLElementTagNameMap>(
   name: K,
   attributes: Attributes = {},
@@ -44,7 +45,7 @@ export function clear(element: Element): void {
 let speaker: HTMLElement | null = null;
 let silence: ReturnType<typeof setTimeout> | undefined;
 
-/** A short word below the page's contents, where it hides no values, read aloud by a screen reader. */
+/** Shows a short message below the table of contents, where it hides no values; screen readers read it aloud. */
 export function say(text: string): void {
   speaker ??= document.getElementById("said");
   if (!speaker) return;
@@ -54,7 +55,7 @@ export function say(text: string): void {
   silence = setTimeout(() => speaker?.classList.remove("shown"), 2500);
 }
 
-/** Copies text; from a file on disk too, where the clipboard may refuse: then through a selection. */
+/** Copies text; if the clipboard refuses, as it may for files on disk, through a selection. */
 export async function copy(text: string): Promise<boolean> {
   try {
     await navigator.clipboard.writeText(text);
@@ -70,7 +71,7 @@ export async function copy(text: string): Promise<boolean> {
   }
 }
 
-/** A button that copies the command that makes something again. Its title shows the command. */
+/** A button that copies a reproducing command, shown as its tooltip. */
 export function command_button(command: string, what = "this"): HTMLElement {
   return h(
     "button",

@@ -1,29 +1,29 @@
-// Numbers as text, and the elements that show them: each says where in the JSON its number lies.
+// Formats numbers, and creates elements that show them with their path in the JSON.
 import { h } from "./dom";
 import type { Result } from "./page";
 
-const thin = "\u202f"; // between thousands; a line never breaks there
+const thin = "\u202f"; // narrow no-break space between thousands
 const minus = "\u2212";
 
-/** Steps into JSON; a key with a dot in it is one step. */
+/** Path into JSON; a key that contains a dot is one step. */
 export type Path = (string | number)[];
 
 export function at(result: Result, path: Path): Result {
   return path.reduce((value: Result, key) => (value === null || value === undefined ? undefined : value[key]), result);
 }
 
-/** "0.cycles.actual"; dots inside of keys become %2e. */
+/** "0.cycles.actual"; dots within keys become %2e. */
 export function path_text(index: number, path: Path): string {
   return [index, ...path].map((key) => String(key).replaceAll("%", "%25").replaceAll(".", "%2e")).join(".");
 }
 
 export interface Style {
-  /** Digits after the point; without it, whole numbers whole and others to 4 significant digits. */
+  /** Digits after the point; default: integers in full, others with 4 significant digits. */
   digits?: number;
   /** Shown number = JSON's number x scale: 100 for percent. */
   scale?: number;
   unit?: string;
-  /** Plus sign on positive numbers. */
+  /** Shows a plus sign on positive numbers. */
   sign?: boolean;
 }
 
@@ -31,7 +31,7 @@ function grouped(digits: string): string {
   return digits.replace(/\B(?=(\d{3})+(?!\d))/g, thin);
 }
 
-/** A number for people: 12 345, 0.4119, 3.2e-9, -0.021; "-" when there is none. */
+/** Formats a number: 12 345, 0.4119, 3.2e-9, -0.021; an en dash if it is missing. */
 export function number_text(value: unknown, style: Style = {}): string {
   if (typeof value !== "number" || Number.isNaN(value)) return "\u2013";
   if (!Number.isFinite(value)) return value > 0 ? "\u221e" : `${minus}\u221e`;
@@ -49,7 +49,7 @@ export function number_text(value: unknown, style: Style = {}): string {
   return sign + shown + (style.unit ? `\u00a0${style.unit}` : "");
 }
 
-/** A shorter number for axes: 12k, 3.4M, 0.01. */
+/** Formats a number briefly, for axes: 12k, 3.4M, 0.01. */
 export function tick_text(value: number): string {
   const size = Math.abs(value);
   if (size === 0) return "0";
@@ -62,7 +62,7 @@ export function tick_text(value: number): string {
   return sign + trim(size);
 }
 
-/** <span data-figure="0.cycles.actual">307 068</span>: what is shown is what lies at that place of the JSON. */
+/** <span data-figure="0.cycles.actual">307 068</span>: shows the value at that path of the JSON. */
 export function figure(index: number, result: Result, path: Path, style: Style = {}): HTMLElement {
   const value = at(result, path);
   return h(

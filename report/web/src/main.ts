@@ -1,5 +1,5 @@
-// Draws the page: header, contents, a section for every result that a panel draws. html[data-ready] is 1 when all
-// stands, "error" when something could not be drawn; what it was stands in the page and in the console.
+// Draws the page: header, contents, and the panels of all results. html[data-ready] becomes "1" when everything is
+// drawn and "error" if something failed; the error is shown in the page and in the console.
 import { command_button, h, say } from "./dom";
 import { picture_block, read_page, verb_of, type Context, type Item, type PageData, type Panel } from "./page";
 import { panels } from "./registry";
@@ -14,7 +14,7 @@ interface Part {
   items: Item[];
 }
 
-/** Every result belongs to exactly one panel; those that none draws are shown as they are. */
+/** Assigns every result to exactly one panel; `generic` takes those that no other draws. */
 function parts_of(page: PageData): Part[] {
   const items = page.results.map((result, index) => ({ index, result }));
   const taken = new Set<number>();
@@ -29,7 +29,7 @@ function parts_of(page: PageData): Part[] {
   return parts;
 }
 
-/** Of what the verdict is: the first result that has it; without results, the pictures. */
+/** Subject of the verdict: that of the first result with this verdict; without results, of the pictures. */
 function main_subject(page: PageData): Subject {
   const { status, sentence, items } = page.verdict;
   const first = items?.findIndex((item) => item.status === status && item.sentence === sentence) ?? -1;
@@ -70,7 +70,7 @@ async function draw(page: PageData, of_all: Subject): Promise<boolean> {
   document.getElementById("contents")?.append(links);
   let whole = true;
   const drawing: Promise<void>[] = [];
-  const others = new Map<string, string[]>(); // panels, by what they are of that the verdict is not
+  const others = new Map<string, string[]>(); // panels whose subject differs from the verdict's, by the difference
   for (const part of parts_of(page)) {
     const { panel, items } = part;
     const first = items[0] ?? { index: -1, result: null };

@@ -1,12 +1,11 @@
-// What a report holds and what a panel is given: the contract between C++, the page and its panels.
+// Types of a report's data and of a panel's input: the contract between C++, the page and its panels.
 
 /** Any JSON value. */
 export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
-// A verb's result is drawn as it is: panels read it by name, and what is missing is left out.
-// eslint-disable-next-line @typescript-eslint/no-explicit-any
+// Results are untyped: panels read figures by name and omit missing ones.
 export type Result = any;
 
-/** A picture in the page: its words lie as base64 in <script type="text/plain" id=ID>; docs/report.md has the keys. */
+/** A picture in the page; its words are base64 in <script type="text/plain" id=ID>. docs/report.md has the keys. */
 export interface Picture {
   id: string;
   role: string;
@@ -15,36 +14,36 @@ export interface Picture {
   height: number;
   channels: number;
   codec: string;
-  /** The word of 1.0. */
+  /** The word that stands for 1.0. */
   scale: number;
-  /** null where the scale is no power of two. */
+  /** null if the scale is not a power of two. */
   frac_bits: number | null;
   int_bits?: number | null;
   signed?: boolean;
   /** false: the file's values were rounded to words. */
   exact?: boolean;
-  /** Made for looking: sRGB, over black. */
+  /** Made for display: sRGB, over black. */
   display?: boolean;
   sha256: string;
   from: string;
   /** Other files with the same values. */
   also?: string[];
-  /** Of the file's samples: "raw words", "float"... */
+  /** Kind of the file's samples: "raw words", "float"... */
   kind?: string;
-  /** Pictures of one scene have one number. */
+  /** Pictures of one scene share a number. */
   group?: number;
-  /** The picture whose block holds the words, where that is another. */
+  /** The picture whose block holds the words, if not its own. */
   same_as?: string;
   nonfinite?: number;
-  /** It is a window of a larger picture. */
+  /** Set if it is a window of a larger picture. */
   crop?: { x: number; y: number; full_width: number; full_height: number };
   volume?: string;
   config?: string;
   /** The scene file's text. */
   scene?: string;
-  /** Where 3-D Gaussians come from. */
+  /** The file of 3-D Gaussians. */
   gaussians?: string;
-  /** Of which compares it is what: "0.ref" is the reference of results[0]. */
+  /** Its roles in compares: "0.ref" is the reference of results[0]. */
   compared?: string[];
 }
 
@@ -55,7 +54,7 @@ export interface PageData {
   verdict: { status: "pass" | "fail" | "error" | "none"; sentence: string; items?: { status: string; sentence: string }[] };
   results: Result[];
   pictures: Picture[];
-  /** Pictures that are missing, cropped or left out, and why. */
+  /** Pictures that are missing, cropped or omitted, and why. */
   remarks: string[];
 }
 
@@ -66,37 +65,39 @@ export interface Item {
 }
 
 export interface Context {
-  /** Place of the result among all; first part of every data-figure. */
+  /** Index of the result in PageData.results; first part of every data-figure. */
   index: number;
   page: PageData;
-  /** All results of this panel, in order; of a panel with `once` all that it draws. */
+  /** The results drawn together, in order: one, or all of a panel with `once`. */
   items: Item[];
   pictures: Picture[];
-  /** The base64 text of a picture's block; throws, and names it, when it is not there. */
+  /** The base64 text of a picture's block; throws an Error that names it if it is missing. */
   block(id: string): string;
-  /** Says something to the user and to a screen reader. */
+  /** Shows a message to the user, also through screen readers. */
   say(text: string): void;
 }
 
 export interface Panel {
   /** Short and stable: part of the section's id, `#compare-0`. */
   name: string;
-  /** The verbs it draws; [] of a panel that `wants` something else. */
+  /** The subcommands whose results it draws; [] if it uses `wants`. */
   verbs: string[];
-  /** Drawn once for all its results, instead of once for each. */
+  /** Drawn once for all its results instead of once for each. */
   once?: boolean;
-  /** Drawn once, without a result, when this says so: pictures. */
+  /** Whether to draw the panel once, without a result: pictures. */
   wants?: (page: PageData) => boolean;
   title: string | ((result: Result, context: Context) => string);
-  /** One sentence: what the panel shows, and its units that are no common ones. */
+  /** One sentence: what the panel shows, with uncommon units. */
   about: string | ((result: Result) => string);
-  /** Of what it is, where that is neither scan nor picture; without it as subject.ts finds. */
+  /** Its subject, if neither a scan nor a picture; by default subject.ts determines it. */
   of?: string;
-  /** May return a promise: the page is ready when all have come. Throwing fails the page, by name. */
+  /** The page is ready when all returned promises have resolved. Throwing marks the page as failed, naming the
+   *  panel. */
   render(root: HTMLElement, result: Result, context: Context): void | Promise<void>;
 }
 
-/** Verb of a result; a coverage book names its format, older results of `compare` their schema. */
+/** Subcommand of a result; coverage files are recognised by their format, older results of `compare` by their
+ *  schema. */
 export function verb_of(result: Result): string {
   if (typeof result?.verb === "string") return result.verb;
   if (typeof result?.format === "string" && result.format.startsWith("fastsplat coverage ")) return "coverage";
@@ -104,7 +105,7 @@ export function verb_of(result: Result): string {
   return schema ? schema[1] : "";
 }
 
-/** The page's data, or an Error that says what is wrong with it. */
+/** Reads the page's data; throws an Error if they are missing or invalid. */
 export function read_page(): PageData {
   const block = document.getElementById("data");
   if (!block) throw new Error("this page holds no data: it is the empty template");

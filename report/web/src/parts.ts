@@ -1,14 +1,14 @@
-// Pieces that several panels have: verdict with the sentence that matters, key figures.
+// Elements shared by panels: verdict sentence, key figures.
 import { h, type Child } from "./dom";
 
 const words: Record<string, string> = { pass: "\u2713 Pass", fail: "\u2717 Fail", error: "\u2717 Error", none: "Measured" };
 
-/** The sentence that matters, behind the verdict where there is one. */
+/** The main sentence, after the verdict if there is one. */
 export function lead(status: string | null, ...sentence: Child[]): HTMLElement {
   return h("p", { class: "lead" }, status !== null && h("span", { class: `mark ${status}` }, words[status] ?? status), ...sentence);
 }
 
-/** Key figures side by side; one that a result has no value for is not drawn. */
+/** Key figures side by side; those without a value are omitted. */
 export function tiles(...entries: ([name: string, ...value: Child[]] | null | false)[]): HTMLElement {
   return h(
     "dl",
@@ -31,7 +31,7 @@ export function grid(root: HTMLElement): HTMLElement {
   return element;
 }
 
-/** A cell of `grid`; a part by itself elsewhere. */
+/** A cell of `grid`; outside of a grid, a separate part. */
 export function cell(parent: HTMLElement): HTMLElement {
   const element = h("div", { class: parent.classList.contains("grid") ? null : "solo" });
   parent.append(element);
@@ -41,7 +41,7 @@ export function cell(parent: HTMLElement): HTMLElement {
 /** What "cost" counts. */
 export const cost_unit = "full adders";
 
-/** Which scene and which configuration: a result's own words for it, with the configuration's hash. */
+/** Scene and configuration, as the result names them, with the configuration's hash. */
 export function made_of(result: { scene?: unknown; config?: unknown; config_hash?: unknown }): string {
   const scene = typeof result.scene === "string" ? result.scene : "";
   const config = result.config as { name?: string; hash?: string } | string | undefined;

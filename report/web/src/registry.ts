@@ -1,4 +1,4 @@
-// The panels, in the order in which they stand in the page. A new panel: its file in panels/ and its line here.
+// The panels, in page order. A new panel needs a file in panels/ and a line here.
 import type { Panel } from "./page";
 import { bound } from "./panels/bound";
 import { closure } from "./panels/closure";

@@ -1,11 +1,11 @@
-// From numbers to places: scales and the ticks on them.
+// Scales from numbers to positions, with ticks.
 
 export interface Scale {
   (value: number): number;
   ticks: number[];
 }
 
-/** 1, 2 or 5 times a power of ten, so that `span` has about `count` of them. */
+/** A step of 1, 2 or 5 times a power of ten, so that `span` has about `count` steps. */
 export function nice_step(span: number, count: number): number {
   const rough = span / Math.max(1, count);
   const power = 10 ** Math.floor(Math.log10(rough));
@@ -13,7 +13,7 @@ export function nice_step(span: number, count: number): number {
   return power * (part > 5 ? 10 : part > 2 ? 5 : part > 1 ? 2 : 1);
 }
 
-/** Values low..high to places from..to. */
+/** Maps values low..high to positions from..to. */
 export function linear(low: number, high: number, from: number, to: number, count = 5): Scale {
   const span = high - low || 1;
   const step = nice_step(span, count);
@@ -22,7 +22,7 @@ export function linear(low: number, high: number, from: number, to: number, coun
   return Object.assign((value: number) => from + ((value - low) / span) * (to - from), { ticks });
 }
 
-/** The same with logarithms; low and high above 0, ticks at powers of ten (about `count` of them). */
+/** The same on a logarithmic scale; low and high above 0, ticks at powers of ten (about `count` of them). */
 export function logarithmic(low: number, high: number, from: number, to: number, count = 6): Scale {
   const [a, b] = [Math.log10(low), Math.log10(high)];
   const span = b - a || 1;

@@ -1,5 +1,5 @@
-// Of what a result is: scan, configuration and size of the picture. Every heading says it, so that figures of two runs
-// cannot be taken for one.
+// The subject of a result: scan, configuration and picture size. Every heading names it, so that figures of different
+// runs cannot be confused.
 import { h, type Child } from "./dom";
 import type { Picture, Result } from "./page";
 
@@ -30,7 +30,7 @@ class Collected implements Subject {
     if (typeof width === "number" && typeof height === "number") this.add(this.sizes, size_text(width, height));
   }
 
-  /** A scene file's text, as `render` and pictures carry it. */
+  /** The text of a scene file, as in results of `render` and in pictures. */
   toml(text: string): void {
     const volume = /^volume = "(.*)"$/m.exec(text), image = /\[image\][^[]*?width = (\d+)\s+height = (\d+)/.exec(text);
     const post = /\[classify\][^[]*?order = "post"/.test(text);
@@ -55,7 +55,7 @@ class Collected implements Subject {
     }
   }
 
-  /** What a command's flags say, where its result does not. */
+  /** Uses a command's flags for what the result does not contain. */
   command(text: Result): void {
     if (typeof text !== "string") return;
     const all = (flag: string): string[] => [...text.matchAll(new RegExp(`--${flag}[ =]'?([^\\s']+)`, "g"))].map((found) => found[1]);
@@ -104,7 +104,7 @@ export function subject_of_pictures(pictures: Picture[]): Subject {
   return subject;
 }
 
-/** Each of a few, the number of many. */
+/** Lists up to four entries; of more, only their number. */
 function listed(all: string[], one: string, many: string): string[] {
   return all.length > 4 ? [`${all.length} ${many}`] : all.map((each, i) => (i === 0 && one ? `${all.length > 1 ? many : one} ${each}` : each));
 }
@@ -121,12 +121,12 @@ export function subject_text(subject: Subject): string {
   return parts(subject).map(([, text]) => text).join(", ");
 }
 
-/** What is in `subject` and not in `than`, where that tells of it at all. */
+/** Entries of `subject` that differ from `than`, for kinds that `than` has. */
 export function differing(subject: Subject, than: Subject): string[] {
   return (["scans", "configs", "sizes"] as const).flatMap((key) => (than[key].length ? subject[key].filter((text) => !than[key].includes(text)) : []));
 }
 
-/** The text; what is not as in `than` stands out. */
+/** The subject's text, with differences from `than` in bold. */
 export function subject_line(subject: Subject, than: Subject): Child[] {
   const other = differing(subject, than);
   return parts(subject).map(([key, text], i) => [i ? ", " : "", subject[key].some((each) => other.includes(each) && text.includes(each)) ? h("strong", {}, text) : text]);

@@ -1,4 +1,4 @@
-// Drawings that follow the width of their place: drawn again when it changes, in the colours of the theme by CSS.
+// SVG drawings that are redrawn when the width of their place changes; CSS colours them by theme.
 import { clear, h, s } from "./dom";
 import { tick_text } from "./figures";
 import type { Scale } from "./scales";
@@ -6,13 +6,13 @@ import type { Scale } from "./scales";
 export interface Drawing {
   svg: SVGElement;
   width: number;
-  /** Sets the height; once, in `draw`. */
+  /** Sets the height; call once, in `draw`. */
   height(pixels: number): void;
-  /** Shows `text` while the pointer is on `element`; where `focusable` also with the keyboard: Tab, then arrows. */
+  /** Shows `text` while the pointer is on `element`; if `focusable`, also by keyboard: Tab, then arrows. */
   tip(element: SVGElement, text: string, focusable?: boolean): void;
 }
 
-/** A figure in `root`: caption and drawing. `label` tells a screen reader what it shows. */
+/** A figure in `root`: caption and drawing. `label` describes it for screen readers. */
 export function drawing(
   root: HTMLElement,
   options: { title: string; about?: string; label: string },
@@ -50,7 +50,7 @@ export function drawing(
     clear(place);
     const svg = s("svg", { role: "group", "aria-label": options.label, width: "100%" });
     place.append(svg, bubble);
-    // One stop of Tab a drawing; arrows go on from there.
+    // One Tab stop per drawing; arrows move within it.
     const stops: SVGElement[] = [];
     svg.addEventListener("keydown", (event) => {
       const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
@@ -100,12 +100,12 @@ export function line(x1: number, y1: number, x2: number, y2: number, rest: Recor
   return s("line", { x1, y1, x2, y2, ...rest });
 }
 
-/** Width of text in the page's figures, near enough to leave room for it. */
+/** Approximate width of text, enough to reserve room for it. */
 export function text_width(words: string, size = 12): number {
   return words.length * size * 0.6;
 }
 
-/** Ticks and grid lines of a horizontal axis under `bottom`; labels that would touch are left out. */
+/** Ticks and grid lines of a horizontal axis under `bottom`; omits labels that would touch. */
 export function axis_below(to: Drawing, scale: Scale, top: number, bottom: number, name = "", format: (value: number) => string = tick_text): void {
   let free = -Infinity;
   for (const value of scale.ticks) {
@@ -131,7 +131,7 @@ export function axis_left(to: Drawing, scale: Scale, left: number, right: number
   }
 }
 
-/** Names of colours, as a list under a drawing. */
+/** A legend under a drawing. */
 export function legend(entries: { name: string; colour: string }[]): HTMLElement {
   return h(
     "ul",

@@ -1,17 +1,17 @@
-// A table that sorts, filters and stays quick with thousands of rows: only those in sight are in the page. Printing puts
-// all of them in.
+// A table that sorts and filters and stays fast with thousands of rows: only visible rows are in the page. Printing
+// inserts all rows.
 import { h, type Child } from "./dom";
 import { number_text, type Style } from "./figures";
 
 export interface Column<Row> {
   name: string;
   unit?: string;
-  /** What is sorted and filtered by; null sorts last. */
+  /** Value for sorting and filtering; null sorts last. */
   value: (row: Row) => string | number | boolean | null | undefined;
-  /** What is shown; without it the value, a number in `style`. */
+  /** What is shown; default: the value, a number in `style`. */
   cell?: (row: Row) => Child;
   style?: Style;
-  /** Where in the JSON the shown number lies, for data-figure; undefined where there is none. */
+  /** Path of the shown number in the JSON, for data-figure; undefined if there is none. */
   figure?: (row: Row) => string | undefined;
   /** Class of the cell: "pass", "fail", "wrap". */
   kind?: (row: Row) => string;
@@ -22,31 +22,32 @@ export interface TableOptions<Row> {
   columns: Column<Row>[];
   rows: Row[];
   filter?: boolean;
-  /** Column sorted by at first; negative: largest first. Counted from 1. */
+  /** Initial sort column, counted from 1; negative: largest first. */
   sort?: number;
   chosen?: (row: Row) => boolean;
   choose?: (row: Row) => void;
-  /** Called with what is left after filtering, in the table's order. */
+  /** Called with the filtered rows, in table order. */
   changed?: (rows: Row[]) => void;
 }
 
 export interface Table<Row> {
   root: HTMLElement;
-  /** Draws the rows again: the chosen ones have changed. */
+  /** Redraws the rows after a change of the selection. */
   refresh(): void;
-  /** Only rows that this accepts, beside the filter; null: all. */
+  /** Additional row filter; null accepts all. */
   only(accept: ((row: Row) => boolean) | null): void;
-  /** Scrolls so that the row is in sight. */
+  /** Scrolls to the row. */
   reveal(row: Row): void;
 }
 
 const row_height = 31;
-const whole_up_to = 120; // rows: fewer than these are all in the page
+const whole_up_to = 120; // rows: shorter tables are in the page completely
 const margin = 12; // rows drawn beyond the edges
 
 type Test = (value: (name: string) => unknown, all: string) => boolean;
 
-/** "kind=circle psnr>60 head": every word must hold; a word without a comparison occurs anywhere in the row. */
+/** Parses "kind=circle psnr>60 head": every word must match; a word without a comparison may occur anywhere in the
+ *  row. */
 export function filter_of(text: string, names: string[]): Test {
   const tests = (text.match(/"[^"]*"|\S+/g) ?? []).map((word): Test => {
     const parts = /^"?([^<>=!"]+?)"?\s*(<=|>=|!=|<|>|=)\s*"?([^"]*)"?$/.exec(word);
@@ -79,7 +80,7 @@ function compare(a: unknown, b: unknown): number {
 
 export function table<Row>(parent: HTMLElement, options: TableOptions<Row>): Table<Row> {
   const { rows } = options;
-  // A column of which no row has anything is not drawn.
+  // Omits columns that are empty in all rows.
   const has = (column: Column<Row>, row: Row): boolean => {
     const value = column.cell ? column.cell(row) : column.value(row);
     return value !== null && value !== undefined && value !== "" && value !== false && !Number.isNaN(value);
@@ -92,7 +93,7 @@ export function table<Row>(parent: HTMLElement, options: TableOptions<Row>): Tab
   let words = "";
   let accept: ((row: Row) => boolean) | null = null;
   let shown = rows;
-  let focus = 0; // row of `shown` that Tab reaches
+  let focus = 0; // index in `shown` of the row with the Tab stop
 
   const body = h("tbody");
   const heads = columns.map((column, i) => {

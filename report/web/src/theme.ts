@@ -1,4 +1,4 @@
-// Light or dark: as the system says, until the reader chooses. Print is always light.
+// Light or dark theme: the system's until the reader chooses. Print is always light.
 import { h } from "./dom";
 
 const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -12,17 +12,17 @@ function apply(): void {
   for (const listener of listeners) listener();
 }
 
-/** Called after the colours have changed: canvases must be drawn again, SVG follows by itself. */
+/** Calls `listener` after a change of colours: canvases must be redrawn, SVG follows by itself. */
 export function on_theme(listener: () => void): void {
   listeners.add(listener);
 }
 
-/** The value of a colour of report.css, for canvases: colour("c0"). */
+/** A colour of report.css, for canvases: colour("c0"). */
 export function colour(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }
 
-/** Colours of series; after the last the first comes again, so marks and dashes must differ too. */
+/** Colours of series. They repeat after the last, so series must also differ in mark or dash. */
 export const series_colours = ["c0", "c1", "c2", "c3", "c4", "c5", "c6", "c7"];
 
 export function start_theme(): void {

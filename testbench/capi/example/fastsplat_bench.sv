@@ -2,10 +2,10 @@
 // the simulation, by fastsplat_monitor. Needs no C++ of its own (docs/capi.md, "SystemVerilog").
 //
 //   +beats=FILE    the stream, a beat of 64 hex digits a line: beats.hex of `fastsplat stream vectors`
-//   +config=NAME   its configuration, built-in or a TOML file; the device's own
+//   +config=NAME   its configuration, built-in or a TOML file; must be the device's
 //   +input=PATTERN +output=PATTERN +seed=S   when beats are offered and pixels taken; always, always, 1
-//   +fault=N       breaks the device on purpose: a line of testbench/faults/faults.def, in a build with FASTSPLAT_FAULT_SELECT;
-//                  one that is not seen is a FAIL
+//   +fault=N       plants a fault: a line of testbench/faults/faults.def, in a build with FASTSPLAT_FAULT_SELECT;
+//                  a fault that is not detected is a FAIL
 //
 // Prints PASS or FAIL with the checker's summary and the first mismatch; ends by $finish, or $fatal when it failed.
 module fastsplat_bench;
@@ -91,7 +91,7 @@ module fastsplat_bench;
     tick(0, unused);
   endtask
 
-  // Not busy, and for so long that the last taps are out.
+  // Waits until the device is not busy and the last taps are out.
   task automatic rest;
     logic [31:0] status = 1;
     bit unused;
@@ -136,7 +136,7 @@ module fastsplat_bench;
     if (file == 0) fail({"cannot read ", beats_file});
     while ($fgets(text, file) != 0) begin
       line++;
-      // A line's end, and nothing else, behind the digits.
+      // Only a line end may follow the digits.
       if ($sscanf(text, "%h%s", beat, rest_of_line) != 1 || text.getc(DIGITS - 1) <= " " || text.getc(DIGITS) > " ")
         fail($sformatf("%s, line %0d: no beat of %0d hex digits", beats_file, line, DIGITS));
       send(beat);
@@ -149,13 +149,13 @@ module fastsplat_bench;
     end
     if (u_core.u_monitor.refused != 0) fail("the checker refused what it was told");
     if (fastsplat_dpi_finish(u_core.u_monitor.judge, counters, words_of($bits(counters))) != 0) begin
-      why = fastsplat_last_error();  // of a stream that is not whole: no mismatch, and no verdict
+      why = fastsplat_last_error();  // incomplete stream: neither mismatch nor verdict
       first = fastsplat_checker_first_mismatch(u_core.u_monitor.judge);
       if (first != "") $display("first mismatch: %s", first);
       else $display("%s", why);
       fail(fastsplat_checker_summary(u_core.u_monitor.judge));
     end
-    if (fault != 0) fail($sformatf("fault %0d was not seen", fault));  // or the device has none of what it breaks
+    if (fault != 0) fail($sformatf("fault %0d was not seen", fault));  // or the device lacks the part that it breaks
     $display("PASS: %s", fastsplat_checker_summary(u_core.u_monitor.judge));
     $finish;
   end

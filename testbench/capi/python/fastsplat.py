@@ -8,7 +8,7 @@
         print(tile.number, tile.rgba.shape, tile.rgba.dtype)   # (height, width, 4) uint32
 
 One file; needs NumPy. The library is $FASTSPLAT_LIBRARY, else the one installed beside this file, else the loader's.
-Whatever the library refuses is a fastsplat.Error with its status and its line of text (docs/capi.md).
+Refusals of the library raise fastsplat.Error with status and text (docs/capi.md).
 """
 import collections
 import ctypes
@@ -77,7 +77,7 @@ def _load():
     beside = os.path.join(os.path.dirname(os.path.abspath(__file__)), *[os.pardir] * 3)
     places = [os.path.join(beside, lib, "libfastsplat.so.3") for lib in ("lib", "lib64", "lib/" + os.uname().machine + "-linux-gnu")]
     found = [place for place in places if os.path.exists(place)] + ["libfastsplat.so.3"]
-    chosen = os.environ.get("FASTSPLAT_LIBRARY") or found[0]  # one that was named is the one that is meant, or none
+    chosen = os.environ.get("FASTSPLAT_LIBRARY") or found[0]  # a named library is never replaced by another
     try:
         library = ctypes.CDLL(chosen)
     except OSError as error:
@@ -95,7 +95,7 @@ _library = _load()
 
 
 def _call(name, *arguments):
-    """The status; an Error for one that is a refusal or a failed verdict."""
+    """Returns the status; raises Error for a refusal or a failed verdict."""
     status = getattr(_library, name)(*arguments)
     if status > 0:
         raise Error(status, _library.fastsplat_last_error().decode())
@@ -133,7 +133,7 @@ def read_stream(path):
 
 
 def _whole(what, values, dtype):
-    """`values` as they are: numbers that `dtype` has not are refused, not cut."""
+    """`values` unchanged: numbers outside `dtype` are refused, not truncated."""
     values = np.asarray(values)
     if values.size and values.dtype.kind not in "ui":
         raise ValueError(f"{what}: expected whole numbers, got {values.dtype}")
@@ -143,7 +143,7 @@ def _whole(what, values, dtype):
 
 
 def _number(what, value, dtype):
-    """One such number, for ctypes would cut it."""
+    """The same for one number, which ctypes would truncate."""
     limits = np.iinfo(dtype)
     if not isinstance(value, (int, np.integer, np.bool_)) or not limits.min <= value <= limits.max:
         raise ValueError(f"{what}: expected {limits.min} to {limits.max}, got {value!r}")
@@ -151,7 +151,7 @@ def _number(what, value, dtype):
 
 
 def _text(what, value):
-    """For C, where a text ends at the first NUL."""
+    """Text for C, without a NUL, where it would end."""
     if "\0" in value:
         raise ValueError(f"{what}: {value!r} contains a NUL")
     return value.encode()
@@ -235,14 +235,14 @@ class Model(_Handle):
         _call("fastsplat_model_reset", self._pointer)
 
     def taps(self):
-        """Takes the records that wait, in the model's order."""
+        """Takes the waiting records, in the model's order."""
         record = _Tap(struct_size=ctypes.sizeof(_Tap))
         while _call("fastsplat_model_next_tap", self._pointer, ctypes.byref(record)) == OK:
             words = np.ctypeslib.as_array(record.payload, (record.words,)).copy()
             yield Tap(TAPS[record.tap], record.tile, record.sheet, record.tag, record.x, record.y, words)
 
     def tiles(self):
-        """Takes the finished tiles that wait."""
+        """Takes the finished tiles."""
         tile = _Tile(struct_size=ctypes.sizeof(_Tile))
         while _call("fastsplat_model_next_tile", self._pointer, ctypes.byref(tile)) == OK:
             rgba = np.ctypeslib.as_array(tile.rgba, (tile.height, tile.width, 4)).copy()
@@ -258,7 +258,7 @@ class Model(_Handle):
 
 
 class Checker(_Handle):
-    """Told what a device took and showed; see fastsplat.h for the order."""
+    """Receives what a device took and showed; see fastsplat.h for the order."""
     _destroy = "fastsplat_checker_destroy"
     PORTS = ("snap", "sheet", "window", "composite", "sheet_done", "pixels", "verdict")
     _GIVEN = {"keep": 1, "tile": 2}
@@ -281,7 +281,7 @@ class Checker(_Handle):
               ctypes.c_size_t(len(beats)))
 
     def showed(self, port, cycle, words=(), **fields):
-        """`fields` are those of fastsplat_shown that the port has; keep and tile are compared where they are named."""
+        """`fields`: the fields of fastsplat_shown that the port has; keep and tile are compared if given."""
         words = _whole("words", words, np.uint32)
         for name, value in dict(fields, cycle=cycle).items():
             if name not in self._FIELDS:
@@ -293,7 +293,7 @@ class Checker(_Handle):
         _call("fastsplat_checker_showed", self._pointer, ctypes.byref(shown))
 
     def finish(self, counters=()):
-        """True is a pass; of a device that failed report() and first_mismatch() say how."""
+        """True is a pass; otherwise see report() and first_mismatch()."""
         values = _whole("counters", counters, np.uint64)
         try:
             _call("fastsplat_checker_finish", self._pointer, values.ctypes.data_as(ctypes.c_void_p),

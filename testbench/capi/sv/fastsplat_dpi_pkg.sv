@@ -1,13 +1,13 @@
-// The passive checker of libfastsplat for SystemVerilog (docs/capi.md): imports of fastsplat.h and fastsplat_dpi.h. Read
-// fastsplat_pkg, the package of the device's configuration, first. Every int is a status: 0 is well, fastsplat_last_error()
-// has the line that says why not.
+// The passive checker of libfastsplat for SystemVerilog (docs/capi.md): imports of fastsplat.h and fastsplat_dpi.h.
+// Read fastsplat_pkg, the package of the device's configuration, first. Every int result is a status: 0 is success,
+// else fastsplat_last_error() has the reason.
 package fastsplat_dpi_pkg;
   localparam int API_MAJOR = 3;  // of fastsplat_api_version() >> 16
 
   import "DPI-C" function int unsigned fastsplat_api_version();
   import "DPI-C" function string fastsplat_last_error();
 
-  // null if there is no such configuration, or the device was built for another one.
+  // null if the configuration is unknown or not the device's.
   import "DPI-C" function chandle fastsplat_dpi_checker(
     input string config_name, input longint unsigned hash, input string input_pattern, input string output_pattern,
     input longint unsigned seed);
@@ -18,7 +18,7 @@ package fastsplat_dpi_pkg;
   import "DPI-C" function string fastsplat_checker_first_mismatch(input chandle judge);
   import "DPI-C" function string fastsplat_checker_summary(input chandle judge);
 
-  // What the device shows and takes, in the order of its cycles, of one cycle in the order of these; tile: tap_tile_o.
+  // What the device shows and takes, in the order of its cycles, within a cycle in this order; tile: tap_tile_o.
   import "DPI-C" function int fastsplat_dpi_snap(
     input chandle judge, input longint unsigned cycle, input int unsigned tile, input int unsigned tag,
     input int unsigned x, input int unsigned y, input int unsigned mx, input int unsigned my);
@@ -45,13 +45,13 @@ package fastsplat_dpi_pkg;
   import "DPI-C" function int fastsplat_dpi_finish(
     input chandle judge, input bit [64*fastsplat_pkg::COUNTERS-1:0] counters, input int unsigned words);
 
-  // When a side of a channel is willing (docs/verify.md, "Patterns").
+  // In which cycles a side of a channel is ready (docs/verify.md, "Patterns").
   import "DPI-C" function int fastsplat_pattern_create(
     input string text, input longint unsigned seed, output chandle pattern);
   import "DPI-C" function int fastsplat_pattern_at(
     input chandle pattern, input longint unsigned cycle, output int willing);
 
-  // 32-bit words of a vector.
+  // Number of 32-bit words of a vector.
   function automatic int unsigned words_of(input int unsigned bits);
     return (bits + 32'd31) / 32'd32;
   endfunction

@@ -1,5 +1,5 @@
-// The passive checker beside a device: samples its ports at every rising edge and tells the checker. Bind it to the
-// device, or put it beside it in a bench; it drives nothing. A reset of the device begins a new stream.
+// The passive checker beside a device: samples its ports at every rising edge and reports them to the checker. Bind it
+// to the device, or put it beside it in a bench; it drives nothing. A reset of the device begins a new stream.
 module fastsplat_monitor (
     input logic         clk_i,
     input logic         rst_ni,
@@ -37,12 +37,12 @@ module fastsplat_monitor (
 );
   import fastsplat_dpi_pkg::*;
 
-  chandle judge = null;            // open() gives it one; until then nothing is told
+  chandle judge = null;            // set by open(); until then nothing is reported
   longint unsigned cycle = 0;        // since reset was released
-  bit told = 0;                      // something since reset
+  bit told = 0;                      // something was reported since reset
   int unsigned refused = 0;          // calls that the checker refused: the bench or the stream is wrong
 
-  // False, with the reason printed, if there is no such checker.
+  // False, with the reason printed, if the checker cannot be created.
   function automatic bit open(input string config_name, input string input_pattern, input string output_pattern,
                               input longint unsigned seed);
     if (fastsplat_api_version() >> 16 != API_MAJOR) begin

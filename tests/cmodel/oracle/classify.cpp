@@ -3,12 +3,12 @@
 namespace fastsplat::oracle {
 namespace {
 
-/// narrow<RND, SAT>
+/// narrow<RND, SAT>; whether it was cut is counted nowhere (N-6.2-7, N-6.2-14).
 Wide rnd(Wide value, int from_f, const Words& to) {
   return narrow(Rounding::Rnd, Overflow::Sat, value, from_f, to).word;
 }
 
-/// Between two entries of f fraction bits, `rest` of 2^n on.
+/// Between two entries of f fraction bits, `rest` of 2^n on (N-6.2-7).
 Wide line(Wide here, Wide next, Wide rest, int n, int f) { return here - rnd((here - next) * rest, f + n, s(8, f)); }
 
 Wide two_complement(std::uint32_t word) { return static_cast<std::int32_t>(word); }
@@ -17,6 +17,7 @@ Wide magnitude(Wide value) { return value < 0 ? -value : value; }
 
 }  // namespace
 
+// N-6.2-6: how many words a table has, and what each may be.
 std::int64_t density_table_words(const Symbols& c, int table) {
   const std::int64_t words[] = {4 * ((std::int64_t{1} << c.segment_bits) + 1), 97, 129, 13};
   return table >= 3 && table <= 6 ? words[table - 3] : 0;
@@ -36,6 +37,7 @@ std::array<Wide, 4> classify(const Symbols& c, const DensityTables& tables, cons
   const auto table = [&](int number, Wide at) { return Wide{tables.at(number)[static_cast<std::size_t>(at)]}; };
   const auto light = [&](int at) { return two_complement(tables.at(6)[static_cast<std::size_t>(at)]); };
 
+  // N-6.2-8
   const int b = c.sf - c.segment_bits;
   const Wide d = pixel.density < power_of_two(c.sf) ? pixel.density : power_of_two(c.sf);
   const Wide i = floor_divide(d, power_of_two(b)), rest = remainder(d, power_of_two(b));
@@ -46,6 +48,7 @@ std::array<Wide, 4> classify(const Symbols& c, const DensityTables& tables, cons
   const Wide tau = classified(3, c.sf);
   if (tau == 0) return {};
 
+  // N-6.2-10
   const Wide scales = table(7, 2 * Wide{pixel.sheet}), per_floor = table(7, 2 * Wide{pixel.sheet} + 1);
   const Wide across = remainder(scales, 65536), along = floor_divide(scales, 65536);
   const Words slope = s(4, 16);
@@ -56,7 +59,7 @@ std::array<Wide, 4> classify(const Symbols& c, const DensityTables& tables, cons
   g[1] = rnd(pixel.dy * across, c.sf + 12, slope);
   g[2] = rnd(pixel.dz * along * power_of_two(16 - c.sf) - tx * g[0] - ty * g[1], 28, slope);
 
-  // m2, e, m, r and len of g as it is.
+  // m2, e, m, r and len of g as it is (N-6.2-10, N-6.2-11).
   Wide n = 0, m = 0, root = 0, length = 0;
   int e = 0;
   const auto measure = [&] {
@@ -72,6 +75,7 @@ std::array<Wide, 4> classify(const Symbols& c, const DensityTables& tables, cons
   Solid solid{};
   if (patterns.loaded()) {
     solid = solid_at(c, patterns, pixel.X, pixel.Y, pixel.sheet);
+    // N-6.3-11; all from m2 on is made again of the leant g (N-6.3-12).
     if (n > 0) {
       const auto& lean = solid.lean;
       const Wide p = rnd((g[0] * lean[0] + g[1] * lean[1] + g[2] * lean[2]) * root, 30 + e / 2, s(10, 16));
@@ -82,6 +86,7 @@ std::array<Wide, 4> classify(const Symbols& c, const DensityTables& tables, cons
   }
   Wide share = 0, matt = 0, glint = 0;
   if (n > 0) {
+    // N-6.2-11, N-6.2-12
     share = rnd(length * per_floor - power_of_two(32), 32, one(8));
     const auto facing = [&](int vector) {
       const Wide dot = g[0] * light(vector) + g[1] * light(vector + 1) + g[2] * light(vector + 2);
@@ -91,9 +96,10 @@ std::array<Wide, 4> classify(const Symbols& c, const DensityTables& tables, cons
     const Wide h = facing(3), k = floor_divide(h, 128), part = remainder(h, 128);
     glint = light(8) * (part == 0 ? table(5, k) : line(table(5, k), table(5, k + 1), part, 7, 12));
   }
-  std::array<Wide, 4> out;
+  std::array<Wide, 4> out;  // N-6.2-13
   for (int channel = 0; channel < 3; ++channel) {
     Wide E = classified(channel, 14);
+    // N-6.3-9
     if (patterns.loaded()) E = rnd(E * solid.tint[static_cast<std::size_t>(channel)], 30, one(14));
     const Wide shaded = E * matt + 4 * glint;
     const Wide lit = rnd(E * power_of_two(20) + share * (shaded - E * power_of_two(12)), 34, one(16));

@@ -3,10 +3,12 @@
 namespace fastsplat::oracle {
 namespace {
 
+/// N-4.6-5: the words of the coefficients and of q.
 Words form_words(const Symbols& c) { return s(log2_of(c.N) + c.g + 2 * log2_of(c.P) + 10, c.f); }
 
 }  // namespace
 
+// N-4.6-3: the first pixel.
 FirstPixel first_pixel(const Symbols& c, const Ellipse& e) {
   const Wide pixel = power_of_two(c.pf);
   const Wide x0 = floor_divide(e.x, pixel) + e.left, y0 = floor_divide(e.y, pixel) + e.top;
@@ -14,9 +16,12 @@ FirstPixel first_pixel(const Symbols& c, const Ellipse& e) {
 }
 
 const char* broken_shape(const Symbols& c, const Ellipse& e) {
+  // S-ellipse-4.
   if (4 * Wide{e.A} * e.C < Wide{e.B} * e.B) return "no ellipse";
+  // S-ellipse-5.
   if (e.left + e.nx * c.P > 510) return "windows too far right";
   if (e.top + e.ny * c.P > 510) return "windows too far down";
+  // S-ellipse-6.
   const Wide largest = 256 * Wide{c.P} * c.P * c.N * power_of_two(c.g);
   const FirstPixel first = first_pixel(c, e);
   for (const int j : {0, e.ny * c.P - 1})
@@ -28,6 +33,7 @@ const char* broken_shape(const Symbols& c, const Ellipse& e) {
   return nullptr;
 }
 
+// N-4.6-5: the six coefficients.
 EllipseForm::EllipseForm(const Symbols& c, const Ellipse& r) : words(form_words(c)), step(power_of_two(c.f)) {
   const auto n = [&](Wide value) {
     const Narrowed narrowed = narrow(Rounding::Rnd, Overflow::Wrap, value, r.h, words);
@@ -44,6 +50,7 @@ EllipseForm::EllipseForm(const Symbols& c, const Ellipse& r) : words(form_words(
   e = n(pixel * pixel * r.B);
 }
 
+// N-4.6-6: q; N-4.6-7: below 0 it counts as 0.
 Wide EllipseForm::steps(std::int64_t i, std::int64_t j) const {
   const Wide exact = u0 + i * u1 + Wide{i} * i * u2 + j * v1 + Wide{j} * j * v2 + Wide{i} * j * e;
   const Wide q = narrow(Rounding::Trn, Overflow::Wrap, exact, words.f, words).word;

@@ -28,6 +28,7 @@ int log2_of(Wide power) {
   return n;
 }
 
+// N-1-1: the formats.
 Words u(int i, int f) { return {0, power_of_two(i + f) - 1, f}; }
 Words s(int i, int f) { return {-power_of_two(i + f - 1), power_of_two(i + f - 1) - 1, f}; }
 Words one(int f) { return {0, power_of_two(f), f}; }
@@ -40,6 +41,7 @@ Narrowed narrow(Rounding rounding, Overflow overflow, Wide value, int from_f, co
   const Wide below = floor_divide(n, d);
   const Wide rest = n - below * d;  // the fraction lies rest/d above `below`
 
+  // N-1-3: rounding.
   Wide word = below;
   switch (rounding) {
     case Rounding::Trn:
@@ -52,6 +54,7 @@ Narrowed narrow(Rounding rounding, Overflow overflow, Wide value, int from_f, co
       break;
   }
 
+  // N-1-4: the range; N-1-5: what is reported.
   const bool outside = word < words.smallest || word > words.largest;
   if (outside && overflow == Overflow::Sat) word = word < words.smallest ? words.smallest : words.largest;
   if (outside && overflow == Overflow::Wrap)

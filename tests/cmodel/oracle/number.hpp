@@ -6,6 +6,7 @@
 
 namespace fastsplat::oracle {
 
+/// Products and sums are exact (N-1-2).
 __extension__ typedef __int128 Wide;
 
 /// 2^n, 0 <= n < 127.
@@ -21,7 +22,7 @@ int log2_of(Wide power);
 enum class Rounding { Trn, Rnd, RndConv };
 enum class Overflow { Sat, Wrap };
 
-/// Words smallest..largest in steps of 2^-f.
+/// Words smallest..largest in steps of 2^-f (N-1-1).
 struct Words {
   Wide smallest;
   Wide largest;

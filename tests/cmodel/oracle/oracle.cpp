@@ -23,7 +23,7 @@ struct Pixel {
 
 struct RadiusSet {
   std::int64_t rho = 0, base = 0, Ea = 0;
-  std::vector<std::uint32_t> words;  // of the kinds that have no columns
+  std::vector<std::uint32_t> words;  // of the kinds that have no columns (N-4.4-2)
 };
 
 class Renderer {
@@ -54,9 +54,11 @@ class Renderer {
     if (load.table == 8) patterns.nodes = load.words;
     if (load.table == 9) patterns.pattern = load.words;
     if (load.table != 0) return;
+    // S-table-10: of the other kinds each set keeps its words.
     sets[load.set] = {load.rho, load.base, load.Ea, load.words};
     if (c.index != "rlut" && c.index != "separable") return;
-    // One memory of k x columns words for all sets: what was loaded last is what a column holds.
+    // One memory of k x columns words for all sets: what was loaded last is what a column holds (N-4-1, N-4.5-1,
+    // S-table-9).
     rlut.resize(static_cast<std::size_t>(c.k) * static_cast<std::size_t>(c.columns));
     for (std::int64_t m = 0; m < c.k; ++m)
       for (std::int64_t i = 0; i < load.Ea; ++i)
@@ -66,7 +68,7 @@ class Renderer {
 
   void take(const TileStart& start) {
     tile = start;
-    Pixel fresh;
+    Pixel fresh;  // all 0 but T (N-6-1, N-6-9)
     if (tile.mode != 2) fresh.C[3] = power_of_two(c.tf);
     pixels.assign(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height), fresh);
     frozen.clear();
@@ -82,21 +84,24 @@ class Renderer {
     sheet = start.sheet;
     if (densities()) density_sheets[sheet];
     for (Pixel& p : pixels) {
-      p.S = {};
+      p.S = {};  // N-5-1
       p.hit = false;
     }
   }
 
   void take(const CullHint& hint) {
-    ++out.counts["cull_blocks"];
+    // S-cull-2: counted, whatever cull.map is. S-cull-3: it covers the next splats that no set covers yet.
+    ++out.counts["cull_blocks"];  // N-9-9, in every mode (N-6.1-2)
     if (!culls()) return;
+    // A hidden set's splats are dropped (N-6.1-8).
     promises.insert(promises.end(), hint.splats, hidden(hint.x, hint.y, hint.width, hint.height, cell()));
   }
 
   // Culling, section 6.1, pixel by pixel.
-  bool culls() const { return c.cull != "off" && tile.mode < 2; }
-  int cell() const { return c.cull == "block" ? c.P : 1; }
-  /// Whether all pixels of all cells that the rectangle meets in the tile were frozen two sheets ago.
+  bool culls() const { return c.cull != "off" && tile.mode < 2; }  // N-6.1-2
+  int cell() const { return c.cull == "block" ? c.P : 1; }         // N-6.1-3
+  /// Whether all pixels of all cells that the rectangle meets in the tile were frozen two sheets ago (N-6.1-4): what
+  /// the table's words decide (N-6.1-5, N-6.1-7). A rectangle that meets no cell is hidden (N-6.1-6).
   bool hidden(Wide x0, Wide y0, Wide width, Wide height, int u) const {
     for (Wide y = 0; y < tile.height; ++y)
       for (Wide x = 0; x < tile.width; ++x) {
@@ -116,15 +121,17 @@ class Renderer {
     return gone;
   }
 
+  /// A centre relative to the tile, and a radius set (N-3-2).
   void take(const Splat& splat) {
-    if (swallowed()) return;
-    ++out.counts["splats"];
+    if (swallowed()) return;  // N-6.1-8: no counter, no tap
+    ++out.counts["splats"];   // N-9-9, hidden or not (N-6.1-9)
     const RadiusSet& set = sets.at(splat.set);
     const Words grid = s(c.pi, log2_of(c.K()));
     const auto first = [&](Wide p) {
       return floor_divide(narrow(c.Rs, Overflow::Sat, p, c.pf, grid).word - set.rho, c.K()) + 1;
     };
     if (culls() && hidden(first(splat.x), first(splat.y), set.Ea, set.Ea, cell())) return;
+    // N-3-4: the snap; N-3-5: the window's origin and phase; N-3-6: the windows in their order.
     const Wide xs = sat(c.Rs, splat.x, c.pf, grid, "snap_saturated");
     const Wide ys = sat(c.Rs, splat.y, c.pf, grid, "snap_saturated");
     const Wide x0 = floor_divide(xs - set.rho, c.K()) + 1, y0 = floor_divide(ys - set.rho, c.K()) + 1;
@@ -141,11 +148,13 @@ class Renderer {
     ++out.counts["splats"];
     ++out.ellipses.records;
     const FirstPixel first = first_pixel(c, e);
+    // N-6.1-9
     if (culls() && hidden(first.x0, first.y0, Wide{e.nx} * c.P, Wide{e.ny} * c.P, cell())) return;
     emit(Kind::Snap, e.tag, first.x0, first.y0, {word(first.x0), word(first.y0), word(first.X), word(first.Y)});
     const EllipseForm form(c, e);
     out.ellipses.wrapped += form.wrapped() ? 1 : 0;
     const std::uint64_t weighted = out.counts["lanes_weighted"];
+    // N-4.6-4: the windows; N-4.6-7: the weights.
     for (std::int64_t j = 0; j < e.ny; ++j)
       for (std::int64_t i = 0; i < e.nx; ++i)
         window(e, first.x0, first.y0, i * c.P, j * c.P,
@@ -157,8 +166,8 @@ class Renderer {
   /// The window of a splat or an ellipse from its pixel (i0, j0) on.
   template <class Record, class Weight>
   void window(const Record& splat, Wide x0, Wide y0, std::int64_t i0, std::int64_t j0, const Weight& weight_of) {
-    if (culls() && hidden(x0 + i0, y0 + j0, c.P, c.P, c.P)) return;
-    ++out.counts["windows"];
+    if (culls() && hidden(x0 + i0, y0 + j0, c.P, c.P, c.P)) return;  // N-6.1-10, N-9-16
+    ++out.counts["windows"];                                         // N-9-8
     std::vector<std::uint32_t> weights, sums;
     for (std::int64_t j = j0; j < j0 + c.P; ++j)
       for (std::int64_t i = i0; i < i0 + c.P; ++i) {
@@ -168,7 +177,7 @@ class Renderer {
           add_density(splat.v, x0 + i, y0 + j, w, sums);
           continue;
         }
-        if (!inside(x0 + i, y0 + j)) {
+        if (!inside(x0 + i, y0 + j)) {  // N-3-7
           sums.insert(sums.end(), 4, 0);
           continue;
         }
@@ -176,30 +185,34 @@ class Renderer {
         if (w > 0) ++out.counts["lanes_weighted"];
         Pixel& p = at(x0 + i, y0 + j);
         const Words sums_format = u(c.si, c.sf);
-        Four products;
+        Four products;  // N-5-2; what is cut counts (N-9-11)
         for (std::size_t ch = 0; ch < 4; ++ch)
           products[ch] = sat(c.Rp, Wide{splat.v[ch]} * w, c.cf + c.wf, sums_format, "product_saturated");
+        // Every sample: composited at once, and nothing is left for the end of the sheet (N-6-12, N-6-13).
         if (tile.mode >= 4) {
           if (w > 0) {
-            ++out.counts["pixels_composited"];
+            ++out.counts["pixels_composited"];  // N-9-12
             if (p.C[3] < c.eps) ++out.counts["frozen_pixels"];
             composite(p, products, tile.mode - 4);
           }
           for (const Wide value : p.C) sums.push_back(word(value));
           continue;
         }
-        p.hit = true;
+        p.hit = true;  // N-9-6: whatever its weight
+        // N-5-3, N-9-11
         for (std::size_t ch = 0; ch < 4; ++ch) {
           p.S[ch] = sat(Rounding::Trn, p.S[ch] + products[ch], c.sf, sums_format, "sheet_saturated");
           sums.push_back(word(p.S[ch]));
         }
       }
+    // Also of windows outside the tile, with the splat's tag (N-9-1, N-9-2).
     emit(Kind::Footprint, splat.tag, x0 + i0, y0 + j0, std::move(weights));
     emit((tile.mode == 4 || tile.mode == 5) ? Kind::Composite : Kind::Sheet, splat.tag, x0 + i0, y0 + j0,
          std::move(sums));
   }
 
-  /// Of a tile of densities: at a pixel of it or its rim.
+  /// Of a tile of densities: at a pixel of it or its halo (N-6.2-3), whose counters count both (N-9-8, N-9-11). Splats
+  /// add to frozen pixels, too (N-6.2-5). Taps show 0 outside the tile (N-9-3).
   void add_density(const std::uint32_t (&v)[4], Wide x, Wide y, Wide w, std::vector<std::uint32_t>& sums) {
     if (x < -1 || y < -1 || x > tile.width || y > tile.height) {
       sums.insert(sums.end(), 4, 0);
@@ -215,7 +228,7 @@ class Renderer {
     }
   }
 
-  /// Density of a pixel in a sheet, 0 where nothing was splatted.
+  /// Density of a pixel in a sheet (N-6.2-2), 0 where nothing was splatted or there is no sheet (N-6.2-4).
   Wide density(std::int64_t of, Wide x, Wide y) const {
     const auto found = density_sheets.find(of);
     if (found == density_sheets.end()) return 0;
@@ -223,7 +236,8 @@ class Renderer {
     return pixel == found->second.end() ? 0 : pixel->second[3];
   }
 
-  /// Sheet `number` between its neighbours, of which those that the tile has not are empty.
+  /// Sheet `number` between its neighbours, of which those that the tile has not are empty (N-6.2-4). Its Composites
+  /// have its number (N-9-5).
   void classify_sheet(std::int64_t number) {
     const std::uint32_t open = sheet;
     sheet = static_cast<std::uint32_t>(number);
@@ -232,6 +246,7 @@ class Renderer {
     sheet = open;
   }
 
+  /// From (-1, -1) on (N-6.2-3). Dirty ones only (N-6.2-5), by pixels of the halo as well (N-9-6).
   void classify_block(std::int64_t number, Wide bx, Wide by) {
     bool dirty = false;
     for (const auto& [at, unused] : density_sheets[number])
@@ -247,7 +262,7 @@ class Renderer {
         }
         DensityPixel pixel{.density = density(number, x, y), .X = tile.x + x, .Y = tile.y + y, .sheet = sheet};
         const auto here = [&](Wide i, Wide j) { return density(number, i, j); };
-        // At the picture's edges to one side, twice.
+        // At the picture's edges to one side, twice (N-6.2-9).
         const bool left = pixel.X == 0, right = pixel.X == tile.image_width - 1, above = pixel.Y == 0,
                    below = pixel.Y == tile.image_height - 1;
         pixel.dx = (here(right ? x : x + 1, y) - here(left ? x : x - 1, y)) * (left || right ? 2 : 1);
@@ -256,13 +271,15 @@ class Renderer {
         Pixel& p = at(x, y);
         ++out.counts["pixels_composited"];
         if (p.C[3] < c.eps) ++out.counts["frozen_pixels"];
-        composite(p, oracle::classify(c, density_tables, patterns, pixel), tile.mode - 8);
+        composite(p, oracle::classify(c, density_tables, patterns, pixel), tile.mode - 8);  // N-6.2-2
         for (const Wide value : p.C) words.push_back(word(value));
       }
     emit(Kind::Composite, 0, bx, by, std::move(words));
   }
 
-  /// Of pixel (i, j) of the footprint, by the page's formula of the kind.
+  /// Of pixel (i, j) of the footprint, by the page's formula of the kind: rlut N-4-6, separable N-4.5-2, blit2d
+  /// N-4.4-1, squared N-4.2-2, squared_elliptic N-4.3-3, linear N-4.1-2. Separable and blit2d read no RADIAL (N-4.5-4,
+  /// N-4.4-9).
   Wide weight(const RadiusSet& set, Wide mx, Wide my, std::int64_t i, std::int64_t j) const {
     if (c.index == "rlut") return entry(column(set, mx, i) + column(set, my, j), c.g);
     if (c.index == "separable")
@@ -270,6 +287,7 @@ class Renderer {
                     u(c.wi, c.wf))
           .word;
     if (c.index == "blit2d") return stored(set, mx, my, i, j);
+    // N-3-8: the way from the centre.
     const Wide dx = (i + 1) * Wide{c.K()} - mx - set.rho, dy = (j + 1) * Wide{c.K()} - my - set.rho;
     if (c.index == "squared") return entry(set.words[0] * (dx * dx + dy * dy), int_of(set, 1));
     if (c.index == "squared_elliptic") {
@@ -287,20 +305,20 @@ class Renderer {
     return entry(low * set.words[0], int_of(set, 1));
   }
   static int int_of(const RadiusSet& set, std::size_t word) { return static_cast<int>(set.words[word]); }
-  /// Weight at q entries, f fraction bits.
+  /// Weight at q entries, f fraction bits (N-4-6); interpolated where the device does (N-4.7-1).
   Wide entry(Wide q, int f) const {
     const Wide t = floor_divide(q, power_of_two(f));
     if (t >= c.N) return 0;
     const Wide here = radial[static_cast<std::size_t>(t)];
     if (c.interpolate == 0) return here;
-    // What is left of q, in steps of 2^-g.
+    // N-4.7-2: what is left of q, in steps of 2^-g; N-4.7-3: the weight.
     const Wide rest = floor_divide(remainder(q, power_of_two(f)) * power_of_two(c.g), power_of_two(f));
     const Wide next = radial[static_cast<std::size_t>(t) + 1];
     return here - narrow(Rounding::Rnd, Overflow::Sat, (here - next) * rest, c.wf + c.g, s(c.wi + 1, c.wf)).word;
   }
 
-  /// blit2d. With eightfold symmetry the footprint is looked for: the phases, their mirror images and both exchanged,
-  /// until a pair is met that is stored.
+  /// blit2d (N-4.4-1, N-4.4-5). With eightfold symmetry the footprint is looked for: the phases, their mirror images
+  /// and both exchanged, until a pair is met that is stored (N-4.4-3, N-4.4-4).
   Wide stored(const RadiusSet& set, Wide mx, Wide my, Wide i, Wide j) const {
     const auto word_of_footprint = [&](Wide number, Wide column, Wide row) {
       if (column < 0 || row < 0 || column >= set.Ea || row >= set.Ea) return Wide{0};
@@ -333,8 +351,9 @@ class Renderer {
   }
 
   void take(const SheetEnd&) {
-    ++out.counts["sheets"];
+    ++out.counts["sheets"];  // N-9-9
     if (densities()) {
+      // The sheet before this one, whatever its number (N-6.2-4).
       if (density_sheets.size() > 1) classify_sheet(std::prev(density_sheets.end(), 2)->first);
       return;
     }
@@ -344,7 +363,8 @@ class Renderer {
     for (const Pixel& p : pixels) frozen.back().push_back(p.C[3] < c.eps);
   }
 
-  /// Every pixel is composited, dirty or not: the model, which visits dirty blocks only, must agree.
+  /// Every pixel is composited, dirty or not: the model, which visits dirty blocks only, must agree (N-6-10). Blocks
+  /// go row by row (N-9-4); only dirty ones have a tap and are counted (N-9-6, N-9-12).
   void block(int bx, int by) {
     bool dirty = false;
     for (int y = by; y < by + c.P; ++y)
@@ -358,6 +378,7 @@ class Renderer {
         }
         Pixel& p = at(x, y);
         if (dirty) ++out.counts["pixels_composited"];
+        // N-9-14
         if (dirty && tile.mode != 2 && p.C[3] < c.eps) ++out.counts["frozen_pixels"];
         composite(p, tinted(p.S, x, y), tile.mode);
         for (const Wide value : p.C) words.push_back(word(value));
@@ -367,9 +388,9 @@ class Renderer {
     emit(Kind::Composite, 0, bx, by, std::move(words));
   }
 
-  /// What is composited of a sheet's sums at a pixel of the tile.
+  /// What is composited of a sheet's sums at a pixel of the tile (N-6.3-8).
   Four tinted(Four S, Wide x, Wide y) const {
-    if (!patterns.loaded() || tile.mode > 1) return S;
+    if (!patterns.loaded() || tile.mode > 1) return S;  // N-6.3-1, N-6.3-10
     const Solid solid = solid_at(c, patterns, tile.x + x, tile.y + y, sheet);
     for (std::size_t ch = 0; ch < 3; ++ch)
       S[ch] = narrow(Rounding::Rnd, Overflow::Sat, S[ch] * solid.tint[ch], c.sf + 16, u(c.si, c.sf)).word;
@@ -378,25 +399,26 @@ class Renderer {
 
   /// S of a sheet or a sample, by mode 0, 1 or 2.
   void composite(Pixel& p, const Four& S, int mode) {
-    if (mode == 2) {
+    if (mode == 2) {  // N-6-9
       for (std::size_t ch = 0; ch < 4; ++ch)
         p.C[ch] = sat(Rounding::Trn, p.C[ch] + S[ch], c.sf, u(c.si, c.sf), "composite_saturated");
       return;
     }
     Wide f = 1;
-    int f_bits = 0;  // mode 1: the factor is the integer 1
-    if (mode == 0) {
+    int f_bits = 0;   // mode 1: the factor is the integer 1 (N-6-5)
+    if (mode == 0) {  // N-6-2
       const int b = c.si + c.sf - log2_of(c.G);
       const Wide i = floor_divide(S[3], power_of_two(b)), rem = remainder(S[3], power_of_two(b));
       const Wide left = factor[static_cast<std::size_t>(i)], right = factor[static_cast<std::size_t>(i) + 1];
       f = left - sat(c.Rf, (left - right) * rem, c.of + b, one(c.of), "never");
       f_bits = c.of;
     }
-    Four slab;
+    Four slab;  // N-6-3; counted before the pixel is asked whether it is frozen (N-9-13)
     for (std::size_t ch = 0; ch < 4; ++ch)
       slab[ch] = sat(c.Ra, S[ch] * f, c.sf + f_bits, one(c.tf), "opacity_saturated");
     const Wide T = p.C[3];
-    if (T < c.eps) return;
+    if (T < c.eps) return;  // N-6-6
+    // N-6-7; what is cut of a colour counts (N-9-15)
     for (std::size_t ch = 0; ch < 3; ++ch) {
       const Wide seen = sat(c.Rl, T * slab[ch], 2 * c.tf, one(c.tf), "never");
       p.C[ch] = sat(Rounding::Trn, p.C[ch] + seen, c.tf, u(1, c.tf), "composite_saturated");
@@ -405,15 +427,17 @@ class Renderer {
   }
 
   void take(const TileEnd&) {
+    // The last sheet of densities, before the pixels (N-6.2-4, N-9-5).
     if (!density_sheets.empty()) classify_sheet(density_sheets.rbegin()->first);
-    sheet = 0;  // of the Pixel events
+    sheet = 0;  // of the Pixel events (N-9-2)
     Picture picture{tile.tile, tile.x, tile.y, tile.width, tile.height, {}};
     const Words pixel = u(c.xi, c.xf);
+    // N-7-1
     for (int y = 0; y < tile.height; ++y)
       for (int x = 0; x < tile.width; ++x) {
         Four rgba = at(x, y).C;
-        if (tile.mode != 2) rgba[3] = power_of_two(c.tf) - rgba[3];
-        std::vector<std::uint32_t> words;
+        if (tile.mode != 2) rgba[3] = power_of_two(c.tf) - rgba[3];  // N-6-8
+        std::vector<std::uint32_t> words;                            // N-7-2, N-9-15
         for (const Wide value : rgba)
           words.push_back(word(sat(c.Ro, value, tile.mode == 2 ? c.sf : c.tf, pixel, "pixel_saturated")));
         picture.words.insert(picture.words.end(), words.begin(), words.end());
@@ -422,6 +446,7 @@ class Renderer {
     out.tiles.push_back(std::move(picture));
   }
 
+  /// A tap record (N-9-1), behind those before it (N-9-4).
   void emit(Kind kind, std::uint32_t tag, Wide x, Wide y, std::vector<std::uint32_t> payload) {
     out.events.push_back(
         {kind, tile.tile, sheet, tag, static_cast<std::int32_t>(x), static_cast<std::int32_t>(y), std::move(payload)});

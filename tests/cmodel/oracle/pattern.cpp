@@ -3,7 +3,7 @@
 namespace fastsplat::oracle {
 namespace {
 
-/// narrow<RND, SAT>
+/// narrow<RND, SAT>; whether it was cut is counted nowhere (N-6.3-14).
 Wide rnd(Wide value, int from_f, const Words& to) {
   return narrow(Rounding::Rnd, Overflow::Sat, value, from_f, to).word;
 }
@@ -16,6 +16,7 @@ Wide half(std::uint32_t word, bool upper, bool is_signed) {
 
 }  // namespace
 
+// N-6.3-2, N-6.3-3: how many words a table has, and what each may be.
 std::int64_t pattern_table_words(const Symbols& c, int table) {
   const std::int64_t M = std::int64_t{1} << c.node_bits;
   return table == 8 ? 2 * M * M * M : 13;
@@ -29,7 +30,7 @@ bool pattern_word_fits(int table, std::size_t at, std::uint32_t word) {
 Solid solid_at(const Symbols& c, const PatternTables& tables, Wide X, Wide Y, Wide sheet) {
   const Wide M = power_of_two(c.node_bits);
   const Wide places[3] = {X, Y, sheet};
-  Wide i[3], rest[3];
+  Wide i[3], rest[3];  // N-6.3-4
   for (int axis = 0; axis < 3; ++axis) {
     Wide away = places[axis] - tables.pattern[static_cast<std::size_t>(axis)];
     if (away < 0) away = 0;
@@ -39,7 +40,8 @@ Solid solid_at(const Symbols& c, const PatternTables& tables, Wide X, Wide Y, Wi
     i[axis] = floor_divide(at, 4096);
     rest[axis] = remainder(at, 4096);
   }
-  // Channel 0 is v, 1 to 3 are B; `axis` from 2 down: what lies between two of the level below.
+  // Channel 0 is v, 1 to 3 are B (N-6.3-2); `axis` from 2 down: what lies between two of the level below (N-6.3-5,
+  // N-6.3-6).
   const auto word = [&](int channel, Wide x, Wide y, Wide z) {
     const auto node = static_cast<std::size_t>(2 * (x + M * (y + M * z)));
     return half(tables.nodes[node + static_cast<std::size_t>(channel / 2)], channel % 2 == 1, channel > 0);
@@ -61,6 +63,7 @@ Solid solid_at(const Symbols& c, const PatternTables& tables, Wide X, Wide Y, Wi
   const Wide v = value(0);
   for (std::size_t ch = 0; ch < 3; ++ch) {
     const Wide lo = tables.pattern[6 + ch], hi = tables.pattern[9 + ch];
+    // N-6.3-7 and the b of N-6.3-11
     out.tint[ch] = lo + rnd((hi - lo) * v, 32, s(2, 16));
     out.lean[ch] = rnd(value(static_cast<int>(ch) + 1) * Wide{tables.pattern[12]}, 31, s(10, 16));
   }

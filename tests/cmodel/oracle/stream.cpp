@@ -27,7 +27,7 @@ struct Reader {
   }
   std::uint64_t beats() const { return bytes.size() / kBytes; }
 
-  /// The next beat into w; false at the end.
+  /// The next beat into w (S-record-1); false at the end.
   bool next() {
     if (beat >= beats()) return false;
     for (std::size_t i = 0; i < kWords; ++i) {
@@ -38,6 +38,7 @@ struct Reader {
     ++beat;
     return true;
   }
+  /// S-reader-2: the beat that is missing is the one refused.
   void need() {
     if (!next()) throw Refusal(beats(), "the stream ends early");
   }
@@ -47,18 +48,20 @@ struct Reader {
   std::int64_t bits(std::size_t i, int first, int n) const {
     return static_cast<std::int64_t>(remainder(w[i] / power_of_two(first), power_of_two(n)));
   }
+  /// S-record-5.
   std::int64_t two_complement(std::size_t i, int first, int n) const {
     const std::int64_t word = bits(i, first, n), half = std::int64_t{1} << (n - 1);
     return word >= half ? word - 2 * half : word;
   }
-  /// The words from `first` on carry nothing.
+  /// The words from `first` on carry nothing (S-record-3).
   void empty_from(std::size_t first) const {
     for (std::size_t i = first; i < kWords; ++i) rule(w[i] == 0, "an unnamed word is not zero");
   }
   void only_opcode() const { rule(w[0] < 256, "an unnamed bit of w0 is not zero"); }
 };
 
-/// Words of a radius set, and the largest that each may be.
+/// Words of a radius set, and the largest that each may be: N-4-1, N-4.1-1, N-4.2-1, N-4.3-1, N-4.4-1, N-4.4-3 and
+/// N-4.5-1; S-table-5.
 std::int64_t set_words(const Symbols& c, std::int64_t Ea) {
   if (c.index == "linear" || c.index == "squared") return 2;
   if (c.index == "squared_elliptic") return 4;
@@ -83,6 +86,7 @@ TableLoad table_load(Reader& r) {
   r.rule(r.w[0] < 65536, "an unnamed bit of w0 is not zero");
   r.empty_from(5);
   load.table = static_cast<int>(r.w[0] / 256);
+  // S-table-1.
   const bool pattern = load.table == 8 || load.table == 9;
   r.rule(pattern ? c.node_bits > 0 : load.table <= (c.segment_bits > 0 ? 7 : 2), "unknown table");
   load.set = r.w[1];
@@ -91,18 +95,21 @@ TableLoad table_load(Reader& r) {
   load.base = r.w[4];
   std::int64_t largest = 0;
   if (load.table == 0) {
+    // S-table-3; S-table-4 from the base of a set without columns.
     r.rule(load.set < c.sets, "radius set");
     r.rule(load.rho >= 1, "rho");
     r.rule(load.base % c.P == 0, "base");
+    // N-3-3: base, E and Ea; N-4.4-2.
     if (c.index != "rlut" && c.index != "separable") r.rule(load.base == 0, "base of a set without columns");
     const Wide E = ceil_divide(2 * Wide{load.rho}, c.K());
     load.Ea = static_cast<std::int64_t>(ceil_divide(E, c.P)) * c.P;
     r.rule(load.base + load.Ea <= c.columns, "columns");
     r.rule(count == set_words(c, load.Ea), "words");
   } else {
+    // S-table-2; the numbers of words: S-table-6, S-table-7, S-table-11, S-table-13.
     r.rule(load.set == 0 && load.rho == 0 && load.base == 0, "a radius set in a table without");
     if (load.table == 7) {
-      r.rule(count >= 2 && count % 2 == 0, "words");
+      r.rule(count >= 2 && count <= 2 * 4096 && count % 2 == 0, "words");
     } else {
       r.rule(count == (load.table == 1   ? c.radial_words()
                        : load.table == 2 ? c.G + 1
@@ -112,6 +119,7 @@ TableLoad table_load(Reader& r) {
     }
     largest = static_cast<std::int64_t>(load.table == 1 ? u(c.wi, c.wf).largest : one(c.of).largest);
   }
+  // S-record-2, S-rule-2: eight words a beat, whatever record the beat looks like.
   for (std::int64_t done = 0; done < count; done += std::int64_t{kWords}) {
     r.need();
     for (std::size_t i = 0; i < kWords; ++i) {
@@ -119,6 +127,7 @@ TableLoad table_load(Reader& r) {
         r.rule(r.w[i] == 0, "padding");
         continue;
       }
+      // S-table-11, S-table-13.
       if (load.table > 2) {
         r.rule(pattern ? pattern_word_fits(load.table, load.words.size(), r.w[i])
                        : density_word_fits(c, load.table, load.words.size(), r.w[i]),
@@ -126,6 +135,7 @@ TableLoad table_load(Reader& r) {
         load.words.push_back(r.w[i]);
         continue;
       }
+      // S-table-5, S-table-6, S-table-7.
       if (load.table == 0) largest = largest_set_word(c, load.words.size());
       if (load.table == 0 && c.index == "squared_elliptic" && load.words.size() == 1) {
         const auto B = static_cast<std::int32_t>(r.w[i]);
@@ -137,6 +147,7 @@ TableLoad table_load(Reader& r) {
       load.words.push_back(r.w[i]);
     }
   }
+  // N-4.3-2.
   if (load.table == 0 && c.index == "squared_elliptic") {
     const Wide B = static_cast<std::int32_t>(load.words[1]);
     r.rule(4 * Wide{load.words[0]} * Wide{load.words[2]} >= B * B, "no ellipse");
@@ -144,7 +155,7 @@ TableLoad table_load(Reader& r) {
   return load;
 }
 
-/// What splats and ellipses share: x and y were read.
+/// What splats and ellipses share (S-splat-2, S-ellipse-2): x and y were read.
 template <class Record>
 void place_and_colour(const Reader& r, Record& record) {
   const Words position = s(r.c.pi, r.c.pf);
@@ -161,7 +172,9 @@ Splat splat(const Reader& r, const std::set<std::int64_t>& sets, std::uint32_t t
   r.empty_from(6);
   Splat splat;
   splat.set = static_cast<int>(r.w[0] / 256);
+  // S-splat-1.
   r.rule(sets.contains(splat.set), "radius set not loaded");
+  // S-splat-3.
   splat.tag = r.w[1];
   r.rule(splat.tag == tag, "tag");
   splat.x = static_cast<std::int32_t>(r.w[2]);
@@ -170,6 +183,7 @@ Splat splat(const Reader& r, const std::set<std::int64_t>& sets, std::uint32_t t
   return splat;
 }
 
+/// N-4.6-2: its words.
 Ellipse ellipse(const Reader& r, std::uint32_t tag) {
   // Every bit has a name but the uppermost four of w3.
   r.rule(r.w[3] < 268435456, "an unnamed bit of w3 is not zero");
@@ -185,6 +199,7 @@ Ellipse ellipse(const Reader& r, std::uint32_t tag) {
   e.h = static_cast<int>(r.bits(3, 22, 6));
   e.left = static_cast<int>(r.two_complement(6, 22, 10));
   e.top = static_cast<int>(r.two_complement(7, 22, 10));
+  // S-ellipse-3.
   e.nx = static_cast<int>(r.bits(2, 22, 5)) + 1;
   e.ny = static_cast<int>(r.bits(2, 27, 5)) + 1;
   const char* broken = broken_shape(r.c, e);
@@ -201,10 +216,13 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
   r.need();
   r.rule(r.w[0] % 256 == 0x46, "begin_frame expected");
   r.rule(r.low(0) == 0x46, "an unnamed bit of w0 is not zero");
+  // S-frame-1.
   r.rule(r.high(0) == 2, "version");
   r.empty_from(6);
   r.rule(r.w[1] == 0x31535346, "magic");
+  // S-frame-3.
   r.rule(r.w[2] + r.w[3] * (std::uint64_t{1} << 32) == hash(symbols), "hash");
+  // S-frame-4.
   const std::int64_t image_width = r.low(4), image_height = r.high(4);
   r.rule(image_width >= 1 && image_height >= 1, "image sides");
   const std::uint64_t tiles = r.w[5];
@@ -215,6 +233,7 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
   std::uint64_t scaled_sheets = 0;
   std::uint64_t tiles_seen = 0;
 
+  // S-grammar-1, with the opcodes of S-record-4.
   while (true) {
     r.need();
     const std::uint32_t opcode = r.w[0] % 256;
@@ -229,22 +248,27 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
       if (load.table == 7) scaled_sheets = load.words.size() / 2;
       items.emplace_back(std::move(load));
     } else if (opcode == 0x54) {
-      r.rule(have_radial && have_factor, "a tile before its tables");
+      // S-table-8.
+      r.rule(have_radial && have_factor, "a tile before its tables");  // RADIAL of every kind (N-4.4-9, N-4.5-4)
       r.rule(r.w[0] < 4096, "an unnamed bit of w0 is not zero");
       r.empty_from(5);
       TileStart tile;
       tile.mode = static_cast<int>(r.w[0] / 256);
       const bool densities = r.c.segment_bits > 0 && (tile.mode == 8 || tile.mode == 9);
+      // S-table-12, S-table-13.
       r.rule(!densities || of_densities.size() == 5, "a tile of densities before its tables");
       r.rule(of_patterns.size() != 1, "one table of a pattern without the other");
+      // Who has which mode: N-6-11, N-6.2-1.
+      // S-tile-1.
       r.rule(tile.mode <= 2 || (r.c.every_sample != 0 && (tile.mode == 4 || tile.mode == 5)) || densities, "mode");
+      // S-tile-4.
       tile.tile = r.w[1];
       r.rule(tile.tile == tiles_seen && tile.tile < tiles, "tile number");
       tile.x = static_cast<std::int32_t>(r.w[2]);
       tile.y = static_cast<std::int32_t>(r.w[3]);
       tile.width = static_cast<int>(r.low(4));
       tile.height = static_cast<int>(r.high(4));
-      const int rim = densities ? 2 : 0;
+      const int rim = densities ? 2 : 0;  // S-tile-2, S-tile-3 (N-6.2-3)
       r.rule(tile.width >= 1 && tile.width <= symbols.W - rim && tile.height >= 1 && tile.height <= symbols.H - rim,
              "tile sides");
       tile.image_width = static_cast<int>(image_width);
@@ -257,11 +281,13 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
 
       std::uint32_t sheets = 0, tag = 0;
       std::optional<std::uint32_t> last_sheet;
+      // S-tile-10: perhaps no sheet, and no splat in a sheet.
       for (r.need(); r.w[0] % 256 != 0x74; r.need()) {
         r.rule(r.w[0] % 256 == 0x53, "begin_sheet or end_tile expected");
         r.only_opcode();
         r.empty_from(2);
         const std::uint32_t sheet = r.w[1];
+        // S-tile-6, S-tile-7.
         r.rule(!last_sheet || sheet > *last_sheet, "sheet numbers rise");
         r.rule(!densities || sheet < scaled_sheets, "a sheet without scales");
         last_sheet = sheet;
@@ -273,16 +299,19 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
           if (r.w[0] % 256 == 0x50) {
             items.emplace_back(splat(r, sets, tag++));
             ++splats;
-          } else if (symbols.f > 0 && r.w[0] % 256 == 0x45) {
+          } else if (symbols.f > 0 && r.w[0] % 256 == 0x45) {  // N-4.6-1
+            // S-ellipse-1; tag and count are those of the splats, too (S-ellipse-2).
             items.emplace_back(ellipse(r, tag++));
             ++splats;
           } else {
             r.rule(r.w[0] % 256 == 0x43, "splat, cull_block or end_sheet expected");
             r.only_opcode();
             r.empty_from(6);
+            // S-cull-1.
             r.rule(r.low(4) >= 1 && r.high(4) >= 1, "an empty cull_block");
             const CullHint hint{static_cast<std::int32_t>(r.w[2]), static_cast<std::int32_t>(r.w[3]),
                                 static_cast<int>(r.low(4)), static_cast<int>(r.high(4)), r.w[5]};
+            // S-cull-2 where it is off; else S-cull-3, S-cull-4.
             if (symbols.cull != "off") {
               promised = std::max<std::uint64_t>(promised, splats);
               r.rule(r.w[1] == tag + (promised - splats), "a promise with another tag");
@@ -293,13 +322,16 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
         }
         r.only_opcode();
         r.empty_from(3);
+        // S-tile-8, S-tile-9.
         r.rule(r.w[1] == sheet, "sheet number");
         r.rule(r.w[2] == splats, "splat count");
+        // S-cull-8.
         r.rule(promised <= splats, "a promise without its splats");
         items.emplace_back(SheetEnd{});
       }
       r.only_opcode();
       r.empty_from(3);
+      // S-tile-8, S-tile-9.
       r.rule(r.w[1] == tile.tile, "tile number");
       r.rule(r.w[2] == sheets, "sheet count");
       items.emplace_back(TileEnd{});
@@ -307,9 +339,11 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
       r.rule(opcode == 0x66, "end_frame expected");
       r.only_opcode();
       r.empty_from(4);
+      // S-file-6.
       r.rule(tiles_seen == tiles, "tile count");
       r.rule(r.w[1] + r.w[2] * (std::uint64_t{1} << 32) == r.beat - 1, "beat count");
       r.rule(r.w[3] == crc32(bytes.first((r.beat - 1) * kBytes)), "CRC");
+      // S-file-5.
       if (r.next()) r.rule(false, "something follows end_frame");
       return items;
     }

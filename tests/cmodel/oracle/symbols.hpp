@@ -27,7 +27,7 @@ struct Symbols {
   std::string carry = "xray";
   std::string index = "rlut", symmetry = "off";
   int f = 0;  ///< 0: no ellipses
-  // Of time and registers; no word depends on them.
+  // Of time and registers; no word depends on them (N-2-4).
   int C = 0;  ///< 0: P^2
   int counter_bits = 64;
   int every_sample = 0;
@@ -35,11 +35,12 @@ struct Symbols {
   int interpolate = 0;       ///< of the radial table
   int segment_bits = 0;      ///< q, of CLASSIFY; 0: no sheets of densities
   int node_bits = 0;         ///< of NODES; 0: no solid patterns
+  /// N-4.7-1: one more where weights are interpolated.
   int radial_words() const { return N + interpolate; }
 
-  /// Weights depend on window phases: centres lie on the snap's grid.
+  /// Weights depend on window phases: centres lie on the snap's grid (N-3-1).
   bool has_phases() const { return index == "rlut" || index == "blit2d" || index == "separable"; }
-  /// Steps of the centres' grid a pixel.
+  /// Steps of the centres' grid a pixel (N-3-1).
   int K() const { return has_phases() ? k : 1 << pf; }
 };
 
@@ -47,10 +48,10 @@ struct Key {
   const char* name;
   int Symbols::*member;
 };
-/// In the order of the page's table, which is the order of the hash.
+/// In the order of the page's table, which is the order of the hash (N-2-1).
 std::span<const Key> keys();
 
-/// The keys that may be absent: they follow the others.
+/// The keys that may be absent: they follow the others (N-2-1, N-2-3).
 struct RoundingKey {
   const char* name;
   Rounding Symbols::*member;
@@ -58,7 +59,7 @@ struct RoundingKey {
 std::span<const RoundingKey> rounding_keys();
 const char* word_of(Rounding rounding);
 
-/// 64-bit FNV-1a over the lines "key=value\n"; optional keys only if they are not neutral.
+/// 64-bit FNV-1a over the lines "key=value\n" (N-2-5); optional keys only if they are not neutral (N-2-6).
 std::uint64_t hash(const Symbols& symbols);
 
 /// CRC-32 of IEEE 802.3, bit by bit.

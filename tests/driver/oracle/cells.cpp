@@ -9,6 +9,7 @@ std::int64_t up(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
 
 }  // namespace
 
+/// N-8-75.
 Cells cells_of(std::int64_t P, std::int64_t W, std::int64_t H) {
   std::int64_t side = P;
   while (up(W, side) * up(H, side) > 1024) side *= 2;
@@ -34,6 +35,7 @@ SheetCells sheet_cells(const Cells& cells, const std::vector<std::int64_t>& cand
         for (const std::size_t cell : some) splats += candidates[cell];
         return splats;
       };
+      // N-8-76.
       const auto enough = [&](const std::vector<std::size_t>& some) {
         return sum(some) == 0 || sum(some) * windows >= 100;
       };
@@ -46,6 +48,7 @@ SheetCells sheet_cells(const Cells& cells, const std::vector<std::int64_t>& cand
       const auto add = [&](const std::vector<std::size_t>& some) {
         if (filled(some).empty()) return;
         const auto first = static_cast<std::int64_t>(some.front()), last = static_cast<std::int64_t>(some.back());
+        // N-8-79: the rectangle.
         CellSet set{.x = first % cells.columns * cells.side,
                     .y = first / cells.columns * cells.side,
                     .width = (last % cells.columns - first % cells.columns + 1) * cells.side + widest - 1,
@@ -53,6 +56,7 @@ SheetCells sheet_cells(const Cells& cells, const std::vector<std::int64_t>& cand
                     .cells = filled(some)};
         out.sets.push_back(std::move(set));
       };
+      // N-8-78: the first that holds.
       const bool each = std::ranges::all_of(all, [&](std::size_t cell) { return enough({cell}); });
       const bool by_row = std::ranges::all_of(rows, enough);
       if (may_hide && each) {

@@ -6,13 +6,13 @@
 namespace fastsplat::scene_oracle {
 namespace {
 
-/// F, at least a quarter of a pixel across.
+/// F (N-8-44), at least a quarter of a pixel across (N-8-45).
 Shape footprint(const Given& given, const Shape& s, EllipseWords& words) {
   Shape F{given.R * given.R * s.xx, given.R * given.R * s.xy, given.R * given.R * s.yy};
   const double half = (F.xx - F.yy) / 2, apart = std::hypot(half, F.xy);
   const double least = (F.xx + F.yy) / 2 - apart;
   if (least >= 1.0 / 16) return F;
-  // Across: along the direction of the lesser root. Where both are less, the page says nothing of the other: both ways.
+  // N-8-45: across, that is along the direction of the lesser root; where both are less, both ways.
   words.thin = true;
   const double more = 1.0 / 16 - least;
   const double before = F.xx * F.yy - F.xy * F.xy;
@@ -24,6 +24,7 @@ Shape footprint(const Given& given, const Shape& s, EllipseWords& words) {
     F.yy += more * (1 + cos) / 2;
     F.xy -= more * sin / 2;
   }
+  // N-8-46.
   words.factor = std::sqrt(before / (F.xx * F.yy - F.xy * F.xy));
   return F;
 }
@@ -33,8 +34,10 @@ std::int64_t pixel_before(double at, double one) { return static_cast<std::int64
 
 }  // namespace
 
+/// N-8-39.
 bool shaped(const Given& given) { return given.symbols.f > 0 && given.shapes; }
 
+/// N-8-43.
 bool is_circle_of(const Given& given, const Shape& shape, double r_max) {
   if (shape.xx != shape.yy || shape.xy != 0.0) return false;
   const double r = given.R * std::sqrt(shape.xx);
@@ -45,9 +48,11 @@ EllipseWords ellipse_words(const Given& given, const Shape& shape, std::int64_t 
   const oracle::Symbols& c = given.symbols;
   EllipseWords out;
   const Shape F = footprint(given, shape, out);
+  // N-8-47.
   const double m = (1.0 - std::ldexp(1.0, -40)) * c.N * std::ldexp(1.0, c.g) / std::ldexp(1.0, 2 * c.pf);
   const double a = m / (F.xx - F.xy * (F.xy / F.yy)), d = m / (F.yy - F.xy * (F.xy / F.xx));
   const double b = -2 * (a * (F.xy / F.yy));
+  // N-8-48.
   int h = std::clamp(21 - static_cast<int>(std::floor(std::log2(std::max(a, d)))), 0, 63);
   if (std::ceil(std::ldexp(std::max(a, d), h)) == 4194304.0) --h;
   out.h = h;
@@ -63,11 +68,13 @@ EllipseWords ellipse_words(const Given& given, const Shape& shape, std::int64_t 
   const double r2 = std::ldexp(c.N * std::ldexp(1.0, c.g), h);
   const auto A = static_cast<double>(out.A), B = static_cast<double>(out.B), C = static_cast<double>(out.C);
   const auto det = static_cast<double>(4 * out.A * out.C - out.B * out.B);
+  // N-8-50: the rows. N-8-54: the half sides.
   const double H = std::sqrt(4 * A * r2 / det), widest = std::sqrt(4 * C * r2 / det);
   const double p = -B * widest / (2 * C);
   const std::int64_t first = pixel_after(y - H, one), last = pixel_before(y + H, one);
   out.too_large = std::max(H, widest) / one > c.columns / 2.0;
   for (std::int64_t row = first; row <= last; row += c.P) {
+    // N-8-51: the columns.
     const double top = std::max(static_cast<double>(row) * one - y, -H);
     const std::int64_t last_row = std::min(row + c.P - 1, last);  // of those that the footprint has
     const double bottom = std::min(static_cast<double>(last_row) * one - y, H);
@@ -75,6 +82,7 @@ EllipseWords ellipse_words(const Given& given, const Shape& shape, std::int64_t 
     const double on_left = std::clamp(-p, top, bottom), on_right = std::clamp(p, top, bottom);
     const std::int64_t left = pixel_after(x + (-B * on_left / (2 * A) - s(on_left)), one);
     const std::int64_t right = pixel_before(x + (-B * on_right / (2 * A) + s(on_right)), one);
+    // N-8-52: windows and records.
     if (right < left) continue;
     const std::int64_t nx = (right - left + c.P) / c.P;
     Span* before = out.spans.empty() ? nullptr : &out.spans.back();

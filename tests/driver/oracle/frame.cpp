@@ -38,18 +38,19 @@ Sets radius_sets(const Given& given) {
   Sets sets;
   sets.r_min = HUGE_VAL;
   for (const double s : given.scale_at_corner) {
-    const double r = given.R * given.u * s;
+    const double r = given.R * given.u * s;  // N-8-25
     sets.r_min = std::min(sets.r_min, r);
     r_max = std::max(r_max, r);
   }
-  if (2 * std::ceil(r_max * symbols.K()) > symbols.columns * symbols.K())
+  if (2 * std::ceil(r_max * symbols.K()) > symbols.columns * symbols.K())  // N-8-26
     throw Refused("a support radius beyond half the RLUT's columns");
   const RadiusSet largest = radius_set(symbols, r_max);
-  if (r_max <= sets.r_min * (1 + 1e-9) || shaped(given)) {
+  if (r_max <= sets.r_min * (1 + 1e-9) || shaped(given)) {  // N-8-27, N-8-43: one set
     sets.all = {largest};
     return sets;
   }
   const bool columns = symbols.index == "rlut" || symbols.index == "separable";
+  // N-8-27: the number of sets. N-8-28: their radii. N-8-31: their bases.
   const std::int64_t room = symbols.has_phases() ? symbols.columns / largest.Ea : symbols.sets;
   const std::int64_t n = std::min<std::int64_t>(room, symbols.sets);
   sets.b = static_cast<double>(n) / std::log(r_max / sets.r_min);
@@ -67,6 +68,7 @@ struct Sheets {
   double nearest_boundary = 0.0, width = 0.0;  ///< kernel units, where sliced
 };
 
+/// N-8-62: the table of the page, with the slabs of N-8-55.
 Sheets sheets_of(const Given& given) {
   const double half = std::ceil((given.D / given.u + given.R) / given.w);
   const auto slabs = static_cast<std::int64_t>(2 * half);
@@ -86,6 +88,7 @@ Sheets sheets_of(const Given& given) {
   return {2, given.xray_sheets, true, -half * given.w, 2 * half * given.w / given.xray_sheets};
 }
 
+/// X (N-8-23).
 double exposure(const Given& given) {
   if (given.method != Method::XRay) return 1.0;
   if (given.xray_exposure != 0.0) return given.xray_exposure;
@@ -120,13 +123,13 @@ class Page {
         sheets_(sheets_of(given)),
         phi_(phi(given)),
         radial_(radial(given)) {
-    for (std::int64_t s = 0; sheets_.sliced && s <= sheets_.S; ++s) {
+    for (std::int64_t s = 0; sheets_.sliced && s <= sheets_.S; ++s) {  // N-8-65
       B_.push_back(nearest(static_cast<double>(s) * sheets_.width * std::ldexp(1.0, symbols_.zf)));
       if (s > 0 && B_[static_cast<std::size_t>(s)] == B_[static_cast<std::size_t>(s - 1)])
         throw Refused("two slab boundaries are equal");
     }
     for (const RealSplat& real : given.splats) add(real);
-    std::stable_sort(splats_.begin(), splats_.end(),
+    std::stable_sort(splats_.begin(), splats_.end(),  // N-8-73: the splats' order
                      [](const Splat& x, const Splat& y) { return x.first_sheet < y.first_sheet; });
   }
 
@@ -144,12 +147,13 @@ class Page {
   }
 
  private:
+  // N-8-69: the tiles.
   std::int64_t across() const { return to_int(ceil_divide(given_.width, symbols_.W)); }
   std::int64_t down() const { return to_int(ceil_divide(given_.height, symbols_.H)); }
 
   std::size_t set_of(double r) {
     if (sets_.all.size() == 1) return 0;
-    const double bin = std::floor(std::log(r / sets_.r_min) * sets_.b);
+    const double bin = std::floor(std::log(r / sets_.r_min) * sets_.b);  // N-8-28
     const auto last = static_cast<double>(sets_.all.size() - 1);
     met_.clamped_sets += bin < 0.0 || bin > last ? 1 : 0;
     return static_cast<std::size_t>(std::clamp(bin, 0.0, last));
@@ -160,25 +164,27 @@ class Page {
     const double one = std::ldexp(1.0, symbols_.pf);
     Splat splat;
     splat.order = met_.voxels;
-    const bool rounded_later = symbols_.K() < one && symbols_.Rs == Rounding::Rnd;
+    const bool rounded_later = symbols_.K() < one && symbols_.Rs == Rounding::Rnd;  // N-8-36
     splat.x = rounded_later ? to_int(static_cast<Wide>(std::floor(real.x * one))) : nearest(real.x * one);
     splat.y = rounded_later ? to_int(static_cast<Wide>(std::floor(real.y * one))) : nearest(real.y * one);
     const double r = given_.R * given_.u * real.s;
     splat.set = set_of(r);
     const bool ellipse = shaped(given_) && !is_circle_of(given_, real.shapes.back(), sets_.all[0].r);
-    if (ellipse) {
+    if (ellipse) {  // N-8-44, N-8-49
       splat.x = nearest(real.x * one);
       splat.y = nearest(real.y * one);
       splat.ellipse = ellipse_words(given_, real.shapes.back(), splat.x, splat.y);
     }
     const double r_set = sets_.all[splat.set].r;
 
+    // N-8-7: peak and A. N-8-37: f.
     const double peak = given_.a / (std::numbers::pi * (1 - std::exp(-given_.a * given_.R * given_.R)));
     const double A = peak * given_.cx * given_.cy * given_.cz;
     const double f = ellipse ? A * exposure(given_) : A * exposure(given_) * (r / r_set) * (r / r_set);
     const Wide most = power_of_two(symbols_.cf + 4) - 1;
     std::array<Wide, 4> V{};
     bool cut = false, visible = false;
+    // N-8-58: who carries, and runs. N-8-61: what a run begins with.
     const bool carried = symbols_.carry == "on" || (symbols_.carry == "xray" && given_.method == Method::XRay);
     auto& [rest, last, count] = runs_[{real.i, real.j}];
     if (count == 0 || real.g != last + 1) rest.assign(4, 0.5), count = 0;
@@ -190,6 +196,7 @@ class Page {
       double value = real.e[c] * f;
       if (ellipse) value = as_shaped(real, *splat.ellipse, value);
       const double real_word = value * std::ldexp(1.0, symbols_.cf);
+      // N-8-37, or with the carry N-8-59.
       const double t = carried ? real_word + rest[c] : real_word + 0.5;
       const double word = std::floor(std::max(t, 0.0));
       const bool beyond = word > static_cast<double>(most);
@@ -201,10 +208,11 @@ class Page {
       visible = visible || V[c] != 0;
     }
     met_.saturated_voxels += cut ? 1 : 0;
-    if (!visible) {
+    if (!visible) {  // N-8-38
       ++met_.vanished_voxels;
       return;
     }
+    // N-8-54
     if (ellipse && splat.ellipse->too_large) throw Refused("a footprint beyond the RLUT's columns");
     met_.ellipses += ellipse ? 1 : 0;
     met_.thin_ellipses += ellipse && splat.ellipse->thin ? 1 : 0;
@@ -215,7 +223,7 @@ class Page {
     splats_.push_back(splat);
   }
 
-  /// What a real is after all techniques.
+  /// What a real is after all techniques (N-8-42), and where it is thin (N-8-46).
   static double as_shaped(const RealSplat& real, const EllipseWords& words, double value) {
     const auto det = [](const Shape& S) { return S.xx * S.yy - S.xy * S.xy; };
     for (std::size_t i = 1; i < real.shapes.size(); ++i)
@@ -223,11 +231,12 @@ class Page {
     return words.thin ? value * words.factor : value;
   }
 
-  /// What the sheets show of a word on average.
+  /// What the sheets show of a word on average (N-8-60).
   double shown(Wide V) {
     Wide all = 0;
     const auto area = [&](std::size_t t) {
-      if (symbols_.interpolate != 0) return t == 0 || t + 1 == radial_.size() ? Wide{1} : Wide{2};  // halved
+      // Halved: N-4.7-5.
+      if (symbols_.interpolate != 0) return t == 0 || t + 1 == radial_.size() ? Wide{1} : Wide{2};
       return symbols_.index == "linear" ? 2 * static_cast<Wide>(t) + 1 : Wide{1};
     };
     for (std::size_t t = 0; t < radial_.size(); ++t) all += radial_[t] * area(t);
@@ -244,7 +253,7 @@ class Page {
     return at->second;
   }
 
-  /// One channel of what a record carries of a splat.
+  /// One channel of what a record carries of a splat: v_c of N-8-66 and N-8-67.
   void input(Share& share, std::size_t c, Wide part) {
     const auto v = narrow(Rounding::Trn, Overflow::Sat, part, symbols_.cf, oracle::u(0, symbols_.cf));
     share.v[c] = to_int(v.word);
@@ -253,13 +262,14 @@ class Page {
   }
 
   void whole(Splat& splat, const std::array<Wide, 4>& V, int sheet) {
-    splat.first_sheet = sheet;
+    splat.first_sheet = sheet;  // N-8-68: its sheet
     splat.shares.resize(static_cast<std::size_t>(sheets_.S));
     for (std::size_t c = 0; c < 4; ++c) input(splat.shares[static_cast<std::size_t>(sheet)], c, V[c]);
   }
 
   void slice(Splat& splat, const std::array<Wide, 4>& V, double z, double lambda) {
     const auto M = static_cast<std::int64_t>(phi_.size()) - 1;
+    // N-8-65: zq. N-8-57: grown kernels. N-8-68: the first sheet. N-8-66: the shares.
     const std::int64_t zq = nearest((z / given_.u - sheets_.nearest_boundary) * std::ldexp(1.0, symbols_.zf));
     const std::int64_t g = nearest(65536 / lambda);
     const std::int64_t D = to_int(ceil_divide(M / 2 * Wide{65536}, g));
@@ -287,6 +297,7 @@ class Page {
     }
   }
 
+  /// N-8-72: what comes before the tiles, in this order.
   void preamble(std::vector<Beat>& beats) const {
     const std::uint64_t hash = oracle::hash(symbols_);
     beats.push_back({0x46U | 2U << 16, 0x31535346U, static_cast<std::uint32_t>(hash),
@@ -309,13 +320,13 @@ class Page {
     }
   }
 
-  /// Of the windows, along one axis.
+  /// Of the windows, along one axis: x0 and y0 of N-8-70.
   Wide first_pixel(std::int64_t q, const RadiusSet& set) const {
     const Wide xs = narrow(symbols_.Rs, Overflow::Sat, q, symbols_.pf, oracle::s(60, log2_of(symbols_.K()))).word;
     return floor_divide(xs - set.rho, symbols_.K()) + 1;  // no end of the format is near
   }
 
-  /// Whether `extent` pixels from the window's first one on meet a whole tile's `side` pixels, along one axis.
+  /// N-8-70: whether `extent` pixels from the window's first one on meet a whole tile's `side` pixels, along one axis.
   bool meets(std::int64_t q, const RadiusSet& set, std::int64_t extent, std::int64_t first, std::int64_t side) const {
     const Wide x0 = first_pixel(q, set);
     return x0 < first + side && x0 + extent > first;
@@ -331,7 +342,7 @@ class Page {
       return (u32(value) & ((std::uint32_t{1} << n) - 1)) << first;
     };
     std::vector<Beat> beats;
-    for (const Span& span : e.spans) {
+    for (const Span& span : e.spans) {  // N-8-53: the tiles of a record
       if (x + span.left >= std::min<std::int64_t>(symbols_.W, given_.width - X) || x + span.last_column < 0) continue;
       if (y + span.top >= std::min<std::int64_t>(symbols_.H, given_.height - Y) || y + span.last_row < 0) continue;
       beats.push_back({0x45U | field(e.B, 8, 24), tag++,
@@ -347,7 +358,7 @@ class Page {
   void splat_beats(Splat& splat, std::int64_t tile, std::int64_t s, std::int64_t X, std::int64_t Y, std::uint32_t& tag,
                    std::vector<Beat>& records) {
     const auto& [v, cut] = splat.shares[static_cast<std::size_t>(s)];
-    if (v == Words{}) return;
+    if (v == Words{}) return;  // N-8-67
     std::vector<Beat> made;
     if (splat.ellipse) {
       made = ellipse_beats(splat, v, X, Y, tag);
@@ -355,6 +366,7 @@ class Page {
       met_.many_spans += made.size() > 1 ? 1 : 0;
     } else if (in_tile(splat, X, Y, true)) {
       const std::int64_t pixel = to_int(power_of_two(symbols_.pf));
+      // N-8-71: the position in the tile.
       made.push_back({0x50U | static_cast<std::uint32_t>(splat.set) << 8, tag++, u32(splat.x - X * pixel),
                       u32(splat.y - Y * pixel), u32(v[0]) | u32(v[1]) << 16, u32(v[2]) | u32(v[3]) << 16});
       met_.reordered += splat.order < last_order_ ? 1 : 0;
@@ -369,16 +381,17 @@ class Page {
     met_.other_tiles += splat.first_tile != tile ? made.size() : 0;
   }
 
-  /// By the extent E, or by Ea.
+  /// By the extent E (N-8-70), or by Ea.
   bool in_tile(const Splat& splat, std::int64_t X, std::int64_t Y, bool by_E) const {
     const RadiusSet& set = sets_.all[splat.set];
     const std::int64_t extent = by_E ? set.E : set.Ea;
     return meets(splat.x, set, extent, X, symbols_.W) && meets(splat.y, set, extent, Y, symbols_.H);
   }
 
+  /// N-8-74.
   bool goes_in_sets() const { return symbols_.cull != "off" && sheets_.mode < 2 && !shaped(given_); }
 
-  /// The most sheets that a kernel has beyond its first.
+  /// The most sheets that a kernel has beyond its first (N-8-77).
   std::int64_t reach() const {
     if (!sheets_.sliced) return 0;
     const auto M = static_cast<std::int64_t>(phi_.size()) - 1;
@@ -399,10 +412,11 @@ class Page {
     std::vector<std::int64_t> candidates(of.size());
     std::int64_t narrowest = sets_.all[0].Ea, widest = narrowest;
     for (const RadiusSet& set : sets_.all) narrowest = std::min(narrowest, set.Ea), widest = std::max(widest, set.Ea);
+    // N-8-75: a splat's cell.
     const auto place = [&](std::int64_t q, const RadiusSet& set, std::int64_t first, std::int64_t count) {
       return std::clamp<std::int64_t>(to_int(floor_divide(first_pixel(q, set) - first, cells.side)), 0, count - 1);
     };
-    for (Splat& splat : splats_) {
+    for (Splat& splat : splats_) {  // N-8-76: candidates
       if (splat.first_sheet < s - reach() || splat.first_sheet > s || !in_tile(splat, X, Y, true)) continue;
       const RadiusSet& set = sets_.all[splat.set];
       const auto cell = static_cast<std::size_t>(place(splat.y, set, Y, cells.rows) * cells.columns +
@@ -415,6 +429,7 @@ class Page {
     const auto take = [&](std::size_t cell) {
       for (Splat* splat : of[cell]) splat_beats(*splat, tile, s, X, Y, tag, records);
     };
+    // N-8-79: w5. N-8-80: the order of sets and of other cells.
     for (const CellSet& set : split.sets) {
       const std::uint32_t first = tag;
       std::ranges::for_each(set.cells, take);
@@ -424,6 +439,7 @@ class Page {
     std::ranges::for_each(split.others, take);
   }
 
+  /// N-8-73: sheets, splats and tags of a tile; N-8-80 where they go in sets.
   std::vector<Beat> tile_beats(std::int64_t tile) {
     const std::int64_t X = tile % across() * symbols_.W, Y = tile / across() * symbols_.H;
     const std::int64_t width = std::min<std::int64_t>(symbols_.W, given_.width - X);
@@ -508,6 +524,7 @@ bool is_of_ellipses(std::uint64_t Met::*member) {
 
 Frame compile(const Given& given) { return Page(given).frame(); }
 
+/// N-8-72: the end of the stream.
 Beat end_frame(const Frame& frame) {
   std::uint64_t beats = 0;
   std::vector<std::uint8_t> bytes;

@@ -14,7 +14,7 @@
 namespace fastsplat::scene_oracle {
 namespace {
 
-/// One axis of the grid, walked from its end nearest to the eye.
+/// One axis of the grid, walked from its end nearest to the eye (N-8-9).
 struct Walk {
   int axis = 0;
   int voxels = 0;
@@ -22,7 +22,7 @@ struct Walk {
   int voxel(int step) const { return upwards ? step : voxels - 1 - step; }
 };
 
-/// Slices, outer loop, inner loop.
+/// Slices, outer loop, inner loop (N-8-8).
 std::array<Walk, 3> walks(const scene::Scene& scene) {
   const glm::dvec3 view = scene.camera.direction();
   int slices = 0;
@@ -32,11 +32,11 @@ std::array<Walk, 3> walks(const scene::Scene& scene) {
   std::array<Walk, 3> all;
   const std::array<int, 3> axes{slices, outer, 3 - slices - outer};
   for (std::size_t i = 0; i < 3; ++i)
-    all[i] = {axes[i], scene.volume->dims[axes[i]], view[axes[i]] >= 0.0};  // the view points away from the eye
+    all[i] = {axes[i], scene.volume->dims[axes[i]], view[axes[i]] >= 0.0};  // N-8-9: the view points away from the eye
   return all;
 }
 
-/// Every line of voxels, walked from its first voxel.
+/// N-8-24: every line of voxels, walked from its first voxel.
 double densest_line(const volume::Volume& volume, const scene::Classifier& classify) {
   double densest = 0.0;
   const auto inside = [&](const glm::ivec3& v) {
@@ -63,7 +63,7 @@ double densest_line(const volume::Volume& volume, const scene::Classifier& class
   return densest;
 }
 
-/// Each technique of the scene as golden makes it.
+/// N-8-39: each technique of the scene as golden makes it, in the order of the page.
 void shape(const scene::Scene& scene, const glm::dvec3& world, double u, RealSplat& splat) {
   const scene::SceneDescription& description = scene.description;
   const double side = splat.s * u;
@@ -124,7 +124,7 @@ Given given_by(const scene::Scene& scene, const cmodel::Config& config) {
   given.o = description.opacity_scale;
   const scene::Classifier classify(scene.transfer_function, volume);
   given.L = densest_line(volume, classify);
-  for (std::size_t corner = 0; corner < 8; ++corner) {
+  for (std::size_t corner = 0; corner < 8; ++corner) {  // N-8-25
     const glm::ivec3 last = volume.dims - 1;
     given.scale_at_corner[corner] =
         scene.camera
@@ -136,7 +136,7 @@ Given given_by(const scene::Scene& scene, const cmodel::Config& config) {
   const scene::FootprintSettings& footprint = description.footprint;
   given.shapes = footprint.shape == scene::FootprintShape::Ellipse || footprint.antialias ||
                  !description.motion.none() || description.lens.depth_of_field == scene::DepthOfField::Splats;
-  const auto slabs_more = [&](double depth) {
+  const auto slabs_more = [&](double depth) {  // N-8-55
     return std::ceil((scene::depth_growth(scene, depth) - 1.0) * given.R / given.w);
   };
   given.slabs_before = slabs_more(-given.D);
@@ -155,7 +155,7 @@ Given given_by(const scene::Scene& scene, const cmodel::Config& config) {
         if (given.splats.size() == found.size()) continue;
         const scene::Splat& next = found[given.splats.size()];
         if (next.position != glm::vec3(volume.position(voxel.x, voxel.y, voxel.z))) continue;  // an empty voxel
-        const scene::ScreenPoint at = scene.camera.project(glm::dvec3(next.position));
+        const scene::ScreenPoint at = scene.camera.project(glm::dvec3(next.position));  // N-8-5: of the rounded place
         const auto e = glm::dvec3(next.emission);
         given.splats.push_back({at.x, at.y, at.depth, at.scale, {e.r, e.g, e.b, next.extinction}, g, i, j, {}, 1.0});
         if (given.shapes) shape(scene, glm::dvec3(next.position), given.u, given.splats.back());

@@ -14,6 +14,7 @@ using oracle::power_of_two;
 
 std::int64_t nearest(double real) { return static_cast<std::int64_t>(std::floor(real + 0.5)); }
 
+// N-3-3; rho by N-4-2.
 RadiusSet radius_set(const oracle::Symbols& symbols, double r) {
   RadiusSet set;
   set.r = r;
@@ -23,6 +24,8 @@ RadiusSet radius_set(const oracle::Symbols& symbols, double r) {
   return set;
 }
 
+// N-4-2.
+/// N-8-31: words as they are evaluated.
 std::vector<std::uint32_t> rlut(const oracle::Symbols& symbols, const RadiusSet& set) {
   const auto rim = static_cast<std::int64_t>(power_of_two(log2_of(symbols.N) + symbols.g));
   const double rk = set.r * symbols.k;
@@ -39,7 +42,7 @@ std::vector<std::uint32_t> rlut(const oracle::Symbols& symbols, const RadiusSet&
 
 namespace {
 
-/// v as c / 2^h: 24 bits, rounded up.
+/// v as c / 2^h: 24 bits, rounded up (N-4.1-3, N-4.2-4).
 std::vector<std::uint32_t> scale(double v) {
   int log = 0;  // floor(log2 v)
   while (std::ldexp(v, -log) >= 2.0) ++log;
@@ -55,6 +58,7 @@ std::vector<std::uint32_t> set_words(const Given& given, const RadiusSet& set) {
   if (symbols.index == "rlut") return rlut(symbols, set);
   const std::int64_t K = symbols.K();
   const double rK = set.r * static_cast<double>(K);
+  // N-4.1-3, N-4.2-4, N-4.3-5.
   if (symbols.index == "linear") return scale(symbols.N / (rK * std::ldexp(1.0, symbols.g)));
   if (symbols.index == "squared") return scale(symbols.N / (rK * rK));
   if (symbols.index == "squared_elliptic") {
@@ -65,7 +69,7 @@ std::vector<std::uint32_t> set_words(const Given& given, const RadiusSet& set) {
   const double aRR = given.a * given.R * given.R;
   const auto most = static_cast<std::int64_t>(oracle::u(symbols.wi, symbols.wf).largest);
   std::vector<std::uint32_t> words;
-  if (symbols.index == "separable") {
+  if (symbols.index == "separable") {  // N-4.5-3
     const std::int64_t largest = std::min(std::int64_t{1} << symbols.wf, most) << symbols.g;
     for (std::int64_t m = 0; m < K; ++m)
       for (std::int64_t i = 0; i < set.Ea; ++i) {
@@ -76,6 +80,7 @@ std::vector<std::uint32_t> set_words(const Given& given, const RadiusSet& set) {
       }
     return words;
   }
+  // N-4.4-6: blit2d; N-4.4-1, N-4.4-3: in the order of its words.
   const auto image = [&](std::int64_t m) { return static_cast<std::int64_t>(oracle::remainder(-m - 2 * set.rho, K)); };
   for (std::int64_t my = 0; my < K; ++my)
     for (std::int64_t mx = 0; mx < K; ++mx) {
@@ -91,6 +96,7 @@ std::vector<std::uint32_t> set_words(const Given& given, const RadiusSet& set) {
   return words;
 }
 
+// N-4-3, N-4.1-4, N-4.7-4: the samples; N-4-4, N-4.1-5: their words. Of every kind (N-4.4-9, N-4.5-4).
 std::vector<std::uint32_t> radial(const Given& given) {
   const oracle::Symbols& symbols = given.symbols;
   const double one = std::ldexp(1.0, symbols.wf);
@@ -132,6 +138,7 @@ std::vector<std::uint32_t> radial(const Given& given) {
   return words;
 }
 
+// N-6-4
 std::vector<std::uint32_t> factor(const oracle::Symbols& symbols) {
   std::vector<std::uint32_t> words{static_cast<std::uint32_t>(power_of_two(symbols.of))};
   for (int j = 1; j <= symbols.G; ++j) {
@@ -141,6 +148,7 @@ std::vector<std::uint32_t> factor(const oracle::Symbols& symbols) {
   return words;
 }
 
+/// N-8-64.
 std::vector<std::int64_t> phi(const Given& given) {
   const double one = std::ldexp(1.0, given.symbols.hf);
   auto M = static_cast<std::int64_t>(std::ceil(std::ldexp(2.0 * given.R, given.symbols.zf)));

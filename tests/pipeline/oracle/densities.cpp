@@ -28,6 +28,7 @@ Densities::Densities(const scene::Scene& scene, const cmodel::Config& config, co
   const int q = 1 << config.classify_segment_bits;
   const double greatest = largest(config.sheet_int_bits, config.sheet_frac_bits);
   std::vector<scene::Material> materials;
+  // N-8-92: CLASSIFY.
   for (int i = 0; i <= q; ++i) materials.push_back(classify_.evaluate(least_ + range_ * i / q));
   for (int i = 0; i <= q; ++i) {
     int from = -1;  // the nearest entry with an extinction; of two the lower one
@@ -43,6 +44,7 @@ Densities::Densities(const scene::Scene& scene, const cmodel::Config& config, co
     transfer_[3].push_back(near(static_cast<double>(materials[static_cast<std::size_t>(i)].extinction) * depth_,
                                 config.sheet_frac_bits, 0.0, greatest));
   }
+  // N-8-93: ROOT and GLINT.
   for (int i = 0; i <= 96; ++i) root_.push_back(near(1.0 / std::sqrt(1.0 + i / 32.0), 14, 0.0, 1.0));
   for (int i = 0; i <= 128; ++i) glint_.push_back(near(std::pow(i / 128.0, scene.shading.shininess), 12, 0.0, 1.0));
   const scene::Shader shader(scene.shading, scene.camera, *scene.volume);
@@ -100,6 +102,7 @@ Densities::Vector Densities::slope(const Vector& d, int x, int y, int sheet, Clo
   const glm::dvec3 right = scene_.camera.right(), down = scene_.camera.down();
   double tx = lean(x, y, right), ty = lean(x, y, down);
   if (!mixture_.device(Step::Slope)) return {d[0] * sxy, d[1] * sxy, d[2] * sz - tx * d[0] * sxy - ty * d[1] * sxy};
+  // N-8-95: SHEETS. N-8-94: LIGHTING, the ways of rays.
   sxy = near(sxy, 12, 0.0, 1.0);
   sz = near(sz, 12, 0.0, 1.0);
   const double x0 = lean(0, 0, right), y0 = lean(0, 0, down);
@@ -135,13 +138,14 @@ std::array<double, 4> Densities::operator()(double density, const Vector& d, int
     }
     const auto a = [&](const Vector& v) {
       double along = 0.0;
-      const bool word = mixture_.device(Step::Facing);
+      const bool word = mixture_.device(Step::Facing);  // N-8-94: L and H
       for (std::size_t i = 0; i < 3; ++i) along += g[i] * (word ? near(v[i], 14, -1.0, 1.0) : v[i]);
       const double cosine = std::abs(along) * inverse;
       return word ? n(cosine, 14, 0.0, 1.0, closeness) : cosine;
     };
     const double light = a(light_), half = a(half_);
     if (mixture_.device(Step::Phong)) {
+      // N-8-94: ambient, diffuse, specular.
       const auto word = [](double factor) { return near(factor, 12, 0.0, 16.0 - std::ldexp(1.0, -12)); };
       matt = n(word(shading.ambient) + word(shading.diffuse) * light, 12, 0.0, largest(5, 12), closeness);
       glint = word(shading.specular) * between(glint_, std::min(half, 1.0) * 128.0, 12, closeness);
@@ -153,7 +157,7 @@ std::array<double, 4> Densities::operator()(double density, const Vector& d, int
     const double p = scene_.camera.project(scene_.camera.direction() * middle).scale * unit;
     const double m = std::max(p / 2.0, 1.0 / (2.0 * width_)), floor = shading.gradient_floor;
     const double most = std::ldexp(1.0, 24) - std::ldexp(1.0, -8);
-    if (mixture_.device(Step::Blend)) {
+    if (mixture_.device(Step::Blend)) {  // N-8-95: c
       const double c = !shading.on ? 0.0 : floor > 0.0 ? near(m / floor, 8, 0.0, most) : most;
       h = n(length * c - 1.0, 8, 0.0, 1.0, closeness);
     } else {

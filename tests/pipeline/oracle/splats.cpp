@@ -19,7 +19,7 @@ bool carries(const scene::Scene& scene, const cmodel::Config& config) {
          (carry == cmodel::Carry::XRay && scene.description.method == scene::Method::XRay);
 }
 
-/// docs/numerics.md, section 8, "Sheets".
+/// N-8-62.
 struct Sheets {
   bool sliced = false, of_grid = false;
   int count = 1;
@@ -28,6 +28,7 @@ struct Sheets {
   Sheets(const scene::Scene& scene, int slices) {
     const volume::Volume& volume = *scene.volume;
     const glm::dvec3 diagonal = glm::dvec3(volume.dims - 1) * volume.spacing;
+    // N-8-6.
     const double d = 0.5 * std::sqrt(diagonal.x * diagonal.x + diagonal.y * diagonal.y + diagonal.z * diagonal.z);
     const double w = scene.description.slab_width;
     const double half = std::ceil((d / volume.kernel_unit() + scene.kernel.radius()) / w);
@@ -75,6 +76,7 @@ class Steps {
       for (int y = 0; y < volume.dims.y; ++y) {
         for (int x = 0; x < volume.dims.x; ++x) {
           const glm::vec3 at(volume.position(x, y, z));
+          // N-8-90
           above_[{at.x, at.y, at.z}] = static_cast<double>(volume.at(x, y, z) - volume.min);
         }
       }
@@ -106,6 +108,7 @@ class Steps {
   }
 
  private:
+  /// N-8-36.
   double place(double x, Closeness& closeness) const {
     const int pf = config_.position_frac_bits, kl = grid_bits(config_);
     const bool snap_rounds = kl < pf && config_.rounding_snap == static_cast<int>(cmodel::Rounding::RND);
@@ -127,6 +130,7 @@ class Steps {
     }
     const std::uint32_t i = line / static_cast<std::uint32_t>(columns_),
                         j = line % static_cast<std::uint32_t>(columns_);
+    // N-8-58, N-8-59, N-8-61.
     const double shift = ((32768 + 49472ULL * i + 37345ULL * j) % 65536) / 65536.0 - 0.5;
     Rest& rest = rests_[line];
     const bool neighbour = rest.count > 0 && rest.slice + 1 == slice;
@@ -144,7 +148,7 @@ class Steps {
     return v;
   }
 
-  /// Share of the kernel in front of `distance` from its middle.
+  /// Share of the kernel in front of `distance` from its middle (N-8-64).
   double kernel_share(double distance) const {
     const double a = scene_.kernel.a(), r = scene_.kernel.radius();
     if (distance <= -r) return 0.0;
@@ -153,12 +157,12 @@ class Steps {
   }
 
   double phi(int s, double depth, Closeness& closeness) const {
-    if (s == 0) return 0.0;
+    if (s == 0) return 0.0;  // N-8-66
     if (s == sheets_.count) return 1.0;
     const int zf = config_.slice_phase_bits;
     double z = depth, boundary = sheets_.first + s * sheets_.width;
     if (mixture_.device(Step::Depth)) {
-      z = rnd(depth - sheets_.first, zf, closeness);
+      z = rnd(depth - sheets_.first, zf, closeness);  // N-8-65
       boundary = rnd(s * sheets_.width, zf, closeness);
     }
     const double share = kernel_share(boundary - z);

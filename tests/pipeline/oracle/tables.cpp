@@ -103,6 +103,7 @@ double interpolated(const std::vector<double>& factor, double tau, const cmodel:
   return high - to_unit(config.rounding_fall, (high - low) * (segments - i), config.opacity_frac_bits, closeness);
 }
 
+// N-8-60.
 double Shown::operator()(double word) {
   if (word >= 256.0) return word;
   const auto found = known_.find(word);
@@ -124,6 +125,7 @@ double Shown::operator()(double word) {
   return value;
 }
 
+// N-8-25, N-8-27, N-8-28.
 RadiusSets::RadiusSets(const scene::Scene& scene, const cmodel::Config& config) {
   const volume::Volume& volume = *scene.volume;
   double most = 0.0;

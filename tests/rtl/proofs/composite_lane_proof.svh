@@ -1,4 +1,4 @@
-// Bounds of a pixel's state (docs/numerics.md, section 6), put inside composite_lane by prove_bounds.sh: for every state that can
+// Bounds of a pixel's state (docs/numerics.md, N-6-6, N-6-7), put inside composite_lane by prove_bounds.sh: for every state that can
 // be, every slab (One.tf, as proved of slab_opacity) and every mode.
 logic f_started = 1'b0;
 always @(posedge clk_i) f_started <= 1'b1;
@@ -49,6 +49,7 @@ assign f_frozen = f_mode != 2'd2 && 32'(f_trans) < fastsplat_pkg::FREEZE_BELOW;
 always @(posedge clk_i) begin
   if (f_started && f_k6_q) begin
     assert (frozen_o == f_frozen);
+    // N-6-6
     if (f_frozen) assert (state_o == f_before_q && saturated_o == '0);
     else if (f_mode != 2'd2) begin
       // Transmittance stays One.tf, never rises, never wraps; a clear slab leaves it, an opaque one takes it all.
@@ -85,7 +86,7 @@ for (genvar c = 0; c < 4; c++) begin : gen_f_channel
     end
     if (f_started && f_k6_q) begin
       if (f_mode == 2'd2) begin
-        // X + S, the largest word at most.
+        // X + S, the largest word at most (N-6-9).
         assert ((DB + 1)'(f_is) == (((DB + 1)'(f_was) + (DB + 1)'(f_slab) >> SB) != '0 ? ((DB + 1)'(1) << SB) - (DB + 1)'(1) : (DB + 1)'(f_was) + (DB + 1)'(f_slab)));
         assert (saturated_o[c] == (((DB + 1)'(f_was) + (DB + 1)'(f_slab)) >> SB != '0));
         cover (saturated_o[c]);

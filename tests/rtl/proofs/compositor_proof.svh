@@ -9,7 +9,8 @@ always @* if (!f_started) assume (!rst_ni);
 (* anyconst *) logic [fastsplat_pkg::LANE_LOG2-1:0] f_g, f_h;  // its bank's column and row
 always @* assume (32'(f_block) < NB);
 
-// What is picked in k0 is written in k6. A block is picked in all of its slices, one behind the other; the word is in one of them.
+// What is picked in k0 is written in k6 (M-pipe-1). A block is picked in all of its slices, one behind the other; the word is in one of
+// them (M-slices-1).
 logic [6:1] f_way_q, f_mine;
 logic [AB-1:0] f_at_q[1:6];
 logic [LB-1:0] f_slice_q[0:6];  // 0: the next to be picked
@@ -55,9 +56,10 @@ end
 // The word, as the page has it: unknown until wiped, then blank or a state.
 logic f_known_q, f_blank_q, f_read_q, f_write;
 logic [4*DB-1:0] f_state_q, f_blank, f_word;
+// A blank picture (M-reset-6).
 assign f_blank = mode_i == 2'd2 ? '0 : {DB'(1) << fastsplat_pkg::TRANS_FRAC, (3 * DB)'(0)};
 assign f_word = f_blank_q ? f_blank : f_state_q;
-assign f_write = f_mine[6] && f_y < FS'(height_i);
+assign f_write = f_mine[6] && f_y < FS'(height_i);  // M-pixel-3
 // Reads of it: by the pipe, which has in k4 what was written up to k2; by pixel out, and what that saw holds until the next read.
 logic f_passes, f_made_known_q, f_pipe, f_out, f_pipe_q, f_shown_q, f_again_q;
 logic [4*DB-1:0] f_expect_q, f_due_q, f_lane_q;
@@ -84,7 +86,7 @@ always @(posedge clk_i) begin
     f_state_q <= f_new;
     f_blank_q <= 1'b0;
   end
-  if (f_read_q && picture_row_i[f_h]) f_blank_q <= 1'b1;
+  if (f_read_q && picture_row_i[f_h]) f_blank_q <= 1'b1;  // M-pixel-3
   if (wipe_i && wipe_addr_i == f_block) begin
     f_blank_q <= 1'b1;
     f_known_q <= 1'b1;
@@ -124,16 +126,17 @@ end
 
 always @(posedge clk_i) begin
   if (f_started && rst_ni) begin
+    // Sums are read with a block's first slice (M-slices-2).
     assert (sheet_re_o == (issue && f_slice_q[0] == '0) && sheet_addr_o == pick && free_o == finish && tap_sheet_o == finish && free_buffer_o == sheet_buffer_o);
     assert (idle_o == (walk_idle && f_way_q == '0));
-    // Through the pipe.
+    // Through the pipe (M-pipe-1).
     assert (event_valid_o == f_way_q[6] && tap_valid_o == (f_way_q[6] && 32'(f_slice_q[6]) == R - 1));
     assert (!tap_valid_o || tap_block_o == f_at_q[6]);
     assert (!(event_valid_o && addr_q[6] == f_block) || (inside_x_q[f_g] == (f_x < FS'(width_i)) && inside_y_q[f_h] == (f_y < FS'(height_i))));
     assert (!f_mine[6] || event_inside_o[(32'(f_h) * P + 32'(f_g)) % C] == (f_x < FS'(width_i) && f_y < FS'(height_i)));
-    // The tap has all of the block, with its last slice.
+    // The tap has all of the block, with its last slice (M-pipe-1).
     assert (!tap_valid_o || f_tap == (f_passes ? f_new : f_made_q));
-    // The picture: as written last.
+    // The picture: as written last, by the lane or in memory (M-walk-5, M-slices-3); blank behind wipe and pixel out (M-reset-4, M-reset-6).
     assert (!f_pipe_q || f_k4 == f_expect_q);
     assert (!(f_shown_q && picture_row_i == P'(1) << f_h) || f_sent == f_due_q);
 
@@ -160,7 +163,7 @@ always @(posedge clk_i) begin
     assert (!(sent_q && sent_addr_q == f_block) || f_read_q);
     assert (!(f_shown_q && !f_again_q) || f_seen == f_due_q);
     assert (!f_pipe || ((forward_q && inside_y_q[f_h]) ? f_lane : f_seen) == f_word);
-    assert (R == 1 || !forward_q);
+    assert (R == 1 || !forward_q);  // M-slices-4
     assert (!(sent_q && f_way_q != '0));
     for (int s = 1; s <= 6; s++) begin
       for (int t = 1; t <= 3; t++) if (s + t <= 6) assert (!(f_way_q[s] && f_slice_q[s] == '0 && f_way_q[s+t] && f_at_q[s] == f_block && f_at_q[s+t] == f_block));

@@ -43,7 +43,7 @@ always @(posedge clk_i) begin
   if (!rst_ni) f_place_q <= 2'd0;
 end
 
-// Any word of the memories: wiped once, before anything moves.
+// Any word of the memories: wiped once, before anything moves (M-reset-4).
 (* anyconst *) logic [fastsplat_pkg::ADDR_BITS-1:0] f_word;
 logic f_wiped_q, f_moved_q, f_cleared_q, f_cleared_of_q;
 always @* assume (32'(f_word) < fastsplat_pkg::BLOCKS);
@@ -122,13 +122,14 @@ end
 
 always @(posedge clk_i) begin
   if (f_started && rst_ni) begin
-    // sheet_bank_proof.svh: a memory has one owner at a time, and is wiped first.
+    // sheet_bank_proof.svh: a memory has one owner at a time, and is wiped first (M-reset-4). It is cleared a cycle after the read
+    // (M-slices-2).
     for (int s = 6; s <= 9; s++) assert (!(sheet_re && f_valid[s] && f_of[s] == sheet_buffer));
     assert (!(f_cleared_q && f_valid[6] && f_of[6] == f_cleared_of_q));
     assert (f_wiped_q || !(f_valid[6] || sheet_re));
     assert (!wiping_q || !(f_valid[6] || sheet_re || f_cleared_q));
     assert (!(wiping_q && (f_moved_q || (wipe_addr_q == f_word && f_wiped_q))));
-    // dirty_map_proof.svh.
+    // dirty_map_proof.svh. The token is at W five cycles behind c4 (M-path-3).
     assert (done == f_marked_way_q[5]);
     assert (!done || (!f_full[done_buffer] && done_buffer == (f_full == '0 ? f_turn : !f_turn)));
     assert (!(dirty_valid && (f_marked[dirty_buffer] || (marked && marked_buffer == dirty_buffer))));
@@ -138,7 +139,7 @@ always @(posedge clk_i) begin
     assert (!f_begin || pixel_idle);
     // pixel_out_proof.svh.
     assert (!tile_end || pixel_idle);
-    // A soft reset ends when nothing is left of the frame before (stream_check_proof.svh).
+    // A soft reset ends when nothing is left of the frame before (stream_check_proof.svh; M-check-11).
     assert (!(f_soft && at_rest && !f_here && f_check_place <= 3'd2) ||
             (!f_beat && f_busy == '0 && f_valid == '0 && f_last == '0 && f_full == '0 && f_place_q == '0 && f_idle_pixel && compositor_idle));
     // stream_decode_proof.svh.
@@ -152,7 +153,7 @@ always @(posedge clk_i) begin
     assert (32'(wipe_addr_q) < fastsplat_pkg::BLOCKS);
     assert (!wiping_q || f_wiped_q == (wipe_addr_q > f_word));
     assert (!wiping_q || !(f_here || f_next_here || f_check_place != '0 || f_beat || f_busy != '0 || f_valid != '0 || f_last != '0 || f_full != '0 || f_since_q != 2'd3 || f_blocks != '0 || !f_idle_pixel || f_cleared_q || f_place_q != '0));
-    // A buffer is in one place, its windows before its token.
+    // A buffer is in one place, its windows before its token (M-path-3), busy from begin_sheet to its walk's end (M-decode-5).
     assert (f_busy == (f_open | f_ended));
     assert ((f_open & f_ended) == '0 && (f_token & f_full) == '0);
     for (int s = 0; s <= 9; s++) begin

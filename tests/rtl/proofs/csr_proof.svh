@@ -9,16 +9,18 @@ logic f_taken_q, f_read_q, f_write_q;
 logic [11:0] f_address_q;
 logic [31:0] f_data_q;
 logic [1:0] f_rresp_q, f_bresp_q;
-logic [63:0] f_truth_q[0:N-1];  // modulo 2^counters.bits
+logic [63:0] f_truth_q[0:N-1];  // modulo 2^counters.bits (N-9-7)
 logic [31:0] f_high_q;  // of the counter whose low word was read last, at that moment
 logic [2:0] f_irq_q, f_mask_q;
 logic f_refused_q, f_raised_q;  // error, and whether an unmasked bit was set, a cycle ago
 
-// An access is taken when nothing of the one before is left; a write needs both halves.
+// An access is taken when nothing of the one before is left (M-register-1); a write needs both halves (M-register-2). A read and a write do
+// not wait for each other, nor for the device (M-register-4).
 logic f_take_read, f_take_write;
 assign f_take_read = arvalid_i && !f_taken_q && !f_read_q;
 assign f_take_write = awvalid_i && wvalid_i && !f_write_q;
 
+// M-register-3, M-register-5
 logic [31:0] f_word;
 logic f_known;
 always @* begin
@@ -60,30 +62,33 @@ always @(posedge clk_i) begin
   if (f_taken_q) begin
     f_read_q <= 1'b1;
     f_data_q <= f_word;
-    f_rresp_q <= f_known ? 2'd0 : 2'd2;
+    f_rresp_q <= f_known ? 2'd0 : 2'd2;  // M-register-3, M-port-10
+    // M-register-9
     if (f_address_q == 12'h080) f_high_q <= f_truth_q[0][63:32];
     if (f_address_q == 12'h088) f_high_q <= f_truth_q[1][63:32];
   end else if (rready_i) f_read_q <= 1'b0;
   if (f_take_write) begin
     f_write_q <= 1'b1;
+    // M-register-3, M-port-10
     f_bresp_q <= awaddr_i == 12'h014 || awaddr_i == 12'h020 || awaddr_i == 12'h024 ? 2'd0 : 2'd2;
     if (awaddr_i == 12'h020) f_irq_q <= f_irq_q & ~wdata_i[2:0];
     if (awaddr_i == 12'h024) f_mask_q <= wdata_i[2:0];
   end else if (bready_i) f_write_q <= 1'b0;
-  // What happens in the cycle of a write stays.
+  // What happens in the cycle of a write stays (M-register-7).
   if (frame_i) f_irq_q[0] <= 1'b1;
   if (tile_i) f_irq_q[1] <= 1'b1;
   if (error_i && !f_refused_q) f_irq_q[2] <= 1'b1;
   f_refused_q <= error_i;
   f_raised_q <= (f_irq_q[0] && f_mask_q[0]) || (f_irq_q[1] && f_mask_q[1]) || (f_irq_q[2] && f_mask_q[2]);
-  // A clear counts what comes with it neither before nor after.
+  // Modulo 2^counters.bits (M-register-11). A clear counts what comes with it neither before nor after (M-register-13).
   for (int n = 0; n < N; n++) f_truth_q[n] <= 64'(CB'(f_truth_q[n] + 64'(increments_i[16*n+:16])));
   if (f_take_write && awaddr_i == 12'h014 && wdata_i[0]) for (int n = 0; n < N; n++) f_truth_q[n] <= '0;
+  // What was pending or offered is lost (M-reset-3). A soft reset clears nothing here (M-check-12).
   if (!rst_ni) begin
     f_taken_q <= 1'b0;
     f_read_q <= 1'b0;
     f_write_q <= 1'b0;
-    f_high_q <= '0;
+    f_high_q <= '0;  // M-register-9
     f_irq_q <= '0;
     f_mask_q <= '0;
     f_refused_q <= 1'b0;
@@ -94,6 +99,7 @@ end
 
 always @(posedge clk_i) begin
   if (f_started && rst_ni) begin
+    // Reads (M-register-1), writes (M-register-2), interrupt (M-register-5, M-port-11), CONTROL (M-register-6).
     assert (rvalid_o == f_read_q);
     assert (bvalid_o == f_write_q);
     assert (arready_o == (!f_taken_q && !f_read_q));

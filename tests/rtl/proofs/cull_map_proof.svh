@@ -1,4 +1,4 @@
-// The cull map and its tables (docs/microarchitecture.md, "Map"; docs/numerics.md, section 6.1), written again and put inside cull_map
+// The cull map and its tables (docs/microarchitecture.md, "Map"; docs/numerics.md, N-6.1-4, N-6.1-5), written again and put inside cull_map
 // by prove_cull.sh: 2 x 2 blocks. What a rectangle's words say is how many of its blocks were opaque when the last sheet but one had
 // been composited, and so is what windows are looked up in; with cull_windows' proof no window is left out of which a pixel in the tile
 // was not frozen. The compositor is any that keeps the page's times: blocks in rising order, a sheet's first in k6 four cycles after
@@ -59,7 +59,7 @@ end
 // Decode and the test unit: sheets 0, 1, 2, ...; what each is tested against.
 logic [2:0] f_left_q, f_whole_q;        // sheets that left k6, whole tables
 logic [2:0] f_done_q;                   // sheets whose walk has ended
-logic [F_BLOCKS-1:0] f_after_q[0:1];    // opaque when the sheet of that parity had left k6
+logic [F_BLOCKS-1:0] f_after_q[0:1];    // opaque when the sheet of that parity had left k6 (M-cull-8): what its table has to hold (M-cull-13)
 always @(posedge clk_i) begin
   if (f_leaves) begin
     f_after_q[f_left_q[0]] <= f_now;
@@ -79,7 +79,7 @@ always @* begin
   assume (f_done_q != 3'd6);        // so that numbers do not go round
   // Of the sheet that is splatted: two of them are alive.
   assume (!re_i || (f_sheet >= 3'd2 && f_sheet >= f_done_q && f_sheet - f_whole_q <= 3'd1 && sheet_i == f_sheet[0]));
-  // begin_sheet leaves t0 a cycle after, and a splat reads in t1, two cycles later
+  // begin_sheet leaves t0 a cycle after (M-cull-10), and a splat reads in t1, two cycles later
   assume (!re_i || f_wait_q[f_sheet[0]] >= 3'd3);
   assume (!re_i || (i0_i < i1_i && j0_i < j1_i && 32'(i1_i) * P < 32'(f_width) + P && 32'(j1_i) * P < 32'(f_height) + P));
   // A sheet waits for the table of the last but one: no third one ends before.
@@ -105,8 +105,8 @@ end
 always @(posedge clk_i) begin
   f_read_q <= rst_ni && re_i;
   f_count_q <= f_count;
-  if (f_read_q) assert (count_o == f_count_q);
-  // Decode asks for a row three cycles later still.
+  if (f_read_q) assert (count_o == f_count_q);  // M-cull-9, M-cull-13
+  // Decode asks for a row three cycles later still: windows have a map of the same moment (M-cull-5, M-cull-13).
   if (rst_ni && re_i)
     for (int b = 0; b < F_BLOCKS; b++) assert (copy[(sheet_i ? BY : 0)+b/BX][b%BX] == f_after_q[sheet_i][b]);
   cover (f_read_q && f_count_q == B'(1) && f_whole_q >= 3'd2 && f_after_q[0] != f_after_q[1]);

@@ -1,4 +1,4 @@
-// Which windows of a row can be seen (docs/numerics.md, section 6.1, "window"), written again pixel by pixel and put inside
+// Which windows of a row can be seen (docs/numerics.md, N-6.1-10), written again pixel by pixel and put inside
 // cull_windows by prove_cull.sh: one can be unless each of its pixels in the tile lies in an opaque block. Any map, tile, place.
 (* anyconst *) logic [fastsplat_pkg::BLOCKS-1:0] f_map;
 localparam int F_P = fastsplat_pkg::LANES;
@@ -28,6 +28,7 @@ always @* begin
   end
 end
 always @* begin
+  // In two rows of the block map, whatever the row's length (M-cull-5).
   assert (seen_o == (there_i & (culls_i ? f_seen : '1)));
   // One of two windows of a tile that ends within a block; all of a row, by an opaque block and the tile's edge.
   cover (culls_i && &there_i && seen_o != '0 && seen_o != '1 && 32'(width_i) % F_P != 0);

@@ -13,7 +13,7 @@ assign f_row = YB'(f_block / BX);
 assign f_column = XB'(f_block % BX);
 always @* assume (32'(f_block) < F_BLOCKS);
 
-// A window marks the blocks of its lanes inside the tile: by lane column and lane row.
+// A window marks the blocks of its lanes inside the tile: by lane column and lane row (M-walk-1).
 logic f_in_column, f_in_row, f_mark;
 always @* begin
   f_in_column = 1'b0;
@@ -28,7 +28,7 @@ always @* begin
 end
 assign f_mark = mark_i && mark_buffer_i == f_buffer && f_in_column && f_in_row;
 
-// The slice that is picked next: 0 to the last of a block.
+// The slice that is picked next: 0 to the last of a block (M-slices-1).
 localparam int F_SLICES = fastsplat_pkg::SLICES;
 logic [fastsplat_pkg::SLICE_BITS-1:0] f_slice_q, f_slice_next;
 logic f_last_slice;
@@ -52,7 +52,7 @@ always @(posedge clk_i) begin
   end
 end
 
-// When: a(s) = max(token at W + 2, f(s-1) + 4). Cycles since the token of each buffer, and since the last walk ended, to 3.
+// When: a(s) = max(token at W + 2, f(s-1) + 4) (M-walk-2, M-walk-4). Cycles since the token of each buffer, and since the last walk ended, to 3.
 logic [1:0] f_full_q;       // handed over and not walked to its end
 logic [1:0] f_age_q[0:1];   // 1: the cycle after the hand-over
 logic [1:0] f_since_q;      // last pick: 0 is the cycle after it
@@ -81,7 +81,7 @@ always @(posedge clk_i) begin
     f_full_q[done_buffer_i] <= 1'b1;
     f_age_q[done_buffer_i] <= 2'd1;
   end
-  if (!rst_ni) begin
+  if (!rst_ni) begin  // M-reset-2
     f_full_q <= '0;
     f_recent_q <= '0;
     f_since_q <= 2'd3;
@@ -113,11 +113,11 @@ logic [BY-1:0] f_rows;
 assign f_rows = rows_q[buffer_q];
 always @(posedge clk_i) begin
   if (f_started && rst_ni) begin
-    // Each block once, and marked ones alone.
+    // Each block once, and marked ones alone (M-walk-3).
     assert (!f_at_it || f_marked_q);
     assert (!f_pick || !f_picked_q);
     assert (!(finish_o && buffer_o == f_buffer) || !f_marked_q || f_pick);
-    // Rising, one a cycle, in its cycle: a walk picks from its first cycle to its last; a clean sheet's takes one.
+    // Rising, one a cycle, in its cycle: a walk picks from its first cycle to its last; a clean sheet's takes one (M-walk-3, M-walk-4).
     assert (!(valid_o && f_begun_q && f_slice_q == '0) || block_o > f_last_q);
     // All slices of a block, one behind the other; the last of the last ends the walk.
     assert (!valid_o || slice_o == f_slice_q);

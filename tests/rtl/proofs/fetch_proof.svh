@@ -31,7 +31,7 @@ always @(posedge clk_i) begin
   if (!rst_ni) f_due_q <= '0;
 end
 
-// Of any run its beats are asked for once and in order: the next burst begins where the one before ended.
+// Of any run its beats are asked for once and in order (M-fetch-1): the next burst begins where the one before ended.
 logic f_any_q;
 logic [AB-1:0] f_next_q;
 always @(posedge clk_i) begin
@@ -41,7 +41,8 @@ end
 
 always @(posedge clk_i) begin
   if (f_started && rst_ni) begin
-    // The specification: room for every beat, no more bursts than may be, none that is empty or runs over its run.
+    // The specification: room for every beat (M-fetch-14), no more bursts than may be (M-fetch-15), no more sets unchecked (M-fetch-16), no
+    // burst that is empty or runs over its run, none for a hidden set (M-fetch-3).
     assert (!arrives || unsent_q < DB'(1 << DEPTH_LOG2));
     assert (outstanding_q <= OB'(OUTSTANDING));
     assert (unjudged_q <= (JUDGED_LOG2 + 1)'(1 << JUDGED_LOG2));

@@ -81,12 +81,13 @@ end
 
 always @(posedge clk_i) begin
   if (f_started && rst_ni) begin
-    // The specification.
+    // The specification. At rest from the cycle after the last beat was taken (M-pixel-5); a beat from E+3 on, and in each cycle after one
+    // was taken (M-pixel-2); each of the picture's beats (M-pixel-1) in its place (M-port-5), also behind beats that waited (M-pixel-4).
     assert (idle_o == !f_active_q);
     assert (valid_o == (f_active_q && f_age_q == 2'd2));
-    assert (!valid_o || last_o == f_last);
-    assert (!valid_o || f_keep_right);
-    assert (!valid_o || aborted_o == f_marked_q);  // at its start, on all of its beats
+    assert (!valid_o || last_o == f_last);  // M-pixel-6, M-port-7
+    assert (!valid_o || f_keep_right);  // M-pixel-6, M-port-6
+    assert (!valid_o || aborted_o == f_marked_q);  // at its start, on all of its beats (M-check-9)
     assert (!(f_sending && f_sent_q));
     assert (!(idle_o && f_any_q) || f_sent_q == f_inside);
     // Where the stages stand, for induction.
@@ -119,7 +120,7 @@ always @(posedge clk_i) begin
     cover (valid_o && !ready_i && f_block_of(f_x_q, f_y_q) == f_block && data_o != '0);
   end
 end
-// Words of the block that is looked at; each narrowed as proved of `narrow`.
+// Words of the block that is looked at (N-7-2); each narrowed as proved of `narrow`.
 for (genvar g = 0; g < P; g++) begin : gen_f_pixel
   for (genvar c = 0; c < 4; c++) begin : gen_f_channel
     logic [DB-1:0] f_word;
@@ -130,7 +131,7 @@ for (genvar g = 0; g < P; g++) begin : gen_f_pixel
     assign f_pixel = f_mode == 2'd2 ? narrow_sum(f_word[SB-1:0]) : narrow_composited(f_shown);
     always @(posedge clk_i) begin
       if (f_started && rst_ni && valid_o && f_block_of(f_x_q, f_y_q) == f_block) begin
-        assert (data_o[g*128+c*32+:32] == 32'(f_pixel[PB-1:0]));
+        assert (data_o[g*128+c*32+:32] == 32'(f_pixel[PB-1:0]));  // M-port-5
         assert (saturated_o[4*g+c] == (keep_o[g] && f_pixel[PB]));
       end
     end

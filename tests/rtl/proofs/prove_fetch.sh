@@ -30,6 +30,7 @@ queue_broken late "s/assign read = put_q != read_q \&\&/assign read = put_q - re
 
 small="-set ADDRESS_BITS 16 -set BURST 4 -set DEPTH_LOG2 3 -set OUTSTANDING 3 -set SETS_LOG2 2 -set JUDGED_LOG2 3"
 smt fetch fetch "$small"
+# M-fetch-12, M-fetch-13: the module's own assertions
 holds fetch 2 "fetch: ARVALID, its address and beats stay, bursts lie within 4 KB and their run and have room, sets have room; bursts of 4, 8 beats, 3 under way, 8 sets"
 happens fetch 24
 fetch_broken() { smt "fetch_$1" fetch "$small" "$2"; refuted "fetch_$1" "${3:-14}"; }

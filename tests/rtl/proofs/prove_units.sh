@@ -35,7 +35,7 @@ csr_broken clear_wins "s/irq_q <= (irq_q & ~(\(.*\))) | {\(.*\)};/irq_q <= (irq_
 csr_broken refused_for_ever 's/{error_i && !error_q, tile_i/{error_i, tile_i/'
 csr_broken mask_unasked "s/irq_o <= (irq_q & irq_mask_q) != '0;/irq_o <= irq_q != '0;/"
 
-# The same with counters of 16 bits, which go round.
+# The same with counters of 16 bits, which go round (M-register-11).
 sed 's/\(localparam int COUNTER_BITS\) = .*;/\1 = 16;/' "$work/csr_pkg.sv" >"$work/csr_short_pkg.sv"
 smt csr_short csr "$work/csr_short_pkg.sv"
 holds csr_short 3 "csr: the same where counters have 16 bits and go round"
@@ -55,6 +55,7 @@ happens pixel_out 16
 pixel_broken() { smt "pixel_out_$1" pixel_out "$work/pixel_pkg.sv" "$2"; refuted "pixel_out_$1" 12; }
 pixel_broken keep_one_more "s/x_r1_q + SIDE'(g) < width_i;/x_r1_q + SIDE'(g) <= width_i;/"
 pixel_broken stray_after_reset "/^    if (!rst_ni) begin/,/^    end/s/valid_r1_q <= 1'b0;//"
+# M-pixel-4
 pixel_broken moves_while_waiting 's/assign enable = !valid_r2_q || ready_i;/assign enable = 1'"'"'b1;/'
 pixel_broken last_early "s/y_q + SIDE'(1) >= height_i;/y_q + SIDE'(2) >= height_i;/"
 pixel_broken row_read_twice "s/assign picture_re_o = running_q \&\& enable;/assign picture_re_o = running_q || valid_r1_q;/"
@@ -62,7 +63,7 @@ pixel_broken mark_of_now "s/last_r2_q <= last_r1_q;/last_r2_q <= last_r1_q; abor
 pixel_broken alpha_upside_down "s/(c == 3) ? (TB'(1) << TF) - word/(c == 3) ? word/"
 
 # --- narrow: every shift from 2 to the left to 6 to the right, every rounding, both kinds of word, more bits lost, kept or added; and
-# the widest of the device. The definition (docs/numerics.md, section 1) knows no shift: a word is right by the values next to it.
+# the widest of the device. The definition (docs/numerics.md, N-1-3 and N-1-4) knows no shift: a word is right by the values next to it.
 {
   echo 'package fastsplat_pkg;'
   echo '  localparam int NOTHING = 0;'

@@ -48,7 +48,7 @@ always @(posedge clk_i) begin
 end
 always @(posedge clk_i) begin
   if (f_started && rst_ni) begin
-    // The specification.
+    // The specification: what is put in cycle t is shown from t+2 on, without a gap (M-fetch-7).
     assert (!valid_o || !f_followed_q || f_before_q != 0 || data_o == f_data_q);
     assert (valid_o == (f_count_q > FB'(f_young_q)));
     assert (!put_i || f_stored < FB'(WORDS));

@@ -26,7 +26,7 @@ always @* begin
   f_sent = f_g ? picture_o[4*DB+:4*DB] : picture_o[0+:4*DB];
 end
 
-// What rides along in sample_places, k2 to k6 (tied by the script).
+// What rides along in sample_places, k2 to k6 (tied by the script): each bank's own block (M-sample-2).
 localparam int F_BLK = fastsplat_pkg::BLK_BITS;
 logic [P*F_BLK-1:0] f_column2, f_column3, f_column4, f_column5, f_column6, f_row2, f_row3, f_row4, f_row5, f_row6;
 logic [P-1:0] f_in_x2, f_in_x3, f_in_x4, f_in_x5, f_in_x6, f_in_y2, f_in_y3, f_in_y4, f_in_y5, f_in_y6;
@@ -86,12 +86,12 @@ end
 
 always @(posedge clk_i) begin
   if (f_started && rst_ni) begin
-    // What a sample is put over, as if it were alone with those before it: they have all left k5, for none of them is in it.
+    // What a sample is put over, as if it were alone with those before it: they have all left k5, for none of them is in it (M-hazard-1).
     assert (!f_mine[4] || f_k4 == f_state_q);
     assert (!f_mine[4] || !f_mine[5]);
     // What pixel out is shown.
     assert (!(f_shown_q && picture_row_i == P'(1) << f_h) || f_sent == f_due_q);
-    // In its cycle.
+    // In its cycle (M-sample-3).
     assert (tap_valid_o == f_way_q[6] && event_valid_o == f_way_q[6]);
     assert (idle_o == (f_way_q == '0));
 
@@ -103,7 +103,7 @@ always @(posedge clk_i) begin
     assert (!f_way_q[4] || f_mine[4] == f_here(f_column4, f_row4, f_in_x4, f_in_y4));
     assert (!f_way_q[5] || f_mine[5] == f_here(f_column5, f_row5, f_in_x5, f_in_y5));
     assert (!f_way_q[6] || f_mine[6] == f_here(f_column6, f_row6, f_in_x6, f_in_y6));
-    // Of the samples before it that are on their way the latest counts; what none of them has met is in the memory.
+    // Of the samples before it that are on their way the latest counts (M-hazard-2); what none of them has met is in the memory.
     assert (!f_mine[3] || (f_after_2 == f_mine[5] && f_after_3 == f_mine[6] && f_after_4 == f_mine_q[7]));
     assert (!(f_mine[3] && f_mine_q[7:5] != '0) || f_chosen == (f_mine[5] ? f_made : f_state_q));
     assert (!(f_mine[3] && f_mine_q[7:5] == '0) || f_seen == f_state_q);

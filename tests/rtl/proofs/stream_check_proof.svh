@@ -48,7 +48,7 @@ assign f_passed_extent = extent_o;
 `define F_PROMISE(ALWAYS) assert (ALWAYS)
 `include "judged_beats.svh"
 
-// The beats that were taken and did not pass yet: the elder is judged.
+// The beats that were taken and did not pass yet: the elder is checked (M-check-1).
 logic f_next_q, f_have_q;
 logic [fastsplat_pkg::BEAT_BITS-1:0] f_next_beat_q, f_beat_q;
 logic [31:0] f_w0, f_w1, f_w2, f_w3, f_w4, f_w5, f_w6, f_w7;
@@ -64,7 +64,7 @@ logic f_radial_q, f_factor_q;
 logic [7:0] f_table_q;
 logic [31:0] f_left_q, f_before_q;  // words to come; the word before them, or the largest
 
-// The rules.
+// The rules: S-reader-4; the first that is broken, S-rule-1; of table words only one, S-rule-2.
 logic [7:0] f_rule;
 logic [39:0] f_pixels, f_columns;  // E and Ea of the radius in w2
 assign f_pixels = (40'(f_w2) * 40'd2 + 40'(fastsplat_pkg::PHASES - 1)) / 40'(fastsplat_pkg::PHASES);
@@ -104,6 +104,7 @@ always @* begin
   f_order = 1'b0;
   f_unnamed = 1'b0;
   case (f_w0[7:0])
+    // S-grammar-1, S-record-3.
     8'h46: {f_order, f_unnamed} = {f_place_q == 2'd0, f_w0[15:8] != '0};
     8'h4C: {f_order, f_unnamed} = {f_place_q == 2'd1 && !f_tile_q, f_w0[31:16] != '0 || f_w5 != '0};
     8'h54: {f_order, f_unnamed} = {f_place_q == 2'd1, f_w0[31:12] != '0 || f_w5 != '0};
@@ -136,7 +137,7 @@ always @* begin
   else if (f_w0[7:0] == 8'h74) f_rule = f_w1 != f_of_tile_q ? 8'd16 : f_w2 != f_sheets_q ? 8'd17 : 8'd0;
 end
 
-// What is offered to decode: the beat; or, after a refusal or for a soft reset, what closes what is open.
+// What is offered to decode: the beat; or, after a refusal or for a soft reset, what closes what is open (M-check-8, M-check-10).
 logic f_error_q, f_soft_q, f_stop, f_offers, f_closes, f_passes, f_moves;
 logic [7:0] f_error_rule_q, f_error_opcode_q;
 logic [31:0] f_error_number_q;
@@ -144,7 +145,7 @@ assign f_stop = f_error_q || (f_soft_q && !f_have_q && !f_next_q);
 assign f_offers = f_have_q && f_rule == 8'd0;
 assign f_closes = f_stop && f_place_q >= 2'd2;
 assign f_passes = f_offers && ready_i;
-assign f_moves = f_next_q && (!f_have_q || ready_i);
+assign f_moves = f_next_q && (!f_have_q || ready_i);  // even behind a beat that is refused (M-check-3)
 
 always @(posedge clk_i) begin
   if (f_passes) f_have_q <= 1'b0;
@@ -157,6 +158,8 @@ always @(posedge clk_i) begin
     f_next_q <= 1'b1;
     f_next_beat_q <= data_i;
   end
+  // Refused in its first cycle here, whatever decode does (M-check-5), and reported from the next one on (M-check-6); both registers are
+  // emptied, and nothing comes into them any more (M-check-7).
   if (f_have_q && f_rule != 8'd0) begin
     f_next_q <= 1'b0;
     f_have_q <= 1'b0;
@@ -217,7 +220,7 @@ always @(posedge clk_i) begin
       endcase
     end
   end
-  // A soft reset lasts until nothing is here or open, and all behind is at rest; then all is as after a reset.
+  // A soft reset lasts until nothing is here or open, and all behind is at rest; then all is as after a reset (M-check-10, M-check-11).
   if (reset_i) f_soft_q <= 1'b1;
   else if (f_soft_q && f_stop && !f_closes && idle_i) f_soft_q <= 1'b0;
   if (!rst_ni || (f_soft_q && !reset_i && f_stop && !f_closes && idle_i)) begin
@@ -299,18 +302,18 @@ end
 
 always @* begin
   if (f_started && rst_ni) begin
-    // Beats are taken as the page says, and pass in order, once, unchanged.
+    // Beats are taken as the page says (M-check-2; after a refusal one a cycle, M-check-7), and pass in order, once, unchanged (M-check-3).
     assert (ready_o == (enable_i && !f_soft_q && (!f_next_q || f_moves || f_error_q)));
     assert (valid_o == (f_offers || f_closes));
     assert (!(f_offers && f_closes));
     assert (!f_offers || (data_o == f_beat_q && payload_o == (f_left_q != '0) && !aborted_o));
     assert (!f_held_q || (valid_o && {data_o, payload_o, aborted_o} == f_offered_q));
-    // What closes: end_sheet, then end_tile, each where it is open, and the latter alone marked.
+    // What closes: end_sheet, then end_tile, each where it is open, and the latter alone marked (M-check-8, M-check-9).
     assert (!f_closes || (data_o[7:0] == (f_place_q == 2'd3 ? 8'h73 : 8'h74) && !payload_o && aborted_o == (f_place_q == 2'd2)));
     assert (f_sheet_ends_q <= 2'd1 && f_tile_ends_q <= 2'd1);
     assert (!(f_stop && valid_o) || (data_o[7:0] == 8'h73 && f_sheet_ends_q == '0 && f_tile_ends_q == '0) ||
             (data_o[7:0] == 8'h74 && f_tile_ends_q == '0));
-    // What is told.
+    // What is reported (M-check-6); busy lasts as long as a soft reset (M-check-13).
     assert (error_o == f_error_q);
     assert (error_rule_o == f_error_rule_q && error_opcode_o == f_error_opcode_q && error_beat_o == f_error_number_q);
     assert (busy_o == (f_next_q || f_have_q || f_closes || f_soft_q));

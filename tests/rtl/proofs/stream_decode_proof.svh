@@ -41,7 +41,7 @@ assign f_opcode = f_beat_q[7:0];
 
 // Where the records that were carried out lead to: 0 in the frame, 1 in a tile, 2 in a sheet. A table's words are payload.
 logic [1:0] f_place_q;
-logic [31:0] f_left_q;      // words of the table to come
+logic [31:0] f_left_q;      // words of the table to come (S-record-2)
 logic [31:0] f_index_q;     // of the next one
 logic [7:0] f_table_q;
 logic [COL-1:0] f_base_q, f_padded_q;
@@ -51,7 +51,7 @@ logic [fastsplat_pkg::RLUT_SETS-1:0] f_loaded_q;
 logic [fastsplat_pkg::RHO_BITS-1:0] f_rho_q[0:fastsplat_pkg::RLUT_SETS-1];
 logic [COL-1:0] f_first_q[0:fastsplat_pkg::RLUT_SETS-1];
 
-// Time in the register: what a beat still needs, this cycle included.
+// Time in the register: what a beat still needs, this cycle included (M-decode-2).
 logic f_payload, f_splat, f_waits;
 logic [2:0] f_word_q;  // of the beat
 logic [COL-1:0] f_x_q, f_y_q, f_ea;  // the window that is due
@@ -63,7 +63,7 @@ assign f_last_x = f_x_q + COL'(P) == f_ea;
 assign f_last_y = f_y_q + COL'(P) == f_ea;
 logic [1:0] f_busy_q;
 logic f_buffer_q;
-// Every sample: a record's first window waits a cycle if it lies over the window that was issued in the cycle before.
+// Every sample: a record's first window waits a cycle if it lies over the window that was issued in the cycle before (M-hazard-3).
 logic f_every_q, f_over, f_issue;
 logic signed [31:0] f_column, f_row, f_was_column_q, f_was_row_q;  // the window's first pixel
 function automatic logic signed [31:0] f_first_pixel(input logic signed [fastsplat_pkg::POS_BITS-1:0] centre, input logic [fastsplat_pkg::RHO_BITS-1:0] rho);
@@ -127,7 +127,7 @@ always @(posedge clk_i) begin
       f_seen_q <= f_done ? 2'd0 : f_seen;
     end
   end
-  // Buffers: taken in turn, given back by the compositor.
+  // Buffers: taken in turn (M-decode-4), given back by the compositor (M-decode-5).
   if (free_i) f_busy_q[free_buffer_i] <= 1'b0;
   if (f_done && !f_payload && f_opcode == 8'h53) f_busy_q[f_buffer_q] <= 1'b1;
   if (f_done && !f_payload && f_opcode == 8'h73) f_buffer_q <= !f_buffer_q;
@@ -174,7 +174,7 @@ logic f_now;  // outside reset
 assign f_now = f_started && rst_ni;
 always @(posedge clk_i) begin
   if (f_now) begin
-    // Beats: taken in order, each carried out once, after its time.
+    // Beats: taken in order (M-decode-1), each carried out once, after its time (M-decode-2).
     assert (ready_o == (!f_have_q || f_done));
     assert (beat_valid_q == f_have_q);
     assert (!f_have_q || beat_q == f_beat_q);
@@ -191,7 +191,7 @@ always @(posedge clk_i) begin
     assert (stall_buffer_o == (f_have_q && !f_payload && f_opcode == 8'h53 && f_waits));
     assert (stall_tile_o == (f_have_q && !f_payload && f_opcode != 8'h53 && f_waits));
     assert (stall_hazard_o == f_over);
-    // No two windows of every sample that follow one another share a pixel.
+    // No two windows of every sample that follow one another share a pixel (M-hazard-3).
     if (f_issue && f_was_splat_q && f_every_q && fastsplat_pkg::EVERY_SAMPLE != 0)
       assert (f_beside(f_column, f_was_column_q) || f_beside(f_row, f_was_row_q));
     // Windows.

@@ -8,8 +8,8 @@
 namespace fastsplat::bench {
 namespace {
 
-/// The points along one axis: `finer` a voxel, from `reach` voxels before the first to as many behind the last. A
-/// point's weights are those of its place between two voxels, of which there are `finer`.
+/// The points along one axis: `finer` per voxel, from `reach` voxels before the first to as many after the last.
+/// Weights depend only on a point's place between two voxels, one of `finer`.
 class Axis {
  public:
   Axis(int voxels, double spacing, double unit, const scene::Kernel& kernel, int finer)
@@ -24,7 +24,7 @@ class Axis {
 
   int points() const { return finer_ * (voxels_ - 1 + 2 * reach_) + 1; }
 
-  /// add_line(voxel, weight) for each voxel that the kernel around the point reaches.
+  /// Calls add_line(voxel, weight) for each voxel within the kernel around the point.
   template <class AddLine>
   void gather(int point, const AddLine& add_line) const {
     const int before = point / finer_ - reach_;  // the voxel at or before the point
@@ -42,7 +42,7 @@ class Axis {
   std::vector<double> weights_;
 };
 
-/// `in` as `count` times voxels times `run` floats, filtered along the middle one.
+/// Filters `in`, of shape count x voxels x run, along the middle dimension.
 std::vector<float> along(const Axis& axis, const std::vector<float>& in, int voxels, std::size_t run) {
   const std::size_t count = in.size() / (static_cast<std::size_t>(voxels) * run);
   std::vector<float> out(count * axis.points() * run);
@@ -68,7 +68,7 @@ volume::Volume filtered(const volume::Volume& volume, const scene::Kernel& kerne
   out.spacing = volume.spacing / static_cast<double>(finer);
   out.voxels.resize(volume.voxels.size());
   std::ranges::transform(volume.voxels, out.voxels.begin(), [&](float value) { return value - volume.min; });
-  std::size_t run = 1;  // floats of a line along the axes that are done
+  std::size_t run = 1;  // floats per step along the current axis
   for (int a = 0; a < 3; ++a) {
     const Axis axis(volume.dims[a], volume.spacing[a], volume.kernel_unit(), kernel, finer);
     out.voxels = along(axis, out.voxels, volume.dims[a], run);

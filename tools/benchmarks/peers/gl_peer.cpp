@@ -1,5 +1,5 @@
 // X-rays by textured quads in software OpenGL beside ours, in one process: CPU time of all its threads. GL's frame is
-// its drawing alone; ours is timed whole, and from the compiled frame on, which is as much as GL does.
+// drawing alone; ours is timed both as a whole and from the compiled frame on, which is what GL does.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -36,7 +36,7 @@ Image device_picture(const std::string& config) {
   return driver::to_image(driver::render(xray(), driver::load_config(config), {.threads = 1}).frame);
 }
 
-/// A sum of floats of 16 bits is cut, not rounded, with every quad: that picture is the worst of all here.
+/// 16-bit float sums are truncated, not rounded, with every quad: that picture is the worst here.
 void pictures(benchmark::State& state, Sums sums, const std::string& what) {
   gl(sums).draw();
   const Image ours = what == "golden" ? golden::render(xray(), {.threads = 1, .progress = {}, .report = nullptr})
@@ -105,7 +105,7 @@ void register_all() {
 }  // namespace fastsplat::bench
 
 int main(int count, char** arguments) {
-  // No hardware, and no threads but this one. (All that there might be are counted.)
+  // Software rendering in this thread only; CPU time counts all threads.
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
   setenv("GALLIUM_DRIVER", "llvmpipe", 1);
   setenv("LP_NUM_THREADS", "0", 1);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kTexels = 128;
 
-/// What GL reads per quad.
+/// Per-quad input of GL.
 struct Quad {
   float x, y, reach;  ///< pixels
   float colour[4] = {};
@@ -72,7 +72,7 @@ std::vector<Quad> quads_of(const scene::Scene& scene) {
   return quads;
 }
 
-/// The footprint on its square, nothing outside its disc.
+/// The footprint on its square, 0 outside its disc.
 std::vector<float> footprint_of(const scene::Kernel& kernel) {
   std::vector<float> texels;
   for (int j = 0; j < kTexels; ++j) {
@@ -107,7 +107,7 @@ struct GlSplatter::Context {
   }
   ~Context() {
     eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    // The display is one for all contexts and stays.
+    // The display is shared by all contexts and stays open.
     eglDestroyContext(display, context);
   }
 };
@@ -167,12 +167,12 @@ void GlSplatter::draw() {
   glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
   glClear(GL_COLOR_BUFFER_BIT);
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(context_->quads));
-  glFinish();  // llvmpipe draws now
+  glFinish();  // llvmpipe draws here
 }
 
 Image GlSplatter::picture() const {
   context_->make_current();
-  // The picture's first row was drawn at the bottom, where GL begins to read.
+  // The picture's first row is at the bottom, where glReadPixels begins.
   Image out(context_->width, context_->height);
   glReadPixels(0, 0, out.width, out.height, GL_RGBA, GL_FLOAT, out.data.data());
   require(glGetError() == GL_NO_ERROR, "the picture cannot be read");

@@ -1,4 +1,4 @@
-// What each peer's main() does: its lines are registered and run; pictures or words that differ end it with 1.
+// Common main() of the peers: registers and runs the lines; exits with 1 if pictures or words differ.
 #pragma once
 
 #include <benchmark/benchmark.h>

@@ -1,4 +1,4 @@
-// Whether two renderers drew the same thing: a peer that draws nothing would win every race.
+// Checks that two renderers drew the same picture: a peer that draws nothing would win every race.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace fastsplat::bench {
 
-/// RGBA of the whole picture, peak 1; infinite for the same picture, NaN for pictures of different sizes.
+/// PSNR of the whole RGBA picture, peak 1; infinite for equal pictures, NaN for different sizes.
 inline double psnr(const Image& a, const Image& b) {
   if (a.data.size() != b.data.size() || a.data.empty()) return std::numeric_limits<double>::quiet_NaN();
   double squares = 0.0;
@@ -20,7 +20,7 @@ inline double psnr(const Image& a, const Image& b) {
   return -10.0 * std::log10(squares / static_cast<double>(a.data.size()));
 }
 
-/// Pixels where both have an alpha above a half, of those where one of them has; 0 where none has.
+/// Pixels where both have an alpha above 0.5, as a share of those where either has; 0 if no pixel has.
 inline double silhouette_overlap(const Image& a, const Image& b) {
   if (a.data.size() != b.data.size()) return 0.0;
   std::size_t both = 0, any = 0;

@@ -8,13 +8,13 @@
 #include "cmodel/splat/rlut.hpp"
 #include "cmodel/splat/snap.hpp"
 
-// The library has a main() of its own, which wants it.
+// SystemC's library has its own main(), which calls sc_main().
 int sc_main(int, char**) { return 0; }
 
 namespace fastsplat::bench {
 namespace {
 
-/// Widths of a configuration, named as in docs/numerics.md, section 2.
+/// Parameters: widths of a configuration, named as in docs/numerics.md, section 2.
 template <int nl, int g, int wi, int wf, int cf, int si, int sf>
 class Splatter final : public ScSplatter {
   using Distance = sc_dt::sc_uint<nl + g + 2>;

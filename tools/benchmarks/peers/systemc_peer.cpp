@@ -1,5 +1,5 @@
 // The same inner loop in SystemC's sc_ufixed types, in the plain unit and in the fast one: splats of 7 pixels, CPU
-// time. First every sum of a stream that also saturates is compared with the plain unit's, window by window.
+// time. First compares every sum with the plain unit's, window by window, on a stream that also saturates.
 #include <benchmark/benchmark.h>
 
 #include <stdexcept>
@@ -21,7 +21,7 @@ std::unique_ptr<ScSplatter> splatter_of(const cmodel::Config& config) {
   return splatter;
 }
 
-/// Adds each splat when the plain unit has added it, and compares the window.
+/// Adds each splat after the plain unit has, and compares the window.
 class Beside final : public cmodel::TapSink {
  public:
   Beside(const Rows& rows, ScSplatter& splatter) : rows_(rows), splatter_(splatter) {}
@@ -47,7 +47,7 @@ class Beside final : public cmodel::TapSink {
   ScSplatter& splatter_;
 };
 
-/// Bright splats: some products are rounded up, some sums saturate.
+/// Bright splats, so that some products round up and some sums saturate.
 void same_words(benchmark::State& state, const std::string& config) {
   const Rows rows(config, kExtent, Order::Anywhere, 8000, 1);
   const auto splatter = splatter_of(rows.config);

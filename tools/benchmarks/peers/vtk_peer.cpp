@@ -1,6 +1,5 @@
-// Frames of VTK's fixed-point ray caster beside ours, in one process and in random order: CPU time of one thread.
-// Before anything is measured, pictures are compared: like with like (post-classified, unshaded), and those that are
-// timed.
+// Frames of VTK's fixed-point ray caster beside ours, in one process and in random order: CPU time of one thread. First
+// compares pictures: post-classified, unshaded ones, which must be alike, and the timed ones.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
@@ -23,7 +22,8 @@ namespace fastsplat::bench {
 namespace {
 
 constexpr int kSize = 512;
-constexpr int kSegmentBits = 9;  ///< classify.segment_bits of a device that classifies densities, as the guide has it
+constexpr int kSegmentBits =
+    9;  ///< classify.segment_bits of the device that classifies densities, as in docs/against-vtk.md
 
 struct Subject {
   const char* name;
@@ -32,7 +32,7 @@ struct Subject {
 
 const scene::Scene& scene(const Subject& subject) { return scene_of(subject.volume, kSize); }
 
-/// Built once, and drawn once: gradients and tables are made then.
+/// Built and drawn once, which makes gradients and tables.
 VtkRayCaster& vtk(const Subject& subject) {
   static std::map<std::string, VtkRayCaster> casters;
   const auto [found, fresh] = casters.try_emplace(subject.volume, scene(subject));
@@ -53,7 +53,7 @@ void vtk_frame(benchmark::State& state, const Subject& subject) {
   for (auto _ : state) caster.draw();
 }
 
-/// A single picture: gradients and tables are part of it.
+/// A single picture, including gradients and tables.
 void vtk_first_frame(benchmark::State& state, const Subject& subject) {
   for (auto _ : state) VtkRayCaster(scene(subject)).draw();
 }
@@ -67,7 +67,7 @@ void device_frame(benchmark::State& state, const Subject& subject, const std::st
   for (auto _ : state) benchmark::DoNotOptimize(driver::render(scene(subject), device, {.threads = 1}).frame);
 }
 
-/// Two pictures, as a line of the results: a `least` that is not reached fails the run.
+/// Compares two pictures as a line of the results; throws below either minimum.
 void alike(benchmark::State& state, const Image& a, const Image& b, double least_psnr, double least_overlap) {
   for (auto _ : state) {
   }
@@ -78,7 +78,7 @@ void alike(benchmark::State& state, const Image& a, const Image& b, double least
     throw std::runtime_error("the pictures differ: nothing to compare");
 }
 
-/// The scene in VTK's order: interpolated, then classified, and neither shades.
+/// The scene classified in the given order (Post is VTK's), without shading.
 scene::Scene unshaded(const Subject& subject, scene::ClassifyOrder order, double slab_width = 1.0) {
   scene::SceneDescription description = description_of(subject.volume, kSize);
   description.shading = 0;
@@ -102,7 +102,7 @@ void register_pictures(const Subject& subject) {
     alike(state, golden_of(unshaded(subject, scene::ClassifyOrder::Pre)),
           golden_of(unshaded(subject, scene::ClassifyOrder::Post)), 15.0, 0.8);
   });
-  // What is timed: shaded by each in its own way.
+  // The timed pictures: each renderer shades in its own way.
   line("/vtk/base", [subject](benchmark::State& state) {
     alike(state, vtk(subject).picture(), device_of(scene(subject), "base"), 15.0, 0.8);
   });
@@ -111,9 +111,9 @@ void register_pictures(const Subject& subject) {
   });
 }
 
-/// Classified by pixel and unshaded: VTK with `samples` kernel units between samples on a volume of `points` points a
-/// voxel, ours with sheets `sheets` apart. One point a voxel: the volume as it is; more: the field that splats
-/// reconstruct, between whose points VTK interpolates.
+/// Post-classified and unshaded: VTK with a sample every `samples` kernel units on a volume of `points` points per
+/// voxel, ours with sheets `sheets` apart. One point per voxel is the volume itself; more are the field that splats
+/// reconstruct, interpolated by VTK.
 struct PostClassified {
   int points;
   double samples, sheets;
@@ -145,8 +145,8 @@ const Image& our_post(const Subject& subject, const std::string& who, double she
   return found->second;
 }
 
-/// VTK's picture of the filtered volume is to be nearer to each of ours than that of the volume itself: if the filter
-/// is not what they differ by, something else is wrong.
+/// Each of our pictures must be nearer to VTK's of the filtered volume than to that of the volume itself; otherwise
+/// they differ by more than the filter.
 void post_classified(benchmark::State& state, const Subject& subject, const PostClassified& as) {
   for (auto _ : state) {
   }

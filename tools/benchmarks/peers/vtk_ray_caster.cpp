@@ -26,7 +26,7 @@ void copy_voxels(const volume::Volume& volume, vtkImageData& grid, int type) {
   std::transform(volume.voxels.begin(), volume.voxels.end(), out, [](float v) { return static_cast<Voxel>(v); });
 }
 
-/// As it was stored: the mapper's tables depend on it.
+/// Keeps the stored type, on which the mapper's tables depend.
 void fill(const volume::Volume& volume, vtkImageData& grid) {
   const glm::dvec3 first = -0.5 * glm::dvec3(volume.dims - 1) * volume.spacing;
   grid.SetDimensions(volume.dims.x, volume.dims.y, volume.dims.z);
@@ -45,7 +45,7 @@ void fill(const volume::Volume& volume, vtkImageData& grid) {
   }
 }
 
-/// The guide's recipe, "For those who know VTK".
+/// As in docs/guide/vtk.md, "The same view".
 void place(const scene::Scene& scene, vtkCamera& camera) {
   const scene::Camera& ours = scene.camera;
   const glm::dvec3 eye = -4.0 * scene.volume->bounding_radius() * ours.direction();
@@ -91,7 +91,7 @@ struct VtkRayCaster::Pipeline {
   vtkNew<vtkVolume> volume;
   vtkNew<vtkVolumeProperty> property;
   vtkNew<vtkRenderer> renderer;
-  vtkNew<vtkRenderWindow> window;  ///< only says how large the picture is; it is never opened
+  vtkNew<vtkRenderWindow> window;  ///< only defines the picture's size; never opened
   vtkNew<vtkLight> light;
 };
 
@@ -126,10 +126,10 @@ VtkRayCaster::VtkRayCaster(const scene::Scene& scene, const volume::Volume& dens
 
 VtkRayCaster::~VtkRayCaster() = default;
 
-/// What the mapper's Render does, less the texture that would carry the picture to a window.
+/// The mapper's Render without the texture that carries the picture to a window.
 void VtkRayCaster::draw() {
   Pipeline& p = *pipeline_;
-  // Of interest only where several volumes share a picture.
+  // Matters only if several volumes share a picture.
   double first[3] = {0.0, 0.0, 0.0}, spacing[3] = {1.0, 1.0, 1.0};
   int extent[6] = {0, 0, 0, 0, 0, 0};
   p.mapper->PerImageInitialization(p.renderer, p.volume, 0, first, spacing, extent);

@@ -1,4 +1,4 @@
-// VTK's fixed-point ray caster on a scene of ours: the same volume, camera, transfer function and light.
+// VTK's fixed-point ray caster on one of our scenes: the same volume, camera, transfer function and light.
 #pragma once
 
 #include <memory>
@@ -8,15 +8,15 @@
 
 namespace fastsplat::bench {
 
-/// One thread, density as one component, classified at each sample, trilinear, a sample and a ray per voxel and pixel:
-/// the mapper's own quality settings, none of which is left to its stop-watch. No window is opened and no light
-/// or camera is changed between frames, so that from the second frame on its gradients and tables are kept.
+/// One thread, density as one component, classified at each sample, trilinear, one sample and ray per voxel and pixel.
+/// All of the mapper's quality settings are fixed, none depends on its timer. No window is opened, and light and camera
+/// do not change between frames, so from the second frame on gradients and tables are reused.
 class VtkRayCaster {
  public:
-  /// The scene outlives it: orthographic, unrolled or not, of an unturned grid.
+  /// `scene` must outlive it and be orthographic, with or without roll, of a non-oblique grid.
   explicit VtkRayCaster(const scene::Scene& scene);
-  /// `densities` in the place of the scene's volume, around the same centre and in its units; a sample every `step`
-  /// kernel units. They are copied.
+  /// Uses `densities` instead of the scene's volume, with the same centre and units, and a sample every `step` kernel
+  /// units. Copies them.
   VtkRayCaster(const scene::Scene& scene, const volume::Volume& densities, double step);
   ~VtkRayCaster();
 

@@ -1,5 +1,5 @@
-// docs/peers.md from the JSON of the peers (tools/peers): whether the pictures are the same, then ratios of CPU time.
-// Prints the page; reads the JSON files that its arguments name.
+// Prints docs/peers.md, made from the peers' JSON files that its arguments name (tools/peers): whether pictures are the
+// same, then ratios of CPU time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace fastsplat::bench;
 
-/// CPU time of `above` in that of `below`.
+/// Ratio of the CPU times of two lines, `above` / `below`.
 struct Row {
   const char* what;
   const char* above;
@@ -43,7 +43,7 @@ constexpr Row kRows[] = {
      2000},
 };
 
-/// Two of `who` drew `what`.
+/// A line that compares two pictures, and its title.
 struct Picture {
   const char* line;
   const char* what;
@@ -86,7 +86,7 @@ void print_pictures(const Results& results) {
 
 std::string voxels(double length) { return length == 1.0 ? "voxel" : fmt::format("1/{:.0f} voxel", 1.0 / length); }
 
-/// Nothing where there is no head to draw.
+/// Prints nothing without a head.
 void print_post_classified(const Results& results) {
   bool any = false;
   for (const auto& [name, line] : results.lines) {

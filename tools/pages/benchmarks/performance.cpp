@@ -1,5 +1,5 @@
-// docs/performance.md from the JSON of the benchmarks (tools/performance): medians of CPU time, their spread, and the
-// figures that the goals are about. Prints the page; reads the JSON files that its arguments name.
+// Prints docs/performance.md, made from the benchmarks' JSON files that its arguments name (tools/performance): medians
+// of CPU time, their spread, and figures with goals.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace fastsplat::bench;
 
-/// At least `goal` times as fast.
+/// `fast` must be at least `goal` times as fast as `slow`.
 struct Race {
   const char* what;
   const char* slow;
@@ -45,7 +45,7 @@ constexpr Race kRaces[] = {
     {"opaque 256³ (shells), `base`: the same", "opaque-shells256/never-frozen", "opaque-shells256/freezing", 1.8},
 };
 
-/// One thread against two, by the clock on the wall.
+/// Wall-clock time of one thread against two.
 void print_threads(const Results& results, const char* what, const std::string& line) {
   const Line* one = results.line("wall1/" + line + "/process_time");
   const Line* two = results.line("wall2/" + line + "/process_time/real_time");
@@ -93,7 +93,7 @@ void print_limits(const Results& results) {
 
 using Points = std::vector<std::pair<double, std::vector<double>>>;
 
-/// Of all points, and of the greatest three: small frames cost what every frame costs.
+/// Exponents over all points and over the largest three, because small frames are dominated by fixed costs.
 void print_exponents(const std::string& what, Points points, double goal) {
   if (points.size() < 3) return;
   std::ranges::sort(points);
@@ -101,7 +101,7 @@ void print_exponents(const std::string& what, Points points, double goal) {
   print_goal("the same, greatest three", exponent({points.end() - 3, points.end()}), Goal::AtMost, goal);
 }
 
-/// Frames of the fast unit against what there is to draw.
+/// Frame time of the fast unit against splats and pixels.
 void print_growth(const Results& results) {
   Points splats, pixels;
   for (const auto& [name, line] : results.lines) {
@@ -122,7 +122,7 @@ void print_lines(const Results& results) {
   std::cout << "\n| line | CPU ms, median | least | greatest | of splats, hidden | tiles redone "
                "|\n|---|---|---|---|---|---|\n";
   for (const auto& [name, line] : results.lines) {
-    if (name.starts_with("rtl/")) continue;  // its time is of all that is compared there
+    if (name.starts_with("rtl/")) continue;  // its time covers everything compared there
     const auto counter = [&line](const char* key) {
       const auto found = line.counters.find(key);
       return found == line.counters.end() ? 0.0 : found->second;

@@ -16,8 +16,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// "plain/head512/base/iterations:1/process_time" -> without what every line of its kind has. (The clock stays in the
-/// names of those that differ by it alone.)
+/// Shortens "plain/head512/base/iterations:1/process_time" by what all lines of its kind share. Names that differ only
+/// in the clock keep it.
 std::string short_name(std::string name) {
   for (const std::string part : {"/iterations:1", "/repeats:1", "/manual_time"}) {
     if (const auto at = name.find(part); at != std::string::npos) name.erase(at, part.size());
@@ -82,7 +82,7 @@ std::size_t Results::repetitions() const {
 Results read_results(std::span<const std::string> files) {
   Results results;
   for (const std::string& file : files) {
-    // Google Benchmark writes the spread of a counter that is 0 as NaN, which is no JSON.
+    // Google Benchmark writes NaN for the spread of a counter that is 0, which is invalid JSON.
     std::ostringstream text;
     text << std::ifstream(file).rdbuf();
     const Json json =

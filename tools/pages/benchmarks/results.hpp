@@ -1,4 +1,4 @@
-// What Google Benchmark wrote as JSON: lines by name, a value for each repetition, and figures that are made of them.
+// Reads Google Benchmark's JSON: lines by name, a value per repetition, and figures computed from them.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,9 @@
 namespace fastsplat::bench {
 
 struct Line {
-  std::vector<double> cpu, wall;                      ///< as the benchmark has its unit, one a repetition
+  std::vector<double> cpu, wall;                      ///< in the benchmark's unit, one per repetition
   std::map<std::string, double> counters;             ///< of the last repetition
-  std::map<std::string, std::vector<double>> each{};  ///< the same, of each
+  std::map<std::string, std::vector<double>> each{};  ///< the same, of each repetition
   std::string label;
 };
 
@@ -23,31 +23,31 @@ struct Results {
   std::string date;     ///< year, month, day
 
   std::size_t repetitions() const;  ///< the most of any line
-  /// Null where it was not run.
+  /// Null if it was not run.
   const Line* line(const std::string& name) const;
 };
 
-/// All files' lines together, the first file's machine. Files without a run are passed over; throws where all are.
+/// Merges the lines of all files; `machine` is the first file's. Skips files without runs; throws if all are.
 Results read_results(std::span<const std::string> files);
 
 double median(std::vector<double> values);
 
-/// A figure and how far its repetitions lie apart.
+/// A figure and the spread of its repetitions.
 struct Figure {
   double value = 0.0, least = 0.0, greatest = 0.0;
 };
 Figure only(double value);
-/// Of medians; the spread is from the least above to the greatest below and the other way round.
+/// Ratio of the medians; the spread is from least above / greatest below to greatest above / least below.
 Figure ratio(const std::vector<double>& above, const std::vector<double>& below);
-/// b of y = a x^b through the points (x, median y), least squares of logarithms; the spread is of fits of single
-/// repetitions.
+/// b of y = a x^b through the points (x, median y), by least squares of logarithms; the spread is that of fits to
+/// single repetitions.
 Figure exponent(const std::vector<std::pair<double, std::vector<double>>>& points);
 
 enum class Goal { AtLeast, AtMost };
 
-/// The heading of the rows that follow.
+/// Prints the heading of the following rows.
 void print_heading(const std::string& what);
-/// "| what | figure | spread | goal | met or missed by how much |"; %-figures are given as shares of 1.
+/// Prints "| what | figure | spread | goal | met or missed by how much |"; "%" figures are given as shares of 1.
 void print_goal(const std::string& what, const Figure& figure, Goal kind, double goal, const std::string& unit = "");
 
 }  // namespace fastsplat::bench

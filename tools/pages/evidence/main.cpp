@@ -1,19 +1,21 @@
-// fastsplat_evidence: what tools other than the simulator said of the device, gathered (tools/synth, tools/evidence).
+// fastsplat_evidence: collects the results of tools other than the simulator (tools/synth, tools/evidence).
 //
 //   synthesis KEPT WORK_DIR FAMILY-CONFIG...
-//     KEPT (it may be missing) with those named anew, from the files of synth.sh and, where it exists,
+//     prints KEPT (may be missing) with the named designs renewed from synth.sh's files and, if present,
 //     FAMILY-CONFIG.stamp
 //   ratchet BASELINE WORK_DIR FAMILY-CONFIG...
-//     compares with the baseline: exit code 1 where a figure moved by more than 2 %
+//     compares with the baseline: exit code 1 if a figure moved by more than 2 %, 77 if tool versions differ
 //   seed BASELINE FAMILY-CONFIG
-//     the seed with which the placer made the baseline's figures; nothing if it is not placed
-//   figures GTEST_JSON
-//     the figures of a test program's report, by test
+//     prints the placer's seed of the baseline's figures; nothing if it is not placed
+//   figures TOOL GTEST_JSON
+//     prints the figures in a test program's report, by test
+//   proofs TOOL SECONDS PROCESSORS FILE...
+//     prints the proofs listed in the files
 //   page FOLDER [STAMP]
-//     docs/evidence.md from FOLDER's JSON, to standard output. STAMP (tools/helpers/evidence_stamp.py) is the RTL of
-//     today, with which the stamp of each figure is compared
+//     prints docs/evidence.md from FOLDER's JSON; compares each figure's stamp with STAMP, that of today's RTL
+//     (tools/helpers/evidence_stamp.py)
 //
-// Exit codes: 0, 1 moved, 2 usage, 3 a file that is missing or wrong.
+// Exit codes: 0, 1 moved, 2 usage, 3 a missing or invalid file, 77 skipped.
 #include <algorithm>
 #include <exception>
 #include <fstream>
@@ -32,7 +34,7 @@ namespace {
 using namespace fastsplat::evidence;
 using Json = nlohmann::ordered_json;
 
-/// Beyond it a figure has moved.
+/// Smallest relative change that counts as moved.
 constexpr double kShare = 0.02;
 
 Json design_of(const std::string& work, const std::string& name) {
@@ -62,7 +64,7 @@ int ratchet(const Json& baseline, const std::string& work, std::span<const std::
     const Json now = design_of(work, name);
     const auto then = find_design(baseline, now);
     if (then == baseline.end()) throw std::runtime_error("the baseline has no " + name + ": tools/synth");
-    // Another version of a tool maps in another way: nothing of the device has moved.
+    // Other tool versions map differently, although the device is the same.
     if (then->at("tools") != now.at("tools")) {
       std::cout << "skipped: " << name << " by " << now.at("tools").dump() << ", the baseline by "
                 << then->at("tools").dump() << ": tools/synth makes a new one\n";
@@ -88,7 +90,7 @@ int seed(const Json& baseline, const std::string& name) {
   return 0;
 }
 
-/// `seconds` of them all, on as many `processors`.
+/// `seconds`: total time on `processors`.
 Json proofs(const std::string& tool, const std::string& seconds, const std::string& processors,
             std::span<const std::string> files) {
   Json all = Json::array();

@@ -50,7 +50,7 @@ std::string origin(const Json& figure, const Json& now) {
   return changed.empty() ? out : out + "; changed since: " + changed;
 }
 
-/// A row for each test, its figures in words.
+/// A row per test with its figures.
 std::string figures_table(const Json& json, const Json& now) {
   std::string out =
       fmt::format("{}{}.\n\n| test | figures |\n|---|---|\n", json.at("tool").get<std::string>(), origin(json, now));
@@ -121,7 +121,7 @@ std::string placement(const Json& design) {
 
 constexpr const char* kCells = " LUT | carry | mux | FF | LUT RAM | block RAM | DSP |";
 
-/// The devices that show what a key costs: the one without keys, and one for each key.
+/// The devices that show the cost of each key: one without keys, and one for each key.
 constexpr const char* kPlain = "plain";
 constexpr std::pair<const char*, const char*> kKeys[] = {{"ellipses", "`ellipse.frac_bits = 5`"},
                                                          {"samples", "`composite.every_sample = 1`"},
@@ -135,7 +135,7 @@ const Json* design_of(const Json& designs, const std::string& name, const std::s
   return nullptr;
 }
 
-/// `a` beside `b`, by cells: the differences, with their signs.
+/// Differences a - b by kind of cell, with signs.
 std::string more(const Json& a, const Json& b) {
   std::string out;
   for (const char* kind : kKinds)
@@ -143,11 +143,11 @@ std::string more(const Json& a, const Json& b) {
   return out;
 }
 
-/// Cells by module, all of its instances and sizes together.
+/// Cells by module, summed over its instances and sizes.
 std::map<std::string, Json> by_module(const Json& design) {
   std::map<std::string, Json> out;
   for (const auto& [name, module] : design.at("modules").items()) {
-    // "$paramod$HASH\\fastsplat_delay", "$paramod\\fastsplat_popcount\\BITS=...": of a size of its own.
+    // Names of parametrised modules: "$paramod$HASH\\fastsplat_delay", "$paramod\\fastsplat_popcount\\BITS=...".
     const auto from = name.find("fastsplat_");
     Json& sum = out[name.substr(from, name.find('\\', from) - from)];
     if (sum.is_null()) sum = Json::object();
@@ -158,7 +158,7 @@ std::map<std::string, Json> by_module(const Json& design) {
   return out;
 }
 
-/// What each key adds to the same small device: in all, and module by module where more than a few cells differ.
+/// Cells that each key adds to the same small device: in total, and for each module that differs by more than a few.
 std::string keys(const Json& designs, const std::string& family) {
   constexpr std::int64_t kFew = 8;
   const Json* plain = design_of(designs, kPlain, family);
@@ -221,7 +221,7 @@ std::string synthesis(const Json& designs, const Json& now) {
   return out;
 }
 
-/// {name: count} as code, the largest first.
+/// {name: count} as code, largest first.
 std::string counts(const Json& of) {
   std::vector<std::pair<int, std::string>> sorted;
   for (const auto& [name, count] : of.items()) sorted.emplace_back(-count.get<int>(), name);
@@ -237,7 +237,7 @@ int sum(const Json& of) {
   return all;
 }
 
-/// Minutes of each target since its last finding; findings that are open one by one.
+/// Minutes of each target since its last finding, and a list of open findings.
 std::string fuzz(const Json& json) {
   std::string open;
   for (const auto& [name, target] : json.at("targets").items())
@@ -256,8 +256,8 @@ std::string fuzz(const Json& json) {
   return out + "\n";
 }
 
-/// Of a sample or of all; survivors are listed one by one. Each module's row has a day of its own; "changed since"
-/// where `now` has another hash of it.
+/// Results for a sample or all mutants; lists survivors. Each module's row has its own day, and "changed since" if
+/// `now` has another hash.
 std::string mutants(const Json& json, const Json& now) {
   std::string out = fmt::format(
       "{}.\n\n| module | mutants | killed | excluded | living | killed by | excluded because | tried |\n"

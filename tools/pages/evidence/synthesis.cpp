@@ -18,7 +18,7 @@ using Cells = std::map<std::string, std::int64_t>;
 
 constexpr const char* kClasses[] = {"lut", "carry", "mux", "ff", "lutram", "bram", "dsp"};
 
-/// Of a primitive; empty for what is none of them (inverters, which LUTs take in; buffers; submodules).
+/// Class of a primitive; empty for other cells (inverters, which LUTs absorb; buffers; submodules).
 std::string class_of(const std::string& cell) {
   static const std::pair<std::regex, const char*> table[] = {
       {std::regex("LUT[1-6]|SB_LUT4"), "lut"},
@@ -43,7 +43,8 @@ std::vector<std::string> lines_of(const std::filesystem::path& path) {
   return lines;
 }
 
-/// "=== NAME ===" and the "TYPE N" lines below it; the hierarchy's own tree and totals are under "design hierarchy".
+/// Reads "=== NAME ===" and the "TYPE N" lines below it; the hierarchy's own tree and totals are under "design
+/// hierarchy".
 std::map<std::string, Cells> read_stat(const std::filesystem::path& path) {
   static const std::regex heading(R"(=== (.*) ===)"), entry(R"( +(\S+) +(\d+))");
   std::map<std::string, Cells> modules;
@@ -97,10 +98,10 @@ std::map<std::string, int> read_levels(const std::filesystem::path& path) {
   return levels;
 }
 
-/// "u_core.u_compositor.touched_q_SB_DFFESR_Q_95_D_SB_LUT4_O_LC": the register that a cell was named after.
+/// "u_core.u_compositor.touched_q_SB_DFFESR_Q_95_D_SB_LUT4_O_LC": returns the register after which a cell was named.
 std::string short_name(const std::string& cell) { return cell.substr(0, cell.find("_SB_")); }
 
-/// The latest arrivals at registers of what comes from one (`from` "posedge") or from a pin ("<async>"), latest first.
+/// The latest arrivals at registers from registers (`from` is "posedge") or pins ("<async>"), latest first.
 Json latest_arrivals(const Json& report, const char* from, std::size_t count) {
   std::vector<std::pair<double, std::string>> ends;
   const auto is = [](const Json& event, const char* what) { return event.get<std::string>().starts_with(what); };
@@ -117,7 +118,7 @@ Json latest_arrivals(const Json& report, const char* from, std::size_t count) {
   return out;
 }
 
-/// nextpnr's report: what is used, how fast, the slowest path and the ten latest ends.
+/// Reads nextpnr's report: utilisation, fmax, the slowest path, the ten latest arrivals.
 Json read_placement(const std::filesystem::path& report) {
   std::ifstream in(report);
   if (!in) throw std::runtime_error("cannot read " + report.string());
@@ -145,7 +146,7 @@ Json read_placement(const std::filesystem::path& report) {
 void compare(const std::string& where, const Json& then, const Json& now, double share, int& compared,
              std::vector<std::string>& out) {
   for (const auto& [key, value] : then.items()) {
-    // A bitstream is there where icepack is, and as long as the part is large.
+    // A bitstream exists only with icepack, and its length is that of the part.
     static constexpr const char* kNoFigures[] = {"seconds",   "worst_paths", "from_pins", "slowest",
                                                  "seeds_mhz", "date",        "rtl",       "bitstream_bytes"};
     if (std::find(std::begin(kNoFigures), std::end(kNoFigures), key) != std::end(kNoFigures)) continue;
@@ -159,7 +160,7 @@ void compare(const std::string& where, const Json& then, const Json& now, double
     } else if (value.is_number()) {
       ++compared;
       const double a = value.get<double>(), b = now.at(key).get<double>();
-      // Of few cells one more is more than a share.
+      // In small counts, one cell more can exceed the share.
       if (std::abs(b - a) > std::max(share * std::abs(a), 1.0))
         out.push_back(fmt::format("{}: {} -> {} ({:+.1f} %)", place, a, b, a == 0 ? 100.0 : 100.0 * (b - a) / a));
     } else if (value != now.at(key)) {
@@ -179,7 +180,7 @@ Json read_synthesis(const std::filesystem::path& work, const std::string& family
   Json json{{"design", config}, {"family", family}};
   double seconds = 0;
   std::int64_t bitstream = 0;
-  Json seeds = Json::object();  // of the placer: MHz
+  Json seeds = Json::object();  // MHz by seed of the placer
   for (const auto& line : lines_of(base + ".tools")) {
     const auto space = line.find(' ');
     if (line.starts_with("seconds ")) {
@@ -214,7 +215,7 @@ Json read_synthesis(const std::filesystem::path& work, const std::string& family
   }
   if (family == "hx8k") {
     json["placement"] = read_placement(base + ".report");
-    const auto fastest = std::max_element(seeds.begin(), seeds.end());  // the first of equals: the one that is kept
+    const auto fastest = std::max_element(seeds.begin(), seeds.end());  // the first of equals, which is kept
     if (fastest == seeds.end()) throw std::runtime_error(base + ".tools contains no seed of the placer");
     json["placement"]["seed"] = std::stoi(fastest.key());
     json["placement"]["seeds_mhz"] = seeds;

@@ -1,4 +1,4 @@
-// What Yosys and nextpnr said of a design (tests/rtl/synthesis/synth.sh), as data: cells by module, levels, a
+// Reads the results of Yosys and nextpnr for a design (tests/rtl/synthesis/synth.sh): cells by module, levels, a
 // placement.
 #pragma once
 
@@ -9,19 +9,18 @@
 
 namespace fastsplat::evidence {
 
-/// Files FAMILY-CONFIG.* of `work`. Throws std::runtime_error where one is missing or says something else.
+/// Reads the files FAMILY-CONFIG.* of `work`. Throws std::runtime_error if one is missing or invalid. Returns
 ///   {design, family, configuration: HASH, tools: {NAME: VERSION}, total: CELLS,
 ///    modules: {NAME: {instances, levels, CELLS}}, seconds,
 ///    placement: {fmax_mhz, used: {RESOURCE: [USED, OF]}, worst_paths: [...], from_pins: [...]}}
 /// worst_paths: the ten latest arrivals between registers; from_pins: the latest from a pin.
-/// CELLS: lut, carry, mux, ff, lutram, bram, dsp, as the family's primitives. A module's are its own and its memories',
-/// of one instance; levels, its longest path in cells, 0 where it has none. Seconds are the processor's: not for
-/// comparing.
+/// CELLS: lut, carry, mux, ff, lutram, bram, dsp, the family's primitives. A module's are those of one instance and its
+/// memories; levels is its longest path in cells, 0 if it has none. seconds is processor time, not to be compared.
 nlohmann::ordered_json read_synthesis(const std::filesystem::path& work, const std::string& family,
                                       const std::string& config);
 
-/// Figures of `now` that are more than `share` away from those of `then`, either way, one line each; also what is new
-/// or gone. Seconds and paths are not compared. `compared`: how many figures were.
+/// Figures of `now` that differ from `then` by more than `share`, one line each; also new and missing ones. Seconds and
+/// paths are not compared. `compared`: number of figures compared.
 std::vector<std::string> changes(const nlohmann::ordered_json& then, const nlohmann::ordered_json& now, double share,
                                  int& compared);
 

@@ -26,7 +26,7 @@ class Cells {
     }
     throw_usage({.where = "the family", .what = "unknown cell", .expected = {}, .got = name_of(kind), .fix = {}});
   }
-  /// The kind's least error of the turned field at r = 4 with at most so many bits; null where it needs more.
+  /// The kind's cell with the least error of the turned field at r = 4 within `bits` bits; null if all need more.
   const FamilyCell* best_within(IndexKind kind, std::uint64_t bits) const {
     const FamilyCell* best = nullptr;
     for (const FamilyCell& cell : cells_) {
@@ -40,7 +40,7 @@ class Cells {
   const std::vector<FamilyCell>& cells_;
 };
 
-/// All, some or none.
+/// Holds, InPart or Fails if all, some or none of `parts` hold.
 Verdict judged(std::initializer_list<bool> parts) {
   const auto held = std::count(parts.begin(), parts.end(), true);
   return held == static_cast<long>(parts.size()) ? Verdict::Holds : held > 0 ? Verdict::InPart : Verdict::Fails;

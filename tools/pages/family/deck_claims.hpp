@@ -1,4 +1,4 @@
-// What the first lecture deck says of the FastSplats, each sentence beside the figures that speak for or against it.
+// Claims of the first lecture deck about FastSplats, each with the figures that support or refute it.
 #pragma once
 
 #include <string>
@@ -13,14 +13,14 @@ enum class Verdict { Holds, InPart, Fails };
 
 struct Claim {
   int slide = 0;
-  std::string sentence;  ///< as the slide has it
+  std::string sentence;  ///< as on the slide
   std::string figures;
   Verdict verdict = Verdict::Fails;  ///< decided by the figures
 };
 
-/// `cells`: all kinds over the grids at r = 4 and r = 8 with N = 1024, and at r = 4 with all lengths.
+/// `cells`: all kinds over the grids at r = 4 and r = 8 with N = 1024, and at r = 4 with all table lengths.
 std::vector<Claim> deck_claims(const std::vector<FamilyCell>& cells, const EllipseErrors& ellipses);
-/// The page's section.
+/// The section of docs/family.md.
 std::string claims_section(const std::vector<Claim>& claims);
 
 const char* to_string(Verdict verdict);

@@ -83,7 +83,7 @@ bool of_the_lengths(const FamilyCell& cell) {
          cell.config.index() != IndexKind::SquaredElliptic;
 }
 
-/// How many times as many bits as rlut.
+/// Storage of blit2d relative to rlut, as text.
 std::string what_blit_costs() {
   const auto times = [rlut =
                           storage_bits(family_config(IndexKind::Rlut, 64, 8, 1024), 8)](const cmodel::Config& config) {
@@ -146,7 +146,7 @@ std::vector<FamilyCell> page_cells() {
   auto cells = family_table(grids);
   const auto more = family_table(lengths);
   cells.insert(cells.end(), more.begin(), more.end());
-  // By kind, radius, grid and length, as one table would be.
+  // Sorted by kind, radius, grid and length, like a single table.
   std::ranges::stable_sort(cells, [](const FamilyCell& a, const FamilyCell& b) {
     return std::tuple(a.config.index_kind, a.radius, a.config.grid(), a.config.radial_entries) <
            std::tuple(b.config.index_kind, b.radius, b.config.grid(), b.config.radial_entries);

@@ -1,4 +1,4 @@
-// docs/family.md.
+// Makes docs/family.md.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace fastsplat::analysis {
 
-/// What docs/family.md and its pictures are made of: all kinds over grids and radii with N = 1024, and at r = 4 with
-/// all lengths of the table.
+/// The cells of docs/family.md and its pictures: all kinds over grids and radii with N = 1024, and at r = 4 with all
+/// table lengths.
 std::vector<FamilyCell> page_cells();
-/// docs/family.md: all that is the same on every machine. `head` is head_section(), which takes minutes.
+/// The page's text; the same on every machine. `head` is head_section(), which takes minutes.
 std::string family_page(const std::vector<FamilyCell>& cells, const std::string& head);
 
 }  // namespace fastsplat::analysis

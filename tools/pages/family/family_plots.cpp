@@ -18,7 +18,7 @@ std::vector<const FamilyCell*> of_kind(const std::vector<FamilyCell>& cells, cmo
   return out;
 }
 
-/// From few bits to many, those that are better than all with fewer.
+/// By increasing bits, the cells with a smaller error than all cells of fewer bits.
 PlotSeries front(cmodel::IndexKind kind, std::vector<const FamilyCell*> cells) {
   std::ranges::sort(cells, [](const FamilyCell* a, const FamilyCell* b) {
     return a->bits != b->bits ? a->bits < b->bits : a->turned.rms < b->turned.rms;

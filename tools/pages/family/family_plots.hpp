@@ -8,7 +8,7 @@
 
 namespace fastsplat::analysis {
 
-/// Their files, in the order of family_plots().
+/// File names, in the order of family_plots().
 inline constexpr const char* kFamilyPictures[] = {"family-bits.svg", "family-grid.svg"};
 
 struct NamedPicture {
@@ -16,8 +16,8 @@ struct NamedPicture {
   std::string svg;
 };
 
-/// Of cells that hold all kinds at r = 4: the least error of the turned field that a kind has with so many bits or
-/// fewer, and its error over K at N = 1024.
+/// `cells` must contain all kinds at r = 4. Plots the least error of the turned field of each kind over bits, and its
+/// error over K at N = 1024.
 std::vector<NamedPicture> family_plots(const std::vector<FamilyCell>& cells);
 
 }  // namespace fastsplat::analysis

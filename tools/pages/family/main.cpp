@@ -1,4 +1,4 @@
-// fastsplat_family_page FOLDER: docs/family.md to standard output, its pictures into FOLDER (tools/family).
+// fastsplat_family_page FOLDER: prints docs/family.md and writes its pictures to FOLDER (tools/family).
 #include <filesystem>
 #include <iostream>
 

@@ -14,7 +14,7 @@ constexpr double kWidth = 760, kHeight = 460, kLeft = 76, kRight = 588, kTop = 4
 constexpr const char* kInk = "#24292f";
 constexpr const char* kGridColour = "#d8dee4";
 
-/// How one series differs from the others: colours that the colour-blind tell apart (Okabe and Ito), dashes, marks.
+/// Appearance of a series: colour safe for colour-blind readers (Okabe and Ito), dash, mark.
 struct Look {
   const char* colour;
   const char* dash;
@@ -30,7 +30,7 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-/// One logarithmic axis: values low..high on pixels from..to.
+/// A logarithmic axis: maps values low..high to pixels from..to.
 struct Axis {
   double low = 0.0, high = 0.0, from = 0.0, to = 0.0;
   double operator()(double value) const {
@@ -38,10 +38,10 @@ struct Axis {
   }
 };
 
-/// Without an exponent, which few like to read.
+/// Formats a tick without an exponent.
 std::string number(double tick) { return tick >= 1.0 ? fmt::format("{:.0f}", tick) : fmt::format("{:g}", tick); }
 
-/// 1, 2 and 5 times powers of ten where that is not too many, else the powers.
+/// 1, 2 and 5 times powers of ten, or only the powers if that is too many.
 std::vector<double> ticks_of(const Axis& axis) {
   const bool fine = axis.high / axis.low < 2e3;
   std::vector<double> ticks;
@@ -114,7 +114,7 @@ std::string to_svg(const Plot& plot) {
   for (std::size_t n = 0; n < plot.series.size(); ++n) {
     const PlotSeries& series = plot.series[n];
     const Look& look = kLooks[n];
-    // Lines that lie on each other: the first ones are drawn broader, so that they show on both sides.
+    // The first lines are broader, so that coinciding ones stay visible.
     const double breadth = 2.0 + 0.7 * static_cast<double>(plot.series.size() - 1 - n);
     const auto stroke = fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{:.1f}\" stroke-dasharray=\"{}\"",
                                     look.colour, breadth, look.dash);

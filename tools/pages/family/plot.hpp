@@ -1,4 +1,4 @@
-// Curves on two logarithmic axes, as an SVG picture: for pages of docs/. The same points give the same text everywhere.
+// Curves on two logarithmic axes as SVG, for pages of docs/. Equal points give equal text on every machine.
 #pragma once
 
 #include <string>
@@ -18,7 +18,8 @@ struct Plot {
   std::vector<PlotSeries> series;     ///< at most eight
 };
 
-/// With a ground of its own, so that it reads alike in light and dark viewers; series differ in colour, dash and mark.
+/// Draws its own background, so that it looks the same in light and dark viewers. Series differ in colour, dash and
+/// mark.
 std::string to_svg(const Plot& plot);
 
 }  // namespace fastsplat::analysis

@@ -1,4 +1,4 @@
-// `errors bound`: no value can err by more than this, proved at three levels of knowledge.
+// `errors bound`: the proved bound of every value's error, at three levels of knowledge.
 import { stacks } from "../bars";
 import { figures_of, number_text } from "../figures";
 import type { Panel, Result } from "../page";
@@ -32,7 +32,7 @@ export const bound: Panel = {
       ),
       note(made_of(result)),
     );
-    // The largest parts over all levels get a colour each, the others one together.
+    // The parts that are largest over all levels get a colour each, the others share one.
     const sums = new Map<string, number>();
     for (const level of levels) for (const [name, value] of Object.entries(level.mean_lsb8 as Record<string, number>)) sums.set(name, Math.max(sums.get(name) ?? 0, value));
     const large = [...sums].sort((a, b) => b[1] - a[1]).slice(0, colours.length).map(([name]) => name);

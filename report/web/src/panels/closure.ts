@@ -1,5 +1,5 @@
-// Coverage closure: is every testpoint of the verification plan decided, every bin hit where the plan says, every line of
-// the RTL reached? Testpoints, bins, tests and source, each found from the one before.
+// Coverage closure: whether every testpoint of the verification plan is decided, every planned bin hit and every line
+// of the RTL reached. Testpoints link to their bins and tests.
 import { stacks } from "../bars";
 import { h, type Child } from "../dom";
 import { figures_of, number_text, path_text, type Path } from "../figures";
@@ -16,7 +16,7 @@ interface Bin {
   path: Path;
 }
 
-/** Every bin of every testpoint and configuration, those without a hit first. */
+/** All bins of all testpoints and configurations, those without hits first. */
 function bins_of(result: Result): Bin[] {
   const bins: Bin[] = [];
   result.testpoints.forEach((point: Result, i: number) =>
@@ -84,7 +84,7 @@ function shares(root: HTMLElement, result: Result): void {
   lines.append(legend([{ name: "hit, reached", colour: "c0" }, { name: "excused", colour: "c1" }, { name: "open", colour: "c3" }]));
 }
 
-/** Testpoints; the one that is chosen is told of, and its bins and tests alone are listed. */
+/** Testpoints; selecting one describes it and lists only its bins and tests. */
 function testpoints(root: HTMLElement, result: Result, context: Context): void {
   const points: Result[] = result.testpoints;
   const place = new Map(points.map((point, i) => [point, i]));
@@ -163,7 +163,8 @@ function testpoints(root: HTMLElement, result: Result, context: Context): void {
   choose(null);
 }
 
-/** A file of the RTL with what ran how often beside its lines: \u2713 reached, \u2717 never reached, \u2013 excused. */
+/** A file of the RTL with hit counts and marks beside its lines: \u2713 reached, \u2717 never reached, \u2013
+ *  excused. */
 function source(file: Result, path: Path, index: number): HTMLElement {
   const lines = file.source.map(() => ({ mark: "", counts: [] as Child[] }));
   const worse = ["", "\u2713", "\u2013", "\u2717"];

@@ -1,4 +1,4 @@
-// `compare`: how far two pictures are from each other, beside what rounding once would cost anyway (the floor).
+// `compare`: the difference of two pictures, beside the error of rounding once (the floor).
 import { columns } from "../bars";
 import { h, type Child } from "../dom";
 import { figures_of, number_text, tick_text } from "../figures";
@@ -8,7 +8,7 @@ import { linear } from "../scales";
 import { axis_left, drawing, legend, line, text } from "../svg";
 import { table } from "../table";
 
-/** What `compare` calls its limits, with their units. */
+/** Names of `compare`'s limits, with their units. */
 const limits: Record<string, string> = {
   min_psnr_db: "PSNR in dB, at least",
   max_abs_lsb: "worst in LSB, at most",
@@ -27,7 +27,7 @@ function name_of(side: Result): string {
   return String(side?.file ?? "").replace(/^.*\//, "");
 }
 
-/** What the floor is, and why a picture can be nearer to the reference than it. */
+/** Explains the floor, and why a picture can be nearer to the reference than the floor. */
 function floor(result: Result, show: ReturnType<typeof figures_of>): Child[] {
   if (!result.floor || typeof result.floor.psnr_db !== "number") return [];
   const better = typeof result.psnr_db === "number" && result.psnr_db > result.floor.psnr_db;

@@ -1,4 +1,4 @@
-// Coverage: which bins the campaigns hit, group by group. Of a coverage book, and of a plan's.
+// Coverage: the bins hit by the campaigns, group by group. For coverage files and those of a plan.
 import { h } from "../dom";
 import { number_text, path_text } from "../figures";
 import { verb_of, type Context, type Panel, type Result } from "../page";
@@ -7,14 +7,14 @@ import { stacks } from "../bars";
 import { legend } from "../svg";
 import { table } from "../table";
 
-/** A coverage book and where in the result it lies. */
+/** A coverage book and its path in the result. */
 interface Book {
   name: string;
   book: Result;
   path: (string | number)[];
 }
 
-/** One book, a list of them, or books by configuration. */
+/** Finds the books in a value: one book, a list, or books by configuration. */
 export function books_of(value: Result, path: (string | number)[] = []): Book[] {
   if (!value || typeof value !== "object") return [];
   if (value.campaigns) return [{ name: value.config ?? "", book: value, path }];
@@ -28,7 +28,7 @@ interface Bin {
   campaigns: string;
 }
 
-/** Every bin with its hits over all campaigns, and which campaign hit it most. */
+/** All bins with their hits over all campaigns, and the campaign with the most hits. */
 function bins_of(book: Result, only: string): Bin[] {
   const bins = new Map<string, Bin & { most: number }>();
   for (const [campaign, hits] of Object.entries(book.campaigns as Record<string, Record<string, number>>)) {
@@ -43,7 +43,7 @@ function bins_of(book: Result, only: string): Bin[] {
   return [...bins.values()];
 }
 
-/** Draws books; `root` gets a part for each. */
+/** Draws each book in its own part of `root`. */
 export function draw_books(root: HTMLElement, books: Book[], context: Context): void {
   for (const { name, book, path } of books) {
     if (books.length > 1) root.append(h("h3", {}, `Configuration ${name}`));

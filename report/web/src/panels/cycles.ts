@@ -1,4 +1,4 @@
-// `cycles`: how long the device takes, and where the cycles go.
+// `cycles`: how many cycles the device takes and how they are spent.
 import { columns, stacks, waterfall } from "../bars";
 import { line_legend, plot, type Line } from "../charts";
 import { h } from "../dom";
@@ -41,7 +41,7 @@ function account(root: HTMLElement, result: Result): void {
   const parts = Object.entries(result.cycles.account as Record<string, number>);
   const ideal = result.cycles.account.ideal as number;
   const lost = parts.reduce((sum, [name, cycles]) => sum + (name === "ideal" ? 0 : cycles), 0);
-  // The losses of a good run are hair lines beside the ideal: then the axis begins shortly before it.
+  // If the losses are small, the axis begins shortly below the ideal, so that they are visible.
   const from = ideal > 0 && lost < ideal * 0.25 ? Math.max(0, ideal - Math.max(lost, 1) * 0.25) : undefined;
   waterfall(
     root,
@@ -163,7 +163,7 @@ function several(root: HTMLElement, result: Result, context: Context): void {
   });
 }
 
-/** `--cull-table`: the same frame on devices of every cull.map, with a source that sends all or fetches what is seen. */
+/** `--cull-table`: the same frame with every cull.map, from a source that sends all beats or skips hidden groups. */
 function culling(root: HTMLElement, result: Result, context: Context): void {
   const rows: Result[] = result.cull_table;
   const show = figures_of(context.index, result);

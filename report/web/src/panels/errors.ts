@@ -1,4 +1,4 @@
-// `errors`: because of which step the device's picture is not the true one.
+// `errors`: which steps cause the device picture's error.
 import { waterfall } from "../bars";
 import { h } from "../dom";
 import { figures_of, number_text } from "../figures";
@@ -37,7 +37,7 @@ function steps(root: HTMLElement, result: Result): void {
   );
 }
 
-/** The parts of one pixel's error: the largest, and what is left. */
+/** The parts of one pixel's error: the largest ones, and the rest. */
 function pixel(root: HTMLElement, entry: Result): void {
   const parts = Object.entries(entry.parts_lsb8 as Record<string, number>).sort((a, b) => Math.abs(b[1]) - Math.abs(a[1]));
   const large = parts.slice(0, 5);

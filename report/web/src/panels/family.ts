@@ -1,4 +1,4 @@
-// `family`: every kind of index, its weights against the exact ones, and what it costs.
+// `family`: errors and cost of every index kind.
 import { line_legend, plot, type Line, type Plot } from "../charts";
 import { h } from "../dom";
 import { number_text } from "../figures";

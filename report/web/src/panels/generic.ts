@@ -1,4 +1,4 @@
-// A result that no panel draws: its JSON, so that nothing that was given is lost.
+// Shows results that no other panel draws as JSON.
 import { h } from "../dom";
 import { verb_of, type Panel } from "../page";
 

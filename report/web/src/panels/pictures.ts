@@ -1,4 +1,4 @@
-// The pictures, in the viewer; and where a compare's result says that one should look.
+// The pictures in the viewer, with the places that a compare's result points out.
 import { decoded } from "../codec";
 import { h } from "../dom";
 import { figure, number_text } from "../figures";
@@ -9,7 +9,7 @@ import { Viewer, type Tour } from "../viewer/viewer";
 import { Scene } from "../viewer/views";
 import "../viewer/viewer.css";
 
-/** The compare of these two pictures, and its place among the results. */
+/** The compare of these two pictures, and its index among the results. */
 function compared(context: Context, ref: Picture, test: Picture): { result: Result; index: number } | null {
   const of = (picture: Picture, index: number, side: string): boolean => (picture.compared ?? []).includes(`${index}.${side}`);
   const index = context.page.results.findIndex((result, i) => verb_of(result) === "compare" && of(ref, i, "ref") && of(test, i, "test"));
@@ -47,7 +47,7 @@ function tour_of(context: Context, scene: Scene, a: string, b: string): Tour {
   return tour;
 }
 
-/** The size of the picture that a map is of, as its result says: maps are enlarged or made of a smaller one. */
+/** Size of the picture that a map describes, from its result: maps are enlarged or made of a smaller picture. */
 function size_of_map(context: Context, map: Picture): string {
   const base = (name: unknown): string => String(name ?? "").replace(/.*\//, "");
   const results = context.page.results.filter((each) => map.display && each?.blame && base(each.blame) === base(map.from));

@@ -1,4 +1,4 @@
-// A merged plan: any two of its metrics against each other, the Pareto front, all rows; picture and table are linked.
+// A merged plan: any two metrics against each other, the Pareto front, all rows; plot and table are linked.
 import { line_legend, plot, type Line, type Plot, type Span } from "../charts";
 import { command_button, h } from "../dom";
 import { figures_of, number_text, path_text } from "../figures";
@@ -17,8 +17,8 @@ interface Quantity {
   of: (row: Result) => number | string | null | undefined;
 }
 
-/** Rows that passed and that no other beats: better in one, no worse in the other; equal ones are all on the front. As
- *  `plan pareto` has it. In the order of x. */
+/** The Pareto front of the passed rows, sorted by x: rows that no other dominates (better in one, no worse in the
+ *  other); of equal rows all are on it. Same definition as in `plan pareto`. */
 export function pareto(rows: Result[], x: Quantity, y: Quantity): Result[] {
   const sign = (quantity: Quantity): number => (quantity.better === "more" ? -1 : 1);
   const points = rows
@@ -33,7 +33,7 @@ export function pareto(rows: Result[], x: Quantity, y: Quantity): Result[] {
   return front.map((point) => point.row).sort((a, b) => Number(x.of(a)) - Number(x.of(b)));
 }
 
-/** A logarithmic axis where values are positive and span more than two decades. */
+/** Whether to use a logarithmic axis: values are positive and span more than two decades. */
 function is_wide(values: number[]): boolean {
   const low = Math.min(...values);
   return low > 0 && Math.max(...values) / low > 100;
@@ -114,7 +114,7 @@ export const plan: Panel = {
     const place = h("div");
     const key = h("div");
     if (plottable.length >= 2) {
-      // What it costs across, what it is worth up.
+      // Cost on x, benefit on y.
       const costs = (quantity: Quantity): boolean => quantity.better === "less" && /cost|bits|area|cycles|seconds/i.test(quantity.id);
       pick_x.value = (judged.find(costs) ?? judged.find((metric) => metric.better === "less") ?? plottable[0]).id;
       const others = judged.filter((metric) => metric.id !== pick_x.value);
@@ -219,7 +219,7 @@ export const plan: Panel = {
       choose: (row) => choose(row),
       changed: (left) => {
         shown = left;
-        // The front is that of the rows that are left; a brush alone keeps the points as they are.
+        // The filter changes the front; the brush alone keeps the points.
         if (span) {
           shown = left;
           told.textContent = `${number_text(left.length)} cases in the rectangle; a click beside the points takes it back.`;

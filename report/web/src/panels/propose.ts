@@ -1,4 +1,4 @@
-// `errors propose`: the cheapest configuration that is good enough.
+// `errors propose`: the cheapest configuration that meets the target.
 import { stacks } from "../bars";
 import { h } from "../dom";
 import { figures_of, number_text } from "../figures";

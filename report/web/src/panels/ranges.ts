@@ -1,4 +1,4 @@
-// `errors ranges`: what the device's words really held, bit by bit, where it narrows.
+// `errors ranges`: the values at the device's narrowing sites, bit by bit.
 import { h, s } from "../dom";
 import { figures_of, number_text } from "../figures";
 import type { Panel, Result } from "../page";

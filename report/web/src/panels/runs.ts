@@ -1,4 +1,4 @@
-// What was drawn: `render`, `stream record`, `stream replay`; engine, size, counters, what saturated.
+// `render`, `stream record` and `stream replay`: engine, size, counters, saturation.
 import { command_button, h } from "../dom";
 import { number_text, path_text } from "../figures";
 import { verb_of, type Item, type Panel, type Result } from "../page";

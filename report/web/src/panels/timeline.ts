@@ -1,4 +1,4 @@
-// The timeline of `cycles --timeline`: when each sheet and tile goes through the device.
+// The timeline of `cycles --timeline`: when each sheet and tile passed through the device.
 import { columns } from "../bars";
 import { h, s } from "../dom";
 import { number_text } from "../figures";
@@ -20,7 +20,7 @@ interface Slice {
   odd: boolean;
 }
 
-/** Slices thinner than a pixel become one: thousands of sheets are still drawn quickly. */
+/** Merges slices thinner than a pixel, so that thousands of sheets draw quickly. */
 function merged(slices: Slice[], per_pixel: number): Slice[] {
   const out: Slice[] = [];
   let count = 1;

@@ -1,4 +1,4 @@
-// `verify`: the RTL beside the model; its history over results and seeds.
+// `verify`: comparison of the RTL with the model, and its history over results and seeds.
 import { columns, stacks } from "../bars";
 import { command_button, h } from "../dom";
 import { number_text, path_text } from "../figures";
@@ -25,7 +25,7 @@ function failure(root: HTMLElement, { index, result }: Item): void {
   for (const why of report.unwritten ?? []) root.append(note(why));
 }
 
-/** Comparisons by seed, over all results: where a seed failed its column is of another colour and named. */
+/** Comparisons by seed, over all results; failed seeds have another colour and their names. */
 function history(root: HTMLElement, items: Item[]): void {
   const rows = items.flatMap((item) =>
     (item.result.by_seed ?? []).map((row: Result, place: number) => ({ ...row, config: item.result.config, index: item.index, place })),

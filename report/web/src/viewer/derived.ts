@@ -2,14 +2,14 @@
 import { painted, type Channel, type Plane } from "./plane";
 
 export interface Difference {
-  /** The window that both hold. */
+  /** The window common to both pictures. */
   x0: number;
   y0: number;
   width: number;
   height: number;
-  /** Signed, TEST - REF, in LSB: of the channel, or of the one that errs most. */
+  /** Signed error TEST - REF, in LSB: of the channel, or of the channel with the largest error. */
   lsb: Float32Array;
-  /** Largest magnitude and where: of equals the first in row order. */
+  /** Largest magnitude and its pixel, the first in row order. */
   max: number;
   worst: { x: number; y: number };
 }
@@ -54,7 +54,7 @@ export function difference(ref: Plane, test: Plane, channel: Channel, lsb_bits: 
 export function error_colour(lsb: number, range: number): [number, number, number] {
   const t = Math.max(-1, Math.min(1, lsb / range));
   const end = t < 0 ? [0, 60, 160] : [176, 24, 16];
-  const k = Math.abs(t) ** 0.7; // small errors are seen too
+  const k = Math.abs(t) ** 0.7; // makes small errors visible
   return [0, 1, 2].map((c) => Math.round(232 + (end[c] - 232) * k)) as [number, number, number];
 }
 
@@ -64,14 +64,15 @@ export function drawn_difference(d: Difference, range: number): HTMLCanvasElemen
   });
 }
 
-/** A round number at or above: 0.5, 1, 2, 5, 10... */
+/** Rounds up to 0.5, 1, 2, 5, 10... */
 export function round_range(max: number): number {
   if (!(max > 0)) return 1;
   const power = 10 ** Math.floor(Math.log10(max));
   return [1, 2, 5, 10].map((k) => k * power).find((value) => value >= max * 0.999) ?? max;
 }
 
-/** Colours at the format's last word in orange, alpha alone there in blue (opaque), all else dark grey by brightness. */
+/** Marks pixels with a colour at the format's largest word in orange, with only alpha there (opaque) in blue; others
+ *  are dark grey by brightness. */
 export function drawn_saturation(plane: Plane): { canvas: HTMLCanvasElement; colours: number; opaque: number } {
   const { width, height, channels } = plane.picture;
   const top = plane.top_word;

@@ -1,11 +1,11 @@
-// A picture in memory: words, values, and how it looks.
+// A picture in memory: words, values, and its rendering.
 import type { Words } from "../codec";
 import type { Picture } from "../page";
 
 export type Channel = "colour" | "0" | "1" | "2" | "3";
 export const channel_names = ["R", "G", "B", "A"];
 
-/** sRGB of a linear value, as the PNGs for looking have it. */
+/** sRGB-encodes a linear value, as in the display PNGs. */
 function encoded(linear: number): number {
   const v = Math.min(1, Math.max(0, linear));
   return Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055));
@@ -16,7 +16,7 @@ export class Plane {
   readonly y0: number;
   readonly full_width: number;
   readonly full_height: number;
-  /** 8-bit sRGB of the words up to 1.0. */
+  /** 8-bit sRGB for the words up to 1.0. */
   private readonly looks: Uint8Array;
 
   constructor(
@@ -32,7 +32,7 @@ export class Plane {
     this.looks = Uint8Array.from({ length: steps + 1 }, (_, i) => (display ? Math.round((255 * i) / steps) : encoded(i / steps)));
   }
 
-  /** Whether the pixel of the whole frame is in it. */
+  /** Whether the picture contains this pixel of the whole frame. */
   holds(x: number, y: number): boolean {
     return x >= this.x0 && y >= this.y0 && x < this.x0 + this.picture.width && y < this.y0 + this.picture.height;
   }
@@ -47,7 +47,7 @@ export class Plane {
     return this.looks[word >= scale ? this.looks.length - 1 : scale <= 65536 ? word : Math.round((word / scale) * 65536)];
   }
 
-  /** Colours over black, or one channel in grey. Opaque: alpha is data, not transparency. */
+  /** Draws colours over black, or one channel in grey. Opaque: alpha is shown as data, not as transparency. */
   drawn(channel: Channel): HTMLCanvasElement {
     const { width, height, channels } = this.picture;
     return painted(width, height, (pixels) => {
@@ -61,14 +61,14 @@ export class Plane {
     });
   }
 
-  /** The largest word that the device's format has; 0 where it is not known. */
+  /** The largest word of the device's format; 0 if unknown. */
   get top_word(): number {
     const { int_bits, frac_bits } = this.picture;
     return typeof int_bits === "number" && typeof frac_bits === "number" ? 2 ** (int_bits + frac_bits) - 1 : 0;
   }
 }
 
-/** A canvas of that size; `paint` fills its RGBA bytes, alpha is 255 already. */
+/** A canvas of that size; `paint` fills its RGBA bytes, whose alpha is already 255. */
 export function painted(width: number, height: number, paint: (pixels: Uint8ClampedArray) => void): HTMLCanvasElement {
   const canvas = document.createElement("canvas");
   canvas.width = width;

@@ -1,4 +1,4 @@
-// Words and LSBs of one pixel, a row for each picture; its size does not change under the cursor.
+// Words and LSBs of one pixel, one row per picture; its size stays the same while the pointer moves.
 import { h } from "../dom";
 import { number_text } from "../figures";
 import { channel_names, type Plane } from "./plane";
@@ -19,7 +19,7 @@ function values(plane: Plane, at: { x: number; y: number } | null): string {
     .join(" ");
 }
 
-/** The word of 1.0. */
+/** The word that stands for 1.0. */
 function one_text(plane: Plane): string {
   const { scale } = plane.picture;
   return scale > 1 && Number.isInteger(Math.log2(scale)) ? `2^${Math.log2(scale)}` : String(scale);
@@ -34,7 +34,7 @@ export function readout(root: HTMLElement, scene: Scene, a: string, b: string, l
   const scales = [...new Set(scene.measured.map(one_text))];
   const rounded = scene.measured.some((plane) => plane.picture.exact === false) ? " (floats rounded)" : "";
   const words = (scales.length === 1 ? `words, 1 = ${scales[0]}` : "words") + rounded;
-  // The two that are compared stand first, with their error: a table with many pictures scrolls.
+  // The compared pictures come first, with their error, because a table with many pictures scrolls.
   const compared = (plane: Plane): boolean => plane.picture.id === a || plane.picture.id === b;
   const row_of = (plane: Plane): HTMLElement =>
     h(

@@ -1,4 +1,4 @@
-// What the viewer shows, and the link that shows it again.
+// The viewer's state, and links that restore it.
 
 export type Mode = "side" | "slider" | "flicker";
 
@@ -11,20 +11,20 @@ export interface State {
   a: string;
   b: string;
   channel: "colour" | "0" | "1" | "2" | "3";
-  /** Screen pixels of a picture's pixel; 0: the whole picture. */
+  /** Screen pixels per picture pixel; 0: fit the whole picture. */
   zoom: number;
-  /** Centre of what is seen, in pixels of the whole frame. */
+  /** Centre of the visible part, in pixels of the whole frame. */
   x: number;
   y: number;
-  /** The pixel whose words are told; null: none. */
+  /** The pixel whose words are shown; null: none. */
   at: { x: number; y: number } | null;
-  /** 0..1: where the slider parts the pictures. */
+  /** Position of the slider between the pictures, 0..1. */
   split: number;
 }
 
 const prefix = "#pictures?";
 
-/** "#pictures?mode=side&a=...": everything that changes what is seen. */
+/** "#pictures?mode=side&a=...": everything that affects the view. */
 export function link_of(state: State): string {
   const words = new URLSearchParams({ mode: state.mode, group: String(state.group), show: state.show.join(","), a: state.a, b: state.b, channel: state.channel });
   if (state.zoom > 0) {
@@ -41,7 +41,7 @@ function pair(text: string | null): { x: number; y: number } | null {
   return numbers.length === 2 && numbers.every(Number.isFinite) ? { x: numbers[0], y: numbers[1] } : null;
 }
 
-/** `state` as the link says; what it does not say, or says wrongly, stays. */
+/** `state` with the link's values; missing or invalid ones keep their value. */
 export function from_link(hash: string, state: State): State | null {
   if (!hash.startsWith(prefix)) return null;
   const words = new URLSearchParams(hash.slice(prefix.length));

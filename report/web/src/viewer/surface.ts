@@ -1,8 +1,8 @@
-// A canvas that shows part of the frame; zoom and pan belong to all surfaces together.
+// Draws part of the frame on a canvas; all surfaces share zoom and pan.
 import { colour } from "../theme";
 import type { View } from "./views";
 
-/** Frame to screen: pixel (x, y) of the frame has its top left corner at (x * scale + left, y * scale + top). */
+/** Frame to screen: the top left corner of frame pixel (x, y) is at (x * scale + left, y * scale + top). */
 export interface Camera {
   scale: number;
   left: number;
@@ -16,7 +16,7 @@ export function camera(canvas: HTMLCanvasElement, frame: { width: number; height
   return { scale, left: w / 2 - x * scale, top: hgt / 2 - y * scale };
 }
 
-/** The canvas's own pixels follow its size on the screen. False while it has none. */
+/** Matches the canvas's pixels to its size on the screen. Returns null while it has no size. */
 export function begin(canvas: HTMLCanvasElement): CanvasRenderingContext2D | null {
   const ratio = devicePixelRatio || 1;
   const width = Math.round(canvas.clientWidth * ratio), height = Math.round(canvas.clientHeight * ratio);
@@ -34,7 +34,7 @@ export function begin(canvas: HTMLCanvasElement): CanvasRenderingContext2D | nul
 export function draw(context: CanvasRenderingContext2D, view: View, to: Camera): void {
   const { image, factor } = view;
   const rows = Math.min(image.height, Math.round(view.rows * factor));
-  // Pixels stay squares when enlarged; when made smaller they are averaged.
+  // Enlarged pixels stay squares; reduced ones are averaged.
   context.imageSmoothingEnabled = to.scale / factor < 1;
   context.imageSmoothingQuality = "high";
   context.drawImage(

@@ -1,4 +1,4 @@
-// The viewer: pictures of one scene side by side, parted by a slider or in turn; all zoom and pan together.
+// The viewer: pictures of one scene side by side, split by a slider, or alternating; zoom and pan are shared.
 import { copy, h, say, type Child } from "../dom";
 import { colour, on_theme } from "../theme";
 import type { Channel } from "./plane";
@@ -8,7 +8,7 @@ import { from_link, link_of, type Mode, type State } from "./state";
 import { begin, camera, draw, mark } from "./surface";
 import type { Scene, View } from "./views";
 
-/** A place worth looking at, of a compare's result. */
+/** A place of interest from a compare's result. */
 export interface Place {
   label: Child;
   x: number;
@@ -19,7 +19,7 @@ export interface Tour {
   lsb_bits: number;
   worst: Place | null;
   clusters: Place[];
-  /** What is said where there are no clusters. */
+  /** Text shown without clusters. */
   none: string;
 }
 
@@ -31,11 +31,11 @@ export class Viewer {
   private readonly words = h("div", { class: "words" });
   private readonly controls = h("div");
   private readonly jumps = h("div", { class: "jumps" });
-  /** Values and jumps: at the lower edge of the window as long as a pane is in it. */
+  /** Values and jumps: at the lower edge of the window while a pane is visible. */
   private readonly dock = h("div", { class: "dock" }, this.jumps, this.words);
   private readonly legend = h("div", { class: "controls error-legend" });
   private surfaces: { canvas: HTMLCanvasElement; views: () => View[] }[] = [];
-  /** The pane that was pointed at or used last: what a jump brings into sight. */
+  /** The pane that was pointed at or used last; jumps scroll to it. */
   private used = 0;
   private hover: Point | null = null;
   private range = 0;
@@ -58,7 +58,7 @@ export class Viewer {
     root.addEventListener("keydown", (event) => this.key(event));
     on_theme(() => this.redraw());
     new ResizeObserver(() => this.redraw()).observe(this.panes);
-    // A pane is as high as what the dock leaves of the window.
+    // Panes fill the height that the dock leaves.
     new ResizeObserver(() => root.style.setProperty("--dock", `${this.dock.offsetHeight}px`)).observe(this.dock);
     addEventListener("hashchange", () => {
       const next = from_link(location.hash, this.state);
@@ -90,7 +90,7 @@ export class Viewer {
     return { mode: "side", group, show, a, b, channel: "colour", zoom: 0, x: 0, y: 0, at: null, split: 0.5 };
   }
 
-  /** A link may come from another report: what is not here falls back to what is. */
+  /** Corrects a state, which may come from a link to another report: replaces what does not exist here. */
   private legal(state: State): State {
     const group = state.group >= 0 && state.group < this.scenes.length ? state.group : 0;
     const fresh = this.fresh(group), { scene } = this.scenes[group];
@@ -113,7 +113,7 @@ export class Viewer {
     this.linking = window.setTimeout(() => history.replaceState(null, "", link_of(this.state)), 200);
   }
 
-  // --- what is there ---------------------------------------------------------------------------------------------
+  // --- elements --------------------------------------------------------------------------------------------------
 
   private build(): void {
     this.build_controls();
@@ -203,7 +203,7 @@ export class Viewer {
     this.panes.dataset.count = String(this.surfaces.length);
   }
 
-  /** A map's own legend, which lies below its picture. */
+  /** A map's own legend, from below its picture. */
   private strip(view: View): HTMLElement | null {
     const from = Math.round(view.rows * view.factor), rows = view.image.height - from;
     if (rows <= 0) return null;
@@ -251,7 +251,7 @@ export class Viewer {
     );
   }
 
-  // --- what is drawn ---------------------------------------------------------------------------------------------
+  // --- drawing ---------------------------------------------------------------------------------------------------
 
   private redraw(): void {
     if (this.waiting) return;
@@ -306,14 +306,15 @@ export class Viewer {
     context.fillText(view.title, 14, 23);
   }
 
-  /** Two pictures a 1.2 s: below three flashes a second. Who wants no motion turns them with the space bar. */
+  /** Alternates two pictures every 0.6 s, below three flashes per second. With reduced motion only the space bar
+   *  does. */
   private turn(): void {
     if (this.state.mode !== "flicker" || matchMedia("(prefers-reduced-motion: reduce)").matches) return;
     this.phase = 1 - this.phase;
     this.redraw();
   }
 
-  // --- what the reader does --------------------------------------------------------------------------------------
+  // --- input -----------------------------------------------------------------------------------------------------
 
   private pixel(canvas: HTMLCanvasElement, event: MouseEvent): Point | null {
     const box = canvas.getBoundingClientRect(), to = camera(canvas, this.scene, this.state);
@@ -362,7 +363,7 @@ export class Viewer {
       this.redraw();
     });
     canvas.addEventListener("wheel", (event) => {
-      // The page scrolls over the pictures until one of them has been chosen.
+      // The wheel scrolls the page until a picture has been selected.
       if (!event.ctrlKey && !event.metaKey && document.activeElement !== canvas) return;
       event.preventDefault();
       const box = canvas.getBoundingClientRect();
@@ -370,7 +371,7 @@ export class Viewer {
     }, { passive: false });
   }
 
-  /** By `by`; the frame's point under `about` (of the canvas) stays where it is. */
+  /** Zooms by the factor `by`; the frame's point under `about` (canvas pixels) stays in place. */
   private zoom(by: number, canvas = this.surfaces[0]?.canvas, about?: Point): void {
     if (!canvas) return;
     const to = camera(canvas, this.scene, this.state);
@@ -391,14 +392,14 @@ export class Viewer {
     say(`Pixel ${place.x}, ${place.y}`);
   }
 
-  /** Scrolls until a pane is seen whole between the page's contents and the dock: nothing where one is, else the pane
-   *  that was used last. */
+  /** Scrolls the pane that was used last fully into view, between the page's contents and the dock, unless some pane
+   *  is fully visible. */
   private reveal(): void {
     const top = (document.getElementById("contents")?.offsetHeight ?? 0) + 4, bottom = innerHeight - this.dock.offsetHeight - 4;
     const frames = this.surfaces.map(({ canvas }) => (canvas.closest(".pane")?.querySelector(".frame") ?? canvas).getBoundingClientRect());
     if (frames.some((frame) => frame.top >= top && frame.bottom <= bottom)) return;
     const frame = frames[this.used] ?? frames[0];
-    // The title above the picture comes into sight with it, where there is room.
+    // Includes the title above the picture if there is room.
     if (frame) scrollBy({ top: frame.top - Math.max(top, Math.min(top + 28, bottom - frame.height)), behavior: "instant" });
   }
 
@@ -410,7 +411,7 @@ export class Viewer {
     if (canvas && this.state.zoom > 0) {
       const to = camera(canvas, this.scene, this.state);
       const sx = (at.x + 0.5) * to.scale + to.left, sy = (at.y + 0.5) * to.scale + to.top;
-      // The picture follows a pixel that leaves the pane.
+      // Centres the pixel when it leaves the pane.
       if (sx < 0 || sy < 0 || sx > canvas.clientWidth || sy > canvas.clientHeight) Object.assign(part, { x: at.x + 0.5, y: at.y + 0.5 });
     }
     this.change(part, false);

@@ -1,18 +1,18 @@
-// What can be seen of one scene: its pictures, and what the page computes from their words.
+// The views of one scene: its pictures, and those that the page computes from their words.
 import { comparable, difference, drawn_difference, drawn_saturation, round_range, type Difference } from "./derived";
 import { type Channel, type Plane } from "./plane";
 
 export interface View {
   key: string;
   title: string;
-  /** Frame coordinates of its top left corner, and its pixels to a pixel of the frame. */
+  /** Frame coordinates of its top left corner, and picture pixels per frame pixel. */
   x0: number;
   y0: number;
   factor: number;
-  /** Rows of the frame; a legend below them is shown apart. */
+  /** Rows of the frame; a legend below them is shown separately. */
   rows: number;
   image: HTMLCanvasElement;
-  /** A word below the picture. */
+  /** Text below the picture. */
   note?: string;
 }
 
@@ -48,7 +48,7 @@ export class Scene {
     return ref && test && ref !== test && comparable(ref, test) ? [ref, test] : null;
   }
 
-  /** Reference and test of a compare's result: what is looked at first. */
+  /** Reference and test of a compare's result, which are shown initially. */
   get compared(): [string, string] | null {
     for (const ref of this.measured)
       for (const place of ref.picture.compared ?? []) {
@@ -97,7 +97,7 @@ export class Scene {
       const note = `Orange: ${colours} pixels with a colour at the last word, ${plane.top_word}. Blue: ${opaque} opaque ones.`;
       return { ...place, title: `Saturation: ${title}`, image: canvas, note };
     }
-    // Maps for looking are enlarged, or of another picture size; they are as wide as the frame and have a legend below.
+    // Display maps may have another size: they are as wide as the frame and have a legend below.
     const factor = plane.picture.display ? width / this.width : 1;
     return { ...place, title, factor, rows: plane.picture.display ? this.height : height, image: plane.drawn(channel) };
   }

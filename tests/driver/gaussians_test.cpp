@@ -86,7 +86,9 @@ TEST(Gaussians, FootprintsTooSmallForTheWordsAreRefused) {
   cmodel::Config config = usual_config();
   config.rlut_guard_bits = 12;
   config.position_frac_bits = 3;
-  ASSERT_FALSE(cmodel::first_violation(config));
+  config.phases = 8;
+  const auto violation = cmodel::first_violation(config);
+  ASSERT_FALSE(violation) << one_line(*violation);
   // 2^(10 + 12 - 6) steps per square pixel, and words below 2^22.
   const double least = std::ldexp(1.0, -6);
   auto scene = scene_of("cloud:50", 64, 64);

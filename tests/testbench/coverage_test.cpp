@@ -172,7 +172,7 @@ class DirectedRefusals : public ::testing::TestWithParam<const char*> {};
 // frame anywhere (M-check-10), clears the error (M-check-11) and keeps counters and IRQ_MASK (M-check-12).
 // IRQ and its mask (M-register-5, M-register-7) and the interrupt (M-port-11); STATUS while a beat is in check
 // (M-register-14, M-top-4); frames behind each other, whose counters go on (M-register-18), and that need their own
-// tables (M-register-10). IRQ before and after the sink has taken the last pixels (M-top-5); beats that are dropped
+// tables (M-register-10). IRQ before and after the sink has taken the last pixels (M-top-5, M-port-12); beats that are dropped
 // before a begin_frame (M-top-6) and by CONTROL (M-top-7), at once (M-top-8); verdicts in the model's cycles (M-top-3).
 TEST_P(DirectedRefusals, StreamsThatBreakARuleAreRefusedAsTheModelRefusesThem) {
   const auto config = driver::load_config(GetParam());

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -16,13 +17,19 @@
 namespace fastsplat::testbench {
 namespace {
 
+/// Sources of the modules by name; empty for other names.
 std::string source_of(const std::string& module) {
-  for (const char* folder : {"rtl", "testbench/module"})
-    for (const auto& entry :
-         std::filesystem::recursive_directory_iterator(std::filesystem::path(FASTSPLAT_SOURCE_DIR) / folder))
-      if (entry.path().filename() == module + ".sv")
-        return (std::ostringstream() << std::ifstream(entry.path()).rdbuf()).str();
-  return {};
+  static const std::map<std::string, std::string> sources = [] {
+    std::map<std::string, std::string> all;
+    for (const char* folder : {"rtl", "testbench/module"})
+      for (const auto& entry :
+           std::filesystem::recursive_directory_iterator(std::filesystem::path(FASTSPLAT_SOURCE_DIR) / folder))
+        if (entry.path().extension() == ".sv")
+          all[entry.path().stem()] = (std::ostringstream() << std::ifstream(entry.path()).rdbuf()).str();
+    return all;
+  }();
+  const auto found = sources.find(module);
+  return found == sources.end() ? std::string() : found->second;
 }
 
 /// The module of an instance below fastsplat_dut; empty if a part of its path is not in the source.

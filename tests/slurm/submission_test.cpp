@@ -185,7 +185,8 @@ TEST_F(Scripts, ATaskRunsItsShardInTheFolderOfTheCommand) {
   for (const char* task : {"LSB_JOBINDEX=4", "SGE_TASK_ID=4"}) {
     EXPECT_EQ(shell(files[1].text, {task}).code, 0);
     EXPECT_EQ(said(), task_words(12)) << task;
-    EXPECT_TRUE(fs::remove(s_.logs() / (log_stem(s_, 12) + "log"))) << "--lost names another log, " << task;
+    EXPECT_TRUE(std::filesystem::remove(s_.logs() / (log_stem(s_, 12) + "log")))
+        << "--lost names another log, " << task;
   }
   for (const char* none : {"LSB_JOBINDEX=0", "SGE_TASK_ID=undefined", "NOTHING=1"}) {
     const auto refused = shell(files[1].text, {none});

@@ -30,7 +30,7 @@ CoverageCollector::CoverageCollector(const cmodel::Config& config, cmodel::Strea
       stream_(config, coverage_),
       splats_(config, coverage_),
       composite_(config, coverage_, splats_),
-      times_(config, coverage_),
+      times_(config, run_.sliced, coverage_),
       resets_(config, coverage_),
       model_(config, scope, pixels_, &taps_) {
   cmodel::Counters{}.for_each([&](const char* name, std::uint64_t, const char*) {

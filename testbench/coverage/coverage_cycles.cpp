@@ -58,8 +58,9 @@ std::size_t length(std::uint64_t cycles) { return cycles == 1 ? 0 : cycles < 16 
 
 }  // namespace
 
-CycleCoverage::CycleCoverage(const cmodel::Config& config, Coverage& coverage)
+CycleCoverage::CycleCoverage(const cmodel::Config& config, bool sliced, Coverage& coverage)
     : config_(config),
+      sliced_(sliced),
       coverage_(coverage),
       columns_(static_cast<std::size_t>(config.tile_width)),
       written_(columns_ * static_cast<std::size_t>(config.tile_height)) {
@@ -198,7 +199,7 @@ void CycleCoverage::pixel_beat(std::uint64_t cycle) {
 }
 
 void CycleCoverage::on_tile(const cmodel::TileCycles& tile) {
-  std::uint64_t shown = tile.closed + cmodel::stages::kPixel;
+  std::uint64_t shown = tile.closed + cmodel::stages::kPixel + (sliced_ ? 1 : 0);
   std::size_t held = 0;
   for (std::size_t i = 0; i < pixel_beats_.size(); ++i) {
     if (pixel_beats_[i] > shown) {

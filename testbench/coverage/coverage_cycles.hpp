@@ -14,7 +14,7 @@ namespace fastsplat::testbench {
 
 class CycleCoverage final : public cmodel::CycleSink, public cmodel::TapSink {
  public:
-  CycleCoverage(const cmodel::Config& config, Coverage& coverage);
+  CycleCoverage(const cmodel::Config& config, bool sliced, Coverage& coverage);
 
   void on_beat(const cmodel::BeatCycles& beat) override;
   void on_sheet(const cmodel::SheetCycles& sheet) override;
@@ -35,6 +35,7 @@ class CycleCoverage final : public cmodel::CycleSink, public cmodel::TapSink {
     std::uint64_t cycle = 0, window = 0, sheet = 0;  ///< sheets and windows counted over the run, from 1
   };
   cmodel::Config config_;
+  bool sliced_;
   Coverage& coverage_;
   std::size_t columns_;
   int width_ = 0, height_ = 0;

@@ -280,6 +280,7 @@ class VerilatedDevice final : public RtlDevice {
     ports_.rst_ni = 1;
     top_->eval();
     cycle_ = moved_ = 0;
+    early_.clear();
     offering_ = pending_ = refused_ = reading_ = writing_ = expecting_ = resetting_ = false;
     aborted_tiles_ = 0;
     if (ports_.rvalid_o || ports_.bvalid_o || ports_.m_tvalid_o) {
@@ -308,11 +309,17 @@ class VerilatedDevice final : public RtlDevice {
     const bool taken = offering_ && ports_.s_tready_o != 0;
     sample();
     if (taken || (ports_.m_tvalid_o && ports_.m_tready_i)) moved_ = cycle_;
+    // While a soft reset lasts, the core takes no beat, but the slice does: such beats are the next frame's.
+    if (!early_.empty() && *ports_.tap_beat_taken_o) {
+      end_soft_reset();
+      for (const auto& beat : std::exchange(early_, {})) accept(beat);
+    }
     if (taken) {
-      if (resetting_) end_soft_reset();  // no beat is taken before
-      if (!expecting_) {
-        tiles_.accept(beat_);
-        if (options_.taps != nullptr) options_.taps->accept(beat_);
+      if (resetting_ && sliced()) {
+        early_.push_back(beat_);
+      } else {
+        if (resetting_) end_soft_reset();
+        if (!expecting_) accept(beat_);
       }
       pending_ = offering_ = false;
     }
@@ -333,6 +340,11 @@ class VerilatedDevice final : public RtlDevice {
                                              .fix = "check the stream with 'fastsplat stream dump'"});
     }
     return taken;
+  }
+
+  void accept(const cmodel::Beat& beat) {
+    tiles_.accept(beat);
+    if (options_.taps != nullptr) options_.taps->accept(beat);
   }
 
   /// Samples the taps of this cycle, the pixel beat if one is taken, and the verdict if there is one.
@@ -453,11 +465,12 @@ class VerilatedDevice final : public RtlDevice {
   std::uint64_t cycle_ = 0;
   std::uint64_t moved_ = 0;  ///< the cycle in which a beat or pixels were taken last
   cmodel::Beat beat_{};
-  bool pending_ = false;    ///< a beat waits to be offered
-  bool offering_ = false;   ///< the beat is offered: valid stays up until it is taken
-  bool refused_ = false;    ///< the device has refused a beat since reset
-  bool expecting_ = false;  ///< a refusal or a cut tile is expected
-  bool resetting_ = false;  ///< a soft reset whose end was not awaited
+  std::vector<cmodel::Beat> early_;  ///< taken by the slice while a soft reset lasts
+  bool pending_ = false;             ///< a beat waits to be offered
+  bool offering_ = false;            ///< the beat is offered: valid stays up until it is taken
+  bool refused_ = false;             ///< the device has refused a beat since reset
+  bool expecting_ = false;           ///< a refusal or a cut tile is expected
+  bool resetting_ = false;           ///< a soft reset whose end was not awaited
   std::uint64_t aborted_tiles_ = 0;
   bool reading_ = false, writing_ = false;  ///< an access was begun whose answer was not taken
   bool was_reset_ = false;                  ///< by a warm reset

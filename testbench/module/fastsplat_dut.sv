@@ -53,9 +53,10 @@ module fastsplat_dut (
     output logic         tap_sheet_done_o,
     output logic         error_o,
     output logic         irq_o,
-    // of the slices: the core's last pixels of a tile pass into the output's; the input's holds a beat for the core
+    // of the slices: the core's last pixels of a tile pass into the output's; the input's holds a beat for the core, which the core takes
     output logic         tap_tile_left_o,
-    output logic         tap_beat_held_o
+    output logic         tap_beat_held_o,
+    output logic         tap_beat_taken_o
 );
   localparam int P = fastsplat_pkg::LANES;
   logic [16*P-1:0] keep;
@@ -121,6 +122,7 @@ module fastsplat_dut (
   assign tap_sheet_done_o = u_top.u_core.tap_sheet_done_o;
   assign tap_tile_left_o = u_top.u_core.m_tvalid_o && u_top.u_core.m_tready_i && u_top.u_core.m_tlast_o;
   assign tap_beat_held_o = u_top.core_valid;
+  assign tap_beat_taken_o = u_top.core_valid && u_top.core_ready;
 
   fastsplat_port_rules u_rules (
       .clk_i, .rst_ni, .s_tvalid_i, .s_tready_o, .s_tdata_i, .m_tvalid_o, .m_tready_i, .m_tdata_o, .m_tkeep_i(keep), .m_tlast_o, .m_tuser_o,

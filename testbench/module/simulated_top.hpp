@@ -14,21 +14,22 @@
 namespace fastsplat::testbench {
 
 /// Ports of fastsplat_core that every configuration has in at most 8 bits.
-#define FASTSPLAT_NARROW_PORTS(X)                                                                                  \
-  X(clk_i)                                                                                                         \
-  X(rst_ni)                                                                                                        \
-  X(s_tvalid_i) X(s_tready_o) X(m_tready_i) X(m_tvalid_o) X(m_tlast_o) X(m_tuser_o) X(awvalid_i) X(awready_o)      \
-      X(wvalid_i) X(wready_o) X(bready_i) X(bvalid_o) X(bresp_o) X(arvalid_i) X(arready_o) X(rready_i) X(rvalid_o) \
-          X(rresp_o) X(error_o) X(irq_o) X(tap_snap_valid_o) X(tap_sheet_valid_o) X(tap_window_valid_o)            \
-              X(tap_composite_valid_o) X(tap_sheet_done_o) X(verdict_valid_o) X(verdict_hidden_o)
+#define FASTSPLAT_NARROW_PORTS(X)                                                                                     \
+  X(clk_i)                                                                                                            \
+  X(rst_ni)                                                                                                           \
+  X(s_tvalid_i)                                                                                                       \
+  X(s_tready_o) X(m_tready_i) X(m_tvalid_o) X(m_tlast_o) X(m_tuser_o) X(awvalid_i) X(awready_o) X(wvalid_i)           \
+      X(wready_o) X(bready_i) X(bvalid_o) X(bresp_o) X(arvalid_i) X(arready_o) X(rready_i) X(rvalid_o) X(rresp_o)     \
+          X(error_o) X(irq_o) X(tap_snap_valid_o) X(tap_sheet_valid_o) X(tap_window_valid_o) X(tap_composite_valid_o) \
+              X(tap_sheet_done_o) X(verdict_valid_o) X(verdict_hidden_o)
 /// Ports of any width.
-#define FASTSPLAT_WIDE_PORTS(X)                                                                               \
-  X(s_tdata_i)                                                                                                \
-  X(awaddr_i)                                                                                                 \
-  X(wdata_i) X(araddr_i) X(rdata_o) X(m_tdata_o) X(m_tkeep_o) X(tap_tile_o) X(tap_snap_tag_o) X(tap_snap_x_o) \
-      X(tap_snap_y_o) X(tap_snap_mx_o) X(tap_snap_my_o) X(tap_sheet_tag_o) X(tap_sums_o) X(tap_window_tag_o)  \
-          X(tap_window_x_o) X(tap_window_y_o) X(tap_weights_o) X(tap_composite_block_o) X(tap_state_o)        \
-              X(verdict_tag_o)
+#define FASTSPLAT_WIDE_PORTS(X)                                                                                    \
+  X(s_tdata_i)                                                                                                     \
+  X(awaddr_i)                                                                                                      \
+  X(wdata_i)                                                                                                       \
+  X(araddr_i) X(rdata_o) X(m_tdata_o) X(m_tkeep_o) X(tap_tile_o) X(tap_snap_tag_o) X(tap_snap_x_o) X(tap_snap_y_o) \
+      X(tap_snap_mx_o) X(tap_snap_my_o) X(tap_sheet_tag_o) X(tap_sums_o) X(tap_window_tag_o) X(tap_window_x_o)     \
+          X(tap_window_y_o) X(tap_weights_o) X(tap_composite_block_o) X(tap_state_o) X(verdict_tag_o)
 
 /// A port where the simulator holds it: an unsigned integer of 1, 2, 4 or 8 bytes, or an array of 32-bit words.
 class WidePort {
@@ -64,7 +65,7 @@ class WidePort {
 };
 
 /// Ports that only fastsplat_dut has.
-#define FASTSPLAT_SLICE_PORTS(X) X(tap_tile_left_o) X(tap_beat_held_o)
+#define FASTSPLAT_SLICE_PORTS(X) X(tap_tile_left_o) X(tap_beat_held_o) X(tap_beat_taken_o)
 
 struct Ports {
 #define X(name) std::uint8_t& name;

@@ -100,7 +100,7 @@ TEST(FetchedDevice, TakesTheCycleModelsCycles) {
       EXPECT_EQ(core->refused(), 0U);
       EXPECT_EQ(different(core->tiles(), expected.picture.tiles, words), 0U);
       cmodel::CycleOptions options{
-          .first_beat = seen.offered.front(), .culls = &expected.log, .fetch = cmodel::Fetch{latency}};
+          .first_beat = seen.offered.front(), .sliced = true, .culls = &expected.log, .fetch = cmodel::Fetch{latency}};
       cmodel::CycleModel cycles(config, cmodel::StreamScope::Whole, options);
       cycles.consume(expected.stream.beats);
       cycles.finish();

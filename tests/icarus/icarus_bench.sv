@@ -39,7 +39,7 @@ module icarus_bench;
   logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::SHEET_BITS-1:0] tap_sums_o;
   logic [fastsplat_pkg::ADDR_BITS-1:0] tap_composite_block_o;
   logic [fastsplat_pkg::BANKS*4*fastsplat_pkg::STATE_BITS-1:0] tap_state_o;
-  logic tap_tile_left_o, tap_beat_held_o;
+  logic tap_tile_left_o, tap_beat_held_o, tap_beat_taken_o;
   fastsplat_dut u_dut (.*);
 
   logic [BEAT_BITS-1:0] beats[0:MOST_BEATS-1];

@@ -109,11 +109,12 @@ bool is_sorted(Bytes list) {
   return sorted;
 }
 
-bool is_subsampled(Bytes list) {
+bool is_luminance_chroma(Bytes list) {
   bool found = false;
-  each_channel(list, [&](std::string_view, Bytes words) {
+  each_channel(list, [&](std::string_view name, Bytes words) {
     Reader sampling(words.subspan(8));
     found |= sampling.word() != 1u || sampling.word() != 1u;
+    found |= name == "BY" || name == "RY";  // newer decoders convert them, and fail unless they are subsampled
   });
   return found;
 }
@@ -189,9 +190,9 @@ std::string exr_channel_defect(Bytes bytes) {
   });
 }
 
-bool exr_is_subsampled(Bytes bytes) {
+bool exr_is_luminance_chroma(Bytes bytes) {
   const auto defect = walk(bytes, [](std::string_view type, Bytes value) {
-    return std::string(type == "chlist" && is_subsampled(value) ? "subsampled" : "");
+    return std::string(type == "chlist" && is_luminance_chroma(value) ? "luminance/chroma" : "");
   });
   return !defect.empty();
 }

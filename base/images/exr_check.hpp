@@ -16,7 +16,8 @@ std::string exr_defect(std::span<const unsigned char> bytes);
 /// readers sort the list. Requires that exr_defect() found nothing.
 std::string exr_channel_defect(std::span<const unsigned char> bytes);
 
-/// Whether a channel has fewer samples than pixels. Requires that exr_defect() found nothing.
-bool exr_is_subsampled(std::span<const unsigned char> bytes);
+/// Whether a channel has fewer samples than pixels or is a chroma channel, BY or RY. Requires that exr_defect() found
+/// nothing.
+bool exr_is_luminance_chroma(std::span<const unsigned char> bytes);
 
 }  // namespace fastsplat::images

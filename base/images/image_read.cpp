@@ -66,9 +66,9 @@ LoadedImage read_image(const std::filesystem::path& path) {
                 {},
                 "write the file again"});
     }
-    if (exr && exr_is_subsampled(bytes)) {
+    if (exr && exr_is_luminance_chroma(bytes)) {
       refuse({{},
-              "luminance/chroma EXR: a channel has fewer samples than pixels",
+              "luminance/chroma EXR: chroma channels, or fewer samples than pixels",
               "one sample per channel and pixel",
               {},
               "write it as RGB"});

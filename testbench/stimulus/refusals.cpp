@@ -38,6 +38,11 @@ constexpr const char* kOtherBins[] = {"open_tile_is_ended",
                                       "soft_reset_while_a_picture_goes_out",
                                       "next_frame_offered_in_a_soft_reset"};
 
+bool begins_a_frame(const cmodel::Beat& beat) {
+  return get(beat, cmodel::layout::kOpcode) == static_cast<std::int64_t>(Opcode::BeginFrame) &&
+         get(beat, cmodel::layout::kFrameMagic) == std::int64_t{cmodel::kStreamMagic};
+}
+
 }  // namespace
 
 Coverage refusal_bins() {
@@ -144,6 +149,7 @@ DirectedResult check_damage(const cmodel::Config& config, const MakeDevice& make
   Frames frames(config, make, check);
   Random random(seed);
   const auto refused = check.bin("damage", "refused"), legal = check.bin("damage", "still_legal");
+  bool after_reset = true;
   for (int i = 0; i < streams; ++i) {
     Beats damaged = beats;
     const auto any = [&] {
@@ -180,18 +186,28 @@ DirectedResult check_damage(const cmodel::Config& config, const MakeDevice& make
           damaged.insert(damaged.begin() + static_cast<std::ptrdiff_t>(at), cmodel::Beat(damaged[any()]));
       }
     }
+    // Behind a reset beats in front of a begin_frame are dropped (M-top-6).
+    if (frames.device().sliced() && after_reset) {
+      const auto begin = std::ranges::find_if(damaged, begins_a_frame);
+      frames.device().drop({damaged.begin(), begin});
+      damaged.erase(damaged.begin(), begin);
+      if (damaged.empty()) continue;
+    }
     // What comes behind an end_frame is another frame.
     const auto end = first_end(config, damaged);
     if (end) damaged.resize(*end);
     const std::string what = "damaged stream " + std::to_string(i);
     if (const auto expected = refused_by_model(config, damaged)) {
       if (!judged(expected->rule)) continue;  // an ellipse's shape: devices do not check it
+      after_reset = true;
       check.result.refused[bin_of(expected->rule)] += frames.bad(what, damaged, *expected, refused) ? 1 : 0;
       frames.forgive();
     } else if (end) {
       frames.good(what, damaged, legal);
+      after_reset = false;
     } else {  // it was cut: a soft reset ends it
       frames.cut(what, damaged, 2, legal, i % 2 == 0 ? Beats{} : beats);
+      after_reset = i % 2 == 0;
     }
   }
   return check.result;

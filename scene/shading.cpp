@@ -11,13 +11,19 @@ namespace {
 constexpr double kLightLeft = 0.35;  // in units of the distance towards the eye
 constexpr double kLightUp = 0.50;
 
+/// Towards the light, in doubles. The half vector is made of it as it is: GCC 12 takes a vector of doubles that was
+/// rounded to floats and widened again for the one before.
+glm::dvec3 light_of(const Camera& camera) {
+  return glm::normalize(-camera.direction() - kLightLeft * camera.right() - kLightUp * camera.down());
+}
+
 }  // namespace
 
 Shader::Shader(const Shading& shading, const Camera& camera, const volume::Volume& volume)
     : shading_(shading),
       volume_(volume),
-      light_(glm::normalize(-camera.direction() - kLightLeft * camera.right() - kLightUp * camera.down())),
-      half_(glm::normalize(glm::dvec3(light_) - camera.direction())),
+      light_(light_of(camera)),
+      half_(glm::normalize(light_of(camera) - camera.direction())),
       floor_(static_cast<float>(shading.gradient_floor * spread(volume) / volume.kernel_unit())) {}
 
 glm::vec3 Shader::operator()(const glm::vec3& colour, int i, int j, int k) const {

@@ -15,8 +15,8 @@
 
 `ifdef VERILATOR
 
-// Immediate assertions at the clock edge, on the values that flip-flops sample. For an equivalent concurrent property
-// Verilator copies every operand on both clock edges: a tenth of a small device's run time.
+// Immediate assertions at the clock edge, on the values that flip-flops sample. Of an equivalent concurrent
+// property Verilator copies every operand on both clock edges: a tenth of a small device's run time.
 `define FASTSPLAT_ASSERT(NAME, ALWAYS) \
   always_ff @(posedge clk_i) NAME: assert (!rst_ni || (ALWAYS)) else $error(`"NAME`");
 `define FASTSPLAT_ASSERT_NEXT(NAME, IF, THEN) \

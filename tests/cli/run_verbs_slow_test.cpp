@@ -174,6 +174,8 @@ TEST(RunVerbs, WhatIsNotKnownIsRefusedAndNothingIsBuilt) {
       {{"gallery", "nosuch"}, {"gallery", "nosuch", "docs/gallery.toml"}},
       {{"gallery", "terrain", "nosuch"}, {"gallery", "nosuch", "docs/gallery.toml"}},
       {{"coverage", "nosuch.json"}, {"coverage", "nosuch.json", "files"}},
+      {{"timing", "nosuch"}, {"timing", "'nosuch'", "--check"}},
+      {{"timing", "--check", "check"}, {"timing", "'--check check'"}},
   };
   for (const auto& [words, parts] : wrong) {
     SCOPED_TRACE(joined(words));
@@ -195,6 +197,7 @@ TEST(RunVerbs, WhatIsKnownGoesOn) {
                                  {"sanitize", "fast", "cmodel_slow"},
                                  {"gallery", "terrain"},
                                  {"coverage", "run"},
+                                 {"timing", "--check"},
                                  {"demo", "--size", "64"},
                                  {"fastsplat", "render", "--help"}};
   for (const Words& words : right) {

@@ -22,7 +22,7 @@ VerificationPlan plan() {
 
 CoverageOrder tiny() {
   CoverageOrder order{.config = driver::load_config("tiny"),
-                      .volume = {.splats = 36000, .seeds = 12, .resets = 240},
+                      .volume = {.splats = 36000, .seeds = 12, .resets = 480},
                       .scenes = {},
                       .device = {},
                       .threads = 2,

@@ -27,7 +27,6 @@ void interrupt(CheckedDevice& checked, const BeatSource& source, std::uint64_t a
       if (coverage != nullptr) fed.insert(fed.end(), part.begin(), part.end());
       left -= part.size();
     });
-    if (coverage != nullptr) coverage->interrupted(fed, first_beat, device.cycles());
     if (left > 0) {
       throw_usage({.where = "warm reset after beat " + std::to_string(after),
                    .what = "the stream ends before this beat",
@@ -36,6 +35,7 @@ void interrupt(CheckedDevice& checked, const BeatSource& source, std::uint64_t a
                    .fix = "lower --reset-after"});
     }
     if (wait > 0) device.read_register(cmodel::kRegStatus.address, wait);
+    if (coverage != nullptr) coverage->interrupted(fed, first_beat, device.cycles());
     device.warm_reset(cycles);
   });
 }

@@ -99,9 +99,9 @@ TEST(Package, IsMadeUpToTheLimitsOfTheRtl) {
                       }});
   for (const auto& [width, height, got] :
        {std::tuple{64, 16, ""}, {64, 17, "1088"}, {4, 3, ""}, {3, 4, "3"}, {1, 4, ""}})
-    limits.push_back({"tile.width", got, [width, height](cmodel::Config& c) {
-                        c.tile_width = width * c.lanes;
-                        c.tile_height = height * c.lanes;
+    limits.push_back({"tile.width", got, [columns = width, rows = height](cmodel::Config& c) {
+                        c.tile_width = columns * c.lanes;
+                        c.tile_height = rows * c.lanes;
                       }});
   int refused = 0, taken = 0;
   for (const RtlLimit& limit : limits) {

@@ -22,7 +22,7 @@ for pair in f_beat=u_decode.beat_valid_q f_payload=u_decode.payload_q f_take=u_d
   connects="$connects connect -nounset -set ${pair%=*} ${pair#*=};"
 done
 specification=core
-core() { unit "$1" fastsplat_core "stream_check stream_decode splat_array delay compositor pixel_out" "record_rules word_rules snap rlut axis lane sheet_bank dirty_map slab_opacity composite_lane csr popcount ram_1r1w" "${2-}" "${3-}"; }
+core() { unit "$1" fastsplat_core "stream_check stream_decode splat_array delay compositor pixel_out" "record_rules word_rules snap rlut axis lane sheet_bank dirty_map slab_opacity composite_lane csr popcount ram_1r1w parameters" "${2-}" "${3-}"; }
 core_shares="core: one owner of a memory at a time, and the mutual assumptions of the parts' proofs"
 moves="something moves within 12 cycles"
 sliced="core: the same where a block is four slices"

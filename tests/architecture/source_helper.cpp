@@ -12,11 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_source(const fs::path& path) {
-  static const std::set<std::string> endings{".cpp", ".hpp", ".cc", ".h", ".inc"};
-  return endings.contains(path.extension().string());
-}
-
 // Comments become blanks (newlines stay); string and character contents vanish when `strings` says so.
 enum class Strings { Keep, Empty };
 
@@ -62,12 +57,13 @@ std::string strip(const std::string& text, Strings strings) {
 
 }  // namespace
 
-std::vector<SourceFile> read_sources(const fs::path& root, const std::vector<std::string>& folders) {
+std::vector<SourceFile> read_sources(const fs::path& root, const std::vector<std::string>& folders,
+                                     const std::set<std::string>& endings) {
   std::vector<SourceFile> files;
   for (const auto& folder : folders) {
     if (!fs::is_directory(root / folder)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-      if (!entry.is_regular_file() || !is_source(entry.path())) continue;
+      if (!entry.is_regular_file() || !endings.contains(entry.path().extension().string())) continue;
       std::ostringstream text;
       text << std::ifstream(entry.path(), std::ios::binary).rdbuf();
       files.push_back({fs::relative(entry.path(), root).generic_string(), text.str()});

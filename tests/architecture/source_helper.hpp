@@ -15,8 +15,12 @@ struct SourceFile {
   bool is_header() const { return path.ends_with(".hpp") || path.ends_with(".h"); }
 };
 
-/// C++ files below root/<folder>.
-std::vector<SourceFile> read_sources(const std::filesystem::path& root, const std::vector<std::string>& folders);
+inline const std::set<std::string> kCpp{".cpp", ".hpp", ".cc", ".h", ".inc"};
+inline const std::set<std::string> kSystemVerilog{".sv", ".svh"};
+
+/// Files below root/<folder> with one of the endings.
+std::vector<SourceFile> read_sources(const std::filesystem::path& root, const std::vector<std::string>& folders,
+                                     const std::set<std::string>& endings = kCpp);
 
 /// Comments become blanks and the contents of strings vanish; line numbers stay.
 std::string without_comments(const std::string& text);

@@ -16,8 +16,8 @@ struct SceneList {
 
 void declare(Options& options, SceneList& to);
 
-/// One SceneFlags per name; the flags alone if there are no names. UserError (Usage) if --scene is also given, or a
-/// name is empty or repeated.
+/// One SceneFlags per name of the list. Without a list: one SceneFlags, that of the options. UserError (Usage) if
+/// --scene and a list are both given, or a name is empty or repeated.
 std::vector<SceneFlags> scenes_of(const SceneList& list);
 /// Files that the command reads.
 std::vector<std::string> inputs_of(const SceneList& list);

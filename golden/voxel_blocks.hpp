@@ -22,7 +22,7 @@ struct VoxelBlock {
 
 class VoxelBlocks {
  public:
-  /// `edge` is in voxels. Blocks without splats are left out; without splats there are no blocks.
+  /// `edge` is in voxels. Only blocks with splats are kept, so the tree may be empty.
   VoxelBlocks(const volume::Volume& volume, const std::vector<scene::Splat>& splats, int edge);
 
   /// The last block is the root. Children precede their parents and are contiguous.

@@ -104,7 +104,7 @@ class Checker final : public RawTapSink {
   void check_verdict(const RawTap& tap);
   void equal(Detector detector, const std::string& what, std::uint64_t model, std::uint64_t rtl);
   void differ(Detector detector, std::string text);
-  /// That of the first difference so far, `next` if there is none.
+  /// The detector of the first difference so far. If nothing differs yet: `next`.
   std::optional<Detector> first_detector(std::optional<Detector> next) const;
 
   cmodel::Config config_;

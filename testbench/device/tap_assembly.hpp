@@ -43,9 +43,9 @@ class TapAssembly final : public RawTapSink {
     Place at;
     std::uint32_t tag = 0;
   };
-  /// The tile whose events come now; null if there is none.
+  /// The tile whose events come now, or null.
   const cmodel::BeginTile* open_tile() const;
-  /// The same; an empty one if there is none.
+  /// *open_tile(), or an empty tile if that is null.
   const cmodel::BeginTile& tile() const;
   void snap(const RawTap& tap);
   void window(const RawTap& tap);
@@ -59,7 +59,7 @@ class TapAssembly final : public RawTapSink {
   /// Counts the sheets whose blocks have all been shown before the cycle.
   void pass_sheets(std::uint64_t cycle);
   std::uint32_t composited_sheet() const;
-  /// The earliest window that passed the footprint tap and no later one; {} if there is none.
+  /// The earliest window that passed the footprint tap but no later tap, or {}.
   Window next_window();
   /// The banks of a window at `at`, their four words each, in the order of its pixels; 0 for those outside of the tile
   /// and its halo of so many pixels.

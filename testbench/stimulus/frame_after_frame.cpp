@@ -155,7 +155,7 @@ void reset_at_once(Frames& frames, std::span<const Beat> beats, int most_waits, 
   }
 }
 
-/// A beat that is no begin_frame: one bit beside the opcode, or beside the magic.
+/// `begin` with one bit of its opcode or magic flipped: the decoder must not take it for a begin_frame.
 Beat beside(const Beat& begin, const cmodel::Field& field, int bit) {
   Beat out = begin;
   overwrite(out, field, static_cast<std::uint64_t>(get(begin, field)) ^ (std::uint64_t{1} << bit));

@@ -240,7 +240,8 @@ TEST_P(Checked, EveryWordOfABlock) {
   EXPECT_GT(outside, 0);
 }
 
-// Nothing but the sheet's number tells which sheet a block was composited from (M-tap-7).
+// The checker counts the ends of sheets to know the sheet of a composited block (M-tap-7). It must see one that is lost
+// or repeated.
 TEST_P(Checked, TheSheetOfABlock) {
   const Truth right = truth(testbench::StimulusClass::SwapHazards, 60);
   int tried = 0;

@@ -85,7 +85,7 @@ TEST_F(StreamVerbs, ADumpTellsWhatIsThereAndThenWhatIsWrong) {
   expect_success(fastsplat({"stream", "dump", folder_ / "d.fss", "--limit", "4"}));
 }
 
-// Whatever is wrong with it besides: a text file is no stream that was cut (S-reader-1, S-reader-3).
+// A text file is reported as "no stream", not as a stream that ends too early (S-reader-1, S-reader-3).
 TEST_F(StreamVerbs, WhatIsNoStreamIsToldSo) {
   const auto whole = read_bytes(stream_);
   std::string other_magic = whole;

@@ -1,4 +1,4 @@
-// The views of one scene: its pictures, and those that the page computes from their words.
+// The views of one scene: its pictures, and differences that the page computes from the words of two pictures.
 import { comparable, difference, drawn_difference, drawn_saturation, round_range, type Difference } from "./derived";
 import { type Channel, type Plane } from "./plane";
 

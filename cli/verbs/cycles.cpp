@@ -261,8 +261,7 @@ ExitCode run(const CyclesArguments& arguments) {
   if (arguments.input != "always") options.input = &input;
   if (arguments.ready != "always") options.output = &ready;
   // Source and sink wait at fastsplat_top's ports, as in verify. If neither waits, no count depends on the slices.
-  options.sliced =
-      (options.input != nullptr || options.output != nullptr) && arguments.fetch < 0 && !arguments.scaling.any();
+  options.sliced = (options.input != nullptr || options.output != nullptr) && arguments.fetch < 0;
   CycleTimeline timeline(arguments.trace.empty() ? nullptr : &trace);
   if (arguments.timeline) {
     options.spans = &timeline;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Letters for legends: 5 x 7 dots, so that the program needs no font file.
 #pragma once
 

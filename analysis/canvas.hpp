@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A small sRGB drawing surface for maps and their legends.
 #pragma once
 

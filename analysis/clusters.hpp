@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds clusters of large errors.
 #pragma once
 

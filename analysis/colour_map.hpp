@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Palettes of the error maps.
 #pragma once
 

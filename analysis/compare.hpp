@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares TEST with REF: errors in LSB and dB, and where they are.
 #pragma once
 

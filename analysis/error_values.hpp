@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // TEST - REF in LSB, value by value: the input of every figure, cluster and map.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The figures of one error field: sums, extremes, order statistics.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which program, engine, scene and configuration made a picture: the metadata of every render.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Structural similarity, Wang, Bovik, Sheikh, Simoncelli 2004, equations 13 and 17.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A result file appears whole under its final name or not at all.
 #pragma once
 

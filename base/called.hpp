@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Calls another program and keeps its output.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Errors of the user, reported in one line: what, where, expected, got, fix.
 // Programmer mistakes are not reported this way; they are assertions.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // FNV-1a, the 64-bit hash of configurations, scenes and contents.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lets one process at a time change a file that several may add to.
 #pragma once
 

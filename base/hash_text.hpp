@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A 64-bit hash as text, in the form used wherever one is printed or stored.
 #pragma once
 

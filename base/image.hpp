@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A floating-point image: golden's result, or a decoded file.
 #pragma once
 

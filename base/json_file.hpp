@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads every JSON file, and reports its errors, in one place.
 #pragma once
 

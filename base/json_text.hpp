@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Formats the JSON of every file and every --json.
 #pragma once
 

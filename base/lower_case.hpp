@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lower-cases ASCII letters of format names and file extensions, independent of the locale.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Failures of the machine, not errors of the user: disk, memory, processes, vanished files. The same command may
 // succeed later, so a sweep does not record them as results.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Limits how deeply a text file may nest. Parsers, writers and destructors recurse, so unbounded nesting would end the
 // process. These functions neither recurse nor check the grammar; the parser does that afterwards.
 #pragma once

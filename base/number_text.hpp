@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parses numbers that a user typed, independent of locale and as a whole word: "0x10", "1e", "nan", "inf" and "3 "
 // are invalid.
 #pragma once

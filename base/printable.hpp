@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes text safe for terminals and pages. File names and contents may have any bytes, some of which move the cursor,
 // colour the screen or end a line.
 #pragma once

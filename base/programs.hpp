@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds other programs in PATH.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Progress callback of a long call.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Opens a file that the user named; every failure is reported in one line.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SHA-256 (FIPS 180-4), for contents that other programs check: a browser, `sha256sum`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A word of a command line as a shell reads it back.
 #pragma once
 

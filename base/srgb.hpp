@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sRGB transfer curve (IEC 61966-2-1), for display only, never for measuring.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parses all TOML, and reports its errors, in one place.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cleans up when a signal ends the process: unfinished files, their folders, child processes.
 #pragma once
 

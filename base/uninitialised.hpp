@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Memory for results that several threads write. resize() does not initialise it, so that each page is first touched by
 // the thread that fills it.
 #pragma once

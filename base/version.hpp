@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The program's version, defined by project(... VERSION) in the top CMakeLists.txt.
 #pragma once
 

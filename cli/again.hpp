@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The command line that reproduces a result; results carry it as "command".
 #pragma once
 

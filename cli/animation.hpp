@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Animations: renders numbered frames, keeps up-to-date ones of earlier runs, and writes the video.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From --config and --set to a hardware configuration.
 #pragma once
 

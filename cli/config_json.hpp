@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Configurations in the subcommands' JSON.
 #pragma once
 

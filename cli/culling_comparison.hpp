@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table of `cycles --cull-table` as text and JSON (docs/culling.md).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A run's timeline in the JSON result, for the report to draw: when each sheet and tile passed through the device.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A run's timeline in the Trace Event format (chrome://tracing, ui.perfetto.dev): one track per unit, one slice per
 // sheet.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Describes a subcommand: its flags, their values, examples. Help, man pages and shell completion are generated from
 // it.
 #pragma once

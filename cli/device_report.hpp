@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shared by `render --engine cmodel` and `stream replay`: reports the device's counters and writes its images.
 #pragma once
 

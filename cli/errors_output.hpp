@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Output shared by the subcommands of `errors`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/failure_name.hpp"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Chooses an unused default name for a failure's files, unique among concurrent runs.
 #pragma once
 

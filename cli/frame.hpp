@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Renders one frame of a scene with one engine: a still, or a frame of an animation.
 #pragma once
 

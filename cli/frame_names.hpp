@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names of numbered frames: head.####.png is head.0000.png, head.0001.png, ...
 #pragma once
 

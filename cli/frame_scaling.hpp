@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `cycles --devices N,.. --bytes-per-cycle B --clock MHZ`: a frame on several devices, and what limits it
 // (docs/scaling.md).
 #pragma once

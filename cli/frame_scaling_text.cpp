@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A frame's scaling as text and JSON: figures, the limit, and what would help.
 #include <fmt/format.h>
 

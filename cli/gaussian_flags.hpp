@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // --gaussians and its related flags: from flags to a view of 3-D Gaussians.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `render --gaussians`: renders 3-D Gaussians with the floating-point renderer or the integer device.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Image files of a render or a replay: --out and --raw.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/late_results.hpp"
 
 #include "base/machine_error.hpp"

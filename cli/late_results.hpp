@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Results written at the end of a run: a failure to write one does not prevent the others.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Declares a subcommand's flags: names, values, limits, help. Subcommands include this instead of CLI11, which compiles
 // slowly.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // External programs that fastsplat or its tests call: whether they are installed, their versions, how to get them.
 #pragma once
 

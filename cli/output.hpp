@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Output channels: results to stdout, messages to stderr, JSON to the target of --json.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks a command's file names: results must be writable and must not replace its inputs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Flags shared by the subcommands of `plan`: the plan's file and the folder of its results.
 #pragma once
 

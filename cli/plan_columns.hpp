@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The flags that choose rows and columns of merged results.
 #pragma once
 

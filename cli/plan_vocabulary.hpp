@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What parameter sweeps query from the program: the flags of subcommands, whether commands parse, content hashes.
 #pragma once
 

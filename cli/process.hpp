@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Process-wide setup: closed descriptors, signals, limits.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/render_arguments.hpp"
 
 #include "cli/image_output.hpp"

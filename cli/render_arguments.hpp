@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Arguments of `render`: a still, or an animation if --orbit or --sequence is given.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/replay_line.hpp"
 
 #include "base/shell_word.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shared by `render --engine rtl` and `verify`: a scene through the Verilated device, and the result as text.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From flags to a scene: flags override the file; everything is checked before reading data or allocating.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Several scenes of one command: a list of files or demos; the scene flags apply to each.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A plain-text table: columns as wide as needed, numbers right-aligned.
 #pragma once
 

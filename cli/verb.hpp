@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A subcommand: its name, its flags, its action. One file each in cli/verbs/.
 #pragma once
 

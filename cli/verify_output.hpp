@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Output of `verify`: the result as text and JSON, and a failure with the files that reproduce it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Arguments of `verify` and its runs: a scene, a recorded stream or random streams through the RTL.
 #pragma once
 

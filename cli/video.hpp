@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A video from numbered PNG frames, made by ffmpeg.
 #pragma once
 

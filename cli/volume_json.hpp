@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A volume's properties as JSON, without voxels, and its warnings.
 #pragma once
 

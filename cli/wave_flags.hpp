@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // --wave and --cycles: waveforms of runs that simulate RTL.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The device model: decode -> snap -> weights by index kind -> sheet buffer -> compositor -> pixel out.
 #pragma once
 

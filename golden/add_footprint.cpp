@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "golden/add_footprint.hpp"
 
 #undef HWY_TARGET_INCLUDE

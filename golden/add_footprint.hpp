@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adding one footprint to several sheets with vector instructions, chosen for the processor at run time (Highway).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Axis-aligned sheets (Westover 1990): the volume's own slices most perpendicular to the view are the sheets, and a
 // splat goes whole into its slice's sheet. When the view turns past 45 degrees the slices change axis and the picture
 // pops.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bands of image rows: the unit of parallel work. Each pixel belongs to one band, and the order of a band's splats
 // depends on the scene alone. So the image does not depend on the number of threads.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Collects the splats of a scene on several threads.
 #pragma once
 

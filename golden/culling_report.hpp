@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Statistics of occlusion culling (early splat elimination) for one frame.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Collects voxels as density splats, for classification after reconstruction.
 #pragma once
 

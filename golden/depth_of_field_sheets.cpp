@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "golden/depth_of_field_sheets.hpp"
 
 #include <fmt/format.h>

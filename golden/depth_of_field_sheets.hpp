@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Depth of field by filtering sheets: each sheet's colour and opacity are spread over the circle of confusion of its
 // depth before it is composited (docs/techniques/depth-of-field-sheets.md).
 #pragma once

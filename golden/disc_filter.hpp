@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A disc as a pixel filter: the image of a point out of focus.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Front-to-back sweep of sheets over the whole frame, for techniques that read beyond one pixel of one sheet. It does
 // sheet by sheet what sweep_sheets does band by band. Stages can therefore read a sheet's neighbours in y and in depth,
 // filter across it, and read the picture in front of it. Without stages the picture equals that of composite_sheets,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The floating-point renderer of 3-D Gaussians (docs/techniques/gaussians.md).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gradient splats: besides the density's footprint three more, for the kernel's derivatives (Mueller, Moeller, Crawfis
 // 1999; splatting.md section 2 item 5).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Image-aligned sheets (Mueller and Crawfis 1998): slabs parallel to the image cut each splat's kernel into slices, and
 // all material between two planes is added before compositing. Nothing depends on the volume's axes, so nothing pops.
 // This file also assembles the stages that read pixels of whole sheets.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Early splat elimination (Mueller, Shareef, Huang, Crawfis 1999): before a sheet is splatted, the splats that begin in
 // it are tested against the occlusion map of the sheets so far. Front to back a pixel's transmittance only falls, and
 // an opaque pixel is terminated. So with VisibilityTest::Count no culled splat could have changed a bit.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Occlusion map: which pixels are opaque after the sheets so far, and whether all pixels of a window are.
 #pragma once
 

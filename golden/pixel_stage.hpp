@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A classified pixel of one sheet, and the steps that modify it before shading.
 #pragma once
 

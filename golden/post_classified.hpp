@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Post-classified splatting (Mueller, Moeller, Crawfis 1999): densities are splatted, and each pixel of each sheet is
 // classified and shaded after reconstruction. docs/techniques/post-classified.md.
 #pragma once

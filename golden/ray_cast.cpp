@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ray casting: the reference for all other techniques. For every pixel, extinction and emission along its ray are
 // reconstructed from nearby kernels, and the transmittance integral
 //     C = Int e(z) exp(-Int_{<z} kappa dz') dz,   A = 1 - exp(-Int kappa dz)

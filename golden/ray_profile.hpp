@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Emission and extinction of nearby kernels along one ray, point-sampled along the view axis.
 #pragma once
 

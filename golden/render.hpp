@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The floating-point reference: one technique per file, formulas as in the papers. Computes in double, returns float.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One sheet over a band of image rows, or over the whole frame: sums per pixel, and the touched part of each row.
 #pragma once
 

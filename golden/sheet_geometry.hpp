@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // World positions of the pixels of image-aligned sheets.
 #pragma once
 

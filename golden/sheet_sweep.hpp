@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Front-to-back sweep of sheets, shared by xray, axis_aligned and image_aligned. A sheet method makes two choices:
 // which sheets get which share of a splat, and what happens to a finished sheet.
 #pragma once

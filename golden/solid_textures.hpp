@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Procedural solid textures per pixel (docs/techniques/solid-textures.md): tints each pixel of each sheet, whether
 // densities are classified there or colours were splatted.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What one splat adds to each of its sheets: values and places, gathered for add_footprint.
 #pragma once
 

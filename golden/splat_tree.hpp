@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds the kernels that a ray passes through: a tree of bounding balls over the splats' centres.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Summed-area table (Crow 1984): the sum over any rectangle of pixels from its four corners, in exact integers.
 #pragma once
 

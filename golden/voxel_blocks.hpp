@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Voxel blocks for occlusion culling: an octree over the splats of a scene, with leaves of b x b x b voxels.
 #pragma once
 

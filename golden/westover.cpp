@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Composite every sample (Westover 1989): each splat is composited by itself, in traversal order. Overlapping kernels
 // of one layer should be added but dim one another, so the picture depends on the order inside a layer.
 #include <atomic>

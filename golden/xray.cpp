@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // X-ray: the line integral of emission (RGB) and of extinction (A), times the exposure. Exact for splatting, since the
 // integral of a sum of kernels is the sum of their footprints. Needs neither order nor compositing.
 #include "golden/render.hpp"

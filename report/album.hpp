@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The pictures of a report: loads and identifies them, and reduces them to a size limit in bytes.
 #pragma once
 

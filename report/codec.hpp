@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Encodes a picture's words for the page: split into byte planes that deflate well. The browser decodes them
 // (report/web/src/codec.ts; docs/report.md has the format).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads figures of a result by path, "cycles/account/ideal". A missing figure means that the result is damaged, which
 // is a UserError.
 #pragma once

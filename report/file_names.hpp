@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Removes folders from a report, which may be sent by mail: files are named in it, their folders are not.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The page: inserts a report's data into a template built from report/web.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A picture of a report: a file's values as words, whatever its format, and their meaning.
 #pragma once
 

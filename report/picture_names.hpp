@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds the pictures of a report: those named by its results, and the user's.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes one offline page from results and pictures.
 #pragma once
 

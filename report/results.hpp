@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The input of a report: reads and identifies the subcommands' JSON results.
 #pragma once
 

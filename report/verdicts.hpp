@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one-sentence verdict of each subcommand's result. Only this table defines which subcommands have reports.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Assertions of the device, for modules with clk_i and rst_ni. Verilator checks them in every simulation, Yosys with
 // -formal proves them; elsewhere (synthesis) they vanish. A failing one prints its name.
 //

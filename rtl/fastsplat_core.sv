@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The FastSplat device: stream in, pixels out, registers beside (docs/microarchitecture.md).
 //
 //   stream -> check -> [cull] -> decode -> splat array (snap, RLUT, lanes, sheet banks) -> compositor -> pixel out -> pixels

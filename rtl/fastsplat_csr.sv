@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Configuration and status registers behind AXI4-Lite (docs/microarchitecture.md, "Registers"). A read takes its
 // address in cycle c, reads the register in c+1 and answers in c+2. A write takes address and data together and answers
 // in the next cycle. Counters count an event in the third cycle after it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Delays a word by STAGES cycles; 0: a wire.
 module fastsplat_delay #(
     parameter int BITS = 1,

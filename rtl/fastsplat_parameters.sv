@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Refuses packages whose parameters contradict each other, or describe a device that the RTL does not support:
 // elaboration stops with the values (rtl/assertions.svh). Packages of fastsplat_emit_package pass.
 `include "assertions.svh"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "popcount": the number of bits set in a word, in two cycles: partial sums of 16 bits each, then their sum.
 // `clear_i` drops what is on its way (docs/microarchitecture.md, M-register-13).
 module fastsplat_popcount #(

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Memory with one registered read port and one write port. A read of the word being written returns an undefined value
 // that nothing may depend on. All memories of the device are instances of it. A vendor's macro with self-test and error
 // correction can replace it by BITS and WORDS; these get no cycle of their own (docs/integration.md, "Memories").

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Places where the must-fail suite breaks the device (testbench/faults/faults.def). In all other builds the macro is
 // the constant 0 and leaves nothing behind: only a build that defines FASTSPLAT_FAULT_SELECT can set a fault. It also
 // needs fastsplat_fault_pkg.sv (testbench/faults), which is not part of the device.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one place that loses bits (docs/numerics.md, section 1; cmodel/numbers/narrow.hpp). A function, not a module:
 // called under an enable it costs nothing, in gates or in simulation, while there is nothing to narrow.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Anti-aliased splatting (Swan et al. 1997, Mueller et al. 1998): beyond the depth where voxels lie closer than pixels,
 // the kernel grows with depth. docs/techniques/anti-aliasing.md
 #pragma once

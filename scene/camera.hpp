@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cameras: orthographic and perspective, orbiting the volume's centre.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which combinations are valid: the techniques of each method and engine, their requirements and exclusions, and where
 // a setting has an effect. All rules are in one table (capability_table.cpp).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Enlarges and moves the picture so that the non-empty voxels fill it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Occlusion culling's settings: docs/techniques/occlusion_culling.md. Only the golden renderer has them; the device has
 // its configuration's own freeze_below.
 #pragma once

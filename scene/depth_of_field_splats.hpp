@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Depth of field by filtering splats: each footprint is widened to its circle of confusion.
 // docs/techniques/depth-of-field.md
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Changes to a picture for display only: a background, an inverted X-ray.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reconstruction kernel h(x) = N exp(-a |x|^2) and its integrals (splatting.md 1.6, 2).
 #pragma once
 

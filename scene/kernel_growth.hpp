@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How much anti-aliased kernels grow with depth (docs/techniques/anti-aliasing.md).
 #pragma once
 

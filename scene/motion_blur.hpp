@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Motion blur: a footprint stretched along its path over the screen while the shutter is open (Mueller et al. 1998).
 // docs/techniques/motion-blur.md
 #pragma once

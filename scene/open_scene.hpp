@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scene's text, from a file or built in, as a TOML document.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Elliptical footprints: a spherical kernel seen in perspective, by the local affine projection of Zwicker et al. 2001.
 // docs/techniques/elliptical-footprints.md
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A projected splat in real numbers, which golden shapes and the driver quantises (docs/numerics.md,
 // section 8, "real splats").
 #pragma once

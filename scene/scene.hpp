@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Everything that decides a picture, independent of the engine that renders it.
 #pragma once
 

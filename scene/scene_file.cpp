@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene.toml: every key is optional; absent keys keep their defaults. The keys are those of scene/settings_list.cpp.
 // This file adds the ones that are more than a plain setting: volume and transfer_function (relative to the file),
 // nan_as (or none), image.size for width and height, kernel.name in place of its a and radius. A table [sequence]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The content of a scene's file: the still, its sequence, and settings without effect.
 #pragma once
 

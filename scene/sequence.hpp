@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scene over time: the settings that change from frame to frame.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The settings of a scene in one list: each with its key in scene.toml, its flag on the command line, its limits and
 // its meaning. Reading, writing, checking and the flags are derived from this list; a new technique adds its entries
 // here.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The list itself. To add a setting, add its field to SceneDescription and one entry here. Its key, flag, limits, saved
 // scene, refusals, line in the guide and tests follow. A new technique is a row of capability_table.cpp.
 #include <array>

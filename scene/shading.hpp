@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shading: Phong with a light that travels with the camera, for voxels and for pixels.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The shape of a splat's kernel on the screen: an ellipse of the same energy.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sheets of a frame: their number and places, and how splats are divided among them. Every engine uses this plan.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Solid patterns: a value at every point of space, for textures and bumps (splatting.md section 2 item 12). They are
 // functions of position alone, so they stay with the object in any view and at any resolution.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Procedural solid textures: a solid pattern as a tint that multiplies colours.
 #pragma once
 

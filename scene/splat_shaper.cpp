@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "scene/splat_shaper.hpp"
 
 #include "scene/antialias.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shapes a splat on the screen: a pipeline in which each technique changes the shape of the previous one.
 //
 //   circle -> ellipse (perspective) -> growth (anti-aliasing) -> + motion -> + lens

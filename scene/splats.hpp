@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Voxel traversal: the non-empty voxels of a scene as classified, shaded splats, front to back.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Techniques that shape a splat's footprint on the screen: perspective, minification, motion, a lens.
 // scene/capability.hpp lists the engines that have them, docs/techniques/ has a page for each.
 #pragma once

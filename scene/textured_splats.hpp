@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Textured splats (Crawfis, Max 1993): a footprint with detail of its own, one of N phases that are cycled over frames.
 // docs/techniques/textured-splats.md
 #pragma once

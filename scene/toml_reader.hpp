@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Strict TOML: every key must be known, every value in range; each error has file:line:column and a hint.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A transfer function file:
 //
 //   domain = "percentile"      # how `at` is read: "value", "range" (default), "percentile", "hounsfield" or "content"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Maps a voxel's value to colour and opacity; presets and files in TOML (docs/guide/transfer-functions.md).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Background and percentiles of a volume's values.
 #pragma once
 

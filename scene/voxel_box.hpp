@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A box of voxels in the user's notation: "10..90,0..216,0..180".
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The automatic exposure of X-rays (docs/numerics.md, N-8-23). It depends on the volume, not on the view, so that a
 // turning volume keeps its brightness.
 #pragma once

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """labels.py CTEST BUILD LONGER: every test of the build has one of the labels `fast` and `slow`, and what LONGER (longer.cmake) names is a test.
 
 `-L fast` takes a test that has both labels, none takes one that has neither, and a filter says nothing of a name that no test has."""

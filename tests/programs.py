@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """programs.py SOURCE: tools/debian.txt lists every program that scripts, CMake files and tests call.
 
 Without that a program counts on what a machine happens to have (make, once). Finds calls by their form: the first word of

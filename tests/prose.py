@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """prose.py SOURCE PROGRAM [--record]: pages and header comments read plainly, their links resolve, their commands exist.
 
 Counts per folder: sentences of more than 35 words, table cells of more than 25, wordings that the style bans, dead links, and

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """prose_planted.py: prose.py finds each planted defect at its line, and nothing in text that is in order."""
 import os
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """rules.py SOURCE: every numbered rule of the normative pages is cited by a test, and every citation is of a rule.
 
 A rule's number stands in bold where the page states it: **N-4.6-3** in numerics.md, **S-tile-2** in stream.md, **M-walk-1** in

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Attributes the device's error to the steps of the pipeline (docs/errors.md, section 2).
 #pragma once
 

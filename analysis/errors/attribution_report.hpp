@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An attribution as text, as JSON and as maps.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A proved worst case of |golden - device| at every pixel of a frame (docs/errors.md, section 3).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bound on a band of image rows. A forward pass finds what each sheet shows, a backward pass what lies behind it;
 // then each rounding is bounded splat by splat (docs/errors.md, section 3).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Estimates the hardware cost of a configuration from the configuration alone (docs/errors.md, section 5).
 #pragma once
 

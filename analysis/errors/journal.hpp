@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Results of configurations in a file of JSON lines, which a later search reads instead of simulating again.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The keys that a search changes, in steps from its start: a bit, or a factor of two.
 #pragma once
 

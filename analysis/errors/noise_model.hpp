@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Assumes that the noises of single keys add. Selects what is worth simulating, never what is good enough.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds the cheapest configuration that meets a target on all given scenes when simulated (docs/errors.md, section 6).
 #pragma once
 

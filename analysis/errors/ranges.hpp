@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Values at each narrowing site over whole frames, compared with theory, and the formats that they need
 // (docs/errors.md, section 4).
 #pragma once

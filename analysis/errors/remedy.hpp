@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A suggestion that makes a step's error smaller: the nearest finer configuration.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far each step of a configuration can move a value: input of the bound (docs/errors.md, section 3).
 #pragma once
 

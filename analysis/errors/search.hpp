@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Searches for the cheapest configuration that is good enough, checking each candidate (docs/errors.md, section 6).
 #pragma once
 

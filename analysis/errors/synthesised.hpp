@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Synthesis results of configurations: the figures of docs/evidence/synthesis.json, built into the program. Cost
 // (cost.hpp) is an estimate for any configuration; these are measured, for few.
 #pragma once

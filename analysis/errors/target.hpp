@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How good a picture has to be: "psnr>=50", "max<=1", "rms<=0.1"; in LSB of 8 bits, as compare counts
 // (docs/compare.md).
 #pragma once

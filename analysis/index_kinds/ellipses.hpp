@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Elliptical footprints with index.kind squared_elliptic: the error of its weights against golden's, and the error of
 // circles in their place.
 #pragma once

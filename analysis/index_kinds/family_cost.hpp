@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cost of a device of each index kind: bits, operations per pixel, cycles per splat; and the predictions of
 // splatting.md, sections 1 and 5.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares all index kinds over grids, radii and table lengths, measured and predicted.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A real picture with every index kind: the head scan by the integer model against golden, and the shares of its error
 // that splat positions and the index cause.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/index_kinds/weight_field.hpp"
 
 #include <algorithm>

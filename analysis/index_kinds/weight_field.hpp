@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The error of an index kind's weights against the exact footprint where splats overlap. The test is a constant field
 // on a lattice along the pixels, at every offset, and on a turned lattice.
 #pragma once

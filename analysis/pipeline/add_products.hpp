@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adds a splat to a row of a sheet: step `product` and the sum, vectorised.
 #pragma once
 

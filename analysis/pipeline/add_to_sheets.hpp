@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adds a splat to its sheets: its weights, already rasterised, times its share in each sheet.
 #pragma once
 

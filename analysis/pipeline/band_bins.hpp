@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splats by bands of image rows: a band is a tile as wide as the image.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws a frame with a hybrid pipeline: each step in device or real arithmetic. All real is golden's picture, all
 // device the integer model's, bit for bit. Words are exact in a double, so one chain serves both (docs/errors.md).
 #pragma once

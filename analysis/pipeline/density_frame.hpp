@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws a band of rows sheet by sheet if sheets hold densities; Chain::Band does so for colours. A pixel reads three
 // sheets and its neighbours, so no splat is ever left out of a sheet (docs/numerics.md, section 6.2).
 #pragma once

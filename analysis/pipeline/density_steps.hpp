@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The steps of a pixel from sheets of densities to sums of colours: transfer, slope, normal, facing, phong, blend,
 // shaded, colour (docs/numerics.md, section 6.2; docs/errors.md, section 1, "Densities"). Numbers are values: a word of
 // f fraction bits is a multiple of 2^-f. If all earlier steps are the device's, values are its words.

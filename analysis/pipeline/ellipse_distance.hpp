@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Step `distance` of an ellipse: q at its pixels, in radial table entries.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The steps that composite a finished sheet into a pixel and output the pixel: sheet, factor, slab, composite, freeze,
 // pixel.
 #pragma once

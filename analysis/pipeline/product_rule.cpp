@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "analysis/pipeline/product_rule.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rounding of step `product` in a hybrid pipeline, for add_products().
 #pragma once
 

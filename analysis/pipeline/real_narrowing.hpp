@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The device's narrowing (docs/numerics.md, section 1) for numbers that need not be words; words narrow as in
 // cmodel::Narrowing, bit for bit. Numbers are values, not words: 0.5 is 0.5 in any format.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The steps of a splat before its pixels: position, snap, radius, emission, depth, phi, share.
 #pragma once
 

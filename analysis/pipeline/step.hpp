@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The steps from a real splat to an output word. Each has two sides: `device`, as docs/numerics.md rounds it, and
 // `real`, as golden computes it. A mixture (hybrid pipeline) selects the side of each step (docs/errors.md).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The steps from a splat's position to the weights of its pixels: distance, index, weight.
 #pragma once
 

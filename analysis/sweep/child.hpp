@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs the program as child processes: starts them, waits for them and for signals, ends them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Merged results as a table: its columns, rows, order and formats.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sums coverage books as `verify --coverage` writes them.
 #pragma once
 

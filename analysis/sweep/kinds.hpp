@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kinds of case and the program runs of each. A subcommand not listed here is a kind with one run.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which cases of a plan have no result yet, and which tasks of a submission have to produce them.
 #pragma once
 

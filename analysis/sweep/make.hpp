@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes a plan from a specification: crosses axes, puts settings into the commands that take them, names cases.
 #pragma once
 

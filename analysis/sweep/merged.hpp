@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The merged results of a plan: one row per case, in the plan's order (docs/plan.md, "The merged file").
 #pragma once
 

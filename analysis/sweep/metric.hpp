@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A metric: its name, its meaning, and its place in the JSON of the subcommands.
 #pragma once
 

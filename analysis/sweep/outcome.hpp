@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The outcome of a run of a case: its JSON, its coverage book, and a message if something went wrong.
 //
 // Only what the program reports is a result. What the machine does (disk, memory, signals, a crash) is an accident: it

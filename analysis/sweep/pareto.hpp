@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The Pareto front of rows by two metrics, and for every other row one of the front that beats it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A plan: cases with their commands, each named by a hash of its content (docs/plan.md, "The plan").
 #pragma once
 

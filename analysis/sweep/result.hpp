@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The result of a case: a file FOLDER/ID.json, written atomically, that identifies its case.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs the remaining cases of a plan: each case's runs one after the other, several cases at once. Results are
 // published atomically, so that after a kill the next run continues with the missing ones. Failures of the machine are
 // reported, and their cases are left for the next run.

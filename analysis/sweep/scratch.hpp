@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A folder of this process for files that are not published yet; removed with the process.
 #pragma once
 

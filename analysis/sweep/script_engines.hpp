@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scripts for schedulers that this program does not call itself: array jobs for LSF and SGE, and a list of one command
 // per line for GNU parallel and similar tools.
 #pragma once

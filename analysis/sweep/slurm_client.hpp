@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Calls Slurm's clients: reads the site's limits and the queue, submits and cancels jobs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scripts and sbatch command lines of a submission to Slurm: one script per array, and one that merges.
 #pragma once
 

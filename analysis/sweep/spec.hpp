@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SPEC.toml: the kinds of case, their axes and constants (docs/plan.md, "The specification").
 #pragma once
 

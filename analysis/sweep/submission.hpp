@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A plan submitted to other machines: shards become tasks, tasks become arrays within the site's limit. Also the lines
 // that the scripts of all engines share (docs/cluster.md).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A value of a setting: for a flag or a configuration key in SPEC.toml, and in a row of results.
 #pragma once
 

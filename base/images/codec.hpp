@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The interface between base/images/ and the image library: a table of functions in a module that is opened when a
 // picture is first read or written. Only that module, base/images/openimageio/, includes OpenImageIO.
 #pragma once

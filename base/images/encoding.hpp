@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names of the colour encodings that files declare. Samples may be compared if their names are equal.
 #pragma once
 

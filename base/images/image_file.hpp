@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Image files: EXR (float, half, raw integer words), PNG (8/16), TIFF (8/16/float); JPEG is read only. OpenImageIO
 // decodes and encodes. It is loaded at the first picture, because loading takes 0.2 s and 100 MB.
 #pragma once

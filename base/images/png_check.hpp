@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks that a PNG is complete before libpng reads it: libpng prints errors to stderr and accepts a missing end.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a PNG declares: colour encoding and animation.
 #pragma once
 

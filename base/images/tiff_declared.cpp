@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "base/images/tiff_declared.hpp"
 
 #include <cstdint>

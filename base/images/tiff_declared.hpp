@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Declarations of a TIFF that decoders ignore.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs independent jobs on several threads (oneTBB). Jobs must write to disjoint places, so that results do not depend
 // on the schedule.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat_coverage: runs the campaigns, closes docs/verification_plan.toml, writes closure.md, closure.json
 // and closure.html.
 //   fastsplat_coverage --tests              prints the plan's tests as a regular expression for ctest

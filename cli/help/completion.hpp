@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Completion scripts: all subcommands, flags and value names; the shell does not run the program to complete.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Exit codes in words, for help and man pages (docs/guide/reference.md, "Exit codes").
 #pragma once
 

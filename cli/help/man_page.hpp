@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Man pages in the man macros of man, groff and mandoc: one for the program, one per subcommand.
 #pragma once
 

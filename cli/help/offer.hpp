@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Completions that a shell offers for a value, and quoting for the shells' scripts.
 #pragma once
 

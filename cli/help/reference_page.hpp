@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reference in Markdown (docs/guide/reference.md): all subcommands and flags, keys of scene.toml, which keys
 // combine, configurations, exit codes. Generated from the tables that the program itself uses.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parses, calls, maps errors to exit codes (docs/guide/reference.md, "Exit codes").
 #include <exception>
 #include <new>

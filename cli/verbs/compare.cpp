@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat compare: measures the difference of TEST from REF and checks limits.
 #include "analysis/compare.hpp"
 

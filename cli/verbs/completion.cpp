@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat completion: scripts that complete subcommands, flags and values in a shell.
 #include "cli/help/completion.hpp"
 

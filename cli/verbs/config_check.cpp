@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat config check: whether a configuration is valid and whether RTL can be built from it.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat config diff: the keys in which two configurations differ.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat config list: the configurations built into the program.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat config show: a configuration as TOML that reproduces it.
 #include <nlohmann/json.hpp>
 

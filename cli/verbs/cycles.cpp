@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat cycles: how many cycles the device takes and how they are spent.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat doctor: the program's parts and what the machine provides.
 #include <fmt/format.h>
 #include <sched.h>

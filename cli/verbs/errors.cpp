@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat errors: which steps cause the device picture's error.
 #include <nlohmann/json.hpp>
 

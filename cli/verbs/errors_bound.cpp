@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat errors bound: a proved bound of every pixel's error, beside the error itself.
 #include <nlohmann/json.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat errors propose: the cheapest configuration that meets a target on all given scenes.
 #include <fmt/format.h>
 

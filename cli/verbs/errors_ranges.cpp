@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat errors ranges: the value ranges at each narrowing site and the effect of other formats.
 #include <fmt/format.h>
 

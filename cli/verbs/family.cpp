@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat family: cost and error of every index kind.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat help: help on the program or a subcommand, as text, man pages or Markdown.
 #include <filesystem>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat plan csv: merged results for a spreadsheet or a script.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat plan make: expands a specification's axes into cases, each named by its content hash.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat plan merge: a plan's results in one file, one row per case, in the plan's order.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat plan pareto: the Pareto front of merged results for two metrics.
 #include <fmt/format.h>
 

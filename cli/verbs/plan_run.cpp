@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat plan run: runs the remaining cases of a plan or a shard; can be killed at any time and resumes.
 #include <fmt/format.h>
 

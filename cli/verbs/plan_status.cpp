@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat plan status: how far a plan has come.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat plan submit: submits a plan to a cluster, its shards as tasks of job arrays, followed by a merge.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat plan table: merged results as text or Markdown.
 #include <nlohmann/json.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat render: a scene through one engine, to image files: a still or the frames of an animation.
 #include <fmt/format.h>
 

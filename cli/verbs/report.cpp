@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat report: results and pictures as one page that opens from disk, and as JUnit XML, CSV and Markdown.
 #include "report/report.hpp"
 

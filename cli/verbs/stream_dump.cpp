@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat stream dump: a stream file as text.
 #include <nlohmann/json.hpp>
 

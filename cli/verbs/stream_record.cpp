@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat stream record: records the device's input stream of a scene to a file.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat stream replay: a recorded stream through the integer device.
 #include <nlohmann/json.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat stream vectors: a recorded stream and its expected taps and pixels, as plain text.
 #include "driver/files/stream_vectors.hpp"
 

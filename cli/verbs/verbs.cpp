@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cli/verbs/verbs.hpp"
 
 namespace fastsplat::cli {

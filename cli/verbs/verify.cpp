@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat verify: compares the RTL with the model on a scene, a recorded stream or random streams.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat volume convert: converts any readable volume format to a writable one.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat volume info: size, spacing, type, values, place.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Number and range of the words of density tables (docs/numerics.md, section 6.2; S-table-11).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "classify": turns a pixel's density and its differences to neighbours into the sums that a sheet of colours
 // would hold (N-6.2-8 to N-6.2-13). Pure functions on tables that the driver loads.
 #pragma once

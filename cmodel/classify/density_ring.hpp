@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "density ring": the live sheets of a tile of densities. A sheet waits for the one behind it and is then
 // classified between its neighbours (N-6.2-4).
 #pragma once

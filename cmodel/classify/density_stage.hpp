@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "density stage": the ring of live sheets of a tile of densities. It classifies each sheet between its
 // neighbours, pixel by pixel, into sums that are composited like a sheet of colours (docs/numerics.md, section 6.2).
 #pragma once

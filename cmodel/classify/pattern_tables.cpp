@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cmodel/classify/pattern_tables.hpp"
 
 namespace fastsplat::cmodel {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Number and range of the words of a solid pattern's tables (docs/numerics.md, section 6.3; S-table-13).
 #pragma once
 

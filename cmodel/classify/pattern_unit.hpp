@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "pattern": a solid pattern's tint and lean at a pixel of a sheet, interpolated between the nodes of a table
 // (docs/numerics.md, section 6.3).
 #pragma once

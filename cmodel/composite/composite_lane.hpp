@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "composite lane": pure functions that composite one pixel front to back with early termination, or add X-ray
 // sums (N-6-6 to N-6-9; rtl/composite/fastsplat_composite_lane.sv).
 #pragma once

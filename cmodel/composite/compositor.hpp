@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "compositor": the picture of a tile, into which sheets are composited or added (docs/numerics.md, section 6).
 #pragma once
 

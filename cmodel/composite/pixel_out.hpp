@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "pixel out": converts a pixel's state to output words (N-7-2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "slab opacity": a sheet's sums become the slab's colour and opacity (N-6-2 to N-6-5).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Log of a frame's cull tests and of its map's changes, by tile. Timing depends on no other property of the pixels
 // (M-cull-2).
 #pragma once

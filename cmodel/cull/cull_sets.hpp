@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cull groups, announced by cull_block records, and their splats (docs/stream.md, "Culling").
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Opaque cells of a tile as a summed-area table: four words decide whether a rectangle is hidden (N-6.1-5 to N-6.1-7).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cmodel/cull/cull_unit.hpp"
 
 namespace fastsplat::cmodel {

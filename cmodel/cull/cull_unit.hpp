@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "cull": tests what the sheets up to the last but one hide of a sheet (docs/numerics.md, section 6.1).
 #pragma once
 

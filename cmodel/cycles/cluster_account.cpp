@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cmodel/cycles/cluster_account.hpp"
 
 #include "cmodel/cycles/cycle_stages.hpp"

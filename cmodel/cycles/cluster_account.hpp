@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the cycles of a frame on several devices go, and what bounds it: shares and roofline of docs/scaling.md.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // When beats pass the cull unit's registers and when its tables are complete (docs/microarchitecture.md, "Culling").
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the cycles of a run go: every busy cycle has exactly one cause (M-account-2).
 #pragma once
 

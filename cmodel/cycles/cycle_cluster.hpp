@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The clock cycles of several devices that share a frame's tiles and one stream link (docs/scaling.md). Like the cycle
 // model of one device, it goes by records and computes no pixels.
 #pragma once

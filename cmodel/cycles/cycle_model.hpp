@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The clock cycle of each event of the RTL, computed from the stream without a clock (docs/microarchitecture.md). Time
 // goes by records, not by cycles; pixels are not computed. For devices that cull, the results of tests come from a log
 // that Model wrote.

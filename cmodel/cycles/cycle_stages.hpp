@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Distances in clock cycles between the boundaries of the device: the timing rules of docs/microarchitecture.md.
 #pragma once
 

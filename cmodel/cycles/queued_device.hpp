@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One of several devices: the cycle model with a queue of arrived beats and the tile dealt to it (docs/scaling.md).
 #pragma once
 

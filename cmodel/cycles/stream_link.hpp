@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The stream link that devices share: B bytes a cycle in all, one beat after the other (docs/scaling.md, "Link").
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ready pattern: when one side of a ready/valid channel is ready, as a pure function of the clock cycle.
 #pragma once
 

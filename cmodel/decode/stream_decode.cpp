@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cmodel/decode/stream_decode.hpp"
 
 #include "base/error.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "decode": beats in, checked records out. The only place that checks the rules of StreamRule.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws a tile with the fast unit, sheet by sheet, from splats instead of records. A splat is placed once for all of
 // its sheets, and records are never stored.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Weights of an ellipse's pixels by vector instructions (Highway): cmodel/splat/ellipse_unit.hpp for whole rectangles.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether and how the fast unit can draw a configuration exactly, proved from its numbers alone (docs/performance.md).
 #pragma once
 

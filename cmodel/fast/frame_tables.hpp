@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A frame's tables, prepared for the fast unit once and shared by all tiles.
 #pragma once
 

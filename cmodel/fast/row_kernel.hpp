@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adds whole footprints to a sheet with vector instructions, chosen for the processor at run time (Highway).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Composites every sample of whole footprints with vector instructions (Highway): modes 4 and 5 (N-6-12).
 #pragma once
 

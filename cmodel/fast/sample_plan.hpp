@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether and how samples can be composited exactly in lanes of 32 bits, proved from the configuration alone.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The fast unit's sheet: a tile's sums with a guard band around, so that no footprint is clipped.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The fast unit: draws a tile's records without taps. Words and counters equal the plain unit's bit for bit.
 #pragma once
 

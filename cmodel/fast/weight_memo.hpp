@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The weights of every footprint of a frame's tables, by radius set and phases: the weight unit's results for a whole
 // splat, computed once per frame instead of once per pixel.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Commands for a fetching source: which beats of a stream in memory to read, and where splats lie that the device may
 // not need (M-fetch-1).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The fields of the device's registers (docs/microarchitecture.md, "Registers"). docs/registers.md,
 // fastsplat_registers.h and capabilities() are made from this map.
 #pragma once

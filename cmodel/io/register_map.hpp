@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Addresses of the device's registers (docs/microarchitecture.md, "Registers"), for the package and the testbench.
 // register_fields.hpp has their fields.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A hardware configuration: every key of docs/numerics.md, section 2, and the formats derived from them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The device's counters (docs/numerics.md, section 9). Every narrowing site that may saturate has one, so no overflow
 // is silent.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fixed-point formats (docs/numerics.md, section 1).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cmodel/numbers/index_set.hpp"
 
 #include "cmodel/numbers/window_geometry.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The contents of a radius set by index kind: number and range of its words (docs/numerics.md, section 4; S-table-5).
 #pragma once
 

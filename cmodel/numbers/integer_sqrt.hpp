@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // floor(sqrt(v)) of a word: eight bits from a table, two Newton steps in integers, one correction.
 #pragma once
 

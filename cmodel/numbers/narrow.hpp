@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Narrowing, the one operation that loses bits (N-1-2 to N-1-5). Everything else in the device is exact.
 #pragma once
 

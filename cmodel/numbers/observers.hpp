@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Observers of the narrowing sites (cmodel/numbers/sites.hpp): none, the device's counters, ranges of values, or two of
 // them. An observer is any type callable with (Site, const Narrowing&, value, const Narrowed&).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The narrowing sites that observers see, by name: rounding, overflow and formats of each in a configuration.
 // Observers: cmodel/numbers/observers.hpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The counters whose registers follow those of FASTSPLAT_COUNTERS: busy cycles, waits, and culled work (M-register-16,
 // M-register-17).
 #pragma once

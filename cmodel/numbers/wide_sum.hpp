@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An exact sum of many words: 128 bits, two's complement, in two 64-bit words.
 #pragma once
 

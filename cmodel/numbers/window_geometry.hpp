@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The size of a radius set's footprint, which follows from its support radius (N-3-3).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cmodel/rtl_package/sv_package.hpp"
 
 #include <algorithm>

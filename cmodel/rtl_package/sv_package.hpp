@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The SystemVerilog package of a configuration: every number the RTL needs, as literals, from the same Config, stream
 // layout and counters that the model uses.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "blit2d": reads weights from precomputed footprints, one for each pair of window phases, without arithmetic
 // (docs/numerics.md, section 4.4).
 #pragma once

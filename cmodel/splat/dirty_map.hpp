@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The P x P blocks of a sheet that windows meet: geometry only, no sums (M-walk-1).
 #pragma once
 

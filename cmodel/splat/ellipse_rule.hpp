@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks whether an ellipse record can be drawn (docs/stream.md, rule 18).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "cmodel/splat/ellipse_unit.hpp"
 
 namespace fastsplat::cmodel {

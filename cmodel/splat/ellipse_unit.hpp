@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "ellipse": the weights of a splat with its own shape (docs/numerics.md, section 4.6). A record has six
 // coefficients, each narrowed once, at its first pixel. Every pixel's q is a sum of whole multiples of them, the same
 // whatever window, bank or tile it is computed in.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "footprint": the P x P weights of one window (docs/numerics.md, sections 4 and 4.7). One adder and one table
 // read per lane; interpolation takes a second word and a multiplier.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "lane": pure functions for one pixel of a window, from squared distance to sum (docs/numerics.md, sections 4 and
 // 5; rtl/splat/fastsplat_lane.sv, and the sum of rtl/splat/fastsplat_sheet_bank.sv).
 #pragma once

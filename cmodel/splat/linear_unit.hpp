@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "linear": weights from a table over the distance, the integer square root of the exact squared distance
 // (docs/numerics.md, section 4.1). Centres are not snapped.
 #pragma once

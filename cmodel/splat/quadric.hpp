@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // q = A dx^2 + B dx dy + C dy^2 over pixels, by additions alone from pixel to pixel: forward differences, exact in
 // integers (N-4.2-3, N-4.3-4). A circle has A = C and B = 0; the squared distance A = C = 1.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "RLUT": squared distance along one axis, per radius set, window phase and column (N-4-1).
 #pragma once
 

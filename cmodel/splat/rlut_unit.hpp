@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "rlut": weights from a table over the squared distance, the sum of two words read by window phase (N-4-6). The
 // index kind of rtl/.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "separable": weight = g(dx) g(dy), which holds for Gaussians only (docs/numerics.md, section 4.5). One
 // multiplier a lane instead of adder and radial table.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Footprint sizes of the loaded radius sets and places of their pixels, for index kinds without columns.
 #pragma once
 

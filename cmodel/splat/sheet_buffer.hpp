@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "sheet buffer": P x P banks of saturating accumulators with a dirty map (docs/numerics.md, section 5).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "snap": rounds a splat's centre to the 1/K grid and finds its windows' origin and phase (N-3-4, N-3-5).
 #pragma once
 

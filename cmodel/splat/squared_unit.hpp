@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Units "squared" and "squared_elliptic": weights from a table over q, the squared distance in radial table steps, by
 // forward differences (docs/numerics.md, sections 4.2 and 4.3). Centres are not snapped.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The weight unit of the configuration's index.kind. All units have the same functions, so that callers choose once a
 // splat (std::visit), not once a pixel:
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A beat of the stream and access to its fields.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The device as driver and checker see it, model or RTL: beats in, pixels out, taps, counters.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The device's picture: raw words, as the pixel stream delivers them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Receives a tile record by record, from the driver in the same process, without beats.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The records of the stream as values, and their beats (docs/stream.md).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shared texts of all refusals of a stream: the place and the suggestion.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The place of every field of every record: the source of encoders, decoders and the RTL's package. A test compares
 // docs/stream.md with it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rules of docs/stream.md by number: why StreamDecode refuses a beat, and what the device's register ERROR shows.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Taps: what passes each boundary of the device, in one record layout for model and RTL (docs/numerics.md, section 9).
 #pragma once
 

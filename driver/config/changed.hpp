@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A configuration with some of its keys changed: what --set does.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Named hardware configurations: configs/*.toml, built into the program, or a user's file.
 #pragma once
 

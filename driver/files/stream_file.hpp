@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Recorded streams (.fss, docs/stream.md): the device's input in a file.
 #pragma once
 

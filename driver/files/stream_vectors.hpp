@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A recorded stream and the device's results for it, as plain text for any simulator (docs/capi.md, "Vectors").
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks that the tiles of a recorded stream cover its image (docs/stream.md).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The edge of an ellipse given by its words, row by row (docs/numerics.md, N-8-31 and N-8-32).
 #pragma once
 

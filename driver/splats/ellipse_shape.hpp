@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A splat's shape on the screen as an ellipse's words, and the windows that cover it (docs/numerics.md, section 8).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The splats of a scene as the device's numbers, with the radius sets they use.
 #pragma once
 

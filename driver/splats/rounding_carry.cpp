@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "driver/splats/rounding_carry.hpp"
 
 #include "cmodel/numbers/sites.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Error diffusion along the traversal: the rounding error of a splat is added to the neighbour behind it
 // (docs/numerics.md, N-8-38 to N-8-41). The sum along a run of thin splats survives, though each would round to 0.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Distributes a splat among the sheets it reaches (docs/numerics.md, N-8-44 to N-8-48): integers only, telescoping.
 #pragma once
 

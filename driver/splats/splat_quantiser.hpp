@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Quantises real splats to the device's words (docs/numerics.md, section 8), before they are cut into slabs and tiles.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tables of a device that classifies densities: transfer function, 1/sqrt, Phong, light and scales as words
 // (docs/numerics.md, sections 6.2 and 8).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A set of index.kind squared_elliptic for an ellipse at any angle (docs/numerics.md, N-4.3-6 and N-4.3-7). The
 // driver's frames have sets of circles only: this is for analysis.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table words of a radius set for each index kind: doubles in, words out (docs/numerics.md, section 4).
 #pragma once
 

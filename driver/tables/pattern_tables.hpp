@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tables of a device with solid patterns: a texture's pattern and a bump map's lean (scaled gradient) at the nodes
 // over the visible range (docs/numerics.md, sections 6.3 and 8).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Real numbers to the device's words: every site where the driver rounds, by name (docs/numerics.md, section 8).
 #pragma once
 

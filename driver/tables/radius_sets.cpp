@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "driver/tables/radius_sets.hpp"
 
 #include <fmt/format.h>

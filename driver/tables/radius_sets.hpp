@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The footprints that a frame loads and the one that a splat uses. There is one for each radius, times one for each
 // picture of textured splats.
 #pragma once

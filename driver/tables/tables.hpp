@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The device's tables from the kernel: doubles in, loaded words out (docs/numerics.md, sections 4, 6 and 8).
 #pragma once
 

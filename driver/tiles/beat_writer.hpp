@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes a tile's records as beats, in blocks.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scene compiled for a device: everything but the records themselves, which are made tile by tile on demand, so that
 // a long stream is never in memory.
 #pragma once

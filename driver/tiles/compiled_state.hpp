@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parts of a compiled frame, for the code that emits or draws its tiles.
 #pragma once
 

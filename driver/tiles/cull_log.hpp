@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The results of a device's cull unit for a scene, an input of the cycle model.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Emits a sheet whose splats are in cull groups of screen cells, cull_blocks first (docs/numerics.md, N-8-54 to
 // N-8-59).
 #include <algorithm>

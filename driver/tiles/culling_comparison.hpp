@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures the gain of culling for a scene: the same frame on devices of every cull.map, with every beat sent and with
 // a source that skips hidden sets (docs/culling.md).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Provides the splats of a compiled frame to the fast unit's walk (cmodel/fast/band_walk.hpp).
 #include "cmodel/fast/band_walk.hpp"
 #include "driver/tiles/compiled_state.hpp"

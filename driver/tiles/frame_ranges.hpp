@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Statistics of the values at every narrowing site of the device in a whole frame.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gathers finished tiles into a frame. Tiles are disjoint, so devices may deliver in parallel.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A view of 3-D Gaussians compiled for a device that composites every sample of ellipses (docs/numerics.md, section 8,
 // "3-D Gaussians").
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The windows that a tile needs of a footprint that may be larger than the tile (docs/numerics.md, section 8, "3-D
 // Gaussians").
 #pragma once

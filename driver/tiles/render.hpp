@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Renders a scene with the integer device: compiles it to the stream tile by tile, feeds the device, gathers the frame.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "driver/tiles/run_device.hpp"
 
 #include "driver/tiles/compile.hpp"

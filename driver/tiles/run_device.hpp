@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs a scene through any device, tile after tile: for `render --engine rtl` and the checker.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sorts splats by the tiles that they touch and by the first sheet that they reach.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Build-time tool: prints the SystemVerilog package of a configuration, or its hash as a C++ literal.
 #include <cstdio>
 #include <cstring>

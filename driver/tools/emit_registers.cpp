@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Build-time tool: prints the map of the device's registers, as the page docs/registers.md or as a C header.
 #include <cstdio>
 #include <cstring>

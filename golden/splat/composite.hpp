@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Converts sums (of a sheet, a splat, or a step along a ray) to colour and opacity, and composites front to back.
 #pragma once
 

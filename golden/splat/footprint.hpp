@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The pixels of one footprint, with the kernel's line integral at each.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A projected splat: the place and shape of its footprint on the screen, and what it adds.
 #pragma once
 

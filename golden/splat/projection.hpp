@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Projects a splat to its footprint on the screen.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A result as gates and rows, for build servers, spreadsheets and reviewers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Output formats for other tools: JUnit XML for build servers, CSV for spreadsheets, Markdown for reviews.
 #pragma once
 

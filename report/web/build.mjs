@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Builds ../template.html, the page that C++ fills: one file, no address in it, the same bytes everywhere.
 // usage: node build.mjs [OUT.html]
 import { createHash } from "node:crypto";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A report for development without the program: results into the template.
 // usage: node fill.mjs TEMPLATE OUT.html RESULT.json...
 import { readFileSync, writeFileSync } from "node:fs";

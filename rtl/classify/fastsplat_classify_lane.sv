@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One lane of the pixel stage: classifies and shades one pixel from its density and its neighbours'. Returns the sums
 // of a sheet of colours (docs/numerics.md, section 6.2; cmodel/classify/classify_unit.hpp).
 // Registers: d1 words -> d2 differences, place in CLASSIFY -> d5 colour and depth; beside these normal and shading to

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A table with linear interpolation (docs/numerics.md, N-6.2-7; cmodel/classify/classify_unit.hpp, Lines). A memory
 // word holds an entry and the next one.
 // Registers: memory -> product -> value, three cycles after the index.

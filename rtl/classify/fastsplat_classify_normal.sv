@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A pixel's density gradient: from differences to its length and its products with the light and half vectors
 // (docs/numerics.md, N-6.2-10 to N-6.2-12; cmodel/classify/classify_unit.cpp). The unit normal is never formed: the
 // products are scaled by 1/length instead.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shades a pixel's colour and multiplies it by its optical depth (docs/numerics.md, N-6.2-11 to N-6.2-13;
 // cmodel/classify/classify_unit.cpp).
 // Registers: d15 share and matt, not rounded -> d16 -> d17 GLINT, colour times matt -> d18 -> d19 shaded minus unshaded

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loads the tables of densities (docs/numerics.md, section 6.2; cmodel/classify/classify_tables.hpp): writes words as
 // segments into the lanes, keeps LIGHTING in registers and reads one sheet's words of SHEETS.
 module fastsplat_classify_tables (

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "densities": between the sheet buffers and the compositor of a device that classifies by pixel
 // (docs/numerics.md, section 6.2; docs/microarchitecture.md, "Densities"). A finished sheet is copied into the ring.
 // The sheet that waited there now has both neighbours. It goes through the pixel stage, COMPOSITE_LANES pixels a cycle,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The live sheets of densities: a ring of three parts of one channel each, and what the pixels of a block need of them
 // (docs/microarchitecture.md, "Densities"; cmodel/classify/density_ring.hpp). A block is read in five cycles: the
 // blocks above, left, right and below, then itself, of all three sheets. It is processed slice by slice while the next

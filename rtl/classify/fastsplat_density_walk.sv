@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Walks a sheet of densities block by block (docs/microarchitecture.md, "Densities"; cmodel/classify/density_ring.hpp).
 // A finished sheet's dirty blocks are listed while they are copied out of its buffer. Once the next sheet is copied,
 // too, the listed blocks are read, STEPS cycles each. The first five cycles address what a block's pixels need; the

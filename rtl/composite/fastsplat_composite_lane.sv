@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One lane of the compositor: composites a slab over a pixel, front to back, with early termination; or adds X-ray sums
 // (docs/numerics.md, N-6-6 to N-6-9; cmodel/composite/composite_lane.hpp).
 // Registers: k5 (products), k6 (new state). A stage without a block holds.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "compositor": takes the dirty blocks of a finished sheet, lowest number first, one slice of COMPOSITE_LANES
 // pixels of a P x P block a cycle. Clears them behind itself and composites them over the picture (docs/numerics.md,
 // section 6; docs/microarchitecture.md).

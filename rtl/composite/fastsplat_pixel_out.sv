@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "pixel out": the finished tile, row by row, P pixels a beat (docs/numerics.md, section 7;
 // cmodel/composite/pixel_out.hpp).
 // r0 address -> r1 state -> r2 beat. All stages stand still while a beat waits for ready.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every sample: where the windows in the compositor's pipe lie in the picture, and which of their pixels are needed
 // again before they are written (docs/microarchitecture.md, M-hazard-1). A window meets every bank once. A bank's block
 // is that of its column and of its row, so places are carried and compared by axis.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Slab opacity of one lane: turns a pixel's sheet sums into the slab's colour and opacity (docs/numerics.md, N-6-2 and
 // N-6-3; cmodel/composite/slab_opacity.hpp).
 // Registers: k2 (table), k3 (factor), k4 (slab). Input k1, output three cycles later. In mode 2 (sum) the sums pass

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Culling: the test unit between check and decode, and the map that it reads (docs/microarchitecture.md, "Culling").
 
 module fastsplat_cull (

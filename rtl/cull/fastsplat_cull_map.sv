@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The map of opaque cull cells and its two tables (docs/numerics.md, section 6.1; docs/microarchitecture.md, "Map";
 // cmodel/cull/cull_unit.hpp, cmodel/cycles/cull_pipe.hpp). Sheet j of a tile has table j mod 2. What the compositor
 // writes while a table is built belongs to the next sheet (M-cull-13). So each table has its own copy of the block map,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Terminated pixels of a tile, by block, for the tables of pixels. Those found by even and by odd sheets are kept apart
 // until the sheet's own table is built (docs/microarchitecture.md, M-cull-13). So a table shows what its sheet left
 // behind, whatever the next one terminates meanwhile.

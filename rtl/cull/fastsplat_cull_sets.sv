@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cull groups announced by cull_block records; decides whether a splat belongs to a hidden one
 // (docs/microarchitecture.md, M-cull-15; cmodel/cull/cull_sets.hpp). Tags decide, because a source need not send hidden
 // splats. The unit keeps the visible groups, oldest first, and the tag up to which groups were announced. A splat

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One of the two summed-area tables of opaque cull cells, and the four words of a rectangle (docs/numerics.md, N-6.1-5;
 // cmodel/cull/cull_table.hpp). A memory word holds WORDS words of the table. The words of row 0 and column 0 are 0 and
 // not stored.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "cull": four registers between check and decode, in which cull groups and splats are tested
 // (docs/microarchitecture.md, "Test unit"; cmodel/cycles/cull_pipe.hpp, cmodel/model.cpp).
 // Registers: t0 beat, its centre on the grid -> t1 rectangle, clipped to the tile, in cells -> t2 the table's words ->

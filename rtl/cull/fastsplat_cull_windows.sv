@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Visible windows of a row of windows: they meet a block of the tile that is not opaque (docs/numerics.md, N-6.1-10;
 // docs/microarchitecture.md, "Test unit"). A row of windows meets two rows of blocks, a window two columns of them.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rules of docs/stream.md that can be checked before a record's place in the grammar is known: all but order, loaded
 // and words. Combinational first stage of unit "check" (fastsplat_stream_check.sv). It compares with earlier records,
 // each interpreted by its opcode. Where an opcode misleads, rule order is broken here or was before.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "check": checks each beat before decode sees it, by every rule of docs/stream.md that a device checks
 // (cmodel/decode/stream_decode.hpp, StreamScope::Subset; cmodel/stream/stream_rules.hpp). Two beat registers in front
 // of decode's: long comparisons in the first stage, the beat's place in the grammar in the second.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "decode": checked beats in (fastsplat_stream_check.sv), table words, windows and sheet tokens out
 // (docs/stream.md; cmodel/cycles/cycle_model.hpp).
 // One beat register. A beat takes one cycle, except table payload (a cycle per word), splats (a cycle per window), and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // For each word of a beat: which tables it is legal in (docs/stream.md, rule 8), if the beat is table words.
 // Combinational first stage of unit "check" (fastsplat_stream_check.sv). The second stage knows the table and the
 // number of its words.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Source for a device: an AXI4 read master that reads a stream from memory, command by command. It requests the splats
 // of a cull group only if the device can see it (docs/microarchitecture.md, "Fetch"; cmodel/io/fetch_commands.hpp makes
 // the commands).

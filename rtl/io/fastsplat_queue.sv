@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A queue over a memory: one word in and one out a cycle. A word put in cycle t is shown from t+2 on, or from the cycle
 // after the one before it was taken (docs/microarchitecture.md, "Fetch"). Holds at least WORDS words; the writer makes
 // sure that there is room.

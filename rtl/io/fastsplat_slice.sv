@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A register slice: a ready/valid channel whose valid, data and ready all come from registers. One transfer a cycle,
 // one cycle later (docs/integration.md).
 module fastsplat_slice #(

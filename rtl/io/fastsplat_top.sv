@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The device as a block of a system: AXI4-Stream in and out and AXI4-Lite under the names that packagers look for,
 // register slices on both streams, no taps (docs/integration.md). fastsplat_core does the work.
 module fastsplat_top (

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One axis of a window: turns RLUT words from window order into bank order, with each bank's block and validity. Bank g
 // (pixel mod P = g) takes window lane (g - origin) mod P. Any window hits every bank exactly once.
 // One register, which holds without a window.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The dirty blocks of both sheet buffers and the walk over those of a finished sheet: lowest number first, one slice of
 // a block a cycle (docs/microarchitecture.md, "Dirty walk" and "Slices"; cmodel/splat/dirty_map.hpp).
 // No cycle looks at the whole map: f1 lowest dirty row -> f2 its blocks -> f3 the row being walked -> k0 block. The

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "ellipse": from a record's shape to words by bank column and bank row, at c3 of the splat path
 // (docs/numerics.md, section 4.6; docs/microarchitecture.md, "Ellipses"; cmodel/splat/ellipse_unit.hpp). Results for
 // circles are ignored.

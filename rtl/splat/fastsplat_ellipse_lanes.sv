@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A window's polynomial as words by bank column and bank row, so that a lane adds three of them and multiplies nothing
 // (docs/microarchitecture.md, M-ellipse-5).
 // Bank (g,h) takes pixel (X,Y) of the window, X = g - ox or g - ox + P, Y alike: a window meets at most two blocks a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A record's shape as six coefficients at its first pixel, each exact and then narrowed once (docs/numerics.md,
 // N-4.6-5; cmodel/splat/ellipse_unit.cpp). One record a cycle; its coefficients are computed anew for each window.
 // Registers: e1 way from the centre -> e2 first products -> e3 sums -> e4 second products -> e5 u0 -> e6 shift by

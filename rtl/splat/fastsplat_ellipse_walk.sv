@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From a record's first window to its others by additions: the polynomial of q about each window's first pixel
 // (docs/numerics.md, section 4.6; docs/microarchitecture.md, "Ellipses").
 // One register, e9. The windows of a record follow one another without a gap.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One lane of the splat array: q, radial table, four products (docs/numerics.md, sections 4 and 5;
 // cmodel/splat/footprint.hpp, cmodel/splat/lane.hpp).
 // Registers: c4 (q), c5 (table read), c6 (products); with interpolation two more behind c5. Outputs follow their inputs

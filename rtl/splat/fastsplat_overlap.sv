@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether the first window of a record just taken into decode's register lies over the window issued in the cycle
 // before: |dx| < P and |dy| < P of their first pixels (docs/microarchitecture.md, M-hazard-3). The record is snapped on
 // its way into the register, so the handshake only waits for a subtraction.

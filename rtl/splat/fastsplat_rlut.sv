@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "RLUT": squared distances along one axis, P consecutive columns a read (docs/numerics.md, section 4;
 // cmodel/splat/rlut.hpp). Lane l holds the columns with column mod P = l. Instantiated once for x and once for y.
 // One register: words_o belong to the address of the cycle before.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One bank of the sheet buffer: two memories, read-modify-write at one word a cycle with forwarding, whatever the
 // addresses. The compositor reads and clears the other memory meanwhile (docs/numerics.md, section 5;
 // cmodel/splat/sheet_buffer.hpp).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unit "snap", one axis: centre onto the 1/k grid, window origin and phase (docs/numerics.md, section 3;
 // cmodel/splat/snap.hpp). One register: outputs belong to the inputs of the cycle before.
 `include "fault.svh"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The splat path: one window a cycle, always moving (docs/microarchitecture.md, "Splat path").
 // c0 window in -> c1 snapped -> c2 RLUT words -> c3 bank order -> c4 q -> c5 weight -> c6 products = A -> B -> C -> W.
 // With interpolated weights i1 and i2 lie between c5 and c6.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "scene/gaussians/gaussian_cloud.hpp"
 
 #include <bit>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scene of 3-D Gaussians, as trainers of radiance fields make them (docs/techniques/gaussians.md).
 #pragma once
 

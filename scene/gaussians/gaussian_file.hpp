@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of 3-D Gaussians: .ply as trainers write it, and .splat, 32 bytes each (docs/techniques/gaussians.md).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Collects the Gaussians of a file. Drops and counts the ones that cannot be drawn.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gaussians and a view of them: everything that decides the picture (docs/techniques/gaussians.md).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Colour as seen from a direction: real spherical harmonics to degree 3.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of 3-D Gaussians that are not read, recognised by their first bytes and by their endings.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which properties of a PLY's vertices hold a Gaussian's numbers, and how to read a row.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PLY as trainers of 3-D Gaussians write it (Kerbl et al. 2023, save_ply of their code).
 #include <fmt/format.h>
 

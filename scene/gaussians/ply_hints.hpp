@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Comments in a PLY's header by which trainers and exporters change the picture.
 #pragma once
 

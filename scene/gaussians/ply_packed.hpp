@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compressed PLY, as SuperSplat and splat-transform write it: 256 Gaussians share a chunk of bounds, and each is packed
 // into four words relative to them.
 #pragma once

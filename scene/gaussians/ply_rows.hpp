@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rows of a PLY element as numbers, for all formats and types.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gaussians culled, projected (EWA), coloured and sorted for a camera: the input of golden and of the driver's
 // quantisation.
 #pragma once

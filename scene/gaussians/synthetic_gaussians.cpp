@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "scene/gaussians/synthetic_gaussians.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Built-in scenes of 3-D Gaussians: exact, reproducible, of any number.
 #pragma once
 

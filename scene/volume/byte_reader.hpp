@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sequential bytes of a file: plain, compressed or in hexadecimal digits. Every failure is reported.
 #pragma once
 

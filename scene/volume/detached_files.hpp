@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Data files named by detached headers, and which names are accepted.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files in formats that are not read here: their format, and how to convert them.
 #pragma once
 

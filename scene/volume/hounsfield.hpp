@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Detects whether a volume's values are those of a CT; files do not declare it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Built-in volumes made of noise: a landscape and a fire.
 #pragma once
 

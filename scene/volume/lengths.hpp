@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lengths in headers of volumes: units, and replacements for an invalid spacing.
 #pragma once
 

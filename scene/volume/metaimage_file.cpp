@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Follows MetaIO's own reader: field names, synonyms and defaults are the same.
 #include "scene/volume/metaimage_file.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // MetaImage headers, ITK's own format: .mha with the voxels behind them, .mhd with the voxels in another file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // libnifti2 interprets the header (byte order, scaling, axes), after checks of everything it would trust. It never
 // opens a file, since it prints errors and replaces NaN by 0 when it reads.
 #include "scene/volume/nifti_file.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // NIfTI-1 and NIfTI-2 headers, single files and pairs, plain or gzip.
 #pragma once
 

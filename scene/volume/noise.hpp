@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Repeatable noise from integer hashing: the same bits on every machine, stateless, in any order.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Teem interprets the header's types, spacings and directions. It gets a new header, made of the checked fields only,
 // and never opens a file: it trusts sizes, and a detached header may name any file of the machine.
 #include "scene/volume/nrrd_file.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // NRRD headers, attached and detached; voxel_data reads the voxels.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The lines of an NRRD header: teem's fields by teem's names, keys of the user, names of data files.
 #pragma once
 

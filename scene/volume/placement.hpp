@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The orientation of a file's grid in a body, and how to turn a volume accordingly.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads the stored numbers of a volume file in sequence: bytes of some type and order, or text.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Line-based headers, as of NRRD and MetaImage: fields by name, with their line numbers for messages.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scalar volume on a regular grid, from any file or generator.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumes from files and by name: NRRD (teem), NIfTI (nifti2), MetaImage, synthetics.
 #pragma once
 

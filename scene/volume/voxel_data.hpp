@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Converts the bytes of a volume file to voxels: bounds, byte order, scaling, placement. Shared by all formats.
 #pragma once
 

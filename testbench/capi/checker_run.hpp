@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One stream through the checker, until reset, behind a handle of the C interface. Checks the order of the calls.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Facts about the library: versions and names of counters.
 #include "base/version.hpp"
 #include "cmodel/numbers/counters.hpp"

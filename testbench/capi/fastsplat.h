@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The C interface of libfastsplat: the integer device model and the passive checker, for benches in any language.
 // docs/capi.md is its page: the contract, an example, every status. Version 3.0; C99 and C++.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Functions of libfastsplat that SystemVerilog needs beside fastsplat.h: no structures, and vector ports as DPI-C
 // passes them (32-bit words, least significant first). testbench/capi/sv/fastsplat_dpi_pkg.sv imports them.
 #pragma once

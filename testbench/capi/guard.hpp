@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Exception barrier of the C interface: an exception becomes a status and the thread's last error.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Registry of live handles and their kinds: any other pointer is refused, never followed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The model of the C interface: taps and tiles are kept until they are taken.
 #include "cmodel/model.hpp"
 

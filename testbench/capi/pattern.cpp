@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ready/valid patterns of the C interface.
 #include "testbench/device/pattern.hpp"
 

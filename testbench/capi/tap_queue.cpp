@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testbench/capi/tap_queue.hpp"
 
 namespace fastsplat::capi {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tap records that wait to be taken, in order, in one flat array: no allocation per record.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testbench/check/checked_device.hpp"
 
 namespace fastsplat::testbench {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A device under test that is checked while it works: drives it beat by beat and reports to the checker what it takes
 // and shows.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The checker: compares a device's outputs for the beats that it took with the model and the cycle model: every tap,
 // pixel and counter, and the cycles. It drives nothing and depends on no simulator.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares every tap of a device with the model's, matched by tap and order, with equal tags; keeps the first
 // divergence. Knows no simulator type.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks a device's verdicts on cull_blocks: each once, in order, in its cycle (docs/microarchitecture.md,
 // "Culling").
 #pragma once

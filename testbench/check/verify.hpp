@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One stream through the checked RTL: verdict, numbers, first divergence.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coverage closure: whether every testpoint of the plan is decided and every bin hit where the plan requires it.
 #pragma once
 

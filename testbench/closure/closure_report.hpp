@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Output formats of coverage closure: tables in Markdown, and JSON that `fastsplat report` draws.
 #pragma once
 

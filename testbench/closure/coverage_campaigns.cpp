@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testbench/closure/coverage_campaigns.hpp"
 
 #include "testbench/coverage/coverage_collector.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The campaigns whose coverage closes the verification plan, for one configuration.
 #pragma once
 

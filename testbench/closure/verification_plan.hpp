@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The verification plan (docs/verification_plan.toml): testpoint -> what it proves -> campaigns and tests -> bins.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Functional coverage: named bins and how often each was hit. A bin is `group.name`; only what is reachable in a
 // configuration is declared for it, so every declared bin has to be hit.
 #pragma once

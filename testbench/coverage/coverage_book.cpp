@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testbench/coverage/coverage_book.hpp"
 
 #include <nlohmann/json.hpp>

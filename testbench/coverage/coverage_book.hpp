@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The coverage of one configuration, campaign by campaign: saved as JSON, added up over runs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Samples the coverage of one run of the checked device. The run's beats go through the model for its taps and through
 // the cycle model for its cycles. A run that passes proves the RTL equal to both; the coverage of a run that fails is
 // discarded. Knows no simulator type.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coverage of compositor and pixel out, from the model's Composite and Pixel taps: slab opacity, transmittance and
 // early termination, saturation, blocks, output rounding (docs/numerics.md, sections 6 and 7).
 #pragma once

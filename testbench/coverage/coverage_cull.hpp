@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coverage of culling: results for cull groups, splats and windows, where groups lie, how a sheet changes the map, and
 // splats that the source left out (docs/numerics.md, section 6.1; docs/microarchitecture.md, "Culling"). Only devices
 // that cull have these bins.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testbench/coverage/coverage_cycles.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coverage of time, from the cycle model's events: hazards by distance, sheet swaps by phase, bubbles, waits, pixel
 // back-pressure, and what a reset interrupts (docs/microarchitecture.md).
 #pragma once

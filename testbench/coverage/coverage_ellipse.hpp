@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coverage of ellipses: shapes, windows and ranges of q (docs/numerics.md, section 4.6).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coverage of weights between entries of the radial table (docs/numerics.md, N-4.7-3): of circles and of ellipses, and
 // how the fall rounds.
 #pragma once

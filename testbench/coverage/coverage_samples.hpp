@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coverage of tiles that composite every sample, from the cycle model's Composite taps. Bins are the cycles until a
 // pixel is met again, and windows that just overlap the previous one or just miss it (docs/microarchitecture.md, "Every
 // sample").

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coverage of the splat path, from the model's Snap, Footprint and Sheet taps: snapping, window places, RLUT and radial
 // table, products and sheet sums (docs/numerics.md, sections 3 to 5).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coverage of the contents of a stream: record kinds, tables, tiles, sheets, culling, colours (docs/stream.md).
 #pragma once
 

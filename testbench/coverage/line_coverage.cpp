@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testbench/coverage/line_coverage.hpp"
 
 #include <algorithm>

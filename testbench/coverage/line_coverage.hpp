@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Line and branch coverage of rtl/, and its cover points, as Verilator writes them (--coverage-line --coverage-user).
 // Read here rather than by verilator_coverage, which in version 5.006 shows line counts doubled.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testbench/device/axi_read_memory.hpp"
 
 #include <algorithm>

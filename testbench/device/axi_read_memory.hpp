@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A memory of beats behind an AXI4 read port, cycle by cycle: latency, pauses, a beat that cannot be read. It answers
 // in order and reports the first rule that the master breaks.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A device that delivers its line counts when it is destroyed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testbench/device/failed_assertion.hpp"
 
 #include <cstring>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parses a failed assertion from the simulator's output.
 #pragma once
 

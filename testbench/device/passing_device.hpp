@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A device that forwards everything to another: for tests that change one thing on the way.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ready/valid patterns: in which cycles a side of a channel is ready. A pure function of the cycle number, so that the
 // RTL, the cycle model and a replay see the same.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Word widths of the RTL's vector ports, by configuration.
 #pragma once
 

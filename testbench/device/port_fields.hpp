@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Unpacks a vector port: fields of equal width, packed one behind the other, each into a word of its own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the RTL's ports show, unchanged: words by bank, places in the port's width. Plain data, so that any simulator
 // can provide it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every register and memory of a simulated device holds before reset.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testbench/device/rtl_device.hpp"
 
 #include "base/error.hpp"

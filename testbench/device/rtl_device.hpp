@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The Verilated device behind the model's interface: beats in, pixels, taps and counters out, plus a clock.
 #pragma once
 

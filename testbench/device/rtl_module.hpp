@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Simulators of RTL as modules: shared libraries, found or built when a configuration's RTL is first simulated.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Assembles finished tiles from a device's pixel beats; the beats that it took say which tile they belong to.
 #pragma once
 

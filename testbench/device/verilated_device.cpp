@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testbench/device/verilated_device.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Drives a simulated top as an RtlDevice: beats, pixels and register accesses become clock cycles, its ports become
 // taps.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Text of the device's words in reports and bins.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testbench/faults/breakable_device.hpp"
 
 #include "testbench/device/rtl_module.hpp"

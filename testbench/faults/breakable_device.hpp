@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The device whose RTL holds every fault of faults.def, one of them chosen when it is made.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testbench/faults/planted_fault.hpp"
 
 #include <algorithm>

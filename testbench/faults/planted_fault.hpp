@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Faults planted on purpose, to see what a failure looks like: in the RTL of a breakable device, or at the ports of any
 // device, in front of its checker.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testbench/faults/port_faults.hpp"
 
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Faults between a device's ports and their observers.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # build.sh SHARE PACKAGE MODULE [wave] [faults]: builds the simulator of one configuration as a shared library.
 # SHARE holds rtl/ and testbench/module/; PACKAGE is the configuration's fastsplat_pkg.sv; MODULE the file to write, last
 # and atomically. `wave`: it can write waveforms. `faults`: it holds every fault of SHARE/fastsplat_fault_pkg.sv, one of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The device as it ships, as a testbench sees it: fastsplat_top under the port names of fastsplat_core, with its taps and error_o looked up
 // inside it (docs/verify.md). A byte of TKEEP is a bit here; writes have all strobes.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What AXI4-Stream and AXI4-Lite demand of fastsplat_top's ports, and docs/integration.md of its pixels: checked in every simulation.
 `include "assertions.svh"
 

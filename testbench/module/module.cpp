@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The only source of our own in a module of RTL: makes its simulator. Names are those of rtl_module.cpp.
 #include "Vfs.h"
 #include "testbench/module/verilated_top.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A simulated device as a testbench drives it: its ports and its clock edges. It is fastsplat_top inside
 // fastsplat_dut.sv, or fastsplat_core alone. Programs and modules of RTL (rtl_module.hpp) share only this header, so it
 // includes only headers of the standard library.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testbench/module/simulator_output.hpp"
 
 #include <cstdarg>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the simulator's runtime prints (a failing assertion's line), kept for the device that ran instead of going to
 // stdout. The build includes this file in front of the runtime's sources, with VL_PRINTF as simulator_print.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SimulatedTop over a class that Verilator made.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Many random streams through the checked RTL.
 #pragma once
 

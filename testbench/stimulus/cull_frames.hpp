@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames for devices that cull, as opaque as possible: what is hidden is known from its place, whatever the first two
 // words of RADIAL are.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Directed checks beyond legal streams: the registers, streams that the device has to refuse, the shortest resets
 // (docs/microarchitecture.md, "Registers"). Each samples its own bins.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the directed checks share: a small stream with every record, where its records lie, and a check that hits bins.
 #pragma once
 

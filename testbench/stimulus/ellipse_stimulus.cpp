@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testbench/stimulus/ellipse_stimulus.hpp"
 
 #include <algorithm>

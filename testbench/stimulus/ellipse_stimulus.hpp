@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A random ellipse that the stream's rules allow.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One frame must not leave anything in a device for the next: frames in sequence without a reset, whose tables look
 // like records, and resets in sequence.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Feeds a device one frame after the other, each under a separate checker: valid frames, frames that it has to refuse,
 // frames that are abandoned in the middle.
 #pragma once

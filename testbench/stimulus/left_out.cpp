@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testbench/stimulus/left_out.hpp"
 
 #include "cmodel/model.hpp"

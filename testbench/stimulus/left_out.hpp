@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The stream of a source that receives verdicts: without the splats of hidden sets (docs/microarchitecture.md,
 // "Source").
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Random cull_blocks that keep the stream invariant, for devices that cull (docs/stream.md, S-cull-3).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Seeded draws: the same seed gives the same numbers on every machine and library.
 #pragma once
 

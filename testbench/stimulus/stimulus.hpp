@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Seeded legal streams with random tables, in named classes, each made to reach one corner of the device.
 #pragma once
 

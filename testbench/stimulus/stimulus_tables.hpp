@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Random tables, legal by docs/stream.md and as odd as that allows.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testbench/stimulus/stream_document.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A stream as a tree of tables, tiles, sheets and splats, to generate, cut and put together again. A written stream is
 // always whole and legal: tile numbers, tags, counts, beats and checksum are made when it is written.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Streams that break one rule each: what a device has to refuse.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The inverse of snapping: the centre of a splat whose windows begin at a pixel (docs/numerics.md, section 3).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The operands behind one word of the model, recomputed unit by unit: what a divergence report shows besides the
 // values.
 #pragma once

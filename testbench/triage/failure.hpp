@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Report on a failing stream: the divergence in words with its operands, the stream made small, a waveform of the
 // cycles around the divergence.
 #pragma once

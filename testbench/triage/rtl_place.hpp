@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which module of the RTL makes a word, and the instance to look at in a waveform.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A failing stream made small: delta debugging over tiles, sheets, splats and tables.
 #pragma once
 

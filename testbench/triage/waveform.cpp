@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testbench/triage/waveform.hpp"
 
 #include <sys/wait.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A waveform of some cycles of a run, written where a failure of the writing does no harm.
 #pragma once
 

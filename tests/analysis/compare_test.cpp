@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The figures against hand arithmetic, against plain re-implementations and against OpenImageIO's own comparison.
 #include "analysis/compare.hpp"
 

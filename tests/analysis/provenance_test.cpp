@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The metadata of a render names everything that made it, and survives a file.
 #include "analysis/provenance.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The printed and the machine-readable report: strict JSON with the promised keys, a table a person can check.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SSIM against a direct two-dimensional re-implementation of the paper's formula and against closed forms.
 #include "analysis/ssim.hpp"
 

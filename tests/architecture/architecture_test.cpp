@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The walls of docs/architecture.md: who may include whom, and what the device may not contain.
 #include <gtest/gtest.h>
 
@@ -241,13 +242,17 @@ TEST(Architecture, EveryHeaderIsIncludedOnce) {
   figure("headers", headers);
 }
 
-TEST(Architecture, EveryFileSaysWhatItIsFor) {
-  int headers = 0;
+TEST(Architecture, EveryFileNamesItsLicenceAndAHeaderWhatItIsFor) {
+  const std::string licence = "// SPDX-License-Identifier: Apache-2.0\n";
+  int files = 0, headers = 0;
   for (const auto& file : product()) {
+    ++files;
+    EXPECT_TRUE(file.text.starts_with(licence)) << file.path << ": expected '" << licence << "' as its first line";
     if (!file.is_header()) continue;
     ++headers;
-    EXPECT_TRUE(file.text.starts_with("//")) << file.path << ": a header begins with a line that tells what it is for";
+    EXPECT_EQ(file.text.find("//", 1), licence.size()) << file.path << ": expected its purpose in the line behind the licence";
   }
+  figure("files", files);
   figure("headers", headers);
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Random draws whose order C++ leaves open.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reading our own source as text: which files there are, what they include, which words they use outside comments.
 #pragma once
 

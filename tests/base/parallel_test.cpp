@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The loop over threads: each job once, the most work first, and an exception that ends it soon.
 #include "base/parallel/parallel.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SHA-256 against the examples of its standard (FIPS 180-4) and whatever pieces the bytes come in.
 #include "base/sha256.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The example bench in its simulation: passes the device as it is, names what a fault changes first.
 #include <gtest/gtest.h>
 

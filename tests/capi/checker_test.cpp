@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The checker through the C interface: passes a right device, names what a wrong one does first.
 #include <gtest/gtest.h>
 

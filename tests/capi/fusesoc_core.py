@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """fusesoc_core.py SOURCE BUILD FOLDER: fastsplat.core against rtl/ and the keys of CAPI2; its generator, then Verilator's lint."""
 import glob
 import os

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whoever breaks the contract of the C interface is told so in a line, and nothing else happens: NULL, handles that are
 // none, wrong sizes, calls out of order, bytes that are no stream.
 #include <gtest/gtest.h>

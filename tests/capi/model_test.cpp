@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The model through the C interface gives the words of the model itself.
 #include "cmodel/model.hpp"
 

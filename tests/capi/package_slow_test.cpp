@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The installed package: moved to another place, found and linked by a project that knows nothing else, in C and in
 // Python; both get the program's own words.
 #include <gtest/gtest.h>

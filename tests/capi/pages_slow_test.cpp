@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The lines that the pages tell to type for Verilator: what they name is there, and is read. As --lint-only, which
 // takes the same options and files.
 #include <gtest/gtest.h>

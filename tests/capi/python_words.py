@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """python_words.py STREAM VECTORS: testbench/capi/python gives the same words of a stream as the program."""
 import json
 import sys

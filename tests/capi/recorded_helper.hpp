@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A recorded stream of a small scene and its vectors, made by the program once in a test run.
 #pragma once
 

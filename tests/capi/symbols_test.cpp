@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What libfastsplat shows and needs: its own functions, all that its headers declare, and no library that a bench has
 // no use for.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A random stream, and the inputs, outputs and counters of a correct device for it, in the form of the C interface.
 #pragma once
 

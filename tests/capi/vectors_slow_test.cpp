@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The vectors of a stream, read back by a small reader that shares nothing with their writer: whole by their checksums,
 // the beats those of the file, hex and JSON of one mind, the pixel beats the pixels.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The checker with no simulator near it: it passes what a right device shows, and whatever differs is seen by the
 // detector whose business it is, and by that one first.
 #include "testbench/check/checker.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bins of culling: each is met by the random streams that the plan names for them, a jump of tags only where hidden
 // sets are left out, and a device that does not cull has none.
 #include <gtest/gtest.h>

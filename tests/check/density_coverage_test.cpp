@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tiles of densities have no bins of words, of whatever a stream of them holds; tiles of colours beside them keep
 // theirs.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The operands behind a differing word are those of that word: of its own column and row of the footprint, its own
 // channel, its own pixel. Looked up here in the stream's tables, by the page.
 #include "testbench/triage/explain.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fields of a port against the same bits read one by one: every width, every count that any device's ports have.
 #include "testbench/device/port_fields.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a right device would show of a stream, with no simulator: the model's own taps, turned into those of the ports.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scoreboard compares all of a record: two that differ in any one thing are not the same.
 #include "testbench/check/scoreboard.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Random streams are legal, whatever the class and the configuration: the reader takes each to its end.
 #include "testbench/stimulus/stimulus.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Random streams do not depend on the compiler: the same seed gives the same words. Recorded with GCC 12, and checked
 // with every compiler that builds the tests.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bins of what a stream says, by hand: where culling hints lie between circles and ellipses, sets of circles, edges and
 // neighbours of densities, weights between entries; and of cycles what a longer splat path moves.
 #include <gtest/gtest.h>

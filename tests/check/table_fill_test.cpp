@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bins of how full the last beat of a table is: by counting words, eight to a beat.
 #include <gtest/gtest.h>
 

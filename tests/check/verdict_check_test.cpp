@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Verdicts with no simulator near them: a right device's pass, whatever differs is told.
 #include "testbench/check/verdict_check.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The pixel stage's lane by itself, a pixel a cycle, compared with ClassifyUnit. A last bit shows once in a million
 // pixels, and whole streams have too few of them (docs/numerics.md, section 6.2).
 #pragma once

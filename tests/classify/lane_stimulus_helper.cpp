@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <iterator>
 
 #include "tests/classify/lane_bench_helper.hpp"

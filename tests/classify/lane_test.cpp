@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // RTL of the pixel stage's lane against the model's unit, pixel by pixel: 0 LSB.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The command that a result carries: what makes it again, as a shell reads it.
 #include "cli/again.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Animations: numbered frames of every engine, what a second run keeps, what Ctrl-C leaves, the video.
 #include <gtest/gtest.h>
 #include <sys/stat.h>

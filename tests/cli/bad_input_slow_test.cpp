@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files that are missing, truncated, corrupt or lying: exit 3 (names that there are none of: 2), one line with the fix,
 // no crash, nothing written.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Results that cannot be written: exit 3, one line, nothing under the final name and no temporary file left.
 #include <gtest/gtest.h>
 #include <sys/stat.h>

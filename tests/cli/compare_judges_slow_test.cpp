@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Figures of compare beside those of idiff, which shares nothing with them but the decoders.
 #include <gtest/gtest.h>
 

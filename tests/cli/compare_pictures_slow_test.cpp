@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // compare of pictures that this program did not write, of those for looking, and of one that shows nothing.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Stands in for the TAB key: fastsplat.bash LINE... -> for each line what a bash offers at its end, one reply a line, behind
 # "> LINE". Breaks the line into words as bash does, at COMP_WORDBREAKS.
 source "$1" || exit 1

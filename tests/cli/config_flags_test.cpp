@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // --set: what a changed configuration is called and hashes to, and what is said of a change that cannot be.
 #include "cli/config_flags.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The verbs that take a configuration: config diff, --set wherever --config is, what a changed one is called
 // afterwards.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // verify --coverage: sampled, added up over runs, refused for another configuration.
 #include <gtest/gtest.h>
 

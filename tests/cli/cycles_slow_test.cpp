@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `fastsplat cycles`: the rows add up, a stream costs what its scene costs, the timeline can be drawn.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every demo scene by its name: one command.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every command that README.md and a page of docs/ show in a ```console block runs, in the order shown, in one folder
 // per page. A trailing "# exit N" gives its exit code. Lines shown below a command are lines of its output; "..."
 // stands for any text, alone on a line for any lines.

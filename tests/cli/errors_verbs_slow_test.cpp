@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat errors ranges and errors propose, as a user meets them: what they print, write and refuse.
 #include <gtest/gtest.h>
 

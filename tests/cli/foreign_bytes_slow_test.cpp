@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bytes that are no UTF-8, in the names of files and in what pictures carry: results are told all the same.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbered names, and which of them are refused.
 #include "cli/frame_names.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // docs/gallery.md is what docs/gallery.toml generates, its pictures are there and small, its commands run.
 #include <gtest/gtest.h>
 

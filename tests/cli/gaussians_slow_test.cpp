@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // 3-D Gaussians from the command line: both engines, the files that ship, a recorded stream, and every misuse in one
 // line.
 #include <gtest/gtest.h>

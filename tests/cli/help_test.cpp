@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What help, man pages and completion say of the verbs: all of it, whatever the verbs come to be.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The manners of the program among others: pages that man reads, completion in real shells, examples that run, and all
 // of it where `cmake --install` puts it.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One rule for a word that names nothing: exit 2 where it is a name, 3 where it is a file; hints that are near; what
 // the machine offers.
 #include <gtest/gtest.h>

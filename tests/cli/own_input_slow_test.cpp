@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // No result replaces a file that the command reads: refused with exit 2 before any work, whatever the file is called.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The command line, parsed: what the flags become, and what is said when words make no sense.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The pictures at the top of README.md are those of one run, and so are the figures below them.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // README.md: its figures stand in the pages that it names, its doors lead to every subcommand.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // docs/guide/reference.md is what `fastsplat help --markdown` prints, and that has every subcommand and flag.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The good paths: pictures, comparisons, JSON, streams, scenes, as a user strings them together.
 #include <gtest/gtest.h>
 

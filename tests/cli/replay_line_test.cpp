@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The line that replays a failure, as a shell reads it back.
 #include "cli/replay_line.hpp"
 

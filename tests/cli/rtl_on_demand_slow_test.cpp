@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // RTL of a configuration that nobody prepared: built at its first use, found at the next, never half there.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // ./run and tools/, the scripts: each prints its help, and unknown arguments are refused before anything is installed,
 // configured or built. They lie in a tree of their own, among programs that only write down that they were called.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `fastsplat cycles --devices N --bytes-per-cycle B --clock MHZ`: one device is the plain command, figures agree with
 // each other, the limit is what was built to be it.
 #include <gtest/gtest.h>

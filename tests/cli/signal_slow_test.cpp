@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ctrl-C and its kin: exit 130, no temporary file, nothing under the final name.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The program once through: a picture from each engine, compared, and each kind of failure once. The *_slow tests go
 // deep.
 #include <gtest/gtest.h>

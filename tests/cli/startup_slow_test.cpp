@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every run pays before it does anything: the image library, hundreds of libraries deep, is loaded for pictures
 // alone.
 #include <gtest/gtest.h>

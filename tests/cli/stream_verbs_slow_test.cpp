@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The verbs that read streams and configurations, at what they cannot take: told with file and place, before what can
 // be told of the rest is lost.
 #include <gtest/gtest.h>

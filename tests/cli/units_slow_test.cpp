@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The two units of the integer model as a user meets them, and what is said of words that were cut.
 #include <gtest/gtest.h>
 

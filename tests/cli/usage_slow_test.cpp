@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Flags that parse but make no sense together (exit 2), and help, through the program itself; parse_test.cpp has the
 // rest.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Comforts of a verification day, through the program: faults on purpose, waveforms of chosen cycles, all mismatches in
 // one table, random streams as files, JUnit XML, jobs.
 #include <gtest/gtest.h>

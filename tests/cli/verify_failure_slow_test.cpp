@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `verify` says of an RTL that is wrong, through the program built with one (tests/wrong_rtl): the failure first,
 // whatever becomes of its files.
 #include <gtest/gtest.h>

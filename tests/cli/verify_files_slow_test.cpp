@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The files of a failing verify: whose they are when several runs fail at once, that nothing of them stays when a run
 // is interrupted, and that where they cannot be written a verdict is a verdict.
 #include <gtest/gtest.h>

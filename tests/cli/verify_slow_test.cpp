@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What scripts read of a verified run: both clocks, and that they agree.
 #include <gtest/gtest.h>
 

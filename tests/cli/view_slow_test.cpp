@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures for looking and pictures for measuring, and what is said of a picture too small for the device.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the verbs say about a volume that is odd, and --nan-as wherever volumes are read.
 #include <gtest/gtest.h>
 

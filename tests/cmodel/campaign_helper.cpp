@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/cmodel/campaign_helper.hpp"
 
 #include <cstdio>

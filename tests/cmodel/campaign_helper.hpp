@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Random streams by the thousand: model against oracle until enough splats were compared.
 #pragma once
 

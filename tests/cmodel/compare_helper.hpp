@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Model and oracle side by side: what each produced, and what differs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every limit of a configuration, broken once: the message names the key and has both numbers.
 #include <gtest/gtest.h>
 

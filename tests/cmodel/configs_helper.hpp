@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The configurations the tests run on: those of configs/*.toml, read here without the driver, and random legal ones.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cycle model of a device that culls: beat by beat against a clock, and against the device that does not cull.
 #include <gtest/gtest.h>
 

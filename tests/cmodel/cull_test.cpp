@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Culling (docs/numerics.md, section 6.1): model against an oracle that looks at every pixel, culled against unculled,
 // the promise of cull_block, and that nothing is hidden where nothing may be.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the cycle model says of a run beside cycles of events: accounts that sum to the busy cycles, pictures that take
 // their beats, a tap of each kind for each event; accounts of several devices add up kind by kind.
 #include <gtest/gtest.h>

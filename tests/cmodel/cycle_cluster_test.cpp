@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Several devices on one link: one device counts what the cycle model counts, each of many what it would count alone
 // on its tiles, and all of it what a clocked second model counts (docs/scaling.md).
 #include "cmodel/cycles/cycle_cluster.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sheets of densities: every tap, pixel and counter of the model against the oracle on random streams, and rules that
 // only such devices have.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // docs/stream.md and docs/numerics.md against the code: tables in the pages and tables in the headers say the same.
 #include <gtest/gtest.h>
 

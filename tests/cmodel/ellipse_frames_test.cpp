@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ellipse records among splats: every tap, pixel and counter of the model against the oracle, whatever the index.kind,
 // on random configurations and at the ends of what an ellipse's words may be.
 #include <gtest/gtest.h>

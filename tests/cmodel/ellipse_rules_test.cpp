@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // docs/stream.md, the rules of an ellipse record: each broken once is refused at its beat under its number, every bit
 // counts as the oracle says, and both sides of every edge of rule 18 are met (S-ellipse-4, S-ellipse-5, S-ellipse-6).
 #include <gtest/gtest.h>

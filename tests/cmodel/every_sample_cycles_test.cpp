@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // When windows are issued in a tile whose samples are composited one by one (docs/microarchitecture.md, M-hazard-3).
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tiles whose samples are composited one by one (docs/numerics.md, section 6, modes 4 and 5): model against oracle, and
 // what their order means.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every kind of index: the model against the oracle on random streams, the inner steps by hand, and what a tile sees of
 // a frame without tiles.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the fast unit makes of a configuration's numbers and of a frame's tables, at the borders of what it takes.
 #include "cmodel/fast/fast_plan.hpp"
 

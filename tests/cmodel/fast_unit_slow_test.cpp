@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The fast unit on random legal streams: saturation, odd tables, every window phase, many windows a splat.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A million splats, model against oracle: half on the named configurations, half on random legal ones.
 #include <gtest/gtest.h>
 

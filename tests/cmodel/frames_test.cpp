@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole random frames: every tap, pixel and counter of the model against the oracle, on every named configuration and
 // on random legal ones.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws of compositing, seen through the taps: transmittance only falls, alpha + transmittance is 1, frozen stays
 // frozen.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Configurations at the ends of their ranges: every corner of the word lengths, the widest and the narrowest device.
 // Under UndefinedBehaviorSanitizer this is also where an overflow or a wrong shift would show.
 #include <gtest/gtest.h>

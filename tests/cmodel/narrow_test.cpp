@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // narrow() against the definition by exact division (N-1-3, N-1-4, N-1-5): every word around every small format
 // (N-1-1), and 62-bit values.
 #include "cmodel/numbers/narrow.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What must not matter: the order of splats within a sheet, culling hints, how the beats are handed over, whether taps
 // watch.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The package that the RTL is made with: whether it has every name that rtl/ reads, and what has no device.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Solid patterns: every tap, pixel and counter of the model against the oracle on random streams; what leaves every bit
 // as it is; rules that only such devices have.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/cmodel/plain_cluster_helper.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // docs/scaling.md once more, clocked: every part looks at every cycle. Knows the cost of a beat, nothing of cmodel's
 // cluster, link or queue.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The stream side of a device that culls, clock by clock as in docs/microarchitecture.md: a reference for the cycle
 // model. Registers hold beats, a unit builds tables a row at a time, a source waits for verdicts.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/cmodel/random_ellipse_helper.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Random legal ellipse records: shapes as a driver would make them, from thin to round, and words that none would, up
 // to the edges of rule 18.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A seeded generator that gives the same numbers on every platform (SplitMix64).
 #pragma once
 

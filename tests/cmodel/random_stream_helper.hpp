@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Random legal streams, boundary cases first: ties, saturation, every window phase and bank, all tile edges, footprints
 // wider than the lanes, overlapping radius sets, tables no driver would make.
 #pragma once

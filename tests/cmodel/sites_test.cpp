@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The narrowing sites and who watches them: the table against the page's formats, ranges by hand and on random frames.
 #include "cmodel/numbers/sites.hpp"
 

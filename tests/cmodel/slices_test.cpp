@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // composite.lanes and counters.bits are of time and of registers alone: no word of any tap depends on them, and what
 // they do to time is the page's rule (docs/microarchitecture.md, M-slices-1 and M-walk-4).
 #include <gtest/gtest.h>

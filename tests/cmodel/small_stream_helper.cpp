@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/cmodel/small_stream_helper.hpp"
 
 #include "tests/cmodel/configs_helper.hpp"

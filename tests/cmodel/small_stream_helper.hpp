@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Small streams: a legal one with every kind of record, for tests that break it, and one with any tables.
 #pragma once
 

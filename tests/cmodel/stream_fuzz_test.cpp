@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Streams with random damage: refused at the same beat by model and oracle, or taken and rendered the same by both.
 #include <gtest/gtest.h>
 

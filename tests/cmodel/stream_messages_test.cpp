@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a refused beat is told: bounds as bounds, the true limit, and advice that fits the fault.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // docs/stream.md: every rule broken once must be refused at its beat, and every single bit of a stream must matter to
 // the model exactly as it does to the oracle.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes streams byte by byte from docs/stream.md, without the model's encoder. It writes whatever it is asked to, so
 // that tests can break rules too.
 #pragma once

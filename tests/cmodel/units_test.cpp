@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every unit at small widths, exhaustively: streams that put each combination of words through the device, all taps and
 // pixels compared with the oracle.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What model and oracle say to a stream that may break rules: taken, or refused at which beat; and whether they agree.
 #pragma once
 

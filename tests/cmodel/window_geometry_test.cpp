@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The extents of a radius set (N-3-3) against pixels counted one by one.
 #include "cmodel/numbers/window_geometry.hpp"
 

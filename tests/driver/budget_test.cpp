@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The error budget: the integer image against the floating-point one. Never mixed with bit-exactness.
 #include <gtest/gtest.h>
 

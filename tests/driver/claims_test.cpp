@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The decks' claims, measured on the integer device: no popping between image-aligned slabs, convergence with their
 // width.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A configuration written as TOML is read back as it was.
 #include "driver/config/config_file.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What culling brings of a real head (Debian's mricron-data): the same picture, cycles, and processor time.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Culling from scene to picture (docs/numerics.md, sections 6.1 and 8, "Sets"): the picture is the one without, sets
 // keep their promise, what is left out changes nothing, and what it costs and brings in cycles.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The driver against docs/numerics.md, section 8, "Ellipses": every beat of frames whose splats are shaped by the view,
 // by growth, motion and lens, alone and together.
 #include <gtest/gtest.h>

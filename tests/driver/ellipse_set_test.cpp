@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ellipses as words of squared_elliptic (docs/numerics.md, section 4.3): against the ellipse itself, in reals.
 #include "driver/tables/ellipse_set.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splats with shapes of their own: what the driver makes of them, and how far the device's picture is from golden's.
 #include <gtest/gtest.h>
 

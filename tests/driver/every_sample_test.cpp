@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Westover's method on the device: every sample composited in the order of the volume (docs/numerics.md, sections 6 and
 // 8), and how far its picture is from golden's.
 #include <gtest/gtest.h>

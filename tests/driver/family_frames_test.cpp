@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole frames of every kind of index: tiles and units that must not matter, kinds that must agree, and golden, within
 // bounds derived for each pixel.
 #include <gtest/gtest.h>

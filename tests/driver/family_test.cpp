@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The driver of every kind of index against docs/numerics.md, sections 4 and 8: tables and records, word by word.
 #include <gtest/gtest.h>
 

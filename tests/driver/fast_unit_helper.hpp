@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole frames by the fast unit beside the plain one: words, counters and report, with every kind of vector instruction
 // this processor has.
 #pragma once

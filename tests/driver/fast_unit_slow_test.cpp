@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The fast unit draws what the plain unit draws: words, counters and report of whole frames, over configurations,
 // methods, views, threads, heights of bands and every kind of vector instruction this processor has.
 #include <gtest/gtest.h>

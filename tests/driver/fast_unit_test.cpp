@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the fast unit counts without drawing it: records that nobody sees, of splats, of a hidden cell's and of ellipses
 // that reach over several bands. The plain unit makes every one of them. (Words and more scenes,
 // fast_unit_slow_test.cpp.)

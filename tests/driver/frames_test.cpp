@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole frames through the device: what must not depend on tiling, threads, sheets or order.
 #include <gtest/gtest.h>
 

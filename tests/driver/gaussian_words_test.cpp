@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every record of a view of 3-D Gaussians from docs/numerics.md, section 8, alone: places, colours, shapes, order,
 // counts. (Which windows, gaussians_test.cpp.)
 #include <gtest/gtest.h>

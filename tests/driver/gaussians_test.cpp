@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // 3-D Gaussians on the device: its picture against golden's, the words that matter, its records against their rules,
 // its stream against the oracle.
 #include "golden/gaussians.hpp"

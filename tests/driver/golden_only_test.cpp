@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Techniques that the device does not have are refused by name, never left out in silence.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The main job: a real head scan at 512 x 512, integer against golden (Debian's mricron-data).
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Breaks the driver in each way of mutants.txt, builds it and expects the oracle (DriverOracle*, DriverFamily*, EllipseSets*) red: about ten seconds a
 # fault, and not part of ./run test. The sources are edited in place and put back. `mutants.sh WORD` takes those whose
 # name has the word. Exit code 1 where one lives, or its text is not there exactly once.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The list of faults that mutants.sh plants: each still finds the text that it breaks.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Oblique grids are drawn as they lie in the body: an object scanned by a pitched or sheared grid looks as by a
 // straight one, to every method of both engines, and shading sees the same surface.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The driver beside its oracle: random scenes, every beat of a frame compared, and what was compared.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The driver against docs/numerics.md, section 8, over many random scenes and configurations.
 #include <gtest/gtest.h>
 

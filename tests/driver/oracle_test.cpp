@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The driver against docs/numerics.md, section 8: every beat of random frames, over all configurations, methods and
 // both projections; and the ends of the formats, exactly.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Solid textures and bumps on the device: the table against the pattern, pictures against golden's, what changes no
 // bit, what is refused.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Classification by pixel on the device: against golden's, over methods of opacity, slabs, tiles and projections; its
 // normals; what is refused.
 #include "golden/post_classified.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every site of the driver rounds and saturates as docs/numerics.md, section 8 says: positions (N-8-36), whole splats
 // (N-8-37), what is carried (N-8-59), PHI (N-8-64), boundaries and depths (N-8-65).
 #include "driver/tables/quantise.hpp"

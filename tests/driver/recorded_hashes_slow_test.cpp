@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A refactoring changes no word: streams, frames, counters and cycles of every configuration, method and view against
 // the hashes in recorded_hashes.txt. Who changes numbers on purpose copies the list this test writes and says why.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Thin splats: what rounding takes of one goes to the next behind it (N-8-58 to N-8-61).
 #include "driver/splats/rounding_carry.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes and measures shared by the driver's tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every setting with every method and every engine: what is accepted shows in the picture, all else is refused. Each is
 // given at its probe; what it needs besides is turned on by doing what its refusals say.
 #include <gtest/gtest.h>

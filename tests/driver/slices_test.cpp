@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The slices of a splat sum exactly to the splat, whatever its depth within its slab.
 #include "driver/splats/slices.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Recorded streams: the replayed frame is the rendered frame, and a stream that leaves a hole in the image is refused.
 #include "driver/files/stream_file.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The pixel beats of a stream's vectors are the replayed picture, tile by tile, also where the image cuts tiles and
 // where a tile's last beat of a row is not full. (Beats, taps and checksums, tests/capi/vectors_slow_test.cpp.)
 #include "driver/files/stream_vectors.hpp"

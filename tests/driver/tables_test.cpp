@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tables the driver loads: preserved sums, exact squares, rims where the support ends.
 #include "driver/tables/tables.hpp"
 

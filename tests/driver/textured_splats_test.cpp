@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Textured splats on the device: pictures in the footprints of blit2d's sets, against golden's; what is refused.
 #include "scene/textured_splats.hpp"
 

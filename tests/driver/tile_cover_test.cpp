@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The area under rectangles, against every pixel counted.
 #include "driver/files/tile_cover.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is seen: the crop, the fit to what is not empty, the background and the negative, by both engines.
 #include <cmath>
 

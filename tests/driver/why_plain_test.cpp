@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the fast unit was asked for and could not draw, the report says why; else it says nothing.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shares that add up, and the answers that are known beforehand.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The proved worst case: no pixel of any picture errs by more, and no step alone does.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Attribution of frames whose sheets are densities: parts that add up, steps that are each there, what mends one, and
 // what is refused.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Targets, the figures they ask for, and the journal of a search.
 #include "analysis/errors/journal.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A proposal on a real case: it meets its target, no key of it can be lowered, and its journal replaces simulation.
 #include <gtest/gtest.h>
 #include <unistd.h>

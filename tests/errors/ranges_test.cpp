@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ranges of whole frames: exact sums, the device's own counters, theory against every value there is, and formats that
 // then saturate nothing.
 #include "analysis/errors/ranges.hpp"

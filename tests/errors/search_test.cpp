@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The search on judges whose answers are formulas: what it ends with cannot be lowered, whatever the formula.
 #include "analysis/errors/search.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What synthesis made of a configuration is found by its hash, and is what docs/evidence/synthesis.json says.
 #include "analysis/errors/synthesised.hpp"
 

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # system.sh SYSTEM FASTSPLAT WORK_DIR: the example system renders a recorded stream as the model does, tells a refusal and goes on after
 # it, and refuses what it cannot do.
 set -eu

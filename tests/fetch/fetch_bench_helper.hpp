@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The fetch master between a memory and a device, which may be played: looks at all that goes on between them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/fetch/fetch_core_helper.hpp"
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The device of configs/faults/cull.toml, Verilated and healthy, behind the fetch master.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Memory, fetch master and device together: the picture is the model's whatever the memory does, and where it is
 // regular the device takes the cycles that `cycles --fetch` counts.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/fetch/stops_helper.hpp"
 
 namespace fastsplat::test {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A fetch master that is stopped, in one cycle after another, and begins again.
 #pragma once
 

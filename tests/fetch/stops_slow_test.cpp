@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The fetch master stopped in every cycle of a short run, in front of a device that is played and in front of the RTL.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Results as JUnit XML, CSV and Markdown: what they say is what the JSON says.
 #include "report/formats/faces.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Results as verbs write them, small, and of every kind.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Configurations: refused, or understood and written so that they read back the same.
 #include "driver/config/config_file.hpp"
 #include "tests/fuzz/fuzz.hpp"

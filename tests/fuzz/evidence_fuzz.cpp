@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the closure of coverage reads: books, tests' results, the plan, exclusions.
 #include "testbench/closure/closure.hpp"
 #include "testbench/closure/verification_plan.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What all fuzz targets share: the input as a file, and what may come of reading it.
 #pragma once
 

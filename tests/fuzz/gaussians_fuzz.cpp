@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of 3-D Gaussians: read, or refused; what was read is sound, and is the same once written and read again.
 #include "scene/gaussians/gaussian_file.hpp"
 #include "tests/fuzz/fuzz.hpp"

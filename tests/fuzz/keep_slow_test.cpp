@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `tools/fuzz --keep` keeps of a run, with scripts in the fuzzers' place: hours add up only where nothing was
 // found.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Inputs for the targets without libFuzzer: seeds, and what a seeded chance makes of them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures: read, or refused; the decoders are OpenImageIO's.
 #include "base/images/image_file.hpp"
 #include "tests/fuzz/fuzz.hpp"

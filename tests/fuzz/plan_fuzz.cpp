@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plans: a specification is understood or refused; a plan that was read is written so that it reads back the same.
 #include <nlohmann/json.hpp>
 

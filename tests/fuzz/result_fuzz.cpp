@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // JSON results, as a report reads them.
 #include "report/results.hpp"
 #include "tests/fuzz/fuzz.hpp"

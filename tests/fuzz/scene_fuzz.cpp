@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene.toml and its [sequence]: understood, or refused.
 #include "scene/scene.hpp"
 #include "scene/sequence.hpp"

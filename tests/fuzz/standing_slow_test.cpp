@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The fuzz targets without libFuzzer and sanitizers, in every test run: all their seeds, then some thousands of changed
 // ones, always the same. A finding ends the test with its input in a file; `tools/fuzz` looks longer and sees more.
 #include <gtest/gtest.h>

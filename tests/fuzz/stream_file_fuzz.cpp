@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Recorded streams as files: dumped, replayed, or refused.
 #include "driver/config/config_file.hpp"
 #include "driver/files/stream_file.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The device's stream: model and oracle refuse it at the same beat, or take it and draw the same. The first byte says
 // whether the stream gets the beat count and checksum that it should have, without which few would be taken.
 #include "tests/cmodel/small_stream_helper.hpp"

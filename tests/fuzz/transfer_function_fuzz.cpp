@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Transfer functions of one's own: understood, or refused.
 #include "scene/transfer_function.hpp"
 #include "tests/fuzz/fuzz.hpp"

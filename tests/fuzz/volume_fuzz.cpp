@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumes of every format: read, or refused; what was read has the voxels that it says.
 #include "scene/volume/volume_file.hpp"
 #include "tests/fuzz/fuzz.hpp"

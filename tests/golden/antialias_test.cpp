@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Anti-aliasing: what a checkerboard too fine for the pixels leaves behind, and what must not change at all.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Slabs against the ray caster: first order in the slab width when opacities are added, second order when the slab dims
 // itself exponentially. The two sides share neither loops nor projection.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The lecture's table of early splat elimination, in its shape: time without and with, and the share of voxels that is
 // splatted. Processor time of one thread, so that a busy machine changes it little.
 #include <fmt/format.h>

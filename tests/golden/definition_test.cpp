@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every splatting technique against its definition (docs/golden.md, docs/techniques/), written out a second time
 // without bands, rings, spans or buckets, with the kernel's closed forms instead of scene::Kernel, a measured
 // derivative of the projection instead of a derived one, cameras that really turn, and a lens with a focal length.

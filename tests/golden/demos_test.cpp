@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The built-in demo scenes show what they claim to show.
 #include <gtest/gtest.h>
 

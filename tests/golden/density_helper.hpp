@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes whose densities are a function of position, for classification after splatting.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Depth of field on sheets: the disc's moments, energy, what is in focus, agreement with depth of field on splats.
 #include "golden/depth_of_field_sheets.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Depth of field on splats: the plane in focus untouched, everything else spread as a disc of its circle of confusion.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What runs on vectors, beside what is written down: the same bits with every kind of vector instruction.
 #include <gtest/gtest.h>
 

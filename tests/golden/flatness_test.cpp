@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How flat a constant field stays after reconstruction, per kernel: against Poisson's summation formula and against the
 // figures of splatting.md section 2.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The shape of a footprint: circles as they always were, ellipses as the sphere's silhouette, energy kept.
 #include "golden/splat/footprint.hpp"
 

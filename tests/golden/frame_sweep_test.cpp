@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sweep over whole sheets: without stages it is the band sweep bit for bit; with stages that look around it is the
 // same for every number of threads; and it splats what occlusion shows, which sees the picture in front.
 #include "golden/frame_sweep.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The floating-point renderer of 3-D Gaussians against what can be said in a formula, and what its order costs.
 #include "golden/gaussians.hpp"
 

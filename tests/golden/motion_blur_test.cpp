@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Motion blur against what a film sees: the mean of many frames with the shutter open for an instant each.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Occlusion culling on whole frames: not a bit of the picture changes, more opacity culls more, and nothing is culled
 // where everything can be seen through.
 #include "golden/occlusion_culling.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The pieces of occlusion culling against brute force: summed-area table, visibility tests, blocks of voxels.
 #include "golden/occlusion_map.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Within a sheet the order of the splats must not matter; for splats composited one by one it must.
 #include <gtest/gtest.h>
 

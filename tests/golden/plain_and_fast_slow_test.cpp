@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole pictures drawn as it is written down and the fast way: the same floats, over methods, views, kernels,
 // techniques and numbers of threads, thin and opaque.
 #include <gtest/gtest.h>

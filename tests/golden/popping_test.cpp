@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turning past 45 degrees flips the dominant axis: axis-aligned sheets pop, image-aligned ones must not.
 // P = rms(I(45.2)-I(44.7)) / rms(I(44.7)-I(44.2)); 1 is a picture that just goes on turning.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Classification after splatting: its definition, edges that stay sharp under zoom, normals of a ball, voxels that need
 // not be splatted.
 #include "golden/post_classified.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ray caster at working size: a volume of real extent and structure, against thin and working slabs.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every technique must do alike: same bits for any number of threads, nothing from nothing, progress told,
 // perspective from far away like orthographic.
 #include <gtest/gtest.h>

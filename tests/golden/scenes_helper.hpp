@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Small scenes with known contents, and measures on images, for the tests of the golden renderers.
 #pragma once
 

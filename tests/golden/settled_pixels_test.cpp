@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Settled pixels: nothing behind changes what is stored, and what reaches none but settled pixels is found.
 #include "golden/settled_pixels.hpp"
 

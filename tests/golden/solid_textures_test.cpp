@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Solid textures and bumps: sharp whatever the voxels when made at pixels, fixed to the object, nothing at amplitude 0.
 #include "golden/solid_textures.hpp"
 

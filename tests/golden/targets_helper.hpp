@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every kind of vector instruction that the processor has, one after the other.
 #pragma once
 

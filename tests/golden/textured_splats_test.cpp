@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Textured splats: detail that changes nothing but detail, cycles, and can be turned off to the last bit.
 #include "scene/textured_splats.hpp"
 

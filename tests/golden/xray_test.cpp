@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // X-ray: the total of one voxel in closed form, and independence of the number of sheets.
 #include <gtest/gtest.h>
 

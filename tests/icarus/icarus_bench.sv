@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plays recorded streams to the device in a four-state simulator and writes down what comes back; tests/icarus judges it.
 // Everything of the device is unknown at power-up. What decides a transfer, and what is transferred, may never be unknown
 // once a reset was released: every cycle is looked at.

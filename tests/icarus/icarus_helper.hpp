@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Icarus Verilog as a second simulator: rtl/ compiled unchanged, streams played to it, what it wrote read back.
 // Four-state: a bit that nobody set is X, and stays X wherever it matters.
 #pragma once

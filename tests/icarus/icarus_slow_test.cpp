@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The RTL under a second, four-state simulator: every pixel, counter and cycle is the model's, and nothing that decides
 // is unknown, from power-up on and after a reset of any length in any record.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What files declare of their numbers is followed, or refused by name.
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // EXR headers built attribute by attribute, and those that OpenImageIO writes.
 #include "base/images/exr_check.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Damaged files: they load whole or are refused in one line; nothing crashes, nothing is printed, no memory is wasted.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

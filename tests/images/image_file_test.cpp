@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is written is read back: values, words, metadata; what cannot be is refused.
 #include "base/images/image_file.hpp"
 

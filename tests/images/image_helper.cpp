@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/images/image_helper.hpp"
 
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures, files and refusals for the tests of analysis/.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PNG files whose checksums are right and whose content is not: built chunk by chunk.
 #include "base/images/png_check.hpp"
 

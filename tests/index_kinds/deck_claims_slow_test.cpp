@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The deck's sentences: each judged, and by its figures.
 #include <gtest/gtest.h>
 

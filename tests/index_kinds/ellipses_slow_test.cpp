@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Elliptical footprints through the model's own unit, against golden's weights.
 #include <gtest/gtest.h>
 

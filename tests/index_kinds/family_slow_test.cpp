@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The page of the family, and what its table must show.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The head by kinds of index: one or two cells, against the page.
 #include <gtest/gtest.h>
 

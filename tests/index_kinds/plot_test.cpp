@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The pictures as XML: series, points, words; and where points come to lie.
 #include "tools/pages/family/plot.hpp"
 

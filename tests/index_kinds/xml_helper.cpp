@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/index_kinds/xml_helper.hpp"
 
 #include <cctype>

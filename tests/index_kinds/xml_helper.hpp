@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // As much of XML as our pictures have, read strictly: elements, attributes, text, the entities lt, gt and amp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An assertion of the RTL that fails inside `verify`: told in one line with its name, its instance and its cycle, as a
 // fault of the simulation, and shrunk and replayed like any other failure.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs the device with one fault through verify() and says who saw it first.
 #pragma once
 

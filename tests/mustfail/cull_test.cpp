@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The device that culls, whole and with its assertions on: every event in the cycle model's cycle, every tap the
 // model's. The device is that of the must-fail suite with no fault selected.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole frames of ellipses, as the driver sends them, through the healthy device: tap for tap and cycle for cycle.
 #include <gtest/gtest.h>
 

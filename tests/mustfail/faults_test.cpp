@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every fault of faults.def is seen by its named detector, and by that one first; the healthy device passes the same
 // stimuli.
 #include <gtest/gtest.h>

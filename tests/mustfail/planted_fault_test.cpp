@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Faults that `verify --fault` plants: each is seen by plain random streams, and lets itself be made small.
 #include "testbench/faults/planted_fault.hpp"
 

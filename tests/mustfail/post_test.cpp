@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The device whose weights lie between entries of its radial table, and that classifies densities by pixel, whole and
 // with its assertions on: every event in the cycle model's cycle, every word the model's. The device is that of the
 // must-fail suite with no fault selected.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The device that composites every sample, whole and with its assertions on: every event in the cycle model's cycle,
 // and windows that wait as docs/microarchitecture.md says (M-hazard-3). The device is that of the must-fail suite with
 // no fault selected.

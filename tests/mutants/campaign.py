@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Mutants through a check_mutants program, several at a time."""
 import hashlib
 import os

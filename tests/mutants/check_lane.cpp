@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // check_mutants_density_lane CONFIG.toml: the pixel stage's lane by itself, whose last bits whole streams are too short
 // for.
 #include "Vfs_mutants_density_lane.h"

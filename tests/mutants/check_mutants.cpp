@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // check_mutants CONFIG.toml: the checks of a whole device (serve_mutants.hpp).
 #include "tests/mutants/check_mutants.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What generated sources give the program check_mutants_<name>.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Mutants of one C++ source, all in one text: `::fastsplat_mutants::is(N) ? mutant : original`.
 
 Whole expressions of statements and conditions in bodies of functions, where clang-format's spaces tell a comparison from a template; what

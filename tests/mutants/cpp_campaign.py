@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Mutants of cmodel/ and driver/: the folder's fast tests over mutated sources, a process for each mutant, until the first test fails."""
 import json
 import os

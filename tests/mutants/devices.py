@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The devices that mutants run on, in their order, and which modules of rtl/ each of them has: a mutant of a module that a device is built
 without is not tried there, nor is a program built for it."""
 import glob

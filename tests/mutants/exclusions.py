@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """exclusions.toml: mutants that no check can see, each with its class and the reason."""
 import tomllib
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Expressions as trees over tokens, by precedence climbing: what an operator's operands are, and where they end."""
 from tokens import Token, closing, joined
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """generate.py RTL_DIR OUT_DIR [--only FILE] [--modules A,B] [--plant-nothing]: rtl/ with all its mutants in it, chosen at run time.
 
 OUT_DIR gets the files of RTL_DIR, without its folders, fastsplat_mutant_pkg.sv, whose `selected` chooses (0: none), and mutants.json: what each number

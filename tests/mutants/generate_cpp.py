@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """generate_cpp.py SOURCE_DIR MODULE OUT_DIR COUNT SEED: the sources and headers of MODULE (cmodel or driver) with COUNT of their mutants in
 them, as many of each file as its share is; chosen at run time (selected.hpp). mutants.json says what each number is. Which are taken
 does not depend on the others: a change of the sources changes few of them."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """mutate.py ROOT BUILD [FLAGS]: what `tools/mutate` does; --help prints its flags.
 
 Every mutant of rtl/ runs on the smallest device that has its module (devices.py) through the checks of check_mutants.cpp, cheapest

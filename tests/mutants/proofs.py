@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A mutant put to the proof of its module, and to no other: rtl/ with that one mistake in it, nothing chosen at run time."""
 import os
 import re

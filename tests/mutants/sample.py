@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """sample.py SOURCE BUILD: the machinery of tools/mutate, in seconds. Fixed mutants of the registers are killed, each by the check that is
 there for it; one that changes nothing lives and is red; the generator finds its mutants, and each exclusion one of them."""
 import json

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which mutant a program of mutated C++ sources runs with: FASTSPLAT_MUTANT in its environment, none without it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // check_mutants programs: `PROGRAM CONFIG.toml` reads numbers of mutants from standard input, one a line, and prints a
 // line for each:
 //

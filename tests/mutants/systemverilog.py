@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Mutants of one SystemVerilog file of rtl/, all in one text: `selected == N ? mutant : original`.
 
 What is mutated: assigned values, conditions, case labels, connections of inputs, values of localparams of type logic, the body

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Tokens of SystemVerilog and of C++, with their places: enough to find expressions, nothing more."""
 import re
 from typing import NamedTuple

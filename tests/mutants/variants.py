@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What an expression may become. Each variant is a small mistake that somebody could have made: (what, text)."""
 import re
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which netlist a program holds is said by its CMakeLists: FASTSPLAT_NETLIST, and _CUT where there is one.
 #include "tests/netlist/netlist_helper.hpp"
 

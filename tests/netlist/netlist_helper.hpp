@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Devices that are not rtl/ itself but what Yosys made of it (tools/cmake/netlist.sh).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The synthesised device under the project's own checker: every tap, pixel, counter and cycle is the model's.
 #include <gtest/gtest.h>
 

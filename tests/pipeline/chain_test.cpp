@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The chain of steps: all device is the integer model, all real is golden, and each step alone does what its page says.
 #include "analysis/pipeline/chain.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The chain of frames whose sheets are densities: all device is the integer model's words, all real is golden's
 // picture, and the real side of the pixel's steps is golden's stage.
 #include <gtest/gtest.h>

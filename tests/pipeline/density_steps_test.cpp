@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The steps of a pixel of densities by themselves: their device side is the integer model's unit on any words, their
 // real side golden's stage.
 #include "analysis/pipeline/density_steps.hpp"

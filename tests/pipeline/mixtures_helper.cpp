@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/pipeline/mixtures_helper.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the tests of mixtures are made of: small scenes, random and given ones, and random mixtures.
 #pragma once
 

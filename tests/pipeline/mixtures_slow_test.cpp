@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mixtures of steps against a second implementation of their page (tests/pipeline/oracle): at random, and step by step.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Narrowing of doubles: on words it is the device's.
 #include "analysis/pipeline/real_narrowing.hpp"
 

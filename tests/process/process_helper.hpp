@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The built program as a user meets it: arguments in, stdout, stderr, exit code and files out.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures of a report: what they stand for, which are one, what is cropped to fit.
 #include "report/album.hpp"
 

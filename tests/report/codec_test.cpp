@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What goes into the page comes out of it: planes and deflate undone here by other means, base64 by its standard.
 #include "report/codec.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A report that is sent on names files, not the folders and people of the machine that made it.
 #include "report/file_names.hpp"
 

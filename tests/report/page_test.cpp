@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Injection: whatever the results hold, the page stays a page and its data the same values.
 #include "report/page.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Results told apart: each verb's sentence, and one line for what is no result.
 #include "report/results.hpp"
 

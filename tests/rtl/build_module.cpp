@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // build_rtl_module FOLDER CONFIG [wave] [faults]: builds a configuration's module of RTL into FOLDER, unless it is
 // there.
 #include <cstdio>

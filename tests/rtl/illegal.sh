@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # illegal.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR: a package whose numbers do not fit stops Verilator and Yosys, with the numbers.
 set -eu
 emit=$1 source=$2 work=$3

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Usage: lint_edges.sh EMIT SOURCE_ROOT SCRATCH
 # Configurations at the ends of what the RTL allows: Verilator reads each with all its warnings on and has none.
 # (array.lanes = 32 has none either, but takes Verilator 100 s.)

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # prove.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR FAULT_PACKAGE: formal proofs with Yosys and z3, and that each proof notices a
 # planted fault. Words are cut to a few bits: forwarding does not depend on their width. Memories of four words are registers to z3:
 # fifty times faster than its arrays.

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # read.sh CONFIG EMIT_PACKAGE SOURCE_DIR WORK_DIR: both tools accept rtl/ with the package of CONFIG.
 # Verilator -Wall without a word; Yosys reads every module, elaborates the device, and `check -assert` finds nothing.
 set -eu

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # read_fetch.sh SOURCE_DIR WORK_DIR: the tools accept rtl/io as it is by default and at the ends of its parameters, and refuse what lies beyond.
 set -eu
 source=$1 work=$2

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # read_strict.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR: every file of rtl/ is a compilation unit of its own. It includes what it uses, uses no name before
 # its declaration, and has no implicit net. Read by Icarus (-u), Verilator and Yosys, for configurations that have every feature between them.
 set -eu

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Proof of a sheet bank's forwarding, read inside sheet_bank under FASTSPLAT_PROOF: the sum shown at W for any one word is
 // the saturated sum of all products that went to it since it was last cleared, whatever the order of addresses, the gaps
 // between them (M-forward-3) and the word that a colliding read returns (M-forward-1).

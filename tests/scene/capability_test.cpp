@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What goes together: each refusal by its key, in one line with a way out; what means nothing where; what of it a file
 // may say.
 #include "scene/capability.hpp"

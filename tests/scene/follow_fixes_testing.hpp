@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A setting with whatever else it needs to have a meaning, found as a user would: by doing what each refusal says.
 #pragma once
 

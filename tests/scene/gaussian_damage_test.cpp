@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of 3-D Gaussians that lie about their size or their properties. One line each, exit code 3.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of 3-D Gaussians that are sound: every format and order of properties, there and back, and those that ship.
 #include <gtest/gtest.h>
 

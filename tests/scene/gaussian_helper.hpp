@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of Gaussians written by tests, byte by byte.
 #pragma once
 

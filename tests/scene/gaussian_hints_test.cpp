@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a file says of its Gaussians beside their numbers is followed, or said.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What may stand around the rows of a PLY, and files of other formats than PLY and .splat.
 #include <gtest/gtest.h>
 #include <zlib.h>

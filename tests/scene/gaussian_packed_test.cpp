@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compressed PLY as SuperSplat writes it: packed here by another rule than it is read by, and read to within its steps.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Projected Gaussians against numbers: the covariance of points of the Gaussian, projected one by one.
 #include <gtest/gtest.h>
 

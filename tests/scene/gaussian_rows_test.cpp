@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gaussians that cannot be drawn are dropped, counted and named; a file in which none is left is refused.
 #include <gtest/gtest.h>
 

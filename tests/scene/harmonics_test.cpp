@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Spherical harmonics against their closed formula: associated Legendre functions with the Condon-Shortley phase.
 #include "scene/gaussians/harmonics.hpp"
 

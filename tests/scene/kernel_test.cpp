@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel's closed forms against midpoint quadrature of value(), the only function that is a definition.
 #include "scene/kernel.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the tests of scene/ share: the helpers of scene/volume/'s tests under scene's name.
 #pragma once
 

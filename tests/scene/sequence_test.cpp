@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Settings over time: which value a frame gets, and what a [sequence] table may not say.
 #include "scene/sequence.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The list of settings: limits, flags, scene.toml, for whatever the list holds.
 #include "scene/settings.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one plan of sheets: what becomes of a splat, how many sheets, and where they lie.
 #include "scene/sheet_plan.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Solid patterns: range, continuity, noise as its definition, no effect at amplitude 0.
 #include "scene/solid_field.hpp"
 

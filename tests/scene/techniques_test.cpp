@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What shapes footprints: the lens's circle of confusion, and settings that make no sense together.
 #include "scene/techniques.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Hounsfield units, background and percentiles: what padding and air do not change.
 #include "scene/value_range.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The automatic exposure: the densest line of voxels against sums line by line, and how bright X-rays become by it.
 #include "scene/xray_exposure.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/slurm/cluster_helper.hpp"
 
 #include <arpa/inet.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A Slurm cluster of this test alone: munged, slurmctld and a slurmd a node, on loopback, as the calling user, without
 // accounting, everything in one temporary folder. The settings and why: each is there for something that was seen.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A plan on a real cluster: two nodes, one of which goes away in the midst of its work; the merged result is the one of
 // a run here, byte for byte, and no process is left.
 #include <gtest/gtest.h>

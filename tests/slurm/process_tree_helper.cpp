@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/slurm/process_tree_helper.hpp"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Processes as /proc tells of them: which belong to a folder, whether they are gone, and ending them by their id.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A plan of some short cases, the first of which fails: made and run by the program, here and elsewhere.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a plan becomes arrays and scripts: chunks, ranges, words that survive a shell; scripts run by the shell itself.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // plan submit without a cluster: its errors, the half that is taken back, dry runs, and GNU parallel as an engine.
 #include <gtest/gtest.h>
 

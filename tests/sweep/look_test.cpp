@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Merged results looked at: tables, CSV, the Pareto front.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

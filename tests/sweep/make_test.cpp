@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Specifications expanded: which cases, in which order, and what their names depend on.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Small plans of a program that is a shell script, in a folder of their own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plans of the program itself: killed twice and resumed, verifications that add up, a case that fails.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plans run and merged: what is done is skipped, what fails is told, whatever the order the bytes are the same.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

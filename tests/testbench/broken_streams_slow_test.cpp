@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Broken and damaged streams at length: what a device refuses, and what comes out of it, is what the model says.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cycles in the checker: the cycle model beside every verified run, and one cycle too many is a failure.
 #include <gtest/gtest.h>
 

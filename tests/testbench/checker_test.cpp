@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The checker itself: it passes what is right, and sees, tells, shrinks and replays what is wrong.
 #include <gtest/gtest.h>
 #include <unistd.h>

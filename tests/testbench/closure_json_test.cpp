@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The closure as JSON: every figure is the closure's own. The one that is made here is checked in, for the browser's
 // test.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The plan closes for `tiny` in a small run of the ordinary build (no line counts), and opens when a stimulus class is
 // left out.
 #include <gtest/gtest.h>

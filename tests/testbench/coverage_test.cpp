@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Functional coverage: what a small known stream hits, that it costs nothing when off, and that random campaigns reach
 // what they promise.
 #include "testbench/coverage/coverage.hpp"

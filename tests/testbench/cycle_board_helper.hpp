@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The same beats through the cycle model and the Verilated device: each event's cycle, the cycle counters, and the
 // account of them.
 #pragma once

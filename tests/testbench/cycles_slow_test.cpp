@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cycle model at length: every pair of patterns, a head scan's cycles, and how much faster than the clocked device.
 #include <gtest/gtest.h>
 

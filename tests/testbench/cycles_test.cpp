@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cycle model against the Verilated device: every event's cycle, every cycle counter.
 #include <gtest/gtest.h>
 

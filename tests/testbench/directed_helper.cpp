@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/testbench/directed_helper.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the tests of the directed checks share: the RTL as the checks want it, and what has to be so of each result.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files that users hand in, mutated by the thousand: stream files, transfer functions, coverage books. Each is taken,
 // or refused in one line as a bad file; nothing else may come of it, nor of what was taken.
 #include <gtest/gtest.h>

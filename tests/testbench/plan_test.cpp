@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The verification plan against what there is: bins, campaigns, tests, assertions and faults, each both ways; and the
 // closure itself, which must notice whatever is missing.
 #include <gtest/gtest.h>

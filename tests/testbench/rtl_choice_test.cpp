@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // RTL is chosen by the configuration's hash; what the configuration is called says nothing.
 #include <gtest/gtest.h>
 

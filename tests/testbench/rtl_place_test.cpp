@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The instance that a failure names is in the RTL, and its module is the one that is named.
 #include "testbench/triage/rtl_place.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/testbench/scene_beats_helper.hpp"
 
 #include "driver/tiles/compile.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A small scene as the beats a driver would send.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A device whose register bus never answers is told, not waited for; so is one that answers a read in another cycle.
 #include <gtest/gtest.h>
 

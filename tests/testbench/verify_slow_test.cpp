@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole frames and random streams through the RTL of every configuration, beside the model.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every rule of testbench/module/fastsplat_port_rules.sv is broken once, on ports that a test drives: it fires, by its
 // name, and none fires before.
 #include <gtest/gtest.h>

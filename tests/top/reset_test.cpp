@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Resets of fastsplat_top in one cycle after another: the next frame comes out whole (docs/integration.md).
 #include <gtest/gtest.h>
 

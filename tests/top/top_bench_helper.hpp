@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat_top of `tiny` between a source and a sink that keep AXI4-Stream's rules: what is offered stays.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // MetaImage files written by hand: types, byte orders, compressed, text, separate data, axes, and what must be refused.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // NIfTI files written by hand: versions, byte orders, scaling, axes, pairs, and everything that must be refused.
 #include <gtest/gtest.h>
 

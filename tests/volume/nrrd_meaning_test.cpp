@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What fields of NRRD headers mean: kinds, placement, units, min and max, several files, skipped bytes, unknown fields.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // NRRD files written by hand: byte orders, geometry, detached data, and everything that must be refused.
 #include <bzlib.h>
 #include <gtest/gtest.h>

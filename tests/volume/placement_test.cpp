@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a scan lies in the body, and how its axes run, is kept through every format.
 #include "scene/volume/placement.hpp"
 

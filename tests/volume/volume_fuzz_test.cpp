@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Seeded damage to small volume files: each either loads or is a UserError on one line, and nothing reaches stderr.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a volume is found by what the user calls it.
 #include <gtest/gtest.h>
 

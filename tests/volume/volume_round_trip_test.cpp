@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What save_volume writes, load_volume reads back the same: every type and format.
 #include <gtest/gtest.h>
 #include <sys/resource.h>

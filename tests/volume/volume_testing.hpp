@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the tests of scene/volume/ and scene/ share: a folder that goes away, errors as text, small volumes.
 #pragma once
 

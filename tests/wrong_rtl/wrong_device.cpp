@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The RTL of tiny with a lie at one tap: of every seventh splat of a tile the sheet's words come out inverted.
 #include "testbench/device/passing_device.hpp"
 #include "testbench/device/rtl_module.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The plain device model: windows per second of each configuration, nanoseconds per composited pixel, beats per second
 // of the stream decoder. Only ratios within one run are meaningful; absolute times depend on the machine.
 #include <benchmark/benchmark.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole frames, and rows of footprints: the fast unit beside the plain one, in one run. The head is from Debian
 // (mricron-data); without it those lines are missing. Only ratios within one run are meaningful. tools/performance
 // makes docs/performance.md from them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Growth of frame time with splats, and savings by early termination on opaque volumes: fast unit, one thread.
 #include <benchmark/benchmark.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The row kernel alone, compared with the bound of the first-level cache: footprints of 7 pixels in 16-bit words, i.e.
 // 7 rows of 64 bytes each.
 #include <benchmark/benchmark.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Peak memory of a frame: that of this process, which renders nothing else.
 #include <benchmark/benchmark.h>
 

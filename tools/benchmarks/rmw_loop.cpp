@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/benchmarks/rmw_loop.hpp"
 
 #undef HWY_TARGET_INCLUDE

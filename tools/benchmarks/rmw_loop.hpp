@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lower bound for adding footprints: their rows are read, changed and written in the first-level cache.
 #pragma once
 

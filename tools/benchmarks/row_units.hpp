@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The timed functions: both units on a tile full of splats.
 #pragma once
 

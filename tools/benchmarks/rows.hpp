@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A tile full of splats of one size, for timing kernels.
 #pragma once
 

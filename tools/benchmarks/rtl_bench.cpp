@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The Verilated device of each configuration on a scene's stream: clock cycles per second of the plain simulation (no
 // assertions, no checker) and, in the same run, the cost of the checks and the speed-up of the cycle model. Takes the
 // best processor time of all iterations, so that ratios are meaningful on a shared machine.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes of the benchmarks: a head from Debian (mricron-data), and generated volumes. Each is read once.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole frames of other shapes than circles in sheets, the fast unit beside the plain one: frame_bench.cpp's head in
 // perspective with ellipses, the same with every sample composited, and 3-D Gaussians.
 #include <benchmark/benchmark.h>

@@ -5,6 +5,7 @@
 #          a register; block RAMs stay modules. Registers power up with any value, as in rtl/.
 # NET (for kind rtl) is tied to 0, which makes a wrong netlist.
 set -eu
+# SPDX-License-Identifier: Apache-2.0
 kind=$1 rtl=$2 package=$3 out=$4 net=${5-}
 log=$out.log
 map=$out.map

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Shared by the maintainers' tools: each is a script that begins with its help text and sources this file. Provides the
 # functions of `run` (packages, build, messages) and those used by several tools.
 source "$(dirname -- "${BASH_SOURCE[0]}")/../../run"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """evidence_stamp.py ROOT [FILE]: stamps figures with the date and the RTL.
 
 Without FILE, prints {"date": today, "rtl": {module: hash}} for all of rtl/; comments and blanks do not count. With FILE, an object of

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """FuseSoC generator of fastsplat_pkg: fusesoc_package.py INSTANCE.yml, called in the folder of the generated core."""
 import os
 import subprocess

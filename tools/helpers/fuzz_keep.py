@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """fuzz_keep.py KEPT RESULTS TARGETS TOOL: adds a run of tools/helpers/fuzz_targets to docs/evidence/fuzz.json.
 
 RESULTS has one line per target, as printed by `one` in tools/helpers/fuzz_targets. Processor time and runs add up; edges are the maximum of all runs.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Our metadata as attributes of an OpenImageIO header, in every format.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The module's exported symbols: its tag and its table. All others are hidden.
 #include <OpenImageIO/imageio.h>
 

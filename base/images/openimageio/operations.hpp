@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The two operations of the module's table, as specified in base/images/codec.hpp.
 #pragma once
 

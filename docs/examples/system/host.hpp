@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A small system around fastsplat_top: a memory with the frame's beats, a source that reads it in bursts, a sink for
 // pixels, and a host on the register bus. What a driver for real hardware does, in its order (docs/integration.md).
 #pragma once

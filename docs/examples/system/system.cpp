@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat_system STREAM.fss PICTURE [--break]: renders a recorded stream in the simulated system, checks every pixel
 // against the model and writes the picture. --break: spoils a beat first and shows how a host finds out and goes on.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bar charts: waterfalls that add up, stacked shares, columns.
 import { axis_below, axis_left, drawing, line, rectangle, text, text_width, type Drawing } from "./svg";
 import { linear, logarithmic } from "./scales";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plots with two axes, drawn by uPlot: lines over a shared x, and scatter plots with a brush. uPlot draws on a canvas,
 // so plots are recreated when colours or width change.
 import uPlot from "uplot";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decodes a picture's block to words: base64, raw deflate, byte planes, differences (docs/report.md has the format).
 import type { Picture } from "./page";
 

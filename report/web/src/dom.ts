@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // DOM helpers without a framework: create, fill, copy to the clipboard.
 
 export type Child = Node | string | number | null | undefined | false | Child[];

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Formats numbers, and creates elements that show them with their path in the JSON.
 import { h } from "./dom";
 import type { Result } from "./page";

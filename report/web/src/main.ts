@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws the page: header, contents, and the panels of all results. html[data-ready] becomes "1" when everything is
 // drawn and "error" if something failed; the error is shown in the page and in the console.
 import { command_button, h, say } from "./dom";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Types of a report's data and of a panel's input: the contract between C++, the page and its panels.
 
 /** Any JSON value. */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Elements shared by panels: verdict sentence, key figures.
 import { h, type Child } from "./dom";
 

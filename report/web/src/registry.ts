@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The panels, in page order. A new panel needs a file in panels/ and a line here.
 import type { Panel } from "./page";
 import { bound } from "./panels/bound";

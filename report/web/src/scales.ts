@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scales from numbers to positions, with ticks.
 
 export interface Scale {

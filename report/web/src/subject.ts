@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The subject of a result: scan, configuration and picture size. Every heading names it, so that figures of different
 // runs cannot be confused.
 import { h, type Child } from "./dom";

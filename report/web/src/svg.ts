@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SVG drawings that are redrawn when the width of their place changes; CSS colours them by theme.
 import { clear, h, s } from "./dom";
 import { tick_text } from "./figures";

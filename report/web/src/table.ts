@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A table that sorts and filters and stays fast with thousands of rows: only visible rows are in the page. Printing
 // inserts all rows.
 import { h, type Child } from "./dom";

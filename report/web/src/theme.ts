@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Light or dark theme: the system's until the reader chooses. Print is always light.
 import { h } from "./dom";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A browser for the tests: Debian's chromium, no network, one file; whatever it complains about fails the test.
 //   FASTSPLAT   the program (build/bin/fastsplat)
 //   CHROMIUM    the browser (chromium or chromium-headless-shell of the PATH's usual places)

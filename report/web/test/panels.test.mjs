@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The panels in a browser: their numbers are the results', their drawings add up, tables and plots do what they say.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # The tests of the page, for ctest. usage: run.sh template|browser PROGRAM FOLDER
 # Exit code 77, with the reason, where node, npm, chromium or the registry is not to be had. Packages go into FOLDER.
 set -euo pipefail

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A merged plan of so many rows, made up in the shape of `plan merge`: for what takes more rows than a test can run.
 
 /** Numbers that look random and are the same every time. */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The viewer in headless Chromium: its words are the files', its pictures their own, slider, zoom and keys move them.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An example bench: streams a file of beats through fastsplat_core and checks every tap, pixel, counter and cycle inside
 // the simulation, by fastsplat_monitor. Needs no C++ of its own (docs/capi.md, "SystemVerilog").
 //

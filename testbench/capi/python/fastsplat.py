@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The integer device model and the passive checker in Python: libfastsplat by ctypes, NumPy arrays in and out.
 
     import fastsplat

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The passive checker of libfastsplat for SystemVerilog (docs/capi.md): imports of fastsplat.h and fastsplat_dpi.h.
 // Read fastsplat_pkg, the package of the device's configuration, first. Every int result is a status: 0 is success,
 // else fastsplat_last_error() has the reason.

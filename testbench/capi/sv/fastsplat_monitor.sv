@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The passive checker beside a device: samples its ports at every rising edge and reports them to the checker. Bind it
 // to the device, or put it beside it in a bench; it drives nothing. A reset of the device begins a new stream.
 module fastsplat_monitor (

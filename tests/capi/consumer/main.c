@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // consumer CONFIG FILE.fss: feeds a recorded stream to the model and prints "NAME VALUE" of every counter, then
 // "pixels SUM" of all words; what goes wrong to stderr, with its status as the exit code.
 #include <fastsplat.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A pixel of a sheet of densities by docs/numerics.md, section 6.2: every number as an exact fraction, tables as they
 // were loaded.
 #pragma once

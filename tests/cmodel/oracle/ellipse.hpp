@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ellipse records by docs/numerics.md, section 4.6, and rule 18 of docs/stream.md: wide integers, the quadratic form as
 // it is written, every pixel by itself.
 #pragma once

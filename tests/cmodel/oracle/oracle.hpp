@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The device once more, from docs/numerics.md and docs/stream.md alone: plain loops over whole tiles, exact wide
 // integers, nothing shared with the model. What it says and what the model says must be the same words.
 #pragma once

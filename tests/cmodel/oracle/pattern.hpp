@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A solid pattern at a pixel of a sheet by docs/numerics.md, section 6.3: every number as an exact fraction, tables as
 // they were loaded.
 #pragma once

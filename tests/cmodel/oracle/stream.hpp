@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads a stream from its bytes by docs/stream.md alone, and refuses what the page refuses.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The configuration by the symbols of docs/numerics.md, section 2, its hash, and the CRC of a stream.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A sheet's splats in sets once more, from docs/numerics.md, section 8, "Sets", alone: which cells of the screen become
 // which sets.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/driver/oracle/ellipse.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ellipse records of a shaped splat, from docs/numerics.md, section 8, "Ellipses", alone.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From real splats to the records of a frame once more, from docs/numerics.md, section 8, and docs/stream.md alone:
 // loops over all tiles, sheets and splats, exact wide integers, nothing shared with the driver. What it says and what
 // the driver says must be the same words.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What docs/numerics.md, section 8, takes as given for a frame, by the names of the page; nothing of it is rounded yet.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tables that the driver makes, from docs/numerics.md, sections 4, 6 and 8, alone.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A second way to the pictures of docs/errors.md, section 1, written from that page: every splat, sheet and pixel.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the oracle of the mixtures rounds with: docs/numerics.md, section 1, for numbers that need not be words.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The first seven steps once more, for the oracle of the mixtures: from a voxel's splat to what each sheet gets of it.
 #pragma once
 

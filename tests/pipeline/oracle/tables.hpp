@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tables and radius sets of a frame once more, for the oracle of the mixtures: docs/numerics.md, sections 4, 6, 8.
 #pragma once
 

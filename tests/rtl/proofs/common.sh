@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # common.sh: what the proof scripts share; sourced by them with `source` (the repository) and `work` (a folder) set, `emit` of those that need the
 # package of tiny, and `short` of those that take it. A proof is a module with its specification inside, SMT of it by Yosys, and z3 (yosys-smtbmc).
 [ -z "${short-}" ] || [ "$short" = short ] || { echo "$0: not '$short' but short" >&2; exit 2; }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bounds of a pixel's state (docs/numerics.md, N-6-6, N-6-7), put inside composite_lane by prove_bounds.sh: for every state that can
 // be, every slab (One.tf, as proved of slab_opacity) and every mode.
 logic f_started = 1'b0;

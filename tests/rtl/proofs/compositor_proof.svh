@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The compositor's pipe and its picture (docs/microarchitecture.md, "Pipe" and "Pixel out"), written again from the page and put
 // inside compositor by prove_control.sh: what is picked in k0 is written in k6; a word of the picture has one writer, is read as
 // it was written last, and is blank behind the wipe and behind pixel out. One word is looked at: any. The walk and the arithmetic

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How check, decode, splat path, compositor and pixel out share the sheet buffers (docs/microarchitecture.md), put inside fastsplat_core
 // by prove_core.sh: a memory has one owner at a time, which sheet_bank_proof.svh assumes; what dirty_map_proof.svh,
 // compositor_proof.svh and stream_decode_proof.svh assume of each other; and no deadlock. The source sends what it will and soft resets

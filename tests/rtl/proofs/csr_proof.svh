@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The whole read and write specification of the registers (docs/microarchitecture.md, "Registers"), written again from the page
 // and put inside csr by prove_units.sh. Proved by induction for two counters: more are copies.
 logic f_started = 1'b0;

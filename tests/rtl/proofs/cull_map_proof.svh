@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cull map and its tables (docs/microarchitecture.md, "Map"; docs/numerics.md, N-6.1-4, N-6.1-5), written again and put inside cull_map
 // by prove_cull.sh: 2 x 2 blocks. What a rectangle's words say is how many of its blocks were opaque when the last sheet but one had
 // been composited, and so is what windows are looked up in; with cull_windows' proof no window is left out of which a pixel in the tile

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which windows of a row can be seen (docs/numerics.md, N-6.1-10), written again pixel by pixel and put inside
 // cull_windows by prove_cull.sh: one can be unless each of its pixels in the tile lies in an opaque block. Any map, tile, place.
 (* anyconst *) logic [fastsplat_pkg::BLOCKS-1:0] f_map;

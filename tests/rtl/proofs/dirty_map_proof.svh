@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The dirty walk (docs/microarchitecture.md, "Dirty walk"), written again from the page and put inside dirty_map by
 // prove_control.sh: each block that a sheet marked is picked once, in rising order, slice by slice, one a cycle, in its cycle,
 // and is clean afterwards; nothing else is picked. One block of one buffer is looked at: any.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the fetch master does on the memory's port (docs/microarchitecture.md, "Fetch"), put inside fastsplat_fetch by prove_fetch.sh; the assertions of
 // the module are proved with it. Its queues are proved by themselves: here they say anything, but are not overfilled.
 logic f_started = 1'b0;

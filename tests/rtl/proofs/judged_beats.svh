@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What check promises of the beats that it passes to decode, whatever its source sends: asserted in stream_check_proof.svh, assumed in
 // stream_decode_proof.svh (F_PROMISE). Who includes it says what passes between the two: f_passed_valid and so on.
 // The grammar as decode sees it: 0 in the frame, 1 in a tile, 2 in a sheet.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What pixel out sends (docs/microarchitecture.md, "Pixel out"), put inside pixel_out by prove_units.sh: every pixel of a tile of
 // any size once, in order, with the right keep, last and words, marked if the tile was cut short, in the cycles that the page says,
 // whatever the sink does; and each row of the picture is asked for once.

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # prove_bounds.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR: what slab opacity and compositing make of any word stays within its bounds
 # (NAME_proof.svh), in every mode and for ever, by induction, with Yosys and z3; planted faults are noticed. Leaves
 # WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS | FAULTS REFUTED, one a line.

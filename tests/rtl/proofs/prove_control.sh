@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # prove_control.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR [short]: the device's control for ever, by induction, with Yosys and z3, each part
 # against its specification written again (NAME_proof.svh): check, decode, the dirty walk, the compositor's pipe. What each assumes of the others is
 # proved in prove_core.sh. What is asked about happens; planted faults are noticed.

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # prove_core.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR [short]: how the device's parts share the sheet buffers, what each part's proof (prove_control.sh)
 # assumes of the others, and that something always moves, for ever, by induction, with Yosys and z3. What is asked about happens; planted faults are
 # noticed.

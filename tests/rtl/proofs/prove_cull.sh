@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # prove_cull.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR: what the cull unit calls hidden is, on 2 x 2 blocks of 2 x 2 pixels, with Yosys and z3:
 # windows for any map, the tables of the first sheets of a tile (NAME_proof.svh). What is asked about happens; planted faults are noticed.
 # Leaves WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS | FAULTS REFUTED, one a line.

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # prove_fetch.sh SOURCE_DIR WORK_DIR: the fetch master's queue and what it does on the memory's port, for ever, by induction, with Yosys and z3; that
 # what is asked about happens; planted faults are noticed. Leaves WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS | FAULTS REFUTED, one a line.
 set -eu

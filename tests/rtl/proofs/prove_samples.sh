@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # prove_samples.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR [short]: a device that composites every sample gives each pixel what samples one after another would
 # give it, with Yosys and z3, on 2 x 2 lanes and blocks and words of a few bits (NAME_proof.svh). What is asked about happens; planted faults are noticed.
 # short: with two of the loop's eight faults and one of decode's four, without the covers of decode: the others take minutes. Leaves WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS | FAULTS REFUTED, one a line.

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # prove_units.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR: each unit against its specification written again (NAME_proof.svh, put inside
 # a copy of the module before its end), for ever, by induction, with Yosys and z3; that what is asked about happens; and that each
 # proof notices planted faults. Leaves WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS | FAULTS REFUTED, one a line.

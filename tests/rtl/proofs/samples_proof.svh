@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The loop of every sample (docs/microarchitecture.md, "Every sample" and "Hazard"), written again from the page and put inside
 // compositor by prove_samples.sh: in tiles of every sample each pixel has the value that it has if samples are composited one after
 // another. A sample gives its pixel a new state, which may be any; what it is made of is the state that the sample before it made, however

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bounds of a slab's words (docs/numerics.md, N-6-2, N-6-3), put inside slab_opacity by prove_bounds.sh: for every table that the
 // stream may load, every sum and every mode.
 logic f_started = 1'b0;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What check makes of any beats whatsoever (docs/microarchitecture.md, "Check"; docs/stream.md, "Rules by number"), written again from
 // the pages and put inside stream_check by prove_control.sh. What comes is garbage, held or not; decode, the rest behind it, enable and
 // soft resets do what they will. Up to the first refusal beats pass in order, each once and as it came; then nothing does, but what is

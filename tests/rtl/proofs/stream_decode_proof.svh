@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What decode makes of a stream (docs/microarchitecture.md, "Stream side"; docs/stream.md), written again from the pages and put
 // inside stream_decode by prove_control.sh: no beat lost, doubled or out of order, each record's time in the register, every
 // window of a splat once, every word of a table where it belongs.

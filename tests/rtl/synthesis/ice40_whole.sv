@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The whole device on an iCE40 package of 206 pins: beats come in by a shift register and pixels leave by another; registers are at
 // pins of their own, a 12-bit address and 32-bit words each way. Taps are left open. Not part of the device.
 module ice40_whole (

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The device on an iCE40 package of 206 pins: beats come in by a shift register, pixels leave by another. Registers and taps are
 // left open, so that synthesis takes them out; what is measured is what renders. Not part of the device.
 module ice40_wrap (

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # ratchet.sh FAMILY CONFIG EMIT_PACKAGE SOURCE_DIR WORK_DIR EVIDENCE: synthesises and compares with the figures kept in
 # docs/evidence/synthesis.json; more than 2 % away, smaller or greater, is red.
 set -eu

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # synth.sh FAMILY CONFIG EMIT_PACKAGE SOURCE_DIR WORK_DIR: what Yosys, and for iCE40 nextpnr, make of the device. Leaves in WORK_DIR what
 # fastsplat_evidence reads:
 #   FAMILY-CONFIG.stat    cells by module (`stat`), hierarchy kept

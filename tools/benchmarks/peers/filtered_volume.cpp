@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/benchmarks/peers/filtered_volume.hpp"
 
 #include <algorithm>

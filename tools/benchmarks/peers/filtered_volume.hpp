@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The density field that splats reconstruct, as a finer volume, so that another renderer draws the same field.
 #pragma once
 

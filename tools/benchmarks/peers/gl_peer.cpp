@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // X-rays by textured quads in software OpenGL beside ours, in one process: CPU time of all its threads. GL's frame is
 // drawing alone; ours is timed both as a whole and from the compiled frame on, which is what GL does.
 #include <benchmark/benchmark.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/benchmarks/peers/gl_splatter.hpp"
 
 #include <EGL/egl.h>

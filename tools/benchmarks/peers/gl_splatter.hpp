@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splatting as on graphics hardware: a textured, blended quad for every voxel (Crawfis, Max 1993), in Mesa's software
 // OpenGL, without a window.
 #pragma once

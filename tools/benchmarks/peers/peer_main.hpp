@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Common main() of the peers: registers and runs the lines; exits with 1 if pictures or words differ.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checks that two renderers drew the same picture: a peer that draws nothing would win every race.
 #pragma once
 

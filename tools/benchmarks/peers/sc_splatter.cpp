@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/benchmarks/peers/sc_splatter.hpp"
 
 #define SC_INCLUDE_FX

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The device's inner loop as it is commonly modelled: SystemC's sc_ufixed types, weight by weight.
 #pragma once
 

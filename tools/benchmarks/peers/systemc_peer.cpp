@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The same inner loop in SystemC's sc_ufixed types, in the plain unit and in the fast one: splats of 7 pixels, CPU
 // time. First compares every sum with the plain unit's, window by window, on a stream that also saturates.
 #include <benchmark/benchmark.h>

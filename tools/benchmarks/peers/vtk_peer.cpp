@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames of VTK's fixed-point ray caster beside ours, in one process and in random order: CPU time of one thread. First
 // compares pictures: post-classified, unshaded ones, which must be alike, and the timed ones.
 #include <benchmark/benchmark.h>

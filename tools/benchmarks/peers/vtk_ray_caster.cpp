@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tools/benchmarks/peers/vtk_ray_caster.hpp"
 
 #include <vtkCamera.h>

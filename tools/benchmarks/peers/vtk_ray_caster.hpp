@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // VTK's fixed-point ray caster on one of our scenes: the same volume, camera, transfer function and light.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Prints docs/peers.md, made from the peers' JSON files that its arguments name (tools/peers): whether pictures are the
 // same, then ratios of CPU time.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Prints docs/performance.md, made from the benchmarks' JSON files that its arguments name (tools/performance): medians
 // of CPU time, their spread, and figures with goals.
 #include <fmt/format.h>

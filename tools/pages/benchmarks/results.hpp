@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads Google Benchmark's JSON: lines by name, a value per repetition, and figures computed from them.
 #pragma once
 

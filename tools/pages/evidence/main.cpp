@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat_evidence: collects the results of tools other than the simulator (tools/synth, tools/evidence).
 //
 //   synthesis KEPT WORK_DIR FAMILY-CONFIG...

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes docs/evidence.md from the JSON of docs/evidence/: no figure on the page is typed by hand.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads the results of Yosys and nextpnr for a design (tests/rtl/synthesis/synth.sh): cells by module, levels, a
 // placement.
 #pragma once

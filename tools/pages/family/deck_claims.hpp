@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Claims of the first lecture deck about FastSplats, each with the figures that support or refute it.
 #pragma once
 

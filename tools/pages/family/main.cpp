@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // fastsplat_family_page FOLDER: prints docs/family.md and writes its pictures to FOLDER (tools/family).
 #include <filesystem>
 #include <iostream>

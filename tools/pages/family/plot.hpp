@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Curves on two logarithmic axes as SVG, for pages of docs/. Equal points give equal text on every machine.
 #pragma once
 

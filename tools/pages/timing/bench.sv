@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bench behind `tools/timing`: the fetch master sends a device its beats, pixels wait, registers are read and written, and all
 // signals are dumped. Beats and commands are hexadecimal numbers, one a line, in files of the folder in which it runs.
 module bench;

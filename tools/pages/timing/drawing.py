@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A timing diagram as SVG."""
 CYCLE, ROW, CUT, TOP, BYTES, WIDTH = 22, 22, 16, 28, 15000, 900
 FILLS = ["#cfe3fa", "#fde7b0", "#cdeed6", "#f6cfd4", "#e2d6f5", "#d5eef0", "#e4e4e0", "#f3dcc4"]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """timing.py ROOT EMIT_PACKAGE FOLDER [--check]: what `tools/timing` does. Draws docs/images/timing/*.svg; --check compares with them."""
 import os
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Streams for bench.sv, its simulation, and the signals of that simulation by cycle."""
 import bisect
 import glob

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `errors bound`: the proved bound of every value's error, at three levels of knowledge.
 import { stacks } from "../bars";
 import { figures_of, number_text } from "../figures";

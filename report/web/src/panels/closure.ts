@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coverage closure: whether every testpoint of the verification plan is decided, every planned bin hit and every line
 // of the RTL reached. Testpoints link to their bins and tests.
 import { stacks } from "../bars";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `compare`: the difference of two pictures, beside the error of rounding once (the floor).
 import { columns } from "../bars";
 import { h, type Child } from "../dom";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coverage: the bins hit by the campaigns, group by group. For coverage files and those of a plan.
 import { h } from "../dom";
 import { number_text, path_text } from "../figures";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `cycles`: how many cycles the device takes and how they are spent.
 import { columns, stacks, waterfall } from "../bars";
 import { line_legend, plot, type Line } from "../charts";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `errors`: which steps cause the device picture's error.
 import { waterfall } from "../bars";
 import { h } from "../dom";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `family`: errors and cost of every index kind.
 import { line_legend, plot, type Line, type Plot } from "../charts";
 import { h } from "../dom";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shows results that no other panel draws as JSON.
 import { h } from "../dom";
 import { verb_of, type Panel } from "../page";

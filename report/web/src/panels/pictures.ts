@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The pictures in the viewer, with the places that a compare's result points out.
 import { decoded } from "../codec";
 import { h } from "../dom";

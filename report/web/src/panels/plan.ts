@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A merged plan: any two metrics against each other, the Pareto front, all rows; plot and table are linked.
 import { line_legend, plot, type Line, type Plot, type Span } from "../charts";
 import { command_button, h } from "../dom";

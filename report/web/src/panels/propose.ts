@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `errors propose`: the cheapest configuration that meets the target.
 import { stacks } from "../bars";
 import { h } from "../dom";

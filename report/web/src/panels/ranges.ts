@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `errors ranges`: the values at the device's narrowing sites, bit by bit.
 import { h, s } from "../dom";
 import { figures_of, number_text } from "../figures";

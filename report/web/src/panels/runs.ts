@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `render`, `stream record` and `stream replay`: engine, size, counters, saturation.
 import { command_button, h } from "../dom";
 import { number_text, path_text } from "../figures";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The timeline of `cycles --timeline`: when each sheet and tile passed through the device.
 import { columns } from "../bars";
 import { h, s } from "../dom";

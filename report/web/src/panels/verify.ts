@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `verify`: comparison of the RTL with the model, and its history over results and seeds.
 import { columns, stacks } from "../bars";
 import { command_button, h } from "../dom";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures computed in the page from words: signed error in LSB, saturation.
 import { painted, type Channel, type Plane } from "./plane";
 

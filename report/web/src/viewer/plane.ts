@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A picture in memory: words, values, and its rendering.
 import type { Words } from "../codec";
 import type { Picture } from "../page";

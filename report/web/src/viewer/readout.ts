@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Words and LSBs of one pixel, one row per picture; its size stays the same while the pointer moves.
 import { h } from "../dom";
 import { number_text } from "../figures";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The viewer's state, and links that restore it.
 
 export type Mode = "side" | "slider" | "flicker";

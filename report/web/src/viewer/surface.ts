@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws part of the frame on a canvas; all surfaces share zoom and pan.
 import { colour } from "../theme";
 import type { View } from "./views";

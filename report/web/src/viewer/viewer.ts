@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The viewer: pictures of one scene side by side, split by a slider, or alternating; zoom and pan are shared.
 import { copy, h, say, type Child } from "../dom";
 import { colour, on_theme } from "../theme";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The views of one scene: its pictures, and differences that the page computes from the words of two pictures.
 import { comparable, difference, drawn_difference, drawn_saturation, round_range, type Difference } from "./derived";
 import { type Channel, type Plane } from "./plane";

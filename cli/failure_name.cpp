@@ -60,6 +60,8 @@ FailureName::FailureName(const std::string& stem, const std::vector<std::string>
   }
 }
 
-std::vector<std::string> failure_files(const std::string& prefix) { return {prefix + ".fss", prefix + ".fst"}; }
+std::vector<std::string> failure_files(const std::string& prefix) {
+  return {prefix + ".fss", prefix + ".fst", prefix + ".gtkw"};
+}
 
 }  // namespace fastsplat::cli

@@ -24,7 +24,7 @@ class FailureName {
   std::optional<UnfinishedPath> claim_;  ///< an empty file, created exclusively
 };
 
-/// Names of the failure's files: PREFIX.fss (stream) and PREFIX.fst (waveform).
+/// Names of the failure's files: PREFIX.fss (stream), PREFIX.fst (waveform) and PREFIX.gtkw (its view).
 std::vector<std::string> failure_files(const std::string& prefix);
 
 }  // namespace fastsplat::cli

@@ -97,8 +97,9 @@ void declare(Options& options, VerifyArguments& to) {
   });
   options.group("Output");
   options.word("--coverage", to.coverage, "FILE", "write functional coverage as JSON, added to the content of FILE");
-  options.word("--failure", to.failure, "PREFIX",
-               "write a failure's small stream and waveform to PREFIX.fss and PREFIX.fst");
+  options.word(
+      "--failure", to.failure, "PREFIX",
+      "write a failure's small stream to PREFIX.fss, its waveform to PREFIX.fst, its GTKWave view to PREFIX.gtkw");
   options.integer("--all-mismatches", to.all_mismatches, 1, 100'000, "N",
                   "continue after a mismatch, and print the first N mismatches in one table");
   options.word("--save-stream", to.save_stream, "FILE",

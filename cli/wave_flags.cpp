@@ -19,7 +19,8 @@ constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
 }  // namespace
 
 void declare(Options& options, WaveFlags& to) {
-  options.word("--wave", to.file, "FILE", "rtl: write a waveform, .fst; this simulates the run once more");
+  options.word("--wave", to.file, "FILE",
+               "rtl: write a waveform, .fst, and its GTKWave view, .gtkw; this simulates the run once more");
   options.word("--cycles", to.cycles, "A..B", "cycles of the waveform after reset, both included (all)");
 }
 

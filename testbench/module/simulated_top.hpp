@@ -98,7 +98,8 @@ class SimulatedTop {
   virtual bool failed() const = 0;
   /// What the simulator has printed in this thread since the last call.
   virtual std::string take_output() = 0;
-  /// Begins a waveform (FST). False: the file cannot be written, or this simulator cannot.
+  /// Begins a waveform (FST). False: the file cannot be written, or this simulator cannot. When the simulator ends, the
+  /// names of all ports lie in PATH.ports (wave_ports.hpp).
   virtual bool trace(const char* path) = 0;
   /// Adds the present values to the waveform.
   virtual void dump(std::uint64_t time) = 0;

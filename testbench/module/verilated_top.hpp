@@ -5,6 +5,8 @@
 #include <verilated.h>
 #if VM_TRACE_FST
 #include <verilated_fst_c.h>
+
+#include "testbench/module/wave_ports.hpp"
 #endif
 #if VM_COVERAGE
 #include <verilated_cov.h>
@@ -39,7 +41,10 @@ class VerilatedTop final : public SimulatedTop {
   }
   ~VerilatedTop() override {
 #if VM_TRACE_FST
-    if (wave_) wave_->close();
+    if (wave_) {
+      wave_->close();
+      write_wave_ports(wave_name_, wave_name_ + ".ports");
+    }
 #endif
     // The simulator's objects unregister from the thread's context, which is that of the device that ran last.
     Verilated::threadContextp(&context_);
@@ -74,6 +79,7 @@ class VerilatedTop final : public SimulatedTop {
     wave_ = std::make_unique<VerilatedFstC>();
     top_->trace(wave_.get(), 99);
     wave_->open(path);
+    wave_name_ = path;
     return wave_->isOpen();
 #else
     return false;
@@ -103,6 +109,7 @@ class VerilatedTop final : public SimulatedTop {
   std::unique_ptr<Top> top_;
 #if VM_TRACE_FST
   std::unique_ptr<VerilatedFstC> wave_;
+  std::string wave_name_;
 #endif
   SelectFault<Top> select_;
   std::uint32_t fault_;

@@ -109,9 +109,11 @@ FailureReport investigate(const BeatSource& source, const VerifyOptions& options
     last.wave = waveform;
     last.wave_from = report.wave_from;
     last.wave_to = report.wave_to;
-    report.no_waveform = write_waveform(source_of(beats), last, [&](const VerifyResult& run) {
+    const auto same = [&](const VerifyResult& run) {
       return same_failure(smallest, run) && (!diverged || first_divergence(run, options.config) == report.divergence);
-    });
+    };
+    const WaveFocus focus{.cycle = cycle, .instance = report.place ? report.place->instance : ""};
+    report.no_waveform = write_waveform(source_of(beats), last, same, focus);
   }
   return report;
 }

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <vector>
 
 #include "base/atomic_file.hpp"
@@ -71,15 +72,33 @@ std::string cannot_write(const std::filesystem::path& path, const std::string& r
                    .fix = "choose a folder with more space, then run the command again"});
 }
 
+/// Whether a user has saved the view in GTKWave.
+bool saved_by_a_user(const std::filesystem::path& view) {
+  std::ifstream file(view);
+  std::string line;
+  return std::getline(file, line) && line != kWaveViewMark;
+}
+
+void write_view(const std::filesystem::path& waveform, const std::string& ports,
+                const std::optional<WaveFocus>& focus) {
+  const auto view = std::filesystem::path(waveform).replace_extension(".gtkw");
+  if (saved_by_a_user(view)) return;
+  std::ifstream names(ports);
+  write_text_file(view, wave_view(waveform.filename().string(), names, focus));
+}
+
 }  // namespace
 
-std::string write_waveform(const BeatSource& source, const VerifyOptions& options, const WantedRun& wanted_run) {
+std::string write_waveform(const BeatSource& source, const VerifyOptions& options, const WantedRun& wanted_run,
+                           const std::optional<WaveFocus>& focus) {
   try {
     AtomicFile file(options.wave);
     VerifyOptions run = options;
     run.wave = file.temporary();
     const std::vector<cmodel::Beat> beats = wanted_run ? std::vector<cmodel::Beat>{} : wanted_beats(source, options);
     const UnfinishedPath names(file.temporary().string() + ".hier");  // the writer keeps it until it is done
+    const std::string port_names = file.temporary().string() + ".ports";
+    const UnfinishedPath ports(port_names);
     const pid_t parent = ::getpid(), child = ::fork();
     if (child < 0) return cannot_write(options.wave, std::strerror(errno));
     if (child == 0) write_and_leave(source, beats, run, wanted_run, parent);
@@ -94,6 +113,7 @@ std::string write_waveform(const BeatSource& source, const VerifyOptions& option
     }
     if (status != 0) return cannot_write(options.wave, "the writing process ended early");
     file.commit();
+    write_view(options.wave, port_names, focus);
     return {};
   } catch (const UserError& error) {
     return error.what();

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "testbench/check/verify.hpp"
+#include "testbench/triage/wave_view.hpp"
 
 namespace fastsplat::testbench {
 
@@ -17,6 +19,9 @@ using WantedRun = std::function<bool(const VerifyResult&)>;
 /// reason if it is missing, else an empty text. A separate process writes it: the simulator's writer maps the file into
 /// memory, so that a full disk would end the process that holds the result. With `wanted_run` the run is compared, too:
 /// a different run, which began with other words in its registers, leaves no waveform.
-std::string write_waveform(const BeatSource& source, const VerifyOptions& options, const WantedRun& wanted_run = {});
+/// Beside the waveform lies its view for GTKWave (wave_view.hpp), named alike with .gtkw at the end. One that a user
+/// has saved stays as it is.
+std::string write_waveform(const BeatSource& source, const VerifyOptions& options, const WantedRun& wanted_run = {},
+                           const std::optional<WaveFocus>& focus = {});
 
 }  // namespace fastsplat::testbench

@@ -50,6 +50,11 @@ TEST_F(VerifyComforts, APlantedFaultIsToldInEveryFace) {
   EXPECT_EQ(json.at("verdict"), "mismatch");
   EXPECT_LE(json.at("failure").at("splats_after").get<int>(), 4);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "verify-failure.fst"));
+  // The ports of the instance to look at come first, and the marker stands at the divergence.
+  const auto view = read_bytes(folder_ / "verify-failure.gtkw");
+  const auto instance = json.at("failure").at("instance").get<std::string>();
+  EXPECT_LT(view.find("-look at " + instance + "\n@"), view.find("-beats in\n@")) << view;
+  EXPECT_TRUE(std::regex_search(view, std::regex("\n\\*-4\\.0 [0-9]+\n"))) << view;
   const auto junit = read_bytes(folder_ / "told.xml");
   EXPECT_NE(junit.find("<failure message=\"planted fault FORWARD_3 ("), std::string::npos) << junit;
   EXPECT_NE(junit.find(" seed 1 mixed\""), std::string::npos) << junit;
@@ -124,6 +129,10 @@ TEST_F(VerifyComforts, AWaveformHoldsTheCyclesThatWereAskedFor) {
     EXPECT_EQ(told().at("wave").at("from"), 100);
     EXPECT_EQ(told().at("wave").at("to"), 150);
     ASSERT_GT(std::filesystem::file_size(folder_ / "run.fst"), 500u);
+    const auto view = read_bytes(folder_ / "run.gtkw");
+    for (const char* line : {"[dumpfile] \"run.fst\"\n", "-beats in\n", "fastsplat_dut.s_tdata_i[255:0]\n",
+                             "-u_splat\n", "fastsplat_dut.u_top.u_core.u_splat.clk_i\n"})
+      EXPECT_NE(view.find(line), std::string::npos) << line << view;
     // Two times a cycle, at the rising edge of the clock and behind the falling one.
     const auto [first, last] = times_of(read_bytes(folder_ / "run.fst"));
     std::printf("[figure] %s: times of the waveform = %llu to %llu (expected 201 to 302)\n", what[0].c_str(),

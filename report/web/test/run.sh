@@ -7,14 +7,9 @@ set -euo pipefail
 what=$1 program=$2 folder=$3
 web="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd -P)"
 
-skip() {
-  printf '%s\n' "skipped: $1"
-  exit 77
-}
+source "$web/../../tools/helpers/npm.sh"
 
-command -v node >/dev/null || skip "no node (Debian: nodejs)"
-command -v npm >/dev/null || skip "no npm (Debian: npm)"
-node -e 'process.exit(Number(process.versions.node.split(".")[0]) >= 18 ? 0 : 1)' || skip "node $(node --version) is older than 18"
+need_node
 chromium=
 if [[ $what == browser ]]; then
   for name in chromium chromium-headless-shell google-chrome; do
@@ -28,17 +23,7 @@ folder=$folder/web
 mkdir -p -- "$folder"
 exec 9>"$folder/.lock"
 flock 9
-stamp=$(cksum <"$web/package-lock.json")
-if [[ ! -f $folder/.installed || $(<"$folder/.installed") != "$stamp" ]]; then
-  cp -- "$web/package.json" "$web/package-lock.json" "$web/.npmrc" "$folder"
-  if ! (cd -- "$folder" && npm ci --no-update-notifier >npm.log 2>&1); then
-    grep -qE 'ENOTFOUND|CERT_|_CERT|ECONNREFUSED|ECONNRESET|ETIMEDOUT|EAI_AGAIN|ENETUNREACH|ENOTCACHED' "$folder/npm.log" &&
-      skip "npm cannot reach its registry: see $folder/npm.log"
-    cat -- "$folder/npm.log" >&2
-    exit 1
-  fi
-  printf '%s' "$stamp" >"$folder/.installed"
-fi
+npm_into "$folder" "$web"
 # As the tree has it: report/template.html lies beside report/web.
 rm -rf -- "$folder/src" "$folder/LICENSES" "$folder/test"
 cp -r -- "$web/src" "$web/LICENSES" "$web/test" "$web/build.mjs" "$web/tsconfig.json" "$folder"

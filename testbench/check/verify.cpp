@@ -73,12 +73,7 @@ VerifyResult verify(const BeatSource& source, const VerifyOptions& options, cmod
   std::optional<CoverageCollector> coverage;
   if (options.coverage) {
     coverage.emplace(options.config, options.scope,
-                     CoverageRun{.ready = options.ready,
-                                 .input = options.input,
-                                 .fill = to_string(options.fill),
-                                 .source = &driven.input,
-                                 .sink = &driven.output,
-                                 .sliced = checked.device().sliced()});
+                     CoverageRun{.source = &driven.input, .sink = &driven.output, .sliced = checked.device().sliced()});
   }
   VerifyResult out;
   try {

@@ -136,8 +136,7 @@ class Runner {
 }  // namespace
 
 Coverage planned_bins(const cmodel::Config& config) {
-  Coverage bins;
-  for (const StimulusClass which : stimulus_classes()) bins.merge(class_bins(config, which));
+  Coverage bins = CoverageCollector::declare(config);
   bins.merge(directed_bins());
   return bins;
 }

@@ -3,13 +3,8 @@
 
 #include <algorithm>
 
-#include "testbench/device/pattern.hpp"
-#include "testbench/device/reset_fill.hpp"
-
 namespace fastsplat::testbench {
 namespace {
-
-constexpr ResetFill kFills[] = {ResetFill::Zero, ResetFill::One, ResetFill::Random};
 
 /// False for counters that cannot rise, because the configuration's largest operands do not overflow.
 bool reachable(const cmodel::Config& config, const std::string& counter) {
@@ -26,7 +21,7 @@ bool reachable(const cmodel::Config& config, const std::string& counter) {
 CoverageCollector::CoverageCollector(const cmodel::Config& config, cmodel::StreamScope scope, CoverageRun run)
     : config_(config),
       scope_(scope),
-      run_(std::move(run)),
+      run_(run),
       decode_(config, scope),
       stream_(config, coverage_),
       splats_(config, coverage_),
@@ -38,9 +33,6 @@ CoverageCollector::CoverageCollector(const cmodel::Config& config, cmodel::Strea
     if (reachable(config_, name)) coverage_.declare("counter", name);
   });
   if (config_.culls()) cull_.emplace(config_, coverage_);
-  for (const ResetFill fill : kFills) coverage_.declare("fill", to_string(fill));
-  for (const auto& pattern : Pattern::examples()) coverage_.declare("ready", pattern);
-  for (const auto& pattern : Pattern::examples()) coverage_.declare("input", pattern);
 }
 
 Coverage CoverageCollector::declare(const cmodel::Config& config) {
@@ -105,19 +97,13 @@ void CoverageCollector::finish() {
   cycles_->finish();
   times_.stalls(cycles_->stalls());
   if (cull_) cull_->finish(cycles_->account());
-  run_bins();
+  counter_bins();
 }
 
-void CoverageCollector::run_bins() {
+void CoverageCollector::counter_bins() {
   model_.counters().for_each([&](const char* name, std::uint64_t value, const char*) {
     if (value > 0) coverage_.hit(coverage_.declare("counter", name), value);
   });
-  const auto hit = [&](const char* group, const std::string& name) {
-    if (coverage_.declared(std::string(group) + "." + name)) coverage_.hit(coverage_.declare(group, name));
-  };
-  hit("fill", run_.fill);
-  hit("ready", run_.ready);
-  hit("input", run_.input);
 }
 
 }  // namespace fastsplat::testbench

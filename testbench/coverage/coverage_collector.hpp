@@ -21,8 +21,6 @@ namespace fastsplat::testbench {
 
 /// How the run's device was driven.
 struct CoverageRun {
-  std::string ready, input;  ///< patterns, as text
-  std::string fill;          ///< what memories held before reset
   const cmodel::Willing* source = nullptr;
   const cmodel::Willing* sink = nullptr;
   bool sliced = false;  ///< RtlDevice::sliced()
@@ -57,7 +55,7 @@ class CoverageCollector {
     }
   };
   void before(const cmodel::Record& record);
-  void run_bins();
+  void counter_bins();
 
   cmodel::Config config_;
   cmodel::StreamScope scope_;

@@ -51,11 +51,6 @@ StreamDocument as_file(const StreamDocument& document) {
                .fix = "use fewer splats with --random, or another --class"});
 }
 
-constexpr const char* kClassReady = "class_ready";
-std::string with_pattern(StimulusClass which, const std::string& ready) {
-  return std::string(to_string(which)) + "_" + ready;
-}
-
 }  // namespace
 
 std::size_t run_count(const CampaignOptions& options) {
@@ -86,16 +81,6 @@ CampaignRun make_run(const CampaignOptions& options, std::size_t index) {
   run.reset_late = run.options.reset_after > run.beats.size();
   if (run.reset_late) run.options.reset_after = run.beats.size();
   return run;
-}
-
-Coverage class_bins(const cmodel::Config& config, StimulusClass which) {
-  Coverage coverage = CoverageCollector::declare(config);
-  // BackPressure replaces `always` of the sink by a pattern of its own.
-  const bool pauses = which == StimulusClass::BackPressure;
-  for (const auto& pattern : Pattern::examples()) {
-    if (!pauses || pattern != "always") coverage.declare(kClassReady, with_pattern(which, pattern));
-  }
-  return coverage;
 }
 
 CampaignResult run_campaign(const CampaignOptions& options) {
@@ -140,15 +125,7 @@ CampaignResult run_campaign(const CampaignOptions& options) {
       if (out.kept.size() < options.verify.keep) out.kept.push_back({.run = i, .divergence = divergence});
     ++out.streams;
     out.resets_late += late[i] != 0 ? 1 : 0;
-    if (results[i]->coverage) {
-      const StimulusClass which = options.classes[i % options.classes.size()];
-      const auto [at, added] = out.coverage.try_emplace(which);
-      if (added) at->second = class_bins(options.verify.config, which);
-      at->second.merge(*results[i]->coverage);
-      const std::string pattern = with_pattern(which, streams[i].ready);
-      if (at->second.declared(std::string(kClassReady) + "." + pattern))
-        at->second.hit(at->second.declare(kClassReady, pattern));
-    }
+    if (results[i]->coverage) out.coverage[options.classes[i % options.classes.size()]].merge(*results[i]->coverage);
     if (results[i]->verdict == Verdict::Pass || out.failed) continue;
     out.failed = i;
     out.failure = results[i];

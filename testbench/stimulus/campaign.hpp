@@ -70,9 +70,6 @@ struct CampaignResult {
   std::optional<VerifyResult> failure;         ///< its result
 };
 
-/// The bins of a class: those of the configuration, and one for each ready pattern.
-Coverage class_bins(const cmodel::Config& config, StimulusClass which);
-
 /// Runs all, or without keep_going up to the first that fails: its result and the sums up to it are the same for any
 /// number of threads.
 CampaignResult run_campaign(const CampaignOptions& options);

@@ -73,8 +73,6 @@ TEST(Coverage, OfHazardsIsThatOfTheHand) {
   EXPECT_EQ(coverage.hits("record.splat"), 5u);
   EXPECT_EQ(coverage.hits("tile.additive"), 1u);
   EXPECT_EQ(coverage.hits("tile.sum"), 0u);
-  EXPECT_EQ(coverage.hits("fill.random"), 1u);
-  EXPECT_EQ(coverage.hits("ready.always"), 1u);
   EXPECT_EQ(coverage.hits("counter.splats"), 5u);
   EXPECT_EQ(coverage.hits("output.tile_never_held"), 1u);
   EXPECT_EQ(coverage.hits("output.first_beat_held"), 0u);
@@ -135,18 +133,19 @@ TEST(Campaign, EveryClassMeetsEveryPatternOverSixSeeds) {
     campaign.classes = classes;
     const auto result = run_campaign(campaign);
     ASSERT_EQ(result.total.verdict, Verdict::Pass);
-    EXPECT_EQ(result.coverage.size(), classes.size());
+    std::map<std::pair<StimulusClass, std::string>, int> crossings;
+    for (const auto& stream : result.by_stream) ++crossings[{stream.which, stream.ready}];
     std::size_t crossed = 0;
-    for (const auto& [which, coverage] : result.coverage) {
-      for (const auto& bin : coverage.bins()) {
-        if (!bin.name.starts_with("class_ready.")) continue;
-        EXPECT_EQ(bin.hits, 1u) << bin.name;
-        ++crossed;
-      }
+    for (const auto& [pair, streams] : crossings) {
+      // The sink of BackPressure never takes at once: it has a pattern of its own in place of `always`.
+      if (pair.first == StimulusClass::BackPressure) continue;
+      EXPECT_EQ(streams, 1) << to_string(pair.first) << " " << pair.second;
+      ++crossed;
     }
+    const bool pauses = std::ranges::find(classes, StimulusClass::BackPressure) != classes.end();
     std::printf("[figure] class x ready pattern = %zu of %zu classes x %zu patterns\n", crossed, classes.size(),
                 Pattern::examples().size());
-    EXPECT_GE(crossed + 1, classes.size() * Pattern::examples().size());
+    EXPECT_EQ(crossed, (classes.size() - (pauses ? 1 : 0)) * Pattern::examples().size());
   }
 }
 
@@ -173,8 +172,9 @@ class DirectedRefusals : public ::testing::TestWithParam<const char*> {};
 // frame anywhere (M-check-10), clears the error (M-check-11) and keeps counters and IRQ_MASK (M-check-12).
 // IRQ and its mask (M-register-5, M-register-7) and the interrupt (M-port-11); STATUS while a beat is in check
 // (M-register-14, M-top-4); frames behind each other, whose counters go on (M-register-18), and that need their own
-// tables (M-register-10). IRQ before and after the sink has taken the last pixels (M-top-5, M-port-12); beats that are dropped
-// before a begin_frame (M-top-6) and by CONTROL (M-top-7), at once (M-top-8); verdicts in the model's cycles (M-top-3).
+// tables (M-register-10). IRQ before and after the sink has taken the last pixels (M-top-5, M-port-12); beats that are
+// dropped before a begin_frame (M-top-6) and by CONTROL (M-top-7), at once (M-top-8); verdicts in the model's cycles
+// (M-top-3).
 TEST_P(DirectedRefusals, StreamsThatBreakARuleAreRefusedAsTheModelRefusesThem) {
   const auto config = driver::load_config(GetParam());
   const auto result = check_refusals(config, rtl_of(config));

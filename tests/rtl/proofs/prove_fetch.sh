@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# prove_fetch.sh SOURCE_DIR WORK_DIR: the fetch master's queue and what it does on the memory's port, for ever, by induction, with Yosys and z3; that
+# prove_fetch.sh SOURCE_DIR WORK_DIR: the top's register slice, the fetch master's queue and what it does on the memory's port, for ever, by induction, with Yosys and z3; that
 # what is asked about happens; planted faults are noticed. Leaves WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS | FAULTS REFUTED, one a line.
 set -eu
 source=$1 work=$2
@@ -28,6 +28,16 @@ queue_broken reads_too_much "s/left < 2'd2/left <= 2'd2/"
 queue_broken keeps_the_first "s/if (taken || held_q == 2'd0) first_q/if (held_q == 2'd0) first_q/"
 queue_broken shows_the_memory "s/(held_q != 2'd0) ? first_q : fetched/(held_q == 2'd1) ? first_q : fetched/"
 queue_broken late "s/assign read = put_q != read_q \&\&/assign read = put_q - read_q > (LOG2 + 1)'(1) \&\&/"
+
+smt slice slice "-set BITS 3"
+holds slice 2 "slice: what is taken comes out, in order, one cycle later, and is held until it is taken; a transfer a cycle; three bits"
+happens slice 6
+slice_broken() { smt "slice_$1" slice "-set BITS 3" "$2"; refuted "slice_$1" 8; }
+slice_broken withdrawn "s/assign moves = .*/assign moves = 1'b1;/"
+slice_broken loses_the_spare "s/valid_o <= spare_q || taken/valid_o <= taken/"
+slice_broken wrong_word "s/spare_q ? spare_data_q : data_i/spare_q ? data_i : spare_data_q/"
+slice_broken takes_a_third "s/ready_o <= moves || .*/ready_o <= 1'b1;/"
+slice_broken half_as_fast "s/ready_o <= moves || .*/ready_o <= moves \&\& !taken;/"
 
 small="-set ADDRESS_BITS 16 -set BURST 4 -set DEPTH_LOG2 3 -set OUTSTANDING 3 -set SETS_LOG2 2 -set JUDGED_LOG2 3"
 smt fetch fetch "$small"

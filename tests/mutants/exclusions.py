@@ -15,8 +15,8 @@ CLASSES = {
 
 
 class Exclusions:
-    """An entry: module, line (its text, spaces as one), mutants (names, or ["*"]), class, reason, and at (numbers of lines) where the same
-    text is there more than once. ValueError where an entry is not that."""
+    """An entry: module, line (its text, spaces as one), mutants (names, or ["*"]), class, reason, and at (which of them, from 1) where the
+    same text is there more than once. ValueError where an entry is not that."""
 
     def __init__(self, path: str):
         with open(path, "rb") as file:
@@ -35,15 +35,17 @@ class Exclusions:
         return None
 
     def _matches(self, entry, mutant) -> bool:
+        return self._on_line(entry, mutant) and (entry["mutants"] == ["*"] or campaign.name_of(mutant) in entry["mutants"])
+
+    def _on_line(self, entry, mutant) -> bool:
         return (entry["module"] == mutant["module"] and entry["line"] == mutant["source"]
-                and mutant["line"] in entry.get("at", [mutant["line"]])
-                and (entry["mutants"] == ["*"] or campaign.name_of(mutant) in entry["mutants"]))
+                and mutant["nth"] in entry.get("at", [mutant["nth"]]))
 
     def unused(self, mutants) -> list:
         """Entries, or names in them, that no mutant has."""
         out = []
         for entry in self.entries:
-            names = {campaign.name_of(m) for m in mutants if entry["module"] == m["module"] and entry["line"] == m["source"]}
+            names = {campaign.name_of(m) for m in mutants if self._on_line(entry, m)}
             if not names or (entry["mutants"] != ["*"] and not set(entry["mutants"]) <= names):
                 out.append(entry)
         return out

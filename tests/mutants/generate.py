@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""generate.py RTL_DIR OUT_DIR [--only FILE] [--modules A,B] [--plant-nothing]: rtl/ with all its mutants in it, chosen at run time.
+"""generate.py RTL_DIR OUT_DIR [--only FILE] [--modules A,B] [--beside] [--plant-nothing]: rtl/ with all its mutants in it, chosen at run time.
 
 OUT_DIR gets the files of RTL_DIR, without its folders, fastsplat_mutant_pkg.sv, whose `selected` chooses (0: none), and mutants.json: what each number
 is. A mutant's number does not depend on the flags, nor on the modules beside its own: programs of devices without a module that
 changes stay the same, and the campaign's journal of them holds. --only: those whose numbers FILE has, one a line; --modules: theirs;
+--beside: of the modules beside the device;
 --plant-nothing adds one, the last, that changes nothing: it has to survive, and whoever counts has to notice."""
 import glob
 import json
@@ -23,18 +24,20 @@ endpackage
 """
 
 
-BESIDE = {"fastsplat_fetch.sv", "fastsplat_queue.sv"}
+# Modules beside the device, mutated only if asked for: their mutants run over tests of their own.
+BESIDE = ("fetch", "queue")
 
 
 def paths_of(rtl: str) -> dict[str, str]:
-    """The files of the device by name, and their paths; fetch and its queue lie beside it."""
-    names = {os.path.basename(path): path for path in glob.glob(f"{rtl}/**/*.sv*", recursive=True)}
-    return {name: path for name, path in names.items() if name not in BESIDE}
+    """The files by name, and their paths."""
+    return {os.path.basename(path): path for path in glob.glob(f"{rtl}/**/*.sv*", recursive=True)}
 
 
-def files_of(rtl: str) -> list[str]:
-    """Modules by name, then the narrowing."""
-    return sorted(name for name in paths_of(rtl) if name.endswith(".sv")) + ["narrow.svh"]
+def files_of(rtl: str, beside=False) -> list[str]:
+    """The device's modules by name, then the narrowing; or those beside the device."""
+    if beside:
+        return [file_of(module) for module in BESIDE]
+    return sorted(name for name in paths_of(rtl) if name.endswith(".sv") and module_of(name) not in BESIDE) + ["narrow.svh"]
 
 
 def module_of(name: str) -> str:
@@ -52,10 +55,10 @@ def first_of(name: str) -> int:
     return 10000 * (zlib.crc32(name.encode()) % 200000) + 1
 
 
-def mutate(rtl: str, wanted=lambda module, number: True, planted=False):
+def mutate(rtl: str, wanted=lambda module, number: True, planted=False, beside=False):
     """[(file, text, mutants)] of all files that have any, and the number after the last."""
     out, number = [], 0
-    names = files_of(rtl)
+    names = files_of(rtl, beside)
     if len({first_of(name) for name in names}) < len(names):
         raise RuntimeError("the mutants of two files would have the same numbers; give one of the files another name")
     for name in names:
@@ -91,7 +94,7 @@ def main(words: list[str]) -> int:
         with open(path) as file:
             texts[name] = file.read()
     mutated, number = mutate(rtl, lambda module, n: (only is None or n in only) and
-                             (modules is None or module in modules.split(",")))
+                             (modules is None or module in modules.split(",")), beside="--beside" in flags)
     for name, text, mutants in mutated:
         texts[name] = text
         listed += mutants

@@ -26,6 +26,7 @@ from exclusions import Exclusions
 
 SAMPLE = 300
 CPP = ("cmodel", "driver")
+OVER_TESTS = (*CPP, "fetch")  # run over tests: sources of C++, and the fetch master with its queue
 
 
 def say(text: str):
@@ -57,7 +58,7 @@ def chosen(arguments, mutants):
             campaign.usage(f"--one {arguments.one}: not one of {len(mutants)} mutants; see the list of living mutants and build/mutants/corners/mutants.json")
         return found
     if arguments.module:
-        known = sorted({m["module"] for m in mutants}) + ["cmodel and driver (without others)"]
+        known = sorted({m["module"] for m in mutants}) + ["cmodel and driver, or fetch (without others)"]
         for module in arguments.module:
             if module not in known:
                 campaign.usage(f"--module {module}: unknown module; expected one of {', '.join(known)}")
@@ -106,8 +107,8 @@ def run_all(arguments, root, build, until):
     return mutants, killed, living, untried
 
 
-def run_cpp(arguments, root, build, until):
-    """The same of C++, whose mutants are a sample that is built."""
+def run_over_tests(arguments, root, build, until):
+    """The same of C++, whose mutants are a sample that is built, and of the fetch master."""
     mutants, killed, living, untried = [], {}, [], []
     for n, module in enumerate(arguments.module):
         binary = program(root, build, f"mutants_{module}", "")
@@ -119,7 +120,7 @@ def run_cpp(arguments, root, build, until):
         say(f"{module}: {len(results)} tried")
         for mutant in listed:
             number = mutant["number"]
-            mutant["number"] += n * 1000000  # numbers of two folders are not each other's
+            mutant["number"] += n * 1000000  # numbers of two folders of C++ are not each other's
             if number not in results:
                 untried.append(mutant["number"])
             elif results[number][0] == "killed":
@@ -238,9 +239,10 @@ def main(words) -> int:
     root, build, *rest = words
     arguments = parse(rest)
     cpp = bool(arguments.module) and set(arguments.module) <= set(CPP)
+    over_tests = cpp or arguments.module == ["fetch"]
     exclusions = Exclusions(f"{root}/tests/mutants/{'exclusions_cpp' if cpp else 'exclusions'}.toml")
     until = time.monotonic() + 60 * arguments.budget if arguments.budget else None
-    mutants, killed, living, untried = (run_cpp if cpp else run_all)(arguments, root, build, until)
+    mutants, killed, living, untried = (run_over_tests if over_tests else run_all)(arguments, root, build, until)
     proved = hand_to_proofs(root, build, mutants, living, exclusions, arguments.jobs)
     killed.update(proved)
     living = [number for number in living if number not in proved]

@@ -9,13 +9,14 @@ import generate
 
 # By module: the script, and the unit in it that is proved.
 _CONTROL, _CORE, _UNITS, _BOUNDS = (f"proofs/prove_{part}.sh" for part in ("control", "core", "units", "bounds"))
-_SAMPLES, _CULL = "proofs/prove_samples.sh", "proofs/prove_cull.sh"
+_SAMPLES, _CULL, _FETCH = (f"proofs/prove_{part}.sh" for part in ("samples", "cull", "fetch"))
 _SCRIPTS = {"sheet_bank": ("prove.sh", "sheet_bank"), "csr": (_UNITS, "csr"), "pixel_out": (_UNITS, "pixel_out"), "narrow": (_UNITS, "narrow"),
             "stream_check": (_CONTROL, "stream_check"), "record_rules": (_CONTROL, "stream_check"), "word_rules": (_CONTROL, "stream_check"),
             "stream_decode": (_CONTROL, "stream_decode"), "dirty_map": (_CONTROL, "dirty_map"), "compositor": (_CONTROL, "compositor"),
             "fastsplat_core": (_CORE, "core"), "slab_opacity": (_BOUNDS, "slab_opacity"), "composite_lane": (_BOUNDS, "composite_lane"),
             "overlap": (_SAMPLES, "decode_samples"), "sample_places": (_SAMPLES, "samples"),
-            "cull_windows": (_CULL, "cull_windows"), "cull_map": (_CULL, "cull_map"), "cull_table": (_CULL, "cull_map")}
+            "cull_windows": (_CULL, "cull_windows"), "cull_map": (_CULL, "cull_map"), "cull_table": (_CULL, "cull_map"),
+            "slice": (_FETCH, "slice"), "queue": (_FETCH, "queue"), "fetch": (_FETCH, "fetch")}
 _MORE = {"prove.sh": ["share/fastsplat/fastsplat_fault_pkg.sv"], _CONTROL: ["short"], _CORE: ["short"], _SAMPLES: ["short"]}
 
 
@@ -33,7 +34,7 @@ def plant(rtl: str, out: str, mutant):
     """OUT becomes RTL with the mutant in it for good."""
     shutil.copytree(rtl, out, dirs_exist_ok=True)
     name = generate.file_of(mutant["module"])
-    mutated, _ = generate.mutate(rtl, lambda module, number: number == mutant["number"], planted=True)
+    mutated, _ = generate.mutate(rtl, lambda module, number: number == mutant["number"], planted=True, beside=mutant["module"] in generate.BESIDE)
     text = next(text for file, text, _ in mutated if file == name)
     with open(generate.paths_of(out)[name], "w") as file:
         file.write(text)
@@ -49,6 +50,8 @@ def refutes(root: str, build: str, mutant):
     plant(f"{root}/rtl", f"{tree}/source/rtl", mutant)
     script, unit = _SCRIPTS[mutant["module"]]
     words = [f"{root}/tests/rtl/{script}", f"{build}/bin/fastsplat_emit_package", f"{tree}/source", f"{tree}/work"]
+    if script == _FETCH:
+        del words[1]  # it has no configuration
     words += [f"{build}/{word}" if "/" in word else word for word in _MORE.get(script, [])]
     ran = subprocess.run(words, capture_output=True, text=True, env={**os.environ, "FASTSPLAT_PROVE_ONLY": unit})
     said = re.search(r"^(\w+: not (?:proved|its definition).*)$", ran.stdout, re.M)

@@ -17,8 +17,9 @@ _AXES = [("x", "y"), ("y", "x"), ("mx", "my"), ("my", "mx"), ("width", "height")
 
 
 class Mutant:
-    def __init__(self, number, module, line, source, what, original, text):
-        self.number, self.module, self.line, self.source = number, module, line, source
+    def __init__(self, number, module, line, source, what, original, text, nth=1):
+        """`nth`: which of the file's lines with this text it is on."""
+        self.number, self.module, self.line, self.source, self.nth = number, module, line, source, nth
         self.what, self.original, self.text = what, original, text
 
 
@@ -60,8 +61,8 @@ class Mutator:
         what += f" ({same})" if same > 1 else ""
         if not self.wanted(self.module, self.number - 1):
             return None
-        line = " ".join(self.lines[node_line - 1].strip(" \\").split())
-        self.mutants.append(Mutant(self.number - 1, self.module, node_line, line, what, original, text))
+        texts = [" ".join(line.strip(" \\").split()) for line in self.lines[:node_line]]
+        self.mutants.append(Mutant(self.number - 1, self.module, node_line, texts[-1], what, original, text, texts.count(texts[-1])))
         return self.number - 1
 
     def _choice(self, node: Node, found: list, original: str) -> str:

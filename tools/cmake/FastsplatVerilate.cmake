@@ -41,7 +41,6 @@ function(fastsplat_verilate target config)
     list(APPEND warnings -Wno-UNUSEDPARAM)  # a unit uses only parts of the package
   endif()
   if(arg_RTL)
-    list(FILTER RTL_SOURCES EXCLUDE REGEX "/fastsplat_(fetch|queue).sv")  # beside the device
     list(TRANSFORM RTL_SOURCES REPLACE "^.*/" "${arg_RTL}/")
     set(RTL_INCLUDES ${arg_RTL}/mutants.json)
     set(rtl_folder ${arg_RTL})

@@ -12,7 +12,7 @@
 #include "base/error.hpp"
 #include "base/suggest.hpp"
 #include "base/version.hpp"
-#include "cli/again.hpp"
+#include "cli/command_text.hpp"
 #include "cli/help/exit_codes.hpp"
 #include "cli/output.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/verb.hpp"
+#include "cli/subcommand.hpp"
 
 namespace fastsplat::cli {
 

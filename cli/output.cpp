@@ -14,7 +14,7 @@
 #include "base/json_text.hpp"
 #include "base/machine_error.hpp"
 #include "base/printable.hpp"
-#include "cli/again.hpp"
+#include "cli/command_text.hpp"
 
 namespace fastsplat::cli {
 namespace {

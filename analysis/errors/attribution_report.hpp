@@ -9,7 +9,7 @@
 
 #include "analysis/errors/attribution.hpp"
 #include "analysis/errors/cost.hpp"
-#include "analysis/errors/remedy.hpp"
+#include "analysis/errors/suggestion.hpp"
 #include "base/image.hpp"
 
 namespace fastsplat::analysis {

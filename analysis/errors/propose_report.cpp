@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/errors/propose.hpp"
-#include "analysis/errors/remedy.hpp"
+#include "analysis/errors/suggestion.hpp"
 #include "base/hash_text.hpp"
 
 namespace fastsplat::analysis {

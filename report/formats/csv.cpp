@@ -3,8 +3,8 @@
 
 #include "base/json_text.hpp"
 #include "base/printable.hpp"
-#include "report/formats/face.hpp"
-#include "report/formats/faces.hpp"
+#include "report/formats/output_format.hpp"
+#include "report/formats/output_formats.hpp"
 
 namespace fastsplat::report {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "report/figures.hpp"
-#include "report/formats/face.hpp"
+#include "report/formats/output_format.hpp"
 
 namespace fastsplat::report {
 namespace {

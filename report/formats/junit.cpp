@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "report/formats/face.hpp"
-#include "report/formats/faces.hpp"
+#include "report/formats/output_format.hpp"
+#include "report/formats/output_formats.hpp"
 
 namespace fastsplat::report {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cmodel/cycles/willing.hpp"
+#include "cmodel/cycles/ready_pattern.hpp"
 
 namespace fastsplat::testbench {
 

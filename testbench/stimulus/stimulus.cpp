@@ -8,8 +8,8 @@
 #include "cmodel/decode/stream_decode.hpp"
 #include "cmodel/numbers/window_geometry.hpp"
 #include "testbench/stimulus/ellipse_stimulus.hpp"
-#include "testbench/stimulus/promises.hpp"
 #include "testbench/stimulus/random.hpp"
+#include "testbench/stimulus/random_cull_blocks.hpp"
 #include "testbench/stimulus/stimulus_tables.hpp"
 #include "testbench/stimulus/window_centre.hpp"
 

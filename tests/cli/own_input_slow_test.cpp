@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "cli/verb.hpp"
+#include "cli/subcommand.hpp"
 #include "tests/process/process_helper.hpp"
 
 namespace fastsplat::cli_test {

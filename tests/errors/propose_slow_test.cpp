@@ -12,7 +12,7 @@
 
 #include "analysis/compare.hpp"
 #include "analysis/errors/propose.hpp"
-#include "analysis/errors/remedy.hpp"
+#include "analysis/errors/suggestion.hpp"
 #include "base/error.hpp"
 #include "driver/config/config_file.hpp"
 #include "driver/tiles/render.hpp"

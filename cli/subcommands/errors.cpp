@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// fastsplat errors: which steps cause the device picture's error.
+#include <nlohmann/json.hpp>
+
+#include "analysis/compare.hpp"
+#include "analysis/errors/attribution_report.hpp"
+#include "cli/config_flags.hpp"
+#include "cli/errors_output.hpp"
+#include "cli/output.hpp"
+#include "cli/output_names.hpp"
+#include "cli/progress_bar.hpp"
+#include "cli/scene_flags.hpp"
+#include "cli/subcommands/subcommands.hpp"
+#include "cli/volume_json.hpp"
+#include "driver/splats/splat_quantiser.hpp"
+#include "driver/tables/density_tables.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+struct ErrorsArguments {
+  Common common;
+  SceneFlags scene;
+  ConfigFlags config;
+  int lsb_bits = 8;
+  bool quick = false, shapley = false;
+  std::string blame, maps;  ///< a file, and a prefix; empty for none
+};
+
+struct ErrorsResult {
+  std::string scene;  ///< its summary
+  cmodel::Config config;
+  analysis::Attribution attribution;
+  std::optional<analysis::TriedRemedy> tried;
+  std::string blame;  ///< the map's file; empty for none
+};
+
+nlohmann::ordered_json to_json(const ErrorsResult& result) {
+  auto json = errors_identity("errors", result.scene, result.config);
+  json.update(analysis::to_json(result.attribution, result.tried));
+  if (!result.blame.empty()) json["blame"] = result.blame;
+  return json;
+}
+
+/// "PREFIX.STEP.png" (or .exr) for the total error and each step.
+std::vector<std::string> map_names(const std::string& prefix, const std::vector<stages::StepSet>& sets,
+                                   const char* ending) {
+  if (prefix.empty()) return {};
+  std::vector<std::string> names{prefix + ".error" + ending};
+  for (const stages::StepSet& set : sets) names.push_back(prefix + "." + analysis::file_word(set.name) + ending);
+  return names;
+}
+
+void write_maps(const ErrorsArguments& arguments, const scene::Scene& scene, const ErrorsResult& result,
+                const std::vector<stages::StepSet>& sets) {
+  const analysis::Attribution& a = result.attribution;
+  const auto pngs = map_names(arguments.maps, sets, ".png"), exrs = map_names(arguments.maps, sets, ".exr");
+  const Image real = analysis::to_image(a.real);
+  const auto write = [&](std::size_t at, const stages::Picture& error) {
+    const Image signed_error = analysis::to_image(error);
+    Image test = real;
+    for (std::size_t i = 0; i < test.data.size(); ++i) test.data[i] += signed_error.data[i];
+    write_map(pngs[at], analysis::lsb_map(real, test, {.lsb_bits = arguments.lsb_bits}));
+    write_values(exrs[at], signed_error, "errors", scene, result.config);
+  };
+  write(0, analysis::difference(a.device, a.real));
+  for (std::size_t k = 0; k < a.increments.size(); ++k) write(k + 1, a.increments[k]);
+}
+
+ExitCode run(const ErrorsArguments& arguments) {
+  const Output output(arguments.common);
+  const cmodel::Config config = load(arguments.config);
+  const scene::SceneDescription described = describe(arguments.scene);
+  const auto sets =
+      stages::step_sets(config, driver::carries(described.method, config), driver::holds_densities(described));
+  check_outputs({.images = map_names(arguments.maps, sets, ".exr"),
+                 .maps = joined(map_names(arguments.maps, sets, ".png"), {arguments.blame}),
+                 .raws = {},
+                 .others = {arguments.common.json},
+                 .inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")))});
+  const scene::Scene scene = build(arguments.scene);
+  output.remark(remarks(scene));
+  ErrorsResult result{
+      .scene = summary(scene), .config = config, .attribution = {}, .tried = {}, .blame = arguments.blame};
+  {
+    const stages::Chain chain(scene, config);
+    ProgressBar bar("errors", watching(arguments.common));
+    result.attribution = analysis::attribute(chain, {.quick = arguments.quick,
+                                                     .shapley = arguments.shapley,
+                                                     .threads = arguments.common.threads,
+                                                     .progress = bar.callback()});
+  }
+  result.tried = analysis::try_remedy(scene, config, result.attribution, arguments.common.threads);
+  if (!arguments.blame.empty()) write_map(arguments.blame, analysis::blame_map(result.attribution));
+  if (!arguments.maps.empty()) write_maps(arguments, scene, result, sets);
+  output.line(errors_heading(result.scene, config) +
+              analysis::to_text(result.attribution, result.tried, arguments.lsb_bits));
+  output.json(to_json(result));
+  output.note_time("attributed");
+  return ExitCode::Pass;
+}
+
+void declare(Options& options, ErrorsArguments& to) {
+  declare(options, to.scene);
+  options.group("Device");
+  declare(options, to.config, "hardware configuration, a name or a TOML file");
+  options.group("Analysis");
+  options.integer("--lsb-bits", to.lsb_bits, 1, 24, "N", "one LSB is 1/(2^N - 1)");
+  options.flag("--quick", to.quick, "skip the runs with one step alone and with one left out: a third of the frames");
+  options.flag("--shapley", to.shapley,
+               "order-independent shares (Shapley) of groups of steps: 30 more frames, 62 with --classify post");
+  options.group("Output");
+  options.word("--blame", to.blame, "FILE",
+               "write a map of the step with the largest error in each pixel, with legend, .png");
+  options.word("--maps", to.maps, "PREFIX",
+               "write each step's signed error: PREFIX.STEP.png with legend, PREFIX.STEP.exr with values");
+  declare(options, to.common);
+  options.example("fastsplat errors --volume shells:32 --size 64 --config base --blame blame.png",
+                  "each step's share of the error, and where it occurs");
+  options.example("fastsplat errors --volume shells:32 --size 64 --config tiny --quick --json errors.json",
+                  "a third of the time, as JSON");
+}
+
+}  // namespace
+
+const Verb verbs::errors{"errors", "attribute the device's error to its steps", verb<ErrorsArguments, declare, run>};
+
+}  // namespace fastsplat::cli
